@@ -1,0 +1,28 @@
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+# Carried by every target of the project.
+add_library(trackbed_compiler INTERFACE)
+target_compile_options(
+  trackbed_compiler
+  INTERFACE -Wall
+            -Wextra
+            -Wpedantic
+            -Wshadow
+            -Wconversion
+            -Wsign-conversion
+            -Wold-style-cast
+            -Wnon-virtual-dtor
+            -Woverloaded-virtual
+            -Wimplicit-fallthrough
+            # Designated initializers leave out what keeps its default; that is their point.
+            -Wno-missing-field-initializers
+            # The same bytes on every machine: no fused multiply-add behind the source's back.
+            -ffp-contract=off
+            $<$<BOOL:${TRACKBED_WARNINGS_AS_ERRORS}>:-Werror>)
+if(TRACKBED_SANITIZE)
+  target_compile_options(trackbed_compiler INTERFACE -fsanitize=address,undefined
+                                                     -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(trackbed_compiler INTERFACE -fsanitize=address,undefined)
+endif()

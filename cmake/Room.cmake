@@ -1,0 +1,44 @@
+# trackbed_room(NAME [SOURCE_DIR DIR] [ROOMS room...] [LIBRARIES lib...] [PRIVATE_LIBRARIES lib...])
+#
+# One static library per room: public headers in include/trackbed/NAME, sources in src/NAME (or DIR).
+# ROOMS must be declared already, so the order of the calls is the order of the house.
+# Each public header is compiled alone as well (trackbed_NAME_headers).
+set_property(GLOBAL PROPERTY TRACKBED_ROOMS "")
+
+function(trackbed_room name)
+  cmake_parse_arguments(ARG "" "SOURCE_DIR" "ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  if(NOT ARG_SOURCE_DIR)
+    set(ARG_SOURCE_DIR src/${name})
+  endif()
+  get_property(above GLOBAL PROPERTY TRACKBED_ROOMS)
+  foreach(room IN LISTS ARG_ROOMS)
+    if(NOT room IN_LIST above)
+      message(FATAL_ERROR "room '${name}' may only use rooms above it, and '${room}' is not")
+    endif()
+  endforeach()
+  set_property(GLOBAL APPEND PROPERTY TRACKBED_ROOMS ${name})
+
+  file(GLOB sources CONFIGURE_DEPENDS ${ARG_SOURCE_DIR}/*.cpp)
+  add_library(trackbed_${name} STATIC ${sources})
+  add_library(trackbed::${name} ALIAS trackbed_${name})
+  target_include_directories(trackbed_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include
+                                              PRIVATE ${PROJECT_SOURCE_DIR})
+  list(TRANSFORM ARG_ROOMS PREPEND trackbed_)
+  target_link_libraries(
+    trackbed_${name}
+    PUBLIC ${ARG_ROOMS} ${ARG_LIBRARIES}
+    PRIVATE trackbed_compiler ${ARG_PRIVATE_LIBRARIES})
+
+  file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/include
+       ${PROJECT_SOURCE_DIR}/include/trackbed/${name}/*.h)
+  set(lonely "")
+  foreach(header IN LISTS headers)
+    set(file ${PROJECT_BINARY_DIR}/headers/${header}.cpp)
+    file(CONFIGURE OUTPUT ${file} CONTENT "#include \"${header}\"\n")
+    list(APPEND lonely ${file})
+  endforeach()
+  if(lonely)
+    add_library(trackbed_${name}_headers OBJECT ${lonely})
+    target_link_libraries(trackbed_${name}_headers PRIVATE trackbed_${name} trackbed_compiler)
+  endif()
+endfunction()

@@ -1,0 +1,14 @@
+# trackbed_version: an object library with the version as git describes it, refreshed at each build.
+find_package(Git QUIET)
+set(TRACKBED_VERSION_FILE ${PROJECT_BINARY_DIR}/version/version.cpp)
+add_custom_target(
+  trackbed_describe
+  BYPRODUCTS ${TRACKBED_VERSION_FILE}
+  COMMAND ${CMAKE_COMMAND} -DGIT=${GIT_EXECUTABLE} -DSOURCE_DIR=${PROJECT_SOURCE_DIR}
+          -DVERSION=${PROJECT_VERSION} -DOUTPUT=${TRACKBED_VERSION_FILE} -P
+          ${PROJECT_SOURCE_DIR}/cmake/describe.cmake
+  COMMENT "")
+add_library(trackbed_version STATIC ${TRACKBED_VERSION_FILE})
+add_dependencies(trackbed_version trackbed_describe)
+target_link_libraries(trackbed_version PRIVATE trackbed_compiler)
+target_include_directories(trackbed_version PRIVATE ${PROJECT_SOURCE_DIR}/include)
