@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace trackbed {
+
+/// The whole file as bytes. RunError naming the file when it cannot be read (missing, a folder, …).
+std::string ReadFile(const std::filesystem::path& file);
+
+/// Writes `content` beside `file` under a temporary name and renames it, so that `file` is either
+/// what it was or complete. RunError (the temporary is removed) when any step fails, such as a full
+/// disk or an unwritable folder.
+void WriteFileAtomically(const std::filesystem::path& file, std::string_view content);
+
+/// Creates the folder and its parents. RunError when that is not possible.
+void MakeFolder(const std::filesystem::path& folder);
+
+/// A name beside `file` that a writer can use until the content is complete: the same extension, so
+/// that writers that look at it work.
+std::filesystem::path TemporaryNameFor(const std::filesystem::path& file);
+
+/// Renames a complete temporary to its final name. RunError (the temporary is removed) on failure.
+void PublishFile(const std::filesystem::path& temporary, const std::filesystem::path& file);
+
+}  // namespace trackbed

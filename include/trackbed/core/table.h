@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trackbed {
+
+/// A table of numbers with named columns, as the CSV files of a run are: one header line of names
+/// that carry their units ("speed_mps"), then one line of numbers per row.
+///
+/// Guarantees: numbers are written in the shortest form that reads back to the same double (a
+/// negative zero as 0), so ToCsv and ReadCsv are inverse to each other. Does not hold text cells.
+class Table {
+ public:
+  explicit Table(std::vector<std::string> columns);
+
+  [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }
+  [[nodiscard]] std::size_t rows() const { return cells_.size() / columns_.size(); }
+
+  /// Appends a row; InternalError unless it has one number per column.
+  void AddRow(const std::vector<double>& row);
+
+  [[nodiscard]] double at(std::size_t row, std::size_t column) const {
+    return cells_[row * columns_.size() + column];
+  }
+
+  /// Index of a column, or -1.
+  [[nodiscard]] int Find(std::string_view column) const;
+  /// A whole column by name; InputError naming the column when there is none.
+  [[nodiscard]] std::vector<double> Column(std::string_view column) const;
+
+  [[nodiscard]] std::string ToCsv() const;
+
+ private:
+  std::vector<std::string> columns_;
+  std::vector<double> cells_;  // row by row
+};
+
+/// Reads a CSV file with a header line (RFC 4180 through libcsv). InputError with file, line and
+/// column for a cell that is not a number, a row of the wrong length, a repeated or empty column
+/// name, or an empty file. Empty lines are skipped.
+Table ReadCsv(const std::filesystem::path& file);
+
+}  // namespace trackbed

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace trackbed {
+
+/// A point or direction in the plane [m]; world axes are x east, y north.
+using Vec2 = Eigen::Vector2d;
+
+/// Position [m] and heading [rad, counter-clockwise from x] of a planar frame.
+struct Pose2 {
+  double x = 0.0;
+  double y = 0.0;
+  double yaw = 0.0;
+
+  [[nodiscard]] Vec2 position() const { return {x, y}; }
+
+  bool operator==(const Pose2&) const = default;
+};
+
+/// The unit vector that points along `yaw`.
+Vec2 Direction(double yaw);
+
+/// `vector` turned left by 90 degrees.
+inline Vec2 LeftOf(const Vec2& vector) {
+  return {-vector.y(), vector.x()};
+}
+
+/// z component of a x b: positive when b points to the left of a.
+inline double Cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// X_WB = X_WA * X_AB: the pose of B in W, given the pose of A in W and of B in A. The yaw is the
+/// plain sum: it is not wrapped, so that a heading can be followed over several turns.
+Pose2 Compose(const Pose2& X_WA, const Pose2& X_AB);
+
+/// p_WQ of a point whose coordinates in the frame A are p_AQ.
+Vec2 ToWorld(const Pose2& X_WA, const Vec2& p_AQ);
+
+/// p_AQ of a point whose world coordinates are p_WQ.
+Vec2 ToLocal(const Pose2& X_WA, const Vec2& p_WQ);
+
+/// Where a frame gets that moves `distance` [m, negative backwards] along its own x axis while it
+/// turns by `turn` [rad] at a constant rate: exact for lines and arcs. `slip` [rad] is the constant
+/// angle from the x axis to the direction of motion (the side-slip angle at the moving point).
+Pose2 MoveOnArc(const Pose2& start, double distance, double turn, double slip = 0.0);
+
+}  // namespace trackbed

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "trackbed/geometry/pose.h"
+
+/// A path that a car is to drive: poses of its rear-axle centre over arc length.
+///
+/// Symbols: s station, the distance along the path [m], growing in the direction of motion;
+/// yaw heading of the car [rad]; kappa = tan(steering)/wheelbase curvature [1/m], positive to the
+/// left; direction +1 forwards, -1 backwards; e cross-track error [m], positive when the car is
+/// left of the path.
+namespace trackbed {
+
+/// A piece of constant curvature: a line (curvature 0) or an arc.
+struct Segment {
+  double length = 0.0;     ///< [m], > 0
+  double curvature = 0.0;  ///< [1/m]
+  int direction = 1;       ///< +1 forwards, -1 backwards
+
+  bool operator==(const Segment&) const = default;
+};
+
+/// What a path is at one station.
+struct PathPoint {
+  double s = 0.0;          ///< [m]
+  Pose2 pose;              ///< rear-axle centre, heading of the car
+  double curvature = 0.0;  ///< [1/m]
+  int direction = 1;
+};
+
+/// The point of a path that is nearest to a pose, and how far the pose is from it.
+struct Projection {
+  double s = 0.0;              ///< station of the nearest point [m]; see Path::Project
+  double cross_track = 0.0;    ///< [m], positive left of the path
+  double heading_error = 0.0;  ///< yaw of the pose minus yaw of the path [rad], in (-pi, pi]
+};
+
+/// A stretch of stations [m] within which to look.
+struct Stations {
+  double from = -std::numeric_limits<double>::infinity();
+  double to = std::numeric_limits<double>::infinity();
+};
+
+/// A chain of segments from a start pose. Continuous in position and heading by construction (each
+/// segment starts where the one before ends, to rounding: below 1e-9 m over 10 km); curvature may
+/// jump between segments. Immutable value.
+///
+/// Before its start and after its end a path continues straight along its end tangents, with
+/// stations below 0 and above length(): a car near the end of its way still has a path to follow.
+///
+/// Does not know time or speed (see Reference), nor whether a car can follow it.
+class Path {
+ public:
+  /// A path of length 0 at the origin.
+  Path() : Path(Pose2{}, {}) {}
+
+  /// InternalError unless every length is positive and finite, every curvature finite, every
+  /// direction +1 or -1.
+  Path(const Pose2& start, std::vector<Segment> segments);
+
+  [[nodiscard]] double length() const { return length_; }
+  [[nodiscard]] const std::vector<Segment>& segments() const { return segments_; }
+
+  /// The point at station s. At a joint, the curvature and direction are those of the segment that
+  /// begins there; on the straight continuations the curvature is 0. Cost O(log n).
+  [[nodiscard]] PathPoint At(double s) const;
+
+  /// The nearest point to `pose` among the stations of `within`, which may reach beyond the ends.
+  /// Exact for lines and arcs. Searching near the last known station keeps a car from jumping to a
+  /// later crossing or over a cusp. Of equally near points the one with the smallest station.
+  /// Cost O(segments within the stations). InternalError when `within` is empty.
+  [[nodiscard]] Projection Project(const Pose2& pose, Stations within = {}) const;
+
+  /// Points at most `spacing` [m] apart, evenly over the whole path, both ends included.
+  [[nodiscard]] std::vector<PathPoint> Sample(double spacing) const;
+
+ private:
+  [[nodiscard]] std::size_t SegmentAt(double s) const;
+
+  std::vector<Segment> segments_;
+  std::vector<Pose2> starts_;     // of each segment, and the end
+  std::vector<double> stations_;  // of each start, and the length
+  double length_ = 0.0;
+};
+
+}  // namespace trackbed

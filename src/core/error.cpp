@@ -1,0 +1,45 @@
+#include "trackbed/core/error.h"
+
+#include <filesystem>
+
+namespace trackbed {
+namespace {
+
+std::string Join(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) {
+    if (!text.empty()) {
+      text += '\n';
+    }
+    text += problem.ToString();
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string Problem::ToString() const {
+  std::string text = file;
+  if (line > 0) {
+    text += fmt::format(":{}:{}", line, column);
+  }
+  if (!text.empty()) {
+    text += ": ";
+  }
+  if (!key.empty()) {
+    text += key + ": ";
+  }
+  return text + message;
+}
+
+InputError::InputError(std::vector<Problem> problems)
+    : std::runtime_error(Join(problems)), problems_(std::move(problems)) {}
+
+void ThrowInternalError(const char* file, int line, const char* condition,
+                        const std::string& message) {
+  throw InternalError(fmt::format("{}:{}: {} ({} does not hold)",
+                                  std::filesystem::path(file).filename().string(), line, message,
+                                  condition));
+}
+
+}  // namespace trackbed

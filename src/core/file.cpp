@@ -1,0 +1,131 @@
+#include "trackbed/core/file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void Fail(const char* what, const fs::path& file, int error) {
+  throw RunError(
+      fmt::format("cannot {} {}: {}", what, file.string(), std::generic_category().message(error)));
+}
+
+/// A file descriptor that closes itself.
+class Descriptor {
+ public:
+  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (descriptor_ >= 0) {
+      ::close(descriptor_);
+    }
+  }
+  [[nodiscard]] int get() const { return descriptor_; }
+  int Close() {
+    const int result = ::close(descriptor_);
+    descriptor_ = -1;
+    return result;
+  }
+
+ private:
+  int descriptor_;
+};
+
+/// Returns 0 or an errno.
+int WriteAll(const fs::path& file, std::string_view content) {
+  Descriptor out(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (out.get() < 0) {
+    return errno;
+  }
+  while (!content.empty()) {
+    const ssize_t written = ::write(out.get(), content.data(), content.size());
+    if (written < 0) {
+      if (errno == EINTR) {
+        continue;
+      }
+      return errno;
+    }
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return out.Close() == 0 ? 0 : errno;
+}
+
+}  // namespace
+
+std::string ReadFile(const fs::path& file) {
+  Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  if (in.get() < 0) {
+    Fail("read", file, errno);
+  }
+  std::string content;
+  std::array<char, 65536> block{};
+  for (;;) {
+    const ssize_t got = ::read(in.get(), block.data(), block.size());
+    if (got == 0) {
+      return content;
+    }
+    if (got < 0) {
+      if (errno == EINTR) {
+        continue;
+      }
+      Fail("read", file, errno);
+    }
+    content.append(block.data(), static_cast<std::size_t>(got));
+  }
+}
+
+fs::path TemporaryNameFor(const fs::path& file) {
+  fs::path name = file;
+  name.replace_filename(
+      fmt::format(".{}.{}.partial{}", file.stem().string(), ::getpid(), file.extension().string()));
+  return name;
+}
+
+void PublishFile(const fs::path& temporary, const fs::path& file) {
+  if (::rename(temporary.c_str(), file.c_str()) != 0) {
+    const int error = errno;
+    ::unlink(temporary.c_str());
+    Fail("write", file, error);
+  }
+}
+
+void WriteFileAtomically(const fs::path& file, std::string_view content) {
+  // Devices and pipes (/dev/stdout, /dev/full) can be written but not replaced.
+  struct stat existing {};
+  if (::stat(file.c_str(), &existing) == 0 && !S_ISREG(existing.st_mode) &&
+      !S_ISDIR(existing.st_mode)) {
+    if (const int error = WriteAll(file, content); error != 0) {
+      Fail("write", file, error);
+    }
+    return;
+  }
+  const fs::path temporary = TemporaryNameFor(file);
+  if (const int error = WriteAll(temporary, content); error != 0) {
+    ::unlink(temporary.c_str());
+    Fail("write", file, error);
+  }
+  PublishFile(temporary, file);
+}
+
+void MakeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw RunError(
+        fmt::format("cannot create the folder {}: {}", folder.string(), error.message()));
+  }
+}
+
+}  // namespace trackbed
