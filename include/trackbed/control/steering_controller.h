@@ -1,0 +1,92 @@
+#pragma once
+
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "trackbed/path/reference.h"
+#include "trackbed/vehicle/params.h"
+#include "trackbed/vehicle/state.h"
+#include "trackbed/vehicle/steering_schedule.h"
+
+/// One interface and one table for everything that steers.
+namespace trackbed {
+
+/// What a controller may look at when it is asked, once per control period.
+struct ControlInput {
+  const VehicleParams& vehicle;
+  const Reference& reference;
+  const SteeringSchedule& schedule;
+  VehicleState state;
+  double station = 0.0;  ///< where on the path the car is [m]; see StationSource
+  double period = 0.0;   ///< until it is asked again [s]
+};
+
+/// Gives the wanted bicycle angle [rad]; the vehicle's actuator limits angle and rate. A controller
+/// does no input or output, reads no clock, and draws no random numbers.
+class SteeringController {
+ public:
+  virtual ~SteeringController() = default;
+  virtual double Steer(const ControlInput& input) = 0;
+};
+
+/// Open loop: the plan's steering schedule at the distance the car will have driven at the end of
+/// the period, so that a rate-limited actuator reproduces the schedule whatever the period is.
+struct ScheduleOptions {};
+
+/// How the preview controller turns the preview angle u into steering.
+enum class PreviewLaw {
+  kLinear,    ///< delta = (2 L/R) u: MacAdam's gain for a single point and the kinematic car
+  kExactArc,  ///< delta = atan(2 L sin(u)/R): the circle through the point; pure pursuit
+};
+
+/// MacAdam's preview with a single point (seed 004): the point P of the path at distance R from the
+/// rear-axle centre O, the first after the nearest one; u is the signed angle from the direction of
+/// motion to OP. Beyond its end the path goes on along its tangent. A car further than R from the
+/// path heads for the point R ahead of its nearest one.
+///
+/// The distance trades corners against robustness, since the wheels turn at a limited rate: the
+/// Prius at 3 m/s on route A cuts corners by 0.023, 0.056, 0.120 m with R = 2, 3, 4 m. A fixed
+/// distance that short cannot bring a car back from beside its path: the wheels are always late,
+/// and it swings out for good (0.2 m off with R = 2 m). So R is never shorter than 1.5 cbrt(e L
+/// v/omega) for a car e off its path, which leaves a car that is on its path alone and returns one
+/// that is metres off.
+struct PreviewOptions {
+  double distance = 2.5;  ///< R [m]
+  PreviewLaw law = PreviewLaw::kExactArc;
+};
+
+/// A steering angle held for the whole drive; needs no plan.
+struct ConstantSteeringOptions {
+  double steering = 0.0;  ///< [rad]
+};
+
+using ControllerOptions = std::variant<ScheduleOptions, PreviewOptions, ConstantSteeringOptions>;
+
+/// Where a controller takes the station from.
+enum class StationSource {
+  kProjection,  ///< the nearest point of the path: closes the loop
+  kOdometer,    ///< the distance driven: open loop
+};
+
+struct ControllerEntry {
+  const char* name;
+  const char* summary;
+  ControllerOptions defaults;
+  StationSource station;
+  bool needs_plan;
+};
+
+/// Every steering controller there is.
+const std::vector<ControllerEntry>& Controllers();
+
+/// The entry of the controller that `options` belong to.
+const ControllerEntry& ControllerFor(const ControllerOptions& options);
+
+std::unique_ptr<SteeringController> MakeSteeringController(const ControllerOptions& options);
+
+/// The preview angle u [rad] of a car whose rear axle is at `pose`, looking `distance` [m] ahead
+/// along `path` from `station`; positive when the point lies to the left.
+double PreviewAngle(const Path& path, const Pose2& pose, double station, double distance);
+
+}  // namespace trackbed

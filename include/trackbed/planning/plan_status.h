@@ -1,0 +1,20 @@
+#pragma once
+
+namespace trackbed {
+
+/// How planning ended.
+enum class PlanStatus {
+  kOk,
+  kTooFewWaypoints,     ///< a route needs at least three
+  kDuplicateWaypoints,  ///< a leg of no length
+  kUTurn,               ///< a leg turns back on itself: no fillet joins it
+  kTurnTooTight,        ///< even the smallest radius does not fit (C.34, or a radius below it)
+  kNoRoomForSteering,   ///< C.40 has no radius: the legs leave no distance for turning the wheels
+  kTurnsOverlap,        ///< given radii need more of a leg than it has
+  kSteersBeforeStart,  ///< the wheels would have to start turning before the route begins (D_1 < 0)
+};
+
+/// "ok", "too_few_waypoints", …: the spelling of plan.json.
+const char* ToString(PlanStatus status);
+
+}  // namespace trackbed

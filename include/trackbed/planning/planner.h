@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "trackbed/path/reference.h"
+#include "trackbed/planning/fillet.h"
+#include "trackbed/vehicle/params.h"
+#include "trackbed/vehicle/steering_schedule.h"
+
+/// One interface and one table for everything that plans.
+namespace trackbed {
+
+/// What is to be reached, by whatever method. Values only: planners read no clock and keep no
+/// state.
+struct PlanRequest {
+  VehicleParams vehicle;
+  std::vector<Vec2> waypoints;  ///< [m]
+  double start_speed = 0.0;     ///< [m/s]
+  SpeedLimits speed;            ///< the mission's speed and how to change it
+  std::uint64_t seed = 0;       ///< of every random choice
+};
+
+/// What a planner gives back. With any status but kOk there is a reason and no path.
+struct Plan {
+  PlanStatus status = PlanStatus::kOk;
+  std::string reason;          ///< for people; empty when ok
+  Reference reference;         ///< for closed-loop controllers
+  SteeringSchedule schedule;   ///< for the open loop, over the distance driven
+  nlohmann::json diagnostics;  ///< the method's own findings, as in plan.json
+
+  [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }
+};
+
+/// The options of one planner; which alternative it holds says which planner is meant.
+using PlannerOptions = std::variant<FilletOptions>;
+
+struct PlannerEntry {
+  const char* name;
+  const char* summary;
+  PlannerOptions defaults;
+};
+
+/// Every planner there is.
+const std::vector<PlannerEntry>& Planners();
+
+/// The name of the planner that `options` belong to.
+const char* PlannerName(const PlannerOptions& options);
+
+/// Plans with the planner that `options` belong to. Never throws for a mission that cannot be
+/// planned; InternalError for one that the caller should have refused (a non-finite number).
+Plan MakePlan(const PlanRequest& request, const PlannerOptions& options);
+
+}  // namespace trackbed

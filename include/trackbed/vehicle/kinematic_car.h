@@ -1,0 +1,61 @@
+#pragma once
+
+#include "trackbed/vehicle/params.h"
+#include "trackbed/vehicle/state.h"
+#include "trackbed/vehicle/steering_actuator.h"
+
+/// The kinematic single-track car (Rajamani; seed equations (4)-(7), C.21) behind a rate-limited
+/// steering actuator.
+///
+/// Symbols: psi yaw [rad], delta steering [rad], v speed [m/s], L wheelbase, l_g rear axle to CG,
+/// beta = atan(l_g tan(delta)/L) side-slip angle at the CG [rad].
+///   rear axle:          x' = v cos psi          psi' = v tan(delta)/L
+///   centre of gravity:  x' = v cos(psi + beta)  psi' = v cos(beta) tan(delta)/L
+namespace trackbed {
+
+/// The point whose pose the car's state is, and whose speed is v.
+enum class ReferencePoint { kRearAxle, kCentreOfGravity };
+
+struct KinematicState {
+  Pose2 pose;             ///< of the reference point
+  double speed = 0.0;     ///< v of the reference point [m/s], signed
+  double steering = 0.0;  ///< delta, where the actuator stands [rad]
+  double distance = 0.0;  ///< integral of |v| [m]
+};
+
+/// Guarantees: exact while the steering angle is constant (to rounding, whatever the step and the
+/// acceleration); while it moves, the error of a step is that of a fourth-order method on a smooth
+/// right-hand side: below 1e-10 m for steps up to 20 ms at 3 m/s. Steps are split where the
+/// steering arrives and where the car comes to rest, so the result does not depend on how time is
+/// cut. Does not slip, roll or feel forces; acceleration is obeyed exactly.
+class KinematicCar {
+ public:
+  KinematicCar(const VehicleParams& params, ReferencePoint reference, const KinematicState& start);
+
+  /// Advances by `duration` [s] >= 0 under a constant command.
+  void Step(const Command& command, double duration);
+
+  [[nodiscard]] const KinematicState& state() const { return state_; }
+
+  /// The full state, rear-axle pose and speed whatever the reference point is; accelerations are
+  /// those at the end of the last step. `time` is the sum of the steps.
+  [[nodiscard]] VehicleState FullState() const;
+
+ private:
+  struct Rates {
+    Vec2 velocity;
+    double yaw_rate;
+  };
+  [[nodiscard]] Rates RatesAt(double yaw, double speed, double steering) const;
+  [[nodiscard]] double Slip(double steering) const;
+  void StepSmoothly(double steering_rate, double acceleration, double duration);
+
+  VehicleParams params_;
+  ReferencePoint reference_;
+  KinematicState state_;
+  double time_ = 0.0;
+  double steering_rate_ = 0.0;  // at the end of the last step [rad/s]
+  double acceleration_ = 0.0;   // likewise [m/s^2]
+};
+
+}  // namespace trackbed

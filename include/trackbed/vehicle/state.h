@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "trackbed/geometry/pose.h"
+
+namespace trackbed {
+
+/// One wheel of a car with tyres. Tyre axes as in ISO 8855: x where the wheel points, y to its
+/// left.
+struct WheelState {
+  double normal_force = 0.0;        ///< [N], >= 0
+  double longitudinal_force = 0.0;  ///< on the car, along tyre x [N]
+  double lateral_force = 0.0;       ///< on the car, along tyre y [N]
+  double slip_angle =
+      0.0;  ///< from tyre x to the velocity of the contact point [rad], left positive
+  double slip_ratio = 0.0;  ///< (Omega R - v_x)/|v_x|, driving positive
+};
+
+/// What every plant tells of its car, at one moment. Axes x forward, y left, z up; angles positive
+/// to the left (roll: right side down; pitch: nose down).
+struct VehicleState {
+  double time = 0.0;           ///< [s]
+  Pose2 pose;                  ///< rear-axle centre on the ground, in the world; yaw is not wrapped
+  double speed = 0.0;          ///< of the rear-axle centre along x [m/s], negative backwards
+  double distance = 0.0;       ///< odometer: integral of |speed| [m]
+  double lateral_speed = 0.0;  ///< of the centre of gravity along y [m/s]
+  double yaw_rate = 0.0;       ///< [rad/s]
+  double roll = 0.0;           ///< [rad]
+  double pitch = 0.0;          ///< [rad]
+  double longitudinal_acceleration = 0.0;  ///< of the centre of gravity, free of gravity [m/s^2]
+  double lateral_acceleration = 0.0;       ///< of the centre of gravity, free of gravity [m/s^2]
+  double sideslip = 0.0;                   ///< at the centre of gravity [rad]
+  double steering_actuator = 0.0;          ///< where the rate-limited actuator stands [rad]
+  double steering = 0.0;                   ///< bicycle angle measured at the front wheels [rad]
+  std::optional<std::array<WheelState, 4>> wheels;  ///< fl, fr, rl, rr; none without tyres
+};
+
+/// What a controller asks of a car for one control period.
+struct Command {
+  double steering = 0.0;      ///< wanted bicycle angle [rad]
+  double acceleration = 0.0;  ///< wanted dv/dt along x [m/s^2]
+  int gear =
+      1;  ///< +1: never rolls backwards, -1: never forwards. Slowing down ends in standstill,
+          ///< held by the brakes until the acceleration points along the gear again
+};
+
+}  // namespace trackbed

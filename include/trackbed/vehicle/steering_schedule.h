@@ -1,0 +1,70 @@
+#pragma once
+
+#include <vector>
+
+#include "trackbed/vehicle/kinematic_car.h"
+#include "trackbed/vehicle/params.h"
+
+/// Steering over distance for a car whose wheels turn at a limited rate (seed 000 F.1, section 4.3
+/// of the dissertation's listing, with corrected distances).
+///
+/// Symbols: D distance driven by the rear axle [m]; S_delta = v |delta|/omega_delta the distance
+/// rolled while the wheels turn from 0 to delta.
+namespace trackbed {
+
+/// One turn: the wheels start toward `steering` at `start` and back toward straight at `end`.
+struct TurnSteering {
+  double start = 0.0;     ///< D [m], >= 0
+  double end = 0.0;       ///< D [m], > start
+  double steering = 0.0;  ///< [rad], positive to the left
+};
+
+/// delta(D) as a continuous, piecewise linear function: toward the present target at the slope
+/// omega_delta/v, then resting there. A turn that fits is a trapezoid; one whose hold is shorter
+/// than its ramp stays below its target; a turn that starts while another one returns takes over at
+/// once.
+class SteeringSchedule {
+ public:
+  struct Knot {
+    double distance = 0.0;  ///< D [m]
+    double steering = 0.0;  ///< [rad]
+  };
+
+  /// Straight on for ever.
+  SteeringSchedule() = default;
+
+  /// Turns in the order of their starts; `slope` = omega_delta/v [rad/m] > 0. InternalError when
+  /// they are out of order.
+  SteeringSchedule(const std::vector<TurnSteering>& turns, double slope);
+
+  /// Holds `steering` [rad] from the start on.
+  static SteeringSchedule Constant(double steering);
+
+  /// [rad]; constant before the first and after the last knot.
+  [[nodiscard]] double At(double distance) const;
+
+  [[nodiscard]] const std::vector<Knot>& knots() const { return knots_; }
+
+ private:
+  std::vector<Knot> knots_;
+};
+
+/// S_delta [m]: the distance rolled at `speed` while the wheels turn by `steering`.
+double SteeringDistance(const VehicleParams& params, double steering, double speed);
+
+/// Heading gained [rad] while a rear-axle kinematic car at `speed` ramps its steering from zero to
+/// `steering` at the full rate: (v/(L omega)) (-ln cos delta), signed like the steering.
+double RampHeading(const VehicleParams& params, double steering, double speed);
+
+/// Heading that a turn misses [rad, <= 0] when both its ramps are centred on the tangent points and
+/// fit into the arc: (v/(L omega)) (-2 ln cos delta - delta tan delta).
+double TurnHeadingDefect(const VehicleParams& params, double steering, double speed);
+
+/// Where an open-loop drive gets: the kinematic car from `start` at constant `speed` over
+/// `distance`, its wheels following the schedule exactly. `start` and the result are states of the
+/// reference point. Fourth order in `step` [m], split at the schedule's knots.
+KinematicState RollOut(const VehicleParams& params, const KinematicState& start,
+                       const SteeringSchedule& schedule, double distance, double step,
+                       ReferencePoint reference = ReferencePoint::kRearAxle);
+
+}  // namespace trackbed

@@ -1,0 +1,126 @@
+#include "trackbed/control/steering_controller.h"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+/// Below this speed previews no longer shrink with it [m/s].
+constexpr double kCrawl = 0.5;
+
+class ScheduleController final : public SteeringController {
+ public:
+  explicit ScheduleController(const ScheduleOptions&) {}
+
+  double Steer(const ControlInput& input) override {
+    return input.schedule.At(input.station + std::abs(input.state.speed) * input.period);
+  }
+};
+
+/// The shortest preview that the steering rate can act on, for a car beside its path: on wheels
+/// that turn at their full rate the curvature changes by c = omega/(L v) per metre, and swinging
+/// back over an offset e takes a way in proportion to cbrt(e/c).
+double ReturnDistance(const ControlInput& input) {
+  // Found by trial on offsets of 0.2 to 4 m with previews of 2 to 4 m: all return to the path with
+  // it; with 1 some swing on for ever, with 2 they return more slowly.
+  constexpr double kShare = 1.5;
+  const Vec2 foot = input.reference.path.At(input.station).pose.position();
+  const double offset = (input.state.pose.position() - foot).norm();
+  const double curvature_rate =
+      input.vehicle.steering_rate /
+      (input.vehicle.wheelbase * std::max(std::abs(input.state.speed), kCrawl));
+  return kShare * std::cbrt(offset / curvature_rate);
+}
+
+class PreviewController final : public SteeringController {
+ public:
+  explicit PreviewController(const PreviewOptions& options) : options_(options) {}
+
+  double Steer(const ControlInput& input) override {
+    const double distance = std::max(options_.distance, ReturnDistance(input));
+    const double u = PreviewAngle(input.reference.path, input.state.pose, input.station, distance);
+    const double gain = 2.0 * input.vehicle.wheelbase / distance;
+    return options_.law == PreviewLaw::kLinear ? gain * u : std::atan(gain * std::sin(u));
+  }
+
+ private:
+  PreviewOptions options_;
+};
+
+class ConstantSteeringController final : public SteeringController {
+ public:
+  explicit ConstantSteeringController(const ConstantSteeringOptions& options) : options_(options) {}
+
+  double Steer(const ControlInput&) override { return options_.steering; }
+
+ private:
+  ConstantSteeringOptions options_;
+};
+
+std::unique_ptr<SteeringController> Make(const ScheduleOptions& options) {
+  return std::make_unique<ScheduleController>(options);
+}
+std::unique_ptr<SteeringController> Make(const PreviewOptions& options) {
+  return std::make_unique<PreviewController>(options);
+}
+std::unique_ptr<SteeringController> Make(const ConstantSteeringOptions& options) {
+  return std::make_unique<ConstantSteeringController>(options);
+}
+
+/// Station of the first point after `station` that is `distance` away from p.
+double PreviewStation(const Path& path, const Vec2& p, double station, double distance) {
+  const auto beyond = [&](double s) { return (path.At(s).pose.position() - p).norm() - distance; };
+  if (beyond(station) >= 0.0) {
+    return station + distance;
+  }
+  // The path cannot leave the circle sooner than a straight line would. An eighth of the distance
+  // finds the first crossing of any path that bends on radii above it.
+  const double stride = distance / 8.0;
+  double inside = station;
+  while (beyond(inside + stride) < 0.0) {
+    inside += stride;
+  }
+  std::uintmax_t iterations = 100;
+  const auto [low, high] = boost::math::tools::toms748_solve(
+      beyond, inside, inside + stride, boost::math::tools::eps_tolerance<double>(48), iterations);
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+double PreviewAngle(const Path& path, const Pose2& pose, double station, double distance) {
+  const double s = PreviewStation(path, pose.position(), station, distance);
+  const Vec2 to_point = ToLocal(pose, path.At(s).pose.position());
+  return std::atan2(to_point.y(), to_point.x());
+}
+
+const std::vector<ControllerEntry>& Controllers() {
+  static const std::vector<ControllerEntry> table{
+      {"schedule", "the plan's steering over the distance driven, open loop", ScheduleOptions{},
+       StationSource::kOdometer, true},
+      {"preview", "aims at the path's point at a preview distance (MacAdam, one point)",
+       PreviewOptions{}, StationSource::kProjection, true},
+      {"constant_steering", "holds one steering angle", ConstantSteeringOptions{},
+       StationSource::kOdometer, false},
+  };
+  return table;
+}
+
+const ControllerEntry& ControllerFor(const ControllerOptions& options) {
+  for (const ControllerEntry& entry : Controllers()) {
+    if (entry.defaults.index() == options.index()) {
+      return entry;
+    }
+  }
+  throw InternalError("options of a controller that is not in the table");
+}
+
+std::unique_ptr<SteeringController> MakeSteeringController(const ControllerOptions& options) {
+  return std::visit([](const auto& own) { return Make(own); }, options);
+}
+
+}  // namespace trackbed

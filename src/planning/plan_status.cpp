@@ -1,0 +1,27 @@
+#include "trackbed/planning/plan_status.h"
+
+namespace trackbed {
+
+const char* ToString(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::kOk:
+      return "ok";
+    case PlanStatus::kTooFewWaypoints:
+      return "too_few_waypoints";
+    case PlanStatus::kDuplicateWaypoints:
+      return "duplicate_waypoints";
+    case PlanStatus::kUTurn:
+      return "u_turn";
+    case PlanStatus::kTurnTooTight:
+      return "turn_too_tight";
+    case PlanStatus::kNoRoomForSteering:
+      return "no_room_for_steering";
+    case PlanStatus::kTurnsOverlap:
+      return "turns_overlap";
+    case PlanStatus::kSteersBeforeStart:
+      return "steers_before_start";
+  }
+  return "";
+}
+
+}  // namespace trackbed

@@ -1,0 +1,124 @@
+#include "trackbed/vehicle/kinematic_car.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trackbed {
+
+KinematicCar::KinematicCar(const VehicleParams& params, ReferencePoint reference,
+                           const KinematicState& start)
+    : params_(params), reference_(reference), state_(start) {}
+
+double KinematicCar::Slip(double steering) const {
+  return reference_ == ReferencePoint::kRearAxle
+             ? 0.0
+             : std::atan(params_.cg_to_rear * std::tan(steering) / params_.wheelbase);
+}
+
+KinematicCar::Rates KinematicCar::RatesAt(double yaw, double speed, double steering) const {
+  const double slip = Slip(steering);
+  return {speed * Direction(yaw + slip),
+          speed * std::cos(slip) * CurvatureForSteering(params_, steering)};
+}
+
+void KinematicCar::Step(const Command& command, double duration) {
+  const SteeringMove move = MoveSteering({params_.steering_limit, params_.steering_rate},
+                                         state_.steering, command.steering);
+  const double start_speed = state_.speed;
+  // A car slows down to rest, not through it: it leaves rest only along its gear.
+  const bool slowing = start_speed * command.acceleration < 0.0;
+  const bool held = start_speed == 0.0 && command.acceleration * command.gear <= 0.0;
+  const double rest_time = held ? 0.0 : slowing ? -start_speed / command.acceleration : duration;
+
+  double done = 0.0;
+  for (const double until : {std::min(std::min(move.ramp_time, rest_time), duration),
+                             std::min(std::max(move.ramp_time, rest_time), duration), duration}) {
+    if (until <= done) {
+      continue;
+    }
+    const bool steering = done < move.ramp_time;
+    const bool rolling = done < rest_time;
+    StepSmoothly(steering ? move.rate : 0.0, rolling ? command.acceleration : 0.0, until - done);
+    done = until;
+    // Landing exactly on the corners keeps rounding from building up.
+    state_.steering = move.At(done);
+    if (done >= rest_time && (slowing || held)) {
+      state_.speed = 0.0;
+    }
+  }
+  time_ += duration;
+  steering_rate_ = duration < move.ramp_time ? move.rate : 0.0;
+  acceleration_ = duration < rest_time || (!slowing && !held) ? command.acceleration : 0.0;
+}
+
+void KinematicCar::StepSmoothly(double steering_rate, double acceleration, double duration) {
+  const double moved = (state_.speed + 0.5 * acceleration * duration) * duration;
+  if (moved == 0.0) {
+    state_.speed += acceleration * duration;
+    return;
+  }
+  if (steering_rate == 0.0) {
+    const double slip = Slip(state_.steering);
+    const double turn = moved * std::cos(slip) * CurvatureForSteering(params_, state_.steering);
+    state_.pose = MoveOnArc(state_.pose, moved, turn, slip);
+  } else {
+    // Runge-Kutta of fourth order; speed and steering are known functions of time.
+    const auto rates = [&](double time, double yaw) {
+      return RatesAt(yaw, state_.speed + acceleration * time,
+                     state_.steering + steering_rate * time);
+    };
+    const double half = 0.5 * duration;
+    const double yaw = state_.pose.yaw;
+    const Rates k1 = rates(0.0, yaw);
+    const Rates k2 = rates(half, yaw + half * k1.yaw_rate);
+    const Rates k3 = rates(half, yaw + half * k2.yaw_rate);
+    const Rates k4 = rates(duration, yaw + duration * k3.yaw_rate);
+    const Vec2 shift =
+        duration / 6.0 * (k1.velocity + 2.0 * k2.velocity + 2.0 * k3.velocity + k4.velocity);
+    state_.pose.x += shift.x();
+    state_.pose.y += shift.y();
+    state_.pose.yaw +=
+        duration / 6.0 * (k1.yaw_rate + 2.0 * k2.yaw_rate + 2.0 * k3.yaw_rate + k4.yaw_rate);
+  }
+  state_.distance += std::abs(moved);
+  state_.speed += acceleration * duration;
+}
+
+VehicleState KinematicCar::FullState() const {
+  const double l_g = params_.cg_to_rear;
+  const double slip = Slip(state_.steering);
+  // Rear-axle speed and its derivative; for the CG reference v_rear = v cos(beta).
+  const double tangent = std::tan(state_.steering);
+  const double curvature = tangent / params_.wheelbase;
+  const double curvature_rate = (1.0 + tangent * tangent) * steering_rate_ / params_.wheelbase;
+  double speed = state_.speed;
+  double acceleration = acceleration_;
+  Pose2 pose = state_.pose;
+  if (reference_ == ReferencePoint::kCentreOfGravity) {
+    const double cosine = std::cos(slip);
+    const double slip_rate = l_g * curvature_rate * cosine * cosine;
+    speed = state_.speed * cosine;
+    acceleration = acceleration_ * cosine - state_.speed * std::sin(slip) * slip_rate;
+    const Vec2 rear = ToWorld(state_.pose, {-l_g, 0.0});
+    pose.x = rear.x();
+    pose.y = rear.y();
+  }
+  const double yaw_rate = speed * curvature;
+  const double yaw_acceleration = acceleration * curvature + speed * curvature_rate;
+
+  VehicleState full;
+  full.time = time_;
+  full.pose = pose;
+  full.speed = speed;
+  full.distance = state_.distance;
+  full.lateral_speed = l_g * yaw_rate;
+  full.yaw_rate = yaw_rate;
+  full.longitudinal_acceleration = acceleration - l_g * yaw_rate * yaw_rate;
+  full.lateral_acceleration = speed * yaw_rate + l_g * yaw_acceleration;
+  full.sideslip = speed == 0.0 ? 0.0 : std::atan(l_g * curvature);
+  full.steering_actuator = state_.steering;
+  full.steering = state_.steering;
+  return full;
+}
+
+}  // namespace trackbed

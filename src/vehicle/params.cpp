@@ -1,0 +1,35 @@
+#include "trackbed/vehicle/params.h"
+
+#include <cmath>
+
+namespace trackbed {
+
+double VehicleParams::min_turning_radius() const {
+  return wheelbase / std::tan(steering_limit);
+}
+
+double SteeringForCurvature(const VehicleParams& params, double curvature) {
+  return std::atan(params.wheelbase * curvature);
+}
+
+double CurvatureForSteering(const VehicleParams& params, double steering) {
+  return std::tan(steering) / params.wheelbase;
+}
+
+FrontAngles AckermannAngles(const VehicleParams& params, double steering) {
+  const double k = params.track_front / (2.0 * params.wheelbase);
+  const double sine = std::sin(steering);
+  const double cosine = std::cos(steering);
+  // cot(left) = cot(delta) - k for a left turn: the left wheel is the inner one.
+  return {std::atan2(sine, cosine - k * sine), std::atan2(sine, cosine + k * sine)};
+}
+
+double BicycleAngle(const VehicleParams& params, const FrontAngles& front) {
+  const double k = params.track_front / (2.0 * params.wheelbase);
+  const auto seen_from = [k](double angle, double side) {
+    return std::atan2(std::sin(angle), std::cos(angle) + side * k * std::sin(angle));
+  };
+  return 0.5 * (seen_from(front.left, 1.0) + seen_from(front.right, -1.0));
+}
+
+}  // namespace trackbed

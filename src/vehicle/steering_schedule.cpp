@@ -1,0 +1,118 @@
+#include "trackbed/vehicle/steering_schedule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+/// From D = `distance` on, the wheels head for `target`.
+struct Target {
+  double distance;
+  double steering;
+};
+
+std::vector<Target> TargetsOf(const std::vector<TurnSteering>& turns) {
+  std::vector<Target> targets;
+  for (std::size_t k = 0; k < turns.size(); ++k) {
+    const TurnSteering& turn = turns[k];
+    TRACKBED_CHECK(turn.end > turn.start && turn.start >= (k == 0 ? 0.0 : turns[k - 1].start),
+                   "turn {} from {} m to {} m is out of order", k, turn.start, turn.end);
+    targets.push_back({turn.start, turn.steering});
+    // The turn that started last has the say: it also ends an earlier one.
+    if (k + 1 == turns.size() || turn.end < turns[k + 1].start) {
+      targets.push_back({turn.end, 0.0});
+    }
+  }
+  return targets;
+}
+
+}  // namespace
+
+SteeringSchedule::SteeringSchedule(const std::vector<TurnSteering>& turns, double slope) {
+  TRACKBED_CHECK(slope > 0.0, "slope {}", slope);
+  const std::vector<Target> targets = TargetsOf(turns);
+  double steering = 0.0;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const auto& [begin, target] = targets[i];
+    const double until =
+        i + 1 < targets.size() ? targets[i + 1].distance : std::numeric_limits<double>::infinity();
+    if (knots_.empty() || begin > knots_.back().distance) {
+      knots_.push_back({begin, steering});
+    }
+    const double ramp = std::abs(target - steering) / slope;
+    if (ramp == 0.0) {
+      continue;
+    }
+    if (begin + ramp <= until) {
+      steering = target;
+      knots_.push_back({begin + ramp, steering});
+    } else {
+      steering += std::copysign(slope * (until - begin), target - steering);
+      knots_.push_back({until, steering});
+    }
+  }
+}
+
+SteeringSchedule SteeringSchedule::Constant(double steering) {
+  SteeringSchedule schedule;
+  schedule.knots_.push_back({0.0, steering});
+  return schedule;
+}
+
+double SteeringSchedule::At(double distance) const {
+  if (knots_.empty()) {
+    return 0.0;
+  }
+  const auto after =
+      std::upper_bound(knots_.begin(), knots_.end(), distance,
+                       [](double value, const Knot& knot) { return value < knot.distance; });
+  if (after == knots_.begin()) {
+    return knots_.front().steering;
+  }
+  if (after == knots_.end()) {
+    return knots_.back().steering;
+  }
+  const Knot& a = *(after - 1);
+  const Knot& b = *after;
+  return std::lerp(a.steering, b.steering, (distance - a.distance) / (b.distance - a.distance));
+}
+
+double SteeringDistance(const VehicleParams& params, double steering, double speed) {
+  return speed * std::abs(steering) / params.steering_rate;
+}
+
+double RampHeading(const VehicleParams& params, double steering, double speed) {
+  const double scale = speed / (params.wheelbase * params.steering_rate);
+  return std::copysign(scale * -std::log(std::cos(steering)), steering);
+}
+
+double TurnHeadingDefect(const VehicleParams& params, double steering, double speed) {
+  const double scale = speed / (params.wheelbase * params.steering_rate);
+  return scale * (-2.0 * std::log(std::cos(steering)) - steering * std::tan(steering));
+}
+
+KinematicState RollOut(const VehicleParams& params, const KinematicState& start,
+                       const SteeringSchedule& schedule, double distance, double step,
+                       ReferencePoint reference) {
+  TRACKBED_CHECK(start.speed > 0.0 && step > 0.0, "speed {}, step {}", start.speed, step);
+  KinematicCar car(params, reference, start);
+  const std::vector<SteeringSchedule::Knot>& knots = schedule.knots();
+  auto knot = knots.begin();
+  double done = 0.0;
+  while (done < distance) {
+    while (knot != knots.end() && knot->distance <= done) {
+      ++knot;
+    }
+    const double next =
+        std::min({done + step, distance, knot != knots.end() ? knot->distance : distance});
+    car.Step({.steering = schedule.At(next)}, (next - done) / start.speed);
+    done = next;
+  }
+  return car.state();
+}
+
+}  // namespace trackbed
