@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "trackbed/sim/scene.h"
+#include "trackbed/vehicle/params.h"
+#include "trackbed/vehicle/state.h"
+
+struct mjModel_;
+
+namespace trackbed {
+
+/// The wheels of a car, in the order of every per-wheel array and column.
+inline constexpr std::array<const char*, 4> kWheels{"fl", "fr", "rl", "rr"};
+
+/// Where Trackbed finds the parts of a car in the compiled model (docs name the MJCF names).
+struct CarParts {
+  int chassis = -1;       ///< body
+  int chassis_qpos = -1;  ///< of its free joint
+  int chassis_dof = -1;
+  std::array<int, 4> tyre{};     ///< collision geom of each wheel
+  std::array<int, 4> wheel{};    ///< body
+  std::array<int, 4> carrier{};  ///< body the wheel spins on
+  std::array<int, 4> spin_qpos{};
+  std::array<int, 4> spin_dof{};
+  std::array<int, 2> steer_qpos{};  ///< fl, fr
+  int rack_qpos = -1;
+  int steer_actuator = -1;  ///< index into ctrl
+  int steer_state = -1;     ///< index into act
+  int drive_actuator = -1;
+  double drive_limit = 0.0;              ///< of the drive torque, both wheels together [N m]
+  double brake_torque_front = 0.0;       ///< largest, per wheel [N m]
+  double brake_torque_rear = 0.0;        ///< largest, per wheel [N m]
+  std::array<double, 4> spin_inertia{};  ///< [kg m^2]
+  double cg_height = 0.0;                ///< [m]
+};
+
+/// A compiled car with its scene. Immutable, and safe to share between threads once made.
+///
+/// Errors: InputError naming the file and what is missing or wrong when the MJCF does not compile,
+/// lacks a needed name, or its steering actuator has no limits.
+class CarModel {
+ public:
+  CarModel(Scene scene, const std::string& name_for_messages);
+  CarModel(CarModel&&) noexcept;
+  CarModel& operator=(CarModel&&) noexcept;
+  ~CarModel();
+
+  [[nodiscard]] const VehicleParams& params() const { return params_; }
+  [[nodiscard]] const CarParts& parts() const { return parts_; }
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const mjModel_* get() const { return model_.get(); }
+  [[nodiscard]] double timestep() const;
+
+  /// Column names of a configuration: "x_m,y_m,z_m,qw,qx,qy,qz" of the free joint, then every other
+  /// joint by name with its unit.
+  [[nodiscard]] std::vector<std::string> configuration_columns() const;
+
+  /// A configuration out of a full qpos.
+  [[nodiscard]] std::vector<double> ConfigurationOf(std::span<const double> qpos) const;
+
+  /// A configuration of the car standing flat at `pose` with its wheels at `steering` (bicycle
+  /// angle) and turned by `spin` [rad].
+  [[nodiscard]] std::vector<double> FlatConfiguration(const Pose2& pose, double steering,
+                                                      const std::array<double, 4>& spin) const;
+
+  /// qpos of the car standing flat, as above.
+  [[nodiscard]] std::vector<double> FlatPosition(const Pose2& pose, double steering,
+                                                 const std::array<double, 4>& spin) const;
+
+ private:
+  struct Deleter {
+    void operator()(mjModel_* model) const;
+  };
+
+  Scene scene_;
+  std::unique_ptr<mjModel_, Deleter> model_;
+  VehicleParams params_;
+  CarParts parts_;
+};
+
+/// Speed [m/s] along each wheel's own direction when the car's rear axle moves at `speed` with its
+/// wheels at `steering` and does not slip.
+std::array<double, 4> RollingSpeeds(const VehicleParams& params, double speed, double steering);
+
+/// "MuJoCo 2.2.2"; InternalError when the library is not the one the headers were made for.
+std::string PhysicsVersion();
+
+}  // namespace trackbed

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "trackbed/sim/car_model.h"
+#include "trackbed/vehicle/kinematic_car.h"
+#include "trackbed/vehicle/state.h"
+
+/// One interface and one table for everything that can be driven.
+namespace trackbed {
+
+/// Where and how a drive begins.
+struct StartState {
+  Pose2 pose;             ///< rear-axle centre
+  double speed = 0.0;     ///< [m/s]
+  double steering = 0.0;  ///< bicycle angle, wheels and actuator alike [rad]
+};
+
+/// What the road does.
+struct Road {
+  double friction = 1.0;  ///< factor on the tyres' own friction coefficient
+};
+
+/// A car that obeys commands, one physics step at a time. The drive does not know which it holds.
+class Plant {
+ public:
+  virtual ~Plant() = default;
+
+  /// Advances by one timestep of the model.
+  virtual void Step(const Command& command) = 0;
+
+  /// The state now. For plants with forces, accelerations and wheel forces are those of the step
+  /// that led here.
+  [[nodiscard]] virtual VehicleState Observe() const = 0;
+
+  /// The configuration now, as CarModel::configuration_columns names it.
+  [[nodiscard]] virtual std::vector<double> Configuration() const = 0;
+
+  /// Whether the physics has left the numbers it can compute with; such a plant must not be
+  /// stepped.
+  [[nodiscard]] virtual bool diverged() const = 0;
+};
+
+struct PlantEntry {
+  const char* name;
+  const char* summary;
+  std::unique_ptr<Plant> (*make)(const CarModel& car, const Road& road, const StartState& start);
+};
+
+/// Every plant there is: `kinematic` (KinematicCar, rear-axle reference) and `mujoco` (the MJCF car
+/// on its contacts). A plant keeps a reference to the car model, which must outlive it.
+///
+/// The MuJoCo plant turns a wanted acceleration into drive torque on its differential, or, against
+/// the gear, into dry friction of the brakes, front to rear as the model's brake torques; both are
+/// cut at the model's limits. Its steering actuator's rate limit is the model's own, fed anew at
+/// every physics step.
+const std::vector<PlantEntry>& Plants();
+
+/// InputError with the nearest spelling when there is no such plant.
+std::unique_ptr<Plant> MakePlant(const std::string& name, const CarModel& car, const Road& road,
+                                 const StartState& start);
+
+/// The kinematic plant with the reference point of your choice: with kCentreOfGravity,
+/// `start.speed` and the commanded acceleration are those of the centre of gravity.
+std::unique_ptr<Plant> MakeKinematicPlant(const CarModel& car, const StartState& start,
+                                          ReferencePoint reference);
+
+}  // namespace trackbed

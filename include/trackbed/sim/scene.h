@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace trackbed {
+
+/// What a run decides about the physics, whatever the car's own file says for MuJoCo's viewer.
+struct SceneOptions {
+  double timestep = 0.002;  ///< [s]
+};
+
+/// A file the composed model refers to, under the name it is referred to by.
+struct SceneAsset {
+  std::string name;
+  std::string content;
+};
+
+/// A complete MJCF model: what is simulated is exactly this text.
+struct Scene {
+  std::string xml;
+  std::vector<SceneAsset> assets;
+};
+
+/// The MJCF file of a car: `model` is a name under the models folder ("prius" is
+/// models/prius/prius.xml) or a path, absolute or relative to `base`. InputError with the known
+/// names when there is no such file.
+std::filesystem::path FindModel(const std::string& model, const std::filesystem::path& base);
+
+/// Names that FindModel knows, sorted.
+std::vector<std::string> ModelNames();
+
+/// Where models/ and scenarios/ are: the environment variable TRACKBED_DATA, or the source tree
+/// this was built from.
+std::filesystem::path DataFolder();
+
+/// Reads a car's MJCF, resolves its includes, gathers the files it refers to, and sets the options.
+/// InputError with file and line when it is not well-formed XML or refers to something missing.
+Scene ComposeScene(const std::filesystem::path& car_file, const SceneOptions& options);
+
+/// Writes model.xml and the assets beside it.
+void WriteScene(const Scene& scene, const std::filesystem::path& folder);
+
+}  // namespace trackbed

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "trackbed/sim/plant.h"
+
+namespace trackbed {
+
+std::unique_ptr<Plant> MakeMujocoPlant(const CarModel& car, const Road& road,
+                                       const StartState& start);
+
+}  // namespace trackbed

@@ -1,0 +1,194 @@
+#include "trackbed/sim/scene.h"
+
+#include <fmt/format.h>
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <set>
+
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+#include "trackbed/core/spelling.h"
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+using tinyxml2::XMLDocument;
+using tinyxml2::XMLElement;
+
+[[noreturn]] void Fail(const fs::path& file, int line, std::string message) {
+  throw InputError(Problem{file.string(), line, line > 0 ? 1 : 0, "", std::move(message)});
+}
+
+void Load(const fs::path& file, XMLDocument& document) {
+  if (!fs::is_regular_file(file)) {
+    Fail(file, 0, "no such file");
+  }
+  const std::string text = ReadFile(file);
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    Fail(file, document.ErrorLineNum(),
+         fmt::format("not well-formed XML: {}", document.ErrorName()));
+  }
+  if (document.RootElement() == nullptr) {
+    Fail(file, 1, "no root element");
+  }
+}
+
+/// Replaces every <include file="…"/> below `parent` by what the file's root holds. As in MuJoCo,
+/// names are relative to the main file and a file may be included once.
+void ResolveIncludes(XMLElement& parent, const fs::path& file, const fs::path& folder,
+                     std::set<fs::path>& included) {
+  for (XMLElement* child = parent.FirstChildElement(); child != nullptr;) {
+    XMLElement* next = child->NextSiblingElement();
+    if (std::string_view(child->Name()) == "include") {
+      const char* name = child->Attribute("file");
+      if (name == nullptr) {
+        Fail(file, child->GetLineNum(), "<include> without a file");
+      }
+      const fs::path other = folder / name;
+      if (!included.insert(fs::weakly_canonical(other)).second) {
+        Fail(file, child->GetLineNum(), fmt::format("{} is included a second time", name));
+      }
+      XMLDocument document;
+      Load(other, document);
+      ResolveIncludes(*document.RootElement(), other, folder, included);
+      tinyxml2::XMLNode* last = child;
+      for (const XMLElement* element = document.RootElement()->FirstChildElement();
+           element != nullptr; element = element->NextSiblingElement()) {
+        last = parent.InsertAfterChild(last, element->DeepClone(parent.GetDocument()));
+      }
+      parent.DeleteChild(child);
+    } else {
+      ResolveIncludes(*child, file, folder, included);
+    }
+    child = next;
+  }
+}
+
+/// The attribute of the last <compiler> that sets it: MuJoCo lets later ones win.
+std::string CompilerAttribute(const XMLElement& root, const char* name) {
+  std::string value;
+  for (const XMLElement* compiler = root.FirstChildElement("compiler"); compiler != nullptr;
+       compiler = compiler->NextSiblingElement("compiler")) {
+    if (const char* set = compiler->Attribute(name)) {
+      value = set;
+    }
+  }
+  return value;
+}
+
+/// Gathers the files that assets refer to and renames the references to plain names, so that the
+/// composed model and its assets can lie together in any folder.
+void GatherAssets(XMLElement& root, const fs::path& file, const fs::path& folder, Scene& scene) {
+  const fs::path mesh_folder = folder / CompilerAttribute(root, "meshdir");
+  const fs::path texture_folder = folder / CompilerAttribute(root, "texturedir");
+  static constexpr std::array kFileAttributes{"file",     "fileright", "fileup",  "fileleft",
+                                              "filedown", "filefront", "fileback"};
+  for (XMLElement* section = root.FirstChildElement("asset"); section != nullptr;
+       section = section->NextSiblingElement("asset")) {
+    for (XMLElement* asset = section->FirstChildElement(); asset != nullptr;
+         asset = asset->NextSiblingElement()) {
+      const std::string_view kind = asset->Name();
+      const fs::path& from = kind == "texture" ? texture_folder : mesh_folder;
+      for (const char* attribute : kFileAttributes) {
+        const char* value = asset->Attribute(attribute);
+        if (value == nullptr) {
+          continue;
+        }
+        const fs::path source = from / value;
+        if (!fs::is_regular_file(source)) {
+          Fail(file, asset->GetLineNum(),
+               fmt::format("<{}> refers to {}, which is no file", kind, source.string()));
+        }
+        // A number in front keeps equal file names from different folders apart.
+        const std::string name =
+            fmt::format("asset{}_{}", scene.assets.size(), source.filename().string());
+        // MuJoCo names an asset after its file when it has no name of its own.
+        if (std::string_view(attribute) == "file" && asset->Attribute("name") == nullptr) {
+          asset->SetAttribute("name", source.stem().c_str());
+        }
+        scene.assets.push_back({name, ReadFile(source)});
+        asset->SetAttribute(attribute, name.c_str());
+      }
+    }
+  }
+  for (XMLElement* compiler = root.FirstChildElement("compiler"); compiler != nullptr;
+       compiler = compiler->NextSiblingElement("compiler")) {
+    compiler->DeleteAttribute("meshdir");
+    compiler->DeleteAttribute("texturedir");
+  }
+}
+
+}  // namespace
+
+fs::path DataFolder() {
+  if (const char* folder = std::getenv("TRACKBED_DATA"); folder != nullptr && *folder != '\0') {
+    return folder;
+  }
+  return TRACKBED_SOURCE_DIR;
+}
+
+std::vector<std::string> ModelNames() {
+  std::vector<std::string> names;
+  const fs::path models = DataFolder() / "models";
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(models, error)) {
+    const std::string name = entry.path().filename().string();
+    if (fs::is_regular_file(entry.path() / (name + ".xml"))) {
+      names.push_back(name);
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+fs::path FindModel(const std::string& model, const fs::path& base) {
+  const fs::path named = DataFolder() / "models" / model / (model + ".xml");
+  const bool is_name = model.find('/') == std::string::npos && fs::path(model).extension().empty();
+  if (is_name && fs::is_regular_file(named)) {
+    return named;
+  }
+  if (!is_name && fs::is_regular_file(base / model)) {
+    return base / model;
+  }
+  throw InputError(
+      Problem{.message = is_name ? "unknown model " + UnknownName(model, ModelNames())
+                                 : fmt::format("no model file {}", (base / model).string())});
+}
+
+Scene ComposeScene(const fs::path& car_file, const SceneOptions& options) {
+  XMLDocument document;
+  Load(car_file, document);
+  XMLElement& root = *document.RootElement();
+  if (std::string_view(root.Name()) != "mujoco") {
+    Fail(car_file, root.GetLineNum(),
+         fmt::format("the root element is <{}>; a model is a <mujoco>", root.Name()));
+  }
+  const fs::path folder = car_file.parent_path();
+  std::set<fs::path> included{fs::weakly_canonical(car_file)};
+  ResolveIncludes(root, car_file, folder, included);
+
+  Scene scene;
+  GatherAssets(root, car_file, folder, scene);
+  // Of several <option> elements the last one wins.
+  XMLElement* option = document.NewElement("option");
+  option->SetAttribute("timestep", fmt::format("{}", options.timestep).c_str());
+  root.InsertEndChild(option);
+
+  tinyxml2::XMLPrinter printer;
+  document.Print(&printer);
+  scene.xml = printer.CStr();
+  return scene;
+}
+
+void WriteScene(const Scene& scene, const fs::path& folder) {
+  WriteFileAtomically(folder / "model.xml", scene.xml);
+  for (const SceneAsset& asset : scene.assets) {
+    WriteFileAtomically(folder / asset.name, asset.content);
+  }
+}
+
+}  // namespace trackbed
