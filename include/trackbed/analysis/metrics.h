@@ -1,0 +1,70 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trackbed/drive/run_log.h"
+#include "trackbed/scenario/scenario.h"
+
+namespace trackbed {
+
+/// How well a drive kept to its path. Errors are taken at the control periods.
+struct TrackingMetrics {
+  double cross_track_rms = 0.0;    ///< [m]
+  double cross_track_max = 0.0;    ///< largest magnitude [m]
+  double cross_track_max_s = 0.0;  ///< where [m]
+  double cross_track_max_t = 0.0;  ///< when [s]
+  double cross_track_final = 0.0;  ///< signed [m]
+  double heading_error_rms = 0.0;  ///< [rad]
+  double heading_error_max = 0.0;  ///< largest magnitude [rad]
+  double heading_error_max_s = 0.0;
+  double heading_error_max_t = 0.0;
+  double goal_distance = 0.0;       ///< of the rear axle from the end of the path, at the end [m]
+  double goal_heading_error = 0.0;  ///< [rad]
+};
+
+struct PlantMetrics {
+  std::string plant;
+  DriveStatus status = DriveStatus::kArrived;
+  double distance = 0.0;                     ///< driven [m]
+  double time = 0.0;                         ///< simulated [s]
+  double lateral_acceleration_max = 0.0;     ///< largest magnitude, at the CG [m/s^2]
+  double steering_rate_max = 0.0;            ///< of the measured angle, mean over any 0.1 s [rad/s]
+  double steering_saturated_fraction = 0.0;  ///< of the periods: actuator did not reach the command
+  std::optional<TrackingMetrics> tracking;   ///< none without a path
+};
+
+/// How far two plants part at equal station (without a path: at equal distance driven).
+struct PlantComparison {
+  std::string first;
+  std::string second;
+  double position_rms = 0.0;    ///< [m]
+  double position_max = 0.0;    ///< [m]
+  double position_max_s = 0.0;  ///< where [m]
+  double heading_max = 0.0;     ///< [rad]
+  double heading_max_s = 0.0;   ///< where [m]
+};
+
+/// Did the run do what its scenario expects?
+struct Verdict {
+  bool passed = true;
+  std::vector<std::string> failures;  ///< expected, actual, where and when; one line each
+};
+
+PlantMetrics Measure(const RunLog& log, const Plan& plan, double control_period);
+
+/// Both logs cover the stations that are compared; station is made monotonic first, for a car that
+/// rolls back by a hair when it stops.
+PlantComparison ComparePlants(const RunLog& first, const RunLog& second);
+
+/// A drive that did not arrive fails whatever the scenario expects.
+Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plants,
+              const std::vector<PlantComparison>& comparisons);
+
+nlohmann::ordered_json ToJson(const PlantMetrics& metrics);
+nlohmann::ordered_json ToJson(const PlantComparison& comparison);
+nlohmann::ordered_json ToJson(const Verdict& verdict);
+
+}  // namespace trackbed

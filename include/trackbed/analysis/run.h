@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "trackbed/analysis/metrics.h"
+#include "trackbed/drive/drive.h"
+
+namespace trackbed {
+
+/// Wall-clock figures of one plant; they never enter any other file than timing.json.
+struct DriveTiming {
+  std::string plant;
+  double wall_time = 0.0;         ///< [s]
+  double real_time_factor = 0.0;  ///< simulated over wall time
+};
+
+/// One run of a scenario: planned once, driven on each of its plants, measured and judged.
+struct RunResult {
+  Scenario scenario;
+  Scene scene;  ///< the composed MJCF that was driven
+  Plan plan;
+  std::vector<RunLog> logs;
+  std::vector<PlantMetrics> metrics;
+  std::vector<PlantComparison> comparisons;  ///< every pair of plants
+  Verdict verdict;
+  bool interrupted = false;
+  double planning_time = 0.0;  ///< wall clock [s]
+  std::vector<DriveTiming> timing;
+};
+
+struct RunHooks {
+  /// Called before each plant is driven; its drive reports to what is given back.
+  std::function<DriveHooks(const std::string& plant)> drive;
+};
+
+/// Plans, drives, measures, judges. A mission that cannot be planned is a failed verdict with the
+/// reason and no logs. Errors: InputError from the scenario's model.
+RunResult RunMission(const Scenario& scenario, const RunHooks& hooks = {});
+
+/// Writes the run folder (plan.csv, plan.json, <plant>.csv, <plant>.state.csv, model.xml,
+/// metrics.json, timing.json, scenario.resolved.yaml), each file under its name only when complete.
+/// Files of an earlier run of the same folder that this run does not have are removed first, so
+/// that the folder never tells of two runs. RunError when the folder cannot be written.
+void WriteRunFolder(const RunResult& result, const std::filesystem::path& folder);
+
+/// Writes plan.csv (when there is a path) and plan.json alone.
+void WritePlan(const Plan& plan, const Scenario& scenario, const std::filesystem::path& folder);
+
+/// Versions of what made a run, as they stand in metrics.json.
+nlohmann::ordered_json Versions();
+
+}  // namespace trackbed

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trackbed/core/table.h"
+#include "trackbed/path/path.h"
+#include "trackbed/vehicle/state.h"
+
+namespace trackbed {
+
+/// How a drive ended.
+enum class DriveStatus {
+  kArrived,      ///< at rest at the end of the path, or the mission's duration is over
+  kStopped,      ///< at rest before the end of the path, and staying there
+  kTimeLimit,    ///< drive.time_limit is over
+  kDiverged,     ///< the physics failed (MuJoCo warned); the log ends before
+  kInterrupted,  ///< the caller asked to stop
+};
+
+/// "arrived", "stopped", …: the spelling of metrics.json.
+const char* ToString(DriveStatus status);
+
+/// One control period: the state at its start and the command given then.
+struct LogRow {
+  VehicleState state;
+  Command command;
+  std::optional<Projection> tracking;  ///< none without a path
+};
+
+/// One drive of one plant. The last row is the state at the end, with the command that led there.
+struct RunLog {
+  std::string plant;
+  DriveStatus status = DriveStatus::kArrived;
+  std::vector<LogRow> rows;
+  Table configurations;  ///< `t_s` and the car's configuration (CarModel::configuration_columns)
+};
+
+/// The rows as `<plant>.csv` has them: columns that need a path or tyres are there when these are.
+Table ToTable(const RunLog& log);
+
+}  // namespace trackbed

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trackbed/control/speed_controller.h"
+#include "trackbed/control/steering_controller.h"
+#include "trackbed/planning/planner.h"
+#include "trackbed/sim/plant.h"
+
+/// A scenario: one file, one reproducible experiment. SI units and radians throughout.
+namespace trackbed {
+
+struct VehicleSpec {
+  std::string model = "prius";   ///< a name under models/, or a path relative to the scenario file
+  std::string tyre = "contact";  ///< tyre law of the MuJoCo plant
+};
+
+/// Where the car starts; what is not given follows from the mission.
+struct StartSpec {
+  std::optional<double> x;      ///< [m]; default: the first waypoint, or 0
+  std::optional<double> y;      ///< [m]
+  std::optional<double> yaw;    ///< [rad]; default: along the first leg, or 0
+  std::optional<double> speed;  ///< [m/s]; default: the mission's speed
+  double steering = 0.0;        ///< bicycle angle of wheels and actuator [rad]
+};
+
+struct MissionSpec {
+  double speed = 0.0;              ///< [m/s]
+  std::vector<Vec2> waypoints;     ///< [m]
+  std::optional<double> duration;  ///< [s]; ends the drive, for missions without a goal
+  StartSpec start;
+};
+
+struct ControlSpec {
+  ControllerOptions steering = PreviewOptions{};
+  SpeedControlOptions speed;
+};
+
+struct DriveSpec {
+  std::vector<std::string> plants{"kinematic", "mujoco"};
+  double timestep = 0.002;           ///< of the physics [s]
+  double control_period = 0.02;      ///< a whole number of timesteps [s]
+  double state_period = 1.0 / 60.0;  ///< between configurations logged for the film [s]
+  double time_limit = 600.0;         ///< simulated [s]
+};
+
+/// Bounds that one plant's metrics must keep; what is not given is not asked.
+struct PlantExpectation {
+  std::optional<double> reach_goal;         ///< largest distance to the goal at the end [m]
+  std::optional<double> max_cross_track;    ///< [m]
+  std::optional<double> rms_cross_track;    ///< [m]
+  std::optional<double> max_heading_error;  ///< [rad]
+};
+
+/// Bounds on how far two plants may part.
+struct BetweenExpectation {
+  std::vector<std::string> plants;     ///< two of them
+  std::optional<double> position_max;  ///< at equal station [m]
+  std::optional<double> heading_max;   ///< at equal station [rad]
+};
+
+struct Expectations {
+  PlantExpectation all;  ///< asked of every plant
+  std::vector<std::pair<std::string, PlantExpectation>> plants;
+  std::vector<BetweenExpectation> between;
+};
+
+struct RenderSpec {
+  std::string camera = "chase";
+  int width = 1280;   ///< [pixels]
+  int height = 720;   ///< [pixels]
+  double fps = 30.0;  ///< [1/s]
+};
+
+struct Scenario {
+  std::string name;
+  std::uint64_t seed = 0;
+  VehicleSpec vehicle;
+  MissionSpec mission;
+  Road world;
+  std::optional<PlannerOptions> plan;  ///< none: the mission is driven without a path
+  ControlSpec control;
+  DriveSpec drive;
+  Expectations expect;
+  RenderSpec render;
+
+  std::filesystem::path folder;  ///< relative paths start here; not a key
+};
+
+/// `key=value`: replaces a key of the file before it is read; the value is YAML.
+using Override = std::string;
+
+/// Reads a scenario file strictly. InputError with **every** problem of the file: unknown key (with
+/// the nearest known one), missing or repeated key, wrong type, NaN or infinity, out of range,
+/// unknown name; each with file, line, column and dotted key. Problems of an override name the
+/// override.
+Scenario ReadScenario(const std::filesystem::path& file,
+                      const std::vector<Override>& overrides = {});
+
+/// The same from text; `name` stands for the file in messages, `folder` is where relative paths
+/// start.
+Scenario ParseScenario(const std::string& yaml, const std::string& name,
+                       const std::filesystem::path& folder,
+                       const std::vector<Override>& overrides = {});
+
+/// Checks that concern more than one key; ReadScenario has made them, callers that fill the struct
+/// by hand make them here. InputError.
+void CheckScenario(const Scenario& scenario);
+
+/// The scenario with every default filled in, as YAML that ReadScenario reads back to an equal one
+/// from any folder: a model given by its path is written with its absolute path.
+std::string ResolvedYaml(const Scenario& scenario);
+
+/// Where the car starts, with the mission's defaults filled in.
+StartState StartOf(const Scenario& scenario);
+
+}  // namespace trackbed

@@ -1,0 +1,245 @@
+#include "trackbed/analysis/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+TrackingMetrics MeasureTracking(const RunLog& log, const Path& path) {
+  TrackingMetrics metrics;
+  double cross_track_squares = 0.0;
+  double heading_squares = 0.0;
+  for (const LogRow& row : log.rows) {
+    const Projection& at = *row.tracking;
+    cross_track_squares += at.cross_track * at.cross_track;
+    heading_squares += at.heading_error * at.heading_error;
+    if (std::abs(at.cross_track) > metrics.cross_track_max) {
+      metrics.cross_track_max = std::abs(at.cross_track);
+      metrics.cross_track_max_s = at.s;
+      metrics.cross_track_max_t = row.state.time;
+    }
+    if (std::abs(at.heading_error) > metrics.heading_error_max) {
+      metrics.heading_error_max = std::abs(at.heading_error);
+      metrics.heading_error_max_s = at.s;
+      metrics.heading_error_max_t = row.state.time;
+    }
+  }
+  const auto rows = static_cast<double>(log.rows.size());
+  metrics.cross_track_rms = std::sqrt(cross_track_squares / rows);
+  metrics.heading_error_rms = std::sqrt(heading_squares / rows);
+  const LogRow& last = log.rows.back();
+  const PathPoint goal = path.At(path.length());
+  metrics.cross_track_final = last.tracking->cross_track;
+  metrics.goal_distance = (last.state.pose.position() - goal.pose.position()).norm();
+  metrics.goal_heading_error = AngleDifference(last.state.pose.yaw, goal.pose.yaw);
+  return metrics;
+}
+
+/// Largest |change| of the measured steering over any 0.1 s, per second.
+double SteeringRate(const RunLog& log, double control_period) {
+  const auto window = static_cast<std::size_t>(std::max(1.0, std::round(0.1 / control_period)));
+  double fastest = 0.0;
+  for (std::size_t i = window; i < log.rows.size(); ++i) {
+    const double change = log.rows[i].state.steering - log.rows[i - window].state.steering;
+    fastest = std::max(fastest, std::abs(change));
+  }
+  return fastest / (static_cast<double>(window) * control_period);
+}
+
+/// Share of the control periods at whose end the actuator had not reached what was asked.
+double SaturatedFraction(const RunLog& log) {
+  // A microradian: less than any command matters, more than rounding in the actuator.
+  constexpr double kReached = 1e-6;
+  std::size_t saturated = 0;
+  for (std::size_t i = 0; i + 1 < log.rows.size(); ++i) {
+    const double asked = log.rows[i].command.steering;
+    saturated += std::abs(asked - log.rows[i + 1].state.steering_actuator) > kReached ? 1U : 0U;
+  }
+  return log.rows.size() < 2
+             ? 0.0
+             : static_cast<double>(saturated) / static_cast<double>(log.rows.size() - 1);
+}
+
+/// Poses over rising station.
+struct Trace {
+  std::vector<double> s;
+  std::vector<Pose2> pose;
+
+  explicit Trace(const RunLog& log) {
+    for (const LogRow& row : log.rows) {
+      const double station = row.tracking ? row.tracking->s : row.state.distance;
+      if (s.empty() || station > s.back()) {
+        s.push_back(station);
+        pose.push_back(row.state.pose);
+      }
+    }
+  }
+
+  [[nodiscard]] Pose2 At(double station) const {
+    const auto after = std::upper_bound(s.begin() + 1, s.end() - 1, station) - s.begin();
+    const auto i = static_cast<std::size_t>(after);
+    const double share = (station - s[i - 1]) / (s[i] - s[i - 1]);
+    const Pose2& a = pose[i - 1];
+    const Pose2& b = pose[i];
+    return {std::lerp(a.x, b.x, share), std::lerp(a.y, b.y, share), std::lerp(a.yaw, b.yaw, share)};
+  }
+};
+
+void JudgePlant(const PlantExpectation& expect, const PlantMetrics& metrics, Verdict& verdict) {
+  if (!metrics.tracking) {
+    return;
+  }
+  const TrackingMetrics& tracking = *metrics.tracking;
+  const auto bound = [&](const std::optional<double>& limit, double actual, const char* key,
+                         const char* unit, const std::string& where) {
+    if (limit && !(actual <= *limit)) {
+      verdict.failures.push_back(fmt::format("{}: {} expected at most {:.4g} {}, was {:.4g} {}{}",
+                                             metrics.plant, key, *limit, unit, actual, unit,
+                                             where));
+    }
+  };
+  const auto at = [](double s, double t) {
+    return fmt::format(" at s = {:.4g} m, t = {:.4g} s", s, t);
+  };
+  bound(expect.reach_goal, tracking.goal_distance, "distance to the goal", "m",
+        fmt::format(" at the end, t = {:.4g} s", metrics.time));
+  bound(expect.max_cross_track, tracking.cross_track_max, "cross-track maximum", "m",
+        at(tracking.cross_track_max_s, tracking.cross_track_max_t));
+  bound(expect.rms_cross_track, tracking.cross_track_rms, "cross-track rms", "m", "");
+  bound(expect.max_heading_error, tracking.heading_error_max, "heading error maximum", "rad",
+        at(tracking.heading_error_max_s, tracking.heading_error_max_t));
+}
+
+}  // namespace
+
+PlantMetrics Measure(const RunLog& log, const Plan& plan, double control_period) {
+  TRACKBED_CHECK(!log.rows.empty(), "the log of {} is empty", log.plant);
+  PlantMetrics metrics;
+  metrics.plant = log.plant;
+  metrics.status = log.status;
+  metrics.distance = log.rows.back().state.distance;
+  metrics.time = log.rows.back().state.time;
+  for (const LogRow& row : log.rows) {
+    metrics.lateral_acceleration_max =
+        std::max(metrics.lateral_acceleration_max, std::abs(row.state.lateral_acceleration));
+  }
+  metrics.steering_rate_max = SteeringRate(log, control_period);
+  metrics.steering_saturated_fraction = SaturatedFraction(log);
+  if (log.rows.front().tracking) {
+    metrics.tracking = MeasureTracking(log, plan.reference.path);
+  }
+  return metrics;
+}
+
+PlantComparison ComparePlants(const RunLog& first, const RunLog& second) {
+  PlantComparison comparison;
+  comparison.first = first.plant;
+  comparison.second = second.plant;
+  const Trace a(first);
+  const Trace b(second);
+  if (a.s.size() < 2 || b.s.size() < 2) {
+    return comparison;
+  }
+  double squares = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < a.s.size(); ++i) {
+    if (a.s[i] < b.s.front() || a.s[i] > b.s.back()) {
+      continue;
+    }
+    const Pose2 other = b.At(a.s[i]);
+    const double apart = (a.pose[i].position() - other.position()).norm();
+    const double turned = std::abs(AngleDifference(a.pose[i].yaw, other.yaw));
+    squares += apart * apart;
+    count += 1.0;
+    if (apart > comparison.position_max) {
+      comparison.position_max = apart;
+      comparison.position_max_s = a.s[i];
+    }
+    if (turned > comparison.heading_max) {
+      comparison.heading_max = turned;
+      comparison.heading_max_s = a.s[i];
+    }
+  }
+  comparison.position_rms = count > 0.0 ? std::sqrt(squares / count) : 0.0;
+  return comparison;
+}
+
+Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plants,
+              const std::vector<PlantComparison>& comparisons) {
+  Verdict verdict;
+  for (const PlantMetrics& metrics : plants) {
+    if (metrics.status != DriveStatus::kArrived) {
+      verdict.failures.push_back(fmt::format("{}: expected to arrive, ended as {} at t = {:.4g} s",
+                                             metrics.plant, ToString(metrics.status),
+                                             metrics.time));
+    }
+    JudgePlant(expect.all, metrics, verdict);
+    for (const auto& [plant, own] : expect.plants) {
+      if (plant == metrics.plant) {
+        JudgePlant(own, metrics, verdict);
+      }
+    }
+  }
+  for (const BetweenExpectation& between : expect.between) {
+    for (const PlantComparison& c : comparisons) {
+      const auto names = [&](const std::string& a, const std::string& b) {
+        return between.plants[0] == a && between.plants[1] == b;
+      };
+      if (!names(c.first, c.second) && !names(c.second, c.first)) {
+        continue;
+      }
+      const auto bound = [&](const std::optional<double>& limit, double actual, double s,
+                             const char* what, const char* unit) {
+        if (limit && !(actual <= *limit)) {
+          verdict.failures.push_back(
+              fmt::format("{} and {}: {} expected at most {:.4g} {}, was {:.4g} {} at s = {:.4g} m",
+                          c.first, c.second, what, *limit, unit, actual, unit, s));
+        }
+      };
+      bound(between.position_max, c.position_max, c.position_max_s, "position difference", "m");
+      bound(between.heading_max, c.heading_max, c.heading_max_s, "heading difference", "rad");
+    }
+  }
+  verdict.passed = verdict.failures.empty();
+  return verdict;
+}
+
+nlohmann::ordered_json ToJson(const PlantMetrics& metrics) {
+  nlohmann::ordered_json json{
+      {"status", ToString(metrics.status)}, {"distance", metrics.distance}, {"time", metrics.time}};
+  if (metrics.tracking) {
+    const TrackingMetrics& tracking = *metrics.tracking;
+    json["cross_track"] = {{"rms", tracking.cross_track_rms},
+                           {"max", tracking.cross_track_max},
+                           {"max_s", tracking.cross_track_max_s},
+                           {"final", tracking.cross_track_final}};
+    json["heading_error"] = {{"rms", tracking.heading_error_rms},
+                             {"max", tracking.heading_error_max},
+                             {"max_s", tracking.heading_error_max_s}};
+    json["goal_distance"] = tracking.goal_distance;
+    json["goal_heading_error"] = tracking.goal_heading_error;
+  }
+  json["lateral_acceleration_max"] = metrics.lateral_acceleration_max;
+  json["steering_rate_max"] = metrics.steering_rate_max;
+  json["steering_saturated_fraction"] = metrics.steering_saturated_fraction;
+  return json;
+}
+
+nlohmann::ordered_json ToJson(const PlantComparison& comparison) {
+  return {{"plants", {comparison.first, comparison.second}},
+          {"position",
+           {{"rms", comparison.position_rms},
+            {"max", comparison.position_max},
+            {"max_s", comparison.position_max_s}}},
+          {"heading", {{"max", comparison.heading_max}, {"max_s", comparison.heading_max_s}}}};
+}
+
+nlohmann::ordered_json ToJson(const Verdict& verdict) {
+  return {{"passed", verdict.passed}, {"failures", verdict.failures}};
+}
+
+}  // namespace trackbed

@@ -1,0 +1,153 @@
+#include "trackbed/analysis/run.h"
+
+#include <chrono>
+#include <system_error>
+
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+#include "trackbed/core/version.h"
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+/// Largest distance between the points of plan.csv [m].
+constexpr double kPlanSpacing = 0.1;
+
+class Stopwatch {
+ public:
+  [[nodiscard]] double Seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+Table PlanTable(const Reference& reference) {
+  Table table({"s_m", "x_m", "y_m", "yaw_rad", "curvature_radpm", "speed_mps", "direction"});
+  for (const PathPoint& point : reference.path.Sample(kPlanSpacing)) {
+    const double direction = point.direction;
+    table.AddRow({point.s, point.pose.x, point.pose.y, point.pose.yaw, point.curvature,
+                  direction * reference.speed.SpeedAt(point.s), direction});
+  }
+  return table;
+}
+
+std::string Pretty(const ordered_json& json) {
+  return json.dump(2) + "\n";
+}
+
+/// Removes what an earlier run may have left under names that a run uses.
+void RemoveEarlierRun(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const bool ours = name == "plan.csv" || name == "plan.json" || name == "metrics.json" ||
+                      name == "timing.json" || name == "scenario.resolved.yaml" ||
+                      name == "model.xml" || name == "video.mp4" || name.ends_with(".state.csv") ||
+                      fs::exists(folder / (entry.path().stem().string() + ".state.csv"));
+    if (ours) {
+      std::error_code ignored;  // what cannot be removed cannot be replaced either: that will tell
+      fs::remove(entry.path(), ignored);
+    }
+  }
+}
+
+}  // namespace
+
+ordered_json Versions() {
+  return {{"trackbed", Version()}, {"physics", PhysicsVersion()}};
+}
+
+RunResult RunMission(const Scenario& scenario, const RunHooks& hooks) {
+  CheckScenario(scenario);
+  RunResult result;
+  result.scenario = scenario;
+  const CarModel car = LoadCar(scenario);
+  result.scene = car.scene();
+  const Stopwatch planning;
+  result.plan = PlanMission(scenario, car.params());
+  result.planning_time = planning.Seconds();
+  if (!result.plan.ok()) {
+    result.verdict = {
+        false, {fmt::format("no plan ({}): {}", ToString(result.plan.status), result.plan.reason)}};
+    return result;
+  }
+  for (const std::string& plant : scenario.drive.plants) {
+    const DriveHooks drive_hooks = hooks.drive ? hooks.drive(plant) : DriveHooks{};
+    const Stopwatch driving;
+    result.logs.push_back(DrivePlant(scenario, car, result.plan, plant, drive_hooks));
+    const double wall = driving.Seconds();
+    result.metrics.push_back(
+        Measure(result.logs.back(), result.plan, scenario.drive.control_period));
+    result.timing.push_back({plant, wall, result.metrics.back().time / wall});
+    if (result.logs.back().status == DriveStatus::kInterrupted) {
+      result.interrupted = true;
+      break;
+    }
+  }
+  for (std::size_t i = 0; i < result.logs.size(); ++i) {
+    for (std::size_t j = i + 1; j < result.logs.size(); ++j) {
+      result.comparisons.push_back(ComparePlants(result.logs[i], result.logs[j]));
+    }
+  }
+  result.verdict = Judge(scenario.expect, result.metrics, result.comparisons);
+  return result;
+}
+
+void WritePlan(const Plan& plan, const Scenario& scenario, const fs::path& folder) {
+  ordered_json json{{"status", ToString(plan.status)}};
+  if (!plan.ok()) {
+    json["reason"] = plan.reason;
+  }
+  json["method"] = PlannerName(*scenario.plan);
+  json["seed"] = scenario.seed;
+  if (plan.ok()) {
+    const double length = plan.reference.path.length();
+    json["length_m"] = length;
+    json["duration_s"] = plan.reference.speed.TimeAt(length);
+    WriteFileAtomically(folder / "plan.csv", PlanTable(plan.reference).ToCsv());
+  }
+  for (const auto& [key, value] : plan.diagnostics.items()) {
+    json[key] = value;
+  }
+  WriteFileAtomically(folder / "plan.json", Pretty(json));
+}
+
+void WriteRunFolder(const RunResult& result, const fs::path& folder) {
+  MakeFolder(folder);
+  RemoveEarlierRun(folder);
+  WriteFileAtomically(folder / "scenario.resolved.yaml", ResolvedYaml(result.scenario));
+  WriteScene(result.scene, folder);
+  if (result.scenario.plan) {
+    WritePlan(result.plan, result.scenario, folder);
+  }
+  for (const RunLog& log : result.logs) {
+    WriteFileAtomically(folder / (log.plant + ".csv"), ToTable(log).ToCsv());
+    WriteFileAtomically(folder / (log.plant + ".state.csv"), log.configurations.ToCsv());
+  }
+  ordered_json timing{{"planning_s", result.planning_time}};
+  for (const DriveTiming& plant : result.timing) {
+    timing["plants"][plant.plant] = {{"wall_s", plant.wall_time},
+                                     {"real_time_factor", plant.real_time_factor}};
+  }
+  WriteFileAtomically(folder / "timing.json", Pretty(timing));
+
+  ordered_json metrics{{"scenario", result.scenario.name}, {"complete", !result.interrupted}};
+  metrics["plants"] = ordered_json::object();
+  for (const PlantMetrics& plant : result.metrics) {
+    metrics["plants"][plant.plant] = ToJson(plant);
+  }
+  metrics["between"] = ordered_json::array();
+  for (const PlantComparison& comparison : result.comparisons) {
+    metrics["between"].push_back(ToJson(comparison));
+  }
+  metrics["verdict"] = ToJson(result.verdict);
+  metrics["versions"] = Versions();
+  metrics["seed"] = result.scenario.seed;
+  WriteFileAtomically(folder / "metrics.json", Pretty(metrics));
+}
+
+}  // namespace trackbed

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+#include "trackbed/render/film.h"
+
+namespace trackbed::cli {
+
+/// Films a run folder with a progress bar; Ctrl-C ends it with nothing written.
+void FilmRun(const std::filesystem::path& folder, const std::filesystem::path& output,
+             const FilmOptions& options, bool quiet);
+
+}  // namespace trackbed::cli

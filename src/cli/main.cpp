@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <csignal>
+#include <nlopt.hpp>
+#include <vector>
+
+#include "src/cli/verbs.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/spelling.h"
+#include "trackbed/core/version.h"
+#include "trackbed/sim/car_model.h"
+
+namespace trackbed::cli {
+
+std::atomic<bool> interrupted{false};
+
+namespace {
+
+struct Verb {
+  const char* name;
+  const char* summary;
+  AddVerb add;
+};
+
+const std::vector<Verb> kVerbs{
+    {"run", "Plan, drive and measure scenarios; write a folder for each", AddRun},
+    {"plan", "Plan only: write plan.csv and plan.json", AddPlan},
+    {"render", "Make the film of a finished run from its folder", AddRender},
+};
+
+std::string VersionText() {
+  return fmt::format("Trackbed {}\n{}\nNLopt {}.{}.{}", Version(), PhysicsVersion(),
+                     nlopt::version_major(), nlopt::version_minor(), nlopt::version_bugfix());
+}
+
+int Run(int argc, char** argv) {
+  CLI::App app(
+      "A physics-engine vehicle testbed: plans are driven under contact dynamics, measured "
+      "against the kinematic model, and filmed off-screen.",
+      "trackbed");
+  app.set_version_flag("--version", VersionText);
+  app.set_help_flag("-h,--help", "Print this help");
+  app.require_subcommand(0, 1);
+  app.failure_message(CLI::FailureMessage::simple);
+  int exit_code = kOk;
+  for (const Verb& verb : kVerbs) {
+    verb.add(*app.add_subcommand(verb.name, verb.summary), exit_code);
+  }
+  // A word that is no verb would otherwise be called an unexpected argument.
+  if (argc > 1 && argv[1][0] != '-') {
+    std::vector<std::string> names;
+    bool known = false;
+    for (const Verb& verb : kVerbs) {
+      names.emplace_back(verb.name);
+      known = known || names.back() == argv[1];
+    }
+    if (!known) {
+      throw InputError(Problem{.message = "unknown verb " + UnknownName(argv[1], names)});
+    }
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kOk : kBadInput;
+  }
+  if (app.get_subcommands().empty()) {
+    fmt::print("{}", app.help());
+    return kBadInput;
+  }
+  return exit_code;
+}
+
+}  // namespace
+}  // namespace trackbed::cli
+
+int main(int argc, char** argv) {
+  using namespace trackbed;
+  // The first Ctrl-C ends the drive and keeps its log; a second one ends the program.
+  struct sigaction action {};
+  action.sa_handler = [](int) { cli::interrupted = true; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    return cli::Run(argc, argv);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return cli::kBadInput;
+  } catch (const RunError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return cli::interrupted ? cli::kInterrupted : cli::kBadInput;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "internal error: {}\n", error.what());
+    return cli::kInternal;
+  }
+}

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+#include <memory>
+
+#include "src/cli/film_of_run.h"
+#include "src/cli/progress_bar.h"
+#include "src/cli/verbs.h"
+#include "trackbed/core/error.h"
+#include "trackbed/scenario/scenario.h"
+
+namespace trackbed::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RenderOptions {
+  std::string folder;
+  std::string size;
+  std::optional<double> fps;
+  std::optional<std::string> camera;
+  std::string out;
+  bool quiet = false;
+};
+
+/// "1280x720".
+std::pair<int, int> ParseSize(const std::string& text) {
+  std::pair<int, int> size;
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.first);
+  if (width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x') {
+    const auto height = std::from_chars(width.ptr + 1, end, size.second);
+    if (height.ec == std::errc{} && height.ptr == end) {
+      return size;
+    }
+  }
+  throw InputError(
+      Problem{.key = "--size", .message = fmt::format("'{}' is not of the form 1280x720", text)});
+}
+
+int RenderOne(const RenderOptions& options) {
+  const fs::path folder = options.folder;
+  FilmOptions film;
+  // What the command does not say, the scenario of the run does.
+  if (const fs::path resolved = folder / "scenario.resolved.yaml"; fs::exists(resolved)) {
+    const RenderSpec render = ReadScenario(resolved).render;
+    film = {render.width, render.height, render.fps, render.camera};
+  }
+  if (!options.size.empty()) {
+    std::tie(film.width, film.height) = ParseSize(options.size);
+  }
+  film.fps = options.fps.value_or(film.fps);
+  film.camera = options.camera.value_or(film.camera);
+  const fs::path out = options.out.empty() ? folder / "video.mp4" : fs::path(options.out);
+  FilmRun(folder, out, film, options.quiet);
+  if (!options.quiet) {
+    fmt::print("{}\n", out.string());
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void FilmRun(const fs::path& folder, const fs::path& output, const FilmOptions& options,
+             bool quiet) {
+  ProgressBar bar("film", quiet);
+  RenderFilm(folder, output, options, [&](double fraction) {
+    if (interrupted) {
+      throw RunError("interrupted; no film was written");
+    }
+    bar.Show(fraction);
+  });
+}
+
+void AddRender(CLI::App& command, int& exit_code) {
+  const auto options = std::make_shared<RenderOptions>();
+  std::string cameras;
+  for (const CameraSummary& camera : Cameras()) {
+    cameras += (cameras.empty() ? "" : ", ") + camera.name + " (" + camera.summary + ")";
+  }
+  command.add_option("run", options->folder, "Folder of a finished run")
+      ->required()
+      ->type_name("RUNDIR");
+  command.add_option("--size", options->size, "Pixels (default: the scenario's render.size)")
+      ->type_name("1280x720");
+  command
+      .add_option("--fps", options->fps, "Frames per second (default: the scenario's render.fps)")
+      ->type_name("N");
+  command
+      .add_option("--camera", options->camera,
+                  "Point of view (default: the scenario's render.camera): " + cameras)
+      ->type_name("NAME");
+  command.add_option("-o,--out", options->out, "The film (default: video.mp4 in the run folder)")
+      ->type_name("FILE");
+  command.add_flag("-q,--quiet", options->quiet, "Print errors only");
+  command.callback([options, &exit_code] { exit_code = RenderOne(*options); });
+}
+
+}  // namespace trackbed::cli

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+
+namespace trackbed::cli {
+
+/// What a finished verb tells the shell; the contract's exit codes.
+enum ExitCode {
+  kOk = 0,
+  kInternal = 1,
+  kBadInput = 2,
+  kFailedExpectations = 3,
+  kInterrupted = 130,
+};
+
+/// Set by Ctrl-C; drives ask for it once per control period.
+extern std::atomic<bool> interrupted;
+
+/// A verb adds its options to `command` and sets what is to be done as its callback, which stores
+/// the exit code in `exit_code`.
+using AddVerb = void (*)(CLI::App& command, int& exit_code);
+
+void AddRun(CLI::App& command, int& exit_code);
+void AddPlan(CLI::App& command, int& exit_code);
+void AddRender(CLI::App& command, int& exit_code);
+
+}  // namespace trackbed::cli

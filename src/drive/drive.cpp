@@ -1,0 +1,181 @@
+#include "trackbed/drive/drive.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+/// Slower than this, and not asked to move, counts as at rest [m/s].
+constexpr double kAtRest = 0.01;
+/// At rest this close to the end of its path, a car has arrived [m].
+constexpr double kArrival = 0.5;
+/// How far behind and beyond the last known station the car is looked for [m]: more than it can
+/// move or be pushed in a control period, less than the way round any turn it could make.
+constexpr double kSearch = 2.0;
+
+/// The stations among which the car must be, `moved` metres after it was at `station`.
+Stations Around(double station, double moved) {
+  return {station - kSearch, station + moved + kSearch};
+}
+
+/// Logs configurations at the first physics step at or after every multiple of the period.
+class ConfigurationLog {
+ public:
+  ConfigurationLog(const CarModel& car, double period) : period_(period), table_(Columns(car)) {}
+
+  void Record(const Plant& plant, double time) {
+    // Half a microsecond: times are sums of timesteps and may fall short of the multiple by
+    // rounding.
+    if (time + 5e-7 < period_ * static_cast<double>(next_)) {
+      return;
+    }
+    std::vector<double> row{time};
+    const std::vector<double> configuration = plant.Configuration();
+    row.insert(row.end(), configuration.begin(), configuration.end());
+    table_.AddRow(row);
+    next_ = static_cast<long>(std::floor((time + 5e-7) / period_)) + 1;
+  }
+
+  Table Take() { return std::move(table_); }
+
+ private:
+  static std::vector<std::string> Columns(const CarModel& car) {
+    std::vector<std::string> columns{"t_s"};
+    const std::vector<std::string> configuration = car.configuration_columns();
+    columns.insert(columns.end(), configuration.begin(), configuration.end());
+    return columns;
+  }
+
+  double period_;
+  long next_ = 0;
+  Table table_;
+};
+
+/// Calls back when another hundredth is done.
+class Progress {
+ public:
+  explicit Progress(const std::function<void(double)>& callback) : callback_(callback) {}
+
+  void Report(double fraction) {
+    const int hundredths = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * 100.0);
+    if (callback_ && hundredths > last_) {
+      last_ = hundredths;
+      callback_(hundredths / 100.0);
+    }
+  }
+
+ private:
+  const std::function<void(double)>& callback_;
+  int last_ = 0;
+};
+
+}  // namespace
+
+CarModel LoadCar(const Scenario& scenario) {
+  const auto file = FindModel(scenario.vehicle.model, scenario.folder);
+  return {ComposeScene(file, {.timestep = scenario.drive.timestep}), file.string()};
+}
+
+Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
+  const SpeedControlOptions& speed = scenario.control.speed;
+  const StartState start = StartOf(scenario);
+  if (!scenario.plan) {
+    Plan plan;
+    plan.reference.speed = SpeedProfile({{0.0, scenario.mission.speed}});
+    return plan;
+  }
+  const PlanRequest request{
+      .vehicle = vehicle,
+      .waypoints = scenario.mission.waypoints,
+      .start_speed = start.speed,
+      .speed = {scenario.mission.speed, speed.acceleration, speed.deceleration},
+      .seed = scenario.seed};
+  return MakePlan(request, *scenario.plan);
+}
+
+RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& plan,
+                  const std::string& plant_name, const DriveHooks& hooks) {
+  TRACKBED_CHECK(plan.ok(), "a plan with status {} cannot be driven", ToString(plan.status));
+  const DriveSpec& drive = scenario.drive;
+  const Path& path = plan.reference.path;
+  const bool has_path = scenario.plan.has_value();
+  const double end_time =
+      std::min(drive.time_limit, scenario.mission.duration.value_or(drive.time_limit));
+  const auto steps_per_period =
+      static_cast<int>(std::lround(drive.control_period / drive.timestep));
+  const StationSource source = ControllerFor(scenario.control.steering).station;
+
+  const auto controller = MakeSteeringController(scenario.control.steering);
+  const auto plant = MakePlant(plant_name, car, scenario.world, StartOf(scenario));
+  RunLog log{.plant = plant_name,
+             .status = DriveStatus::kArrived,
+             .rows = {},
+             .configurations = Table({"t_s"})};
+  ConfigurationLog configurations(car, drive.state_period);
+  configurations.Record(*plant, 0.0);
+  Progress progress(hooks.progress);
+
+  double station = 0.0;  // of the last projection
+  Command command;
+  for (long tick = 0;; ++tick) {
+    // Observe and project.
+    VehicleState state = plant->Observe();
+    state.time = static_cast<double>(tick) * drive.control_period;
+    LogRow row{.state = state, .command = command, .tracking = {}};
+    if (has_path) {
+      row.tracking =
+          path.Project(state.pose, Around(station, std::abs(state.speed) * drive.control_period));
+      station = row.tracking->s;
+    }
+    const double s = source == StationSource::kProjection ? station : state.distance;
+
+    // Is it over? The last row keeps the command that led here.
+    const bool at_rest =
+        tick > 0 && std::abs(state.speed) < kAtRest && command.acceleration * command.gear <= 0.0;
+    const bool time_over = state.time >= end_time - 0.5 * drive.timestep;
+    const bool interrupted = hooks.interrupted && hooks.interrupted();
+    if (plant->diverged() || interrupted || time_over || (has_path && at_rest)) {
+      if (plant->diverged()) {
+        log.status = DriveStatus::kDiverged;
+      } else {
+        log.rows.push_back(row);
+        log.status = interrupted           ? DriveStatus::kInterrupted
+                     : has_path && at_rest ? (s >= path.length() - kArrival ? DriveStatus::kArrived
+                                                                            : DriveStatus::kStopped)
+                     : scenario.mission.duration && end_time == *scenario.mission.duration
+                         ? DriveStatus::kArrived
+                         : DriveStatus::kTimeLimit;
+      }
+      break;
+    }
+
+    // Control and log.
+    command.steering = controller->Steer({.vehicle = car.params(),
+                                          .reference = plan.reference,
+                                          .schedule = plan.schedule,
+                                          .state = state,
+                                          .station = s,
+                                          .period = drive.control_period});
+    command.acceleration = SpeedControl(scenario.control.speed, plan.reference.speed, s,
+                                        std::abs(state.speed), drive.control_period);
+    row.command = command;
+    log.rows.push_back(row);
+
+    // Drive.
+    for (int step = 0; step < steps_per_period && !plant->diverged(); ++step) {
+      plant->Step(command);
+      if (!plant->diverged()) {
+        configurations.Record(*plant, state.time + (step + 1) * drive.timestep);
+      }
+    }
+    progress.Report(has_path ? s / path.length() : state.time / end_time);
+  }
+  progress.Report(1.0);
+  log.configurations = configurations.Take();
+  return log;
+}
+
+}  // namespace trackbed

@@ -1,0 +1,88 @@
+#include "trackbed/drive/run_log.h"
+
+#include <fmt/format.h>
+
+#include "trackbed/sim/car_model.h"
+
+namespace trackbed {
+
+const char* ToString(DriveStatus status) {
+  switch (status) {
+    case DriveStatus::kArrived:
+      return "arrived";
+    case DriveStatus::kStopped:
+      return "stopped";
+    case DriveStatus::kTimeLimit:
+      return "time_limit";
+    case DriveStatus::kDiverged:
+      return "diverged";
+    case DriveStatus::kInterrupted:
+      return "interrupted";
+  }
+  return "";
+}
+
+Table ToTable(const RunLog& log) {
+  const bool tracked = !log.rows.empty() && log.rows.front().tracking.has_value();
+  const bool wheels = !log.rows.empty() && log.rows.front().state.wheels.has_value();
+  std::vector<std::string> columns{"t_s",
+                                   "x_m",
+                                   "y_m",
+                                   "yaw_rad",
+                                   "speed_mps",
+                                   "lateral_speed_mps",
+                                   "yaw_rate_radps",
+                                   "roll_rad",
+                                   "pitch_rad",
+                                   "longitudinal_acceleration_mps2",
+                                   "lateral_acceleration_mps2",
+                                   "sideslip_rad",
+                                   "steering_command_rad",
+                                   "steering_actuator_rad",
+                                   "steering_rad",
+                                   "s_m"};
+  if (tracked) {
+    columns.insert(columns.end(), {"cross_track_m", "heading_error_rad"});
+  }
+  if (wheels) {
+    for (const char* wheel : kWheels) {
+      for (const char* pattern : {"normal_force_{}_N", "longitudinal_force_{}_N",
+                                  "lateral_force_{}_N", "slip_angle_{}_rad", "slip_ratio_{}"}) {
+        columns.push_back(fmt::format(fmt::runtime(pattern), wheel));
+      }
+    }
+  }
+  Table table(columns);
+  for (const LogRow& row : log.rows) {
+    const VehicleState& state = row.state;
+    std::vector<double> cells{state.time,
+                              state.pose.x,
+                              state.pose.y,
+                              state.pose.yaw,
+                              state.speed,
+                              state.lateral_speed,
+                              state.yaw_rate,
+                              state.roll,
+                              state.pitch,
+                              state.longitudinal_acceleration,
+                              state.lateral_acceleration,
+                              state.sideslip,
+                              row.command.steering,
+                              state.steering_actuator,
+                              state.steering,
+                              row.tracking ? row.tracking->s : state.distance};
+    if (tracked) {
+      cells.insert(cells.end(), {row.tracking->cross_track, row.tracking->heading_error});
+    }
+    if (wheels) {
+      for (const WheelState& wheel : *state.wheels) {
+        cells.insert(cells.end(), {wheel.normal_force, wheel.longitudinal_force,
+                                   wheel.lateral_force, wheel.slip_angle, wheel.slip_ratio});
+      }
+    }
+    table.AddRow(cells);
+  }
+  return table;
+}
+
+}  // namespace trackbed

@@ -1,0 +1,220 @@
+#include "trackbed/scenario/scenario.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/scenario/overrides.h"
+#include "src/scenario/visit.h"
+#include "trackbed/core/file.h"
+
+namespace trackbed {
+namespace {
+
+/// Anchors can make a small file expand to an endless tree.
+void RefuseBombs(const YAML::Node& node, const std::string& file, int& left, int depth) {
+  if (--left < 0 || depth > 64) {
+    throw InputError(Problem{file, 0, 0, "", "more than 100000 nodes, or nested deeper than 64"});
+  }
+  if (node.IsMap()) {
+    for (const auto& entry : node) {
+      RefuseBombs(entry.second, file, left, depth + 1);
+    }
+  } else if (node.IsSequence()) {
+    for (const auto& item : node) {
+      RefuseBombs(item, file, left, depth + 1);
+    }
+  }
+}
+
+YAML::Node LoadYaml(const std::string& text, const std::string& name) {
+  YAML::Node root;
+  try {
+    root = YAML::Load(text);
+    int left = 100000;
+    RefuseBombs(root, name, left, 0);
+  } catch (const YAML::Exception& error) {
+    throw InputError(Problem{name, error.mark.line + 1, error.mark.column + 1, "",
+                             fmt::format("not YAML: {}", error.msg)});
+  }
+  if (!root.IsMap()) {
+    throw InputError(Problem{name, 1, 1, "", "a scenario is a section of 'key: value' lines"});
+  }
+  return root;
+}
+
+/// Problems that concern more than one key, each with the key to change.
+std::vector<std::pair<std::string, std::string>> CrossProblems(const Scenario& scenario) {
+  std::vector<std::pair<std::string, std::string>> found;
+  const MissionSpec& mission = scenario.mission;
+  const DriveSpec& drive = scenario.drive;
+  if (scenario.plan && mission.waypoints.empty()) {
+    found.emplace_back("mission.waypoints", "missing; a plan needs waypoints");
+  }
+  const ControllerEntry& controller = ControllerFor(scenario.control.steering);
+  if (controller.needs_plan && !scenario.plan) {
+    found.emplace_back("plan",
+                       fmt::format("missing; the controller {} follows a plan", controller.name));
+  }
+  if (!scenario.plan && !mission.duration) {
+    found.emplace_back("mission.duration", "missing; without a plan there is no goal to stop at");
+  }
+  const double steps = drive.control_period / drive.timestep;
+  if (std::abs(steps - std::round(steps)) > 1e-6 || steps < 0.5) {
+    found.emplace_back("drive.control_period",
+                       fmt::format("{} s is not a whole number of timesteps of {} s",
+                                   drive.control_period, drive.timestep));
+  }
+  if (drive.plants.empty()) {
+    found.emplace_back("drive.plants", "at least one plant is needed");
+  }
+  if (const auto* fillet = scenario.plan ? std::get_if<FilletOptions>(&*scenario.plan) : nullptr) {
+    if (!fillet->radius && fillet->constraint == RadiusConstraint::kNone) {
+      found.emplace_back("plan.constraint", "'none' needs a radius: nothing else would limit it");
+    }
+  }
+  const auto driven = [&](const std::string& plant) {
+    return std::find(drive.plants.begin(), drive.plants.end(), plant) != drive.plants.end();
+  };
+  for (const auto& [plant, expectation] : scenario.expect.plants) {
+    if (!driven(plant)) {
+      found.emplace_back("expect." + plant, "drive.plants does not drive this plant");
+    }
+  }
+  for (std::size_t i = 0; i < scenario.expect.between.size(); ++i) {
+    const std::string key = fmt::format("expect.between[{}].plants", i);
+    const auto& plants = scenario.expect.between[i].plants;
+    if (plants.size() != 2) {
+      found.emplace_back(key, fmt::format("expected two plants, found {}", plants.size()));
+    } else if (!driven(plants[0]) || !driven(plants[1])) {
+      found.emplace_back(key, "drive.plants does not drive both of them");
+    }
+  }
+  if (!scenario.plan) {
+    const auto needs_path = [&](const std::string& key, const PlantExpectation& expectation) {
+      if (expectation.reach_goal || expectation.max_cross_track || expectation.rms_cross_track ||
+          expectation.max_heading_error) {
+        found.emplace_back(key, "without a plan there is no goal and no path to be off");
+      }
+    };
+    needs_path("expect", scenario.expect.all);
+    for (const auto& [plant, expectation] : scenario.expect.plants) {
+      needs_path("expect." + plant, expectation);
+    }
+  }
+  return found;
+}
+
+/// The node that a dotted key names, or the nearest one above it that is there.
+YAML::Node NodeAt(const YAML::Node& root, const std::string& key) {
+  YAML::Node node(root);
+  std::size_t begin = 0;
+  while (begin <= key.size()) {
+    const std::size_t end = std::min(key.find('.', begin), key.size());
+    const std::string name = key.substr(begin, end - begin);
+    if (!node.IsMap() || !node[name.substr(0, name.find('['))]) {
+      break;
+    }
+    node.reset(node[name.substr(0, name.find('['))]);
+    begin = end + 1;
+  }
+  return node;
+}
+
+}  // namespace
+
+Scenario ParseScenario(const std::string& yaml, const std::string& name,
+                       const std::filesystem::path& folder,
+                       const std::vector<Override>& overrides) {
+  YAML::Node root = LoadYaml(yaml, name);
+  ReaderContext context{.file = name, .overridden = {}, .problems = {}};
+  for (const Override& override_text : overrides) {
+    context.overridden.push_back(ApplyOverride(root, override_text));
+  }
+  Scenario scenario;
+  scenario.folder = folder;
+  YamlReader reader(context, root, "");
+  Visit(reader, scenario);
+  reader.Finish();
+  const auto complain = [&](const std::string& key, std::string message) {
+    context.Complain(NodeAt(root, key).Mark(), key, std::move(message));
+  };
+  try {
+    static_cast<void>(FindModel(scenario.vehicle.model, folder));
+  } catch (const InputError& error) {
+    complain("vehicle.model", error.problems().front().message);
+  }
+  // Keys that could not be read would only cause follow-up complaints.
+  if (context.problems.empty()) {
+    for (auto& [key, message] : CrossProblems(scenario)) {
+      complain(key, std::move(message));
+    }
+  }
+  if (!context.problems.empty()) {
+    std::stable_sort(context.problems.begin(), context.problems.end(),
+                     [](const Problem& a, const Problem& b) {
+                       return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+                     });
+    throw InputError(context.problems);
+  }
+  return scenario;
+}
+
+Scenario ReadScenario(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  std::string text;
+  try {
+    text = ReadFile(file);
+  } catch (const RunError& error) {
+    throw InputError(Problem{.message = error.what()});
+  }
+  return ParseScenario(text, file.string(), file.parent_path(), overrides);
+}
+
+void CheckScenario(const Scenario& scenario) {
+  std::vector<Problem> problems;
+  for (const auto& [key, message] : CrossProblems(scenario)) {
+    problems.push_back({"", 0, 0, key, message});
+  }
+  if (!problems.empty()) {
+    throw InputError(problems);
+  }
+}
+
+StartState StartOf(const Scenario& scenario) {
+  const MissionSpec& mission = scenario.mission;
+  const StartSpec& given = mission.start;
+  StartState start;
+  if (!mission.waypoints.empty()) {
+    start.pose.x = mission.waypoints.front().x();
+    start.pose.y = mission.waypoints.front().y();
+  }
+  if (mission.waypoints.size() >= 2) {
+    const Vec2 leg = mission.waypoints[1] - mission.waypoints[0];
+    start.pose.yaw = std::atan2(leg.y(), leg.x());
+  }
+  start.pose = {given.x.value_or(start.pose.x), given.y.value_or(start.pose.y),
+                given.yaw.value_or(start.pose.yaw)};
+  start.speed = given.speed.value_or(mission.speed);
+  start.steering = given.steering;
+  return start;
+}
+
+std::string ResolvedYaml(const Scenario& scenario) {
+  Scenario resolved = scenario;
+  const StartState start = StartOf(scenario);
+  resolved.mission.start = {start.pose.x, start.pose.y, start.pose.yaw, start.speed,
+                            start.steering};
+  if (resolved.vehicle.model.find('/') != std::string::npos) {
+    resolved.vehicle.model =
+        std::filesystem::absolute(FindModel(scenario.vehicle.model, scenario.folder))
+            .lexically_normal()
+            .string();
+  }
+  YAML::Emitter out;
+  out << YAML::BeginMap;
+  YamlWriter writer(out);
+  Visit(writer, resolved);
+  out << YAML::EndMap;
+  return std::string(out.c_str()) + "\n";
+}
+
+}  // namespace trackbed

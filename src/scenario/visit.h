@@ -1,0 +1,155 @@
+#pragma once
+
+#include "src/scenario/yaml_reader.h"
+#include "src/scenario/yaml_writer.h"
+#include "trackbed/scenario/scenario.h"
+
+/// The keys of a scenario, each named once for reading and writing alike.
+namespace trackbed {
+
+inline constexpr Range kPositive{.above = 0.0};
+inline constexpr Range kNotNegative{.min = 0.0};
+
+inline Names PlantNames() {
+  Names names;
+  for (const PlantEntry& entry : Plants()) {
+    names.emplace_back(entry.name);
+  }
+  return names;
+}
+
+template <typename Archive>
+void Visit(Archive& a, VehicleSpec& vehicle) {
+  a.Field("model", vehicle.model, Need::kOptional);
+  a.Field("tyre", vehicle.tyre, Need::kOptional, Names{"contact"});
+}
+
+template <typename Archive>
+void Visit(Archive& a, StartSpec& start) {
+  a.Field("x", start.x, Range{.min = -1e6, .max = 1e6});
+  a.Field("y", start.y, Range{.min = -1e6, .max = 1e6});
+  a.Field("yaw", start.yaw);
+  a.Field("speed", start.speed, Range{.min = 0.0, .max = 100.0});
+  a.Field("steering", start.steering, Need::kOptional, Range{.min = -1.5, .max = 1.5});
+}
+
+template <typename Archive>
+void Visit(Archive& a, MissionSpec& mission) {
+  a.Field("speed", mission.speed, Need::kRequired, Range{.max = 100.0, .above = 0.0});
+  a.Field("waypoints", mission.waypoints, Need::kOptional);
+  a.Field("duration", mission.duration, kPositive);
+  a.Section("start", mission.start);
+}
+
+template <typename Archive>
+void Visit(Archive& a, Road& world) {
+  a.Field("friction", world.friction, Need::kOptional, Range{.max = 10.0, .above = 0.0});
+}
+
+template <typename Archive>
+void Visit(Archive& a, FilletOptions& options) {
+  a.Field("radius", options.radius, kPositive);
+  static const EnumNames<RadiusConstraint> constraints{
+      {RadiusConstraint::kSteeringRoom, "steering_room"},
+      {RadiusConstraint::kHalfLeg, "half_leg"},
+      {RadiusConstraint::kNone, "none"}};
+  a.Field("constraint", options.constraint, Need::kOptional, constraints);
+  a.Field("max_radius", options.max_radius, Need::kOptional, kPositive);
+}
+
+template <typename Archive>
+void Visit(Archive&, ScheduleOptions&) {}
+
+template <typename Archive>
+void Visit(Archive& a, PreviewOptions& options) {
+  a.Field("distance", options.distance, Need::kOptional, Range{.min = 0.01, .max = 1000.0});
+  static const EnumNames<PreviewLaw> laws{{PreviewLaw::kLinear, "linear"},
+                                          {PreviewLaw::kExactArc, "exact_arc"}};
+  a.Field("law", options.law, Need::kOptional, laws);
+}
+
+template <typename Archive>
+void Visit(Archive& a, ConstantSteeringOptions& options) {
+  a.Field("steering", options.steering, Need::kRequired, Range{.min = -1.5, .max = 1.5});
+}
+
+template <typename Archive>
+void Visit(Archive& a, SpeedControlOptions& options) {
+  a.Field("acceleration", options.acceleration, Need::kOptional, kPositive);
+  a.Field("deceleration", options.deceleration, Need::kOptional, kPositive);
+  a.Field("gain", options.gain, Need::kOptional, kPositive);
+}
+
+template <typename Archive>
+void Visit(Archive& a, DriveSpec& drive) {
+  a.Field("plants", drive.plants, Need::kOptional, PlantNames());
+  a.Field("timestep", drive.timestep, Need::kOptional, Range{.min = 1e-5, .max = 0.02});
+  a.Field("control_period", drive.control_period, Need::kOptional, Range{.min = 1e-5, .max = 1.0});
+  a.Field("state_period", drive.state_period, Need::kOptional, Range{.min = 1e-5, .max = 1.0});
+  a.Field("time_limit", drive.time_limit, Need::kOptional, Range{.max = 1e5, .above = 0.0});
+}
+
+template <typename Archive>
+void Visit(Archive& a, PlantExpectation& expect) {
+  a.Field("reach_goal", expect.reach_goal, kNotNegative);
+  a.Field("max_cross_track", expect.max_cross_track, kNotNegative);
+  a.Field("rms_cross_track", expect.rms_cross_track, kNotNegative);
+  a.Field("max_heading_error", expect.max_heading_error, kNotNegative);
+}
+
+template <typename Archive>
+void Visit(Archive& a, BetweenExpectation& expect) {
+  a.Field("plants", expect.plants, Need::kRequired, PlantNames());
+  a.Field("position_max", expect.position_max, kNotNegative);
+  a.Field("heading_max", expect.heading_max, kNotNegative);
+}
+
+inline void VisitPlants(YamlReader& a, Expectations& expect) {
+  for (const std::string& plant : PlantNames()) {
+    PlantExpectation own;
+    if (a.SectionIfThere(plant, own)) {
+      expect.plants.emplace_back(plant, own);
+    }
+  }
+}
+
+inline void VisitPlants(YamlWriter& a, Expectations& expect) {
+  for (auto& [plant, own] : expect.plants) {
+    a.Section(plant.c_str(), own);
+  }
+}
+
+template <typename Archive>
+void Visit(Archive& a, Expectations& expect) {
+  Visit(a, expect.all);
+  VisitPlants(a, expect);
+  a.List("between", expect.between);
+}
+
+template <typename Archive>
+void Visit(Archive& a, RenderSpec& render) {
+  a.Field("camera", render.camera, Need::kOptional);
+  a.Pair("size", render.width, render.height, Range{.min = 16, .max = 8192});
+  a.Field("fps", render.fps, Need::kOptional, Range{.min = 1.0, .max = 240.0});
+}
+
+template <typename Archive>
+void Visit(Archive& a, Scenario& scenario) {
+  int schema = 1;
+  a.Field("schema", schema, Need::kRequired, Range{.min = 1, .max = 1});
+  a.Field("name", scenario.name, Need::kRequired);
+  a.Field("seed", scenario.seed, Need::kOptional);
+  a.Section("vehicle", scenario.vehicle);
+  a.Section("mission", scenario.mission, Need::kRequired);
+  a.Section("world", scenario.world);
+  a.Method("plan", scenario.plan, Planners(), Need::kOptional, [](auto&) {});
+  std::optional<ControllerOptions> steering = scenario.control.steering;
+  a.Method("control", steering, Controllers(), Need::kOptional,
+           [&](auto& inner) { inner.Section("speed", scenario.control.speed); });
+  scenario.control.steering = *steering;
+  a.Section("drive", scenario.drive);
+  a.Section("expect", scenario.expect);
+  a.Section("render", scenario.render);
+}
+
+}  // namespace trackbed

@@ -1,0 +1,264 @@
+#include "src/scenario/yaml_reader.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/core/spelling.h"
+
+namespace trackbed {
+namespace {
+
+std::string AllowedBy(Range range) {
+  std::vector<std::string> parts;
+  if (std::isfinite(range.above)) {
+    parts.push_back(fmt::format("above {}", range.above));
+  }
+  if (std::isfinite(range.min)) {
+    parts.push_back(fmt::format("at least {}", range.min));
+  }
+  if (std::isfinite(range.max)) {
+    parts.push_back(fmt::format("at most {}", range.max));
+  }
+  return fmt::format("{}", fmt::join(parts, " and "));
+}
+
+}  // namespace
+
+YamlReader::YamlReader(ReaderContext& context, YAML::Node node, std::string key)
+    : context_(context), node_(std::move(node)), key_(std::move(key)) {}
+
+std::string YamlReader::Dotted(const char* key) const {
+  return key_.empty() ? key : key_ + "." + key;
+}
+
+void ReaderContext::Complain(const YAML::Mark& mark, const std::string& dotted,
+                             std::string message) {
+  const bool set = std::any_of(overridden.begin(), overridden.end(), [&](const std::string& key) {
+    const char next = dotted.size() > key.size() ? dotted[key.size()] : '.';
+    return dotted.starts_with(key) && (next == '.' || next == '[');
+  });
+  if (set) {
+    problems.push_back({"--set", 0, 0, dotted, std::move(message)});
+  } else {
+    problems.push_back({file, mark.line + 1, mark.column + 1, dotted, std::move(message)});
+  }
+}
+
+void YamlReader::Complain(const YAML::Node& node, const std::string& dotted, std::string message) {
+  context_.Complain(node.Mark(), dotted, std::move(message));
+}
+
+std::string YamlReader::Describe(const YAML::Node& node) {
+  switch (node.Type()) {
+    case YAML::NodeType::Map:
+      return "a section";
+    case YAML::NodeType::Sequence:
+      return "a list";
+    case YAML::NodeType::Scalar:
+      return fmt::format("'{}'", node.Scalar());
+    default:
+      return "nothing";
+  }
+}
+
+std::optional<YAML::Node> YamlReader::Take(const char* key, Need need) {
+  known_.emplace_back(key);
+  for (const auto& entry : node_) {
+    if (entry.first.IsScalar() && entry.first.Scalar() == key) {
+      return entry.second;
+    }
+  }
+  if (need == Need::kRequired) {
+    Complain(node_, Dotted(key), "missing");
+  }
+  return std::nullopt;
+}
+
+bool YamlReader::CheckMap(const YAML::Node& node, const std::string& dotted) {
+  if (!node.IsMap()) {
+    Complain(node, dotted,
+             fmt::format("expected a section of 'key: value', found {}", Describe(node)));
+    return false;
+  }
+  return true;
+}
+
+bool YamlReader::ReadNumber(const YAML::Node& node, const std::string& dotted, Range range,
+                            double& value) {
+  double number = 0.0;
+  if (!node.IsScalar() || node.Tag() == "!" || !YAML::convert<double>::decode(node, number)) {
+    Complain(node, dotted, fmt::format("expected a number, found {}", Describe(node)));
+    return false;
+  }
+  if (!std::isfinite(number)) {
+    Complain(node, dotted, fmt::format("expected a finite number, found {}", Describe(node)));
+    return false;
+  }
+  if (number < range.min || number > range.max || number <= range.above) {
+    Complain(node, dotted, fmt::format("{} is out of range; must be {}", number, AllowedBy(range)));
+    return false;
+  }
+  value = number;
+  return true;
+}
+
+void YamlReader::Field(const char* key, double& value, Need need, Range range) {
+  if (const auto node = Take(key, need)) {
+    ReadNumber(*node, Dotted(key), range, value);
+  }
+}
+
+void YamlReader::Field(const char* key, std::optional<double>& value, Range range) {
+  if (const auto node = Take(key, Need::kOptional)) {
+    double number = 0.0;
+    if (ReadNumber(*node, Dotted(key), range, number)) {
+      value = number;
+    }
+  }
+}
+
+void YamlReader::Field(const char* key, int& value, Need need, Range range) {
+  if (const auto node = Take(key, need)) {
+    double number = 0.0;
+    if (!ReadNumber(*node, Dotted(key), range, number)) {
+      return;
+    }
+    if (number != std::floor(number) || std::abs(number) > 1e9) {
+      Complain(*node, Dotted(key), fmt::format("expected a whole number, found {}", number));
+      return;
+    }
+    value = static_cast<int>(number);
+  }
+}
+
+void YamlReader::Field(const char* key, std::uint64_t& value, Need need) {
+  if (const auto node = Take(key, need)) {
+    if (!node->IsScalar() || node->Scalar().starts_with('-') ||
+        !YAML::convert<std::uint64_t>::decode(*node, value)) {
+      Complain(*node, Dotted(key),
+               fmt::format("expected a whole number, at least 0, found {}", Describe(*node)));
+    }
+  }
+}
+
+void YamlReader::Field(const char* key, std::string& value, Need need, const Names& allowed) {
+  const auto node = Take(key, need);
+  if (!node) {
+    return;
+  }
+  if (!node->IsScalar() || node->Scalar().empty()) {
+    Complain(*node, Dotted(key), fmt::format("expected a name, found {}", Describe(*node)));
+    return;
+  }
+  if (!allowed.empty() &&
+      std::find(allowed.begin(), allowed.end(), node->Scalar()) == allowed.end()) {
+    Complain(*node, Dotted(key), "unknown " + UnknownName(node->Scalar(), allowed));
+    return;
+  }
+  value = node->Scalar();
+}
+
+void YamlReader::Field(const char* key, std::vector<std::string>& value, Need need,
+                       const Names& allowed) {
+  const auto node = Take(key, need);
+  if (!node) {
+    return;
+  }
+  if (!node->IsSequence() || node->size() == 0) {
+    Complain(*node, Dotted(key),
+             fmt::format("expected a list of names, found {}",
+                         node->IsSequence() ? "an empty one" : Describe(*node)));
+    return;
+  }
+  Names names;
+  for (std::size_t i = 0; i < node->size(); ++i) {
+    const YAML::Node item = (*node)[i];
+    const std::string dotted = fmt::format("{}[{}]", Dotted(key), i);
+    if (!item.IsScalar()) {
+      Complain(item, dotted, fmt::format("expected a name, found {}", Describe(item)));
+    } else if (std::find(allowed.begin(), allowed.end(), item.Scalar()) == allowed.end()) {
+      Complain(item, dotted, "unknown " + UnknownName(item.Scalar(), allowed));
+    } else if (std::find(names.begin(), names.end(), item.Scalar()) != names.end()) {
+      Complain(item, dotted, fmt::format("'{}' is listed twice", item.Scalar()));
+    } else {
+      names.push_back(item.Scalar());
+    }
+  }
+  value = names;
+}
+
+void YamlReader::Field(const char* key, std::vector<Vec2>& value, Need need) {
+  const auto node = Take(key, need);
+  if (!node) {
+    return;
+  }
+  if (!node->IsSequence()) {
+    Complain(*node, Dotted(key),
+             fmt::format("expected a list of points [x, y], found {}", Describe(*node)));
+    return;
+  }
+  value.clear();
+  for (std::size_t i = 0; i < node->size(); ++i) {
+    const YAML::Node item = (*node)[i];
+    const std::string dotted = fmt::format("{}[{}]", Dotted(key), i);
+    if (!item.IsSequence() || item.size() != 2) {
+      Complain(
+          item, dotted,
+          fmt::format("expected a point [x, y], found {}",
+                      item.IsSequence() ? fmt::format("{} numbers", item.size()) : Describe(item)));
+      continue;
+    }
+    Vec2 point = Vec2::Zero();
+    // A million metres: far beyond any route, and positions still resolve nanometres.
+    const Range map{.min = -1e6, .max = 1e6};
+    if (ReadNumber(item[0], dotted + "[0]", map, point.x()) &&
+        ReadNumber(item[1], dotted + "[1]", map, point.y())) {
+      value.push_back(point);
+    }
+  }
+}
+
+void YamlReader::Pair(const char* key, int& first, int& second, Range range) {
+  const auto node = Take(key, Need::kOptional);
+  if (!node) {
+    return;
+  }
+  if (!node->IsSequence() || node->size() != 2) {
+    Complain(*node, Dotted(key),
+             fmt::format("expected two whole numbers, found {}", Describe(*node)));
+    return;
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    double number = 0.0;
+    const std::string dotted = fmt::format("{}[{}]", Dotted(key), i);
+    if (!ReadNumber((*node)[i], dotted, range, number)) {
+      continue;
+    }
+    if (number != std::floor(number)) {
+      Complain((*node)[i], dotted, fmt::format("expected a whole number, found {}", number));
+      continue;
+    }
+    (i == 0 ? first : second) = static_cast<int>(number);
+  }
+}
+
+void YamlReader::Finish() {
+  Names seen;
+  for (const auto& entry : node_) {
+    if (!entry.first.IsScalar()) {
+      Complain(entry.first, key_, "a key must be a name");
+      continue;
+    }
+    const std::string& name = entry.first.Scalar();
+    if (std::find(seen.begin(), seen.end(), name) != seen.end()) {
+      Complain(entry.first, Dotted(name.c_str()), "the key is given twice");
+    } else if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
+      Complain(entry.first, Dotted(name.c_str()), "unknown key " + UnknownName(name, known_));
+    }
+    seen.push_back(name);
+  }
+}
+
+}  // namespace trackbed

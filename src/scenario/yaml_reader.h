@@ -1,0 +1,152 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "src/scenario/yaml_field.h"
+#include "trackbed/core/error.h"
+#include "trackbed/geometry/pose.h"
+
+namespace trackbed {
+
+/// What all readers of one file share.
+struct ReaderContext {
+  std::string file;
+  std::vector<std::string> overridden;  // dotted keys that --set put in
+  std::vector<Problem> problems;
+
+  /// Adds a problem of the key, placed at `mark`, or at --set if that is where the key comes from.
+  void Complain(const YAML::Mark& mark, const std::string& dotted, std::string message);
+};
+
+/// Reads one YAML mapping into a struct. A struct names its keys once, in a `Visit(archive,
+/// struct)`; this archive reads them, YamlWriter writes them. Unknown and repeated keys are
+/// complained of when the reader goes out of use (Finish).
+class YamlReader {
+ public:
+  YamlReader(ReaderContext& context, YAML::Node node, std::string key);
+
+  void Field(const char* key, double& value, Need need, Range range = {});
+  void Field(const char* key, std::optional<double>& value, Range range = {});
+  void Field(const char* key, int& value, Need need, Range range = {});
+  void Field(const char* key, std::uint64_t& value, Need need);
+  void Field(const char* key, std::string& value, Need need, const Names& allowed = {});
+  void Field(const char* key, std::vector<std::string>& value, Need need, const Names& allowed);
+  void Field(const char* key, std::vector<Vec2>& value, Need need);
+  void Pair(const char* key, int& first, int& second, Range range);
+
+  template <typename Enum>
+  void Field(const char* key, Enum& value, Need need,
+             const EnumNames<Enum>& names) requires std::is_enum_v<Enum> {
+    std::string name;
+    for (const auto& [candidate, spelling] : names) {
+      name = candidate == value ? spelling : name;
+    }
+    Names allowed;
+    for (const auto& entry : names) {
+      allowed.emplace_back(entry.second);
+    }
+    Field(key, name, need, allowed);
+    for (const auto& [candidate, spelling] : names) {
+      value = name == spelling ? candidate : value;
+    }
+  }
+
+  template <typename Struct>
+  void Section(const char* key, Struct& value, Need need = Need::kOptional) {
+    if (const auto node = Take(key, need)) {
+      ReadMap(*node, Dotted(key), value);
+    }
+  }
+
+  template <typename Struct>
+  void List(const char* key, std::vector<Struct>& values) {
+    const auto node = Take(key, Need::kOptional);
+    if (!node) {
+      return;
+    }
+    if (!node->IsSequence()) {
+      Complain(*node, Dotted(key), fmt::format("expected a list, found {}", Describe(*node)));
+      return;
+    }
+    values.clear();
+    for (std::size_t i = 0; i < node->size(); ++i) {
+      ReadMap((*node)[i], fmt::format("{}[{}]", Dotted(key), i), values.emplace_back());
+    }
+  }
+
+  /// A section whose key `method` says which alternative's keys it has.
+  template <typename Variant, typename Table, typename Rest>
+  void Method(const char* key, std::optional<Variant>& value, const Table& table, Need need,
+              const Rest& rest) {
+    const auto node = Take(key, need);
+    if (!node) {
+      return;
+    }
+    if (!CheckMap(*node, Dotted(key))) {
+      return;
+    }
+    YamlReader inner(context_, *node, Dotted(key));
+    Names names;
+    for (const auto& entry : table) {
+      names.emplace_back(entry.name);
+    }
+    std::string method;
+    inner.Field("method", method, Need::kRequired, names);
+    for (const auto& entry : table) {
+      if (method == entry.name) {
+        value = entry.defaults;
+        std::visit([&](auto& options) { Visit(inner, options); }, *value);
+        rest(inner);
+        inner.Finish();
+        return;
+      }
+    }
+    // Without a method there is no telling which keys are known: complain of the method alone.
+  }
+
+  /// Reads `key` only if it is there, as a section of its own.
+  template <typename Struct>
+  bool SectionIfThere(const std::string& key, Struct& value) {
+    const auto node = Take(key.c_str(), Need::kOptional);
+    if (node) {
+      ReadMap(*node, Dotted(key.c_str()), value);
+    }
+    return node.has_value();
+  }
+
+  void Finish();
+
+ private:
+  template <typename Struct>
+  void ReadMap(const YAML::Node& node, const std::string& dotted, Struct& value) {
+    if (!CheckMap(node, dotted)) {
+      return;
+    }
+    YamlReader inner(context_, node, dotted);
+    Visit(inner, value);
+    inner.Finish();
+  }
+
+  [[nodiscard]] std::string Dotted(const char* key) const;
+  std::optional<YAML::Node> Take(const char* key, Need need);
+  bool CheckMap(const YAML::Node& node, const std::string& dotted);
+  bool ReadNumber(const YAML::Node& node, const std::string& dotted, Range range, double& value);
+  void Complain(const YAML::Node& node, const std::string& dotted, std::string message);
+  static std::string Describe(const YAML::Node& node);
+
+  ReaderContext& context_;
+  YAML::Node node_;
+  std::string key_;
+  Names known_;
+};
+
+}  // namespace trackbed

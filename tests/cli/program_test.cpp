@@ -1,0 +1,163 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "tests/support/temp_folder.h"
+#include "trackbed/core/file.h"
+
+namespace trackbed {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+struct Outcome {
+  int code = -1;
+  std::string output;  // stdout and stderr
+};
+
+/// Runs the program in `folder` through the shell.
+Outcome Trackbed(const TempFolder& folder, const std::string& arguments) {
+  const std::string command =
+      "cd '" + folder.path().string() + "' && " TRACKBED_PROGRAM " " + arguments + " 2>&1";
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"),
+                                                   [](FILE*) { return 0; });
+  Outcome outcome;
+  std::array<char, 4096> block{};
+  for (std::size_t got = 0; (got = fread(block.data(), 1, block.size(), pipe.get())) > 0;) {
+    outcome.output.append(block.data(), got);
+  }
+  const int status = pclose(pipe.get());
+  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return outcome;
+}
+
+std::string ScenarioFile(const std::string& name) {
+  return std::string(TRACKBED_SOURCE_DIR) + "/scenarios/" + name + ".yaml";
+}
+
+TEST(Program, NamesItsVersions) {
+  const TempFolder folder;
+  const Outcome outcome = Trackbed(folder, "--version");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.output,
+              testing::MatchesRegex("Trackbed 0\\.1\\.0.*\nMuJoCo 2\\.[0-9.]+\nNLopt [0-9.]+\n"));
+}
+
+TEST(Program, HelpsAndRefuses) {
+  const TempFolder folder;
+  EXPECT_EQ(Trackbed(folder, "--help").code, 0);
+  EXPECT_EQ(Trackbed(folder, "").code, 2);
+  for (const char* verb : {"run", "plan", "render"}) {
+    const Outcome outcome = Trackbed(folder, std::string(verb) + " --help");
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_THAT(outcome.output, HasSubstr("--out"));
+    EXPECT_EQ(Trackbed(folder, verb).code, 2);  // needs an argument
+    EXPECT_EQ(Trackbed(folder, std::string(verb) + " --oops").code, 2);
+  }
+  const Outcome unknown = Trackbed(folder, "rum");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_EQ(unknown.output, "unknown verb 'rum'; did you mean 'run'?\n");
+}
+
+TEST(Program, RunsAScenario) {
+  const TempFolder folder;
+  const Outcome outcome =
+      Trackbed(folder, "run " + ScenarioFile("winding") + " --plant kinematic --set 'expect={}'");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, StartsWith("winding: passed, in out/winding\n"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/winding/kinematic.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/winding/mujoco.csv"));
+  // No progress bar, no colour: the output is a pipe.
+  EXPECT_EQ(outcome.output.find('\r'), std::string::npos);
+  EXPECT_EQ(
+      Trackbed(folder, "run -q --plant kinematic --set 'expect={}' -o x " + ScenarioFile("winding"))
+          .output,
+      "");
+}
+
+TEST(Program, FailedExpectationsAreExitCodeThree) {
+  const TempFolder folder;
+  const Outcome outcome =
+      Trackbed(folder, "run " + ScenarioFile("winding") +
+                           " --plant kinematic --set 'expect={max_cross_track: 0.001}'");
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.output, HasSubstr("cross-track maximum expected at most 0.001 m"));
+}
+
+TEST(Program, MissionWithoutAPlanIsExitCodeThree) {
+  const TempFolder folder;
+  const std::string set = " --set 'mission.waypoints=[[0, 0], [10, 0], [10, 10]]'";
+  const Outcome run = Trackbed(folder, "run " + ScenarioFile("winding") + set);
+  EXPECT_EQ(run.code, 3);
+  EXPECT_THAT(run.output, HasSubstr("no plan (turn_too_tight): turn of 90 deg at waypoint 1"));
+  const Outcome plan = Trackbed(folder, "plan " + ScenarioFile("winding") + set);
+  EXPECT_EQ(plan.code, 3);
+  EXPECT_THAT(ReadFile(folder.path() / "out/winding/plan.json"), HasSubstr("turn_too_tight"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/winding/plan.csv"));
+}
+
+TEST(Program, BadInputIsExitCodeTwoAndTouchesNothing) {
+  const TempFolder folder;
+  folder.Write("bad.yaml", "schema: 1\nname: bad\nmission: {sped: 3}\n");
+  const Outcome outcome = Trackbed(folder, "run bad.yaml");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.output,
+            "bad.yaml:3:10: mission.speed: missing\n"
+            "bad.yaml:3:11: mission.sped: unknown key 'sped'; did you mean 'speed'?\n");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+  const Outcome missing = Trackbed(folder, "run none.yaml");
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_EQ(missing.output, "cannot read none.yaml: No such file or directory\n");
+}
+
+TEST(Program, UnwritableOutputIsOneClearLine) {
+  const TempFolder folder;
+  folder.Write("taken", "a file");
+  const Outcome outcome = Trackbed(folder, "run " + ScenarioFile("winding") + " -o taken/here");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.output, "cannot create the folder taken/here: Not a directory\n");
+}
+
+TEST(Program, PlansARoute) {
+  const TempFolder folder;
+  const Outcome outcome = Trackbed(folder, "plan " + ScenarioFile("three_turns") + " -o p");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, StartsWith("three_turns: planned 138."));
+  EXPECT_THAT(ReadFile(folder.path() / "p/plan.json"), HasSubstr("\"radius_m\": 16.83068"));
+}
+
+TEST(Program, FilmsAFinishedRunFromItsFolder) {
+  const TempFolder folder;
+  const Outcome run = Trackbed(
+      folder, "run " + ScenarioFile("winding") + " -o r --set drive.time_limit=1 'expect={}'");
+  EXPECT_EQ(run.code, 3);  // it does not arrive within a second
+  const Outcome film = Trackbed(folder, "render r --size 320x180 --fps 10 --camera top");
+  EXPECT_EQ(film.code, 0) << film.output;
+  EXPECT_EQ(film.output, "r/video.mp4\n");
+  EXPECT_GT(std::filesystem::file_size(folder.path() / "r/video.mp4"), 1000U);
+}
+
+TEST(Program, RefusesToFilmWhatIsNoRun) {
+  const TempFolder folder;
+  EXPECT_EQ(Trackbed(folder, "render nowhere").code, 2);
+  EXPECT_EQ(Trackbed(folder, "render . --size 12").output,
+            "--size: '12' is not of the form 1280x720\n");
+}
+
+TEST(Program, CtrlCKeepsTheLogSoFar) {
+  const TempFolder folder;
+  const Outcome outcome =
+      Trackbed(folder, "run " + ScenarioFile("three_turns") +
+                           " -o r --set drive.timestep=0.0001 & sleep 0.7; kill -INT $!; wait $!");
+  EXPECT_EQ(outcome.code, 130);
+  EXPECT_THAT(ReadFile(folder.path() / "r/metrics.json"), HasSubstr("\"complete\": false"));
+}
+
+}  // namespace
+}  // namespace trackbed

@@ -1,0 +1,206 @@
+#include "trackbed/scenario/scenario.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/temp_folder.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+constexpr const char* kSmall = R"(schema: 1
+name: small
+mission:
+  speed: 3
+  waypoints: [[1, 2], [40, 2], [40, 40]]
+plan: {method: fillet}
+)";
+
+Scenario Parse(const std::string& yaml, const std::vector<Override>& overrides = {}) {
+  return ParseScenario(yaml, "test.yaml", ".", overrides);
+}
+
+std::string ErrorsOf(const std::string& yaml, const std::vector<Override>& overrides = {}) {
+  try {
+    Parse(yaml, overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(ReadScenario, FillsInDefaults) {
+  const Scenario scenario = Parse(kSmall);
+  EXPECT_EQ(scenario.name, "small");
+  EXPECT_EQ(scenario.vehicle.model, "prius");
+  EXPECT_EQ(scenario.vehicle.tyre, "contact");
+  EXPECT_EQ(scenario.mission.waypoints[1], Vec2(40, 2));
+  ASSERT_TRUE(scenario.plan.has_value());
+  EXPECT_STREQ(PlannerName(*scenario.plan), "fillet");
+  EXPECT_STREQ(ControllerFor(scenario.control.steering).name, "preview");
+  EXPECT_EQ(scenario.drive.plants, (std::vector<std::string>{"kinematic", "mujoco"}));
+  EXPECT_EQ(scenario.world.friction, 1.0);
+}
+
+TEST(ReadScenario, StartsAtTheFirstWaypointAlongTheFirstLeg) {
+  const StartState start =
+      StartOf(Parse(kSmall, {"mission.waypoints=[[1, 2], [1, 40], [40, 40]]"}));
+  EXPECT_EQ(start.pose.x, 1.0);
+  EXPECT_EQ(start.pose.y, 2.0);
+  EXPECT_EQ(start.pose.yaw, std::atan2(38.0, 0.0));
+  EXPECT_EQ(start.speed, 3.0);
+  const StartState moved =
+      StartOf(Parse(kSmall, {"mission.start={x: 5, speed: 0, steering: 0.1}"}));
+  EXPECT_EQ(moved.pose, (Pose2{5.0, 2.0, 0.0}));
+  EXPECT_EQ(moved.speed, 0.0);
+  EXPECT_EQ(moved.steering, 0.1);
+}
+
+TEST(ReadScenario, ReportsEveryProblemWithItsPlace) {
+  EXPECT_EQ(ErrorsOf(R"(schema: 1
+name: broken
+sed: 7
+vehicle: {model: pruis, tyre: contakt}
+mission:
+  speed: -3
+  waypoints: [[0, 0], [40], [40, .nan], here]
+  sped: 3
+plan: {method: fillet, radius: 0, constraint: halfleg, curvature: 3}
+control: {method: previw}
+drive: {plants: [kinematic, kinematic, mujocco], timestep: fast}
+drive: {}
+expect: {kinematik: {}, between: [{plants: kinematic}]}
+)"),
+            R"(test.yaml:3:1: sed: unknown key 'sed'; did you mean 'seed'?
+test.yaml:4:18: vehicle.model: unknown model 'pruis'; did you mean 'prius'?
+test.yaml:4:31: vehicle.tyre: unknown 'contakt'; did you mean 'contact'?
+test.yaml:6:10: mission.speed: -3 is out of range; must be above 0 and at most 100
+test.yaml:7:23: mission.waypoints[1]: expected a point [x, y], found 1 numbers
+test.yaml:7:34: mission.waypoints[2][1]: expected a finite number, found '.nan'
+test.yaml:7:41: mission.waypoints[3]: expected a point [x, y], found 'here'
+test.yaml:8:3: mission.sped: unknown key 'sped'; did you mean 'speed'?
+test.yaml:9:32: plan.radius: 0 is out of range; must be above 0
+test.yaml:9:47: plan.constraint: unknown 'halfleg'; did you mean 'half_leg'?
+test.yaml:9:56: plan.curvature: unknown key 'curvature'; known are method, radius, constraint, max_radius
+test.yaml:10:19: control.method: unknown 'previw'; did you mean 'preview'?
+test.yaml:11:29: drive.plants[1]: 'kinematic' is listed twice
+test.yaml:11:40: drive.plants[2]: unknown 'mujocco'; did you mean 'mujoco'?
+test.yaml:11:60: drive.timestep: expected a number, found 'fast'
+test.yaml:12:1: drive: the key is given twice
+test.yaml:13:10: expect.kinematik: unknown key 'kinematik'; did you mean 'kinematic'?
+test.yaml:13:44: expect.between[0].plants: expected a list of names, found 'kinematic')");
+}
+
+TEST(ReadScenario, NamesMissingKeys) {
+  EXPECT_EQ(ErrorsOf("name: x\nmission: {}\n"),
+            "test.yaml:1:1: schema: missing\ntest.yaml:2:10: mission.speed: missing");
+}
+
+TEST(ReadScenario, RefusesWhatIsNoScenario) {
+  EXPECT_EQ(ErrorsOf(""), "test.yaml:1:1: a scenario is a section of 'key: value' lines");
+  EXPECT_EQ(ErrorsOf("- 1\n- 2\n"), "test.yaml:1:1: a scenario is a section of 'key: value' lines");
+  EXPECT_EQ(ErrorsOf("a: [1, 2\nb: 3"), "test.yaml:2:2: not YAML: end of sequence flow not found");
+  std::string bomb = "a: &a [1,1,1,1,1,1,1,1,1]\n";
+  for (char c = 'b'; c < 'l'; ++c) {
+    const std::string before(1, static_cast<char>(c - 1));
+    bomb += std::string(1, c) + ": &" + c + " [*" + before;
+    for (int i = 0; i < 8; ++i) {
+      bomb += ",*" + before;
+    }
+    bomb += "]\n";
+  }
+  EXPECT_EQ(ErrorsOf(bomb), "test.yaml: more than 100000 nodes, or nested deeper than 64");
+}
+
+TEST(ReadScenario, RefusesKeysThatDoNotGoTogether) {
+  EXPECT_EQ(ErrorsOf("schema: 1\nname: x\nmission: {speed: 3}\nplan: {method: fillet}\n"),
+            "test.yaml:3:10: mission.waypoints: missing; a plan needs waypoints");
+  EXPECT_EQ(
+      ErrorsOf("schema: 1\nname: x\nmission: {speed: 3}\n"),
+      "test.yaml:1:1: plan: missing; the controller preview follows a plan\n"
+      "test.yaml:3:10: mission.duration: missing; without a plan there is no goal to stop at");
+  EXPECT_EQ(ErrorsOf(kSmall, {"drive.control_period=0.003"}),
+            "--set: drive.control_period: 0.003 s is not a whole number of timesteps of 0.002 s");
+  EXPECT_EQ(ErrorsOf(kSmall, {"plan.constraint=none"}),
+            "--set: plan.constraint: 'none' needs a radius: nothing else would limit it");
+  EXPECT_EQ(ErrorsOf(kSmall, {"drive.plants=[mujoco]", "expect={kinematic: {reach_goal: 1}}"}),
+            "--set: expect.kinematic: drive.plants does not drive this plant");
+}
+
+TEST(ReadScenario, NamesAMissingFile) {
+  try {
+    ReadScenario("none.yaml");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "cannot read none.yaml: No such file or directory");
+  }
+}
+
+TEST(Override, ReplacesAndAddsKeys) {
+  const Scenario scenario = Parse(kSmall, {"mission.speed=2.5", "mission.waypoints[2]=[50, 60]",
+                                           "control.method=schedule", "drive.timestep=0.001"});
+  EXPECT_EQ(scenario.mission.speed, 2.5);
+  EXPECT_EQ(scenario.mission.waypoints[2], Vec2(50, 60));
+  EXPECT_STREQ(ControllerFor(scenario.control.steering).name, "schedule");
+  EXPECT_EQ(scenario.drive.timestep, 0.001);
+}
+
+TEST(Override, SaysWhatIsWrong) {
+  EXPECT_EQ(ErrorsOf(kSmall, {"mission.speed"}), "--set: mission.speed: expected key=value");
+  EXPECT_EQ(ErrorsOf(kSmall, {"mission.sped=3"}),
+            "--set: mission.sped: unknown key 'sped'; did you mean 'speed'?");
+  EXPECT_EQ(ErrorsOf(kSmall, {"mission.speed=-1"}),
+            "--set: mission.speed: -1 is out of range; must be above 0 and at most 100");
+  EXPECT_EQ(ErrorsOf(kSmall, {"mission.waypoints[9]=[1, 2]"}),
+            "--set: mission.waypoints[9]=[1, 2]: there is no element [9]");
+  EXPECT_EQ(ErrorsOf(kSmall, {"name.first=x"}),
+            "--set: name.first=x: there is no section that could hold 'first'");
+}
+
+TEST(ResolvedYaml, ReadsBackToItself) {
+  const Scenario scenario =
+      Parse(kSmall, {"control.distance=2.345678901234567", "seed=18446744073709551615",
+                     "control.method=preview",
+                     "expect={reach_goal: 1, mujoco: {max_cross_track: 0.1}, between: [{plants: "
+                     "[kinematic, mujoco], position_max: 0.3}]}"});
+  const std::string once = ResolvedYaml(scenario);
+  const std::string twice = ResolvedYaml(Parse(once));
+  EXPECT_EQ(once, twice);
+  EXPECT_THAT(once, testing::HasSubstr("2.345678901234567"));
+  EXPECT_THAT(once, testing::HasSubstr("18446744073709551615"));
+  EXPECT_THAT(once, testing::HasSubstr("control_period: 0.02"));
+  EXPECT_THAT(once, testing::HasSubstr("max_cross_track: 0.1"));
+}
+
+TEST(ResolvedYaml, FindsAModelGivenByPathFromAnywhere) {
+  const TempFolder folder;
+  const auto car = folder.Write("cars/car.xml", "<mujoco/>");
+  const Scenario scenario =
+      ParseScenario(kSmall, "test.yaml", folder.path(), {"vehicle.model=cars/car.xml"});
+  EXPECT_THAT(ResolvedYaml(scenario), testing::HasSubstr("model: " + car.string()));
+}
+
+class ScenarioFiles : public testing::TestWithParam<std::filesystem::path> {};
+
+std::vector<std::filesystem::path> AllScenarioFiles() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(TRACKBED_SOURCE_DIR) + "/scenarios")) {
+    if (entry.path().extension() == ".yaml") {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, ScenarioFiles, testing::ValuesIn(AllScenarioFiles()),
+                         [](const auto& file) { return file.param.stem().string(); });
+
+TEST_P(ScenarioFiles, CanBeReadAndIsNamedAfterItsFile) {
+  EXPECT_EQ(ReadScenario(GetParam()).name, GetParam().stem().string());
+}
+
+}  // namespace
+}  // namespace trackbed
