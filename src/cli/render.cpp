@@ -20,6 +20,7 @@ struct RenderOptions {
   std::string size;
   std::optional<double> fps;
   std::optional<std::string> camera;
+  std::string quality = FilmOptions{}.quality;
   std::string out;
   bool quiet = false;
 };
@@ -45,13 +46,15 @@ int RenderOne(const RenderOptions& options) {
   // What the command does not say, the scenario of the run does.
   if (const fs::path resolved = folder / "scenario.resolved.yaml"; fs::exists(resolved)) {
     const RenderSpec render = ReadScenario(resolved).render;
-    film = {render.width, render.height, render.fps, render.camera};
+    film = {
+        .width = render.width, .height = render.height, .fps = render.fps, .camera = render.camera};
   }
   if (!options.size.empty()) {
     std::tie(film.width, film.height) = ParseSize(options.size);
   }
   film.fps = options.fps.value_or(film.fps);
   film.camera = options.camera.value_or(film.camera);
+  film.quality = options.quality;
   const fs::path out = options.out.empty() ? folder / "video.mp4" : fs::path(options.out);
   FilmRun(folder, out, film, options.quiet);
   if (!options.quiet) {
@@ -91,6 +94,11 @@ void AddRender(CLI::App& command, int& exit_code) {
       .add_option("--camera", options->camera,
                   "Point of view (default: the scenario's render.camera): " + cameras)
       ->type_name("NAME");
+  command
+      .add_option("--quality", options->quality,
+                  "draft, or film: smooth edges and real shadows, three times slower")
+      ->type_name("draft|film")
+      ->capture_default_str();
   command.add_option("-o,--out", options->out, "The film (default: video.mp4 in the run folder)")
       ->type_name("FILE");
   command.add_flag("-q,--quiet", options->quiet, "Print errors only");

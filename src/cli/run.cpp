@@ -76,7 +76,11 @@ int RunOne(const std::string& file, const fs::path& folder, const RunOptions& op
   WriteRunFolder(result, out);
   if (options.video && !result.interrupted && result.plan.ok()) {
     const RenderSpec& render = scenario.render;
-    FilmRun(out, out / "video.mp4", {render.width, render.height, render.fps, render.camera},
+    FilmRun(out, out / "video.mp4",
+            {.width = render.width,
+             .height = render.height,
+             .fps = render.fps,
+             .camera = render.camera},
             options.quiet);
   }
   if (!options.quiet) {

@@ -11,10 +11,12 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
   if (stops && s >= end) {
     return -options.deceleration;
   }
+  // A car that stands a hair behind the start leaves like one that stands at it.
+  const double from = profile.knots().empty() ? s : std::max(s, profile.knots().front().s);
   // The middle of the period, but not beyond the end: there is no acceleration to be had there.
-  double middle = s + 0.5 * speed * period;
+  double middle = from + 0.5 * speed * period;
   if (stops) {
-    middle = std::min(middle, 0.5 * (s + end));
+    middle = std::min(middle, 0.5 * (from + end));
   }
   const double feed_forward = profile.AccelerationAt(middle);
   const double error = profile.SpeedAt(s) - speed;

@@ -44,7 +44,10 @@ class PreviewController final : public SteeringController {
     const double distance = std::max(options_.distance, ReturnDistance(input));
     const double u = PreviewAngle(input.reference.path, input.state.pose, input.station, distance);
     const double gain = 2.0 * input.vehicle.wheelbase / distance;
-    return options_.law == PreviewLaw::kLinear ? gain * u : std::atan(gain * std::sin(u));
+    const double steering =
+        options_.law == PreviewLaw::kLinear ? gain * u : std::atan(gain * std::sin(u));
+    // Backwards, wheels to the right turn the motion to the left.
+    return input.reference.path.At(input.station).direction * steering;
   }
 
  private:
@@ -94,7 +97,8 @@ double PreviewStation(const Path& path, const Vec2& p, double station, double di
 
 double PreviewAngle(const Path& path, const Pose2& pose, double station, double distance) {
   const double s = PreviewStation(path, pose.position(), station, distance);
-  const Vec2 to_point = ToLocal(pose, path.At(s).pose.position());
+  // Backwards, the direction of motion is against the heading.
+  const Vec2 to_point = path.At(station).direction * ToLocal(pose, path.At(s).pose.position());
   return std::atan2(to_point.y(), to_point.x());
 }
 

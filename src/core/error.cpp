@@ -21,7 +21,7 @@ std::string Join(const std::vector<Problem>& problems) {
 std::string Problem::ToString() const {
   std::string text = file;
   if (line > 0) {
-    text += fmt::format(":{}:{}", line, column);
+    text += column > 0 ? fmt::format(":{}:{}", line, column) : fmt::format(":{}", line);
   }
   if (!text.empty()) {
     text += ": ";

@@ -12,6 +12,8 @@
 namespace trackbed {
 namespace {
 
+/// Relative room for rounding, so that a radius that lies exactly on a limit is not refused.
+constexpr double kRounding = 1e-12;
 constexpr double kNoTurn = 1e-9;  // heading change [rad] below which legs count as collinear
 
 struct Leg {
@@ -147,7 +149,7 @@ Path PathThrough(const std::vector<Vec2>& waypoints, const std::vector<Leg>& leg
   double s = 0.0;
   const auto straight = [&](double length, int waypoint) {
     // Turns whose tangent points coincide leave no straight; rounding may even leave a little less.
-    const double negligible = 1e-9 * legs.front().length;
+    constexpr double negligible = 1e-10;  // [m]
     if (length < -negligible) {
       throw Refusal{PlanStatus::kTurnsOverlap, waypoint,
                     fmt::format("the arcs before waypoint {} need {:.4g} m more than their leg has",
@@ -215,10 +217,10 @@ SteeringSchedule ScheduleFor(const VehicleParams& vehicle, double speed,
 std::optional<RadiusInterval> HalfLegRadii(double interior_angle, double shorter_leg,
                                            RadiusInterval bounds) {
   const double largest = 0.5 * shorter_leg * std::tan(interior_angle / 2.0);
-  if (largest < bounds.low) {
+  if (largest < bounds.low * (1.0 - kRounding)) {
     return std::nullopt;
   }
-  return RadiusInterval{bounds.low, std::min(largest, bounds.high)};
+  return RadiusInterval{bounds.low, std::clamp(largest, bounds.low, bounds.high)};
 }
 
 std::optional<RadiusInterval> SteeringRoomRadii(const VehicleParams& vehicle, double speed,
@@ -233,8 +235,11 @@ std::optional<RadiusInterval> SteeringRoomRadii(const VehicleParams& vehicle, do
   const double lowest_squared = per_radian * L * tangent - L * L;
   const double lowest =
       std::clamp(std::sqrt(std::max(0.0, lowest_squared)), bounds.low, bounds.high);
-  if (g(lowest) > 0.0) {
+  if (g(lowest) > kRounding * shorter_leg) {
     return std::nullopt;
+  }
+  if (g(lowest) > 0.0) {
+    return RadiusInterval{lowest, lowest};
   }
   return RadiusInterval{g(bounds.low) <= 0.0 ? bounds.low : Root(g, bounds.low, lowest),
                         g(bounds.high) <= 0.0 ? bounds.high : Root(g, lowest, bounds.high)};
@@ -246,6 +251,7 @@ FilletPlan PlanFillets(const VehicleParams& vehicle, const std::vector<Vec2>& wa
                  vehicle.steering_rate);
   TRACKBED_CHECK(options.radius || options.constraint != RadiusConstraint::kNone,
                  "without a radius or a constraint there is no largest radius");
+  TRACKBED_CHECK(!options.radius || std::isfinite(*options.radius), "radius {}", *options.radius);
   FilletPlan plan;
   try {
     const std::vector<Leg> legs = LegsOf(waypoints);
@@ -253,6 +259,7 @@ FilletPlan PlanFillets(const VehicleParams& vehicle, const std::vector<Vec2>& wa
     plan.path = PathThrough(waypoints, legs, plan.turns);
     plan.schedule = ScheduleFor(vehicle, speed, plan.turns);
   } catch (const Refusal& refusal) {
+    plan = {};
     plan.status = refusal.status;
     plan.waypoint = refusal.waypoint;
     plan.reason = refusal.reason;

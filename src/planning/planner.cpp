@@ -1,5 +1,7 @@
 #include "trackbed/planning/planner.h"
 
+#include <cmath>
+
 #include "trackbed/core/error.h"
 
 namespace trackbed {
@@ -80,6 +82,12 @@ const char* PlannerName(const PlannerOptions& options) {
 }
 
 Plan MakePlan(const PlanRequest& request, const PlannerOptions& options) {
+  const SpeedLimits& speed = request.speed;
+  TRACKBED_CHECK(std::isfinite(request.start_speed) && std::isfinite(speed.speed) &&
+                     std::isfinite(speed.acceleration) && std::isfinite(speed.deceleration) &&
+                     speed.speed > 0.0 && speed.acceleration > 0.0 && speed.deceleration > 0.0,
+                 "start speed {}, speed {}, acceleration {}, deceleration {}", request.start_speed,
+                 speed.speed, speed.acceleration, speed.deceleration);
   Plan plan = std::visit([&](const auto& own) { return PlanWith(own, request); }, options);
   if (plan.ok()) {
     plan.reference.speed =

@@ -25,10 +25,12 @@ void KinematicCar::Step(const Command& command, double duration) {
   const SteeringMove move = MoveSteering({params_.steering_limit, params_.steering_rate},
                                          state_.steering, command.steering);
   const double start_speed = state_.speed;
-  // A car slows down to rest, not through it: it leaves rest only along its gear.
+  // A car slows down to rest, not through it, and leaves rest only along its gear.
   const bool slowing = start_speed * command.acceleration < 0.0;
-  const bool held = start_speed == 0.0 && command.acceleration * command.gear <= 0.0;
+  const bool may_leave = command.acceleration * command.gear > 0.0;
+  const bool held = start_speed == 0.0 && !may_leave;
   const double rest_time = held ? 0.0 : slowing ? -start_speed / command.acceleration : duration;
+  const bool rests = held || (slowing && !may_leave && rest_time <= duration);
 
   double done = 0.0;
   for (const double until : {std::min(std::min(move.ramp_time, rest_time), duration),
@@ -37,18 +39,20 @@ void KinematicCar::Step(const Command& command, double duration) {
       continue;
     }
     const bool steering = done < move.ramp_time;
-    const bool rolling = done < rest_time;
+    const bool rolling = done < rest_time || !rests;
     StepSmoothly(steering ? move.rate : 0.0, rolling ? command.acceleration : 0.0, until - done);
     done = until;
     // Landing exactly on the corners keeps rounding from building up.
     state_.steering = move.At(done);
-    if (done >= rest_time && (slowing || held)) {
+    if (done == rest_time && slowing) {
       state_.speed = 0.0;
     }
   }
   time_ += duration;
-  steering_rate_ = duration < move.ramp_time ? move.rate : 0.0;
-  acceleration_ = duration < rest_time || (!slowing && !held) ? command.acceleration : 0.0;
+  // At the corners the rates jump; what led there counts. A nanosecond is rounding of the times.
+  constexpr double kNanosecond = 1e-9;
+  steering_rate_ = duration <= move.ramp_time + kNanosecond ? move.rate : 0.0;
+  acceleration_ = rests && rest_time < duration - kNanosecond ? 0.0 : command.acceleration;
 }
 
 void KinematicCar::StepSmoothly(double steering_rate, double acceleration, double duration) {

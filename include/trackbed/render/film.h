@@ -1,0 +1,63 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace trackbed {
+
+/// How a film is taken. The defaults are what `trackbed run --video` makes.
+struct FilmOptions {
+  int width = 1280;              ///< [px], even, 64 to 7680
+  int height = 720;              ///< [px], even, 64 to 4320
+  double fps = 30.0;             ///< frames per second of the run, 1 to 240
+  std::string camera = "chase";  ///< a name of Cameras()
+  /// "draft": plain pixels, a painted shadow. "film": 4 samples a pixel and a shadow map, for about
+  /// three times the time.
+  std::string quality = "draft";
+};
+
+/// What was filmed.
+struct FilmReport {
+  int frames = 0;
+  double duration = 0.0;            ///< [s] of the run, first to last frame
+  std::string car;                  ///< the plant shown as the car
+  std::vector<std::string> ghosts;  ///< the plants shown as translucent cars
+};
+
+/// A point of view that a film can be taken from.
+struct CameraSummary {
+  std::string name;
+  std::string summary;  ///< one line
+};
+
+/// Every camera there is, the default first.
+std::vector<CameraSummary> Cameras();
+
+/// Films a finished run from its folder alone: no display, no GPU, nothing is simulated again.
+///
+/// The folder holds `model.xml` and, per plant, `<plant>.state.csv` and `<plant>.csv`; `plan.csv`
+/// may be absent. The car is the first plant whose name begins with "mujoco", else the first by
+/// name; every other plant is a translucent ghost. Shown are the planned path and each car's trail
+/// so far on the ground z = 0, the footprints of the ghosts, and a caption of the car's numbers.
+/// Frame k is the run at (its first time) + k / fps, states in between interpolated linearly; the
+/// last frame is the last one not after the end of the longest recording, and a plant that ends
+/// before stays where it stopped.
+///
+/// `progress` (may be empty) is called after every frame with the fraction done, in (0, 1]. What it
+/// throws ends the film and is passed on.
+///
+/// Guarantees: H.264 in MP4, yuv420p, playable while still loading. The same folder and options
+/// give the same bytes. `output` is either what it was or a complete film, also after an exception.
+/// Does not: create the folder of `output`; run on two threads at a time (MuJoCo's error handlers,
+/// which are set while it runs and restored after, are global). Silences libav's log for good.
+/// Errors: InputError for a folder that is missing, incomplete or inconsistent and for options out
+/// of range; RunError when the film cannot be encoded or written.
+/// Cost: 0.17 to 0.25 s per frame at 1280x720 and 0.08 s at 640x360, on two cores that others use
+/// too. Memory: the recordings, and a few pictures however long the film.
+FilmReport RenderFilm(const std::filesystem::path& run_folder, const std::filesystem::path& output,
+                      const FilmOptions& options,
+                      const std::function<void(double fraction)>& progress = {});
+
+}  // namespace trackbed

@@ -1,0 +1,133 @@
+#include "render/camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/spelling.h"
+
+namespace trackbed::render {
+namespace {
+
+/// Mean of `value(time + offset)` under a triangle of +-0.8 s: its speed is continuous, so the
+/// camera starts and stops to turn without a jerk.
+template <typename Function>
+auto Smooth(double time, Function value) {
+  constexpr int kHalf = 16;
+  constexpr double kReach = 0.8;  // [s]
+  std::array<double, 2> sum{};
+  double weights = 0.0;
+  for (int i = -kHalf + 1; i < kHalf; ++i) {
+    const double weight = kHalf - std::abs(i);
+    const std::array<double, 2> here = value(time + i * kReach / kHalf);
+    sum[0] += weight * here[0];
+    sum[1] += weight * here[1];
+    weights += weight;
+  }
+  return std::array<double, 2>{sum[0] / weights, sum[1] / weights};
+}
+
+CameraPose Chase(const CameraSubject& subject, double time, double /*aspect*/) {
+  const Point car = subject.Position(time);
+  const double heading = subject.SmoothHeading(time);
+  // Ahead of the rear axle, so that the road the car is about to take fills the picture.
+  constexpr double kAhead = 3.0;
+  CameraPose pose;
+  pose.target_x = car.x + kAhead * std::cos(heading);
+  pose.target_y = car.y + kAhead * std::sin(heading);
+  pose.target_z = 1.0;
+  pose.distance = 15.0;
+  // A little from the side: one sees the car's flank, and its trail beside the caption.
+  pose.azimuth = heading + 14.0 * kPi / 180.0;
+  pose.elevation = -18.0 * kPi / 180.0;
+  pose.view_angle = 40.0 * kPi / 180.0;
+  return pose;
+}
+
+CameraPose Top(const CameraSubject& subject, double time, double aspect) {
+  // A long lens from high up: upright things hardly lean away from the centre.
+  constexpr double kViewAngle = 20.0 * kPi / 180.0;
+  constexpr double kMargin = 5.0;         // [m] around the route
+  constexpr double kFollowHeight = 34.0;  // [m] of ground from bottom to top
+  constexpr double kFitHeight = 60.0;     // larger routes would leave too few pixels for the car
+  const Point low = subject.lowest();
+  const Point high = subject.highest();
+  const double needed =
+      std::max(high.y - low.y + 2 * kMargin, (high.x - low.x + 2 * kMargin) / aspect);
+
+  CameraPose pose;
+  pose.azimuth = 0.5 * kPi;
+  pose.elevation = -0.5 * kPi;
+  pose.view_angle = kViewAngle;
+  double height = kFollowHeight;
+  if (needed <= kFitHeight) {
+    height = std::max(needed, 20.0);
+    pose.target_x = 0.5 * (low.x + high.x);
+    pose.target_y = 0.5 * (low.y + high.y);
+  } else {
+    // Look ahead: the road to come is worth more of the picture than the one behind.
+    const Point car = subject.SmoothPosition(time);
+    const double heading = subject.SmoothHeading(time);
+    pose.target_x = car.x + 6.0 * std::cos(heading);
+    pose.target_y = car.y + 6.0 * std::sin(heading);
+  }
+  pose.distance = 0.5 * height / std::tan(0.5 * kViewAngle);
+  pose.paint_scale = height / 22.0;
+  return pose;
+}
+
+}  // namespace
+
+CameraSubject::CameraSubject(const Recording& recording)
+    : car_(recording.plants.front()), lowest_(car_.Position(car_.begin())), highest_(lowest_) {
+  const auto include = [this](const Point& point) {
+    lowest_ = {std::min(lowest_.x, point.x), std::min(lowest_.y, point.y)};
+    highest_ = {std::max(highest_.x, point.x), std::max(highest_.y, point.y)};
+  };
+  for (const Point& point : recording.plan) {
+    include(point);
+  }
+  for (const PlantRecording& plant : recording.plants) {
+    for (const double time : plant.times()) {
+      include(plant.Position(time));
+    }
+  }
+}
+
+Point CameraSubject::SmoothPosition(double time) const {
+  const auto mean = Smooth(time, [this](double at) {
+    const Point point = car_.Position(at);
+    return std::array<double, 2>{point.x, point.y};
+  });
+  return {mean[0], mean[1]};
+}
+
+double CameraSubject::SmoothHeading(double time) const {
+  return Smooth(time, [this](double at) {
+    return std::array<double, 2>{car_.Heading(at), 0.0};
+  })[0];
+}
+
+const std::vector<Camera>& CameraTable() {
+  static const std::vector<Camera> table{
+      {"chase", "behind and above the car, turning with it", &Chase},
+      {"top", "straight down, north up: the whole route if it is small, else around the car", &Top},
+  };
+  return table;
+}
+
+const Camera& FindCamera(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Camera& camera : CameraTable()) {
+    if (camera.name == name) {
+      return camera;
+    }
+    names.emplace_back(camera.name);
+  }
+  throw InputError(Problem{
+      .file = "", .key = "camera", .message = "unknown camera " + UnknownName(name, names)});
+}
+
+}  // namespace trackbed::render

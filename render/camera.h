@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/recording.h"
+
+namespace trackbed::render {
+
+/// Where a picture is taken from: `distance` [m] from `target` on the line that looks along
+/// `azimuth` (0 east, pi/2 north) and `elevation` (negative looks down) [rad].
+struct CameraPose {
+  double target_x = 0;
+  double target_y = 0;
+  double target_z = 0;
+  double distance = 1;
+  double azimuth = 0;
+  double elevation = 0;
+  double view_angle = 0.7;  ///< from the picture's bottom to its top [rad]
+  double paint_scale = 1;   ///< how much wider than usual lines on the ground must be to be seen
+};
+
+/// What a camera may follow: the car's drive, smoothed, and the extent of the route.
+///
+/// The whole drive is known, so smoothing looks both ways in time: no lag and no overshoot.
+class CameraSubject {
+ public:
+  explicit CameraSubject(const Recording& recording);
+
+  /// The car's rear-axle centre as driven [m].
+  [[nodiscard]] Point Position(double time) const { return car_.Position(time); }
+  /// Position and heading averaged over about a second around `time`.
+  [[nodiscard]] Point SmoothPosition(double time) const;
+  [[nodiscard]] double SmoothHeading(double time) const;
+
+  /// The rectangle around the plan and every plant's drive [m].
+  [[nodiscard]] Point lowest() const { return lowest_; }
+  [[nodiscard]] Point highest() const { return highest_; }
+
+ private:
+  const PlantRecording& car_;
+  Point lowest_;
+  Point highest_;
+};
+
+struct Camera {
+  std::string_view name;
+  std::string_view summary;
+  /// `aspect` is the picture's width / height.
+  CameraPose (*pose)(const CameraSubject& subject, double time, double aspect);
+};
+
+/// The only list of cameras; the default is first.
+const std::vector<Camera>& CameraTable();
+
+/// InputError with the nearest name when there is no such camera.
+const Camera& FindCamera(const std::string& name);
+
+}  // namespace trackbed::render

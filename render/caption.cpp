@@ -1,0 +1,133 @@
+#include "render/caption.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/core/angle.h"
+
+namespace trackbed::render {
+namespace {
+
+constexpr Color kPanel{0.06F, 0.07F, 0.09F};
+constexpr double kPanelAlpha = 0.66;
+constexpr Color kLabel{0.70F, 0.74F, 0.78F};
+constexpr Color kValue{1.00F, 1.00F, 1.00F};
+
+/// Sizes in pixels.
+struct Layout {
+  double margin;  // from the picture's edge to a panel
+  double pad;     // from a panel's edge to its text
+  double label;   // height of a text cell
+  double value;
+  double gap;  // between columns
+
+  Layout(int width, int height) {
+    const double scale = height / 720.0;
+    // Five columns at the least readable sizes take about 600 px.
+    const double shrink = std::min(1.0, width / 640.0);
+    margin = std::max(20.0 * scale, 10.0 * shrink);
+    pad = std::max(14.0 * scale, 8.0 * shrink);
+    label = std::round(std::max(23.0 * scale, 16.0 * shrink));
+    value = std::round(std::max(36.0 * scale, 22.0 * shrink));
+    gap = std::max(30.0 * scale, 16.0 * shrink);
+  }
+};
+
+struct Reading {
+  std::string label;
+  std::string value;
+  std::string widest;  // so that a column's place does not depend on the number in it
+};
+
+/// A sign only where there is something to tell apart: -0.0 is 0.0.
+std::string Signed(double value, int digits, const char* unit) {
+  const std::string text = fmt::format("{:+.{}f}", value, digits);
+  const bool zero = text.find_first_not_of("+-0.") == std::string::npos;
+  return fmt::format("{}{}", zero ? text.substr(1) : text, unit);
+}
+
+std::vector<Reading> ReadingsToShow(const Readings& readings) {
+  const auto degrees = [](double radians) { return Signed(radians * 180.0 / kPi, 1, " deg"); };
+  std::vector<Reading> shown{
+      {"TIME", fmt::format("{:.2f} s", readings.time), "000.00 s"},
+      {"SPEED", fmt::format("{:.2f} m/s", readings.speed), "00.00 m/s"},
+      {"STEER ASKED", degrees(readings.steering_asked), "+00.0 deg"},
+      {"STEER ACTUAL", degrees(readings.steering), "+00.0 deg"},
+  };
+  if (readings.cross_track) {
+    shown.push_back({"OFF PATH", Signed(*readings.cross_track, 3, " m"), "+0.000 m"});
+  }
+  return shown;
+}
+
+void DrawReadings(Canvas& canvas, const Font& font, const Layout& layout, int height,
+                  const Readings& readings) {
+  const std::vector<Reading> shown = ReadingsToShow(readings);
+  std::vector<double> widths;
+  double total = 2.0 * layout.pad + layout.gap * static_cast<double>(shown.size() - 1);
+  for (const Reading& reading : shown) {
+    widths.push_back(
+        std::max({font.Width(reading.label, layout.label), font.Width(reading.widest, layout.value),
+                  font.Width(reading.value, layout.value)}));
+    total += widths.back();
+  }
+  const double tall = layout.label + layout.value + 1.2 * layout.pad;
+  const double top = height - layout.margin - tall;
+  canvas.Fill({layout.margin, top, total, tall}, 0.7 * layout.pad, kPanel, kPanelAlpha);
+  double left = layout.margin + layout.pad;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    canvas.Text(left, top + 0.6 * layout.pad, shown[i].label, layout.label, kLabel);
+    canvas.Text(left, top + 0.6 * layout.pad + layout.label, shown[i].value, layout.value, kValue);
+    left += widths[i] + layout.gap;
+  }
+}
+
+void DrawLegend(Canvas& canvas, const Font& font, const Layout& layout, int width,
+                const std::vector<LegendEntry>& legend) {
+  double widest = 0.0;
+  for (const LegendEntry& entry : legend) {
+    widest = std::max(widest, font.Width(entry.text, layout.label));
+  }
+  const double swatch = 1.3 * layout.label;
+  const double total = 2.4 * layout.pad + swatch + widest;
+  const double tall = layout.label * static_cast<double>(legend.size()) + 1.2 * layout.pad;
+  const double left = width - layout.margin - total;
+  canvas.Fill({left, layout.margin, total, tall}, 0.7 * layout.pad, kPanel, kPanelAlpha);
+  double top = layout.margin + 0.6 * layout.pad;
+  for (const LegendEntry& entry : legend) {
+    const double thick = 0.28 * layout.label;
+    canvas.Fill({left + layout.pad, top + 0.53 * layout.label - 0.5 * thick, swatch, thick},
+                0.5 * thick, entry.color, 1.0);
+    canvas.Text(left + 1.4 * layout.pad + swatch, top, entry.text, layout.label, kValue);
+    top += layout.label;
+  }
+}
+
+void DrawTitle(Canvas& canvas, const Font& font, const Layout& layout, const std::string& title) {
+  const double size = std::round(0.5 * (layout.label + layout.value));
+  const double tall = size + 0.8 * layout.pad;
+  canvas.Fill({layout.margin, layout.margin, font.Width(title, size) + 2.0 * layout.pad, tall},
+              0.7 * layout.pad, kPanel, kPanelAlpha);
+  canvas.Text(layout.margin + layout.pad, layout.margin + 0.4 * layout.pad, title, size, kValue);
+}
+
+/// Folder names can be longer than a picture is wide.
+std::string Shortened(const std::string& title) {
+  constexpr std::size_t kLongest = 32;
+  return title.size() <= kLongest ? title : title.substr(0, kLongest - 3) + "...";
+}
+
+}  // namespace
+
+void DrawCaption(Image& image, Font& font, const std::string& title,
+                 const std::vector<LegendEntry>& legend, const Readings& readings) {
+  Canvas canvas(image, font);
+  const Layout layout(image.width, image.height);
+  DrawTitle(canvas, font, layout, Shortened(title));
+  DrawLegend(canvas, font, layout, image.width, legend);
+  DrawReadings(canvas, font, layout, image.height, readings);
+}
+
+}  // namespace trackbed::render

@@ -1,0 +1,78 @@
+#include "render/offscreen.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed::render {
+namespace {
+
+constexpr int kWindowSize = 64;
+// The buffer is at least this large [px], so that a glyph of the largest font fits in.
+constexpr int kSmallestBuffer = 128;
+
+void CopyFlipped(const std::vector<std::uint8_t>& from, Image& to) {
+  const std::size_t row = 3 * static_cast<std::size_t>(to.width);
+  for (int y = 0; y < to.height; ++y) {
+    const auto* source = from.data() + row * static_cast<std::size_t>(to.height - 1 - y);
+    std::copy(source, source + row, to.Pixel(0, y));
+  }
+}
+
+}  // namespace
+
+Offscreen::Offscreen(mjModel& model, int width, int height, int samples)
+    : width_(width), height_(height), window_(4 * kWindowSize * kWindowSize) {
+  mesa_.reset(OSMesaCreateContextExt(OSMESA_RGBA, 24, 8, 0, nullptr));
+  if (!mesa_ || OSMesaMakeCurrent(mesa_.get(), window_.data(), GL_UNSIGNED_BYTE, kWindowSize,
+                                  kWindowSize) != GL_TRUE) {
+    throw RunError("cannot start off-screen OpenGL (OSMesa)");
+  }
+  model.vis.global.offwidth = std::max(width, kSmallestBuffer);
+  model.vis.global.offheight = std::max(height, kSmallestBuffer);
+  model.vis.quality.offsamples = samples;
+  mjr_defaultContext(&context_);
+  mjr_makeContext(&model, &context_, mjFONTSCALE_300);
+  mjr_setBuffer(mjFB_OFFSCREEN, &context_);
+  const mjrRect largest = mjr_maxViewport(&context_);
+  if (context_.currentBuffer != mjFB_OFFSCREEN || largest.width < width ||
+      largest.height < height) {
+    mjr_freeContext(&context_);
+    throw RunError(fmt::format("cannot make an off-screen picture of {}x{}", width, height));
+  }
+}
+
+Offscreen::~Offscreen() {
+  mjr_freeContext(&context_);
+  OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
+}
+
+void Offscreen::Render(mjvScene& scene, Image& image) {
+  image.Resize(width_, height_);
+  upside_down_.resize(image.rgb.size());
+  const mjrRect viewport{0, 0, width_, height_};
+  mjr_render(viewport, &scene, &context_);
+  mjr_readPixels(upside_down_.data(), nullptr, viewport, &context_);
+  CopyFlipped(upside_down_, image);
+}
+
+Image Offscreen::Glyph(char character) {
+  TRACKBED_CHECK(character >= ' ' && character <= '~', "no glyph for character {}",
+                 static_cast<int>(character));
+  Image image;
+  image.Resize(context_.charWidthBig[static_cast<unsigned char>(character)],
+               context_.charHeightBig);
+  const mjrRect cell{0, 0, image.width, image.height};
+  const mjrRect whole{0, 0, kSmallestBuffer, kSmallestBuffer};
+  mjr_rectangle(whole, 0, 0, 0, 1);
+  const std::array<char, 2> text{character, '\0'};
+  mjr_text(mjFONT_BIG, text.data(), &context_, 0, 0, 1, 1, 1);
+  std::vector<std::uint8_t> pixels(image.rgb.size());
+  mjr_readPixels(pixels.data(), nullptr, cell, &context_);
+  CopyFlipped(pixels, image);
+  return image;
+}
+
+}  // namespace trackbed::render

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <GL/osmesa.h>
+#include <mujoco/mujoco.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "render/image.h"
+
+namespace trackbed::render {
+
+/// MuJoCo's renderer on Mesa's software OpenGL: scenes in, pictures out, no display.
+///
+/// Its OpenGL context stays current in this thread as long as it lives: one at a time per thread.
+class Offscreen {
+ public:
+  /// Buffers for pictures of the given size [px]; `samples` 0 or 1 means no multisampling. Changes
+  /// `model.vis` accordingly. RunError when there is no such context.
+  Offscreen(mjModel& model, int width, int height, int samples);
+  ~Offscreen();
+  Offscreen(const Offscreen&) = delete;
+  Offscreen& operator=(const Offscreen&) = delete;
+
+  /// The scene from its own camera. About 30 ms at 1280x720.
+  void Render(mjvScene& scene, Image& image);
+
+  /// A printable ASCII character of MuJoCo's big font at its largest, white on black. `width` is
+  /// the pen's advance; every glyph has the same height.
+  Image Glyph(char character);
+
+ private:
+  struct FreeMesa {
+    void operator()(osmesa_context* context) const { OSMesaDestroyContext(context); }
+  };
+
+  int width_;
+  int height_;
+  std::vector<std::uint8_t> window_;  // a window that Mesa insists on; nothing is drawn there
+  std::unique_ptr<osmesa_context, FreeMesa> mesa_;
+  mjrContext context_;
+  std::vector<std::uint8_t> upside_down_;  // OpenGL's rows begin at the bottom
+};
+
+}  // namespace trackbed::render

@@ -1,0 +1,259 @@
+#include "render/recording.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed::render {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kStateSuffix = ".state.csv";
+
+[[noreturn]] void Reject(const fs::path& file, std::string key, std::string message) {
+  throw InputError(
+      Problem{.file = file.string(), .key = std::move(key), .message = std::move(message)});
+}
+
+Table ReadRunTable(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) {
+    Reject(file, "", "missing from the run folder");
+  }
+  return ReadCsv(file);
+}
+
+ModelHandle LoadModel(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) {
+    Reject(file, "", "missing from the run folder");
+  }
+  std::array<char, 1000> error{};
+  ModelHandle model(mj_loadXML(file.c_str(), nullptr, error.data(), error.size()));
+  if (!model) {
+    std::string message = error.data();
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    Reject(file, "", message);
+  }
+  return model;
+}
+
+/// The plants that left states, the one to show as the car first.
+std::vector<std::string> FindPlants(const fs::path& folder) {
+  std::vector<std::string> plants;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    // Names with a leading dot are files that a writer has not finished.
+    if (name.size() > kStateSuffix.size() && name.ends_with(kStateSuffix) && name[0] != '.') {
+      plants.push_back(name.substr(0, name.size() - kStateSuffix.size()));
+    }
+  }
+  if (plants.empty()) {
+    Reject(folder, "",
+           "no <plant>.state.csv in the folder: not a run, or one that recorded nothing");
+  }
+  std::sort(plants.begin(), plants.end());
+  std::stable_partition(plants.begin(), plants.end(),
+                        [](const std::string& plant) { return plant.starts_with("mujoco"); });
+  return plants;
+}
+
+std::vector<Point> ReadPlan(const fs::path& file) {
+  std::vector<Point> points;
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) {
+    return points;
+  }
+  const Table table = ReadRunTable(file);
+  for (const char* column : {"x_m", "y_m"}) {
+    if (table.Find(column) < 0) {
+      Reject(file, column, "no such column");
+    }
+  }
+  const std::vector<double> x = table.Column("x_m");
+  const std::vector<double> y = table.Column("y_m");
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!std::isfinite(x[i]) || !std::isfinite(y[i])) {
+      Reject(file, "", fmt::format("row {}: not a finite position", i + 1));
+    }
+    points.push_back({x[i], y[i]});
+  }
+  return points;
+}
+
+}  // namespace
+
+TimedTable::TimedTable(const fs::path& file) : file_(file), table_(ReadRunTable(file)), times_() {
+  times_ = [&] {
+    const std::size_t column = Require("t_s");
+    std::vector<double> times;
+    for (std::size_t row = 0; row < table_.rows(); ++row) {
+      times.push_back(table_.at(row, column));
+    }
+    return times;
+  }();
+  if (times_.empty()) {
+    Reject(file_, "", "no rows");
+  }
+  for (std::size_t row = 0; row < times_.size(); ++row) {
+    if (row > 0 && !(times_[row] > times_[row - 1])) {
+      Reject(
+          file_, "t_s",
+          fmt::format("row {}: {} does not come after {}", row + 1, times_[row], times_[row - 1]));
+    }
+    for (std::size_t column = 0; column < table_.columns().size(); ++column) {
+      if (!std::isfinite(table_.at(row, column))) {
+        Reject(file_, table_.columns()[column], fmt::format("row {}: not finite", row + 1));
+      }
+    }
+  }
+}
+
+std::optional<std::size_t> TimedTable::Find(const std::string& column) const {
+  const int index = table_.Find(column);
+  return index < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(index));
+}
+
+std::size_t TimedTable::Require(const std::string& column) const {
+  const std::optional<std::size_t> index = Find(column);
+  if (!index) {
+    Reject(file_, column, "no such column");
+  }
+  return *index;
+}
+
+TimedTable::Place TimedTable::At(double time) const {
+  const auto after = std::upper_bound(times_.begin(), times_.end(), time);
+  if (after == times_.begin()) {
+    return {0, 0, 0.0};
+  }
+  const auto row = static_cast<std::size_t>(after - times_.begin()) - 1;
+  if (after == times_.end()) {
+    return {row, row, 0.0};
+  }
+  return {row, row + 1, (time - times_[row]) / (*after - times_[row])};
+}
+
+double TimedTable::Value(const Place& place, std::size_t column) const {
+  const double here = table_.at(place.row, column);
+  return here + place.part * (table_.at(place.next, column) - here);
+}
+
+PlantRecording::PlantRecording(const fs::path& folder, const std::string& plant,
+                               const mjModel& model)
+    : plant_(plant),
+      state_(folder / (plant + std::string(kStateSuffix))),
+      log_(folder / (plant + ".csv")),
+      speed_(log_.Require("speed_mps")),
+      steering_asked_(log_.Require("steering_command_rad")),
+      steering_(log_.Require("steering_rad")),
+      cross_track_(log_.Find("cross_track_m")) {
+  for (const char* column : {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"}) {
+    pose_columns_.push_back(state_.Require(column));
+  }
+  const int chassis = mj_name2id(&model, mjOBJ_JOINT, "chassis");
+  if (chassis < 0 || model.jnt_type[chassis] != mjJNT_FREE) {
+    Reject(folder / "model.xml", "", "no free joint named 'chassis'");
+  }
+  free_joint_qpos_ = model.jnt_qposadr[chassis];
+  for (int joint = 0; joint < model.njnt; ++joint) {
+    const int type = model.jnt_type[joint];
+    if (type == mjJNT_HINGE || type == mjJNT_SLIDE) {
+      const char* name = mj_id2name(&model, mjOBJ_JOINT, joint);
+      const std::string column =
+          std::string(name == nullptr ? "" : name) + (type == mjJNT_SLIDE ? "_m" : "_rad");
+      joints_.push_back({state_.Require(column), model.jnt_qposadr[joint]});
+    }
+  }
+  const Table& rows = state_.table();
+  for (std::size_t row = 0; row < rows.rows(); ++row) {
+    const auto q = [&](std::size_t i) { return rows.at(row, pose_columns_[3 + i]); };
+    const double heading =
+        std::atan2(2.0 * (q(1) * q(2) + q(0) * q(3)), 1.0 - 2.0 * (q(2) * q(2) + q(3) * q(3)));
+    const double before = headings_.empty() ? heading : headings_.back();
+    headings_.push_back(before + AngleDifference(heading, before));
+  }
+}
+
+void PlantRecording::Pose(double time, const mjModel& model, mjData& data) const {
+  const TimedTable::Place place = state_.At(time);
+  mjtNum* pose = data.qpos + free_joint_qpos_;
+  for (std::size_t i = 0; i < 3; ++i) {
+    pose[i] = state_.Value(place, pose_columns_[i]);
+  }
+  // q and -q are the same rotation: take the shorter way between the rows.
+  double dot = 0.0;
+  for (std::size_t i = 3; i < 7; ++i) {
+    dot += state_.table().at(place.row, pose_columns_[i]) *
+           state_.table().at(place.next, pose_columns_[i]);
+  }
+  for (std::size_t i = 3; i < 7; ++i) {
+    pose[i] = (1.0 - place.part) * state_.table().at(place.row, pose_columns_[i]) +
+              std::copysign(place.part, dot) * state_.table().at(place.next, pose_columns_[i]);
+  }
+  mju_normalize4(pose + 3);
+  for (const JointColumn& joint : joints_) {
+    data.qpos[joint.qpos] = state_.Value(place, joint.column);
+  }
+  mj_kinematics(&model, &data);
+  mj_comPos(&model, &data);
+  mj_camlight(&model, &data);
+}
+
+Point PlantRecording::Position(double time) const {
+  const TimedTable::Place place = state_.At(time);
+  return {state_.Value(place, pose_columns_[0]), state_.Value(place, pose_columns_[1])};
+}
+
+double PlantRecording::Heading(double time) const {
+  const TimedTable::Place place = state_.At(time);
+  return headings_[place.row] + place.part * (headings_[place.next] - headings_[place.row]);
+}
+
+Readings PlantRecording::ReadingsAt(double time) const {
+  const TimedTable::Place place = log_.At(time);
+  Readings readings;
+  readings.time = time;
+  readings.speed = log_.Value(place, speed_);
+  readings.steering_asked = log_.Value(place, steering_asked_);
+  readings.steering = log_.Value(place, steering_);
+  if (cross_track_) {
+    readings.cross_track = log_.Value(place, *cross_track_);
+  }
+  return readings;
+}
+
+double Recording::end() const {
+  double last = plants.front().end();
+  for (const PlantRecording& plant : plants) {
+    last = std::max(last, plant.end());
+  }
+  return last;
+}
+
+Recording ReadRecording(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::exists(folder, ignored)) {
+    Reject(folder, "", "no such folder");
+  }
+  if (!fs::is_directory(folder, ignored)) {
+    Reject(folder, "", "not a folder, but a run is one");
+  }
+  const std::vector<std::string> plants = FindPlants(folder);
+  Recording recording;
+  recording.name = fs::weakly_canonical(folder).filename().string();
+  recording.model = LoadModel(folder / "model.xml");
+  for (const std::string& plant : plants) {
+    recording.plants.emplace_back(folder, plant, *recording.model);
+  }
+  recording.plan = ReadPlan(folder / "plan.csv");
+  return recording;
+}
+
+}  // namespace trackbed::render

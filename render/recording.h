@@ -1,0 +1,119 @@
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/handles.h"
+#include "trackbed/core/table.h"
+
+namespace trackbed::render {
+
+/// A point on the ground [m].
+struct Point {
+  double x = 0;
+  double y = 0;
+};
+
+/// A table whose first column is time, read between its rows.
+class TimedTable {
+ public:
+  /// Reads `file`. InputError naming it when it is missing, broken, has no rows, a cell that is not
+  /// finite, or times that do not increase.
+  explicit TimedTable(const std::filesystem::path& file);
+
+  [[nodiscard]] double begin() const { return times_.front(); }
+  [[nodiscard]] double end() const { return times_.back(); }
+  [[nodiscard]] const std::vector<double>& times() const { return times_; }
+  [[nodiscard]] const Table& table() const { return table_; }
+
+  /// Index of a column; InputError naming the file and the column when there is none.
+  [[nodiscard]] std::size_t Require(const std::string& column) const;
+  /// Index of a column, if there is one.
+  [[nodiscard]] std::optional<std::size_t> Find(const std::string& column) const;
+
+  /// Where a moment lies between two rows: value = (1 - part) * row + part * next.
+  struct Place {
+    std::size_t row = 0;
+    std::size_t next = 0;
+    double part = 0;
+  };
+  /// Moments before the first and after the last row are held there.
+  [[nodiscard]] Place At(double time) const;
+  [[nodiscard]] double Value(const Place& place, std::size_t column) const;
+
+ private:
+  std::filesystem::path file_;
+  Table table_;
+  std::vector<double> times_;
+};
+
+/// What the caption says at a moment. SI units and radians.
+struct Readings {
+  double time = 0;
+  double speed = 0;
+  double steering_asked = 0;
+  double steering = 0;
+  std::optional<double> cross_track;  ///< only when the run had a planned path
+};
+
+/// One plant's drive.
+class PlantRecording {
+ public:
+  /// From `<plant>.state.csv` and `<plant>.csv` in `folder`; the former must have a column for
+  /// every joint of `model`. InputError otherwise.
+  PlantRecording(const std::filesystem::path& folder, const std::string& plant,
+                 const mjModel& model);
+
+  [[nodiscard]] const std::string& plant() const { return plant_; }
+  [[nodiscard]] double begin() const { return state_.begin(); }
+  [[nodiscard]] double end() const { return state_.end(); }
+  [[nodiscard]] const std::vector<double>& times() const { return state_.times(); }
+
+  /// Puts the car of `data` where it was at `time` [s]; bodies' places are up to date after.
+  void Pose(double time, const mjModel& model, mjData& data) const;
+
+  /// Rear-axle centre, heading [rad] (not wrapped, from the rotation of the x axis).
+  [[nodiscard]] Point Position(double time) const;
+  [[nodiscard]] const std::vector<double>& headings() const { return headings_; }
+  [[nodiscard]] double Heading(double time) const;
+
+  [[nodiscard]] Readings ReadingsAt(double time) const;
+
+ private:
+  struct JointColumn {
+    std::size_t column;
+    int qpos;
+  };
+
+  std::string plant_;
+  TimedTable state_;
+  TimedTable log_;
+  int free_joint_qpos_ = 0;
+  std::vector<std::size_t> pose_columns_;  // x y z qw qx qy qz
+  std::vector<JointColumn> joints_;
+  std::vector<double> headings_;  // per row of state_
+  std::size_t speed_ = 0;
+  std::size_t steering_asked_ = 0;
+  std::size_t steering_ = 0;
+  std::optional<std::size_t> cross_track_;
+};
+
+/// A run folder, read.
+struct Recording {
+  std::string name;  ///< of the folder
+  ModelHandle model;
+  std::vector<PlantRecording> plants;  ///< the car first, then the ghosts
+  std::vector<Point> plan;             ///< empty when there was none
+
+  [[nodiscard]] double begin() const { return plants.front().begin(); }
+  [[nodiscard]] double end() const;
+};
+
+/// Reads everything that a film needs. InputError when the folder does not hold it.
+Recording ReadRecording(const std::filesystem::path& folder);
+
+}  // namespace trackbed::render

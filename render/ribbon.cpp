@@ -1,0 +1,91 @@
+#include "render/ribbon.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace trackbed::render {
+namespace {
+
+double DistanceToSegment(const Point& p, const Point& a, const Point& b) {
+  const double dx = b.x - a.x;
+  const double dy = b.y - a.y;
+  const double squared = dx * dx + dy * dy;
+  const double along =
+      squared > 0.0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / squared, 0.0, 1.0) : 0.0;
+  return std::hypot(p.x - a.x - along * dx, p.y - a.y - along * dy);
+}
+
+bool Replaces(const std::vector<Point>& points, std::size_t first, std::size_t last,
+              double tolerance) {
+  for (std::size_t i = first + 1; i < last; ++i) {
+    if (DistanceToSegment(points[i], points[first], points[last]) > tolerance) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Extends each piece as far as it replaces its points: doubling, then bisection.
+std::vector<std::size_t> ThinOnce(const std::vector<Point>& points, double tolerance) {
+  constexpr std::size_t kLongest = 512;
+  std::vector<std::size_t> kept{0};
+  while (kept.back() + 1 < points.size()) {
+    const std::size_t first = kept.back();
+    const std::size_t limit = std::min(first + kLongest, points.size() - 1);
+    std::size_t good = first + 1;
+    std::size_t step = 1;
+    while (good < limit && Replaces(points, first, std::min(good + step, limit), tolerance)) {
+      good = std::min(good + step, limit);
+      step *= 2;
+    }
+    std::size_t bad = good == limit ? limit + 1 : std::min(good + step, limit);
+    while (bad - good > 1) {
+      const std::size_t middle = good + (bad - good) / 2;
+      (Replaces(points, first, middle, tolerance) ? good : bad) = middle;
+    }
+    kept.push_back(good);
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::vector<std::size_t> Thin(const std::vector<Point>& points, double tolerance,
+                              std::size_t most) {
+  if (points.empty()) {
+    return {};
+  }
+  std::vector<std::size_t> kept = ThinOnce(points, tolerance);
+  // Bounded: a billion times coarser is coarser than any road.
+  for (int doublings = 0; kept.size() > most + 1 && doublings < 30; ++doublings) {
+    tolerance *= 2.0;
+    kept = ThinOnce(points, tolerance);
+  }
+  return kept;
+}
+
+void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const RibbonStyle& style) {
+  const double length = std::hypot(b.x - a.x, b.y - a.y);
+  if (length < 1e-6 || scene.ngeom >= scene.maxgeom) {
+    return;
+  }
+  constexpr double kHalfThickness = 0.001;
+  // Pieces meet at up to about 15 degrees: tan(15 / 2) of half the width closes the outer corner.
+  const double overlap = 0.15 * 0.5 * style.width;
+  const double cosine = (b.x - a.x) / length;
+  const double sine = (b.y - a.y) / length;
+  const std::array<mjtNum, 3> size{0.5 * length + overlap, 0.5 * style.width, kHalfThickness};
+  const std::array<mjtNum, 3> center{0.5 * (a.x + b.x), 0.5 * (a.y + b.y),
+                                     style.height - kHalfThickness};
+  const std::array<mjtNum, 9> rotation{cosine, -sine, 0, sine, cosine, 0, 0, 0, 1};
+  const std::array<float, 4> rgba{style.color.r, style.color.g, style.color.b, 1.0F};
+  mjvGeom& geom = scene.geoms[scene.ngeom];
+  mjv_initGeom(&geom, mjGEOM_BOX, size.data(), center.data(), rotation.data(), rgba.data());
+  geom.emission = 0.08F;  // paint is a little brighter than the road, also in the shade
+  geom.specular = 0.0F;
+  geom.category = mjCAT_DECOR;
+  ++scene.ngeom;
+}
+
+}  // namespace trackbed::render

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "render/image.h"
+#include "render/recording.h"
+
+namespace trackbed::render {
+
+/// A line painted on the ground, drawn as flat boxes.
+struct RibbonStyle {
+  Color color;
+  double width = 0.2;  ///< [m]
+  double height =
+      0.01;  ///< of its upper face above the ground [m]; one per ribbon, or they flicker
+};
+
+/// A polyline thinned to few pieces: indices of the points kept, the first and the last among them.
+///
+/// Guarantees: no left-out point is farther than the tolerance from the piece that replaces it. The
+/// tolerance is `tolerance` [m], doubled until at most `most` pieces are left. Cost O(n) for roads;
+/// a piece never spans more than 512 points.
+std::vector<std::size_t> Thin(const std::vector<Point>& points, double tolerance, std::size_t most);
+
+/// Appends one straight piece to the scene, a little longer than from `a` to `b` so that the
+/// corners between pieces are closed. Nothing when the points coincide or the scene is full.
+void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const RibbonStyle& style);
+
+}  // namespace trackbed::render

@@ -1,0 +1,240 @@
+#include "render/scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "trackbed/core/angle.h"
+
+namespace trackbed::render {
+namespace {
+
+// How far a thinned line may leave the true one [m]: a twentieth of the narrowest ribbon.
+constexpr double kLineTolerance = 0.005;
+constexpr std::size_t kMostPieces = 3000;  // per line
+// Paint farther than this from where the camera looks would be thinner than a pixel [m].
+constexpr double kPaintRange = 250.0;
+
+constexpr float kGhostAlpha = 0.22F;  // MuJoCo draws translucent surfaces twice: 1 - 0.78^2 = 0.39
+constexpr float kGhostTint = 0.7F;
+// A ghost is drawn this much farther from the camera [m]. Where it agrees with the car it is hidden
+// behind the car's surface instead of flickering on it; where it departs it comes out.
+constexpr double kGhostBehind = 0.03;
+
+// Nested dark layers: a soft contact shadow where the shadow map would cost half the time.
+constexpr int kShadowLayers = 6;
+constexpr float kShadowAlpha = 0.055F;  // of one layer, drawn twice like everything translucent
+constexpr double kShadowSpread = 0.09;  // one layer beyond the next [m]
+constexpr double kShadowHeight = 0.03;  // above all paint [m]
+
+int MaxGeoms(const Recording& recording) {
+  const int cars = static_cast<int>(recording.plants.size());
+  return (recording.model->ngeom + recording.model->ngeom) * cars + 100 * cars +
+         static_cast<int>(kMostPieces + 2) * (cars + 1);
+}
+
+/// Like the lines of a transport map: each narrower than the one it covers.
+RibbonStyle TrailStyle(std::size_t car, double scale) {
+  if (car == 0) {
+    return {CarColor(0), 0.14 * scale, 0.024};
+  }
+  return {CarColor(car), 0.28 * scale, std::max(0.018 - 0.002 * static_cast<double>(car), 0.010)};
+}
+
+constexpr double kPlanWidth = 0.48;
+constexpr double kPlanHeight = 0.008;
+
+bool IsNear(const Point& a, const Point& b, const Point& around) {
+  const double reach = kPaintRange + std::hypot(b.x - a.x, b.y - a.y);
+  return std::hypot(a.x - around.x, a.y - around.y) < reach;
+}
+
+void MakeGhostly(mjvGeom& geom, const Color& color) {
+  const std::array<float, 3> tint{color.r, color.g, color.b};
+  for (std::size_t i = 0; i < 3; ++i) {
+    geom.rgba[i] = (1.0F - kGhostTint) * geom.rgba[i] + kGhostTint * tint[i];
+  }
+  geom.rgba[3] = kGhostAlpha;
+  geom.emission = 0.3F;
+  geom.specular *= 0.3F;
+  geom.reflectance = 0.0F;
+  geom.texid = -1;
+}
+
+/// Whether a camera can see beyond the ground. If not, the sky behind it need not be drawn, which
+/// is a third of a picture's time.
+bool SeesSky(const mjModel& model, const CameraPose& camera) {
+  const int ground = mj_name2id(&model, mjOBJ_GEOM, "ground");
+  const bool endless = ground >= 0 && model.geom_type[ground] == mjGEOM_PLANE &&
+                       model.geom_size[3 * ground] == 0 && model.geom_size[3 * ground + 1] == 0;
+  constexpr double kHaze = 0.1;  // [rad] under the horizon
+  return !endless || camera.elevation + 0.5 * camera.view_angle > -kHaze;
+}
+
+}  // namespace
+
+Color CarColor(std::size_t car) {
+  constexpr std::array<Color, 5> kColors{{{1.00F, 0.47F, 0.08F},
+                                          {0.10F, 0.75F, 0.95F},
+                                          {0.85F, 0.25F, 0.70F},
+                                          {0.55F, 0.80F, 0.20F},
+                                          {0.98F, 0.85F, 0.25F}}};
+  return kColors[car < kColors.size() ? car : 1 + (car - 1) % (kColors.size() - 1)];
+}
+
+FilmScene::FilmScene(Recording& recording, bool shadows)
+    : recording_(recording),
+      car_data_(mj_makeData(recording.model.get())),
+      ghost_data_(mj_makeData(recording.model.get())),
+      scene_(*recording.model, MaxGeoms(recording)),
+      ghost_scene_(*recording.model, 2 * recording.model->ngeom + 100) {
+  mjv_defaultOption(&visible_);
+  std::fill(std::begin(visible_.sitegroup), std::end(visible_.sitegroup), mjtByte{0});
+  mjv_defaultFreeCamera(recording.model.get(), &camera_);
+  scene_.get().flags[mjRND_SHADOW] = shadows ? 1 : 0;
+  scene_.get().flags[mjRND_REFLECTION] = 0;
+
+  for (const std::size_t i : Thin(recording.plan, kLineTolerance, kMostPieces)) {
+    plan_.push_back(recording.plan[i]);
+  }
+  for (const PlantRecording& plant : recording.plants) {
+    std::vector<Point> driven;
+    for (const double time : plant.times()) {
+      driven.push_back(plant.Position(time));
+    }
+    Trail trail;
+    for (const std::size_t i : Thin(driven, kLineTolerance, kMostPieces)) {
+      trail.points.push_back(driven[i]);
+      trail.times.push_back(plant.times()[i]);
+    }
+    trails_.push_back(std::move(trail));
+  }
+}
+
+mjvScene& FilmScene::At(double time, const CameraPose& camera) {
+  mjModel& model = *recording_.model;
+  Aim(camera);
+  recording_.plants.front().Pose(time, model, *car_data_);
+  mjv_updateScene(&model, car_data_.get(), &visible_, nullptr, &camera_, mjCAT_ALL, &scene_.get());
+  scene_.get().flags[mjRND_SKYBOX] = SeesSky(model, camera) ? 1 : 0;
+  AddPlan(camera);
+  for (std::size_t car = 0; car < recording_.plants.size(); ++car) {
+    AddTrail(car, time, camera);
+  }
+  if (scene_.get().flags[mjRND_SHADOW] == 0) {
+    AddContactShadow();
+  }
+  for (std::size_t car = 1; car < recording_.plants.size(); ++car) {
+    AddGhost(car, time, camera);
+  }
+  return scene_.get();
+}
+
+void FilmScene::Aim(const CameraPose& camera) {
+  mjModel& model = *recording_.model;
+  camera_.lookat[0] = camera.target_x;
+  camera_.lookat[1] = camera.target_y;
+  camera_.lookat[2] = camera.target_z;
+  camera_.distance = camera.distance;
+  camera_.azimuth = camera.azimuth * 180.0 / kPi;
+  camera_.elevation = camera.elevation * 180.0 / kPi;
+  model.vis.global.fovy = static_cast<float>(camera.view_angle * 180.0 / kPi);
+  // As far out as the car allows: it is what lets a depth buffer tell paint from road.
+  model.vis.map.znear = static_cast<float>(0.1 * camera.distance / model.stat.extent);
+  model.vis.map.zfar = static_cast<float>((1000.0 + 2.0 * camera.distance) / model.stat.extent);
+}
+
+void FilmScene::AddPlan(const CameraPose& camera) {
+  const Point around{camera.target_x, camera.target_y};
+  const RibbonStyle style{kPlanColor, kPlanWidth * camera.paint_scale, kPlanHeight};
+  for (std::size_t i = 1; i < plan_.size(); ++i) {
+    if (IsNear(plan_[i - 1], plan_[i], around)) {
+      AddRibbonPiece(scene_.get(), plan_[i - 1], plan_[i], style);
+    }
+  }
+}
+
+void FilmScene::AddTrail(std::size_t car, double time, const CameraPose& camera) {
+  const Point around{camera.target_x, camera.target_y};
+  const Trail& trail = trails_[car];
+  const RibbonStyle style = TrailStyle(car, camera.paint_scale);
+  for (std::size_t i = 1; i < trail.points.size() && trail.times[i - 1] < time; ++i) {
+    // The last piece grows with the car.
+    const Point end =
+        trail.times[i] <= time ? trail.points[i] : recording_.plants[car].Position(time);
+    if (IsNear(trail.points[i - 1], end, around)) {
+      AddRibbonPiece(scene_.get(), trail.points[i - 1], end, style);
+    }
+  }
+}
+
+void FilmScene::AddGhost(std::size_t car, double time, const CameraPose& camera) {
+  const mjModel& model = *recording_.model;
+  mjvScene& ghost = ghost_scene_.get();
+  mjvScene& scene = scene_.get();
+  recording_.plants[car].Pose(time, model, *ghost_data_);
+  mjv_updateScene(&model, ghost_data_.get(), &visible_, nullptr, &camera_, mjCAT_DYNAMIC, &ghost);
+  const auto behind = static_cast<float>(kGhostBehind / camera.distance);
+  for (int i = 0; i < ghost.ngeom && scene.ngeom < scene.maxgeom; ++i) {
+    mjvGeom& geom = scene.geoms[scene.ngeom];
+    geom = ghost.geoms[i];
+    MakeGhostly(geom, CarColor(car));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float eye = scene.camera[0].pos[axis];
+      geom.pos[axis] += behind * (geom.pos[axis] - eye);
+    }
+    ++scene.ngeom;
+  }
+  RibbonStyle style = TrailStyle(car, camera.paint_scale);
+  style.width = 0.06 * camera.paint_scale;
+  AddFootprint(*ghost_data_, style);
+}
+
+void FilmScene::AddContactShadow() {
+  const mjModel& model = *recording_.model;
+  mjvScene& scene = scene_.get();
+  const int site = mj_name2id(&model, mjOBJ_SITE, "outline");
+  if (site < 0 || model.site_type[site] != mjGEOM_BOX) {
+    return;
+  }
+  const mjtNum* center = car_data_->site_xpos + 3 * site;
+  const mjtNum* rotation = car_data_->site_xmat + 9 * site;
+  const double heading = std::atan2(rotation[3], rotation[0]);
+  const std::array<mjtNum, 9> flat{
+      std::cos(heading), -std::sin(heading), 0, std::sin(heading), std::cos(heading), 0, 0, 0, 1};
+  const std::array<mjtNum, 3> place{center[0], center[1], kShadowHeight};
+  const std::array<float, 4> rgba{0.0F, 0.0F, 0.02F, kShadowAlpha};
+  for (int layer = 0; layer < kShadowLayers && scene.ngeom < scene.maxgeom; ++layer) {
+    // From well inside the outline to as far outside.
+    const double wider = kShadowSpread * (layer - 0.5 * kShadowLayers);
+    const std::array<mjtNum, 3> size{model.site_size[3 * site] + wider,
+                                     model.site_size[3 * site + 1] + wider, 0.0005};
+    mjvGeom& geom = scene.geoms[scene.ngeom];
+    mjv_initGeom(&geom, mjGEOM_BOX, size.data(), place.data(), flat.data(), rgba.data());
+    geom.specular = 0.0F;
+    geom.category = mjCAT_DECOR;
+    ++scene.ngeom;
+  }
+}
+
+void FilmScene::AddFootprint(const mjData& data, const RibbonStyle& style) {
+  const mjModel& model = *recording_.model;
+  const int site = mj_name2id(&model, mjOBJ_SITE, "outline");
+  if (site < 0 || model.site_type[site] != mjGEOM_BOX) {
+    return;
+  }
+  const mjtNum* center = data.site_xpos + 3 * site;
+  const mjtNum* rotation = data.site_xmat + 9 * site;
+  const mjtNum* size = model.site_size + 3 * site;
+  const auto corner = [&](double forward, double left) {
+    return Point{center[0] + rotation[0] * forward * size[0] + rotation[1] * left * size[1],
+                 center[1] + rotation[3] * forward * size[0] + rotation[4] * left * size[1]};
+  };
+  const std::array<Point, 4> corners{corner(1, 1), corner(-1, 1), corner(-1, -1), corner(1, -1)};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    AddRibbonPiece(scene_.get(), corners[i], corners[(i + 1) % corners.size()], style);
+  }
+}
+
+}  // namespace trackbed::render

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <string>
+#include <vector>
+
+#include "render/camera.h"
+#include "render/handles.h"
+#include "render/recording.h"
+#include "render/ribbon.h"
+
+namespace trackbed::render {
+
+/// The colours of a film: of the planned path, and of each car's trail (the main car's first).
+constexpr Color kPlanColor{1.00F, 1.00F, 0.97F};
+Color CarColor(std::size_t car);
+
+/// The recorded world, posed at a moment: the car, the ghosts, the planned path, the trails.
+class FilmScene {
+ public:
+  /// Borrows the recording, and its model's visual settings (lens and clipping), for its lifetime.
+  /// `shadows` are MuJoCo's, cast by the model's lights; without, a soft patch under the car.
+  explicit FilmScene(Recording& recording, bool shadows);
+
+  /// The scene at `time` [s] from `camera`; valid until the next call.
+  mjvScene& At(double time, const CameraPose& camera);
+
+ private:
+  /// A thinned drive: point i was reached at times[i].
+  struct Trail {
+    std::vector<Point> points;
+    std::vector<double> times;
+  };
+
+  void Aim(const CameraPose& camera);
+  void AddPlan(const CameraPose& camera);
+  void AddTrail(std::size_t car, double time, const CameraPose& camera);
+  void AddGhost(std::size_t car, double time, const CameraPose& camera);
+  void AddContactShadow();
+  void AddFootprint(const mjData& data, const RibbonStyle& style);
+
+  Recording& recording_;
+  DataHandle car_data_;
+  DataHandle ghost_data_;
+  SceneHandle scene_;
+  SceneHandle ghost_scene_;
+  mjvOption visible_;
+  mjvCamera camera_;
+  std::vector<Point> plan_;
+  std::vector<Trail> trails_;
+};
+
+}  // namespace trackbed::render

@@ -1,0 +1,200 @@
+#include "render/video.h"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/imgutils.h>
+#include <libavutil/opt.h>
+#include <libswscale/swscale.h>
+}
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed::render {
+namespace {
+
+struct FreeFormat {
+  void operator()(AVFormatContext* format) const {
+    avio_closep(&format->pb);
+    avformat_free_context(format);
+  }
+};
+struct FreeCodec {
+  void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
+};
+struct FreeFrame {
+  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+};
+struct FreePacket {
+  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+};
+struct FreeScaler {
+  void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
+};
+
+std::string Describe(int error) {
+  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
+  av_strerror(error, text.data(), text.size());
+  return text.data();
+}
+
+}  // namespace
+
+struct VideoWriter::Encoder {
+  std::string name;
+  std::unique_ptr<AVFormatContext, FreeFormat> format;
+  std::unique_ptr<AVCodecContext, FreeCodec> codec;
+  std::unique_ptr<AVFrame, FreeFrame> picture;  // RGB; swscale reads past the end of plain memory
+  std::unique_ptr<AVFrame, FreeFrame> frame;    // as the encoder takes it
+  std::unique_ptr<AVPacket, FreePacket> packet;
+  std::unique_ptr<SwsContext, FreeScaler> scaler;
+  AVStream* stream = nullptr;  // owned by format
+  std::int64_t next = 0;
+
+  [[noreturn]] void Fail(const std::string& why) const {
+    throw RunError(fmt::format("cannot write {}: {}", name, why));
+  }
+  /// Passes results that are no errors.
+  int Check(int result) const {
+    if (result < 0) {
+      Fail(Describe(result));
+    }
+    return result;
+  }
+  template <typename T>
+  T* Check(T* made) const {
+    if (made == nullptr) {
+      Fail("out of memory");
+    }
+    return made;
+  }
+
+  void OpenCodec(int width, int height, double fps) {
+    const AVCodec* h264 = avcodec_find_encoder_by_name("libx264");
+    if (h264 == nullptr) {
+      Fail("this libavcodec has no encoder libx264");
+    }
+    codec.reset(Check(avcodec_alloc_context3(h264)));
+    codec->width = width;
+    codec->height = height;
+    codec->framerate = av_d2q(fps, 1001000);
+    codec->time_base = av_inv_q(codec->framerate);
+    codec->pix_fmt = AV_PIX_FMT_YUV420P;
+    codec->color_range = AVCOL_RANGE_MPEG;
+    codec->colorspace = AVCOL_SPC_BT709;
+    codec->color_primaries = AVCOL_PRI_BT709;
+    codec->color_trc = AVCOL_TRC_BT709;
+    codec->thread_count = 1;
+    codec->flags |= AV_CODEC_FLAG_BITEXACT | AV_CODEC_FLAG_GLOBAL_HEADER;
+    Check(av_opt_set(codec->priv_data, "preset", "veryfast", 0));
+    Check(av_opt_set(codec->priv_data, "crf", "23", 0));
+    // x264's macroblock tree reads past the end of its rows, into memory that differs from run to
+    // run, unless the width is a multiple of 128 (seen with build 164 at 96, 320, 854, 960 px).
+    Check(av_opt_set(codec->priv_data, "mbtree", "0", 0));
+    Check(avcodec_open2(codec.get(), h264, nullptr));
+  }
+
+  void OpenFile(const std::filesystem::path& file) {
+    AVFormatContext* made = nullptr;
+    // The protocol keeps a name with a colon from being read as another one.
+    const std::string url = "file:" + file.string();
+    Check(avformat_alloc_output_context2(&made, nullptr, "mp4", url.c_str()));
+    format.reset(made);
+    format->flags |= AVFMT_FLAG_BITEXACT;
+    stream = Check(avformat_new_stream(format.get(), nullptr));
+    stream->time_base = codec->time_base;
+    stream->avg_frame_rate = codec->framerate;
+    Check(avcodec_parameters_from_context(stream->codecpar, codec.get()));
+    Check(avio_open(&format->pb, url.c_str(), AVIO_FLAG_WRITE));
+    AVDictionary* options = nullptr;
+    av_dict_set(&options, "movflags", "+faststart", 0);
+    const int result = avformat_write_header(format.get(), &options);
+    av_dict_free(&options);
+    Check(result);
+  }
+
+  [[nodiscard]] std::unique_ptr<AVFrame, FreeFrame> NewFrame(AVPixelFormat pixels) const {
+    std::unique_ptr<AVFrame, FreeFrame> made(Check(av_frame_alloc()));
+    made->format = pixels;
+    made->width = codec->width;
+    made->height = codec->height;
+    Check(av_frame_get_buffer(made.get(), 0));
+    return made;
+  }
+
+  void OpenConversion() {
+    picture = NewFrame(AV_PIX_FMT_RGB24);
+    frame = NewFrame(codec->pix_fmt);
+    frame->color_range = codec->color_range;
+    frame->colorspace = codec->colorspace;
+    frame->color_primaries = codec->color_primaries;
+    frame->color_trc = codec->color_trc;
+    packet.reset(Check(av_packet_alloc()));
+    scaler.reset(Check(sws_getContext(
+        codec->width, codec->height, AV_PIX_FMT_RGB24, codec->width, codec->height, codec->pix_fmt,
+        SWS_BILINEAR | SWS_ACCURATE_RND | SWS_BITEXACT, nullptr, nullptr, nullptr)));
+    // Without this swscale converts by BT.601, whatever the film says of itself.
+    const int* bt709 = sws_getCoefficients(SWS_CS_ITU709);
+    constexpr int kOne = 1 << 16;
+    Check(sws_setColorspaceDetails(scaler.get(), bt709, 1, bt709, 0, 0, kOne, kOne));
+  }
+
+  /// Hands a frame to the encoder (null: the end) and writes what it gives back.
+  void Encode(const AVFrame* next_frame) {
+    Check(avcodec_send_frame(codec.get(), next_frame));
+    for (;;) {
+      const int result = avcodec_receive_packet(codec.get(), packet.get());
+      if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) {
+        return;
+      }
+      Check(result);
+      packet->duration = 1;
+      av_packet_rescale_ts(packet.get(), codec->time_base, stream->time_base);
+      packet->stream_index = stream->index;
+      Check(av_interleaved_write_frame(format.get(), packet.get()));
+      Check(format->pb->error);
+    }
+  }
+};
+
+VideoWriter::VideoWriter(const std::filesystem::path& file, const std::filesystem::path& shown_name,
+                         int width, int height, double fps)
+    : encoder_(std::make_unique<Encoder>()) {
+  // libav and x264 write to the terminal unless told otherwise; their failures come back as codes.
+  av_log_set_level(AV_LOG_QUIET);
+  encoder_->name = shown_name.string();
+  encoder_->OpenCodec(width, height, fps);
+  encoder_->OpenFile(file);
+  encoder_->OpenConversion();
+}
+
+VideoWriter::~VideoWriter() = default;
+
+void VideoWriter::Add(const Image& image) {
+  Encoder& encoder = *encoder_;
+  TRACKBED_CHECK(image.width == encoder.codec->width && image.height == encoder.codec->height,
+                 "a picture of {}x{} in a film of {}x{}", image.width, image.height,
+                 encoder.codec->width, encoder.codec->height);
+  encoder.Check(av_frame_make_writable(encoder.frame.get()));
+  AVFrame& picture = *encoder.picture;
+  av_image_copy_plane(picture.data[0], picture.linesize[0], image.rgb.data(), 3 * image.width,
+                      3 * image.width, image.height);
+  encoder.Check(sws_scale(encoder.scaler.get(), picture.data, picture.linesize, 0, image.height,
+                          encoder.frame->data, encoder.frame->linesize));
+  encoder.frame->pts = encoder.next++;
+  encoder.Encode(encoder.frame.get());
+}
+
+void VideoWriter::Finish() {
+  Encoder& encoder = *encoder_;
+  encoder.Encode(nullptr);
+  encoder.Check(av_write_trailer(encoder.format.get()));
+  // Only closing tells whether the last bytes found room.
+  encoder.Check(avio_closep(&encoder.format->pb));
+}
+
+}  // namespace trackbed::render

@@ -1,0 +1,106 @@
+#include "trackbed/control/speed_controller.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/tolerance.h"
+#include "tests/vehicle/seed_car.h"
+#include "trackbed/vehicle/kinematic_car.h"
+
+namespace trackbed {
+namespace {
+
+// A few operations on numbers below 100.
+constexpr double kRounding = 1e-12;
+constexpr double kPeriod = 0.02;
+constexpr SpeedControlOptions kOptions{.acceleration = 1.0, .deceleration = 1.5, .gain = 2.0};
+constexpr SpeedLimits kLimits{.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
+
+TEST(SpeedControl, OnTheProfileIsItsOwnAcceleration) {
+  const SpeedProfile profile = StopAtEnd(100.0, 0.0, kLimits);
+  EXPECT_NEAR(SpeedControl(kOptions, profile, 0.0, 0.0, kPeriod), 1.0, Tolerance(kRounding));
+  EXPECT_NEAR(SpeedControl(kOptions, profile, 2.0, 2.0, kPeriod), 1.0, Tolerance(kRounding));
+  EXPECT_NEAR(SpeedControl(kOptions, profile, 50.0, 3.0, kPeriod), 0.0, Tolerance(kRounding));
+  EXPECT_NEAR(SpeedControl(kOptions, profile, 98.5, std::sqrt(4.5), kPeriod), -1.5,
+              Tolerance(kRounding));
+}
+
+TEST(SpeedControl, LooksAtTheMiddleOfThePeriod) {
+  // Braking begins at 97 m; at 3 m/s the middle of a period of 1 s is 1.5 m ahead.
+  const SpeedProfile profile = StopAtEnd(100.0, 0.0, kLimits);
+  EXPECT_NEAR(SpeedControl(kOptions, profile, 95.4, 3.0, 1.0), 0.0, Tolerance(kRounding));
+  EXPECT_NEAR(SpeedControl(kOptions, profile, 95.6, 3.0, 1.0), -1.5, Tolerance(kRounding));
+}
+
+TEST(SpeedControl, PushesTowardTheProfile) {
+  const SpeedProfile profile = StopAtEnd(100.0, 0.0, kLimits);
+  EXPECT_NEAR(SpeedControl(kOptions, profile, 50.0, 2.9, kPeriod), 0.2, Tolerance(kRounding));
+  EXPECT_NEAR(SpeedControl(kOptions, profile, 50.0, 3.1, kPeriod), -0.2, Tolerance(kRounding));
+}
+
+TEST(SpeedControl, StaysWithinItsLimits) {
+  const SpeedProfile profile = StopAtEnd(100.0, 0.0, kLimits);
+  EXPECT_EQ(SpeedControl(kOptions, profile, 50.0, 0.0, kPeriod), 1.0);
+  EXPECT_EQ(SpeedControl(kOptions, profile, 50.0, 30.0, kPeriod), -3.0);
+}
+
+TEST(SpeedControl, BrakesAfterTheEnd) {
+  const SpeedProfile profile = StopAtEnd(100.0, 0.0, kLimits);
+  EXPECT_EQ(SpeedControl(kOptions, profile, 100.0, 1.0, kPeriod), -1.5);
+  EXPECT_EQ(SpeedControl(kOptions, profile, 120.0, 0.0, kPeriod), -1.5);
+}
+
+TEST(SpeedControl, GoesOnAfterAProfileThatEndsMoving) {
+  const SpeedProfile profile({{0.0, 2.0}, {10.0, 2.0}});
+  EXPECT_NEAR(SpeedControl(kOptions, profile, 20.0, 2.0, kPeriod), 0.0, Tolerance(kRounding));
+  EXPECT_NEAR(SpeedControl(kOptions, profile, 20.0, 1.9, kPeriod), 0.2, Tolerance(kRounding));
+}
+
+TEST(SpeedControl, StopsTheCarAtTheEndOfItsProfile) {
+  // A car that obeys acceleration exactly. Where the profile's acceleration changes inside a
+  // period T, the middle rule is wrong for at most half of it: a speed error of b T/2 as braking at
+  // b begins, that is an error w of v b T in v^2. Along the braking dw/ds = -2 gain (speed error)
+  // only shrinks it, and w/(2 b) = v T/2 is what it makes of the stop. In the last period the
+  // middle may lie behind the end, where the profile asks for nothing: less than b T^2/2 before the
+  // end, then at most b T * T further.
+  for (const double period : {0.005, 0.01, 0.02, 0.05}) {
+    for (const double length : {1.0, 5.0, 37.123, 100.0}) {
+      for (const double start : {0.0, 1.0}) {
+        SCOPED_TRACE(fmt::format("period {}, length {}, start {}", period, length, start));
+        const SpeedProfile profile = StopAtEnd(length, start, kLimits);
+        KinematicCar car(SeedCar(), ReferencePoint::kRearAxle, {.speed = start});
+        for (int i = 0; i < 20000; ++i) {
+          const double s = car.state().pose.x;
+          car.Step({.acceleration = SpeedControl(kOptions, profile, s, car.state().speed, period)},
+                   period);
+        }
+        EXPECT_EQ(car.state().speed, 0.0);
+        EXPECT_NEAR(car.state().pose.x, length,
+                    Tolerance(0.5 * kLimits.speed * period + 1.5 * 1.5 * period * period));
+      }
+    }
+  }
+}
+
+TEST(SpeedControl, FollowsItsProfileClosely) {
+  // The same error of max(a, b) T/2 at each knot, at most two of them at once.
+  const SpeedProfile profile = StopAtEnd(60.0, 0.0, kLimits);
+  KinematicCar car(SeedCar(), ReferencePoint::kRearAxle, {});
+  while (car.state().pose.x < 59.0) {
+    const double s = car.state().pose.x;
+    ASSERT_NEAR(car.state().speed, profile.SpeedAt(s), Tolerance(2.0 * 1.5 * kPeriod / 2.0));
+    car.Step({.acceleration = SpeedControl(kOptions, profile, s, car.state().speed, kPeriod)},
+             kPeriod);
+  }
+}
+
+TEST(SpeedControl, LeavesRestFromJustBehindTheStart) {
+  // A projection may put a standing car a rounding behind station 0; it has to leave nevertheless.
+  const SpeedProfile profile = StopAtEnd(60.0, 0.0, kLimits);
+  EXPECT_GT(SpeedControl(kOptions, profile, -1e-15, 0.0, kPeriod), 0.0);
+}
+
+}  // namespace
+}  // namespace trackbed

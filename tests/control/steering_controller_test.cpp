@@ -1,0 +1,276 @@
+#include "trackbed/control/steering_controller.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ostream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/geometry/random.h"
+#include "tests/tolerance.h"
+#include "tests/vehicle/seed_car.h"
+#include "trackbed/core/angle.h"
+
+namespace trackbed {
+
+void PrintTo(const ControllerEntry& entry, std::ostream* out) {
+  *out << entry.name;
+}
+
+namespace {
+
+// The crossing is found to 2^-48 of a station below 200 m, 7e-13 m; an angle at 2 m or more.
+constexpr double kFound = 1e-11;
+
+double Steer(const ControllerOptions& options, const Path& path, const Pose2& pose, double station,
+             const SteeringSchedule& schedule = {}, double speed = 3.0, double period = 0.02) {
+  const VehicleParams car = SeedCar();
+  const Reference reference{path, StopAtEnd(path.length(), 3.0, {3.0, 1.0, 1.5})};
+  VehicleState state;
+  state.pose = pose;
+  state.speed = speed;
+  return MakeSteeringController(options)->Steer({.vehicle = car,
+                                                 .reference = reference,
+                                                 .schedule = schedule,
+                                                 .state = state,
+                                                 .station = station,
+                                                 .period = period});
+}
+
+Path Straight() {
+  return {{}, {{100.0, 0.0, 1}}};
+}
+Path Circle(double radius) {
+  return {{}, {{60.0, 1.0 / radius, 1}}};
+}
+
+// --- Preview angle -------------------------------------------------------------------------------
+
+TEST(PreviewAngle, PointToTheLeftIsPositive) {
+  EXPECT_GT(PreviewAngle(Straight(), {10.0, -0.5, 0.0}, 10.0, 3.0), 0.0);
+  EXPECT_GT(PreviewAngle(Straight(), {10.0, 0.0, -0.1}, 10.0, 3.0), 0.0);
+  EXPECT_GT(PreviewAngle(Circle(20.0), {}, 0.0, 3.0), 0.0);
+}
+
+TEST(PreviewAngle, OnAStraightIsZero) {
+  for (const double s : {0.0, 17.3, 99.0, 150.0}) {
+    EXPECT_NEAR(PreviewAngle(Straight(), {s, 0.0, 0.0}, s, 4.0), 0.0, Tolerance(kFound));
+  }
+}
+
+TEST(PreviewAngle, BesideAStraightIsTheArcSine) {
+  for (const double e : {-2.5, -0.3, 0.7, 2.9}) {
+    EXPECT_NEAR(PreviewAngle(Straight(), {10.0, e, 0.2}, 10.0, 3.0), -std::asin(e / 3.0) - 0.2,
+                Tolerance(kFound));
+  }
+}
+
+TEST(PreviewAngle, OnACircleIsTheArcSine) {
+  // The chord of length R from a tangent: u = asin(R/(2 Rc)).
+  EXPECT_NEAR(PreviewAngle(Circle(20.0), {}, 0.0, 4.0), 0.100167, Tolerance(0.5e-6));
+  for (const double radius : {5.1, 10.0, 20.0, -20.0, 154.0}) {
+    for (const double distance : {2.0, 4.0, 8.0}) {
+      for (const double s : {0.0, 3.0, 20.0}) {
+        SCOPED_TRACE(fmt::format("radius {}, distance {}, s {}", radius, distance, s));
+        EXPECT_NEAR(PreviewAngle(Circle(radius), Circle(radius).At(s).pose, s, distance),
+                    std::asin(distance / (2.0 * radius)), Tolerance(kFound));
+      }
+    }
+  }
+}
+
+TEST(PreviewAngle, GoesOnAlongTheEndTangent) {
+  // A quarter circle of 10 m ends at (10, 10) heading north. From 1 m before its end in a straight
+  // line P is on the tangent.
+  const Path path{{}, {{5.0 * kPi, 0.1, 1}}};
+  EXPECT_NEAR(PreviewAngle(path, {10.0, 10.0, kPi / 2.0}, path.length(), 4.0), 0.0,
+              Tolerance(kFound));
+  EXPECT_NEAR(PreviewAngle(path, {11.0, 14.0, kPi / 2.0}, path.length() + 4.0, 4.0),
+              std::asin(0.25), Tolerance(kFound));
+  // Near the end it does not grow without bound, as it would toward a fixed end point.
+  for (double s = path.length() - 4.0; s < path.length() + 10.0; s += 0.1) {
+    EXPECT_LE(std::abs(PreviewAngle(path, path.At(s).pose, s, 4.0)),
+              std::asin(0.2) + Tolerance(kFound));
+  }
+}
+
+TEST(PreviewAngle, FurtherAwayThanItLooksHeadsForThePointAheadOfTheNearest) {
+  // 5 m left of a straight, looking 3 m: the point 3 m ahead of the nearest one.
+  EXPECT_NEAR(PreviewAngle(Straight(), {10.0, 5.0, 0.0}, 10.0, 3.0), std::atan2(-5.0, 3.0),
+              Tolerance(kFound));
+}
+
+TEST(PreviewAngle, TurnsWithTheCarAndTheWorld) {
+  Random random(61);
+  for (int i = 0; i < 200; ++i) {
+    const Path path({}, {{random.Uniform(5.0, 20.0), random.Uniform(-0.15, 0.15), 1},
+                         {random.Uniform(5.0, 20.0), random.Uniform(-0.15, 0.15), 1}});
+    const double s = random.Uniform(0.0, path.length());
+    const Pose2 pose = Compose(path.At(s).pose, {0.0, random.Uniform(-1.0, 1.0), 0.0});
+    const Pose2 X_WA{random.Uniform(-50.0, 50.0), random.Uniform(-50.0, 50.0),
+                     random.Uniform(-4.0, 4.0)};
+    const double turn = random.Uniform(-0.3, 0.3);
+    SCOPED_TRACE(fmt::format("case {}: s {}", i, s));
+    const double u = PreviewAngle(path, pose, s, 3.0);
+    const Path moved(X_WA, path.segments());
+    EXPECT_NEAR(PreviewAngle(moved, Compose(X_WA, pose), s, 3.0), u, Tolerance(kFound));
+    EXPECT_NEAR(PreviewAngle(path, {pose.x, pose.y, pose.yaw + turn}, s, 3.0), u - turn,
+                Tolerance(kFound));
+    std::vector<Segment> mirrored = path.segments();
+    for (Segment& segment : mirrored) {
+      segment.curvature = -segment.curvature;
+    }
+    EXPECT_NEAR(PreviewAngle({{}, mirrored}, {pose.x, -pose.y, -pose.yaw}, s, 3.0), -u,
+                Tolerance(kFound));
+  }
+}
+
+TEST(PreviewAngle, AimsAtTheFirstCrossing) {
+  // Brute force over the path in steps of 0.1 mm, which is 0.1 mm/R of angle.
+  Random random(62);
+  for (int i = 0; i < 100; ++i) {
+    std::vector<Segment> segments;
+    for (int k = 0; k < 8; ++k) {
+      segments.push_back({random.Uniform(0.5, 4.0), random.Uniform(-0.8, 0.8), 1});
+    }
+    const Path path({}, segments);
+    const double s = random.Uniform(0.0, 10.0);
+    const Pose2 pose = Compose(path.At(s).pose, {0.0, random.Uniform(-0.3, 0.3), 0.0});
+    SCOPED_TRACE(fmt::format("case {}: s {}", i, s));
+    double ahead = s;
+    while ((path.At(ahead).pose.position() - pose.position()).norm() < 3.0) {
+      ahead += 1e-4;
+    }
+    const Vec2 p = ToLocal(pose, path.At(ahead).pose.position());
+    EXPECT_NEAR(AngleDifference(PreviewAngle(path, pose, s, 3.0), std::atan2(p.y(), p.x())), 0.0,
+                Tolerance(1e-4));
+  }
+}
+
+// --- Preview controller --------------------------------------------------------------------------
+
+TEST(PreviewController, ExactArcSteersTheCircle) {
+  // Section 8: Rc = 20, R = 4: atan(L/Rc) = 0.134189, the linear gain 0.135226.
+  const PreviewOptions exact{.distance = 4.0, .law = PreviewLaw::kExactArc};
+  const PreviewOptions linear{.distance = 4.0, .law = PreviewLaw::kLinear};
+  EXPECT_NEAR(Steer(exact, Circle(20.0), {}, 0.0), 0.134189, Tolerance(0.5e-6));
+  EXPECT_NEAR(Steer(linear, Circle(20.0), {}, 0.0), 0.135226, Tolerance(0.5e-6));
+  for (const double radius : {5.1, -8.0, 20.0, 154.0}) {
+    SCOPED_TRACE(radius);
+    EXPECT_NEAR(Steer(exact, Circle(radius), {}, 0.0), std::atan(2.7 / radius), Tolerance(kFound));
+    EXPECT_NEAR(Steer(linear, Circle(radius), {}, 0.0), 2.0 * 2.7 / 4.0 * std::asin(2.0 / radius),
+                Tolerance(kFound));
+  }
+}
+
+TEST(PreviewController, ReversePathsSteerTheSameCircle) {
+  // u is measured from the direction of motion, which in reverse is behind the car. The circle
+  // through P and tangent to the car is the same, and so is the steering.
+  for (const PreviewLaw law : {PreviewLaw::kExactArc, PreviewLaw::kLinear}) {
+    SCOPED_TRACE(law == PreviewLaw::kLinear ? "linear" : "exact arc");
+    const PreviewOptions options{.distance = 4.0, .law = law};
+    const Path straight{{}, {{50.0, 0.0, -1}}};
+    EXPECT_NEAR(Steer(options, straight, {}, 0.0, {}, -1.0), 0.0, Tolerance(kFound));
+    const Path circle{{}, {{50.0, 0.05, -1}}};
+    EXPECT_NEAR(Steer(options, circle, {}, 0.0, {}, -1.0),
+                law == PreviewLaw::kLinear ? 0.135226 : 0.134189, Tolerance(0.5e-6));
+  }
+}
+
+// --- Schedule controller -------------------------------------------------------------------------
+
+TEST(ScheduleController, GivesTheValueAtTheEndOfThePeriod) {
+  const SteeringSchedule schedule({{10.0, 30.0, 0.2}}, 0.05);
+  const ScheduleOptions options;
+  // 3 m/s for 0.5 s: 1.5 m ahead.
+  EXPECT_NEAR(Steer(options, Straight(), {}, 9.0, schedule, 3.0, 0.5), 0.05 * 0.5,
+              Tolerance(1e-15));
+  EXPECT_NEAR(Steer(options, Straight(), {}, 12.0, schedule, 3.0, 0.5), 0.05 * 3.5,
+              Tolerance(1e-15));
+  EXPECT_EQ(Steer(options, Straight(), {}, 12.0, schedule, 0.0, 0.5), schedule.At(12.0));
+}
+
+TEST(ConstantSteeringController, HoldsItsAngle) {
+  EXPECT_EQ(Steer(ConstantSteeringOptions{.steering = -0.3}, {}, {1.0, 2.0, 3.0}, 7.0), -0.3);
+}
+
+// --- What every controller of the table owes its caller
+// -------------------------------------------
+
+class EveryController : public ::testing::TestWithParam<ControllerEntry> {};
+
+TEST_P(EveryController, IsFoundByItsOptions) {
+  EXPECT_STREQ(ControllerFor(GetParam().defaults).name, GetParam().name);
+  EXPECT_FALSE(std::string(GetParam().summary).empty());
+}
+
+TEST_P(EveryController, GoesStraightOnAStraight) {
+  EXPECT_NEAR(Steer(GetParam().defaults, Straight(), {20.0, 0.0, 0.0}, 20.0), 0.0,
+              Tolerance(kFound));
+}
+
+TEST_P(EveryController, AnswersWithAFiniteAngleWhereverTheCarIs) {
+  Random random(63);
+  const Path path{{}, {{20.0, 0.0, 1}, {8.0, 0.15, 1}, {20.0, -0.1, 1}}};
+  const SteeringSchedule schedule({{18.0, 26.0, 0.3}, {26.0, 40.0, -0.2}}, 0.05);
+  for (int i = 0; i < 500; ++i) {
+    const double s = random.Uniform(-5.0, path.length() + 20.0);
+    Pose2 pose = path.At(s).pose;
+    pose.x += random.Uniform(-10.0, 10.0);
+    pose.y += random.Uniform(-10.0, 10.0);
+    pose.yaw += random.Uniform(-4.0, 4.0);
+    EXPECT_TRUE(std::isfinite(Steer(GetParam().defaults, path, pose, s, schedule)));
+  }
+}
+
+TEST_P(EveryController, IsAFunctionOfItsInput) {
+  const Path path{{}, {{20.0, 0.05, 1}}};
+  const Pose2 pose = path.At(5.0).pose;
+  EXPECT_EQ(Steer(GetParam().defaults, path, pose, 5.0),
+            Steer(GetParam().defaults, path, pose, 5.0));
+}
+
+TEST_P(EveryController, MirroredWorldMirrorsTheSteering) {
+  Random random(64);
+  for (int i = 0; i < 100; ++i) {
+    const double curvature = random.Uniform(-0.15, 0.15);
+    const double angle = random.Uniform(-0.4, 0.4);
+    const double s = random.Uniform(0.0, 30.0);
+    const Path left{{}, {{40.0, curvature, 1}}};
+    const Path right{{}, {{40.0, -curvature, 1}}};
+    const Pose2 pose = Compose(left.At(s).pose, {0.0, random.Uniform(-1.0, 1.0), angle});
+    EXPECT_NEAR(
+        Steer(GetParam().defaults, right, {pose.x, -pose.y, -pose.yaw}, s,
+              SteeringSchedule({{5.0, 20.0, -angle}}, 0.05)),
+        -Steer(GetParam().defaults, left, pose, s, SteeringSchedule({{5.0, 20.0, angle}}, 0.05)),
+        Tolerance(kFound));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, EveryController, ::testing::ValuesIn(Controllers()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(Controllers, NamesAndAlternativesAreUnique) {
+  std::set<std::string> names;
+  std::set<std::size_t> alternatives;
+  for (const ControllerEntry& entry : Controllers()) {
+    names.insert(entry.name);
+    alternatives.insert(entry.defaults.index());
+  }
+  EXPECT_EQ(names.size(), Controllers().size());
+  EXPECT_EQ(alternatives.size(), std::variant_size_v<ControllerOptions>);
+}
+
+TEST(Controllers, OpenLoopsReadTheOdometer) {
+  EXPECT_EQ(ControllerFor(ScheduleOptions{}).station, StationSource::kOdometer);
+  EXPECT_EQ(ControllerFor(PreviewOptions{}).station, StationSource::kProjection);
+  EXPECT_TRUE(ControllerFor(ScheduleOptions{}).needs_plan);
+  EXPECT_TRUE(ControllerFor(PreviewOptions{}).needs_plan);
+  EXPECT_FALSE(ControllerFor(ConstantSteeringOptions{}).needs_plan);
+}
+
+}  // namespace
+}  // namespace trackbed

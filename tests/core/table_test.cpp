@@ -1,0 +1,182 @@
+#include "trackbed/core/table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tests/support/temp_folder.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+
+namespace trackbed {
+namespace {
+
+using ::testing::ElementsAre;
+
+Table RoundTrip(const Table& table) {
+  const TempFolder folder;
+  const std::filesystem::path file = folder.path() / "t.csv";
+  WriteFileAtomically(file, table.ToCsv());
+  return ReadCsv(file);
+}
+
+/// The text of the InputError that reading `content` as "t.csv" gives, without the folder.
+std::string ProblemsOf(const std::string& content) {
+  const TempFolder folder;
+  const std::string file = (folder.path() / "t.csv").string();
+  WriteFileAtomically(file, content);
+  try {
+    ReadCsv(file);
+  } catch (const InputError& error) {
+    std::string text = error.what();
+    for (auto at = text.find(file); at != std::string::npos; at = text.find(file)) {
+      text.replace(at, file.size(), "t.csv");
+    }
+    return text;
+  }
+  return "no InputError";
+}
+
+Table Read(const std::string& content) {
+  const TempFolder folder;
+  const std::filesystem::path file = folder.path() / "t.csv";
+  WriteFileAtomically(file, content);
+  return ReadCsv(file);
+}
+
+TEST(Table, HoldsRowsOfNamedColumns) {
+  Table table({"t_s", "x_m"});
+  EXPECT_EQ(table.rows(), 0U);
+  table.AddRow({0.0, 1.0});
+  table.AddRow({0.5, 2.0});
+  EXPECT_EQ(table.rows(), 2U);
+  EXPECT_EQ(table.at(1, 0), 0.5);
+  EXPECT_EQ(table.Find("x_m"), 1);
+  EXPECT_EQ(table.Find("y_m"), -1);
+  EXPECT_THAT(table.Column("x_m"), ElementsAre(1.0, 2.0));
+}
+
+TEST(Table, NamesAMissingColumn) {
+  try {
+    (void)Table({"a"}).Column("b");
+    FAIL() << "did not throw";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "b: no such column");
+  }
+}
+
+TEST(Table, ChecksItsRows) {
+  Table table({"a", "b"});
+  EXPECT_THROW(table.AddRow({1.0}), InternalError);
+  EXPECT_THROW(table.AddRow({1.0, 2.0, 3.0}), InternalError);
+  EXPECT_THROW(Table({}), InternalError);
+}
+
+TEST(ToCsv, IsShortAndHasNoNegativeZero) {
+  Table table({"a", "b"});
+  table.AddRow({0.1, -0.0});
+  table.AddRow({-2.0, 1e300});
+  EXPECT_EQ(table.ToCsv(), "a,b\n0.1,0\n-2,1e+300\n");
+}
+
+TEST(ToCsv, ReadsBackBitForBit) {
+  Table table({"x"});
+  using Limits = std::numeric_limits<double>;
+  for (const double x :
+       {0.1, 1.0 / 3.0, Limits::denorm_min(), -Limits::denorm_min(), Limits::min(),
+        std::nextafter(Limits::min(), 0.0), Limits::max(), Limits::lowest(), Limits::epsilon(),
+        9007199254740993.0, 1e22, 5e-324, Limits::infinity(), -Limits::infinity()}) {
+    table.AddRow({x});
+  }
+  std::mt19937_64 engine(81);
+  while (table.rows() < 20000) {
+    const double x = std::bit_cast<double>(static_cast<std::uint64_t>(engine()));  // any double
+    if (!std::isnan(x) && x != 0.0) {
+      table.AddRow({x});
+    }
+  }
+  const Table back = RoundTrip(table);
+  ASSERT_EQ(back.rows(), table.rows());
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(back.at(row, 0)),
+              std::bit_cast<std::uint64_t>(table.at(row, 0)))
+        << "row " << row << ", " << table.at(row, 0);
+  }
+}
+
+TEST(ToCsv, ReadsBackNotANumber) {
+  Table table({"x"});
+  table.AddRow({std::nan("")});
+  EXPECT_TRUE(std::isnan(RoundTrip(table).at(0, 0)));
+}
+
+TEST(ToCsv, ReadsBackATableWithoutRows) {
+  const Table back = RoundTrip(Table({"a", "b"}));
+  EXPECT_THAT(back.columns(), ElementsAre("a", "b"));
+  EXPECT_EQ(back.rows(), 0U);
+}
+
+TEST(ReadCsv, SkipsEmptyLinesAndTakesWindowsEndings) {
+  const Table table = Read("a,b\r\n1,2\r\n\r\n3,4\r\n");
+  EXPECT_THAT(table.columns(), ElementsAre("a", "b"));
+  EXPECT_THAT(table.Column("b"), ElementsAre(2.0, 4.0));
+}
+
+TEST(ReadCsv, TakesALastLineWithoutItsEnd) {
+  EXPECT_THAT(Read("a\n1\n2").Column("a"), ElementsAre(1.0, 2.0));
+}
+
+TEST(ReadCsv, TakesQuotedCells) {
+  EXPECT_THAT(Read("\"a,b\",c\n\"1\",2\n").columns(), ElementsAre("a,b", "c"));
+}
+
+TEST(ReadCsv, PlacesACellThatIsNoNumber) {
+  EXPECT_EQ(ProblemsOf("a,b\n1,2\n3,x\n"), "t.csv:3:2: b: 'x' is not a number");
+  EXPECT_EQ(ProblemsOf("a,b\n1,\n"), "t.csv:2:2: b: '' is not a number");
+  EXPECT_EQ(ProblemsOf("a,b\n1.5m,2\n"), "t.csv:2:1: a: '1.5m' is not a number");
+}
+
+TEST(ReadCsv, CountsEmptyLinesAndWindowsEndings) {
+  EXPECT_EQ(ProblemsOf("a\n\n\n1\nx\n"), "t.csv:5:1: a: 'x' is not a number");
+  EXPECT_EQ(ProblemsOf("a\r\n1\r\nx\r\n"), "t.csv:3:1: a: 'x' is not a number");
+}
+
+TEST(ReadCsv, ListsEveryProblem) {
+  EXPECT_EQ(ProblemsOf("a,b\nx,y\n1\n"),
+            "t.csv:2:1: a: 'x' is not a number\n"
+            "t.csv:2:2: b: 'y' is not a number\n"
+            "t.csv:3:1: 1 cells where the header has 2");
+}
+
+TEST(ReadCsv, RefusesRowsOfAnotherLength) {
+  EXPECT_EQ(ProblemsOf("a,b\n1,2,3\n"), "t.csv:2:1: 3 cells where the header has 2");
+}
+
+TEST(ReadCsv, RefusesBadHeaders) {
+  EXPECT_EQ(ProblemsOf("a,a\n1,2\n"), "t.csv:1:2: a: repeated column");
+  EXPECT_EQ(ProblemsOf("a,,c\n1,2,3\n"), "t.csv:1:2: a column without a name");
+  EXPECT_EQ(ProblemsOf(""),
+            "t.csv:1:1: empty file where a header line of column names is expected");
+  EXPECT_EQ(ProblemsOf("\n\n"),
+            "t.csv:3:1: empty file where a header line of column names is expected");
+}
+
+TEST(ReadCsv, RefusesAnOpenQuote) {
+  EXPECT_NE(ProblemsOf("a\n\"1\n"), "no InputError");
+  EXPECT_NE(ProblemsOf("a\n1\"2\n"), "no InputError");
+}
+
+TEST(ReadCsv, OfAMissingFileIsARunError) {
+  EXPECT_THROW(ReadCsv("/nonexistent/t.csv"), RunError);
+}
+
+}  // namespace
+}  // namespace trackbed

@@ -1,0 +1,159 @@
+#include "trackbed/path/reference.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "tests/geometry/random.h"
+#include "tests/tolerance.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+// A few operations on numbers below 1000.
+constexpr double kRounding = 1e-12;
+constexpr SpeedLimits kLimits{.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
+
+void ExpectKnots(const SpeedProfile& profile, const std::vector<SpeedProfile::Knot>& expected) {
+  ASSERT_EQ(profile.knots().size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_NEAR(profile.knots()[i].s, expected[i].s, Tolerance(kRounding)) << "knot " << i;
+    EXPECT_NEAR(profile.knots()[i].speed, expected[i].speed, Tolerance(kRounding)) << "knot " << i;
+  }
+}
+
+TEST(SpeedProfile, SquareOfTheSpeedIsLinear) {
+  const SpeedProfile profile({{2.0, 1.0}, {6.0, 3.0}, {10.0, 3.0}});
+  EXPECT_NEAR(profile.SpeedAt(4.0), std::sqrt(5.0), Tolerance(kRounding));
+  EXPECT_NEAR(profile.AccelerationAt(4.0), 1.0, Tolerance(kRounding));  // (9 - 1)/(2 * 4)
+  EXPECT_EQ(profile.SpeedAt(8.0), 3.0);
+  EXPECT_EQ(profile.AccelerationAt(8.0), 0.0);
+  EXPECT_EQ(profile.SpeedAt(0.0), 1.0);
+  EXPECT_EQ(profile.SpeedAt(20.0), 3.0);
+  EXPECT_EQ(profile.AccelerationAt(1.0), 0.0);
+  EXPECT_EQ(profile.AccelerationAt(20.0), 0.0);
+}
+
+TEST(SpeedProfile, AccelerationBelongsToTheSideOfLargerStations) {
+  const SpeedProfile profile({{0.0, 1.0}, {4.0, 3.0}, {8.0, 0.0}});
+  EXPECT_NEAR(profile.AccelerationAt(0.0), 1.0, Tolerance(kRounding));
+  EXPECT_NEAR(profile.AccelerationAt(4.0), -9.0 / 8.0, Tolerance(kRounding));
+  EXPECT_EQ(profile.AccelerationAt(8.0), 0.0);
+}
+
+TEST(SpeedProfile, TimeIsDistanceOverMeanSpeed) {
+  const SpeedProfile profile({{2.0, 1.0}, {6.0, 3.0}, {12.0, 3.0}});
+  EXPECT_EQ(profile.TimeAt(2.0), 0.0);
+  EXPECT_EQ(profile.TimeAt(0.0), 0.0);
+  EXPECT_NEAR(profile.TimeAt(6.0), 2.0, Tolerance(kRounding));
+  EXPECT_NEAR(profile.TimeAt(4.0), std::sqrt(5.0) - 1.0, Tolerance(kRounding));  // dv = a t
+  EXPECT_NEAR(profile.TimeAt(12.0), 4.0, Tolerance(kRounding));
+  EXPECT_NEAR(profile.TimeAt(15.0), 5.0, Tolerance(kRounding));
+}
+
+TEST(SpeedProfile, StandstillTakesForEver) {
+  constexpr double kForEver = std::numeric_limits<double>::infinity();
+  const SpeedProfile stopping({{0.0, 3.0}, {3.0, 0.0}});
+  EXPECT_NEAR(stopping.TimeAt(3.0), 2.0, Tolerance(kRounding));
+  EXPECT_EQ(stopping.TimeAt(3.1), kForEver);
+  EXPECT_EQ(SpeedProfile({{0.0, 0.0}, {3.0, 0.0}}).TimeAt(1.0), kForEver);
+}
+
+TEST(SpeedProfile, WithoutKnotsStands) {
+  EXPECT_EQ(SpeedProfile().SpeedAt(1.0), 0.0);
+  EXPECT_EQ(SpeedProfile().AccelerationAt(1.0), 0.0);
+  EXPECT_EQ(SpeedProfile().TimeAt(1.0), 0.0);
+}
+
+TEST(SpeedProfile, OfOneKnotIsConstant) {
+  const SpeedProfile profile({{1.0, 2.0}});
+  EXPECT_EQ(profile.SpeedAt(-5.0), 2.0);
+  EXPECT_EQ(profile.SpeedAt(5.0), 2.0);
+  EXPECT_EQ(profile.AccelerationAt(5.0), 0.0);
+  EXPECT_NEAR(profile.TimeAt(5.0), 2.0, Tolerance(kRounding));
+}
+
+TEST(SpeedProfile, ChecksItsKnots) {
+  EXPECT_THROW(SpeedProfile({{0.0, -1.0}}), InternalError);
+  EXPECT_THROW(SpeedProfile({{0.0, std::nan("")}}), InternalError);
+  EXPECT_THROW(SpeedProfile({{0.0, 1.0}, {0.0, 2.0}}), InternalError);
+  EXPECT_THROW(SpeedProfile({{1.0, 1.0}, {0.0, 2.0}}), InternalError);
+}
+
+TEST(StopAtEnd, IsATrapezoid) {
+  // 3^2/(2 * 1) = 4.5 m to the limit, 3^2/(2 * 1.5) = 3 m to stop.
+  ExpectKnots(StopAtEnd(100.0, 0.0, kLimits), {{0, 0}, {4.5, 3}, {97, 3}, {100, 0}});
+  // 3 s, 92.5/3 s, 2 s.
+  EXPECT_NEAR(StopAtEnd(100.0, 0.0, kLimits).TimeAt(100.0), 5.0 + 92.5 / 3.0, Tolerance(kRounding));
+}
+
+TEST(StopAtEnd, LeavesAtTheStartSpeed) {
+  ExpectKnots(StopAtEnd(100.0, 3.0, kLimits), {{0, 3}, {97, 3}, {100, 0}});
+  ExpectKnots(StopAtEnd(100.0, 1.0, kLimits), {{0, 1}, {4, 3}, {97, 3}, {100, 0}});
+}
+
+TEST(StopAtEnd, SlowsDownToTheLimit) {
+  // From 4 m/s: (16 - 9)/(2 * 1.5) = 7/3 m.
+  ExpectKnots(StopAtEnd(100.0, 4.0, kLimits), {{0, 4}, {7.0 / 3.0, 3}, {97, 3}, {100, 0}});
+}
+
+TEST(StopAtEnd, PeaksBelowTheLimitWhereThereIsNoRoom) {
+  // v^2/2 + v^2/3 = 5 m: v^2 = 6, the peak at 3 m.
+  ExpectKnots(StopAtEnd(5.0, 0.0, kLimits), {{0, 0}, {3, std::sqrt(6.0)}, {5, 0}});
+  // From 1 m/s: (v^2 - 1)/2 + v^2/3 = 4.5: v^2 = 6, the peak at 2.5 m.
+  ExpectKnots(StopAtEnd(4.5, 1.0, kLimits), {{0, 1}, {2.5, std::sqrt(6.0)}, {4.5, 0}});
+}
+
+TEST(StopAtEnd, BrakesHarderWhereItMust) {
+  const SpeedProfile profile = StopAtEnd(1.0, 3.0, kLimits);
+  ExpectKnots(profile, {{0, 3}, {1, 0}});
+  EXPECT_NEAR(profile.AccelerationAt(0.5), -4.5, Tolerance(kRounding));
+  ExpectKnots(StopAtEnd(1.0, 5.0, kLimits), {{0, 5}, {1, 0}});
+}
+
+TEST(StopAtEnd, OfNoLengthStands) {
+  ExpectKnots(StopAtEnd(0.0, 0.0, kLimits), {{0, 0}});
+}
+
+TEST(StopAtEnd, KeepsItsLimitsOnRandomMissions) {
+  Random random(51);
+  for (int i = 0; i < 2000; ++i) {
+    const SpeedLimits limits{.speed = random.Uniform(0.1, 10.0),
+                             .acceleration = random.Uniform(0.1, 5.0),
+                             .deceleration = random.Uniform(0.1, 5.0)};
+    const double length = random.Uniform(0.01, 60.0);
+    const double start = random.Below(3) == 0 ? 0.0 : random.Uniform(0.0, 10.0);
+    SCOPED_TRACE(fmt::format("case {}: length {}, start {}, speed {}, acceleration {}, {}", i,
+                             length, start, limits.speed, limits.acceleration,
+                             limits.deceleration));
+    const SpeedProfile profile = StopAtEnd(length, start, limits);
+    const auto& knots = profile.knots();
+    EXPECT_EQ(knots.front().s, 0.0);
+    EXPECT_EQ(knots.front().speed, start);
+    EXPECT_EQ(knots.back().s, length);
+    EXPECT_EQ(knots.back().speed, 0.0);
+    const double stop = start * start / (2.0 * length);  // at least this hard, if it must
+    double time = 0.0;
+    for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
+      const double middle = 0.5 * (knots[k].s + knots[k + 1].s);
+      const double a = profile.AccelerationAt(middle);
+      // v^2 up to 100 over an interval that may be short: the rounding of v^2 over its length.
+      const double tolerance = Tolerance(1e-12 / std::min(1.0, knots[k + 1].s - knots[k].s));
+      EXPECT_LE(a, limits.acceleration + tolerance);
+      EXPECT_GE(a, -std::max(limits.deceleration, stop) - tolerance);
+      EXPECT_LE(profile.SpeedAt(middle), std::max(start, limits.speed) + Tolerance(kRounding));
+      // The time over an interval of constant acceleration.
+      time += a == 0.0 ? (knots[k + 1].s - knots[k].s) / knots[k].speed
+                       : (knots[k + 1].speed - knots[k].speed) / a;
+    }
+    EXPECT_NEAR(profile.TimeAt(length), time, Tolerance(1e-9 * std::max(1.0, time)));
+  }
+}
+
+}  // namespace
+}  // namespace trackbed

@@ -1,0 +1,205 @@
+#include "trackbed/planning/planner.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <ostream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/planning/routes.h"
+#include "tests/tolerance.h"
+#include "tests/vehicle/seed_car.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+
+void PrintTo(const PlannerEntry& entry, std::ostream* out) {
+  *out << entry.name;
+}
+
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAre;
+
+PlanRequest Request(std::vector<Vec2> waypoints) {
+  PlanRequest request;
+  request.vehicle = SeedCar();
+  request.waypoints = std::move(waypoints);
+  request.start_speed = 0.0;
+  request.speed = {.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
+  return request;
+}
+
+// --- What every planner of the table owes its caller ---------------------------------------------
+
+class EveryPlanner : public ::testing::TestWithParam<PlannerEntry> {};
+
+TEST_P(EveryPlanner, IsNamedByItsOptions) {
+  EXPECT_STREQ(PlannerName(GetParam().defaults), GetParam().name);
+  EXPECT_FALSE(std::string(GetParam().summary).empty());
+}
+
+TEST_P(EveryPlanner, StartsAtTheFirstWaypointAndEndsAtGoal) {
+  const Plan plan = MakePlan(Request(RouteA()), GetParam().defaults);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_EQ(plan.reason, "");
+  const Path& path = plan.reference.path;
+  // The planners' promise of 1e-9 m.
+  EXPECT_NEAR((path.At(0.0).pose.position() - RouteA().front()).norm(), 0.0, Tolerance(1e-9));
+  EXPECT_NEAR((path.At(path.length()).pose.position() - RouteA().back()).norm(), 0.0,
+              Tolerance(1e-9));
+}
+
+TEST_P(EveryPlanner, StaysWithinTheCarsSteering) {
+  const Plan plan = MakePlan(Request(RouteA()), GetParam().defaults);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  for (const Segment& segment : plan.reference.path.segments()) {
+    EXPECT_LE(std::abs(SteeringForCurvature(SeedCar(), segment.curvature)),
+              SeedCar().steering_limit);
+  }
+  for (const SteeringSchedule::Knot& knot : plan.schedule.knots()) {
+    EXPECT_LE(std::abs(knot.steering), SeedCar().steering_limit);
+  }
+}
+
+TEST_P(EveryPlanner, StopsAtTheEndOfItsPath) {
+  PlanRequest request = Request(RouteA());
+  request.start_speed = 1.25;
+  const Plan plan = MakePlan(request, GetParam().defaults);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const auto& knots = plan.reference.speed.knots();
+  ASSERT_GE(knots.size(), 2U);
+  EXPECT_EQ(knots.front().s, 0.0);
+  EXPECT_EQ(knots.front().speed, 1.25);
+  EXPECT_EQ(knots.back().s, plan.reference.path.length());
+  EXPECT_EQ(knots.back().speed, 0.0);
+  for (const SpeedProfile::Knot& knot : knots) {
+    EXPECT_LE(knot.speed, request.speed.speed);
+  }
+}
+
+TEST_P(EveryPlanner, IsAFunctionOfItsRequest) {
+  const Plan a = MakePlan(Request(RouteB()), GetParam().defaults);
+  const Plan b = MakePlan(Request(RouteB()), GetParam().defaults);
+  EXPECT_EQ(a.diagnostics, b.diagnostics);
+  EXPECT_EQ(a.reference.path.segments(), b.reference.path.segments());
+}
+
+TEST_P(EveryPlanner, RefusesWithAReasonAndNoPath) {
+  const Plan plan = MakePlan(Request({{0, 0}, {1, 0}}), GetParam().defaults);
+  EXPECT_FALSE(plan.ok());
+  EXPECT_NE(plan.reason, "");
+  EXPECT_EQ(plan.reference.path.length(), 0.0);
+  EXPECT_TRUE(plan.reference.speed.knots().empty());
+  EXPECT_TRUE(plan.schedule.knots().empty());
+}
+
+TEST_P(EveryPlanner, ThrowsForNumbersThatAreNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {nan, infinity}) {
+    SCOPED_TRACE(bad);
+    PlanRequest waypoint = Request(RouteA());
+    waypoint.waypoints[2].y() = bad;
+    EXPECT_THROW(MakePlan(waypoint, GetParam().defaults), InternalError);
+    PlanRequest start_speed = Request(RouteA());
+    start_speed.start_speed = bad;
+    EXPECT_THROW(MakePlan(start_speed, GetParam().defaults), InternalError) << "start speed";
+    PlanRequest speed = Request(RouteA());
+    speed.speed.speed = bad;
+    EXPECT_THROW(MakePlan(speed, GetParam().defaults), InternalError) << "speed";
+    PlanRequest acceleration = Request(RouteA());
+    acceleration.speed.acceleration = bad;
+    EXPECT_THROW(MakePlan(acceleration, GetParam().defaults), InternalError) << "acceleration";
+    PlanRequest deceleration = Request(RouteA());
+    deceleration.speed.deceleration = bad;
+    EXPECT_THROW(MakePlan(deceleration, GetParam().defaults), InternalError) << "deceleration";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, EveryPlanner, ::testing::ValuesIn(Planners()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(Planners, NamesAndAlternativesAreUnique) {
+  std::set<std::string> names;
+  std::set<std::size_t> alternatives;
+  for (const PlannerEntry& entry : Planners()) {
+    names.insert(entry.name);
+    alternatives.insert(entry.defaults.index());
+  }
+  EXPECT_EQ(names.size(), Planners().size());
+  EXPECT_EQ(alternatives.size(), Planners().size());
+  EXPECT_EQ(alternatives.size(), std::variant_size_v<PlannerOptions>);
+}
+
+// --- The fillet planner
+// ---------------------------------------------------------------------------
+
+TEST(FilletPlanner, FindingsAreThoseOfTheFillets) {
+  const FilletPlan fillets = PlanFillets(SeedCar(), RouteB(), 3.0, {});
+  const Plan plan = MakePlan(Request(RouteB()), FilletOptions{});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const auto& turns = plan.diagnostics.at("turns");
+  ASSERT_EQ(turns.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& json = turns[k];
+    const FilletTurn& turn = fillets.turns[k];
+    EXPECT_EQ(json.at("waypoint"), turn.waypoint);
+    EXPECT_EQ(json.at("heading_change_rad"), turn.heading_change);
+    EXPECT_EQ(json.at("interior_angle_rad"), turn.interior_angle);
+    EXPECT_EQ(json.at("radius_m"), turn.radius);
+    EXPECT_EQ(json.at("centre_m"), nlohmann::json::array({turn.centre.x(), turn.centre.y()}));
+    EXPECT_EQ(json.at("arc_start_m"),
+              nlohmann::json::array({turn.arc_start.x(), turn.arc_start.y()}));
+    EXPECT_EQ(json.at("arc_end_m"), nlohmann::json::array({turn.arc_end.x(), turn.arc_end.y()}));
+    EXPECT_EQ(json.at("arc_start_s_m"), turn.arc_start_s);
+    EXPECT_EQ(json.at("arc_length_m"), turn.arc_length);
+    EXPECT_EQ(json.at("tangent_length_m"), turn.tangent_length);
+    EXPECT_EQ(json.at("steering_rad"), turn.steering);
+    EXPECT_EQ(json.at("ramp_time_s"), turn.ramp_time);
+    EXPECT_EQ(json.at("ramp_distance_m"), turn.ramp_distance);
+    EXPECT_EQ(json.at("steer_start_m"), turn.steer_start);
+    EXPECT_EQ(json.at("steer_return_m"), turn.steer_return);
+    EXPECT_EQ(json.at("ramp_truncated"), turn.ramp_truncated);
+    std::set<std::string> keys;
+    for (const auto& [key, value] : json.items()) {
+      keys.insert(key);
+    }
+    EXPECT_THAT(
+        keys, UnorderedElementsAre("waypoint", "heading_change_rad", "interior_angle_rad",
+                                   "radius_m", "active_constraint", "centre_m", "arc_start_m",
+                                   "arc_end_m", "arc_start_s_m", "arc_length_m", "tangent_length_m",
+                                   "steering_rad", "ramp_time_s", "ramp_distance_m",
+                                   "steer_start_m", "steer_return_m", "ramp_truncated"));
+  }
+}
+
+TEST(FilletPlanner, SaysWhatHoldsTheRadius) {
+  const auto active = [](const std::vector<Vec2>& route, const FilletOptions& options) {
+    const Plan plan = MakePlan(Request(route), options);
+    return plan.ok() ? plan.diagnostics["turns"][0]["active_constraint"].get<std::string>()
+                     : plan.reason;
+  };
+  EXPECT_EQ(active(RouteA(), {}), "steering_room");
+  EXPECT_EQ(active(RouteA(), {.radius = std::nullopt, .constraint = RadiusConstraint::kHalfLeg}),
+            "half_leg");
+  EXPECT_EQ(active(RouteA(), {.radius = 10.0, .constraint = RadiusConstraint::kNone}), "given");
+  FilletOptions capped;
+  capped.max_radius = 12.0;
+  EXPECT_EQ(active(RouteA(), capped), "max_radius");
+}
+
+TEST(FilletPlanner, NamesTheWaypointOfARefusal) {
+  const Plan plan = MakePlan(Request({{0, 0}, {60, 0}, {60, 60}, {88, 60}}), FilletOptions{});
+  EXPECT_EQ(plan.status, PlanStatus::kNoRoomForSteering);
+  EXPECT_EQ(plan.diagnostics.at("waypoint"), 2);
+  EXPECT_THAT(plan.reason, HasSubstr("waypoint 2"));
+}
+
+}  // namespace
+}  // namespace trackbed

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "tests/geometry/random.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/geometry/pose.h"
+
+namespace trackbed {
+
+inline double Radians(double degrees) {
+  return degrees * kPi / 180.0;
+}
+inline double Degrees(double radians) {
+  return radians * 180.0 / kPi;
+}
+
+/// Half a unit in the last of `decimals` printed places: what a number taken from a page can be
+/// held to. The millionth on top is for our own rounding of a value that lies exactly between two.
+inline double Printed(int decimals) {
+  double half = 0.5;
+  for (int i = 0; i < decimals; ++i) {
+    half /= 10.0;
+  }
+  return half * (1.0 + 1e-6);
+}
+
+/// The seeds' specification, section 4.6.
+inline std::vector<Vec2> RouteA() {
+  return {{0, 0}, {40, 0}, {40, 40}, {80, 40}, {80, 80}};
+}
+inline std::vector<Vec2> RouteB() {
+  return {{0, 0}, {30, 0}, {60, 20}, {60, 60}, {100, 80}};
+}
+
+/// `count` waypoints from a random start, with legs and heading changes from the given ranges.
+inline std::vector<Vec2> RandomRoute(Random& random, int count, double shortest, double longest,
+                                     double sharpest) {
+  std::vector<Vec2> route{{random.Uniform(-50.0, 50.0), random.Uniform(-50.0, 50.0)}};
+  double yaw = random.Uniform(-kPi, kPi);
+  for (int i = 1; i < count; ++i) {
+    route.push_back(route.back() + random.Uniform(shortest, longest) * Direction(yaw));
+    yaw += random.Uniform(-sharpest, sharpest);
+  }
+  return route;
+}
+
+}  // namespace trackbed

@@ -1,0 +1,105 @@
+#include "render/recording.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/render/run_folder.h"
+#include "tests/support/temp_folder.h"
+#include "tests/tolerance.h"
+#include "trackbed/core/angle.h"
+
+namespace trackbed::render {
+namespace {
+
+class RecordingTest : public testing::Test {
+ protected:
+  RecordingTest() { CopyPrius(folder_.path()); }
+
+  const MuJoCoErrorsAsExceptions guard_;
+  TempFolder folder_;
+};
+
+TEST_F(RecordingTest, PosesTheCarBetweenRows) {
+  WritePlant(folder_.path(), "mujoco", 1.0, [](double time) {
+    return CarPlace{3.0 * time, -2.0 * time, 0.6 * time};
+  });
+  const Recording recording = ReadRecording(folder_.path());
+  const DataHandle data(mj_makeData(recording.model.get()));
+  const double time = 0.5 + 1.0 / 120.0;  // half way between two rows
+  recording.plants[0].Pose(time, *recording.model, *data);
+  const int chassis = mj_name2id(recording.model.get(), mjOBJ_BODY, "chassis");
+  const mjtNum* place = data->xpos + 3 * chassis;
+  const mjtNum* axes = data->xmat + 9 * chassis;
+  // Positions are linear in time, so only rounding is left. The normalised mean of two rotations
+  // about one axis is the rotation half way between, exactly.
+  EXPECT_NEAR(place[0], 3.0 * time, Tolerance(1e-12));
+  EXPECT_NEAR(place[1], -2.0 * time, Tolerance(1e-12));
+  EXPECT_NEAR(std::atan2(axes[3], axes[0]), 0.6 * time, Tolerance(1e-12));
+  EXPECT_NEAR(recording.plants[0].Heading(time), 0.6 * time, Tolerance(1e-12));
+}
+
+TEST_F(RecordingTest, TurnsTheShortWayWhenTheQuaternionChangesSign) {
+  // The half angle passes pi between 0.5 and 1: cos and sin of it are followed, so q does not
+  // jump; negating the second row makes it jump without changing the rotation.
+  std::string header = "t_s,x_m,y_m,z_m,qw,qx,qy,qz";
+  std::string zeros;
+  for (const std::string& column : PriusJointColumns()) {
+    header += "," + column;
+    zeros += ",0";
+  }
+  WritePlant(folder_.path(), "mujoco", 1.0, [](double) { return CarPlace{}; });
+  WriteFileAtomically(
+      folder_.path() / "mujoco.state.csv",
+      header + "\n0,0,0,0,0.8,0,0,0.6" + zeros + "\n1,0,0,0,-0.6,0,0,-0.8" + zeros + "\n");
+  const Recording recording = ReadRecording(folder_.path());
+  const DataHandle data(mj_makeData(recording.model.get()));
+  recording.plants[0].Pose(0.5, *recording.model, *data);
+  // Half angles atan2(0.6, 0.8) and atan2(0.8, 0.6) average to pi / 4: the car faces north.
+  const int chassis = mj_name2id(recording.model.get(), mjOBJ_BODY, "chassis");
+  EXPECT_NEAR(data->xmat[9 * chassis + 3], 1.0, Tolerance(1e-12));
+}
+
+TEST_F(RecordingTest, HoldsTheFirstAndTheLastState) {
+  WritePlant(folder_.path(), "mujoco", 1.0, [](double time) { return CarPlace{time, 0.0, 0.0}; });
+  const Recording recording = ReadRecording(folder_.path());
+  EXPECT_DOUBLE_EQ(recording.plants[0].Position(-5.0).x, 0.0);
+  EXPECT_DOUBLE_EQ(recording.plants[0].Position(7.0).x, 1.0);
+}
+
+TEST_F(RecordingTest, FollowsTheHeadingThroughWholeTurns) {
+  WritePlant(folder_.path(), "mujoco", 20.0, [](double time) {
+    return CarPlace{0.0, 0.0, -0.5 * time};
+  });
+  const Recording recording = ReadRecording(folder_.path());
+  EXPECT_NEAR(recording.plants[0].Heading(20.0), -10.0, Tolerance(1e-9));
+}
+
+TEST_F(RecordingTest, ShowsTheMujocoPlantAsTheCar) {
+  for (const char* plant :
+       {"kinematic", "mujoco-magic_formula", "mujoco-contact", "single_track"}) {
+    WritePlant(folder_.path(), plant, 0.1, [](double) { return CarPlace{}; });
+  }
+  const Recording recording = ReadRecording(folder_.path());
+  std::vector<std::string> names;
+  for (const PlantRecording& plant : recording.plants) {
+    names.push_back(plant.plant());
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"mujoco-contact", "mujoco-magic_formula", "kinematic",
+                                             "single_track"}));
+}
+
+TEST_F(RecordingTest, ReadsTheLogBetweenRows) {
+  WritePlant(folder_.path(), "mujoco", 1.0, [](double) { return CarPlace{}; });
+  WriteFileAtomically(
+      folder_.path() / "mujoco.csv",
+      "t_s,speed_mps,steering_command_rad,steering_rad,cross_track_m\n0,1,0.5,0.3,-1\n1,3,0,0,1\n");
+  const Recording recording = ReadRecording(folder_.path());
+  const Readings readings = recording.plants[0].ReadingsAt(0.25);
+  EXPECT_DOUBLE_EQ(readings.speed, 1.5);
+  EXPECT_DOUBLE_EQ(readings.steering_asked, 0.375);
+  EXPECT_DOUBLE_EQ(readings.steering, 0.3 - 0.25 * 0.3);
+  ASSERT_TRUE(readings.cross_track.has_value());
+  EXPECT_DOUBLE_EQ(*readings.cross_track, -0.5);
+}
+
+}  // namespace
+}  // namespace trackbed::render

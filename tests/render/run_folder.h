@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "trackbed/core/file.h"
+#include "trackbed/core/table.h"
+
+namespace trackbed {
+
+/// Where a car of a made-up run is: rear-axle centre [m] and heading [rad].
+struct CarPlace {
+  double x = 0;
+  double y = 0;
+  double heading = 0;
+};
+using Motion = std::function<CarPlace(double time)>;
+
+inline const std::vector<std::string>& PriusJointColumns() {
+  static const std::vector<std::string> columns{
+      "suspension_fl_m", "suspension_fr_m", "suspension_rl_m", "suspension_rr_m",
+      "steer_fl_rad",    "steer_fr_rad",    "rack_rad",        "spin_fl_rad",
+      "spin_fr_rad",     "spin_rl_rad",     "spin_rr_rad"};
+  return columns;
+}
+
+/// Writes the files that one plant leaves: states each 1/60 s, the log each 20 ms.
+inline void WritePlant(const std::filesystem::path& folder, const std::string& plant,
+                       double duration, const Motion& motion) {
+  std::vector<std::string> columns{"t_s", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"};
+  columns.insert(columns.end(), PriusJointColumns().begin(), PriusJointColumns().end());
+  Table state(columns);
+  const auto state_rows = static_cast<int>(std::lround(duration * 60.0));
+  for (int i = 0; i <= state_rows; ++i) {
+    const double time = duration * i / state_rows;
+    const CarPlace car = motion(time);
+    std::vector<double> row{time,
+                            car.x,
+                            car.y,
+                            0.0,
+                            std::cos(0.5 * car.heading),
+                            0.0,
+                            0.0,
+                            std::sin(0.5 * car.heading)};
+    row.resize(columns.size(), 0.0);
+    state.AddRow(row);
+  }
+  WriteFileAtomically(folder / (plant + ".state.csv"), state.ToCsv());
+
+  Table log({"t_s", "x_m", "y_m", "yaw_rad", "speed_mps", "steering_command_rad",
+             "steering_actuator_rad", "steering_rad", "s_m", "cross_track_m", "heading_error_rad"});
+  const auto log_rows = static_cast<int>(std::lround(duration * 50.0));
+  for (int i = 0; i <= log_rows; ++i) {
+    const double time = duration * i / log_rows;
+    const CarPlace car = motion(time);
+    log.AddRow({time, car.x, car.y, car.heading, 3.0, 0.1, 0.09, 0.08, 3.0 * time, 0.01, 0.0});
+  }
+  WriteFileAtomically(folder / (plant + ".csv"), log.ToCsv());
+}
+
+inline void CopyPrius(const std::filesystem::path& folder) {
+  std::filesystem::copy_file(
+      std::filesystem::path(TRACKBED_SOURCE_DIR) / "models" / "prius" / "prius.xml",
+      folder / "model.xml");
+}
+
+/// A straight plan along the x axis from 0 to `length` [m].
+inline void WriteStraightPlan(const std::filesystem::path& folder, double length) {
+  Table plan({"s_m", "x_m", "y_m", "yaw_rad", "curvature_radpm", "speed_mps", "direction"});
+  const auto rows = static_cast<int>(std::lround(length / 0.1));
+  for (int i = 0; i <= rows; ++i) {
+    plan.AddRow({length * i / rows, length * i / rows, 0.0, 0.0, 0.0, 3.0, 1.0});
+  }
+  WriteFileAtomically(folder / "plan.csv", plan.ToCsv());
+}
+
+}  // namespace trackbed

@@ -1,0 +1,130 @@
+#include "trackbed/vehicle/params.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/geometry/random.h"
+#include "tests/tolerance.h"
+#include "tests/vehicle/seed_car.h"
+#include "trackbed/core/angle.h"
+
+namespace trackbed {
+namespace {
+
+// Some ten operations on numbers of order one.
+constexpr double kRounding = 1e-14;
+
+double Cot(double angle) {
+  return 1.0 / std::tan(angle);
+}
+
+TEST(SteeringForCurvature, HasThePrintedTable) {
+  // Section 2 of the seeds' specification: delta = atan(L/r), printed to 1e-6 rad and 1e-4 deg.
+  struct Row {
+    double radius, steering, degrees;
+  };
+  for (const Row& row :
+       {Row{5.1, 0.486899, 27.8973}, Row{10.0, 0.263712, 15.1096}, Row{20.0, 0.134189, 7.6884},
+        Row{50.0, 0.053948, 3.0910}, Row{154.0, 0.017531, 1.0044}}) {
+    SCOPED_TRACE(row.radius);
+    const double steering = SteeringForCurvature(SeedCar(), 1.0 / row.radius);
+    EXPECT_NEAR(steering, row.steering, Tolerance(0.5e-6));
+    EXPECT_NEAR(steering * 180.0 / kPi, row.degrees, Tolerance(0.5e-4));
+    EXPECT_NEAR(SteeringForCurvature(SeedCar(), -1.0 / row.radius), -steering,
+                Tolerance(kRounding));
+  }
+}
+
+TEST(CurvatureForSteering, InvertsSteeringForCurvature) {
+  Random random(1);
+  for (int i = 0; i < 200; ++i) {
+    const double curvature = random.Uniform(-0.5, 0.5);
+    EXPECT_NEAR(CurvatureForSteering(SeedCar(), SteeringForCurvature(SeedCar(), curvature)),
+                curvature, Tolerance(kRounding));
+  }
+}
+
+TEST(VehicleParams, DerivedLengthsFollow) {
+  EXPECT_NEAR(SeedCar().min_turning_radius(), 5.1, Tolerance(kRounding * 5.1));
+  EXPECT_NEAR(SeedCar().cg_to_front(), 1.3, Tolerance(kRounding));
+}
+
+TEST(AckermannAngles, InnerWheelTurnsFurther) {
+  const FrontAngles left = AckermannAngles(SeedCar(), 0.3);
+  EXPECT_GT(left.left, 0.3);
+  EXPECT_LT(left.right, 0.3);
+  EXPECT_GT(left.right, 0.0);
+  const FrontAngles right = AckermannAngles(SeedCar(), -0.3);
+  EXPECT_NEAR(right.right, -left.left, Tolerance(kRounding));
+  EXPECT_NEAR(right.left, -left.right, Tolerance(kRounding));
+}
+
+TEST(AckermannAngles, KeepTheCotangentRelation) {
+  // cot outer - cot inner = track/wheelbase, and the bicycle's cotangent lies midway.
+  const VehicleParams car = SeedCar();
+  for (int i = 1; i <= 48; ++i) {
+    const double steering = 0.01 * i;
+    SCOPED_TRACE(steering);
+    const FrontAngles front = AckermannAngles(car, steering);
+    // A cotangent up to 100 amplifies an angle's rounding by 1/sin^2 = 1e4.
+    const double tolerance = Tolerance(1e-16 / std::pow(std::sin(steering), 2) * 10.0);
+    EXPECT_NEAR(Cot(front.right) - Cot(front.left), 1.505 / 2.7, tolerance);
+    EXPECT_NEAR(0.5 * (Cot(front.right) + Cot(front.left)), Cot(steering), tolerance);
+  }
+}
+
+TEST(AckermannAngles, WheelsPointAtOneCentre) {
+  // Each wheel is square to the line from the turning centre (0, L cot delta) to its hub.
+  const VehicleParams car = SeedCar();
+  for (const double steering : {-0.48, -0.1, 0.02, 0.25, 0.4868}) {
+    SCOPED_TRACE(steering);
+    const double centre = car.wheelbase * Cot(steering);
+    const FrontAngles front = AckermannAngles(car, steering);
+    for (const auto& [angle, y] : {std::pair{front.left, 0.5 * car.track_front},
+                                   std::pair{front.right, -0.5 * car.track_front}}) {
+      // Metres times a unit vector; the centre is up to 135 m away.
+      EXPECT_NEAR(car.wheelbase * std::cos(angle) + (y - centre) * std::sin(angle), 0.0,
+                  Tolerance(135.0 * kRounding));
+    }
+  }
+}
+
+TEST(BicycleAngle, InvertsAckermannAngles) {
+  const VehicleParams car = SeedCar();
+  Random random(2);
+  for (int i = 0; i < 500; ++i) {
+    const double steering = random.Uniform(-car.steering_limit, car.steering_limit);
+    EXPECT_NEAR(BicycleAngle(car, AckermannAngles(car, steering)), steering, Tolerance(kRounding));
+  }
+  for (const double tiny : {0.0, 1e-300, 1e-12, -1e-9}) {
+    EXPECT_NEAR(BicycleAngle(car, AckermannAngles(car, tiny)), tiny, Tolerance(1e-24));
+  }
+}
+
+TEST(BicycleAngle, ReadsToeAsNearlyNothing) {
+  // Toe of +-epsilon: each wheel's own bicycle angle is epsilon (1 -+ k epsilon), so the mean is
+  // k epsilon^2 at most, k = track/(2 L) = 0.279. The mean of cotangents would give 90 deg.
+  const VehicleParams car = SeedCar();
+  for (const double toe : {1e-6, -1e-6, 1e-3, -1e-3, 0.02}) {
+    SCOPED_TRACE(toe);
+    EXPECT_LE(std::abs(BicycleAngle(car, {.left = toe, .right = -toe})),
+              Tolerance(0.28 * toe * toe * 1.1));
+  }
+}
+
+TEST(BicycleAngle, IsTheMeanOfSmallAngles) {
+  const VehicleParams car = SeedCar();
+  Random random(3);
+  for (int i = 0; i < 200; ++i) {
+    const double left = random.Uniform(-1e-4, 1e-4);
+    const double right = random.Uniform(-1e-4, 1e-4);
+    SCOPED_TRACE(fmt::format("left {}, right {}", left, right));
+    // To first order; the second is k epsilon^2.
+    EXPECT_NEAR(BicycleAngle(car, {left, right}), 0.5 * (left + right), Tolerance(0.28e-8));
+  }
+}
+
+}  // namespace
+}  // namespace trackbed

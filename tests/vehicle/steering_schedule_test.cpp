@@ -1,0 +1,309 @@
+#include "trackbed/vehicle/steering_schedule.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tests/geometry/random.h"
+#include "tests/tolerance.h"
+#include "tests/vehicle/seed_car.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+constexpr double kSpeed = 3.0;
+const double kSlope = SeedCar().steering_rate / kSpeed;
+
+// Angles below 1 rad over distances below 200 m, a few operations: 200 * slope * 2^-53 and the
+// like.
+constexpr double kRounding = 1e-14;
+
+// --- The function --------------------------------------------------------------------------------
+
+TEST(SteeringSchedule, IsStraightWithoutTurns) {
+  EXPECT_EQ(SteeringSchedule().At(-1.0), 0.0);
+  EXPECT_EQ(SteeringSchedule().At(1e6), 0.0);
+  EXPECT_EQ(SteeringSchedule({}, kSlope).At(5.0), 0.0);
+}
+
+TEST(SteeringSchedule, ConstantHoldsItsAngle) {
+  const SteeringSchedule schedule = SteeringSchedule::Constant(-0.2);
+  for (const double distance : {-1.0, 0.0, 1e-9, 50.0, 1e6}) {
+    EXPECT_EQ(schedule.At(distance), -0.2);
+  }
+}
+
+TEST(SteeringSchedule, TurnThatFitsIsATrapezoid) {
+  for (const double steering : {0.1, -0.1}) {
+    const SteeringSchedule schedule({{10.0, 30.0, steering}}, kSlope);
+    const double ramp = 0.1 / kSlope;  // 1.99 m
+    ASSERT_LT(ramp, 20.0);
+    const double sign = std::copysign(1.0, steering);
+    EXPECT_EQ(schedule.At(0.0), 0.0);
+    EXPECT_EQ(schedule.At(10.0), 0.0);
+    EXPECT_NEAR(schedule.At(11.0), sign * kSlope, Tolerance(kRounding));
+    EXPECT_NEAR(schedule.At(10.0 + ramp), steering, Tolerance(kRounding));
+    EXPECT_NEAR(schedule.At(20.0), steering, Tolerance(kRounding));
+    EXPECT_NEAR(schedule.At(30.0), steering, Tolerance(kRounding));
+    EXPECT_NEAR(schedule.At(31.0), steering - sign * kSlope, Tolerance(kRounding));
+    EXPECT_NEAR(schedule.At(30.0 + ramp), 0.0, Tolerance(kRounding));
+    EXPECT_EQ(schedule.At(100.0), 0.0);
+    EXPECT_EQ(schedule.knots().size(), 4U);
+  }
+}
+
+TEST(SteeringSchedule, ShortTurnStaysBelowItsTarget) {
+  const SteeringSchedule schedule({{10.0, 14.0, 0.4}}, kSlope);
+  EXPECT_NEAR(schedule.At(14.0), 4.0 * kSlope, Tolerance(kRounding));
+  EXPECT_NEAR(schedule.At(18.0), 0.0, Tolerance(kRounding));
+  EXPECT_EQ(schedule.At(20.0), 0.0);
+}
+
+TEST(SteeringSchedule, TurnTakesOverFromAReturn) {
+  // An S-bend with touching tangents: the second turn starts where the first one returns.
+  const SteeringSchedule schedule({{10.0, 30.0, 0.1}, {30.0, 50.0, -0.1}}, kSlope);
+  const double ramp = 0.1 / kSlope;
+  EXPECT_NEAR(schedule.At(30.0), 0.1, Tolerance(kRounding));
+  EXPECT_NEAR(schedule.At(30.0 + ramp), 0.0, Tolerance(kRounding));
+  EXPECT_NEAR(schedule.At(30.0 + 2.0 * ramp), -0.1, Tolerance(kRounding));
+  EXPECT_NEAR(schedule.At(50.0), -0.1, Tolerance(kRounding));
+  EXPECT_NEAR(schedule.At(50.0 + ramp), 0.0, Tolerance(kRounding));
+}
+
+TEST(SteeringSchedule, TurnTakesOverInTheMiddleOfAReturn) {
+  const SteeringSchedule schedule({{10.0, 30.0, 0.2}, {31.0, 50.0, 0.3}}, kSlope);
+  EXPECT_NEAR(schedule.At(31.0), 0.2 - kSlope, Tolerance(kRounding));
+  EXPECT_NEAR(schedule.At(32.0), 0.2, Tolerance(kRounding));
+}
+
+TEST(SteeringSchedule, LatestTurnEndsAnEarlierOne) {
+  const SteeringSchedule schedule({{10.0, 40.0, 0.2}, {20.0, 50.0, -0.2}}, kSlope);
+  EXPECT_NEAR(schedule.At(20.0), 0.2, Tolerance(kRounding));
+  EXPECT_NEAR(schedule.At(20.0 + 0.4 / kSlope), -0.2, Tolerance(kRounding));
+  EXPECT_NEAR(schedule.At(45.0), -0.2, Tolerance(kRounding));  // not returned at 40
+}
+
+/// The state machine of section 4.3, moved in small steps: what the schedule stands for.
+double StateMachine(const std::vector<TurnSteering>& turns, double slope, double distance,
+                    int steps) {
+  double steering = 0.0;
+  const double h = distance / steps;
+  for (int i = 0; i < steps; ++i) {
+    const double middle = (i + 0.5) * h;
+    double target = 0.0;
+    for (const TurnSteering& turn : turns) {
+      if (turn.start <= middle) {
+        target = middle < turn.end ? turn.steering : 0.0;  // the latest started one has the say
+      }
+    }
+    steering += std::clamp(target - steering, -slope * h, slope * h);
+  }
+  return steering;
+}
+
+TEST(SteeringSchedule, IsTheStateMachineAndKeepsTheSlope) {
+  Random random(11);
+  for (int i = 0; i < 100; ++i) {
+    std::vector<TurnSteering> turns;
+    double start = random.Uniform(0.0, 5.0);
+    const int count = 1 + random.Below(5);
+    for (int k = 0; k < count; ++k) {
+      turns.push_back({start, start + random.Uniform(0.5, 20.0), random.Uniform(-0.48, 0.48)});
+      start += random.Uniform(0.1, 20.0);
+    }
+    std::string text;
+    for (const TurnSteering& turn : turns) {
+      text += fmt::format(" ({}, {}, {})", turn.start, turn.end, turn.steering);
+    }
+    SCOPED_TRACE(fmt::format("case {}:{}", i, text));
+    const SteeringSchedule schedule(turns, kSlope);
+    const auto& knots = schedule.knots();
+    for (std::size_t j = 0; j + 1 < knots.size(); ++j) {
+      ASSERT_LT(knots[j].distance, knots[j + 1].distance);
+      EXPECT_LE(std::abs(knots[j + 1].steering - knots[j].steering),
+                kSlope * (knots[j + 1].distance - knots[j].distance) + Tolerance(kRounding));
+    }
+    EXPECT_EQ(knots.back().steering, 0.0);
+    for (int j = 0; j < 10; ++j) {
+      const double distance = random.Uniform(0.0, 110.0);
+      // Each of at most ten switches is seen up to half a step of 110/20000 m late or early, and
+      // the target flips sign: 10 * h * slope.
+      EXPECT_NEAR(schedule.At(distance), StateMachine(turns, kSlope, distance, 20000),
+                  Tolerance(10.0 * 110.0 / 20000.0 * kSlope));
+    }
+  }
+}
+
+TEST(SteeringSchedule, RefusesTurnsOutOfOrder) {
+  EXPECT_THROW(SteeringSchedule({{30.0, 40.0, 0.1}, {10.0, 20.0, 0.1}}, kSlope), InternalError);
+  EXPECT_THROW(SteeringSchedule({{30.0, 30.0, 0.1}}, kSlope), InternalError);
+  EXPECT_THROW(SteeringSchedule({{-1.0, 30.0, 0.1}}, kSlope), InternalError);
+  EXPECT_THROW(SteeringSchedule({{1.0, 30.0, 0.1}}, 0.0), InternalError);
+}
+
+// --- Closed forms --------------------------------------------------------------------------------
+
+TEST(SteeringDistance, HasThePrintedTable) {
+  const std::vector<std::pair<double, double>> table{
+      {5.1, 9.7012}, {10.0, 5.2543}, {20.0, 2.6736}, {50.0, 1.0749}, {154.0, 0.3493}};
+  for (const auto& [radius, distance] : table) {
+    const double steering = SteeringForCurvature(SeedCar(), 1.0 / radius);
+    EXPECT_NEAR(SteeringDistance(SeedCar(), steering, kSpeed), distance, Tolerance(0.5e-4));
+    EXPECT_EQ(SteeringDistance(SeedCar(), -steering, kSpeed),
+              SteeringDistance(SeedCar(), steering, kSpeed));
+  }
+}
+
+TEST(SteeringDistance, FitsIntoTheArcFromThePrintedRadiusOn) {
+  // Section 4.3: the ramp fits into the arc for r >= these; the sign changes within the last digit.
+  // The page rounds the last one, 4.84045, up to 4.841.
+  const std::vector<std::pair<double, double>> table{
+      {30.0, 10.018}, {45.0, 8.132}, {60.0, 7.002}, {90.0, 5.652}, {120.0, 4.840}};
+  for (const auto& [degrees, radius] : table) {
+    SCOPED_TRACE(degrees);
+    const auto spare = [change = degrees * kPi / 180.0](double r) {
+      return r * change -
+             SteeringDistance(SeedCar(), SteeringForCurvature(SeedCar(), 1.0 / r), kSpeed);
+    };
+    EXPECT_LT(spare(radius - Tolerance(0.5e-3)), 0.0);
+    EXPECT_GT(spare(radius + Tolerance(0.5e-3)), 0.0);
+  }
+}
+
+TEST(TurnHeadingDefect, HasThePrintedValues) {
+  // Section 4.3. The formula holds for any angle; at 5.1 m it needs an arc of more than 109 deg.
+  struct Row {
+    double radius, degrees, tolerance;
+  };
+  for (const Row& row :
+       {Row{5.1, -4.52, 0.5e-2}, Row{10.0, -0.354, 0.5e-3}, Row{13.0152, -0.126, 0.5e-3},
+        Row{16.83, -0.0457, 0.5e-4}, Row{20.0, -0.0231, 0.5e-4}, Row{50.0, -0.0006, 0.5e-4}}) {
+    SCOPED_TRACE(row.radius);
+    const double steering = SteeringForCurvature(SeedCar(), 1.0 / row.radius);
+    EXPECT_NEAR(TurnHeadingDefect(SeedCar(), steering, kSpeed) * 180.0 / kPi, row.degrees,
+                Tolerance(row.tolerance));
+    EXPECT_EQ(TurnHeadingDefect(SeedCar(), -steering, kSpeed),
+              TurnHeadingDefect(SeedCar(), steering, kSpeed));
+  }
+}
+
+TEST(TurnHeadingDefect, IsOfFourthOrder) {
+  // -2 ln cos d - d tan d = -d^4/6 - 4 d^6/45 - ...: below 0.1 rad the second term is 0.54 % of the
+  // first, the third ten times less again.
+  const double scale = kSpeed / (2.7 * SeedCar().steering_rate);
+  for (const double steering : {0.02, 0.05, 0.1}) {
+    const double first = -scale * std::pow(steering, 4) / 6.0;
+    EXPECT_NEAR(TurnHeadingDefect(SeedCar(), steering, kSpeed), first,
+                Tolerance(0.6 * steering * steering * std::abs(first)));
+  }
+}
+
+KinematicState Start() {
+  return {.pose = {}, .speed = kSpeed};
+}
+
+TEST(RampHeading, IsWhatTheCarTurnsOnItsRamp) {
+  for (const double steering : {0.05, 0.134189, -0.263712, 0.486899}) {
+    SCOPED_TRACE(steering);
+    const double ramp = SteeringDistance(SeedCar(), steering, kSpeed);
+    const SteeringSchedule schedule({{0.0, 100.0, steering}}, kSlope);
+    const KinematicState end = RollOut(SeedCar(), Start(), schedule, ramp, 0.05);
+    // Simpson's rule on psi' = v tan(delta)/L: the error is h^4/2880 |d^4/ds^4 tan(delta)/L| S;
+    // tan'''' <= 60 at 0.487 rad, slope^4 = 6.3e-6: 6.25e-6/2880 * 60/2.7 * 6.3e-6 * 9.7 = 3e-12.
+    EXPECT_NEAR(end.pose.yaw, RampHeading(SeedCar(), steering, kSpeed), Tolerance(1e-11));
+    EXPECT_NEAR(end.steering, steering, Tolerance(kRounding));
+  }
+  EXPECT_EQ(RampHeading(SeedCar(), 0.0, kSpeed), 0.0);
+}
+
+TEST(RollOut, MissesTheArcsHeadingByTheDefect) {
+  for (const double radius : {10.0, 16.83, -20.0}) {
+    SCOPED_TRACE(radius);
+    const double steering = SteeringForCurvature(SeedCar(), 1.0 / radius);
+    const double arc = std::abs(radius) * kPi / 2.0;
+    const SteeringSchedule schedule({{5.0, 5.0 + arc, steering}}, kSlope);
+    const double yaw = RollOut(SeedCar(), Start(), schedule, 60.0, 0.05).pose.yaw;
+    EXPECT_NEAR(std::abs(yaw), kPi / 2.0 + TurnHeadingDefect(SeedCar(), steering, kSpeed),
+                Tolerance(1e-11));
+    EXPECT_EQ(std::signbit(yaw), std::signbit(radius));
+  }
+}
+
+TEST(RollOut, TruncatedTurnTurnsSeventyDegrees) {
+  // Section 4.6: 90 deg at 5.1 m peaks at 0.4021 rad and turns the rear axle by 70.2771 deg.
+  const double arc = 5.1 * kPi / 2.0;
+  const SteeringSchedule schedule({{5.0, 5.0 + arc, SeedCar().steering_limit}}, kSlope);
+  const KinematicState peak = RollOut(SeedCar(), Start(), schedule, 5.0 + arc, 0.05);
+  EXPECT_NEAR(peak.steering, 0.4021, Tolerance(0.5e-4));
+  EXPECT_NEAR(peak.steering, kSlope * arc, Tolerance(kRounding));
+  const KinematicState end = RollOut(SeedCar(), Start(), schedule, 40.0, 0.05);
+  EXPECT_NEAR(end.pose.yaw * 180.0 / kPi, 70.2771, Tolerance(0.5e-4));
+  EXPECT_NEAR(end.pose.yaw, 2.0 * RampHeading(SeedCar(), kSlope * arc, kSpeed), Tolerance(1e-11));
+  EXPECT_NEAR(
+      RollOut(SeedCar(), Start(), schedule, 40.0, 0.05, ReferencePoint::kCentreOfGravity).pose.yaw *
+          180.0 / kPi,
+      69.4659, Tolerance(0.5e-4));
+}
+
+TEST(RollOut, DrivesTheDistance) {
+  const SteeringSchedule schedule({{1.0, 7.3, 0.3}}, kSlope);
+  const KinematicState end = RollOut(SeedCar(), Start(), schedule, 23.7, 0.11);
+  EXPECT_NEAR(end.distance, 23.7, Tolerance(1e-12));  // 220 sums of rounding 2e-15
+  EXPECT_EQ(end.speed, kSpeed);
+}
+
+TEST(RollOut, IsOfFourthOrder) {
+  // Halving the step of a fourth-order method divides the error by 16. Ten and not 16 leaves room
+  // for the next order.
+  const SteeringSchedule schedule({{5.0, 20.0, 0.4}, {25.0, 40.0, -0.4}}, kSlope);
+  for (const ReferencePoint reference :
+       {ReferencePoint::kRearAxle, ReferencePoint::kCentreOfGravity}) {
+    const auto end = [&](double step) {
+      return RollOut(SeedCar(), Start(), schedule, 60.0, step, reference).pose.position();
+    };
+    const Vec2 exact = end(0.02);
+    const double coarse = (end(2.0) - exact).norm();
+    const double fine = (end(1.0) - exact).norm();
+    EXPECT_GT(coarse, 1e-7);
+    EXPECT_LT(fine, coarse / 10.0);
+  }
+}
+
+TEST(RollOut, ChecksItsCaller) {
+  EXPECT_THROW(RollOut(SeedCar(), {}, SteeringSchedule(), 1.0, 0.1), InternalError);
+  EXPECT_THROW(RollOut(SeedCar(), Start(), SteeringSchedule(), 1.0, 0.0), InternalError);
+}
+
+TEST(SteeringSchedule, ValueAtTheEndOfThePeriodDrivesTheScheduleAtAnyPeriod) {
+  // A controller that asks for the schedule's value at the end of its period. Where a ramp begins
+  // inside a period T, a share f after its start, the wheels set out f T early and rest (1 - f) T
+  // of ramp: the heading errs by v/L * omega f (1 - f) T^2 <= v omega T^2/(4 L). Everything else is
+  // exact: two beginnings make twice that, and the position at most that times the distance.
+  const VehicleParams car = SeedCar();
+  const double distance = 60.0;
+  const SteeringSchedule schedule({{10.013, 30.007, SteeringForCurvature(car, 1.0 / 16.830685)}},
+                                  kSlope);
+  const KinematicState exact = RollOut(car, Start(), schedule, distance, 0.01);
+  for (int milliseconds = 1; milliseconds <= 20; ++milliseconds) {
+    SCOPED_TRACE(milliseconds);
+    const double period = 0.001 * milliseconds;
+    KinematicCar loop(car, ReferencePoint::kRearAxle, Start());
+    while (loop.state().distance + kSpeed * period <= distance) {
+      loop.Step({.steering = schedule.At(loop.state().distance + kSpeed * period)}, period);
+    }
+    loop.Step({}, (distance - loop.state().distance) / kSpeed);
+    const double heading =
+        2.0 * kSpeed * car.steering_rate * period * period / (4.0 * car.wheelbase);
+    EXPECT_NEAR(loop.state().pose.yaw, exact.pose.yaw, Tolerance(heading + 1e-10));
+    EXPECT_NEAR((loop.state().pose.position() - exact.pose.position()).norm(), 0.0,
+                Tolerance(heading * distance + 1e-9));
+  }
+}
+
+}  // namespace
+}  // namespace trackbed
