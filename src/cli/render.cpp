@@ -95,8 +95,7 @@ void AddRender(CLI::App& command, int& exit_code) {
                   "Point of view (default: the scenario's render.camera): " + cameras)
       ->type_name("NAME");
   command
-      .add_option("--quality", options->quality,
-                  "draft, or film: smooth edges and real shadows, three times slower")
+      .add_option("--quality", options->quality, "draft, or film: smooth edges, 2.5 times slower")
       ->type_name("draft|film")
       ->capture_default_str();
   command.add_option("-o,--out", options->out, "The film (default: video.mp4 in the run folder)")

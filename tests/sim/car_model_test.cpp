@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
+#include <array>
 #include <cmath>
+#include <memory>
 
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
@@ -67,6 +69,29 @@ TEST(Prius, AckermannCouplingFollowsTheClosedForm) {
       // The quartic is a minimax fit whose residual the model states as 0.00024 rad.
       EXPECT_NEAR(coupled, side[1] == 'l' ? exact.left : exact.right, Tolerance(0.00025));
     }
+  }
+}
+
+TEST(Prius, OpensAndSteersInMujocoAlone) {
+  // What MuJoCo's viewer does: load the file, and move the actuators' sliders.
+  std::array<char, 500> message{};
+  const std::unique_ptr<mjModel, void (*)(mjModel*)> m(
+      mj_loadXML(FindModel("prius", "").c_str(), nullptr, message.data(), message.size()),
+      mj_deleteModel);
+  ASSERT_NE(m, nullptr) << message.data();
+  const std::unique_ptr<mjData, void (*)(mjData*)> d(mj_makeData(m.get()), mj_deleteData);
+  d->ctrl[mj_name2id(m.get(), mjOBJ_ACTUATOR, "steer")] = 10.0;  // the model cuts it to its rate
+  d->ctrl[mj_name2id(m.get(), mjOBJ_ACTUATOR, "drive")] = 400.0;
+  while (d->time < 2.0) {
+    mj_step(m.get(), d.get());
+  }
+  const int rack = m->jnt_qposadr[mj_name2id(m.get(), mjOBJ_JOINT, "rack")];
+  // 2 s at the limit of 0.1506 rad/s, less the servo's lag of 10 ms.
+  EXPECT_NEAR(d->qpos[rack], 2.0 * 0.15056818181818182, Tolerance(0.002));
+  EXPECT_GT(d->qpos[0], 0.5);  // drives forward
+  EXPECT_GT(d->qpos[1], 0.0);  // and to the left
+  for (const mjWarningStat& warning : d->warning) {
+    EXPECT_EQ(warning.number, 0);
   }
 }
 
