@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
@@ -39,6 +40,26 @@ TrackingMetrics MeasureTracking(const RunLog& log, const Path& path) {
   return metrics;
 }
 
+/// Where a row is along the way: the path's station, or the distance driven.
+double StationOf(const LogRow& row) {
+  return row.tracking ? row.tracking->s : row.state.distance;
+}
+
+ClearanceMetrics MeasureClearance(const RunLog& log) {
+  ClearanceMetrics metrics;
+  metrics.min = std::numeric_limits<double>::infinity();
+  for (const LogRow& row : log.rows) {
+    if (*row.clearance < metrics.min) {
+      metrics.min = *row.clearance;
+      metrics.min_s = StationOf(row);
+      metrics.min_t = row.state.time;
+    }
+    metrics.force_max = std::max(metrics.force_max, row.state.obstacle_force);
+  }
+  metrics.collision = metrics.min == 0.0;
+  return metrics;
+}
+
 /// Largest |change| of the measured steering over any 0.1 s, per second.
 double SteeringRate(const RunLog& log, double control_period) {
   const auto window = static_cast<std::size_t>(std::max(1.0, std::round(0.1 / control_period)));
@@ -67,13 +88,15 @@ double SaturatedFraction(const RunLog& log) {
 /// Poses over rising station.
 struct Trace {
   std::vector<double> s;
+  std::vector<double> t;
   std::vector<Pose2> pose;
 
   explicit Trace(const RunLog& log) {
     for (const LogRow& row : log.rows) {
-      const double station = row.tracking ? row.tracking->s : row.state.distance;
+      const double station = StationOf(row);
       if (s.empty() || station > s.back()) {
         s.push_back(station);
+        t.push_back(row.state.time);
         pose.push_back(row.state.pose);
       }
     }
@@ -89,7 +112,38 @@ struct Trace {
   }
 };
 
+void JudgeClearance(const PlantExpectation& expect, const PlantMetrics& metrics, Verdict& verdict) {
+  const ClearanceMetrics& clearance = *metrics.clearance;
+  const std::string where =
+      fmt::format(" at s = {:.4g} m, t = {:.4g} s", clearance.min_s, clearance.min_t);
+  if (expect.min_clearance && !(clearance.min >= *expect.min_clearance)) {
+    verdict.failures.push_back(
+        fmt::format("{}: clearance expected at least {:.4g} m, was {:.4g} m{}", metrics.plant,
+                    *expect.min_clearance, clearance.min, where));
+  }
+  if (expect.collision && *expect.collision != clearance.collision) {
+    verdict.failures.push_back(
+        clearance.collision
+            ? fmt::format("{}: expected no collision, but hit an obstacle{}", metrics.plant, where)
+            : fmt::format("{}: expected a collision, but stayed {:.4g} m clear{}", metrics.plant,
+                          clearance.min, where));
+  }
+}
+
+bool ExpectsCollision(const Expectations& expect, const std::string& plant) {
+  bool expected = expect.all.collision.value_or(false);
+  for (const auto& [name, own] : expect.plants) {
+    if (name == plant) {
+      expected = own.collision.value_or(expected);
+    }
+  }
+  return expected;
+}
+
 void JudgePlant(const PlantExpectation& expect, const PlantMetrics& metrics, Verdict& verdict) {
+  if (metrics.clearance) {
+    JudgeClearance(expect, metrics, verdict);
+  }
   if (!metrics.tracking) {
     return;
   }
@@ -132,6 +186,9 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, double control_period)
   if (log.rows.front().tracking) {
     metrics.tracking = MeasureTracking(log, plan.reference.path);
   }
+  if (log.rows.front().clearance) {
+    metrics.clearance = MeasureClearance(log);
+  }
   return metrics;
 }
 
@@ -158,6 +215,7 @@ PlantComparison ComparePlants(const RunLog& first, const RunLog& second) {
     if (apart > comparison.position_max) {
       comparison.position_max = apart;
       comparison.position_max_s = a.s[i];
+      comparison.position_max_t = a.t[i];
     }
     if (turned > comparison.heading_max) {
       comparison.heading_max = turned;
@@ -172,7 +230,8 @@ Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plant
               const std::vector<PlantComparison>& comparisons) {
   Verdict verdict;
   for (const PlantMetrics& metrics : plants) {
-    if (metrics.status != DriveStatus::kArrived) {
+    if (metrics.status != DriveStatus::kArrived &&
+        !(ExpectsCollision(expect, metrics.plant) && metrics.status == DriveStatus::kCollided)) {
       verdict.failures.push_back(fmt::format("{}: expected to arrive, ended as {} at t = {:.4g} s",
                                              metrics.plant, ToString(metrics.status),
                                              metrics.time));
@@ -222,6 +281,12 @@ nlohmann::ordered_json ToJson(const PlantMetrics& metrics) {
                              {"max_s", tracking.heading_error_max_s}};
     json["goal_distance"] = tracking.goal_distance;
     json["goal_heading_error"] = tracking.goal_heading_error;
+  }
+  if (metrics.clearance) {
+    json["clearance_min"] = metrics.clearance->min;
+    json["clearance_min_s"] = metrics.clearance->min_s;
+    json["collision"] = metrics.clearance->collision;
+    json["obstacle_force_max"] = metrics.clearance->force_max;
   }
   json["lateral_acceleration_max"] = metrics.lateral_acceleration_max;
   json["steering_rate_max"] = metrics.steering_rate_max;

@@ -120,7 +120,7 @@ void WriteRunFolder(const RunResult& result, const fs::path& folder) {
   MakeFolder(folder);
   RemoveEarlierRun(folder);
   WriteFileAtomically(folder / "scenario.resolved.yaml", ResolvedYaml(result.scenario));
-  WriteScene(result.scene, folder);
+  WriteScene(result.scene, folder / "model.xml");
   if (result.scenario.plan) {
     WritePlan(result.plan, result.scenario, folder);
   }

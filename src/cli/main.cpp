@@ -26,6 +26,10 @@ const std::vector<Verb> kVerbs{
     {"run", "Plan, drive and measure scenarios; write a folder for each", AddRun},
     {"plan", "Plan only: write plan.csv and plan.json", AddPlan},
     {"render", "Make the film of a finished run from its folder", AddRender},
+    {"test", "Run scenarios and judge them by what they expect, one line each", AddTest},
+    {"check", "Read and validate scenarios without driving them", AddCheck},
+    {"list", "What there is: planners, controllers, plants, cameras, models, scenarios", AddList},
+    {"model", "What a car is, or its composed MJCF", AddModel},
 };
 
 std::string VersionText() {

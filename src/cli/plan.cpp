@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "src/cli/scenario_options.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run.h"
 #include "trackbed/core/error.h"
@@ -16,12 +17,11 @@ namespace fs = std::filesystem;
 struct PlanOptions {
   std::string file;
   std::string out;
-  std::vector<std::string> overrides;
-  bool quiet = false;
+  ScenarioOptions scenario;
 };
 
 int PlanOne(const PlanOptions& options) {
-  const Scenario scenario = ReadScenario(options.file, options.overrides);
+  const Scenario scenario = options.scenario.Read(options.file);
   if (!scenario.plan) {
     throw InputError(Problem{options.file, 0, 0, "plan", "missing; there is nothing to plan"});
   }
@@ -39,7 +39,7 @@ int PlanOne(const PlanOptions& options) {
     fmt::print(stderr, "{}: no plan ({}): {}\n", scenario.name, ToString(plan.status), plan.reason);
     return kFailedExpectations;
   }
-  if (!options.quiet) {
+  if (!options.scenario.quiet) {
     const double length = plan.reference.path.length();
     fmt::print("{}: planned {:.3f} m in {:.2f} s, in {}\n", scenario.name, length,
                plan.reference.speed.TimeAt(length), out.string());
@@ -54,11 +54,7 @@ void AddPlan(CLI::App& command, int& exit_code) {
   command.add_option("file", options->file, "Scenario file")->required()->type_name("FILE");
   command.add_option("-o,--out", options->out, "Folder to write to (default: out/<scenario>)")
       ->type_name("DIR");
-  command
-      .add_option("--set", options->overrides,
-                  "Replace keys of the scenario, such as mission.speed=2")
-      ->type_name("KEY=VALUE...");
-  command.add_flag("-q,--quiet", options->quiet, "Print errors only");
+  options->scenario.AddTo(command);
   command.callback([options, &exit_code] { exit_code = PlanOne(*options); });
 }
 

@@ -8,6 +8,7 @@
 
 #include "src/cli/film_of_run.h"
 #include "src/cli/progress_bar.h"
+#include "src/cli/scenario_options.h"
 #include "src/cli/verbs.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
@@ -20,23 +21,9 @@ namespace fs = std::filesystem;
 struct RunOptions {
   std::vector<std::string> files;
   std::string out;
-  std::vector<std::string> plants;
-  std::vector<std::string> overrides;
-  std::optional<std::uint64_t> seed;
   bool video = false;
-  bool quiet = false;
+  ScenarioOptions scenario;
 };
-
-std::vector<Override> OverridesOf(const RunOptions& options) {
-  std::vector<Override> overrides = options.overrides;
-  if (!options.plants.empty()) {
-    overrides.push_back(fmt::format("drive.plants=[{}]", fmt::join(options.plants, ", ")));
-  }
-  if (options.seed) {
-    overrides.push_back(fmt::format("seed={}", *options.seed));
-  }
-  return overrides;
-}
 
 void PrintSummary(const RunResult& result) {
   for (const PlantMetrics& plant : result.metrics) {
@@ -59,7 +46,7 @@ void PrintSummary(const RunResult& result) {
 }
 
 int RunOne(const std::string& file, const fs::path& folder, const RunOptions& options) {
-  const Scenario scenario = ReadScenario(file, OverridesOf(options));
+  const Scenario scenario = options.scenario.Read(file);
   const fs::path out = options.out.empty() ? fs::path("out") / scenario.name : folder;
   MakeFolder(out);  // before the work, not after it
 
@@ -68,7 +55,7 @@ int RunOne(const std::string& file, const fs::path& folder, const RunOptions& op
       RunMission(scenario, {.drive = [&](const std::string& plant) {
                    bar.reset();
                    bar = std::make_unique<ProgressBar>(fmt::format("{} {}", scenario.name, plant),
-                                                       options.quiet);
+                                                       options.scenario.quiet);
                    return DriveHooks{.progress = [&](double fraction) { bar->Show(fraction); },
                                      .interrupted = [] { return interrupted.load(); }};
                  }});
@@ -81,9 +68,9 @@ int RunOne(const std::string& file, const fs::path& folder, const RunOptions& op
              .height = render.height,
              .fps = render.fps,
              .camera = render.camera},
-            options.quiet);
+            options.scenario.quiet);
   }
-  if (!options.quiet) {
+  if (!options.scenario.quiet) {
     fmt::print("{}: {}, in {}\n", scenario.name,
                result.interrupted      ? "interrupted"
                : result.verdict.passed ? "passed"
@@ -104,15 +91,8 @@ void AddRun(CLI::App& command, int& exit_code) {
                   "Folder of the run (default: out/<scenario>); of several files: parent of one "
                   "folder each")
       ->type_name("DIR");
-  command.add_option("--plant", options->plants, "Drive these plants instead of the scenario's")
-      ->type_name("NAME...");
-  command
-      .add_option("--set", options->overrides,
-                  "Replace keys of the scenario, such as mission.speed=2")
-      ->type_name("KEY=VALUE...");
-  command.add_option("--seed", options->seed, "Replace the scenario's seed")->type_name("N");
+  options->scenario.AddTo(command);
   command.add_flag("--video", options->video, "Film the run: video.mp4 in its folder");
-  command.add_flag("-q,--quiet", options->quiet, "Print errors only");
   command.callback([options, &exit_code] {
     for (const std::string& file : options->files) {
       const fs::path folder = options->files.size() == 1

@@ -24,5 +24,9 @@ using AddVerb = void (*)(CLI::App& command, int& exit_code);
 void AddRun(CLI::App& command, int& exit_code);
 void AddPlan(CLI::App& command, int& exit_code);
 void AddRender(CLI::App& command, int& exit_code);
+void AddCheck(CLI::App& command, int& exit_code);
+void AddTest(CLI::App& command, int& exit_code);
+void AddList(CLI::App& command, int& exit_code);
+void AddModel(CLI::App& command, int& exit_code);
 
 }  // namespace trackbed::cli

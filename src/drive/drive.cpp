@@ -12,6 +12,8 @@ namespace {
 constexpr double kAtRest = 0.01;
 /// At rest this close to the end of its path, a car has arrived [m].
 constexpr double kArrival = 0.5;
+/// How long a collision is followed before the drive ends [s].
+constexpr double kAfterCollision = 1.0;
 /// How far behind and beyond the last known station the car is looked for [m]: more than it can
 /// move or be pushed in a control period, less than the way round any turn it could make.
 constexpr double kSearch = 2.0;
@@ -76,7 +78,11 @@ class Progress {
 
 CarModel LoadCar(const Scenario& scenario) {
   const auto file = FindModel(scenario.vehicle.model, scenario.folder);
-  return {ComposeScene(file, {.timestep = scenario.drive.timestep}), file.string()};
+  CarModel car(ComposeScene(file, {.timestep = scenario.drive.timestep}), file.string());
+  if (scenario.world.obstacles.empty()) {
+    return car;
+  }
+  return {WithObstacles(car.scene(), car.params(), scenario.world), file.string()};
 }
 
 Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
@@ -102,7 +108,7 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
   const DriveSpec& drive = scenario.drive;
   const Path& path = plan.reference.path;
   const bool has_path = scenario.plan.has_value();
-  const double end_time =
+  double end_time =
       std::min(drive.time_limit, scenario.mission.duration.value_or(drive.time_limit));
   const auto steps_per_period =
       static_cast<int>(std::lround(drive.control_period / drive.timestep));
@@ -119,12 +125,14 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
   Progress progress(hooks.progress);
 
   double station = 0.0;  // of the last projection
+  bool collided = false;
   Command command;
   for (long tick = 0;; ++tick) {
     // Observe and project.
     VehicleState state = plant->Observe();
-    state.time = static_cast<double>(tick) * drive.control_period;
-    LogRow row{.state = state, .command = command, .tracking = {}};
+    // To the nanosecond: 11.7, not 11.700000000000001.
+    state.time = std::round(static_cast<double>(tick) * drive.control_period * 1e9) / 1e9;
+    LogRow row{.state = state, .command = command, .tracking = {}, .clearance = {}};
     if (has_path) {
       row.tracking =
           path.Project(state.pose, Around(station, std::abs(state.speed) * drive.control_period));
@@ -132,23 +140,31 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
     }
     const double s = source == StationSource::kProjection ? station : state.distance;
 
+    row.clearance = Clearance(scenario.world, car.params(), state.pose);
+    if (row.clearance && *row.clearance == 0.0) {
+      end_time = std::min(end_time, state.time + kAfterCollision);
+      collided = true;
+    }
+
     // Is it over? The last row keeps the command that led here.
+    if (plant->diverged()) {
+      log.status = DriveStatus::kDiverged;
+      break;
+    }
     const bool at_rest =
         tick > 0 && std::abs(state.speed) < kAtRest && command.acceleration * command.gear <= 0.0;
     const bool time_over = state.time >= end_time - 0.5 * drive.timestep;
     const bool interrupted = hooks.interrupted && hooks.interrupted();
-    if (plant->diverged() || interrupted || time_over || (has_path && at_rest)) {
-      if (plant->diverged()) {
-        log.status = DriveStatus::kDiverged;
-      } else {
-        log.rows.push_back(row);
-        log.status = interrupted           ? DriveStatus::kInterrupted
-                     : has_path && at_rest ? (s >= path.length() - kArrival ? DriveStatus::kArrived
-                                                                            : DriveStatus::kStopped)
-                     : scenario.mission.duration && end_time == *scenario.mission.duration
-                         ? DriveStatus::kArrived
-                         : DriveStatus::kTimeLimit;
-      }
+    if (interrupted || time_over || (has_path && at_rest)) {
+      log.rows.push_back(row);
+      const bool there = has_path ? at_rest && s >= path.length() - kArrival
+                                  : scenario.mission.duration.has_value() &&
+                                        end_time == *scenario.mission.duration;
+      log.status = interrupted ? DriveStatus::kInterrupted
+                   : collided  ? DriveStatus::kCollided
+                   : there     ? DriveStatus::kArrived
+                   : at_rest   ? DriveStatus::kStopped
+                               : DriveStatus::kTimeLimit;
       break;
     }
 

@@ -16,6 +16,8 @@ const char* ToString(DriveStatus status) {
       return "time_limit";
     case DriveStatus::kDiverged:
       return "diverged";
+    case DriveStatus::kCollided:
+      return "collided";
     case DriveStatus::kInterrupted:
       return "interrupted";
   }
@@ -24,6 +26,7 @@ const char* ToString(DriveStatus status) {
 
 Table ToTable(const RunLog& log) {
   const bool tracked = !log.rows.empty() && log.rows.front().tracking.has_value();
+  const bool obstacles = !log.rows.empty() && log.rows.front().clearance.has_value();
   const bool wheels = !log.rows.empty() && log.rows.front().state.wheels.has_value();
   std::vector<std::string> columns{"t_s",
                                    "x_m",
@@ -43,6 +46,9 @@ Table ToTable(const RunLog& log) {
                                    "s_m"};
   if (tracked) {
     columns.insert(columns.end(), {"cross_track_m", "heading_error_rad"});
+  }
+  if (obstacles) {
+    columns.insert(columns.end(), {"clearance_m", "obstacle_force_N"});
   }
   if (wheels) {
     for (const char* wheel : kWheels) {
@@ -73,6 +79,9 @@ Table ToTable(const RunLog& log) {
                               row.tracking ? row.tracking->s : state.distance};
     if (tracked) {
       cells.insert(cells.end(), {row.tracking->cross_track, row.tracking->heading_error});
+    }
+    if (obstacles) {
+      cells.insert(cells.end(), {*row.clearance, state.obstacle_force});
     }
     if (wheels) {
       for (const WheelState& wheel : *state.wheels) {

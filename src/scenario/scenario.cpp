@@ -42,6 +42,22 @@ YAML::Node LoadYaml(const std::string& text, const std::string& name) {
   return root;
 }
 
+bool Drives(const Scenario& scenario, const std::string& plant) {
+  const auto& plants = scenario.drive.plants;
+  return std::find(plants.begin(), plants.end(), plant) != plants.end();
+}
+
+/// A file must not expect anything of a plant it does not drive; but who asks for other plants than
+/// the file's does not want to rewrite its expectations.
+void DropWhatIsNotDriven(Scenario& scenario) {
+  std::erase_if(scenario.expect.plants,
+                [&](const auto& entry) { return !Drives(scenario, entry.first); });
+  std::erase_if(scenario.expect.between, [&](const BetweenExpectation& between) {
+    return std::any_of(between.plants.begin(), between.plants.end(),
+                       [&](const std::string& plant) { return !Drives(scenario, plant); });
+  });
+}
+
 /// Problems that concern more than one key, each with the key to change.
 std::vector<std::pair<std::string, std::string>> CrossProblems(const Scenario& scenario) {
   std::vector<std::pair<std::string, std::string>> found;
@@ -72,11 +88,8 @@ std::vector<std::pair<std::string, std::string>> CrossProblems(const Scenario& s
       found.emplace_back("plan.constraint", "'none' needs a radius: nothing else would limit it");
     }
   }
-  const auto driven = [&](const std::string& plant) {
-    return std::find(drive.plants.begin(), drive.plants.end(), plant) != drive.plants.end();
-  };
   for (const auto& [plant, expectation] : scenario.expect.plants) {
-    if (!driven(plant)) {
+    if (!Drives(scenario, plant)) {
       found.emplace_back("expect." + plant, "drive.plants does not drive this plant");
     }
   }
@@ -85,7 +98,7 @@ std::vector<std::pair<std::string, std::string>> CrossProblems(const Scenario& s
     const auto& plants = scenario.expect.between[i].plants;
     if (plants.size() != 2) {
       found.emplace_back(key, fmt::format("expected two plants, found {}", plants.size()));
-    } else if (!driven(plants[0]) || !driven(plants[1])) {
+    } else if (!Drives(scenario, plants[0]) || !Drives(scenario, plants[1])) {
       found.emplace_back(key, "drive.plants does not drive both of them");
     }
   }
@@ -99,6 +112,18 @@ std::vector<std::pair<std::string, std::string>> CrossProblems(const Scenario& s
     needs_path("expect", scenario.expect.all);
     for (const auto& [plant, expectation] : scenario.expect.plants) {
       needs_path("expect." + plant, expectation);
+    }
+  }
+  if (scenario.world.obstacles.empty()) {
+    const auto needs_obstacles = [&](const std::string& key, const PlantExpectation& expectation) {
+      if (expectation.min_clearance || expectation.collision.value_or(false)) {
+        found.emplace_back(key,
+                           "without world.obstacles there is nothing to be clear of or to hit");
+      }
+    };
+    needs_obstacles("expect", scenario.expect.all);
+    for (const auto& [plant, expectation] : scenario.expect.plants) {
+      needs_obstacles("expect." + plant, expectation);
     }
   }
   return found;
@@ -142,6 +167,10 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
     static_cast<void>(FindModel(scenario.vehicle.model, folder));
   } catch (const InputError& error) {
     complain("vehicle.model", error.problems().front().message);
+  }
+  if (std::find(context.overridden.begin(), context.overridden.end(), "drive.plants") !=
+      context.overridden.end()) {
+    DropWhatIsNotDriven(scenario);
   }
   // Keys that could not be read would only cause follow-up complaints.
   if (context.problems.empty()) {
@@ -196,6 +225,29 @@ StartState StartOf(const Scenario& scenario) {
   start.speed = given.speed.value_or(mission.speed);
   start.steering = given.steering;
   return start;
+}
+
+namespace {
+
+template <typename Variant>
+std::string OneLine(Variant options) {
+  YAML::Emitter out;
+  out << YAML::Flow << YAML::BeginMap;
+  YamlWriter writer(out);
+  std::visit([&](auto& own) { Visit(writer, own); }, options);
+  out << YAML::EndMap;
+  const std::string text = out.c_str();  // in braces
+  return text.substr(1, text.size() - 2);
+}
+
+}  // namespace
+
+std::string OptionDefaults(const PlannerOptions& options) {
+  return OneLine(options);
+}
+
+std::string OptionDefaults(const ControllerOptions& options) {
+  return OneLine(options);
 }
 
 std::string ResolvedYaml(const Scenario& scenario) {

@@ -10,6 +10,8 @@ namespace trackbed {
 inline constexpr Range kPositive{.above = 0.0};
 inline constexpr Range kNotNegative{.min = 0.0};
 
+inline constexpr Range kMap{.min = -1e6, .max = 1e6};  // [m]; beyond any route
+
 inline Names PlantNames() {
   Names names;
   for (const PlantEntry& entry : Plants()) {
@@ -26,8 +28,8 @@ void Visit(Archive& a, VehicleSpec& vehicle) {
 
 template <typename Archive>
 void Visit(Archive& a, StartSpec& start) {
-  a.Field("x", start.x, Range{.min = -1e6, .max = 1e6});
-  a.Field("y", start.y, Range{.min = -1e6, .max = 1e6});
+  a.Field("x", start.x, kMap);
+  a.Field("y", start.y, kMap);
   a.Field("yaw", start.yaw);
   a.Field("speed", start.speed, Range{.min = 0.0, .max = 100.0});
   a.Field("steering", start.steering, Need::kOptional, Range{.min = -1.5, .max = 1.5});
@@ -42,8 +44,32 @@ void Visit(Archive& a, MissionSpec& mission) {
 }
 
 template <typename Archive>
-void Visit(Archive& a, Road& world) {
+void Visit(Archive& a, World& world) {
   a.Field("friction", world.friction, Need::kOptional, Range{.max = 10.0, .above = 0.0});
+  a.List("obstacles", world.obstacles);
+}
+
+/// The keys of `box`.
+struct BoxKeys {
+  Obstacle& obstacle;
+};
+
+template <typename Archive>
+void Visit(Archive& a, BoxKeys& keys) {
+  OrientedBox& box = keys.obstacle.footprint;
+  const Range size{.max = 1e4, .above = 0.0};
+  a.Field("x", box.centre.x, Need::kRequired, kMap);
+  a.Field("y", box.centre.y, Need::kRequired, kMap);
+  a.Field("yaw", box.centre.yaw, Need::kOptional);
+  a.Field("length", box.length, Need::kRequired, size);
+  a.Field("width", box.width, Need::kRequired, size);
+  a.Field("height", keys.obstacle.height, Need::kOptional, size);
+}
+
+template <typename Archive>
+void Visit(Archive& a, Obstacle& obstacle) {
+  BoxKeys keys{obstacle};
+  a.Section("box", keys, Need::kRequired);
 }
 
 template <typename Archive>
@@ -95,6 +121,8 @@ void Visit(Archive& a, PlantExpectation& expect) {
   a.Field("max_cross_track", expect.max_cross_track, kNotNegative);
   a.Field("rms_cross_track", expect.rms_cross_track, kNotNegative);
   a.Field("max_heading_error", expect.max_heading_error, kNotNegative);
+  a.Field("min_clearance", expect.min_clearance, kNotNegative);
+  a.Field("collision", expect.collision);
 }
 
 template <typename Archive>

@@ -119,6 +119,18 @@ void YamlReader::Field(const char* key, std::optional<double>& value, Range rang
   }
 }
 
+void YamlReader::Field(const char* key, std::optional<bool>& value) {
+  if (const auto node = Take(key, Need::kOptional)) {
+    bool flag = false;
+    if (!node->IsScalar() || !YAML::convert<bool>::decode(*node, flag)) {
+      Complain(*node, Dotted(key),
+               fmt::format("expected true or false, found {}", Describe(*node)));
+      return;
+    }
+    value = flag;
+  }
+}
+
 void YamlReader::Field(const char* key, int& value, Need need, Range range) {
   if (const auto node = Take(key, need)) {
     double number = 0.0;

@@ -36,6 +36,7 @@ class YamlReader {
 
   void Field(const char* key, double& value, Need need, Range range = {});
   void Field(const char* key, std::optional<double>& value, Range range = {});
+  void Field(const char* key, std::optional<bool>& value);
   void Field(const char* key, int& value, Need need, Range range = {});
   void Field(const char* key, std::uint64_t& value, Need need);
   void Field(const char* key, std::string& value, Need need, const Names& allowed = {});

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "src/sim/mujoco_error.h"
 #include "src/sim/plants.h"
@@ -31,12 +32,15 @@ struct DataDeleter {
 
 class MujocoPlant final : public Plant {
  public:
-  MujocoPlant(const CarModel& car, const Road& road, const StartState& start)
-      : car_(car), model_(mj_copyModel(nullptr, car.get())), data_(mj_makeData(model_.get())) {
+  MujocoPlant(const CarModel& car, const World& world, const StartState& start)
+      : car_(car),
+        model_(mj_copyModel(nullptr, car.get())),
+        data_(mj_makeData(model_.get())),
+        ground_(mj_name2id(car.get(), mjOBJ_GEOM, "ground")) {
     TRACKBED_CHECK(model_ && data_, "no memory for the simulation");
     for (std::size_t w = 0; w < kWheels.size(); ++w) {
       // Sliding friction only: torsion and rolling are lengths, not properties of the road.
-      model_->geom_friction[3 * car_.parts().tyre[w]] *= road.friction;
+      model_->geom_friction[3 * car_.parts().tyre[w]] *= world.friction;
       bearing_friction_[w] = model_->dof_frictionloss[car_.parts().spin_dof[w]];
     }
     Reset(start);
@@ -92,12 +96,14 @@ class MujocoPlant final : public Plant {
     return BicycleAngle(car_.params(), {data_->qpos[steer[0]], data_->qpos[steer[1]]});
   }
   [[nodiscard]] std::array<WheelState, 4> Wheels() const;
+  [[nodiscard]] double ObstacleForce() const;
 
   const CarModel& car_;
   std::unique_ptr<mjModel, ModelDeleter> model_;  // own copy: brakes and road change it
   std::unique_ptr<mjData, DataDeleter> data_;
   std::array<double, 4> bearing_friction_{};  // [N m]
   double yaw_ = 0.0;                          // unwrapped [rad]
+  int ground_;                                // geom
   double distance_ = 0.0;                     // [m]
 };
 
@@ -192,7 +198,25 @@ VehicleState MujocoPlant::Observe() const {
   state.steering_actuator = data_->act[car_.parts().steer_state];
   state.steering = MeasuredSteering();
   state.wheels = Wheels();
+  state.obstacle_force = ObstacleForce();
   return state;
+}
+
+double MujocoPlant::ObstacleForce() const {
+  double sum = 0.0;
+  for (int i = 0; i < data_->ncon; ++i) {
+    const mjContact& contact = data_->contact[i];
+    const auto is_obstacle = [&](int geom) {
+      const char* name = mj_id2name(model_.get(), mjOBJ_GEOM, geom);
+      return name != nullptr && std::string_view(name).starts_with("obstacle_");
+    };
+    if (is_obstacle(contact.geom1) || is_obstacle(contact.geom2)) {
+      std::array<mjtNum, 6> force{};
+      mj_contactForce(model_.get(), data_.get(), i, force.data());
+      sum += force[0];
+    }
+  }
+  return sum;
 }
 
 std::array<WheelState, 4> MujocoPlant::Wheels() const {
@@ -205,7 +229,8 @@ std::array<WheelState, 4> MujocoPlant::Wheels() const {
     const mjContact& contact = data_->contact[i];
     for (std::size_t w = 0; w < kWheels.size(); ++w) {
       const bool first = contact.geom1 == parts.tyre[w];
-      if (!first && contact.geom2 != parts.tyre[w]) {
+      const bool on_road = first ? contact.geom2 == ground_ : contact.geom1 == ground_;
+      if ((!first && contact.geom2 != parts.tyre[w]) || !on_road) {
         continue;
       }
       std::array<mjtNum, 6> force{};
@@ -251,9 +276,9 @@ std::array<WheelState, 4> MujocoPlant::Wheels() const {
 
 }  // namespace
 
-std::unique_ptr<Plant> MakeMujocoPlant(const CarModel& car, const Road& road,
+std::unique_ptr<Plant> MakeMujocoPlant(const CarModel& car, const World& world,
                                        const StartState& start) {
-  return std::make_unique<MujocoPlant>(car, road, start);
+  return std::make_unique<MujocoPlant>(car, world, start);
 }
 
 }  // namespace trackbed

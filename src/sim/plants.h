@@ -4,7 +4,7 @@
 
 namespace trackbed {
 
-std::unique_ptr<Plant> MakeMujocoPlant(const CarModel& car, const Road& road,
+std::unique_ptr<Plant> MakeMujocoPlant(const CarModel& car, const World& world,
                                        const StartState& start);
 
 }  // namespace trackbed

@@ -150,6 +150,64 @@ TEST(Program, RefusesToFilmWhatIsNoRun) {
             "--size: '12' is not of the form 1280x720\n");
 }
 
+TEST(Program, TestsScenariosOneLineEach) {
+  const TempFolder folder;
+  const Outcome outcome =
+      Trackbed(folder, "test --plant kinematic --set 'expect={reach_goal: 0.5}' -- " +
+                           ScenarioFile("winding") + " " + ScenarioFile("three_turns"));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.output, "pass " + ScenarioFile("winding") + ": as expected\npass " +
+                                ScenarioFile("three_turns") + ": as expected\n");
+  const Outcome failed =
+      Trackbed(folder, "test -q --plant kinematic --set 'expect={max_cross_track: 0.001}' -- " +
+                           ScenarioFile("winding"));
+  EXPECT_EQ(failed.code, 3);
+  EXPECT_THAT(failed.output, StartsWith("FAIL " + ScenarioFile("winding") +
+                                        ": kinematic: cross-track maximum expected at most 0.001"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+}
+
+TEST(Program, ChecksWithoutDriving) {
+  const TempFolder folder;
+  const auto bad = folder.Write("s/bad.yaml", "schema: 1\nname: bad\nmission: {}\n");
+  folder.Write("s/good.yaml", ReadFile(ScenarioFile("winding")));
+  const Outcome outcome = Trackbed(folder, "check s");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("s/bad.yaml:3:10: mission.speed: missing\n"));
+  EXPECT_THAT(outcome.output, HasSubstr("s/good.yaml: ok\n"));
+  std::filesystem::remove(bad);
+  EXPECT_EQ(Trackbed(folder, "check s").code, 0);
+  const Outcome camera = Trackbed(folder, "check s --set render.camera=chas");
+  EXPECT_EQ(camera.code, 2);
+  EXPECT_EQ(camera.output, "s/good.yaml: render.camera: unknown 'chas'; did you mean 'chase'?\n");
+  EXPECT_EQ(Trackbed(folder, "check .").output, ".: the folder has no scenarios (*.yaml)\n");
+}
+
+TEST(Program, ListsWhatThereIs) {
+  const TempFolder folder;
+  const Outcome everything = Trackbed(folder, "list");
+  EXPECT_EQ(everything.code, 0);
+  for (const char* name : {"fillet", "preview", "mujoco", "chase", "prius", "three_turns"}) {
+    EXPECT_THAT(everything.output, HasSubstr(std::string("\n  ") + name + " "));
+  }
+  EXPECT_THAT(Trackbed(folder, "list controllers").output, HasSubstr("distance: 2.5"));
+  EXPECT_EQ(Trackbed(folder, "list controller").output,
+            "cannot list 'controller'; did you mean 'controllers'?\n");
+}
+
+TEST(Program, ShowsAndSavesAModel) {
+  const TempFolder folder;
+  const Outcome shown = Trackbed(folder, "model prius");
+  EXPECT_EQ(shown.code, 0);
+  EXPECT_THAT(shown.output, HasSubstr("min_turning_radius                5.1 m\n"));
+  EXPECT_EQ(Trackbed(folder, "model prius --save car.xml").code, 0);
+  // What was saved is a model like the one it came from.
+  EXPECT_THAT(Trackbed(folder, "model ./car.xml").output,
+              HasSubstr("steering_rate                0.150568 rad/s\n"));
+  EXPECT_EQ(Trackbed(folder, "model pruis").output,
+            "unknown model 'pruis'; did you mean 'prius'?\n");
+}
+
 TEST(Program, CtrlCKeepsTheLogSoFar) {
   const TempFolder folder;
   const Outcome outcome =

@@ -124,7 +124,8 @@ TEST(ReadScenario, RefusesKeysThatDoNotGoTogether) {
             "--set: drive.control_period: 0.003 s is not a whole number of timesteps of 0.002 s");
   EXPECT_EQ(ErrorsOf(kSmall, {"plan.constraint=none"}),
             "--set: plan.constraint: 'none' needs a radius: nothing else would limit it");
-  EXPECT_EQ(ErrorsOf(kSmall, {"drive.plants=[mujoco]", "expect={kinematic: {reach_goal: 1}}"}),
+  EXPECT_EQ(ErrorsOf(std::string(kSmall) + "drive: {plants: [mujoco]}\n",
+                     {"expect={kinematic: {reach_goal: 1}}"}),
             "--set: expect.kinematic: drive.plants does not drive this plant");
 }
 
@@ -144,6 +145,17 @@ TEST(Override, ReplacesAndAddsKeys) {
   EXPECT_EQ(scenario.mission.waypoints[2], Vec2(50, 60));
   EXPECT_STREQ(ControllerFor(scenario.control.steering).name, "schedule");
   EXPECT_EQ(scenario.drive.timestep, 0.001);
+}
+
+TEST(Override, OfThePlantsDropsWhatWasExpectedOfOthers) {
+  const Scenario scenario =
+      Parse(std::string(kSmall) +
+                "expect: {mujoco: {reach_goal: 1}, kinematic: {reach_goal: 2}, "
+                "between: [{plants: [kinematic, mujoco], position_max: 1}]}\n",
+            {"drive.plants=[kinematic]"});
+  ASSERT_EQ(scenario.expect.plants.size(), 1U);
+  EXPECT_EQ(scenario.expect.plants[0].first, "kinematic");
+  EXPECT_TRUE(scenario.expect.between.empty());
 }
 
 TEST(Override, SaysWhatIsWrong) {

@@ -32,7 +32,7 @@ void Hold(Plant& plant, double steering, double speed, double duration) {
 class EveryPlant : public testing::TestWithParam<std::string> {
  protected:
   static std::unique_ptr<Plant> At(const StartState& start, double friction = 1.0) {
-    return MakePlant(GetParam(), Prius(), {.friction = friction}, start);
+    return MakePlant(GetParam(), Prius(), {.friction = friction, .obstacles = {}}, start);
   }
 };
 
@@ -246,7 +246,8 @@ TEST(MujocoPlant, RollsAndPitchesAsIso8855Says) {
 
 TEST(MujocoPlant, SlipperyRoadLimitsBraking) {
   const auto distance = [](double friction) {
-    const auto plant = MakePlant("mujoco", Prius(), {.friction = friction}, {.speed = 10.0});
+    const auto plant =
+        MakePlant("mujoco", Prius(), {.friction = friction, .obstacles = {}}, {.speed = 10.0});
     for (int i = 0; i < 10000 && plant->Observe().speed > 0.01; ++i) {
       plant->Step({.acceleration = -12.0});
     }

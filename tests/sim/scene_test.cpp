@@ -73,7 +73,7 @@ TEST(ComposeScene, TakesAssetsAlong) {
   EXPECT_THAT(scene.xml, HasSubstr("name=\"body\""));  // what MuJoCo would have called it
   EXPECT_THAT(scene.xml, Not(HasSubstr("meshdir")));
 
-  WriteScene(scene, folder.path() / ".");
+  WriteScene(scene, folder.path() / "model.xml");
   EXPECT_EQ(ReadFile(folder.path() / "model.xml"), scene.xml);
   EXPECT_EQ(ReadFile(folder.path() / "asset0_body.stl"), "solid");
 }

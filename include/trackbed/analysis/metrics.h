@@ -25,6 +25,15 @@ struct TrackingMetrics {
   double goal_heading_error = 0.0;  ///< [rad]
 };
 
+/// How a drive kept away from obstacles.
+struct ClearanceMetrics {
+  double min = 0.0;        ///< of the outline to the nearest obstacle [m]
+  double min_s = 0.0;      ///< where [m]
+  double min_t = 0.0;      ///< when [s]
+  bool collision = false;  ///< the outlines overlapped
+  double force_max = 0.0;  ///< largest contact force with obstacles [N]
+};
+
 struct PlantMetrics {
   std::string plant;
   DriveStatus status = DriveStatus::kArrived;
@@ -34,6 +43,7 @@ struct PlantMetrics {
   double steering_rate_max = 0.0;            ///< of the measured angle, mean over any 0.1 s [rad/s]
   double steering_saturated_fraction = 0.0;  ///< of the periods: actuator did not reach the command
   std::optional<TrackingMetrics> tracking;   ///< none without a path
+  std::optional<ClearanceMetrics> clearance;  ///< none without obstacles
 };
 
 /// How far two plants part at equal station (without a path: at equal distance driven).
@@ -43,6 +53,7 @@ struct PlantComparison {
   double position_rms = 0.0;    ///< [m]
   double position_max = 0.0;    ///< [m]
   double position_max_s = 0.0;  ///< where [m]
+  double position_max_t = 0.0;  ///< when the first one was there [s]
   double heading_max = 0.0;     ///< [rad]
   double heading_max_s = 0.0;   ///< where [m]
 };

@@ -16,6 +16,7 @@ enum class DriveStatus {
   kStopped,      ///< at rest before the end of the path, and staying there
   kTimeLimit,    ///< drive.time_limit is over
   kDiverged,     ///< the physics failed (MuJoCo warned); the log ends before
+  kCollided,     ///< the outline overlapped an obstacle; the log goes on for a second
   kInterrupted,  ///< the caller asked to stop
 };
 
@@ -27,6 +28,7 @@ struct LogRow {
   VehicleState state;
   Command command;
   std::optional<Projection> tracking;  ///< none without a path
+  std::optional<double> clearance;     ///< of the outline [m]; none without obstacles
 };
 
 /// One drive of one plant. The last row is the state at the end, with the command that led there.

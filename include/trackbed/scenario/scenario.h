@@ -55,6 +55,8 @@ struct PlantExpectation {
   std::optional<double> max_cross_track;    ///< [m]
   std::optional<double> rms_cross_track;    ///< [m]
   std::optional<double> max_heading_error;  ///< [rad]
+  std::optional<double> min_clearance;      ///< smallest distance of the outline to an obstacle [m]
+  std::optional<bool> collision;            ///< whether the car hits an obstacle
 };
 
 /// Bounds on how far two plants may part.
@@ -82,7 +84,7 @@ struct Scenario {
   std::uint64_t seed = 0;
   VehicleSpec vehicle;
   MissionSpec mission;
-  Road world;
+  World world;
   std::optional<PlannerOptions> plan;  ///< none: the mission is driven without a path
   ControlSpec control;
   DriveSpec drive;
@@ -92,7 +94,8 @@ struct Scenario {
   std::filesystem::path folder;  ///< relative paths start here; not a key
 };
 
-/// `key=value`: replaces a key of the file before it is read; the value is YAML.
+/// `key=value`: replaces a key of the file before it is read; the value is YAML. With drive.plants,
+/// what the file expects of plants that are then not driven is not asked.
 using Override = std::string;
 
 /// Reads a scenario file strictly. InputError with **every** problem of the file: unknown key (with
@@ -115,6 +118,10 @@ void CheckScenario(const Scenario& scenario);
 /// The scenario with every default filled in, as YAML that ReadScenario reads back to an equal one
 /// from any folder: a model given by its path is written with its absolute path.
 std::string ResolvedYaml(const Scenario& scenario);
+
+/// The keys of a method's options with their values, on one line: "distance: 2.5, law: exact_arc".
+std::string OptionDefaults(const PlannerOptions& options);
+std::string OptionDefaults(const ControllerOptions& options);
 
 /// Where the car starts, with the mission's defaults filled in.
 StartState StartOf(const Scenario& scenario);

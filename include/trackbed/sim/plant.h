@@ -8,6 +8,7 @@
 #include "trackbed/sim/car_model.h"
 #include "trackbed/vehicle/kinematic_car.h"
 #include "trackbed/vehicle/state.h"
+#include "trackbed/world/world.h"
 
 /// One interface and one table for everything that can be driven.
 namespace trackbed {
@@ -17,11 +18,6 @@ struct StartState {
   Pose2 pose;             ///< rear-axle centre
   double speed = 0.0;     ///< [m/s]
   double steering = 0.0;  ///< bicycle angle, wheels and actuator alike [rad]
-};
-
-/// What the road does.
-struct Road {
-  double friction = 1.0;  ///< factor on the tyres' own friction coefficient
 };
 
 /// A car that obeys commands, one physics step at a time. The drive does not know which it holds.
@@ -47,7 +43,7 @@ class Plant {
 struct PlantEntry {
   const char* name;
   const char* summary;
-  std::unique_ptr<Plant> (*make)(const CarModel& car, const Road& road, const StartState& start);
+  std::unique_ptr<Plant> (*make)(const CarModel& car, const World& world, const StartState& start);
 };
 
 /// Every plant there is: `kinematic` (KinematicCar, rear-axle reference) and `mujoco` (the MJCF car
@@ -60,7 +56,7 @@ struct PlantEntry {
 const std::vector<PlantEntry>& Plants();
 
 /// InputError with the nearest spelling when there is no such plant.
-std::unique_ptr<Plant> MakePlant(const std::string& name, const CarModel& car, const Road& road,
+std::unique_ptr<Plant> MakePlant(const std::string& name, const CarModel& car, const World& world,
                                  const StartState& start);
 
 /// The kinematic plant with the reference point of your choice: with kCentreOfGravity,

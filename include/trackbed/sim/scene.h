@@ -4,6 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "trackbed/vehicle/params.h"
+#include "trackbed/world/world.h"
+
 namespace trackbed {
 
 /// What a run decides about the physics, whatever the car's own file says for MuJoCo's viewer.
@@ -39,7 +42,12 @@ std::filesystem::path DataFolder();
 /// InputError with file and line when it is not well-formed XML or refers to something missing.
 Scene ComposeScene(const std::filesystem::path& car_file, const SceneOptions& options);
 
-/// Writes model.xml and the assets beside it.
-void WriteScene(const Scene& scene, const std::filesystem::path& folder);
+/// Adds the world's obstacles as bodies that cannot be moved, `obstacle_0`, `obstacle_1`, …, and to
+/// the car a shell that only they can touch: a box geom `shell` in its body `chassis`, the outline
+/// from a hand's breadth above the ground to the roof. Without obstacles the scene stays as it is.
+Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const World& world);
+
+/// Writes the scene to `file` (its folder must exist) and the assets beside it.
+void WriteScene(const Scene& scene, const std::filesystem::path& file);
 
 }  // namespace trackbed

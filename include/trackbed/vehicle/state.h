@@ -35,6 +35,7 @@ struct VehicleState {
   double steering_actuator = 0.0;          ///< where the rate-limited actuator stands [rad]
   double steering = 0.0;                   ///< bicycle angle measured at the front wheels [rad]
   std::optional<std::array<WheelState, 4>> wheels;  ///< fl, fr, rl, rr; none without tyres
+  double obstacle_force = 0.0;  ///< sum of the normal forces between car and obstacles [N]
 };
 
 /// What a controller asks of a car for one control period.

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "trackbed/geometry/oriented_box.h"
+#include "trackbed/vehicle/params.h"
+
+namespace trackbed {
+
+/// A box that stands on the ground.
+struct Obstacle {
+  OrientedBox footprint;
+  double height = 1.0;  ///< [m], > 0
+};
+
+/// What a car drives in.
+struct World {
+  double friction = 1.0;  ///< factor on the tyres' own friction coefficient, both tyre laws
+  std::vector<Obstacle> obstacles;
+};
+
+/// The car's outline on the ground when its rear-axle centre is at `pose`.
+OrientedBox OutlineAt(const VehicleParams& vehicle, const Pose2& pose);
+
+/// Shortest distance from the car's outline to any obstacle [m]; 0 when they touch or overlap,
+/// which is what counts as a collision on every plant. None without obstacles. Cost O(obstacles).
+std::optional<double> Clearance(const World& world, const VehicleParams& vehicle,
+                                const Pose2& pose);
+
+}  // namespace trackbed

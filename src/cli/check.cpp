@@ -1,0 +1,38 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "src/cli/scenario_options.h"
+#include "src/cli/verbs.h"
+#include "trackbed/core/error.h"
+#include "trackbed/drive/drive.h"
+
+namespace trackbed::cli {
+
+void AddCheck(CLI::App& command, int& exit_code) {
+  struct Options {
+    std::vector<std::string> paths;
+    ScenarioOptions scenario;
+  };
+  const auto options = std::make_shared<Options>();
+  command.add_option("files", options->paths, "Scenario files, or folders of them")
+      ->required()
+      ->type_name("FILE...");
+  options->scenario.AddTo(command);
+  command.callback([options, &exit_code] {
+    for (const auto& file : ScenarioFiles(options->paths)) {
+      try {
+        const Scenario scenario = options->scenario.Read(file);
+        static_cast<void>(LoadCar(scenario));
+        if (!options->scenario.quiet) {
+          fmt::print("{}: ok\n", file.string());
+        }
+      } catch (const InputError& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        exit_code = kBadInput;
+      }
+    }
+  });
+}
+
+}  // namespace trackbed::cli

@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+
+#include "src/cli/scenario_options.h"
+#include "src/cli/verbs.h"
+#include "trackbed/control/steering_controller.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/spelling.h"
+#include "trackbed/planning/planner.h"
+#include "trackbed/render/film.h"
+#include "trackbed/sim/plant.h"
+#include "trackbed/sim/scene.h"
+
+namespace trackbed::cli {
+namespace {
+
+struct Line {
+  std::string name;
+  std::string text;
+};
+
+struct Kind {
+  const char* name;
+  std::function<std::vector<Line>()> lines;
+};
+
+template <typename Table>
+std::vector<Line> Summaries(const Table& table) {
+  std::vector<Line> lines;
+  for (const auto& entry : table) {
+    lines.push_back({entry.name, entry.summary});
+  }
+  return lines;
+}
+
+void AddDefaults(const std::string& defaults, Line& line) {
+  line.text += defaults.empty() ? "" : "; " + defaults;
+}
+
+std::vector<Line> Models() {
+  std::vector<Line> lines;
+  for (const std::string& name : ModelNames()) {
+    lines.push_back({name, FindModel(name, "").string()});
+  }
+  return lines;
+}
+
+std::vector<Line> Scenarios() {
+  std::vector<Line> lines;
+  for (const auto& file : ScenarioFiles({(DataFolder() / "scenarios").string()})) {
+    lines.push_back({file.stem().string(), file.string()});
+  }
+  return lines;
+}
+
+const std::vector<Kind>& Kinds() {
+  static const std::vector<Kind> kinds{
+      {"planners",
+       [] {
+         std::vector<Line> lines = Summaries(Planners());
+         for (std::size_t i = 0; i < lines.size(); ++i) {
+           AddDefaults(OptionDefaults(Planners()[i].defaults), lines[i]);
+         }
+         return lines;
+       }},
+      {"controllers",
+       [] {
+         std::vector<Line> lines = Summaries(Controllers());
+         for (std::size_t i = 0; i < lines.size(); ++i) {
+           AddDefaults(OptionDefaults(Controllers()[i].defaults), lines[i]);
+         }
+         return lines;
+       }},
+      {"plants", [] { return Summaries(Plants()); }},
+      {"cameras", [] { return Summaries(Cameras()); }},
+      {"models", Models},
+      {"scenarios", Scenarios},
+  };
+  return kinds;
+}
+
+void Print(const Kind& kind) {
+  fmt::print("{}:\n", kind.name);
+  for (const Line& line : kind.lines()) {
+    fmt::print("  {:<18} {}\n", line.name, line.text);
+  }
+}
+
+}  // namespace
+
+void AddList(CLI::App& command, int& exit_code) {
+  const auto what = std::make_shared<std::string>();
+  std::string kinds;
+  for (const Kind& kind : Kinds()) {
+    kinds += (kinds.empty() ? "" : "|") + std::string(kind.name);
+  }
+  command.add_option("kind", *what, "What to list (default: everything)")->type_name(kinds);
+  command.callback([what, &exit_code] {
+    std::vector<std::string> names;
+    bool found = false;
+    for (const Kind& kind : Kinds()) {
+      names.emplace_back(kind.name);
+      if (what->empty() || *what == kind.name) {
+        Print(kind);
+        found = true;
+      }
+    }
+    if (!found) {
+      throw InputError(Problem{.message = "cannot list " + UnknownName(*what, names)});
+    }
+    exit_code = kOk;
+  });
+}
+
+}  // namespace trackbed::cli

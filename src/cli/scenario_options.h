@@ -1,0 +1,32 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trackbed/scenario/scenario.h"
+
+namespace trackbed::cli {
+
+/// What every verb that reads scenarios can be told about them.
+struct ScenarioOptions {
+  std::vector<std::string> plants;
+  std::vector<std::string> overrides;
+  std::optional<std::uint64_t> seed;
+  bool quiet = false;
+
+  /// Adds --plant, --set, --seed and --quiet.
+  void AddTo(CLI::App& command);
+
+  /// The scenario as these options change it. InputError as ReadScenario.
+  [[nodiscard]] Scenario Read(const std::filesystem::path& file) const;
+};
+
+/// The scenario files that `paths` name: files as they are, folders by the *.yaml in them, sorted.
+/// InputError when a folder has none.
+std::vector<std::filesystem::path> ScenarioFiles(const std::vector<std::string>& paths);
+
+}  // namespace trackbed::cli

@@ -1,0 +1,81 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+#include "trackbed/scenario/scenario.h"
+#include "trackbed/sim/car_model.h"
+
+/// Every tests/data/bad/NAME.yaml is broken in its own way, and NAME.expected holds, to the letter,
+/// what a user is told. To see what the program says now, set TRACKBED_SHOW_MESSAGES=1.
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path BadFolder() {
+  return fs::path(TRACKBED_SOURCE_DIR) / "tests" / "data" / "bad";
+}
+
+std::vector<fs::path> FilesWith(const std::string& extension) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(BadFolder())) {
+    if (entry.path().extension() == extension) {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Messages name files by the folder they were found in; here that is every machine's own.
+std::string WithoutFolder(std::string message) {
+  const std::string folder = BadFolder().string() + "/";
+  for (std::size_t at = message.find(folder); at != std::string::npos; at = message.find(folder)) {
+    message.erase(at, folder.size());
+  }
+  return message;
+}
+
+/// What the user is told about a file: by the reader, or by the car that it names.
+std::string MessageFor(const fs::path& file) {
+  try {
+    const Scenario scenario =
+        ParseScenario(ReadFile(file), file.filename().string(), file.parent_path());
+    const fs::path model = FindModel(scenario.vehicle.model, scenario.folder);
+    const CarModel car(ComposeScene(model, {.timestep = scenario.drive.timestep}), model.string());
+  } catch (const InputError& error) {
+    return WithoutFolder(error.what());
+  }
+  return "no error";
+}
+
+class BadFiles : public testing::TestWithParam<fs::path> {};
+
+INSTANTIATE_TEST_SUITE_P(Files, BadFiles, testing::ValuesIn(FilesWith(".yaml")),
+                         [](const auto& file) { return file.param.stem().string(); });
+
+TEST_P(BadFiles, SayWhatIsWrong) {
+  const std::string message = MessageFor(GetParam());
+  if (std::getenv("TRACKBED_SHOW_MESSAGES") != nullptr) {
+    std::puts(message.c_str());
+  }
+  const fs::path expected = fs::path(GetParam()).replace_extension(".expected");
+  ASSERT_TRUE(fs::is_regular_file(expected)) << "the message is now:\n" << message;
+  EXPECT_EQ(message + "\n", ReadFile(expected));
+}
+
+TEST(BadFilesFolder, HoldsAtLeastThirtyFilesEachWithItsMessage) {
+  EXPECT_GE(FilesWith(".yaml").size(), 30U);
+  EXPECT_EQ(FilesWith(".yaml").size(), FilesWith(".expected").size());
+}
+
+}  // namespace
+}  // namespace trackbed

@@ -1,0 +1,153 @@
+#include "trackbed/testing/scenario_testing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path File(const std::string& name) {
+  return fs::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml");
+}
+
+/// What the matcher says of a run that it does not match.
+template <typename Matcher>
+std::string Complaint(const RunResult& run, const Matcher& matcher) {
+  testing::StringMatchResultListener listener;
+  EXPECT_FALSE(testing::ExplainMatchResult(matcher, run, &listener));
+  return listener.str();
+}
+
+template <typename Matcher>
+std::string Description(const Matcher& matcher) {
+  return testing::DescribeMatcher<const RunResult&>(matcher);
+}
+
+class Scenarios : public testing::TestWithParam<std::string> {};
+
+std::vector<std::string> AllScenarios() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(File("x").parent_path())) {
+    if (entry.path().extension() == ".yaml") {
+      names.push_back(entry.path().stem().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, Scenarios, testing::ValuesIn(AllScenarios()),
+                         [](const auto& name) { return name.param; });
+
+TEST_P(Scenarios, DriveAsTheyExpectKinematicAgainstContactDynamics) {
+  const Scenario scenario = ReadScenario(File(GetParam()));
+  const RunResult run = RunScenario(scenario);
+  EXPECT_THAT(run, MeetsItsExpectations());
+  // Every scenario compares the two; at 3 m/s they part by the servo's lag and the tyres' slip,
+  // which a controller holds to centimetres, and an open loop or a collision to the stated bound.
+  const double bound = GetParam() == "steering_circle" ? 0.3 : 0.1;
+  EXPECT_THAT(run, StaysWithin("kinematic", "mujoco", bound));
+  for (const PlantMetrics& metrics : run.metrics) {
+    EXPECT_LE(metrics.steering_rate_max, 1.02 * 0.15056818181818182) << metrics.plant;
+  }
+}
+
+TEST(Slalom, HasSixTurnsOfMoreThanSixtyDegreesBothWaysWithinTheSteeringLimit) {
+  const RunResult run = RunScenario(File("slalom"), {"drive.plants=[kinematic]", "expect={}"});
+  ASSERT_TRUE(run.plan.ok());
+  int left = 0;
+  int right = 0;
+  for (const auto& turn : run.plan.diagnostics["turns"]) {
+    const double heading_change = turn["heading_change_rad"];
+    left += heading_change >= 1.0472 ? 1 : 0;
+    right += heading_change <= -1.0472 ? 1 : 0;
+    // The largest radius that C.40 allows, so at most 1.2 times it.
+    EXPECT_EQ(turn["active_constraint"], "steering_room");
+  }
+  EXPECT_GE(left + right, 6);
+  EXPECT_GE(left, 2);
+  EXPECT_GE(right, 2);
+}
+
+TEST(Slalom, IsTrackedWithinFifteenCentimetresOnBothPlants) {
+  const RunResult run = RunScenario(File("slalom"));
+  EXPECT_THAT(run, TracksWithin(0.15));
+  EXPECT_THAT(run, ReachesGoal(0.5));
+}
+
+TEST(TracksWithin, SaysHowFarOffWhereAndWhen) {
+  const RunResult run =
+      RunScenario(File("winding"), {"drive.plants=[kinematic]", "control.distance=4", "expect={}"});
+  EXPECT_EQ(Description(TracksWithin(0.01)), "tracks its path within 0.01 m");
+  EXPECT_THAT(
+      Complaint(run, TracksWithin(0.01)),
+      testing::MatchesRegex("kinematic was 0\\.07[0-9]* m off at s = [0-9.]+ m, t = [0-9.]+ s"));
+  EXPECT_THAT(run, TracksWithin(0.15));
+  EXPECT_THAT(run, testing::Not(TracksWithin(0.01)));
+}
+
+TEST(StaysWithin, SaysHowFarApartWhereAndWhen) {
+  const RunResult run = RunScenario(File("winding"));
+  EXPECT_EQ(Description(StaysWithin("kinematic", "mujoco", 1e-5)),
+            "keeps kinematic and mujoco within 1e-05 m of each other");
+  EXPECT_THAT(
+      Complaint(run, StaysWithin("mujoco", "kinematic", 1e-5)),
+      testing::MatchesRegex("they were 0\\.00[0-9]+ m apart at s = [0-9.]+ m, t = [0-9.]+ s"));
+  EXPECT_EQ(Complaint(run, StaysWithin("mujoco", "single_track", 1.0)),
+            "the run did not drive both mujoco and single_track");
+}
+
+TEST(KeepsClearOf, SaysHowNearWhereAndWhen) {
+  const RunResult run = RunScenario(File("obstacle_course"), {"drive.plants=[kinematic]"});
+  EXPECT_EQ(Description(KeepsClearOf(1.5)), "keeps 1.5 m clear of obstacles");
+  EXPECT_THAT(run, KeepsClearOf(0.8));
+  EXPECT_THAT(
+      Complaint(run, KeepsClearOf(1.5)),
+      testing::MatchesRegex("kinematic was [01]\\.[0-9]+ m away at s = [0-9.]+ m, t = [0-9.]+ s"));
+  EXPECT_EQ(Complaint(RunScenario(File("winding"), {"drive.plants=[kinematic]", "expect={}"}),
+                      KeepsClearOf(1.0)),
+            "kinematic has no obstacles to keep clear of");
+}
+
+TEST(ReachesGoal, SaysHowItEnded) {
+  const RunResult collided = RunScenario(File("hit_the_box"), {"drive.plants=[kinematic]"});
+  EXPECT_EQ(Description(ReachesGoal(0.5)), "reaches its goal within 0.5 m");
+  EXPECT_THAT(
+      Complaint(collided, ReachesGoal(0.5)),
+      testing::MatchesRegex("kinematic ended as collided 3[0-9.]+ m from it, t = 1[0-9.]+ s"));
+  const RunResult open_loop =
+      RunScenario(File("three_turns"), {"drive.plants=[kinematic]", "control={method: schedule}"});
+  EXPECT_EQ(Complaint(open_loop, ReachesGoal(0.05)),
+            "kinematic stopped 0.1277 m from it, t = 47.12 s");
+}
+
+TEST(Matchers, SayThatThereIsNoPlan) {
+  const RunResult run =
+      RunScenario(File("winding"), {"mission.waypoints=[[0, 0], [9, 0], [0, 0]]"});
+  EXPECT_EQ(Complaint(run, TracksWithin(1.0)),
+            "there is no plan: the route turns back on itself at waypoint 1");
+}
+
+TEST(MeetsItsExpectations, ListsWhatFailed) {
+  const RunResult run =
+      RunScenario(File("winding"), {"drive.plants=[kinematic]", "expect={max_cross_track: 0.001}"});
+  EXPECT_THAT(Complaint(run, MeetsItsExpectations()),
+              testing::StartsWith("kinematic: cross-track maximum expected at most 0.001 m"));
+}
+
+TEST(HitTheBox, IsFeltByTheContactDynamics) {
+  const RunResult run = RunScenario(File("hit_the_box"));
+  for (const PlantMetrics& metrics : run.metrics) {
+    ASSERT_TRUE(metrics.clearance.has_value());
+    EXPECT_TRUE(metrics.clearance->collision);
+    // 1317 kg from 3 m/s to rest within the centimetres that a stiff contact gives: many times the
+    // car's weight; the kinematic car feels nothing.
+    EXPECT_EQ(metrics.clearance->force_max > 13000.0, metrics.plant == "mujoco");
+  }
+}
+
+}  // namespace
+}  // namespace trackbed
