@@ -46,6 +46,25 @@ CameraPose Chase(const CameraSubject& subject, double time, double /*aspect*/) {
   return pose;
 }
 
+CameraPose Side(const CameraSubject& subject, double time, double aspect) {
+  const Point car = subject.Position(time);
+  const double heading = subject.SmoothHeading(time);
+  constexpr double kAhead = 1.4;  // about the middle of a car, from its rear axle [m]
+  constexpr double kWidth = 9.0;  // of the picture at the car [m]: two car lengths
+  constexpr double kViewAngle = 28.0 * kPi / 180.0;
+  CameraPose pose;
+  pose.target_x = car.x + kAhead * std::cos(heading);
+  pose.target_y = car.y + kAhead * std::sin(heading);
+  pose.target_z = 0.7;
+  pose.view_angle = kViewAngle;
+  // Portraits must hold the car's length, too.
+  pose.distance = 0.5 * kWidth / (std::tan(0.5 * kViewAngle) * std::clamp(aspect, 0.2, 16.0 / 9.0));
+  // From its right, where the sun does not stand behind the camera: shadows have depth.
+  pose.azimuth = heading + 0.5 * kPi;
+  pose.elevation = -12.0 * kPi / 180.0;
+  return pose;
+}
+
 CameraPose Top(const CameraSubject& subject, double time, double aspect) {
   // A long lens from high up: upright things hardly lean away from the centre.
   constexpr double kViewAngle = 20.0 * kPi / 180.0;
@@ -113,6 +132,7 @@ double CameraSubject::SmoothHeading(double time) const {
 const std::vector<Camera>& CameraTable() {
   static const std::vector<Camera> table{
       {"chase", "behind and above the car, turning with it", &Chase},
+      {"side", "from the car's right, a little above, going along with it", &Side},
       {"top", "straight down, north up: the whole route if it is small, else around the car", &Top},
   };
   return table;

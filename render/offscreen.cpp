@@ -21,24 +21,52 @@ void CopyFlipped(const std::vector<std::uint8_t>& from, Image& to) {
   }
 }
 
+/// Each pixel the mean of a square of `side` by `side` samples.
+void AverageFlipped(const std::vector<std::uint8_t>& from, int side, Image& to) {
+  const auto step = static_cast<std::size_t>(side);
+  const auto width = static_cast<std::size_t>(to.width);
+  const std::size_t row = 3 * width * step;
+  const auto samples = static_cast<unsigned>(side * side);
+  std::vector<unsigned> sums(3 * width);
+  for (int y = 0; y < to.height; ++y) {
+    std::fill(sums.begin(), sums.end(), samples / 2);  // rounds
+    const auto first = static_cast<std::size_t>(to.height - 1 - y) * step;
+    for (std::size_t line = first; line < first + step; ++line) {
+      const std::uint8_t* sample = from.data() + row * line;
+      for (std::size_t x = 0; x < sums.size(); x += 3) {
+        for (std::size_t i = 0; i < step; ++i, sample += 3) {
+          sums[x] += sample[0];
+          sums[x + 1] += sample[1];
+          sums[x + 2] += sample[2];
+        }
+      }
+    }
+    std::transform(sums.begin(), sums.end(), to.Pixel(0, y),
+                   [&](unsigned sum) { return static_cast<std::uint8_t>(sum / samples); });
+  }
+}
+
 }  // namespace
 
-Offscreen::Offscreen(mjModel& model, int width, int height, int samples)
-    : width_(width), height_(height), window_(4 * kWindowSize * kWindowSize) {
+Offscreen::Offscreen(mjModel& model, int width, int height, int supersampling)
+    : width_(width),
+      height_(height),
+      supersampling_(supersampling),
+      window_(4 * kWindowSize * kWindowSize) {
   mesa_.reset(OSMesaCreateContextExt(OSMESA_RGBA, 24, 8, 0, nullptr));
   if (!mesa_ || OSMesaMakeCurrent(mesa_.get(), window_.data(), GL_UNSIGNED_BYTE, kWindowSize,
                                   kWindowSize) != GL_TRUE) {
     throw RunError("cannot start off-screen OpenGL (OSMesa)");
   }
-  model.vis.global.offwidth = std::max(width, kSmallestBuffer);
-  model.vis.global.offheight = std::max(height, kSmallestBuffer);
-  model.vis.quality.offsamples = samples;
+  model.vis.global.offwidth = std::max(supersampling * width, kSmallestBuffer);
+  model.vis.global.offheight = std::max(supersampling * height, kSmallestBuffer);
+  model.vis.quality.offsamples = 0;
   mjr_defaultContext(&context_);
   mjr_makeContext(&model, &context_, mjFONTSCALE_300);
   mjr_setBuffer(mjFB_OFFSCREEN, &context_);
   const mjrRect largest = mjr_maxViewport(&context_);
-  if (context_.currentBuffer != mjFB_OFFSCREEN || largest.width < width ||
-      largest.height < height) {
+  if (context_.currentBuffer != mjFB_OFFSCREEN || largest.width < supersampling * width ||
+      largest.height < supersampling * height) {
     mjr_freeContext(&context_);
     throw RunError(fmt::format("cannot make an off-screen picture of {}x{}", width, height));
   }
@@ -50,12 +78,17 @@ Offscreen::~Offscreen() {
 }
 
 void Offscreen::Render(mjvScene& scene, Image& image) {
-  image.Resize(width_, height_);
-  upside_down_.resize(image.rgb.size());
-  const mjrRect viewport{0, 0, width_, height_};
+  const mjrRect viewport{0, 0, supersampling_ * width_, supersampling_ * height_};
+  upside_down_.resize(3 * static_cast<std::size_t>(viewport.width) *
+                      static_cast<std::size_t>(viewport.height));
   mjr_render(viewport, &scene, &context_);
   mjr_readPixels(upside_down_.data(), nullptr, viewport, &context_);
-  CopyFlipped(upside_down_, image);
+  image.Resize(width_, height_);
+  if (supersampling_ == 1) {
+    CopyFlipped(upside_down_, image);
+  } else {
+    AverageFlipped(upside_down_, supersampling_, image);
+  }
 }
 
 Image Offscreen::Glyph(char character) {

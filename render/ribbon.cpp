@@ -70,18 +70,22 @@ void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const Ribbo
   if (length < 1e-6 || scene.ngeom >= scene.maxgeom) {
     return;
   }
-  constexpr double kHalfThickness = 0.001;
+  // Neighbours overlap at two heights: lamps that cast shadows light both of two faces at one
+  // place.
+  constexpr double kStagger = 0.0005;
   // Pieces meet at up to about 15 degrees: tan(15 / 2) of half the width closes the outer corner.
   const double overlap = 0.15 * 0.5 * style.width;
   const double cosine = (b.x - a.x) / length;
   const double sine = (b.y - a.y) / length;
-  const std::array<mjtNum, 3> size{0.5 * length + overlap, 0.5 * style.width, kHalfThickness};
+  const std::array<mjtNum, 3> size{0.5 * length + overlap, 0.5 * style.width, 1.0};
   const std::array<mjtNum, 3> center{0.5 * (a.x + b.x), 0.5 * (a.y + b.y),
-                                     style.height - kHalfThickness};
+                                     style.height + (scene.ngeom % 2) * kStagger};
   const std::array<mjtNum, 9> rotation{cosine, -sine, 0, sine, cosine, 0, 0, 0, 1};
   const std::array<float, 4> rgba{style.color.r, style.color.g, style.color.b, 1.0F};
   mjvGeom& geom = scene.geoms[scene.ngeom];
-  mjv_initGeom(&geom, mjGEOM_BOX, size.data(), center.data(), rotation.data(), rgba.data());
+  // A plane: MuJoCo's shadow map is made of back faces, which a plane has none of. A thin box would
+  // cast a shadow on its own upper face, as speckle wherever the map's depth is too coarse.
+  mjv_initGeom(&geom, mjGEOM_PLANE, size.data(), center.data(), rotation.data(), rgba.data());
   geom.emission = 0.08F;  // paint is a little brighter than the road, also in the shade
   geom.specular = 0.0F;
   geom.category = mjCAT_DECOR;

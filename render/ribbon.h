@@ -10,12 +10,12 @@
 
 namespace trackbed::render {
 
-/// A line painted on the ground, drawn as flat boxes.
+/// A line painted on the ground, drawn as flat pieces that cast no shadow.
 struct RibbonStyle {
   Color color;
   double width = 0.2;  ///< [m]
-  double height =
-      0.01;  ///< of its upper face above the ground [m]; one per ribbon, or they flicker
+  /// Above the ground [m]; one per ribbon, a millimetre or more apart, or they flicker.
+  double height = 0.01;
 };
 
 /// A polyline thinned to few pieces: indices of the points kept, the first and the last among them.

@@ -83,6 +83,19 @@ Color CarColor(std::size_t car) {
   return kColors[car < kColors.size() ? car : 1 + (car - 1) % (kColors.size() - 1)];
 }
 
+void FitShadowMap(mjModel& model) {
+  const int site = mj_name2id(&model, mjOBJ_SITE, "outline");
+  if (site < 0 || model.site_type[site] != mjGEOM_BOX) {
+    return;
+  }
+  const mjtNum* size = model.site_size + 3 * site;
+  // Twice the car: its own shadow is always whole, and so are those of things beside it. A Prius
+  // then has 5 mm of ground to a texel, less than a sample at 15 m in a picture 1440 px high.
+  const double reach = 2.0 * std::hypot(size[0], size[1], size[2]);
+  model.vis.map.shadowclip = static_cast<float>(reach / model.stat.extent);
+  model.vis.quality.shadowsize = 2048;
+}
+
 FilmScene::FilmScene(Recording& recording, bool shadows)
     : recording_(recording),
       car_data_(mj_makeData(recording.model.get())),

@@ -40,18 +40,18 @@ std::string Pretty(const ordered_json& json) {
   return json.dump(2) + "\n";
 }
 
-/// Removes what an earlier run may have left under names that a run uses.
+/// Removes what an earlier run may have left under names that a run writes, and nothing else.
 void RemoveEarlierRun(const fs::path& folder) {
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    const bool ours = name == "plan.csv" || name == "plan.json" || name == "metrics.json" ||
-                      name == "timing.json" || name == "scenario.resolved.yaml" ||
-                      name == "model.xml" || name == "video.mp4" || name.ends_with(".state.csv") ||
-                      fs::exists(folder / (entry.path().stem().string() + ".state.csv"));
-    if (ours) {
-      std::error_code ignored;  // what cannot be removed cannot be replaced either: that will tell
-      fs::remove(entry.path(), ignored);
-    }
+  std::vector<std::string> names{"plan.csv",    "plan.json", "metrics.json",
+                                 "timing.json", "model.xml", "scenario.resolved.yaml",
+                                 "video.mp4"};
+  for (const PlantEntry& plant : Plants()) {
+    names.push_back(std::string(plant.name) + ".csv");
+    names.push_back(std::string(plant.name) + ".state.csv");
+  }
+  for (const std::string& name : names) {
+    std::error_code ignored;  // what cannot be removed cannot be replaced either: that will tell
+    fs::remove(folder / name, ignored);
   }
 }
 

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <csignal>
+#include <cstdio>
 #include <nlopt.hpp>
+#include <system_error>
 #include <vector>
 
 #include "src/cli/verbs.h"
@@ -82,20 +84,29 @@ int main(int argc, char** argv) {
   // The first Ctrl-C ends the drive and keeps its log; a second one ends the program.
   struct sigaction action {};
   action.sa_handler = [](int) { cli::interrupted = true; };
+  sigaction(SIGTERM, &action, nullptr);
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
+  // Plain stdio: where stderr is closed there is nobody to tell, and telling must not fail.
+  const auto say = [](const std::string& text) { std::fputs((text + "\n").c_str(), stderr); };
+  int code = cli::kInternal;
   try {
-    return cli::Run(argc, argv);
+    code = cli::Run(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      throw RunError("cannot write to standard output");
+    }
   } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return cli::kBadInput;
+    say(error.what());
+    code = cli::kBadInput;
   } catch (const RunError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return cli::interrupted ? cli::kInterrupted : cli::kBadInput;
+    say(error.what());
+    code = cli::interrupted ? cli::kInterrupted : cli::kBadInput;
+  } catch (const std::system_error& error) {
+    say(error.what());  // fmt could not print
+    code = cli::kBadInput;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "internal error: {}\n", error.what());
-    return cli::kInternal;
+    say(std::string("internal error: ") + error.what());
   }
+  return code;
 }

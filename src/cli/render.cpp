@@ -45,7 +45,7 @@ int RenderOne(const RenderOptions& options) {
   FilmOptions film;
   // What the command does not say, the scenario of the run does.
   if (const fs::path resolved = folder / "scenario.resolved.yaml"; fs::exists(resolved)) {
-    const RenderSpec render = ReadScenario(resolved).render;
+    const RenderSpec render = ReadRenderSpec(resolved);
     film = {
         .width = render.width, .height = render.height, .fps = render.fps, .camera = render.camera};
   }
@@ -70,7 +70,8 @@ void FilmRun(const fs::path& folder, const fs::path& output, const FilmOptions& 
   ProgressBar bar("film", quiet);
   RenderFilm(folder, output, options, [&](double fraction) {
     if (interrupted) {
-      throw RunError("interrupted; no film was written");
+      throw RunError(output.extension() == ".png" ? "interrupted; the frames so far were written"
+                                                  : "interrupted; no film was written");
     }
     bar.Show(fraction);
   });
@@ -95,10 +96,15 @@ void AddRender(CLI::App& command, int& exit_code) {
                   "Point of view (default: the scenario's render.camera): " + cameras)
       ->type_name("NAME");
   command
-      .add_option("--quality", options->quality, "draft, or film: smooth edges, 2.5 times slower")
+      .add_option("--quality", options->quality,
+                  "draft, or film: smooth edges and cast shadows, 4 times slower")
       ->type_name("draft|film")
       ->capture_default_str();
-  command.add_option("-o,--out", options->out, "The film (default: video.mp4 in the run folder)")
+  command
+      .add_option(
+          "-o,--out", options->out,
+          "A video FILE.mp4, or frames: DIR/F.png writes DIR/F_00000.png, ... (default: video.mp4 "
+          "in the run folder)")
       ->type_name("FILE");
   command.add_flag("-q,--quiet", options->quiet, "Print errors only");
   command.callback([options, &exit_code] { exit_code = RenderOne(*options); });

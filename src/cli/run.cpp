@@ -45,10 +45,9 @@ void PrintSummary(const RunResult& result) {
   }
 }
 
-int RunOne(const std::string& file, const fs::path& folder, const RunOptions& options) {
-  const Scenario scenario = options.scenario.Read(file);
-  const fs::path out = options.out.empty() ? fs::path("out") / scenario.name : folder;
-  MakeFolder(out);  // before the work, not after it
+int RunOne(const Scenario& scenario, const fs::path& out, const RunOptions& options) {
+  static_cast<void>(LoadCar(scenario));  // a model that cannot be used leaves no folder behind
+  MakeFolder(out);                       // before the work, not after it
 
   std::unique_ptr<ProgressBar> bar;
   const RunResult result =
@@ -94,11 +93,25 @@ void AddRun(CLI::App& command, int& exit_code) {
   options->scenario.AddTo(command);
   command.add_flag("--video", options->video, "Film the run: video.mp4 in its folder");
   command.callback([options, &exit_code] {
+    // Read everything before driving anything: the last file's mistake should not cost a run.
+    std::vector<std::pair<Scenario, fs::path>> runs;
     for (const std::string& file : options->files) {
-      const fs::path folder = options->files.size() == 1
-                                  ? fs::path(options->out)
-                                  : fs::path(options->out) / fs::path(file).stem();
-      const int code = RunOne(file, folder, *options);
+      Scenario scenario = options->scenario.Read(file);
+      const fs::path parent = options->out.empty() ? fs::path("out") : fs::path(options->out);
+      const fs::path out =
+          options->out.empty() || options->files.size() > 1 ? parent / scenario.name : parent;
+      for (const auto& [other, folder] : runs) {
+        if (folder == out) {
+          throw InputError(
+              Problem{file, 0, 0, "name",
+                      fmt::format("'{}' is the name of an earlier file too; both would write to {}",
+                                  scenario.name, out.string())});
+        }
+      }
+      runs.emplace_back(std::move(scenario), out);
+    }
+    for (const auto& [scenario, out] : runs) {
+      const int code = RunOne(scenario, out, *options);
       exit_code = std::max(exit_code, code);
       if (code == kInterrupted) {
         return;

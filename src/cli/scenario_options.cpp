@@ -26,8 +26,8 @@ Scenario ScenarioOptions::Read(const fs::path& file) const {
   if (!plants.empty()) {
     all.push_back(fmt::format("drive.plants=[{}]", fmt::join(plants, ", ")));
   }
-  if (seed) {
-    all.push_back(fmt::format("seed={}", *seed));
+  if (!seed.empty()) {
+    all.push_back("seed=" + seed);
   }
   Scenario scenario = ReadScenario(file, all);
   // The cameras are a room below the scenario's.

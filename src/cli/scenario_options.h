@@ -1,9 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +13,7 @@ namespace trackbed::cli {
 struct ScenarioOptions {
   std::vector<std::string> plants;
   std::vector<std::string> overrides;
-  std::optional<std::uint64_t> seed;
+  std::string seed;
   bool quiet = false;
 
   /// Adds --plant, --set, --seed and --quiet.

@@ -94,7 +94,18 @@ fs::path TemporaryNameFor(const fs::path& file) {
 }
 
 void PublishFile(const fs::path& temporary, const fs::path& file) {
-  if (::rename(temporary.c_str(), file.c_str()) != 0) {
+  // A link stays a link: what it points to is replaced. A device or pipe must not be replaced.
+  std::error_code error_code;
+  const fs::path real = fs::is_symlink(file) ? fs::weakly_canonical(file, error_code) : file;
+  if (fs::is_directory(real, error_code)) {
+    ::unlink(temporary.c_str());
+    Fail("write", file, EISDIR);
+  }
+  if (fs::exists(real, error_code) && !fs::is_regular_file(real, error_code)) {
+    ::unlink(temporary.c_str());
+    throw RunError(fmt::format("cannot write {}: it is not a regular file", file.string()));
+  }
+  if (::rename(temporary.c_str(), real.c_str()) != 0) {
     const int error = errno;
     ::unlink(temporary.c_str());
     Fail("write", file, error);

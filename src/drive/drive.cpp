@@ -12,6 +12,8 @@ namespace {
 constexpr double kAtRest = 0.01;
 /// At rest this close to the end of its path, a car has arrived [m].
 constexpr double kArrival = 0.5;
+/// But not if it came off its path and stands further than this from the path's end [m].
+constexpr double kNear = 5.0;
 /// How long a collision is followed before the drive ends [s].
 constexpr double kAfterCollision = 1.0;
 /// How far behind and beyond the last known station the car is looked for [m]: more than it can
@@ -157,7 +159,9 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
     const bool interrupted = hooks.interrupted && hooks.interrupted();
     if (interrupted || time_over || (has_path && at_rest)) {
       log.rows.push_back(row);
-      const bool there = has_path ? at_rest && s >= path.length() - kArrival
+      const Vec2 goal = path.At(path.length()).pose.position();
+      const bool near = (state.pose.position() - goal).norm() <= kNear;
+      const bool there = has_path ? at_rest && near && s >= path.length() - kArrival
                                   : scenario.mission.duration.has_value() &&
                                         end_time == *scenario.mission.duration;
       log.status = interrupted ? DriveStatus::kInterrupted

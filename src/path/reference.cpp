@@ -6,6 +6,12 @@
 #include "trackbed/core/error.h"
 
 namespace trackbed {
+namespace {
+
+/// Stretches of a profile shorter than this are left out [m].
+constexpr double kNegligible = 1e-9;
+
+}  // namespace
 
 SpeedProfile::SpeedProfile(std::vector<Knot> knots) : knots_(std::move(knots)) {
   for (std::size_t i = 0; i < knots_.size(); ++i) {
@@ -77,17 +83,17 @@ SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& lim
   const double stop = v_squared / (2.0 * b);                 // from the limit
   std::vector<SpeedProfile::Knot> knots{{0.0, start_speed}};
   if (ramp + stop <= length) {
-    if (ramp > 0.0) {
+    if (ramp > kNegligible) {
       knots.push_back({ramp, limits.speed});
     }
-    if (length - stop > knots.back().s) {
+    if (length - stop > knots.back().s + kNegligible) {
       knots.push_back({length - stop, limits.speed});
     }
   } else if (start_speed <= limits.speed && v0_squared < 2.0 * b * length) {
     // No room for the limit: accelerate until braking must begin.
     const double peak_squared = (2.0 * a * b * length + b * v0_squared) / (a + b);
     const double peak = (peak_squared - v0_squared) / (2.0 * a);
-    if (peak > 0.0) {
+    if (peak > kNegligible && peak < length - kNegligible) {
       knots.push_back({peak, std::sqrt(peak_squared)});
     }
   }

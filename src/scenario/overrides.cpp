@@ -46,6 +46,9 @@ std::string ApplyOverride(YAML::Node& root, const std::string& text) {
   } catch (const YAML::Exception& error) {
     Fail(text, fmt::format("the value is not YAML: {}", error.msg));
   }
+  if (key.ends_with('.')) {
+    Fail(text, "the key ends in a dot");
+  }
   YAML::Node node(root);
   for (std::size_t begin = 0; begin < key.size();) {
     const std::size_t end = std::min(key.find_first_of(".[", begin + 1), key.size());

@@ -29,7 +29,13 @@ void RefuseBombs(const YAML::Node& node, const std::string& file, int& left, int
 YAML::Node LoadYaml(const std::string& text, const std::string& name) {
   YAML::Node root;
   try {
-    root = YAML::Load(text);
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) {
+      const YAML::Mark mark = documents[1].Mark();
+      throw InputError(Problem{name, mark.line + 1, mark.column + 1, "",
+                               "a second YAML document; a file is one scenario"});
+    }
+    root = documents.empty() ? YAML::Node() : documents.front();
     int left = 100000;
     RefuseBombs(root, name, left, 0);
   } catch (const YAML::Exception& error) {
@@ -70,6 +76,15 @@ std::vector<std::pair<std::string, std::string>> CrossProblems(const Scenario& s
   if (controller.needs_plan && !scenario.plan) {
     found.emplace_back("plan",
                        fmt::format("missing; the controller {} follows a plan", controller.name));
+  }
+  if (scenario.plan && mission.duration) {
+    found.emplace_back("mission.duration", "with a plan the drive ends at the goal; leave one out");
+  }
+  const RenderSpec& render = scenario.render;
+  if (render.width % 2 != 0 || render.height % 2 != 0 || render.height > 4320) {
+    found.emplace_back("render.size",
+                       fmt::format("{}x{}: both must be even, the height at most 4320",
+                                   render.width, render.height));
   }
   if (!scenario.plan && !mission.duration) {
     found.emplace_back("mission.duration", "missing; without a plan there is no goal to stop at");
@@ -188,14 +203,31 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
   return scenario;
 }
 
-Scenario ReadScenario(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  std::string text;
+namespace {
+
+std::string ReadInput(const std::filesystem::path& file) {
   try {
-    text = ReadFile(file);
+    return ReadFile(file);
   } catch (const RunError& error) {
     throw InputError(Problem{.message = error.what()});
   }
-  return ParseScenario(text, file.string(), file.parent_path(), overrides);
+}
+
+}  // namespace
+
+Scenario ReadScenario(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  return ParseScenario(ReadInput(file), file.string(), file.parent_path(), overrides);
+}
+
+RenderSpec ReadRenderSpec(const std::filesystem::path& file) {
+  ReaderContext context{.file = file.string(), .overridden = {}, .problems = {}};
+  RenderSpec render;
+  YamlReader reader(context, LoadYaml(ReadInput(file), file.string()), "");
+  reader.Section("render", render);
+  if (!context.problems.empty()) {
+    throw InputError(context.problems);
+  }
+  return render;
 }
 
 void CheckScenario(const Scenario& scenario) {

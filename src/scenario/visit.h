@@ -10,7 +10,7 @@ namespace trackbed {
 inline constexpr Range kPositive{.above = 0.0};
 inline constexpr Range kNotNegative{.min = 0.0};
 
-inline constexpr Range kMap{.min = -1e6, .max = 1e6};  // [m]; beyond any route
+inline constexpr Range kMap{.min = -1e5, .max = 1e5};  // [m]; beyond any route
 
 inline Names PlantNames() {
   Names names;
@@ -37,7 +37,7 @@ void Visit(Archive& a, StartSpec& start) {
 
 template <typename Archive>
 void Visit(Archive& a, MissionSpec& mission) {
-  a.Field("speed", mission.speed, Need::kRequired, Range{.max = 100.0, .above = 0.0});
+  a.Field("speed", mission.speed, Need::kRequired, Range{.min = 0.1, .max = 100.0});
   a.Field("waypoints", mission.waypoints, Need::kOptional);
   a.Field("duration", mission.duration, kPositive);
   a.Section("start", mission.start);
@@ -157,7 +157,7 @@ void Visit(Archive& a, Expectations& expect) {
 template <typename Archive>
 void Visit(Archive& a, RenderSpec& render) {
   a.Field("camera", render.camera, Need::kOptional);
-  a.Pair("size", render.width, render.height, Range{.min = 16, .max = 8192});
+  a.Pair("size", render.width, render.height, Range{.min = 64, .max = 7680});
   a.Field("fps", render.fps, Need::kOptional, Range{.min = 1.0, .max = 240.0});
 }
 
@@ -165,7 +165,7 @@ template <typename Archive>
 void Visit(Archive& a, Scenario& scenario) {
   int schema = 1;
   a.Field("schema", schema, Need::kRequired, Range{.min = 1, .max = 1});
-  a.Field("name", scenario.name, Need::kRequired);
+  a.Identifier("name", scenario.name);
   a.Field("seed", scenario.seed, Need::kOptional);
   a.Section("vehicle", scenario.vehicle);
   a.Section("mission", scenario.mission, Need::kRequired);

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "trackbed/core/spelling.h"
@@ -172,6 +173,26 @@ void YamlReader::Field(const char* key, std::string& value, Need need, const Nam
   value = node->Scalar();
 }
 
+void YamlReader::Identifier(const char* key, std::string& value) {
+  Field(key, value, Need::kRequired);
+  const auto fits = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
+  };
+  if (!value.empty() && (value.front() == '.' || value.size() > 100 ||
+                         !std::all_of(value.begin(), value.end(), fits))) {
+    for (const auto& entry : node_) {
+      if (entry.first.IsScalar() && entry.first.Scalar() == key) {
+        Complain(
+            entry.second, Dotted(key),
+            fmt::format("'{}' cannot name a folder; allowed are up to 100 letters, digits, '_', "
+                        "'-' and '.', the first not '.'",
+                        value));
+        return;
+      }
+    }
+  }
+}
+
 void YamlReader::Field(const char* key, std::vector<std::string>& value, Need need,
                        const Names& allowed) {
   const auto node = Take(key, need);
@@ -223,8 +244,8 @@ void YamlReader::Field(const char* key, std::vector<Vec2>& value, Need need) {
       continue;
     }
     Vec2 point = Vec2::Zero();
-    // A million metres: far beyond any route, and positions still resolve nanometres.
-    const Range map{.min = -1e6, .max = 1e6};
+    // A hundred kilometres: far beyond any route.
+    const Range map{.min = -1e5, .max = 1e5};
     if (ReadNumber(item[0], dotted + "[0]", map, point.x()) &&
         ReadNumber(item[1], dotted + "[1]", map, point.y())) {
       value.push_back(point);

@@ -40,6 +40,8 @@ class YamlReader {
   void Field(const char* key, int& value, Need need, Range range = {});
   void Field(const char* key, std::uint64_t& value, Need need);
   void Field(const char* key, std::string& value, Need need, const Names& allowed = {});
+  /// A required name that can stand in a path: letters, digits, '_', '-', '.', none hidden.
+  void Identifier(const char* key, std::string& value);
   void Field(const char* key, std::vector<std::string>& value, Need need, const Names& allowed);
   void Field(const char* key, std::vector<Vec2>& value, Need need);
   void Pair(const char* key, int& first, int& second, Range range);

@@ -43,6 +43,7 @@ class YamlWriter {
   void Field(const char* key, std::string& value, Need, const Names& = {}) {
     out_ << YAML::Key << key << YAML::Value << value;
   }
+  void Identifier(const char* key, std::string& value) { Field(key, value, Need::kRequired); }
   void Field(const char* key, std::vector<std::string>& value, Need, const Names&) {
     out_ << YAML::Key << key << YAML::Value << YAML::Flow << value;
   }

@@ -121,15 +121,18 @@ TEST(Run, TurnedStartGivesTheTurnedRun) {
     const auto& rows = a.logs[i].rows;
     ASSERT_EQ(rows.size(), b.logs[i].rows.size());
     double apart = 0.0;
+    double yaw_apart = 0.0;
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const Pose2 expected = Compose(moved, rows[k].state.pose);
       const Pose2& actual = b.logs[i].rows[k].state.pose;
+      yaw_apart = std::max(yaw_apart, std::abs(expected.yaw - actual.yaw));
       apart = std::max(apart, (expected.position() - actual.position()).norm());
     }
     // Kinematic: rounding of 140 m of route (1e-14 each of 23 000 steps). MuJoCo: the contact
     // solver stops at 1e-10 of its scale, differently for each direction, and the closed loop keeps
     // the micrometres that makes from growing.
     EXPECT_LE(apart, a.logs[i].plant == "kinematic" ? Tolerance(1e-9) : Tolerance(1e-4));
+    EXPECT_LE(yaw_apart, a.logs[i].plant == "kinematic" ? Tolerance(1e-9) : Tolerance(1e-4));
   }
 }
 

@@ -5,7 +5,9 @@
 #include <array>
 #include <cstdio>
 #include <memory>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/file.h"
@@ -150,6 +152,89 @@ TEST(Program, RefusesToFilmWhatIsNoRun) {
             "--size: '12' is not of the form 1280x720\n");
 }
 
+TEST(Program, KeepsRunsOfOneNameApart) {
+  const TempFolder folder;
+  folder.Write("a/w.yaml", ReadFile(ScenarioFile("winding")));
+  folder.Write("b/w.yaml", ReadFile(ScenarioFile("winding")));
+  const Outcome outcome = Trackbed(folder, "run a/w.yaml b/w.yaml -o o");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.output,
+            "b/w.yaml: name: 'winding' is the name of an earlier file too; both would write to "
+            "o/winding\n");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "o"));
+}
+
+TEST(Program, NeverWritesOutsideItsFolder) {
+  const TempFolder folder;
+  for (const char* name : {"../escaped", "/tmp/escaped", ".", "a/b", ".hidden"}) {
+    const Outcome outcome = Trackbed(
+        folder, "run " + ScenarioFile("winding") + " --set 'name=" + std::string(name) + "'");
+    EXPECT_EQ(outcome.code, 2) << name;
+    EXPECT_THAT(outcome.output, HasSubstr("cannot name a folder")) << name;
+  }
+  EXPECT_TRUE(folder.Names().empty());
+}
+
+TEST(Program, SaysSoWhenNobodyCanReadItsOutput) {
+  const TempFolder folder;
+  EXPECT_EQ(Trackbed(folder, "--version > /dev/full").code, 2);
+  EXPECT_EQ(Trackbed(folder, "run none.yaml 2>&-").code, 2);
+}
+
+TEST(Program, RefusesSeedsThatAreNone) {
+  const TempFolder folder;
+  EXPECT_EQ(Trackbed(folder, "check " + ScenarioFile("winding") + " --seed=-1").output,
+            "--set: seed: expected a whole number, at least 0, found '-1'\n");
+}
+
+TEST(Program, FilmsARunWhoseModelIsGone) {
+  const TempFolder folder;
+  folder.Write("car.xml", ReadFile(std::string(TRACKBED_SOURCE_DIR) + "/models/prius/prius.xml"));
+  folder.Write("s.yaml", ReadFile(ScenarioFile("winding")));
+  Trackbed(folder, "run s.yaml -o r --set vehicle.model=./car.xml drive.time_limit=0.2");
+  std::filesystem::remove(folder.path() / "car.xml");
+  const Outcome film = Trackbed(folder, "render r --size 128x72 --fps 5");
+  EXPECT_EQ(film.code, 0) << film.output;
+}
+
+/// The program's commands in the README's and the docs' shell blocks, in order.
+std::vector<std::string> DocumentedCommands() {
+  std::vector<std::string> commands;
+  std::vector<std::filesystem::path> pages{std::string(TRACKBED_SOURCE_DIR) + "/README.md"};
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(TRACKBED_SOURCE_DIR) + "/docs")) {
+    if (entry.path().extension() == ".md") {
+      pages.push_back(entry.path());
+    }
+  }
+  const std::string program = "build/release/trackbed ";
+  for (const auto& page : pages) {
+    std::istringstream text(ReadFile(page));
+    for (std::string line; std::getline(text, line);) {
+      if (line.starts_with(program)) {
+        commands.push_back(line.substr(program.size(), line.find(" #") - program.size()));
+      }
+    }
+  }
+  return commands;
+}
+
+TEST(Docs, CommandsDoWhatTheySay) {
+  const TempFolder folder;
+  for (const char* name : {"scenarios", "models", "tests"}) {
+    std::filesystem::create_directory_symlink(std::string(TRACKBED_SOURCE_DIR) + "/" + name,
+                                              folder.path() / name);
+  }
+  const std::vector<std::string> commands = DocumentedCommands();
+  EXPECT_GE(commands.size(), 4U);
+  for (const std::string& command : commands) {
+    // A whole film takes minutes at full size; a stamp at two frames a second proves the command.
+    const bool film = command.starts_with("render");
+    const Outcome outcome = Trackbed(folder, command + (film ? " --size 128x72 --fps 2" : ""));
+    EXPECT_EQ(outcome.code, 0) << command << "\n" << outcome.output;
+  }
+}
+
 TEST(Program, TestsScenariosOneLineEach) {
   const TempFolder folder;
   const Outcome outcome =
@@ -210,9 +295,12 @@ TEST(Program, ShowsAndSavesAModel) {
 
 TEST(Program, CtrlCKeepsTheLogSoFar) {
   const TempFolder folder;
-  const Outcome outcome =
-      Trackbed(folder, "run " + ScenarioFile("three_turns") +
-                           " -o r --set drive.timestep=0.0001 & sleep 0.7; kill -INT $!; wait $!");
+  // The output folder appears before the drive begins; the loop gives up after a minute.
+  const std::string out = (folder.path() / "r").string();
+  const Outcome outcome = Trackbed(
+      folder, "run " + ScenarioFile("three_turns") + " -o " + out +
+                  " --set drive.timestep=0.0001 & n=0; until [ -d " + out +
+                  " ] || [ $n -gt 600 ]; do n=$((n + 1)); sleep 0.1; done; kill -INT $!; wait $!");
   EXPECT_EQ(outcome.code, 130);
   EXPECT_THAT(ReadFile(folder.path() / "r/metrics.json"), HasSubstr("\"complete\": false"));
 }

@@ -151,6 +151,35 @@ TEST(Camera, ChaseLooksTheWayTheCarGoes) {
   EXPECT_LT(behind, -5.0);
 }
 
+TEST(Camera, SideGoesAlongWithoutAJerk) {
+  const TempFolder folder;
+  CopyPrius(folder.path());
+  // 3 m/s; at 2 s the heading begins to turn at 0.5 rad/s at once.
+  WritePlant(folder.path(), "mujoco", 4.0, [](double time) {
+    return CarPlace{3.0 * time, 0.0, 0.5 * std::max(time - 2.0, 0.0)};
+  });
+  const MuJoCoErrorsAsExceptions guard;
+  const Recording recording = ReadRecording(folder.path());
+  const CameraSubject subject(recording);
+  const Camera& side = FindCamera("side");
+  EXPECT_GT(std::sin(side.pose(subject, 0.9, 1.8).azimuth), 0.99);  // from the right, looking left
+  double before = side.pose(subject, 1.0, 1.8).azimuth;
+  double rate_before = 0.0;
+  for (int frame = 1; frame <= 60; ++frame) {
+    const CameraPose pose = side.pose(subject, 1.0 + frame / 30.0, 1.8);
+    const double rate = 30.0 * (pose.azimuth - before);
+    // The mean under a triangle of +-0.8 s: its rate changes by at most 0.5 / 0.8 [rad/s] per
+    // second, the step of 0.5 rad/s times the triangle's peak; twice that for its being 31 samples,
+    // 0.05 s apart where frames are 0.033 s.
+    EXPECT_LT(std::abs(rate - rate_before), 2.0 * 0.5 / 0.8 / 30.0) << frame;
+    before = pose.azimuth;
+    rate_before = rate;
+  }
+  // A narrow picture still holds a car of 4.45 m.
+  const CameraPose narrow = side.pose(subject, 1.0, 0.5);
+  EXPECT_GT(0.5 * 2.0 * narrow.distance * std::tan(0.5 * narrow.view_angle), 4.45);
+}
+
 TEST(Camera, TopShowsAllOfASmallRouteAndFollowsInALargeOne) {
   const MuJoCoErrorsAsExceptions guard;
   const auto poses = [](double length) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 
 #include "render/offscreen.h"
@@ -50,10 +51,14 @@ class FilmSceneTest : public testing::Test {
     });
   }
 
-  Image Picture(const std::string& camera, double time) {
+  Image Picture(const std::string& camera, double time, bool shadows = false,
+                int supersampling = 1) {
     Recording recording = ReadRecording(folder_.path());
-    Offscreen offscreen(*recording.model, kWidth, kHeight, 0);
-    FilmScene scene(recording, false);
+    if (shadows) {
+      FitShadowMap(*recording.model);
+    }
+    Offscreen offscreen(*recording.model, kWidth, kHeight, supersampling);
+    FilmScene scene(recording, shadows);
     const CameraSubject subject(recording);
     pose_ = FindCamera(camera).pose(subject, time, static_cast<double>(kWidth) / kHeight);
     Image image;
@@ -92,6 +97,73 @@ TEST_F(FilmSceneTest, ThePlannedPathIsWhereItsProjectionSays) {
       }
     }
   }
+}
+
+TEST_F(FilmSceneTest, PaintCastsNoShadowOnItself) {
+  WriteStraightPlan(folder_.path(), 16.0);
+  const Image image = Picture("top", 0.0, true);
+  // In the sun ahead of the car, which ends at x = 3.6 and whose shadow, 1.5 m high under a sun
+  // that stands at (-0.3, 0.4, 0.8), ends 0.56 m farther; the shadow map reaches 5 m from the car's
+  // middle. Every point of the ribbon is lit: speckle would be dark dots.
+  for (int i = 0; i <= 40; ++i) {
+    const double x = 4.5 + 0.05 * i;
+    for (const double y : {-0.12, 0.0, 0.12}) {
+      EXPECT_GT(At(image, x, y)[0], kWhite) << x << ", " << y;
+    }
+  }
+}
+
+TEST_F(FilmSceneTest, TheSunCastsTheCarsShadowToItsRight) {
+  const Image lit = Picture("top", 0.0);
+  const Image shaded = Picture("top", 0.0, true);
+  // The roof, 1.5 m up and 0.55 m off the middle, throws its edge 1.5 * 0.4 / 0.8 = 0.75 m to the
+  // right, so y = -1.15 is in the shade and -2.2 and +1.5 are not. The sun is almost half
+  // of what lights flat ground, so the shade is darker by much more than a quarter.
+  EXPECT_LT(At(shaded, 1.4, -1.15)[1], 0.75 * At(lit, 1.4, -2.2)[1]);
+  // In the sun the lamps add up to 0.37 + 0.22 + 0.60 * 0.8 / 0.943 = 1.10, of which one pass keeps
+  // 1 and two passes, one for the sun, keep all. 2 for rounding in either.
+  for (const double y : {-2.2, 1.5}) {
+    EXPECT_GE(At(shaded, 1.4, y)[1], At(lit, 1.4, y)[1] - 2) << y;
+    EXPECT_LE(At(shaded, 1.4, y)[1], 1.10 * At(lit, 1.4, y)[1] + 2) << y;
+  }
+}
+
+TEST_F(FilmSceneTest, SupersamplingSmoothsAndShiftsNothing) {
+  WriteStraightPlan(folder_.path(), 16.0);
+  const Image coarse = Picture("top", 0.0);
+  const Image fine = Picture("top", 0.0, false, 2);
+  ASSERT_EQ(fine.rgb.size(), coarse.rgb.size());
+  const auto difference = [&](int shift_x, int shift_y) {
+    long sum = 0;
+    for (int y = 1; y + 1 < kHeight; ++y) {
+      for (int x = 1; x + 1 < kWidth; ++x) {
+        sum += std::abs(*fine.Pixel(x, y) - *coarse.Pixel(x + shift_x, y + shift_y));
+      }
+    }
+    return sum;
+  };
+  EXPECT_GT(difference(0, 0), 0);
+  for (const int shift : {-1, 1}) {
+    EXPECT_LT(difference(0, 0), difference(shift, 0)) << shift;
+    EXPECT_LT(difference(0, 0), difference(0, shift)) << shift;
+  }
+}
+
+TEST_F(FilmSceneTest, TheSideCameraHasTheCarInTheMiddle) {
+  const Image image = Picture("side", 1.0);
+  // The Prius covers 2.175 to 6.625 at 1 s, up to 1.49: all of it is in the picture, on both sides
+  // of its middle, the front to the right.
+  const Pixel tail = Project(*pose_, 2.175, -0.86, 0.7);
+  const Pixel nose = Project(*pose_, 6.625, -0.86, 0.7);
+  EXPECT_GT(tail.x, kWidth / 10);
+  EXPECT_LT(nose.x, kWidth - kWidth / 10);
+  EXPECT_GT(nose.x - tail.x, kWidth / 3);
+  EXPECT_NEAR(0.5 * (tail.x + nose.x), 0.5 * kWidth, 0.05 * kWidth);
+  EXPECT_GT(Project(*pose_, 4.4, 0.0, 1.49).y, kHeight / 10);
+  EXPECT_LT(Project(*pose_, 4.4, -0.86, 0.0).y, kHeight - kHeight / 10);
+  // Blue paint on the doors: (0.30, 0.50, 0.61) where the ground has as much red as blue.
+  const std::array<int, 3> door = At(image, 4.6, -0.8625, 0.6);
+  EXPECT_GT(door[2], door[0] + 20);
 }
 
 TEST_F(FilmSceneTest, WithoutAPlanTheGroundIsBare) {

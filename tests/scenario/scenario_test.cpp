@@ -75,7 +75,7 @@ expect: {kinematik: {}, between: [{plants: kinematic}]}
             R"(test.yaml:3:1: sed: unknown key 'sed'; did you mean 'seed'?
 test.yaml:4:18: vehicle.model: unknown model 'pruis'; did you mean 'prius'?
 test.yaml:4:31: vehicle.tyre: unknown 'contakt'; did you mean 'contact'?
-test.yaml:6:10: mission.speed: -3 is out of range; must be above 0 and at most 100
+test.yaml:6:10: mission.speed: -3 is out of range; must be at least 0.1 and at most 100
 test.yaml:7:23: mission.waypoints[1]: expected a point [x, y], found 1 numbers
 test.yaml:7:34: mission.waypoints[2][1]: expected a finite number, found '.nan'
 test.yaml:7:41: mission.waypoints[3]: expected a point [x, y], found 'here'
@@ -163,7 +163,7 @@ TEST(Override, SaysWhatIsWrong) {
   EXPECT_EQ(ErrorsOf(kSmall, {"mission.sped=3"}),
             "--set: mission.sped: unknown key 'sped'; did you mean 'speed'?");
   EXPECT_EQ(ErrorsOf(kSmall, {"mission.speed=-1"}),
-            "--set: mission.speed: -1 is out of range; must be above 0 and at most 100");
+            "--set: mission.speed: -1 is out of range; must be at least 0.1 and at most 100");
   EXPECT_EQ(ErrorsOf(kSmall, {"mission.waypoints[9]=[1, 2]"}),
             "--set: mission.waypoints[9]=[1, 2]: there is no element [9]");
   EXPECT_EQ(ErrorsOf(kSmall, {"name.first=x"}),

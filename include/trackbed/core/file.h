@@ -21,7 +21,9 @@ void MakeFolder(const std::filesystem::path& folder);
 /// that writers that look at it work.
 std::filesystem::path TemporaryNameFor(const std::filesystem::path& file);
 
-/// Renames a complete temporary to its final name. RunError (the temporary is removed) on failure.
+/// Renames a complete temporary to its final name, or to what a link of that name points to.
+/// RunError (the temporary is removed) on failure, and when the name is taken by something that is
+/// no regular file.
 void PublishFile(const std::filesystem::path& temporary, const std::filesystem::path& file);
 
 }  // namespace trackbed

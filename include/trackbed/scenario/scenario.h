@@ -111,6 +111,10 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
                        const std::filesystem::path& folder,
                        const std::vector<Override>& overrides = {});
 
+/// The `render` section of a scenario file alone, for films of runs whose model may be gone.
+/// InputError.
+RenderSpec ReadRenderSpec(const std::filesystem::path& file);
+
 /// Checks that concern more than one key; ReadScenario has made them, callers that fill the struct
 /// by hand make them here. InputError.
 void CheckScenario(const Scenario& scenario);

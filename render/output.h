@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "render/image.h"
+
+namespace trackbed::render {
+
+/// Where the pictures of a film go.
+class FilmOutput {
+ public:
+  FilmOutput() = default;
+  virtual ~FilmOutput() = default;
+  FilmOutput(const FilmOutput&) = delete;
+  FilmOutput& operator=(const FilmOutput&) = delete;
+
+  virtual void Add(const Image& image) = 0;
+  /// Call after the last picture: only then is what was written of worth.
+  virtual void Finish() = 0;
+};
+
+/// A kind of file that a film can be.
+struct FilmFormat {
+  std::string extension;  ///< with its dot
+  std::string summary;    ///< one word
+  bool even_sides;        ///< whether it can only hold pictures of even width and height
+  std::unique_ptr<FilmOutput> (*open)(const std::filesystem::path& output, int width, int height,
+                                      double fps);
+};
+
+/// The format that the extension of `output` asks for; InputError naming every one there is when it
+/// asks for none of them.
+const FilmFormat& FormatOf(const std::filesystem::path& output);
+
+/// "frames/f.png" and 7 give "frames/f_00007.png".
+std::filesystem::path FrameName(const std::filesystem::path& output, int frame);
+
+/// The picture as a PNG file's bytes. RunError when it cannot be made.
+std::string EncodePng(const Image& image);
+
+}  // namespace trackbed::render

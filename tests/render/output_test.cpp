@@ -1,0 +1,184 @@
+#include "render/output.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+
+#include "render/caption.h"
+#include "render/offscreen.h"
+#include "render/scene.h"
+#include "tests/render/run_folder.h"
+#include "tests/support/temp_folder.h"
+#include "trackbed/core/error.h"
+#include "trackbed/render/film.h"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+}
+
+namespace trackbed::render {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A PNG as another reader than libpng sees it: libavcodec's own decoder.
+Image Decode(std::string bytes) {
+  Image image;
+  const AVCodec* codec = avcodec_find_decoder(AV_CODEC_ID_PNG);
+  AVCodecContext* context = avcodec_alloc_context3(codec);
+  AVPacket* packet = av_packet_alloc();
+  AVFrame* frame = av_frame_alloc();
+  const auto size = static_cast<int>(bytes.size());
+  bytes.append(AV_INPUT_BUFFER_PADDING_SIZE, '\0');
+  packet->data = reinterpret_cast<std::uint8_t*>(bytes.data());
+  packet->size = size;
+  if (avcodec_open2(context, codec, nullptr) == 0 && avcodec_send_packet(context, packet) == 0 &&
+      avcodec_receive_frame(context, frame) == 0 && frame->format == AV_PIX_FMT_RGB24) {
+    image.Resize(frame->width, frame->height);
+    for (int y = 0; y < image.height; ++y) {
+      const std::uint8_t* row = frame->data[0] + y * frame->linesize[0];
+      std::copy(row, row + 3 * image.width, image.Pixel(0, y));
+    }
+  } else {
+    ADD_FAILURE() << "libavcodec does not decode the PNG as RGB";
+  }
+  av_frame_free(&frame);
+  av_packet_free(&packet);
+  avcodec_free_context(&context);
+  return image;
+}
+
+std::vector<std::string> FilesIn(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    names.push_back(entry.path().filename().string());
+  }
+  return names;
+}
+
+std::string InputMessage(const std::function<void()>& function) {
+  try {
+    function();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no InputError";
+}
+
+TEST(Png, HoldsEveryPixelAsItWas) {
+  Image image;
+  image.Resize(37, 5);  // odd, and rows that are no multiple of four bytes
+  for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+    image.rgb[i] = static_cast<std::uint8_t>(37 * i * i + 11 * i);
+  }
+  const Image decoded = Decode(EncodePng(image));
+  EXPECT_EQ(decoded.width, 37);
+  EXPECT_EQ(decoded.height, 5);
+  EXPECT_TRUE(decoded.rgb == image.rgb);
+}
+
+TEST(FrameName, NumbersBeforeTheExtension) {
+  EXPECT_EQ(FrameName("frames/f.png", 7), "frames/f_00007.png");
+  EXPECT_EQ(FrameName("a.b.png", 123456), "a.b_123456.png");
+}
+
+TEST(FormatOf, NamesTheFormatsThereAre) {
+  EXPECT_EQ(FormatOf("film.mp4").extension, ".mp4");
+  EXPECT_EQ(FormatOf("film.png").extension, ".png");
+  EXPECT_EQ(InputMessage([] { FormatOf("out/film.gif"); }),
+            "out/film.gif: unknown extension '.gif'; a film is made as .mp4 (video) and .png "
+            "(frames)");
+  EXPECT_EQ(InputMessage([] { FormatOf("film"); }),
+            "film: no extension; a film is made as .mp4 (video) and .png (frames)");
+}
+
+class Frames : public testing::Test {
+ protected:
+  Frames() : run_(folder_.path() / "run"), output_(folder_.path() / "frames" / "f.png") {
+    fs::create_directories(run_);
+    CopyPrius(run_);
+    WritePlant(run_, "mujoco", 1.0, [](double time) { return CarPlace{3.0 * time, 0.0, 0.0}; });
+    WriteStraightPlan(run_, 20.0);
+    options_.width = 161;  // odd: only a video cannot be
+    options_.height = 91;
+    options_.fps = 2.0;
+  }
+
+  TempFolder folder_;
+  fs::path run_;
+  fs::path output_;
+  FilmOptions options_;
+};
+
+TEST_F(Frames, AreOneCompletePictureEach) {
+  EXPECT_EQ(RenderFilm(run_, output_, options_).frames, 3);
+  EXPECT_THAT(FilesIn(output_.parent_path()),
+              testing::UnorderedElementsAre("f_00000.png", "f_00001.png", "f_00002.png"));
+  const Image image = Decode(ReadFile(FrameName(output_, 2)));
+  EXPECT_EQ(image.width, 161);
+  EXPECT_EQ(image.height, 91);
+}
+
+TEST_F(Frames, AreThePicturesThatAVideoIsMadeOf) {
+  options_.width = 160;
+  options_.height = 90;
+  options_.fps = 1.0;
+  RenderFilm(run_, output_, options_);
+  const MuJoCoErrorsAsExceptions guard;
+  Recording recording = ReadRecording(run_);
+  Offscreen offscreen(*recording.model, 160, 90, 1);
+  std::vector<Image> glyphs;
+  for (char character = Font::kFirst; character <= Font::kLast; ++character) {
+    glyphs.push_back(offscreen.Glyph(character));
+  }
+  Font font(std::move(glyphs));
+  FilmScene scene(recording, false);
+  const CameraSubject subject(recording);
+  Image image;
+  offscreen.Render(scene.At(1.0, FindCamera("chase").pose(subject, 1.0, 160.0 / 90.0)), image);
+  DrawCaption(image, font, "run", {{kPlanColor, "planned path"}, {CarColor(0), "mujoco"}},
+              recording.plants.front().ReadingsAt(1.0));
+  EXPECT_TRUE(Decode(ReadFile(FrameName(output_, 1))).rgb == image.rgb);
+}
+
+TEST_F(Frames, WrittenBeforeAnInterruptionStay) {
+  EXPECT_THROW(RenderFilm(run_, output_, options_,
+                          [](double fraction) {
+                            if (fraction > 0.5) {
+                              throw std::runtime_error("interrupted");
+                            }
+                          }),
+               std::runtime_error);
+  EXPECT_THAT(FilesIn(output_.parent_path()),
+              testing::UnorderedElementsAre("f_00000.png", "f_00001.png"));
+}
+
+TEST_F(Frames, AreNotMadeForAnUnknownExtensionOrQuality) {
+  output_ = folder_.path() / "frames" / "f.jpg";
+  EXPECT_EQ(InputMessage([this] { RenderFilm(run_, output_, options_); }),
+            output_.string() +
+                ": unknown extension '.jpg'; a film is made as .mp4 (video) and .png (frames)");
+  output_ = folder_.path() / "frames" / "f.png";
+  options_.quality = "flim";
+  EXPECT_EQ(InputMessage([this] { RenderFilm(run_, output_, options_); }),
+            "quality: unknown quality 'flim'; did you mean 'film'?");
+  EXPECT_FALSE(fs::exists(output_.parent_path()));
+}
+
+TEST_F(Frames, OfEveryQualityDifferButNotInSize) {
+  options_.fps = 1.0;
+  std::vector<std::string> pictures;
+  for (const char* quality : {"draft", "film"}) {
+    options_.quality = quality;
+    RenderFilm(run_, output_, options_);
+    pictures.push_back(ReadFile(FrameName(output_, 0)));
+    EXPECT_EQ(Decode(pictures.back()).width, 161) << quality;
+  }
+  EXPECT_FALSE(pictures[0] == pictures[1]);
+}
+
+}  // namespace
+}  // namespace trackbed::render
