@@ -11,7 +11,8 @@ namespace trackbed::render {
 /// in front. One encoder thread and no dates or versions inside: equal pictures give equal bytes.
 ///
 /// The file is complete only after Finish; without it, the destructor leaves what there is. About
-/// 5 ms per picture at 1280x720. RunError, naming `shown_name`, when encoder or disk refuse.
+/// 25 ms per picture at 1280x720 on a busy machine. RunError, naming `shown_name`, when encoder or
+/// disk refuse.
 class VideoWriter {
  public:
   /// `width` and `height` must be even. `shown_name` is what messages call the file, which may be a

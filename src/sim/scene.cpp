@@ -223,9 +223,8 @@ Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const 
 
   // Bit 1 is what everything has by default; bit 2 is the shell's alone, so that it meets obstacles
   // and nothing else, least of all its own wheels.
-  constexpr double kGap =
-      0.15;  // below the shell [m]: it must not scrape the ground on soft springs
-  const double half_height = 0.5 * std::max(vehicle.height - kGap, 0.1 * vehicle.height);
+  // It ends a tenth of the car's height above the ground: it must not scrape on soft springs.
+  const double half_height = 0.45 * vehicle.height;
   XMLElement* shell = chassis->InsertNewChildElement("geom");
   shell->SetAttribute("name", "shell");
   shell->SetAttribute("type", "box");
