@@ -115,7 +115,6 @@ CarParts FindParts(const mjModel& m, Finder& find) {
   }
   parts.steer_actuator = find.Find(mjOBJ_ACTUATOR, "actuator", "steer");
   parts.drive_actuator = find.Find(mjOBJ_ACTUATOR, "actuator", "drive");
-  parts.shell = mj_name2id(&m, mjOBJ_GEOM, "shell");
   parts.brake_torque_front = find.Number("brake_torque_front");
   parts.brake_torque_rear = find.Number("brake_torque_rear");
   find.ThrowIfAnything();

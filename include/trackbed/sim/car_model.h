@@ -37,7 +37,6 @@ struct CarParts {
   double brake_torque_rear = 0.0;        ///< largest, per wheel [N m]
   std::array<double, 4> spin_inertia{};  ///< [kg m^2]
   double cg_height = 0.0;                ///< [m]
-  int shell = -1;  ///< geom that obstacles can touch; -1 when the scene has none
 };
 
 /// A compiled car with its scene. Immutable, and safe to share between threads once made.
