@@ -6,6 +6,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/version.h"
+#include "trackbed/optimize/search.h"
 
 namespace trackbed {
 namespace {
@@ -58,7 +59,8 @@ void RemoveEarlierRun(const fs::path& folder) {
 }  // namespace
 
 ordered_json Versions() {
-  return {{"trackbed", Version()}, {"physics", PhysicsVersion()}};
+  return {
+      {"trackbed", Version()}, {"physics", PhysicsVersion()}, {"optimizer", OptimizerVersion()}};
 }
 
 RunResult RunMission(const Scenario& scenario, const RunHooks& hooks) {

@@ -9,6 +9,7 @@
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
+#include "trackbed/optimize/search.h"
 #include "trackbed/planning/planner.h"
 #include "trackbed/render/film.h"
 #include "trackbed/sim/plant.h"
@@ -75,6 +76,7 @@ const std::vector<Kind>& Kinds() {
          return lines;
        }},
       {"plants", [] { return Summaries(Plants()); }},
+      {"optimizers", [] { return Summaries(Searches()); }},
       {"cameras", [] { return Summaries(Cameras()); }},
       {"models", Models},
       {"scenarios", Scenarios},

@@ -2,7 +2,6 @@
 
 #include <csignal>
 #include <cstdio>
-#include <nlopt.hpp>
 #include <system_error>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/version.h"
+#include "trackbed/optimize/search.h"
 #include "trackbed/sim/car_model.h"
 
 namespace trackbed::cli {
@@ -30,13 +30,13 @@ const std::vector<Verb> kVerbs{
     {"render", "Make the film of a finished run from its folder", AddRender},
     {"test", "Run scenarios and judge them by what they expect, one line each", AddTest},
     {"check", "Read and validate scenarios without driving them", AddCheck},
-    {"list", "What there is: planners, controllers, plants, cameras, models, scenarios", AddList},
+    {"list", "What there is: planners, controllers, plants, optimizers, cameras, models, scenarios",
+     AddList},
     {"model", "What a car is, or its composed MJCF", AddModel},
 };
 
 std::string VersionText() {
-  return fmt::format("Trackbed {}\n{}\nNLopt {}.{}.{}", Version(), PhysicsVersion(),
-                     nlopt::version_major(), nlopt::version_minor(), nlopt::version_bugfix());
+  return fmt::format("Trackbed {}\n{}\n{}", Version(), PhysicsVersion(), OptimizerVersion());
 }
 
 int Run(int argc, char** argv) {

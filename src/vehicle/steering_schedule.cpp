@@ -13,18 +13,20 @@ namespace {
 struct Target {
   double distance;
   double steering;
+  double slope;
 };
 
-std::vector<Target> TargetsOf(const std::vector<TurnSteering>& turns) {
+std::vector<Target> TargetsOf(const std::vector<TurnSteering>& turns,
+                              const std::vector<double>& slopes) {
   std::vector<Target> targets;
   for (std::size_t k = 0; k < turns.size(); ++k) {
     const TurnSteering& turn = turns[k];
     TRACKBED_CHECK(turn.end > turn.start && turn.start >= (k == 0 ? 0.0 : turns[k - 1].start),
                    "turn {} from {} m to {} m is out of order", k, turn.start, turn.end);
-    targets.push_back({turn.start, turn.steering});
+    targets.push_back({turn.start, turn.steering, slopes[k]});
     // The turn that started last has the say: it also ends an earlier one.
     if (k + 1 == turns.size() || turn.end < turns[k + 1].start) {
-      targets.push_back({turn.end, 0.0});
+      targets.push_back({turn.end, 0.0, slopes[k]});
     }
   }
   return targets;
@@ -32,12 +34,18 @@ std::vector<Target> TargetsOf(const std::vector<TurnSteering>& turns) {
 
 }  // namespace
 
-SteeringSchedule::SteeringSchedule(const std::vector<TurnSteering>& turns, double slope) {
-  TRACKBED_CHECK(slope > 0.0, "slope {}", slope);
-  const std::vector<Target> targets = TargetsOf(turns);
+SteeringSchedule::SteeringSchedule(const std::vector<TurnSteering>& turns, double slope)
+    : SteeringSchedule(turns, std::vector<double>(turns.size(), slope)) {}
+
+SteeringSchedule::SteeringSchedule(const std::vector<TurnSteering>& turns,
+                                   const std::vector<double>& slopes) {
+  TRACKBED_CHECK(slopes.size() == turns.size(), "{} slopes for {} turns", slopes.size(),
+                 turns.size());
+  const std::vector<Target> targets = TargetsOf(turns, slopes);
   double steering = 0.0;
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    const auto& [begin, target] = targets[i];
+    const auto& [begin, target, slope] = targets[i];
+    TRACKBED_CHECK(slope > 0.0, "slope {}", slope);
     const double until =
         i + 1 < targets.size() ? targets[i + 1].distance : std::numeric_limits<double>::infinity();
     if (knots_.empty() || begin > knots_.back().distance) {
@@ -98,21 +106,33 @@ double TurnHeadingDefect(const VehicleParams& params, double steering, double sp
 KinematicState RollOut(const VehicleParams& params, const KinematicState& start,
                        const SteeringSchedule& schedule, double distance, double step,
                        ReferencePoint reference) {
+  return RollOut(params, start, schedule, std::vector<double>{distance}, step, reference).front();
+}
+
+std::vector<KinematicState> RollOut(const VehicleParams& params, const KinematicState& start,
+                                    const SteeringSchedule& schedule,
+                                    const std::vector<double>& distances, double step,
+                                    ReferencePoint reference) {
   TRACKBED_CHECK(start.speed > 0.0 && step > 0.0, "speed {}, step {}", start.speed, step);
   KinematicCar car(params, reference, start);
   const std::vector<SteeringSchedule::Knot>& knots = schedule.knots();
   auto knot = knots.begin();
   double done = 0.0;
-  while (done < distance) {
-    while (knot != knots.end() && knot->distance <= done) {
-      ++knot;
+  std::vector<KinematicState> states;
+  states.reserve(distances.size());
+  for (const double distance : distances) {
+    while (done < distance) {
+      while (knot != knots.end() && knot->distance <= done) {
+        ++knot;
+      }
+      const double next =
+          std::min({done + step, distance, knot != knots.end() ? knot->distance : distance});
+      car.Step({.steering = schedule.At(next)}, (next - done) / start.speed);
+      done = next;
     }
-    const double next =
-        std::min({done + step, distance, knot != knots.end() ? knot->distance : distance});
-    car.Step({.steering = schedule.At(next)}, (next - done) / start.speed);
-    done = next;
+    states.push_back(car.state());
   }
-  return car.state();
+  return states;
 }
 
 }  // namespace trackbed

@@ -33,9 +33,10 @@ class SteeringSchedule {
   /// Straight on for ever.
   SteeringSchedule() = default;
 
-  /// Turns in the order of their starts; `slope` = omega_delta/v [rad/m] > 0. InternalError when
-  /// they are out of order.
+  /// Turns in the order of their starts; `slope` = omega_delta/v [rad/m] > 0, one for all turns or
+  /// one for each. InternalError when they are out of order.
   SteeringSchedule(const std::vector<TurnSteering>& turns, double slope);
+  SteeringSchedule(const std::vector<TurnSteering>& turns, const std::vector<double>& slopes);
 
   /// Holds `steering` [rad] from the start on.
   static SteeringSchedule Constant(double steering);
@@ -66,5 +67,11 @@ double TurnHeadingDefect(const VehicleParams& params, double steering, double sp
 KinematicState RollOut(const VehicleParams& params, const KinematicState& start,
                        const SteeringSchedule& schedule, double distance, double step,
                        ReferencePoint reference = ReferencePoint::kRearAxle);
+
+/// The same, seen at several distances [m] that do not fall.
+std::vector<KinematicState> RollOut(const VehicleParams& params, const KinematicState& start,
+                                    const SteeringSchedule& schedule,
+                                    const std::vector<double>& distances, double step,
+                                    ReferencePoint reference = ReferencePoint::kRearAxle);
 
 }  // namespace trackbed

@@ -1,0 +1,311 @@
+#include "trackbed/optimize/search.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <nlopt.hpp>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+/// Where the infeasible points begin in the eyes of a method that knows no constraints.
+constexpr double kBeyond = 1e100;
+
+bool KnowsConstraints(nlopt::algorithm algorithm) {
+  return algorithm == nlopt::GN_ISRES || algorithm == nlopt::LN_COBYLA ||
+         algorithm == nlopt::LD_SLSQP;
+}
+
+nlopt::algorithm AlgorithmOf(SearchMethod method) {
+  switch (method) {
+    case SearchMethod::kIsres:
+      return nlopt::GN_ISRES;
+    case SearchMethod::kEsch:
+      return nlopt::GN_ESCH;
+    case SearchMethod::kCrs2:
+      return nlopt::GN_CRS2_LM;
+    case SearchMethod::kDirect:
+      return nlopt::GN_DIRECT_L;
+    case SearchMethod::kCobyla:
+      return nlopt::LN_COBYLA;
+    case SearchMethod::kNelderMead:
+      return nlopt::LN_NELDERMEAD;
+    case SearchMethod::kSlsqp:
+      return nlopt::LD_SLSQP;
+  }
+  throw InternalError("no such search");
+}
+
+/// What NLopt's callbacks see: evaluates, counts, and keeps the best point of all.
+class Evaluator {
+ public:
+  Evaluator(const SearchProblem& problem, const SearchOptions& options, int budget, bool ranks)
+      : problem_(problem),
+        options_(options),
+        budget_(budget),
+        ranks_(ranks),
+        point_(problem.lower.size()),
+        constraints_(problem.constraint_count) {
+    result_.violation = std::numeric_limits<double>::infinity();
+    result_.value = std::numeric_limits<double>::infinity();
+  }
+
+  /// The objective as the method may see it, with its gradient when asked for.
+  double Objective(const double* x, double* gradient) {
+    Evaluate(x);
+    const double seen = Seen();
+    if (gradient != nullptr) {
+      Differences(x, 1, gradient, [&](double* out) { *out = Seen(); });
+    }
+    return seen;
+  }
+
+  void Constraints(const double* x, double* values, double* gradient) {
+    Evaluate(x);
+    std::copy(constraints_.begin(), constraints_.end(), values);
+    if (gradient != nullptr) {
+      Differences(x, constraints_.size(), gradient,
+                  [&](double* out) { std::copy(constraints_.begin(), constraints_.end(), out); });
+    }
+  }
+
+  SearchResult Take() {
+    if (result_.history.empty() || result_.history.back().evaluations != result_.evaluations) {
+      Record();
+    }
+    return std::move(result_);
+  }
+
+  std::exception_ptr failure;  // of the caller's functions
+
+ private:
+  void Evaluate(const double* x) {
+    if (evaluated_ && std::equal(point_.begin(), point_.end(), x)) {
+      return;  // NLopt asks for objective and constraints of one point in turn
+    }
+    if (result_.evaluations >= budget_) {
+      throw nlopt::forced_stop();
+    }
+    evaluated_ = false;
+    std::copy_n(x, point_.size(), point_.begin());
+    try {
+      value_ = problem_.objective(point_);
+      if (!constraints_.empty()) {
+        problem_.constraints(point_, constraints_);
+      }
+    } catch (...) {
+      failure = std::current_exception();
+      throw nlopt::forced_stop();
+    }
+    evaluated_ = true;
+    ++result_.evaluations;
+    violation_ = 0.0;
+    bool finite = std::isfinite(value_);
+    for (const double c : constraints_) {
+      finite = finite && std::isfinite(c);
+      violation_ = std::max(violation_, c);
+    }
+    violation_ = violation_ <= options_.feasible ? 0.0 : violation_;
+    if (!finite) {
+      violation_ = std::numeric_limits<double>::infinity();
+    }
+    KeepIfBest();
+    if (result_.evaluations % options_.population == 0) {
+      Record();
+    }
+  }
+
+  void KeepIfBest() {
+    if (!std::isfinite(violation_)) {
+      return;
+    }
+    const bool better = violation_ < result_.violation ||
+                        (violation_ == result_.violation && value_ < result_.value);
+    if (better) {
+      result_.status = violation_ == 0.0 ? SearchStatus::kFound : SearchStatus::kInfeasible;
+      result_.x = point_;
+      result_.value = value_;
+      result_.violation = violation_;
+    }
+  }
+
+  void Record() {
+    if (result_.status != SearchStatus::kNotFinite) {
+      result_.history.push_back({result_.evaluations, result_.value, result_.violation, result_.x});
+    }
+  }
+
+  /// A finite number for everything, or NLopt compares NaNs.
+  [[nodiscard]] double Seen() const {
+    if (!std::isfinite(violation_)) {
+      return 3.0 * kBeyond;
+    }
+    if (ranks_ && violation_ > 0.0) {
+      return kBeyond * (1.0 + violation_ / (1.0 + violation_));
+    }
+    return value_;
+  }
+
+  /// Central differences of `rows` values, row by row; one-sided at the bounds.
+  template <typename Values>
+  void Differences(const double* x, std::size_t rows, double* gradient, const Values& values) {
+    // The cube root of the rounding of one evaluation balances it against the third derivative.
+    constexpr double kStep = 6e-6;
+    std::vector<double> at(x, x + point_.size());
+    std::vector<double> ahead(rows);
+    std::vector<double> behind(rows);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const double step = kStep * (problem_.upper[i] - problem_.lower[i]);
+      const double high = std::min(x[i] + step, problem_.upper[i]);
+      const double low = std::max(x[i] - step, problem_.lower[i]);
+      at[i] = high;
+      Evaluate(at.data());
+      values(ahead.data());
+      at[i] = low;
+      Evaluate(at.data());
+      values(behind.data());
+      at[i] = x[i];
+      for (std::size_t row = 0; row < rows; ++row) {
+        gradient[row * at.size() + i] =
+            high > low ? (ahead[row] - behind[row]) / (high - low) : 0.0;
+      }
+    }
+  }
+
+  const SearchProblem& problem_;
+  const SearchOptions& options_;
+  int budget_;
+  bool ranks_;
+  bool evaluated_ = false;
+  std::vector<double> point_;  // the last one evaluated
+  double value_ = 0.0;
+  double violation_ = 0.0;
+  std::vector<double> constraints_;
+  SearchResult result_;
+};
+
+double ObjectiveCallback(unsigned /*n*/, const double* x, double* gradient, void* evaluator) {
+  return static_cast<Evaluator*>(evaluator)->Objective(x, gradient);
+}
+
+void ConstraintsCallback(unsigned /*m*/, double* values, unsigned /*n*/, const double* x,
+                         double* gradient, void* evaluator) {
+  static_cast<Evaluator*>(evaluator)->Constraints(x, values, gradient);
+}
+
+void CheckProblem(const SearchProblem& problem, const SearchOptions& options) {
+  const std::size_t n = problem.lower.size();
+  TRACKBED_CHECK(n > 0 && problem.upper.size() == n, "{} lower and {} upper bounds", n,
+                 problem.upper.size());
+  TRACKBED_CHECK(problem.start.empty() || problem.start.size() == n, "{} variables, a start of {}",
+                 n, problem.start.size());
+  for (std::size_t i = 0; i < n; ++i) {
+    TRACKBED_CHECK(std::isfinite(problem.lower[i]) && std::isfinite(problem.upper[i]) &&
+                       problem.lower[i] <= problem.upper[i],
+                   "bounds {} and {} of variable {}", problem.lower[i], problem.upper[i], i);
+  }
+  TRACKBED_CHECK(options.population > static_cast<int>(n) + 1 && options.evaluations >= 0 &&
+                     options.tolerance >= 0.0 && options.feasible >= 0.0,
+                 "population {}, evaluations {}, tolerance {}, feasible {}", options.population,
+                 options.evaluations, options.tolerance, options.feasible);
+}
+
+}  // namespace
+
+const std::vector<SearchEntry>& Searches() {
+  static const std::vector<SearchEntry> table{
+      {SearchMethod::kIsres, "isres", "improved stochastic ranking evolution strategy (Runarsson)",
+       true, true, 10000},
+      {SearchMethod::kEsch, "esch", "evolutionary algorithm with Cauchy mutation (Santos)", true,
+       true, 10000},
+      {SearchMethod::kCrs2, "crs2", "controlled random search with local mutation (Kaelo, Ali)",
+       true, true, 10000},
+      {SearchMethod::kDirect, "direct", "dividing rectangles, locally biased (Gablonsky, Kelley)",
+       false, true, 500},
+      {SearchMethod::kCobyla, "cobyla", "linear approximations over a simplex (Powell)", false,
+       false, 1000},
+      {SearchMethod::kNelderMead, "nelder_mead", "downhill simplex (Nelder, Mead)", false, false,
+       1000},
+      {SearchMethod::kSlsqp, "slsqp", "sequential quadratic programming, differenced (Kraft)",
+       false, false, 2000},
+  };
+  return table;
+}
+
+const SearchEntry& SearchFor(SearchMethod method) {
+  for (const SearchEntry& entry : Searches()) {
+    if (entry.method == method) {
+      return entry;
+    }
+  }
+  throw InternalError("a search that is not in the table");
+}
+
+const char* ToString(SearchStatus status) {
+  switch (status) {
+    case SearchStatus::kFound:
+      return "found";
+    case SearchStatus::kInfeasible:
+      return "infeasible";
+    case SearchStatus::kNotFinite:
+      return "not_finite";
+  }
+  throw InternalError("no such search status");
+}
+
+std::string OptimizerVersion() {
+  return fmt::format("NLopt {}.{}.{}", nlopt::version_major(), nlopt::version_minor(),
+                     nlopt::version_bugfix());
+}
+
+SearchResult Search(const SearchProblem& problem, const SearchOptions& options,
+                    std::uint64_t seed) {
+  CheckProblem(problem, options);
+  const std::size_t n = problem.lower.size();
+  const int budget =
+      options.evaluations > 0 ? options.evaluations : SearchFor(options.method).evaluations;
+  const nlopt::algorithm algorithm = AlgorithmOf(options.method);
+  Evaluator evaluator(problem, options, budget, !KnowsConstraints(algorithm));
+
+  nlopt::opt search(algorithm, static_cast<unsigned>(n));
+  search.set_lower_bounds(problem.lower);
+  search.set_upper_bounds(problem.upper);
+  search.set_min_objective(ObjectiveCallback, &evaluator);
+  if (problem.constraint_count > 0 && KnowsConstraints(algorithm)) {
+    search.add_inequality_mconstraint(ConstraintsCallback, &evaluator,
+                                      std::vector<double>(problem.constraint_count, 0.0));
+  }
+  search.set_maxeval(budget);
+  search.set_population(static_cast<unsigned>(options.population));
+  std::vector<double> x(n);
+  std::vector<double> tolerance(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double start =
+        problem.start.empty() ? 0.5 * (problem.lower[i] + problem.upper[i]) : problem.start[i];
+    x[i] = std::clamp(start, problem.lower[i], problem.upper[i]);
+    tolerance[i] = options.tolerance * (problem.upper[i] - problem.lower[i]);
+  }
+  search.set_xtol_abs(tolerance);
+
+  // NLopt's generator is one per thread, otherwise seeded from the clock, and takes 32 bits.
+  nlopt::srand(static_cast<unsigned long>((seed ^ (seed >> 32U)) & 0xffffffffU));
+  try {
+    double value = 0.0;
+    search.optimize(x, value);
+  } catch (const nlopt::forced_stop&) {
+    // The budget is used, or a function of the problem failed.
+  } catch (const nlopt::roundoff_limited&) {
+    // As far as this method gets.
+  }
+  if (evaluator.failure) {
+    std::rethrow_exception(evaluator.failure);
+  }
+  return evaluator.Take();
+}
+
+}  // namespace trackbed
