@@ -11,6 +11,66 @@ namespace {
 /// Stretches of a profile shorter than this are left out [m].
 constexpr double kNegligible = 1e-9;
 
+/// A stretch between two stations with one highest speed.
+struct Stretch {
+  double from;
+  double to;
+  double speed;
+};
+
+/// The stretches into which the ends of caps cut [0, length].
+std::vector<Stretch> StretchesOf(double length, double limit, const std::vector<SpeedCap>& caps) {
+  std::vector<double> ends{0.0, length};
+  for (const SpeedCap& cap : caps) {
+    for (const double s : {cap.from, cap.to}) {
+      if (s > kNegligible && s < length - kNegligible) {
+        ends.push_back(s);
+      }
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  std::vector<Stretch> stretches;
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    if (ends[i + 1] - ends[i] < kNegligible) {
+      continue;
+    }
+    double speed = limit;
+    const double middle = 0.5 * (ends[i] + ends[i + 1]);
+    for (const SpeedCap& cap : caps) {
+      if (cap.from <= middle && middle <= cap.to) {
+        speed = std::min(speed, cap.speed);
+      }
+    }
+    stretches.push_back({ends[i], ends[i + 1], speed});
+  }
+  return stretches;
+}
+
+/// The knots inside a stretch that is entered and left at given speeds (squared), which its length
+/// allows: down to its highest speed at `braking` or up to it, along, and down to the exit's.
+void AddInnerKnots(const Stretch& stretch, double in_squared, double out_squared, double braking,
+                   const SpeedLimits& limits, std::vector<SpeedProfile::Knot>& knots) {
+  const double a = in_squared > stretch.speed * stretch.speed ? -braking : limits.acceleration;
+  const double b = limits.deceleration;
+  const double length = stretch.to - stretch.from;
+  const auto add = [&](double s, double v_squared) {
+    if (s > knots.back().s + kNegligible && s < stretch.to - kNegligible) {
+      knots.push_back({s, std::sqrt(v_squared)});
+    }
+  };
+  const double v_squared = stretch.speed * stretch.speed;
+  const double ramp = (v_squared - in_squared) / (2.0 * a);
+  const double brake = (v_squared - out_squared) / (2.0 * b);
+  if (ramp + brake <= length) {
+    add(stretch.from + ramp, v_squared);
+    add(stretch.to - brake, v_squared);
+  } else if (a > 0.0) {
+    // No room for the highest speed: accelerate until braking must begin.
+    const double peak = (out_squared - in_squared + 2.0 * b * length) / (2.0 * (a + b));
+    add(stretch.from + peak, in_squared + 2.0 * a * peak);
+  }
+}
+
 }  // namespace
 
 SpeedProfile::SpeedProfile(std::vector<Knot> knots) : knots_(std::move(knots)) {
@@ -71,33 +131,41 @@ double SpeedProfile::TimeAt(double s) const {
   return time;
 }
 
-SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& limits) {
+SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& limits,
+                       const std::vector<SpeedCap>& caps) {
   if (length <= 0.0) {
     return SpeedProfile({{0.0, 0.0}});
   }
-  const double a = start_speed > limits.speed ? -limits.deceleration : limits.acceleration;
-  const double b = limits.deceleration;
-  const double v0_squared = start_speed * start_speed;
-  const double v_squared = limits.speed * limits.speed;
-  const double ramp = (v_squared - v0_squared) / (2.0 * a);  // to the limit
-  const double stop = v_squared / (2.0 * b);                 // from the limit
-  std::vector<SpeedProfile::Knot> knots{{0.0, start_speed}};
-  if (ramp + stop <= length) {
-    if (ramp > kNegligible) {
-      knots.push_back({ramp, limits.speed});
-    }
-    if (length - stop > knots.back().s + kNegligible) {
-      knots.push_back({length - stop, limits.speed});
-    }
-  } else if (start_speed <= limits.speed && v0_squared < 2.0 * b * length) {
-    // No room for the limit: accelerate until braking must begin.
-    const double peak_squared = (2.0 * a * b * length + b * v0_squared) / (a + b);
-    const double peak = (peak_squared - v0_squared) / (2.0 * a);
-    if (peak > kNegligible && peak < length - kNegligible) {
-      knots.push_back({peak, std::sqrt(peak_squared)});
+  const std::vector<Stretch> stretches = StretchesOf(length, limits.speed, caps);
+  const double start_squared = start_speed * start_speed;
+  // Highest speeds, squared, at the ends of the stretches: backward from standstill, then forward.
+  std::vector<double> squared(stretches.size() + 1, 0.0);
+  double braking = std::max(limits.deceleration, start_squared / (2.0 * length));
+  for (std::size_t i = stretches.size(); i-- > 0;) {
+    const auto& [from, to, speed] = stretches[i];
+    const double here = i == 0 ? speed : std::min(speed, stretches[i - 1].speed);
+    squared[i] = std::min(here * here, squared[i + 1] + 2.0 * limits.deceleration * (to - from));
+    if (from > 0.0) {
+      braking = std::max(braking, (start_squared - speed * speed) / (2.0 * from));
     }
   }
-  knots.push_back({length, 0.0});
+  // A start above what the way ahead allows comes down at `braking`, and meets it sooner or later.
+  bool too_fast = start_squared > squared[0];
+  squared[0] = start_squared;
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    const double step = 2.0 * (stretches[i].to - stretches[i].from);
+    const double down = start_squared - 2.0 * braking * stretches[i].to;
+    constexpr double kRounding = 1e-12;
+    too_fast = too_fast && down > squared[i + 1] + kRounding * start_squared;
+    squared[i + 1] =
+        too_fast ? down : std::min(squared[i + 1], squared[i] + step * limits.acceleration);
+  }
+  std::vector<SpeedProfile::Knot> knots{{0.0, start_speed}};
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    AddInnerKnots(stretches[i], squared[i], squared[i + 1], braking, limits, knots);
+    const double s = i + 1 < stretches.size() ? stretches[i].to : length;
+    knots.push_back({s, std::sqrt(squared[i + 1])});
+  }
   return SpeedProfile(std::move(knots));
 }
 

@@ -116,6 +116,72 @@ TEST(StopAtEnd, BrakesHarderWhereItMust) {
   ExpectKnots(StopAtEnd(1.0, 5.0, kLimits), {{0, 5}, {1, 0}});
 }
 
+// --- Caps ---------------------------------------------------------------------------------------
+
+TEST(StopAtEnd, SlowsDownForACapAndSpeedsUpAfterIt) {
+  // From 3 to 2 m/s at 1.5 m/s^2 takes 5/3 m, back at 1 m/s^2 takes 2.5 m, to rest 3 m.
+  const SpeedProfile profile = StopAtEnd(40.0, 3.0, {3.0, 1.0, 1.5}, {{10.0, 15.0, 2.0}});
+  const std::vector<SpeedProfile::Knot>& knots = profile.knots();
+  const std::vector<double> stations{0.0, 10.0 - 5.0 / 3.0, 10.0, 15.0, 17.5, 37.0, 40.0};
+  const std::vector<double> speeds{3.0, 3.0, 2.0, 2.0, 3.0, 3.0, 0.0};
+  ASSERT_EQ(knots.size(), stations.size());
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    EXPECT_NEAR(knots[i].s, stations[i], Tolerance(1e-12)) << i;
+    EXPECT_NEAR(knots[i].speed, speeds[i], Tolerance(1e-12)) << i;
+  }
+}
+
+TEST(StopAtEnd, PeaksBetweenCapsThatAreClose) {
+  // Between 1 m/s at 10 m and at 13 m: up at 1, down at 1.5 m/s^2: the peak is 1.8 m after the
+  // first, at v^2 = 1 + 3.6.
+  const SpeedProfile profile =
+      StopAtEnd(40.0, 1.0, {3.0, 1.0, 1.5}, {{0.0, 10.0, 1.0}, {13.0, 20.0, 1.0}});
+  EXPECT_NEAR(profile.SpeedAt(11.8), std::sqrt(4.6), Tolerance(1e-12));
+  EXPECT_EQ(profile.SpeedAt(13.0), 1.0);
+}
+
+TEST(StopAtEnd, BrakesHarderBeforeANearCap) {
+  // 9 - 1 = 2 d 2: 2 m/s^2 instead of 1.5.
+  const SpeedProfile profile = StopAtEnd(40.0, 3.0, {3.0, 1.0, 1.5}, {{2.0, 5.0, 1.0}});
+  EXPECT_NEAR(profile.AccelerationAt(1.0), -2.0, Tolerance(1e-12));
+  EXPECT_NEAR(profile.SpeedAt(3.0), 1.0, Tolerance(1e-12));
+}
+
+TEST(StopAtEnd, KeepsRandomCaps) {
+  Random random(7);
+  for (int i = 0; i < 2000; ++i) {
+    const double length = random.Uniform(1.0, 200.0);
+    const SpeedLimits limits{random.Uniform(0.5, 10.0), random.Uniform(0.2, 3.0),
+                             random.Uniform(0.2, 3.0)};
+    const double start = random.Uniform(0.0, limits.speed);
+    std::vector<SpeedCap> caps;
+    for (int k = 0; k < i % 5; ++k) {
+      const double from = random.Uniform(0.01, length);
+      caps.push_back({from, from + random.Uniform(0.0, 20.0), random.Uniform(0.3, limits.speed)});
+    }
+    SCOPED_TRACE(::testing::Message() << "case " << i);
+    const SpeedProfile profile = StopAtEnd(length, start, limits, caps);
+    EXPECT_EQ(profile.SpeedAt(0.0), start);
+    EXPECT_EQ(profile.SpeedAt(length), 0.0);
+    bool hard = start * start / (2.0 * length) > limits.deceleration;
+    for (const SpeedCap& cap : caps) {
+      hard = hard || start * start - cap.speed * cap.speed > 2.0 * limits.deceleration * cap.from;
+    }
+    for (double s = 0.0; s < length; s += 0.05) {
+      EXPECT_LE(profile.SpeedAt(s), limits.speed + 1e-9) << s;
+      EXPECT_LE(profile.AccelerationAt(s), limits.acceleration + 1e-6) << s;
+      if (!hard) {
+        EXPECT_GE(profile.AccelerationAt(s), -limits.deceleration - 1e-6) << s;
+      }
+      for (const SpeedCap& cap : caps) {
+        if (s >= cap.from + 1e-6 && s <= std::min(cap.to, length) - 1e-6) {
+          EXPECT_LE(profile.SpeedAt(s), cap.speed + 1e-6) << s;
+        }
+      }
+    }
+  }
+}
+
 TEST(StopAtEnd, OfNoLengthStands) {
   ExpectKnots(StopAtEnd(0.0, 0.0, kLimits), {{0, 0}});
 }

@@ -42,10 +42,19 @@ class SpeedProfile {
   std::vector<Knot> knots_;
 };
 
-/// Leaves s = 0 at `start_speed`, goes at the limit, and stops at s = length. Where the length is
-/// too short to reach the limit the profile peaks below it; where it is too short to stop from the
-/// start speed at the limit's deceleration, it brakes harder, evenly.
-SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& limits);
+/// A stretch of a path that is taken no faster than `speed`.
+struct SpeedCap {
+  double from = 0.0;   ///< [m]
+  double to = 0.0;     ///< [m]
+  double speed = 0.0;  ///< [m/s], > 0
+};
+
+/// Leaves s = 0 at `start_speed`, goes as fast as limits and caps allow, and stops at s = length.
+/// Where there is no length to reach the limit the profile peaks below it; where there is none to
+/// brake from the start speed at the limit's deceleration, it brakes harder, evenly. A start above
+/// the limit, or within a cap and above it, comes down at the limit's deceleration.
+SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& limits,
+                       const std::vector<SpeedCap>& caps = {});
 
 /// What a controller follows: where, and how fast.
 struct Reference {
