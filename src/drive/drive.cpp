@@ -93,6 +93,7 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
   if (!scenario.plan) {
     Plan plan;
     plan.reference.speed = SpeedProfile({{0.0, scenario.mission.speed}});
+    plan.schedule_speed = plan.reference.speed;
     return plan;
   }
   const PlanRequest request{
@@ -116,6 +117,8 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
       static_cast<int>(std::lround(drive.control_period / drive.timestep));
   const StationSource source = ControllerFor(scenario.control.steering).station;
 
+  const SpeedProfile& speed =
+      source == StationSource::kOdometer ? plan.schedule_speed : plan.reference.speed;
   const auto controller = MakeSteeringController(scenario.control.steering);
   const auto plant = MakePlant(plant_name, car, scenario.world, StartOf(scenario));
   RunLog log{.plant = plant_name,
@@ -179,8 +182,8 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
                                           .state = state,
                                           .station = s,
                                           .period = drive.control_period});
-    command.acceleration = SpeedControl(scenario.control.speed, plan.reference.speed, s,
-                                        std::abs(state.speed), drive.control_period);
+    command.acceleration =
+        SpeedControl(scenario.control.speed, speed, s, std::abs(state.speed), drive.control_period);
     row.command = command;
     log.rows.push_back(row);
 

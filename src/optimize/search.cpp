@@ -16,9 +16,24 @@ namespace {
 /// Where the infeasible points begin in the eyes of a method that knows no constraints.
 constexpr double kBeyond = 1e100;
 
-bool KnowsConstraints(nlopt::algorithm algorithm) {
-  return algorithm == nlopt::GN_ISRES || algorithm == nlopt::LN_COBYLA ||
-         algorithm == nlopt::LD_SLSQP;
+/// How a method is made to keep constraints.
+enum class Handling {
+  kNative,  ///< it takes them itself
+  kRanked,  ///< it only compares points: every infeasible one ranks below every feasible one
+  kHidden,  ///< it guesses the value of points that have none from their neighbours
+};
+
+Handling HandlingOf(nlopt::algorithm algorithm) {
+  switch (algorithm) {
+    case nlopt::GN_ISRES:
+    case nlopt::LN_COBYLA:
+    case nlopt::LD_SLSQP:
+      return Handling::kNative;
+    case nlopt::GN_ORIG_DIRECT_L:
+      return Handling::kHidden;
+    default:
+      return Handling::kRanked;
+  }
 }
 
 nlopt::algorithm AlgorithmOf(SearchMethod method) {
@@ -30,7 +45,7 @@ nlopt::algorithm AlgorithmOf(SearchMethod method) {
     case SearchMethod::kCrs2:
       return nlopt::GN_CRS2_LM;
     case SearchMethod::kDirect:
-      return nlopt::GN_DIRECT_L;
+      return nlopt::GN_ORIG_DIRECT_L;
     case SearchMethod::kCobyla:
       return nlopt::LN_COBYLA;
     case SearchMethod::kNelderMead:
@@ -44,11 +59,12 @@ nlopt::algorithm AlgorithmOf(SearchMethod method) {
 /// What NLopt's callbacks see: evaluates, counts, and keeps the best point of all.
 class Evaluator {
  public:
-  Evaluator(const SearchProblem& problem, const SearchOptions& options, int budget, bool ranks)
+  Evaluator(const SearchProblem& problem, const SearchOptions& options, int budget,
+            Handling handling)
       : problem_(problem),
         options_(options),
         budget_(budget),
-        ranks_(ranks),
+        handling_(handling),
         point_(problem.lower.size()),
         constraints_(problem.constraint_count) {
     result_.violation = std::numeric_limits<double>::infinity();
@@ -73,6 +89,8 @@ class Evaluator {
                   [&](double* out) { std::copy(constraints_.begin(), constraints_.end(), out); });
     }
   }
+
+  [[nodiscard]] const SearchResult& best() const { return result_; }
 
   SearchResult Take() {
     if (result_.history.empty() || result_.history.back().evaluations != result_.evaluations) {
@@ -140,12 +158,15 @@ class Evaluator {
     }
   }
 
-  /// A finite number for everything, or NLopt compares NaNs.
+  /// The objective in the terms of the method; a number for everything, or NLopt compares NaNs.
   [[nodiscard]] double Seen() const {
+    if (handling_ == Handling::kHidden && violation_ > 0.0) {
+      return std::numeric_limits<double>::infinity();
+    }
     if (!std::isfinite(violation_)) {
       return 3.0 * kBeyond;
     }
-    if (ranks_ && violation_ > 0.0) {
+    if (handling_ == Handling::kRanked && violation_ > 0.0) {
       return kBeyond * (1.0 + violation_ / (1.0 + violation_));
     }
     return value_;
@@ -180,7 +201,7 @@ class Evaluator {
   const SearchProblem& problem_;
   const SearchOptions& options_;
   int budget_;
-  bool ranks_;
+  Handling handling_;
   bool evaluated_ = false;
   std::vector<double> point_;  // the last one evaluated
   double value_ = 0.0;
@@ -215,6 +236,53 @@ void CheckProblem(const SearchProblem& problem, const SearchOptions& options) {
                  options.evaluations, options.tolerance, options.feasible);
 }
 
+struct Box {
+  std::vector<double> lower;
+  std::vector<double> upper;
+};
+
+/// A fiftieth of the volume of a box, round x, within the problem's bounds.
+Box Zoomed(const SearchProblem& problem, const Box& box, const std::vector<double>& x) {
+  Box zoomed = box;
+  const double share = std::pow(0.02, 1.0 / static_cast<double>(x.size()));
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double half = 0.5 * share * (box.upper[i] - box.lower[i]);
+    zoomed.lower[i] = std::max(problem.lower[i], x[i] - half);
+    zoomed.upper[i] = std::min(problem.upper[i], x[i] + half);
+  }
+  return zoomed;
+}
+
+/// One run of NLopt; what it finds stays in the evaluator.
+void Run(nlopt::algorithm algorithm, const SearchProblem& problem, const Box& box,
+         std::vector<double> x, int evaluations, const SearchOptions& options,
+         Evaluator& evaluator) {
+  nlopt::opt search(algorithm, static_cast<unsigned>(x.size()));
+  search.set_lower_bounds(box.lower);
+  search.set_upper_bounds(box.upper);
+  search.set_min_objective(ObjectiveCallback, &evaluator);
+  if (problem.constraint_count > 0 && HandlingOf(algorithm) == Handling::kNative) {
+    search.add_inequality_mconstraint(ConstraintsCallback, &evaluator,
+                                      std::vector<double>(problem.constraint_count, 0.0));
+  }
+  search.set_maxeval(evaluations);
+  search.set_population(static_cast<unsigned>(options.population));
+  std::vector<double> tolerance(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    x[i] = std::clamp(x[i], box.lower[i], box.upper[i]);
+    tolerance[i] = options.tolerance * (problem.upper[i] - problem.lower[i]);
+  }
+  search.set_xtol_abs(tolerance);
+  try {
+    double value = 0.0;
+    search.optimize(x, value);
+  } catch (const nlopt::forced_stop&) {
+    // The budget is used, or a function of the problem failed.
+  } catch (const nlopt::roundoff_limited&) {
+    // As far as this method gets.
+  }
+}
+
 }  // namespace
 
 const std::vector<SearchEntry>& Searches() {
@@ -226,7 +294,7 @@ const std::vector<SearchEntry>& Searches() {
       {SearchMethod::kCrs2, "crs2", "controlled random search with local mutation (Kaelo, Ali)",
        true, true, 10000},
       {SearchMethod::kDirect, "direct", "dividing rectangles, locally biased (Gablonsky, Kelley)",
-       false, true, 500},
+       false, true, 240},
       {SearchMethod::kCobyla, "cobyla", "linear approximations over a simplex (Powell)", false,
        false, 1000},
       {SearchMethod::kNelderMead, "nelder_mead", "downhill simplex (Nelder, Mead)", false, false,
@@ -270,37 +338,23 @@ SearchResult Search(const SearchProblem& problem, const SearchOptions& options,
   const int budget =
       options.evaluations > 0 ? options.evaluations : SearchFor(options.method).evaluations;
   const nlopt::algorithm algorithm = AlgorithmOf(options.method);
-  Evaluator evaluator(problem, options, budget, !KnowsConstraints(algorithm));
+  Evaluator evaluator(problem, options, budget, HandlingOf(algorithm));
 
-  nlopt::opt search(algorithm, static_cast<unsigned>(n));
-  search.set_lower_bounds(problem.lower);
-  search.set_upper_bounds(problem.upper);
-  search.set_min_objective(ObjectiveCallback, &evaluator);
-  if (problem.constraint_count > 0 && KnowsConstraints(algorithm)) {
-    search.add_inequality_mconstraint(ConstraintsCallback, &evaluator,
-                                      std::vector<double>(problem.constraint_count, 0.0));
-  }
-  search.set_maxeval(budget);
-  search.set_population(static_cast<unsigned>(options.population));
-  std::vector<double> x(n);
-  std::vector<double> tolerance(n);
+  Box box{problem.lower, problem.upper};
+  std::vector<double> start(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const double start =
-        problem.start.empty() ? 0.5 * (problem.lower[i] + problem.upper[i]) : problem.start[i];
-    x[i] = std::clamp(start, problem.lower[i], problem.upper[i]);
-    tolerance[i] = options.tolerance * (problem.upper[i] - problem.lower[i]);
+    start[i] = problem.start.empty() ? 0.5 * (box.lower[i] + box.upper[i])
+                                     : std::clamp(problem.start[i], box.lower[i], box.upper[i]);
   }
-  search.set_xtol_abs(tolerance);
-
   // NLopt's generator is one per thread, otherwise seeded from the clock, and takes 32 bits.
   nlopt::srand(static_cast<unsigned long>((seed ^ (seed >> 32U)) & 0xffffffffU));
-  try {
-    double value = 0.0;
-    search.optimize(x, value);
-  } catch (const nlopt::forced_stop&) {
-    // The budget is used, or a function of the problem failed.
-  } catch (const nlopt::roundoff_limited&) {
-    // As far as this method gets.
+  // Direct's work grows with the square of its cells: it looks three times, ever closer.
+  const int looks = options.method == SearchMethod::kDirect ? 3 : 1;
+  for (int look = 0; look < looks && !evaluator.failure; ++look) {
+    if (look > 0 && evaluator.best().status != SearchStatus::kNotFinite) {
+      box = Zoomed(problem, box, evaluator.best().x);
+    }
+    Run(algorithm, problem, box, start, budget / looks, options, evaluator);
   }
   if (evaluator.failure) {
     std::rethrow_exception(evaluator.failure);

@@ -18,6 +18,8 @@ const char* ToString(PlanStatus status) {
       return "no_room_for_steering";
     case PlanStatus::kTurnsOverlap:
       return "turns_overlap";
+    case PlanStatus::kSearchFailed:
+      return "search_failed";
     case PlanStatus::kSteersBeforeStart:
       return "steers_before_start";
   }

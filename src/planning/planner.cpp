@@ -9,43 +9,119 @@ namespace {
 
 using nlohmann::json;
 
+/// Of one turn in the joint search: radius, start, hold.
+constexpr std::size_t kDrivenVariables = 3;
+
 json Point(const Vec2& p) {
   return json::array({p.x(), p.y()});
 }
 
-const char* ActiveConstraint(const FilletOptions& options, const FilletTurn& turn) {
-  if (options.radius) {
-    return "given";
+/// A search whose every `stride`-th variable is a radius.
+json ToJson(const SearchOptions& options, const SearchResult& result, std::size_t stride) {
+  json out{{"method", SearchFor(options.method).name},
+           {"status", ToString(result.status)},
+           {"evaluations", result.evaluations},
+           {"objective", result.value},
+           {"history", json::array()}};
+  for (const SearchProgress& progress : result.history) {
+    json radii = json::array();
+    for (std::size_t i = 0; i + stride <= progress.x.size(); i += stride) {
+      radii.push_back(progress.x[i]);
+    }
+    out["history"].push_back({{"evaluations", progress.evaluations},
+                              {"objective", progress.value},
+                              {"radius_m", radii}});
   }
-  if (turn.radius >= options.max_radius) {
-    return "max_radius";
-  }
-  return options.constraint == RadiusConstraint::kHalfLeg ? "half_leg" : "steering_room";
+  return out;
+}
+
+json ToJson(const FilletOptions& options, const TurnSearch& search) {
+  json out = ToJson(options.search, search.result, 1);
+  out["first_radius_m"] = search.first_radius;
+  out["window_time_s"] = search.time;
+  out["window_heading_rad"] = search.heading;
+  // JSON knows no infinity: a car that did not turn in its window has no such radius.
+  out["free_radius_m"] =
+      std::isfinite(search.free_radius) ? json(search.free_radius) : json(nullptr);
+  return out;
 }
 
 json ToJson(const FilletOptions& options, const FilletTurn& turn) {
-  return {{"waypoint", turn.waypoint},
-          {"heading_change_rad", turn.heading_change},
-          {"interior_angle_rad", turn.interior_angle},
-          {"radius_m", turn.radius},
-          {"active_constraint", ActiveConstraint(options, turn)},
-          {"centre_m", Point(turn.centre)},
-          {"arc_start_m", Point(turn.arc_start)},
-          {"arc_end_m", Point(turn.arc_end)},
-          {"arc_start_s_m", turn.arc_start_s},
-          {"arc_length_m", turn.arc_length},
-          {"tangent_length_m", turn.tangent_length},
-          {"steering_rad", turn.steering},
-          {"ramp_time_s", turn.ramp_time},
-          {"ramp_distance_m", turn.ramp_distance},
-          {"steer_start_m", turn.steer_start},
-          {"steer_return_m", turn.steer_return},
-          {"ramp_truncated", turn.ramp_truncated}};
+  json out{{"waypoint", turn.waypoint},
+           {"heading_change_rad", turn.heading_change},
+           {"interior_angle_rad", turn.interior_angle},
+           {"radius_m", turn.radius},
+           {"speed_mps", turn.speed},
+           {"active_constraint", ToString(turn.active)},
+           {"centre_m", Point(turn.centre)},
+           {"arc_start_m", Point(turn.arc_start)},
+           {"arc_end_m", Point(turn.arc_end)},
+           {"arc_start_s_m", turn.arc_start_s},
+           {"arc_length_m", turn.arc_length},
+           {"tangent_length_m", turn.tangent_length},
+           {"steering_rad", turn.steering},
+           {"ramp_time_s", turn.ramp_time},
+           {"ramp_distance_m", turn.ramp_distance},
+           {"steer_start_m", turn.steer_start},
+           {"steer_return_m", turn.steer_return},
+           {"ramp_truncated", turn.ramp_truncated}};
+  if (!turn.note.empty()) {
+    out["note"] = turn.note;
+  }
+  if (turn.search) {
+    out["search"] = ToJson(options, *turn.search);
+  }
+  return out;
+}
+
+/// Where the wheels of a turn are straight again.
+double ReturnEnd(const FilletTurn& turn) {
+  return turn.steer_return + turn.ramp_distance;
+}
+
+std::vector<TurnPrediction> PredictionsOf(const VehicleParams& vehicle, const FilletPlan& plan) {
+  std::vector<TurnPrediction> predictions;
+  double straight_from = 0.0;
+  for (const FilletTurn& turn : plan.turns) {
+    const bool alone = turn.steer_start >= straight_from;
+    straight_from = ReturnEnd(turn);
+    const double middle = turn.arc_start_s + 0.5 * turn.arc_length;
+    const double held = middle - turn.steer_start - turn.ramp_distance;
+    if (!alone || turn.ramp_truncated || held < 0.0) {
+      continue;
+    }
+    const double curvature = CurvatureForSteering(vehicle, turn.steering);
+    const Pose2 ramp = RampPose(vehicle, turn.steering, turn.speed);
+    const Pose2 car = MoveOnArc(ramp, held, held * curvature);
+    const Pose2 X_W_from = plan.path.At(turn.steer_start).pose;
+    const Pose2 X_W_middle = plan.path.At(middle).pose;
+    // Both seen from where the wheels begin to turn.
+    const Vec2 offset = ToLocal(X_W_middle, ToWorld(X_W_from, car.position()));
+    predictions.push_back({.waypoint = turn.waypoint,
+                           .from = turn.steer_start,
+                           .middle = middle,
+                           .curvature = curvature,
+                           .speed = turn.speed,
+                           .heading_deficit = X_W_middle.yaw - X_W_from.yaw - car.yaw,
+                           .lateral_offset = offset.y()});
+  }
+  return predictions;
+}
+
+/// A turn is slow from where its wheels begin to turn to where they are straight again.
+std::vector<SpeedCap> CapsOf(const FilletPlan& plan, double speed) {
+  std::vector<SpeedCap> caps;
+  for (const FilletTurn& turn : plan.turns) {
+    if (turn.speed < speed) {
+      caps.push_back({turn.steer_start, ReturnEnd(turn), turn.speed});
+    }
+  }
+  return caps;
 }
 
 Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
   const FilletPlan fillets =
-      PlanFillets(request.vehicle, request.waypoints, request.speed.speed, options);
+      PlanFillets(request.vehicle, request.waypoints, request.speed.speed, options, request.seed);
   Plan plan;
   plan.status = fillets.status;
   plan.reason = fillets.reason;
@@ -55,9 +131,22 @@ Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
   }
   plan.reference.path = fillets.path;
   plan.schedule = fillets.schedule;
-  plan.diagnostics["turns"] = json::array();
+  plan.turns = PredictionsOf(request.vehicle, fillets);
+  const std::vector<SpeedCap> caps = CapsOf(fillets, request.speed.speed);
+  plan.reference.speed = StopAtEnd(fillets.path.length(), request.start_speed, request.speed, caps);
+  plan.schedule_speed = StopAtEnd(fillets.stop_distance, request.start_speed, request.speed, caps);
+
+  json& out = plan.diagnostics;
+  out["turns"] = json::array();
   for (const FilletTurn& turn : fillets.turns) {
-    plan.diagnostics["turns"].push_back(ToJson(options, turn));
+    out["turns"].push_back(ToJson(options, turn));
+  }
+  out["stop_distance_m"] = fillets.stop_distance;
+  out["open_loop"] = {{"goal_distance_m", fillets.verification.goal_distance},
+                      {"goal_heading_error_rad", fillets.verification.goal_heading},
+                      {"deviation_max_m", fillets.verification.deviation_max}};
+  if (fillets.search) {
+    out["search"] = ToJson(options.search, *fillets.search, kDrivenVariables);
   }
   return plan;
 }
@@ -88,12 +177,7 @@ Plan MakePlan(const PlanRequest& request, const PlannerOptions& options) {
                      speed.speed > 0.0 && speed.acceleration > 0.0 && speed.deceleration > 0.0,
                  "start speed {}, speed {}, acceleration {}, deceleration {}", request.start_speed,
                  speed.speed, speed.acceleration, speed.deceleration);
-  Plan plan = std::visit([&](const auto& own) { return PlanWith(own, request); }, options);
-  if (plan.ok()) {
-    plan.reference.speed =
-        StopAtEnd(plan.reference.path.length(), request.start_speed, request.speed);
-  }
-  return plan;
+  return std::visit([&](const auto& own) { return PlanWith(own, request); }, options);
 }
 
 }  // namespace trackbed

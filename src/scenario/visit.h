@@ -72,6 +72,30 @@ void Visit(Archive& a, Obstacle& obstacle) {
   a.Section("box", keys, Need::kRequired);
 }
 
+inline EnumNames<SearchMethod> SearchNames() {
+  EnumNames<SearchMethod> names;
+  for (const SearchEntry& entry : Searches()) {
+    names.emplace_back(entry.method, entry.name);
+  }
+  return names;
+}
+
+template <typename Archive>
+void Visit(Archive& a, SearchOptions& options) {
+  static const EnumNames<SearchMethod> methods = SearchNames();
+  a.Field("method", options.method, Need::kOptional, methods);
+  a.Field("population", options.population, Need::kOptional, Range{.min = 3, .max = 1e5});
+  a.Field("evaluations", options.evaluations, Need::kOptional, Range{.min = 0, .max = 1e8});
+  a.Field("tolerance", options.tolerance, Need::kOptional, Range{.min = 0.0, .max = 1.0});
+}
+
+template <typename Archive>
+void Visit(Archive& a, DrivenWeights& weights) {
+  a.Field("position", weights.position, Need::kOptional, kNotNegative);
+  a.Field("heading", weights.heading, Need::kOptional, kNotNegative);
+  a.Field("end", weights.end, Need::kOptional, kNotNegative);
+}
+
 template <typename Archive>
 void Visit(Archive& a, FilletOptions& options) {
   a.Field("radius", options.radius, kPositive);
@@ -81,6 +105,23 @@ void Visit(Archive& a, FilletOptions& options) {
       {RadiusConstraint::kNone, "none"}};
   a.Field("constraint", options.constraint, Need::kOptional, constraints);
   a.Field("max_radius", options.max_radius, Need::kOptional, kPositive);
+  static const EnumNames<WithoutRoom> without_room{{WithoutRoom::kSlowDown, "slow_down"},
+                                                   {WithoutRoom::kHalfLeg, "half_leg"},
+                                                   {WithoutRoom::kRefuse, "refuse"}};
+  a.Field("without_room", options.without_room, Need::kOptional, without_room);
+  a.Field("min_speed", options.min_speed, Need::kOptional, kPositive);
+  static const EnumNames<RadiusObjective> objectives{{RadiusObjective::kLargest, "largest"},
+                                                     {RadiusObjective::kLiteral, "literal"},
+                                                     {RadiusObjective::kTurnLocal, "turn_local"},
+                                                     {RadiusObjective::kDriven, "driven"}};
+  a.Field("objective", options.objective, Need::kOptional, objectives);
+  a.Section("search", options.search);
+  a.Field("resimulate_each_turn", options.resimulate_each_turn, Need::kOptional);
+  static const EnumNames<ReferencePoint> references{
+      {ReferencePoint::kRearAxle, "rear_axle"},
+      {ReferencePoint::kCentreOfGravity, "centre_of_gravity"}};
+  a.Field("reference", options.reference, Need::kOptional, references);
+  a.Section("weights", options.weights);
 }
 
 template <typename Archive>

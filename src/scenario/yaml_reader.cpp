@@ -120,15 +120,26 @@ void YamlReader::Field(const char* key, std::optional<double>& value, Range rang
   }
 }
 
+bool YamlReader::ReadFlag(const YAML::Node& node, const std::string& dotted, bool& value) {
+  if (!node.IsScalar() || !YAML::convert<bool>::decode(node, value)) {
+    Complain(node, dotted, fmt::format("expected true or false, found {}", Describe(node)));
+    return false;
+  }
+  return true;
+}
+
+void YamlReader::Field(const char* key, bool& value, Need need) {
+  if (const auto node = Take(key, need)) {
+    ReadFlag(*node, Dotted(key), value);
+  }
+}
+
 void YamlReader::Field(const char* key, std::optional<bool>& value) {
   if (const auto node = Take(key, Need::kOptional)) {
     bool flag = false;
-    if (!node->IsScalar() || !YAML::convert<bool>::decode(*node, flag)) {
-      Complain(*node, Dotted(key),
-               fmt::format("expected true or false, found {}", Describe(*node)));
-      return;
+    if (ReadFlag(*node, Dotted(key), flag)) {
+      value = flag;
     }
-    value = flag;
   }
 }
 

@@ -37,6 +37,7 @@ class YamlReader {
   void Field(const char* key, double& value, Need need, Range range = {});
   void Field(const char* key, std::optional<double>& value, Range range = {});
   void Field(const char* key, std::optional<bool>& value);
+  void Field(const char* key, bool& value, Need need);
   void Field(const char* key, int& value, Need need, Range range = {});
   void Field(const char* key, std::uint64_t& value, Need need);
   void Field(const char* key, std::string& value, Need need, const Names& allowed = {});
@@ -142,6 +143,7 @@ class YamlReader {
   [[nodiscard]] std::string Dotted(const char* key) const;
   std::optional<YAML::Node> Take(const char* key, Need need);
   bool CheckMap(const YAML::Node& node, const std::string& dotted);
+  bool ReadFlag(const YAML::Node& node, const std::string& dotted, bool& value);
   bool ReadNumber(const YAML::Node& node, const std::string& dotted, Range range, double& value);
   void Complain(const YAML::Node& node, const std::string& dotted, std::string message);
   static std::string Describe(const YAML::Node& node);

@@ -29,6 +29,9 @@ class YamlWriter {
       Field(key, *value, Need::kOptional);
     }
   }
+  void Field(const char* key, bool& value, Need) {
+    out_ << YAML::Key << key << YAML::Value << value;
+  }
   void Field(const char* key, std::optional<bool>& value) {
     if (value) {
       out_ << YAML::Key << key << YAML::Value << *value;

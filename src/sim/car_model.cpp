@@ -153,6 +153,16 @@ CarParts FindParts(const mjModel& m, Finder& find) {
   return parts;
 }
 
+/// A ramp's lag behind its servo: damping over stiffness of what the servo turns.
+double SteeringLag(const mjModel& m, int steer_actuator) {
+  double damping = 0.0;
+  for (const char* joint : {"rack", "steer_fl", "steer_fr"}) {
+    const int id = mj_name2id(&m, mjOBJ_JOINT, joint);
+    damping += m.dof_damping[m.jnt_dofadr[id]];
+  }
+  return damping / m.actuator_gainprm[mjNGAIN * steer_actuator];
+}
+
 VehicleParams ReadParams(const mjModel& m, CarParts& parts, Finder& find) {
   const std::unique_ptr<mjData, DataDeleter> data(mj_makeData(&m));
   TRACKBED_CHECK(data != nullptr, "no memory for mjData");
@@ -177,6 +187,7 @@ VehicleParams ReadParams(const mjModel& m, CarParts& parts, Finder& find) {
   const int steer = parts.steer_actuator;
   params.steering_limit = m.actuator_actrange[2 * steer + 1];
   params.steering_rate = m.actuator_ctrlrange[2 * steer + 1];
+  params.steering_lag = SteeringLag(m, steer);
   params.steering_ratio = find.Number("steering_ratio");
   const int outline = find.Find(mjOBJ_SITE, "box site", "outline");
   find.ThrowIfAnything();

@@ -1,6 +1,7 @@
 #include "trackbed/vehicle/steering_schedule.h"
 
 #include <algorithm>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <limits>
 
@@ -96,6 +97,24 @@ double SteeringDistance(const VehicleParams& params, double steering, double spe
 double RampHeading(const VehicleParams& params, double steering, double speed) {
   const double scale = speed / (params.wheelbase * params.steering_rate);
   return std::copysign(scale * -std::log(std::cos(steering)), steering);
+}
+
+Pose2 RampPose(const VehicleParams& params, double steering, double speed) {
+  const double distance = SteeringDistance(params, steering, speed);
+  if (distance == 0.0) {
+    return {};
+  }
+  const auto heading = [&](double s) {
+    return RampHeading(params, steering * (s / distance), speed);
+  };
+  using Quadrature = boost::math::quadrature::gauss_kronrod<double, 31>;
+  constexpr unsigned kDepth = 5;
+  constexpr double kPrecision = 1e-14;
+  return {Quadrature::integrate([&](double s) { return std::cos(heading(s)); }, 0.0, distance,
+                                kDepth, kPrecision),
+          Quadrature::integrate([&](double s) { return std::sin(heading(s)); }, 0.0, distance,
+                                kDepth, kPrecision),
+          heading(distance)};
 }
 
 double TurnHeadingDefect(const VehicleParams& params, double steering, double speed) {

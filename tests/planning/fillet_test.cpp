@@ -503,7 +503,7 @@ void ExpectFilletIdentities(const std::vector<Vec2>& route, const FilletPlan& pl
     EXPECT_NEAR(std::tan(turn.steering) * turn.radius, std::copysign(2.7, turn.heading_change),
                 Tolerance(kRounding));
     EXPECT_NEAR(turn.ramp_time, std::abs(turn.steering) * 17.6 / 2.65, Tolerance(kRounding));
-    EXPECT_NEAR(turn.ramp_distance, kSpeed * turn.ramp_time, Tolerance(kRounding));
+    EXPECT_NEAR(turn.ramp_distance, turn.speed * turn.ramp_time, Tolerance(kRounding));
     EXPECT_NEAR(turn.steer_start, turn.arc_start_s - 0.5 * turn.ramp_distance,
                 Tolerance(kPromised));
     EXPECT_NEAR(turn.steer_return, turn.arc_start_s + turn.arc_length - 0.5 * turn.ramp_distance,
@@ -544,6 +544,7 @@ TEST(PlanFillets, RandomRoutesKeepTheIdentitiesOrSayWhy) {
   Random random(1984);
   int planned = 0;
   int refused = 0;
+  int slowed = 0;
   for (int i = 0; i < 1000; ++i) {
     const std::vector<Vec2> route =
         i % 2 == 0 ? PlannableRoute(random, 3 + random.Below(10))
@@ -580,12 +581,15 @@ TEST(PlanFillets, RandomRoutesKeepTheIdentitiesOrSayWhy) {
     for (const FilletTurn& turn : plan.turns) {
       const auto w = static_cast<std::size_t>(turn.waypoint);
       const double q = std::min((route[w] - route[w - 1]).norm(), (route[w + 1] - route[w]).norm());
+      const bool steering_room = options.constraint == RadiusConstraint::kSteeringRoom &&
+                                 turn.note.find("under C.34") == std::string::npos;
       const auto need = [&](double r) {
         return r / std::tan(turn.interior_angle / 2.0) +
-               (options.constraint == RadiusConstraint::kSteeringRoom
-                    ? kSpeed * std::atan(2.7 / r) * 17.6 / 2.65
-                    : 0.0);
+               (steering_room ? turn.speed * std::atan(2.7 / r) * 17.6 / 2.65 : 0.0);
       };
+      EXPECT_LE(turn.speed, kSpeed);
+      EXPECT_TRUE(turn.speed == kSpeed || turn.note != "") << "slower without a reason";
+      slowed += turn.speed < kSpeed ? 1 : 0;
       if (options.constraint == RadiusConstraint::kNone) {
         EXPECT_EQ(turn.radius, *options.radius);
       } else {
@@ -598,7 +602,8 @@ TEST(PlanFillets, RandomRoutesKeepTheIdentitiesOrSayWhy) {
     }
   }
   EXPECT_GT(planned, 250);
-  EXPECT_GT(refused, 250);
+  EXPECT_GT(refused, 200);
+  EXPECT_GT(slowed, 100);
 }
 
 TEST(PlanFillets, EndsAtGoalAfterALongFirstLeg) {
@@ -721,16 +726,105 @@ TEST(PlanFillets, RefusesRightTurnWithItsSign) {
 
 TEST(PlanFillets, RefusesLegsWithoutSteeringRoom) {
   // Section 3: 90 deg and 28 m is empty; 60 m before it is not.
-  ExpectRefused(PlanWith({{0, 0}, {60, 0}, {60, 60}, {88, 60}}, RadiusConstraint::kSteeringRoom),
-                PlanStatus::kNoRoomForSteering, 2,
+  FilletOptions options;
+  options.without_room = WithoutRoom::kRefuse;
+  const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 60}, {88, 60}};
+  ExpectRefused(PlanFillets(SeedCar(), route, kSpeed, options), PlanStatus::kNoRoomForSteering, 2,
                 "turn of -90 deg at waypoint 2: at 3 m/s no radius from 5.1 to 154 m leaves the "
                 "distance to turn the wheels within half of the shorter leg, 14 m (C.40)");
+}
+
+// --- A turn for which C.40 has no radius ---------------------------------------------------------
+
+TEST(PlanFillets, SlowsDownForATurnWithoutRoomAndNoOther) {
+  const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 60}, {88, 60}};
+  const FilletPlan plan = PlanFillets(SeedCar(), route, kSpeed, {});
+  ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
+  EXPECT_EQ(plan.turns[0].speed, kSpeed);
+  EXPECT_EQ(plan.turns[0].note, "");
+  const FilletTurn& slow = plan.turns[1];
+  EXPECT_THAT(slow.note, HasSubstr("at 3 m/s no radius from 5.1 to 154 m"));
+  EXPECT_THAT(slow.note, HasSubstr(fmt::format("taken at {:.4g} m/s", slow.speed)));
+  // The fastest speed: there g touches zero, at the radius where it is smallest, which for a right
+  // angle solves r = sqrt(K0 L - L^2) and r + K0 atan(L/r) = 14 m.
+  const double per_radian = slow.speed * 17.6 / 2.65;
+  EXPECT_NEAR(slow.radius, std::sqrt(per_radian * 2.7 - 2.7 * 2.7), Tolerance(1e-5));
+  EXPECT_NEAR(slow.radius + per_radian * std::atan(2.7 / slow.radius), 14.0, Tolerance(1e-9));
+  // Just faster there is none, just slower there is more than one.
+  const RadiusInterval bounds{5.1, 154.0};
+  const double phi = kPi / 2.0;
+  EXPECT_FALSE(SteeringRoomRadii(SeedCar(), slow.speed * (1.0 + 1e-9), phi, 28.0, bounds));
+  const auto slower = SteeringRoomRadii(SeedCar(), slow.speed * (1.0 - 1e-9), phi, 28.0, bounds);
+  ASSERT_TRUE(slower);
+  EXPECT_LT(slower->low, slower->high);
+}
+
+TEST(PlanFillets, TakesATurnUnderHalfLegWhenSlowingDownDoesNotHelp) {
+  // Half of 10.5 m leaves 0.15 m beside K = 5.1 m: less than the 9.7 m/(3 m/s) of a full ramp at
+  // 0.5 m/s by far.
+  const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 10.5}};
+  const FilletPlan plan = PlanFillets(SeedCar(), route, kSpeed, {});
+  ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
+  EXPECT_EQ(plan.turns[0].speed, kSpeed);
+  EXPECT_NEAR(plan.turns[0].radius, 5.25, Tolerance(kRounding));
+  EXPECT_EQ(plan.turns[0].active, ActiveConstraint::kHalfLeg);
+  EXPECT_THAT(plan.turns[0].note, HasSubstr("nor at 0.5 m/s; under C.34 instead"));
+}
+
+TEST(PlanFillets, KeepsItsSpeedUnderHalfLegWhenAskedTo) {
+  FilletOptions options;
+  options.without_room = WithoutRoom::kHalfLeg;
+  const FilletPlan plan = PlanFillets(SeedCar(), {{0, 0}, {60, 0}, {60, 28}}, kSpeed, options);
+  ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
+  EXPECT_EQ(plan.turns[0].speed, kSpeed);
+  EXPECT_NEAR(plan.turns[0].radius, 14.0, Tolerance(kRounding));
+  EXPECT_THAT(plan.turns[0].note, HasSubstr("(C.40); under C.34 instead"));
 }
 
 TEST(PlanFillets, SlowerCarFindsSteeringRoom) {
   const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 60}, {88, 60}};
   const FilletPlan plan = PlanFillets(SeedCar(), route, 1.5, {});
-  EXPECT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
+  ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
+  EXPECT_EQ(plan.turns[1].speed, 1.5);
+}
+
+// --- The listing's own distances -----------------------------------------------------------------
+
+TEST(LiteralEvents, AreAsPrinted) {
+  // Section 4.6 and 4.9: D_1 to D_6 and D_0_1, with the ramp of turn 1 in all of them (G7).
+  struct Case {
+    FilletPlan plan;
+    std::vector<double> events;
+    std::vector<double> until;
+    double end;
+  };
+  const std::vector<Case> cases{{PlanGiven(RouteA(), 5.1),
+                                 {30.0494, 38.0604, 67.8604, 75.8715, 105.6715, 113.6826},
+                                 {},
+                                 148.5826},
+                                {PlanGiven(RouteB(), 5.1),
+                                 {23.6052, 26.6040, 58.3860, 63.3982, 97.5168, 103.1633},
+                                 {},
+                                 144.7326},
+                                {PlanWith(RouteA(), RadiusConstraint::kHalfLeg),
+                                 {18.6632, 50.0791, 50.0791, 81.4950, 81.4950, 112.9110},
+                                 {81.4950, 112.9110, 144.3269},
+                                 132.9110},
+                                {PlanWith(RouteB(), RadiusConstraint::kHalfLeg),
+                                 {14.4576, 43.5882, 46.6160, 79.7215, 81.6938, 117.5219},
+                                 {},
+                                 142.2432}};
+  for (const Case& c : cases) {
+    const LiteralEvents literal = LiteralEventsOf(c.plan);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(literal.start[k], c.events[2 * k], Tolerance(Printed(4))) << "D_" << 2 * k + 1;
+      EXPECT_NEAR(literal.end[k], c.events[2 * k + 1], Tolerance(Printed(4))) << "D_" << 2 * k + 2;
+      if (!c.until.empty()) {
+        EXPECT_NEAR(literal.return_until[k], c.until[k], Tolerance(Printed(4))) << "sal " << k;
+      }
+    }
+    EXPECT_NEAR(literal.route_end, c.end, Tolerance(Printed(4)));
+  }
 }
 
 TEST(PlanFillets, RefusesArcsThatNeedMoreThanTheirLeg) {

@@ -170,12 +170,12 @@ TEST(FilletPlanner, FindingsAreThoseOfTheFillets) {
     for (const auto& [key, value] : json.items()) {
       keys.insert(key);
     }
-    EXPECT_THAT(
-        keys, UnorderedElementsAre("waypoint", "heading_change_rad", "interior_angle_rad",
-                                   "radius_m", "active_constraint", "centre_m", "arc_start_m",
-                                   "arc_end_m", "arc_start_s_m", "arc_length_m", "tangent_length_m",
-                                   "steering_rad", "ramp_time_s", "ramp_distance_m",
-                                   "steer_start_m", "steer_return_m", "ramp_truncated"));
+    EXPECT_THAT(keys, UnorderedElementsAre("waypoint", "heading_change_rad", "interior_angle_rad",
+                                           "radius_m", "speed_mps", "active_constraint", "centre_m",
+                                           "arc_start_m", "arc_end_m", "arc_start_s_m",
+                                           "arc_length_m", "tangent_length_m", "steering_rad",
+                                           "ramp_time_s", "ramp_distance_m", "steer_start_m",
+                                           "steer_return_m", "ramp_truncated"));
   }
 }
 
@@ -195,7 +195,9 @@ TEST(FilletPlanner, SaysWhatHoldsTheRadius) {
 }
 
 TEST(FilletPlanner, NamesTheWaypointOfARefusal) {
-  const Plan plan = MakePlan(Request({{0, 0}, {60, 0}, {60, 60}, {88, 60}}), FilletOptions{});
+  FilletOptions options;
+  options.without_room = WithoutRoom::kRefuse;
+  const Plan plan = MakePlan(Request({{0, 0}, {60, 0}, {60, 60}, {88, 60}}), options);
   EXPECT_EQ(plan.status, PlanStatus::kNoRoomForSteering);
   EXPECT_EQ(plan.diagnostics.at("waypoint"), 2);
   EXPECT_THAT(plan.reason, HasSubstr("waypoint 2"));

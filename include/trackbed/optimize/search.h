@@ -80,7 +80,8 @@ struct SearchResult {
 /// Searches. Guarantees: the result is the best point that was evaluated, by feasibility first and
 /// objective second, whatever NLopt's own verdict; x lies within the bounds; the same problem,
 /// options and seed give the same result bit for bit, in any thread. Methods that know no
-/// constraints (esch, crs2, direct, nelder_mead) see them as a ranking below every feasible point.
+/// constraints see them as a ranking below every feasible point (esch, crs2, nelder_mead) or as
+/// points without a value (direct, which may miss a feasible set narrower than its cells).
 /// Slsqp takes its gradients from central differences, which count as evaluations.
 /// Does not prove that there is no feasible point, nor that the minimum is global.
 /// Errors: InternalError for bounds or options that make no sense. Cost: that of NLopt (isres with

@@ -11,6 +11,7 @@ enum class PlanStatus {
   kTurnTooTight,        ///< even the smallest radius does not fit (C.34, or a radius below it)
   kNoRoomForSteering,   ///< C.40 has no radius: the legs leave no distance for turning the wheels
   kTurnsOverlap,        ///< given radii need more of a leg than it has
+  kSearchFailed,        ///< the search ended without a point that keeps the constraints
   kSteersBeforeStart,  ///< the wheels would have to start turning before the route begins (D_1 < 0)
 };
 

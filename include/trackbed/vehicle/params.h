@@ -19,6 +19,7 @@ struct VehicleParams {
   double mass = 0.0;            ///< [kg]
   double steering_limit = 0.0;  ///< delta_max [rad]
   double steering_rate = 0.0;   ///< omega_delta at the road wheels [rad/s]
+  double steering_lag = 0.0;    ///< tau: of the road wheels behind the actuator, on a ramp [s]
   double steering_ratio = 0.0;  ///< steering-wheel angle over road-wheel angle
   double length = 0.0;          ///< of the outline [m]
   double width = 0.0;           ///< of the outline [m]

@@ -57,6 +57,10 @@ double SteeringDistance(const VehicleParams& params, double steering, double spe
 /// `steering` at the full rate: (v/(L omega)) (-ln cos delta), signed like the steering.
 double RampHeading(const VehicleParams& params, double steering, double speed);
 
+/// The rear axle's pose after that ramp, begun at the origin straight along x: exact to rounding,
+/// by quadrature of the heading above.
+Pose2 RampPose(const VehicleParams& params, double steering, double speed);
+
 /// Heading that a turn misses [rad, <= 0] when both its ramps are centred on the tangent points and
 /// fit into the arc: (v/(L omega)) (-2 ln cos delta - delta tan delta).
 double TurnHeadingDefect(const VehicleParams& params, double steering, double speed);
