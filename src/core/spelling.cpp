@@ -29,7 +29,8 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
 
 std::string NearestSpelling(std::string_view word, const std::vector<std::string>& known) {
   std::string nearest;
-  std::size_t fewest = std::max<std::size_t>(2, word.size() / 3) + 1;
+  // Where every letter would have to change, nothing was misspelt.
+  std::size_t fewest = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, word.size());
   for (const std::string& candidate : known) {
     const std::size_t edits = EditDistance(word, candidate);
     if (edits < fewest) {
@@ -45,7 +46,7 @@ std::string UnknownName(std::string_view word, const std::vector<std::string>& k
   if (!nearest.empty()) {
     return fmt::format("'{}'; did you mean '{}'?", word, nearest);
   }
-  return fmt::format("'{}'; known are {}", word, fmt::join(known, ", "));
+  return fmt::format("'{}'; allowed: {}", word, fmt::join(known, ", "));
 }
 
 }  // namespace trackbed

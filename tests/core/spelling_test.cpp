@@ -28,6 +28,15 @@ TEST(NearestSpelling, TakesTwoOfAShortWord) {
   EXPECT_EQ(NearestSpelling("abc", {"xyz"}), "");
 }
 
+TEST(NearestSpelling, KeepsSomethingOfTheWord) {
+  EXPECT_EQ(NearestSpelling("x", {"box"}), "");
+  EXPECT_EQ(NearestSpelling("x", {"y"}), "");
+  EXPECT_EQ(NearestSpelling("ab", {"xy"}), "");
+  EXPECT_EQ(NearestSpelling("xb", {"xy"}), "xy");
+  EXPECT_EQ(NearestSpelling("xx", {"x"}), "x");
+  EXPECT_EQ(NearestSpelling("", {"x", "xy"}), "");
+}
+
 TEST(NearestSpelling, OfNothingKnownIsEmpty) {
   EXPECT_EQ(NearestSpelling("a", {}), "");
 }
@@ -41,7 +50,8 @@ TEST(NearestSpelling, TiesGoToTheEarlierWord) {
 TEST(UnknownName, SuggestsOrLists) {
   EXPECT_EQ(UnknownName("preveiw", kKnown), "'preveiw'; did you mean 'preview'?");
   EXPECT_EQ(UnknownName("zzzzzz", kKnown),
-            "'zzzzzz'; known are preview, schedule, constant_steering");
+            "'zzzzzz'; allowed: preview, schedule, constant_steering");
+  EXPECT_EQ(UnknownName("rubber", {"contact"}), "'rubber'; allowed: contact");
 }
 
 }  // namespace
