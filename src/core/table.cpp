@@ -23,9 +23,14 @@ struct Reader {
   int line = 1;
   std::vector<Problem> problems;
 
-  void Complain(std::size_t cell, std::string key, std::string message) {
-    problems.push_back(
-        {file, line, static_cast<int>(cell) + 1, std::move(key), std::move(message)});
+  void Complain(std::string key, std::string message) {
+    problems.push_back({file, line, 0, std::move(key), std::move(message)});
+  }
+
+  /// libcsv counts no characters, so a cell is placed by its number, from 1, and its column's name.
+  void ComplainOfCell(std::size_t cell, const std::string& column, std::string message) {
+    const std::string name = column.empty() ? "" : fmt::format(" ({})", column);
+    Complain(fmt::format("cell {}{}", cell + 1, name), std::move(message));
   }
 
   /// `ending` is the character that ended the row, or -1 at the end of the file.
@@ -35,9 +40,8 @@ struct Reader {
     } else if (!table) {
       Header();
     } else if (cells.size() != table->columns().size()) {
-      Complain(
-          0, "",
-          fmt::format("{} cells where the header has {}", cells.size(), table->columns().size()));
+      Complain("", fmt::format("{} {} where the header has {}", cells.size(),
+                               cells.size() == 1 ? "cell" : "cells", table->columns().size()));
     } else {
       Row();
     }
@@ -49,7 +53,8 @@ struct Reader {
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const auto end = cells.begin() + static_cast<std::ptrdiff_t>(i);
       if (cells[i].empty() || std::find(cells.begin(), end, cells[i]) != end) {
-        Complain(i, cells[i], cells[i].empty() ? "a column without a name" : "repeated column");
+        ComplainOfCell(i, cells[i],
+                       cells[i].empty() ? "a column without a name" : "repeated column");
       }
     }
     table.emplace(cells);
@@ -63,7 +68,7 @@ struct Reader {
       double value = 0.0;
       const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
       if (error != std::errc{} || end != cell.data() + cell.size()) {
-        Complain(i, table->columns()[i], fmt::format("'{}' is not a number", cell));
+        ComplainOfCell(i, table->columns()[i], fmt::format("'{}' is not a number", cell));
       }
       row.push_back(value);
     }
@@ -129,10 +134,10 @@ Table ReadCsv(const std::filesystem::path& file) {
   const auto row = [](int ending, void* self) { static_cast<Reader*>(self)->EndOfRow(ending); };
   const std::size_t parsed = csv_parse(&parser, text.data(), text.size(), cell, row, &reader);
   if (parsed != text.size() || csv_fini(&parser, cell, row, &reader) != 0) {
-    reader.Complain(0, "", csv_strerror(csv_error(&parser)));
+    reader.Complain("", csv_strerror(csv_error(&parser)));
   }
   if (!reader.table && reader.problems.empty()) {
-    reader.Complain(0, "", "empty file where a header line of column names is expected");
+    reader.Complain("", "empty file where a header line of column names is expected");
   }
   if (!reader.problems.empty()) {
     throw InputError(reader.problems);

@@ -139,34 +139,33 @@ TEST(ReadCsv, TakesQuotedCells) {
 }
 
 TEST(ReadCsv, PlacesACellThatIsNoNumber) {
-  EXPECT_EQ(ProblemsOf("a,b\n1,2\n3,x\n"), "t.csv:3:2: b: 'x' is not a number");
-  EXPECT_EQ(ProblemsOf("a,b\n1,\n"), "t.csv:2:2: b: '' is not a number");
-  EXPECT_EQ(ProblemsOf("a,b\n1.5m,2\n"), "t.csv:2:1: a: '1.5m' is not a number");
+  EXPECT_EQ(ProblemsOf("a,b\n1,2\n3,x\n"), "t.csv:3: cell 2 (b): 'x' is not a number");
+  EXPECT_EQ(ProblemsOf("a,b\n1,\n"), "t.csv:2: cell 2 (b): '' is not a number");
+  EXPECT_EQ(ProblemsOf("a,b\n1.5m,2\n"), "t.csv:2: cell 1 (a): '1.5m' is not a number");
 }
 
 TEST(ReadCsv, CountsEmptyLinesAndWindowsEndings) {
-  EXPECT_EQ(ProblemsOf("a\n\n\n1\nx\n"), "t.csv:5:1: a: 'x' is not a number");
-  EXPECT_EQ(ProblemsOf("a\r\n1\r\nx\r\n"), "t.csv:3:1: a: 'x' is not a number");
+  EXPECT_EQ(ProblemsOf("a\n\n\n1\nx\n"), "t.csv:5: cell 1 (a): 'x' is not a number");
+  EXPECT_EQ(ProblemsOf("a\r\n1\r\nx\r\n"), "t.csv:3: cell 1 (a): 'x' is not a number");
 }
 
 TEST(ReadCsv, ListsEveryProblem) {
   EXPECT_EQ(ProblemsOf("a,b\nx,y\n1\n"),
-            "t.csv:2:1: a: 'x' is not a number\n"
-            "t.csv:2:2: b: 'y' is not a number\n"
-            "t.csv:3:1: 1 cells where the header has 2");
+            "t.csv:2: cell 1 (a): 'x' is not a number\n"
+            "t.csv:2: cell 2 (b): 'y' is not a number\n"
+            "t.csv:3: 1 cell where the header has 2");
 }
 
 TEST(ReadCsv, RefusesRowsOfAnotherLength) {
-  EXPECT_EQ(ProblemsOf("a,b\n1,2,3\n"), "t.csv:2:1: 3 cells where the header has 2");
+  EXPECT_EQ(ProblemsOf("a,b\n1,2,3\n"), "t.csv:2: 3 cells where the header has 2");
 }
 
 TEST(ReadCsv, RefusesBadHeaders) {
-  EXPECT_EQ(ProblemsOf("a,a\n1,2\n"), "t.csv:1:2: a: repeated column");
-  EXPECT_EQ(ProblemsOf("a,,c\n1,2,3\n"), "t.csv:1:2: a column without a name");
-  EXPECT_EQ(ProblemsOf(""),
-            "t.csv:1:1: empty file where a header line of column names is expected");
+  EXPECT_EQ(ProblemsOf("a,a\n1,2\n"), "t.csv:1: cell 2 (a): repeated column");
+  EXPECT_EQ(ProblemsOf("a,,c\n1,2,3\n"), "t.csv:1: cell 2: a column without a name");
+  EXPECT_EQ(ProblemsOf(""), "t.csv:1: empty file where a header line of column names is expected");
   EXPECT_EQ(ProblemsOf("\n\n"),
-            "t.csv:3:1: empty file where a header line of column names is expected");
+            "t.csv:3: empty file where a header line of column names is expected");
 }
 
 TEST(ReadCsv, RefusesAnOpenQuote) {

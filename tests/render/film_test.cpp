@@ -225,7 +225,7 @@ TEST_F(Film, SaysWhatIsWrongWithTheFolder) {
   fs::remove(run_ / "mujoco.csv");
   EXPECT_EQ(InputMessage(), run + "/mujoco.csv: missing from the run folder");
   WriteFileAtomically(run_ / "mujoco.state.csv", "t_s,x_m\n0,0\n1,x\n");
-  EXPECT_EQ(InputMessage(), run + "/mujoco.state.csv:3:2: x_m: 'x' is not a number");
+  EXPECT_EQ(InputMessage(), run + "/mujoco.state.csv:3: cell 2 (x_m): 'x' is not a number");
   WriteFileAtomically(run_ / "mujoco.state.csv", "t_s,x_m\n0,0\n0,1\n");
   EXPECT_EQ(InputMessage(), run + "/mujoco.state.csv: t_s: row 2: 0 does not come after 0");
   WriteFileAtomically(run_ / "mujoco.state.csv", "t_s,x_m\n0,nan\n");

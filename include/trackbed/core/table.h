@@ -38,9 +38,9 @@ class Table {
   std::vector<double> cells_;  // row by row
 };
 
-/// Reads a CSV file with a header line (RFC 4180 through libcsv). InputError with file, line and
-/// column for a cell that is not a number, a row of the wrong length, a repeated or empty column
-/// name, or an empty file. Empty lines are skipped.
+/// Reads a CSV file with a header line (RFC 4180 through libcsv). InputError with file and line for
+/// a cell that is not a number or a repeated or empty column name (each with the number of its
+/// cell), a row of the wrong length, or an empty file. Empty lines are skipped.
 Table ReadCsv(const std::filesystem::path& file);
 
 }  // namespace trackbed
