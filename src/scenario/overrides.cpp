@@ -2,6 +2,7 @@
 
 #include <charconv>
 
+#include "src/scenario/yaml_file.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {
@@ -42,9 +43,9 @@ std::string ApplyOverride(YAML::Node& root, const std::string& text) {
   const std::string key = text.substr(0, equals);
   YAML::Node value;
   try {
-    value = YAML::Load(text.substr(equals + 1));
-  } catch (const YAML::Exception& error) {
-    Fail(text, fmt::format("the value is not YAML: {}", error.msg));
+    value = LoadYamlValue(text.substr(equals + 1), "");
+  } catch (const InputError& error) {
+    Fail(text, error.problems().front().message);
   }
   if (key.ends_with('.')) {
     Fail(text, "the key ends in a dot");

@@ -5,48 +5,11 @@
 
 #include "src/scenario/overrides.h"
 #include "src/scenario/visit.h"
+#include "src/scenario/yaml_file.h"
 #include "trackbed/core/file.h"
 
 namespace trackbed {
 namespace {
-
-/// Anchors can make a small file expand to an endless tree.
-void RefuseBombs(const YAML::Node& node, const std::string& file, int& left, int depth) {
-  if (--left < 0 || depth > 64) {
-    throw InputError(Problem{file, 0, 0, "", "more than 100000 nodes, or nested deeper than 64"});
-  }
-  if (node.IsMap()) {
-    for (const auto& entry : node) {
-      RefuseBombs(entry.second, file, left, depth + 1);
-    }
-  } else if (node.IsSequence()) {
-    for (const auto& item : node) {
-      RefuseBombs(item, file, left, depth + 1);
-    }
-  }
-}
-
-YAML::Node LoadYaml(const std::string& text, const std::string& name) {
-  YAML::Node root;
-  try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) {
-      const YAML::Mark mark = documents[1].Mark();
-      throw InputError(Problem{name, mark.line + 1, mark.column + 1, "",
-                               "a second YAML document; a file is one scenario"});
-    }
-    root = documents.empty() ? YAML::Node() : documents.front();
-    int left = 100000;
-    RefuseBombs(root, name, left, 0);
-  } catch (const YAML::Exception& error) {
-    throw InputError(Problem{name, error.mark.line + 1, error.mark.column + 1, "",
-                             fmt::format("not YAML: {}", error.msg)});
-  }
-  if (!root.IsMap()) {
-    throw InputError(Problem{name, 1, 1, "", "a scenario is a section of 'key: value' lines"});
-  }
-  return root;
-}
 
 bool Drives(const Scenario& scenario, const std::string& plant) {
   const auto& plants = scenario.drive.plants;

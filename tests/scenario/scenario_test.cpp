@@ -100,7 +100,8 @@ TEST(ReadScenario, NamesMissingKeys) {
 TEST(ReadScenario, RefusesWhatIsNoScenario) {
   EXPECT_EQ(ErrorsOf(""), "test.yaml:1:1: a scenario is a section of 'key: value' lines");
   EXPECT_EQ(ErrorsOf("- 1\n- 2\n"), "test.yaml:1:1: a scenario is a section of 'key: value' lines");
-  EXPECT_EQ(ErrorsOf("a: [1, 2\nb: 3"), "test.yaml:2:2: not YAML: end of sequence flow not found");
+  EXPECT_EQ(ErrorsOf("a: [1, 2\nb: 3"),
+            "test.yaml:1:4: this '[' is not closed, or a ',' is missing before line 2, column 2");
   std::string bomb = "a: &a [1,1,1,1,1,1,1,1,1]\n";
   for (char c = 'b'; c < 'l'; ++c) {
     const std::string before(1, static_cast<char>(c - 1));
@@ -110,7 +111,8 @@ TEST(ReadScenario, RefusesWhatIsNoScenario) {
     }
     bomb += "]\n";
   }
-  EXPECT_EQ(ErrorsOf(bomb), "test.yaml: more than 100000 nodes, or nested deeper than 64");
+  EXPECT_EQ(ErrorsOf(bomb),
+            "test.yaml:6:8: more than 100000 values, counting what each '*' repeats");
 }
 
 TEST(ReadScenario, RefusesKeysThatDoNotGoTogether) {
@@ -168,6 +170,10 @@ TEST(Override, SaysWhatIsWrong) {
             "--set: mission.waypoints[9]=[1, 2]: there is no element [9]");
   EXPECT_EQ(ErrorsOf(kSmall, {"name.first=x"}),
             "--set: name.first=x: there is no section that could hold 'first'");
+  EXPECT_EQ(ErrorsOf(kSmall, {"mission.waypoints=[[1, 2], [3, 4]"}),
+            "--set: mission.waypoints=[[1, 2], [3, 4]: this '[' is not closed");
+  EXPECT_EQ(ErrorsOf(kSmall, {"name=c\xF6rner"}),
+            "--set: name=c\xF6rner: the byte 0xF6 is not UTF-8 text");
 }
 
 TEST(ResolvedYaml, ReadsBackToItself) {

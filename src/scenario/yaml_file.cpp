@@ -1,0 +1,308 @@
+#include "src/scenario/yaml_file.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
+
+#include <algorithm>
+#include <boost/locale/utf.hpp>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+constexpr std::size_t kDeepest = 64;
+constexpr std::size_t kMostValues = 100000;
+
+[[noreturn]] void Fail(const std::string& file, const YAML::Mark& mark, std::string message) {
+  throw InputError(Problem{file, mark.line + 1, mark.column + 1, "", std::move(message)});
+}
+
+/// Whether YAML allows the character in a text.
+bool IsPrintable(boost::locale::utf::code_point c) {
+  return c == '\t' || c == '\n' || c == '\r' || c == 0x85 || (c >= 0x20 && c < 0x7f) || c >= 0xa0;
+}
+
+void RefuseWhatIsNoText(const std::string& text, const std::string& file) {
+  using Utf8 = boost::locale::utf::utf_traits<char>;
+  YAML::Mark mark;  // columns are bytes, as yaml-cpp counts them
+  for (auto at = text.begin(); at != text.end();) {
+    const auto begin = at;
+    const boost::locale::utf::code_point c = Utf8::decode(at, text.end());
+    if (c == boost::locale::utf::illegal || c == boost::locale::utf::incomplete) {
+      Fail(file, mark,
+           fmt::format("the byte 0x{:02X} is not UTF-8 text", static_cast<unsigned char>(*begin)));
+    }
+    if (!IsPrintable(c)) {
+      Fail(file, mark, fmt::format("the control character U+{:04X} is not allowed", c));
+    }
+    mark.column = c == '\n' ? 0 : mark.column + static_cast<int>(at - begin);
+    mark.line += c == '\n' ? 1 : 0;
+  }
+}
+
+/// Follows the parser to know what is open where it stumbles, and stops it at what is nested or
+/// repeated without end: anchors can make a small file expand to an endless tree.
+class Watch : public YAML::EventHandler {
+ public:
+  explicit Watch(std::string file) : file_(std::move(file)) {}
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (++documents_ > 1) {
+      Fail(file_, mark, "a second YAML document; a file is one scenario");
+    }
+  }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { Value(mark, "", anchor); }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& /*value*/) override {
+    Value(mark, tag, anchor);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value /*style*/) override {
+    Open(mark, anchor);
+  }
+  void OnMapStart(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value /*style*/) override {
+    Open(mark, anchor);
+  }
+  void OnSequenceEnd() override { Close(); }
+  void OnMapEnd() override { Close(); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const auto found = sizes_.find(anchor);
+    if (found == sizes_.end()) {
+      Fail(file_, mark, "the '*' repeats the very value that it is part of");
+    }
+    Count(mark, found->second);
+  }
+
+  /// Where the innermost list or section that is not yet at its end begins.
+  [[nodiscard]] YAML::Mark open() const {
+    return open_.empty() ? YAML::Mark::null_mark() : open_.back().mark;
+  }
+  /// Where the last value begins if it is in quotes.
+  [[nodiscard]] YAML::Mark quoted() const { return quoted_; }
+
+ private:
+  struct Collection {
+    YAML::Mark mark;
+    YAML::anchor_t anchor;
+    std::size_t begin;  // values before it
+  };
+
+  void Count(const YAML::Mark& mark, std::size_t values) {
+    values_ += values;
+    if (values_ > kMostValues) {
+      Fail(file_, mark,
+           fmt::format("more than {} values, counting what each '*' repeats", kMostValues));
+    }
+  }
+  void Value(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
+    Count(mark, 1);
+    sizes_[anchor] = 1;
+    quoted_ = tag == "!" ? mark : YAML::Mark::null_mark();
+  }
+  void Open(const YAML::Mark& mark, YAML::anchor_t anchor) {
+    Count(mark, 1);
+    open_.push_back({mark, anchor, values_});
+    if (open_.size() > kDeepest) {
+      Fail(file_, mark, fmt::format("lists and sections are nested deeper than {}", kDeepest));
+    }
+  }
+  void Close() {
+    sizes_[open_.back().anchor] = values_ - open_.back().begin + 1;
+    open_.pop_back();
+  }
+
+  std::string file_;
+  int documents_ = 0;
+  std::size_t values_ = 0;
+  std::unordered_map<YAML::anchor_t, std::size_t> sizes_;  // in values, of what has an anchor
+  std::vector<Collection> open_;
+  YAML::Mark quoted_ = YAML::Mark::null_mark();
+};
+
+void Follow(const std::string& text, Watch& watch) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  while (parser.HandleNextDocument(watch)) {
+  }
+}
+
+std::vector<std::string_view> Lines(std::string_view text) {
+  std::vector<std::string_view> lines;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string_view line = text.substr(begin, end - begin);
+    line.remove_suffix(line.ends_with('\r') ? 1 : 0);
+    lines.push_back(line);
+    begin = end + 1;
+  }
+  return lines;
+}
+
+std::string_view Trimmed(std::string_view line) {
+  const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
+  return line.substr(begin, line.find_last_not_of(" \t") + 1 - begin);
+}
+
+bool HasColon(std::string_view line) {
+  return line.find(": ") != std::string_view::npos || line.ends_with(':');
+}
+
+YAML::Mark MarkAt(int line, std::size_t column) {
+  YAML::Mark mark;
+  mark.line = line;
+  mark.column = static_cast<int>(column);
+  return mark;
+}
+
+/// Where and in which words a user can make sense of what yaml-cpp stumbled over.
+struct Stumble {
+  YAML::Mark mark;
+  std::string message;
+};
+
+/// A key that stands where none can: most often the line before it is at fault.
+Stumble ExplainKey(const std::vector<std::string_view>& lines, const YAML::Mark& mark) {
+  const auto here = static_cast<std::size_t>(mark.line);
+  const std::string_view line = lines[here];
+  if (HasColon(line.substr(0, static_cast<std::size_t>(mark.column)))) {
+    return {mark, "a second ':' on one line; put a text that holds ': ' in quotes"};
+  }
+  for (std::size_t i = here; i-- > 0;) {
+    const std::string_view before = Trimmed(lines[i]);
+    if (before.empty() || before.starts_with('#')) {
+      continue;
+    }
+    if (!HasColon(before)) {
+      return {
+          MarkAt(static_cast<int>(i), lines[i].find(before)),
+          fmt::format("'{}' is no 'key: value'; is a ':' or the space after it missing?", before)};
+    }
+    break;
+  }
+  return {MarkAt(mark.line, line.find(Trimmed(line))),
+          "indented deeper than the line before it, which has its value already"};
+}
+
+/// A value that does not go on where the indentation says that it should.
+Stumble ExplainEnd(const std::vector<std::string_view>& lines, const YAML::Mark& mark) {
+  const std::string_view line = lines[static_cast<std::size_t>(mark.line)];
+  const std::string_view rest = Trimmed(line.substr(static_cast<std::size_t>(mark.column)));
+  if (rest != Trimmed(line)) {
+    return {mark, fmt::format("'{}' follows a value that has ended", rest)};
+  }
+  if (rest.starts_with("- ")) {
+    return {mark, "a list item among 'key: value' lines"};
+  }
+  if (!HasColon(rest)) {
+    return {mark, fmt::format("'{}' is no 'key: value'; is a ':' missing?", rest)};
+  }
+  return {mark, "the indentation is that of no section above"};
+}
+
+Stumble Explain(const std::string& text, const YAML::Exception& error, const Watch& watch) {
+  namespace Says = YAML::ErrorMsg;
+  const std::vector<std::string_view> lines = Lines(text);
+  YAML::Mark mark = error.mark;
+  if (mark.line < 0 || static_cast<std::size_t>(mark.line) >= lines.size()) {
+    mark = MarkAt(static_cast<int>(lines.size()) - 1, lines.back().size());
+  }
+  const std::string& said = error.msg;
+  const std::string_view line = lines[static_cast<std::size_t>(mark.line)];
+  mark.column = std::min(mark.column, static_cast<int>(line.size()));
+  const std::string_view here = line.substr(static_cast<std::size_t>(mark.column), 1);
+
+  const std::size_t indentation = std::min(line.find_first_not_of(" \t"), line.size());
+  const std::size_t tab = line.find('\t');
+  const bool in_brackets = said == Says::END_OF_SEQ_FLOW || said == Says::END_OF_MAP_FLOW;
+  if (tab < indentation && !in_brackets) {
+    return {MarkAt(mark.line, tab), "a tab in the indentation; YAML wants spaces"};
+  }
+  if (in_brackets) {
+    const char bracket = said == Says::END_OF_SEQ_FLOW ? '[' : '{';
+    const bool at_end = static_cast<std::size_t>(error.mark.pos) >= text.size();
+    return {watch.open().is_null() ? mark : watch.open(),
+            at_end ? fmt::format("this '{}' is not closed", bracket)
+                   : fmt::format("this '{}' is not closed, or a ',' is missing before line {}, "
+                                 "column {}",
+                                 bracket, mark.line + 1, mark.column + 1)};
+  }
+  if (said == Says::FLOW_END) {
+    return {mark, fmt::format("this '{}' closes nothing that is open", here)};
+  }
+  if (said == Says::MAP_VALUE) {
+    return ExplainKey(lines, mark);
+  }
+  if (said == Says::END_OF_MAP || said == Says::END_OF_SEQ) {
+    return ExplainEnd(lines, mark);
+  }
+  if (said == Says::BLOCK_ENTRY) {
+    return {mark, "a list item ('- ') cannot stand here"};
+  }
+  if (said == Says::UNKNOWN_TOKEN) {
+    return {mark, fmt::format("a text that begins with '{}' must stand in quotes", here)};
+  }
+  if (said.starts_with(Says::INVALID_ESCAPE)) {
+    const std::size_t backslash = line.rfind('\\', static_cast<std::size_t>(mark.column));
+    return {backslash == std::string_view::npos ? mark : MarkAt(mark.line, backslash),
+            R"(a '\' in double quotes must be doubled: '\\')"};
+  }
+  if (said == Says::UNKNOWN_ANCHOR) {
+    return {mark, "the '*' names what no '&' above has named"};
+  }
+  return {mark, "not YAML: " + said};
+}
+
+/// Whether quotes are still open at the end. Only where no line end follows does yaml-cpp notice;
+/// else it takes all the rest for the text.
+bool EndsInQuotes(const std::string& text) {
+  Watch watch("");
+  try {
+    Follow(text.substr(0, text.find_last_not_of(" \t\r\n") + 1), watch);
+  } catch (const YAML::Exception& error) {
+    return error.msg == YAML::ErrorMsg::EOF_IN_SCALAR;
+  }
+  return false;
+}
+
+}  // namespace
+
+YAML::Node LoadYamlValue(const std::string& text, const std::string& file) {
+  RefuseWhatIsNoText(text, file);
+  const std::string lines = text + "\n";  // a value before it is complete
+  Watch watch(file);
+  std::optional<Stumble> stumble;
+  try {
+    Follow(lines, watch);
+  } catch (const YAML::Exception& error) {
+    stumble = Explain(text, error, watch);
+  }
+  if (EndsInQuotes(text)) {
+    if (!watch.quoted().is_null()) {
+      stumble = {watch.quoted(), "the quotes that begin here are not closed"};
+    } else {
+      stumble = {stumble ? stumble->mark : YAML::Mark(), "quotes after this are not closed"};
+    }
+  }
+  if (stumble) {
+    Fail(file, stumble->mark, stumble->message);
+  }
+  return YAML::Load(lines);
+}
+
+YAML::Node LoadYaml(const std::string& text, const std::string& file) {
+  YAML::Node root = LoadYamlValue(text, file);
+  if (!root.IsMap()) {
+    throw InputError(Problem{file, 1, 1, "", "a scenario is a section of 'key: value' lines"});
+  }
+  return root;
+}
+
+}  // namespace trackbed

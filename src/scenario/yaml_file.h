@@ -1,0 +1,17 @@
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <string>
+
+namespace trackbed {
+
+/// The value that a YAML text is. InputError with line, column and plain words for what is no text
+/// (bytes that are not UTF-8, control characters), no YAML, more than one document, or nested or
+/// repeated without end.
+YAML::Node LoadYamlValue(const std::string& text, const std::string& file);
+
+/// The same, and it is a section.
+YAML::Node LoadYaml(const std::string& text, const std::string& file);
+
+}  // namespace trackbed
