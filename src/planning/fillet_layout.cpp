@@ -82,9 +82,10 @@ Pose2 Route::start() const {
 }
 
 Route RouteOf(const std::vector<Vec2>& waypoints) {
-  if (waypoints.size() < 3) {
+  if (waypoints.size() < kFewestFilletWaypoints) {
     throw Refusal{PlanStatus::kTooFewWaypoints, static_cast<int>(waypoints.size()) - 1,
-                  fmt::format("{} waypoints; a route needs at least 3", waypoints.size())};
+                  fmt::format("{} waypoints; a route needs at least {}", waypoints.size(),
+                              kFewestFilletWaypoints)};
   }
   Route route{waypoints, {}};
   for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {

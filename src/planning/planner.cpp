@@ -156,18 +156,30 @@ Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
 const std::vector<PlannerEntry>& Planners() {
   static const std::vector<PlannerEntry> table{
       {"fillet", "straight legs and arcs of the largest radius the steering rate allows (C.1-C.40)",
-       FilletOptions{}},
+       FilletOptions{}, kFewestFilletWaypoints},
   };
   return table;
 }
 
-const char* PlannerName(const PlannerOptions& options) {
+namespace {
+
+const PlannerEntry& EntryOf(const PlannerOptions& options) {
   for (const PlannerEntry& entry : Planners()) {
     if (entry.defaults.index() == options.index()) {
-      return entry.name;
+      return entry;
     }
   }
   throw InternalError("options of a planner that is not in the table");
+}
+
+}  // namespace
+
+const char* PlannerName(const PlannerOptions& options) {
+  return EntryOf(options).name;
+}
+
+std::size_t FewestWaypoints(const PlannerOptions& options) {
+  return EntryOf(options).fewest_waypoints;
 }
 
 Plan MakePlan(const PlanRequest& request, const PlannerOptions& options) {

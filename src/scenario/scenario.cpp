@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/scenario/cross_check.h"
 #include "src/scenario/overrides.h"
 #include "src/scenario/visit.h"
 #include "src/scenario/yaml_file.h"
@@ -10,11 +11,6 @@
 
 namespace trackbed {
 namespace {
-
-bool Drives(const Scenario& scenario, const std::string& plant) {
-  const auto& plants = scenario.drive.plants;
-  return std::find(plants.begin(), plants.end(), plant) != plants.end();
-}
 
 /// A file must not expect anything of a plant it does not drive; but who asks for other plants than
 /// the file's does not want to rewrite its expectations.
@@ -27,98 +23,23 @@ void DropWhatIsNotDriven(Scenario& scenario) {
   });
 }
 
-/// Problems that concern more than one key, each with the key to change.
-std::vector<std::pair<std::string, std::string>> CrossProblems(const Scenario& scenario) {
-  std::vector<std::pair<std::string, std::string>> found;
-  const MissionSpec& mission = scenario.mission;
-  const DriveSpec& drive = scenario.drive;
-  if (scenario.plan && mission.waypoints.empty()) {
-    found.emplace_back("mission.waypoints", "missing; a plan needs waypoints");
-  }
-  const ControllerEntry& controller = ControllerFor(scenario.control.steering);
-  if (controller.needs_plan && !scenario.plan) {
-    found.emplace_back("plan",
-                       fmt::format("missing; the controller {} follows a plan", controller.name));
-  }
-  if (scenario.plan && mission.duration) {
-    found.emplace_back("mission.duration", "with a plan the drive ends at the goal; leave one out");
-  }
-  const RenderSpec& render = scenario.render;
-  if (render.width % 2 != 0 || render.height % 2 != 0 || render.height > 4320) {
-    found.emplace_back("render.size",
-                       fmt::format("{}x{}: both must be even, the height at most 4320",
-                                   render.width, render.height));
-  }
-  if (!scenario.plan && !mission.duration) {
-    found.emplace_back("mission.duration", "missing; without a plan there is no goal to stop at");
-  }
-  const double steps = drive.control_period / drive.timestep;
-  if (std::abs(steps - std::round(steps)) > 1e-6 || steps < 0.5) {
-    found.emplace_back("drive.control_period",
-                       fmt::format("{} s is not a whole number of timesteps of {} s",
-                                   drive.control_period, drive.timestep));
-  }
-  if (drive.plants.empty()) {
-    found.emplace_back("drive.plants", "at least one plant is needed");
-  }
-  if (const auto* fillet = scenario.plan ? std::get_if<FilletOptions>(&*scenario.plan) : nullptr) {
-    if (!fillet->radius && fillet->constraint == RadiusConstraint::kNone) {
-      found.emplace_back("plan.constraint", "'none' needs a radius: nothing else would limit it");
-    }
-  }
-  for (const auto& [plant, expectation] : scenario.expect.plants) {
-    if (!Drives(scenario, plant)) {
-      found.emplace_back("expect." + plant, "drive.plants does not drive this plant");
-    }
-  }
-  for (std::size_t i = 0; i < scenario.expect.between.size(); ++i) {
-    const std::string key = fmt::format("expect.between[{}].plants", i);
-    const auto& plants = scenario.expect.between[i].plants;
-    if (plants.size() != 2) {
-      found.emplace_back(key, fmt::format("expected two plants, found {}", plants.size()));
-    } else if (!Drives(scenario, plants[0]) || !Drives(scenario, plants[1])) {
-      found.emplace_back(key, "drive.plants does not drive both of them");
-    }
-  }
-  if (!scenario.plan) {
-    const auto needs_path = [&](const std::string& key, const PlantExpectation& expectation) {
-      if (expectation.reach_goal || expectation.max_cross_track || expectation.rms_cross_track ||
-          expectation.max_heading_error) {
-        found.emplace_back(key, "without a plan there is no goal and no path to be off");
-      }
-    };
-    needs_path("expect", scenario.expect.all);
-    for (const auto& [plant, expectation] : scenario.expect.plants) {
-      needs_path("expect." + plant, expectation);
-    }
-  }
-  if (scenario.world.obstacles.empty()) {
-    const auto needs_obstacles = [&](const std::string& key, const PlantExpectation& expectation) {
-      if (expectation.min_clearance || expectation.collision.value_or(false)) {
-        found.emplace_back(key,
-                           "without world.obstacles there is nothing to be clear of or to hit");
-      }
-    };
-    needs_obstacles("expect", scenario.expect.all);
-    for (const auto& [plant, expectation] : scenario.expect.plants) {
-      needs_obstacles("expect." + plant, expectation);
-    }
-  }
-  return found;
-}
-
 /// The node that a dotted key names, or the nearest one above it that is there.
 YAML::Node NodeAt(const YAML::Node& root, const std::string& key) {
   YAML::Node node(root);
-  std::size_t begin = 0;
-  while (begin <= key.size()) {
-    const std::size_t end = std::min(key.find('.', begin), key.size());
-    const std::string name = key.substr(begin, end - begin);
-    if (!node.IsMap() || !node[name.substr(0, name.find('['))]) {
+  for (std::size_t begin = 0; begin < key.size();) {
+    const std::size_t end = std::min(key.find_first_of(".[", begin + 1), key.size());
+    const bool is_index = key[begin] == '[';
+    const std::size_t skip = is_index || key[begin] == '.' ? 1 : 0;
+    const std::string step = key.substr(begin + skip, end - begin - skip - (is_index ? 1 : 0));
+    if (is_index ? !node.IsSequence() : !node.IsMap()) {
       break;
     }
-    node.reset(node[name.substr(0, name.find('['))]);
-    begin = end + 1;
+    const YAML::Node next = is_index ? node[std::stoul(step)] : node[step];
+    if (!next) {
+      break;
+    }
+    node.reset(next);
+    begin = end;
   }
   return node;
 }
@@ -150,11 +71,9 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
       context.overridden.end()) {
     DropWhatIsNotDriven(scenario);
   }
-  // Keys that could not be read would only cause follow-up complaints.
-  if (context.problems.empty()) {
-    for (auto& [key, message] : CrossProblems(scenario)) {
-      complain(key, std::move(message));
-    }
+  const auto could_read = [&context](const std::string& key) { return context.Read(key); };
+  for (auto& [key, message] : CrossProblems(scenario, could_read)) {
+    complain(key, std::move(message));
   }
   if (!context.problems.empty()) {
     std::stable_sort(context.problems.begin(), context.problems.end(),
@@ -195,7 +114,7 @@ RenderSpec ReadRenderSpec(const std::filesystem::path& file) {
 
 void CheckScenario(const Scenario& scenario) {
   std::vector<Problem> problems;
-  for (const auto& [key, message] : CrossProblems(scenario)) {
+  for (const auto& [key, message] : CrossProblems(scenario, [](const auto&) { return true; })) {
     problems.push_back({"", 0, 0, key, message});
   }
   if (!problems.empty()) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 
 #include "trackbed/core/spelling.h"
 
@@ -23,6 +24,32 @@ std::string AllowedBy(Range range) {
     parts.push_back(fmt::format("at most {}", range.max));
   }
   return fmt::format("{}", fmt::join(parts, " and "));
+}
+
+bool IsQuoted(const YAML::Node& node) {
+  return node.IsScalar() && node.Tag() == "!";
+}
+
+/// Reads a value of type T; what stands in quotes is text, whatever it looks like.
+template <typename T>
+bool Decode(const YAML::Node& node, T& value) {
+  return node.IsScalar() && !IsQuoted(node) && YAML::convert<T>::decode(node, value);
+}
+
+std::string Numbers(std::size_t count) {
+  return count == 0 ? "an empty list"
+                    : fmt::format("{} {}", count, count == 1 ? "number" : "numbers");
+}
+
+/// A number with more digits than there are for one.
+bool IsTooLarge(const YAML::Node& node) {
+  if (!node.IsScalar() || IsQuoted(node)) {
+    return false;
+  }
+  char* end = nullptr;
+  const std::string& text = node.Scalar();
+  const double number = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' && std::isinf(number);
 }
 
 }  // namespace
@@ -45,10 +72,20 @@ void ReaderContext::Complain(const YAML::Mark& mark, const std::string& dotted,
   } else {
     problems.push_back({file, mark.line + 1, mark.column + 1, dotted, std::move(message)});
   }
+  unread.push_back(dotted);
+}
+
+bool ReaderContext::Read(std::string_view dotted) const {
+  return std::none_of(unread.begin(), unread.end(), [&](const std::string& key) {
+    const char next = dotted.size() > key.size() ? dotted[key.size()] : '.';
+    return (dotted.starts_with(key) && (next == '.' || next == '[')) ||
+           key.starts_with(std::string(dotted) + '[');
+  });
 }
 
 void YamlReader::Complain(const YAML::Node& node, const std::string& dotted, std::string message) {
-  context_.Complain(node.Mark(), dotted, std::move(message));
+  // yaml-cpp places a value that is not there at whatever comes next.
+  context_.Complain(node.IsNull() ? taken_ : node.Mark(), dotted, std::move(message));
 }
 
 std::string YamlReader::Describe(const YAML::Node& node) {
@@ -58,16 +95,25 @@ std::string YamlReader::Describe(const YAML::Node& node) {
     case YAML::NodeType::Sequence:
       return "a list";
     case YAML::NodeType::Scalar:
-      return fmt::format("'{}'", node.Scalar());
+      return IsQuoted(node) ? fmt::format("the text \"{}\"", node.Scalar())
+                            : fmt::format("'{}'", node.Scalar());
     default:
       return "nothing";
   }
+}
+
+template <typename T>
+std::string YamlReader::DescribeNo(const YAML::Node& node) {
+  T value{};
+  const bool is_one = IsQuoted(node) && YAML::convert<T>::decode(node, value);
+  return Describe(node) + (is_one ? "; write it without quotes" : "");
 }
 
 std::optional<YAML::Node> YamlReader::Take(const char* key, Need need) {
   known_.emplace_back(key);
   for (const auto& entry : node_) {
     if (entry.first.IsScalar() && entry.first.Scalar() == key) {
+      taken_ = entry.first.Mark();
       return entry.second;
     }
   }
@@ -89,8 +135,22 @@ bool YamlReader::CheckMap(const YAML::Node& node, const std::string& dotted) {
 bool YamlReader::ReadNumber(const YAML::Node& node, const std::string& dotted, Range range,
                             double& value) {
   double number = 0.0;
-  if (!node.IsScalar() || node.Tag() == "!" || !YAML::convert<double>::decode(node, number)) {
-    Complain(node, dotted, fmt::format("expected a number, found {}", Describe(node)));
+  const bool is_number = Decode(node, number);
+  if (range.min == range.max && (!is_number || number != range.min)) {
+    Complain(node, dotted,
+             fmt::format("must be {}, found {}", range.min,
+                         is_number ? fmt::format("{}", number) : DescribeNo<double>(node)));
+    return false;
+  }
+  if (!is_number && IsTooLarge(node)) {
+    const std::string allowed = AllowedBy(range);
+    Complain(node, dotted,
+             fmt::format("{} is out of range; must be {}", node.Scalar(),
+                         allowed.empty() ? "a number of at most 308 digits" : allowed));
+    return false;
+  }
+  if (!is_number) {
+    Complain(node, dotted, fmt::format("expected a number, found {}", DescribeNo<double>(node)));
     return false;
   }
   if (!std::isfinite(number)) {
@@ -121,8 +181,9 @@ void YamlReader::Field(const char* key, std::optional<double>& value, Range rang
 }
 
 bool YamlReader::ReadFlag(const YAML::Node& node, const std::string& dotted, bool& value) {
-  if (!node.IsScalar() || !YAML::convert<bool>::decode(node, value)) {
-    Complain(node, dotted, fmt::format("expected true or false, found {}", Describe(node)));
+  if (!Decode(node, value)) {
+    Complain(node, dotted,
+             fmt::format("expected true or false, found {}", DescribeNo<bool>(node)));
     return false;
   }
   return true;
@@ -159,10 +220,12 @@ void YamlReader::Field(const char* key, int& value, Need need, Range range) {
 
 void YamlReader::Field(const char* key, std::uint64_t& value, Need need) {
   if (const auto node = Take(key, need)) {
-    if (!node->IsScalar() || node->Scalar().starts_with('-') ||
-        !YAML::convert<std::uint64_t>::decode(*node, value)) {
-      Complain(*node, Dotted(key),
-               fmt::format("expected a whole number, at least 0, found {}", Describe(*node)));
+    // A stream reads -1 as the largest number that there is.
+    if (node->Scalar().starts_with('-') || !Decode(*node, value)) {
+      Complain(
+          *node, Dotted(key),
+          fmt::format("expected a whole number from 0 to {}, found {}",
+                      std::numeric_limits<std::uint64_t>::max(), DescribeNo<std::uint64_t>(*node)));
     }
   }
 }
@@ -248,10 +311,9 @@ void YamlReader::Field(const char* key, std::vector<Vec2>& value, Need need) {
     const YAML::Node item = (*node)[i];
     const std::string dotted = fmt::format("{}[{}]", Dotted(key), i);
     if (!item.IsSequence() || item.size() != 2) {
-      Complain(
-          item, dotted,
-          fmt::format("expected a point [x, y], found {}",
-                      item.IsSequence() ? fmt::format("{} numbers", item.size()) : Describe(item)));
+      Complain(item, dotted,
+               fmt::format("expected a point [x, y], found {}",
+                           item.IsSequence() ? Numbers(item.size()) : Describe(item)));
       continue;
     }
     Vec2 point = Vec2::Zero();
@@ -271,7 +333,8 @@ void YamlReader::Pair(const char* key, int& first, int& second, Range range) {
   }
   if (!node->IsSequence() || node->size() != 2) {
     Complain(*node, Dotted(key),
-             fmt::format("expected two whole numbers, found {}", Describe(*node)));
+             fmt::format("expected two whole numbers, found {}",
+                         node->IsSequence() ? Numbers(node->size()) : Describe(*node)));
     return;
   }
   for (std::size_t i = 0; i < 2; ++i) {
@@ -300,6 +363,9 @@ void YamlReader::Finish() {
       Complain(entry.first, Dotted(name.c_str()), "the key is given twice");
     } else if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
       Complain(entry.first, Dotted(name.c_str()), "unknown key " + UnknownName(name, known_));
+      if (const std::string meant = NearestSpelling(name, known_); !meant.empty()) {
+        context_.unread.push_back(Dotted(meant.c_str()));
+      }
     }
     seen.push_back(name);
   }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -22,9 +23,13 @@ struct ReaderContext {
   std::string file;
   std::vector<std::string> overridden;  // dotted keys that --set put in
   std::vector<Problem> problems;
+  std::vector<std::string> unread;  // dotted keys whose value is not known for a problem of theirs
 
   /// Adds a problem of the key, placed at `mark`, or at --set if that is where the key comes from.
   void Complain(const YAML::Mark& mark, const std::string& dotted, std::string message);
+
+  /// Whether the key, or some element of it if it is a list, is among what could not be read.
+  [[nodiscard]] bool Read(std::string_view dotted) const;
 };
 
 /// Reads one YAML mapping into a struct. A struct names its keys once, in a `Visit(archive,
@@ -147,11 +152,15 @@ class YamlReader {
   bool ReadNumber(const YAML::Node& node, const std::string& dotted, Range range, double& value);
   void Complain(const YAML::Node& node, const std::string& dotted, std::string message);
   static std::string Describe(const YAML::Node& node);
+  /// The same of a value that is no T, with the way out if it only has quotes too many.
+  template <typename T>
+  static std::string DescribeNo(const YAML::Node& node);
 
   ReaderContext& context_;
   YAML::Node node_;
   std::string key_;
   Names known_;
+  YAML::Mark taken_;  // where the key stands that was taken last
 };
 
 }  // namespace trackbed

@@ -110,7 +110,9 @@ TEST(Program, BadInputIsExitCodeTwoAndTouchesNothing) {
   const Outcome outcome = Trackbed(folder, "run bad.yaml");
   EXPECT_EQ(outcome.code, 2);
   EXPECT_EQ(outcome.output,
+            "bad.yaml:1:1: plan: missing; the controller preview follows a plan\n"
             "bad.yaml:3:10: mission.speed: missing\n"
+            "bad.yaml:3:10: mission.duration: missing; without a plan there is no goal to stop at\n"
             "bad.yaml:3:11: mission.sped: unknown key 'sped'; did you mean 'speed'?\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
   const Outcome missing = Trackbed(folder, "run none.yaml");
@@ -184,7 +186,7 @@ TEST(Program, SaysSoWhenNobodyCanReadItsOutput) {
 TEST(Program, RefusesSeedsThatAreNone) {
   const TempFolder folder;
   EXPECT_EQ(Trackbed(folder, "check " + ScenarioFile("winding") + " --seed=-1").output,
-            "--set: seed: expected a whole number, at least 0, found '-1'\n");
+            "--set: seed: expected a whole number from 0 to 18446744073709551615, found '-1'\n");
 }
 
 TEST(Program, FilmsARunWhoseModelIsGone) {

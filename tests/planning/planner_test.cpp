@@ -44,6 +44,17 @@ TEST_P(EveryPlanner, IsNamedByItsOptions) {
   EXPECT_FALSE(std::string(GetParam().summary).empty());
 }
 
+TEST_P(EveryPlanner, NeedsItsFewestWaypointsAndNoMore) {
+  const std::size_t fewest = FewestWaypoints(GetParam().defaults);
+  EXPECT_EQ(fewest, GetParam().fewest_waypoints);
+  std::vector<Vec2> route = RouteA();
+  ASSERT_GE(route.size(), fewest);
+  route.resize(fewest);
+  EXPECT_TRUE(MakePlan(Request(route), GetParam().defaults).ok());
+  route.pop_back();
+  EXPECT_EQ(MakePlan(Request(route), GetParam().defaults).status, PlanStatus::kTooFewWaypoints);
+}
+
 TEST_P(EveryPlanner, StartsAtTheFirstWaypointAndEndsAtGoal) {
   const Plan plan = MakePlan(Request(RouteA()), GetParam().defaults);
   ASSERT_TRUE(plan.ok()) << plan.reason;

@@ -76,7 +76,7 @@ expect: {kinematik: {}, between: [{plants: kinematic}]}
 test.yaml:4:18: vehicle.model: unknown model 'pruis'; did you mean 'prius'?
 test.yaml:4:31: vehicle.tyre: unknown 'contakt'; did you mean 'contact'?
 test.yaml:6:10: mission.speed: -3 is out of range; must be at least 0.1 and at most 100
-test.yaml:7:23: mission.waypoints[1]: expected a point [x, y], found 1 numbers
+test.yaml:7:23: mission.waypoints[1]: expected a point [x, y], found 1 number
 test.yaml:7:34: mission.waypoints[2][1]: expected a finite number, found '.nan'
 test.yaml:7:41: mission.waypoints[3]: expected a point [x, y], found 'here'
 test.yaml:8:3: mission.sped: unknown key 'sped'; did you mean 'speed'?
@@ -89,12 +89,17 @@ test.yaml:11:40: drive.plants[2]: unknown 'mujocco'; did you mean 'mujoco'?
 test.yaml:11:60: drive.timestep: expected a number, found 'fast'
 test.yaml:12:1: drive: the key is given twice
 test.yaml:13:10: expect.kinematik: unknown key 'kinematik'; did you mean 'kinematic'?
+test.yaml:13:35: expect.between[0]: asks nothing; give position_max, heading_max or both
 test.yaml:13:44: expect.between[0].plants: expected a list of names, found 'kinematic')");
 }
 
 TEST(ReadScenario, NamesMissingKeys) {
-  EXPECT_EQ(ErrorsOf("name: x\nmission: {}\n"),
-            "test.yaml:1:1: schema: missing\ntest.yaml:2:10: mission.speed: missing");
+  EXPECT_EQ(
+      ErrorsOf("name: x\nmission: {}\n"),
+      "test.yaml:1:1: schema: missing\n"
+      "test.yaml:1:1: plan: missing; the controller preview follows a plan\n"
+      "test.yaml:2:10: mission.speed: missing\n"
+      "test.yaml:2:10: mission.duration: missing; without a plan there is no goal to stop at");
 }
 
 TEST(ReadScenario, RefusesWhatIsNoScenario) {
@@ -117,7 +122,7 @@ TEST(ReadScenario, RefusesWhatIsNoScenario) {
 
 TEST(ReadScenario, RefusesKeysThatDoNotGoTogether) {
   EXPECT_EQ(ErrorsOf("schema: 1\nname: x\nmission: {speed: 3}\nplan: {method: fillet}\n"),
-            "test.yaml:3:10: mission.waypoints: missing; a plan needs waypoints");
+            "test.yaml:3:10: mission.waypoints: none given; a plan by fillet needs at least 3");
   EXPECT_EQ(
       ErrorsOf("schema: 1\nname: x\nmission: {speed: 3}\n"),
       "test.yaml:1:1: plan: missing; the controller preview follows a plan\n"
@@ -128,7 +133,7 @@ TEST(ReadScenario, RefusesKeysThatDoNotGoTogether) {
             "--set: plan.constraint: 'none' needs a radius: nothing else would limit it");
   EXPECT_EQ(ErrorsOf(std::string(kSmall) + "drive: {plants: [mujoco]}\n",
                      {"expect={kinematic: {reach_goal: 1}}"}),
-            "--set: expect.kinematic: drive.plants does not drive this plant");
+            "--set: expect.kinematic: drive.plants does not drive it; driven: mujoco");
 }
 
 TEST(ReadScenario, NamesAMissingFile) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
@@ -172,6 +173,8 @@ std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double int
 /// Radii in `bounds` with r/tan(phi/2) <= q_S/2 (C.34), or none.
 std::optional<RadiusInterval> HalfLegRadii(double interior_angle, double shorter_leg,
                                            RadiusInterval bounds);
+
+inline constexpr std::size_t kFewestFilletWaypoints = 3;
 
 /// Plans a route of N >= 3 waypoints (collinear ones make no turn) for a car that keeps `speed`,
 /// but for the turns that are slowed down. `seed` is of the search's random numbers.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -58,6 +59,7 @@ struct PlannerEntry {
   const char* name;
   const char* summary;
   PlannerOptions defaults;
+  std::size_t fewest_waypoints;  ///< that it can plan with
 };
 
 /// Every planner there is.
@@ -65,6 +67,9 @@ const std::vector<PlannerEntry>& Planners();
 
 /// The name of the planner that `options` belong to.
 const char* PlannerName(const PlannerOptions& options);
+
+/// How many waypoints the planner that `options` belong to needs.
+std::size_t FewestWaypoints(const PlannerOptions& options);
 
 /// Plans with the planner that `options` belong to. Never throws for a mission that cannot be
 /// planned; InternalError for one that the caller should have refused (a non-finite number).

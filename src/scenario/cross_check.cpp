@@ -1,0 +1,187 @@
+#include "src/scenario/cross_check.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+namespace trackbed {
+namespace {
+
+class CrossCheck {
+ public:
+  CrossCheck(const Scenario& scenario, const std::function<bool(const std::string&)>& could_read)
+      : scenario_(scenario), could_read_(could_read) {}
+
+  std::vector<std::pair<std::string, std::string>> Run() {
+    CheckMission();
+    CheckSteps();
+    CheckPicture();
+    if (CouldRead({"drive.plants"})) {
+      CheckPlants();
+    }
+    CheckBetween();
+    CheckWhatIsMeasured();
+    return std::move(found_);
+  }
+
+ private:
+  using EachExpectation =
+      std::function<void(const std::string& key, const PlantExpectation& expectation)>;
+
+  [[nodiscard]] bool CouldRead(std::initializer_list<const char*> keys) const {
+    return std::all_of(keys.begin(), keys.end(), could_read_);
+  }
+
+  void Complain(std::string key, std::string message) {
+    found_.emplace_back(std::move(key), std::move(message));
+  }
+
+  [[nodiscard]] std::string Driven() const {
+    return fmt::format("{}", fmt::join(scenario_.drive.plants, ", "));
+  }
+
+  void CheckMission() {
+    const MissionSpec& mission = scenario_.mission;
+    const auto& plan = scenario_.plan;
+    if (CouldRead({"mission.waypoints"})) {
+      CheckWaypoints();
+    }
+    if (!CouldRead({"plan.method"})) {
+      return;
+    }
+    if (CouldRead({"control.method"})) {
+      const ControllerEntry& controller = ControllerFor(scenario_.control.steering);
+      if (controller.needs_plan && !plan) {
+        Complain("plan", fmt::format("missing; the controller {} follows a plan", controller.name));
+      }
+    }
+    if (plan && mission.duration) {
+      Complain("mission.duration", "with a plan the drive ends at the goal; leave one out");
+    }
+    if (!plan && !mission.duration && CouldRead({"mission.duration"})) {
+      Complain("mission.duration", "missing; without a plan there is no goal to stop at");
+    }
+    const auto* fillet = plan ? std::get_if<FilletOptions>(&*plan) : nullptr;
+    if (fillet != nullptr && CouldRead({"plan.radius", "plan.constraint"}) && !fillet->radius &&
+        fillet->constraint == RadiusConstraint::kNone) {
+      Complain("plan.constraint", "'none' needs a radius: nothing else would limit it");
+    }
+  }
+
+  void CheckWaypoints() {
+    const std::vector<Vec2>& waypoints = scenario_.mission.waypoints;
+    for (std::size_t i = 1; i < waypoints.size(); ++i) {
+      if (waypoints[i] == waypoints[i - 1]) {
+        Complain(fmt::format("mission.waypoints[{}]", i), "the same point as the one before it");
+      }
+    }
+    if (scenario_.plan && waypoints.size() < FewestWaypoints(*scenario_.plan)) {
+      const std::string given = waypoints.empty() ? "none" : std::to_string(waypoints.size());
+      Complain("mission.waypoints",
+               fmt::format("{} given; a plan by {} needs at least {}", given,
+                           PlannerName(*scenario_.plan), FewestWaypoints(*scenario_.plan)));
+    }
+  }
+
+  void CheckSteps() {
+    const DriveSpec& drive = scenario_.drive;
+    const double steps = drive.control_period / drive.timestep;
+    if (CouldRead({"drive.control_period", "drive.timestep"}) &&
+        (std::abs(steps - std::round(steps)) > 1e-6 || steps < 0.5)) {
+      Complain("drive.control_period",
+               fmt::format("{} s is not a whole number of timesteps of {} s", drive.control_period,
+                           drive.timestep));
+    }
+  }
+
+  void CheckPicture() {
+    const RenderSpec& render = scenario_.render;
+    if (CouldRead({"render.size"}) &&
+        (render.width % 2 != 0 || render.height % 2 != 0 || render.height > 4320)) {
+      Complain("render.size", fmt::format("{}x{}: both must be even, the height at most 4320",
+                                          render.width, render.height));
+    }
+  }
+
+  void CheckPlants() {
+    if (scenario_.drive.plants.empty()) {
+      Complain("drive.plants", "at least one plant is needed");
+    }
+    for (const auto& [plant, expectation] : scenario_.expect.plants) {
+      if (!Drives(scenario_, plant)) {
+        Complain("expect." + plant,
+                 fmt::format("drive.plants does not drive it; driven: {}", Driven()));
+      }
+    }
+  }
+
+  void CheckBetween() {
+    for (std::size_t i = 0; i < scenario_.expect.between.size(); ++i) {
+      const BetweenExpectation& between = scenario_.expect.between[i];
+      const std::string key = fmt::format("expect.between[{}]", i);
+      if (could_read_(key + ".plants")) {
+        CheckTwoPlants(key + ".plants", between.plants);
+      }
+      if (!between.position_max && !between.heading_max && could_read_(key + ".position_max") &&
+          could_read_(key + ".heading_max")) {
+        Complain(key, "asks nothing; give position_max, heading_max or both");
+      }
+    }
+  }
+
+  void CheckTwoPlants(const std::string& key, const std::vector<std::string>& plants) {
+    if (plants.size() != 2) {
+      Complain(key, fmt::format("expected two plants, found {}", plants.size()));
+      return;
+    }
+    for (const std::string& plant : plants) {
+      if (CouldRead({"drive.plants"}) && !Drives(scenario_, plant)) {
+        Complain(key, fmt::format("drive.plants does not drive {}; driven: {}", plant, Driven()));
+      }
+    }
+  }
+
+  void ForEachExpectation(const EachExpectation& call) {
+    call("expect", scenario_.expect.all);
+    for (const auto& [plant, expectation] : scenario_.expect.plants) {
+      call("expect." + plant, expectation);
+    }
+  }
+
+  /// Without a path or obstacles there is nothing to measure.
+  void CheckWhatIsMeasured() {
+    const bool has_path = scenario_.plan || !CouldRead({"plan.method"});
+    const bool has_obstacles =
+        !scenario_.world.obstacles.empty() || !CouldRead({"world.obstacles"});
+    ForEachExpectation([&](const std::string& key, const PlantExpectation& expectation) {
+      if (!has_path && (expectation.reach_goal || expectation.max_cross_track ||
+                        expectation.rms_cross_track || expectation.max_heading_error)) {
+        Complain(key, "without a plan there is no goal and no path to be off");
+      }
+      if (!has_obstacles && (expectation.min_clearance || expectation.collision.value_or(false))) {
+        Complain(key, "without world.obstacles there is nothing to be clear of or to hit");
+      }
+    });
+  }
+
+  const Scenario& scenario_;
+  const std::function<bool(const std::string&)>& could_read_;
+  std::vector<std::pair<std::string, std::string>> found_;
+};
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> CrossProblems(
+    const Scenario& scenario, const std::function<bool(const std::string& key)>& could_read) {
+  return CrossCheck(scenario, could_read).Run();
+}
+
+bool Drives(const Scenario& scenario, const std::string& plant) {
+  const auto& plants = scenario.drive.plants;
+  return std::find(plants.begin(), plants.end(), plant) != plants.end();
+}
+
+}  // namespace trackbed

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trackbed/scenario/scenario.h"
+
+namespace trackbed {
+
+/// Problems that concern more than one key, each with the key to change. What could not be read
+/// (`could_read` of a dotted key) is not judged: that would only cause follow-up complaints.
+std::vector<std::pair<std::string, std::string>> CrossProblems(
+    const Scenario& scenario, const std::function<bool(const std::string& key)>& could_read);
+
+/// Whether the scenario drives the plant.
+bool Drives(const Scenario& scenario, const std::string& plant);
+
+}  // namespace trackbed
