@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "trackbed/core/error.h"
-#include "trackbed/core/spelling.h"
 #include "trackbed/render/film.h"
 
 namespace trackbed::cli {
@@ -29,18 +28,12 @@ Scenario ScenarioOptions::Read(const fs::path& file) const {
   if (!seed.empty()) {
     all.push_back("seed=" + seed);
   }
-  Scenario scenario = ReadScenario(file, all);
   // The cameras are a room below the scenario's.
   std::vector<std::string> cameras;
   for (const CameraSummary& camera : Cameras()) {
     cameras.push_back(camera.name);
   }
-  const std::string& camera = scenario.render.camera;
-  if (std::find(cameras.begin(), cameras.end(), camera) == cameras.end()) {
-    throw InputError(
-        Problem{file.string(), 0, 0, "render.camera", "unknown " + UnknownName(camera, cameras)});
-  }
-  return scenario;
+  return ReadScenario(file, all, cameras);
 }
 
 std::vector<fs::path> ScenarioFiles(const std::vector<std::string>& paths) {

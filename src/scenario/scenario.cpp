@@ -8,6 +8,7 @@
 #include "src/scenario/visit.h"
 #include "src/scenario/yaml_file.h"
 #include "trackbed/core/file.h"
+#include "trackbed/core/spelling.h"
 
 namespace trackbed {
 namespace {
@@ -47,8 +48,8 @@ YAML::Node NodeAt(const YAML::Node& root, const std::string& key) {
 }  // namespace
 
 Scenario ParseScenario(const std::string& yaml, const std::string& name,
-                       const std::filesystem::path& folder,
-                       const std::vector<Override>& overrides) {
+                       const std::filesystem::path& folder, const std::vector<Override>& overrides,
+                       const std::vector<std::string>& cameras) {
   YAML::Node root = LoadYaml(yaml, name);
   ReaderContext context{.file = name, .overridden = {}, .problems = {}};
   for (const Override& override_text : overrides) {
@@ -66,6 +67,10 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
     static_cast<void>(FindModel(scenario.vehicle.model, folder));
   } catch (const InputError& error) {
     complain("vehicle.model", error.problems().front().message);
+  }
+  const std::string& camera = scenario.render.camera;
+  if (!cameras.empty() && std::find(cameras.begin(), cameras.end(), camera) == cameras.end()) {
+    complain("render.camera", "unknown " + UnknownName(camera, cameras));
   }
   if (std::find(context.overridden.begin(), context.overridden.end(), "drive.plants") !=
       context.overridden.end()) {
@@ -97,8 +102,9 @@ std::string ReadInput(const std::filesystem::path& file) {
 
 }  // namespace
 
-Scenario ReadScenario(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  return ParseScenario(ReadInput(file), file.string(), file.parent_path(), overrides);
+Scenario ReadScenario(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                      const std::vector<std::string>& cameras) {
+  return ParseScenario(ReadInput(file), file.string(), file.parent_path(), overrides, cameras);
 }
 
 RenderSpec ReadRenderSpec(const std::filesystem::path& file) {

@@ -266,7 +266,7 @@ TEST(Program, ChecksWithoutDriving) {
   EXPECT_EQ(Trackbed(folder, "check s").code, 0);
   const Outcome camera = Trackbed(folder, "check s --set render.camera=chas");
   EXPECT_EQ(camera.code, 2);
-  EXPECT_EQ(camera.output, "s/good.yaml: render.camera: unknown 'chas'; did you mean 'chase'?\n");
+  EXPECT_EQ(camera.output, "--set: render.camera: unknown 'chas'; did you mean 'chase'?\n");
   EXPECT_EQ(Trackbed(folder, "check .").output, ".: the folder has no scenarios (*.yaml)\n");
 }
 

@@ -49,8 +49,8 @@ std::string WithoutFolder(std::string message) {
 /// What the user is told about a file: by the reader, or by the car that it names.
 std::string MessageFor(const fs::path& file) {
   try {
-    const Scenario scenario =
-        ParseScenario(ReadFile(file), file.filename().string(), file.parent_path());
+    const Scenario scenario = ParseScenario(ReadFile(file), file.filename().string(),
+                                            file.parent_path(), {}, {"chase", "side", "top"});
     const fs::path model = FindModel(scenario.vehicle.model, scenario.folder);
     const CarModel car(ComposeScene(model, {.timestep = scenario.drive.timestep}), model.string());
   } catch (const InputError& error) {

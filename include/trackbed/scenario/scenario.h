@@ -101,15 +101,17 @@ using Override = std::string;
 /// Reads a scenario file strictly. InputError with **every** problem of the file: unknown key (with
 /// the nearest known one), missing or repeated key, wrong type, NaN or infinity, out of range,
 /// unknown name; each with file, line, column and dotted key. Problems of an override name the
-/// override.
+/// override. `cameras` are the names that render.camera may have; none: it is not looked at.
 Scenario ReadScenario(const std::filesystem::path& file,
-                      const std::vector<Override>& overrides = {});
+                      const std::vector<Override>& overrides = {},
+                      const std::vector<std::string>& cameras = {});
 
 /// The same from text; `name` stands for the file in messages, `folder` is where relative paths
 /// start.
 Scenario ParseScenario(const std::string& yaml, const std::string& name,
                        const std::filesystem::path& folder,
-                       const std::vector<Override>& overrides = {});
+                       const std::vector<Override>& overrides = {},
+                       const std::vector<std::string>& cameras = {});
 
 /// The `render` section of a scenario file alone, for films of runs whose model may be gone.
 /// InputError.
