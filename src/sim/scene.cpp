@@ -22,7 +22,31 @@ using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
 
 [[noreturn]] void Fail(const fs::path& file, int line, std::string message) {
-  throw InputError(Problem{file.string(), line, line > 0 ? 1 : 0, "", std::move(message)});
+  throw InputError(Problem{file.string(), line, 0, "", std::move(message)});
+}
+
+std::string PlainWords(const XMLDocument& document) {
+  switch (document.ErrorID()) {
+    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+      return "the element that begins here is not closed, or closed by another name";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "an attribute is not of the form name=\"value\", is given twice, or the file ends in "
+             "it";
+    case tinyxml2::XML_ERROR_PARSING_TEXT:
+      return "a text that no element follows";
+    case tinyxml2::XML_ERROR_PARSING_COMMENT:
+      return "a comment is not closed by -->";
+    case tinyxml2::XML_ERROR_PARSING_CDATA:
+      return "a CDATA section is not closed by ]]>";
+    case tinyxml2::XML_ERROR_PARSING_DECLARATION:
+      return "a declaration <?...?> is not closed or not at the beginning";
+    case tinyxml2::XML_ERROR_PARSING_UNKNOWN:
+      return "a declaration <!...> is not closed";
+    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
+      return "elements are nested too deeply";
+    default:
+      return "an element is not of the form <name attribute=\"value\">";
+  }
 }
 
 void Load(const fs::path& file, XMLDocument& document) {
@@ -31,8 +55,13 @@ void Load(const fs::path& file, XMLDocument& document) {
   }
   const std::string text = ReadFile(file);
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    Fail(file, document.ErrorLineNum(),
-         fmt::format("not well-formed XML: {}", document.ErrorName()));
+    if (document.ErrorID() == tinyxml2::XML_ERROR_EMPTY_DOCUMENT) {
+      Fail(file, 0, "the file is empty; a model is a <mujoco>");
+    }
+    // Where the text is cut off, the line after its last one is named.
+    const auto lines = std::count(text.begin(), text.end(), '\n') + (text.ends_with('\n') ? 0 : 1);
+    const int line = std::min(document.ErrorLineNum(), static_cast<int>(lines));
+    Fail(file, line, "not XML: " + PlainWords(document));
   }
   if (document.RootElement() == nullptr) {
     Fail(file, 1, "no root element");
@@ -88,6 +117,16 @@ XMLElement* FindBody(XMLElement& parent, std::string_view name) {
 
 std::string Numbers(std::initializer_list<double> values) {
   return fmt::format("{}", fmt::join(values, " "));
+}
+
+/// Calls with every element from `element` on, in the order of the text.
+template <typename Call>
+void ForEachElement(const XMLElement& element, const Call& call) {
+  call(element);
+  for (const XMLElement* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    ForEachElement(*child, call);
+  }
 }
 
 std::string Print(const XMLDocument& document) {
@@ -207,7 +246,28 @@ Scene ComposeScene(const fs::path& car_file, const SceneOptions& options) {
   root.InsertEndChild(option);
 
   scene.xml = Print(document);
+  ForEachElement(root, [&](const XMLElement& element) {
+    scene.lines.push_back(element.GetLineNum());  // 0 for what was included or added
+  });
   return scene;
+}
+
+int LineInCarFile(const Scene& scene, int line) {
+  if (scene.lines.empty() || line == 0) {
+    return 0;
+  }
+  XMLDocument document;
+  TRACKBED_CHECK(document.Parse(scene.xml.c_str()) == tinyxml2::XML_SUCCESS,
+                 "a composed scene does not parse");
+  std::size_t i = 0;
+  int found = 0;
+  ForEachElement(*document.RootElement(), [&](const XMLElement& element) {
+    if (element.GetLineNum() == line) {
+      found = i < scene.lines.size() ? scene.lines[i] : 0;
+    }
+    ++i;
+  });
+  return found;
 }
 
 Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const World& world) {
@@ -258,6 +318,7 @@ Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const 
   }
   Scene scene = car_scene;
   scene.xml = Print(document);
+  scene.lines.clear();
   return scene;
 }
 

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
@@ -83,16 +85,65 @@ TEST(ComposeScene, NamesFileAndLineOfWhatIsWrong) {
   const std::string at = folder.path().string();
   EXPECT_EQ(MessageOf(folder.path() / "none.xml"), at + "/none.xml: no such file");
   EXPECT_EQ(MessageOf(folder.Write("a.xml", "<mujoco>\n<body>\n</mujoco>")),
-            at + "/a.xml:2:1: not well-formed XML: XML_ERROR_MISMATCHED_ELEMENT");
+            at + "/a.xml:2: not XML: the element that begins here is not closed, or closed by "
+                 "another name");
   EXPECT_EQ(MessageOf(folder.Write("b.xml", "\n<robot/>")),
-            at + "/b.xml:2:1: the root element is <robot>; a model is a <mujoco>");
+            at + "/b.xml:2: the root element is <robot>; a model is a <mujoco>");
   EXPECT_EQ(MessageOf(folder.Write("c.xml", "<mujoco>\n<include/></mujoco>")),
-            at + "/c.xml:2:1: <include> without a file");
+            at + "/c.xml:2: <include> without a file");
   EXPECT_EQ(MessageOf(folder.Write("d.xml", "<mujoco>\n<include file='d.xml'/></mujoco>")),
-            at + "/d.xml:2:1: d.xml is included a second time");
+            at + "/d.xml:2: d.xml is included a second time");
   EXPECT_EQ(
       MessageOf(folder.Write("e.xml", "<mujoco><asset>\n<mesh file='x.stl'/></asset></mujoco>")),
-      at + "/e.xml:2:1: <mesh> refers to " + at + "/x.stl, which is no file");
+      at + "/e.xml:2: <mesh> refers to " + at + "/x.stl, which is no file");
+}
+
+TEST(ComposeScene, SaysInPlainWordsWhatIsNoXml) {
+  const TempFolder folder;
+  const auto message = [&](const std::string& xml) {
+    const std::string file = folder.Write("a.xml", xml).string();
+    return MessageOf(file).substr(file.size());
+  };
+  EXPECT_EQ(message(""), ": the file is empty; a model is a <mujoco>");
+  EXPECT_EQ(message("speed: 3\n"), ":1: not XML: a text that no element follows");
+  EXPECT_EQ(message("<mujoco>\n<=/></mujoco>"),
+            ":2: not XML: an element is not of the form <name attribute=\"value\">");
+  EXPECT_EQ(message("<mujoco>\n<body name=x/></mujoco>"),
+            ":2: not XML: an attribute is not of the form name=\"value\", is given twice, or the "
+            "file ends in it");
+  EXPECT_EQ(message("<mujoco>\n<!-- </mujoco>\n"), ":2: not XML: a comment is not closed by -->");
+  EXPECT_EQ(message("<mujoco>\n<![CDATA[ </mujoco>\n"),
+            ":2: not XML: a CDATA section is not closed by ]]>");
+  EXPECT_EQ(message("<mujoco>\n<?x </mujoco>\n"),
+            ":2: not XML: a declaration <?...?> is not closed or not at the beginning");
+  EXPECT_EQ(message("<mujoco>\n<!x </mujoco"), ":2: not XML: a declaration <!...> is not closed");
+  std::string deep = "<mujoco>";
+  for (int i = 0; i < 1000; ++i) {
+    deep += "<body>";
+  }
+  EXPECT_EQ(message(deep), ":1: not XML: elements are nested too deeply");
+}
+
+TEST(LineInCarFile, IsThatOfTheElementInTheCarsOwnFile) {
+  const TempFolder folder;
+  const auto file = folder.Write("car.xml",
+                                 "<mujoco>\n\n<!-- a\nb -->\n<include file='part.xml'/>\n"
+                                 "<size njmax='7'/>\n<worldbody><body\n/></worldbody></mujoco>");
+  folder.Write("part.xml", "<mujoco><compiler/>\n<visual/></mujoco>");
+  const Scene scene = ComposeScene(file, {});
+  const auto line_of = [&](const char* text) {
+    const auto end = scene.xml.begin() + static_cast<std::ptrdiff_t>(scene.xml.find(text));
+    return static_cast<int>(std::count(scene.xml.begin(), end, '\n')) + 1;
+  };
+  EXPECT_EQ(LineInCarFile(scene, line_of("<mujoco")), 1);
+  EXPECT_EQ(LineInCarFile(scene, line_of("<size")), 6);
+  EXPECT_EQ(LineInCarFile(scene, line_of("<worldbody")), 7);
+  EXPECT_EQ(LineInCarFile(scene, line_of("<body")), 7);
+  EXPECT_NE(line_of("<body"), 7);
+  EXPECT_EQ(LineInCarFile(scene, line_of("<compiler")), 0);  // included
+  EXPECT_EQ(LineInCarFile(scene, line_of("<option")), 0);    // added
+  EXPECT_EQ(LineInCarFile(scene, 1000), 0);
+  EXPECT_EQ(LineInCarFile(scene, 0), 0);
 }
 
 }  // namespace

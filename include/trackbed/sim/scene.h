@@ -24,6 +24,9 @@ struct SceneAsset {
 struct Scene {
   std::string xml;
   std::vector<SceneAsset> assets;
+  /// For each element of `xml`, in the text's order, its line in the car's file, or 0 when it is
+  /// not from there. Empty when unknown.
+  std::vector<int> lines;
 };
 
 /// The MJCF file of a car: `model` is a name under the models folder ("prius" is
@@ -39,13 +42,16 @@ std::vector<std::string> ModelNames();
 std::filesystem::path DataFolder();
 
 /// Reads a car's MJCF, resolves its includes, gathers the files it refers to, and sets the options.
-/// InputError with file and line when it is not well-formed XML or refers to something missing.
+/// InputError with file and line when it is not XML or refers to something missing.
 Scene ComposeScene(const std::filesystem::path& car_file, const SceneOptions& options);
 
 /// Adds the world's obstacles as bodies that cannot be moved, `obstacle_0`, `obstacle_1`, …, and to
 /// the car a shell that only they can touch: a box geom `shell` in its body `chassis`, the outline
 /// from a hand's breadth above the ground to the roof. Without obstacles the scene stays as it is.
 Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const World& world);
+
+/// Where the element at `line` of the composed text stands in the car's file; 0 when unknown.
+int LineInCarFile(const Scene& scene, int line);
 
 /// Writes the scene to `file` (its folder must exist) and the assets beside it.
 void WriteScene(const Scene& scene, const std::filesystem::path& file);
