@@ -153,11 +153,28 @@ TEST(CarModel, SaysWhatAModelLacks) {
             "car.xml: outline: the model has no box site of this name");
   const std::string bare = MessageOf("<mujoco/>");
   for (const char* name : {"chassis", "rack", "ground", "tyre_fl", "spin_rr", "steer_fr", "steer",
-                           "drive", "brake_torque_front"}) {
+                           "drive", "brake_torque_front", "outline", "steering_ratio"}) {
     EXPECT_THAT(bare, testing::HasSubstr(std::string("car.xml: ") + name + ": "));
   }
-  EXPECT_THAT(MessageOf("<mujoco><worldbody><body/><oops/></worldbody></mujoco>"),
-              testing::StartsWith("car.xml: does not compile: "));
+}
+
+TEST(CarModel, TellsWhatDoesNotCompileInOneLine) {
+  EXPECT_EQ(MessageOf("<mujoco><worldbody><body/><oops/></worldbody></mujoco>"),
+            "car.xml: does not compile: unrecognized element (<oops>)");
+  EXPECT_EQ(MessageOf("<mujoco><worldbody><body name='a'><joint/></body></worldbody></mujoco>"),
+            "car.xml: does not compile: mass and inertia of moving bodies must be larger than "
+            "mjMINVAL ('a')");
+  const TempFolder folder;
+  const auto file = folder.Write("car.xml",
+                                 "<mujoco>\n\n<worldbody>\n<body>\n\n<joint axis='x'/></body>"
+                                 "</worldbody></mujoco>");
+  try {
+    const CarModel car(ComposeScene(file, {}), "car.xml");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "car.xml:6: does not compile: problem reading attribute 'axis' (<joint>)");
+  }
 }
 
 TEST(CarModel, RefusesSteeringWithoutLimits) {

@@ -41,8 +41,8 @@ struct CarParts {
 
 /// A compiled car with its scene. Immutable, and safe to share between threads once made.
 ///
-/// Errors: InputError naming the file and what is missing or wrong when the MJCF does not compile,
-/// lacks a needed name, or its steering actuator has no limits.
+/// Errors: InputError naming the file and, all at once, what is missing or wrong, when the MJCF
+/// does not compile, lacks a needed name, or has a part that is not as docs/models.md asks.
 class CarModel {
  public:
   CarModel(Scene scene, const std::string& name_for_messages);
