@@ -67,6 +67,19 @@ RunResult RunScenario(const Scenario& scenario) {
   return RunMission(scenario);
 }
 
+void PrintTo(const RunResult& run, std::ostream* out) {
+  *out << run.scenario.name << ": ";
+  if (!run.plan.ok()) {
+    *out << fmt::format("no plan ({}): {}", ToString(run.plan.status), run.plan.reason);
+    return;
+  }
+  for (const PlantMetrics& metrics : run.metrics) {
+    *out << fmt::format("{}{} {} at {:.4g} s", &metrics == &run.metrics.front() ? "" : ", ",
+                        metrics.plant, ToString(metrics.status), metrics.time);
+  }
+  *out << (run.verdict.passed ? "; met its expectations" : "; failed its expectations");
+}
+
 testing::Matcher<const RunResult&> TracksWithin(double limit) {
   return RunMatcher(fmt::format("tracks its path within {} m", limit),
                     ForEveryPlant([limit](const PlantMetrics& metrics) -> std::string {

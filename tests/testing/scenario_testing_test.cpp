@@ -124,6 +124,18 @@ TEST(ReachesGoal, SaysHowItEnded) {
             "kinematic stopped 0.1277 m from it, t = 47.12 s");
 }
 
+TEST(RunResult, PrintsHowItWent) {
+  EXPECT_EQ(testing::PrintToString(RunScenario(File("winding"), {"drive.time_limit=0.5"})),
+            "winding: kinematic time_limit at 0.5 s, mujoco time_limit at 0.5 s; failed its "
+            "expectations");
+  EXPECT_THAT(
+      testing::PrintToString(RunScenario(File("winding"), {"drive.plants=[kinematic]"})),
+      testing::MatchesRegex("winding: kinematic arrived at [0-9.]+ s; met its expectations"));
+  EXPECT_EQ(testing::PrintToString(
+                RunScenario(File("winding"), {"mission.waypoints=[[0, 0], [9, 0], [0, 0]]"})),
+            "winding: no plan (u_turn): the route turns back on itself at waypoint 1");
+}
+
 TEST(Matchers, SayThatThereIsNoPlan) {
   const RunResult run =
       RunScenario(File("winding"), {"mission.waypoints=[[0, 0], [9, 0], [0, 0]]"});
