@@ -37,10 +37,12 @@ struct ClearanceMetrics {
 struct PlantMetrics {
   std::string plant;
   DriveStatus status = DriveStatus::kArrived;
-  double distance = 0.0;                     ///< driven [m]
-  double time = 0.0;                         ///< simulated [s]
-  double lateral_acceleration_max = 0.0;     ///< largest magnitude, at the CG [m/s^2]
-  double steering_rate_max = 0.0;            ///< of the measured angle, mean over any 0.1 s [rad/s]
+  double distance = 0.0;                  ///< driven [m]
+  double time = 0.0;                      ///< simulated [s]
+  double lateral_acceleration_max = 0.0;  ///< largest magnitude, at the CG [m/s^2]
+  /// Of the measured angle, mean over any 0.1 s, or one control period where that is longer
+  /// [rad/s].
+  double steering_rate_max = 0.0;
   double steering_saturated_fraction = 0.0;  ///< of the periods: actuator did not reach the command
   std::optional<TrackingMetrics> tracking;   ///< none without a path
   std::optional<ClearanceMetrics> clearance;  ///< none without obstacles
