@@ -254,6 +254,16 @@ Stumble Explain(const std::string& text, const YAML::Exception& error, const Wat
     return {backslash == std::string_view::npos ? mark : MarkAt(mark.line, backslash),
             R"(a '\' in double quotes must be doubled: '\\')"};
   }
+  if (said == Says::ALIAS_NOT_FOUND || said == Says::ANCHOR_NOT_FOUND ||
+      said == Says::CHAR_IN_ALIAS || said == Says::CHAR_IN_ANCHOR) {
+    return {mark, "a text that begins with '*' or '&' must stand in quotes"};
+  }
+  if (said == Says::CHAR_IN_BLOCK || said == Says::ZERO_INDENT_IN_BLOCK) {
+    return {mark, "a text that begins with '|' or '>' must stand in quotes"};
+  }
+  if (said == Says::MAP_KEY) {
+    return {mark, "a text that begins with '? ' must stand in quotes"};
+  }
   if (said == Says::UNKNOWN_ANCHOR) {
     return {mark, "the '*' names what no '&' above has named"};
   }
