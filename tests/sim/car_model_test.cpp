@@ -183,6 +183,24 @@ TEST(CarModel, RefusesSteeringWithoutLimits) {
               testing::HasSubstr("car.xml: steer: must be an <intvelocity>"));
 }
 
+TEST(CarModel, RefusesARackThatStopsBeforeTheSteering) {
+  EXPECT_EQ(
+      MessageOf(PriusWith("<joint name=\"rack\" type=\"hinge\"",
+                          "<joint name=\"rack\" type=\"hinge\" limited=\"true\" "
+                          "range=\"-0.4 0.4\"")),
+      "car.xml: rack: its range, -0.4 to 0.4 rad, stops before the -0.4869 to 0.4869 rad that "
+      "steering needs; without <compiler angle=\"radian\"/> a range is in degrees");
+}
+
+TEST(CarModel, RefusesAnOutlineThatIsNotTheChassis) {
+  std::string xml = PriusWith("<site name=\"outline\"", "<site name=\"shape\"");
+  const std::string rack = "<body name=\"rack\"";
+  const std::size_t inside = xml.find('>', xml.find(rack)) + 1;
+  xml.insert(inside, "<site name=\"outline\" type=\"box\" size=\"2 1 1\"/>");
+  EXPECT_EQ(MessageOf(xml),
+            "car.xml: outline: must be a site of the body 'chassis'; it is on 'rack'");
+}
+
 TEST(CarModel, RefusesAFrameThatIsNotUnderTheRearAxle) {
   std::string xml =
       PriusWith("<body name=\"knuckle_rl\" pos=\"0 ", "<body name=\"knuckle_rl\" pos=\"0.5 ");
