@@ -91,9 +91,10 @@ struct Trace {
   std::vector<double> t;
   std::vector<Pose2> pose;
 
-  explicit Trace(const RunLog& log) {
+  explicit Trace(const RunLog& log, StationSource source = StationSource::kProjection) {
     for (const LogRow& row : log.rows) {
-      const double station = StationOf(row);
+      const double station =
+          source == StationSource::kOdometer ? row.state.distance : StationOf(row);
       if (s.empty() || station > s.back()) {
         s.push_back(station);
         t.push_back(row.state.time);
@@ -111,6 +112,22 @@ struct Trace {
     return {std::lerp(a.x, b.x, share), std::lerp(a.y, b.y, share), std::lerp(a.yaw, b.yaw, share)};
   }
 };
+
+std::vector<TurnMetrics> MeasureTurns(const RunLog& log, const Plan& plan,
+                                      const VehicleParams& vehicle, StationSource source) {
+  std::vector<TurnMetrics> turns;
+  const Trace trace(log, source);
+  // Wheels that are moved by forces follow their actuator late; prescribed ones do not.
+  const double lag = log.rows.front().state.wheels ? vehicle.steering_lag : 0.0;
+  for (const LoneTurn& turn : plan.turns) {
+    if (trace.s.size() > 2 && trace.s.front() <= turn.from && turn.middle <= trace.s.back()) {
+      const Path& path = plan.reference.path;
+      turns.push_back({turn.waypoint, PredictTurn(vehicle, path, turn, lag),
+                       ErrorInTurn(path, turn, trace.At(turn.from), trace.At(turn.middle))});
+    }
+  }
+  return turns;
+}
 
 void JudgeClearance(const PlantExpectation& expect, const PlantMetrics& metrics, Verdict& verdict) {
   const ClearanceMetrics& clearance = *metrics.clearance;
@@ -170,7 +187,8 @@ void JudgePlant(const PlantExpectation& expect, const PlantMetrics& metrics, Ver
 
 }  // namespace
 
-PlantMetrics Measure(const RunLog& log, const Plan& plan, double control_period) {
+PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& vehicle,
+                     double control_period, StationSource source) {
   TRACKBED_CHECK(!log.rows.empty(), "the log of {} is empty", log.plant);
   PlantMetrics metrics;
   metrics.plant = log.plant;
@@ -189,6 +207,7 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, double control_period)
   if (log.rows.front().clearance) {
     metrics.clearance = MeasureClearance(log);
   }
+  metrics.turns = MeasureTurns(log, plan, vehicle, source);
   return metrics;
 }
 
@@ -291,6 +310,13 @@ nlohmann::ordered_json ToJson(const PlantMetrics& metrics) {
   json["lateral_acceleration_max"] = metrics.lateral_acceleration_max;
   json["steering_rate_max"] = metrics.steering_rate_max;
   json["steering_saturated_fraction"] = metrics.steering_saturated_fraction;
+  for (const TurnMetrics& turn : metrics.turns) {
+    json["turns"].push_back({{"waypoint", turn.waypoint},
+                             {"heading_deficit_predicted", turn.predicted.heading_deficit},
+                             {"heading_deficit", turn.measured.heading_deficit},
+                             {"lateral_offset_predicted", turn.predicted.lateral_offset},
+                             {"lateral_offset", turn.measured.lateral_offset}});
+  }
   return json;
 }
 

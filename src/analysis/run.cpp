@@ -37,15 +37,44 @@ Table PlanTable(const Reference& reference) {
   return table;
 }
 
+/// delta(D) of the open loop: its corners.
+Table ScheduleTable(const SteeringSchedule& schedule) {
+  Table table({"distance_m", "steering_rad"});
+  for (const SteeringSchedule::Knot& knot : schedule.knots()) {
+    table.AddRow({knot.distance, knot.steering});
+  }
+  return table;
+}
+
+/// The convergence histories of plan.json as rows: best radii after each generation.
+Table ConvergenceTable(const nlohmann::json& diagnostics) {
+  Table table({"waypoint", "evaluations", "objective", "radius_m"});
+  const nlohmann::json& turns = diagnostics["turns"];
+  for (std::size_t k = 0; k < turns.size(); ++k) {
+    const double waypoint = turns[k]["waypoint"].get<double>();
+    // A search of its own, or the joint one.
+    const bool own = turns[k].contains("search");
+    const nlohmann::json& from = own ? turns[k] : diagnostics;
+    if (!from.contains("search")) {
+      continue;
+    }
+    for (const nlohmann::json& best : from["search"]["history"]) {
+      table.AddRow({waypoint, best["evaluations"].get<double>(), best["objective"].get<double>(),
+                    best["radius_m"][own ? 0 : k].get<double>()});
+    }
+  }
+  return table;
+}
+
 std::string Pretty(const ordered_json& json) {
   return json.dump(2) + "\n";
 }
 
 /// Removes what an earlier run may have left under names that a run writes, and nothing else.
 void RemoveEarlierRun(const fs::path& folder) {
-  std::vector<std::string> names{"plan.csv",    "plan.json", "metrics.json",
-                                 "timing.json", "model.xml", "scenario.resolved.yaml",
-                                 "video.mp4"};
+  std::vector<std::string> names{"plan.csv",  "schedule.csv",           "convergence.csv",
+                                 "plan.json", "metrics.json",           "timing.json",
+                                 "model.xml", "scenario.resolved.yaml", "video.mp4"};
   for (const PlantEntry& plant : Plants()) {
     names.push_back(std::string(plant.name) + ".csv");
     names.push_back(std::string(plant.name) + ".state.csv");
@@ -82,8 +111,9 @@ RunResult RunMission(const Scenario& scenario, const RunHooks& hooks) {
     const Stopwatch driving;
     result.logs.push_back(DrivePlant(scenario, car, result.plan, plant, drive_hooks));
     const double wall = driving.Seconds();
-    result.metrics.push_back(
-        Measure(result.logs.back(), result.plan, scenario.drive.control_period));
+    result.metrics.push_back(Measure(result.logs.back(), result.plan, car.params(),
+                                     scenario.drive.control_period,
+                                     ControllerFor(scenario.control.steering).station));
     result.timing.push_back({plant, wall, result.metrics.back().time / wall});
     if (result.logs.back().status == DriveStatus::kInterrupted) {
       result.interrupted = true;
@@ -111,6 +141,8 @@ void WritePlan(const Plan& plan, const Scenario& scenario, const fs::path& folde
     json["length_m"] = length;
     json["duration_s"] = plan.reference.speed.TimeAt(length);
     WriteFileAtomically(folder / "plan.csv", PlanTable(plan.reference).ToCsv());
+    WriteFileAtomically(folder / "schedule.csv", ScheduleTable(plan.schedule).ToCsv());
+    WriteFileAtomically(folder / "convergence.csv", ConvergenceTable(plan.diagnostics).ToCsv());
   }
   for (const auto& [key, value] : plan.diagnostics.items()) {
     json[key] = value;

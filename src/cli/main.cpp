@@ -26,7 +26,7 @@ struct Verb {
 
 const std::vector<Verb> kVerbs{
     {"run", "Plan, drive and measure scenarios; write a folder for each", AddRun},
-    {"plan", "Plan only: write plan.csv and plan.json", AddPlan},
+    {"plan", "Plan only: write the path, its steering, and how they were found", AddPlan},
     {"render", "Make the film of a finished run from its folder", AddRender},
     {"test", "Run scenarios and judge them by what they expect, one line each", AddTest},
     {"check", "Read and validate scenarios without driving them", AddCheck},

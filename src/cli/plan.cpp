@@ -20,6 +20,48 @@ struct PlanOptions {
   ScenarioOptions scenario;
 };
 
+/// "-" for what a plan does not tell.
+std::string Number(const nlohmann::json& turn, const nlohmann::json::json_pointer& key,
+                   const char* format) {
+  return turn.contains(key) && turn[key].is_number()
+             ? fmt::format(fmt::runtime(format), turn[key].get<double>())
+             : "-";
+}
+
+/// The turns of plan.json, one line each.
+void PrintTurns(const nlohmann::json& diagnostics) {
+  using Pointer = nlohmann::json::json_pointer;
+  if (!diagnostics.contains("turns") || diagnostics["turns"].empty()) {
+    return;
+  }
+  fmt::print("  {:>8} {:>9} {:>9} {:>9} {:>7} {:<14} {:>6} {:>7} {:>9} {:>9} {:>11} {:>9}\n",
+             "waypoint", "angle", "first r", "radius", "speed", "held by", "ramp", "ramp", "steer",
+             "return", "evaluations", "deficit");
+  fmt::print("  {:>8} {:>9} {:>9} {:>9} {:>7} {:<14} {:>6} {:>7} {:>9} {:>9} {:>11} {:>9}\n", "",
+             "[rad]", "[m]", "[m]", "[m/s]", "", "[s]", "[m]", "from [m]", "from [m]", "", "[rad]");
+  for (const nlohmann::json& turn : diagnostics["turns"]) {
+    const auto number = [&](const char* key, const char* format) {
+      return Number(turn, Pointer(key), format);
+    };
+    fmt::print("  {:>8} {:>9} {:>9} {:>9} {:>7} {:<14} {:>6} {:>7} {:>9} {:>9} {:>11} {:>9}{}\n",
+               turn["waypoint"].get<int>(), number("/heading_change_rad", "{:.4f}"),
+               number("/search/first_radius_m", "{:.4f}"), number("/radius_m", "{:.4f}"),
+               number("/speed_mps", "{:.3f}"), turn["active_constraint"].get<std::string>(),
+               number("/ramp_time_s", "{:.3f}"), number("/ramp_distance_m", "{:.3f}"),
+               number("/steer_start_m", "{:.3f}"), number("/steer_return_m", "{:.3f}"),
+               number("/search/evaluations", "{:.0f}"),
+               number("/predicted/heading_deficit_rad", "{:.5f}"),
+               turn["ramp_truncated"].get<bool>() ? "  ramp truncated" : "");
+    if (turn.contains("note")) {
+      fmt::print("           {}\n", turn["note"].get<std::string>());
+    }
+  }
+  fmt::print("  open loop, kinematic: {} m from the goal, {} rad off, at most {} m off the path\n",
+             Number(diagnostics, Pointer("/open_loop/goal_distance_m"), "{:.4f}"),
+             Number(diagnostics, Pointer("/open_loop/goal_heading_error_rad"), "{:.5f}"),
+             Number(diagnostics, Pointer("/open_loop/deviation_max_m"), "{:.4f}"));
+}
+
 int PlanOne(const PlanOptions& options) {
   const Scenario scenario = options.scenario.Read(options.file);
   if (!scenario.plan) {
@@ -32,7 +74,9 @@ int PlanOne(const PlanOptions& options) {
   const Plan plan = PlanMission(scenario, car.params());
   if (!plan.ok()) {
     std::error_code ignored;
-    fs::remove(out / "plan.csv", ignored);  // of an earlier plan
+    for (const char* name : {"plan.csv", "schedule.csv", "convergence.csv"}) {
+      fs::remove(out / name, ignored);  // of an earlier plan
+    }
   }
   WritePlan(plan, scenario, out);
   if (!plan.ok()) {
@@ -43,6 +87,7 @@ int PlanOne(const PlanOptions& options) {
     const double length = plan.reference.path.length();
     fmt::print("{}: planned {:.3f} m in {:.2f} s, in {}\n", scenario.name, length,
                plan.reference.speed.TimeAt(length), out.string());
+    PrintTurns(plan.diagnostics);
   }
   return kOk;
 }

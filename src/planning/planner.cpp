@@ -79,33 +79,18 @@ double ReturnEnd(const FilletTurn& turn) {
   return turn.steer_return + turn.ramp_distance;
 }
 
-std::vector<TurnPrediction> PredictionsOf(const VehicleParams& vehicle, const FilletPlan& plan) {
-  std::vector<TurnPrediction> predictions;
+std::vector<LoneTurn> LoneTurnsOf(const FilletPlan& plan) {
+  std::vector<LoneTurn> lone;
   double straight_from = 0.0;
   for (const FilletTurn& turn : plan.turns) {
     const bool alone = turn.steer_start >= straight_from;
     straight_from = ReturnEnd(turn);
     const double middle = turn.arc_start_s + 0.5 * turn.arc_length;
-    const double held = middle - turn.steer_start - turn.ramp_distance;
-    if (!alone || turn.ramp_truncated || held < 0.0) {
-      continue;
+    if (alone && !turn.ramp_truncated && turn.steer_start + turn.ramp_distance <= middle) {
+      lone.push_back({turn.waypoint, turn.steer_start, middle, turn.steering, turn.speed});
     }
-    const double curvature = CurvatureForSteering(vehicle, turn.steering);
-    const Pose2 ramp = RampPose(vehicle, turn.steering, turn.speed);
-    const Pose2 car = MoveOnArc(ramp, held, held * curvature);
-    const Pose2 X_W_from = plan.path.At(turn.steer_start).pose;
-    const Pose2 X_W_middle = plan.path.At(middle).pose;
-    // Both seen from where the wheels begin to turn.
-    const Vec2 offset = ToLocal(X_W_middle, ToWorld(X_W_from, car.position()));
-    predictions.push_back({.waypoint = turn.waypoint,
-                           .from = turn.steer_start,
-                           .middle = middle,
-                           .curvature = curvature,
-                           .speed = turn.speed,
-                           .heading_deficit = X_W_middle.yaw - X_W_from.yaw - car.yaw,
-                           .lateral_offset = offset.y()});
   }
-  return predictions;
+  return lone;
 }
 
 /// A turn is slow from where its wheels begin to turn to where they are straight again.
@@ -131,7 +116,7 @@ Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
   }
   plan.reference.path = fillets.path;
   plan.schedule = fillets.schedule;
-  plan.turns = PredictionsOf(request.vehicle, fillets);
+  plan.turns = LoneTurnsOf(fillets);
   const std::vector<SpeedCap> caps = CapsOf(fillets, request.speed.speed);
   plan.reference.speed = StopAtEnd(fillets.path.length(), request.start_speed, request.speed, caps);
   plan.schedule_speed = StopAtEnd(fillets.stop_distance, request.start_speed, request.speed, caps);
@@ -140,6 +125,15 @@ Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
   out["turns"] = json::array();
   for (const FilletTurn& turn : fillets.turns) {
     out["turns"].push_back(ToJson(options, turn));
+  }
+  for (const LoneTurn& turn : plan.turns) {
+    const TurnError error = PredictTurn(request.vehicle, fillets.path, turn, 0.0);
+    for (json& entry : out["turns"]) {
+      if (entry["waypoint"] == turn.waypoint) {
+        entry["predicted"] = {{"heading_deficit_rad", error.heading_deficit},
+                              {"lateral_offset_m", error.lateral_offset}};
+      }
+    }
   }
   out["stop_distance_m"] = fillets.stop_distance;
   out["open_loop"] = {{"goal_distance_m", fillets.verification.goal_distance},

@@ -182,8 +182,7 @@ void YamlReader::Field(const char* key, std::optional<double>& value, Range rang
 
 bool YamlReader::ReadFlag(const YAML::Node& node, const std::string& dotted, bool& value) {
   if (!Decode(node, value)) {
-    Complain(node, dotted,
-             fmt::format("expected true or false, found {}", DescribeNo<bool>(node)));
+    Complain(node, dotted, fmt::format("expected true or false, found {}", DescribeNo<bool>(node)));
     return false;
   }
   return true;

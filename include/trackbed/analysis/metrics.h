@@ -34,6 +34,13 @@ struct ClearanceMetrics {
   double force_max = 0.0;  ///< largest contact force with obstacles [N]
 };
 
+/// What the limited steering rate cost in one turn, and what it had to cost an open-loop drive.
+struct TurnMetrics {
+  int waypoint = 0;
+  TurnError predicted;
+  TurnError measured;
+};
+
 struct PlantMetrics {
   std::string plant;
   DriveStatus status = DriveStatus::kArrived;
@@ -46,6 +53,7 @@ struct PlantMetrics {
   double steering_saturated_fraction = 0.0;  ///< of the periods: actuator did not reach the command
   std::optional<TrackingMetrics> tracking;   ///< none without a path
   std::optional<ClearanceMetrics> clearance;  ///< none without obstacles
+  std::vector<TurnMetrics> turns;             ///< of the turns that stand alone and were driven
 };
 
 /// How far two plants part at equal station (without a path: at equal distance driven).
@@ -66,7 +74,9 @@ struct Verdict {
   std::vector<std::string> failures;  ///< expected, actual, where and when; one line each
 };
 
-PlantMetrics Measure(const RunLog& log, const Plan& plan, double control_period);
+/// Turns are measured at the stations that the controller went by (`source`), between rows.
+PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& vehicle,
+                     double control_period, StationSource source);
 
 /// Both logs cover the stations that are compared; station is made monotonic first, for a car that
 /// rolls back by a hair when it stops.

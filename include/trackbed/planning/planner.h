@@ -9,6 +9,7 @@
 
 #include "trackbed/path/reference.h"
 #include "trackbed/planning/fillet.h"
+#include "trackbed/planning/turn_prediction.h"
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/steering_schedule.h"
 
@@ -25,19 +26,6 @@ struct PlanRequest {
   std::uint64_t seed = 0;       ///< of every random choice
 };
 
-/// What the limited steering rate must cost in one turn of an open-loop drive, at the middle of its
-/// arc and relative to where its wheels begin to turn: closed forms, not for small angles. Of a
-/// car whose wheels follow their actuator; a lag tau adds kappa v tau to the deficit.
-struct TurnPrediction {
-  int waypoint = 0;
-  double from = 0.0;             ///< station where the wheels begin to turn [m]
-  double middle = 0.0;           ///< station of the middle of the arc [m]
-  double curvature = 0.0;        ///< of the arc, signed [1/m]
-  double speed = 0.0;            ///< at which it is taken [m/s]
-  double heading_deficit = 0.0;  ///< heading of the path minus heading of the car, there [rad]
-  double lateral_offset = 0.0;   ///< of the car from the path, positive to the left [m]
-};
-
 /// What a planner gives back. With any status but kOk there is a reason and no path.
 struct Plan {
   PlanStatus status = PlanStatus::kOk;
@@ -45,9 +33,8 @@ struct Plan {
   Reference reference;          ///< for closed-loop controllers
   SteeringSchedule schedule;    ///< for the open loop, over the distance driven
   SpeedProfile schedule_speed;  ///< likewise: ends where the open loop is to stop
-  /// Of turns that stand alone: whose wheels are straight before, and reach their angle.
-  std::vector<TurnPrediction> turns;
-  nlohmann::json diagnostics;  ///< the method's own findings, as in plan.json
+  std::vector<LoneTurn> turns;  ///< whose cost to an open-loop drive can be told
+  nlohmann::json diagnostics;   ///< the method's own findings, as in plan.json
 
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }
 };

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "trackbed/path/path.h"
+#include "trackbed/vehicle/params.h"
+
+/// What the limited steering rate must cost in a turn of an open-loop drive.
+namespace trackbed {
+
+/// A turn that stands alone: its wheels are straight before, and reach their angle by the middle.
+struct LoneTurn {
+  int waypoint = 0;       ///< the corner's index in the route
+  double from = 0.0;      ///< station where the wheels begin to turn [m]
+  double middle = 0.0;    ///< station of the middle of the arc [m]
+  double steering = 0.0;  ///< of the arc, signed [rad]
+  double speed = 0.0;     ///< at which it is taken [m/s]
+};
+
+/// Where a car is at the middle of a turn, seen from where its wheels began to turn, against the
+/// path seen from there.
+struct TurnError {
+  double heading_deficit = 0.0;  ///< heading of the path minus heading of the car [rad]
+  double lateral_offset = 0.0;   ///< of the car from the path, positive to the left [m]
+};
+
+/// The error of a car that drives from `X_W_from` to `X_W_middle`, while the path leads from its
+/// station `from` to `middle`.
+TurnError ErrorInTurn(const Path& path, const LoneTurn& turn, const Pose2& X_W_from,
+                      const Pose2& X_W_middle);
+
+/// That error of the rate-limited kinematic car, exactly: a ramp from `from` on, then the arc. With
+/// S = v delta/omega and the wheels `lag` seconds behind their actuator, the heading deficit is
+/// kappa S/2 - (v/(L omega)) (-ln cos delta) + kappa v lag for a ramp centred on the tangent point.
+TurnError PredictTurn(const VehicleParams& vehicle, const Path& path, const LoneTurn& turn,
+                      double lag);
+
+}  // namespace trackbed

@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <ostream>
+#include <string>
+
+#include "tests/support/temp_folder.h"
+#include "tests/tolerance.h"
+#include "trackbed/analysis/run.h"
+#include "trackbed/core/file.h"
+#include "trackbed/scenario/scenario.h"
+#include "trackbed/vehicle/steering_schedule.h"
+
+// What the limited steering rate costs, predicted and measured.
+namespace trackbed {
+namespace {
+
+Scenario Load(const std::string& name, const std::vector<Override>& overrides) {
+  return ReadScenario(std::string(TRACKBED_SOURCE_DIR) + "/scenarios/" + name + ".yaml", overrides);
+}
+
+TEST(Turns, OfTheKinematicCarAreAsPredicted) {
+  for (const char* name : {"three_turns", "winding"}) {
+    const RunResult run =
+        RunMission(Load(name, {"control.method=schedule", "drive.plants=[kinematic]"}));
+    ASSERT_EQ(run.metrics[0].turns.size(), 3U);
+    for (const TurnMetrics& turn : run.metrics[0].turns) {
+      // Between rows 0.06 m apart the yaw bends by kappa' ds^2/8 = 0.0056 * 0.0036/8 = 2.5e-6 rad
+      // at either end, and the schedule's corners fall inside a period: as much again.
+      EXPECT_NEAR(turn.measured.heading_deficit, turn.predicted.heading_deficit, Tolerance(1e-5));
+      EXPECT_NEAR(turn.measured.lateral_offset, turn.predicted.lateral_offset, Tolerance(1e-4));
+    }
+  }
+}
+
+TEST(Turns, OnMujocoLagByTheServo) {
+  const RunResult run =
+      RunMission(Load("three_turns", {"control.method=schedule", "drive.plants=[mujoco]"}));
+  ASSERT_EQ(run.metrics[0].turns.size(), 3U);
+  for (const TurnMetrics& turn : run.metrics[0].turns) {
+    // Contacts slip by a velocity that is proportional to the force: 0.1 % of a heading of pi/4.
+    EXPECT_NEAR(turn.measured.heading_deficit, turn.predicted.heading_deficit,
+                Tolerance(1e-3 * 0.785));
+  }
+}
+
+struct Ramp {
+  double speed;   // [m/s]
+  double radius;  // [m]
+  double rate;    // of the steering, in units of the Prius's own
+};
+
+void PrintTo(const Ramp& ramp, std::ostream* out) {
+  *out << fmt::format("{} m/s to {} m at {} of the rate", ramp.speed, ramp.radius, ramp.rate);
+}
+
+class HeadingDeficit : public ::testing::TestWithParam<Ramp> {};
+
+TEST_P(HeadingDeficit, OfAStepOnMujocoIsTheClosedForm) {
+  const Ramp& ramp = GetParam();
+  const TempFolder folder;
+  // The Prius with another steering rate.
+  std::string model = ReadFile(std::string(TRACKBED_SOURCE_DIR) + "/models/prius/prius.xml");
+  const std::string own = "-0.15056818181818182 0.15056818181818182";
+  const std::size_t at = model.find(own);
+  ASSERT_NE(at, std::string::npos);
+  const double rate = ramp.rate * 0.15056818181818182;
+  model.replace(at, own.size(), fmt::format("{} {}", -rate, rate));
+  WriteFileAtomically(folder.path() / "car.xml", model);
+  const double delta = std::atan(2.7 / ramp.radius);
+  const Scenario scenario =
+      ParseScenario(fmt::format("schema: 1\nname: step\nvehicle: {{model: ./car.xml}}\n"
+                                "mission: {{speed: {}, duration: 8}}\n"
+                                "control: {{method: constant_steering, steering: {}}}\n"
+                                "drive: {{plants: [mujoco]}}\n",
+                                ramp.speed, delta),
+                    "step.yaml", folder.path());
+  const CarModel car = LoadCar(scenario);
+  ASSERT_NEAR(car.params().steering_rate, rate, 1e-12);
+  const RunLog log = DrivePlant(scenario, car, PlanMission(scenario, car.params()), "mujoco");
+  // A step of the curvature against the ramp: what is missing once the wheels are there, five lags
+  // after the ramp.
+  const double ramp_time = delta / rate;
+  const double lag = car.params().steering_lag;
+  const auto row = static_cast<std::size_t>(std::ceil((ramp_time + 5.0 * lag) / 0.02));
+  ASSERT_LT(row, log.rows.size());
+  const VehicleState& state = log.rows[row].state;
+  const double deficit = state.distance / ramp.radius - state.pose.yaw;
+  const double ramp_distance = SteeringDistance(car.params(), delta, ramp.speed);
+  const double predicted = ramp_distance / ramp.radius -
+                           RampHeading(car.params(), delta, ramp.speed) +
+                           ramp.speed * lag / ramp.radius;
+  EXPECT_NEAR(deficit, predicted, Tolerance(0.05 * predicted));
+}
+
+INSTANTIATE_TEST_SUITE_P(Speeds, HeadingDeficit,
+                         ::testing::Values(Ramp{1.5, 8.0, 1.0}, Ramp{3.0, 8.0, 1.0},
+                                           Ramp{3.0, 15.0, 1.0}, Ramp{5.0, 15.0, 1.0},
+                                           Ramp{5.0, 30.0, 1.0}, Ramp{3.0, 15.0, 0.5},
+                                           Ramp{3.0, 10.0, 2.0}, Ramp{8.0, 40.0, 3.0}));
+
+}  // namespace
+}  // namespace trackbed
