@@ -33,6 +33,7 @@ const std::vector<Verb> kVerbs{
     {"list", "What there is: planners, controllers, plants, optimizers, cameras, models, scenarios",
      AddList},
     {"model", "What a car is, or its composed MJCF", AddModel},
+    {"docs", "Bring the tables of docs/cli.md up to date with this program", AddDocs},
 };
 
 std::string VersionText() {

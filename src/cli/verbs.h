@@ -28,5 +28,6 @@ void AddCheck(CLI::App& command, int& exit_code);
 void AddTest(CLI::App& command, int& exit_code);
 void AddList(CLI::App& command, int& exit_code);
 void AddModel(CLI::App& command, int& exit_code);
+void AddDocs(CLI::App& command, int& exit_code);
 
 }  // namespace trackbed::cli

@@ -111,7 +111,7 @@ RenderSpec ReadRenderSpec(const std::filesystem::path& file) {
   ReaderContext context{.file = file.string(), .overridden = {}, .problems = {}};
   RenderSpec render;
   YamlReader reader(context, LoadYaml(ReadInput(file), file.string()), "");
-  reader.Section("render", render);
+  reader.Section(kRenderSection, render);
   if (!context.problems.empty()) {
     throw InputError(context.problems);
   }

@@ -1,16 +1,19 @@
 #pragma once
 
+#include "src/scenario/key_lister.h"
 #include "src/scenario/yaml_reader.h"
 #include "src/scenario/yaml_writer.h"
 #include "trackbed/scenario/scenario.h"
 
-/// The keys of a scenario, each named once for reading and writing alike.
+/// The keys of a scenario, each named once for reading, writing and listing alike.
 namespace trackbed {
 
 inline constexpr Range kPositive{.above = 0.0};
 inline constexpr Range kNotNegative{.min = 0.0};
 
 inline constexpr Range kMap{.min = -1e5, .max = 1e5};  // [m]; beyond any route
+
+inline constexpr Key kRenderSection{"render", "", "how the run is filmed"};
 
 inline Names PlantNames() {
   Names names;
@@ -22,31 +25,39 @@ inline Names PlantNames() {
 
 template <typename Archive>
 void Visit(Archive& a, VehicleSpec& vehicle) {
-  a.Field("model", vehicle.model, Need::kOptional);
-  a.Field("tyre", vehicle.tyre, Need::kOptional, Names{"contact"});
+  a.Field({"model", "", "a name under models/, or a path relative to this file"}, vehicle.model,
+          Need::kOptional);
+  a.Field({"tyre", "", "tyre law of the mujoco plant"}, vehicle.tyre, Need::kOptional,
+          Names{"contact"});
 }
 
 template <typename Archive>
 void Visit(Archive& a, StartSpec& start) {
-  a.Field("x", start.x, kMap);
-  a.Field("y", start.y, kMap);
-  a.Field("yaw", start.yaw);
-  a.Field("speed", start.speed, Range{.min = 0.0, .max = 100.0});
-  a.Field("steering", start.steering, Need::kOptional, Range{.min = -1.5, .max = 1.5});
+  a.Field({"x", "m", "rear axle at the start; else the first waypoint's, or 0"}, start.x, kMap);
+  a.Field({"y", "m", "likewise"}, start.y, kMap);
+  a.Field({"yaw", "rad", "heading at the start; else along the first leg, or 0"}, start.yaw);
+  a.Field({"speed", "m/s", "speed at the start; else the mission's"}, start.speed,
+          Range{.min = 0.0, .max = 100.0});
+  a.Field({"steering", "rad", "bicycle angle of wheels and actuator at the start"}, start.steering,
+          Need::kOptional, Range{.min = -1.5, .max = 1.5});
 }
 
 template <typename Archive>
 void Visit(Archive& a, MissionSpec& mission) {
-  a.Field("speed", mission.speed, Need::kRequired, Range{.min = 0.1, .max = 100.0});
-  a.Field("waypoints", mission.waypoints, Need::kOptional);
-  a.Field("duration", mission.duration, kPositive);
-  a.Section("start", mission.start);
+  a.Field({"speed", "m/s", "the speed to keep between start and goal"}, mission.speed,
+          Need::kRequired, Range{.min = 0.1, .max = 100.0});
+  a.Field({"waypoints", "m", "the route, at least three points [x, y]; needed by a plan"},
+          mission.waypoints, Need::kOptional);
+  a.Field({"duration", "s", "ends the drive; needed without a plan, refused with one"},
+          mission.duration, kPositive);
+  a.Section({"start", "", "where and how the car starts"}, mission.start);
 }
 
 template <typename Archive>
 void Visit(Archive& a, World& world) {
-  a.Field("friction", world.friction, Need::kOptional, Range{.max = 10.0, .above = 0.0});
-  a.List("obstacles", world.obstacles);
+  a.Field({"friction", "", "factor on the tyres' own friction coefficient"}, world.friction,
+          Need::kOptional, Range{.max = 10.0, .above = 0.0});
+  a.List({"obstacles", "", "what stands in the way"}, world.obstacles);
 }
 
 /// The keys of `box`.
@@ -58,18 +69,19 @@ template <typename Archive>
 void Visit(Archive& a, BoxKeys& keys) {
   OrientedBox& box = keys.obstacle.footprint;
   const Range size{.max = 1e4, .above = 0.0};
-  a.Field("x", box.centre.x, Need::kRequired, kMap);
-  a.Field("y", box.centre.y, Need::kRequired, kMap);
-  a.Field("yaw", box.centre.yaw, Need::kOptional);
-  a.Field("length", box.length, Need::kRequired, size);
-  a.Field("width", box.width, Need::kRequired, size);
-  a.Field("height", keys.obstacle.height, Need::kOptional, size);
+  a.Field({"x", "m", "centre of the box"}, box.centre.x, Need::kRequired, kMap);
+  a.Field({"y", "m", "likewise"}, box.centre.y, Need::kRequired, kMap);
+  a.Field({"yaw", "rad", "direction of its length"}, box.centre.yaw, Need::kOptional);
+  a.Field({"length", "m", "along its own x axis"}, box.length, Need::kRequired, size);
+  a.Field({"width", "m", "along its own y axis"}, box.width, Need::kRequired, size);
+  a.Field({"height", "m", "above the ground"}, keys.obstacle.height, Need::kOptional, size);
 }
 
 template <typename Archive>
 void Visit(Archive& a, Obstacle& obstacle) {
   BoxKeys keys{obstacle};
-  a.Section("box", keys, Need::kRequired);
+  a.Section({"box", "", "a box that stands on the ground and does not move"}, keys,
+            Need::kRequired);
 }
 
 inline EnumNames<SearchMethod> SearchNames() {
@@ -83,45 +95,64 @@ inline EnumNames<SearchMethod> SearchNames() {
 template <typename Archive>
 void Visit(Archive& a, SearchOptions& options) {
   static const EnumNames<SearchMethod> methods = SearchNames();
-  a.Field("method", options.method, Need::kOptional, methods);
-  a.Field("population", options.population, Need::kOptional, Range{.min = 3, .max = 1e5});
-  a.Field("evaluations", options.evaluations, Need::kOptional, Range{.min = 0, .max = 1e8});
-  a.Field("tolerance", options.tolerance, Need::kOptional, Range{.min = 0.0, .max = 1.0});
+  a.Field({"method", "", "the search; see 'trackbed list optimizers'"}, options.method,
+          Need::kOptional, methods);
+  a.Field({"population", "", "of isres, esch and crs2"}, options.population, Need::kOptional,
+          Range{.min = 3, .max = 1e5});
+  a.Field({"evaluations", "", "at most; 0: the method's own number"}, options.evaluations,
+          Need::kOptional, Range{.min = 0, .max = 1e8});
+  a.Field({"tolerance", "", "on the variables, as a share of their bounds; 0: none"},
+          options.tolerance, Need::kOptional, Range{.min = 0.0, .max = 1.0});
 }
 
 template <typename Archive>
 void Visit(Archive& a, DrivenWeights& weights) {
-  a.Field("position", weights.position, Need::kOptional, kNotNegative);
-  a.Field("heading", weights.heading, Need::kOptional, kNotNegative);
-  a.Field("end", weights.end, Need::kOptional, kNotNegative);
+  a.Field({"position", "1/m^3", "of the squared distance from the path, over its length"},
+          weights.position, Need::kOptional, kNotNegative);
+  a.Field({"heading", "1/m", "of the squared heading error, over its length"}, weights.heading,
+          Need::kOptional, kNotNegative);
+  a.Field({"end", "1/m^2", "of the squared distance from the goal at the end"}, weights.end,
+          Need::kOptional, kNotNegative);
 }
 
 template <typename Archive>
 void Visit(Archive& a, FilletOptions& options) {
-  a.Field("radius", options.radius, kPositive);
+  a.Field({"radius", "m", "of every turn; else the largest that the constraint allows"},
+          options.radius, kPositive);
   static const EnumNames<RadiusConstraint> constraints{
       {RadiusConstraint::kSteeringRoom, "steering_room"},
       {RadiusConstraint::kHalfLeg, "half_leg"},
       {RadiusConstraint::kNone, "none"}};
-  a.Field("constraint", options.constraint, Need::kOptional, constraints);
-  a.Field("max_radius", options.max_radius, Need::kOptional, kPositive);
+  a.Field({"constraint", "",
+           "what a radius must leave: room to turn the wheels (C.40), half the shorter leg (C.34), "
+           "or nothing"},
+          options.constraint, Need::kOptional, constraints);
+  a.Field({"max_radius", "m", "upper bound of the search"}, options.max_radius, Need::kOptional,
+          kPositive);
   static const EnumNames<WithoutRoom> without_room{{WithoutRoom::kSlowDown, "slow_down"},
                                                    {WithoutRoom::kHalfLeg, "half_leg"},
                                                    {WithoutRoom::kRefuse, "refuse"}};
-  a.Field("without_room", options.without_room, Need::kOptional, without_room);
-  a.Field("min_speed", options.min_speed, Need::kOptional, kPositive);
+  a.Field({"without_room", "", "what becomes of a turn for which C.40 has no radius"},
+          options.without_room, Need::kOptional, without_room);
+  a.Field({"min_speed", "m/s", "no turn is slowed down below this"}, options.min_speed,
+          Need::kOptional, kPositive);
   static const EnumNames<RadiusObjective> objectives{{RadiusObjective::kLargest, "largest"},
                                                      {RadiusObjective::kLiteral, "literal"},
                                                      {RadiusObjective::kTurnLocal, "turn_local"},
                                                      {RadiusObjective::kDriven, "driven"}};
-  a.Field("objective", options.objective, Need::kOptional, objectives);
-  a.Section("search", options.search);
-  a.Field("resimulate_each_turn", options.resimulate_each_turn, Need::kOptional);
+  a.Field({"objective", "",
+           "by what radii are chosen: the largest, the dissertation's window over the route, over "
+           "the turn, or the driven car's error"},
+          options.objective, Need::kOptional, objectives);
+  a.Section({"search", "", "how it is minimised; not for 'largest'"}, options.search);
+  a.Field({"resimulate_each_turn", "", "a first drive before every turn, not one for all"},
+          options.resimulate_each_turn, Need::kOptional);
   static const EnumNames<ReferencePoint> references{
       {ReferencePoint::kRearAxle, "rear_axle"},
       {ReferencePoint::kCentreOfGravity, "centre_of_gravity"}};
-  a.Field("reference", options.reference, Need::kOptional, references);
-  a.Section("weights", options.weights);
+  a.Field({"reference", "", "the point of the car that first drives follow"}, options.reference,
+          Need::kOptional, references);
+  a.Section({"weights", "", "of the objective 'driven'"}, options.weights);
 }
 
 template <typename Archive>
@@ -129,48 +160,70 @@ void Visit(Archive&, ScheduleOptions&) {}
 
 template <typename Archive>
 void Visit(Archive& a, PreviewOptions& options) {
-  a.Field("distance", options.distance, Need::kOptional, Range{.min = 0.01, .max = 1000.0});
+  a.Field({"distance", "m", "how far ahead of the rear axle the car aims"}, options.distance,
+          Need::kOptional, Range{.min = 0.01, .max = 1000.0});
   static const EnumNames<PreviewLaw> laws{{PreviewLaw::kLinear, "linear"},
                                           {PreviewLaw::kExactArc, "exact_arc"}};
-  a.Field("law", options.law, Need::kOptional, laws);
+  a.Field({"law", "",
+           "from the angle to the point aimed at to steering: MacAdam's gain, or the circle "
+           "through the point"},
+          options.law, Need::kOptional, laws);
 }
 
 template <typename Archive>
 void Visit(Archive& a, ConstantSteeringOptions& options) {
-  a.Field("steering", options.steering, Need::kRequired, Range{.min = -1.5, .max = 1.5});
+  a.Field({"steering", "rad", "bicycle angle to hold, positive to the left"}, options.steering,
+          Need::kRequired, Range{.min = -1.5, .max = 1.5});
 }
 
 template <typename Archive>
 void Visit(Archive& a, SpeedControlOptions& options) {
-  a.Field("acceleration", options.acceleration, Need::kOptional, kPositive);
-  a.Field("deceleration", options.deceleration, Need::kOptional, kPositive);
-  a.Field("gain", options.gain, Need::kOptional, kPositive);
+  a.Field({"acceleration", "m/s^2", "largest wanted; also shapes the plan's speed"},
+          options.acceleration, Need::kOptional, kPositive);
+  a.Field({"deceleration", "m/s^2",
+           "of the plan's speed; the controller brakes with up to twice as much"},
+          options.deceleration, Need::kOptional, kPositive);
+  a.Field({"gain", "1/s", "wanted acceleration per speed error"}, options.gain, Need::kOptional,
+          kPositive);
 }
 
 template <typename Archive>
 void Visit(Archive& a, DriveSpec& drive) {
-  a.Field("plants", drive.plants, Need::kOptional, PlantNames());
-  a.Field("timestep", drive.timestep, Need::kOptional, Range{.min = 1e-5, .max = 0.02});
-  a.Field("control_period", drive.control_period, Need::kOptional, Range{.min = 1e-5, .max = 1.0});
-  a.Field("state_period", drive.state_period, Need::kOptional, Range{.min = 1e-5, .max = 1.0});
-  a.Field("time_limit", drive.time_limit, Need::kOptional, Range{.max = 1e5, .above = 0.0});
+  a.Field({"plants", "", "what to drive the plan on, in this order"}, drive.plants, Need::kOptional,
+          PlantNames());
+  a.Field({"timestep", "s", "of the physics"}, drive.timestep, Need::kOptional,
+          Range{.min = 1e-5, .max = 0.02});
+  a.Field({"control_period", "s", "between two commands; a whole number of timesteps"},
+          drive.control_period, Need::kOptional, Range{.min = 1e-5, .max = 1.0});
+  a.Field({"state_period", "s", "between two states logged for the film"}, drive.state_period,
+          Need::kOptional, Range{.min = 1e-5, .max = 1.0});
+  a.Field({"time_limit", "s", "simulated time after which a drive is given up"}, drive.time_limit,
+          Need::kOptional, Range{.max = 1e5, .above = 0.0});
 }
 
 template <typename Archive>
 void Visit(Archive& a, PlantExpectation& expect) {
-  a.Field("reach_goal", expect.reach_goal, kNotNegative);
-  a.Field("max_cross_track", expect.max_cross_track, kNotNegative);
-  a.Field("rms_cross_track", expect.rms_cross_track, kNotNegative);
-  a.Field("max_heading_error", expect.max_heading_error, kNotNegative);
-  a.Field("min_clearance", expect.min_clearance, kNotNegative);
-  a.Field("collision", expect.collision);
+  a.Field({"reach_goal", "m", "largest distance to the goal at the end"}, expect.reach_goal,
+          kNotNegative);
+  a.Field({"max_cross_track", "m", "largest distance from the path"}, expect.max_cross_track,
+          kNotNegative);
+  a.Field({"rms_cross_track", "m", "largest root mean square of it"}, expect.rms_cross_track,
+          kNotNegative);
+  a.Field({"max_heading_error", "rad", "largest angle to the path"}, expect.max_heading_error,
+          kNotNegative);
+  a.Field({"min_clearance", "m", "smallest distance of the car's outline from an obstacle"},
+          expect.min_clearance, kNotNegative);
+  a.Field({"collision", "", "whether the car hits an obstacle"}, expect.collision);
 }
 
 template <typename Archive>
 void Visit(Archive& a, BetweenExpectation& expect) {
-  a.Field("plants", expect.plants, Need::kRequired, PlantNames());
-  a.Field("position_max", expect.position_max, kNotNegative);
-  a.Field("heading_max", expect.heading_max, kNotNegative);
+  a.Field({"plants", "", "the two plants to compare"}, expect.plants, Need::kRequired,
+          PlantNames());
+  a.Field({"position_max", "m", "largest distance between them at equal station"},
+          expect.position_max, kNotNegative);
+  a.Field({"heading_max", "rad", "largest angle between them at equal station"}, expect.heading_max,
+          kNotNegative);
 }
 
 inline void VisitPlants(YamlReader& a, Expectations& expect) {
@@ -184,7 +237,14 @@ inline void VisitPlants(YamlReader& a, Expectations& expect) {
 
 inline void VisitPlants(YamlWriter& a, Expectations& expect) {
   for (auto& [plant, own] : expect.plants) {
-    a.Section(plant.c_str(), own);
+    a.Section({plant.c_str(), "", ""}, own);
+  }
+}
+
+inline void VisitPlants(KeyLister& a, Expectations&) {
+  for (const std::string& plant : PlantNames()) {
+    a.Add({plant.c_str(), "", "the bounds above, for this plant alone"}, "section", Need::kOptional,
+          "", "");
   }
 }
 
@@ -192,33 +252,42 @@ template <typename Archive>
 void Visit(Archive& a, Expectations& expect) {
   Visit(a, expect.all);
   VisitPlants(a, expect);
-  a.List("between", expect.between);
+  a.List({"between", "", "how far two plants may part"}, expect.between);
 }
 
 template <typename Archive>
 void Visit(Archive& a, RenderSpec& render) {
-  a.Field("camera", render.camera, Need::kOptional);
-  a.Pair("size", render.width, render.height, Range{.min = 64, .max = 7680});
-  a.Field("fps", render.fps, Need::kOptional, Range{.min = 1.0, .max = 240.0});
+  a.Field({"camera", "", "point of view; `trackbed list cameras` has them"}, render.camera,
+          Need::kOptional);
+  a.Pair({"size", "pixels", "width and height, even"}, render.width, render.height,
+         Range{.min = 64, .max = 7680});
+  a.Field({"fps", "1/s", "frames per second of the run"}, render.fps, Need::kOptional,
+          Range{.min = 1.0, .max = 240.0});
 }
 
 template <typename Archive>
 void Visit(Archive& a, Scenario& scenario) {
   int schema = 1;
-  a.Field("schema", schema, Need::kRequired, Range{.min = 1, .max = 1});
-  a.Identifier("name", scenario.name);
-  a.Field("seed", scenario.seed, Need::kOptional);
-  a.Section("vehicle", scenario.vehicle);
-  a.Section("mission", scenario.mission, Need::kRequired);
-  a.Section("world", scenario.world);
-  a.Method("plan", scenario.plan, Planners(), Need::kOptional, [](auto&) {});
+  a.Field({"schema", "", "version of this format"}, schema, Need::kRequired,
+          Range{.min = 1, .max = 1});
+  a.Identifier({"name", "", "names the run and its folder"}, scenario.name);
+  a.Field({"seed", "", "of every random choice"}, scenario.seed, Need::kOptional);
+  a.Section({"vehicle", "", "the car"}, scenario.vehicle);
+  a.Section({"mission", "", "where to drive, and how fast"}, scenario.mission, Need::kRequired);
+  a.Section({"world", "", "what the car drives in"}, scenario.world);
+  a.Method({"plan", "", "how the path is made; without it there is none to follow"}, scenario.plan,
+           Planners(), Need::kOptional, [](auto&) {});
   std::optional<ControllerOptions> steering = scenario.control.steering;
-  a.Method("control", steering, Controllers(), Need::kOptional,
-           [&](auto& inner) { inner.Section("speed", scenario.control.speed); });
+  a.Method({"control", "", "what steers and what keeps the speed"}, steering, Controllers(),
+           Need::kOptional, [&](auto& inner) {
+             inner.Section({"speed", "", "how the speed is kept"}, scenario.control.speed);
+           });
   scenario.control.steering = *steering;
-  a.Section("drive", scenario.drive);
-  a.Section("expect", scenario.expect);
-  a.Section("render", scenario.render);
+  a.Section({"drive", "", "what is driven, and in which steps"}, scenario.drive);
+  a.Section({"expect", "",
+             "bounds that the run must keep, on every plant; what is not given is not asked"},
+            scenario.expect);
+  a.Section(kRenderSection, scenario.render);
 }
 
 }  // namespace trackbed

@@ -7,6 +7,16 @@
 
 namespace trackbed {
 
+/// A key, and what the docs say of it.
+struct Key {
+  const char* name;
+  const char* unit;  ///< "m/s"; empty for what is no quantity
+  const char* text;  ///< for people, on one line
+};
+
+/// The key that says which other keys a section has.
+inline constexpr Key kMethod{"method", "", "which one; each has keys of its own"};
+
 enum class Need { kRequired, kOptional };
 
 /// Allowed values of a number. `above` is exclusive, the others are inclusive.
@@ -15,6 +25,9 @@ struct Range {
   double max = std::numeric_limits<double>::infinity();
   double above = -std::numeric_limits<double>::infinity();
 };
+
+/// "above 0 and at most 10"; empty when everything is allowed.
+std::string AllowedBy(Range range);
 
 using Names = std::vector<std::string>;
 

@@ -12,20 +12,6 @@
 namespace trackbed {
 namespace {
 
-std::string AllowedBy(Range range) {
-  std::vector<std::string> parts;
-  if (std::isfinite(range.above)) {
-    parts.push_back(fmt::format("above {}", range.above));
-  }
-  if (std::isfinite(range.min)) {
-    parts.push_back(fmt::format("at least {}", range.min));
-  }
-  if (std::isfinite(range.max)) {
-    parts.push_back(fmt::format("at most {}", range.max));
-  }
-  return fmt::format("{}", fmt::join(parts, " and "));
-}
-
 bool IsQuoted(const YAML::Node& node) {
   return node.IsScalar() && node.Tag() == "!";
 }
@@ -165,16 +151,16 @@ bool YamlReader::ReadNumber(const YAML::Node& node, const std::string& dotted, R
   return true;
 }
 
-void YamlReader::Field(const char* key, double& value, Need need, Range range) {
-  if (const auto node = Take(key, need)) {
-    ReadNumber(*node, Dotted(key), range, value);
+void YamlReader::Field(const Key& key, double& value, Need need, Range range) {
+  if (const auto node = Take(key.name, need)) {
+    ReadNumber(*node, Dotted(key.name), range, value);
   }
 }
 
-void YamlReader::Field(const char* key, std::optional<double>& value, Range range) {
-  if (const auto node = Take(key, Need::kOptional)) {
+void YamlReader::Field(const Key& key, std::optional<double>& value, Range range) {
+  if (const auto node = Take(key.name, Need::kOptional)) {
     double number = 0.0;
-    if (ReadNumber(*node, Dotted(key), range, number)) {
+    if (ReadNumber(*node, Dotted(key.name), range, number)) {
       value = number;
     }
   }
@@ -188,65 +174,65 @@ bool YamlReader::ReadFlag(const YAML::Node& node, const std::string& dotted, boo
   return true;
 }
 
-void YamlReader::Field(const char* key, bool& value, Need need) {
-  if (const auto node = Take(key, need)) {
-    ReadFlag(*node, Dotted(key), value);
+void YamlReader::Field(const Key& key, bool& value, Need need) {
+  if (const auto node = Take(key.name, need)) {
+    ReadFlag(*node, Dotted(key.name), value);
   }
 }
 
-void YamlReader::Field(const char* key, std::optional<bool>& value) {
-  if (const auto node = Take(key, Need::kOptional)) {
+void YamlReader::Field(const Key& key, std::optional<bool>& value) {
+  if (const auto node = Take(key.name, Need::kOptional)) {
     bool flag = false;
-    if (ReadFlag(*node, Dotted(key), flag)) {
+    if (ReadFlag(*node, Dotted(key.name), flag)) {
       value = flag;
     }
   }
 }
 
-void YamlReader::Field(const char* key, int& value, Need need, Range range) {
-  if (const auto node = Take(key, need)) {
+void YamlReader::Field(const Key& key, int& value, Need need, Range range) {
+  if (const auto node = Take(key.name, need)) {
     double number = 0.0;
-    if (!ReadNumber(*node, Dotted(key), range, number)) {
+    if (!ReadNumber(*node, Dotted(key.name), range, number)) {
       return;
     }
     if (number != std::floor(number) || std::abs(number) > 1e9) {
-      Complain(*node, Dotted(key), fmt::format("expected a whole number, found {}", number));
+      Complain(*node, Dotted(key.name), fmt::format("expected a whole number, found {}", number));
       return;
     }
     value = static_cast<int>(number);
   }
 }
 
-void YamlReader::Field(const char* key, std::uint64_t& value, Need need) {
-  if (const auto node = Take(key, need)) {
+void YamlReader::Field(const Key& key, std::uint64_t& value, Need need) {
+  if (const auto node = Take(key.name, need)) {
     // A stream reads -1 as the largest number that there is.
     if (node->Scalar().starts_with('-') || !Decode(*node, value)) {
       Complain(
-          *node, Dotted(key),
+          *node, Dotted(key.name),
           fmt::format("expected a whole number from 0 to {}, found {}",
                       std::numeric_limits<std::uint64_t>::max(), DescribeNo<std::uint64_t>(*node)));
     }
   }
 }
 
-void YamlReader::Field(const char* key, std::string& value, Need need, const Names& allowed) {
-  const auto node = Take(key, need);
+void YamlReader::Field(const Key& key, std::string& value, Need need, const Names& allowed) {
+  const auto node = Take(key.name, need);
   if (!node) {
     return;
   }
   if (!node->IsScalar() || node->Scalar().empty()) {
-    Complain(*node, Dotted(key), fmt::format("expected a name, found {}", Describe(*node)));
+    Complain(*node, Dotted(key.name), fmt::format("expected a name, found {}", Describe(*node)));
     return;
   }
   if (!allowed.empty() &&
       std::find(allowed.begin(), allowed.end(), node->Scalar()) == allowed.end()) {
-    Complain(*node, Dotted(key), "unknown " + UnknownName(node->Scalar(), allowed));
+    Complain(*node, Dotted(key.name), "unknown " + UnknownName(node->Scalar(), allowed));
     return;
   }
   value = node->Scalar();
 }
 
-void YamlReader::Identifier(const char* key, std::string& value) {
+void YamlReader::Identifier(const Key& key, std::string& value) {
   Field(key, value, Need::kRequired);
   const auto fits = [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
@@ -254,9 +240,9 @@ void YamlReader::Identifier(const char* key, std::string& value) {
   if (!value.empty() && (value.front() == '.' || value.size() > 100 ||
                          !std::all_of(value.begin(), value.end(), fits))) {
     for (const auto& entry : node_) {
-      if (entry.first.IsScalar() && entry.first.Scalar() == key) {
+      if (entry.first.IsScalar() && entry.first.Scalar() == key.name) {
         Complain(
-            entry.second, Dotted(key),
+            entry.second, Dotted(key.name),
             fmt::format("'{}' cannot name a folder; allowed are up to 100 letters, digits, '_', "
                         "'-' and '.', the first not '.'",
                         value));
@@ -266,14 +252,14 @@ void YamlReader::Identifier(const char* key, std::string& value) {
   }
 }
 
-void YamlReader::Field(const char* key, std::vector<std::string>& value, Need need,
+void YamlReader::Field(const Key& key, std::vector<std::string>& value, Need need,
                        const Names& allowed) {
-  const auto node = Take(key, need);
+  const auto node = Take(key.name, need);
   if (!node) {
     return;
   }
   if (!node->IsSequence() || node->size() == 0) {
-    Complain(*node, Dotted(key),
+    Complain(*node, Dotted(key.name),
              fmt::format("expected a list of names, found {}",
                          node->IsSequence() ? "an empty one" : Describe(*node)));
     return;
@@ -281,7 +267,7 @@ void YamlReader::Field(const char* key, std::vector<std::string>& value, Need ne
   Names names;
   for (std::size_t i = 0; i < node->size(); ++i) {
     const YAML::Node item = (*node)[i];
-    const std::string dotted = fmt::format("{}[{}]", Dotted(key), i);
+    const std::string dotted = fmt::format("{}[{}]", Dotted(key.name), i);
     if (!item.IsScalar()) {
       Complain(item, dotted, fmt::format("expected a name, found {}", Describe(item)));
     } else if (std::find(allowed.begin(), allowed.end(), item.Scalar()) == allowed.end()) {
@@ -295,20 +281,20 @@ void YamlReader::Field(const char* key, std::vector<std::string>& value, Need ne
   value = names;
 }
 
-void YamlReader::Field(const char* key, std::vector<Vec2>& value, Need need) {
-  const auto node = Take(key, need);
+void YamlReader::Field(const Key& key, std::vector<Vec2>& value, Need need) {
+  const auto node = Take(key.name, need);
   if (!node) {
     return;
   }
   if (!node->IsSequence()) {
-    Complain(*node, Dotted(key),
+    Complain(*node, Dotted(key.name),
              fmt::format("expected a list of points [x, y], found {}", Describe(*node)));
     return;
   }
   value.clear();
   for (std::size_t i = 0; i < node->size(); ++i) {
     const YAML::Node item = (*node)[i];
-    const std::string dotted = fmt::format("{}[{}]", Dotted(key), i);
+    const std::string dotted = fmt::format("{}[{}]", Dotted(key.name), i);
     if (!item.IsSequence() || item.size() != 2) {
       Complain(item, dotted,
                fmt::format("expected a point [x, y], found {}",
@@ -325,20 +311,20 @@ void YamlReader::Field(const char* key, std::vector<Vec2>& value, Need need) {
   }
 }
 
-void YamlReader::Pair(const char* key, int& first, int& second, Range range) {
-  const auto node = Take(key, Need::kOptional);
+void YamlReader::Pair(const Key& key, int& first, int& second, Range range) {
+  const auto node = Take(key.name, Need::kOptional);
   if (!node) {
     return;
   }
   if (!node->IsSequence() || node->size() != 2) {
-    Complain(*node, Dotted(key),
+    Complain(*node, Dotted(key.name),
              fmt::format("expected two whole numbers, found {}",
                          node->IsSequence() ? Numbers(node->size()) : Describe(*node)));
     return;
   }
   for (std::size_t i = 0; i < 2; ++i) {
     double number = 0.0;
-    const std::string dotted = fmt::format("{}[{}]", Dotted(key), i);
+    const std::string dotted = fmt::format("{}[{}]", Dotted(key.name), i);
     if (!ReadNumber((*node)[i], dotted, range, number)) {
       continue;
     }

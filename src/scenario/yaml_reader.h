@@ -39,21 +39,21 @@ class YamlReader {
  public:
   YamlReader(ReaderContext& context, YAML::Node node, std::string key);
 
-  void Field(const char* key, double& value, Need need, Range range = {});
-  void Field(const char* key, std::optional<double>& value, Range range = {});
-  void Field(const char* key, std::optional<bool>& value);
-  void Field(const char* key, bool& value, Need need);
-  void Field(const char* key, int& value, Need need, Range range = {});
-  void Field(const char* key, std::uint64_t& value, Need need);
-  void Field(const char* key, std::string& value, Need need, const Names& allowed = {});
+  void Field(const Key& key, double& value, Need need, Range range = {});
+  void Field(const Key& key, std::optional<double>& value, Range range = {});
+  void Field(const Key& key, std::optional<bool>& value);
+  void Field(const Key& key, bool& value, Need need);
+  void Field(const Key& key, int& value, Need need, Range range = {});
+  void Field(const Key& key, std::uint64_t& value, Need need);
+  void Field(const Key& key, std::string& value, Need need, const Names& allowed = {});
   /// A required name that can stand in a path: letters, digits, '_', '-', '.', none hidden.
-  void Identifier(const char* key, std::string& value);
-  void Field(const char* key, std::vector<std::string>& value, Need need, const Names& allowed);
-  void Field(const char* key, std::vector<Vec2>& value, Need need);
-  void Pair(const char* key, int& first, int& second, Range range);
+  void Identifier(const Key& key, std::string& value);
+  void Field(const Key& key, std::vector<std::string>& value, Need need, const Names& allowed);
+  void Field(const Key& key, std::vector<Vec2>& value, Need need);
+  void Pair(const Key& key, int& first, int& second, Range range);
 
   template <typename Enum>
-  void Field(const char* key, Enum& value, Need need,
+  void Field(const Key& key, Enum& value, Need need,
              const EnumNames<Enum>& names) requires std::is_enum_v<Enum> {
     std::string name;
     for (const auto& [candidate, spelling] : names) {
@@ -70,46 +70,46 @@ class YamlReader {
   }
 
   template <typename Struct>
-  void Section(const char* key, Struct& value, Need need = Need::kOptional) {
-    if (const auto node = Take(key, need)) {
-      ReadMap(*node, Dotted(key), value);
+  void Section(const Key& key, Struct& value, Need need = Need::kOptional) {
+    if (const auto node = Take(key.name, need)) {
+      ReadMap(*node, Dotted(key.name), value);
     }
   }
 
   template <typename Struct>
-  void List(const char* key, std::vector<Struct>& values) {
-    const auto node = Take(key, Need::kOptional);
+  void List(const Key& key, std::vector<Struct>& values) {
+    const auto node = Take(key.name, Need::kOptional);
     if (!node) {
       return;
     }
     if (!node->IsSequence()) {
-      Complain(*node, Dotted(key), fmt::format("expected a list, found {}", Describe(*node)));
+      Complain(*node, Dotted(key.name), fmt::format("expected a list, found {}", Describe(*node)));
       return;
     }
     values.clear();
     for (std::size_t i = 0; i < node->size(); ++i) {
-      ReadMap((*node)[i], fmt::format("{}[{}]", Dotted(key), i), values.emplace_back());
+      ReadMap((*node)[i], fmt::format("{}[{}]", Dotted(key.name), i), values.emplace_back());
     }
   }
 
   /// A section whose key `method` says which alternative's keys it has.
   template <typename Variant, typename Table, typename Rest>
-  void Method(const char* key, std::optional<Variant>& value, const Table& table, Need need,
+  void Method(const Key& key, std::optional<Variant>& value, const Table& table, Need need,
               const Rest& rest) {
-    const auto node = Take(key, need);
+    const auto node = Take(key.name, need);
     if (!node) {
       return;
     }
-    if (!CheckMap(*node, Dotted(key))) {
+    if (!CheckMap(*node, Dotted(key.name))) {
       return;
     }
-    YamlReader inner(context_, *node, Dotted(key));
+    YamlReader inner(context_, *node, Dotted(key.name));
     Names names;
     for (const auto& entry : table) {
       names.emplace_back(entry.name);
     }
     std::string method;
-    inner.Field("method", method, Need::kRequired, names);
+    inner.Field(kMethod, method, Need::kRequired, names);
     for (const auto& entry : table) {
       if (method == entry.name) {
         value = entry.defaults;

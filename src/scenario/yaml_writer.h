@@ -21,74 +21,74 @@ class YamlWriter {
  public:
   explicit YamlWriter(YAML::Emitter& out) : out_(out) {}
 
-  void Field(const char* key, double& value, Need, Range = {}) {
-    out_ << YAML::Key << key << YAML::Value << fmt::format("{}", value);
+  void Field(const Key& key, double& value, Need, Range = {}) {
+    out_ << YAML::Key << key.name << YAML::Value << fmt::format("{}", value);
   }
-  void Field(const char* key, std::optional<double>& value, Range = {}) {
+  void Field(const Key& key, std::optional<double>& value, Range = {}) {
     if (value) {
       Field(key, *value, Need::kOptional);
     }
   }
-  void Field(const char* key, bool& value, Need) {
-    out_ << YAML::Key << key << YAML::Value << value;
+  void Field(const Key& key, bool& value, Need) {
+    out_ << YAML::Key << key.name << YAML::Value << value;
   }
-  void Field(const char* key, std::optional<bool>& value) {
+  void Field(const Key& key, std::optional<bool>& value) {
     if (value) {
-      out_ << YAML::Key << key << YAML::Value << *value;
+      out_ << YAML::Key << key.name << YAML::Value << *value;
     }
   }
-  void Field(const char* key, int& value, Need, Range = {}) {
-    out_ << YAML::Key << key << YAML::Value << value;
+  void Field(const Key& key, int& value, Need, Range = {}) {
+    out_ << YAML::Key << key.name << YAML::Value << value;
   }
-  void Field(const char* key, std::uint64_t& value, Need) {
-    out_ << YAML::Key << key << YAML::Value << value;
+  void Field(const Key& key, std::uint64_t& value, Need) {
+    out_ << YAML::Key << key.name << YAML::Value << value;
   }
-  void Field(const char* key, std::string& value, Need, const Names& = {}) {
-    out_ << YAML::Key << key << YAML::Value << value;
+  void Field(const Key& key, std::string& value, Need, const Names& = {}) {
+    out_ << YAML::Key << key.name << YAML::Value << value;
   }
-  void Identifier(const char* key, std::string& value) { Field(key, value, Need::kRequired); }
-  void Field(const char* key, std::vector<std::string>& value, Need, const Names&) {
-    out_ << YAML::Key << key << YAML::Value << YAML::Flow << value;
+  void Identifier(const Key& key, std::string& value) { Field(key, value, Need::kRequired); }
+  void Field(const Key& key, std::vector<std::string>& value, Need, const Names&) {
+    out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << value;
   }
-  void Field(const char* key, std::vector<Vec2>& value, Need) {
+  void Field(const Key& key, std::vector<Vec2>& value, Need) {
     if (value.empty()) {
       return;
     }
-    out_ << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << YAML::BeginSeq;
     for (const Vec2& point : value) {
       out_ << YAML::BeginSeq << fmt::format("{}", point.x()) << fmt::format("{}", point.y())
            << YAML::EndSeq;
     }
     out_ << YAML::EndSeq;
   }
-  void Pair(const char* key, int& first, int& second, Range) {
-    out_ << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq << first << second
+  void Pair(const Key& key, int& first, int& second, Range) {
+    out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << YAML::BeginSeq << first << second
          << YAML::EndSeq;
   }
 
   template <typename Enum>
-  void Field(const char* key, Enum& value, Need,
+  void Field(const Key& key, Enum& value, Need,
              const EnumNames<Enum>& names) requires std::is_enum_v<Enum> {
     for (const auto& [candidate, spelling] : names) {
       if (candidate == value) {
-        out_ << YAML::Key << key << YAML::Value << spelling;
+        out_ << YAML::Key << key.name << YAML::Value << spelling;
       }
     }
   }
 
   template <typename Struct>
-  void Section(const char* key, Struct& value, Need = Need::kOptional) {
-    out_ << YAML::Key << key << YAML::Value << YAML::BeginMap;
+  void Section(const Key& key, Struct& value, Need = Need::kOptional) {
+    out_ << YAML::Key << key.name << YAML::Value << YAML::BeginMap;
     Visit(*this, value);
     out_ << YAML::EndMap;
   }
 
   template <typename Struct>
-  void List(const char* key, std::vector<Struct>& values) {
+  void List(const Key& key, std::vector<Struct>& values) {
     if (values.empty()) {
       return;
     }
-    out_ << YAML::Key << key << YAML::Value << YAML::BeginSeq;
+    out_ << YAML::Key << key.name << YAML::Value << YAML::BeginSeq;
     for (Struct& value : values) {
       out_ << YAML::BeginMap;
       Visit(*this, value);
@@ -98,15 +98,15 @@ class YamlWriter {
   }
 
   template <typename Variant, typename Table, typename Rest>
-  void Method(const char* key, std::optional<Variant>& value, const Table& table, Need,
+  void Method(const Key& key, std::optional<Variant>& value, const Table& table, Need,
               const Rest& rest) {
     if (!value) {
       return;
     }
-    out_ << YAML::Key << key << YAML::Value << YAML::BeginMap;
+    out_ << YAML::Key << key.name << YAML::Value << YAML::BeginMap;
     for (const auto& entry : table) {
       if (entry.defaults.index() == value->index()) {
-        out_ << YAML::Key << "method" << YAML::Value << entry.name;
+        out_ << YAML::Key << kMethod.name << YAML::Value << entry.name;
       }
     }
     std::visit([&](auto& options) { Visit(*this, options); }, *value);

@@ -1,10 +1,8 @@
+#include "tests/cli/program.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
-#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -17,31 +15,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::StartsWith;
-
-struct Outcome {
-  int code = -1;
-  std::string output;  // stdout and stderr
-};
-
-/// Runs the program in `folder` through the shell.
-Outcome Trackbed(const TempFolder& folder, const std::string& arguments) {
-  const std::string command =
-      "cd '" + folder.path().string() + "' && " TRACKBED_PROGRAM " " + arguments + " 2>&1";
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"),
-                                                   [](FILE*) { return 0; });
-  Outcome outcome;
-  std::array<char, 4096> block{};
-  for (std::size_t got = 0; (got = fread(block.data(), 1, block.size(), pipe.get())) > 0;) {
-    outcome.output.append(block.data(), got);
-  }
-  const int status = pclose(pipe.get());
-  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return outcome;
-}
-
-std::string ScenarioFile(const std::string& name) {
-  return std::string(TRACKBED_SOURCE_DIR) + "/scenarios/" + name + ".yaml";
-}
 
 TEST(Program, NamesItsVersions) {
   const TempFolder folder;
@@ -235,6 +208,42 @@ TEST(Docs, CommandsDoWhatTheySay) {
     const Outcome outcome = Trackbed(folder, command + (film ? " --size 128x72 --fps 2" : ""));
     EXPECT_EQ(outcome.code, 0) << command << "\n" << outcome.output;
   }
+}
+
+TEST(Docs, CliPageHoldsWhatTheProgramSays) {
+  const TempFolder folder;
+  const std::string page = ReadFile(std::string(TRACKBED_SOURCE_DIR) + "/docs/cli.md");
+  folder.Write("cli.md", page);
+  const Outcome outcome = Trackbed(folder, "docs cli.md");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  std::istringstream told(ReadFile(folder.path() / "cli.md"));
+  std::istringstream written(page);
+  std::string told_line;
+  std::string written_line;
+  while (std::getline(told, told_line)) {
+    std::getline(written, written_line);
+    // The first line that differs is enough.
+    ASSERT_EQ(written_line, told_line)
+        << "docs/cli.md is behind the program; run: build/release/trackbed docs docs/cli.md";
+  }
+  EXPECT_FALSE(std::getline(written, written_line)) << written_line;
+}
+
+TEST(Docs, PagesMustHaveAPlaceForEachTable) {
+  const TempFolder folder;
+  folder.Write("empty.md", "# Nothing\n");
+  EXPECT_EQ(Trackbed(folder, "docs empty.md").output,
+            "empty.md: no place for 'verbs': add the lines '<!-- begin: verbs -->' and "
+            "'<!-- end -->', and say what they are about\n");
+  folder.Write("other.md", "<!-- begin: options of rum -->\n<!-- end -->\n");
+  const Outcome other = Trackbed(folder, "docs other.md");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_EQ(other.output,
+            "other.md:1:1: unknown 'options of rum'; did you mean 'options of run'?\n");
+  folder.Write("open.md", "<!-- begin: verbs -->\n# The rest\n");
+  EXPECT_EQ(Trackbed(folder, "docs open.md").output,
+            "open.md:1:1: no line '<!-- end -->' follows\n");
+  EXPECT_EQ(ReadFile(folder.path() / "open.md"), "<!-- begin: verbs -->\n# The rest\n");
 }
 
 TEST(Program, TestsScenariosOneLineEach) {

@@ -48,7 +48,7 @@ TEST(PredictTurn, DeficitIsTheClosedForm) {
 
 TEST(PredictTurn, IsWhatTheRateLimitedCarDoes) {
   const Plan plan = PlanOf(RouteB(), 12.0);
-  ASSERT_EQ(plan.turns.size(), 2U) << "the first turn of 34 deg is shorter than its ramps";
+  ASSERT_EQ(plan.turns.size(), 3U);
   const LoneTurn& turn = plan.turns[0];
   const Pose2 start = plan.reference.path.At(0.0).pose;
   const auto states = RollOut(SeedCar(), {.pose = start, .speed = kSpeed}, plan.schedule,

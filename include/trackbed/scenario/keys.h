@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+/// Every key that a scenario file can have, told by the same code that reads them.
+namespace trackbed {
+
+struct KeyInfo {
+  std::string name;      ///< within its section
+  std::string type;      ///< "number", "list of names", "section", …
+  std::string unit;      ///< "m/s"; empty for what is no quantity
+  std::string fallback;  ///< the value of a key that is not given; empty when there is none
+  std::string allowed;   ///< "above 0 and at most 10"; empty for everything of the type
+  std::string text;      ///< what it means, on one line
+  bool required = false;
+};
+
+struct KeySection {
+  std::string key;     ///< dotted, with N for the elements of a list; empty for the whole file
+  std::string method;  ///< the method that has these keys; empty when they do not depend on one
+  std::string text;    ///< what it is about, on one line
+  std::vector<KeyInfo> keys;
+};
+
+/// The sections in the order of the file, each before those inside it.
+std::vector<KeySection> ScenarioKeys();
+
+}  // namespace trackbed

@@ -1,0 +1,173 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+
+#include "src/cli/verbs.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+#include "trackbed/core/spelling.h"
+#include "trackbed/scenario/keys.h"
+
+namespace trackbed::cli {
+namespace {
+
+/// A part of the page that the program writes, between two marker lines.
+struct Block {
+  std::string name;
+  std::string markdown;
+  bool placed = false;
+};
+
+const std::string kBegin = "<!-- begin: ";
+const std::string kClose = " -->";
+const std::string kEnd = "<!-- end -->";
+
+/// Text as a cell of a table that GitHub shows as it is.
+std::string Cell(const std::string& text) {
+  std::string cell;
+  for (const char c : text) {
+    cell += c == '|' || c == '<' || c == '*' ? "\\" : "";
+    cell += c;
+  }
+  return cell;
+}
+
+/// In code, only the bar needs care.
+std::string Code(const std::string& text) {
+  std::string cell;
+  for (const char c : text) {
+    cell += c == '|' ? "\\|" : std::string(1, c);
+  }
+  return cell.empty() ? "" : "`" + cell + "`";
+}
+
+std::string Sentence(std::string text) {
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text + ".";
+}
+
+/// Those that --help shows.
+std::vector<const CLI::App*> Verbs(const CLI::App& program) {
+  return program.get_subcommands([](const CLI::App* verb) { return !verb->get_group().empty(); });
+}
+
+std::string VerbTable(const CLI::App& program) {
+  std::string table = "| verb | does |\n|---|---|\n";
+  for (const CLI::App* verb : Verbs(program)) {
+    table += fmt::format("| {} | {} |\n", Code(verb->get_name()), Cell(verb->get_description()));
+  }
+  return table;
+}
+
+std::string OptionTable(const CLI::App& verb) {
+  std::string table = "| argument | means |\n|---|---|\n";
+  for (const CLI::Option* option : verb.get_options()) {
+    if (option == verb.get_help_ptr()) {
+      continue;  // every verb's; the page says so once
+    }
+    const std::string type = option->get_type_name();
+    const std::string name = option->get_positional() ? type : option->get_name(false, true);
+    const bool with_value = !option->get_positional() && option->get_items_expected_max() > 0;
+    const std::string fallback = option->get_default_str();
+    table +=
+        fmt::format("| {}{} | {}{}{} |\n", Code(name + (with_value ? " " + type : "")),
+                    option->get_required() ? ", required" : "", Cell(option->get_description()),
+                    fallback.empty() ? "" : "; default ", Code(fallback));
+  }
+  return table;
+}
+
+std::string KeyTables() {
+  std::string text;
+  for (const KeySection& section : ScenarioKeys()) {
+    text += text.empty() ? "" : "\n";
+    if (!section.key.empty()) {
+      text += fmt::format("### {}{}\n\n", Code(section.key),
+                          section.method.empty() ? "" : ", method " + Code(section.method));
+    }
+    text += Sentence(section.text) + "\n";
+    if (section.keys.empty()) {
+      continue;
+    }
+    text += "\n| key | is | unit | default | allowed | means |\n|---|---|---|---|---|---|\n";
+    for (const KeyInfo& key : section.keys) {
+      text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", Code(key.name), key.type, key.unit,
+                          key.required ? "required" : Code(key.fallback), Cell(key.allowed),
+                          Cell(key.text));
+    }
+  }
+  return text;
+}
+
+std::vector<Block> Blocks(const CLI::App& program) {
+  std::vector<Block> blocks{{"verbs", VerbTable(program)}};
+  for (const CLI::App* verb : Verbs(program)) {
+    blocks.push_back({"options of " + verb->get_name(), OptionTable(*verb)});
+  }
+  blocks.push_back({"scenario keys", KeyTables()});
+  return blocks;
+}
+
+/// The page with what stands between the markers replaced.
+std::string Filled(const std::string& file, const std::string& page, std::vector<Block> blocks) {
+  std::vector<std::string> names;
+  for (const Block& block : blocks) {
+    names.push_back(block.name);
+  }
+  std::istringstream lines(page);
+  std::string filled;
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    filled += line + "\n";
+    if (!line.starts_with(kBegin) || !line.ends_with(kClose)) {
+      continue;
+    }
+    const int begin = number;
+    const std::string name =
+        line.substr(kBegin.size(), line.size() - kBegin.size() - kClose.size());
+    const auto block =
+        std::find_if(blocks.begin(), blocks.end(), [&](const Block& b) { return b.name == name; });
+    if (block == blocks.end()) {
+      throw InputError(Problem{file, begin, 1, "", "unknown " + UnknownName(name, names)});
+    }
+    block->placed = true;
+    filled += "\n" + block->markdown + "\n" + kEnd + "\n";
+    while (line != kEnd) {
+      ++number;
+      if (!std::getline(lines, line)) {
+        throw InputError(Problem{file, begin, 1, "", fmt::format("no line '{}' follows", kEnd)});
+      }
+    }
+  }
+  for (const Block& block : blocks) {
+    if (!block.placed) {
+      throw InputError(
+          Problem{.file = file,
+                  .message = fmt::format("no place for '{0}': add the lines '{1}{0}{2}' "
+                                         "and '{3}', and say what they are about",
+                                         block.name, kBegin, kClose, kEnd)});
+    }
+  }
+  return filled;
+}
+
+}  // namespace
+
+void AddDocs(CLI::App& command, int& exit_code) {
+  command.group("");  // for those who work on Trackbed; not in --help
+  const auto page = std::make_shared<std::string>();
+  command.add_option("page", *page, "Markdown file to bring up to date")
+      ->required()
+      ->type_name("FILE");
+  command.callback([page, &command, &exit_code] {
+    WriteFileAtomically(*page, Filled(*page, ReadFile(*page), Blocks(*command.get_parent())));
+    exit_code = kOk;
+  });
+}
+
+}  // namespace trackbed::cli

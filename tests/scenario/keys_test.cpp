@@ -1,0 +1,73 @@
+#include "trackbed/scenario/keys.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "trackbed/control/steering_controller.h"
+#include "trackbed/planning/planner.h"
+
+namespace trackbed {
+namespace {
+
+const KeySection* FindSection(const std::vector<KeySection>& sections, const std::string& key,
+                              const std::string& method = "") {
+  for (const KeySection& section : sections) {
+    if (section.key == key && section.method == method) {
+      return &section;
+    }
+  }
+  return nullptr;
+}
+
+KeyInfo KeyOf(const std::string& section, const std::string& name, const std::string& method = "") {
+  const std::vector<KeySection> sections = ScenarioKeys();
+  const KeySection* found = FindSection(sections, section, method);
+  EXPECT_NE(found, nullptr) << section;
+  for (const KeyInfo& key : found != nullptr ? found->keys : std::vector<KeyInfo>{}) {
+    if (key.name == name) {
+      return key;
+    }
+  }
+  ADD_FAILURE() << "no key " << section << "." << name;
+  return {};
+}
+
+TEST(ScenarioKeys, TellTypeUnitDefaultAndWhatIsAllowed) {
+  const KeyInfo speed = KeyOf("mission", "speed");
+  EXPECT_EQ(speed.type, "number");
+  EXPECT_EQ(speed.unit, "m/s");
+  EXPECT_TRUE(speed.required);
+  EXPECT_EQ(speed.fallback, "");
+  EXPECT_EQ(speed.allowed, "at least 0.1 and at most 100");
+  EXPECT_EQ(KeyOf("drive", "plants").fallback, "[kinematic, mujoco]");
+  EXPECT_EQ(KeyOf("drive", "timestep").fallback, "0.002");
+  EXPECT_EQ(KeyOf("render", "size").fallback, "[1280, 720]");
+  EXPECT_EQ(KeyOf("", "control").fallback, "{method: preview}");
+  EXPECT_EQ(KeyOf("control", "distance", "preview").fallback, "2.5");
+  EXPECT_EQ(KeyOf("plan", "constraint", "fillet").allowed, "steering_room, half_leg, none");
+  EXPECT_EQ(KeyOf("world.obstacles[N].box", "length").unit, "m");
+  EXPECT_FALSE(KeyOf("expect", "mujoco").required);
+}
+
+TEST(ScenarioKeys, EachHasALineOfText) {
+  for (const KeySection& section : ScenarioKeys()) {
+    EXPECT_FALSE(section.text.empty()) << section.key;
+    for (const KeyInfo& key : section.keys) {
+      EXPECT_FALSE(key.text.empty()) << section.key << "." << key.name;
+      EXPECT_EQ(key.text.find('\n'), std::string::npos) << section.key << "." << key.name;
+    }
+  }
+}
+
+TEST(ScenarioKeys, EveryMethodHasItsSection) {
+  const std::vector<KeySection> sections = ScenarioKeys();
+  for (const PlannerEntry& planner : Planners()) {
+    EXPECT_NE(FindSection(sections, "plan", planner.name), nullptr) << planner.name;
+  }
+  for (const ControllerEntry& controller : Controllers()) {
+    EXPECT_NE(FindSection(sections, "control", controller.name), nullptr) << controller.name;
+  }
+}
+
+}  // namespace
+}  // namespace trackbed
