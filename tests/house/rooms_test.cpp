@@ -124,4 +124,55 @@ TEST(Rooms, EveryPublicHeaderHasASourceOfTheSameName) {
   }
 }
 
+std::string TextOf(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+/// "a --> b" for every room a that the build links with room b.
+std::vector<std::string> LinksOfTheBuild() {
+  std::vector<std::string> links;
+  const std::string build = TextOf(kRoot / "CMakeLists.txt");
+  const std::regex declaration(R"(\btrackbed_room\(([^)]*)\))");
+  for (std::sregex_iterator it(build.begin(), build.end(), declaration), end; it != end; ++it) {
+    std::istringstream words((*it)[1]);
+    std::string room;
+    std::string keyword;
+    words >> room;
+    for (std::string word; words >> word;) {
+      if (std::regex_match(word, std::regex("[A-Z_]+"))) {
+        keyword = word;
+      } else if (keyword == "ROOMS") {
+        links.push_back(room + " --> " + word);
+      }
+    }
+  }
+  const std::string cli = TextOf(kRoot / "src/cli/CMakeLists.txt");
+  const std::regex library(R"(trackbed::(\w+))");
+  for (std::sregex_iterator it(cli.begin(), cli.end(), library), end; it != end; ++it) {
+    links.push_back("cli --> " + (*it)[1].str());
+  }
+  return links;
+}
+
+TEST(Rooms, AreDrawnAsTheBuildLinksThem) {
+  const std::string page = TextOf(kRoot / "docs/architecture.md");
+  const std::size_t begin = page.find("flowchart BT");
+  ASSERT_NE(begin, std::string::npos) << "docs/architecture.md has no diagram of the rooms";
+  std::istringstream diagram(page.substr(begin, page.find("```", begin) - begin));
+  std::vector<std::string> drawn;
+  std::string line;
+  std::getline(diagram, line);
+  while (diagram >> std::ws && std::getline(diagram, line)) {
+    drawn.push_back(line);
+  }
+  EXPECT_THAT(drawn, testing::UnorderedElementsAreArray(LinksOfTheBuild()));
+  for (const std::string& room : Rooms()) {
+    EXPECT_THAT(drawn, testing::Contains(testing::ContainsRegex("(^| )" + room + "( |$)")));
+    EXPECT_NE(page.find("| `" + room), std::string::npos)
+        << room << " is not in the table of rooms";
+  }
+}
+
 }  // namespace
