@@ -22,7 +22,12 @@ target_compile_options(
             -ffp-contract=off
             $<$<BOOL:${TRACKBED_WARNINGS_AS_ERRORS}>:-Werror>)
 if(TRACKBED_SANITIZE)
-  target_compile_options(trackbed_compiler INTERFACE -fsanitize=address,undefined
-                                                     -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_compile_options(
+    trackbed_compiler
+    INTERFACE -fsanitize=address,undefined
+              -fno-sanitize-recover=all
+              -fno-omit-frame-pointer
+              # GCC 12 takes instrumented std::regex for uninitialised.
+              -Wno-maybe-uninitialized)
   target_link_options(trackbed_compiler INTERFACE -fsanitize=address,undefined)
 endif()
