@@ -67,7 +67,10 @@ TEST(PredictTurn, OffsetIsThatOfACentredRampOnGentleTurns) {
   const Plan plan = PlanOf(route, radius);
   ASSERT_EQ(plan.turns.size(), 1U);
   const double ramp = SteeringDistance(SeedCar(), std::atan(2.7 / radius), kSpeed);
-  const TurnError error = PredictTurn(SeedCar(), plan.reference.path, plan.turns[0], 0.0);
+  // At the end of the ramp; further on the heading deficit carries the car out again.
+  LoneTurn turn = plan.turns[0];
+  turn.middle = turn.from + ramp;
+  const TurnError error = PredictTurn(SeedCar(), plan.reference.path, turn, 0.0);
   const double expected = ramp * ramp / (24.0 * radius);
   EXPECT_NEAR(error.lateral_offset, expected, Tolerance(0.01 * expected));
 }
