@@ -47,7 +47,9 @@ class VideoOutput : public FilmOutput {
   VideoWriter writer_;
 };
 
-/// One PNG per picture, each of which appears when it is complete.
+/// One PNG per picture, each of which appears when it is complete. In the end the frames that an
+/// older and longer film left beyond its own last one are gone: numbered on without a gap, regular
+/// files, nothing else.
 class FrameOutput : public FilmOutput {
  public:
   explicit FrameOutput(fs::path output) : output_(std::move(output)) {
@@ -59,7 +61,17 @@ class FrameOutput : public FilmOutput {
   void Add(const Image& image) override {
     WriteFileAtomically(FrameName(output_, next_++), EncodePng(image));
   }
-  void Finish() override {}
+  void Finish() override {
+    std::error_code error;
+    fs::path left = FrameName(output_, next_);
+    for (int frame = next_; fs::is_regular_file(fs::symlink_status(left, error));
+         left = FrameName(output_, ++frame)) {
+      if (!fs::remove(left, error)) {
+        throw RunError(fmt::format("cannot remove {}, a frame of an older film: {}", left.string(),
+                                   error.message()));
+      }
+    }
+  }
 
  private:
   fs::path output_;

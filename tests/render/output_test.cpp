@@ -156,6 +156,38 @@ TEST_F(Frames, WrittenBeforeAnInterruptionStay) {
               testing::UnorderedElementsAre("f_00000.png", "f_00001.png"));
 }
 
+TEST_F(Frames, OfAnOlderAndLongerFilmGoAndNothingElse) {
+  options_.fps = 4.0;
+  ASSERT_EQ(RenderFilm(run_, output_, options_).frames, 5);
+  // Neither in the pattern nor in the row: not numbered on from the film's own, or no file.
+  const fs::path folder = output_.parent_path();
+  const std::vector<std::string> others{"f_00006.png", "f_000003.png",    "f_3.png", "f_00003.jpg",
+                                        "g_00003.png", "f_00003.png.bak", "f.png"};
+  for (const std::string& other : others) {
+    WriteFileAtomically(folder / other, "not ours");
+  }
+  options_.fps = 2.0;
+  ASSERT_EQ(RenderFilm(run_, output_, options_).frames, 3);
+  std::vector<std::string> expected{"f_00000.png", "f_00001.png", "f_00002.png"};
+  expected.insert(expected.end(), others.begin(), others.end());
+  EXPECT_THAT(FilesIn(folder), testing::UnorderedElementsAreArray(expected));
+  for (const std::string& other : others) {
+    EXPECT_EQ(ReadFile(folder / other), "not ours") << other;
+  }
+}
+
+TEST_F(Frames, OfAnOlderFilmStayWhereTheyAreNoFiles) {
+  const fs::path folder = output_.parent_path();
+  fs::create_directories(FrameName(output_, 3));
+  RenderFilm(run_, output_, options_);
+  EXPECT_TRUE(fs::is_directory(FrameName(output_, 3)));
+  fs::remove(FrameName(output_, 3));
+  WriteFileAtomically(folder / "picture.png", "kept");
+  fs::create_symlink("picture.png", FrameName(output_, 3));
+  RenderFilm(run_, output_, options_);
+  EXPECT_EQ(ReadFile(FrameName(output_, 3)), "kept");
+}
+
 TEST_F(Frames, AreNotMadeForAnUnknownExtensionOrQuality) {
   output_ = folder_.path() / "frames" / "f.jpg";
   EXPECT_EQ(InputMessage([this] { RenderFilm(run_, output_, options_); }),

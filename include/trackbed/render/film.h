@@ -53,8 +53,8 @@ std::vector<CameraSummary> Cameras();
 ///    or a complete film, also after an exception. Its folder must exist.
 ///  * `.png`: a picture per frame. `frames/f.png` asks for `frames/f_00000.png`,
 ///    `frames/f_00001.png`, ...; the folder is made if it is missing. Each file is either what it
-///    was or complete; after an exception those written before stay, and so do those that an older
-///    and longer film left.
+///    was or complete; after an exception those written before stay. When the last one is written,
+///    the frames that an older and longer film of the same name left beyond it are removed.
 ///
 /// Guarantees: the same folder and options give the same bytes.
 /// Does not: run on two threads at a time (MuJoCo's error handlers, which are set while it runs and
