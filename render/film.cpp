@@ -13,6 +13,7 @@
 #include "render/output.h"
 #include "render/recording.h"
 #include "render/scene.h"
+#include "render/shadow.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
 
@@ -116,16 +117,16 @@ FilmReport RenderFilm(const fs::path& run_folder, const fs::path& output,
   // The file first: a folder that cannot be written is known before any work is done.
   const std::unique_ptr<render::FilmOutput> film =
       format.open(output, options.width, options.height, options.fps);
+  const render::CameraSubject subject(recording);
+  const double aspect = static_cast<double>(options.width) / options.height;
   if (quality.shadows) {
-    render::FitShadowMap(*recording.model);
+    render::FitShadowMap(*recording.model, camera.pose(subject, recording.begin(), aspect));
   }
   render::Offscreen offscreen(*recording.model, options.width, options.height,
                               quality.supersampling);
   render::Font font = ReadFont(offscreen);
   render::FilmScene scene(recording, quality.shadows);
-  const render::CameraSubject subject(recording);
   const std::vector<render::LegendEntry> legend = Legend(recording);
-  const double aspect = static_cast<double>(options.width) / options.height;
 
   FilmReport report;
   // The small surplus keeps a last frame that falls on the end but for rounding.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "render/shadow.h"
 #include "trackbed/core/angle.h"
 
 namespace trackbed::render {
@@ -83,19 +84,6 @@ Color CarColor(std::size_t car) {
   return kColors[car < kColors.size() ? car : 1 + (car - 1) % (kColors.size() - 1)];
 }
 
-void FitShadowMap(mjModel& model) {
-  const int site = mj_name2id(&model, mjOBJ_SITE, "outline");
-  if (site < 0 || model.site_type[site] != mjGEOM_BOX) {
-    return;
-  }
-  const mjtNum* size = model.site_size + 3 * site;
-  // Twice the car: its own shadow is always whole, and so are those of things beside it. A Prius
-  // then has 5 mm of ground to a texel, less than a sample at 15 m in a picture 1440 px high.
-  const double reach = 2.0 * std::hypot(size[0], size[1], size[2]);
-  model.vis.map.shadowclip = static_cast<float>(reach / model.stat.extent);
-  model.vis.quality.shadowsize = 2048;
-}
-
 FilmScene::FilmScene(Recording& recording, bool shadows)
     : recording_(recording),
       car_data_(mj_makeData(recording.model.get())),
@@ -131,6 +119,7 @@ mjvScene& FilmScene::At(double time, const CameraPose& camera) {
   recording_.plants.front().Pose(time, model, *car_data_);
   mjv_updateScene(&model, car_data_.get(), &visible_, nullptr, &camera_, mjCAT_ALL, &scene_.get());
   scene_.get().flags[mjRND_SKYBOX] = SeesSky(model, camera) ? 1 : 0;
+  AimLamps(scene_.get(), camera);
   AddPlan(camera);
   for (std::size_t car = 0; car < recording_.plants.size(); ++car) {
     AddTrail(car, time, camera);

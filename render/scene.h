@@ -16,11 +16,6 @@ namespace trackbed::render {
 constexpr Color kPlanColor{1.00F, 1.00F, 0.97F};
 Color CarColor(std::size_t car);
 
-/// Spends the shadow map on the car and what is near it, whatever its model says: for a map made
-/// for a whole scene the car is a few stairs. Before the Offscreen is made. Nothing without an
-/// outline.
-void FitShadowMap(mjModel& model);
-
 /// The recorded world, posed at a moment: the car, the ghosts, the planned path, the trails.
 class FilmScene {
  public:

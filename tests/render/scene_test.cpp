@@ -1,13 +1,17 @@
 #include "render/scene.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <optional>
+#include <string>
 
 #include "render/offscreen.h"
+#include "render/shadow.h"
 #include "tests/render/run_folder.h"
 #include "tests/support/temp_folder.h"
 
@@ -54,13 +58,13 @@ class FilmSceneTest : public testing::Test {
   Image Picture(const std::string& camera, double time, bool shadows = false,
                 int supersampling = 1) {
     Recording recording = ReadRecording(folder_.path());
+    const CameraSubject subject(recording);
+    pose_ = FindCamera(camera).pose(subject, time, static_cast<double>(kWidth) / kHeight);
     if (shadows) {
-      FitShadowMap(*recording.model);
+      FitShadowMap(*recording.model, *pose_);
     }
     Offscreen offscreen(*recording.model, kWidth, kHeight, supersampling);
     FilmScene scene(recording, shadows);
-    const CameraSubject subject(recording);
-    pose_ = FindCamera(camera).pose(subject, time, static_cast<double>(kWidth) / kHeight);
     Image image;
     offscreen.Render(scene.At(time, *pose_), image);
     return image;
@@ -113,7 +117,8 @@ TEST_F(FilmSceneTest, PaintCastsNoShadowOnItself) {
   Image image;
   offscreen.Render(scene.At(0.0, *pose_), image);
   // In the sun ahead of the car, which ends at x = 3.6 and whose shadow, 1.5 m high under a sun
-  // that stands at (-0.3, 0.4, 0.8), ends 0.56 m farther.
+  // that stands at (-0.3, 0.4, 0.8), ends 0.56 m farther. Every point of the ribbon is lit: speckle
+  // would be dark dots.
   for (int i = 0; i <= 40; ++i) {
     const double x = 4.5 + 0.05 * i;
     for (const double y : {-0.12, 0.0, 0.12}) {
@@ -135,6 +140,36 @@ TEST_F(FilmSceneTest, TheSunCastsTheCarsShadowToItsRight) {
     EXPECT_GE(At(shaded, 1.4, y)[1], At(lit, 1.4, y)[1] - 2) << y;
     EXPECT_LE(At(shaded, 1.4, y)[1], 1.10 * At(lit, 1.4, y)[1] + 2) << y;
   }
+}
+
+TEST_F(FilmSceneTest, ThingsFarFromTheCarCastShadowsToo) {
+  // A cube of 2 m, 20 m ahead of the car, then 11 m to its left: far out of its own shadow's reach.
+  struct Place {
+    const char* camera;
+    double x;
+    double y;
+  };
+  const std::filesystem::path model = folder_.path() / "model.xml";
+  const std::string car = ReadFile(model);
+  for (const auto& [camera, x, y] : {Place{"chase", 23.0, 0.0}, Place{"side", 8.0, 12.0}}) {
+    std::string with_box = car;
+    with_box.insert(car.rfind("</worldbody>"),
+                    fmt::format("<geom type='box' pos='{} {} 1' size='1 1 1'/>", x, y));
+    WriteFileAtomically(model, with_box);
+    const Image lit = Picture(camera, 0.0);
+    const Image shaded = Picture(camera, 0.0, true);
+    // Its 2 m throw its upper edges 2 * 0.3 / 0.8 = 0.75 m ahead and 1 m to the right.
+    EXPECT_LT(At(shaded, x, y - 1.5)[1], 0.75 * At(lit, x, y - 1.5)[1]) << camera;
+    EXPECT_GE(At(shaded, x, y - 2.5)[1], At(lit, x, y - 2.5)[1] - 2) << camera;
+  }
+}
+
+TEST_F(FilmSceneTest, TheShadowMapCoversWhatACameraFromAboveSees) {
+  Recording recording = ReadRecording(folder_.path());
+  const CameraSubject subject(recording);
+  const CameraPose pose = FindCamera("top").pose(subject, 0.0, 16.0 / 9.0);
+  const double half_height = pose.distance * std::tan(0.5 * pose.view_angle);
+  EXPECT_GT(ShadowReach(pose), half_height * std::hypot(1.0, 16.0 / 9.0));
 }
 
 TEST_F(FilmSceneTest, SupersamplingSmoothsAndShiftsNothing) {

@@ -1,0 +1,55 @@
+#include "render/shadow.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace trackbed::render {
+namespace {
+
+constexpr int kShadowMapSide =
+    4096;  // [texels]; twice that would cost a quarter of a picture's time
+
+}  // namespace
+
+double ShadowReach(const CameraPose& camera) {
+  const double half_height = camera.distance * std::tan(0.5 * camera.view_angle);
+  // 2 * 7 half heights in 4096 texels, where a picture of 720 rows has one in 360 pixels.
+  constexpr double kLongest = 7.0;
+  // Half the diagonal of a picture of up to 21:9, as a camera that looks down a slope sees it.
+  const double seen = 2.5 / std::max(0.1, std::sin(-camera.elevation));
+  return half_height * std::min(kLongest, seen);
+}
+
+void FitShadowMap(mjModel& model, const CameraPose& camera) {
+  model.vis.map.shadowclip = static_cast<float>(ShadowReach(camera) / model.stat.extent);
+  model.vis.quality.shadowsize = kShadowMapSide;
+}
+
+void AimLamps(mjvScene& scene, const CameraPose& camera) {
+  const double reach = ShadowReach(camera);
+  // Ahead of the target, because little is seen between it and the camera.
+  const double ahead = 0.6 * reach * std::cos(camera.elevation);
+  // In steps: as long as the map stays where it is, so do the texels, and the edges of shadows that
+  // do not move do not crawl.
+  const double step = 0.1 * reach;
+  const auto in_steps = [step](double place) { return step * std::round(place / step); };
+  const std::array<double, 3> middle{in_steps(camera.target_x + ahead * std::cos(camera.azimuth)),
+                                     in_steps(camera.target_y + ahead * std::sin(camera.azimuth)),
+                                     0.0};
+  // So far back that all the ground under the map is in front of a lamp 20 degrees high.
+  const double back = 3.0 * reach;
+  for (int i = 0; i < scene.nlight; ++i) {
+    mjvLight& lamp = scene.lights[i];
+    if (lamp.directional == 0 || lamp.castshadow == 0) {
+      continue;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lamp.pos[axis] =
+          static_cast<float>(middle[axis] - back * static_cast<double>(lamp.dir[axis]));
+    }
+  }
+}
+
+}  // namespace trackbed::render
