@@ -75,8 +75,9 @@ void Canvas::Blend(int x, int y, Color color, double alpha) {
   std::uint8_t* pixel = image_.Pixel(x, y);
   const std::array<float, 3> rgb{color.r, color.g, color.b};
   for (const float channel : rgb) {
+    // Rounds what is never negative: std::lround takes ten times as long.
     *pixel = static_cast<std::uint8_t>(
-        std::lround(*pixel + alpha * (255.0 * static_cast<double>(channel) - *pixel)));
+        *pixel + alpha * (255.0 * static_cast<double>(channel) - *pixel) + 0.5);
     ++pixel;
   }
 }
@@ -89,8 +90,8 @@ void Canvas::Fill(const Rectangle& rectangle, double radius, Color color, double
       // Signed distance of the pixel's centre from the rounded outline: one pixel of fading.
       const double across = std::abs(x + 0.5 - center_x) - 0.5 * rectangle.width + radius;
       const double down = std::abs(y + 0.5 - center_y) - 0.5 * rectangle.height + radius;
-      const double outside = std::hypot(std::max(across, 0.0), std::max(down, 0.0)) +
-                             std::min(std::max(across, down), 0.0) - radius;
+      const double outside =
+          (across > 0.0 && down > 0.0 ? std::hypot(across, down) : std::max(across, down)) - radius;
       Blend(x, y, color, alpha * std::clamp(0.5 - outside, 0.0, 1.0));
     }
   }

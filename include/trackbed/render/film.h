@@ -62,8 +62,8 @@ std::vector<CameraSummary> Cameras();
 /// Errors: InputError for a folder that is missing, incomplete or inconsistent, for an unknown
 /// extension and for options out of range; RunError when the film cannot be encoded or written.
 /// Cost: per frame of 1280x720, on two cores that others use too, draft 0.1 to 0.15 s and film 0.3
-/// to 0.6 s, about a tenth of it for the overlays. Memory: the recordings, and a few pictures
-/// however long the film.
+/// to 0.6 s; overlays and caption take a fifth of a draft frame. Memory: the recordings, and a few
+/// pictures however long the film.
 FilmReport RenderFilm(const std::filesystem::path& run_folder, const std::filesystem::path& output,
                       const FilmOptions& options,
                       const std::function<void(double fraction)>& progress = {});
