@@ -11,6 +11,7 @@ find_package(CLI11 2 REQUIRED)
 find_package(NLopt REQUIRED)
 find_package(GTest REQUIRED)  # the testing room is a library of matchers, not only our own tests
 find_package(PNG REQUIRED)
+find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 
 find_package(mujoco REQUIRED CONFIG)

@@ -77,12 +77,16 @@ Offscreen::~Offscreen() {
   OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
 }
 
-void Offscreen::Render(mjvScene& scene, Image& image) {
+void Offscreen::Draw(mjvScene& scene) {
   const mjrRect viewport{0, 0, supersampling_ * width_, supersampling_ * height_};
   upside_down_.resize(3 * static_cast<std::size_t>(viewport.width) *
                       static_cast<std::size_t>(viewport.height));
   mjr_render(viewport, &scene, &context_);
   mjr_readPixels(upside_down_.data(), nullptr, viewport, &context_);
+}
+
+void Offscreen::Render(mjvScene& scene, Image& image) {
+  Draw(scene);
   image.Resize(width_, height_);
   if (supersampling_ == 1) {
     CopyFlipped(upside_down_, image);

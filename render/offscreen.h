@@ -26,6 +26,9 @@ class Offscreen {
   /// The scene from its own camera. 60 to 290 ms at 1280x720.
   void Render(mjvScene& scene, Image& image);
 
+  /// MuJoCo's part of Render alone: draws the scene and reads its samples back.
+  void Draw(mjvScene& scene);
+
   /// A printable ASCII character of MuJoCo's big font at its largest, white on black. `width` is
   /// the pen's advance; every glyph has the same height.
   Image Glyph(char character);

@@ -95,6 +95,23 @@ const std::array<FilmFormat, 2>& FormatTable() {
 
 }  // namespace
 
+void BackgroundOutput::Add(const Image& image) {
+  Await();
+  image_ = image;
+  writing_ = std::async(std::launch::async, [this] { output_->Add(image_); });
+}
+
+void BackgroundOutput::Finish() {
+  Await();
+  output_->Finish();
+}
+
+void BackgroundOutput::Await() {
+  if (writing_.valid()) {
+    writing_.get();
+  }
+}
+
 const FilmFormat& FormatOf(const fs::path& output) {
   const std::string extension = output.extension().string();
   std::string known;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "render/image.h"
 
@@ -19,6 +21,24 @@ class FilmOutput {
   virtual void Add(const Image& image) = 0;
   /// Call after the last picture: only then is what was written of worth.
   virtual void Finish() = 0;
+};
+
+/// Writes to another output in a thread of its own: while a picture is written, the next one is
+/// made. One picture waits, never more. What writing one throws comes out of the next call; on the
+/// way out after an exception the picture that is being written is awaited.
+class BackgroundOutput : public FilmOutput {
+ public:
+  explicit BackgroundOutput(std::unique_ptr<FilmOutput> output) : output_(std::move(output)) {}
+
+  void Add(const Image& image) override;
+  void Finish() override;
+
+ private:
+  void Await();
+
+  std::unique_ptr<FilmOutput> output_;
+  Image image_;                // that is being written
+  std::future<void> writing_;  // the last one, so that it is awaited before the rest goes
 };
 
 /// A kind of file that a film can be.

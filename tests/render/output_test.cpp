@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <stdexcept>
+#include <thread>
 
 #include "render/caption.h"
 #include "render/offscreen.h"
@@ -93,6 +95,61 @@ TEST(FormatOf, NamesTheFormatsThereAre) {
             "(frames)");
   EXPECT_EQ(InputMessage([] { FormatOf("film"); }),
             "film: no extension; a film is made as .mp4 (video) and .png (frames)");
+}
+
+/// Keeps what it is given, slowly; refuses pictures of the width 0.
+class SlowOutput : public FilmOutput {
+ public:
+  explicit SlowOutput(std::vector<int>& written) : written_(written) {}
+
+  void Add(const Image& image) override {
+    if (image.width == 0) {
+      throw RunError("no room");
+    }
+    std::this_thread::yield();
+    written_.push_back(image.width);
+  }
+  void Finish() override { written_.push_back(-1); }
+
+ private:
+  std::vector<int>& written_;
+};
+
+TEST(BackgroundOutput, WritesEveryPictureAsItWasAndInOrder) {
+  std::vector<int> written;
+  BackgroundOutput output(std::make_unique<SlowOutput>(written));
+  Image image;
+  for (int width = 1; width <= 50; ++width) {
+    image.width = width;
+    output.Add(image);
+    image.width = 0;  // the next picture is made where this one was
+  }
+  output.Finish();
+  ASSERT_EQ(written.size(), 51U);
+  EXPECT_TRUE(std::is_sorted(written.begin(), written.end() - 1));
+  EXPECT_EQ(written.back(), -1);
+}
+
+TEST(BackgroundOutput, PassesOnWhatWritingThrows) {
+  std::vector<int> written;
+  const Image refused;
+  Image image;
+  image.width = 1;
+  {
+    BackgroundOutput output(std::make_unique<SlowOutput>(written));
+    output.Add(refused);
+    EXPECT_THROW(output.Add(image), RunError);
+  }
+  {
+    BackgroundOutput output(std::make_unique<SlowOutput>(written));
+    output.Add(refused);
+    EXPECT_THROW(output.Finish(), RunError);
+  }
+  {
+    BackgroundOutput output(std::make_unique<SlowOutput>(written));
+    output.Add(image);  // and no Finish: it is written all the same
+  }
+  EXPECT_THAT(written, testing::ElementsAre(1));
 }
 
 class Frames : public testing::Test {

@@ -56,7 +56,8 @@ std::vector<CameraSummary> Cameras();
 ///    was or complete; after an exception those written before stay. When the last one is written,
 ///    the frames that an older and longer film of the same name left beyond it are removed.
 ///
-/// Guarantees: the same folder and options give the same bytes.
+/// Guarantees: the same folder and options give the same bytes. Pictures are encoded and written in
+/// a thread of their own, one behind the drawing; it has ended when this returns or throws.
 /// Does not: run on two threads at a time (MuJoCo's error handlers, which are set while it runs and
 /// restored after, are global). Silences libav's log for good.
 /// Errors: InputError for a folder that is missing, incomplete or inconsistent, for an unknown
