@@ -87,6 +87,8 @@ TEST(Rooms, IncludeOnlyRoomsAboveThem) {
 TEST(Rooms, KeepTheirInnerHeadersToThemselves) {
   for (const std::string& room : Rooms()) {
     for (const Include& include : IncludesOf(room)) {
+      EXPECT_FALSE(include.name.starts_with("bench/") || include.name.starts_with("tests/"))
+          << include.file << " includes " << include.name;
       if (include.name.starts_with("src/") || include.name.starts_with("render/")) {
         const std::string own = room == "render" ? "render/" : "src/" + room + "/";
         EXPECT_TRUE(include.name.starts_with(own)) << include.file << " includes " << include.name;

@@ -1,0 +1,113 @@
+#include <benchmark/benchmark.h>
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "bench/in_turn.h"
+#include "bench/temp_folder.h"
+#include "render/handles.h"
+#include "render/painter.h"
+#include "render/recording.h"
+#include "trackbed/analysis/run.h"
+#include "trackbed/core/error.h"
+#include "trackbed/render/film.h"
+
+namespace trackbed::bench {
+namespace {
+
+constexpr int kFrames = 24;
+
+/// A frame per second: each differs from the one before as no two of a real film do, which the
+/// encoder feels.
+FilmOptions Options(const char* quality) {
+  return {.width = 1280, .height = 720, .fps = 1.0, .camera = "chase", .quality = quality};
+}
+
+/// A run of both plants into the second turn of three_turns, kFrames seconds long.
+class RunFolder {
+ public:
+  RunFolder() {
+    Scenario scenario = ReadScenario(DataFolder() / "scenarios" / "three_turns.yaml");
+    scenario.drive.time_limit = kFrames;
+    WriteRunFolder(RunMission(scenario), run());
+  }
+  [[nodiscard]] std::filesystem::path run() const { return folder_.path() / "run"; }
+  [[nodiscard]] std::filesystem::path film() const { return folder_.path() / "film.mp4"; }
+
+ private:
+  TempFolder folder_;
+};
+
+/// A film, from when its first picture is drawn (what comes before does not grow with the film)
+/// until the file is complete, against MuJoCo drawing the same scenes and reading them back: with
+/// the same overlays, shadows and samples.
+void Film(benchmark::State& state) {
+  const RunFolder folder;
+  CompareInTurn(
+      state, 1.3,
+      [&] {
+        Stopwatch stopwatch;
+        bool begun = false;
+        const auto progress = [&](double /*fraction*/) {
+          if (!begun) {
+            stopwatch = Stopwatch();
+            begun = true;
+          }
+        };
+        const FilmReport report =
+            RenderFilm(folder.run(), folder.film(), Options("film"), progress);
+        const double seconds = stopwatch.Seconds();
+        TRACKBED_CHECK(report.frames == kFrames + 1, "{} frames", report.frames);
+        return seconds;
+      },
+      [&] {
+        const render::MuJoCoErrorsAsExceptions guard;
+        render::Recording recording = render::ReadRecording(folder.run());
+        render::Painter painter(recording, Options("film"));
+        painter.offscreen().Draw(painter.SceneAt(0.0));
+        double seconds = 0.0;
+        for (int frame = 1; frame <= kFrames; ++frame) {
+          mjvScene& scene = painter.SceneAt(frame);
+          const Stopwatch stopwatch;
+          painter.offscreen().Draw(scene);
+          seconds += stopwatch.Seconds();
+        }
+        return seconds;
+      });
+}
+BENCHMARK(Film)->Iterations(3)->UseManualTime()->Unit(benchmark::kSecond);
+
+/// A picture of draft quality with everything that is drawn over the world, against the same one
+/// without.
+void DraftOverlays(benchmark::State& state) {
+  const RunFolder folder;
+  const render::MuJoCoErrorsAsExceptions guard;
+  render::Recording recording = render::ReadRecording(folder.run());
+  render::Painter painter(recording, Options("draft"));
+  render::Image image;
+  int frame = 0;
+  CompareInTurn(
+      state, 1.3,
+      [&] {
+        frame = frame % kFrames + 1;
+        const Stopwatch stopwatch;
+        painter.Paint(frame, image);
+        return stopwatch.Seconds();
+      },
+      [&] {
+        mjvScene& scene = painter.SceneAt(frame);
+        // The overlays come after the world, and the first of them is the first decoration.
+        const mjvGeom* overlays =
+            std::find_if(scene.geoms, scene.geoms + scene.ngeom,
+                         [](const mjvGeom& geom) { return geom.category == mjCAT_DECOR; });
+        scene.ngeom = static_cast<int>(overlays - scene.geoms);
+        const Stopwatch stopwatch;
+        painter.offscreen().Render(scene, image);
+        return stopwatch.Seconds();
+      });
+}
+BENCHMARK(DraftOverlays)->Iterations(2 * kFrames)->UseManualTime()->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace trackbed::bench

@@ -1,0 +1,66 @@
+#include <GL/osmesa.h>
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <fstream>
+#include <nlopt.hpp>
+#include <string>
+#include <thread>
+
+#include "trackbed/core/version.h"
+#include "trackbed/sim/car_model.h"
+
+namespace {
+
+#ifdef __clang__
+constexpr const char* kCompiler = "Clang " __clang_version__;
+#else
+constexpr const char* kCompiler = "GCC " __VERSION__;
+#endif
+
+std::string CpuModel() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("model name")) {
+      return line.substr(line.find(':') + 2);
+    }
+  }
+  return "unknown";
+}
+
+std::string OpenGlVersion() {
+  std::array<unsigned char, 4> window{};
+  const OSMesaContext context = OSMesaCreateContext(OSMESA_RGBA, nullptr);
+  OSMesaMakeCurrent(context, window.data(), GL_UNSIGNED_BYTE, 1, 1);
+  const GLubyte* version = glGetString(GL_VERSION);
+  std::string text = version == nullptr ? "none" : reinterpret_cast<const char*>(version);
+  OSMesaDestroyContext(context);
+  return text;
+}
+
+}  // namespace
+
+/// Google Benchmark's own main, with what a record of numbers must say to be worth keeping.
+int main(int argc, char** argv) {
+  benchmark::AddCustomContext("cpu", CpuModel());
+  benchmark::AddCustomContext("cores", std::to_string(std::thread::hardware_concurrency()));
+  benchmark::AddCustomContext("compiler", kCompiler);
+  benchmark::AddCustomContext("build_type", TRACKBED_BUILD_TYPE);
+  benchmark::AddCustomContext("trackbed", trackbed::Version());
+  benchmark::AddCustomContext("physics", trackbed::PhysicsVersion());
+  benchmark::AddCustomContext("opengl", OpenGlVersion());
+  benchmark::AddCustomContext("eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION,
+                                                   EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
+  benchmark::AddCustomContext(
+      "nlopt", fmt::format("{}.{}.{}", nlopt::version_major(), nlopt::version_minor(),
+                           nlopt::version_bugfix()));
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
+    return 1;
+  }
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}
