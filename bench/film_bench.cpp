@@ -43,6 +43,10 @@ class RunFolder {
 /// until the file is complete, against MuJoCo drawing the same scenes and reading them back: with
 /// the same overlays, shadows and samples.
 void Film(benchmark::State& state) {
+  if (VideoEncoder() == "off") {
+    state.SkipWithError("built without video");
+    return;
+  }
   const RunFolder folder;
   CompareInTurn(
       state, 1.3,

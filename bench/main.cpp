@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "trackbed/core/version.h"
+#include "trackbed/render/film.h"
 #include "trackbed/sim/car_model.h"
 
 namespace {
@@ -51,6 +52,7 @@ int main(int argc, char** argv) {
   benchmark::AddCustomContext("trackbed", trackbed::Version());
   benchmark::AddCustomContext("physics", trackbed::PhysicsVersion());
   benchmark::AddCustomContext("opengl", OpenGlVersion());
+  benchmark::AddCustomContext("video", trackbed::VideoEncoder());
   benchmark::AddCustomContext("eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION,
                                                    EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
   benchmark::AddCustomContext(

@@ -20,8 +20,10 @@ set_target_properties(mujoco::mujoco PROPERTIES INTERFACE_INCLUDE_DIRECTORIES ""
 
 pkg_check_modules(osmesa REQUIRED IMPORTED_TARGET osmesa)
 add_library(osmesa::osmesa ALIAS PkgConfig::osmesa)
-pkg_check_modules(ffmpeg REQUIRED IMPORTED_TARGET libavformat libavcodec libswscale libavutil)
-add_library(ffmpeg::ffmpeg ALIAS PkgConfig::ffmpeg)
+if(TRACKBED_VIDEO)
+  pkg_check_modules(ffmpeg REQUIRED IMPORTED_TARGET libavformat libavcodec libswscale libavutil)
+  add_library(ffmpeg::ffmpeg ALIAS PkgConfig::ffmpeg)
+endif()
 
 # libcsv ships neither a pkg-config file nor a CMake package.
 find_path(CSV_INCLUDE_DIR csv.h REQUIRED)

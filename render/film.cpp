@@ -55,6 +55,10 @@ std::vector<CameraSummary> Cameras() {
   return cameras;
 }
 
+void CheckFilmName(const fs::path& output) {
+  render::FormatOf(output);
+}
+
 FilmReport RenderFilm(const fs::path& run_folder, const fs::path& output,
                       const FilmOptions& options,
                       const std::function<void(double fraction)>& progress) {

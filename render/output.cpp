@@ -14,39 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A video, under a temporary name until it is complete.
-class VideoOutput : public FilmOutput {
- public:
-  VideoOutput(fs::path output, int width, int height, double fps)
-      : output_(std::move(output)),
-        temporary_(TemporaryNameFor(output_)),
-        writer_(temporary_.path, output_, width, height, fps) {}
-
-  void Add(const Image& image) override { writer_.Add(image); }
-  void Finish() override {
-    writer_.Finish();
-    PublishFile(temporary_.path, output_);
-  }
-
- private:
-  /// Removed on every way out; after Finish there is none.
-  struct Temporary {
-    explicit Temporary(fs::path name) : path(std::move(name)) {}
-    ~Temporary() {
-      std::error_code ignored;
-      fs::remove(path, ignored);
-    }
-    Temporary(const Temporary&) = delete;
-    Temporary& operator=(const Temporary&) = delete;
-
-    fs::path path;
-  };
-
-  fs::path output_;
-  Temporary temporary_;  // before the writer, so that it outlives it
-  VideoWriter writer_;
-};
-
 /// One PNG per picture, each of which appears when it is complete. In the end the frames that an
 /// older and longer film left beyond its own last one are gone: numbered on without a gap, regular
 /// files, nothing else.
@@ -81,11 +48,7 @@ class FrameOutput : public FilmOutput {
 /// The only list of formats.
 const std::array<FilmFormat, 2>& FormatTable() {
   static const std::array<FilmFormat, 2> table{{
-      {".mp4", "video", true,
-       [](const fs::path& output, int width, int height,
-          double fps) -> std::unique_ptr<FilmOutput> {
-         return std::make_unique<VideoOutput>(output, width, height, fps);
-       }},
+      {".mp4", "video", true, VideoOpener()},
       {".png", "frames", false,
        [](const fs::path& output, int /*width*/, int /*height*/, double /*fps*/)
            -> std::unique_ptr<FilmOutput> { return std::make_unique<FrameOutput>(output); }},
@@ -114,16 +77,23 @@ void BackgroundOutput::Await() {
 
 const FilmFormat& FormatOf(const fs::path& output) {
   const std::string extension = output.extension().string();
+  std::string found =
+      extension.empty() ? "no extension" : fmt::format("unknown extension '{}'", extension);
   std::string known;
   for (const FilmFormat& format : FormatTable()) {
+    if (format.open == nullptr) {
+      if (format.extension == extension) {
+        found =
+            fmt::format("this Trackbed was built without {} (TRACKBED_VIDEO=OFF)", format.summary);
+      }
+      continue;
+    }
     if (format.extension == extension) {
       return format;
     }
     known +=
         fmt::format("{}{} ({})", known.empty() ? "" : " and ", format.extension, format.summary);
   }
-  const std::string found =
-      extension.empty() ? "no extension" : fmt::format("unknown extension '{}'", extension);
   throw InputError(Problem{.file = output.string(),
                            .message = fmt::format("{}; a film is made as {}", found, known)});
 }

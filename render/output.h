@@ -41,17 +41,20 @@ class BackgroundOutput : public FilmOutput {
   std::future<void> writing_;  // the last one, so that it is awaited before the rest goes
 };
 
+/// Opens an output for pictures of a size [px] at frames per second.
+using OpenOutput = std::unique_ptr<FilmOutput> (*)(const std::filesystem::path& output, int width,
+                                                   int height, double fps);
+
 /// A kind of file that a film can be.
 struct FilmFormat {
   std::string extension;  ///< with its dot
   std::string summary;    ///< one word
   bool even_sides;        ///< whether it can only hold pictures of even width and height
-  std::unique_ptr<FilmOutput> (*open)(const std::filesystem::path& output, int width, int height,
-                                      double fps);
+  OpenOutput open;        ///< null when this build cannot
 };
 
 /// The format that the extension of `output` asks for; InputError naming every one there is when it
-/// asks for none of them.
+/// asks for none of them, or for one that this build cannot make.
 const FilmFormat& FormatOf(const std::filesystem::path& output);
 
 /// "frames/f.png" and 7 give "frames/f_00007.png".

@@ -10,6 +10,7 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/version.h"
 #include "trackbed/optimize/search.h"
+#include "trackbed/render/film.h"
 #include "trackbed/sim/car_model.h"
 
 namespace trackbed::cli {
@@ -37,7 +38,8 @@ const std::vector<Verb> kVerbs{
 };
 
 std::string VersionText() {
-  return fmt::format("Trackbed {}\n{}\n{}", Version(), PhysicsVersion(), OptimizerVersion());
+  return fmt::format("Trackbed {}\n{}\n{}\nvideo {}", Version(), PhysicsVersion(),
+                     OptimizerVersion(), VideoEncoder());
 }
 
 int Run(int argc, char** argv) {

@@ -55,7 +55,7 @@ int RenderOne(const RenderOptions& options) {
   film.fps = options.fps.value_or(film.fps);
   film.camera = options.camera.value_or(film.camera);
   film.quality = options.quality;
-  const fs::path out = options.out.empty() ? folder / "video.mp4" : fs::path(options.out);
+  const fs::path out = options.out.empty() ? folder / kVideoName : fs::path(options.out);
   FilmRun(folder, out, film, options.quiet);
   if (!options.quiet) {
     fmt::print("{}\n", out.string());

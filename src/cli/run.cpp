@@ -62,7 +62,7 @@ int RunOne(const Scenario& scenario, const fs::path& out, const RunOptions& opti
   WriteRunFolder(result, out);
   if (options.video && !result.interrupted && result.plan.ok()) {
     const RenderSpec& render = scenario.render;
-    FilmRun(out, out / "video.mp4",
+    FilmRun(out, out / kVideoName,
             {.width = render.width,
              .height = render.height,
              .fps = render.fps,
@@ -107,6 +107,9 @@ void AddRun(CLI::App& command, int& exit_code) {
                       fmt::format("'{}' is the name of an earlier file too; both would write to {}",
                                   scenario.name, out.string())});
         }
+      }
+      if (options->video) {
+        CheckFilmName(out / kVideoName);
       }
       runs.emplace_back(std::move(scenario), out);
     }

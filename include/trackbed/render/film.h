@@ -35,6 +35,13 @@ struct CameraSummary {
 /// Every camera there is, the default first.
 std::vector<CameraSummary> Cameras();
 
+/// What encodes videos, such as "H.264 (libavcodec 59.37.100)", or "off" in a build without them.
+std::string VideoEncoder();
+
+/// InputError when RenderFilm could not make a film of that name, whatever the run: an unknown
+/// extension, or a video in a build without.
+void CheckFilmName(const std::filesystem::path& output);
+
 /// Films a finished run from its folder alone: no display, no GPU, nothing is simulated again.
 ///
 /// The folder holds `model.xml` and, per plant, `<plant>.state.csv` and `<plant>.csv`; `plan.csv`
@@ -49,7 +56,8 @@ std::vector<CameraSummary> Cameras();
 /// throws ends the film and is passed on.
 ///
 /// `output` says by its extension what is made:
-///  * `.mp4`: a video, H.264, yuv420p, playable while still loading. The file is either what it was
+///  * `.mp4`: a video, H.264, yuv420p, playable while still loading; not in a build without. The
+///  file is either what it was
 ///    or a complete film, also after an exception. Its folder must exist.
 ///  * `.png`: a picture per frame. `frames/f.png` asks for `frames/f_00000.png`,
 ///    `frames/f_00001.png`, ...; the folder is made if it is missing. Each file is either what it

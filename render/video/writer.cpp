@@ -1,4 +1,4 @@
-#include "render/video.h"
+#include "render/video/writer.h"
 
 extern "C" {
 #include <libavcodec/avcodec.h>

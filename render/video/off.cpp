@@ -1,0 +1,14 @@
+#include "render/video.h"
+#include "trackbed/render/film.h"
+
+namespace trackbed {
+
+std::string VideoEncoder() {
+  return "off";
+}
+
+render::OpenOutput render::VideoOpener() {
+  return nullptr;
+}
+
+}  // namespace trackbed

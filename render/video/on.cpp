@@ -1,0 +1,71 @@
+extern "C" {
+#include <libavcodec/avcodec.h>
+}
+
+#include <fmt/format.h>
+
+#include <system_error>
+#include <utility>
+
+#include "render/video.h"
+#include "render/video/writer.h"
+#include "trackbed/core/file.h"
+#include "trackbed/render/film.h"
+
+namespace trackbed {
+namespace render {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A video, under a temporary name until it is complete.
+class VideoOutput : public FilmOutput {
+ public:
+  VideoOutput(fs::path output, int width, int height, double fps)
+      : output_(std::move(output)),
+        temporary_(TemporaryNameFor(output_)),
+        writer_(temporary_.path, output_, width, height, fps) {}
+
+  void Add(const Image& image) override { writer_.Add(image); }
+  void Finish() override {
+    writer_.Finish();
+    PublishFile(temporary_.path, output_);
+  }
+
+ private:
+  /// Removed on every way out; after Finish there is none.
+  struct Temporary {
+    explicit Temporary(fs::path name) : path(std::move(name)) {}
+    ~Temporary() {
+      std::error_code ignored;
+      fs::remove(path, ignored);
+    }
+    Temporary(const Temporary&) = delete;
+    Temporary& operator=(const Temporary&) = delete;
+
+    fs::path path;
+  };
+
+  fs::path output_;
+  Temporary temporary_;  // before the writer, so that it outlives it
+  VideoWriter writer_;
+};
+
+}  // namespace
+
+OpenOutput VideoOpener() {
+  return
+      [](const fs::path& output, int width, int height, double fps) -> std::unique_ptr<FilmOutput> {
+        return std::make_unique<VideoOutput>(output, width, height, fps);
+      };
+}
+
+}  // namespace render
+
+std::string VideoEncoder() {
+  const unsigned version = avcodec_version();
+  return fmt::format("H.264 (libavcodec {}.{}.{})", AV_VERSION_MAJOR(version),
+                     AV_VERSION_MINOR(version), AV_VERSION_MICRO(version));
+}
+
+}  // namespace trackbed
