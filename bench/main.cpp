@@ -5,11 +5,11 @@
 #include <Eigen/Core>
 #include <array>
 #include <fstream>
-#include <nlopt.hpp>
 #include <string>
 #include <thread>
 
 #include "trackbed/core/version.h"
+#include "trackbed/optimize/search.h"
 #include "trackbed/render/film.h"
 #include "trackbed/sim/car_model.h"
 
@@ -55,9 +55,7 @@ int main(int argc, char** argv) {
   benchmark::AddCustomContext("video", trackbed::VideoEncoder());
   benchmark::AddCustomContext("eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION,
                                                    EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
-  benchmark::AddCustomContext(
-      "nlopt", fmt::format("{}.{}.{}", nlopt::version_major(), nlopt::version_minor(),
-                           nlopt::version_bugfix()));
+  benchmark::AddCustomContext("optimizer", trackbed::OptimizerVersion());
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
     return 1;

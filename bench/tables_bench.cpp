@@ -2,10 +2,12 @@
 
 #include <exception>
 #include <functional>
+#include <span>
 #include <string>
 
 #include "bench/in_turn.h"
 #include "trackbed/drive/drive.h"
+#include "trackbed/optimize/search.h"
 
 namespace trackbed::bench {
 namespace {
@@ -40,6 +42,27 @@ void TimeDrive(benchmark::State& state, const Scenario& scenario, const std::str
   state.counters["real_time_factor"] = simulated / stopwatch.Seconds();
 }
 
+/// How long a search takes, and how near it comes to the minimum 0.02 at (0.2, 0.6).
+void TimeSearch(benchmark::State& state, SearchMethod method) {
+  const SearchProblem problem{
+      .lower = {0.0, 0.0},
+      .upper = {1.0, 1.0},
+      .start = {},
+      .objective =
+          [](std::span<const double> x) {
+            return (x[0] - 0.3) * (x[0] - 0.3) + (x[1] - 0.7) * (x[1] - 0.7);
+          },
+      .constraint_count = 1,
+      .constraints = [](std::span<const double> x,
+                        std::span<double> values) { values[0] = x[0] + x[1] - 0.8; }};
+  SearchResult result;
+  for ([[maybe_unused]] auto round : state) {
+    result = Search(problem, {.method = method}, 1);
+  }
+  state.counters["evaluations"] = result.evaluations;
+  state.counters["error"] = result.value - 0.02;
+}
+
 void Register(const std::string& name, const std::function<void(benchmark::State&)>& function) {
   benchmark::RegisterBenchmark(name.c_str(), [function](benchmark::State& state) {
     try {
@@ -53,6 +76,10 @@ void Register(const std::string& name, const std::function<void(benchmark::State
 /// One benchmark for everything in the tables, so that none is forgotten. Entries that need more
 /// than their defaults say so instead of a time.
 bool RegisterTables() {
+  for (const SearchEntry& search : Searches()) {
+    Register(std::string("Search/") + search.name,
+             [&search](benchmark::State& state) { TimeSearch(state, search.method); });
+  }
   for (const PlannerEntry& planner : Planners()) {
     Register(std::string("Planner/") + planner.name,
              [&planner](benchmark::State& state) { TimePlanner(state, planner); });
