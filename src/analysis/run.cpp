@@ -142,7 +142,13 @@ void WritePlan(const Plan& plan, const Scenario& scenario, const fs::path& folde
     json["duration_s"] = plan.reference.speed.TimeAt(length);
     WriteFileAtomically(folder / "plan.csv", PlanTable(plan.reference).ToCsv());
     WriteFileAtomically(folder / "schedule.csv", ScheduleTable(plan.schedule).ToCsv());
-    WriteFileAtomically(folder / "convergence.csv", ConvergenceTable(plan.diagnostics).ToCsv());
+    const Table convergence = ConvergenceTable(plan.diagnostics);
+    if (convergence.rows() > 0) {
+      WriteFileAtomically(folder / "convergence.csv", convergence.ToCsv());
+    } else {
+      std::error_code ignored;
+      fs::remove(folder / "convergence.csv", ignored);  // of an earlier plan, which was searched
+    }
   }
   for (const auto& [key, value] : plan.diagnostics.items()) {
     json[key] = value;

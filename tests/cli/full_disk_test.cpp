@@ -81,7 +81,8 @@ TEST_F(FullDisk, LeavesAnEarlierPlanAsItWas) {
   const Outcome outcome = WithDisk("64k", plan + route + " && " + plan);
   EXPECT_EQ(outcome.code, 2);
   EXPECT_EQ(outcome.output, "cannot write disk/plan.csv: No space left on device\n");
-  EXPECT_THAT(NamesIn(folder.path() / "left"), UnorderedElementsAre("plan.csv", "plan.json"));
+  EXPECT_THAT(NamesIn(folder.path() / "left"),
+              UnorderedElementsAre("plan.csv", "plan.json", "schedule.csv"));
   Trackbed(folder, "plan -q -o whole " + ScenarioFile("winding") + route);
   ExpectWhole(folder.path() / "left", folder.path() / "whole");
 }
