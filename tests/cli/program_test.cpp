@@ -207,7 +207,7 @@ std::vector<std::string> DocumentedCommands() {
   std::vector<std::string> commands;
   std::vector<std::filesystem::path> pages{std::string(TRACKBED_SOURCE_DIR) + "/README.md"};
   for (const auto& entry :
-       std::filesystem::directory_iterator(std::string(TRACKBED_SOURCE_DIR) + "/docs")) {
+       std::filesystem::recursive_directory_iterator(std::string(TRACKBED_SOURCE_DIR) + "/docs")) {
     if (entry.path().extension() == ".md") {
       pages.push_back(entry.path());
     }

@@ -42,8 +42,9 @@ const SearchEntry& SearchFor(SearchMethod method);
 
 struct SearchOptions {
   SearchMethod method = SearchMethod::kIsres;
-  int population = 100;     ///< of isres, esch and crs2, > the number of variables + 1
-  int evaluations = 0;      ///< of the objective at most; 0: the method's own (SearchEntry)
+  int population = 100;  ///< of isres, esch and crs2, > the number of variables + 1
+  int evaluations = 0;   ///< of the objective at most; 0: the method's own (SearchEntry). A point
+                         ///< that is asked for twice in a row is evaluated once
   double tolerance = 1e-9;  ///< on x, as a share of the bounds; 0: none. Isres and esch use all
                             ///< their evaluations whatever it is
   double feasible = 1e-9;   ///< a constraint up to this counts as kept
