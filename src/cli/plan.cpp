@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
 #include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "src/cli/scenario_options.h"
 #include "src/cli/verbs.h"
@@ -28,30 +32,52 @@ std::string Number(const nlohmann::json& turn, const nlohmann::json::json_pointe
              : "-";
 }
 
+std::vector<std::string> Split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream in(line + "|");
+  for (std::string cell; std::getline(in, cell, '|');) {
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+/// One line of the table of turns.
+void PrintRow(const std::vector<std::string>& cells) {
+  constexpr std::array kWidths{8, 8, 8, 8, 6, 14, 6, 7, 8, 8, 8, 11, 9, 8};
+  std::string line = " ";
+  for (std::size_t i = 0; i < kWidths.size(); ++i) {
+    line += fmt::format(" {:>{}}", cells[i], kWidths[i]);
+  }
+  fmt::print("{}\n", line);
+}
+
 /// The turns of plan.json, one line each.
 void PrintTurns(const nlohmann::json& diagnostics) {
   using Pointer = nlohmann::json::json_pointer;
   if (!diagnostics.contains("turns") || diagnostics["turns"].empty()) {
     return;
   }
-  fmt::print("  {:>8} {:>9} {:>9} {:>9} {:>7} {:<14} {:>6} {:>7} {:>9} {:>9} {:>11} {:>9}\n",
-             "waypoint", "angle", "first r", "radius", "speed", "held by", "ramp", "ramp", "steer",
-             "return", "evaluations", "deficit");
-  fmt::print("  {:>8} {:>9} {:>9} {:>9} {:>7} {:<14} {:>6} {:>7} {:>9} {:>9} {:>11} {:>9}\n", "",
-             "[rad]", "[m]", "[m]", "[m/s]", "", "[s]", "[m]", "from [m]", "from [m]", "", "[rad]");
+  for (const char* line :
+       {"waypoint|angle|first r|radius|speed|held by|ramp|ramp|steer|return|until|"
+        "evaluations|objective|deficit",
+        "|[rad]|[m]|[m]|[m/s]||[s]|[m]|from [m]|from [m]|[m]|||[rad]"}) {
+    PrintRow(Split(line));
+  }
   for (const nlohmann::json& turn : diagnostics["turns"]) {
     const auto number = [&](const char* key, const char* format) {
       return Number(turn, Pointer(key), format);
     };
-    fmt::print("  {:>8} {:>9} {:>9} {:>9} {:>7} {:<14} {:>6} {:>7} {:>9} {:>9} {:>11} {:>9}{}\n",
-               turn["waypoint"].get<int>(), number("/heading_change_rad", "{:.4f}"),
-               number("/search/first_radius_m", "{:.4f}"), number("/radius_m", "{:.4f}"),
-               number("/speed_mps", "{:.3f}"), turn["active_constraint"].get<std::string>(),
-               number("/ramp_time_s", "{:.3f}"), number("/ramp_distance_m", "{:.3f}"),
-               number("/steer_start_m", "{:.3f}"), number("/steer_return_m", "{:.3f}"),
-               number("/search/evaluations", "{:.0f}"),
-               number("/predicted/heading_deficit_rad", "{:.5f}"),
-               turn["ramp_truncated"].get<bool>() ? "  ramp truncated" : "");
+    PrintRow({fmt::format("{}", turn["waypoint"].get<int>()),
+              number("/heading_change_rad", "{:.4f}"), number("/search/first_radius_m", "{:.4f}"),
+              number("/radius_m", "{:.4f}"), number("/speed_mps", "{:.3f}"),
+              turn["active_constraint"].get<std::string>(), number("/ramp_time_s", "{:.3f}"),
+              number("/ramp_distance_m", "{:.3f}"), number("/steer_start_m", "{:.3f}"),
+              number("/steer_return_m", "{:.3f}"), number("/return_until_m", "{:.3f}"),
+              number("/search/evaluations", "{:.0f}"), number("/search/objective", "{:.2e}"),
+              number("/predicted/heading_deficit_rad", "{:.5f}")});
+    if (turn["ramp_truncated"].get<bool>()) {
+      fmt::print("           ramp truncated: the wheels turn back before they are there\n");
+    }
     if (turn.contains("note")) {
       fmt::print("           {}\n", turn["note"].get<std::string>());
     }

@@ -40,4 +40,9 @@ inline std::string ScenarioFile(const std::string& name) {
   return std::string(TRACKBED_SOURCE_DIR) + "/scenarios/" + name + ".yaml";
 }
 
+/// Whether the program was built with video.
+inline bool HasVideo(const TempFolder& folder) {
+  return Trackbed(folder, "--version").output.find("\nvideo off\n") == std::string::npos;
+}
+
 }  // namespace trackbed

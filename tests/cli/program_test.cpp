@@ -16,11 +16,6 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// Whether the program was built with video.
-bool HasVideo(const TempFolder& folder) {
-  return Trackbed(folder, "--version").output.find("\nvideo off\n") == std::string::npos;
-}
-
 TEST(Program, NamesItsVersions) {
   const TempFolder folder;
   const Outcome outcome = Trackbed(folder, "--version");
