@@ -14,10 +14,6 @@ namespace {
 /// the roll-out. Ramps are metres long, so the integrals' own error is a thousandth.
 constexpr double kSpacing = 0.5;
 
-/// Variables of a turn, in this order: radius [m], and the shifts of D_{2k-1} and of the hold
-/// length D_2k - D_{2k-1} from their nominal values, as shares of the ramp distance.
-constexpr std::size_t kPerTurn = 3;
-
 class DrivenProblem {
  public:
   DrivenProblem(const VehicleParams& vehicle, const Route& route, const FilletOptions& options,
@@ -32,13 +28,13 @@ class DrivenProblem {
   [[nodiscard]] FilletPlan PlanOf(std::span<const double> x) const {
     std::vector<FilletTurn> turns = start_.turns;
     for (std::size_t k = 0; k < turns.size(); ++k) {
-      turns[k].radius = x[kPerTurn * k];
+      turns[k].radius = x[kDrivenVariables * k];
     }
     FilletPlan plan = LayOut(vehicle_, route_, std::move(turns));
     for (std::size_t k = 0; k < plan.turns.size(); ++k) {
       FilletTurn& turn = plan.turns[k];
-      turn.steer_start += x[kPerTurn * k + 1] * turn.ramp_distance;
-      const double hold = turn.arc_length + x[kPerTurn * k + 2] * turn.ramp_distance;
+      turn.steer_start += x[kDrivenVariables * k + 1] * turn.ramp_distance;
+      const double hold = turn.arc_length + x[kDrivenVariables * k + 2] * turn.ramp_distance;
       turn.steer_return = turn.steer_start + hold;
       turn.ramp_truncated = hold < turn.ramp_distance;
       if (hold <= 0.0) {

@@ -67,6 +67,11 @@ void SearchTurns(const VehicleParams& vehicle, const Route& route, double speed,
                  const FilletOptions& options, std::uint64_t seed,
                  const std::vector<RadiusLimits>& limits, std::vector<FilletTurn>& turns);
 
+/// Variables of a turn in the joint search, in this order: radius [m], and the shifts of D_{2k-1}
+/// and of the hold length D_2k - D_{2k-1} from their nominal values, as shares of the ramp
+/// distance.
+inline constexpr std::size_t kDrivenVariables = 3;
+
 /// Runs the joint search (kDriven) from a plan with the largest radii.
 FilletPlan SearchDriven(const VehicleParams& vehicle, const Route& route,
                         const FilletOptions& options, std::uint64_t seed,

@@ -2,15 +2,13 @@
 
 #include <cmath>
 
+#include "src/planning/fillet_layout.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {
 namespace {
 
 using nlohmann::json;
-
-/// Of one turn in the joint search: radius, start, hold.
-constexpr std::size_t kDrivenVariables = 3;
 
 json Point(const Vec2& p) {
   return json::array({p.x(), p.y()});
@@ -141,7 +139,7 @@ Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
                       {"goal_heading_error_rad", fillets.verification.goal_heading},
                       {"deviation_max_m", fillets.verification.deviation_max}};
   if (fillets.search) {
-    out["search"] = ToJson(options.search, *fillets.search, kDrivenVariables);
+    out["search"] = ToJson(options.search, *fillets.search, fillet::kDrivenVariables);
   }
   return plan;
 }
