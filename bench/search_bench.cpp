@@ -25,8 +25,38 @@ double Room(double radius) {
   return radius + 19.924 * std::atan(2.7 / radius) - 20.0;
 }
 
+/// What a method that knows no constraints may make of both.
+double Ranked(double radius) {
+  constexpr double kBeyond = 1e300;
+  const double room = Room(radius);
+  return room > 0.0 ? kBeyond * (1.0 + room / (1.0 + room)) : Miss(radius);
+}
+
+/// What a method that guesses the values of points without one sees.
+double Hidden(double radius) {
+  return Room(radius) > 0.0 ? HUGE_VAL : Miss(radius);
+}
+
+/// A search that has converged ends: it begins anew until as much is evaluated as the others do,
+/// and what counts is the time of one evaluation.
+template <typename SearchOnce>
+double SecondsOfBudget(const SearchOnce& search_once) {
+  const Stopwatch stopwatch;
+  int evaluations = 0;
+  while (evaluations < kEvaluations) {
+    evaluations += search_once();
+  }
+  return stopwatch.Seconds() * kEvaluations / evaluations;
+}
+
+/// Isres and esch use the whole budget of NLopt, however often they ask for a point anew.
+int Asked(SearchMethod method, int budget, int evaluations) {
+  const bool all = method == SearchMethod::kIsres || method == SearchMethod::kEsch;
+  return all ? budget : evaluations;
+}
+
 /// Ours: objective and constraint of a turn, through the table, each point checked and kept.
-double OursSeconds(SearchMethod method) {
+double OursSeconds(SearchMethod method, int budget) {
   const SearchProblem problem{
       .lower = {5.1},
       .upper = {154.0},
@@ -35,48 +65,73 @@ double OursSeconds(SearchMethod method) {
       .constraint_count = 1,
       .constraints = [](std::span<const double> r,
                         std::span<double> values) { values[0] = Room(r[0]); }};
-  const Stopwatch stopwatch;
-  const SearchResult result = Search(
-      problem,
-      {.method = method, .population = kPopulation, .evaluations = kEvaluations, .tolerance = 0.0},
-      1);
-  benchmark::DoNotOptimize(result.value);
-  return stopwatch.Seconds();
+  return SecondsOfBudget([&] {
+    const SearchResult result =
+        Search(problem, {.method = method, .population = kPopulation, .evaluations = budget}, 1);
+    return Asked(method, budget, result.evaluations);
+  });
 }
+
+struct Counted {
+  double (*objective)(double);
+  int evaluations;
+};
 
 /// Bare: the same call of NLopt on the same formulas, nothing between them: the values decide how
 /// long isres sorts, so that an objective without any would compare something else.
-double BareSeconds(nlopt::algorithm algorithm, bool constrained) {
-  const Stopwatch stopwatch;
-  nlopt::opt search(algorithm, 1U);
-  search.set_lower_bounds(5.1);
-  search.set_upper_bounds(154.0);
-  search.set_min_objective([](unsigned, const double* x, double*, void*) { return Miss(x[0]); },
-                           nullptr);
-  if (constrained) {
-    search.add_inequality_constraint(
-        [](unsigned, const double* x, double*, void*) { return Room(x[0]); }, nullptr, 0.0);
-  }
-  search.set_maxeval(kEvaluations);
-  search.set_population(kPopulation);
-  nlopt::srand(1);
-  std::vector<double> x{11.0};
-  double value = 0.0;
-  try {
-    search.optimize(x, value);
-  } catch (const nlopt::roundoff_limited&) {
-    // As far as it gets.
-  }
-  benchmark::DoNotOptimize(value);
-  return stopwatch.Seconds();
+double BareSeconds(nlopt::algorithm algorithm, int budget, double (*objective)(double),
+                   bool random) {
+  return SecondsOfBudget([&] {
+    nlopt::opt search(algorithm, 1U);
+    search.set_lower_bounds(5.1);
+    search.set_upper_bounds(154.0);
+    Counted counted{objective, 0};
+    search.set_min_objective(
+        [](unsigned, const double* x, double*, void* data) {
+          Counted& own = *static_cast<Counted*>(data);
+          ++own.evaluations;
+          return own.objective(x[0]);
+        },
+        &counted);
+    if (objective == Miss) {
+      search.add_inequality_constraint(
+          [](unsigned, const double* x, double*, void*) { return Room(x[0]); }, nullptr, 0.0);
+    }
+    search.set_maxeval(budget);
+    search.set_population(kPopulation);
+    search.set_xtol_abs(1e-9 * (154.0 - 5.1));
+    if (random) {
+      nlopt::srand(1);
+    }
+    std::vector<double> x{11.0};
+    double value = 0.0;
+    try {
+      search.optimize(x, value);
+    } catch (const nlopt::roundoff_limited&) {
+      // As far as it gets.
+    }
+    benchmark::DoNotOptimize(value);
+    return counted.evaluations;
+  });
 }
 
-void CompareSearch(benchmark::State& state, SearchMethod method, nlopt::algorithm algorithm,
-                   bool constrained) {
+struct Compared {
+  SearchMethod method;
+  nlopt::algorithm algorithm;
+  double (*objective)(double);  ///< Miss: it knows constraints itself
+  int budget;                   ///< of one call of NLopt
+};
+
+void CompareSearch(benchmark::State& state, const Compared& compared) {
   constexpr double kLimit = 1.25;
+  // Ours looks three times with `direct`, each time with a third.
+  const int looks = compared.method == SearchMethod::kDirect ? 3 : 1;
   CompareInTurn(
-      state, kLimit, [&] { return OursSeconds(method); },
-      [&] { return BareSeconds(algorithm, constrained); });
+      state, kLimit, [&] { return OursSeconds(compared.method, looks * compared.budget); },
+      [&] {
+        return BareSeconds(compared.algorithm, compared.budget, compared.objective,
+                           SearchFor(compared.method).random);
+      });
 }
 
 /// The three-turn route through a searched plan, first drive and verification included.
@@ -92,17 +147,19 @@ void TimeRoute(benchmark::State& state, SearchMethod method, double limit) {
 }
 
 bool RegisterSearches() {
-  // The searches that use up their budget: the others end when they have converged.
-  benchmark::RegisterBenchmark("SearchOverNlopt/isres", CompareSearch, SearchMethod::kIsres,
-                               nlopt::GN_ISRES, true)
-      ->UseManualTime()
-      ->Iterations(15)
-      ->Unit(benchmark::kMillisecond);
-  benchmark::RegisterBenchmark("SearchOverNlopt/esch", CompareSearch, SearchMethod::kEsch,
-                               nlopt::GN_ESCH, false)
-      ->UseManualTime()
-      ->Iterations(15)
-      ->Unit(benchmark::kMillisecond);
+  for (const Compared& compared :
+       {Compared{SearchMethod::kIsres, nlopt::GN_ISRES, Miss, kEvaluations},
+        Compared{SearchMethod::kEsch, nlopt::GN_ESCH, Ranked, kEvaluations},
+        Compared{SearchMethod::kCrs2, nlopt::GN_CRS2_LM, Ranked, kEvaluations},
+        Compared{SearchMethod::kDirect, nlopt::GN_ORIG_DIRECT_L, Hidden, 80},
+        Compared{SearchMethod::kCobyla, nlopt::LN_COBYLA, Miss, 1000},
+        Compared{SearchMethod::kNelderMead, nlopt::LN_NELDERMEAD, Ranked, 1000}}) {
+    const std::string name = std::string("SearchOverNlopt/") + SearchFor(compared.method).name;
+    benchmark::RegisterBenchmark(name.c_str(), CompareSearch, compared)
+        ->UseManualTime()
+        ->Iterations(15)
+        ->Unit(benchmark::kMillisecond);
+  }
   benchmark::RegisterBenchmark("ThreeTurns/isres", TimeRoute, SearchMethod::kIsres, 0.090)
       ->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("ThreeTurns/direct", TimeRoute, SearchMethod::kDirect, 0.0015)

@@ -66,7 +66,8 @@ class Evaluator {
         budget_(budget),
         handling_(handling),
         point_(problem.lower.size()),
-        constraints_(problem.constraint_count) {
+        constraints_(problem.constraint_count),
+        next_record_(options.population) {
     result_.violation = std::numeric_limits<double>::infinity();
     result_.value = std::numeric_limits<double>::infinity();
   }
@@ -133,8 +134,9 @@ class Evaluator {
       violation_ = std::numeric_limits<double>::infinity();
     }
     KeepIfBest();
-    if (result_.evaluations % options_.population == 0) {
+    if (result_.evaluations == next_record_) {
       Record();
+      next_record_ += options_.population;
     }
   }
 
@@ -207,6 +209,7 @@ class Evaluator {
   double value_ = 0.0;
   double violation_ = 0.0;
   std::vector<double> constraints_;
+  int next_record_;
   SearchResult result_;
 };
 
@@ -347,7 +350,9 @@ SearchResult Search(const SearchProblem& problem, const SearchOptions& options,
                                      : std::clamp(problem.start[i], box.lower[i], box.upper[i]);
   }
   // NLopt's generator is one per thread, otherwise seeded from the clock, and takes 32 bits.
-  nlopt::srand(static_cast<unsigned long>((seed ^ (seed >> 32U)) & 0xffffffffU));
+  if (SearchFor(options.method).random) {
+    nlopt::srand(static_cast<unsigned long>((seed ^ (seed >> 32U)) & 0xffffffffU));
+  }
   // Direct's work grows with the square of its cells: it looks three times, ever closer.
   const int looks = options.method == SearchMethod::kDirect ? 3 : 1;
   for (int look = 0; look < looks && !evaluator.failure; ++look) {
