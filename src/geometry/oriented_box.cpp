@@ -1,22 +1,24 @@
 #include "trackbed/geometry/oriented_box.h"
 
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/geometries/polygon.hpp>
+#include <algorithm>
+#include <cmath>
 
 namespace trackbed {
 namespace {
 
-using Point = boost::geometry::model::d2::point_xy<double>;
-using Polygon = boost::geometry::model::polygon<Point, false, true>;  // counter-clockwise, closed
+/// A box in its own axes.
+struct HalfSizes {
+  double x;
+  double y;
 
-Polygon PolygonOf(const OrientedBox& box) {
-  Polygon polygon;
-  for (const Vec2& corner : box.Corners()) {
-    polygon.outer().emplace_back(corner.x(), corner.y());
-  }
-  polygon.outer().push_back(polygon.outer().front());
-  return polygon;
+  explicit HalfSizes(const OrientedBox& box) : x(0.5 * box.length), y(0.5 * box.width) {}
+};
+
+/// Squared distance from a point in the box's axes to the box; 0 inside.
+double SquareToPoint(const HalfSizes& half, const Vec2& p) {
+  const double x = std::max(std::abs(p.x()) - half.x, 0.0);
+  const double y = std::max(std::abs(p.y()) - half.y, 0.0);
+  return x * x + y * y;
 }
 
 }  // namespace
@@ -28,8 +30,70 @@ std::array<Vec2, 4> OrientedBox::Corners() const {
           ToWorld(centre, {x, -y})};
 }
 
+double Separation(const OrientedBox& a, const OrientedBox& b) {
+  const HalfSizes half_a(a);
+  const HalfSizes half_b(b);
+  const Vec2 b_in_a = ToLocal(a.centre, b.centre.position());
+  const double turn = b.centre.yaw - a.centre.yaw;
+  const double c = std::cos(turn);
+  const double s = std::sin(turn);
+  const Vec2 a_in_b{-c * b_in_a.x() - s * b_in_a.y(), s * b_in_a.x() - c * b_in_a.y()};
+  const double along = std::abs(c);
+  const double across = std::abs(s);
+  // Gaps along the axes of either box: they are apart if any is positive.
+  const double gap =
+      std::max({std::abs(b_in_a.x()) - half_a.x - along * half_b.x - across * half_b.y,
+                std::abs(b_in_a.y()) - half_a.y - across * half_b.x - along * half_b.y,
+                std::abs(a_in_b.x()) - half_b.x - along * half_a.x - across * half_a.y,
+                std::abs(a_in_b.y()) - half_b.y - across * half_a.x - along * half_a.y});
+  if (gap <= 0.0) {
+    return gap;
+  }
+  // Apart, one of the two nearest points is a corner.
+  double square = b_in_a.squaredNorm();
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      const Vec2 of_a{x * half_a.x, y * half_a.y};
+      const Vec2 of_b{x * half_b.x, y * half_b.y};
+      const Vec2 of_b_in_a =
+          b_in_a + Vec2{c * of_b.x() - s * of_b.y(), s * of_b.x() + c * of_b.y()};
+      const Vec2 of_a_in_b =
+          a_in_b + Vec2{c * of_a.x() + s * of_a.y(), -s * of_a.x() + c * of_a.y()};
+      square =
+          std::min({square, SquareToPoint(half_a, of_b_in_a), SquareToPoint(half_b, of_a_in_b)});
+    }
+  }
+  return std::sqrt(square);
+}
+
 double Distance(const OrientedBox& a, const OrientedBox& b) {
-  return boost::geometry::distance(PolygonOf(a), PolygonOf(b));
+  return std::max(Separation(a, b), 0.0);
+}
+
+double Distance(const Vec2& from, const Vec2& to, const OrientedBox& box) {
+  const HalfSizes half(box);
+  const Vec2 p = ToLocal(box.centre, from);
+  const Vec2 q = ToLocal(box.centre, to);
+  const Vec2 middle = 0.5 * (p + q);
+  const Vec2 along = 0.5 * (q - p);
+  // They meet unless the box's axes or the line's own normal separate them.
+  const Vec2 reach{std::abs(along.x()), std::abs(along.y())};
+  if (std::abs(middle.x()) <= half.x + reach.x() && std::abs(middle.y()) <= half.y + reach.y() &&
+      std::abs(Cross(along, middle)) <= half.x * reach.y() + half.y * reach.x()) {
+    return 0.0;
+  }
+  double square = std::min(SquareToPoint(half, p), SquareToPoint(half, q));
+  const double length_square = along.squaredNorm();
+  if (length_square > 0.0) {
+    for (const double x : {-half.x, half.x}) {
+      for (const double y : {-half.y, half.y}) {
+        const Vec2 corner{x, y};
+        const double t = std::clamp((corner - middle).dot(along) / length_square, -1.0, 1.0);
+        square = std::min(square, (middle + t * along - corner).squaredNorm());
+      }
+    }
+  }
+  return std::sqrt(square);
 }
 
 }  // namespace trackbed

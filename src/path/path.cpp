@@ -1,6 +1,8 @@
 #include "trackbed/path/path.h"
 
 #include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 
 #include "trackbed/core/angle.h"
@@ -9,16 +11,83 @@
 namespace trackbed {
 namespace {
 
+bool IsLineOrArc(const Segment& segment) {
+  return segment.sharpness == 0.0 && segment.sharpness_rate == 0.0;
+}
+
+/// Heading gained over `distance`, times the direction: the integral of the curvature.
+double Turned(const Segment& segment, double distance) {
+  return distance * (segment.curvature + distance * (segment.sharpness / 2.0 +
+                                                     distance * segment.sharpness_rate / 6.0));
+}
+
+/// Most that the heading can turn within the first `distance`.
+double MostTurned(const Segment& segment, double distance) {
+  return distance * (std::abs(segment.curvature) +
+                     distance * (std::abs(segment.sharpness) / 2.0 +
+                                 distance * std::abs(segment.sharpness_rate) / 6.0));
+}
+
 /// Where a segment gets after `distance` in its own direction of motion.
 Pose2 Along(const Pose2& start, const Segment& segment, double distance) {
   const double moved = segment.direction * distance;
-  return MoveOnArc(start, moved, segment.curvature * moved);
+  if (IsLineOrArc(segment)) {
+    return MoveOnArc(start, moved, segment.curvature * moved);
+  }
+  const auto yaw = [&](double d) { return start.yaw + segment.direction * Turned(segment, d); };
+  // Ten nodes over half a radian integrate cosine and sine to rounding.
+  using Quadrature = boost::math::quadrature::gauss<double, 10>;
+  const double pieces = std::max(1.0, std::ceil(2.0 * MostTurned(segment, std::abs(distance))));
+  Vec2 position = start.position();
+  for (double i = 0.0; i < pieces; i += 1.0) {
+    const double from = distance * i / pieces;
+    const double to = distance * (i + 1.0) / pieces;
+    position.x() += segment.direction *
+                    Quadrature::integrate([&](double d) { return std::cos(yaw(d)); }, from, to);
+    position.y() += segment.direction *
+                    Quadrature::integrate([&](double d) { return std::sin(yaw(d)); }, from, to);
+  }
+  return {position.x(), position.y(), yaw(distance)};
+}
+
+/// NearestDistance for a segment of changing curvature: the feet of p are where it lies straight
+/// across; they are bracketed between points a quarter radian apart.
+double NearestOnCurve(const Pose2& start, const Segment& segment, const Vec2& p, double from,
+                      double to) {
+  // How far p lies ahead of the point at d, along the motion: falls through zero at a foot.
+  const auto ahead = [&](double d) {
+    return segment.direction * ToLocal(Along(start, segment, d), p).x();
+  };
+  const auto apart = [&](double d) { return (Along(start, segment, d).position() - p).norm(); };
+  constexpr double kPrecision = 1e-10;  // [m]
+  double best = apart(from) <= apart(to) ? from : to;
+  const double pieces = std::max(1.0, std::ceil(4.0 * MostTurned(segment, to)));
+  double left = from;
+  double at_left = ahead(left);
+  for (double i = 1.0; i <= pieces; i += 1.0) {
+    const double right = from + (to - from) * i / pieces;
+    const double at_right = ahead(right);
+    if (at_left > 0.0 && at_right <= 0.0) {
+      std::uintmax_t most = 50;
+      const auto [low, high] = boost::math::tools::toms748_solve(
+          ahead, left, right, at_left, at_right,
+          [](double a, double b) { return b - a < kPrecision; }, most);
+      const double foot = 0.5 * (low + high);
+      best = apart(foot) < apart(best) ? foot : best;
+    }
+    left = right;
+    at_left = at_right;
+  }
+  return best;
 }
 
 /// The distance along an (unbounded) segment to its point nearest to p, for arcs the one with the
 /// smallest distance that is not below `from`, if there is one up to `to`.
 double NearestDistance(const Pose2& start, const Segment& segment, const Vec2& p, double from,
                        double to) {
+  if (!IsLineOrArc(segment)) {
+    return NearestOnCurve(start, segment, p, from, to);
+  }
   const Vec2 local = ToLocal(start, p);
   if (segment.curvature == 0.0) {
     return std::clamp(segment.direction * local.x(), from, to);
@@ -45,9 +114,11 @@ Path::Path(const Pose2& start, std::vector<Segment> segments) : segments_(std::m
   stations_.push_back(0.0);
   for (const Segment& segment : segments_) {
     TRACKBED_CHECK(segment.length > 0.0 && std::isfinite(segment.length) &&
-                       std::isfinite(segment.curvature) && std::abs(segment.direction) == 1,
-                   "segment of length {}, curvature {}, direction {}", segment.length,
-                   segment.curvature, segment.direction);
+                       std::isfinite(segment.curvature) && std::isfinite(segment.sharpness) &&
+                       std::isfinite(segment.sharpness_rate) && std::abs(segment.direction) == 1,
+                   "segment of length {}, curvature {}, sharpness {} and {}, direction {}",
+                   segment.length, segment.curvature, segment.sharpness, segment.sharpness_rate,
+                   segment.direction);
     starts_.push_back(Along(starts_.back(), segment, segment.length));
     length_ += segment.length;
     stations_.push_back(length_);
@@ -70,8 +141,10 @@ PathPoint Path::At(double s) const {
     return {s, MoveOnArc(end, direction * beyond, 0.0), 0.0, direction};
   }
   const std::size_t i = SegmentAt(s);
-  return {s, Along(starts_[i], segments_[i], s - stations_[i]), segments_[i].curvature,
-          segments_[i].direction};
+  const Segment& segment = segments_[i];
+  const double d = s - stations_[i];
+  return {s, Along(starts_[i], segment, d), segment.CurvatureAt(d), segment.direction,
+          segment.sharpness + d * segment.sharpness_rate};
 }
 
 Projection Path::Project(const Pose2& pose, Stations within) const {
@@ -117,6 +190,35 @@ std::vector<PathPoint> Path::Sample(double spacing) const {
                             : length_ * static_cast<double>(i) / static_cast<double>(intervals)));
   }
   return points;
+}
+
+std::vector<Segment> Path::Cut(Stations within) const {
+  std::vector<Segment> pieces;
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    const double from = std::max(within.from - stations_[i], 0.0);
+    const double to = std::min(within.to - stations_[i], segments_[i].length);
+    if (to > from) {
+      const Segment& whole = segments_[i];
+      pieces.push_back({to - from, whole.CurvatureAt(from), whole.direction,
+                        whole.sharpness + from * whole.sharpness_rate, whole.sharpness_rate});
+    }
+  }
+  return pieces;
+}
+
+std::vector<Segment> SegmentsThrough(const std::vector<CurvePoint>& points) {
+  std::vector<Segment> segments;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const CurvePoint& a = points[i - 1];
+    const CurvePoint& b = points[i];
+    const double h = b.s - a.s;
+    TRACKBED_CHECK(h > 0.0, "points at {} and {} m", a.s, b.s);
+    // The quadratic through both curvatures whose mean is the heading's rise.
+    const double mean = (b.yaw - a.yaw) / h;
+    segments.push_back({h, a.curvature, 1, (6.0 * mean - 4.0 * a.curvature - 2.0 * b.curvature) / h,
+                        6.0 * (a.curvature + b.curvature - 2.0 * mean) / (h * h)});
+  }
+  return segments;
 }
 
 }  // namespace trackbed

@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/polygon.hpp>
+#include <boost/geometry/geometries/segment.hpp>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +15,48 @@
 
 namespace trackbed {
 namespace {
+
+namespace bg = boost::geometry;
+using Point = bg::model::d2::point_xy<double>;
+using Polygon = bg::model::polygon<Point, false>;
+
+// A few operations on coordinates below 20 m, here and in Boost.Geometry.
+constexpr double kRounding = 1e-13;
+
+Polygon Outline(const OrientedBox& box) {
+  Polygon polygon;
+  for (const Vec2& corner : box.Corners()) {
+    bg::append(polygon, Point(corner.x(), corner.y()));
+  }
+  bg::correct(polygon);
+  return polygon;
+}
+
+/// Boost.Geometry's distance; 0 when they touch or overlap.
+double ByBoost(const OrientedBox& a, const OrientedBox& b) {
+  return bg::distance(Outline(a), Outline(b));
+}
+double ByBoost(const Vec2& from, const Vec2& to, const OrientedBox& box) {
+  return bg::distance(bg::model::segment<Point>(Point(from.x(), from.y()), Point(to.x(), to.y())),
+                      Outline(box));
+}
+
+bool Holds(const OrientedBox& outer, const OrientedBox& inner) {
+  const auto corners = inner.Corners();
+  return std::all_of(corners.begin(), corners.end(), [&](const Vec2& corner) {
+    return bg::distance(Point(corner.x(), corner.y()), Outline(outer)) == 0.0;
+  });
+}
+
+OrientedBox RandomBox(Random& random, double reach) {
+  return {{random.Uniform(-reach, reach), random.Uniform(-reach, reach), random.Uniform(-4.0, 4.0)},
+          random.Uniform(0.2, 8.0),
+          random.Uniform(0.2, 8.0)};
+}
+
+OrientedBox Moved(const OrientedBox& box, const Vec2& by) {
+  return {{box.centre.x + by.x(), box.centre.y + by.y(), box.centre.yaw}, box.length, box.width};
+}
 
 TEST(OrientedBox, CornersGoRoundCounterClockwise) {
   const OrientedBox box{{1.0, 2.0, std::acos(-1.0) / 2.0}, 4.0, 2.0};
@@ -73,7 +119,8 @@ TEST(Distance, AgreesWithSampledOutlines) {
         random.Uniform(0.5, 5.0),
         random.Uniform(0.5, 5.0)};
     const double exact = Distance(a, b);
-    EXPECT_EQ(exact, Distance(b, a));
+    // Seen from the other box: rounding of coordinates of tens of metres.
+    EXPECT_NEAR(exact, Distance(b, a), Tolerance(1e-13));
     if (exact > 0.0) {
       ++apart;
       // Sampling can only be too far, by at most half a step of the longer side: 4/200/2.
@@ -81,6 +128,128 @@ TEST(Distance, AgreesWithSampledOutlines) {
     }
   }
   EXPECT_GT(apart, 50);
+}
+
+TEST(Separation, OfBoxesApartIsBoostsDistance) {
+  Random random(8);
+  int apart = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const OrientedBox a = RandomBox(random, 3.0);
+    const OrientedBox b = RandomBox(random, 12.0);
+    const double separation = Separation(a, b);
+    EXPECT_EQ(separation > 0.0, ByBoost(a, b) > 0.0);
+    EXPECT_EQ(Distance(a, b), std::max(separation, 0.0));
+    EXPECT_NEAR(Separation(b, a), separation, Tolerance(kRounding));
+    if (separation > 0.0) {
+      ++apart;
+      EXPECT_NEAR(separation, ByBoost(a, b), Tolerance(kRounding));
+    }
+  }
+  EXPECT_GT(apart, 1000);
+}
+
+TEST(Separation, IsNegativeForContainmentAndCrossing) {
+  // A box of 1 m in the middle of one of 4 by 3: out over the longer side, 1.5 + 0.5.
+  const OrientedBox room{{2.0, 1.0, 0.7}, 4.0, 3.0};
+  EXPECT_NEAR(Separation(room, {{2.0, 1.0, 0.7}, 1.0, 1.0}), -2.0, Tolerance(kRounding));
+  EXPECT_NEAR(Separation({{2.0, 1.0, 0.7}, 1.0, 1.0}, room), -2.0, Tolerance(kRounding));
+  // A cross of 10 by 0.2: one bar must leave over the other's end, (10 + 0.2)/2.
+  EXPECT_NEAR(Separation({{0.0, 0.0, 0.2}, 10.0, 0.2}, {{0.0, 0.0, 0.2 + std::acos(0.0)}, 10, 0.2}),
+              -5.1, Tolerance(kRounding));
+  EXPECT_NEAR(Separation({{0.0, 0.0, 0.0}, 2.0, 2.0}, {{1.5, 0.5, 0.0}, 2.0, 2.0}), -0.5,
+              Tolerance(kRounding));
+  EXPECT_EQ(Separation({{0.0, 0.0, 0.0}, 2.0, 2.0}, {{2.0, 0.0, 0.0}, 2.0, 2.0}), 0.0);
+}
+
+TEST(Separation, OfOverlappingBoxesIsTheShortestWayOut) {
+  Random random(9);
+  int overlapping = 0;
+  int contained = 0;
+  for (int i = 0; i < 500; ++i) {
+    const OrientedBox a = RandomBox(random, 1.0);
+    const OrientedBox b = RandomBox(random, 3.0);
+    const double depth = -Separation(a, b);
+    if (depth <= 0.0) {
+      continue;
+    }
+    SCOPED_TRACE(i);
+    ++overlapping;
+    contained += Holds(a, b) || Holds(b, a) ? 1 : 0;
+    EXPECT_EQ(ByBoost(a, b), 0.0);
+    // A thousandth more along one of the axes of either frees it; 1 % less does not, neither along
+    // them nor any other way.
+    bool freed = false;
+    for (const double yaw : {a.centre.yaw, b.centre.yaw}) {
+      const Vec2 along = Direction(yaw);
+      for (const Vec2& way : {along, Vec2(-along), LeftOf(along), Vec2(-LeftOf(along))}) {
+        freed = freed || ByBoost(a, Moved(b, 1.001 * depth * way)) > 0.0;
+        EXPECT_EQ(ByBoost(a, Moved(b, 0.99 * depth * way)), 0.0);
+      }
+    }
+    EXPECT_TRUE(freed);
+    for (int k = 0; k < 24; ++k) {
+      EXPECT_EQ(ByBoost(a, Moved(b, 0.99 * depth * Direction(random.Uniform(-4.0, 4.0)))), 0.0);
+    }
+  }
+  EXPECT_GT(overlapping, 200);
+  EXPECT_GT(contained, 10);
+}
+
+TEST(Separation, ShrinksByWhatBoxesMoveTogether) {
+  // Along the gap between two parallel sides, through the touch and on.
+  const OrientedBox a{{1.0, -2.0, 0.4}, 4.0, 2.0};
+  for (double gap = 1.0; gap > -2.0; gap -= 0.125) {
+    const OrientedBox b = Moved(a, (2.0 + gap) * LeftOf(Direction(0.4)));
+    EXPECT_NEAR(Separation(a, b), gap, Tolerance(kRounding));
+  }
+}
+
+TEST(DistanceOfALine, IsBoosts) {
+  Random random(10);
+  int apart = 0;
+  int across = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const OrientedBox box = RandomBox(random, 3.0);
+    const Vec2 from{random.Uniform(-10.0, 10.0), random.Uniform(-10.0, 10.0)};
+    const Vec2 to{random.Uniform(-10.0, 10.0), random.Uniform(-10.0, 10.0)};
+    const double distance = Distance(from, to, box);
+    EXPECT_NEAR(distance, ByBoost(from, to, box), Tolerance(kRounding));
+    EXPECT_NEAR(distance, Distance(to, from, box), Tolerance(kRounding));
+    apart += distance > 0.0 ? 1 : 0;
+    // Through it, with neither end inside.
+    across +=
+        distance == 0.0 && Distance(from, from, box) > 0.0 && Distance(to, to, box) > 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(apart, 1000);
+  EXPECT_GT(across, 300);
+}
+
+TEST(DistanceOfALine, OfAPointIsThatOfThePoint) {
+  const OrientedBox box{{1.0, 2.0, std::acos(0.0)}, 4.0, 2.0};  // [0, 2] x [0, 4]
+  const auto of_point = [&](const Vec2& p) { return Distance(p, p, box); };
+  EXPECT_NEAR(of_point({5.0, 1.0}), 3.0, Tolerance(kRounding));
+  EXPECT_NEAR(of_point({5.0, 8.0}), 5.0, Tolerance(kRounding));
+  EXPECT_NEAR(of_point({1.0, -2.5}), 2.5, Tolerance(kRounding));
+  EXPECT_EQ(of_point({1.0, 2.0}), 0.0);
+  Random random(11);
+  for (int i = 0; i < 500; ++i) {
+    const OrientedBox any = RandomBox(random, 3.0);
+    const Vec2 p{random.Uniform(-8.0, 8.0), random.Uniform(-8.0, 8.0)};
+    EXPECT_NEAR(Distance(p, p, any), bg::distance(Point(p.x(), p.y()), Outline(any)),
+                Tolerance(kRounding));
+  }
+}
+
+TEST(DistanceOfALine, IsZeroWithinAcrossAndAtTheTouch) {
+  const OrientedBox box{{0.0, 0.0, 0.0}, 4.0, 2.0};
+  EXPECT_EQ(Distance({-1.0, 0.5}, {1.0, -0.5}, box), 0.0);  // within
+  EXPECT_EQ(Distance({-5.0, -3.0}, {5.0, 3.0}, box), 0.0);  // across, no end inside
+  EXPECT_EQ(Distance({-3.0, 0.0}, {3.0, 0.0}, box), 0.0);
+  EXPECT_EQ(Distance({0.0, 0.0}, {9.0, 9.0}, box), 0.0);   // one end inside
+  EXPECT_EQ(Distance({2.0, -5.0}, {2.0, 5.0}, box), 0.0);  // along a side
+  EXPECT_EQ(Distance({1.0, 2.0}, {3.0, 0.0}, box), 0.0);   // through a corner
+  // Past the corner (2, 1), within the bounds of both: 1/sqrt(2) off x + y = 4.
+  EXPECT_NEAR(Distance({1.0, 3.0}, {3.0, 1.0}, box), std::sqrt(0.5), Tolerance(kRounding));
 }
 
 }  // namespace

@@ -290,5 +290,346 @@ TEST(Sample, IsEvenAndHasBothEnds) {
   EXPECT_THROW((void)path.Sample(0.0), InternalError);
 }
 
+// --- Segments of changing curvature
+// ------------------------------------------------------------------------------------------
+
+/// Simpson's rule over [0, length] in `intervals` (even) steps.
+template <typename Function>
+double Simpson(const Function& f, double length, int intervals) {
+  const double h = length / intervals;
+  double sum = f(0.0) + f(length);
+  for (int i = 1; i < intervals; ++i) {
+    sum += (i % 2 == 1 ? 4.0 : 2.0) * f(h * i);
+  }
+  return sum * h / 3.0;
+}
+
+/// Where the clothoid with kappa(d) = sharpness d from the origin gets: the power series of the
+/// Fresnel integrals, the sums of i^n (sharpness/2)^n length^(2n+1) / (n! (2n+1)).
+Vec2 FresnelEnd(double sharpness, double length) {
+  const double turned = 0.5 * sharpness * length * length;
+  Vec2 end{0.0, 0.0};
+  double power = length;  // length turned^n/n!
+  for (int n = 0; n < 60; ++n) {
+    end[n % 2] += (n % 4 < 2 ? 1.0 : -1.0) * power / (2 * n + 1);
+    power *= turned / (n + 1);
+  }
+  return end;
+}
+
+TEST(Clothoid, EndsWhereTheFresnelIntegralsDo) {
+  for (const double sharpness : {-0.05, -0.004, 1e-6, 0.01, 0.03}) {
+    for (const double length : {0.5, 8.0, 15.0}) {
+      SCOPED_TRACE(fmt::format("sharpness {}, length {}", sharpness, length));
+      const double turned = 0.5 * sharpness * length * length;
+      const Vec2 end = FresnelEnd(sharpness, length);
+      // The series' largest term is below length e^turned: rounding of at most 15 e^6 1e-16 m.
+      const Path forward{{}, {{length, 0.0, 1, sharpness}}};
+      ExpectPose(forward.At(length).pose, {end.x(), end.y(), turned}, kRounding);
+      // Backwards the same curvature turns the car the other way: the mirror image.
+      const Path back{{}, {{length, 0.0, -1, sharpness}}};
+      ExpectPose(back.At(length).pose, {-end.x(), end.y(), -turned}, kRounding);
+    }
+  }
+}
+
+/// With curvatures of a car at both ends, and every other time a bulge in between.
+Segment RandomSegment(Random& random) {
+  const double length = random.Uniform(0.5, 20.0);
+  const double from = random.Uniform(-0.2, 0.2);
+  const double to = random.Uniform(-0.2, 0.2);
+  const double bulge = random.Below(2) == 0 ? 0.0 : random.Uniform(-0.1, 0.1);
+  // kappa = from + (to - from) t + 4 bulge t (1 - t) with t = d/length.
+  return {length, from, random.Below(3) == 0 ? -1 : 1, (to - from + 4.0 * bulge) / length,
+          -8.0 * bulge / (length * length)};
+}
+
+TEST(QuadraticSegment, EndsWhereItsHeadingLeads) {
+  Random random(51);
+  for (int i = 0; i < 100; ++i) {
+    const Segment segment = RandomSegment(random);
+    const Pose2 start{random.Uniform(-5.0, 5.0), random.Uniform(-5.0, 5.0),
+                      random.Uniform(-4.0, 4.0)};
+    const auto yaw = [&](double d) {
+      return start.yaw +
+             segment.direction * (segment.curvature * d + segment.sharpness * d * d / 2 +
+                                  segment.sharpness_rate * d * d * d / 6);
+    };
+    // With t = d/length the fourth derivatives of cosine and sine of the heading are below 4000:
+    // Simpson's error is below 20 m 4000/180/4000^4 = 2e-12 m.
+    const auto x = [&](double d) { return std::cos(yaw(d)); };
+    const auto y = [&](double d) { return std::sin(yaw(d)); };
+    const Path path(start, {segment});
+    ExpectPose(
+        path.At(segment.length).pose,
+        {start.x + segment.direction * Simpson(x, segment.length, 4000),
+         start.y + segment.direction * Simpson(y, segment.length, 4000), yaw(segment.length)},
+        3e-12);
+  }
+}
+
+TEST(QuadraticSegment, DrivenBackEndsAtItsStart) {
+  Random random(52);
+  for (int i = 0; i < 100; ++i) {
+    const Segment out = RandomSegment(random);
+    const Segment back{out.length, out.CurvatureAt(out.length), -out.direction,
+                       -(out.sharpness + out.length * out.sharpness_rate), out.sharpness_rate};
+    const Path both({1.0, 2.0, 0.5}, {out, back});
+    ExpectPose(both.At(both.length()).pose, {1.0, 2.0, 0.5});
+    const double part = 0.3 * out.length;
+    ExpectPose(both.At(both.length() - part).pose, both.At(part).pose);
+  }
+}
+
+TEST(QuadraticSegment, DerivativesAreThoseOfItsPoints) {
+  Random random(53);
+  for (int i = 0; i < 200; ++i) {
+    const Segment segment = RandomSegment(random);
+    const Path path({}, {segment});
+    constexpr double kStep = 1e-4;
+    const double s = random.Uniform(kStep, segment.length - kStep);
+    const PathPoint before = path.At(s - kStep);
+    const PathPoint at = path.At(s);
+    const PathPoint after = path.At(s + kStep);
+    // Central differences miss h^2/6 of the third derivative, which for the shortest segments is
+    // (0.3^2 + 1.6)/m^2 of the position, 3.2/m^3 of the heading; on top rounding, 1e-15/h.
+    const Vec2 tangent = (after.pose.position() - before.pose.position()) / (2.0 * kStep);
+    EXPECT_NEAR((at.direction * tangent - Direction(at.pose.yaw)).norm(), 0.0, Tolerance(3e-9));
+    EXPECT_NEAR(at.direction * (after.pose.yaw - before.pose.yaw) / (2.0 * kStep), at.curvature,
+                Tolerance(6e-9));
+    // Exact for a quadratic.
+    EXPECT_NEAR((after.curvature - before.curvature) / (2.0 * kStep), at.sharpness,
+                Tolerance(1e-11));
+    EXPECT_EQ(at.curvature, segment.CurvatureAt(s));
+    EXPECT_EQ(at.direction, segment.direction);
+  }
+}
+
+TEST(QuadraticSegment, MeetsItsNeighbours) {
+  // Each carries on the curvature of the one before.
+  Random random(54);
+  std::vector<Segment> segments;
+  for (int i = 0; i < 50; ++i) {
+    Segment next = RandomSegment(random);
+    next.direction = 1;
+    if (i > 0) {
+      next.curvature = segments.back().CurvatureAt(segments.back().length);
+      next.sharpness = (random.Uniform(-0.2, 0.2) - next.curvature) / next.length -
+                       0.5 * next.length * next.sharpness_rate;
+    }
+    segments.push_back(next);
+  }
+  const Path path({1.0, -2.0, 0.3}, segments);
+  double joint = 0.0;
+  for (const Segment& segment : segments) {
+    joint += segment.length;
+    constexpr double kStep = 1e-9;
+    const PathPoint before = path.At(joint - kStep);
+    const PathPoint after = path.At(std::min(joint + kStep, path.length()));
+    // Twice the step at unit speed, at most 0.3/m and 1.6/m^2.
+    EXPECT_NEAR((after.pose.position() - before.pose.position()).norm(), 0.0, Tolerance(2.1e-9));
+    EXPECT_NEAR(after.pose.yaw, before.pose.yaw, Tolerance(1e-9));
+    EXPECT_NEAR(after.curvature, before.curvature, Tolerance(4e-9));
+  }
+  EXPECT_EQ(path.At(path.length() + 1.0).curvature, 0.0);
+  EXPECT_EQ(path.At(path.length() + 1.0).sharpness, 0.0);
+}
+
+TEST(QuadraticSegment, IsCheckedLikeAnyOther) {
+  EXPECT_THROW(Path({}, {{1.0, 0.0, 1, HUGE_VAL}}), InternalError);
+  EXPECT_THROW(Path({}, {{1.0, 0.0, 1, 0.0, std::nan("")}}), InternalError);
+}
+
+TEST(QuadraticSegment, ProjectFindsTheNearestOfAllPoints) {
+  // None of these poses lies so near to a centre of curvature that another point would do.
+  Random random(55);
+  for (int i = 0; i < 100; ++i) {
+    std::vector<Segment> segments;
+    const int count = 1 + random.Below(4);
+    for (int k = 0; k < count; ++k) {
+      segments.push_back(RandomSegment(random));
+    }
+    const Path path({0.0, 0.0, random.Uniform(-4.0, 4.0)}, segments);
+    for (int j = 0; j < 20; ++j) {
+      Pose2 car = path.At(random.Uniform(-5.0, path.length() + 5.0)).pose;
+      car.x += random.Uniform(-12.0, 12.0);
+      car.y += random.Uniform(-12.0, 12.0);
+      Stations within;
+      if (j % 2 == 1) {
+        within.from = random.Uniform(-10.0, path.length());
+        within.to = within.from + random.Uniform(0.0, 20.0);
+      }
+      SCOPED_TRACE(fmt::format("case {}.{}: car ({}, {}), within [{}, {}]", i, j, car.x, car.y,
+                               within.from, within.to));
+      const Projection projection = path.Project(car, within);
+      ASSERT_GE(projection.s, within.from);
+      ASSERT_LE(projection.s, within.to);
+      const Pose2 foot = path.At(projection.s).pose;
+      const double nearest = (foot.position() - car.position()).norm();
+      const double from = std::max(within.from, -20.0);
+      const double to = std::min(within.to, path.length() + 20.0);
+      for (int step = 0; step <= 500; ++step) {
+        const double s = from + (to - from) * step / 500.0;
+        ASSERT_GE((path.At(s).pose.position() - car.position()).norm(), nearest - 1e-11)
+            << "s = " << s << ", found " << projection.s;
+      }
+      EXPECT_NEAR(projection.cross_track, ToLocal(foot, car.position()).y(), Tolerance(kRounding));
+    }
+  }
+}
+
+TEST(QuadraticSegment, ProjectOfACarBesideItIsItsStation) {
+  // As long as the car is nearer to the path than its centre of curvature, 1/0.3 m.
+  Random random(56);
+  for (int i = 0; i < 300; ++i) {
+    const Path path({3.0, 1.0, 0.4}, {RandomSegment(random)});
+    const double s = random.Uniform(0.0, path.length());
+    const double offset = random.Uniform(-2.0, 2.0);
+    const Projection projection =
+        path.Project(Compose(path.At(s).pose, {0.0, offset, 0.2}), {s - 3.0, s + 3.0});
+    EXPECT_NEAR(projection.s, s, Tolerance(1e-9));
+    // The square of that across the path.
+    EXPECT_NEAR(projection.cross_track, offset, Tolerance(kRounding));
+    EXPECT_NEAR(projection.heading_error, 0.2, Tolerance(1e-9));
+  }
+}
+
+// --- Cut
+// ------------------------------------------------------------------------------------------
+
+TEST(Cut, LeadsAlongTheSamePath) {
+  Random random(57);
+  for (int i = 0; i < 100; ++i) {
+    std::vector<Segment> segments;
+    for (int k = 0; k < 5; ++k) {
+      Segment segment = RandomSegment(random);
+      if (random.Below(2) == 0) {  // an arc or a line
+        segment.sharpness = 0.0;
+        segment.sharpness_rate = 0.0;
+        segment.curvature = random.Below(2) == 0 ? 0.0 : segment.curvature;
+      }
+      segments.push_back(segment);
+    }
+    const Path path({1.0, 2.0, 3.0}, segments);
+    const double from = random.Uniform(0.0, path.length());
+    const double to = random.Uniform(from, path.length());
+    const Path cut(path.At(from).pose, path.Cut({from, to}));
+    EXPECT_NEAR(cut.length(), to - from, Tolerance(kRounding));
+    for (int k = 0; k <= 20; ++k) {
+      const double s = cut.length() * (k + 0.5) / 21.0;
+      ExpectPose(cut.At(s).pose, path.At(from + s).pose, 1e-9);
+      EXPECT_NEAR(cut.At(s).curvature, path.At(from + s).curvature, Tolerance(1e-9));
+      EXPECT_NEAR(cut.At(s).sharpness, path.At(from + s).sharpness, Tolerance(1e-9));
+      EXPECT_EQ(cut.At(s).direction, path.At(from + s).direction);
+    }
+    ExpectPose(cut.At(cut.length()).pose, path.At(to).pose, 1e-9);
+  }
+}
+
+TEST(Cut, OfEverythingIsThePathItself) {
+  const Path path{{}, {{10.0, 0.0, 1}, {4.0, 0.0, 1, 0.05}, {3.0, 0.2, -1, 0.0, 0.01}}};
+  EXPECT_EQ(path.Cut({}), path.segments());
+  EXPECT_EQ(path.Cut({0.0, path.length()}), path.segments());
+  EXPECT_EQ(path.Cut({-5.0, path.length() + 5.0}), path.segments());
+}
+
+TEST(Cut, AtJointsTakesWholeSegments) {
+  const Path path{{}, {{10.0, 0.0, 1}, {4.0, 0.0, 1, 0.05}, {3.0, 0.2, -1}}};
+  EXPECT_EQ(path.Cut({10.0, 14.0}), std::vector<Segment>{path.segments()[1]});
+}
+
+TEST(Cut, OfNothingIsEmpty) {
+  const Path path = Corner();
+  EXPECT_TRUE(path.Cut({4.0, 4.0}).empty());
+  EXPECT_TRUE(path.Cut({path.length(), path.length() + 5.0}).empty());
+  EXPECT_TRUE(path.Cut({-5.0, 0.0}).empty());
+  EXPECT_TRUE(Path().Cut({}).empty());
+}
+
+// --- SegmentsThrough
+// ------------------------------------------------------------------------------------------
+
+/// A curve that sways: kappa(s) = a sin(w s), its third derivative at most a w^3.
+struct Sway {
+  double a = 0.15;
+  double w = 0.5;
+
+  [[nodiscard]] double Yaw(double s) const { return a / w * (1.0 - std::cos(w * s)); }
+  [[nodiscard]] Vec2 End(double s) const {
+    // Fourth derivatives below 0.1/m^4: an error of 20 m (20 m/20000)^4/180 of that.
+    return {Simpson([&](double d) { return std::cos(Yaw(d)); }, s, 20000),
+            Simpson([&](double d) { return std::sin(Yaw(d)); }, s, 20000)};
+  }
+  [[nodiscard]] Path Through(double length, double spacing) const {
+    std::vector<CurvePoint> points;
+    for (double i = 0.0; i <= std::round(length / spacing); i += 1.0) {
+      const double s = spacing * i;
+      points.push_back({s, Yaw(s), a * std::sin(w * s)});
+    }
+    return {{}, SegmentsThrough(points)};
+  }
+};
+
+TEST(SegmentsThrough, KeepTheirBoundsWhichShrinkWithTheFourthPower) {
+  constexpr double kLength = 20.0;
+  const Sway sway;
+  double last_yaw_error = 0.0;
+  double last_end_error = 0.0;
+  for (const double spacing : {2.0, 1.0, 0.5, 0.25}) {
+    SCOPED_TRACE(spacing);
+    const Path path = sway.Through(kLength, spacing);
+    double yaw_error = 0.0;
+    for (int i = 0; i <= 4000; ++i) {
+      const double s = kLength * i / 4000.0;
+      yaw_error = std::max(yaw_error, std::abs(path.At(s).pose.yaw - sway.Yaw(s)));
+    }
+    const double end_error = (path.At(path.length()).pose.position() - sway.End(kLength)).norm();
+    const double bound = std::pow(spacing, 4) * sway.a * std::pow(sway.w, 3);
+    EXPECT_LE(yaw_error, bound / 384.0 + kRounding);
+    EXPECT_LE(end_error, bound / 720.0 * kLength + kRounding);
+    if (last_yaw_error > 0.0) {
+      // But for the next order, (w h)^2 of it, at the coarser spacing.
+      const double next_order = std::pow(2.0 * sway.w * spacing, 2);
+      EXPECT_NEAR(last_yaw_error / yaw_error, 16.0, Tolerance(16.0 * next_order));
+      EXPECT_NEAR(last_end_error / end_error, 16.0, Tolerance(16.0 * next_order));
+    }
+    last_yaw_error = yaw_error;
+    last_end_error = end_error;
+  }
+}
+
+TEST(SegmentsThrough, HaveTheCurvesHeadingAndCurvatureAtEveryPoint) {
+  const Sway sway;
+  const Path path = sway.Through(20.0, 0.5);
+  for (double s = 0.0; s < 20.0; s += 0.5) {
+    EXPECT_NEAR(path.At(s).pose.yaw, sway.Yaw(s), Tolerance(kRounding));
+    EXPECT_NEAR(path.At(s).curvature, sway.a * std::sin(sway.w * s), Tolerance(kRounding));
+  }
+}
+
+TEST(SegmentsThrough, OfAClothoidAreIt) {
+  // kappa = 0.02 s, at uneven distances: rounding of headings over the shortest of them cubed.
+  std::vector<CurvePoint> points;
+  for (const double s : {0.0, 0.5, 2.0, 3.5, 8.0}) {
+    points.push_back({s, 0.01 * s * s, 0.02 * s});
+  }
+  const std::vector<Segment> segments = SegmentsThrough(points);
+  ASSERT_EQ(segments.size(), 4U);
+  for (const Segment& segment : segments) {
+    EXPECT_NEAR(segment.sharpness, 0.02, Tolerance(1e-13));
+    EXPECT_NEAR(segment.sharpness_rate, 0.0, Tolerance(1e-13));
+    EXPECT_EQ(segment.direction, 1);
+  }
+  const Vec2 end = FresnelEnd(0.02, 8.0);
+  ExpectPose(Path({}, segments).At(8.0).pose, {end.x(), end.y(), 0.64});
+}
+
+TEST(SegmentsThrough, NeedRisingDistances) {
+  EXPECT_TRUE(SegmentsThrough({}).empty());
+  EXPECT_TRUE(SegmentsThrough({{1.0, 0.0, 0.0}}).empty());
+  EXPECT_THROW(SegmentsThrough({{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}), InternalError);
+  EXPECT_THROW(SegmentsThrough({{1.0, 0.0, 0.0}, {0.5, 0.0, 0.0}}), InternalError);
+}
+
 }  // namespace
 }  // namespace trackbed

@@ -16,8 +16,15 @@ struct OrientedBox {
   [[nodiscard]] std::array<Vec2, 4> Corners() const;
 };
 
-/// Shortest distance between two rectangles [m]; 0 when they touch or overlap. Exact to rounding,
-/// both outside and where one lies within the other (Boost.Geometry).
+/// Shortest distance between two rectangles [m]; where they overlap, minus the shortest way that
+/// one would have to move to come free. Exact to rounding.
+double Separation(const OrientedBox& a, const OrientedBox& b);
+
+/// Shortest distance between two rectangles [m]; 0 when they touch or overlap.
 double Distance(const OrientedBox& a, const OrientedBox& b);
+
+/// Shortest distance from the line between two points to a rectangle [m]; 0 when they touch, cross,
+/// or the line lies within. Exact to rounding.
+double Distance(const Vec2& from, const Vec2& to, const OrientedBox& box);
 
 }  // namespace trackbed

@@ -13,11 +13,20 @@
 /// left of the path.
 namespace trackbed {
 
-/// A piece of constant curvature: a line (curvature 0) or an arc.
+/// A piece of path whose curvature is at most quadratic in the distance d from its start,
+/// kappa(d) = curvature + sharpness d + sharpness_rate d^2/2: a line, an arc, a clothoid, or a
+/// piece of another curve (see SegmentsThrough).
 struct Segment {
-  double length = 0.0;     ///< [m], > 0
-  double curvature = 0.0;  ///< [1/m]
-  int direction = 1;       ///< +1 forwards, -1 backwards
+  double length = 0.0;          ///< [m], > 0
+  double curvature = 0.0;       ///< at its start [1/m]
+  int direction = 1;            ///< +1 forwards, -1 backwards
+  double sharpness = 0.0;       ///< dkappa/dd at its start [1/m^2]
+  double sharpness_rate = 0.0;  ///< d^2kappa/dd^2 [1/m^3]
+
+  /// kappa(d) [1/m].
+  [[nodiscard]] double CurvatureAt(double d) const {
+    return curvature + d * (sharpness + 0.5 * d * sharpness_rate);
+  }
 
   bool operator==(const Segment&) const = default;
 };
@@ -28,6 +37,7 @@ struct PathPoint {
   Pose2 pose;              ///< rear-axle centre, heading of the car
   double curvature = 0.0;  ///< [1/m]
   int direction = 1;
+  double sharpness = 0.0;  ///< dkappa/ds [1/m^2]
 };
 
 /// The point of a path that is nearest to a pose, and how far the pose is from it.
@@ -56,8 +66,8 @@ class Path {
   /// A path of length 0 at the origin.
   Path() : Path(Pose2{}, {}) {}
 
-  /// InternalError unless every length is positive and finite, every curvature finite, every
-  /// direction +1 or -1.
+  /// InternalError unless every length is positive and finite, every curvature and sharpness
+  /// finite, every direction +1 or -1.
   Path(const Pose2& start, std::vector<Segment> segments);
 
   [[nodiscard]] double length() const { return length_; }
@@ -68,13 +78,21 @@ class Path {
   [[nodiscard]] PathPoint At(double s) const;
 
   /// The nearest point to `pose` among the stations of `within`, which may reach beyond the ends.
-  /// Exact for lines and arcs. Searching near the last known station keeps a car from jumping to a
-  /// later crossing or over a cusp. Of equally near points the one with the smallest station.
-  /// Cost O(segments within the stations). InternalError when `within` is empty.
+  /// Exact for lines and arcs, to 1e-9 m along the path for other segments; only from within a
+  /// tenth of the radius of their centres of curvature, from where much of them is about equally
+  /// far, may it be another point than the very nearest. Searching near the last known station
+  /// keeps a car from jumping to a later crossing or over a cusp. Of equally near points the one
+  /// with the smallest station. Cost O(segments within the stations). InternalError when `within`
+  /// is empty.
   [[nodiscard]] Projection Project(const Pose2& pose, Stations within = {}) const;
 
   /// Points at most `spacing` [m] apart, evenly over the whole path, both ends included.
   [[nodiscard]] std::vector<PathPoint> Sample(double spacing) const;
+
+  /// The segments between two stations, cut at them: what a path from At(from).pose needs to lead
+  /// along this one up to `to`. Stations beyond the ends count as the ends; none when nothing is
+  /// left.
+  [[nodiscard]] std::vector<Segment> Cut(Stations within) const;
 
  private:
   [[nodiscard]] std::size_t SegmentAt(double s) const;
@@ -84,5 +102,19 @@ class Path {
   std::vector<double> stations_;  // of each start, and the length
   double length_ = 0.0;
 };
+
+/// A point that a curve passes through.
+struct CurvePoint {
+  double s = 0.0;          ///< distance along the curve [m]
+  double yaw = 0.0;        ///< of its tangent [rad], not wrapped
+  double curvature = 0.0;  ///< [1/m]
+};
+
+/// Segments that follow a smooth curve forwards: one between each two neighbours, with the curve's
+/// own heading and curvature at both. With points h apart and k the largest third derivative of the
+/// curvature, headings in between are off by at most h^4 k/384, and the end by h^4 k/720 times the
+/// length: about 1e-7 m over the bends of a car, 0.1 m apart. InternalError unless the distances
+/// rise.
+std::vector<Segment> SegmentsThrough(const std::vector<CurvePoint>& points);
 
 }  // namespace trackbed

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "trackbed/path/path.h"
+
+namespace trackbed {
+
+/// A Bezier curve P(u) = sum C(n,i) (1-u)^(n-i) u^i P_i over u in [0, 1], of degree n = number of
+/// control points - 1. The dissertation's local path has degree 7 (section 5.7 of its listing F.2).
+///
+/// Evaluation and derivatives are exact to rounding (Bernstein form, no differences). Curvature is
+/// positive to the left, and not finite where the curve has no direction (P'(u) = 0).
+class BezierCurve {
+ public:
+  /// InternalError unless there are at least two points, all finite.
+  explicit BezierCurve(std::vector<Vec2> control_points);
+
+  [[nodiscard]] const std::vector<Vec2>& control_points() const { return polygons_[0]; }
+
+  /// P(u) [m].
+  [[nodiscard]] Vec2 At(double u) const { return Derivative(u, 0); }
+  /// d^order P/du^order [m], order 0 to 3.
+  [[nodiscard]] Vec2 Derivative(double u, std::size_t order) const;
+  /// kappa(u) [1/m].
+  [[nodiscard]] double Curvature(double u) const;
+  /// dkappa/ds at u [1/m^2].
+  [[nodiscard]] double Sharpness(double u) const;
+  /// Arc length between two parameters [m], to 1e-10 of it for the curves of a car.
+  [[nodiscard]] double Length(double from = 0.0, double to = 1.0) const;
+
+  /// The curve as points at most `spacing` [m] apart along it, both ends included, headings
+  /// followed without jumps from `start_yaw`, that of the first one's tangent up to full turns.
+  /// InternalError if one of them has no direction; a cusp between two of them is not seen.
+  [[nodiscard]] std::vector<CurvePoint> Points(double spacing, double start_yaw) const;
+
+ private:
+  std::array<std::vector<Vec2>, 4> polygons_;  // of the curve and its derivatives
+};
+
+/// kappa [1/m] and dkappa/ds [1/m^2] of a curve with the derivatives P', P'', P''' by any
+/// parameter.
+double CurvatureOf(const Vec2& first, const Vec2& second);
+double SharpnessOf(const Vec2& first, const Vec2& second, const Vec2& third);
+
+}  // namespace trackbed
