@@ -108,6 +108,11 @@ CameraSubject::CameraSubject(const Recording& recording)
   for (const Point& point : recording.plan) {
     include(point);
   }
+  for (const NewPlan& plan : recording.new_plans) {
+    for (const Point& point : plan.path) {
+      include(point);
+    }
+  }
   for (const PlantRecording& plant : recording.plants) {
     for (const double time : plant.times()) {
       include(plant.Position(time));

@@ -34,7 +34,7 @@ class CameraSubject {
   [[nodiscard]] Point SmoothPosition(double time) const;
   [[nodiscard]] double SmoothHeading(double time) const;
 
-  /// The rectangle around the plan and every plant's drive [m].
+  /// The rectangle around the plan, the new ones and every plant's drive [m].
   [[nodiscard]] Point lowest() const { return lowest_; }
   [[nodiscard]] Point highest() const { return highest_; }
 

@@ -50,10 +50,15 @@ Font ReadFont(Offscreen& offscreen) {
   return Font(std::move(glyphs));
 }
 
-std::vector<LegendEntry> Legend(const Recording& recording) {
+}  // namespace
+
+std::vector<LegendEntry> LegendOf(const Recording& recording) {
   std::vector<LegendEntry> legend;
   if (!recording.plan.empty()) {
     legend.push_back({kPlanColor, "planned path"});
+  }
+  if (!recording.new_plans.empty()) {
+    legend.push_back({kNewPlanColor, "new plan"});
   }
   for (std::size_t car = 0; car < recording.plants.size(); ++car) {
     const std::string& plant = recording.plants[car].plant();
@@ -61,8 +66,6 @@ std::vector<LegendEntry> Legend(const Recording& recording) {
   }
   return legend;
 }
-
-}  // namespace
 
 Painter::Painter(Recording& recording, const FilmOptions& options)
     : recording_(recording),
@@ -75,7 +78,7 @@ Painter::Painter(Recording& recording, const FilmOptions& options)
           options.width, options.height, quality_.supersampling),
       font_(ReadFont(offscreen_)),
       scene_(recording, quality_.shadows),
-      legend_(Legend(recording)) {}
+      legend_(LegendOf(recording)) {}
 
 void Painter::Paint(double time, Image& image) {
   offscreen_.Render(SceneAt(time), image);

@@ -14,6 +14,9 @@ namespace trackbed::render {
 
 struct Quality;
 
+/// What the colours of a film of `recording` stand for.
+std::vector<LegendEntry> LegendOf(const Recording& recording);
+
 /// Makes the pictures of a film: the recorded world, what is drawn over it, and the caption.
 class Painter {
  public:

@@ -64,6 +64,19 @@ std::vector<std::string> FindPlants(const fs::path& folder) {
   return plants;
 }
 
+std::vector<double> FiniteColumn(const Table& table, const fs::path& file, const char* column) {
+  if (table.Find(column) < 0) {
+    Reject(file, column, "no such column");
+  }
+  std::vector<double> values = table.Column(column);
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (!std::isfinite(values[row])) {
+      Reject(file, column, fmt::format("row {}: not finite", row + 1));
+    }
+  }
+  return values;
+}
+
 std::vector<Point> ReadPlan(const fs::path& file) {
   std::vector<Point> points;
   std::error_code ignored;
@@ -71,20 +84,36 @@ std::vector<Point> ReadPlan(const fs::path& file) {
     return points;
   }
   const Table table = ReadRunTable(file);
-  for (const char* column : {"x_m", "y_m"}) {
-    if (table.Find(column) < 0) {
-      Reject(file, column, "no such column");
-    }
-  }
-  const std::vector<double> x = table.Column("x_m");
-  const std::vector<double> y = table.Column("y_m");
+  const std::vector<double> x = FiniteColumn(table, file, "x_m");
+  const std::vector<double> y = FiniteColumn(table, file, "y_m");
   for (std::size_t i = 0; i < x.size(); ++i) {
-    if (!std::isfinite(x[i]) || !std::isfinite(y[i])) {
-      Reject(file, "", fmt::format("row {}: not a finite position", i + 1));
-    }
     points.push_back({x[i], y[i]});
   }
   return points;
+}
+
+/// One plan after the other, each row with the time from which its plan holds.
+std::vector<NewPlan> ReadNewPlans(const fs::path& file) {
+  std::vector<NewPlan> plans;
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) {
+    return plans;
+  }
+  const Table table = ReadRunTable(file);
+  const std::vector<double> from = FiniteColumn(table, file, "from_t_s");
+  const std::vector<double> x = FiniteColumn(table, file, "x_m");
+  const std::vector<double> y = FiniteColumn(table, file, "y_m");
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (i > 0 && from[i] < from[i - 1]) {
+      Reject(file, "from_t_s",
+             fmt::format("row {}: {} comes before {}", i + 1, from[i], from[i - 1]));
+    }
+    if (i == 0 || from[i] > from[i - 1]) {
+      plans.push_back({from[i], {}});
+    }
+    plans.back().path.push_back({x[i], y[i]});
+  }
+  return plans;
 }
 
 }  // namespace
@@ -253,6 +282,7 @@ Recording ReadRecording(const fs::path& folder) {
     recording.plants.emplace_back(folder, plant, *recording.model);
   }
   recording.plan = ReadPlan(folder / "plan.csv");
+  recording.new_plans = ReadNewPlans(folder / (plants.front() + ".plan.csv"));
   return recording;
 }
 

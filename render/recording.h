@@ -102,12 +102,19 @@ class PlantRecording {
   std::optional<std::size_t> cross_track_;
 };
 
+/// A path that the car took up on its way, in place of the one it had.
+struct NewPlan {
+  double from = 0;  ///< the moment from which it holds [s]
+  std::vector<Point> path;
+};
+
 /// A run folder, read.
 struct Recording {
   std::string name;  ///< of the folder
   ModelHandle model;
   std::vector<PlantRecording> plants;  ///< the car first, then the ghosts
-  std::vector<Point> plan;             ///< empty when there was none
+  std::vector<Point> plan;             ///< from the start; empty when there was none
+  std::vector<NewPlan> new_plans;      ///< of the car alone, in the order of time
 
   [[nodiscard]] double begin() const { return plants.front().begin(); }
   [[nodiscard]] double end() const;

@@ -23,8 +23,9 @@ constexpr float kGhostTint = 0.7F;
 // told apart in it, and with them it takes three times as long.
 constexpr float kGhostDetail = 0.125F;
 // A ghost is drawn this much farther from the camera [m]. Where it agrees with the car it is hidden
-// behind the car's surface instead of flickering on it; where it departs it comes out.
-constexpr double kGhostBehind = 0.03;
+// behind the car's surface instead of flickering on it; where it departs by more it comes out. Less
+// than that its footprint and its trail show better than patches of it on the car's doors would.
+constexpr double kGhostBehind = 0.10;
 
 // Nested dark layers: a soft contact shadow where the shadow map would cost half the time.
 constexpr int kShadowLayers = 6;
@@ -34,8 +35,12 @@ constexpr double kShadowHeight = 0.03;  // above all paint [m]
 
 int MaxGeoms(const Recording& recording) {
   const int cars = static_cast<int>(recording.plants.size());
+  std::size_t of_new_plans = 0;
+  for (const NewPlan& plan : recording.new_plans) {
+    of_new_plans += std::min(plan.path.size(), kMostPieces + 2);
+  }
   return (recording.model->ngeom + recording.model->ngeom) * cars + 100 * cars +
-         static_cast<int>(kMostPieces + 2) * (cars + 1);
+         static_cast<int>(kMostPieces + 2) * (cars + 1) + static_cast<int>(of_new_plans);
 }
 
 /// Like the lines of a transport map: each narrower than the one it covers.
@@ -48,6 +53,26 @@ RibbonStyle TrailStyle(std::size_t car, double scale) {
 
 constexpr double kPlanWidth = 0.48;
 constexpr double kPlanHeight = 0.008;
+// A plan that is given up fades into the asphalt, not to translucent paint: that would be darker
+// where two pieces overlap. It is narrower than the trails of ghosts, so what is left of it to see
+// is what was not driven.
+constexpr double kGivenUpWidth = 0.24;
+constexpr Color kAsphalt{0.60F, 0.62F, 0.60F};
+constexpr float kGivenUpShare = 0.35F;  // of its own colour
+
+/// `newer` plans have been taken up since.
+RibbonStyle PlanStyle(const Color& color, std::size_t newer, double scale) {
+  if (newer == 0) {
+    return {color, kPlanWidth * scale, kPlanHeight};
+  }
+  const auto fade = [](float own, float asphalt) {
+    return asphalt + kGivenUpShare * (own - asphalt);
+  };
+  // Most lie on each other where they rejoin the route: the newer above the older.
+  return {{fade(color.r, kAsphalt.r), fade(color.g, kAsphalt.g), fade(color.b, kAsphalt.b)},
+          kGivenUpWidth * scale,
+          std::max(kPlanHeight - 0.001 * static_cast<double>(newer), 0.002)};
+}
 
 bool IsNear(const Point& a, const Point& b, const Point& around) {
   const double reach = kPaintRange + std::hypot(b.x - a.x, b.y - a.y);
@@ -103,8 +128,9 @@ FilmScene::FilmScene(Recording& recording, bool shadows)
   scene_.get().flags[mjRND_SHADOW] = shadows ? 1 : 0;
   scene_.get().flags[mjRND_REFLECTION] = 0;
 
-  for (const std::size_t i : Thin(recording.plan, kLineTolerance, kMostPieces)) {
-    plan_.push_back(recording.plan[i]);
+  AddPlanLine(recording.begin(), kPlanColor, recording.plan);
+  for (const NewPlan& plan : recording.new_plans) {
+    AddPlanLine(plan.from, kNewPlanColor, plan.path);
   }
   for (const PlantRecording& plant : recording.plants) {
     std::vector<Point> driven;
@@ -120,6 +146,14 @@ FilmScene::FilmScene(Recording& recording, bool shadows)
   }
 }
 
+void FilmScene::AddPlanLine(double from, const Color& color, const std::vector<Point>& path) {
+  PlanLine line{from, color, {}};
+  for (const std::size_t i : Thin(path, kLineTolerance, kMostPieces)) {
+    line.points.push_back(path[i]);
+  }
+  plans_.push_back(std::move(line));
+}
+
 mjvScene& FilmScene::At(double time, const CameraPose& camera) {
   mjModel& model = *recording_.model;
   Aim(camera);
@@ -127,7 +161,7 @@ mjvScene& FilmScene::At(double time, const CameraPose& camera) {
   mjv_updateScene(&model, car_data_.get(), &visible_, nullptr, &camera_, mjCAT_ALL, &scene_.get());
   scene_.get().flags[mjRND_SKYBOX] = SeesSky(model, camera) ? 1 : 0;
   AimLamps(scene_.get(), camera);
-  AddPlan(camera);
+  AddPlans(time, camera);
   for (std::size_t car = 0; car < recording_.plants.size(); ++car) {
     AddTrail(car, time, camera);
   }
@@ -154,12 +188,17 @@ void FilmScene::Aim(const CameraPose& camera) {
   model.vis.map.zfar = static_cast<float>((1000.0 + 2.0 * camera.distance) / model.stat.extent);
 }
 
-void FilmScene::AddPlan(const CameraPose& camera) {
+void FilmScene::AddPlans(double time, const CameraPose& camera) {
   const Point around{camera.target_x, camera.target_y};
-  const RibbonStyle style{kPlanColor, kPlanWidth * camera.paint_scale, kPlanHeight};
-  for (std::size_t i = 1; i < plan_.size(); ++i) {
-    if (IsNear(plan_[i - 1], plan_[i], around)) {
-      AddRibbonPiece(scene_.get(), plan_[i - 1], plan_[i], style);
+  const auto held = static_cast<std::size_t>(std::count_if(
+      plans_.begin(), plans_.end(), [time](const PlanLine& line) { return line.from <= time; }));
+  for (std::size_t plan = 0; plan < held; ++plan) {
+    const std::vector<Point>& points = plans_[plan].points;
+    const RibbonStyle style = PlanStyle(plans_[plan].color, held - 1 - plan, camera.paint_scale);
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      if (IsNear(points[i - 1], points[i], around)) {
+        AddRibbonPiece(scene_.get(), points[i - 1], points[i], style);
+      }
     }
   }
 }

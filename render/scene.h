@@ -12,11 +12,13 @@
 
 namespace trackbed::render {
 
-/// The colours of a film: of the planned path, and of each car's trail (the main car's first).
+/// The colours of a film: of the planned path, of one taken up on the way, and of each car's trail
+/// (the main car's first).
 constexpr Color kPlanColor{1.00F, 1.00F, 0.97F};
+constexpr Color kNewPlanColor{1.00F, 0.84F, 0.05F};  // as temporary markings overrule white ones
 Color CarColor(std::size_t car);
 
-/// The recorded world, posed at a moment: the car, the ghosts, the planned path, the trails.
+/// The recorded world, posed at a moment: the car, the ghosts, the plans so far, the trails.
 class FilmScene {
  public:
   /// Borrows the recording, and its model's visual settings (lens and clipping), for its lifetime.
@@ -33,8 +35,16 @@ class FilmScene {
     std::vector<double> times;
   };
 
+  /// A thinned plan, and from when it holds.
+  struct PlanLine {
+    double from;
+    Color color;
+    std::vector<Point> points;
+  };
+
+  void AddPlanLine(double from, const Color& color, const std::vector<Point>& path);
   void Aim(const CameraPose& camera);
-  void AddPlan(const CameraPose& camera);
+  void AddPlans(double time, const CameraPose& camera);
   void AddTrail(std::size_t car, double time, const CameraPose& camera);
   void AddGhost(std::size_t car, double time, const CameraPose& camera);
   void AddContactShadow();
@@ -47,7 +57,7 @@ class FilmScene {
   SceneHandle ghost_scene_;
   mjvOption visible_;
   mjvCamera camera_;
-  std::vector<Point> plan_;
+  std::vector<PlanLine> plans_;  // in the order of time
   std::vector<Trail> trails_;
 };
 

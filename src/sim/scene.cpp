@@ -314,7 +314,7 @@ Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const 
     geom->SetAttribute("contype", 1);
     geom->SetAttribute("conaffinity", 3);
     geom->SetAttribute("group", 0);
-    geom->SetAttribute("rgba", "0.80 0.36 0.20 1");
+    geom->SetAttribute("rgba", "0.78 0.15 0.20 1");
   }
   Scene scene = car_scene;
   scene.xml = Print(document);

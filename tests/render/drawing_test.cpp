@@ -199,6 +199,18 @@ TEST(Camera, TopShowsAllOfASmallRouteAndFollowsInALargeOne) {
   const double width = 1.5 * 2.0 * small_first.distance * std::tan(0.5 * small_first.view_angle);
   EXPECT_GE(width, 40.0);
 
+  {
+    // A plan taken up on the way belongs to the route, also where it was not driven.
+    const TempFolder folder;
+    CopyPrius(folder.path());
+    WritePlant(folder.path(), "mujoco", 1.0, [](double) { return CarPlace{}; });
+    WriteNewPlans(folder.path(), "mujoco", {{0.5, 8.0, 30.0}});
+    const Recording recording = ReadRecording(folder.path());
+    const CameraPose pose = FindCamera("top").pose(CameraSubject(recording), 0.0, 1.5);
+    EXPECT_DOUBLE_EQ(pose.target_x, 15.0);
+    EXPECT_DOUBLE_EQ(pose.target_y, 4.0);
+  }
+
   const auto [large_first, large_last] = poses(400.0);
   EXPECT_NEAR(large_first.target_x, 0.0, 25.0);
   EXPECT_NEAR(large_last.target_x, 400.0, 25.0);

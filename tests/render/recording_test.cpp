@@ -6,6 +6,7 @@
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
 
 namespace trackbed::render {
 namespace {
@@ -99,6 +100,61 @@ TEST_F(RecordingTest, ReadsTheLogBetweenRows) {
   EXPECT_DOUBLE_EQ(readings.steering, 0.3 - 0.25 * 0.3);
   ASSERT_TRUE(readings.cross_track.has_value());
   EXPECT_DOUBLE_EQ(*readings.cross_track, -0.5);
+}
+
+TEST_F(RecordingTest, ReadsThePlansThatTheCarTookUpAndNoGhosts) {
+  for (const char* plant : {"mujoco", "kinematic"}) {
+    WritePlant(folder_.path(), plant, 1.0, [](double) { return CarPlace{}; });
+  }
+  WriteStraightPlan(folder_.path(), 5.0);
+  WriteNewPlans(folder_.path(), "kinematic", {{0.1, 7.0, 1.0}});
+  EXPECT_TRUE(ReadRecording(folder_.path()).new_plans.empty());
+
+  WriteNewPlans(folder_.path(), "mujoco", {{0.25, 2.0, 4.0}, {0.5, -3.0, 6.0}});
+  const Recording recording = ReadRecording(folder_.path());
+  ASSERT_EQ(recording.new_plans.size(), 2U);
+  EXPECT_EQ(recording.new_plans[0].from, 0.25);
+  EXPECT_EQ(recording.new_plans[0].path.size(), 41U);  // a point each 0.1 m
+  EXPECT_EQ(recording.new_plans[0].path.back().x, 4.0);
+  EXPECT_EQ(recording.new_plans[0].path.back().y, 2.0);
+  EXPECT_EQ(recording.new_plans[1].from, 0.5);
+  EXPECT_EQ(recording.new_plans[1].path.size(), 61U);
+  EXPECT_EQ(recording.new_plans[1].path.front().x, 0.0);
+  EXPECT_EQ(recording.new_plans[1].path.front().y, -3.0);
+  EXPECT_EQ(recording.plan.size(), 51U);
+}
+
+TEST_F(RecordingTest, RefusesBrokenPlans) {
+  WritePlant(folder_.path(), "mujoco", 1.0, [](double) { return CarPlace{}; });
+  const auto message = [this](const std::string& name, const std::string& text) {
+    WriteFileAtomically(folder_.path() / name, text);
+    std::string what = "no exception";
+    try {
+      ReadRecording(folder_.path());
+    } catch (const InputError& error) {
+      what = error.what();
+    }
+    std::filesystem::remove(folder_.path() / name);
+    return what;
+  };
+  const std::string plan = (folder_.path() / "plan.csv").string();
+  EXPECT_EQ(message("plan.csv", "s_m,x_m,y_m\n0,0,0\n1,1,inf\n"),
+            plan + ": y_m: row 2: not finite");
+
+  const char* name = "mujoco.plan.csv";
+  const std::string file = (folder_.path() / name).string();
+  EXPECT_EQ(message(name, "x_m,y_m\n0,0\n"), file + ": from_t_s: no such column");
+  EXPECT_EQ(message(name, "from_t_s,y_m\n0,0\n"), file + ": x_m: no such column");
+  EXPECT_EQ(message(name, "from_t_s,x_m\n0,0\n"), file + ": y_m: no such column");
+  EXPECT_EQ(message(name, "from_t_s,x_m,y_m\n0,0,0\n0,1,x\n"),
+            file + ":3: cell 3 (y_m): 'x' is not a number");
+  EXPECT_EQ(message(name, "from_t_s,x_m,y_m\n0,0,0\nnan,1,0\n"),
+            file + ": from_t_s: row 2: not finite");
+  EXPECT_EQ(message(name, "from_t_s,x_m,y_m\n0,nan,0\n"), file + ": x_m: row 1: not finite");
+  EXPECT_EQ(message(name, "from_t_s,x_m,y_m\n2,0,0\n2,1,0\n1.5,0,0\n"),
+            file + ": from_t_s: row 3: 1.5 comes before 2");
+  std::filesystem::create_directory(file);
+  EXPECT_THROW(ReadRecording(folder_.path()), InputError);
 }
 
 }  // namespace

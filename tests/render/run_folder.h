@@ -77,4 +77,25 @@ inline void WriteStraightPlan(const std::filesystem::path& folder, double length
   WriteFileAtomically(folder / "plan.csv", plan.ToCsv());
 }
 
+/// A straight line that a car takes up on its way: parallel to the x axis at `y` up to `length`.
+struct NewLine {
+  double from = 0;  // [s]
+  double y = 0;
+  double length = 0;
+};
+
+inline void WriteNewPlans(const std::filesystem::path& folder, const std::string& plant,
+                          const std::vector<NewLine>& lines) {
+  Table plans(
+      {"from_t_s", "s_m", "x_m", "y_m", "yaw_rad", "curvature_radpm", "speed_mps", "direction"});
+  for (const NewLine& line : lines) {
+    const auto rows = static_cast<int>(std::lround(line.length / 0.1));
+    for (int i = 0; i <= rows; ++i) {
+      const double x = line.length * i / rows;
+      plans.AddRow({line.from, x, x, line.y, 0.0, 0.0, 3.0, 1.0});
+    }
+  }
+  WriteFileAtomically(folder / (plant + ".plan.csv"), plans.ToCsv());
+}
+
 }  // namespace trackbed

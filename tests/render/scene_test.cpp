@@ -11,6 +11,7 @@
 #include <string>
 
 #include "render/offscreen.h"
+#include "render/painter.h"
 #include "render/shadow.h"
 #include "tests/render/run_folder.h"
 #include "tests/support/temp_folder.h"
@@ -210,6 +211,99 @@ TEST_F(FilmSceneTest, TheSideCameraHasTheCarInTheMiddle) {
   EXPECT_GT(door[2], door[0] + 20);
 }
 
+/// What paint a point of the road shows.
+///
+/// Asphalt is grey up to 0.67 of 255 = 171, with channels within 10 of each other. A plan that was
+/// given up has 0.35 of its own colour, over asphalt of 0.60: white ones are at least 0.96 * (0.60
+/// + 0.35 * 0.40) = 181. Yellow, (1.00, 0.84, 0.05), has 0.96 * 0.95 = 232 more red than blue, and
+/// 81 when given up: the thresholds are half way, between 81 and 232 and between 10 and 81.
+std::string PaintAt(const std::array<int, 3>& rgb) {
+  if (rgb[0] - rgb[2] > 150) {
+    return "yellow";
+  }
+  if (rgb[0] - rgb[2] > 45) {
+    return "pale yellow";
+  }
+  if (rgb[0] > kWhite) {
+    return "white";
+  }
+  return rgb[0] > 171 ? "pale" : "none";
+}
+
+TEST_F(FilmSceneTest, ANewPlanTakesThePlaceOfTheOldOneWhenItHolds) {
+  WriteStraightPlan(folder_.path(), 16.0);
+  WriteNewPlans(folder_.path(), "mujoco", {{0.5, 2.0, 16.0}, {1.0, -2.0, 16.0}});
+  for (const char* camera : {"chase", "top"}) {
+    const auto shown = [&](double time) {
+      const Image image = Picture(camera, time);
+      std::array<std::string, 3> paint;
+      const std::array<double, 3> lines{0.0, 2.0, -2.0};
+      for (std::size_t i = 0; i < lines.size(); ++i) {
+        paint[i] = PaintAt(At(image, 12.0, lines[i]));
+      }
+      return paint;
+    };
+    using Paints = std::array<std::string, 3>;
+    EXPECT_EQ(shown(0.49), (Paints{"white", "none", "none"})) << camera;
+    EXPECT_EQ(shown(0.5), (Paints{"pale", "yellow", "none"})) << camera;
+    EXPECT_EQ(shown(0.99), (Paints{"pale", "yellow", "none"})) << camera;
+    EXPECT_EQ(shown(1.0), (Paints{"pale", "pale yellow", "yellow"})) << camera;
+    EXPECT_EQ(shown(2.0), (Paints{"pale", "pale yellow", "yellow"})) << camera;
+  }
+}
+
+TEST_F(FilmSceneTest, APlanThatWasGivenUpIsNarrowerAndBelowTheOneInForce) {
+  WriteStraightPlan(folder_.path(), 16.0);
+  const auto at = [this](const Image& image, double y) { return PaintAt(At(image, 12.0, y)); };
+  // From above at 20 m to the picture's height, paint is 20 / 22 of its width: half of 0.48 ends
+  // 0.218 m from the middle, half of 0.24 at 0.109 m. A row of pixels is 20 / 180 = 0.111 m, so
+  // what is seen lies within 0.056 m of what is asked for.
+  EXPECT_EQ(at(Picture("top", 0.0), 0.15), "white");
+  WriteNewPlans(folder_.path(), "mujoco", {{1.0, 2.0, 16.0}});
+  EXPECT_EQ(at(Picture("top", 1.0), 0.0), "pale");
+  EXPECT_EQ(at(Picture("top", 1.0), 0.18), "none");
+  WriteNewPlans(folder_.path(), "mujoco", {{1.0, 0.0, 16.0}});
+  EXPECT_EQ(at(Picture("top", 1.0), 0.0), "yellow");
+}
+
+TEST_F(FilmSceneTest, NewPlansAreWithinTheSceneHoweverMany) {
+  // 400 plans of 17 points each, none of which the thinning may leave out: a zigzag.
+  std::string rows = "from_t_s,x_m,y_m\n";
+  for (int plan = 0; plan < 400; ++plan) {
+    for (int i = 0; i <= 16; ++i) {
+      rows += fmt::format("{},{},{}\n", 0.001 * plan, i, i % 2);
+    }
+  }
+  WriteFileAtomically(folder_.path() / "mujoco.plan.csv", rows);
+  Recording recording = ReadRecording(folder_.path());
+  FilmScene scene(recording, false);
+  const CameraPose pose = FindCamera("top").pose(CameraSubject(recording), 1.0, 16.0 / 9.0);
+  const mjvScene& posed = scene.At(1.0, pose);
+  EXPECT_LT(posed.ngeom, posed.maxgeom);
+  EXPECT_GT(posed.ngeom, 400 * 16);
+}
+
+TEST_F(FilmSceneTest, TheLegendNamesWhatThereIs) {
+  const auto legend = [this] {
+    std::vector<std::string> texts;
+    for (const LegendEntry& entry : LegendOf(ReadRecording(folder_.path()))) {
+      texts.push_back(entry.text);
+    }
+    return texts;
+  };
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(legend(), (Texts{"mujoco"}));
+  WriteStraightPlan(folder_.path(), 16.0);
+  EXPECT_EQ(legend(), (Texts{"planned path", "mujoco"}));
+  WriteNewPlans(folder_.path(), "mujoco", {{0.5, 2.0, 16.0}, {1.0, -2.0, 16.0}});
+  EXPECT_EQ(legend(), (Texts{"planned path", "new plan", "mujoco"}));
+  // A ghost's own plans are not shown, so they are not named.
+  WritePlant(folder_.path(), "kinematic", 2.0, [](double) { return CarPlace{}; });
+  WriteNewPlans(folder_.path(), "kinematic", {{0.5, 2.0, 16.0}});
+  std::filesystem::remove(folder_.path() / "mujoco.plan.csv");
+  EXPECT_EQ(legend(), (Texts{"planned path", "mujoco", "kinematic (ghost)"}));
+}
+
 TEST_F(FilmSceneTest, WithoutAPlanTheGroundIsBare) {
   const Image image = Picture("top", 0.0);
   EXPECT_LT(At(image, 6.0, 0.0)[0], kWhite);
@@ -251,6 +345,17 @@ TEST_F(FilmSceneTest, AGhostThatAgreesWithTheCarLeavesTheCarAsItIs) {
   const Image with_ghost = Picture("chase", 1.0);
   // The middle of the tailgate: 0.8 m behind the rear axle, which is at x = 3.
   EXPECT_EQ(At(with_ghost, 2.2, 0.0, 0.8), At(alone, 2.2, 0.0, 0.8));
+}
+
+TEST_F(FilmSceneTest, AGhostAFewCentimetresOffLeavesTheCarsDoorsAsTheyAre) {
+  const Image alone = Picture("side", 1.0);
+  WritePlant(folder_.path(), "kinematic", 2.0, [](double time) {
+    return CarPlace{3.0 * time, -0.05, 0.0};
+  });
+  const Image with_ghost = Picture("side", 1.0);
+  for (const double x : {3.6, 4.6, 5.2}) {
+    EXPECT_EQ(At(with_ghost, x, -0.8625, 0.6), At(alone, x, -0.8625, 0.6)) << x;
+  }
 }
 
 TEST_F(FilmSceneTest, PicturesRepeat) {

@@ -45,9 +45,12 @@ void CheckFilmName(const std::filesystem::path& output);
 /// Films a finished run from its folder alone: no display, no GPU, nothing is simulated again.
 ///
 /// The folder holds `model.xml` and, per plant, `<plant>.state.csv` and `<plant>.csv`; `plan.csv`
-/// may be absent. The car is the first plant whose name begins with "mujoco", else the first by
-/// name; every other plant is a translucent ghost. Shown are the planned path and each car's trail
-/// so far on the ground z = 0, the footprints of the ghosts, and a caption of the car's numbers.
+/// may be absent, and `<plant>.plan.csv` is where a plant took up new plans on its way. The car is
+/// the first plant whose name begins with "mujoco", else the first by name; every other plant is a
+/// translucent ghost. Shown are the planned path and each car's trail so far on the ground z = 0,
+/// the footprints of the ghosts, and a caption of the car's numbers. From the moment when the car
+/// takes up a new plan, that one is shown in a colour of its own and those before it faint and
+/// narrow; new plans of the ghosts are not shown.
 /// Frame k is the run at (its first time) + k / fps, states in between interpolated linearly; the
 /// last frame is the last one not after the end of the longest recording, and a plant that ends
 /// before stays where it stopped.
