@@ -138,7 +138,7 @@ void CompareSearch(benchmark::State& state, const Compared& compared) {
 void TimeRoute(benchmark::State& state, SearchMethod method, double limit) {
   Scenario scenario =
       ReadScenario(DataFolder() / "scenarios" / "three_turns.yaml", {"plan.objective=turn_local"});
-  std::get<FilletOptions>(*scenario.plan).search.method = method;
+  std::get<FilletOptions>(scenario.plan->global).search.method = method;
   const CarModel car = LoadCar(scenario);
   for ([[maybe_unused]] auto round : state) {
     benchmark::DoNotOptimize(PlanMission(scenario, car.params()).status);

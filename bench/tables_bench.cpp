@@ -19,7 +19,7 @@ Scenario ThreeTurns() {
 /// How long the mission takes to plan with a planner's defaults.
 void TimePlanner(benchmark::State& state, const PlannerEntry& planner) {
   Scenario scenario = ThreeTurns();
-  scenario.plan = planner.defaults;
+  scenario.plan = {planner.defaults, std::nullopt};
   const CarModel car = LoadCar(scenario);
   for ([[maybe_unused]] auto round : state) {
     const Plan plan = PlanMission(scenario, car.params());

@@ -25,6 +25,15 @@ if(TRACKBED_VIDEO)
   add_library(ffmpeg::ffmpeg ALIAS PkgConfig::ffmpeg)
 endif()
 
+if(TRACKBED_BENCH)
+  find_package(ompl REQUIRED CONFIG PATHS /usr/share/ompl/cmake)
+  # Debian's 1.5.2 also lists what it only needs to be built itself.
+  list(GET OMPL_LIBRARIES 0 ompl_library)
+  add_library(ompl::ompl INTERFACE IMPORTED)
+  target_link_libraries(ompl::ompl INTERFACE ${ompl_library})
+  target_include_directories(ompl::ompl INTERFACE ${OMPL_INCLUDE_DIR})
+endif()
+
 # libcsv ships neither a pkg-config file nor a CMake package.
 find_path(CSV_INCLUDE_DIR csv.h REQUIRED)
 find_library(CSV_LIBRARY csv REQUIRED)
