@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-TrackingMetrics MeasureTracking(const RunLog& log, const Path& path) {
+TrackingMetrics MeasureTracking(const RunLog& log, const Pose2& goal) {
   TrackingMetrics metrics;
   double cross_track_squares = 0.0;
   double heading_squares = 0.0;
@@ -33,10 +33,9 @@ TrackingMetrics MeasureTracking(const RunLog& log, const Path& path) {
   metrics.cross_track_rms = std::sqrt(cross_track_squares / rows);
   metrics.heading_error_rms = std::sqrt(heading_squares / rows);
   const LogRow& last = log.rows.back();
-  const PathPoint goal = path.At(path.length());
   metrics.cross_track_final = last.tracking->cross_track;
-  metrics.goal_distance = (last.state.pose.position() - goal.pose.position()).norm();
-  metrics.goal_heading_error = AngleDifference(last.state.pose.yaw, goal.pose.yaw);
+  metrics.goal_distance = (last.state.pose.position() - goal.position()).norm();
+  metrics.goal_heading_error = AngleDifference(last.state.pose.yaw, goal.yaw);
   return metrics;
 }
 
@@ -119,8 +118,12 @@ std::vector<TurnMetrics> MeasureTurns(const RunLog& log, const Plan& plan,
   const Trace trace(log, source);
   // Wheels that are moved by forces follow their actuator late; prescribed ones do not.
   const double lag = log.rows.front().state.wheels ? vehicle.steering_lag : 0.0;
+  // Beyond a change of plan, stations are those of another path.
+  const double until =
+      log.changes.empty() ? std::numeric_limits<double>::infinity() : log.changes.front().station;
   for (const LoneTurn& turn : plan.turns) {
-    if (trace.s.size() > 2 && trace.s.front() <= turn.from && turn.middle <= trace.s.back()) {
+    if (trace.s.size() > 2 && turn.middle <= until && trace.s.front() <= turn.from &&
+        turn.middle <= trace.s.back()) {
       const Path& path = plan.reference.path;
       turns.push_back({turn.waypoint, PredictTurn(vehicle, path, turn, lag),
                        ErrorInTurn(path, turn, trace.At(turn.from), trace.At(turn.middle))});
@@ -202,11 +205,13 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
   metrics.steering_rate_max = SteeringRate(log, control_period);
   metrics.steering_saturated_fraction = SaturatedFraction(log);
   if (log.rows.front().tracking) {
-    metrics.tracking = MeasureTracking(log, plan.reference.path);
+    metrics.tracking = MeasureTracking(log, plan.goal);
   }
   if (log.rows.front().clearance) {
     metrics.clearance = MeasureClearance(log);
   }
+  metrics.plan_changes = static_cast<int>(log.changes.size());
+  metrics.blocked = (log.changes.empty() ? plan : log.changes.back().plan).blocked;
   metrics.turns = MeasureTurns(log, plan, vehicle, source);
   return metrics;
 }
@@ -251,9 +256,10 @@ Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plant
   for (const PlantMetrics& metrics : plants) {
     if (metrics.status != DriveStatus::kArrived &&
         !(ExpectsCollision(expect, metrics.plant) && metrics.status == DriveStatus::kCollided)) {
-      verdict.failures.push_back(fmt::format("{}: expected to arrive, ended as {} at t = {:.4g} s",
-                                             metrics.plant, ToString(metrics.status),
-                                             metrics.time));
+      verdict.failures.push_back(
+          fmt::format("{}: expected to arrive, ended as {} at t = {:.4g} s{}", metrics.plant,
+                      ToString(metrics.status), metrics.time,
+                      metrics.blocked.empty() ? "" : fmt::format(" (it {})", metrics.blocked)));
     }
     JudgePlant(expect.all, metrics, verdict);
     for (const auto& [plant, own] : expect.plants) {
@@ -306,6 +312,10 @@ nlohmann::ordered_json ToJson(const PlantMetrics& metrics) {
     json["clearance_min_s"] = metrics.clearance->min_s;
     json["collision"] = metrics.clearance->collision;
     json["obstacle_force_max"] = metrics.clearance->force_max;
+  }
+  json["plan_changes"] = metrics.plan_changes;
+  if (!metrics.blocked.empty()) {
+    json["blocked"] = metrics.blocked;
   }
   json["lateral_acceleration_max"] = metrics.lateral_acceleration_max;
   json["steering_rate_max"] = metrics.steering_rate_max;

@@ -46,6 +46,16 @@ Table ScheduleTable(const SteeringSchedule& schedule) {
   return table;
 }
 
+/// The edges of the search trees.
+Table TreeTable(const std::vector<RrtStarNode>& tree) {
+  Table table({"x_m", "y_m", "parent_x_m", "parent_y_m", "cost_m"});
+  for (const RrtStarNode& node : tree) {
+    const Vec2& parent = tree[node.parent].position;
+    table.AddRow({node.position.x(), node.position.y(), parent.x(), parent.y(), node.cost});
+  }
+  return table;
+}
+
 /// The convergence histories of plan.json as rows: best radii after each generation.
 Table ConvergenceTable(const nlohmann::json& diagnostics) {
   Table table({"waypoint", "evaluations", "objective", "radius_m"});
@@ -66,18 +76,67 @@ Table ConvergenceTable(const nlohmann::json& diagnostics) {
   return table;
 }
 
+/// The plans taken up on the way: plan.csv for each, after when it took effect.
+Table ChangesTable(const RunLog& log) {
+  std::vector<std::string> columns{"from_t_s"};
+  const Table first = PlanTable(log.changes.front().plan.reference);
+  columns.insert(columns.end(), first.columns().begin(), first.columns().end());
+  Table table(columns);
+  for (const PlanChange& change : log.changes) {
+    const Table own = PlanTable(change.plan.reference);
+    for (std::size_t row = 0; row < own.rows(); ++row) {
+      std::vector<double> cells{change.time};
+      for (std::size_t column = 0; column < own.columns().size(); ++column) {
+        cells.push_back(own.at(row, column));
+      }
+      table.AddRow(cells);
+    }
+  }
+  return table;
+}
+
+ordered_json ChangesJson(const RunLog& log) {
+  ordered_json changes = ordered_json::array();
+  for (const PlanChange& change : log.changes) {
+    ordered_json entry{{"time_s", change.time},
+                       {"station_m", change.station},
+                       {"length_m", change.plan.reference.path.length()}};
+    for (const char* key : {"avoid", "blocked"}) {
+      if (change.plan.diagnostics.contains(key)) {
+        entry[key] = change.plan.diagnostics[key];
+      }
+    }
+    changes.push_back(entry);
+  }
+  return changes;
+}
+
+/// Without rows, removes what an earlier plan may have left.
+void WriteUnlessEmpty(const Table& table, const fs::path& file) {
+  if (table.rows() > 0) {
+    WriteFileAtomically(file, table.ToCsv());
+  } else {
+    std::error_code ignored;
+    fs::remove(file, ignored);
+  }
+}
+
 std::string Pretty(const ordered_json& json) {
   return json.dump(2) + "\n";
 }
 
 /// Removes what an earlier run may have left under names that a run writes, and nothing else.
 void RemoveEarlierRun(const fs::path& folder) {
-  std::vector<std::string> names{"plan.csv",  "schedule.csv",           "convergence.csv",
-                                 "plan.json", "metrics.json",           "timing.json",
-                                 "model.xml", "scenario.resolved.yaml", "video.mp4"};
+  std::vector<std::string> names{"plan.csv",    "schedule.csv", "convergence.csv",
+                                 "tree.csv",    "plan.json",    "metrics.json",
+                                 "timing.json", "model.xml",    "scenario.resolved.yaml",
+                                 "video.mp4"};
   for (const PlantEntry& plant : Plants()) {
     names.push_back(std::string(plant.name) + ".csv");
     names.push_back(std::string(plant.name) + ".state.csv");
+    names.push_back(std::string(plant.name) + ".plan.csv");
+    names.push_back(std::string(plant.name) + ".plan.json");
+    names.push_back(std::string(plant.name) + ".tree.csv");
   }
   for (const std::string& name : names) {
     std::error_code ignored;  // what cannot be removed cannot be replaced either: that will tell
@@ -134,7 +193,7 @@ void WritePlan(const Plan& plan, const Scenario& scenario, const fs::path& folde
   if (!plan.ok()) {
     json["reason"] = plan.reason;
   }
-  json["method"] = PlannerName(*scenario.plan);
+  json["method"] = PlannerName(scenario.plan->global);
   json["seed"] = scenario.seed;
   if (plan.ok()) {
     const double length = plan.reference.path.length();
@@ -142,13 +201,8 @@ void WritePlan(const Plan& plan, const Scenario& scenario, const fs::path& folde
     json["duration_s"] = plan.reference.speed.TimeAt(length);
     WriteFileAtomically(folder / "plan.csv", PlanTable(plan.reference).ToCsv());
     WriteFileAtomically(folder / "schedule.csv", ScheduleTable(plan.schedule).ToCsv());
-    const Table convergence = ConvergenceTable(plan.diagnostics);
-    if (convergence.rows() > 0) {
-      WriteFileAtomically(folder / "convergence.csv", convergence.ToCsv());
-    } else {
-      std::error_code ignored;
-      fs::remove(folder / "convergence.csv", ignored);  // of an earlier plan, which was searched
-    }
+    WriteUnlessEmpty(ConvergenceTable(plan.diagnostics), folder / "convergence.csv");
+    WriteUnlessEmpty(TreeTable(plan.tree), folder / "tree.csv");
   }
   for (const auto& [key, value] : plan.diagnostics.items()) {
     json[key] = value;
@@ -167,6 +221,11 @@ void WriteRunFolder(const RunResult& result, const fs::path& folder) {
   for (const RunLog& log : result.logs) {
     WriteFileAtomically(folder / (log.plant + ".csv"), ToTable(log).ToCsv());
     WriteFileAtomically(folder / (log.plant + ".state.csv"), log.configurations.ToCsv());
+    if (!log.changes.empty()) {
+      WriteFileAtomically(folder / (log.plant + ".plan.csv"), ChangesTable(log).ToCsv());
+      WriteFileAtomically(folder / (log.plant + ".plan.json"), Pretty(ChangesJson(log)));
+      WriteUnlessEmpty(TreeTable(log.changes.back().plan.tree), folder / (log.plant + ".tree.csv"));
+    }
   }
   ordered_json timing{{"planning_s", result.planning_time}};
   for (const DriveTiming& plant : result.timing) {

@@ -10,6 +10,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/optimize/search.h"
+#include "trackbed/planning/avoidance.h"
 #include "trackbed/planning/planner.h"
 #include "trackbed/render/film.h"
 #include "trackbed/sim/plant.h"
@@ -64,6 +65,11 @@ const std::vector<Kind>& Kinds() {
          std::vector<Line> lines = Summaries(Planners());
          for (std::size_t i = 0; i < lines.size(); ++i) {
            AddDefaults(OptionDefaults(Planners()[i].defaults), lines[i]);
+         }
+         for (const AvoiderEntry& avoider : Avoiders()) {
+           Line line{avoider.name, std::string(avoider.summary) + " (plan.avoid)"};
+           AddDefaults(OptionDefaults(avoider.defaults), line);
+           lines.push_back(line);
          }
          return lines;
        }},

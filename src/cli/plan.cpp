@@ -88,6 +88,25 @@ void PrintTurns(const nlohmann::json& diagnostics) {
              Number(diagnostics, Pointer("/open_loop/deviation_max_m"), "{:.4f}"));
 }
 
+/// The stretches that lead around obstacles, one line each.
+void PrintAvoided(const Plan& plan) {
+  if (plan.diagnostics.contains("avoid")) {
+    for (const nlohmann::json& stretch : plan.diagnostics["avoid"]) {
+      fmt::print(
+          "  passes the obstacle at ({:.4g}, {:.4g}) on the {} side, {:.3f} m clear: from {:.2f} m "
+          "to {:.2f} m, steering at most {:.4f} rad and {:.4f} rad/s\n",
+          stretch["obstacle_m"][0].get<double>(), stretch["obstacle_m"][1].get<double>(),
+          stretch["ring"].get<std::string>(), stretch["clearance_m"].get<double>(),
+          stretch["leave_s_m"].get<double>(), stretch["return_s_m"].get<double>(),
+          stretch["steering_max_rad"].get<double>(),
+          stretch["steering_rate_max_radps"].get<double>());
+    }
+  }
+  if (!plan.blocked.empty()) {
+    fmt::print("  {}\n", plan.blocked);
+  }
+}
+
 int PlanOne(const PlanOptions& options) {
   const Scenario scenario = options.scenario.Read(options.file);
   if (!scenario.plan) {
@@ -100,7 +119,7 @@ int PlanOne(const PlanOptions& options) {
   const Plan plan = PlanMission(scenario, car.params());
   if (!plan.ok()) {
     std::error_code ignored;
-    for (const char* name : {"plan.csv", "schedule.csv", "convergence.csv"}) {
+    for (const char* name : {"plan.csv", "schedule.csv", "convergence.csv", "tree.csv"}) {
       fs::remove(out / name, ignored);  // of an earlier plan
     }
   }
@@ -114,6 +133,7 @@ int PlanOne(const PlanOptions& options) {
     fmt::print("{}: planned {:.3f} m in {:.2f} s, in {}\n", scenario.name, length,
                plan.reference.speed.TimeAt(length), out.string());
     PrintTurns(plan.diagnostics);
+    PrintAvoided(plan);
   }
   return kOk;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "trackbed/core/error.h"
+#include "trackbed/planning/avoidance.h"
 
 namespace trackbed {
 namespace {
@@ -76,6 +77,81 @@ class Progress {
   int last_ = 0;
 };
 
+SpeedLimits SpeedLimitsOf(const Scenario& scenario) {
+  const SpeedControlOptions& speed = scenario.control.speed;
+  return {scenario.mission.speed, speed.acceleration, speed.deceleration};
+}
+
+/// The plan that is driven, and where it began.
+struct Driven {
+  Plan plan;
+  double station = 0.0;   ///< in the log, where the plan's own stations begin [m]
+  double distance = 0.0;  ///< odometer there [m]
+};
+
+/// Notices obstacles as they become known, and plans around those that stand in the way once the
+/// avoider's delay has passed.
+class Lookout {
+ public:
+  Lookout(const Scenario& scenario, const VehicleParams& vehicle)
+      : scenario_(scenario), vehicle_(vehicle), seen_(scenario.world.obstacles.size()) {}
+
+  /// The new plan, if one is due. `station` is the car's on the plan that is driven.
+  std::optional<Plan> Look(const VehicleState& state, const Plan& plan, double station) {
+    if (!scenario_.plan || !scenario_.plan->avoid || !TakeIn(state, plan, station)) {
+      return std::nullopt;
+    }
+    AvoidanceRequest request{.vehicle = vehicle_,
+                             .plan = plan,
+                             .speed = SpeedLimitsOf(scenario_),
+                             .obstacles = {},
+                             .station = station,
+                             .station_speed = std::abs(state.speed),
+                             .car = AvoidanceRequest::Car{state.pose, state.steering},
+                             .seed = scenario_.seed};
+    for (std::size_t i = 0; i < seen_.size(); ++i) {
+      if (seen_[i].taken_in) {
+        request.obstacles.push_back(scenario_.world.obstacles[i].footprint);
+      }
+    }
+    return PlanAround(request, *scenario_.plan->avoid);
+  }
+
+ private:
+  struct Seen {
+    std::optional<double> since;  ///< when it became known [s]
+    bool taken_in = false;        ///< plans reckon with it
+  };
+
+  /// Whether an obstacle that has been known for the delay now stands in the way.
+  bool TakeIn(const VehicleState& state, const Plan& plan, double station) {
+    constexpr double kSameTime = 1e-9;  // [s]
+    const auto [delay, distance] = std::visit(
+        [](const auto& options) { return std::pair(options.delay, options.safe_distance); },
+        *scenario_.plan->avoid);
+    const OrientedBox outline = OutlineAt(vehicle_, state.pose);
+    bool in_the_way = false;
+    for (std::size_t i = 0; i < seen_.size(); ++i) {
+      const Obstacle& obstacle = scenario_.world.obstacles[i];
+      Seen& seen = seen_[i];
+      if (!seen.since && IsKnown(obstacle, state.time, outline)) {
+        seen.since = state.time;
+        seen.taken_in = state.time == 0.0;  // the mission's plan was made with it
+      }
+      if (seen.since && !seen.taken_in && state.time >= *seen.since + delay - kSameTime) {
+        seen.taken_in = true;
+        in_the_way = in_the_way || IsInTheWay(vehicle_, plan.reference.path, station,
+                                              obstacle.footprint, distance);
+      }
+    }
+    return in_the_way;
+  }
+
+  const Scenario& scenario_;
+  const VehicleParams& vehicle_;
+  std::vector<Seen> seen_;  // obstacle by obstacle
+};
+
 }  // namespace
 
 CarModel LoadCar(const Scenario& scenario) {
@@ -88,7 +164,6 @@ CarModel LoadCar(const Scenario& scenario) {
 }
 
 Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
-  const SpeedControlOptions& speed = scenario.control.speed;
   const StartState start = StartOf(scenario);
   if (!scenario.plan) {
     Plan plan;
@@ -96,20 +171,36 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
     plan.schedule_speed = plan.reference.speed;
     return plan;
   }
-  const PlanRequest request{
-      .vehicle = vehicle,
-      .waypoints = scenario.mission.waypoints,
-      .start_speed = start.speed,
-      .speed = {scenario.mission.speed, speed.acceleration, speed.deceleration},
-      .seed = scenario.seed};
-  return MakePlan(request, *scenario.plan);
+  const PlanRequest request{.vehicle = vehicle,
+                            .waypoints = scenario.mission.waypoints,
+                            .start_speed = start.speed,
+                            .speed = SpeedLimitsOf(scenario),
+                            .seed = scenario.seed};
+  Plan plan = MakePlan(request, scenario.plan->global);
+  if (!plan.ok() || !scenario.plan->avoid) {
+    return plan;
+  }
+  std::vector<OrientedBox> known;
+  for (const Obstacle& obstacle : scenario.world.obstacles) {
+    if (IsKnown(obstacle, 0.0, OutlineAt(vehicle, start.pose))) {
+      known.push_back(obstacle.footprint);
+    }
+  }
+  return PlanAround({.vehicle = vehicle,
+                     .plan = plan,
+                     .speed = SpeedLimitsOf(scenario),
+                     .obstacles = known,
+                     .station = 0.0,
+                     .station_speed = start.speed,
+                     .car = {},
+                     .seed = scenario.seed},
+                    *scenario.plan->avoid);
 }
 
 RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& plan,
                   const std::string& plant_name, const DriveHooks& hooks) {
   TRACKBED_CHECK(plan.ok(), "a plan with status {} cannot be driven", ToString(plan.status));
   const DriveSpec& drive = scenario.drive;
-  const Path& path = plan.reference.path;
   const bool has_path = scenario.plan.has_value();
   double end_time =
       std::min(drive.time_limit, scenario.mission.duration.value_or(drive.time_limit));
@@ -117,19 +208,20 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
       static_cast<int>(std::lround(drive.control_period / drive.timestep));
   const StationSource source = ControllerFor(scenario.control.steering).station;
 
-  const SpeedProfile& speed =
-      source == StationSource::kOdometer ? plan.schedule_speed : plan.reference.speed;
   const auto controller = MakeSteeringController(scenario.control.steering);
   const auto plant = MakePlant(plant_name, car, scenario.world, StartOf(scenario));
   RunLog log{.plant = plant_name,
              .status = DriveStatus::kArrived,
              .rows = {},
+             .changes = {},
              .configurations = Table({"t_s"})};
   ConfigurationLog configurations(car, drive.state_period);
   configurations.Record(*plant, 0.0);
   Progress progress(hooks.progress);
 
-  double station = 0.0;  // of the last projection
+  Driven driven{plan};
+  Lookout lookout(scenario, car.params());
+  double station = 0.0;  // of the last projection, on the plan that is driven
   bool collided = false;
   Command command;
   for (long tick = 0;; ++tick) {
@@ -138,12 +230,26 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
     // To the nanosecond: 11.7, not 11.700000000000001.
     state.time = std::round(static_cast<double>(tick) * drive.control_period * 1e9) / 1e9;
     LogRow row{.state = state, .command = command, .tracking = {}, .clearance = {}};
-    if (has_path) {
-      row.tracking =
-          path.Project(state.pose, Around(station, std::abs(state.speed) * drive.control_period));
+    const auto project = [&] {
+      row.tracking = driven.plan.reference.path.Project(
+          state.pose, Around(station, std::abs(state.speed) * drive.control_period));
       station = row.tracking->s;
+      row.tracking->s += driven.station;
+    };
+    if (has_path) {
+      project();
+      if (std::optional<Plan> next = lookout.Look(state, driven.plan, station)) {
+        driven = {std::move(*next), driven.station + station, state.distance};
+        log.changes.push_back({state.time, driven.station, driven.plan});
+        station = 0.0;
+        project();
+      }
     }
-    const double s = source == StationSource::kProjection ? station : state.distance;
+    const Path& path = driven.plan.reference.path;
+    const bool by_odometer = source == StationSource::kOdometer;
+    const SpeedProfile& speed =
+        by_odometer ? driven.plan.schedule_speed : driven.plan.reference.speed;
+    const double s = by_odometer ? state.distance - driven.distance : station;
 
     row.clearance = Clearance(scenario.world, car.params(), state.pose);
     if (row.clearance && *row.clearance == 0.0) {
@@ -167,18 +273,19 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
       const bool there = has_path ? at_rest && near && s >= path.length() - kArrival
                                   : scenario.mission.duration.has_value() &&
                                         end_time == *scenario.mission.duration;
-      log.status = interrupted ? DriveStatus::kInterrupted
-                   : collided  ? DriveStatus::kCollided
-                   : there     ? DriveStatus::kArrived
-                   : at_rest   ? DriveStatus::kStopped
-                               : DriveStatus::kTimeLimit;
+      log.status = interrupted                             ? DriveStatus::kInterrupted
+                   : collided                              ? DriveStatus::kCollided
+                   : there && !driven.plan.blocked.empty() ? DriveStatus::kBlocked
+                   : there                                 ? DriveStatus::kArrived
+                   : at_rest                               ? DriveStatus::kStopped
+                                                           : DriveStatus::kTimeLimit;
       break;
     }
 
     // Control and log.
     command.steering = controller->Steer({.vehicle = car.params(),
-                                          .reference = plan.reference,
-                                          .schedule = plan.schedule,
+                                          .reference = driven.plan.reference,
+                                          .schedule = driven.plan.schedule,
                                           .state = state,
                                           .station = s,
                                           .period = drive.control_period});
@@ -194,7 +301,8 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
         configurations.Record(*plant, state.time + (step + 1) * drive.timestep);
       }
     }
-    progress.Report(has_path ? s / path.length() : state.time / end_time);
+    progress.Report(has_path ? (driven.station + s) / (driven.station + path.length())
+                             : state.time / end_time);
   }
   progress.Report(1.0);
   log.configurations = configurations.Take();

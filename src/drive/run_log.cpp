@@ -12,6 +12,8 @@ const char* ToString(DriveStatus status) {
       return "arrived";
     case DriveStatus::kStopped:
       return "stopped";
+    case DriveStatus::kBlocked:
+      return "blocked";
     case DriveStatus::kTimeLimit:
       return "time_limit";
     case DriveStatus::kDiverged:

@@ -77,7 +77,8 @@ class Evaluator {
     Evaluate(x);
     const double seen = Seen();
     if (gradient != nullptr) {
-      Differences(x, 1, gradient, [&](double* out) { *out = Seen(); });
+      Differentiate(x);
+      std::copy(gradient_.begin(), gradient_.end(), gradient);
     }
     return seen;
   }
@@ -86,8 +87,8 @@ class Evaluator {
     Evaluate(x);
     std::copy(constraints_.begin(), constraints_.end(), values);
     if (gradient != nullptr) {
-      Differences(x, constraints_.size(), gradient,
-                  [&](double* out) { std::copy(constraints_.begin(), constraints_.end(), out); });
+      Differentiate(x);
+      std::copy(jacobian_.begin(), jacobian_.end(), gradient);
     }
   }
 
@@ -174,30 +175,40 @@ class Evaluator {
     return value_;
   }
 
-  /// Central differences of `rows` values, row by row; one-sided at the bounds.
-  template <typename Values>
-  void Differences(const double* x, std::size_t rows, double* gradient, const Values& values) {
+  /// Gradients of the objective and of the constraints (row by row) by central differences, one-
+  /// sided at the bounds. NLopt asks for those of one point in turn.
+  void Differentiate(const double* x) {
+    if (differentiated_at_.size() == point_.size() &&
+        std::equal(differentiated_at_.begin(), differentiated_at_.end(), x)) {
+      return;
+    }
     // The cube root of the rounding of one evaluation balances it against the third derivative.
     constexpr double kStep = 6e-6;
-    std::vector<double> at(x, x + point_.size());
-    std::vector<double> ahead(rows);
-    std::vector<double> behind(rows);
-    for (std::size_t i = 0; i < at.size(); ++i) {
+    const std::size_t n = point_.size();
+    std::vector<double> at(x, x + n);
+    std::vector<double> ahead(constraints_.size());
+    gradient_.assign(n, 0.0);
+    jacobian_.assign(n * constraints_.size(), 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
       const double step = kStep * (problem_.upper[i] - problem_.lower[i]);
       const double high = std::min(x[i] + step, problem_.upper[i]);
       const double low = std::max(x[i] - step, problem_.lower[i]);
+      if (!(high > low)) {
+        continue;
+      }
       at[i] = high;
       Evaluate(at.data());
-      values(ahead.data());
+      const double seen_ahead = Seen();
+      std::copy(constraints_.begin(), constraints_.end(), ahead.begin());
       at[i] = low;
       Evaluate(at.data());
-      values(behind.data());
       at[i] = x[i];
-      for (std::size_t row = 0; row < rows; ++row) {
-        gradient[row * at.size() + i] =
-            high > low ? (ahead[row] - behind[row]) / (high - low) : 0.0;
+      gradient_[i] = (seen_ahead - Seen()) / (high - low);
+      for (std::size_t row = 0; row < constraints_.size(); ++row) {
+        jacobian_[row * n + i] = (ahead[row] - constraints_[row]) / (high - low);
       }
     }
+    differentiated_at_.assign(x, x + n);
   }
 
   const SearchProblem& problem_;
@@ -209,6 +220,9 @@ class Evaluator {
   double value_ = 0.0;
   double violation_ = 0.0;
   std::vector<double> constraints_;
+  std::vector<double> differentiated_at_;
+  std::vector<double> gradient_;  // there, of what the method sees
+  std::vector<double> jacobian_;
   int next_record_;
   SearchResult result_;
 };
@@ -283,6 +297,8 @@ void Run(nlopt::algorithm algorithm, const SearchProblem& problem, const Box& bo
     // The budget is used, or a function of the problem failed.
   } catch (const nlopt::roundoff_limited&) {
     // As far as this method gets.
+  } catch (const std::runtime_error&) {
+    // NLopt gave up (slsqp: too many steps of its least-squares solver): likewise.
   }
 }
 

@@ -38,31 +38,6 @@ FilletPlan PlanRoute(const VehicleParams& vehicle, const Route& route, double sp
   return plan;
 }
 
-/// The final drive.
-OpenLoopDrive Verify(const VehicleParams& vehicle, const Route& route, const FilletPlan& plan,
-                     ReferencePoint reference) {
-  constexpr double kSpacing = 0.5;  // [m]; deviations bend over metres
-  std::vector<double> stations;
-  for (double s = 0.0; s < plan.stop_distance; s += kSpacing) {
-    stations.push_back(s);
-  }
-  stations.push_back(plan.stop_distance);
-  const KinematicState start{.pose = route.start(), .speed = fillet::SlowestTurn(plan.turns)};
-  const auto states = RollOut(vehicle, start, plan.schedule, stations, kSpacing, reference);
-  OpenLoopDrive drive;
-  double station = 0.0;
-  for (const KinematicState& state : states) {
-    const Projection at = plan.path.Project(state.pose, {station - 2.0, station + 2.0});
-    station = at.s;
-    const double distance = (plan.path.At(at.s).pose.position() - state.pose.position()).norm();
-    drive.deviation_max = std::max(drive.deviation_max, distance);
-  }
-  const Pose2& end = states.back().pose;
-  drive.goal_distance = (end.position() - route.waypoints.back()).norm();
-  drive.goal_heading = AngleDifference(end.yaw, plan.path.At(plan.path.length()).pose.yaw);
-  return drive;
-}
-
 }  // namespace
 
 const char* ToString(ActiveConstraint constraint) {
@@ -95,7 +70,8 @@ FilletPlan PlanFillets(const VehicleParams& vehicle, const std::vector<Vec2>& wa
   try {
     const Route route = fillet::RouteOf(waypoints);
     plan = PlanRoute(vehicle, route, speed, options, seed);
-    plan.verification = Verify(vehicle, route, plan, options.reference);
+    plan.verification = DriveOpenLoop(vehicle, plan.path, plan.schedule, plan.stop_distance,
+                                      fillet::SlowestTurn(plan.turns), options.reference);
   } catch (const Refusal& refusal) {
     plan = {};
     plan.status = refusal.status;

@@ -116,9 +116,12 @@ Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
   plan.reference.path = fillets.path;
   plan.schedule = fillets.schedule;
   plan.turns = LoneTurnsOf(fillets);
-  const std::vector<SpeedCap> caps = CapsOf(fillets, request.speed.speed);
-  plan.reference.speed = StopAtEnd(fillets.path.length(), request.start_speed, request.speed, caps);
-  plan.schedule_speed = StopAtEnd(fillets.stop_distance, request.start_speed, request.speed, caps);
+  plan.caps = CapsOf(fillets, request.speed.speed);
+  plan.goal = fillets.path.At(fillets.path.length()).pose;
+  plan.reference.speed =
+      StopAtEnd(fillets.path.length(), request.start_speed, request.speed, plan.caps);
+  plan.schedule_speed =
+      StopAtEnd(fillets.stop_distance, request.start_speed, request.speed, plan.caps);
 
   json& out = plan.diagnostics;
   out["turns"] = json::array();
@@ -135,9 +138,7 @@ Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
     }
   }
   out["stop_distance_m"] = fillets.stop_distance;
-  out["open_loop"] = {{"goal_distance_m", fillets.verification.goal_distance},
-                      {"goal_heading_error_rad", fillets.verification.goal_heading},
-                      {"deviation_max_m", fillets.verification.deviation_max}};
+  out["open_loop"] = ToJson(fillets.verification);
   if (fillets.search) {
     out["search"] = ToJson(options.search, *fillets.search, fillet::kDrivenVariables);
   }

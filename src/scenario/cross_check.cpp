@@ -23,6 +23,7 @@ class CrossCheck {
       CheckPlants();
     }
     CheckBetween();
+    CheckObstacles();
     CheckWhatIsMeasured();
     return std::move(found_);
   }
@@ -33,6 +34,14 @@ class CrossCheck {
 
   [[nodiscard]] bool CouldRead(std::initializer_list<const char*> keys) const {
     return std::all_of(keys.begin(), keys.end(), could_read_);
+  }
+
+  /// The same for keys of the global plan, which may stand in `plan` or in `plan.global`.
+  [[nodiscard]] bool CouldReadPlan(std::initializer_list<const char*> keys) const {
+    return could_read_("plan.global") &&
+           std::all_of(keys.begin(), keys.end(), [&](const std::string& key) {
+             return could_read_("plan." + key) && could_read_("plan.global." + key);
+           });
   }
 
   void Complain(std::string key, std::string message) {
@@ -49,7 +58,7 @@ class CrossCheck {
     if (CouldRead({"mission.waypoints"})) {
       CheckWaypoints();
     }
-    if (!CouldRead({"plan.method"})) {
+    if (!CouldReadPlan({"method"})) {
       return;
     }
     if (CouldRead({"control.method"})) {
@@ -64,10 +73,11 @@ class CrossCheck {
     if (!plan && !mission.duration && CouldRead({"mission.duration"})) {
       Complain("mission.duration", "missing; without a plan there is no goal to stop at");
     }
-    const auto* fillet = plan ? std::get_if<FilletOptions>(&*plan) : nullptr;
-    if (fillet != nullptr && CouldRead({"plan.radius", "plan.constraint"}) && !fillet->radius &&
+    const auto* fillet = plan ? std::get_if<FilletOptions>(&plan->global) : nullptr;
+    if (fillet != nullptr && CouldReadPlan({"radius", "constraint"}) && !fillet->radius &&
         fillet->constraint == RadiusConstraint::kNone) {
-      Complain("plan.constraint", "'none' needs a radius: nothing else would limit it");
+      Complain(plan->avoid ? "plan.global.constraint" : "plan.constraint",
+               "'none' needs a radius: nothing else would limit it");
     }
   }
 
@@ -78,11 +88,11 @@ class CrossCheck {
         Complain(fmt::format("mission.waypoints[{}]", i), "the same point as the one before it");
       }
     }
-    if (scenario_.plan && waypoints.size() < FewestWaypoints(*scenario_.plan)) {
+    if (scenario_.plan && waypoints.size() < FewestWaypoints(scenario_.plan->global)) {
       const std::string given = waypoints.empty() ? "none" : std::to_string(waypoints.size());
-      Complain("mission.waypoints",
-               fmt::format("{} given; a plan by {} needs at least {}", given,
-                           PlannerName(*scenario_.plan), FewestWaypoints(*scenario_.plan)));
+      Complain("mission.waypoints", fmt::format("{} given; a plan by {} needs at least {}", given,
+                                                PlannerName(scenario_.plan->global),
+                                                FewestWaypoints(scenario_.plan->global)));
     }
   }
 
@@ -103,6 +113,15 @@ class CrossCheck {
         (render.width % 2 != 0 || render.height % 2 != 0 || render.height > 4320)) {
       Complain("render.size", fmt::format("{}x{}: both must be even, the height at most 4320",
                                           render.width, render.height));
+    }
+  }
+
+  void CheckObstacles() {
+    for (std::size_t i = 0; i < scenario_.world.obstacles.size(); ++i) {
+      const Obstacle& obstacle = scenario_.world.obstacles[i];
+      if (obstacle.known_from_time && obstacle.known_from_range) {
+        Complain(fmt::format("world.obstacles[{}].known_from", i), "give time or range, not both");
+      }
     }
   }
 
@@ -153,7 +172,7 @@ class CrossCheck {
 
   /// Without a path or obstacles there is nothing to measure.
   void CheckWhatIsMeasured() {
-    const bool has_path = scenario_.plan || !CouldRead({"plan.method"});
+    const bool has_path = scenario_.plan || !CouldReadPlan({"method"});
     const bool has_obstacles =
         !scenario_.world.obstacles.empty() || !CouldRead({"world.obstacles"});
     ForEachExpectation([&](const std::string& key, const PlantExpectation& expectation) {

@@ -166,6 +166,10 @@ std::string OptionDefaults(const PlannerOptions& options) {
   return OneLine(options);
 }
 
+std::string OptionDefaults(const AvoiderOptions& options) {
+  return OneLine(options);
+}
+
 std::string OptionDefaults(const ControllerOptions& options) {
   return OneLine(options);
 }

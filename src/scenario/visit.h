@@ -77,11 +77,31 @@ void Visit(Archive& a, BoxKeys& keys) {
   a.Field({"height", "m", "above the ground"}, keys.obstacle.height, Need::kOptional, size);
 }
 
+/// The keys of `known_from`.
+struct KnownFromKeys {
+  Obstacle& obstacle;
+};
+
+template <typename Archive>
+void Visit(Archive& a, KnownFromKeys& keys) {
+  a.Field({"time", "s", "at this moment of the drive"}, keys.obstacle.known_from_time,
+          kNotNegative);
+  a.Field({"range", "m", "once the car's outline is this close to it"},
+          keys.obstacle.known_from_range, kNotNegative);
+}
+
 template <typename Archive>
 void Visit(Archive& a, Obstacle& obstacle) {
   BoxKeys keys{obstacle};
   a.Section({"box", "", "a box that stands on the ground and does not move"}, keys,
             Need::kRequired);
+  if constexpr (std::is_same_v<Archive, YamlWriter>) {
+    if (!obstacle.known_from_time && !obstacle.known_from_range) {
+      return;  // an empty section would say no more
+    }
+  }
+  KnownFromKeys known{obstacle};
+  a.Section({"known_from", "", "when planners learn of it; else from the start"}, known);
 }
 
 inline EnumNames<SearchMethod> SearchNames() {
@@ -153,6 +173,87 @@ void Visit(Archive& a, FilletOptions& options) {
   a.Field({"reference", "", "the point of the car that first drives follow"}, options.reference,
           Need::kOptional, references);
   a.Section({"weights", "", "of the objective 'driven'"}, options.weights);
+}
+
+template <typename Archive>
+void Visit(Archive& a, BezierAvoidanceOptions& options) {
+  a.Field({"safe_distance", "m", "of the car's outline from obstacles"}, options.safe_distance,
+          Need::kOptional, kNotNegative);
+  a.Field({"delay", "s", "from learning of an obstacle to the new plan"}, options.delay,
+          Need::kOptional, kNotNegative);
+  static const EnumNames<RingChoice> rings{
+      {RingChoice::kAuto, "auto"}, {RingChoice::kInner, "inner"}, {RingChoice::kOuter, "outer"}};
+  a.Field({"ring", "",
+           "on which side to pass: toward the turn's centre (left on a straight), away from it, or "
+           "as RRT* finds it shorter"},
+          options.ring, Need::kOptional, rings);
+  a.Field({"min_speed", "m/s", "no slower than this to get past"}, options.min_speed,
+          Need::kOptional, kPositive);
+  a.Field({"max_lateral_acceleration", "m/s^2", "of the curve"}, options.max_lateral_acceleration,
+          Need::kOptional, kPositive);
+  a.Field({"steering_rate_share", "", "of the car's steering rate that the curve may ask for"},
+          options.steering_rate_share, Need::kOptional, Range{.max = 1.0, .above = 0.0});
+  a.Field({"comfortable_rate_share", "", "curves that ask for no more are preferred"},
+          options.comfortable_rate_share, Need::kOptional, Range{.max = 1.0, .above = 0.0});
+  a.Field({"rrt_iterations", "", "samples of RRT*"}, options.rrt_iterations, Need::kOptional,
+          Range{.min = 0, .max = 1e6});
+  a.Field({"rrt_step", "m", "from a node toward a sample at most"}, options.rrt_step,
+          Need::kOptional, kPositive);
+  a.Section({"search", "", "how the curve's control points are moved"}, options.search);
+}
+
+/// The layers of a plan, each under its own key.
+struct PlanLayers {
+  std::optional<PlannerOptions>& global;
+  std::optional<AvoiderOptions>& avoid;
+};
+
+inline constexpr Key kPlan{"plan", "", "how the path is made; without it there is none to follow"};
+inline constexpr Key kAvoid{"avoid", "", "what leads the path around obstacles that stand in it"};
+
+template <typename Archive>
+void Visit(Archive& a, PlanLayers& layers) {
+  a.Method({"global", "", "the planner of the whole path"}, layers.global, Planners(),
+           Need::kRequired, [](auto&) {});
+  a.Method(kAvoid, layers.avoid, Avoiders(), Need::kOptional, [](auto&) {});
+}
+
+/// `plan: {method: …}` is short for `plan: {global: {method: …}}`.
+inline void VisitPlan(YamlReader& a, std::optional<PlanSpec>& plan) {
+  std::optional<PlannerOptions> global;
+  std::optional<AvoiderOptions> avoid;
+  if (a.HasOneOf(kPlan.name, {"global", "avoid"})) {
+    PlanLayers layers{global, avoid};
+    a.Section(kPlan, layers);
+  } else {
+    a.Method(kPlan, global, Planners(), Need::kOptional, [](auto&) {});
+  }
+  if (global) {
+    plan = {*global, avoid};
+  }
+}
+
+inline void VisitPlan(YamlWriter& a, std::optional<PlanSpec>& plan) {
+  if (!plan) {
+    return;
+  }
+  std::optional<PlannerOptions> global = plan->global;
+  if (plan->avoid) {
+    PlanLayers layers{global, plan->avoid};
+    a.Section(kPlan, layers);
+  } else {
+    a.Method(kPlan, global, Planners(), Need::kOptional, [](auto&) {});
+  }
+}
+
+inline void VisitPlan(KeyLister& a, std::optional<PlanSpec>&) {
+  std::optional<PlannerOptions> global;
+  std::optional<AvoiderOptions> avoid;
+  a.Method(kPlan, global, Planners(), Need::kOptional, [&](KeyLister& inner) {
+    inner.Add({"global", "", "the keys of this section, when `avoid` stands beside them"},
+              "section", Need::kOptional, "", "");
+    inner.Method(kAvoid, avoid, Avoiders(), Need::kOptional, [](auto&) {});
+  });
 }
 
 template <typename Archive>
@@ -275,8 +376,7 @@ void Visit(Archive& a, Scenario& scenario) {
   a.Section({"vehicle", "", "the car"}, scenario.vehicle);
   a.Section({"mission", "", "where to drive, and how fast"}, scenario.mission, Need::kRequired);
   a.Section({"world", "", "what the car drives in"}, scenario.world);
-  a.Method({"plan", "", "how the path is made; without it there is none to follow"}, scenario.plan,
-           Planners(), Need::kOptional, [](auto&) {});
+  VisitPlan(a, scenario.plan);
   std::optional<ControllerOptions> steering = scenario.control.steering;
   a.Method({"control", "", "what steers and what keeps the speed"}, steering, Controllers(),
            Need::kOptional, [&](auto& inner) {

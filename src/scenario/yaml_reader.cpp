@@ -109,6 +109,13 @@ std::optional<YAML::Node> YamlReader::Take(const char* key, Need need) {
   return std::nullopt;
 }
 
+bool YamlReader::HasOneOf(const char* key, const Names& inner) const {
+  const YAML::Node section = static_cast<const YAML::Node&>(node_)[key];
+  return section && section.IsMap() && !section[kMethod.name] &&
+         std::any_of(inner.begin(), inner.end(),
+                     [&](const std::string& name) { return static_cast<bool>(section[name]); });
+}
+
 bool YamlReader::CheckMap(const YAML::Node& node, const std::string& dotted) {
   if (!node.IsMap()) {
     Complain(node, dotted,

@@ -122,6 +122,9 @@ class YamlReader {
     // Without a method there is no telling which keys are known: complain of the method alone.
   }
 
+  /// Whether `key` is a section that has one of `inner` and no method of its own.
+  [[nodiscard]] bool HasOneOf(const char* key, const Names& inner) const;
+
   /// Reads `key` only if it is there, as a section of its own.
   template <typename Struct>
   bool SectionIfThere(const std::string& key, Struct& value) {

@@ -66,6 +66,17 @@ SteeringSchedule::SteeringSchedule(const std::vector<TurnSteering>& turns,
   }
 }
 
+SteeringSchedule SteeringSchedule::Through(std::vector<Knot> knots) {
+  TRACKBED_CHECK(!knots.empty(), "no knots");
+  for (std::size_t i = 1; i < knots.size(); ++i) {
+    TRACKBED_CHECK(knots[i].distance > knots[i - 1].distance, "knots at {} and {} m do not rise",
+                   knots[i - 1].distance, knots[i].distance);
+  }
+  SteeringSchedule schedule;
+  schedule.knots_ = std::move(knots);
+  return schedule;
+}
+
 SteeringSchedule SteeringSchedule::Constant(double steering) {
   SteeringSchedule schedule;
   schedule.knots_.push_back({0.0, steering});

@@ -9,6 +9,13 @@ OrientedBox OutlineAt(const VehicleParams& vehicle, const Pose2& pose) {
   return {{middle.x(), middle.y(), pose.yaw}, vehicle.length, vehicle.width};
 }
 
+bool IsKnown(const Obstacle& obstacle, double time, const OrientedBox& outline) {
+  if (obstacle.known_from_range) {
+    return Distance(outline, obstacle.footprint) <= *obstacle.known_from_range;
+  }
+  return time >= obstacle.known_from_time.value_or(0.0);
+}
+
 std::optional<double> Clearance(const World& world, const VehicleParams& vehicle,
                                 const Pose2& pose) {
   if (world.obstacles.empty()) {

@@ -37,7 +37,7 @@ TEST(ReadScenario, FillsInDefaults) {
   EXPECT_EQ(scenario.vehicle.tyre, "contact");
   EXPECT_EQ(scenario.mission.waypoints[1], Vec2(40, 2));
   ASSERT_TRUE(scenario.plan.has_value());
-  EXPECT_STREQ(PlannerName(*scenario.plan), "fillet");
+  EXPECT_STREQ(PlannerName(scenario.plan->global), "fillet");
   EXPECT_STREQ(ControllerFor(scenario.control.steering).name, "preview");
   EXPECT_EQ(scenario.drive.plants, (std::vector<std::string>{"kinematic", "mujoco"}));
   EXPECT_EQ(scenario.world.friction, 1.0);

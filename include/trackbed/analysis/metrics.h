@@ -21,7 +21,7 @@ struct TrackingMetrics {
   double heading_error_max = 0.0;  ///< largest magnitude [rad]
   double heading_error_max_s = 0.0;
   double heading_error_max_t = 0.0;
-  double goal_distance = 0.0;       ///< of the rear axle from the end of the path, at the end [m]
+  double goal_distance = 0.0;       ///< of the rear axle from the mission's goal, at the end [m]
   double goal_heading_error = 0.0;  ///< [rad]
 };
 
@@ -53,6 +53,8 @@ struct PlantMetrics {
   double steering_saturated_fraction = 0.0;  ///< of the periods: actuator did not reach the command
   std::optional<TrackingMetrics> tracking;   ///< none without a path
   std::optional<ClearanceMetrics> clearance;  ///< none without obstacles
+  int plan_changes = 0;                       ///< new plans taken up on the way
+  std::string blocked;                        ///< why the plan ended before the goal; else empty
   std::vector<TurnMetrics> turns;             ///< of the turns that stand alone and were driven
 };
 

@@ -18,13 +18,16 @@ struct DriveHooks {
 /// The car of a scenario, compiled for its timestep. InputError when the model cannot be used.
 CarModel LoadCar(const Scenario& scenario);
 
-/// Plans the scenario's mission. Without a `plan` section the plan is an empty path at the
-/// mission's speed.
+/// Plans the scenario's mission, around the obstacles that are known at its start. Without a `plan`
+/// section the plan is an empty path at the mission's speed.
 Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle);
 
-/// The closed loop on one plant: every control period observe, project onto the path, steer, set
-/// the speed, log, and let the plant take its physics steps. Ends at rest at the end of the path,
-/// after the mission's duration, at the time limit, when the physics diverges, or when asked to.
+/// The closed loop on one plant: every control period observe, take up a new plan if one is due,
+/// project onto the path, steer, set the speed, log, and let the plant take its physics steps. An
+/// obstacle that becomes known and stands in the way calls for a new plan; the old one is driven
+/// until the avoider's delay has passed, and the new one starts from where the car then is. Ends at
+/// rest at the end of the path, after the mission's duration, at the time limit, when the physics
+/// diverges, or when asked to.
 ///
 /// Guarantees: the same scenario, plan and build give the same log bit for bit. A plan that is not
 /// ok is an InternalError.

@@ -6,6 +6,7 @@
 
 #include "trackbed/core/table.h"
 #include "trackbed/path/path.h"
+#include "trackbed/planning/planner.h"
 #include "trackbed/vehicle/state.h"
 
 namespace trackbed {
@@ -14,6 +15,7 @@ namespace trackbed {
 enum class DriveStatus {
   kArrived,      ///< at rest at the end of the path, or the mission's duration is over
   kStopped,      ///< at rest before the end of the path, and staying there
+  kBlocked,      ///< at rest before an obstacle that no way was found around
   kTimeLimit,    ///< drive.time_limit is over
   kDiverged,     ///< the physics failed (MuJoCo warned); the log ends before
   kCollided,     ///< the outline overlapped an obstacle; the log goes on for a second
@@ -31,11 +33,19 @@ struct LogRow {
   std::optional<double> clearance;     ///< of the outline [m]; none without obstacles
 };
 
+/// A new plan that was taken up while driving.
+struct PlanChange {
+  double time = 0.0;     ///< when it took effect [s]
+  double station = 0.0;  ///< in the log, where its own stations begin [m]
+  Plan plan;
+};
+
 /// One drive of one plant. The last row is the state at the end, with the command that led there.
 struct RunLog {
   std::string plant;
   DriveStatus status = DriveStatus::kArrived;
-  std::vector<LogRow> rows;
+  std::vector<LogRow> rows;  ///< stations go on over changes of plan
+  std::vector<PlanChange> changes;
   Table configurations;  ///< `t_s` and the car's configuration (CarModel::configuration_columns)
 };
 

@@ -8,6 +8,7 @@
 
 #include "trackbed/optimize/search.h"
 #include "trackbed/path/path.h"
+#include "trackbed/planning/open_loop.h"
 #include "trackbed/planning/plan_status.h"
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/steering_schedule.h"
@@ -126,13 +127,6 @@ struct FilletTurn {
   double steer_start = 0.0;          ///< D_{2k-1}: half a ramp before H_i unless optimised [m]
   double steer_return = 0.0;         ///< D_{2k}: half a ramp before H_{i+1} unless optimised [m]
   bool ramp_truncated = false;       ///< the wheels turn back before they have reached `steering`
-};
-
-/// The plan driven by the kinematic car with its rate-limited steering, open loop over D_end.
-struct OpenLoopDrive {
-  double goal_distance = 0.0;  ///< [m]
-  double goal_heading = 0.0;   ///< heading minus that of the last leg [rad]
-  double deviation_max = 0.0;  ///< largest distance from the planned path [m]
 };
 
 struct FilletPlan {

@@ -9,6 +9,7 @@
 
 #include "trackbed/path/reference.h"
 #include "trackbed/planning/fillet.h"
+#include "trackbed/planning/rrt_star.h"
 #include "trackbed/planning/turn_prediction.h"
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/steering_schedule.h"
@@ -33,8 +34,13 @@ struct Plan {
   Reference reference;          ///< for closed-loop controllers
   SteeringSchedule schedule;    ///< for the open loop, over the distance driven
   SpeedProfile schedule_speed;  ///< likewise: ends where the open loop is to stop
-  std::vector<LoneTurn> turns;  ///< whose cost to an open-loop drive can be told
-  nlohmann::json diagnostics;   ///< the method's own findings, as in plan.json
+  std::vector<SpeedCap> caps;   ///< stretches of the path that it takes more slowly
+  Pose2 goal;                   ///< where the mission ends: the path too, unless it is blocked
+  /// Why the path ends before the goal, for people; empty when it does not.
+  std::string blocked;
+  std::vector<LoneTurn> turns;    ///< whose cost to an open-loop drive can be told
+  nlohmann::json diagnostics;     ///< the method's own findings, as in plan.json
+  std::vector<RrtStarNode> tree;  ///< of every RRT* that was used, one after the other
 
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }
 };

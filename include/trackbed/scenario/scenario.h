@@ -9,6 +9,7 @@
 
 #include "trackbed/control/speed_controller.h"
 #include "trackbed/control/steering_controller.h"
+#include "trackbed/planning/avoidance.h"
 #include "trackbed/planning/planner.h"
 #include "trackbed/sim/plant.h"
 
@@ -34,6 +35,12 @@ struct MissionSpec {
   std::vector<Vec2> waypoints;     ///< [m]
   std::optional<double> duration;  ///< [s]; ends the drive, for missions without a goal
   StartSpec start;
+};
+
+/// How the path is made.
+struct PlanSpec {
+  PlannerOptions global = FilletOptions{};
+  std::optional<AvoiderOptions> avoid;  ///< leads it around obstacles; none: it is not led around
 };
 
 struct ControlSpec {
@@ -85,7 +92,7 @@ struct Scenario {
   VehicleSpec vehicle;
   MissionSpec mission;
   World world;
-  std::optional<PlannerOptions> plan;  ///< none: the mission is driven without a path
+  std::optional<PlanSpec> plan;  ///< none: the mission is driven without a path
   ControlSpec control;
   DriveSpec drive;
   Expectations expect;
@@ -127,6 +134,7 @@ std::string ResolvedYaml(const Scenario& scenario);
 
 /// The keys of a method's options with their values, on one line: "distance: 2.5, law: exact_arc".
 std::string OptionDefaults(const PlannerOptions& options);
+std::string OptionDefaults(const AvoiderOptions& options);
 std::string OptionDefaults(const ControllerOptions& options);
 
 /// Where the car starts, with the mission's defaults filled in.

@@ -38,6 +38,10 @@ class SteeringSchedule {
   SteeringSchedule(const std::vector<TurnSteering>& turns, double slope);
   SteeringSchedule(const std::vector<TurnSteering>& turns, const std::vector<double>& slopes);
 
+  /// Through the knots, which lie at least one, in rising order of distance. InternalError
+  /// otherwise.
+  static SteeringSchedule Through(std::vector<Knot> knots);
+
   /// Holds `steering` [rad] from the start on.
   static SteeringSchedule Constant(double steering);
 

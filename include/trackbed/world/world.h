@@ -12,6 +12,9 @@ namespace trackbed {
 struct Obstacle {
   OrientedBox footprint;
   double height = 1.0;  ///< [m], > 0
+  /// When planners learn of it; it stands there before, too. Neither: they know from the start.
+  std::optional<double> known_from_time;   ///< [s]
+  std::optional<double> known_from_range;  ///< once the car's outline is this close [m]
 };
 
 /// What a car drives in.
@@ -22,6 +25,9 @@ struct World {
 
 /// The car's outline on the ground when its rear-axle centre is at `pose`.
 OrientedBox OutlineAt(const VehicleParams& vehicle, const Pose2& pose);
+
+/// Whether planners that have not known of the obstacle yet learn of it now.
+bool IsKnown(const Obstacle& obstacle, double time, const OrientedBox& outline);
 
 /// Shortest distance from the car's outline to any obstacle [m]; 0 when they touch or overlap,
 /// which is what counts as a collision on every plant. None without obstacles. Cost O(obstacles).

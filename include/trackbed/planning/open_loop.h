@@ -1,0 +1,28 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "trackbed/path/path.h"
+#include "trackbed/vehicle/kinematic_car.h"
+#include "trackbed/vehicle/params.h"
+#include "trackbed/vehicle/steering_schedule.h"
+
+namespace trackbed {
+
+/// A plan driven by the kinematic car with its rate-limited steering, open loop over D_end.
+struct OpenLoopDrive {
+  double goal_distance = 0.0;  ///< [m]
+  double goal_heading = 0.0;   ///< heading minus that of the last leg [rad]
+  double deviation_max = 0.0;  ///< largest distance from the planned path [m]
+};
+
+/// Drives `schedule` at constant `speed` [m/s] from the start of `path` over `stop_distance` [m],
+/// the reference point on the path, and holds it against the path every 0.5 m and against its end.
+OpenLoopDrive DriveOpenLoop(const VehicleParams& vehicle, const Path& path,
+                            const SteeringSchedule& schedule, double stop_distance, double speed,
+                            ReferencePoint reference = ReferencePoint::kRearAxle);
+
+/// As plan.json has it.
+nlohmann::json ToJson(const OpenLoopDrive& drive);
+
+}  // namespace trackbed

@@ -1,0 +1,162 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "tests/tolerance.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/drive/drive.h"
+#include "trackbed/testing/scenario_testing.h"
+
+/// Plans that lead around obstacles, driven on both plants.
+namespace trackbed {
+namespace {
+
+std::filesystem::path ScenarioFile(const std::string& name) {
+  return std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml");
+}
+
+struct Case {
+  RingChoice ring;
+  double side;
+  double reduction;
+  int sixth;
+};
+
+std::vector<Case> AllCases() {
+  std::vector<Case> cases;
+  for (const RingChoice ring : {RingChoice::kInner, RingChoice::kOuter}) {
+    for (const double side : {1.0, -1.0}) {
+      for (const double reduction : {0.0, kPi / 12.0}) {
+        for (int sixth = 1; sixth <= 5; ++sixth) {
+          cases.push_back({ring, side, reduction, sixth});
+        }
+      }
+    }
+  }
+  return cases;
+}
+
+std::string NameOf(const testing::TestParamInfo<Case>& info) {
+  const Case& c = info.param;
+  return std::string(c.ring == RingChoice::kInner ? "Inner" : "Outer") +
+         (c.side > 0.0 ? "Left" : "Right") + (c.reduction > 0.0 ? "75" : "90") + "At" +
+         std::to_string(c.sixth);
+}
+
+class DrivenRoundObstacle : public testing::TestWithParam<Case> {};
+
+INSTANTIATE_TEST_SUITE_P(Cases, DrivenRoundObstacle, testing::ValuesIn(AllCases()), NameOf);
+
+/// The listing's turns: 20 m of radius, S = 22.7 m of straight before and behind, a box of 2 m.
+TEST_P(DrivenRoundObstacle, KeepsToThePlanAndClearOnBothPlants) {
+  const Case& c = GetParam();
+  constexpr double kRadius = 20.0;
+  constexpr double kStraight = 22.7 + 20.0;  // and room for what leaves or returns later
+  const double turn = 0.5 * kPi - c.reduction;
+  const double tangent = kRadius * std::tan(0.5 * turn);
+  const Vec2 corner{kStraight + tangent, 0.0};
+
+  Scenario scenario = ReadScenario(ScenarioFile("obstacle_inner_left"));
+  scenario.mission.waypoints = {
+      {0.0, 0.0}, corner, corner + (kStraight + tangent) * Direction(c.side * turn)};
+  const double swept = turn * c.sixth / 6.0;
+  Obstacle& obstacle = scenario.world.obstacles.at(0);
+  obstacle.footprint.centre = {kStraight + kRadius * std::sin(swept),
+                               c.side * kRadius * (1.0 - std::cos(swept)), 0.0};
+  std::get<BezierAvoidanceOptions>(*scenario.plan->avoid).ring = c.ring;
+
+  const RunResult run = RunScenario(scenario);
+  ASSERT_EQ(run.logs.size(), 2U);
+  EXPECT_THAT(run, ReachesGoal(0.5));
+  // The path's curvature changes at up to 0.9 of the steering rate; a preview over 2.5 m cuts it
+  // by some centimetres (0.034 m seen), and the plan is 1.5 m clear.
+  EXPECT_THAT(run, TracksWithin(0.15));
+  EXPECT_THAT(run, KeepsClearOf(1.4));
+  EXPECT_THAT(run, StaysWithin("kinematic", "mujoco", 0.05));
+  for (const PlantMetrics& plant : run.metrics) {
+    EXPECT_FALSE(plant.clearance->collision);
+    EXPECT_EQ(plant.clearance->force_max, 0.0);
+    EXPECT_EQ(plant.plan_changes, 0);
+  }
+}
+
+TEST(ObstacleAppears, IsPassedOnANewPlanAfterTheDelay) {
+  const Scenario scenario = ReadScenario(ScenarioFile("obstacle_appears"));
+  const RunResult run = RunScenario(scenario);
+  EXPECT_THAT(run, MeetsItsExpectations());
+  for (const RunLog& log : run.logs) {
+    SCOPED_TRACE(log.plant);
+    ASSERT_EQ(log.changes.size(), 1U);
+    const PlanChange& change = log.changes[0];
+    // The first row whose outline is within range of the obstacle.
+    double seen = 0.0;
+    const OrientedBox& box = scenario.world.obstacles[0].footprint;
+    const VehicleParams vehicle = LoadCar(scenario).params();
+    for (const LogRow& row : log.rows) {
+      if (Distance(OutlineAt(vehicle, row.state.pose), box) <= 25.0) {
+        seen = row.state.time;
+        break;
+      }
+    }
+    EXPECT_NEAR(change.time, seen + 0.9, Tolerance(1e-9));
+    // The new plan starts from the pose and the steering angle of that moment.
+    const auto at = std::find_if(log.rows.begin(), log.rows.end(),
+                                 [&](const LogRow& row) { return row.state.time == change.time; });
+    ASSERT_NE(at, log.rows.end());
+    const PathPoint start = change.plan.reference.path.At(0.0);
+    EXPECT_EQ(start.pose, at->state.pose);
+    EXPECT_NEAR(SteeringForCurvature(vehicle, start.curvature), at->state.steering,
+                Tolerance(1e-12));
+    EXPECT_EQ(at->tracking->cross_track, 0.0);
+    // Stations go on: between two rows the car moves 0.06 m.
+    EXPECT_NEAR(at->tracking->s, (at - 1)->tracking->s, 0.07);
+    // Continuous steering: the angle asked for does not jump by more than the actuator can follow
+    // in a period, but for what the cross-track error that is dropped asked for (0.05 m over the
+    // square of the preview distance, 2.5 m, times twice the wheelbase: 0.043 rad).
+    EXPECT_NEAR(at->command.steering, (at - 1)->command.steering,
+                Tolerance(0.043 + vehicle.steering_rate * 0.02));
+  }
+}
+
+TEST(ObstacleAppears, WithoutAnAvoiderItIsHit) {
+  Scenario scenario = ReadScenario(ScenarioFile("obstacle_appears"));
+  scenario.plan->avoid.reset();
+  scenario.expect = {};
+  scenario.drive.plants = {"kinematic"};
+  const RunResult run = RunScenario(scenario);
+  EXPECT_EQ(run.logs[0].status, DriveStatus::kCollided);
+  EXPECT_TRUE(run.logs[0].changes.empty());
+}
+
+TEST(ObstacleAppears, TooLateForAnyWayAroundStopsTheCar) {
+  Scenario scenario = ReadScenario(ScenarioFile("obstacle_appears"));
+  // Seen from 7.5 m: 2.7 m are driven before the plan changes, and standing still takes 4.5 m.
+  scenario.world.obstacles[0].known_from_range = 7.5;
+  std::get<BezierAvoidanceOptions>(*scenario.plan->avoid).safe_distance = 1.0;
+  std::get<BezierAvoidanceOptions>(*scenario.plan->avoid).min_speed = 2.5;
+  scenario.expect = {};
+  const RunResult run = RunScenario(scenario);
+  EXPECT_FALSE(run.verdict.passed);
+  for (std::size_t i = 0; i < run.logs.size(); ++i) {
+    EXPECT_EQ(run.logs[i].status, DriveStatus::kBlocked);
+    EXPECT_THAT(run.metrics[i].blocked, testing::StartsWith("stops before the obstacle at ("));
+    EXPECT_FALSE(run.metrics[i].clearance->collision);
+    // From the mission's goal, not from where the path was cut.
+    EXPECT_GT(run.metrics[i].tracking->goal_distance, 40.0);
+  }
+  EXPECT_THAT(run.verdict.failures.at(0), testing::HasSubstr("ended as blocked"));
+}
+
+TEST(ObstacleAppears, TheSameRunTwiceIsTheSame) {
+  const Scenario scenario = ReadScenario(ScenarioFile("obstacle_appears"));
+  const RunResult first = RunScenario(scenario);
+  const RunResult second = RunScenario(scenario);
+  for (std::size_t i = 0; i < first.logs.size(); ++i) {
+    EXPECT_EQ(ToTable(first.logs[i]).ToCsv(), ToTable(second.logs[i]).ToCsv());
+  }
+}
+
+}  // namespace
+}  // namespace trackbed
