@@ -43,16 +43,16 @@ using Variables = std::span<const double>;
 
 using Points = std::array<Vec2, kDegree + 1>;
 
-/// P_0 to P_7 in the frame of the start, from the end conditions: P_1 on the tangent, and
+/// P_0 to P_7 in the mirror frame of the start, from the end conditions: P_1 on the tangent, and
 /// P_2 off it by what the curvature asks for, kappa = (6/7) h/|P_0 P_1|^2.
 class EndConditions {
  public:
   explicit EndConditions(const CurveProblem& problem)
       : scale_((problem.end.pose.position() - problem.start.pose.position()).norm()),
-        start_curvature_(problem.start.curvature),
-        end_curvature_(problem.end.curvature),
-        end_(ToLocal(problem.start.pose, problem.end.pose.position())),
-        forward_(Direction(problem.end.pose.yaw - problem.start.pose.yaw)) {}
+        start_curvature_(problem.mirror * problem.start.curvature),
+        end_curvature_(problem.mirror * problem.end.curvature),
+        end_(problem.Frame().In(problem.end.pose.position())),
+        forward_(Direction(problem.Frame().In(problem.end.pose.yaw))) {}
 
   [[nodiscard]] double scale() const { return scale_; }
 
@@ -136,16 +136,13 @@ class Evaluation {
   explicit Evaluation(const CurveProblem& problem)
       : problem_(problem),
         ends_(problem),
-        gate_(ToLocal(problem.start.pose, problem.gate.frame.position())),
-        along_gate_(Direction(problem.gate.frame.yaw - problem.start.pose.yaw)),
+        gate_(problem.Frame().In(problem.gate.frame.position())),
+        along_gate_(Direction(problem.Frame().In(problem.gate.frame.yaw))),
         wanted_(problem.safe_distance + kClearanceMargin) {
     const VehicleParams& vehicle = problem.vehicle;
     for (const OrientedBox& box : problem.obstacles) {
-      const Vec2 centre = ToLocal(problem.start.pose, box.centre.position());
       obstacles_.push_back(
-          {{{centre.x(), centre.y(), box.centre.yaw - problem.start.pose.yaw},
-            box.length,
-            box.width},
+          {problem.Frame().In(box),
            0.5 * (std::hypot(box.length, box.width) + std::hypot(vehicle.length, vehicle.width))});
     }
   }
@@ -204,7 +201,8 @@ class Evaluation {
       const Vec2 from_gate = position - gate_;
       const Vec2 at_gate{along_gate_.dot(from_gate), Cross(along_gate_, from_gate)};
       if (k > 0 && (at_gate.x() < 0.0) != (last_at_gate.x() < 0.0)) {
-        on_side = std::min(on_side, problem_.gate.side * CrossingY(last_at_gate, at_gate));
+        on_side = std::min(on_side,
+                           problem_.gate.side * problem_.mirror * CrossingY(last_at_gate, at_gate));
       }
       last_at_gate = at_gate;
       const double weight = k == 0 || k == Basis::kSamples - 1 ? 0.5 : 1.0;
@@ -272,7 +270,7 @@ class Evaluation {
 BezierCurve InWorld(const CurveProblem& problem, const Points& points) {
   std::vector<Vec2> control;
   for (const Vec2& point : points) {
-    control.push_back(ToWorld(problem.start.pose, point));
+    control.push_back(problem.Frame().Out(point));
   }
   return BezierCurve(control);
 }
@@ -369,8 +367,7 @@ BezierCurve Fit(const CurveProblem& problem, const std::vector<Vec2>& polyline) 
     for (const std::size_t i : {0U, 1U, 2U, 5U, 6U, 7U}) {
       known += bernstein(k, static_cast<Eigen::Index>(i)) * points[i];
     }
-    rest.row(k) =
-        (ToLocal(problem.start.pose, samples[static_cast<std::size_t>(k)]) - known).transpose();
+    rest.row(k) = (problem.Frame().In(samples[static_cast<std::size_t>(k)]) - known).transpose();
   }
   const Eigen::Matrix<double, kSamples, 2> free = bernstein.middleCols<2>(3);
   const Eigen::Matrix2d fitted = free.colPivHouseholderQr().solve(rest);
@@ -384,7 +381,7 @@ std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve
   Evaluation evaluation(problem);
   Points points;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    points[i] = ToLocal(problem.start.pose, guess.control_points()[i]);
+    points[i] = problem.Frame().In(guess.control_points()[i]);
   }
   const std::array<double, kVariables> start = evaluation.ends().VariablesOf(points);
   // End lengths from a fiftieth of the way to all of it; P_3 and P_4 anywhere near.

@@ -12,6 +12,24 @@
 /// One curve past obstacles: from a first guess to one that can be driven safely.
 namespace trackbed::avoidance {
 
+/// The frame in which ways and curves are looked for: that of the curve's start, seen in a mirror
+/// where the turn leads to the right, so that a moved or mirrored problem is the same one.
+struct MirrorFrame {
+  Pose2 pose;
+  double side = 1.0;  ///< -1: y points to the right
+
+  [[nodiscard]] Vec2 In(const Vec2& p) const {
+    const Vec2 local = ToLocal(pose, p);
+    return {local.x(), side * local.y()};
+  }
+  [[nodiscard]] Vec2 Out(const Vec2& p) const { return ToWorld(pose, {p.x(), side * p.y()}); }
+  [[nodiscard]] double In(double yaw) const { return side * (yaw - pose.yaw); }
+  [[nodiscard]] OrientedBox In(const OrientedBox& box) const {
+    const Vec2 centre = In(box.centre.position());
+    return {{centre.x(), centre.y(), In(box.centre.yaw)}, box.length, box.width};
+  }
+};
+
 /// Where a curve begins or ends.
 struct CurveEnd {
   Pose2 pose;
@@ -29,6 +47,7 @@ struct CurveProblem {
   CurveEnd start;
   CurveEnd end;
   Gate gate;
+  double mirror = 1.0;  ///< -1: looked at in a mirror (see MirrorFrame)
   std::vector<OrientedBox> obstacles;
   double safe_distance = 0.0;         ///< SD [m]
   double steering_rate = 0.0;         ///< that the curve may ask for [rad/s]
@@ -37,6 +56,7 @@ struct CurveProblem {
   double speed = 0.0;                 ///< to come down to, or to go up to at once [m/s]
   double deceleration = 0.0;          ///< at which [m/s^2]
 
+  [[nodiscard]] MirrorFrame Frame() const { return {start.pose, mirror}; }
   /// Speed after `distance` [m/s], at most.
   [[nodiscard]] double SpeedAt(double distance) const;
 };

@@ -77,6 +77,7 @@ class StretchFinder {
           const auto problem_to = [&, speed = speed, share = share](double back) {
             CurveProblem problem = ProblemFor(leave, back, {speed, share}, from);
             problem.gate = {SideFrame(conflict), SideOf(bend, way.ring)};
+            problem.mirror = SideOf(bend, Ring::kInner);
             return problem;
           };
           std::optional<Stretch> stretch;
@@ -275,25 +276,8 @@ class StretchFinder {
     return path().Project(at, {conflict.from, conflict.to + request_.vehicle.length}).s;
   }
 
-  /// The frame in which RRT* looks: that of the curve's start, mirrored for a turn to the right, so
-  /// that a moved or mirrored problem has the same samples.
-  struct TreeFrame {
-    Pose2 pose;
-    double side = 1.0;  ///< -1: y is to the right
-
-    [[nodiscard]] Vec2 In(const Vec2& p) const {
-      const Vec2 local = ToLocal(pose, p);
-      return {local.x(), side * local.y()};
-    }
-    [[nodiscard]] Vec2 Out(const Vec2& p) const { return ToWorld(pose, {p.x(), side * p.y()}); }
-    [[nodiscard]] OrientedBox In(const OrientedBox& box) const {
-      const Vec2 centre = In(box.centre.position());
-      return {{centre.x(), centre.y(), side * (box.centre.yaw - pose.yaw)}, box.length, box.width};
-    }
-  };
-
   /// Where RRT* looks for a way from start to end.
-  [[nodiscard]] RrtStarProblem TreeProblem(const TreeFrame& frame, const CurveProblem& problem,
+  [[nodiscard]] RrtStarProblem TreeProblem(const MirrorFrame& frame, const CurveProblem& problem,
                                            const Conflict& conflict) const {
     RrtStarProblem tree{.start = {0.0, 0.0},
                         .goal = frame.In(problem.end.pose.position()),
@@ -320,7 +304,7 @@ class StretchFinder {
   [[nodiscard]] std::vector<Way> WaysFor(const Conflict& conflict, const Bend& bend,
                                          const CurveProblem& problem) const {
     const Pose2 beside = SideFrame(conflict);
-    const TreeFrame frame{problem.start.pose, bend.curvature < 0.0 ? -1.0 : 1.0};
+    const MirrorFrame frame{problem.start.pose, SideOf(bend, Ring::kInner)};
     const auto grow = [&](std::optional<Ring> only) {
       RrtStarProblem tree = TreeProblem(frame, problem, conflict);
       if (only) {

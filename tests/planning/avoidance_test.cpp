@@ -255,14 +255,13 @@ TEST(PlanAround, AMirroredRouteGetsTheMirroredPlan) {
   const Plan plan = Around(left.Global(), {{{at.x, at.y, 0.3}, 3.0, 1.5}});
   const Plan mirrored = Around(right.Global(), {{{at.x, -at.y, -0.3}, 3.0, 1.5}});
   ASSERT_EQ(plan.blocked, "");
-  ASSERT_NEAR(plan.reference.path.length(), mirrored.reference.path.length(), Tolerance(0.05));
-  // RRT* draws the same samples in mirrored frames; the search ends within its tolerance, 1e-5 of
-  // bounds of three times the chord of 50 m, in eight variables: 1.5 mm each.
+  // Tree and curve are looked for in a mirror: the same numbers, laid out on the other side.
+  ASSERT_NEAR(plan.reference.path.length(), mirrored.reference.path.length(), Tolerance(1e-9));
   for (double s = 0.0; s < plan.reference.path.length(); s += 1.0) {
     const Pose2 a = plan.reference.path.At(s).pose;
     const Pose2 b = mirrored.reference.path.At(s).pose;
-    EXPECT_NEAR(a.x, b.x, Tolerance(0.02));
-    EXPECT_NEAR(a.y, -b.y, Tolerance(0.02));
+    EXPECT_NEAR(a.x, b.x, Tolerance(1e-9));
+    EXPECT_NEAR(a.y, -b.y, Tolerance(1e-9));
   }
 }
 
