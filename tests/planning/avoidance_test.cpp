@@ -431,9 +431,9 @@ TEST_P(RandomObstacles, ArePassedSafelyOrStoppedBefore) {
                                random.Uniform(0.5, 6.0)};
     BezierAvoidanceOptions options;
     options.safe_distance = random.Uniform(0.5, 3.0);
-    options.rrt_iterations = 500;
-    options.min_speed = 1.5;
-    options.search.evaluations = 700;
+    options.rrt_iterations = 300;
+    options.min_speed = 2.5;
+    options.search.evaluations = 500;
     const Plan plan = Around(global, {obstacle}, options);
     if (!plan.blocked.empty()) {
       EXPECT_THAT(plan.blocked, testing::AnyOf(testing::HasSubstr("no curve passes it"),
