@@ -33,9 +33,11 @@ json Point(const Vec2& p) {
 /// Open-loop steering between two distances, moved along by `shift`.
 std::vector<SteeringSchedule::Knot> Moved(const SteeringSchedule& schedule, Stations within,
                                           double shift) {
+  // A knot at the cut itself is that of what is put there.
+  constexpr double kAtTheCut = 1e-9;  // [m]
   std::vector<SteeringSchedule::Knot> knots;
   for (const SteeringSchedule::Knot& knot : schedule.knots()) {
-    if (knot.distance > within.from && knot.distance < within.to) {
+    if (knot.distance > within.from + kAtTheCut && knot.distance < within.to - kAtTheCut) {
       knots.push_back({knot.distance + shift, knot.steering});
     }
   }
@@ -252,7 +254,7 @@ class AroundObstacles {
     const PathPoint start = path().At(leave);
     const PathPoint end = path().At(back);
     const std::vector<SteeringSchedule::Knot> own =
-        Moved(plan_.schedule, {leave - 1e-9, back + 1e-9}, -leave);
+        Moved(plan_.schedule, {leave - 1e-6, back + 1e-6}, -leave);
     const KinematicState driven =
         RollOut(request_.vehicle,
                 {.pose = start.pose,

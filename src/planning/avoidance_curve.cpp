@@ -18,7 +18,7 @@ constexpr double kCheckSpacing = 0.05;  // [m]
 constexpr double kClearanceMargin = 0.02;  // [m]
 constexpr double kLimitMargin = 0.99;
 /// After so many evaluations, a curve that still breaks a limit by more than half is given up.
-constexpr int kLook = 200;
+constexpr int kFirstLook = 200;
 constexpr double kHopeless = 0.5;
 /// A search that got stuck is helped on with linear models of all its functions.
 constexpr SearchOptions kRescue{
@@ -393,14 +393,17 @@ std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve
       .constraint_count = Evaluation::kConstraints,
       .constraints = [&](Variables x,
                          std::span<double> values) { evaluation.Constraints(x, values); }};
+  int evaluations = 0;
   const auto again_from = [&](const std::vector<double>& x, const SearchOptions& options) {
     if (!x.empty()) {
       moved.start = x;
     }
-    return Search(moved, options, seed);
+    SearchResult found = Search(moved, options, seed);
+    evaluations += found.evaluations;
+    return found;
   };
   SearchOptions look = search;
-  look.evaluations = kLook;
+  look.evaluations = search.evaluations > 0 ? std::min(search.evaluations, kFirstLook) : kFirstLook;
   SearchResult result = again_from({}, look);
   if (!result.ok() && result.violation > kHopeless) {
     return std::nullopt;
@@ -422,6 +425,7 @@ std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve
   if (!check.Keeps(problem)) {
     return std::nullopt;
   }
+  result.evaluations = evaluations;
   return Repair{std::move(curve), check, result};
 }
 

@@ -39,6 +39,7 @@ struct BezierAvoidanceOptions {
   double comfortable_rate_share = 0.5;    ///< curves that ask for no more are preferred
   int rrt_iterations = 2000;
   double rrt_step = 5.0;  ///< [m]
+  /// Of the control points; one curve may take a few such searches.
   SearchOptions search{.method = SearchMethod::kSlsqp, .evaluations = 2000, .tolerance = 1e-6};
 };
 
@@ -86,8 +87,8 @@ bool IsInTheWay(const VehicleParams& vehicle, const Path& path, double station,
 /// within the given share, and joins the rest with continuous position, heading and curvature: at
 /// its start those of the plan, or the car's pose and actual steering. Without a car, the plan up
 /// to where it is left is unchanged. Does not look at obstacles beyond SD from the plan, nor move
-/// them. Errors: InternalError for options out of range. Cost: 0.1 to 0.3 s a stretch, a second
-/// where nothing can be found.
+/// them. Errors: InternalError for options out of range. Cost: 0.1 to 0.3 s a stretch, some
+/// seconds where nothing can be found.
 Plan PlanAround(const AvoidanceRequest& request, const AvoiderOptions& options);
 
 }  // namespace trackbed
