@@ -132,11 +132,9 @@ void RemoveEarlierRun(const fs::path& folder) {
                                  "timing.json", "model.xml",    "scenario.resolved.yaml",
                                  "video.mp4"};
   for (const PlantEntry& plant : Plants()) {
-    names.push_back(std::string(plant.name) + ".csv");
-    names.push_back(std::string(plant.name) + ".state.csv");
-    names.push_back(std::string(plant.name) + ".plan.csv");
-    names.push_back(std::string(plant.name) + ".plan.json");
-    names.push_back(std::string(plant.name) + ".tree.csv");
+    for (const char* ending : {".csv", ".state.csv", ".plan.csv", ".plan.json", ".tree.csv"}) {
+      names.push_back(PlantFileName(plant.name) + ending);
+    }
   }
   for (const std::string& name : names) {
     std::error_code ignored;  // what cannot be removed cannot be replaced either: that will tell
@@ -219,12 +217,13 @@ void WriteRunFolder(const RunResult& result, const fs::path& folder) {
     WritePlan(result.plan, result.scenario, folder);
   }
   for (const RunLog& log : result.logs) {
-    WriteFileAtomically(folder / (log.plant + ".csv"), ToTable(log).ToCsv());
-    WriteFileAtomically(folder / (log.plant + ".state.csv"), log.configurations.ToCsv());
+    const std::string name = PlantFileName(log.plant);
+    WriteFileAtomically(folder / (name + ".csv"), ToTable(log).ToCsv());
+    WriteFileAtomically(folder / (name + ".state.csv"), log.configurations.ToCsv());
     if (!log.changes.empty()) {
-      WriteFileAtomically(folder / (log.plant + ".plan.csv"), ChangesTable(log).ToCsv());
-      WriteFileAtomically(folder / (log.plant + ".plan.json"), Pretty(ChangesJson(log)));
-      WriteUnlessEmpty(TreeTable(log.changes.back().plan.tree), folder / (log.plant + ".tree.csv"));
+      WriteFileAtomically(folder / (name + ".plan.csv"), ChangesTable(log).ToCsv());
+      WriteFileAtomically(folder / (name + ".plan.json"), Pretty(ChangesJson(log)));
+      WriteUnlessEmpty(TreeTable(log.changes.back().plan.tree), folder / (name + ".tree.csv"));
     }
   }
   ordered_json timing{{"planning_s", result.planning_time}};

@@ -209,7 +209,11 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
   const StationSource source = ControllerFor(scenario.control.steering).station;
 
   const auto controller = MakeSteeringController(scenario.control.steering);
-  const auto plant = MakePlant(plant_name, car, scenario.world, StartOf(scenario));
+  const auto plant = MakePlant(plant_name, {.car = car,
+                                            .world = scenario.world,
+                                            .start = StartOf(scenario),
+                                            .tyre = scenario.vehicle.tyre,
+                                            .steering = drive.steering});
   RunLog log{.plant = plant_name,
              .status = DriveStatus::kArrived,
              .rows = {},
@@ -294,9 +298,14 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
     row.command = command;
     log.rows.push_back(row);
 
-    // Drive.
+    // Drive. Prescribed wheels reach the wanted angle at the end of the period, on a ramp.
     for (int step = 0; step < steps_per_period && !plant->diverged(); ++step) {
-      plant->Step(command);
+      Command now = command;
+      if (drive.steering == SteeringInput::kPrescribed) {
+        now.steering = std::lerp(state.steering_actuator, command.steering,
+                                 static_cast<double>(step + 1) / steps_per_period);
+      }
+      plant->Step(now);
       if (!plant->diverged()) {
         configurations.Record(*plant, state.time + (step + 1) * drive.timestep);
       }

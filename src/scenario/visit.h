@@ -27,8 +27,10 @@ template <typename Archive>
 void Visit(Archive& a, VehicleSpec& vehicle) {
   a.Field({"model", "", "a name under models/, or a path relative to this file"}, vehicle.model,
           Need::kOptional);
-  a.Field({"tyre", "", "tyre law of the mujoco plant"}, vehicle.tyre, Need::kOptional,
-          Names{"contact"});
+  static const EnumNames<TyreLaw> laws{{TyreLaw::kContact, "contact"},
+                                       {TyreLaw::kMagicFormula, "magic_formula"}};
+  a.Field({"tyre", "", "what holds the plant mujoco to the road"}, vehicle.tyre, Need::kOptional,
+          laws);
 }
 
 template <typename Archive>
@@ -292,6 +294,12 @@ template <typename Archive>
 void Visit(Archive& a, DriveSpec& drive) {
   a.Field({"plants", "", "what to drive the plan on, in this order"}, drive.plants, Need::kOptional,
           PlantNames());
+  static const EnumNames<SteeringInput> inputs{{SteeringInput::kActuator, "actuator"},
+                                               {SteeringInput::kPrescribed, "prescribed"}};
+  a.Field({"steering", "",
+           "how the wanted angle reaches the road wheels: through the car's "
+           "rate-limited actuator, or exactly"},
+          drive.steering, Need::kOptional, inputs);
   a.Field({"timestep", "s", "of the physics"}, drive.timestep, Need::kOptional,
           Range{.min = 1e-5, .max = 0.02});
   a.Field({"control_period", "s", "between two commands; a whole number of timesteps"},

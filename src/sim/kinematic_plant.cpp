@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include "src/sim/plants.h"
 
 namespace trackbed {
@@ -5,8 +7,9 @@ namespace {
 
 class KinematicPlant final : public Plant {
  public:
-  KinematicPlant(const CarModel& car, const StartState& start, ReferencePoint reference)
-      : model_(car), car_(car.params(), reference, StateAt(car.params(), start, reference)) {}
+  KinematicPlant(const PlantSetup& setup, ReferencePoint reference)
+      : model_(setup.car),
+        car_(Steered(setup), reference, StateAt(setup.car.params(), setup.start, reference)) {}
 
   void Step(const Command& command) override {
     const double timestep = model_.timestep();
@@ -30,6 +33,16 @@ class KinematicPlant final : public Plant {
   [[nodiscard]] bool diverged() const override { return false; }
 
  private:
+  /// Wheels whose angle is prescribed are there at once.
+  static VehicleParams Steered(const PlantSetup& setup) {
+    VehicleParams params = setup.car.params();
+    if (setup.steering == SteeringInput::kPrescribed) {
+      params.steering_rate = 1e9;
+      params.steering_limit = 0.5 * std::numbers::pi;
+    }
+    return params;
+  }
+
   static KinematicState StateAt(const VehicleParams& params, const StartState& start,
                                 ReferencePoint reference) {
     KinematicState state{.pose = start.pose, .speed = start.speed, .steering = start.steering};
@@ -48,9 +61,8 @@ class KinematicPlant final : public Plant {
 
 }  // namespace
 
-std::unique_ptr<Plant> MakeKinematicPlant(const CarModel& car, const StartState& start,
-                                          ReferencePoint reference) {
-  return std::make_unique<KinematicPlant>(car, start, reference);
+std::unique_ptr<Plant> MakeKinematicPlant(const PlantSetup& setup, ReferencePoint reference) {
+  return std::make_unique<KinematicPlant>(setup, reference);
 }
 
 }  // namespace trackbed

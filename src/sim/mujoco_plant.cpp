@@ -32,18 +32,18 @@ struct DataDeleter {
 
 class MujocoPlant final : public Plant {
  public:
-  MujocoPlant(const CarModel& car, const World& world, const StartState& start)
-      : car_(car),
-        model_(mj_copyModel(nullptr, car.get())),
+  explicit MujocoPlant(const PlantSetup& setup)
+      : car_(setup.car),
+        model_(mj_copyModel(nullptr, setup.car.get())),
         data_(mj_makeData(model_.get())),
-        ground_(mj_name2id(car.get(), mjOBJ_GEOM, "ground")) {
+        ground_(mj_name2id(setup.car.get(), mjOBJ_GEOM, "ground")) {
     TRACKBED_CHECK(model_ && data_, "no memory for the simulation");
     for (std::size_t w = 0; w < kWheels.size(); ++w) {
       // Sliding friction only: torsion and rolling are lengths, not properties of the road.
-      model_->geom_friction[3 * car_.parts().tyre[w]] *= world.friction;
+      model_->geom_friction[3 * car_.parts().tyre[w]] *= setup.world.friction;
       bearing_friction_[w] = model_->dof_frictionloss[car_.parts().spin_dof[w]];
     }
-    Reset(start);
+    Reset(setup.start);
   }
 
   void Step(const Command& command) override {
@@ -276,9 +276,8 @@ std::array<WheelState, 4> MujocoPlant::Wheels() const {
 
 }  // namespace
 
-std::unique_ptr<Plant> MakeMujocoPlant(const CarModel& car, const World& world,
-                                       const StartState& start) {
-  return std::make_unique<MujocoPlant>(car, world, start);
+std::unique_ptr<Plant> MakeMujocoPlant(const PlantSetup& setup) {
+  return std::make_unique<MujocoPlant>(setup);
 }
 
 }  // namespace trackbed

@@ -4,7 +4,6 @@
 
 namespace trackbed {
 
-std::unique_ptr<Plant> MakeMujocoPlant(const CarModel& car, const World& world,
-                                       const StartState& start);
+std::unique_ptr<Plant> MakeMujocoPlant(const PlantSetup& setup);
 
 }  // namespace trackbed

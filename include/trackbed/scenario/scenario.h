@@ -17,8 +17,8 @@
 namespace trackbed {
 
 struct VehicleSpec {
-  std::string model = "prius";   ///< a name under models/, or a path relative to the scenario file
-  std::string tyre = "contact";  ///< tyre law of the MuJoCo plant
+  std::string model = "prius";  ///< a name under models/, or a path relative to the scenario file
+  TyreLaw tyre = TyreLaw::kContact;  ///< of the plant `mujoco`
 };
 
 /// Where the car starts; what is not given follows from the mission.
@@ -50,6 +50,7 @@ struct ControlSpec {
 
 struct DriveSpec {
   std::vector<std::string> plants{"kinematic", "mujoco"};
+  SteeringInput steering = SteeringInput::kActuator;
   double timestep = 0.002;           ///< of the physics [s]
   double control_period = 0.02;      ///< a whole number of timesteps [s]
   double state_period = 1.0 / 60.0;  ///< between configurations logged for the film [s]

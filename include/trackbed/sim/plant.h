@@ -40,14 +40,37 @@ class Plant {
   [[nodiscard]] virtual bool diverged() const = 0;
 };
 
+/// What holds the wheels of the MuJoCo plant to the road.
+enum class TyreLaw {
+  kContact,       ///< MuJoCo's friction cone: no slip to speed of below the friction limit
+  kMagicFormula,  ///< forces grow with slip (vehicle/magic_formula.h); contacts carry the load
+                  ///< alone
+};
+
+/// How the wanted steering angle reaches the road wheels.
+enum class SteeringInput {
+  kActuator,    ///< through the car's actuator, within its rate and angle
+  kPrescribed,  ///< exactly and at once, for validation
+};
+
+/// What a plant is made of. It keeps references to car and world, which must outlive it.
+struct PlantSetup {
+  const CarModel& car;
+  const World& world;
+  StartState start;
+  TyreLaw tyre = TyreLaw::kContact;
+  SteeringInput steering = SteeringInput::kActuator;
+};
+
 struct PlantEntry {
   const char* name;
   const char* summary;
-  std::unique_ptr<Plant> (*make)(const CarModel& car, const World& world, const StartState& start);
+  std::unique_ptr<Plant> (*make)(const PlantSetup& setup);
 };
 
 /// Every plant there is: `kinematic` (KinematicCar, rear-axle reference) and `mujoco` (the MJCF car
-/// on its contacts). A plant keeps a reference to the car model, which must outlive it.
+/// on its contacts, with the tyre law of the setup); `mujoco:contact` and `mujoco:magic_formula`
+/// have their own law whatever the setup's is.
 ///
 /// The MuJoCo plant turns a wanted acceleration into drive torque on its differential, or, against
 /// the gear, into dry friction of the brakes, front to rear as the model's brake torques; both are
@@ -56,12 +79,13 @@ struct PlantEntry {
 const std::vector<PlantEntry>& Plants();
 
 /// InputError with the nearest spelling when there is no such plant.
-std::unique_ptr<Plant> MakePlant(const std::string& name, const CarModel& car, const World& world,
-                                 const StartState& start);
+std::unique_ptr<Plant> MakePlant(const std::string& name, const PlantSetup& setup);
+
+/// `name` as it stands in file names: "mujoco:contact" is "mujoco-contact".
+std::string PlantFileName(const std::string& name);
 
 /// The kinematic plant with the reference point of your choice: with kCentreOfGravity,
 /// `start.speed` and the commanded acceleration are those of the centre of gravity.
-std::unique_ptr<Plant> MakeKinematicPlant(const CarModel& car, const StartState& start,
-                                          ReferencePoint reference);
+std::unique_ptr<Plant> MakeKinematicPlant(const PlantSetup& setup, ReferencePoint reference);
 
 }  // namespace trackbed
