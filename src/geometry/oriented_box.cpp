@@ -30,6 +30,10 @@ std::array<Vec2, 4> OrientedBox::Corners() const {
           ToWorld(centre, {x, -y})};
 }
 
+bool Contains(const OrientedBox& box, const Vec2& point) {
+  return SquareToPoint(HalfSizes(box), ToLocal(box.centre, point)) == 0.0;
+}
+
 double Separation(const OrientedBox& a, const OrientedBox& b) {
   const HalfSizes half_a(a);
   const HalfSizes half_b(b);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "trackbed/core/angle.h"
+
 namespace trackbed {
 namespace {
 
@@ -23,6 +25,8 @@ class CrossCheck {
       CheckPlants();
     }
     CheckBetween();
+    CheckGround();
+    CheckGusts();
     CheckObstacles();
     CheckWhatIsMeasured();
     return std::move(found_);
@@ -113,6 +117,40 @@ class CrossCheck {
         (render.width % 2 != 0 || render.height % 2 != 0 || render.height > 4320)) {
       Complain("render.size", fmt::format("{}x{}: both must be even, the height at most 4320",
                                           render.width, render.height));
+    }
+  }
+
+  /// What is steeper than 45 degrees is a wall, not something to drive over.
+  void CheckGround() {
+    constexpr double kSteepest = 1.0;
+    for (std::size_t i = 0; i < scenario_.world.ground.bumps.size(); ++i) {
+      const Bump& bump = scenario_.world.ground.bumps[i];
+      const std::string key = fmt::format("world.ground.bumps[{}]", i);
+      if (!could_read_(key + ".height") || !could_read_(key + ".length") ||
+          !could_read_(key + ".width") || !could_read_(key + ".edge")) {
+        continue;
+      }
+      // The steepest of h cos^2(pi/2 q), q = d/reach, is pi/2 h / reach.
+      const auto check = [&](double reach, const char* where) {
+        const double steepest = 0.5 * kPi * bump.height / reach;
+        if (steepest > kSteepest) {
+          Complain(key, fmt::format("rises {:.3g} m per m {}; at most {} can be driven over",
+                                    steepest, where, kSteepest));
+        }
+      };
+      check(0.5 * bump.area.length, "along its length");
+      check(std::min(bump.edge, 0.5 * bump.area.width), "at its sides");
+    }
+  }
+
+  void CheckGusts() {
+    for (std::size_t i = 0; i < scenario_.world.wind.gusts.size(); ++i) {
+      const Gust& gust = scenario_.world.wind.gusts[i];
+      const std::string key = fmt::format("world.wind.gusts[{}]", i);
+      if (gust.shape == GustShape::kOneMinusCosine && !gust.duration &&
+          could_read_(key + ".duration") && could_read_(key + ".shape")) {
+        Complain(key, "one_minus_cosine needs a duration; only a step can blow without end");
+      }
     }
   }
 

@@ -80,6 +80,12 @@ class KeyLister {
   }
 
   template <typename Struct>
+  void Section(const Key& key, std::optional<Struct>&) {
+    Struct value;
+    Section(key, value);
+  }
+
+  template <typename Struct>
   void List(const Key& key, std::vector<Struct>&) {
     Add(key, "list of sections", Need::kOptional, "", "");
     KeyLister inner(sections_, {Dotted(key) + "[N]", "", key.text, {}});

@@ -107,15 +107,28 @@ Scenario ReadScenario(const std::filesystem::path& file, const std::vector<Overr
   return ParseScenario(ReadInput(file), file.string(), file.parent_path(), overrides, cameras);
 }
 
-RenderSpec ReadRenderSpec(const std::filesystem::path& file) {
+namespace {
+
+template <typename Struct>
+Struct ReadSection(const std::filesystem::path& file, const Key& key) {
   ReaderContext context{.file = file.string(), .overridden = {}, .problems = {}};
-  RenderSpec render;
+  Struct value;
   YamlReader reader(context, LoadYaml(ReadInput(file), file.string()), "");
-  reader.Section(kRenderSection, render);
+  reader.Section(key, value);
   if (!context.problems.empty()) {
     throw InputError(context.problems);
   }
-  return render;
+  return value;
+}
+
+}  // namespace
+
+RenderSpec ReadRenderSpec(const std::filesystem::path& file) {
+  return ReadSection<RenderSpec>(file, kRenderSection);
+}
+
+World ReadWorld(const std::filesystem::path& file) {
+  return ReadSection<World>(file, kWorldSection);
 }
 
 void CheckScenario(const Scenario& scenario) {

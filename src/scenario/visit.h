@@ -1,17 +1,13 @@
 #pragma once
 
 #include "src/scenario/key_lister.h"
+#include "src/scenario/visit_world.h"
 #include "src/scenario/yaml_reader.h"
 #include "src/scenario/yaml_writer.h"
 #include "trackbed/scenario/scenario.h"
 
 /// The keys of a scenario, each named once for reading, writing and listing alike.
 namespace trackbed {
-
-inline constexpr Range kPositive{.above = 0.0};
-inline constexpr Range kNotNegative{.min = 0.0};
-
-inline constexpr Range kMap{.min = -1e5, .max = 1e5};  // [m]; beyond any route
 
 inline constexpr Key kRenderSection{"render", "", "how the run is filmed"};
 
@@ -53,57 +49,6 @@ void Visit(Archive& a, MissionSpec& mission) {
   a.Field({"duration", "s", "ends the drive; needed without a plan, refused with one"},
           mission.duration, kPositive);
   a.Section({"start", "", "where and how the car starts"}, mission.start);
-}
-
-template <typename Archive>
-void Visit(Archive& a, World& world) {
-  a.Field({"friction", "", "factor on the tyres' own friction coefficient"}, world.friction,
-          Need::kOptional, Range{.max = 10.0, .above = 0.0});
-  a.List({"obstacles", "", "what stands in the way"}, world.obstacles);
-}
-
-/// The keys of `box`.
-struct BoxKeys {
-  Obstacle& obstacle;
-};
-
-template <typename Archive>
-void Visit(Archive& a, BoxKeys& keys) {
-  OrientedBox& box = keys.obstacle.footprint;
-  const Range size{.max = 1e4, .above = 0.0};
-  a.Field({"x", "m", "centre of the box"}, box.centre.x, Need::kRequired, kMap);
-  a.Field({"y", "m", "likewise"}, box.centre.y, Need::kRequired, kMap);
-  a.Field({"yaw", "rad", "direction of its length"}, box.centre.yaw, Need::kOptional);
-  a.Field({"length", "m", "along its own x axis"}, box.length, Need::kRequired, size);
-  a.Field({"width", "m", "along its own y axis"}, box.width, Need::kRequired, size);
-  a.Field({"height", "m", "above the ground"}, keys.obstacle.height, Need::kOptional, size);
-}
-
-/// The keys of `known_from`.
-struct KnownFromKeys {
-  Obstacle& obstacle;
-};
-
-template <typename Archive>
-void Visit(Archive& a, KnownFromKeys& keys) {
-  a.Field({"time", "s", "at this moment of the drive"}, keys.obstacle.known_from_time,
-          kNotNegative);
-  a.Field({"range", "m", "once the car's outline is this close to it"},
-          keys.obstacle.known_from_range, kNotNegative);
-}
-
-template <typename Archive>
-void Visit(Archive& a, Obstacle& obstacle) {
-  BoxKeys keys{obstacle};
-  a.Section({"box", "", "a box that stands on the ground and does not move"}, keys,
-            Need::kRequired);
-  if constexpr (std::is_same_v<Archive, YamlWriter>) {
-    if (!obstacle.known_from_time && !obstacle.known_from_range) {
-      return;  // an empty section would say no more
-    }
-  }
-  KnownFromKeys known{obstacle};
-  a.Section({"known_from", "", "when planners learn of it; else from the start"}, known);
 }
 
 inline EnumNames<SearchMethod> SearchNames() {
@@ -383,7 +328,7 @@ void Visit(Archive& a, Scenario& scenario) {
   a.Field({"seed", "", "of every random choice"}, scenario.seed, Need::kOptional);
   a.Section({"vehicle", "", "the car"}, scenario.vehicle);
   a.Section({"mission", "", "where to drive, and how fast"}, scenario.mission, Need::kRequired);
-  a.Section({"world", "", "what the car drives in"}, scenario.world);
+  a.Section(kWorldSection, scenario.world);
   VisitPlan(a, scenario.plan);
   std::optional<ControllerOptions> steering = scenario.control.steering;
   a.Method({"control", "", "what steers and what keeps the speed"}, steering, Controllers(),

@@ -76,6 +76,14 @@ class YamlReader {
     }
   }
 
+  /// One whose absence says something.
+  template <typename Struct>
+  void Section(const Key& key, std::optional<Struct>& value) {
+    if (const auto node = Take(key.name, Need::kOptional)) {
+      ReadMap(*node, Dotted(key.name), value.emplace());
+    }
+  }
+
   template <typename Struct>
   void List(const Key& key, std::vector<Struct>& values) {
     const auto node = Take(key.name, Need::kOptional);

@@ -84,6 +84,13 @@ class YamlWriter {
   }
 
   template <typename Struct>
+  void Section(const Key& key, std::optional<Struct>& value) {
+    if (value) {
+      Section(key, *value);
+    }
+  }
+
+  template <typename Struct>
   void List(const Key& key, std::vector<Struct>& values) {
     if (values.empty()) {
       return;

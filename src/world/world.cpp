@@ -4,6 +4,26 @@
 
 namespace trackbed {
 
+double RoadFactor(const World& world, const Vec2& point_W) {
+  const auto& patches = world.friction_patches;
+  const auto on_top =
+      std::find_if(patches.rbegin(), patches.rend(),
+                   [&](const FrictionPatch& patch) { return Contains(patch.area, point_W); });
+  return on_top == patches.rend() ? world.friction : on_top->friction;
+}
+
+double GroundHeight(const World& world, const Vec2& point_W) {
+  return GroundHeight(world.ground, point_W);
+}
+
+Eigen::Vector3d GroundNormal(const World& world, const Vec2& point_W) {
+  return GroundNormal(world.ground, point_W);
+}
+
+Vec2 WindAt(const World& world, const Vec2& point_W, double time) {
+  return WindAt(world.wind, point_W, time);
+}
+
 OrientedBox OutlineAt(const VehicleParams& vehicle, const Pose2& pose) {
   const Vec2 middle = ToWorld(pose, {0.5 * vehicle.length - vehicle.rear_overhang, 0.0});
   return {{middle.x(), middle.y(), pose.yaw}, vehicle.length, vehicle.width};

@@ -71,6 +71,21 @@ TEST(OrientedBox, CornersGoRoundCounterClockwise) {
   EXPECT_NEAR(area, 8.0, Tolerance(1e-12));
 }
 
+TEST(Contains, IsTrueWithinAndOnTheBorder) {
+  Random random(7);
+  for (int i = 0; i < 1000; ++i) {
+    const OrientedBox box{
+        {random.Uniform(-5.0, 5.0), random.Uniform(-5.0, 5.0), random.Uniform(-4.0, 4.0)},
+        random.Uniform(0.1, 9.0),
+        random.Uniform(0.1, 9.0)};
+    const Vec2 p(random.Uniform(-6.0, 6.0), random.Uniform(-6.0, 6.0));
+    EXPECT_EQ(Contains(box, p), bg::covered_by(Point(p.x(), p.y()), Outline(box)));
+  }
+  const OrientedBox box{{1.0, 2.0, 0.0}, 4.0, 2.0};
+  EXPECT_TRUE(Contains(box, {3.0, 3.0}));
+  EXPECT_FALSE(Contains(box, {3.0, 3.0000001}));
+}
+
 TEST(Distance, IsThatOfTheNearestSidesOrCorners) {
   const OrientedBox a{{0.0, 0.0, 0.0}, 2.0, 2.0};
   EXPECT_NEAR(Distance(a, {{5.0, 0.0, 0.0}, 2.0, 2.0}), 3.0, Tolerance(1e-12));

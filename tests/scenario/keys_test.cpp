@@ -46,6 +46,8 @@ TEST(ScenarioKeys, TellTypeUnitDefaultAndWhatIsAllowed) {
   EXPECT_EQ(KeyOf("control", "distance", "preview").fallback, "2.5");
   EXPECT_EQ(KeyOf("plan", "constraint", "fillet").allowed, "steering_room, half_leg, none");
   EXPECT_EQ(KeyOf("world.obstacles[N].box", "length").unit, "m");
+  EXPECT_EQ(KeyOf("world.wind.gusts[N]", "shape").fallback, "one_minus_cosine");
+  EXPECT_EQ(KeyOf("world.wind.gusts[N].area", "length").unit, "m");
   EXPECT_FALSE(KeyOf("expect", "mujoco").required);
 }
 

@@ -196,6 +196,70 @@ TEST(ResolvedYaml, ReadsBackToItself) {
   EXPECT_THAT(once, testing::HasSubstr("max_cross_track: 0.1"));
 }
 
+constexpr const char* kWorld = R"(world:
+  friction: 0.8
+  friction_patches:
+    - {x: 10, y: 1, yaw: 0.5, length: 20, width: 3, friction: 0.1}
+    - {x: 12, y: 1, length: 2, width: 3, friction: 0.6}
+  ground:
+    grade: {x: 0.05, y: -0.02}
+    bumps: [{x: 15, y: 0, length: 4, width: 6, height: 0.08, edge: 0.4}]
+    side_slopes: [{x: 50, y: 0, yaw: 1.5, length: 40, width: 8, slope: -0.06, run_in: 12}]
+  wind:
+    x: 1.5
+    y: -2
+    gusts:
+      - {y: 12, from: 3, duration: 2}
+      - {x: 4, shape: step, area: {x: 20, y: 0, yaw: 0.1, length: 30, width: 10}}
+)";
+
+void ExpectWorld(const World& world) {
+  EXPECT_EQ(world.friction, 0.8);
+  ASSERT_EQ(world.friction_patches.size(), 2U);
+  EXPECT_EQ(world.friction_patches[0].area.centre, (Pose2{10.0, 1.0, 0.5}));
+  EXPECT_EQ(world.friction_patches[0].area.length, 20.0);
+  EXPECT_EQ(world.friction_patches[0].area.width, 3.0);
+  EXPECT_EQ(world.friction_patches[0].friction, 0.1);
+  EXPECT_EQ(world.friction_patches[1].friction, 0.6);
+  EXPECT_EQ(world.ground.grade, Vec2(0.05, -0.02));
+  ASSERT_EQ(world.ground.bumps.size(), 1U);
+  EXPECT_EQ(world.ground.bumps[0].area.length, 4.0);
+  EXPECT_EQ(world.ground.bumps[0].height, 0.08);
+  EXPECT_EQ(world.ground.bumps[0].edge, 0.4);
+  ASSERT_EQ(world.ground.side_slopes.size(), 1U);
+  EXPECT_EQ(world.ground.side_slopes[0].area.centre, (Pose2{50.0, 0.0, 1.5}));
+  EXPECT_EQ(world.ground.side_slopes[0].slope, -0.06);
+  EXPECT_EQ(world.ground.side_slopes[0].run_in, 12.0);
+  EXPECT_EQ(world.wind.velocity, Vec2(1.5, -2.0));
+  ASSERT_EQ(world.wind.gusts.size(), 2U);
+  EXPECT_EQ(world.wind.gusts[0].velocity, Vec2(0.0, 12.0));
+  EXPECT_EQ(world.wind.gusts[0].from, 3.0);
+  EXPECT_EQ(world.wind.gusts[0].duration, 2.0);
+  EXPECT_EQ(world.wind.gusts[0].shape, GustShape::kOneMinusCosine);
+  EXPECT_FALSE(world.wind.gusts[0].area.has_value());
+  EXPECT_EQ(world.wind.gusts[1].from, 0.0);
+  EXPECT_FALSE(world.wind.gusts[1].duration.has_value());
+  EXPECT_EQ(world.wind.gusts[1].shape, GustShape::kStep);
+  ASSERT_TRUE(world.wind.gusts[1].area.has_value());
+  EXPECT_EQ(world.wind.gusts[1].area->centre, (Pose2{20.0, 0.0, 0.1}));
+  EXPECT_EQ(world.wind.gusts[1].area->width, 10.0);
+}
+
+TEST(ReadScenario, ReadsTheWorldAndWritesItBack) {
+  const Scenario scenario = Parse(std::string(kSmall) + kWorld);
+  ExpectWorld(scenario.world);
+  const std::string once = ResolvedYaml(scenario);
+  ExpectWorld(Parse(once).world);
+  EXPECT_EQ(once, ResolvedYaml(Parse(once)));
+}
+
+TEST(ReadWorld, ReadsThatSectionAlone) {
+  const TempFolder folder;
+  ExpectWorld(ReadWorld(folder.Write("a.yaml", std::string("vehicle: {model: gone}\n") + kWorld)));
+  EXPECT_TRUE(IsFlat(ReadWorld(folder.Write("b.yaml", "schema: 1\n")).ground));
+  EXPECT_THROW(ReadWorld(folder.Write("c.yaml", "world: {wind: {z: 1}}\n")), InputError);
+}
+
 TEST(ResolvedYaml, FindsAModelGivenByPathFromAnywhere) {
   const TempFolder folder;
   const auto car = folder.Write("cars/car.xml", "<mujoco/>");

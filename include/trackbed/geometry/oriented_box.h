@@ -16,6 +16,9 @@ struct OrientedBox {
   [[nodiscard]] std::array<Vec2, 4> Corners() const;
 };
 
+/// Whether a point lies within a rectangle or on its border.
+bool Contains(const OrientedBox& box, const Vec2& point);
+
 /// Shortest distance between two rectangles [m]; where they overlap, minus the shortest way that
 /// one would have to move to come free. Exact to rounding.
 double Separation(const OrientedBox& a, const OrientedBox& b);

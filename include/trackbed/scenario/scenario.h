@@ -125,6 +125,9 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
 /// InputError.
 RenderSpec ReadRenderSpec(const std::filesystem::path& file);
 
+/// The `world` section alone, likewise; what a film shows of it.
+World ReadWorld(const std::filesystem::path& file);
+
 /// Checks that concern more than one key; ReadScenario has made them, callers that fill the struct
 /// by hand make them here. InputError.
 void CheckScenario(const Scenario& scenario);

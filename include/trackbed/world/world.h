@@ -5,6 +5,8 @@
 
 #include "trackbed/geometry/oriented_box.h"
 #include "trackbed/vehicle/params.h"
+#include "trackbed/world/road.h"
+#include "trackbed/world/wind.h"
 
 namespace trackbed {
 
@@ -20,8 +22,20 @@ struct Obstacle {
 /// What a car drives in.
 struct World {
   double friction = 1.0;  ///< factor on the tyres' own friction coefficient, both tyre laws
+  std::vector<FrictionPatch> friction_patches{};  ///< where it is another; later ones lie on top
+  Ground ground{};
+  Wind wind{};
   std::vector<Obstacle> obstacles;
 };
+
+/// The road's factor on the tyres' friction coefficient at a point: that of the last patch in the
+/// list that contains it, else `friction`. Cost O(patches).
+double RoadFactor(const World& world, const Vec2& point_W);
+
+/// Of the world's ground and wind; see road.h and wind.h.
+double GroundHeight(const World& world, const Vec2& point_W);
+Eigen::Vector3d GroundNormal(const World& world, const Vec2& point_W);
+Vec2 WindAt(const World& world, const Vec2& point_W, double time);
 
 /// The car's outline on the ground when its rear-axle centre is at `pose`.
 OrientedBox OutlineAt(const VehicleParams& vehicle, const Pose2& pose);

@@ -1,0 +1,127 @@
+#include "trackbed/world/road.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/core/angle.h"
+
+namespace trackbed {
+namespace {
+
+/// A height, and how it changes along one coordinate or along two.
+struct Profile {
+  double height = 0.0;
+  double slope = 0.0;
+};
+struct Lift {
+  double height = 0.0;
+  Vec2 slope = Vec2::Zero();
+};
+
+/// C(distance / reach): 1 up to where it begins to come down, 0 from `reach` beyond that on.
+Profile ComesDown(double distance, double reach) {
+  if (distance <= 0.0) {
+    return {1.0, 0.0};
+  }
+  if (distance >= reach) {
+    return {0.0, 0.0};
+  }
+  const double angle = 0.5 * kPi * distance / reach;
+  return {std::cos(angle) * std::cos(angle), -0.5 * kPi / reach * std::sin(2.0 * angle)};
+}
+
+/// The same on both sides of 0, flat between, down to 0 at +-half.
+Profile ComesDownOnBothSides(double place, double half, double reach) {
+  const Profile one = ComesDown(std::abs(place) - half + reach, reach);
+  return {one.height, std::copysign(1.0, place) * one.slope};
+}
+
+/// The product of a profile along u and one along v, with its slope in world axes.
+Lift Product(const Pose2& pose, double height, const Profile& along, const Profile& across) {
+  const Vec2 u = Direction(pose.yaw);
+  return {height * along.height * across.height,
+          height * (along.slope * across.height * u + along.height * across.slope * LeftOf(u))};
+}
+
+Lift LiftOf(const Bump& bump, const Vec2& point_W) {
+  const Vec2 p = ToLocal(bump.area.centre, point_W);
+  const double half_length = 0.5 * bump.area.length;
+  const double half_width = 0.5 * bump.area.width;
+  return Product(bump.area.centre, bump.height,
+                 ComesDownOnBothSides(p.x(), half_length, half_length),
+                 ComesDownOnBothSides(p.y(), half_width, std::min(bump.edge, half_width)));
+}
+
+Lift LiftOf(const SideSlope& stretch, const Vec2& point_W) {
+  const Vec2 p = ToLocal(stretch.area.centre, point_W);
+  const double half_length = 0.5 * stretch.area.length;
+  const double width = stretch.area.width;
+  const double up = std::copysign(1.0, stretch.slope);  // the sign of v uphill
+  const double w = 0.5 * width + up * p.y();
+  Profile across;
+  if (w > width) {
+    const Profile embankment = ComesDown(w - width, width);
+    across = {width * embankment.height, up * width * embankment.slope};
+  } else if (w > 0.0) {
+    across = {w, up};
+  }
+  return Product(stretch.area.centre, std::abs(stretch.slope),
+                 ComesDownOnBothSides(p.x(), half_length, std::min(stretch.run_in, half_length)),
+                 across);
+}
+
+/// Of the highest feature.
+Lift Highest(const Ground& ground, const Vec2& point_W) {
+  Lift highest;
+  const auto look = [&](const auto& features) {
+    for (const auto& feature : features) {
+      const Lift lift = LiftOf(feature, point_W);
+      if (lift.height > highest.height) {
+        highest = lift;
+      }
+    }
+  };
+  look(ground.bumps);
+  look(ground.side_slopes);
+  return highest;
+}
+
+}  // namespace
+
+bool IsFlat(const Ground& ground) {
+  return ground.grade.isZero(0.0) && ground.bumps.empty() && ground.side_slopes.empty();
+}
+
+double Rise(const Bump& bump, const Vec2& point_W) {
+  return LiftOf(bump, point_W).height;
+}
+
+double Rise(const SideSlope& side_slope, const Vec2& point_W) {
+  return LiftOf(side_slope, point_W).height;
+}
+
+OrientedBox Extent(const Bump& bump) {
+  return bump.area;
+}
+
+OrientedBox Extent(const SideSlope& side_slope) {
+  const OrientedBox& area = side_slope.area;
+  const Vec2 middle =
+      ToWorld(area.centre, {0.0, std::copysign(0.5 * area.width, side_slope.slope)});
+  return {{middle.x(), middle.y(), area.centre.yaw}, area.length, 2.0 * area.width};
+}
+
+double GroundHeight(const Ground& ground, const Vec2& point_W) {
+  return ground.grade.dot(point_W) + Highest(ground, point_W).height;
+}
+
+Vec2 GroundSlope(const Ground& ground, const Vec2& point_W) {
+  return ground.grade + Highest(ground, point_W).slope;
+}
+
+Eigen::Vector3d GroundNormal(const Ground& ground, const Vec2& point_W) {
+  const Vec2 slope = GroundSlope(ground, point_W);
+  return Eigen::Vector3d(-slope.x(), -slope.y(), 1.0).normalized();
+}
+
+}  // namespace trackbed
