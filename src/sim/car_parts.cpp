@@ -2,6 +2,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <numbers>
 
 #include "trackbed/core/error.h"
+#include "trackbed/core/spelling.h"
 
 namespace trackbed {
 namespace {
@@ -21,6 +23,10 @@ struct DataDeleter {
 constexpr double kExact = 1e-6;
 /// Cosine of the most that a wheel's axes may lean away from the car's: toe, camber, kingpin.
 constexpr double kUpright = 0.7;
+
+double Square(double value) {
+  return value * value;
+}
 
 class CarReader {
  public:
@@ -40,6 +46,8 @@ class CarReader {
     ReadWheels();
     ReadSteering();
     ReadOutline();
+    ReadTyres();
+    ReadAerodynamics();
     ThrowIfAnything();
     return {parts_, params_};
   }
@@ -77,6 +85,22 @@ class CarReader {
     return id < 0 ? 0.0 : m_.numeric_data[m_.numeric_adr[id]];
   }
 
+  [[nodiscard]] const mjtNum* FindNumbers(const std::string& name, int count) {
+    const int id = mj_name2id(&m_, mjOBJ_NUMERIC, name.c_str());
+    if (id >= 0 && m_.numeric_size[id] != count) {
+      Complain(name, fmt::format("has {} numbers and needs {}", m_.numeric_size[id], count));
+      return nullptr;
+    }
+    return id < 0 ? nullptr : m_.numeric_data + m_.numeric_adr[id];
+  }
+
+  /// What need not be there.
+  void Read(const std::string& name, double& value) {
+    if (const mjtNum* number = FindNumbers(name, 1)) {
+      value = *number;
+    }
+  }
+
   void FindNames() {
     parts_.chassis = Find(mjOBJ_BODY, "body", "chassis");
     free_ = Joint("chassis", mjJNT_FREE, "free joint");
@@ -103,6 +127,7 @@ class CarReader {
     parts_.chassis_qpos = m_.jnt_qposadr[free_];
     parts_.chassis_dof = m_.jnt_dofadr[free_];
     parts_.rack_qpos = m_.jnt_qposadr[rack_];
+    parts_.rack_dof = m_.jnt_dofadr[rack_];
     for (std::size_t w = 0; w < kWheels.size(); ++w) {
       parts_.spin_qpos[w] = m_.jnt_qposadr[spin_[w]];
       parts_.spin_dof[w] = m_.jnt_dofadr[spin_[w]];
@@ -111,9 +136,11 @@ class CarReader {
       // About the spin axis, which is the wheel body's y axis when its inertia is given in place.
       const mjtNum* inertia = m_.body_inertia + 3 * parts_.wheel[w];
       parts_.spin_inertia[w] = *std::max_element(inertia, inertia + 3);
+      parts_.hub_height[w] = Wheel(w, 2);
     }
     for (std::size_t w = 0; w < steer_.size(); ++w) {
       parts_.steer_qpos[w] = m_.jnt_qposadr[steer_[w]];
+      parts_.steer_dof[w] = m_.jnt_dofadr[steer_[w]];
     }
     parts_.steer_state = parts_.steer_actuator - (m_.nu - m_.na);  // stateful actuators come last
   }
@@ -144,6 +171,17 @@ class CarReader {
     const mjtNum* cg = data_->subtree_com + 3 * parts_.chassis;
     params_.cg_to_rear = Offset(cg, 0);
     parts_.cg_height = Offset(cg, 2);
+    for (int body = 1; body < m_.nbody; ++body) {
+      if (m_.body_rootid[body] != m_.body_rootid[parts_.chassis]) {
+        continue;
+      }
+      const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> axes(data_->ximat +
+                                                                                9 * body);
+      const mjtNum* at = data_->xipos + 3 * body;
+      params_.yaw_inertia += axes.row(2).cwiseAbs2().dot(
+                                 Eigen::Map<const Eigen::RowVector3d>(m_.body_inertia + 3 * body)) +
+                             m_.body_mass[body] * (Square(at[0] - cg[0]) + Square(at[1] - cg[1]));
+    }
   }
 
   void CheckDrive() {
@@ -155,6 +193,11 @@ class CarReader {
       Complain("drive", fmt::format("ctrlrange {:.4g} {:.4g}: its upper end is the largest drive "
                                     "torque [N m] and must be above 0",
                                     range[0], range[1]));
+    }
+    Read("drive_power", parts_.drive_power);
+    if (!(parts_.drive_power >= 0.0)) {
+      Complain("drive_power",
+               fmt::format("must not be negative, found {:.4g}", parts_.drive_power));
     }
     if (!(parts_.brake_torque_front >= 0.0 && parts_.brake_torque_rear >= 0.0 &&
           parts_.brake_torque_front + parts_.brake_torque_rear > 0.0)) {
@@ -298,6 +341,112 @@ class CarReader {
     }
   }
 
+  /// A coefficient of both axles, and of each.
+  void ReadCoefficient(const MagicFormulaField& field, CarTyres& tyres, bool& any) {
+    const std::string name = field.name;
+    const auto has = [&](const std::string& key) {
+      return mj_name2id(&m_, mjOBJ_NUMERIC, key.c_str()) >= 0;
+    };
+    const std::array<std::string, 2> own{name + "_front", name + "_rear"};
+    for (std::size_t axle = 0; axle < own.size(); ++axle) {
+      double& value = tyres.axle[axle].*field.value;
+      Read(name, value);
+      Read(own[axle], value);
+      any = any || ((has(name) || has(own[axle])) && name.find('_') == 1);
+      if (field.required && !has(name) && !has(own[axle])) {
+        missing_coefficients_.push_back(own[axle]);
+      }
+    }
+  }
+
+  void ReadTyres() {
+    CarTyres tyres;
+    bool any = false;
+    for (const MagicFormulaField& field : MagicFormulaFields()) {
+      ReadCoefficient(field, tyres, any);
+    }
+    CheckCoefficientNames();
+    Read("camber_gain_front", tyres.camber_gain[0]);
+    Read("camber_gain_rear", tyres.camber_gain[1]);
+    Read("tyre_vertical_stiffness", tyres.vertical_stiffness);
+    Read("tyre_vertical_damping", tyres.vertical_damping);
+    if (!any) {
+      return;
+    }
+    for (const std::string& name : missing_coefficients_) {
+      Complain(name,
+               "missing; a tyre needs p_cx1, p_dx1, p_kx1, p_cy1, p_dy1 and p_ky1, of both "
+               "axles under these names or of each with _front and _rear");
+    }
+    for (std::size_t axle = 0; axle < tyres.axle.size(); ++axle) {
+      CheckTyre(tyres.axle[axle], axle == 0 ? "front" : "rear");
+    }
+    const double load = 0.5 * params_.mass * std::abs(m_.opt.gravity[2]) / params_.wheelbase;
+    params_.cornering_stiffness_front =
+        2.0 * CorneringStiffness(tyres.axle[0], load * params_.cg_to_rear);
+    params_.cornering_stiffness_rear =
+        2.0 * CorneringStiffness(tyres.axle[1], load * params_.cg_to_front());
+    parts_.tyres = tyres;
+  }
+
+  /// A coefficient that nobody reads is a misspelt or an unsupported one.
+  void CheckCoefficientNames() {
+    std::vector<std::string> known;
+    for (const MagicFormulaField& field : MagicFormulaFields()) {
+      for (const char* ending : {"", "_front", "_rear"}) {
+        known.push_back(std::string(field.name) + ending);
+      }
+    }
+    for (int id = 0; id < m_.nnumeric; ++id) {
+      const std::string name = m_.names + m_.name_numericadr[id];
+      const bool is_coefficient = name.size() > 2 && name[1] == '_' &&
+                                  std::string("pqrstl").find(name[0]) != std::string::npos;
+      if (is_coefficient && std::find(known.begin(), known.end(), name) == known.end()) {
+        Complain(name, "unknown tyre coefficient " + UnknownName(name, known));
+      }
+    }
+  }
+
+  void CheckTyre(const MagicFormula& tyre, const char* axle) {
+    const auto need = [&](bool holds, const char* name, const char* what, double found) {
+      if (!holds && missing_coefficients_.empty()) {
+        Complain(fmt::format("{} ({})", name, axle),
+                 fmt::format("must be {}, found {:.4g}", what, found));
+      }
+    };
+    need(tyre.p_cx1 > 0.0, "p_cx1", "above 0", tyre.p_cx1);
+    need(tyre.p_dx1 > 0.0, "p_dx1", "above 0", tyre.p_dx1);
+    need(tyre.p_kx1 > 0.0, "p_kx1", "above 0", tyre.p_kx1);
+    need(tyre.p_ex1 <= 1.0, "p_ex1", "at most 1", tyre.p_ex1);
+    need(tyre.p_cy1 > 0.0, "p_cy1", "above 0", tyre.p_cy1);
+    need(tyre.p_dy1 > 0.0, "p_dy1", "above 0", tyre.p_dy1);
+    need(tyre.p_ky1 < 0.0, "p_ky1",
+         "below 0: a positive slip angle, with the tyre moving to the left, makes a force to the "
+         "right",
+         tyre.p_ky1);
+    need(tyre.p_ey1 <= 1.0, "p_ey1", "at most 1", tyre.p_ey1);
+    need(tyre.p_ky2 >= 0.0, "p_ky2", "at least 0", tyre.p_ky2);
+    need(tyre.relaxation_length > 0.0, "relaxation_length", "above 0", tyre.relaxation_length);
+    need(tyre.rolling_resistance >= 0.0, "rolling_resistance", "at least 0",
+         tyre.rolling_resistance);
+    const bool needs_load = tyre.p_ky2 != 0.0 || tyre.p_dx2 != 0.0 || tyre.p_dy2 != 0.0;
+    need(tyre.f_z0 >= 0.0 && (tyre.f_z0 > 0.0 || !needs_load), "F_z0",
+         "above 0: p_ky2, p_dx2 and p_dy2 need the nominal load", tyre.f_z0);
+  }
+
+  void ReadAerodynamics() {
+    CarAerodynamics& air = parts_.aerodynamics;
+    Read("drag_area", air.drag_area);
+    Read("side_area", air.side_area);
+    air.centre_of_pressure = {params_.cg_to_rear, parts_.cg_height};
+    if (const mjtNum* at = FindNumbers("centre_of_pressure", 2)) {
+      air.centre_of_pressure = {at[0], at[1]};
+    }
+    if (!(air.drag_area >= 0.0 && air.side_area >= 0.0)) {
+      Complain("drag_area", "drag_area and side_area must not be negative");
+    }
+  }
+
   void ReadOutline() {
     if (m_.site_type[outline_] != mjGEOM_BOX) {
       Complain("outline", "must be a box site");
@@ -329,6 +478,7 @@ class CarReader {
   std::array<int, 4> spin_{};
   std::array<int, 2> steer_{};
   int outline_ = -1;  // site
+  std::vector<std::string> missing_coefficients_;
 };
 
 }  // namespace

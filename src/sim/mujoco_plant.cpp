@@ -3,10 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
+#include "src/sim/magic_formula_tyres.h"
 #include "src/sim/mujoco_error.h"
 #include "src/sim/plants.h"
+#include "src/sim/wheel_contacts.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
@@ -18,6 +21,7 @@ using Eigen::Vector3d;
 
 /// Below this the car counts as standing and is held by its brakes [m/s].
 constexpr double kStandstill = 0.01;
+constexpr double kAirDensity = 1.225;  // ISO 2533 at sea level [kg/m^3]
 
 Vector3d Vec(const mjtNum* numbers) {
   return {numbers[0], numbers[1], numbers[2]};
@@ -34,22 +38,40 @@ class MujocoPlant final : public Plant {
  public:
   explicit MujocoPlant(const PlantSetup& setup)
       : car_(setup.car),
+        world_(setup.world),
+        prescribed_(setup.steering == SteeringInput::kPrescribed),
         model_(mj_copyModel(nullptr, setup.car.get())),
-        data_(mj_makeData(model_.get())),
-        ground_(mj_name2id(setup.car.get(), mjOBJ_GEOM, "ground")) {
+        data_(mj_makeData(model_.get())) {
     TRACKBED_CHECK(model_ && data_, "no memory for the simulation");
     for (std::size_t w = 0; w < kWheels.size(); ++w) {
-      // Sliding friction only: torsion and rolling are lengths, not properties of the road.
-      model_->geom_friction[3 * car_.parts().tyre[w]] *= setup.world.friction;
+      tyre_friction_[w] = model_->geom_friction[3 * car_.parts().tyre[w]];
       bearing_friction_[w] = model_->dof_frictionloss[car_.parts().spin_dof[w]];
+    }
+    if (setup.tyre == TyreLaw::kMagicFormula) {
+      tyres_.emplace(car_, *model_);
     }
     Reset(setup.start);
   }
 
   void Step(const Command& command) override {
-    Steer(command.steering);
+    if (prescribed_) {
+      PrescribeVelocity(command.steering);
+    } else {
+      Steer(command.steering);
+    }
     Propel(command);
-    mj_step(model_.get(), data_.get());
+    const std::array<double, 4> road = Road();
+    const std::array<double, 4> loads = RoadLoads(car_, *model_, *data_);  // of the last solve
+    mj_step1(model_.get(), data_.get());
+    std::fill_n(data_->qfrc_applied, model_->nv, 0.0);
+    PushByAir();
+    if (tyres_) {
+      tyres_->Apply(*model_, *data_, loads, road);
+    }
+    mj_step2(model_.get(), data_.get());
+    if (prescribed_) {
+      PrescribeAngle(command.steering);
+    }
     const double yaw = Yaw();
     yaw_ += AngleDifference(yaw, yaw_);
     distance_ += std::abs(Speed()) * model_->opt.timestep;
@@ -71,6 +93,7 @@ class MujocoPlant final : public Plant {
   void Steer(double wanted);
   void Propel(const Command& command);
   void Brake(double torque, bool hold);
+  [[nodiscard]] double DriveLimit() const;
 
   [[nodiscard]] const mjtNum* ChassisPosition() const {
     return data_->qpos + car_.parts().chassis_qpos;
@@ -95,15 +118,24 @@ class MujocoPlant final : public Plant {
     const auto& steer = car_.parts().steer_qpos;
     return BicycleAngle(car_.params(), {data_->qpos[steer[0]], data_->qpos[steer[1]]});
   }
-  [[nodiscard]] std::array<WheelState, 4> Wheels() const;
+  [[nodiscard]] std::array<double, 4> Road();
+  [[nodiscard]] Vector3d AirSpeed() const;
+  void PushByAir();
+  [[nodiscard]] double Resistance(int gear) const;
+  void PrescribeVelocity(double steering);
+  void PrescribeAngle(double steering);
+  [[nodiscard]] std::array<WheelState, 4> ContactWheels() const;
   [[nodiscard]] double ObstacleForce() const;
 
   const CarModel& car_;
+  const World& world_;
+  bool prescribed_;                               // steering
   std::unique_ptr<mjModel, ModelDeleter> model_;  // own copy: brakes and road change it
   std::unique_ptr<mjData, DataDeleter> data_;
+  std::optional<MagicFormulaTyres> tyres_;    // none: contacts hold the wheels
+  std::array<double, 4> tyre_friction_{};     // of the contacts, on a road of factor 1
   std::array<double, 4> bearing_friction_{};  // [N m]
   double yaw_ = 0.0;                          // unwrapped [rad]
-  int ground_;                                // geom
   double distance_ = 0.0;                     // [m]
 };
 
@@ -141,18 +173,21 @@ void MujocoPlant::Propel(const Command& command) {
   for (const double inertia : parts.spin_inertia) {
     rolling_mass += inertia / (radius * radius);
   }
-  double bearings = 0.0;  // [N m]
-  for (const double friction : bearing_friction_) {
-    bearings += friction;
-  }
   const double along_gear = command.acceleration * command.gear;
   const bool hold = along_gear <= 0.0 && Speed() * command.gear < kStandstill;
-  // What motor or brakes have to do beyond what the bearings do already, as a torque at the wheels.
-  const double torque = along_gear * rolling_mass * radius + bearings;
+  // What motor or brakes have to do beyond what slows the car anyway, as a torque at the wheels.
+  const double torque = along_gear * rolling_mass * radius + Resistance(command.gear);
   const bool drive = torque > 0.0 && !hold;
-  data_->ctrl[parts.drive_actuator] =
-      drive ? command.gear * std::min(torque, parts.drive_limit) : 0.0;
+  data_->ctrl[parts.drive_actuator] = drive ? command.gear * std::min(torque, DriveLimit()) : 0.0;
   Brake(drive ? 0.0 : -torque, hold);
+}
+
+/// Largest drive torque at the speed now [N m].
+double MujocoPlant::DriveLimit() const {
+  const CarParts& parts = car_.parts();
+  const double full = parts.drive_limit * std::abs(Speed());
+  const double power = parts.drive_power * car_.params().wheel_radius;
+  return parts.drive_power > 0.0 && full > power ? power / std::abs(Speed()) : parts.drive_limit;
 }
 
 void MujocoPlant::Brake(double torque, bool hold) {
@@ -165,6 +200,71 @@ void MujocoPlant::Brake(double torque, bool hold) {
   }
 }
 
+/// What bearings, rolling tyres and air take from a drive torque along the gear [N m].
+double MujocoPlant::Resistance(int gear) const {
+  double dry = tyres_ ? tyres_->RollingMoment() : 0.0;
+  for (const double friction : bearing_friction_) {
+    dry += friction;
+  }
+  const Vector3d air_V = ChassisRotation().transpose() * AirSpeed();
+  const double drag =
+      -0.5 * kAirDensity * air_V.norm() * air_V.x() * car_.parts().aerodynamics.drag_area;
+  return dry + gear * drag * car_.params().wheel_radius;
+}
+
+/// The road's factor under each wheel, which is the contacts' as well.
+std::array<double, 4> MujocoPlant::Road() {
+  std::array<double, 4> road{};
+  for (std::size_t w = 0; w < kWheels.size(); ++w) {
+    const mjtNum* hub = data_->xpos + 3 * car_.parts().wheel[w];
+    road[w] = RoadFactor(world_, {hub[0], hub[1]});
+    // Sliding friction only: torsion and rolling are lengths, not properties of the road.
+    model_->geom_friction[3 * car_.parts().tyre[w]] = tyre_friction_[w] * road[w];
+  }
+  return road;
+}
+
+/// Of the air relative to the car, world frame [m/s].
+Vector3d MujocoPlant::AirSpeed() const {
+  const mjtNum* at = ChassisPosition();
+  const Vec2 wind = WindAt(world_, {at[0], at[1]}, data_->time);
+  return Vector3d(wind.x(), wind.y(), 0.0) - Vec(ChassisVelocity());
+}
+
+void MujocoPlant::PushByAir() {
+  const CarAerodynamics& car = car_.parts().aerodynamics;
+  const Matrix3d R_WV = ChassisRotation();
+  const Vector3d air_V = R_WV.transpose() * AirSpeed();
+  const double pressure = 0.5 * kAirDensity * air_V.head<2>().norm();
+  const Vector3d force_W = R_WV * Vector3d(pressure * air_V.x() * car.drag_area,
+                                           pressure * air_V.y() * car.side_area, 0.0);
+  const Vector3d at_W = Vec(ChassisPosition()) +
+                        R_WV * Vector3d(car.centre_of_pressure[0], 0.0, car.centre_of_pressure[1]);
+  const std::array<mjtNum, 3> no_moment{};
+  mj_applyFT(model_.get(), data_.get(), force_W.data(), no_moment.data(), at_W.data(),
+             car_.parts().chassis, data_->qfrc_applied);
+}
+
+/// The wheels move to `steering` during the coming step, whatever forces say.
+void MujocoPlant::PrescribeVelocity(double steering) {
+  const CarParts& parts = car_.parts();
+  const double timestep = model_->opt.timestep;
+  const FrontAngles to = AckermannAngles(car_.params(), steering);
+  data_->qvel[parts.rack_dof] = (steering - data_->qpos[parts.rack_qpos]) / timestep;
+  data_->qvel[parts.steer_dof[0]] = (to.left - data_->qpos[parts.steer_qpos[0]]) / timestep;
+  data_->qvel[parts.steer_dof[1]] = (to.right - data_->qpos[parts.steer_qpos[1]]) / timestep;
+  data_->ctrl[parts.steer_actuator] = 0.0;
+}
+
+void MujocoPlant::PrescribeAngle(double steering) {
+  const CarParts& parts = car_.parts();
+  const FrontAngles at = AckermannAngles(car_.params(), steering);
+  data_->qpos[parts.rack_qpos] = steering;
+  data_->qpos[parts.steer_qpos[0]] = at.left;
+  data_->qpos[parts.steer_qpos[1]] = at.right;
+  data_->act[parts.steer_state] = steering;
+}
+
 VehicleState MujocoPlant::Observe() const {
   const VehicleParams& params = car_.params();
   const mjtNum* position = ChassisPosition();
@@ -174,7 +274,8 @@ VehicleState MujocoPlant::Observe() const {
   const mjtNum* qacc = data_->qacc + car_.parts().chassis_dof;
   const Vector3d a_W = Vec(qacc);
   const Vector3d alpha_W = R_WV * Vec(qacc + 3);
-  const Vector3d to_cg_W = R_WV * Vector3d(params.cg_to_rear, 0.0, car_.parts().cg_height);
+  // On the ground, as the pose is: rolling is no motion of the car along y.
+  const Vector3d to_cg_W = R_WV * Vector3d(params.cg_to_rear, 0.0, 0.0);
   const Vector3d v_cg_W = v_W + w_W.cross(to_cg_W);
   const Vector3d a_cg_W = a_W + alpha_W.cross(to_cg_W) + w_W.cross(w_W.cross(to_cg_W));
 
@@ -197,7 +298,7 @@ VehicleState MujocoPlant::Observe() const {
       v_cg_W.head<2>().norm() < kStandstill ? 0.0 : std::atan(state.lateral_speed / cg_speed);
   state.steering_actuator = data_->act[car_.parts().steer_state];
   state.steering = MeasuredSteering();
-  state.wheels = Wheels();
+  state.wheels = tyres_ ? tyres_->wheels() : ContactWheels();
   state.obstacle_force = ObstacleForce();
   return state;
 }
@@ -219,57 +320,20 @@ double MujocoPlant::ObstacleForce() const {
   return sum;
 }
 
-std::array<WheelState, 4> MujocoPlant::Wheels() const {
-  const CarParts& parts = car_.parts();
-  std::array<Vector3d, 4> force_W;  // on the wheel
-  force_W.fill(Vector3d::Zero());
-  std::array<Vector3d, 4> normal_W;
-  normal_W.fill(Vector3d::UnitZ());
-  for (int i = 0; i < data_->ncon; ++i) {
-    const mjContact& contact = data_->contact[i];
-    for (std::size_t w = 0; w < kWheels.size(); ++w) {
-      const bool first = contact.geom1 == parts.tyre[w];
-      const bool on_road = first ? contact.geom2 == ground_ : contact.geom1 == ground_;
-      if ((!first && contact.geom2 != parts.tyre[w]) || !on_road) {
-        continue;
-      }
-      std::array<mjtNum, 6> force{};
-      mj_contactForce(model_.get(), data_.get(), i, force.data());
-      // Rows of the contact frame; its x axis points from geom1 to geom2.
-      const double sign = first ? -1.0 : 1.0;
-      for (int axis = 0; axis < 3; ++axis) {
-        force_W[w] += sign * force[static_cast<std::size_t>(axis)] * Vec(contact.frame + 3 * axis);
-      }
-      normal_W[w] = sign * Vec(contact.frame);
-    }
-  }
-
+std::array<WheelState, 4> MujocoPlant::ContactWheels() const {
+  const auto forces = RoadForces(car_, *model_, *data_);
+  const auto contacts = FindWheelContacts(car_, *model_, *data_);
   std::array<WheelState, 4> wheels;
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
-    const Vector3d up = normal_W[w];
-    const mjtNum* rotation = data_->xmat + 9 * parts.wheel[w];
-    const Vector3d spin_axis(rotation[1], rotation[4], rotation[7]);  // the wheel's y axis
-    const Vector3d forward = spin_axis.cross(up).normalized();
-    const Vector3d left = up.cross(forward);
-    std::array<mjtNum, 6> hub{};  // angular, linear
-    mj_objectVelocity(model_.get(), data_.get(), mjOBJ_BODY, parts.wheel[w], hub.data(), 0);
-    std::array<mjtNum, 6> carrier{};
-    mj_objectVelocity(model_.get(), data_.get(), mjOBJ_BODY, parts.carrier[w], carrier.data(), 0);
-    const double radius = car_.params().wheel_radius;
-    // Of the contact point, carried along without the spin.
-    const Vector3d v_W = Vec(hub.data() + 3) + Vec(carrier.data()).cross(-radius * up);
-    const double v_x = forward.dot(v_W);
-    const double v_y = left.dot(v_W);
-    const double rolling = data_->qvel[parts.spin_dof[w]] * radius;
-    WheelState& wheel = wheels[w];
-    wheel.normal_force = std::max(0.0, up.dot(force_W[w]));
-    wheel.longitudinal_force = forward.dot(force_W[w]);
-    wheel.lateral_force = left.dot(force_W[w]);
+    const WheelContact& contact = contacts[w];
     // Slip is relative to the speed; near standstill to the speed at which a car counts as
     // standing.
-    const double reference = std::max(std::abs(v_x), kStandstill);
-    wheel.slip_angle = std::atan2(v_y, reference);
-    wheel.slip_ratio = (rolling - v_x) / reference;
+    const double reference = std::max(std::abs(contact.rolling_speed), kStandstill);
+    wheels[w] = {.normal_force = std::max(0.0, contact.up.dot(forces[w])),
+                 .longitudinal_force = contact.forward.dot(forces[w]),
+                 .lateral_force = contact.left.dot(forces[w]),
+                 .slip_angle = std::atan2(contact.slip_speed_y, reference),
+                 .slip_ratio = contact.slip_speed_x / reference};
   }
   return wheels;
 }

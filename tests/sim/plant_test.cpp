@@ -21,7 +21,7 @@ const CarModel& Prius() {
 }
 
 /// The Prius on a road that outlives every plant.
-PlantSetup Setup(const StartState& start, double friction = 1.0) {
+PlantSetup PriusAt(const StartState& start, double friction = 1.0) {
   static std::map<double, World> roads;
   const World& road = roads.try_emplace(friction, World{.friction = friction}).first->second;
   return {.car = Prius(), .world = road, .start = start};
@@ -41,7 +41,7 @@ void Hold(Plant& plant, double steering, double speed, double duration) {
 class EveryPlant : public testing::TestWithParam<std::string> {
  protected:
   static std::unique_ptr<Plant> At(const StartState& start, double friction = 1.0) {
-    return MakePlant(GetParam(), Setup(start, friction));
+    return MakePlant(GetParam(), PriusAt(start, friction));
   }
 };
 
@@ -193,7 +193,7 @@ TEST_P(EveryPlant, UnwrapsItsHeading) {
 
 TEST(MakePlant, SuggestsTheNearestName) {
   try {
-    MakePlant("mujoko", Setup({}));
+    MakePlant("mujoko", PriusAt({}));
     FAIL();
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "unknown plant 'mujoko'; did you mean 'mujoco'?");
@@ -201,7 +201,7 @@ TEST(MakePlant, SuggestsTheNearestName) {
 }
 
 TEST(MujocoPlant, StandsAtStaticLoad) {
-  const auto plant = MakePlant("mujoco", Setup({}));
+  const auto plant = MakePlant("mujoco", PriusAt({}));
   for (int i = 0; i < 2500; ++i) {
     plant->Step({});
   }
@@ -221,7 +221,7 @@ TEST(MujocoPlant, StandsAtStaticLoad) {
 
 TEST(MujocoPlant, TyresCarryTheCentripetalForce) {
   const double steering = 0.2;
-  const auto plant = MakePlant("mujoco", Setup({.speed = 5.0, .steering = steering}));
+  const auto plant = MakePlant("mujoco", PriusAt({.speed = 5.0, .steering = steering}));
   Hold(*plant, steering, 5.0, 6.0);
   const VehicleState state = plant->Observe();
   const FrontAngles front = AckermannAngles(Prius().params(), state.steering);
@@ -245,10 +245,10 @@ TEST(MujocoPlant, TyresCarryTheCentripetalForce) {
 }
 
 TEST(MujocoPlant, RollsAndPitchesAsIso8855Says) {
-  const auto turning = MakePlant("mujoco", Setup({.speed = 6.0, .steering = 0.2}));
+  const auto turning = MakePlant("mujoco", PriusAt({.speed = 6.0, .steering = 0.2}));
   Hold(*turning, 0.2, 6.0, 3.0);
   EXPECT_GT(turning->Observe().roll, 0.005);  // left turn: right side down, positive
-  const auto braking = MakePlant("mujoco", Setup({.speed = 15.0}));
+  const auto braking = MakePlant("mujoco", PriusAt({.speed = 15.0}));
   for (int i = 0; i < 500; ++i) {
     braking->Step({.acceleration = -4.0});
   }
@@ -259,7 +259,7 @@ TEST(MujocoPlant, RollsAndPitchesAsIso8855Says) {
 
 TEST(MujocoPlant, SlipperyRoadLimitsBraking) {
   const auto distance = [](double friction) {
-    const auto plant = MakePlant("mujoco", Setup({.speed = 10.0}, friction));
+    const auto plant = MakePlant("mujoco", PriusAt({.speed = 10.0}, friction));
     for (int i = 0; i < 10000 && plant->Observe().speed > 0.01; ++i) {
       plant->Step({.acceleration = -12.0});
     }
@@ -272,7 +272,7 @@ TEST(MujocoPlant, SlipperyRoadLimitsBraking) {
 }
 
 TEST(MujocoPlant, SteeringFollowsTheActuatorClosely) {
-  const auto plant = MakePlant("mujoco", Setup({.speed = 3.0}));
+  const auto plant = MakePlant("mujoco", PriusAt({.speed = 3.0}));
   Hold(*plant, 0.4, 3.0, 2.0);  // still on the ramp
   const VehicleState moving = plant->Observe();
   // A servo with lag tau trails a ramp by rate * tau; the model's is 10 ms and the coupling adds

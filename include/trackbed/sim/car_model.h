@@ -2,11 +2,13 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "trackbed/sim/scene.h"
+#include "trackbed/vehicle/magic_formula.h"
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/state.h"
 
@@ -16,6 +18,22 @@ namespace trackbed {
 
 /// The wheels of a car, in the order of every per-wheel array and column.
 inline constexpr std::array<const char*, 4> kWheels{"fl", "fr", "rl", "rr"};
+
+/// What a car's file says of its tyres.
+struct CarTyres {
+  std::array<MagicFormula, 2> axle;     ///< front, rear
+  std::array<double, 2> camber_gain{};  ///< front, rear: of the left wheel, to the left, per metre
+                                        ///< of spring travel up [rad/m]; mirrored on the right
+  double vertical_stiffness = 0.0;      ///< [N/m]; 0: as stiff as the contact is
+  double vertical_damping = 0.0;        ///< [N s/m]
+};
+
+/// How the air pushes the car: 1/2 rho |v| v times an area, along and across. Zero: it does not.
+struct CarAerodynamics {
+  double drag_area = 0.0;                      ///< C_d A [m^2], of wind along x
+  double side_area = 0.0;                      ///< C_s A [m^2], of wind along y
+  std::array<double, 2> centre_of_pressure{};  ///< x and z of where it pushes [m]
+};
 
 /// Where Trackbed finds the parts of a car in the compiled model (docs name the MJCF names).
 struct CarParts {
@@ -28,15 +46,21 @@ struct CarParts {
   std::array<int, 4> spin_qpos{};
   std::array<int, 4> spin_dof{};
   std::array<int, 2> steer_qpos{};  ///< fl, fr
+  std::array<int, 2> steer_dof{};
   int rack_qpos = -1;
+  int rack_dof = -1;
   int steer_actuator = -1;  ///< index into ctrl
   int steer_state = -1;     ///< index into act
   int drive_actuator = -1;
   double drive_limit = 0.0;              ///< of the drive torque, both wheels together [N m]
+  double drive_power = 0.0;              ///< largest [W]; 0: not limited
   double brake_torque_front = 0.0;       ///< largest, per wheel [N m]
   double brake_torque_rear = 0.0;        ///< largest, per wheel [N m]
   std::array<double, 4> spin_inertia{};  ///< [kg m^2]
+  std::array<double, 4> hub_height{};    ///< of the wheel centres at rest, in the car's frame [m]
   double cg_height = 0.0;                ///< [m]
+  std::optional<CarTyres> tyres;         ///< none when the file has no coefficients
+  CarAerodynamics aerodynamics;
 };
 
 /// A compiled car with its scene. Immutable, and safe to share between threads once made.

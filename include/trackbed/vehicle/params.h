@@ -11,12 +11,16 @@ namespace trackbed {
 /// Steering angles are those of the bicycle model's front wheel at the middle of the front axle.
 struct VehicleParams {
   std::string name;
-  double wheelbase = 0.0;       ///< L [m]
-  double cg_to_rear = 0.0;      ///< l_g: centre of gravity to rear axle, along x [m]
-  double track_front = 0.0;     ///< [m]
-  double track_rear = 0.0;      ///< [m]
-  double wheel_radius = 0.0;    ///< [m]
-  double mass = 0.0;            ///< [kg]
+  double wheelbase = 0.0;     ///< L [m]
+  double cg_to_rear = 0.0;    ///< l_g: centre of gravity to rear axle, along x [m]
+  double track_front = 0.0;   ///< [m]
+  double track_rear = 0.0;    ///< [m]
+  double wheel_radius = 0.0;  ///< [m]
+  double mass = 0.0;          ///< [kg]
+  double yaw_inertia = 0.0;   ///< of the whole car about its centre of gravity [kg m^2]
+  /// Of an axle at its static load, both tyres together [N/rad]; 0 without tyre coefficients.
+  double cornering_stiffness_front = 0.0;
+  double cornering_stiffness_rear = 0.0;
   double steering_limit = 0.0;  ///< delta_max [rad]
   double steering_rate = 0.0;   ///< omega_delta at the road wheels [rad/s]
   double steering_lag = 0.0;    ///< tau: of the road wheels behind the actuator, on a ramp [s]

@@ -19,13 +19,15 @@ struct WheelState {
 };
 
 /// What every plant tells of its car, at one moment. Axes x forward, y left, z up; angles positive
-/// to the left (roll: right side down; pitch: nose down).
+/// to the left (roll: right side down; pitch: nose down). Speeds and accelerations along x and y
+/// are those of points on the ground, turning with the car's yaw: what roll adds to them at the
+/// height of the centre of gravity is not in them.
 struct VehicleState {
   double time = 0.0;           ///< [s]
   Pose2 pose;                  ///< rear-axle centre on the ground, in the world; yaw is not wrapped
   double speed = 0.0;          ///< of the rear-axle centre along x [m/s], negative backwards
   double distance = 0.0;       ///< odometer: integral of |speed| [m]
-  double lateral_speed = 0.0;  ///< of the centre of gravity along y [m/s]
+  double lateral_speed = 0.0;  ///< below the centre of gravity, along y [m/s]
   double yaw_rate = 0.0;       ///< [rad/s]
   double roll = 0.0;           ///< [rad]
   double pitch = 0.0;          ///< [rad]

@@ -1,0 +1,159 @@
+#include "src/sim/magic_formula_tyres.h"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+/// Above this a tyre rolls as it does at any speed; below, it turns into a spring [m/s].
+constexpr double kWalkingPace = 1.5;
+/// Speed at which rolling resistance is fully there [m/s]; less would be a dry friction that only
+/// the solver could hold.
+constexpr double kRolls = 0.2;
+
+std::size_t AxleOf(std::size_t wheel) {
+  return wheel < 2 ? 0 : 1;
+}
+
+/// One timestep of sigma s' = slip_speed - speed s, exactly; then s + tau s'.
+double Relax(double& s, double slip_speed, double speed, double sigma, double tau,
+             double timestep) {
+  const double x = speed * timestep / sigma;
+  const double grown = x > 1e-9 ? -std::expm1(-x) / x : 1.0;
+  s = s * std::exp(-x) + slip_speed * timestep / sigma * grown;
+  return s + tau / sigma * (slip_speed - speed * s);
+}
+
+/// The time constant that damps an oscillation of angular frequency `omega` critically, or as much
+/// of it as an explicit timestep can take.
+double Damping(double omega, double timestep) {
+  return std::min(2.0 / omega, 0.5 / (omega * omega * timestep));
+}
+
+/// Slip beyond which a tyre slides all over; 3 mu F_z/C, as in the brush model.
+double SlidingSlip(double friction, double load, double stiffness) {
+  return 3.0 * friction * load / stiffness;
+}
+
+}  // namespace
+
+MagicFormulaTyres::MagicFormulaTyres(const CarModel& car, mjModel& model)
+    : car_(car), timestep_(model.opt.timestep), gravity_(std::abs(model.opt.gravity[2])) {
+  if (!car.parts().tyres) {
+    throw InputError(Problem{.message = "the car " + car.params().name +
+                                        " has no tyre coefficients (<custom> p_cx1, p_dx1, …); "
+                                        "tyre: magic_formula needs them"});
+  }
+  const CarTyres& tyres = *car.parts().tyres;
+  const VehicleParams& params = car.params();
+  const double weight = params.mass * gravity_;
+  for (std::size_t w = 0; w < kWheels.size(); ++w) {
+    const int geom = car.parts().tyre[w];
+    model.geom_condim[geom] = 1;
+    if (tyres.vertical_stiffness > 0.0) {
+      // A contact whose impedance d is constant is a spring of stiffness k/((1 - d) A) with A the
+      // inverse inertia that MuJoCo reckons with; a small d leaves the wheel's own mass alone. It
+      // begins above the road by what the car's weight presses it in, so that it stands as it did.
+      constexpr double kImpedance = 0.05;
+      const double inverse_inertia = model.body_invweight0[2 * car.parts().wheel[w]];
+      const double scale = (1.0 - kImpedance) * inverse_inertia;
+      mjtNum* solref = model.geom_solref + mjNREF * geom;
+      solref[0] = -tyres.vertical_stiffness * scale;
+      solref[1] = -std::max(tyres.vertical_damping, mjMINVAL) * scale;
+      mjtNum* solimp = model.geom_solimp + mjNIMP * geom;
+      solimp[0] = kImpedance;
+      solimp[1] = kImpedance;
+      const double arm = AxleOf(w) == 0 ? params.cg_to_rear : params.cg_to_front();
+      const double load = 0.5 * weight * arm / params.wheelbase;
+      model.geom_margin[geom] = load / tyres.vertical_stiffness;
+    }
+  }
+}
+
+double MagicFormulaTyres::Travel(const mjData& data, std::size_t w) const {
+  const CarParts& parts = car_.parts();
+  const Eigen::Map<const Eigen::Vector3d> hub(data.xpos + 3 * parts.wheel[w]);
+  const Eigen::Map<const Eigen::Vector3d> chassis(data.xpos + 3 * parts.chassis);
+  const mjtNum* rotation = data.xmat + 9 * parts.chassis;
+  const Eigen::Vector3d up(rotation[2], rotation[5], rotation[8]);
+  return up.dot(hub - chassis) - parts.hub_height[w];
+}
+
+void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
+                              const std::array<double, 4>& loads,
+                              const std::array<double, 4>& road) {
+  const double radius = car_.params().wheel_radius;
+  const auto contacts = FindWheelContacts(car_, model, data);
+  for (std::size_t w = 0; w < kWheels.size(); ++w) {
+    const WheelContact& contact = contacts[w];
+    const CarTyres& tyres = *car_.parts().tyres;
+    const MagicFormula& tyre = tyres.axle[AxleOf(w)];
+    Slip& slip = slips_[w];
+    WheelState& state = states_[w];
+    const double load = contact.touches ? loads[w] : 0.0;
+    const double speed = std::abs(contact.rolling_speed);
+    state = {.normal_force = load};
+    if (load <= 0.0) {
+      slip = {};
+      continue;
+    }
+
+    const double sigma = tyre.relaxation_length;
+    const double c_kappa = SlipStiffness(tyre, load);
+    const double c_alpha = CorneringStiffness(tyre, load);
+    const double spin_omega = radius * std::sqrt(c_kappa / (sigma * car_.parts().spin_inertia[w]));
+    const double side_omega = std::sqrt(c_alpha * gravity_ / (sigma * load));
+    // Where the slip follows faster than the damping wants, the damping must not run ahead of it.
+    const double tau_x = speed * Damping(spin_omega, timestep_) > sigma
+                             ? sigma / speed
+                             : Damping(spin_omega, timestep_);
+    const double tau_y = Damping(side_omega, timestep_) * std::max(0.0, 1.0 - speed / kWalkingPace);
+    double kappa = Relax(slip.x, contact.slip_speed_x, speed, sigma, tau_x, timestep_);
+    double tangent = Relax(slip.y, contact.slip_speed_y, speed, sigma, tau_y, timestep_);
+    // A tyre that comes to rest sliding keeps no more deflection than it can hold.
+    const double most_x = SlidingSlip(road[w] * tyre.p_dx1, load, c_kappa) + speed / kWalkingPace;
+    const double most_y = SlidingSlip(road[w] * tyre.p_dy1, load, c_alpha) + speed / kWalkingPace;
+    slip.x = std::clamp(slip.x, -most_x, most_x);
+    slip.y = std::clamp(slip.y, -most_y, most_y);
+
+    // Left and right tyres are mirror images, so the law's asymmetries are the left one's.
+    const double side = w % 2 == 0 ? 1.0 : -1.0;
+    const double lean = -std::asin(std::clamp(contact.spin_axis.dot(contact.up), -1.0, 1.0));
+    const double travel = Travel(data, w);
+    const double camber = lean + side * tyres.camber_gain[AxleOf(w)] * travel;
+    const TyreForce force =
+        ForceOf(tyre, load, road[w],
+                {.ratio = kappa,
+                 .angle = side * std::atan(tangent),
+                 .camber = side * camber,
+                 .shift = std::clamp(contact.rolling_speed / kWalkingPace, -1.0, 1.0)});
+    state.longitudinal_force = force.longitudinal;
+    state.lateral_force = side * force.lateral;
+    state.slip_ratio = slip.x;
+    state.slip_angle = std::atan(slip.y);
+
+    const double rolling = tyre.rolling_resistance * load * radius *
+                           std::clamp(contact.spin * radius / kRolls, -1.0, 1.0);
+    const Eigen::Vector3d push =
+        state.longitudinal_force * contact.forward + state.lateral_force * contact.left;
+    const Eigen::Vector3d moment = -rolling * contact.spin_axis;
+    mj_applyFT(&model, &data, push.data(), moment.data(), contact.point.data(),
+               car_.parts().wheel[w], data.qfrc_applied);
+  }
+}
+
+double MagicFormulaTyres::RollingMoment() const {
+  double sum = 0.0;
+  for (std::size_t w = 0; w < kWheels.size(); ++w) {
+    sum += car_.parts().tyres->axle[AxleOf(w)].rolling_resistance * states_[w].normal_force *
+           car_.params().wheel_radius;
+  }
+  return sum;
+}
+
+}  // namespace trackbed

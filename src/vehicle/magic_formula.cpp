@@ -1,0 +1,129 @@
+#include "trackbed/vehicle/magic_formula.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trackbed {
+namespace {
+
+/// Width over which the sign of the camber is smoothed [rad].
+constexpr double kCamberSign = 5e-4;
+/// Beyond this the formula's square in the camber means nothing [rad].
+constexpr double kMostCamber = 0.25;
+
+/// f(u) = C atan(u - E (u - atan u)).
+double Shape(double c, double e, double u) {
+  return c * std::atan(u - e * (u - std::atan(u)));
+}
+
+/// What a force under its own slip keeps under the other one, `slip`; 1 at zero slip.
+double Weight(double b, double c, double e, double shift, double slip) {
+  return std::cos(Shape(c, e, b * (slip + shift))) / std::cos(Shape(c, e, b * shift));
+}
+
+/// (F_z - F_z0)/F_z0.
+double LoadChange(const MagicFormula& tyre, double load) {
+  return tyre.f_z0 > 0.0 ? (load - tyre.f_z0) / tyre.f_z0 : 0.0;
+}
+
+/// mu: falls with the load, but not below a tenth of what it is at the nominal one.
+double Friction(double at_nominal, double per_load, double load_change) {
+  return std::max(at_nominal + per_load * load_change, 0.1 * at_nominal);
+}
+
+}  // namespace
+
+const std::vector<MagicFormulaField>& MagicFormulaFields() {
+  using M = MagicFormula;
+  static const std::vector<MagicFormulaField> fields{
+      {"p_cx1", &M::p_cx1, true},
+      {"p_dx1", &M::p_dx1, true},
+      {"p_dx2", &M::p_dx2, false},
+      {"p_dx3", &M::p_dx3, false},
+      {"p_ex1", &M::p_ex1, false},
+      {"p_kx1", &M::p_kx1, true},
+      {"p_hx1", &M::p_hx1, false},
+      {"p_vx1", &M::p_vx1, false},
+      {"r_bx1", &M::r_bx1, false},
+      {"r_bx2", &M::r_bx2, false},
+      {"r_cx1", &M::r_cx1, false},
+      {"r_ex1", &M::r_ex1, false},
+      {"r_hx1", &M::r_hx1, false},
+      {"p_cy1", &M::p_cy1, true},
+      {"p_dy1", &M::p_dy1, true},
+      {"p_dy2", &M::p_dy2, false},
+      {"p_dy3", &M::p_dy3, false},
+      {"p_ey1", &M::p_ey1, false},
+      {"p_ky1", &M::p_ky1, true},
+      {"p_ky2", &M::p_ky2, false},
+      {"p_hy1", &M::p_hy1, false},
+      {"p_hy3", &M::p_hy3, false},
+      {"p_vy1", &M::p_vy1, false},
+      {"p_vy3", &M::p_vy3, false},
+      {"r_by1", &M::r_by1, false},
+      {"r_by2", &M::r_by2, false},
+      {"r_by3", &M::r_by3, false},
+      {"r_cy1", &M::r_cy1, false},
+      {"r_ey1", &M::r_ey1, false},
+      {"r_hy1", &M::r_hy1, false},
+      {"r_vy1", &M::r_vy1, false},
+      {"r_vy3", &M::r_vy3, false},
+      {"r_vy4", &M::r_vy4, false},
+      {"r_vy5", &M::r_vy5, false},
+      {"r_vy6", &M::r_vy6, false},
+      {"F_z0", &M::f_z0, false},
+      {"relaxation_length", &M::relaxation_length, false},
+      {"rolling_resistance", &M::rolling_resistance, false},
+  };
+  return fields;
+}
+
+double CorneringStiffness(const MagicFormula& tyre, double load) {
+  return tyre.p_ky2 > 0.0
+             ? -tyre.p_ky1 * tyre.f_z0 * std::sin(2.0 * std::atan(load / (tyre.p_ky2 * tyre.f_z0)))
+             : -tyre.p_ky1 * load;
+}
+
+double SlipStiffness(const MagicFormula& tyre, double load) {
+  return tyre.p_kx1 * load;
+}
+
+TyreForce ForceOf(const MagicFormula& t, double load, double road, const TyreSlip& slip) {
+  if (!(load > 0.0)) {
+    return {};
+  }
+  const double gamma = std::clamp(slip.camber, -kMostCamber, kMostCamber);
+  const double side = slip.shift * gamma / std::hypot(gamma, kCamberSign);  // sgn gamma
+  const double lean = std::abs(gamma);
+  const double load_change = LoadChange(t, load);
+
+  const double mu_x =
+      road * Friction(t.p_dx1, t.p_dx2, load_change) * (1.0 - t.p_dx3 * gamma * gamma);
+  const double d_x = mu_x * load;
+  const double b_x = SlipStiffness(t, load) / (t.p_cx1 * d_x);
+  const double kappa_x = slip.ratio + slip.shift * t.p_hx1;
+  const double s_vx = slip.shift * road * load * t.p_vx1;
+  const double f_x0 = d_x * std::sin(Shape(t.p_cx1, t.p_ex1, b_x * kappa_x)) + s_vx;
+
+  const double mu_y =
+      road * Friction(t.p_dy1, t.p_dy2, load_change) * (1.0 - t.p_dy3 * gamma * gamma);
+  const double d_y = mu_y * load;
+  const double b_y = -CorneringStiffness(t, load) / (t.p_cy1 * d_y);
+  const double alpha_y = slip.angle + side * (t.p_hy1 + t.p_hy3 * lean);
+  const double s_vy = side * road * load * (t.p_vy1 + t.p_vy3 * lean);
+  const double f_y0 = d_y * std::sin(Shape(t.p_cy1, t.p_ey1, b_y * alpha_y)) + s_vy;
+
+  if (t.r_bx1 == 0.0 && t.r_by1 == 0.0) {
+    const double norm = std::hypot(f_x0 / d_x, f_y0 / d_y);
+    return {f_x0 / std::max(1.0, norm), f_y0 / std::max(1.0, norm)};
+  }
+  const double b_xa = t.r_bx1 * std::cos(std::atan(t.r_bx2 * slip.ratio));
+  const double b_yk = t.r_by1 * std::cos(std::atan(t.r_by2 * (slip.angle - t.r_by3)));
+  const double d_vyk =
+      mu_y * load * (t.r_vy1 + t.r_vy3 * gamma) * std::cos(std::atan(t.r_vy4 * slip.angle));
+  const double s_vyk = d_vyk * std::sin(t.r_vy5 * std::atan(t.r_vy6 * slip.ratio));
+  return {Weight(b_xa, t.r_cx1, t.r_ex1, t.r_hx1, slip.angle) * f_x0,
+          Weight(b_yk, t.r_cy1, t.r_ey1, t.r_hy1, slip.ratio) * f_y0 + s_vyk};
+}
+
+}  // namespace trackbed
