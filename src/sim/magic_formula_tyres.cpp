@@ -29,10 +29,13 @@ double Relax(double& s, double slip_speed, double speed, double sigma, double ta
   return s + tau / sigma * (slip_speed - speed * s);
 }
 
-/// The time constant that damps an oscillation of angular frequency `omega` critically, or as much
-/// of it as an explicit timestep can take.
+/// tau that damps an oscillation of angular frequency `omega` critically. In steps of W = omega dt,
+/// a mass on a spring damped by tau has the eigenvalues of
+///   l^2 - (2 - W^2 - W omega tau) l + 1 - W omega tau = 0,
+/// both 1 - W with omega tau = 2 - W. Beyond W = 1, 1/W leaves the larger one at 1 - W^2.
 double Damping(double omega, double timestep) {
-  return std::min(2.0 / omega, 0.5 / (omega * omega * timestep));
+  const double step = omega * timestep;
+  return (step < 1.0 ? 2.0 - step : 1.0 / step) / omega;
 }
 
 /// Slip beyond which a tyre slides all over; 3 mu F_z/C, as in the brush model.
