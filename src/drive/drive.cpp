@@ -157,10 +157,10 @@ class Lookout {
 CarModel LoadCar(const Scenario& scenario) {
   const auto file = FindModel(scenario.vehicle.model, scenario.folder);
   CarModel car(ComposeScene(file, {.timestep = scenario.drive.timestep}), file.string());
-  if (scenario.world.obstacles.empty()) {
+  if (scenario.world.obstacles.empty() && IsFlat(scenario.world.ground)) {
     return car;
   }
-  return {WithObstacles(car.scene(), car.params(), scenario.world), file.string()};
+  return {WithWorld(car.scene(), car.params(), scenario.world), file.string()};
 }
 
 Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {

@@ -10,6 +10,7 @@
 
 #include "src/sim/car_parts.h"
 #include "src/sim/mujoco_error.h"
+#include "src/sim/upright.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {
@@ -77,6 +78,34 @@ mjModel* Compile(const Scene& scene, const std::string& name) {
   return model;
 }
 
+/// Where the frame V of a car lies that stands on the ground.
+struct Stand {
+  double height = 0.0;  ///< [m]
+  Eigen::Quaterniond turn;
+};
+
+Stand StandOn(const VehicleParams& params, const Pose2& pose, const Ground& ground) {
+  // Under the wheels, as they lie on level ground: a slope brings them nearer together, but by its
+  // square.
+  const double front = 0.5 * params.track_front;
+  const double rear = 0.5 * params.track_rear;
+  const std::array<Vec2, 4> wheels{
+      {{params.wheelbase, front}, {params.wheelbase, -front}, {0.0, rear}, {0.0, -rear}}};
+  std::array<double, 4> z{};
+  for (std::size_t w = 0; w < z.size(); ++w) {
+    z[w] = GroundHeight(ground, ToWorld(pose, wheels[w]));
+  }
+  const Vec2 slope((z[0] + z[1] - z[2] - z[3]) / (2.0 * params.wheelbase),
+                   0.5 * ((z[0] - z[1]) / params.track_front + (z[2] - z[3]) / params.track_rear));
+  double height = 0.5 * (z[2] + z[3]);
+  double deepest = 0.0;
+  for (std::size_t w = 0; w < z.size(); ++w) {
+    deepest = std::max(deepest, z[w] - height - slope.dot(wheels[w]));
+  }
+  const Vec2 ahead = Direction(pose.yaw);
+  return {height + deepest, Upright(slope.x() * ahead + slope.y() * LeftOf(ahead), pose.yaw)};
+}
+
 }  // namespace
 
 CarModel::CarModel(Scene scene, const std::string& name_for_messages)
@@ -123,18 +152,21 @@ std::vector<double> CarModel::ConfigurationOf(std::span<const double> qpos) cons
   return values;
 }
 
-std::vector<double> CarModel::FlatPosition(const Pose2& pose, double steering,
-                                           const std::array<double, 4>& spin) const {
+std::vector<double> CarModel::StandingPosition(const Pose2& pose, double steering,
+                                               const std::array<double, 4>& spin,
+                                               const Ground& ground) const {
+  const Stand stand = StandOn(params_, pose, ground);
   std::vector<double> qpos(model_->qpos0, model_->qpos0 + model_->nq);
   const auto set = [&](int address, double value) {
     qpos[static_cast<std::size_t>(address)] = value;
   };
   set(parts_.chassis_qpos, pose.x);
   set(parts_.chassis_qpos + 1, pose.y);
-  set(parts_.chassis_qpos + 3, std::cos(0.5 * pose.yaw));
-  set(parts_.chassis_qpos + 4, 0.0);
-  set(parts_.chassis_qpos + 5, 0.0);
-  set(parts_.chassis_qpos + 6, std::sin(0.5 * pose.yaw));
+  qpos[static_cast<std::size_t>(parts_.chassis_qpos) + 2] += stand.height;
+  set(parts_.chassis_qpos + 3, stand.turn.w());
+  set(parts_.chassis_qpos + 4, stand.turn.x());
+  set(parts_.chassis_qpos + 5, stand.turn.y());
+  set(parts_.chassis_qpos + 6, stand.turn.z());
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     set(parts_.spin_qpos[w], spin[w]);
   }
@@ -147,7 +179,12 @@ std::vector<double> CarModel::FlatPosition(const Pose2& pose, double steering,
 
 std::vector<double> CarModel::FlatConfiguration(const Pose2& pose, double steering,
                                                 const std::array<double, 4>& spin) const {
-  return ConfigurationOf(FlatPosition(pose, steering, spin));
+  return ConfigurationOf(StandingPosition(pose, steering, spin, scene_.ground));
+}
+
+std::vector<double> CarModel::FlatPosition(const Pose2& pose, double steering,
+                                           const std::array<double, 4>& spin) const {
+  return StandingPosition(pose, steering, spin, {});
 }
 
 std::array<double, 4> RollingSpeeds(const VehicleParams& params, double speed, double steering) {

@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdlib>
-#include <initializer_list>
 #include <set>
 
+#include "src/sim/scene_xml.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
@@ -99,26 +98,6 @@ void ResolveIncludes(XMLElement& parent, const fs::path& file, const fs::path& f
   }
 }
 
-XMLElement* FindBody(XMLElement& parent, std::string_view name) {
-  for (XMLElement* child = parent.FirstChildElement(); child != nullptr;
-       child = child->NextSiblingElement()) {
-    const std::string_view kind = child->Name();
-    if (kind == "body" && child->Attribute("name") != nullptr && child->Attribute("name") == name) {
-      return child;
-    }
-    if (kind == "body" || kind == "worldbody") {
-      if (XMLElement* found = FindBody(*child, name)) {
-        return found;
-      }
-    }
-  }
-  return nullptr;
-}
-
-std::string Numbers(std::initializer_list<double> values) {
-  return fmt::format("{}", fmt::join(values, " "));
-}
-
 /// Calls with every element from `element` on, in the order of the text.
 template <typename Call>
 void ForEachElement(const XMLElement& element, const Call& call) {
@@ -127,12 +106,6 @@ void ForEachElement(const XMLElement& element, const Call& call) {
        child = child->NextSiblingElement()) {
     ForEachElement(*child, call);
   }
-}
-
-std::string Print(const XMLDocument& document) {
-  tinyxml2::XMLPrinter printer;
-  document.Print(&printer);
-  return printer.CStr();
 }
 
 /// The attribute of the last <compiler> that sets it: MuJoCo lets later ones win.
@@ -257,8 +230,7 @@ int LineInCarFile(const Scene& scene, int line) {
     return 0;
   }
   XMLDocument document;
-  TRACKBED_CHECK(document.Parse(scene.xml.c_str()) == tinyxml2::XML_SUCCESS,
-                 "a composed scene does not parse");
+  ParseComposed(scene.xml, document);
   std::size_t i = 0;
   int found = 0;
   ForEachElement(*document.RootElement(), [&](const XMLElement& element) {
@@ -268,58 +240,6 @@ int LineInCarFile(const Scene& scene, int line) {
     ++i;
   });
   return found;
-}
-
-Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const World& world) {
-  if (world.obstacles.empty()) {
-    return car_scene;
-  }
-  XMLDocument document;
-  TRACKBED_CHECK(document.Parse(car_scene.xml.c_str()) == tinyxml2::XML_SUCCESS,
-                 "a composed scene does not parse");
-  XMLElement& root = *document.RootElement();
-  XMLElement* chassis = FindBody(root, "chassis");
-  TRACKBED_CHECK(chassis != nullptr, "the car has no body 'chassis'");
-
-  // Bit 1 is what everything has by default; bit 2 is the shell's alone, so that it meets obstacles
-  // and nothing else, least of all its own wheels.
-  // It ends a tenth of the car's height above the ground: it must not scrape on soft springs.
-  const double half_height = 0.45 * vehicle.height;
-  XMLElement* shell = chassis->InsertNewChildElement("geom");
-  shell->SetAttribute("name", "shell");
-  shell->SetAttribute("type", "box");
-  shell->SetAttribute("pos", Numbers({0.5 * vehicle.length - vehicle.rear_overhang, 0.0,
-                                      vehicle.height - half_height})
-                                 .c_str());
-  shell->SetAttribute("size",
-                      Numbers({0.5 * vehicle.length, 0.5 * vehicle.width, half_height}).c_str());
-  shell->SetAttribute("contype", 2);
-  shell->SetAttribute("conaffinity", 0);
-  shell->SetAttribute("mass", 0);
-  shell->SetAttribute("group", 4);
-  shell->SetAttribute("rgba", "0 0 0 0");
-
-  XMLElement* bodies = root.InsertNewChildElement("worldbody");
-  for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
-    const Obstacle& obstacle = world.obstacles[i];
-    const OrientedBox& box = obstacle.footprint;
-    const double half_yaw = 0.5 * box.centre.yaw;
-    XMLElement* geom = bodies->InsertNewChildElement("geom");
-    geom->SetAttribute("name", fmt::format("obstacle_{}", i).c_str());
-    geom->SetAttribute("type", "box");
-    geom->SetAttribute("pos", Numbers({box.centre.x, box.centre.y, 0.5 * obstacle.height}).c_str());
-    geom->SetAttribute("quat", Numbers({std::cos(half_yaw), 0.0, 0.0, std::sin(half_yaw)}).c_str());
-    geom->SetAttribute("size",
-                       Numbers({0.5 * box.length, 0.5 * box.width, 0.5 * obstacle.height}).c_str());
-    geom->SetAttribute("contype", 1);
-    geom->SetAttribute("conaffinity", 3);
-    geom->SetAttribute("group", 0);
-    geom->SetAttribute("rgba", "0.78 0.15 0.20 1");
-  }
-  Scene scene = car_scene;
-  scene.xml = Print(document);
-  scene.lines.clear();
-  return scene;
 }
 
 void WriteScene(const Scene& scene, const fs::path& file) {

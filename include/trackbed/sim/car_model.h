@@ -87,12 +87,18 @@ class CarModel {
   /// A configuration out of a full qpos.
   [[nodiscard]] std::vector<double> ConfigurationOf(std::span<const double> qpos) const;
 
-  /// A configuration of the car standing flat at `pose` with its wheels at `steering` (bicycle
-  /// angle) and turned by `spin` [rad].
+  /// qpos of the car standing on `ground`, its rear-axle centre at `pose` as seen from above, its
+  /// wheels at `steering` (bicycle angle) and turned by `spin` [rad]. Its frame V lies on the plane
+  /// that fits the heights under the four wheels best, moved up until no wheel is in the ground.
+  [[nodiscard]] std::vector<double> StandingPosition(const Pose2& pose, double steering,
+                                                     const std::array<double, 4>& spin,
+                                                     const Ground& ground) const;
+
+  /// A configuration of the car standing on its scene's ground, as above.
   [[nodiscard]] std::vector<double> FlatConfiguration(const Pose2& pose, double steering,
                                                       const std::array<double, 4>& spin) const;
 
-  /// qpos of the car standing flat, as above.
+  /// qpos of the car standing on the plane z = 0.
   [[nodiscard]] std::vector<double> FlatPosition(const Pose2& pose, double steering,
                                                  const std::array<double, 4>& spin) const;
 

@@ -27,6 +27,7 @@ struct Scene {
   /// For each element of `xml`, in the text's order, its line in the car's file, or 0 when it is
   /// not from there. Empty when unknown.
   std::vector<int> lines;
+  Ground ground{};  ///< what the geom `ground` and those on it make up
 };
 
 /// The MJCF file of a car: `model` is a name under the models folder ("prius" is
@@ -45,10 +46,21 @@ std::filesystem::path DataFolder();
 /// InputError with file and line when it is not XML or refers to something missing.
 Scene ComposeScene(const std::filesystem::path& car_file, const SceneOptions& options);
 
+/// Lays the ground under the car: the geom `ground` becomes the plane of the grade, and every bump
+/// and side slope a height field `ground_0`, `ground_1`, … that stands on it, at most 5 cm from one
+/// sample to the next, or a 256th of its side. With those there are four planes `ground_fl`, … that
+/// touch nothing; RoadContact moves them. All take friction and the like from the car's own ground.
+/// Flat ground leaves the scene as it is.
+Scene WithGround(const Scene& car_scene, const Ground& ground);
+
 /// Adds the world's obstacles as bodies that cannot be moved, `obstacle_0`, `obstacle_1`, …, and to
 /// the car a shell that only they can touch: a box geom `shell` in its body `chassis`, the outline
-/// from a hand's breadth above the ground to the roof. Without obstacles the scene stays as it is.
+/// from a hand's breadth above the ground to the roof. They stand
+/// on the world's ground. Without obstacles the scene stays as it is.
 Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const World& world);
+
+/// All that the world has of these.
+Scene WithWorld(const Scene& car_scene, const VehicleParams& vehicle, const World& world);
 
 /// Where the element at `line` of the composed text stands in the car's file; 0 when unknown.
 int LineInCarFile(const Scene& scene, int line);

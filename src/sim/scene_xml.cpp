@@ -1,0 +1,43 @@
+#include "src/sim/scene_xml.h"
+
+#include <fmt/format.h>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+
+using tinyxml2::XMLElement;
+
+void ParseComposed(const std::string& xml, tinyxml2::XMLDocument& document) {
+  TRACKBED_CHECK(document.Parse(xml.c_str()) == tinyxml2::XML_SUCCESS,
+                 "a composed scene does not parse");
+}
+
+std::string Print(const tinyxml2::XMLDocument& document) {
+  tinyxml2::XMLPrinter printer;
+  document.Print(&printer);
+  return printer.CStr();
+}
+
+std::string Numbers(std::initializer_list<double> values) {
+  return fmt::format("{}", fmt::join(values, " "));
+}
+
+XMLElement* FindInWorld(XMLElement& parent, std::string_view kind, std::string_view name) {
+  for (XMLElement* child = parent.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    const std::string_view own_kind = child->Name();
+    if (own_kind == kind && child->Attribute("name") != nullptr &&
+        child->Attribute("name") == name) {
+      return child;
+    }
+    if (own_kind == "body" || own_kind == "worldbody") {
+      if (XMLElement* found = FindInWorld(*child, kind, name)) {
+        return found;
+      }
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace trackbed

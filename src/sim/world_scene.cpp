@@ -1,0 +1,198 @@
+#include <fmt/format.h>
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "src/sim/scene_xml.h"
+#include "src/sim/upright.h"
+#include "trackbed/core/error.h"
+#include "trackbed/sim/car_model.h"
+#include "trackbed/sim/scene.h"
+
+/// The world around a car.
+namespace trackbed {
+namespace {
+
+using tinyxml2::XMLDocument;
+using tinyxml2::XMLElement;
+
+/// How thick a height field is under its lowest sample [m]: that much of it is below the plane.
+constexpr double kBase = 0.1;
+
+/// Heights over a rectangle, in MuJoCo's own format.
+struct HeightField {
+  double lowest = 0.0;   ///< z [m]
+  double highest = 0.0;  ///< z [m]
+  std::string file;
+};
+
+/// Cells along a side of a height field.
+int CellsAlong(double side) {
+  constexpr double kCell = 0.05;  // [m]
+  return std::clamp(static_cast<int>(std::ceil(side / kCell)), 16, 256);
+}
+
+template <typename Feature>
+HeightField Sample(const Feature& feature, const Ground& ground) {
+  const OrientedBox box = Extent(feature);
+  const std::int32_t rows = CellsAlong(box.width) + 1;
+  const std::int32_t columns = CellsAlong(box.length) + 1;
+  std::vector<double> heights;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const Vec2 p = ToWorld(box.centre, {(column / (columns - 1.0) - 0.5) * box.length,
+                                          (row / (rows - 1.0) - 0.5) * box.width});
+      heights.push_back(ground.grade.dot(p) + Rise(feature, p));
+    }
+  }
+  const auto [lowest, highest] = std::minmax_element(heights.begin(), heights.end());
+  HeightField field{*lowest, *highest, {}};
+  const auto append = [&](auto number) {
+    std::array<char, sizeof number> bytes{};
+    std::memcpy(bytes.data(), &number, sizeof number);
+    field.file.append(bytes.data(), bytes.size());
+  };
+  append(rows);
+  append(columns);
+  for (const double height : heights) {
+    append(static_cast<float>((height - field.lowest) / (field.highest - field.lowest)));
+  }
+  return field;
+}
+
+void Place(XMLElement& geom, const Eigen::Vector3d& position, const Eigen::Quaterniond& turn) {
+  for (const char* other : {"axisangle", "xyaxes", "zaxis", "euler", "fromto"}) {
+    geom.DeleteAttribute(other);
+  }
+  geom.SetAttribute("pos", Numbers({position.x(), position.y(), position.z()}).c_str());
+  geom.SetAttribute("quat", Numbers({turn.w(), turn.x(), turn.y(), turn.z()}).c_str());
+}
+
+/// Another geom beside `ground` with its friction, looks and so on.
+XMLElement& AddLike(XMLElement& ground, const std::string& name) {
+  XMLElement* geom = ground.ShallowClone(ground.GetDocument())->ToElement();
+  ground.Parent()->InsertEndChild(geom);
+  geom->SetAttribute("name", name.c_str());
+  return *geom;
+}
+
+}  // namespace
+
+Scene WithGround(const Scene& car_scene, const Ground& ground) {
+  if (IsFlat(ground)) {
+    return car_scene;
+  }
+  XMLDocument document;
+  ParseComposed(car_scene.xml, document);
+  XMLElement& root = *document.RootElement();
+  XMLElement* plane = FindInWorld(root, "geom", "ground");
+  TRACKBED_CHECK(plane != nullptr, "the car has no geom 'ground'");
+  plane->SetAttribute("type", "plane");
+  plane->SetAttribute("size", "0 0 1");
+  const Eigen::Quaterniond lean = Upright(ground.grade, 0.0);
+  Place(*plane, Eigen::Vector3d::Zero(), lean);
+
+  Scene scene = car_scene;
+  XMLElement* assets = root.InsertNewChildElement("asset");
+  int count = 0;
+  const auto add = [&](const auto& feature) {
+    const HeightField field = Sample(feature, ground);
+    if (field.highest == field.lowest) {
+      return;  // a side slope of 0
+    }
+    const OrientedBox box = Extent(feature);
+    const std::string name = fmt::format("ground_{}", count);
+    const std::string file = name + ".hfield";
+    ++count;
+    scene.assets.push_back({file, field.file});
+    XMLElement* asset = assets->InsertNewChildElement("hfield");
+    asset->SetAttribute("name", name.c_str());
+    asset->SetAttribute("file", file.c_str());
+    asset->SetAttribute(
+        "size",
+        Numbers({0.5 * box.length, 0.5 * box.width, field.highest - field.lowest, kBase}).c_str());
+    XMLElement& geom = AddLike(*plane, name);
+    geom.DeleteAttribute("size");
+    geom.SetAttribute("type", "hfield");
+    geom.SetAttribute("hfield", name.c_str());
+    Place(geom, {box.centre.x, box.centre.y, field.lowest}, Upright(Vec2::Zero(), box.centre.yaw));
+  };
+  std::for_each(ground.bumps.begin(), ground.bumps.end(), add);
+  std::for_each(ground.side_slopes.begin(), ground.side_slopes.end(), add);
+  if (count > 0) {
+    for (const char* wheel : kWheels) {
+      XMLElement& geom = AddLike(*plane, fmt::format("ground_{}", wheel));
+      geom.SetAttribute("contype", 0);
+      geom.SetAttribute("conaffinity", 0);
+      geom.SetAttribute("group", 4);  // not drawn
+    }
+  }
+  scene.xml = Print(document);
+  scene.lines.clear();
+  scene.ground = ground;
+  return scene;
+}
+
+Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const World& world) {
+  if (world.obstacles.empty()) {
+    return car_scene;
+  }
+  XMLDocument document;
+  ParseComposed(car_scene.xml, document);
+  XMLElement& root = *document.RootElement();
+  XMLElement* chassis = FindInWorld(root, "body", "chassis");
+  TRACKBED_CHECK(chassis != nullptr, "the car has no body 'chassis'");
+
+  // Bit 1 is what everything has by default; bit 2 is the shell's alone, so that it meets obstacles
+  // and nothing else, least of all its own wheels.
+  // It ends a tenth of the car's height above the ground: it must not scrape on soft springs.
+  const double half_height = 0.45 * vehicle.height;
+  XMLElement* shell = chassis->InsertNewChildElement("geom");
+  shell->SetAttribute("name", "shell");
+  shell->SetAttribute("type", "box");
+  shell->SetAttribute("pos", Numbers({0.5 * vehicle.length - vehicle.rear_overhang, 0.0,
+                                      vehicle.height - half_height})
+                                 .c_str());
+  shell->SetAttribute("size",
+                      Numbers({0.5 * vehicle.length, 0.5 * vehicle.width, half_height}).c_str());
+  shell->SetAttribute("contype", 2);
+  shell->SetAttribute("conaffinity", 0);
+  shell->SetAttribute("mass", 0);
+  shell->SetAttribute("group", 4);
+  shell->SetAttribute("rgba", "0 0 0 0");
+
+  XMLElement* bodies = root.InsertNewChildElement("worldbody");
+  for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
+    const Obstacle& obstacle = world.obstacles[i];
+    const OrientedBox& box = obstacle.footprint;
+    const Vec2 place = box.centre.position();
+    const Eigen::Quaterniond turn = Upright(GroundSlope(world.ground, place), box.centre.yaw);
+    const Eigen::Vector3d up = turn * Eigen::Vector3d(0.0, 0.0, 0.5 * obstacle.height);
+    XMLElement* geom = bodies->InsertNewChildElement("geom");
+    geom->SetAttribute("name", fmt::format("obstacle_{}", i).c_str());
+    geom->SetAttribute("type", "box");
+    geom->SetAttribute("pos", Numbers({place.x() + up.x(), place.y() + up.y(),
+                                       GroundHeight(world, place) + up.z()})
+                                  .c_str());
+    geom->SetAttribute("quat", Numbers({turn.w(), turn.x(), turn.y(), turn.z()}).c_str());
+    geom->SetAttribute("size",
+                       Numbers({0.5 * box.length, 0.5 * box.width, 0.5 * obstacle.height}).c_str());
+    geom->SetAttribute("contype", 1);
+    geom->SetAttribute("conaffinity", 3);
+    geom->SetAttribute("group", 0);
+    geom->SetAttribute("rgba", "0.78 0.15 0.20 1");
+  }
+  Scene scene = car_scene;
+  scene.xml = Print(document);
+  scene.lines.clear();
+  return scene;
+}
+
+Scene WithWorld(const Scene& car_scene, const VehicleParams& vehicle, const World& world) {
+  return WithObstacles(WithGround(car_scene, world.ground), vehicle, world);
+}
+
+}  // namespace trackbed
