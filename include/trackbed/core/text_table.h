@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace trackbed {
+
+/// The shortest text that reads back to the same number; a negative zero is "0".
+std::string ShortestText(double number);
+
+/// A table of texts with named columns, for results that are not all numbers. Text in, text out:
+/// an empty cell is a value that there is none of.
+///
+/// Guarantees: ToCsv is one header line, then one line per row, in RFC 4180's quotes where a cell
+/// holds a comma, a quote or a line end; what it writes reads back to the same cells.
+class TextTable {
+ public:
+  explicit TextTable(std::vector<std::string> columns);
+
+  [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }
+  [[nodiscard]] const std::vector<std::vector<std::string>>& rows() const { return rows_; }
+
+  /// Appends a row; InternalError unless it has one cell per column.
+  void AddRow(std::vector<std::string> row);
+
+  [[nodiscard]] std::string ToCsv() const;
+
+ private:
+  std::vector<std::string> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+}  // namespace trackbed

@@ -1,0 +1,75 @@
+#include "trackbed/core/text_table.h"
+
+#include <csv.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <limits>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+/// What libcsv, strict about quotes, makes of a text.
+Rows ReadBack(const std::string& text) {
+  Rows rows(1);
+  csv_parser parser{};
+  csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI);
+  const auto cell = [](void* data, std::size_t size, void* out) {
+    static_cast<Rows*>(out)->back().emplace_back(static_cast<const char*>(data), size);
+  };
+  const auto row = [](int, void* out) { static_cast<Rows*>(out)->emplace_back(); };
+  EXPECT_EQ(csv_parse(&parser, text.data(), text.size(), cell, row, &rows), text.size());
+  EXPECT_EQ(csv_fini(&parser, cell, row, &rows), 0);
+  csv_free(&parser);
+  rows.pop_back();  // the one begun after the last line
+  return rows;
+}
+
+TEST(TextTable, WritesCellsAsTheyAre) {
+  TextTable table({"mission.speed", "status"});
+  table.AddRow({"2.5", "passed"});
+  table.AddRow({"", "failed"});
+  EXPECT_EQ(table.ToCsv(), "mission.speed,status\n2.5,passed\n,failed\n");
+}
+
+TEST(TextTable, QuotesWhatWouldBeTakenForSomethingElse) {
+  const Rows rows{{"drive.plants", "say \"why\""},
+                  {"[kinematic, mujoco]", "two\nlines"},
+                  {"\"", ",\r\n"},
+                  {"", ""}};
+  TextTable table(rows[0]);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    table.AddRow(rows[i]);
+  }
+  EXPECT_TRUE(table.ToCsv().starts_with(
+      "drive.plants,\"say \"\"why\"\"\"\n\"[kinematic, mujoco]\",\"two\nlines\"\n"));
+  EXPECT_EQ(ReadBack(table.ToCsv()), rows);
+}
+
+TEST(TextTable, KeepsARowOfOneEmptyCell) {
+  TextTable table({"mission.speed"});
+  table.AddRow({""});
+  EXPECT_EQ(ReadBack(table.ToCsv()), (Rows{{"mission.speed"}, {""}}));
+}
+
+TEST(TextTable, RefusesRowsOfAnotherWidth) {
+  TextTable table({"a", "b"});
+  EXPECT_THROW(table.AddRow({"1"}), InternalError);
+  EXPECT_THROW(TextTable({}), InternalError);
+}
+
+TEST(ShortestText, ReadsBackToTheSameNumber) {
+  EXPECT_EQ(ShortestText(0.1), "0.1");
+  EXPECT_EQ(ShortestText(3.0), "3");
+  EXPECT_EQ(ShortestText(-0.0), "0");
+  for (const double number : {1.0 / 3.0, 1e300, std::numeric_limits<double>::denorm_min(), -2e-7}) {
+    EXPECT_EQ(std::strtod(ShortestText(number).c_str(), nullptr), number);
+  }
+}
+
+}  // namespace
+}  // namespace trackbed
