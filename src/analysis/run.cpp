@@ -151,9 +151,12 @@ ordered_json Versions() {
 
 RunResult RunMission(const Scenario& scenario, const RunHooks& hooks) {
   CheckScenario(scenario);
+  return RunMission(scenario, LoadCar(scenario), hooks);
+}
+
+RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHooks& hooks) {
   RunResult result;
   result.scenario = scenario;
-  const CarModel car = LoadCar(scenario);
   result.scene = car.scene();
   const Stopwatch planning;
   result.plan = PlanMission(scenario, car.params());
@@ -184,6 +187,22 @@ RunResult RunMission(const Scenario& scenario, const RunHooks& hooks) {
   }
   result.verdict = Judge(scenario.expect, result.metrics, result.comparisons);
   return result;
+}
+
+ordered_json MetricsJson(const RunResult& result) {
+  ordered_json metrics{{"scenario", result.scenario.name}, {"complete", !result.interrupted}};
+  metrics["plants"] = ordered_json::object();
+  for (const PlantMetrics& plant : result.metrics) {
+    metrics["plants"][plant.plant] = ToJson(plant);
+  }
+  metrics["between"] = ordered_json::array();
+  for (const PlantComparison& comparison : result.comparisons) {
+    metrics["between"].push_back(ToJson(comparison));
+  }
+  metrics["verdict"] = ToJson(result.verdict);
+  metrics["versions"] = Versions();
+  metrics["seed"] = result.scenario.seed;
+  return metrics;
 }
 
 void WritePlan(const Plan& plan, const Scenario& scenario, const fs::path& folder) {
@@ -233,19 +252,7 @@ void WriteRunFolder(const RunResult& result, const fs::path& folder) {
   }
   WriteFileAtomically(folder / "timing.json", Pretty(timing));
 
-  ordered_json metrics{{"scenario", result.scenario.name}, {"complete", !result.interrupted}};
-  metrics["plants"] = ordered_json::object();
-  for (const PlantMetrics& plant : result.metrics) {
-    metrics["plants"][plant.plant] = ToJson(plant);
-  }
-  metrics["between"] = ordered_json::array();
-  for (const PlantComparison& comparison : result.comparisons) {
-    metrics["between"].push_back(ToJson(comparison));
-  }
-  metrics["verdict"] = ToJson(result.verdict);
-  metrics["versions"] = Versions();
-  metrics["seed"] = result.scenario.seed;
-  WriteFileAtomically(folder / "metrics.json", Pretty(metrics));
+  WriteFileAtomically(folder / "metrics.json", Pretty(MetricsJson(result)));
 }
 
 }  // namespace trackbed

@@ -8,8 +8,15 @@
 namespace trackbed {
 
 void TameMujoco() {
-  mju_user_error = [](const char* message) { throw RunError(fmt::format("MuJoCo: {}", message)); };
-  mju_user_warning = [](const char*) {};
+  // Once: other threads may be using them.
+  static const bool tamed = [] {
+    mju_user_error = [](const char* message) {
+      throw RunError(fmt::format("MuJoCo: {}", message));
+    };
+    mju_user_warning = [](const char*) {};
+    return true;
+  }();
+  static_cast<void>(tamed);
 }
 
 std::string PhysicsVersion() {

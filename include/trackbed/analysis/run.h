@@ -40,6 +40,12 @@ struct RunHooks {
 /// reason and no logs. Errors: InputError from the scenario's model.
 RunResult RunMission(const Scenario& scenario, const RunHooks& hooks = {});
 
+/// The same for a scenario that has been checked, with its car as LoadCar would give it.
+RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHooks& hooks = {});
+
+/// What metrics.json holds.
+nlohmann::ordered_json MetricsJson(const RunResult& result);
+
 /// Writes the run folder (plan.csv, plan.json, <plant>.csv, <plant>.state.csv, model.xml,
 /// metrics.json, timing.json, scenario.resolved.yaml), each file under its name only when complete.
 /// Files of an earlier run of the same folder that this run does not have are removed first, so
