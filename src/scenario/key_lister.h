@@ -59,6 +59,10 @@ class KeyLister {
     Add(key, "two whole numbers", Need::kOptional, fmt::format("[{}, {}]", first, second),
         AllowedBy(range));
   }
+  template <typename Read>
+  void Custom(const Key& key, const char* type, const Read&) {
+    Add(key, type, Need::kOptional, "", "");
+  }
 
   template <typename Enum>
   void Field(const Key& key, Enum& value, Need need,

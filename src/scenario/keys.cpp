@@ -1,5 +1,6 @@
 #include "trackbed/scenario/keys.h"
 
+#include "src/scenario/study_visit.h"
 #include "src/scenario/visit.h"
 
 namespace trackbed {
@@ -9,6 +10,18 @@ std::vector<KeySection> ScenarioKeys() {
   KeyLister lister(sections, {"", "", "the whole file", {}});
   Scenario defaults;
   Visit(lister, defaults);
+  return sections;
+}
+
+std::vector<KeySection> StudyKeys() {
+  std::vector<KeySection> sections;
+  KeyLister lister(sections, {"", "", "the whole file", {}});
+  StudyFile defaults;
+  Visit(lister, defaults);
+  KeyLister range(sections,
+                  {"vary.KEY", "", "an even grid of values, in place of a list of them", {}});
+  GridRange none;
+  Visit(range, none);
   return sections;
 }
 

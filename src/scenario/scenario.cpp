@@ -7,7 +7,6 @@
 #include "src/scenario/overrides.h"
 #include "src/scenario/visit.h"
 #include "src/scenario/yaml_file.h"
-#include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
 
 namespace trackbed {
@@ -89,18 +88,6 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
   }
   return scenario;
 }
-
-namespace {
-
-std::string ReadInput(const std::filesystem::path& file) {
-  try {
-    return ReadFile(file);
-  } catch (const RunError& error) {
-    throw InputError(Problem{.message = error.what()});
-  }
-}
-
-}  // namespace
 
 Scenario ReadScenario(const std::filesystem::path& file, const std::vector<Override>& overrides,
                       const std::vector<std::string>& cameras) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
 
 namespace trackbed {
 namespace {
@@ -54,7 +55,7 @@ class Watch : public YAML::EventHandler {
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (++documents_ > 1) {
-      Fail(file_, mark, "a second YAML document; a file is one scenario");
+      Fail(file_, mark, "a second YAML document; a file has one");
     }
   }
   void OnDocumentEnd() override {}
@@ -284,6 +285,14 @@ bool EndsInQuotes(const std::string& text) {
 
 }  // namespace
 
+std::string ReadInput(const std::filesystem::path& file) {
+  try {
+    return ReadFile(file);
+  } catch (const RunError& error) {
+    throw InputError(Problem{.message = error.what()});
+  }
+}
+
 YAML::Node LoadYamlValue(const std::string& text, const std::string& file) {
   RefuseWhatIsNoText(text, file);
   const std::string lines = text + "\n";  // a value before it is complete
@@ -307,10 +316,11 @@ YAML::Node LoadYamlValue(const std::string& text, const std::string& file) {
   return YAML::Load(lines);
 }
 
-YAML::Node LoadYaml(const std::string& text, const std::string& file) {
+YAML::Node LoadYaml(const std::string& text, const std::string& file, const char* what) {
   YAML::Node root = LoadYamlValue(text, file);
   if (!root.IsMap()) {
-    throw InputError(Problem{file, 1, 1, "", "a scenario is a section of 'key: value' lines"});
+    throw InputError(
+        Problem{file, 1, 1, "", fmt::format("{} is a section of 'key: value' lines", what)});
   }
   return root;
 }

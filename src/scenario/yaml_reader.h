@@ -51,6 +51,16 @@ class YamlReader {
   void Field(const Key& key, std::vector<std::string>& value, Need need, const Names& allowed);
   void Field(const Key& key, std::vector<Vec2>& value, Need need);
   void Pair(const Key& key, int& first, int& second, Range range);
+  /// A key whose value `read` makes sense of, told its dotted key.
+  template <typename Read>
+  void Custom(const Key& key, const char* type, const Read& read) {
+    const auto node = Take(key.name, Need::kOptional);
+    if (node && node->IsNull()) {
+      Complain(*node, Dotted(key.name), fmt::format("expected a {}, found nothing", type));
+    } else if (node) {
+      read(*node, Dotted(key.name));
+    }
+  }
 
   template <typename Enum>
   void Field(const Key& key, Enum& value, Need need,
@@ -145,6 +155,9 @@ class YamlReader {
 
   void Finish();
 
+  /// "a section", "a list", "'word'", …
+  static std::string Describe(const YAML::Node& node);
+
  private:
   template <typename Struct>
   void ReadMap(const YAML::Node& node, const std::string& dotted, Struct& value) {
@@ -162,8 +175,7 @@ class YamlReader {
   bool ReadFlag(const YAML::Node& node, const std::string& dotted, bool& value);
   bool ReadNumber(const YAML::Node& node, const std::string& dotted, Range range, double& value);
   void Complain(const YAML::Node& node, const std::string& dotted, std::string message);
-  static std::string Describe(const YAML::Node& node);
-  /// The same of a value that is no T, with the way out if it only has quotes too many.
+  /// Describes a value that is no T, with the way out if it only has quotes too many.
   template <typename T>
   static std::string DescribeNo(const YAML::Node& node);
 

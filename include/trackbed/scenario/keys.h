@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-/// Every key that a scenario file can have, told by the same code that reads them.
+/// Every key that a scenario or a study can have, told by the same code that reads them.
 namespace trackbed {
 
 struct KeyInfo {
@@ -25,5 +25,8 @@ struct KeySection {
 
 /// The sections in the order of the file, each before those inside it.
 std::vector<KeySection> ScenarioKeys();
+
+/// The same of a study.
+std::vector<KeySection> StudyKeys();
 
 }  // namespace trackbed

@@ -1,0 +1,319 @@
+#include "trackbed/scenario/study.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/temp_folder.h"
+#include "trackbed/core/error.h"
+#include "trackbed/scenario/keys.h"
+
+namespace trackbed {
+namespace {
+
+constexpr const char* kScenario = R"(schema: 1
+name: small
+mission:
+  speed: 3
+  waypoints: [[0, 0], [40, 0], [40, 40]]
+plan: {method: fillet}
+control: {method: preview}
+)";
+
+const std::string kHead = "schema: 1\nname: study\nscenario: small.yaml\n";
+
+/// A folder with the scenario and a study of it.
+class StudyFiles : public testing::Test {
+ protected:
+  StudyFiles() { folder_.Write("small.yaml", kScenario); }
+
+  [[nodiscard]] Study Read(const std::string& keys,
+                           const std::vector<Override>& overrides = {}) const {
+    return ReadStudy(folder_.Write("study.yaml", kHead + keys), overrides, {"chase"});
+  }
+
+  /// What a user is told of a study and its points, without the folder.
+  [[nodiscard]] std::string ErrorsOf(const std::string& keys,
+                                     const std::vector<Override>& overrides = {}) const {
+    return ErrorsOfText(kHead + keys, overrides);
+  }
+
+  [[nodiscard]] std::string ErrorsOfText(const std::string& text,
+                                         const std::vector<Override>& overrides = {}) const {
+    std::string message = "no error";
+    try {
+      ReadPoints(ReadStudy(folder_.Write("study.yaml", text), overrides, {"chase"}));
+    } catch (const InputError& error) {
+      message = error.what();
+    }
+    const std::string folder = folder_.path().string() + "/";
+    for (std::size_t at = 0; (at = message.find(folder)) != std::string::npos;) {
+      message.erase(at, folder.size());
+    }
+    return message;
+  }
+
+  TempFolder folder_;
+};
+
+/// "key=value key=value" of each point.
+std::vector<std::string> Written(const std::vector<std::vector<Setting>>& grid) {
+  std::vector<std::string> points;
+  for (const std::vector<Setting>& point : grid) {
+    std::string& text = points.emplace_back();
+    for (const Setting& setting : point) {
+      text += (text.empty() ? "" : " ") + setting.key + "=" + setting.value;
+    }
+  }
+  return points;
+}
+
+using Grid = StudyFiles;
+
+TEST_F(Grid, IsEveryCombinationWithTheLastKeyFastest) {
+  EXPECT_THAT(Written(GridOf(Read("vary: {mission.speed: [3, 2.5], seed: [1, 2, 7]}\n"))),
+              testing::ElementsAre("mission.speed=3 seed=1", "mission.speed=3 seed=2",
+                                   "mission.speed=3 seed=7", "mission.speed=2.5 seed=1",
+                                   "mission.speed=2.5 seed=2", "mission.speed=2.5 seed=7"));
+}
+
+TEST_F(Grid, TakesPointsOfAListAtEachOfItsOwn) {
+  EXPECT_THAT(Written(GridOf(Read(R"(vary: {mission.speed: [3, 2]}
+list:
+  - {control.method: preview, control.distance: 4}
+  - {control.method: schedule}
+)"))),
+              testing::ElementsAre("mission.speed=3 control.method=preview control.distance=4",
+                                   "mission.speed=3 control.method=schedule",
+                                   "mission.speed=2 control.method=preview control.distance=4",
+                                   "mission.speed=2 control.method=schedule"));
+  EXPECT_THAT(Written(GridOf(Read("list: [{seed: 4}, {seed: 3}]\n"))),
+              testing::ElementsAre("seed=4", "seed=3"));
+}
+
+TEST_F(Grid, IsOnePointWhereNothingVaries) {
+  EXPECT_THAT(Written(GridOf(Read("repeat: 5\n"))), testing::ElementsAre(""));
+}
+
+TEST_F(Grid, DividesARangeEvenlyAndEndsOnItsEnds) {
+  EXPECT_THAT(Written(GridOf(Read("vary: {world.friction: {from: 0.2, to: 1.0, steps: 5}}\n"))),
+              testing::ElementsAre("world.friction=0.2", "world.friction=0.4", "world.friction=0.6",
+                                   "world.friction=0.8", "world.friction=1"));
+  EXPECT_THAT(Written(GridOf(Read("vary: {mission.speed: {from: 0.1, to: 0.3, steps: 3}}\n"))),
+              testing::ElementsAre("mission.speed=0.1", "mission.speed=0.2", "mission.speed=0.3"));
+  EXPECT_THAT(
+      Written(GridOf(Read("vary: {control.distance: {from: 0.1, to: 100, steps: 4, scale: log}}"))),
+      testing::ElementsAre("control.distance=0.1", "control.distance=1", "control.distance=10",
+                           "control.distance=100"));
+}
+
+TEST_F(Grid, KeepsValuesAsTheyWereWritten) {
+  EXPECT_THAT(
+      Written(GridOf(Read(R"(vary:
+  drive.plants: [[kinematic], [kinematic, "mujoco"]]
+  mission.start: [{x: 1, yaw: -0.5}]
+  vehicle.model: [prius, 'pri: us', "2"]
+)"))),
+      testing::ElementsAre(
+          R"(drive.plants=[kinematic] mission.start={x: 1, yaw: -0.5} vehicle.model=prius)",
+          R"(drive.plants=[kinematic] mission.start={x: 1, yaw: -0.5} vehicle.model="pri: us")",
+          R"(drive.plants=[kinematic] mission.start={x: 1, yaw: -0.5} vehicle.model="2")",
+          R"(drive.plants=[kinematic, "mujoco"] mission.start={x: 1, yaw: -0.5} vehicle.model=prius)",
+          R"(drive.plants=[kinematic, "mujoco"] mission.start={x: 1, yaw: -0.5} vehicle.model="pri: us")",
+          R"(drive.plants=[kinematic, "mujoco"] mission.start={x: 1, yaw: -0.5} vehicle.model="2")"));
+}
+
+using Points = StudyFiles;
+
+TEST_F(Points, AreTheScenarioWithWhatTheStudySets) {
+  const auto points = ReadPoints(Read(R"(set: {drive.plants: [kinematic], mission.speed: 2}
+vary: {control.distance: [3, 4]}
+)"));
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_EQ(points[1].scenario.mission.speed, 2.0);
+  EXPECT_EQ(points[1].scenario.drive.plants, std::vector<std::string>{"kinematic"});
+  EXPECT_EQ(std::get<PreviewOptions>(points[0].scenario.control.steering).distance, 3.0);
+  EXPECT_EQ(std::get<PreviewOptions>(points[1].scenario.control.steering).distance, 4.0);
+  EXPECT_EQ(Written({points[1].settings})[0], "control.distance=4");
+}
+
+TEST_F(Points, TakeWhatTheCommandLineSetsInPlaceOfTheStudysOwn) {
+  const auto points = ReadPoints(
+      Read("set: {mission.speed: 2}\nvary: {control.distance: [3]}\n", {"mission.speed=1.5"}));
+  EXPECT_EQ(points[0].scenario.mission.speed, 1.5);
+  EXPECT_EQ(ErrorsOf("set: {mission.speed: 2}\nrepeat: 2\n", {"mission.speed=-1"}),
+            "--set: mission.speed: -1 is out of range; must be at least 0.1 and at most 100");
+  EXPECT_EQ(ErrorsOf("vary: {control.distance: [3]}\n", {"control.distance=2"}),
+            "--set: control.distance: the study varies control.distance (study.yaml:4)");
+}
+
+TEST_F(Points, HaveTheBisectedKeyWhereItIsAsked) {
+  const Study study =
+      Read("bisect: {key: mission.speed, from: 1, to: 4, tolerance: 0.1}\nvary: {seed: [3]}\n");
+  EXPECT_EQ(ReadPoints(study)[0].scenario.mission.speed, 1.0);
+  const Scenario scenario = ReadPoint(study, GridOf(study)[0], 2.25);
+  EXPECT_EQ(scenario.mission.speed, 2.25);
+  EXPECT_EQ(scenario.seed, 3U);
+}
+
+TEST_F(Points, FindAScenarioThatIsRelativeToTheStudy) {
+  const auto file =
+      folder_.Write("studies/s.yaml", "schema: 1\nname: s\nscenario: ../small.yaml\nrepeat: 2\n");
+  EXPECT_EQ(ReadPoints(ReadStudy(file)).size(), 1U);
+}
+
+using Studies = StudyFiles;
+
+TEST_F(Studies, ReportEveryProblemWithItsPlace) {
+  EXPECT_EQ(ErrorsOfText(R"(schema: 2
+scenario: none.yaml
+vari: {}
+set: 3
+vary:
+  mission.speed: 3
+  control.distance: []
+  drive.plants: [[kinematic]]
+  drive.plants: [[mujoco]]
+  seed:
+  world.friction: {from: 0.2, stop: 1, steps: 0, scale: lin}
+list: [{}, here]
+repeat: 0
+bisect: {from: 3, to: fast}
+outputs: [verdict.passed, {a: b}, verdict.passed]
+)"),
+            R"(study.yaml:1:1: name: missing
+study.yaml:1:9: schema: must be 1, found 2
+study.yaml:2:11: scenario: cannot read none.yaml: No such file or directory
+study.yaml:3:1: vari: unknown key 'vari'; did you mean 'vary'?
+study.yaml:4:6: set: expected a section of scenario keys, found '3'
+study.yaml:6:18: vary.mission.speed: expected a list of values, or {from, to, steps}, found '3'
+study.yaml:7:21: vary.control.distance: expected a list of values, or {from, to, steps}, found an empty list
+study.yaml:9:3: vary.drive.plants: the key is given twice
+study.yaml:10:3: vary.seed: expected a value, found nothing
+study.yaml:11:19: vary.world.friction.to: missing
+study.yaml:11:31: vary.world.friction.stop: unknown key 'stop'; did you mean 'to'?
+study.yaml:11:47: vary.world.friction.steps: 0 is out of range; must be at least 2 and at most 10000
+study.yaml:11:57: vary.world.friction.scale: unknown 'lin'; did you mean 'log'?
+study.yaml:12:8: list[0]: expected a section of scenario keys, found an empty one
+study.yaml:12:12: list[1]: expected a section of scenario keys, found 'here'
+study.yaml:13:9: repeat: 0 is out of range; must be at least 1 and at most 100000
+study.yaml:14:9: bisect.key: missing
+study.yaml:14:9: bisect.tolerance: missing
+study.yaml:14:23: bisect.to: expected a number, found 'fast'
+study.yaml:15:27: outputs[1]: expected a name, found a section
+study.yaml:15:35: outputs[2]: 'verdict.passed' is listed twice)");
+}
+
+TEST_F(Studies, RefuseGridsAndBisectionsTheWrongWayRound) {
+  EXPECT_EQ(ErrorsOf("vary: {mission.speed: {from: 3, to: 2, steps: 2}}\n"),
+            "study.yaml:4:30: vary.mission.speed.from: 3 is not below to: 2");
+  EXPECT_EQ(
+      ErrorsOf("vary: {mission.speed: {from: 0, to: 2, steps: 2, scale: log}}\n"),
+      "study.yaml:4:30: vary.mission.speed.from: a scale of equal ratios needs positive ends");
+  EXPECT_EQ(ErrorsOf("bisect: {key: mission.speed, from: 2, to: 2, tolerance: 0.1}\n"),
+            "study.yaml:4:36: bisect.from: 2 is not below to: 2");
+  EXPECT_EQ(ErrorsOf("bisect: {key: mission.speed, from: 1, to: 2, tolerance: 0}\n"),
+            "study.yaml:4:57: bisect.tolerance: 0 is out of range; must be above 0");
+}
+
+TEST_F(Studies, RefuseToVaryNothingOrTooMuch) {
+  EXPECT_EQ(ErrorsOf(""),
+            "study.yaml:1:1: vary: missing; a study has vary, list, repeat or bisect");
+  EXPECT_EQ(ErrorsOf("vary: {}\n"),
+            "study.yaml:4:7: vary: expected a section of scenario keys, found an empty one");
+  EXPECT_EQ(ErrorsOf("vary:\nset: {seed: 1}\n"),
+            "study.yaml:4:1: vary: expected a section, found nothing");
+  EXPECT_EQ(ErrorsOf("list: []\n"),
+            "study.yaml:4:7: list: expected a list of points, found an empty one");
+  EXPECT_EQ(ErrorsOf("vary: {control.distance: {from: 1, to: 2, steps: 1001}}\nrepeat: 100\n"),
+            "study.yaml:1:1: vary: 100100 runs; at most 100000");
+}
+
+TEST_F(Studies, RefuseToSetWhatIsThenReplaced) {
+  EXPECT_EQ(ErrorsOf(R"(set: {mission.speed: 3}
+vary: {control.distance: [2, 3]}
+list: [{mission.speed: 2}, {control: {method: schedule}}, {world.friction: 0.5}]
+bisect: {key: world.friction, from: 0.1, to: 1, tolerance: 0.1}
+)"),
+            "study.yaml:6:24: mission.speed: replaces mission.speed, which line 4 sets\n"
+            "study.yaml:6:38: control: replaces control.distance, which line 5 sets\n"
+            "study.yaml:7:9: world.friction: replaces world.friction, which line 6 sets");
+  EXPECT_EQ(ErrorsOf("vary: {seed: [1, 2]}\nrepeat: 3\n"),
+            "study.yaml:4:15: seed: repeat counts the seed up, so that it cannot be varied too");
+  // What is set for all runs is where repeat begins, and a section may be refined.
+  EXPECT_EQ(ErrorsOf("set: {seed: 5, control: {method: preview}}\nrepeat: 3\n"
+                     "vary: {control.distance: [2]}\n"),
+            "no error");
+}
+
+TEST_F(Studies, TellOfEveryPointsProblemsBeforeAnythingIsDriven) {
+  EXPECT_EQ(ErrorsOf(R"(set: {render.camera: chas}
+vary:
+  mission.sped: [1, 2]
+  mission.speed: [3, -1, fast]
+  drive.timestep: [0.002, 0.003]
+  mission.waypoints[7]: [[1, 2]]
+)"),
+            "study.yaml:9:26: mission.waypoints[7]: there is no element [7]");
+  EXPECT_EQ(ErrorsOf(R"(set: {render.camera: chas}
+vary:
+  mission.sped: [1, 2]
+  mission.speed: [3, -1, fast]
+  drive.timestep: [0.002, 0.003]
+)"),
+            "study.yaml:4:22: render.camera: unknown 'chas'; did you mean 'chase'?\n"
+            "study.yaml:6:18: mission.sped: unknown key 'sped'; did you mean 'speed'?\n"
+            "study.yaml:7:22: mission.speed: -1 is out of range; must be at least 0.1 and at most "
+            "100\n"
+            "study.yaml:7:26: mission.speed: expected a number, found 'fast'\n"
+            "small.yaml: drive.control_period: 0.02 s is not a whole number of timesteps of "
+            "0.003 s (with mission.sped=1, mission.speed=3, drive.timestep=0.003)");
+}
+
+TEST_F(Studies, TellOfTheirScenariosOwnProblemsOnce) {
+  folder_.Write("small.yaml", std::string(kScenario) + "extra: 1\n");
+  EXPECT_EQ(ErrorsOf("vary: {mission.speed: [1, 2]}\n"),
+            "small.yaml:8:1: extra: unknown key 'extra'; allowed: schema, name, seed, vehicle, "
+            "mission, world, plan, control, drive, expect, render");
+}
+
+TEST_F(Studies, TryBisectionsAtBothEndsAndBetween) {
+  EXPECT_EQ(ErrorsOf("bisect: {key: mission.speed, from: 1, to: 400, tolerance: 0.1}\n"),
+            "study.yaml:4:9: mission.speed: 400 is out of range; must be at least 0.1 and at most "
+            "100");
+  // A whole number cannot be halved.
+  EXPECT_EQ(ErrorsOf("bisect: {key: seed, from: 0, to: 8, tolerance: 1}\n"),
+            "study.yaml:4:9: seed: expected a whole number from 0 to 18446744073709551615, found "
+            "'3.055728090000841'");
+}
+
+TEST_F(Studies, AreToldFromScenariosByTheirScenario) {
+  EXPECT_TRUE(IsStudy(folder_.Write("a.yaml", "scenario: x\n")));
+  EXPECT_FALSE(IsStudy(folder_.path() / "small.yaml"));
+  EXPECT_FALSE(IsStudy(folder_.Write("b.yaml", "scenario: [x\n")));
+  EXPECT_FALSE(IsStudy(folder_.path() / "none.yaml"));
+  EXPECT_EQ(ErrorsOfText("- 1\n"), "study.yaml:1:1: a study is a section of 'key: value' lines");
+}
+
+TEST(CellText, IsTheShortestFormOfNumbersAndYamlOfTheRest) {
+  EXPECT_EQ(CellText("3.0"), "3");
+  EXPECT_EQ(CellText("1e3"), "1000");
+  EXPECT_EQ(CellText("-0.0"), "0");
+  EXPECT_EQ(CellText("[kinematic, mujoco]"), "[kinematic, mujoco]");
+  EXPECT_EQ(CellText("3 m"), "3 m");
+  EXPECT_EQ(CellText("\"2\""), "\"2\"");
+}
+
+TEST(StudyKeys, EachHasALineOfText) {
+  const std::vector<KeySection> sections = StudyKeys();
+  ASSERT_EQ(sections.size(), 3U);
+  EXPECT_EQ(sections[1].key, "bisect");
+  EXPECT_EQ(sections[2].key, "vary.KEY");
+  for (const KeySection& section : sections) {
+    for (const KeyInfo& key : section.keys) {
+      EXPECT_FALSE(key.text.empty()) << section.key << "." << key.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trackbed
