@@ -1,0 +1,84 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trackbed/analysis/run.h"
+#include "trackbed/core/text_table.h"
+#include "trackbed/scenario/study.h"
+
+/// Runs a study and makes one table of it.
+namespace trackbed {
+
+/// Results of a run as a table shows them, by their dotted paths: `metrics.<plant>.…`,
+/// `between.<plant>.<plant>.…`, `verdict.passed`, `verdict.failures`, `plan.status`,
+/// `plan.length_m`; the names are those of metrics.json, elements of lists are `[0]`, `[1]`, ….
+using Outputs = std::map<std::string, std::string>;
+
+Outputs OutputsOf(const RunResult& result);
+
+/// The paths of everything that runs of the scenario may have, sorted.
+std::vector<std::string> PossibleOutputs(const Scenario& scenario);
+
+/// What one run came to.
+struct RunOutcome {
+  std::string status;  ///< "passed", "failed", or "no_plan"
+  bool passed = false;
+  Outputs outputs;
+};
+
+/// Runs a scenario, on any thread; nothing when it was interrupted.
+using RunScenarioOnce = std::function<std::optional<RunOutcome>(const Scenario& scenario)>;
+
+/// A study of which nothing is wrong that can be known before it is driven. Immutable, and shared
+/// between threads.
+struct CheckedStudy {
+  Study study;
+  std::vector<StudyPoint> points;
+  /// By the model's file and the timestep: compiled once, for scenarios without obstacles.
+  std::map<std::pair<std::string, double>, CarModel> cars;
+};
+
+/// Reads every point of the study's grid, compiles its cars, and looks whether its outputs can be
+/// had. InputError with the problems of all points, or of all outputs with the nearest path.
+CheckedStudy CheckStudy(Study study);
+
+/// Plans, drives, measures and judges a scenario of the study.
+std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario& scenario,
+                                    const std::function<bool()>& interrupted = {});
+
+struct SweepOptions {
+  int jobs = 1;                                   ///< runs at the same time, at least 1
+  std::function<void(double fraction)> progress;  ///< called after each row, by one thread at once
+  std::function<bool()> interrupted;              ///< asked before each run, by any thread
+};
+
+struct SweepResult {
+  TextTable table{{"status"}};         ///< sweep.csv: parameters, seed, status, runs, outputs
+  nlohmann::ordered_json description;  ///< sweep.json: the study as it was run, and bisections
+  std::size_t rows_expected = 0;       ///< more than the table has when it was interrupted
+  std::size_t runs = 0;                ///< of the table's rows
+  std::size_t passed = 0;              ///< rows that passed, or whose bisection found a value
+
+  [[nodiscard]] bool complete() const { return table.rows().size() == rows_expected; }
+};
+
+/// Runs the points of a study, each `repeat` times with its seed counted up, or bisects at each.
+/// Rows are in the grid's order, those that an interruption left unfinished absent.
+///
+/// Guarantees: the result does not depend on `jobs`. An exception of `run` stops the sweep and is
+/// thrown on. InternalError unless jobs is positive.
+SweepResult RunSweep(const Study& study, const std::vector<StudyPoint>& points,
+                     const RunScenarioOnce& run, const SweepOptions& options);
+
+/// Writes sweep.csv, then sweep.json, each under its name only when complete; a sweep.json of an
+/// earlier sweep goes first. RunError.
+void WriteSweep(const SweepResult& sweep, const std::filesystem::path& folder);
+
+}  // namespace trackbed

@@ -1,0 +1,368 @@
+#include "trackbed/analysis/sweep.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <set>
+#include <system_error>
+#include <thread>
+
+#include "trackbed/analysis/bisect.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+#include "trackbed/core/spelling.h"
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+/// What tells the cars of scenarios without obstacles apart.
+std::pair<std::string, double> CarOf(const Scenario& scenario) {
+  return {FindModel(scenario.vehicle.model, scenario.folder).string(), scenario.drive.timestep};
+}
+
+void CompileCars(CheckedStudy& checked) {
+  std::vector<Problem> problems;
+  std::set<std::pair<std::string, double>> tried;
+  for (const StudyPoint& point : checked.points) {
+    Scenario scenario = point.scenario;
+    scenario.world.obstacles.clear();
+    const auto car = CarOf(scenario);
+    if (!tried.insert(car).second) {
+      continue;
+    }
+    try {
+      checked.cars.emplace(car, LoadCar(scenario));
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) {
+    throw InputError(problems);
+  }
+}
+
+void CheckOutputs(const CheckedStudy& checked) {
+  std::set<std::string> possible;
+  for (const StudyPoint& point : checked.points) {
+    const std::vector<std::string> own = PossibleOutputs(point.scenario);
+    possible.insert(own.begin(), own.end());
+  }
+  std::vector<Problem> problems;
+  const std::vector<OutputSpec>& outputs = checked.study.outputs;
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const OutputSpec& output = outputs[i];
+    if (possible.find(output.path) == possible.end()) {
+      problems.push_back(
+          {checked.study.file, output.line, output.column, fmt::format("outputs[{}]", i),
+           "no run can have " + UnknownName(output.path, {possible.begin(), possible.end()})});
+    }
+  }
+  if (!problems.empty()) {
+    throw InputError(problems);
+  }
+}
+
+/// Calls `work` with every index below `count`, on as many threads as asked, until one call says
+/// to stop or throws; the exception is thrown on.
+void ForEachIndex(std::size_t count, int threads, const std::function<bool(std::size_t)>& work) {
+  std::atomic<std::size_t> next{0};
+  std::atomic<bool> stop{false};
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto worker = [&] {
+    for (std::size_t i = next++; i < count && !stop; i = next++) {
+      try {
+        if (!work(i)) {
+          stop = true;
+        }
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        failure = failure ? failure : std::current_exception();
+        stop = true;
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    const auto size = std::min(static_cast<std::size_t>(threads), count);
+    for (std::size_t i = 0; i < size; ++i) {
+      workers.emplace_back(worker);
+    }
+  }
+  if (failure) {
+    std::rethrow_exception(failure);
+  }
+}
+
+/// Keys of the parameters in the order of their columns.
+std::vector<std::string> ParameterKeys(const Study& study) {
+  std::vector<std::string> keys;
+  for (const auto& alternatives : study.vary) {
+    keys.push_back(alternatives.front().key);
+  }
+  for (const auto& point : study.list) {
+    for (const Setting& setting : point) {
+      if (std::find(keys.begin(), keys.end(), setting.key) == keys.end()) {
+        keys.push_back(setting.key);
+      }
+    }
+  }
+  return keys;
+}
+
+std::vector<std::string> Columns(const Study& study) {
+  std::vector<std::string> columns = ParameterKeys(study);
+  if (study.bisect) {
+    columns.push_back(study.bisect->key);
+  }
+  if (study.repeat > 1) {
+    columns.emplace_back("seed");
+  }
+  columns.emplace_back("status");
+  if (study.bisect) {
+    columns.emplace_back("runs");
+  }
+  for (const OutputSpec& output : study.outputs) {
+    columns.push_back(output.path);
+  }
+  return columns;
+}
+
+/// A value of YAML as one of JSON: numbers and the like as such, all else as text.
+ordered_json JsonOf(const std::string& value) {
+  ordered_json json = ordered_json::parse(CellText(value), nullptr, false);
+  return json.is_discarded() ? ordered_json(value) : json;
+}
+
+ordered_json JsonOf(const std::vector<Setting>& settings) {
+  ordered_json json = ordered_json::object();
+  for (const Setting& setting : settings) {
+    json[setting.key] = JsonOf(setting.value);
+  }
+  return json;
+}
+
+/// One row of the table, before it is known which others there are.
+struct Row {
+  std::vector<std::string> cells;
+  bool passed = false;
+  std::size_t runs = 1;
+  ordered_json bisection;
+};
+
+/// Makes the rows of a study.
+class RowMaker {
+ public:
+  RowMaker(const Study& study, const RunScenarioOnce& run) : study_(study), run_(run) {}
+
+  /// The row of a point's `repetition`; nothing when it was interrupted.
+  [[nodiscard]] std::optional<Row> Make(const StudyPoint& point, std::uint64_t repetition) const {
+    return study_.bisect ? BisectAt(point, repetition) : RunAt(point, repetition);
+  }
+
+ private:
+  [[nodiscard]] std::optional<Row> RunAt(const StudyPoint& point, std::uint64_t repetition) const {
+    Scenario scenario = point.scenario;
+    scenario.seed += repetition;
+    const std::optional<RunOutcome> outcome = run_(scenario);
+    if (!outcome) {
+      return std::nullopt;
+    }
+    Row row{.cells = Parameters(point), .passed = outcome->passed, .bisection = {}};
+    AddSeed(scenario.seed, row);
+    row.cells.push_back(outcome->status);
+    AddOutputs(outcome->outputs, row);
+    return row;
+  }
+
+  [[nodiscard]] std::optional<Row> BisectAt(const StudyPoint& point,
+                                            std::uint64_t repetition) const {
+    const BisectSpec& spec = *study_.bisect;
+    Outputs best;  // of the highest value that passed
+    const Bisection bisection =
+        Bisect(spec.from, spec.to, spec.tolerance, [&](double value) -> std::optional<bool> {
+          Scenario scenario = ReadPoint(study_, point.settings, value);
+          scenario.seed += repetition;
+          std::optional<RunOutcome> outcome = run_(scenario);
+          if (!outcome) {
+            return std::nullopt;
+          }
+          if (outcome->passed) {
+            best = std::move(outcome->outputs);
+          }
+          return outcome->passed;
+        });
+    if (bisection.status == BisectStatus::kInterrupted) {
+      return std::nullopt;
+    }
+    const bool has_value = bisection.status != BisectStatus::kFailsAtFrom;
+    const std::uint64_t seed = point.scenario.seed + repetition;
+    Row row{.cells = Parameters(point),
+            .passed = has_value,
+            .runs = bisection.trials.size(),
+            .bisection = Describe(point, seed, bisection)};
+    row.cells.push_back(has_value ? ShortestText(bisection.value) : "");
+    AddSeed(seed, row);
+    row.cells.emplace_back(ToString(bisection.status));
+    row.cells.push_back(std::to_string(row.runs));
+    AddOutputs(best, row);
+    return row;
+  }
+
+  [[nodiscard]] ordered_json Describe(const StudyPoint& point, std::uint64_t seed,
+                                      const Bisection& bisection) const {
+    ordered_json json{{"point", JsonOf(point.settings)}, {"seed", seed}};
+    json["status"] = ToString(bisection.status);
+    if (bisection.status != BisectStatus::kFailsAtFrom) {
+      json["value"] = bisection.value;
+    }
+    for (const Trial& trial : bisection.trials) {
+      json["trials"].push_back({{"value", trial.value}, {"passed", trial.passed}});
+    }
+    return json;
+  }
+
+  [[nodiscard]] std::vector<std::string> Parameters(const StudyPoint& point) const {
+    std::vector<std::string> cells;
+    for (const std::string& key : ParameterKeys(study_)) {
+      const auto found = std::find_if(point.settings.begin(), point.settings.end(),
+                                      [&](const Setting& setting) { return setting.key == key; });
+      cells.push_back(found == point.settings.end() ? "" : CellText(found->value));
+    }
+    return cells;
+  }
+
+  void AddSeed(std::uint64_t seed, Row& row) const {
+    if (study_.repeat > 1) {
+      row.cells.push_back(std::to_string(seed));
+    }
+  }
+
+  void AddOutputs(const Outputs& outputs, Row& row) const {
+    for (const OutputSpec& output : study_.outputs) {
+      const auto found = outputs.find(output.path);
+      row.cells.push_back(found == outputs.end() ? "" : found->second);
+    }
+  }
+
+  const Study& study_;
+  const RunScenarioOnce& run_;
+};
+
+ordered_json DescribeStudy(const Study& study) {
+  ordered_json json{{"study", study.name}, {"scenario", study.scenario.string()}};
+  json["set"] = JsonOf(study.set);
+  json["overrides"] = study.overrides;
+  json["vary"] = ordered_json::object();
+  for (const auto& alternatives : study.vary) {
+    for (const Setting& setting : alternatives) {
+      json["vary"][setting.key].push_back(JsonOf(setting.value));
+    }
+  }
+  json["list"] = ordered_json::array();
+  for (const auto& point : study.list) {
+    json["list"].push_back(JsonOf(point));
+  }
+  json["repeat"] = study.repeat;
+  if (study.bisect) {
+    json["bisect"] = {{"key", study.bisect->key},
+                      {"from", study.bisect->from},
+                      {"to", study.bisect->to},
+                      {"tolerance", study.bisect->tolerance}};
+  }
+  json["outputs"] = ordered_json::array();
+  for (const OutputSpec& output : study.outputs) {
+    json["outputs"].push_back(output.path);
+  }
+  return json;
+}
+
+}  // namespace
+
+CheckedStudy CheckStudy(Study study) {
+  CheckedStudy checked{.study = std::move(study), .points = {}, .cars = {}};
+  checked.points = ReadPoints(checked.study);
+  CompileCars(checked);
+  CheckOutputs(checked);
+  return checked;
+}
+
+std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario& scenario,
+                                    const std::function<bool()>& interrupted) {
+  const RunHooks hooks{.drive = [&](const std::string&) {
+    return DriveHooks{.progress = {}, .interrupted = interrupted};
+  }};
+  const auto car = checked.cars.find(CarOf(scenario));
+  const bool compiled = car != checked.cars.end() && scenario.world.obstacles.empty();
+  const RunResult result =
+      compiled ? RunMission(scenario, car->second, hooks) : RunMission(scenario, hooks);
+  if (result.interrupted) {
+    return std::nullopt;
+  }
+  const bool passed = result.verdict.passed;
+  return RunOutcome{.status = !result.plan.ok() ? "no_plan"
+                              : passed          ? "passed"
+                                                : "failed",
+                    .passed = passed,
+                    .outputs = OutputsOf(result)};
+}
+
+SweepResult RunSweep(const Study& study, const std::vector<StudyPoint>& points,
+                     const RunScenarioOnce& run, const SweepOptions& options) {
+  TRACKBED_CHECK(options.jobs > 0, "{} jobs", options.jobs);
+  const auto repeat = static_cast<std::size_t>(study.repeat);
+  const RunScenarioOnce unless_interrupted = [&](const Scenario& scenario) {
+    return options.interrupted && options.interrupted() ? std::nullopt : run(scenario);
+  };
+  const RowMaker maker(study, unless_interrupted);
+  std::vector<std::optional<Row>> rows(points.size() * repeat);
+  std::mutex mutex;
+  std::size_t finished = 0;
+  ForEachIndex(rows.size(), options.jobs, [&](std::size_t i) {
+    rows[i] = maker.Make(points[i / repeat], i % repeat);
+    if (rows[i] && options.progress) {
+      const std::lock_guard lock(mutex);
+      options.progress(static_cast<double>(++finished) / static_cast<double>(rows.size()));
+    }
+    return rows[i].has_value();
+  });
+
+  SweepResult sweep{.table = TextTable(Columns(study)),
+                    .description = DescribeStudy(study),
+                    .rows_expected = rows.size()};
+  ordered_json bisections = ordered_json::array();
+  for (std::optional<Row>& row : rows) {
+    if (!row) {
+      continue;
+    }
+    sweep.table.AddRow(std::move(row->cells));
+    sweep.runs += row->runs;
+    sweep.passed += row->passed ? 1U : 0U;
+    if (study.bisect) {
+      bisections.push_back(std::move(row->bisection));
+    }
+  }
+  sweep.description["complete"] = sweep.complete();
+  sweep.description["rows"] = sweep.table.rows().size();
+  sweep.description["rows_expected"] = sweep.rows_expected;
+  sweep.description["runs"] = sweep.runs;
+  if (study.bisect) {
+    sweep.description["bisections"] = std::move(bisections);
+  }
+  sweep.description["versions"] = Versions();
+  return sweep;
+}
+
+void WriteSweep(const SweepResult& sweep, const fs::path& folder) {
+  MakeFolder(folder);
+  std::error_code ignored;  // what cannot be removed cannot be replaced either: that will tell
+  fs::remove(folder / "sweep.json", ignored);
+  WriteFileAtomically(folder / "sweep.csv", sweep.table.ToCsv());
+  WriteFileAtomically(folder / "sweep.json", sweep.description.dump(2) + "\n");
+}
+
+}  // namespace trackbed

@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "trackbed/analysis/sweep.h"
+
+namespace trackbed {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string TextOf(const ordered_json& value) {
+  if (value.is_number_float()) {
+    return ShortestText(value.get<double>());
+  }
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+void AddLeaves(const ordered_json& json, const std::string& path, Outputs& outputs) {
+  if (json.is_object()) {
+    for (const auto& [key, value] : json.items()) {
+      AddLeaves(value, path.empty() ? key : path + "." + key, outputs);
+    }
+  } else if (json.is_array()) {
+    for (std::size_t i = 0; i < json.size(); ++i) {
+      AddLeaves(json[i], fmt::format("{}[{}]", path, i), outputs);
+    }
+  } else {
+    outputs[path] = TextOf(json);
+  }
+}
+
+}  // namespace
+
+Outputs OutputsOf(const RunResult& result) {
+  ordered_json json;
+  json["metrics"] = MetricsJson(result)["plants"];
+  for (const PlantComparison& comparison : result.comparisons) {
+    ordered_json& between = json["between"][comparison.first][comparison.second];
+    between = ToJson(comparison);
+    between.erase("plants");
+  }
+  json["verdict"] = {{"passed", result.verdict.passed},
+                     {"failures", fmt::format("{}", fmt::join(result.verdict.failures, "; "))}};
+  if (result.scenario.plan) {
+    json["plan"]["status"] = ToString(result.plan.status);
+    if (result.plan.ok()) {
+      json["plan"]["length_m"] = result.plan.reference.path.length();
+    }
+  }
+  Outputs outputs;
+  AddLeaves(json, "", outputs);
+  return outputs;
+}
+
+std::vector<std::string> PossibleOutputs(const Scenario& scenario) {
+  RunResult all;
+  all.scenario = scenario;
+  for (const std::string& plant : scenario.drive.plants) {
+    PlantMetrics metrics;
+    metrics.plant = plant;
+    if (scenario.plan) {
+      metrics.tracking.emplace();
+      metrics.blocked = scenario.plan->avoid ? "why" : "";
+      // At most one turn at every waypoint between the first and the last.
+      metrics.turns.resize(std::max<std::size_t>(scenario.mission.waypoints.size(), 2) - 2);
+    }
+    if (!scenario.world.obstacles.empty()) {
+      metrics.clearance.emplace();
+    }
+    for (const PlantMetrics& other : all.metrics) {
+      all.comparisons.push_back({.first = other.plant, .second = plant});
+    }
+    all.metrics.push_back(metrics);
+  }
+  std::vector<std::string> paths;
+  for (const auto& output : OutputsOf(all)) {
+    paths.push_back(output.first);
+  }
+  return paths;
+}
+
+}  // namespace trackbed
