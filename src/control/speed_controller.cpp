@@ -24,4 +24,22 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
                     options.acceleration);
 }
 
+std::optional<double> TimedSpeedControl(const SpeedControlOptions& options, double time,
+                                        double speed, double period) {
+  constexpr double kSameTime = 1e-9;  // [s]
+  if (options.braking && time >= options.braking->at - kSameTime) {
+    return -options.braking->deceleration;
+  }
+  if (!options.over_time.empty()) {
+    return SpeedAlong(options.over_time, time, period, options.gain, speed, period);
+  }
+  return std::nullopt;
+}
+
+double SpeedAlong(const Signal& wanted, double x, double ahead, double gain, double speed,
+                  double period) {
+  const double now = wanted.At(x);
+  return (wanted.At(x + ahead) - now) / period + gain * (now - speed);
+}
+
 }  // namespace trackbed

@@ -95,6 +95,10 @@ double PreviewStation(const Path& path, const Vec2& p, double station, double di
 
 }  // namespace
 
+std::optional<double> SteeringController::Accelerate(const ControlInput&) {
+  return std::nullopt;
+}
+
 double PreviewAngle(const Path& path, const Pose2& pose, double station, double distance) {
   const double s = PreviewStation(path, pose.position(), station, distance);
   // Backwards, the direction of motion is against the heading.

@@ -152,6 +152,17 @@ class Lookout {
   std::vector<Seen> seen_;  // obstacle by obstacle
 };
 
+/// What is set over time goes first, then what the controller wants, then the plan's profile.
+double WantedAcceleration(const SpeedControlOptions& options, SteeringController& controller,
+                          const ControlInput& input, const SpeedProfile& profile) {
+  const double speed = std::abs(input.state.speed);
+  std::optional<double> own = TimedSpeedControl(options, input.state.time, speed, input.period);
+  if (!own) {
+    own = controller.Accelerate(input);
+  }
+  return own ? *own : SpeedControl(options, profile, input.station, speed, input.period);
+}
+
 }  // namespace
 
 CarModel LoadCar(const Scenario& scenario) {
@@ -287,14 +298,15 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
     }
 
     // Control and log.
-    command.steering = controller->Steer({.vehicle = car.params(),
-                                          .reference = driven.plan.reference,
-                                          .schedule = driven.plan.schedule,
-                                          .state = state,
-                                          .station = s,
-                                          .period = drive.control_period});
-    command.acceleration =
-        SpeedControl(scenario.control.speed, speed, s, std::abs(state.speed), drive.control_period);
+    const ControlInput input{.vehicle = car.params(),
+                             .reference = driven.plan.reference,
+                             .schedule = driven.plan.schedule,
+                             .state = state,
+                             .station = s,
+                             .period = drive.control_period,
+                             .speed_gain = scenario.control.speed.gain};
+    command.steering = controller->Steer(input);
+    command.acceleration = WantedAcceleration(scenario.control.speed, *controller, input, speed);
     row.command = command;
     log.rows.push_back(row);
 

@@ -15,7 +15,7 @@ namespace {
 // A few operations on numbers below 100.
 constexpr double kRounding = 1e-12;
 constexpr double kPeriod = 0.02;
-constexpr SpeedControlOptions kOptions{.acceleration = 1.0, .deceleration = 1.5, .gain = 2.0};
+const SpeedControlOptions kOptions{.acceleration = 1.0, .deceleration = 1.5, .gain = 2.0};
 constexpr SpeedLimits kLimits{.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
 
 TEST(SpeedControl, OnTheProfileIsItsOwnAcceleration) {
@@ -100,6 +100,52 @@ TEST(SpeedControl, LeavesRestFromJustBehindTheStart) {
   // A projection may put a standing car a rounding behind station 0; it has to leave nevertheless.
   const SpeedProfile profile = StopAtEnd(60.0, 0.0, kLimits);
   EXPECT_GT(SpeedControl(kOptions, profile, -1e-15, 0.0, kPeriod), 0.0);
+}
+
+// --- Speed over time --------------------------------------------------------------------------
+
+TEST(SpeedAlong, EndsThePeriodAtTheWantedSpeed) {
+  const Signal wanted{{{0.0, 10.0}, {1.0, 12.0}, {1.5, 8.0}}};
+  // A whole period on one slope, across a knot, and beyond the last.
+  EXPECT_NEAR(SpeedAlong(wanted, 0.5, 0.02, 2.0, 11.0, 0.02), 2.0, Tolerance(kRounding));
+  EXPECT_NEAR(SpeedAlong(wanted, 0.9, 0.2, 2.0, 11.8, 0.2), (11.2 - 11.8) / 0.2,
+              Tolerance(kRounding));
+  EXPECT_NEAR(SpeedAlong(wanted, 3.0, 0.02, 2.0, 8.0, 0.02), 0.0, Tolerance(kRounding));
+  // 0.1 m/s too slow: gain 2 adds 0.2.
+  EXPECT_NEAR(SpeedAlong(wanted, 3.0, 0.02, 2.0, 7.9, 0.02), 0.2, Tolerance(kRounding));
+}
+
+TEST(TimedSpeedControl, SaysNothingUnlessToldTo) {
+  EXPECT_EQ(TimedSpeedControl(kOptions, 1.0, 3.0, kPeriod), std::nullopt);
+  SpeedControlOptions options = kOptions;
+  options.braking = Braking{.at = 2.0, .deceleration = 6.0};
+  EXPECT_EQ(TimedSpeedControl(options, 1.98, 3.0, kPeriod), std::nullopt);
+}
+
+TEST(TimedSpeedControl, BrakesFromTheMomentOnHarderThanTheLimits) {
+  SpeedControlOptions options = kOptions;
+  options.over_time = {{{0.0, 20.0}}};
+  options.braking = Braking{.at = 2.0, .deceleration = 8.0};
+  EXPECT_EQ(TimedSpeedControl(options, 1.98, 20.0, kPeriod), 0.0);
+  EXPECT_EQ(TimedSpeedControl(options, 2.0, 20.0, kPeriod), -8.0);
+  EXPECT_EQ(TimedSpeedControl(options, 2.0 - 1e-12, 20.0, kPeriod), -8.0);  // rounding of times
+  EXPECT_EQ(TimedSpeedControl(options, 60.0, 0.0, kPeriod), -8.0);
+  options.braking->deceleration = 0.0;
+  EXPECT_EQ(TimedSpeedControl(options, 2.5, 13.0, kPeriod), 0.0);
+}
+
+TEST(TimedSpeedControl, FollowsASpeedThatTheLimitsWouldCut) {
+  SpeedControlOptions options = kOptions;
+  options.over_time = {{{1.0, 20.0}, {3.0, 4.0}}};
+  KinematicCar car(SeedCar(), ReferencePoint::kRearAxle, {.speed = 20.0});
+  for (int i = 0; i < 200; ++i) {
+    const double time = i * kPeriod;
+    // Without an error the car obeys to rounding, 1e-16 of 20 m/s at each of 200 periods.
+    EXPECT_NEAR(car.state().speed, options.over_time.At(time), Tolerance(200 * 4e-15)) << time;
+    const auto acceleration = TimedSpeedControl(options, time, car.state().speed, kPeriod);
+    ASSERT_TRUE(acceleration.has_value());
+    car.Step({.acceleration = *acceleration}, kPeriod);
+  }
 }
 
 }  // namespace

@@ -1,13 +1,24 @@
 #pragma once
 
+#include <optional>
+
+#include "trackbed/control/signal.h"
 #include "trackbed/path/reference.h"
 
 namespace trackbed {
+
+/// Braking whatever the car does: straight, in a turn, on a path.
+struct Braking {
+  double at = 0.0;            ///< [s]; from the first control period that begins then or later
+  double deceleration = 0.0;  ///< [m/s^2], >= 0, down to standstill; 0: the car coasts
+};
 
 struct SpeedControlOptions {
   double acceleration = 1.0;  ///< [m/s^2], > 0; also shapes the plan's speed profile
   double deceleration = 1.5;  ///< [m/s^2], > 0; likewise
   double gain = 2.0;          ///< [1/s], on the speed error
+  Signal over_time;           ///< speed [m/s] >= 0 over time [s]; empty: the profile's speed
+  std::optional<Braking> braking;
 };
 
 /// Wanted acceleration [m/s^2] of a car at station `s` with `speed` (>= 0, along the path) that
@@ -16,5 +27,17 @@ struct SpeedControlOptions {
 /// that ends at rest it brakes.
 double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& profile, double s,
                     double speed, double period);
+
+/// Wanted acceleration [m/s^2] from `time` [s] on where the options say what the speed does over
+/// time: the braking once it has begun, else along `over_time` (SpeedAlong). Nothing limits it but
+/// the car. None where they do not say.
+std::optional<double> TimedSpeedControl(const SpeedControlOptions& options, double time,
+                                        double speed, double period);
+
+/// Wanted acceleration [m/s^2] of a car with `speed` that follows a speed which goes from wanted(x)
+/// to wanted(x + ahead) within `period`: that change over the period, plus gain [1/s] times the
+/// speed error. A car without an error, obeying exactly, is at wanted(x + ahead) then.
+double SpeedAlong(const Signal& wanted, double x, double ahead, double gain, double speed,
+                  double period);
 
 }  // namespace trackbed

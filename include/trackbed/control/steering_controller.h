@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
+#include "trackbed/control/speed_controller.h"
 #include "trackbed/path/reference.h"
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/state.h"
@@ -20,14 +22,20 @@ struct ControlInput {
   VehicleState state;
   double station = 0.0;  ///< where on the path the car is [m]; see StationSource
   double period = 0.0;   ///< until it is asked again [s]
+  double speed_gain = SpeedControlOptions{}.gain;  ///< for those that set the speed too [1/s]
 };
 
-/// Gives the wanted bicycle angle [rad]; the vehicle's actuator limits angle and rate. A controller
-/// does no input or output, reads no clock, and draws no random numbers.
+/// Gives the wanted bicycle angle [rad] at the end of the coming period; the vehicle's actuator
+/// limits angle and rate. A controller does no input or output, reads no clock, and draws no random
+/// numbers.
 class SteeringController {
  public:
   virtual ~SteeringController() = default;
   virtual double Steer(const ControlInput& input) = 0;
+
+  /// The wanted acceleration [m/s^2] over the coming period, which only the car's own limits cut.
+  /// None: the speed is not the controller's business, SpeedControl keeps it.
+  virtual std::optional<double> Accelerate(const ControlInput& input);
 };
 
 /// Open loop: the plan's steering schedule at the distance the car will have driven at the end of
