@@ -352,7 +352,8 @@ class CarReader {
       double& value = tyres.axle[axle].*field.value;
       Read(name, value);
       Read(own[axle], value);
-      any = any || ((has(name) || has(own[axle])) && name.find('_') == 1);
+      any = any ||
+            ((has(name) || has(own[axle])) && (name.starts_with("p_") || name.starts_with("r_")));
       if (field.required && !has(name) && !has(own[axle])) {
         missing_coefficients_.push_back(own[axle]);
       }

@@ -9,6 +9,7 @@
 #include "src/sim/magic_formula_tyres.h"
 #include "src/sim/mujoco_error.h"
 #include "src/sim/plants.h"
+#include "src/sim/road_contact.h"
 #include "src/sim/wheel_contacts.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
@@ -50,6 +51,7 @@ class MujocoPlant final : public Plant {
     if (setup.tyre == TyreLaw::kMagicFormula) {
       tyres_.emplace(car_, *model_);
     }
+    ground_.emplace(car_, *model_);
     Reset(setup.start);
   }
 
@@ -60,6 +62,7 @@ class MujocoPlant final : public Plant {
       Steer(command.steering);
     }
     Propel(command);
+    ground_->Place(*model_, *data_);
     const std::array<double, 4> road = Road();
     const std::array<double, 4> loads = RoadLoads(car_, *model_, *data_);  // of the last solve
     mj_step1(model_.get(), data_.get());
@@ -132,6 +135,7 @@ class MujocoPlant final : public Plant {
   bool prescribed_;                               // steering
   std::unique_ptr<mjModel, ModelDeleter> model_;  // own copy: brakes and road change it
   std::unique_ptr<mjData, DataDeleter> data_;
+  std::optional<RoadContact> ground_;
   std::optional<MagicFormulaTyres> tyres_;    // none: contacts hold the wheels
   std::array<double, 4> tyre_friction_{};     // of the contacts, on a road of factor 1
   std::array<double, 4> bearing_friction_{};  // [N m]
@@ -142,18 +146,18 @@ class MujocoPlant final : public Plant {
 void MujocoPlant::Reset(const StartState& start) {
   mj_resetData(model_.get(), data_.get());
   const CarParts& parts = car_.parts();
-  const auto qpos = car_.FlatPosition(start.pose, start.steering, {});
+  const auto qpos = car_.StandingPosition(start.pose, start.steering, {}, car_.scene().ground);
   std::copy(qpos.begin(), qpos.end(), data_->qpos);
-  const Vec2 ahead = Direction(start.pose.yaw);
   mjtNum* velocity = data_->qvel + parts.chassis_dof;
-  velocity[0] = start.speed * ahead.x();
-  velocity[1] = start.speed * ahead.y();
+  const Vector3d ahead_W = ChassisRotation().col(0);  // along the ground, where it is not level
+  Eigen::Map<Vector3d>{velocity} = start.speed / ahead_W.head<2>().norm() * ahead_W;
   velocity[5] = start.speed * CurvatureForSteering(car_.params(), start.steering);
   const auto rolling = RollingSpeeds(car_.params(), start.speed, start.steering);
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     data_->qvel[parts.spin_dof[w]] = rolling[w] / car_.params().wheel_radius;
   }
   data_->act[parts.steer_state] = start.steering;
+  ground_->Place(*model_, *data_);
   mj_forward(model_.get(), data_.get());
   yaw_ = start.pose.yaw;
 }

@@ -119,7 +119,9 @@ void RoadContact::Place(mjModel& model, mjData& data) const {
     const Vector3d half_way =
         0.5 * model.opt.timestep * (Vector3d(velocity) + w_W.cross(centre_W - origin_W));
     const Touch ahead = Find(w, centre_W + half_way, R_WT);
-    const double distance = gap > 0.0 && gap < kTouching ? kTouch : gap;
+    // A tyre with a margin is a spring that reaches beyond its shape: it forgets nothing.
+    const bool rigid = model.geom_margin[tyre] == 0.0;
+    const double distance = rigid && gap > 0.0 && gap < kTouching ? kTouch : gap;
     const Vector3d position = ahead.lowest_W - half_way - distance * ahead.normal_W;
     const Vec2 slope = -ahead.normal_W.head<2>() / ahead.normal_W.z();
     const Eigen::Quaterniond turn = Upright(slope, 0.0);

@@ -8,8 +8,9 @@ namespace {
 
 /// Width over which the sign of the camber is smoothed [rad].
 constexpr double kCamberSign = 5e-4;
-/// Beyond this the formula's square in the camber means nothing [rad].
-constexpr double kMostCamber = 0.25;
+/// Tyres are measured to some 6 degrees; beyond, the formula's square in the camber would let a car
+/// that tips over hold ever better [rad].
+constexpr double kMostCamber = 0.1;
 
 /// f(u) = C atan(u - E (u - atan u)).
 double Shape(double c, double e, double u) {

@@ -276,7 +276,7 @@ TEST(MujocoPlant, DrivesOverABumpAndIsLevelAgain) {
   world.ground.bumps = {{.area = {{10.0, 0.0, 0.0}, 3.0, 6.0}, .height = 0.08}};
   const Scene scene = WithGround(ComposeScene(FindModel("prius", ""), {}), world.ground);
   const CarModel car(scene, "prius");
-  const auto plant = MakePlant("mujoco", car, world, {.speed = 5.0});
+  const auto plant = MakePlant("mujoco", {.car = car, .world = world, .start = {.speed = 5.0}});
   double highest = 0.0;
   for (int i = 0; i < 3000; ++i) {
     const double error = i % 10 == 0 ? 5.0 - plant->Observe().speed : 0.0;

@@ -73,7 +73,7 @@ const std::vector<MagicFormulaField>& MagicFormulaFields();
 struct TyreSlip {
   double ratio = 0.0;   ///< kappa
   double angle = 0.0;   ///< alpha [rad]
-  double camber = 0.0;  ///< gamma [rad]; taken as at most 0.25 either way
+  double camber = 0.0;  ///< gamma [rad]; taken as at most 0.1 either way
   /// How much of the shifts is there, -1 to 1: they turn with the direction of rolling and a
   /// standing tyre has none.
   double shift = 1.0;
