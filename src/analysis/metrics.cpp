@@ -84,6 +84,18 @@ double SaturatedFraction(const RunLog& log) {
              : static_cast<double>(saturated) / static_cast<double>(log.rows.size() - 1);
 }
 
+std::optional<double> YawRateRatio(const RunLog& log, double wheelbase) {
+  double products = 0.0;
+  double squares = 0.0;
+  for (const LogRow& row : log.rows) {
+    const double kinematic = row.state.speed * std::tan(row.state.steering) / wheelbase;
+    products += row.state.yaw_rate * kinematic;
+    squares += kinematic * kinematic;
+  }
+  const bool turned = squares > 1e-6 * static_cast<double>(log.rows.size());
+  return turned ? std::optional(products / squares) : std::nullopt;
+}
+
 /// Poses over rising station.
 struct Trace {
   std::vector<double> s;
@@ -204,6 +216,7 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
   }
   metrics.steering_rate_max = SteeringRate(log, control_period);
   metrics.steering_saturated_fraction = SaturatedFraction(log);
+  metrics.yaw_rate_ratio = YawRateRatio(log, vehicle.wheelbase);
   if (log.rows.front().tracking) {
     metrics.tracking = MeasureTracking(log, plan.goal);
   }
@@ -320,6 +333,9 @@ nlohmann::ordered_json ToJson(const PlantMetrics& metrics) {
   json["lateral_acceleration_max"] = metrics.lateral_acceleration_max;
   json["steering_rate_max"] = metrics.steering_rate_max;
   json["steering_saturated_fraction"] = metrics.steering_saturated_fraction;
+  if (metrics.yaw_rate_ratio) {
+    json["yaw_rate_ratio"] = *metrics.yaw_rate_ratio;
+  }
   for (const TurnMetrics& turn : metrics.turns) {
     json["turns"].push_back({{"waypoint", turn.waypoint},
                              {"heading_deficit_predicted", turn.predicted.heading_deficit},

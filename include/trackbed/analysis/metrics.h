@@ -51,7 +51,12 @@ struct PlantMetrics {
   /// [rad/s].
   double steering_rate_max = 0.0;
   double steering_saturated_fraction = 0.0;  ///< of the periods: actuator did not reach the command
-  std::optional<TrackingMetrics> tracking;   ///< none without a path
+  /// Of the yaw rate to v tan(delta)/L, what the kinematic model makes of the measured speed and
+  /// steering: least squares over the drive, so that turns count and straights do not. 1 / (1 + K
+  /// v^2/L) for a car of understeer gradient K that turns steadily. None for a car that never
+  /// turned faster than 1 mrad/s (root mean square).
+  std::optional<double> yaw_rate_ratio;
+  std::optional<TrackingMetrics> tracking;    ///< none without a path
   std::optional<ClearanceMetrics> clearance;  ///< none without obstacles
   int plan_changes = 0;                       ///< new plans taken up on the way
   std::string blocked;                        ///< why the plan ended before the goal; else empty

@@ -1,0 +1,47 @@
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <string>
+
+#include "bench/in_turn.h"
+#include "trackbed/sim/plant.h"
+
+namespace trackbed::bench {
+namespace {
+
+constexpr double kTimestep = 0.002;  // [s]
+constexpr double kDuration = 20.0;   // [s]
+
+/// A slalom at 15 m/s and up to 3 m/s^2 to either side, one command a step and nothing logged.
+double DriveSlalom(const CarModel& car, const World& world, const std::string& plant) {
+  const auto driven = MakePlant(plant, {.car = car, .world = world, .start = {.speed = 15.0}});
+  const auto steps = static_cast<int>(std::lround(kDuration / kTimestep));
+  const double amplitude = std::atan(3.0 / (15.0 * 15.0) * car.params().wheelbase);
+  const Stopwatch stopwatch;
+  for (int step = 0; step < steps; ++step) {
+    driven->Step({.steering = amplitude * std::sin(1.5 * step * kTimestep)});
+  }
+  return stopwatch.Seconds();
+}
+
+/// A step on Magic Formula tyres against one on MuJoCo's own friction.
+void TyreStep(benchmark::State& state, const std::string& model) {
+  const CarModel car(ComposeScene(FindModel(model, ""), {.timestep = kTimestep}), model);
+  const World world;
+  const double median = CompareInTurn(
+      state, 1.15, [&] { return DriveSlalom(car, world, "mujoco:magic_formula"); },
+      [&] { return DriveSlalom(car, world, "mujoco:contact"); });
+  state.counters["step_us"] = 1e6 * median * kTimestep / kDuration;
+  state.counters["real_time_factor"] = kDuration / median;
+}
+BENCHMARK_CAPTURE(TyreStep, prius, "prius")
+    ->Iterations(9)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(TyreStep, bmw320i, "bmw320i")
+    ->Iterations(9)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace trackbed::bench
