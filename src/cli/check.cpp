@@ -4,6 +4,7 @@
 
 #include "src/cli/scenario_options.h"
 #include "src/cli/verbs.h"
+#include "trackbed/analysis/sweep.h"
 #include "trackbed/core/error.h"
 #include "trackbed/drive/drive.h"
 
@@ -15,15 +16,18 @@ void AddCheck(CLI::App& command, int& exit_code) {
     ScenarioOptions scenario;
   };
   const auto options = std::make_shared<Options>();
-  command.add_option("files", options->paths, "Scenario files, or folders of them")
+  command.add_option("files", options->paths, "Scenario or study files, or folders of them")
       ->required()
       ->type_name("FILE...");
   options->scenario.AddTo(command);
   command.callback([options, &exit_code] {
     for (const auto& file : ScenarioFiles(options->paths)) {
       try {
-        const Scenario scenario = options->scenario.Read(file);
-        static_cast<void>(LoadCar(scenario));
+        if (IsStudy(file)) {
+          static_cast<void>(CheckStudy(options->scenario.ReadStudyFile(file)));
+        } else {
+          static_cast<void>(LoadCar(options->scenario.Read(file)));
+        }
         if (!options->scenario.quiet) {
           fmt::print("{}: ok\n", file.string());
         }

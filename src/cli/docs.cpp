@@ -81,9 +81,9 @@ std::string OptionTable(const CLI::App& verb) {
   return table;
 }
 
-std::string KeyTables() {
+std::string KeyTables(const std::vector<KeySection>& sections) {
   std::string text;
-  for (const KeySection& section : ScenarioKeys()) {
+  for (const KeySection& section : sections) {
     text += text.empty() ? "" : "\n";
     if (!section.key.empty()) {
       text += fmt::format("### {}{}\n\n", Code(section.key),
@@ -108,7 +108,8 @@ std::vector<Block> Blocks(const CLI::App& program) {
   for (const CLI::App* verb : Verbs(program)) {
     blocks.push_back({"options of " + verb->get_name(), OptionTable(*verb)});
   }
-  blocks.push_back({"scenario keys", KeyTables()});
+  blocks.push_back({"scenario keys", KeyTables(ScenarioKeys())});
+  blocks.push_back({"study keys", KeyTables(StudyKeys())});
   return blocks;
 }
 

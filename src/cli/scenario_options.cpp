@@ -11,6 +11,19 @@ namespace trackbed::cli {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// The cameras are a room below the scenario's.
+std::vector<std::string> CameraNames() {
+  std::vector<std::string> names;
+  for (const CameraSummary& camera : Cameras()) {
+    names.push_back(camera.name);
+  }
+  return names;
+}
+
+}  // namespace
+
 void ScenarioOptions::AddTo(CLI::App& command) {
   command.add_option("--plant", plants, "Drive these plants instead of the scenario's")
       ->type_name("NAME...");
@@ -20,7 +33,7 @@ void ScenarioOptions::AddTo(CLI::App& command) {
   command.add_flag("-q,--quiet", quiet, "Print errors only");
 }
 
-Scenario ScenarioOptions::Read(const fs::path& file) const {
+std::vector<Override> ScenarioOptions::Overrides() const {
   std::vector<Override> all = overrides;
   if (!plants.empty()) {
     all.push_back(fmt::format("drive.plants=[{}]", fmt::join(plants, ", ")));
@@ -28,12 +41,15 @@ Scenario ScenarioOptions::Read(const fs::path& file) const {
   if (!seed.empty()) {
     all.push_back("seed=" + seed);
   }
-  // The cameras are a room below the scenario's.
-  std::vector<std::string> cameras;
-  for (const CameraSummary& camera : Cameras()) {
-    cameras.push_back(camera.name);
-  }
-  return ReadScenario(file, all, cameras);
+  return all;
+}
+
+Scenario ScenarioOptions::Read(const fs::path& file) const {
+  return ReadScenario(file, Overrides(), CameraNames());
+}
+
+Study ScenarioOptions::ReadStudyFile(const fs::path& file) const {
+  return ReadStudy(file, Overrides(), CameraNames());
 }
 
 std::vector<fs::path> ScenarioFiles(const std::vector<std::string>& paths) {

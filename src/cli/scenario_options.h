@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trackbed/scenario/scenario.h"
+#include "trackbed/scenario/study.h"
 
 namespace trackbed::cli {
 
@@ -21,6 +22,13 @@ struct ScenarioOptions {
 
   /// The scenario as these options change it. InputError as ReadScenario.
   [[nodiscard]] Scenario Read(const std::filesystem::path& file) const;
+
+  /// A study whose scenario these options change. InputError as ReadStudy.
+  [[nodiscard]] Study ReadStudyFile(const std::filesystem::path& file) const;
+
+ private:
+  /// All of them as overrides.
+  [[nodiscard]] std::vector<Override> Overrides() const;
 };
 
 /// The scenario files that `paths` name: files as they are, folders by the *.yaml in them, sorted.

@@ -26,6 +26,7 @@ void AddPlan(CLI::App& command, int& exit_code);
 void AddRender(CLI::App& command, int& exit_code);
 void AddCheck(CLI::App& command, int& exit_code);
 void AddTest(CLI::App& command, int& exit_code);
+void AddSweep(CLI::App& command, int& exit_code);
 void AddList(CLI::App& command, int& exit_code);
 void AddModel(CLI::App& command, int& exit_code);
 void AddDocs(CLI::App& command, int& exit_code);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tests/support/temp_folder.h"
+#include "tests/tolerance.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
@@ -353,6 +354,36 @@ outputs:
   for (const auto& row : rows) {
     const bool both = row[0] == "[kinematic, mujoco]";
     EXPECT_EQ(row[6].empty(), !both) << row[0];
+  }
+}
+
+TEST(PreviewDistance, TooFarAheadCutsTheCorners) {
+  Study study =
+      ReadStudy(std::string(TRACKBED_SOURCE_DIR) + "/scenarios/studies/preview_distance.yaml",
+                {"drive.timestep=0.004"});
+  // Every third of its nine distances: 1, 2.5 and 5 m.
+  std::vector<Setting>& distances = study.vary.at(0);
+  distances = {distances.at(0), distances.at(3), distances.at(6)};
+  const CheckedStudy checked = CheckStudy(study);
+  const SweepResult sweep =
+      RunSweep(checked.study, checked.points,
+               [&](const Scenario& scenario) { return DriveOnce(checked, scenario); }, {.jobs = 2});
+  const auto& rows = sweep.table.rows();
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0][1], "passed");
+  EXPECT_EQ(rows[1][1], "passed");
+  EXPECT_EQ(rows[2][1], "failed");
+  // To first order the car's offset e from the path obeys e'' + 2/L e' + 2/L^2 e = f, where an arc
+  // of radius R that begins L ahead makes f grow as x^2/(L^2 R) over the L to its beginning and
+  // then vanish: e rises to 0.104 L^2/R, 0.57 L into the arc. With 2.5 m ahead the car is back on
+  // the path before the arc of 16.83 m ends. Higher orders are (L/R)^2 = 2 % of that; commands are
+  // held for 20 ms and the servo lags by 15 ms, which is 4 % of L on the way: 10 % in all.
+  const double expected = 0.104 * 2.5 * 2.5 / 16.83;
+  for (const std::size_t cross_track : {2U, 3U}) {  // on both plants
+    EXPECT_NEAR(std::stod(rows[1][cross_track]), expected, Tolerance(0.1 * expected));
+    EXPECT_GT(std::stod(rows[2][cross_track]), 0.15);
+    // Too near, the steering rate is not enough.
+    EXPECT_GT(std::stod(rows[0][cross_track]), 2.0 * expected);
   }
 }
 

@@ -1,0 +1,72 @@
+#include "trackbed/analysis/sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "src/cli/progress_bar.h"
+#include "src/cli/scenario_options.h"
+#include "src/cli/verbs.h"
+#include "trackbed/core/file.h"
+
+namespace trackbed::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SweepVerbOptions {
+  std::string file;
+  std::string out;
+  int jobs = 0;  // 0: as many as the machine runs threads
+  ScenarioOptions scenario;
+};
+
+int Sweep(const SweepVerbOptions& options) {
+  const CheckedStudy checked = CheckStudy(options.scenario.ReadStudyFile(options.file));
+  const std::string& name = checked.study.name;
+  const fs::path out = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
+  MakeFolder(out);  // before the work, not after it
+
+  const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const auto is_interrupted = [] { return interrupted.load(); };
+  const SweepResult sweep = [&] {
+    ProgressBar bar(name, options.scenario.quiet);
+    return RunSweep(
+        checked.study, checked.points,
+        [&](const Scenario& scenario) { return DriveOnce(checked, scenario, is_interrupted); },
+        {.jobs = options.jobs > 0 ? options.jobs : threads,
+         .progress = [&](double fraction) { bar.Show(fraction); },
+         .interrupted = is_interrupted});
+  }();
+  WriteSweep(sweep, out);
+  if (!options.scenario.quiet) {
+    const std::size_t rows = sweep.table.rows().size();
+    const std::string how =
+        sweep.complete()
+            ? fmt::format("{} rows from {} runs, {} passed", rows, sweep.runs, sweep.passed)
+            : fmt::format("interrupted after {} of {} rows", rows, sweep.rows_expected);
+    fmt::print("{}: {}, in {}\n", name, how, (out / "sweep.csv").string());
+  }
+  return sweep.complete() ? kOk : kInterrupted;
+}
+
+}  // namespace
+
+void AddSweep(CLI::App& command, int& exit_code) {
+  const auto options = std::make_shared<SweepVerbOptions>();
+  command.add_option("study", options->file, "Study file")->required()->type_name("STUDY");
+  command
+      .add_option("-j,--jobs", options->jobs,
+                  "Runs at the same time (default: as many as the machine has threads)")
+      ->check(CLI::Range(1, 1000).description(""))
+      ->type_name("N");
+  command.add_option("-o,--out", options->out, "Folder to write to (default: out/<study>)")
+      ->type_name("DIR");
+  options->scenario.AddTo(command);
+  command.callback([options, &exit_code] { exit_code = Sweep(*options); });
+}
+
+}  // namespace trackbed::cli

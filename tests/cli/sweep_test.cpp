@@ -1,0 +1,108 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/cli/program.h"
+#include "tests/support/temp_folder.h"
+#include "trackbed/core/file.h"
+
+namespace trackbed {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// A study of the kinematic car on the winding route.
+std::string StudyText(const std::string& keys) {
+  return "schema: 1\nname: study\nscenario: " + ScenarioFile("winding") + "\n" + keys;
+}
+
+constexpr const char* kDistances =
+    "set: {drive.plants: [kinematic]}\n"
+    "vary: {control.distance: [1, 2.5, 10]}\n"
+    "outputs: [metrics.kinematic.cross_track.max]\n";
+
+TEST(Sweep, WritesATableAndWhereItComesFrom) {
+  const TempFolder folder;
+  folder.Write("study.yaml", StudyText(kDistances));
+  const Outcome outcome = Trackbed(folder, "sweep study.yaml");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  // Ten metres ahead cuts the corners; that a run fails is a result, not an error.
+  EXPECT_EQ(outcome.output, "study: 3 rows from 3 runs, 2 passed, in out/study/sweep.csv\n");
+  const std::string csv = ReadFile(folder.path() / "out/study/sweep.csv");
+  EXPECT_THAT(csv, testing::MatchesRegex(
+                       "control\\.distance,status,metrics\\.kinematic\\.cross_track\\.max\n"
+                       "1,passed,0\\.[0-9]+\n2\\.5,passed,0\\.[0-9]+\n10,failed,[0-9.]+\n"));
+  EXPECT_THAT(ReadFile(folder.path() / "out/study/sweep.json"), HasSubstr("\"complete\": true"));
+  EXPECT_EQ(Trackbed(folder, "sweep study.yaml -q -o again --jobs 4").output, "");
+  for (const char* name : {"sweep.csv", "sweep.json"}) {
+    EXPECT_EQ(ReadFile(folder.path() / "again" / name),
+              ReadFile(folder.path() / "out/study" / name));
+  }
+}
+
+TEST(Sweep, SetsKeysOfTheScenarioFromTheCommandLine) {
+  const TempFolder folder;
+  folder.Write("study.yaml", StudyText(kDistances));
+  const Outcome outcome =
+      Trackbed(folder, "sweep study.yaml --set drive.time_limit=1 'expect={reach_goal: 1}'");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, StartsWith("study: 3 rows from 3 runs, 0 passed"));
+  EXPECT_THAT(ReadFile(folder.path() / "out/study/sweep.json"),
+              HasSubstr("\"drive.time_limit=1\""));
+}
+
+TEST(Sweep, TellsOfBadInputBeforeAnythingIsDriven) {
+  const TempFolder folder;
+  folder.Write("study.yaml", StudyText("vary: {control.distanse: [1, 2]}\n"));
+  const Outcome misspelt = Trackbed(folder, "sweep study.yaml");
+  EXPECT_EQ(misspelt.code, 2);
+  EXPECT_EQ(misspelt.output,
+            "study.yaml:4:27: control.distanse: unknown key 'distanse'; did you mean "
+            "'distance'?\n");
+  EXPECT_EQ(Trackbed(folder, "check study.yaml").output, misspelt.output);
+  folder.Write("study.yaml", StudyText("repeat: 2\noutputs: [metrics.mujoco.cross_trak.max]\n"));
+  const Outcome output = Trackbed(folder, "sweep study.yaml");
+  EXPECT_EQ(output.code, 2);
+  EXPECT_EQ(output.output,
+            "study.yaml:5:11: outputs[0]: no run can have 'metrics.mujoco.cross_trak.max'; did you "
+            "mean 'metrics.mujoco.cross_track.max'?\n");
+  EXPECT_EQ(Trackbed(folder, "sweep none.yaml").output,
+            "cannot read none.yaml: No such file or directory\n");
+  EXPECT_EQ(Trackbed(folder, "sweep study.yaml --jobs 0").code, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+}
+
+TEST(Sweep, StudiesCanBeCheckedLikeScenarios) {
+  const TempFolder folder;
+  folder.Write("s/study.yaml", StudyText(kDistances));
+  folder.Write("s/scenario.yaml", ReadFile(ScenarioFile("winding")));
+  const Outcome outcome = Trackbed(folder, "check s");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.output, "s/scenario.yaml: ok\ns/study.yaml: ok\n");
+  // Those that come along too.
+  const Outcome own =
+      Trackbed(folder, "check " + std::string(TRACKBED_SOURCE_DIR) + "/scenarios/studies");
+  EXPECT_EQ(own.code, 0) << own.output;
+}
+
+TEST(Sweep, CtrlCKeepsTheRowsSoFar) {
+  const TempFolder folder;
+  // Rows that take minutes. The output folder appears before the first drive; the loop gives up
+  // after a minute.
+  folder.Write("study.yaml", StudyText("set: {drive.plants: [mujoco]}\n"
+                                       "vary: {drive.timestep: [0.00001, 0.00002]}\n"));
+  const std::string out = (folder.path() / "r").string();
+  const Outcome outcome =
+      Trackbed(folder, "sweep study.yaml -j 1 -o " + out + " & n=0; until [ -d " + out +
+                           " ] || [ $n -gt 600 ]; do n=$((n + 1)); sleep 0.1; done; kill -INT $!; "
+                           "wait $!");
+  EXPECT_EQ(outcome.code, 130);
+  EXPECT_EQ(outcome.output, "study: interrupted after 0 of 2 rows, in " + out + "/sweep.csv\n");
+  EXPECT_THAT(ReadFile(folder.path() / "r/sweep.json"), HasSubstr("\"complete\": false"));
+  EXPECT_EQ(ReadFile(folder.path() / "r/sweep.csv"), "drive.timestep,status\n");
+}
+
+}  // namespace
+}  // namespace trackbed
