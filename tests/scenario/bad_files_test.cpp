@@ -10,6 +10,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/scenario/scenario.h"
+#include "trackbed/scenario/study.h"
 #include "trackbed/sim/car_model.h"
 
 /// Every tests/data/bad/NAME.yaml is broken in its own way, and NAME.expected holds, to the letter,
@@ -46,11 +47,17 @@ std::string WithoutFolder(std::string message) {
   return message;
 }
 
-/// What the user is told about a file: by the reader, or by the car that it names.
+/// What the user is told about a file: by the reader, or by the car that it names. Studies have the
+/// key `scenario`.
 std::string MessageFor(const fs::path& file) {
+  const std::vector<std::string> cameras{"chase", "side", "top"};
   try {
-    const Scenario scenario = ParseScenario(ReadFile(file), file.filename().string(),
-                                            file.parent_path(), {}, {"chase", "side", "top"});
+    if (IsStudy(file)) {
+      ReadPoints(ReadStudy(file, {}, cameras));
+      return kNoError;
+    }
+    const Scenario scenario =
+        ParseScenario(ReadFile(file), file.filename().string(), file.parent_path(), {}, cameras);
     const fs::path model = FindModel(scenario.vehicle.model, scenario.folder);
     const CarModel car(ComposeScene(model, {.timestep = scenario.drive.timestep}), model.string());
   } catch (const InputError& error) {
