@@ -87,6 +87,31 @@ TEST_F(FullDisk, LeavesAnEarlierPlanAsItWas) {
   ExpectWhole(folder.path() / "left", folder.path() / "whole");
 }
 
+TEST_F(FullDisk, LeavesNoPieceOfASweep) {
+  folder.Write("study.yaml", "schema: 1\nname: study\nscenario: " + ScenarioFile("winding") +
+                                 "\nset: {drive.time_limit: 0.1, drive.plants: [kinematic]}\n"
+                                 "vary: {mission.speed: [1, 2]}\n"
+                                 "outputs: [metrics.kinematic.distance]\n");
+  Trackbed(folder, "sweep -q study.yaml -o whole");
+  // Of the two pages that the sweep takes there is room for one: its sweep.json, written last, does
+  // not tell of a sweep that is not there.
+  const std::string sweep = TRACKBED_PROGRAM " sweep -q study.yaml -o disk/s";
+  const Outcome half = WithDisk("4k", sweep);
+  EXPECT_EQ(half.code, 2);
+  EXPECT_EQ(half.output, "cannot write disk/s/sweep.json: No space left on device\n");
+  EXPECT_THAT(NamesIn(folder.path() / "left/s"), UnorderedElementsAre("sweep.csv"));
+  ExpectWhole(folder.path() / "left/s", folder.path() / "whole");
+  fs::remove_all(folder.path() / "left");
+  // And no room for the rows: those of an earlier sweep stay as they were.
+  fs::remove_all(folder.path() / "left");
+  const Outcome none = WithDisk("8k", sweep + " && mv disk/s/sweep.json disk/fill && " + sweep +
+                                          " --set drive.time_limit=0.2");
+  EXPECT_EQ(none.code, 2);
+  EXPECT_EQ(none.output, "cannot write disk/s/sweep.csv: No space left on device\n");
+  EXPECT_THAT(NamesIn(folder.path() / "left/s"), UnorderedElementsAre("sweep.csv"));
+  ExpectWhole(folder.path() / "left/s", folder.path() / "whole");
+}
+
 TEST_F(FullDisk, LeavesNoPieceOfAFilm) {
   if (!HasVideo(folder)) {
     GTEST_SKIP() << "built without video";

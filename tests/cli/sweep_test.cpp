@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <regex>
 #include <string>
 
 #include "tests/cli/program.h"
@@ -40,6 +42,82 @@ TEST(Sweep, WritesATableAndWhereItComesFrom) {
     EXPECT_EQ(ReadFile(folder.path() / "again" / name),
               ReadFile(folder.path() / "out/study" / name));
   }
+}
+
+TEST(Sweep, WritesTheSameBytesForAnyNumberOfJobs) {
+  const TempFolder folder;
+  // One plant or both and three speeds, so that later rows are done before earlier ones.
+  folder.Write("study.yaml", StudyText("set: {drive.time_limit: 4, expect: {}}\n"
+                                       "vary:\n"
+                                       "  drive.plants: [[kinematic, mujoco], [kinematic]]\n"
+                                       "  mission.speed: {from: 1, to: 3, steps: 3}\n"
+                                       "outputs: [metrics.kinematic.distance, "
+                                       "metrics.mujoco.distance]\n"));
+  for (const char* jobs : {"1", "2", "5", "100"}) {
+    const std::string out = std::string("jobs") + jobs;
+    ASSERT_EQ(Trackbed(folder, "sweep study.yaml -q -o " + out + " --jobs " + jobs).code, 0);
+    for (const char* name : {"sweep.csv", "sweep.json"}) {
+      EXPECT_EQ(ReadFile(folder.path() / out / name), ReadFile(folder.path() / "jobs1" / name))
+          << name << " of " << jobs << " jobs";
+    }
+  }
+}
+
+TEST(Sweep, LeavesCellsEmptyThatARunHasNoValueFor) {
+  const TempFolder folder;
+  // Half of the shorter leg at the turn of 56 degrees is 18.03 m, and a radius R takes R tan(28
+  // deg) of it: 40 m do not fit. The second point has no plant mujoco.
+  folder.Write("study.yaml",
+               StudyText("set: {drive.time_limit: 1, expect: {}}\n"
+                         "list:\n"
+                         "  - {drive.plants: [mujoco], mission.speed: 2, plan.radius: "
+                         "20}\n"
+                         "  - {drive.plants: [kinematic], plan.radius: 10}\n"
+                         "  - {drive.plants: [kinematic, mujoco], mission.speed: 3, "
+                         "plan.radius: 40}\n"
+                         "outputs: [metrics.kinematic.status, "
+                         "metrics.mujoco.status, plan.status]\n"));
+  const Outcome outcome = Trackbed(folder, "sweep study.yaml");
+  EXPECT_EQ(outcome.code, 0);  // runs that fail are results
+  EXPECT_EQ(outcome.output, "study: 3 rows from 3 runs, 0 passed, in out/study/sweep.csv\n");
+  EXPECT_EQ(ReadFile(folder.path() / "out/study/sweep.csv"),
+            "drive.plants,mission.speed,plan.radius,status,metrics.kinematic.status,"
+            "metrics.mujoco.status,plan.status\n"
+            "[mujoco],2,20,failed,,time_limit,ok\n"
+            "[kinematic],,10,failed,time_limit,,ok\n"
+            "\"[kinematic, mujoco]\",3,40,no_plan,,,turn_too_tight\n");
+}
+
+TEST(Sweep, FindsTheHighestValueThatPasses) {
+  const TempFolder folder;
+  folder.Write("study.yaml",
+               StudyText("set: {drive.plants: [kinematic]}\n"
+                         "bisect: {key: control.distance, from: 2, to: 10, tolerance: 0.3}\n"));
+  const Outcome outcome = Trackbed(folder, "sweep study.yaml");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  const std::string csv = ReadFile(folder.path() / "out/study/sweep.csv");
+  // Eight metres are halved five times before they are no longer than 0.3 m; and the two ends.
+  std::smatch found;
+  ASSERT_TRUE(std::regex_match(csv, found,
+                               std::regex("control\\.distance,status,runs\n([0-9.]+),found,7\n")))
+      << csv;
+  // `run` says so too: what was found passes, and what is a tolerance above it does not.
+  const double highest = std::stod(found[1]);
+  const auto run_with = [&](double distance) {
+    return Trackbed(folder, "run -q " + ScenarioFile("winding") + " --plant kinematic --set " +
+                                "control.distance=" + std::to_string(distance))
+        .code;
+  };
+  EXPECT_EQ(run_with(highest), 0);
+  EXPECT_EQ(run_with(highest + 0.3), 3);
+}
+
+TEST(Sweep, StopsBeforeDrivingWhereItCannotWrite) {
+  const TempFolder folder;
+  folder.Write("study.yaml", StudyText(kDistances));
+  const Outcome outcome = Trackbed(folder, "sweep study.yaml -o study.yaml/here");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.output, "cannot create the folder study.yaml/here: Not a directory\n");
 }
 
 TEST(Sweep, SetsKeysOfTheScenarioFromTheCommandLine) {
