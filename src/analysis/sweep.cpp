@@ -4,67 +4,18 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <set>
 #include <system_error>
 #include <thread>
 
 #include "trackbed/analysis/bisect.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
-#include "trackbed/core/spelling.h"
 
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-/// What tells the cars of scenarios without obstacles apart.
-std::pair<std::string, double> CarOf(const Scenario& scenario) {
-  return {FindModel(scenario.vehicle.model, scenario.folder).string(), scenario.drive.timestep};
-}
-
-void CompileCars(CheckedStudy& checked) {
-  std::vector<Problem> problems;
-  std::set<std::pair<std::string, double>> tried;
-  for (const StudyPoint& point : checked.points) {
-    Scenario scenario = point.scenario;
-    scenario.world.obstacles.clear();
-    const auto car = CarOf(scenario);
-    if (!tried.insert(car).second) {
-      continue;
-    }
-    try {
-      checked.cars.emplace(car, LoadCar(scenario));
-    } catch (const InputError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-    }
-  }
-  if (!problems.empty()) {
-    throw InputError(problems);
-  }
-}
-
-void CheckOutputs(const CheckedStudy& checked) {
-  std::set<std::string> possible;
-  for (const StudyPoint& point : checked.points) {
-    const std::vector<std::string> own = PossibleOutputs(point.scenario);
-    possible.insert(own.begin(), own.end());
-  }
-  std::vector<Problem> problems;
-  const std::vector<OutputSpec>& outputs = checked.study.outputs;
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    const OutputSpec& output = outputs[i];
-    if (possible.find(output.path) == possible.end()) {
-      problems.push_back(
-          {checked.study.file, output.line, output.column, fmt::format("outputs[{}]", i),
-           "no run can have " + UnknownName(output.path, {possible.begin(), possible.end()})});
-    }
-  }
-  if (!problems.empty()) {
-    throw InputError(problems);
-  }
-}
 
 /// Calls `work` with every index below `count`, on as many threads as asked, until one call says
 /// to stop or throws; the exception is thrown on.
@@ -282,34 +233,6 @@ ordered_json DescribeStudy(const Study& study) {
 }
 
 }  // namespace
-
-CheckedStudy CheckStudy(Study study) {
-  CheckedStudy checked{.study = std::move(study), .points = {}, .cars = {}};
-  checked.points = ReadPoints(checked.study);
-  CompileCars(checked);
-  CheckOutputs(checked);
-  return checked;
-}
-
-std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario& scenario,
-                                    const std::function<bool()>& interrupted) {
-  const RunHooks hooks{.drive = [&](const std::string&) {
-    return DriveHooks{.progress = {}, .interrupted = interrupted};
-  }};
-  const auto car = checked.cars.find(CarOf(scenario));
-  const bool compiled = car != checked.cars.end() && scenario.world.obstacles.empty();
-  const RunResult result =
-      compiled ? RunMission(scenario, car->second, hooks) : RunMission(scenario, hooks);
-  if (result.interrupted) {
-    return std::nullopt;
-  }
-  const bool passed = result.verdict.passed;
-  return RunOutcome{.status = !result.plan.ok() ? "no_plan"
-                              : passed          ? "passed"
-                                                : "failed",
-                    .passed = passed,
-                    .outputs = OutputsOf(result)};
-}
 
 SweepResult RunSweep(const Study& study, const std::vector<StudyPoint>& points,
                      const RunScenarioOnce& run, const SweepOptions& options) {

@@ -41,12 +41,14 @@ using RunScenarioOnce = std::function<std::optional<RunOutcome>(const Scenario& 
 struct CheckedStudy {
   Study study;
   std::vector<StudyPoint> points;
-  /// By the model's file and the timestep: compiled once, for scenarios without obstacles.
+  /// By the model's file and the timestep: compiled once, for scenarios on flat ground without
+  /// obstacles.
   std::map<std::pair<std::string, double>, CarModel> cars;
 };
 
-/// Reads every point of the study's grid, compiles its cars, and looks whether its outputs can be
-/// had. InputError with the problems of all points, or of all outputs with the nearest path.
+/// Reads every point of the study's grid, compiles its cars, puts them on their plants, and looks
+/// whether its outputs can be had. InputError with the problems of all points, of all cars, or of
+/// all outputs with the nearest path.
 CheckedStudy CheckStudy(Study study);
 
 /// Plans, drives, measures and judges a scenario of the study.

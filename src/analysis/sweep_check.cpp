@@ -1,0 +1,119 @@
+#include <set>
+#include <tuple>
+
+#include "trackbed/analysis/sweep.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/spelling.h"
+
+namespace trackbed {
+namespace {
+
+/// What tells the cars of scenarios with a bare world apart.
+std::pair<std::string, double> CarOf(const Scenario& scenario) {
+  return {FindModel(scenario.vehicle.model, scenario.folder).string(), scenario.drive.timestep};
+}
+
+/// Whether the world puts nothing into the car's scene.
+bool IsBare(const World& world) {
+  return world.obstacles.empty() && IsFlat(world.ground);
+}
+
+void CompileCars(CheckedStudy& checked) {
+  std::vector<Problem> problems;
+  std::set<std::pair<std::string, double>> tried;
+  for (const StudyPoint& point : checked.points) {
+    Scenario scenario = point.scenario;
+    scenario.world.obstacles.clear();
+    scenario.world.ground = {};
+    const auto car = CarOf(scenario);
+    if (!tried.insert(car).second) {
+      continue;
+    }
+    try {
+      checked.cars.emplace(car, LoadCar(scenario));
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) {
+    throw InputError(problems);
+  }
+}
+
+/// Puts every car once on each of its plants: not every car has what every plant asks of it.
+void CheckPlants(const CheckedStudy& checked) {
+  std::vector<Problem> problems;
+  std::set<std::tuple<std::pair<std::string, double>, std::string, TyreLaw>> tried;
+  const World bare;
+  for (const StudyPoint& point : checked.points) {
+    const auto car = CarOf(point.scenario);
+    const TyreLaw tyre = point.scenario.vehicle.tyre;
+    for (const std::string& plant : point.scenario.drive.plants) {
+      if (!tried.insert({car, plant, tyre}).second) {
+        continue;
+      }
+      try {
+        MakePlant(plant, {.car = checked.cars.at(car), .world = bare, .start = {}, .tyre = tyre});
+      } catch (const InputError& error) {
+        problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+      }
+    }
+  }
+  if (!problems.empty()) {
+    throw InputError(problems);
+  }
+}
+
+void CheckOutputs(const CheckedStudy& checked) {
+  std::set<std::string> possible;
+  for (const StudyPoint& point : checked.points) {
+    const std::vector<std::string> own = PossibleOutputs(point.scenario);
+    possible.insert(own.begin(), own.end());
+  }
+  std::vector<Problem> problems;
+  const std::vector<OutputSpec>& outputs = checked.study.outputs;
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const OutputSpec& output = outputs[i];
+    if (possible.find(output.path) == possible.end()) {
+      problems.push_back(
+          {checked.study.file, output.line, output.column, fmt::format("outputs[{}]", i),
+           "no run can have " + UnknownName(output.path, {possible.begin(), possible.end()})});
+    }
+  }
+  if (!problems.empty()) {
+    throw InputError(problems);
+  }
+}
+
+}  // namespace
+
+CheckedStudy CheckStudy(Study study) {
+  CheckedStudy checked{.study = std::move(study), .points = {}, .cars = {}};
+  checked.points = ReadPoints(checked.study);
+  CompileCars(checked);
+  CheckPlants(checked);
+  CheckOutputs(checked);
+  return checked;
+}
+
+std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario& scenario,
+                                    const std::function<bool()>& interrupted) {
+  const RunHooks hooks{.drive = [&](const std::string&) {
+    return DriveHooks{.progress = {}, .interrupted = interrupted};
+  }};
+  const auto car = checked.cars.find(CarOf(scenario));
+  const bool compiled = car != checked.cars.end() && IsBare(scenario.world);
+  const RunResult result =
+      compiled ? RunMission(scenario, car->second, hooks) : RunMission(scenario, hooks);
+  if (result.interrupted) {
+    return std::nullopt;
+  }
+  const bool passed = result.verdict.passed;
+  return RunOutcome{.status = !result.plan.ok() ? "no_plan"
+                              : passed          ? "passed"
+                                                : "failed",
+                    .passed = passed,
+                    .outputs = OutputsOf(result)};
+}
+
+}  // namespace trackbed

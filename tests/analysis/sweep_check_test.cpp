@@ -1,0 +1,193 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+
+#include "tests/analysis/studies.h"
+#include "tests/support/temp_folder.h"
+#include "tests/tolerance.h"
+#include "trackbed/analysis/sweep.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+
+/// What a study is looked at for before it is driven, and how one of its runs is driven.
+namespace trackbed {
+namespace {
+
+TEST(CheckStudy, NamesOutputsThatNoRunCanHave) {
+  const TempFolder folder;
+  const auto error = [&](const std::string& keys) {
+    return ErrorOf(folder, [&] { CheckStudy(StudyOf(folder, "repeat: 2\noutputs:\n" + keys)); });
+  };
+  EXPECT_EQ(error("  - metrics.mujoco.cros_track.max\n  - verdict.passed\n  - plan.length\n"),
+            "study.yaml:6:5: outputs[0]: no run can have 'metrics.mujoco.cros_track.max'; did you "
+            "mean 'metrics.mujoco.cross_track.max'?\n"
+            "study.yaml:8:5: outputs[2]: no run can have 'plan.length'; did you mean "
+            "'plan.length_m'?");
+  // There are five waypoints, so three turns; no obstacles; and nothing but winding's plants.
+  EXPECT_THAT(error("  - metrics.mujoco.turns[3].lateral_offset\n"),
+              testing::HasSubstr("did you mean 'metrics.mujoco.turns[0].lateral_offset'?"));
+  EXPECT_THAT(error("  - metrics.mujoco.clearance_min\n"), testing::HasSubstr("no run can have"));
+  EXPECT_EQ(error("  - between.kinematic.mujoco.position.max\n  - verdict.failures\n"
+                  "  - metrics.kinematic.turns[2].lateral_offset\n"),
+            "no error");
+}
+
+TEST(CheckStudy, KnowsTheOutputsOfEveryPoint) {
+  const TempFolder folder;
+  const std::string box = "[{box: {x: 20, y: 3, length: 1, width: 1}}]";
+  const CheckedStudy checked = CheckStudy(StudyOf(folder,
+                                                  "list:\n  - {drive.plants: [kinematic]}\n"
+                                                  "  - {drive.plants: [mujoco], "
+                                                  "world.obstacles: " +
+                                                      box +
+                                                      "}\n"
+                                                      "outputs: [metrics.kinematic.time, "
+                                                      "metrics.mujoco.clearance_min]\n"));
+  EXPECT_EQ(checked.points.size(), 2U);
+  EXPECT_EQ(checked.cars.size(), 1U);  // one model at one timestep
+}
+
+TEST(CheckStudy, CompilesEveryCarThatThereIs) {
+  const TempFolder folder;
+  folder.Write("broken.xml", "<mujoco><worldbody/></mujoco>\n");
+  const std::string broken = (folder.path() / "broken.xml").string();
+  EXPECT_THAT(
+      ErrorOf(folder,
+              [&] {
+                CheckStudy(StudyOf(folder, "vary: {vehicle.model: [prius, '" + broken + "']}\n"));
+              }),
+      testing::HasSubstr("broken.xml"));
+}
+
+/// The small car without the coefficients of its tyres.
+std::string WithoutTyres() {
+  const std::string text =
+      ReadFile(std::string(TRACKBED_SOURCE_DIR) + "/tests/data/models/small_car.xml");
+  return std::regex_replace(text, std::regex("<numeric name=\"p_[^>]*/>"), "");
+}
+
+TEST(CheckStudy, NamesCarsThatLackWhatAPlantAsksOfThem) {
+  const TempFolder folder;
+  const std::string car = folder.Write("bare.xml", WithoutTyres()).string();
+  const auto error = [&](const std::string& plant) {
+    return ErrorOf(folder, [&] {
+      CheckStudy(StudyOf(folder, "vary:\n  drive.plants: [[" + plant +
+                                     "]]\n  vehicle.model: [prius, '" + car +
+                                     "']\n  vehicle.tyre: [contact, magic_formula]\n"));
+    });
+  };
+  EXPECT_EQ(error("mujoco"),
+            "the car small_car has no tyre coefficients (<custom> p_cx1, p_dx1, …); "
+            "tyre: magic_formula needs them");
+  EXPECT_EQ(error("mujoco:contact"), "no error");
+  EXPECT_EQ(error("kinematic"), "no error");
+}
+
+/// A study that takes a tenth of a second a run.
+const std::string kShort = R"(set: {drive.plants: [kinematic], expect: {max_cross_track: 0.05}}
+vary: {control.distance: [1, 2.5, 5]}
+outputs: [metrics.kinematic.status, metrics.kinematic.cross_track.max, verdict.failures]
+)";
+
+TEST(DriveOnce, ComesToWhatARunOfTheScenarioComesTo) {
+  const TempFolder folder;
+  const CheckedStudy checked = CheckStudy(StudyOf(folder, kShort));
+  for (const StudyPoint& point : checked.points) {
+    const std::optional<RunOutcome> outcome = DriveOnce(checked, point.scenario);
+    ASSERT_TRUE(outcome.has_value());
+    const RunResult run = RunMission(point.scenario);
+    EXPECT_EQ(outcome->passed, run.verdict.passed);
+    EXPECT_EQ(outcome->status, run.verdict.passed ? "passed" : "failed");
+    EXPECT_EQ(outcome->outputs, OutputsOf(run));
+    const Outputs& outputs = outcome->outputs;
+    EXPECT_EQ(outputs.at("metrics.kinematic.cross_track.max"),
+              ShortestText(run.metrics[0].tracking->cross_track_max));
+    EXPECT_EQ(outputs.at("metrics.kinematic.status"), "arrived");
+    EXPECT_EQ(outputs.at("verdict.passed"), run.verdict.passed ? "true" : "false");
+    EXPECT_EQ(outputs.at("plan.length_m"), ShortestText(run.plan.reference.path.length()));
+    // What a run has is among what it was said to be able to have.
+    const std::vector<std::string> possible = PossibleOutputs(point.scenario);
+    for (const auto& output : outputs) {
+      EXPECT_THAT(possible, testing::Contains(output.first));
+    }
+  }
+}
+
+TEST(DriveOnce, TellsThatThereIsNoPlan) {
+  const TempFolder folder;
+  const CheckedStudy checked =
+      CheckStudy(StudyOf(folder, "list: [{mission.waypoints: [[0, 0], [10, 0], [10, 10]]}]\n"));
+  const std::optional<RunOutcome> outcome = DriveOnce(checked, checked.points[0].scenario);
+  EXPECT_EQ(outcome->status, "no_plan");
+  EXPECT_EQ(outcome->outputs.at("plan.status"), "turn_too_tight");
+  EXPECT_EQ(outcome->outputs.count("plan.length_m"), 0U);
+}
+
+TEST(DriveOnce, EndsWithNothingWhenItIsInterrupted) {
+  const TempFolder folder;
+  const CheckedStudy checked = CheckStudy(StudyOf(folder, kShort));
+  EXPECT_FALSE(DriveOnce(checked, checked.points[0].scenario, [] { return true; }).has_value());
+}
+
+TEST(DriveOnce, GivesTheSameSweepOnOneThreadAndOnFour) {
+  const TempFolder folder;
+  const CheckedStudy checked = CheckStudy(StudyOf(folder, R"(set: {drive.time_limit: 3}
+vary:
+  drive.plants: [[kinematic], [mujoco], [kinematic, mujoco]]
+  world.obstacles: [[], [{box: {x: 20, y: 3, length: 1, width: 1}}]]
+outputs:
+  - metrics.kinematic.cross_track.rms
+  - metrics.mujoco.lateral_acceleration_max
+  - metrics.mujoco.clearance_min
+  - between.kinematic.mujoco.position.max
+)"));
+  const RunScenarioOnce run = [&](const Scenario& scenario) {
+    return DriveOnce(checked, scenario);
+  };
+  const SweepResult one = RunSweep(checked.study, checked.points, run, {.jobs = 1});
+  const SweepResult four = RunSweep(checked.study, checked.points, run, {.jobs = 4});
+  EXPECT_EQ(one.table.ToCsv(), four.table.ToCsv());
+  EXPECT_EQ(one.description.dump(), four.description.dump());
+  // The rows are not all alike, so that a mix-up would show.
+  const auto& rows = one.table.rows();
+  EXPECT_EQ((std::set<std::vector<std::string>>(rows.begin(), rows.end())).size(), rows.size());
+  for (const auto& row : rows) {
+    const bool both = row[0] == "[kinematic, mujoco]";
+    EXPECT_EQ(row[6].empty(), !both) << row[0];
+  }
+}
+
+TEST(PreviewDistance, TooFarAheadCutsTheCorners) {
+  Study study =
+      ReadStudy(std::string(TRACKBED_SOURCE_DIR) + "/scenarios/studies/preview_distance.yaml",
+                {"drive.timestep=0.004"});
+  // Every third of its nine distances: 1, 2.5 and 5 m.
+  std::vector<Setting>& distances = study.vary.at(0);
+  distances = {distances.at(0), distances.at(3), distances.at(6)};
+  const CheckedStudy checked = CheckStudy(study);
+  const SweepResult sweep =
+      RunSweep(checked.study, checked.points,
+               [&](const Scenario& scenario) { return DriveOnce(checked, scenario); }, {.jobs = 2});
+  const auto& rows = sweep.table.rows();
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0][1], "passed");
+  EXPECT_EQ(rows[1][1], "passed");
+  EXPECT_EQ(rows[2][1], "failed");
+  // To first order the car's offset e from the path obeys e'' + 2/L e' + 2/L^2 e = f, where an arc
+  // of radius R that begins L ahead makes f grow as x^2/(L^2 R) over the L to its beginning and
+  // then vanish: e rises to 0.104 L^2/R, 0.57 L into the arc. With 2.5 m ahead the car is back on
+  // the path before the arc of 16.83 m ends. Higher orders are (L/R)^2 = 2 % of that; commands are
+  // held for 20 ms and the servo lags by 15 ms, which is 4 % of L on the way: 10 % in all.
+  const double expected = 0.104 * 2.5 * 2.5 / 16.83;
+  for (const std::size_t cross_track : {2U, 3U}) {  // on both plants
+    EXPECT_NEAR(std::stod(rows[1][cross_track]), expected, Tolerance(0.1 * expected));
+    EXPECT_GT(std::stod(rows[2][cross_track]), 0.15);
+    // Too near, the steering rate is not enough.
+    EXPECT_GT(std::stod(rows[0][cross_track]), 2.0 * expected);
+  }
+}
+
+}  // namespace
+}  // namespace trackbed
