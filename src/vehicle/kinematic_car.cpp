@@ -1,7 +1,8 @@
 #include "trackbed/vehicle/kinematic_car.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "src/vehicle/motion.h"
 
 namespace trackbed {
 
@@ -22,70 +23,51 @@ KinematicCar::Rates KinematicCar::RatesAt(double yaw, double speed, double steer
 }
 
 void KinematicCar::Step(const Command& command, double duration) {
-  const SteeringMove move = MoveSteering({params_.steering_limit, params_.steering_rate},
-                                         state_.steering, command.steering);
-  const double start_speed = state_.speed;
-  // A car slows down to rest, not through it, and leaves rest only along its gear.
-  const bool slowing = start_speed * command.acceleration < 0.0;
-  const bool may_leave = command.acceleration * command.gear > 0.0;
-  const bool held = start_speed == 0.0 && !may_leave;
-  const double rest_time = held ? 0.0 : slowing ? -start_speed / command.acceleration : duration;
-  const bool rests = held || (slowing && !may_leave && rest_time <= duration);
-
-  double done = 0.0;
-  for (const double until : {std::min(std::min(move.ramp_time, rest_time), duration),
-                             std::min(std::max(move.ramp_time, rest_time), duration), duration}) {
-    if (until <= done) {
-      continue;
-    }
-    const bool steering = done < move.ramp_time;
-    const bool rolling = done < rest_time || !rests;
-    StepSmoothly(steering ? move.rate : 0.0, rolling ? command.acceleration : 0.0, until - done);
-    done = until;
-    // Landing exactly on the corners keeps rounding from building up.
-    state_.steering = move.At(done);
-    if (done == rest_time && slowing) {
-      state_.speed = 0.0;
+  const Motion motion = MotionUnder(command, params_, state_.steering, state_.speed, duration);
+  for (const MotionPiece& piece : motion.pieces) {
+    if (piece.duration > 0.0) {
+      Advance(piece);
     }
   }
   time_ += duration;
-  // At the corners the rates jump; what led there counts. A nanosecond is rounding of the times.
-  constexpr double kNanosecond = 1e-9;
-  steering_rate_ = duration <= move.ramp_time + kNanosecond ? move.rate : 0.0;
-  acceleration_ = rests && rest_time < duration - kNanosecond ? 0.0 : command.acceleration;
+  steering_rate_ = motion.steering_rate;
+  acceleration_ = motion.acceleration;
 }
 
-void KinematicCar::StepSmoothly(double steering_rate, double acceleration, double duration) {
-  const double moved = (state_.speed + 0.5 * acceleration * duration) * duration;
-  if (moved == 0.0) {
-    state_.speed += acceleration * duration;
-    return;
+void KinematicCar::Advance(const MotionPiece& piece) {
+  const double duration = piece.duration;
+  const double moved = (state_.speed + 0.5 * piece.acceleration * duration) * duration;
+  if (moved != 0.0) {
+    state_.pose = PoseAfter(piece, moved);
+    state_.distance += std::abs(moved);
   }
-  if (steering_rate == 0.0) {
+  state_.speed = piece.end_speed;
+  state_.steering = piece.end_steering;
+}
+
+Pose2 KinematicCar::PoseAfter(const MotionPiece& piece, double moved) const {
+  if (piece.steering_rate == 0.0) {
     const double slip = Slip(state_.steering);
     const double turn = moved * std::cos(slip) * CurvatureForSteering(params_, state_.steering);
-    state_.pose = MoveOnArc(state_.pose, moved, turn, slip);
-  } else {
-    // Runge-Kutta of fourth order; speed and steering are known functions of time.
-    const auto rates = [&](double time, double yaw) {
-      return RatesAt(yaw, state_.speed + acceleration * time,
-                     state_.steering + steering_rate * time);
-    };
-    const double half = 0.5 * duration;
-    const double yaw = state_.pose.yaw;
-    const Rates k1 = rates(0.0, yaw);
-    const Rates k2 = rates(half, yaw + half * k1.yaw_rate);
-    const Rates k3 = rates(half, yaw + half * k2.yaw_rate);
-    const Rates k4 = rates(duration, yaw + duration * k3.yaw_rate);
-    const Vec2 shift =
-        duration / 6.0 * (k1.velocity + 2.0 * k2.velocity + 2.0 * k3.velocity + k4.velocity);
-    state_.pose.x += shift.x();
-    state_.pose.y += shift.y();
-    state_.pose.yaw +=
-        duration / 6.0 * (k1.yaw_rate + 2.0 * k2.yaw_rate + 2.0 * k3.yaw_rate + k4.yaw_rate);
+    return MoveOnArc(state_.pose, moved, turn, slip);
   }
-  state_.distance += std::abs(moved);
-  state_.speed += acceleration * duration;
+  // Runge-Kutta of fourth order; speed and steering are known functions of time.
+  const auto rates = [&](double time, double yaw) {
+    return RatesAt(yaw, state_.speed + piece.acceleration * time,
+                   state_.steering + piece.steering_rate * time);
+  };
+  const double duration = piece.duration;
+  const double half = 0.5 * duration;
+  const double yaw = state_.pose.yaw;
+  const Rates k1 = rates(0.0, yaw);
+  const Rates k2 = rates(half, yaw + half * k1.yaw_rate);
+  const Rates k3 = rates(half, yaw + half * k2.yaw_rate);
+  const Rates k4 = rates(duration, yaw + duration * k3.yaw_rate);
+  const Vec2 shift =
+      duration / 6.0 * (k1.velocity + 2.0 * k2.velocity + 2.0 * k3.velocity + k4.velocity);
+  return {
+      state_.pose.x + shift.x(), state_.pose.y + shift.y(),
+      yaw + duration / 6.0 * (k1.yaw_rate + 2.0 * k2.yaw_rate + 2.0 * k3.yaw_rate + k4.yaw_rate)};
 }
 
 VehicleState KinematicCar::FullState() const {

@@ -2,7 +2,6 @@
 
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/state.h"
-#include "trackbed/vehicle/steering_actuator.h"
 
 /// The kinematic single-track car (Rajamani; seed equations (4)-(7), C.21) behind a rate-limited
 /// steering actuator.
@@ -12,6 +11,8 @@
 ///   rear axle:          x' = v cos psi          psi' = v tan(delta)/L
 ///   centre of gravity:  x' = v cos(psi + beta)  psi' = v cos(beta) tan(delta)/L
 namespace trackbed {
+
+struct MotionPiece;
 
 /// The point whose pose the car's state is, and whose speed is v.
 enum class ReferencePoint { kRearAxle, kCentreOfGravity };
@@ -48,7 +49,8 @@ class KinematicCar {
   };
   [[nodiscard]] Rates RatesAt(double yaw, double speed, double steering) const;
   [[nodiscard]] double Slip(double steering) const;
-  void StepSmoothly(double steering_rate, double acceleration, double duration);
+  void Advance(const MotionPiece& piece);
+  [[nodiscard]] Pose2 PoseAfter(const MotionPiece& piece, double moved) const;
 
   VehicleParams params_;
   ReferencePoint reference_;
