@@ -108,9 +108,11 @@ Stand StandOn(const VehicleParams& params, const Pose2& pose, const Ground& grou
 
 }  // namespace
 
-CarModel::CarModel(Scene scene, const std::string& name_for_messages)
-    : scene_(std::move(scene)), model_(Compile(scene_, name_for_messages)) {
-  const CarDescription car = DescribeCar(*model_, name_for_messages);
+CarModel::CarModel(Scene scene, std::string name_for_messages)
+    : scene_(std::move(scene)),
+      file_(std::move(name_for_messages)),
+      model_(Compile(scene_, file_)) {
+  const CarDescription car = DescribeCar(*model_, file_);
   parts_ = car.parts;
   params_ = car.params;
 }

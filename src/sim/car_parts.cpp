@@ -375,9 +375,7 @@ class CarReader {
       return;
     }
     for (const std::string& name : missing_coefficients_) {
-      Complain(name,
-               "missing; a tyre needs p_cx1, p_dx1, p_kx1, p_cy1, p_dy1 and p_ky1, of both "
-               "axles under these names or of each with _front and _rear");
+      Complain(name, std::string("missing; a tyre needs ") + kNeededCoefficients);
     }
     for (std::size_t axle = 0; axle < tyres.axle.size(); ++axle) {
       CheckTyre(tyres.axle[axle], axle == 0 ? "front" : "rear");
@@ -483,6 +481,17 @@ class CarReader {
 };
 
 }  // namespace
+
+const CarTyres& TyresOf(const CarModel& car, const std::string& needed_by) {
+  const auto& tyres = car.parts().tyres;
+  if (!tyres) {
+    throw InputError(Problem{
+        .file = car.file(),
+        .message = fmt::format("the car {} has no tyre coefficients; {} needs them in <custom>: {}",
+                               car.params().name, needed_by, kNeededCoefficients)});
+  }
+  return *tyres;
+}
 
 CarDescription DescribeCar(const mjModel& model, const std::string& file) {
   return CarReader(model, file).Read();

@@ -12,6 +12,15 @@ struct CarDescription {
   VehicleParams params;
 };
 
+/// What a car whose tyres are described must say of them; MagicFormulaFields' required ones.
+inline constexpr const char* kNeededCoefficients =
+    "p_cx1, p_dx1, p_kx1, p_cy1, p_dy1 and p_ky1, of both axles under these names or of each with "
+    "_front and _rear";
+
+/// The car's tyres; InputError naming its file and what is missing there when it has none.
+/// `needed_by` is what cannot do without.
+const CarTyres& TyresOf(const CarModel& car, const std::string& needed_by);
+
 /// InputError naming `file` and every part that is missing; or, when all are there, every one that
 /// is not as docs/models.md asks.
 CarDescription DescribeCar(const mjModel_& model, const std::string& file);

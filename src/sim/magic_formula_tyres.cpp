@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trackbed/core/error.h"
+#include "src/sim/car_parts.h"
 
 namespace trackbed {
 namespace {
@@ -47,12 +47,7 @@ double SlidingSlip(double friction, double load, double stiffness) {
 
 MagicFormulaTyres::MagicFormulaTyres(const CarModel& car, mjModel& model)
     : car_(car), timestep_(model.opt.timestep), gravity_(std::abs(model.opt.gravity[2])) {
-  if (!car.parts().tyres) {
-    throw InputError(Problem{.message = "the car " + car.params().name +
-                                        " has no tyre coefficients (<custom> p_cx1, p_dx1, …); "
-                                        "tyre: magic_formula needs them"});
-  }
-  const CarTyres& tyres = *car.parts().tyres;
+  const CarTyres& tyres = TyresOf(car, "tyre: magic_formula");
   const VehicleParams& params = car.params();
   const double weight = params.mass * gravity_;
   for (std::size_t w = 0; w < kWheels.size(); ++w) {

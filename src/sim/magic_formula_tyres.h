@@ -17,7 +17,7 @@ namespace trackbed {
 class MagicFormulaTyres {
  public:
   /// Makes the wheels' contacts of `model` frictionless, with the car's vertical tyre stiffness.
-  /// InputError when the car has no tyre coefficients.
+  /// InputError as TyresOf when the car has no tyre coefficients.
   MagicFormulaTyres(const CarModel& car, mjModel_& model);
 
   /// The forces for the step that begins now, added to what is applied to the joints in `data`;

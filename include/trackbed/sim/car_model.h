@@ -69,7 +69,7 @@ struct CarParts {
 /// does not compile, lacks a needed name, or has a part that is not as docs/models.md asks.
 class CarModel {
  public:
-  CarModel(Scene scene, const std::string& name_for_messages);
+  CarModel(Scene scene, std::string name_for_messages);
   CarModel(CarModel&&) noexcept;
   CarModel& operator=(CarModel&&) noexcept;
   ~CarModel();
@@ -77,6 +77,8 @@ class CarModel {
   [[nodiscard]] const VehicleParams& params() const { return params_; }
   [[nodiscard]] const CarParts& parts() const { return parts_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
+  /// What messages call the car's file.
+  [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] const mjModel_* get() const { return model_.get(); }
   [[nodiscard]] double timestep() const;
 
@@ -108,6 +110,7 @@ class CarModel {
   };
 
   Scene scene_;
+  std::string file_;
   std::unique_ptr<mjModel_, Deleter> model_;
   VehicleParams params_;
   CarParts parts_;
