@@ -12,7 +12,7 @@ namespace {
 void Print(const CarModel& car, const std::string& file) {
   const VehicleParams& p = car.params();
   const auto row = [](const char* name, double value, const char* unit) {
-    fmt::print("  {:<24} {:>12.6g} {}\n", name, value, unit);
+    fmt::print("  {:<26} {:>12.6g} {}\n", name, value, unit);
   };
   fmt::print("{} ({})\n", p.name, file);
   row("wheelbase", p.wheelbase, "m");
@@ -23,6 +23,11 @@ void Print(const CarModel& car, const std::string& file) {
   row("track_rear", p.track_rear, "m");
   row("wheel_radius", p.wheel_radius, "m");
   row("mass", p.mass, "kg");
+  row("yaw_inertia", p.yaw_inertia, "kg m^2");
+  if (car.parts().tyres) {
+    row("cornering_stiffness_front", p.cornering_stiffness_front, "N/rad");
+    row("cornering_stiffness_rear", p.cornering_stiffness_rear, "N/rad");
+  }
   row("steering_limit", p.steering_limit, "rad");
   row("steering_rate", p.steering_rate, "rad/s");
   row("steering_ratio", p.steering_ratio, "");

@@ -327,11 +327,11 @@ TEST(Program, ShowsAndSavesAModel) {
   const TempFolder folder;
   const Outcome shown = Trackbed(folder, "model prius");
   EXPECT_EQ(shown.code, 0);
-  EXPECT_THAT(shown.output, HasSubstr("min_turning_radius                5.1 m\n"));
+  EXPECT_THAT(shown.output, HasSubstr("min_turning_radius                  5.1 m\n"));
   EXPECT_EQ(Trackbed(folder, "model prius --save car.xml").code, 0);
   // What was saved is a model like the one it came from.
   EXPECT_THAT(Trackbed(folder, "model ./car.xml").output,
-              HasSubstr("steering_rate                0.150568 rad/s\n"));
+              HasSubstr("steering_rate                  0.150568 rad/s\n"));
   EXPECT_EQ(Trackbed(folder, "model pruis").output,
             "unknown model 'pruis'; did you mean 'prius'?\n");
 }
