@@ -14,6 +14,8 @@ const std::vector<PlantEntry>& Plants() {
        [](const PlantSetup& setup) {
          return MakeKinematicPlant(setup, ReferencePoint::kRearAxle);
        }},
+      {"single_track", "linear single-track dynamics with the tyres' cornering stiffness",
+       MakeSingleTrackPlant},
       {"mujoco", "the MJCF car in MuJoCo, with the scenario's tyre law", MakeMujocoPlant},
       {"mujoco:contact", "the same, held by the friction of its contacts",
        [](const PlantSetup& setup) {

@@ -315,7 +315,8 @@ TEST(Program, ListsWhatThereIs) {
   const TempFolder folder;
   const Outcome everything = Trackbed(folder, "list");
   EXPECT_EQ(everything.code, 0);
-  for (const char* name : {"fillet", "preview", "mujoco", "chase", "prius", "three_turns"}) {
+  for (const char* name :
+       {"fillet", "preview", "mujoco", "single_track", "chase", "prius", "three_turns"}) {
     EXPECT_THAT(everything.output, HasSubstr(std::string("\n  ") + name + " "));
   }
   EXPECT_THAT(Trackbed(folder, "list controllers").output, HasSubstr("distance: 2.5"));

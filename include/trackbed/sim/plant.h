@@ -68,9 +68,15 @@ struct PlantEntry {
   std::unique_ptr<Plant> (*make)(const PlantSetup& setup);
 };
 
-/// Every plant there is: `kinematic` (KinematicCar, rear-axle reference) and `mujoco` (the MJCF car
-/// on its contacts, with the tyre law of the setup); `mujoco:contact` and `mujoco:magic_formula`
-/// have their own law whatever the setup's is.
+/// Every plant there is: `kinematic` (KinematicCar, rear-axle reference), `single_track`
+/// (SingleTrackCar) and `mujoco` (the MJCF car on its contacts, with the tyre law of the setup);
+/// `mujoco:contact` and `mujoco:magic_formula` have their own law whatever the setup's is.
+///
+/// The first two obey the commanded acceleration exactly and know nothing of the world: no
+/// obstacles, friction, grades or wind. (A road's friction is no part of a tyre's stiffness, which
+/// is all that a linear tyre has.) `single_track` needs a car with tyre coefficients, else
+/// InputError names its file and what is missing there; it begins without slip, as every plant
+/// does. Where it is unstable it ends as diverged, 1e10 m or rad away.
 ///
 /// The MuJoCo plant turns a wanted acceleration into drive torque on its differential, or, against
 /// the gear, into dry friction of the brakes, front to rear as the model's brake torques; both are

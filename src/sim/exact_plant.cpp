@@ -1,0 +1,16 @@
+#include "src/sim/exact_plant.h"
+
+#include <numbers>
+
+namespace trackbed {
+
+VehicleParams Steered(const PlantSetup& setup) {
+  VehicleParams params = setup.car.params();
+  if (setup.steering == SteeringInput::kPrescribed) {
+    params.steering_rate = 1e9;
+    params.steering_limit = 0.5 * std::numbers::pi;
+  }
+  return params;
+}
+
+}  // namespace trackbed

@@ -1,0 +1,318 @@
+// The plant single_track, from the numbers in a car's file to its motion. That the car itself obeys
+// its equations is shown in tests/vehicle/single_track_car_test.cpp.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/sim/cars.h"
+#include "tests/tolerance.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+constexpr double kGravity = 9.81;
+constexpr auto kNoLook = [](double, const VehicleState&) {};
+
+/// The BMW on symmetric tyres whose stiffness is `front` and `rear` times their load.
+CarModel OnTyres(double front, double rear, double timestep = 0.002, Numerics numerics = {}) {
+  numerics.insert(kStripped.begin(), kStripped.end());
+  numerics["p_ky1_front"] = -front;
+  numerics["p_ky1_rear"] = -rear;
+  return CarWith("bmw320i", numerics, timestep);
+}
+
+/// K [s^2/m]: the axles' loads over their stiffnesses, less one another, over g.
+double UndersteerGradient(double front, double rear) {
+  return (1.0 / front - 1.0 / rear) / kGravity;
+}
+
+const World kRoad;
+
+std::unique_ptr<Plant> SingleTrack(const CarModel& car, const StartState& start,
+                                   const World& world = kRoad) {
+  return MakePlant("single_track", {.car = car, .world = world, .start = start});
+}
+
+Command Hold(double speed, double steering, const VehicleState& state) {
+  return {.steering = steering, .acceleration = 4.0 * (speed - state.speed)};
+}
+
+TEST(SingleTrackPlant, NeedsTyres) {
+  Scene scene = ComposeScene(FindModel("prius", ""), {});
+  scene.xml = std::regex_replace(scene.xml, std::regex("<numeric name=\"[pr]_[^>]*/>"), "");
+  const CarModel bare(scene, "cars/bare.xml");
+  EXPECT_NO_THROW(MakePlant("kinematic", {.car = bare, .world = kRoad}));
+  try {
+    SingleTrack(bare, {});
+    FAIL() << "a car without tyres was driven";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "cars/bare.xml: the car prius has no tyre coefficients; the plant single_track "
+                 "needs them in <custom>: p_cx1, p_dx1, p_kx1, p_cy1, p_dy1 and p_ky1, of both "
+                 "axles under these names or of each with _front and _rear");
+  }
+}
+
+// --- Closed forms --------------------------------------------------------------------------------
+
+/// r/tan(delta) after 16 s at a held speed [1/s].
+double Gain(const CarModel& car, double speed) {
+  constexpr double kSteering = 0.01;
+  const auto plant = SingleTrack(car, {.speed = speed, .steering = kSteering});
+  const VehicleState end = Drive(
+      car, *plant, 16.0, [&](double, const VehicleState& s) { return Hold(speed, kSteering, s); },
+      kNoLook);
+  return end.yaw_rate / std::tan(kSteering);
+}
+
+TEST(SingleTrackPlant, YawRateGainIsThatOfTheTyresInTheFile) {
+  for (const auto& [front, rear] :
+       {std::pair(12.0, 20.0), std::pair(18.0, 18.0), std::pair(20.0, 16.0)}) {
+    const CarModel car = OnTyres(front, rear);
+    const double wheelbase = car.params().wheelbase;
+    for (const double speed : {1.0, 10.0, 20.0, 30.0}) {
+      const double gain = speed / (wheelbase + UndersteerGradient(front, rear) * speed * speed);
+      // The slowest mode here decays with 2/s: e^-32. The rest is rounding.
+      EXPECT_NEAR(Gain(car, speed) / gain, 1.0, Tolerance(1e-9))
+          << front << ", " << rear << " at " << speed;
+    }
+  }
+}
+
+TEST(SingleTrackPlant, CharacteristicSpeedHasTheLargestGain) {
+  const CarModel car = OnTyres(12.0, 20.0);
+  const double wheelbase = car.params().wheelbase;
+  const double characteristic = std::sqrt(wheelbase / UndersteerGradient(12.0, 20.0));
+  const double gain = Gain(car, characteristic);
+  EXPECT_NEAR(gain, 0.5 * characteristic / wheelbase, Tolerance(1e-9 * gain));
+  EXPECT_GT(gain, Gain(car, 0.95 * characteristic));
+  EXPECT_GT(gain, Gain(car, 1.05 * characteristic));
+}
+
+TEST(SingleTrackPlant, AboveItsCriticalSpeedAnOversteeringCarSpins) {
+  constexpr double kFront = 20.0;
+  constexpr double kRear = 14.0;
+  const CarModel car = OnTyres(kFront, kRear);
+  const VehicleParams& params = car.params();
+  const double l_f = params.cg_to_front();
+  const double l_r = params.cg_to_rear;
+  const double wheelbase = params.wheelbase;
+  const double weight = params.mass * kGravity;
+  const double front = kFront * weight * l_r / wheelbase;  // C_f, C_r [N/rad]
+  const double rear = kRear * weight * l_f / wheelbase;
+  const double critical = std::sqrt(wheelbase / -UndersteerGradient(kFront, kRear));
+  for (const double share : {0.8, 0.95, 1.05, 1.3}) {
+    SCOPED_TRACE(share);
+    const double speed = share * critical;
+    // The slower eigenvalue of l^2 + a l + b.
+    const double a = (front + rear) / (params.mass * speed) +
+                     (l_f * l_f * front + l_r * l_r * rear) / (params.yaw_inertia * speed);
+    const double b = front * rear * wheelbase * wheelbase /
+                     (params.mass * params.yaw_inertia * speed * speed) *
+                     (1.0 - speed * speed / (critical * critical));
+    const double slower = -0.5 * a + std::sqrt(0.25 * a * a - b);
+    EXPECT_EQ(slower > 0.0, share > 1.0);
+    const auto plant = SingleTrack(car, {.speed = speed, .steering = 0.001});
+    const auto straighten = [](double, const VehicleState&) { return Command{}; };
+    const double before = Drive(car, *plant, 3.0, straighten, kNoLook).yaw_rate;
+    const double after = Drive(car, *plant, 1.0, straighten, kNoLook).yaw_rate;
+    // The faster mode, with some 10/s, is gone to e^-20 and less beside the slower one.
+    EXPECT_NEAR(std::log(after / before), slower, Tolerance(1e-6));
+  }
+}
+
+TEST(SingleTrackPlant, ACarThatSpinsEverFasterIsToldFromADrive) {
+  const CarModel car = OnTyres(20.0, 10.0);
+  const auto plant = SingleTrack(car, {.speed = 60.0, .steering = 0.01});
+  const VehicleState end = Drive(
+      car, *plant, 60.0, [](double, const VehicleState&) { return Command{}; },
+      [&](double, const VehicleState& state) { ASSERT_TRUE(std::isfinite(state.yaw_rate)); });
+  EXPECT_TRUE(plant->diverged());
+  EXPECT_GT(std::abs(end.pose.yaw), 1e9);
+}
+
+// --- What it is made of --------------------------------------------------------------------------
+
+TEST(SingleTrackPlant, KnowsNothingOfTheWorld) {
+  const CarModel car = OnTyres(12.0, 20.0);
+  const World world{.friction = 0.2, .wind = {.velocity = {3.0, 15.0}}};
+  const auto driven = [&](const World& road) {
+    const auto plant = SingleTrack(car, {.speed = 15.0}, road);
+    return Drive(
+        car, *plant, 3.0, [](double, const VehicleState& s) { return Hold(15.0, 0.05, s); },
+        kNoLook);
+  };
+  EXPECT_EQ(driven(world).pose, driven(kRoad).pose);
+}
+
+TEST(SingleTrackPlant, DrivesTheSameAtEveryTimestep) {
+  constexpr double kAmplitude = 0.02;  // [rad], at omega = pi/s
+  const auto driven = [](double timestep) {
+    const CarModel car = OnTyres(12.0, 20.0, timestep);
+    const auto plant = MakePlant("single_track", {.car = car,
+                                                  .world = kRoad,
+                                                  .start = {.speed = 20.0},
+                                                  .steering = SteeringInput::kPrescribed});
+    return Drive(
+        car, *plant, 4.0,
+        [&](double t, const VehicleState&) {
+          return Command{.steering = kAmplitude * std::sin(kPi * (t + 0.5 * timestep))};
+        },
+        kNoLook);
+  };
+  const CarModel car = OnTyres(12.0, 20.0);
+  const VehicleParams& params = car.params();
+  const VehicleState fine = driven(0.001);
+  for (const double timestep : {0.002, 0.004}) {
+    SCOPED_TRACE(timestep);
+    const VehicleState state = driven(timestep);
+    // A sine held at its value in the middle of each step is larger by (omega dt)^2/24, and so is
+    // all that comes of it. The car runs off at a mean heading y/x, which is at most twice that.
+    const double larger = std::pow(kPi * timestep, 2) / 24.0;
+    EXPECT_NEAR(state.pose.x, fine.pose.x, Tolerance(larger * std::abs(fine.pose.y)));
+    EXPECT_NEAR(state.pose.y, fine.pose.y, Tolerance(larger * std::abs(fine.pose.y)));
+    EXPECT_NEAR(state.pose.yaw, fine.pose.yaw,
+                Tolerance(larger * 2.0 * std::abs(fine.pose.y) / fine.pose.x));
+    // At the end of a step the wheels, turning at delta', have been half a step behind for half a
+    // step, and r' is C_f l_f/I of that.
+    const double response =
+        params.cornering_stiffness_front * params.cg_to_front() / params.yaw_inertia;
+    EXPECT_NEAR(state.yaw_rate, fine.yaw_rate,
+                Tolerance(kAmplitude * kPi * response * timestep * timestep / 8.0));
+  }
+}
+
+TEST(SingleTrackPlant, SteersWithTheActuatorsRateOrAtOnce) {
+  const CarModel car = CarWith("prius", {});
+  const double rate = car.params().steering_rate;
+  for (const SteeringInput input : {SteeringInput::kActuator, SteeringInput::kPrescribed}) {
+    const auto plant = MakePlant(
+        "single_track", {.car = car, .world = kRoad, .start = {.speed = 10.0}, .steering = input});
+    for (int i = 0; i < 100; ++i) {
+      plant->Step({.steering = 0.1});
+    }
+    const bool prescribed = input == SteeringInput::kPrescribed;
+    EXPECT_NEAR(plant->Observe().steering, prescribed ? 0.1 : rate * 0.2, Tolerance(1e-12));
+  }
+}
+
+// --- Against MuJoCo's car on its tyres -----------------------------------------------------------
+
+struct Two {
+  std::vector<VehicleState> single_track;
+  std::vector<VehicleState> physical;
+};
+
+/// Both plants through `steering(t)`, prescribed, at a held speed.
+template <typename Steering>
+Two Both(const CarModel& car, double speed, double duration, const Steering& steering) {
+  const auto states = [&](const char* name) {
+    const auto plant = MakePlant(name, {.car = car,
+                                        .world = kRoad,
+                                        .start = {.speed = speed},
+                                        .steering = SteeringInput::kPrescribed});
+    std::vector<VehicleState> seen;
+    Drive(
+        car, *plant, duration,
+        [&](double t, const VehicleState& s) {
+          return Hold(speed, steering(t + car.timestep()), s);
+        },
+        [&](double, const VehicleState& s) { seen.push_back(s); });
+    return seen;
+  };
+  return {states("single_track"), states("mujoco:magic_formula")};
+}
+
+/// Share of the steering angle that the tyres' slip takes: K u^2/(L + K u^2).
+double SlipShare(const VehicleParams& params, double front, double rear, double speed) {
+  const double slip = UndersteerGradient(front, rear) * speed * speed;
+  return slip / (params.wheelbase + slip);
+}
+
+/// By how much the slip at a lateral acceleration is more than the linear tyre's. The Magic Formula
+/// sin(C atan(C_alpha alpha/(C D))) = F/D, with F/D = a/(mu g), turned over and to third order.
+double Softening(const MagicFormula& tyre, double acceleration) {
+  const double used = acceleration / (tyre.p_dy1 * kGravity);
+  return used * used * (1.0 / 6.0 + 1.0 / (3.0 * tyre.p_cy1 * tyre.p_cy1));
+}
+
+TEST(SingleTrackPlant, TurnsAsTheMagicFormulaCarDoes) {
+  constexpr double kSpeed = 20.0;
+  for (const auto& [front, rear] : {std::pair(15.0, 25.0), std::pair(18.0, 18.0)}) {
+    const CarModel car = OnTyres(front, rear);
+    const VehicleParams& params = car.params();
+    const double share = SlipShare(params, front, rear, kSpeed);
+    for (const double acceleration : {-1.0, 0.25, 0.5, 1.0, 2.0}) {
+      SCOPED_TRACE(fmt::format("{}, {}: {} m/s^2", front, rear, acceleration));
+      const double steering =
+          std::atan(params.wheelbase * acceleration / (kSpeed * kSpeed * (1.0 - share)));
+      const Two two = Both(car, kSpeed, 8.0, [&](double t) {
+        return steering * std::clamp((t - 0.5) / 0.5, 0.0, 1.0);
+      });
+      const VehicleState& linear = two.single_track.back();
+      const VehicleState& physical = two.physical.back();
+      EXPECT_NEAR(linear.lateral_acceleration, acceleration, Tolerance(1e-6));
+      // Tyres that are softer take more of the steering; the small angles, the drive against the
+      // front tyres' drag, two wheels where the model has one: all go with the square as well, and
+      // are given as much again as the softening of all of the slip.
+      const double softer = Softening(car.parts().tyres->axle[0], acceleration);
+      const double tolerance = (share + 1.0) * softer;
+      EXPECT_NEAR(physical.yaw_rate / linear.yaw_rate, 1.0, Tolerance(tolerance));
+      EXPECT_NEAR(physical.lateral_acceleration / linear.lateral_acceleration, 1.0,
+                  Tolerance(tolerance));
+      // v = l_r r - u alpha_r: of both terms as much.
+      const double slip = std::abs(acceleration) / (rear * kGravity);
+      EXPECT_NEAR(
+          physical.lateral_speed, linear.lateral_speed,
+          Tolerance(tolerance * (params.cg_to_rear * std::abs(linear.yaw_rate) + kSpeed * slip)));
+    }
+  }
+}
+
+TEST(SingleTrackPlant, WeavesAsTheMagicFormulaCarDoes) {
+  constexpr double kSpeed = 20.0;
+  constexpr double kFront = 15.0;
+  constexpr double kRear = 25.0;
+  const CarModel car = OnTyres(kFront, kRear);
+  const double share = SlipShare(car.params(), kFront, kRear, kSpeed);
+  for (const double frequency : {0.125, 0.25, 0.5}) {
+    SCOPED_TRACE(fmt::format("{} Hz", frequency));
+    const double omega = 2.0 * kPi * frequency;
+    const Two two = Both(car, kSpeed, 8.0, [&](double t) { return 0.01 * std::sin(omega * t); });
+    double yaw_rate = 0.0;  // largest
+    double acceleration = 0.0;
+    double roll = 0.0;
+    double squares = 0.0;
+    double apart = 0.0;
+    ASSERT_EQ(two.physical.size(), two.single_track.size());
+    for (std::size_t i = 0; i < two.physical.size(); ++i) {
+      const VehicleState& linear = two.single_track[i];
+      const VehicleState& physical = two.physical[i];
+      yaw_rate = std::max(yaw_rate, std::abs(linear.yaw_rate));
+      acceleration = std::max(acceleration, std::abs(linear.lateral_acceleration));
+      roll = std::max(roll, std::abs(physical.roll));
+      squares += std::pow(physical.yaw_rate - linear.yaw_rate, 2);
+      apart = std::max(apart, (physical.pose.position() - linear.pose.position()).norm());
+    }
+    const double rms = std::sqrt(squares / static_cast<double>(two.physical.size()));
+    // What MuJoCo's car has and the single-track car has not changes the tyres' forces, and with
+    // them the share of the steering that is slip: rolling moves the body by h roll, so that its
+    // acceleration is another by omega^2 of that; forces follow the slip by the relaxation length
+    // over u later, a quarter of a period out of step with the former; the softening.
+    const MagicFormula& tyre = car.parts().tyres->axle[0];
+    const double rolls = omega * omega * car.parts().cg_height * roll / acceleration;
+    const double late = omega * tyre.relaxation_length / kSpeed;
+    const double part = share * (std::hypot(rolls, late) + Softening(tyre, acceleration));
+    EXPECT_LT(rms, Tolerance(part * yaw_rate));
+    // The heading is off by its integral, which keeps to one side: 1/omega of it on average.
+    EXPECT_LT(apart, Tolerance(part * yaw_rate / omega * kSpeed * 8.0));
+  }
+}
+
+}  // namespace
+}  // namespace trackbed
