@@ -47,9 +47,12 @@ TEST_P(Scenarios, DriveAsTheyExpectKinematicAgainstContactDynamics) {
   const RunResult run = RunScenario(scenario);
   EXPECT_THAT(run, MeetsItsExpectations());
   // Where the two drive the same plan at 3 m/s they part by the servo's lag and the tyres' slip,
-  // which a controller holds to centimetres, and an open loop or a collision to the stated bound.
+  // which a controller holds to centimetres, and an open loop, ice or a collision to the stated
+  // bound.
   if (!scenario.expect.between.empty()) {
-    const double bound = GetParam() == "steering_circle" ? 0.3 : 0.1;
+    const double bound = GetParam() == "steering_circle" ? 0.3
+                         : GetParam() == "ice_patch"     ? 1.0
+                                                         : 0.1;
     EXPECT_THAT(run, StaysWithin("kinematic", "mujoco", bound));
   }
   for (const PlantMetrics& metrics : run.metrics) {
@@ -78,6 +81,13 @@ TEST(Slalom, IsTrackedWithinFifteenCentimetresOnBothPlants) {
   const RunResult run = RunScenario(File("slalom"));
   EXPECT_THAT(run, TracksWithin(0.15));
   EXPECT_THAT(run, ReachesGoal(0.5));
+}
+
+TEST(IcePatch, IsWhatTheCarSlidesOn) {
+  EXPECT_THAT(RunScenario(File("ice_patch")),
+              testing::Not(StaysWithin("kinematic", "mujoco", 0.3)));
+  EXPECT_THAT(RunScenario(File("ice_patch"), {"world.friction_patches=[]"}),
+              StaysWithin("kinematic", "mujoco", 0.03));
 }
 
 TEST(TracksWithin, SaysHowFarOffWhereAndWhen) {
