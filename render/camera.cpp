@@ -29,6 +29,16 @@ auto Smooth(double time, Function value) {
   return std::array<double, 2>{sum[0] / weights, sum[1] / weights};
 }
 
+/// Lifts a pose made for the plane z = 0 onto the ground around the car.
+void LiftOnto(CameraPose& pose, const CameraSubject& subject, double time) {
+  const Point car = subject.Position(time);
+  pose.ground_z = subject.SmoothGround(time) +
+                  subject.grade().dot(Vec2(pose.target_x - car.x, pose.target_y - car.y));
+  pose.target_z += pose.ground_z;
+  // Up and down with the hill, or it would stand between the camera and the car.
+  pose.elevation += std::atan(subject.grade().dot(Direction(pose.azimuth)));
+}
+
 CameraPose Chase(const CameraSubject& subject, double time, double /*aspect*/) {
   const Point car = subject.Position(time);
   const double heading = subject.SmoothHeading(time);
@@ -43,6 +53,7 @@ CameraPose Chase(const CameraSubject& subject, double time, double /*aspect*/) {
   pose.azimuth = heading + 14.0 * kPi / 180.0;
   pose.elevation = -18.0 * kPi / 180.0;
   pose.view_angle = 40.0 * kPi / 180.0;
+  LiftOnto(pose, subject, time);
   return pose;
 }
 
@@ -62,6 +73,7 @@ CameraPose Side(const CameraSubject& subject, double time, double aspect) {
   // From its right, where the sun does not stand behind the camera: shadows have depth.
   pose.azimuth = heading + 0.5 * kPi;
   pose.elevation = -12.0 * kPi / 180.0;
+  LiftOnto(pose, subject, time);
   return pose;
 }
 
@@ -92,6 +104,8 @@ CameraPose Top(const CameraSubject& subject, double time, double aspect) {
     pose.target_x = car.x + 6.0 * std::cos(heading);
     pose.target_y = car.y + 6.0 * std::sin(heading);
   }
+  pose.ground_z = subject.grade().dot(Vec2(pose.target_x, pose.target_y));
+  pose.target_z = pose.ground_z;
   pose.distance = 0.5 * height / std::tan(0.5 * kViewAngle);
   pose.paint_scale = height / 22.0;
   return pose;
@@ -100,7 +114,10 @@ CameraPose Top(const CameraSubject& subject, double time, double aspect) {
 }  // namespace
 
 CameraSubject::CameraSubject(const Recording& recording)
-    : car_(recording.plants.front()), lowest_(car_.Position(car_.begin())), highest_(lowest_) {
+    : recording_(recording),
+      car_(recording.plants.front()),
+      lowest_(car_.Position(car_.begin())),
+      highest_(lowest_) {
   const auto include = [this](const Point& point) {
     lowest_ = {std::min(lowest_.x, point.x), std::min(lowest_.y, point.y)};
     highest_ = {std::max(highest_.x, point.x), std::max(highest_.y, point.y)};
@@ -131,6 +148,12 @@ Point CameraSubject::SmoothPosition(double time) const {
 double CameraSubject::SmoothHeading(double time) const {
   return Smooth(time, [this](double at) {
     return std::array<double, 2>{car_.Heading(at), 0.0};
+  })[0];
+}
+
+double CameraSubject::SmoothGround(double time) const {
+  return Smooth(time, [this](double at) {
+    return std::array<double, 2>{recording_.OnGround(car_.Position(at)).z, 0.0};
   })[0];
 }
 

@@ -18,6 +18,7 @@ struct CameraPose {
   double azimuth = 0;
   double elevation = 0;
   double view_angle = 0.7;  ///< from the picture's bottom to its top [rad]
+  double ground_z = 0;      ///< height of the ground where the target is [m]
   double paint_scale = 1;   ///< how much wider than usual lines on the ground must be to be seen
 };
 
@@ -33,12 +34,17 @@ class CameraSubject {
   /// Position and heading averaged over about a second around `time`.
   [[nodiscard]] Point SmoothPosition(double time) const;
   [[nodiscard]] double SmoothHeading(double time) const;
+  /// Height of the ground under the car, averaged in the same way [m].
+  [[nodiscard]] double SmoothGround(double time) const;
+  /// Of the plane that the ground is but for what lies on it: dz/dx and dz/dy.
+  [[nodiscard]] const Vec2& grade() const { return recording_.world.ground.grade; }
 
   /// The rectangle around the plan, the new ones and every plant's drive [m].
   [[nodiscard]] Point lowest() const { return lowest_; }
   [[nodiscard]] Point highest() const { return highest_; }
 
  private:
+  const Recording& recording_;
   const PlantRecording& car_;
   Point lowest_;
   Point highest_;

@@ -97,6 +97,34 @@ void Canvas::Fill(const Rectangle& rectangle, double radius, Color color, double
   }
 }
 
+void Canvas::Arrow(double middle_x, double middle_y, double length, double direction, Color color) {
+  // Along the arrow from its middle, and beside it, in lengths.
+  constexpr double kNeck = 0.10;
+  constexpr double kShaft = 0.08;
+  constexpr double kHead = 0.26;
+  const auto is_inside = [](double along, double beside) {
+    return std::abs(along) <= 0.5 &&
+           std::abs(beside) <= (along < kNeck ? kShaft : kHead * (0.5 - along) / (0.5 - kNeck));
+  };
+  constexpr int kSamples = 4;  // along each side of a pixel
+  const double reach = 0.6 * length;
+  const double cosine = std::cos(direction);
+  const double sine = std::sin(direction);
+  for (int y = static_cast<int>(middle_y - reach); y <= middle_y + reach; ++y) {
+    for (int x = static_cast<int>(middle_x - reach); x <= middle_x + reach; ++x) {
+      int inside = 0;
+      for (int i = 0; i < kSamples * kSamples; ++i) {
+        const double right = (x + (i % kSamples + 0.5) / kSamples - middle_x) / length;
+        const double up = (middle_y - y - (i / kSamples + 0.5) / kSamples) / length;
+        inside += is_inside(right * cosine + up * sine, up * cosine - right * sine) ? 1 : 0;
+      }
+      if (inside > 0) {
+        Blend(x, y, color, static_cast<double>(inside) / (kSamples * kSamples));
+      }
+    }
+  }
+}
+
 double Canvas::Text(double left, double top, std::string_view text, double size, Color color) {
   double pen = left;
   const int first_row = static_cast<int>(std::lround(top));

@@ -57,6 +57,9 @@ class Canvas {
   /// A filled rectangle with smooth round corners.
   void Fill(const Rectangle& rectangle, double radius, Color color, double alpha);
 
+  /// An arrow of `length` around its middle, pointing along `direction`: 0 to the right, pi/2 up.
+  void Arrow(double middle_x, double middle_y, double length, double direction, Color color);
+
   /// One line of text, `left` and `top` of its first glyph cell; capitals fill the cell from about
   /// a fifth to three quarters of its height. Returns where the next character would begin.
   double Text(double left, double top, std::string_view text, double size, Color color);

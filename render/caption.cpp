@@ -105,12 +105,40 @@ void DrawLegend(Canvas& canvas, const Font& font, const Layout& layout, int widt
   }
 }
 
+/// Height of the title's letters, and of the panel around a line of them.
+double TitleSize(const Layout& layout) {
+  return std::round(0.5 * (layout.label + layout.value));
+}
+double TitlePanel(const Layout& layout) {
+  return TitleSize(layout) + 0.8 * layout.pad;
+}
+
 void DrawTitle(Canvas& canvas, const Font& font, const Layout& layout, const std::string& title) {
-  const double size = std::round(0.5 * (layout.label + layout.value));
-  const double tall = size + 0.8 * layout.pad;
+  const double size = TitleSize(layout);
+  const double tall = TitlePanel(layout);
   canvas.Fill({layout.margin, layout.margin, font.Width(title, size) + 2.0 * layout.pad, tall},
               0.7 * layout.pad, kPanel, kPanelAlpha);
   canvas.Text(layout.margin + layout.pad, layout.margin + 0.4 * layout.pad, title, size, kValue);
+}
+
+/// An arrow that shows the wind on the ground as a map does whose top is where the camera looks.
+void DrawWind(Canvas& canvas, const Font& font, const Layout& layout, const Vec2& wind,
+              double azimuth) {
+  constexpr double kCalm = 0.05;  // [m/s]; reads 0.0 or 0.1
+  const double size = TitleSize(layout);
+  const double tall = TitlePanel(layout);
+  const double top = layout.margin + tall + 0.5 * layout.pad;
+  const double speed = wind.norm();
+  const std::string text = fmt::format("wind {:.1f} m/s", speed);
+  const double arrow = 1.1 * size;
+  const double wide = std::max(font.Width(text, size), font.Width("wind 00.0 m/s", size));
+  canvas.Fill({layout.margin, top, wide + arrow + 2.6 * layout.pad, tall}, 0.7 * layout.pad, kPanel,
+              kPanelAlpha);
+  if (speed >= kCalm) {
+    canvas.Arrow(layout.margin + layout.pad + 0.5 * arrow, top + 0.5 * tall, arrow,
+                 std::atan2(wind.y(), wind.x()) - azimuth + 0.5 * kPi, kValue);
+  }
+  canvas.Text(layout.margin + 1.6 * layout.pad + arrow, top + 0.4 * layout.pad, text, size, kValue);
 }
 
 /// Folder names can be longer than a picture is wide.
@@ -122,10 +150,13 @@ std::string Shortened(const std::string& title) {
 }  // namespace
 
 void DrawCaption(Image& image, Font& font, const std::string& title,
-                 const std::vector<LegendEntry>& legend, const Readings& readings) {
+                 const std::vector<LegendEntry>& legend, const Readings& readings, double azimuth) {
   Canvas canvas(image, font);
   const Layout layout(image.width, image.height);
   DrawTitle(canvas, font, layout, Shortened(title));
+  if (readings.wind) {
+    DrawWind(canvas, font, layout, *readings.wind, azimuth);
+  }
   DrawLegend(canvas, font, layout, image.width, legend);
   DrawReadings(canvas, font, layout, image.height, readings);
 }

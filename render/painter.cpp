@@ -1,8 +1,12 @@
 #include "render/painter.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <utility>
 
+#include "render/ground_paint.h"
 #include "render/shadow.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
@@ -64,6 +68,20 @@ std::vector<LegendEntry> LegendOf(const Recording& recording) {
     const std::string& plant = recording.plants[car].plant();
     legend.push_back({CarColor(car), car == 0 ? plant : plant + " (ghost)"});
   }
+  std::vector<double> factors;
+  for (const FrictionPatch& patch : recording.world.friction_patches) {
+    factors.push_back(patch.friction);
+  }
+  std::sort(factors.begin(), factors.end());
+  factors.erase(std::unique(factors.begin(), factors.end()), factors.end());
+  constexpr std::size_t kMostFactors = 3;  // their colours could hardly be told apart
+  for (std::size_t i = 0; i < std::min(factors.size(), kMostFactors); ++i) {
+    legend.push_back({PatchColorOnRoad(factors[i]), fmt::format("friction x{:.3g}", factors[i])});
+  }
+  if (std::any_of(recording.world.wind.gusts.begin(), recording.world.wind.gusts.end(),
+                  [](const Gust& gust) { return gust.area.has_value(); })) {
+    legend.push_back({kGustColor, "gust"});
+  }
   return legend;
 }
 
@@ -82,7 +100,8 @@ Painter::Painter(Recording& recording, const FilmOptions& options)
 
 void Painter::Paint(double time, Image& image) {
   offscreen_.Render(SceneAt(time), image);
-  DrawCaption(image, font_, recording_.name, legend_, recording_.plants.front().ReadingsAt(time));
+  DrawCaption(image, font_, recording_.name, legend_, recording_.ReadingsAt(time),
+              camera_.pose(subject_, time, aspect_).azimuth);
 }
 
 mjvScene& Painter::SceneAt(double time) {

@@ -8,6 +8,7 @@
 
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/scenario/scenario.h"
 
 namespace trackbed::render {
 namespace {
@@ -266,6 +267,19 @@ double Recording::end() const {
   return last;
 }
 
+Readings Recording::ReadingsAt(double time) const {
+  Readings readings = plants.front().ReadingsAt(time);
+  if (!IsCalm(world.wind)) {
+    const Point car = plants.front().Position(time);
+    readings.wind = WindAt(world, {car.x, car.y}, time);
+  }
+  return readings;
+}
+
+Point Recording::OnGround(const Point& point) const {
+  return {point.x, point.y, GroundHeight(world, {point.x, point.y})};
+}
+
 Recording ReadRecording(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::exists(folder, ignored)) {
@@ -280,6 +294,9 @@ Recording ReadRecording(const fs::path& folder) {
   recording.model = LoadModel(folder / "model.xml");
   for (const std::string& plant : plants) {
     recording.plants.emplace_back(folder, plant, *recording.model);
+  }
+  if (const fs::path scenario = folder / "scenario.resolved.yaml"; fs::exists(scenario, ignored)) {
+    recording.world = ReadWorld(scenario);
   }
   recording.plan = ReadPlan(folder / "plan.csv");
   recording.new_plans = ReadNewPlans(folder / (plants.front() + ".plan.csv"));

@@ -9,13 +9,15 @@
 
 #include "render/handles.h"
 #include "trackbed/core/table.h"
+#include "trackbed/world/world.h"
 
 namespace trackbed::render {
 
-/// A point on the ground [m].
+/// A point on the ground [m]. Who does not care how high that is leaves z out.
 struct Point {
   double x = 0;
   double y = 0;
+  double z = 0;
 };
 
 /// A table whose first column is time, read between its rows.
@@ -58,6 +60,7 @@ struct Readings {
   double steering_asked = 0;
   double steering = 0;
   std::optional<double> cross_track;  ///< only when the run had a planned path
+  std::optional<Vec2> wind;           ///< at the car; only when the run has wind [m/s]
 };
 
 /// One plant's drive.
@@ -111,6 +114,7 @@ struct NewPlan {
 /// A run folder, read.
 struct Recording {
   std::string name;  ///< of the folder
+  World world;       ///< of `scenario.resolved.yaml`; without that file, flat and calm
   ModelHandle model;
   std::vector<PlantRecording> plants;  ///< the car first, then the ghosts
   std::vector<Point> plan;             ///< from the start; empty when there was none
@@ -118,6 +122,11 @@ struct Recording {
 
   [[nodiscard]] double begin() const { return plants.front().begin(); }
   [[nodiscard]] double end() const;
+
+  /// What the caption says of the car at a moment.
+  [[nodiscard]] Readings ReadingsAt(double time) const;
+  /// The point of the ground above or below a point.
+  [[nodiscard]] Point OnGround(const Point& point) const;
 };
 
 /// Reads everything that a film needs. InputError when the folder does not hold it.

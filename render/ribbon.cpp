@@ -1,5 +1,6 @@
 #include "render/ribbon.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,13 +8,16 @@
 namespace trackbed::render {
 namespace {
 
+/// Where heights count five times.
 double DistanceToSegment(const Point& p, const Point& a, const Point& b) {
+  constexpr double kUp = 5.0;
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
   const double squared = dx * dx + dy * dy;
   const double along =
       squared > 0.0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / squared, 0.0, 1.0) : 0.0;
-  return std::hypot(p.x - a.x - along * dx, p.y - a.y - along * dy);
+  return std::hypot(p.x - a.x - along * dx, p.y - a.y - along * dy,
+                    kUp * (p.z - a.z - along * (b.z - a.z)));
 }
 
 bool Replaces(const std::vector<Point>& points, std::size_t first, std::size_t last,
@@ -65,8 +69,10 @@ std::vector<std::size_t> Thin(const std::vector<Point>& points, double tolerance
   return kept;
 }
 
-void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const RibbonStyle& style) {
-  const double length = std::hypot(b.x - a.x, b.y - a.y);
+void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const RibbonStyle& style,
+                    const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d along(b.x - a.x, b.y - a.y, b.z - a.z);
+  const double length = along.norm();
   if (length < 1e-6 || scene.ngeom >= scene.maxgeom) {
     return;
   }
@@ -75,12 +81,13 @@ void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const Ribbo
   constexpr double kStagger = 0.0005;
   // Pieces meet at up to about 15 degrees: tan(15 / 2) of half the width closes the outer corner.
   const double overlap = 0.15 * 0.5 * style.width;
-  const double cosine = (b.x - a.x) / length;
-  const double sine = (b.y - a.y) / length;
+  Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor> rotation;
+  rotation.col(0) = along / length;
+  rotation.col(1) = normal.cross(along).normalized();
+  rotation.col(2) = rotation.col(0).cross(rotation.col(1));
   const std::array<mjtNum, 3> size{0.5 * length + overlap, 0.5 * style.width, 1.0};
-  const std::array<mjtNum, 3> center{0.5 * (a.x + b.x), 0.5 * (a.y + b.y),
-                                     style.height + (scene.ngeom % 2) * kStagger};
-  const std::array<mjtNum, 9> rotation{cosine, -sine, 0, sine, cosine, 0, 0, 0, 1};
+  const Eigen::Vector3d center = Eigen::Vector3d(a.x, a.y, a.z) + 0.5 * along +
+                                 (style.height + (scene.ngeom % 2) * kStagger) * rotation.col(2);
   const std::array<float, 4> rgba{style.color.r, style.color.g, style.color.b, 1.0F};
   mjvGeom& geom = scene.geoms[scene.ngeom];
   // A plane: MuJoCo's shadow map is made of back faces, which a plane has none of. A thin box would

@@ -1,5 +1,6 @@
 #include "render/scene.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,14 +34,60 @@ constexpr float kShadowAlpha = 0.055F;  // of one layer, drawn twice like everyt
 constexpr double kShadowSpread = 0.09;  // one layer beyond the next [m]
 constexpr double kShadowHeight = 0.03;  // above all paint [m]
 
-int MaxGeoms(const Recording& recording) {
+constexpr float kSunk = 0.002F;  // [m]; less than all paint is above the ground
+
+constexpr double kGustWidth = 0.16;
+constexpr double kGustHeight = 0.006;
+
+/// Around a rectangle, on the ground.
+std::vector<Point> Outline(const Recording& recording, const std::array<Vec2, 4>& corners) {
+  // Short enough for the ground's shapes.
+  const double longest = IsFlat(recording.world.ground) ? 1e6 : 0.25;
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2 side = corners[(i + 1) % corners.size()] - corners[i];
+    const auto pieces = static_cast<int>(std::ceil(side.norm() / longest));
+    for (int piece = 0; piece < pieces; ++piece) {
+      const Vec2 p = corners[i] + side * (static_cast<double>(piece) / pieces);
+      points.push_back(recording.OnGround({p.x(), p.y()}));
+    }
+  }
+  points.push_back(points.front());
+  return points;
+}
+
+std::vector<Point> Thinned(const std::vector<Point>& line) {
+  std::vector<Point> points;
+  for (const std::size_t i : Thin(line, kLineTolerance, kMostPieces)) {
+    points.push_back(line[i]);
+  }
+  return points;
+}
+
+std::vector<GustLine> GustLines(const Recording& recording) {
+  std::vector<GustLine> lines;
+  for (const Gust& gust : recording.world.wind.gusts) {
+    if (gust.area) {
+      lines.push_back({gust, Thinned(Outline(recording, gust.area->Corners()))});
+    }
+  }
+  return lines;
+}
+
+int MaxGeoms(const Recording& recording, const std::vector<Tile>& patches,
+             const std::vector<GustLine>& gusts) {
+  std::size_t on_ground = patches.size();
+  for (const GustLine& gust : gusts) {
+    on_ground += gust.points.size();
+  }
   const int cars = static_cast<int>(recording.plants.size());
   std::size_t of_new_plans = 0;
   for (const NewPlan& plan : recording.new_plans) {
     of_new_plans += std::min(plan.path.size(), kMostPieces + 2);
   }
-  return (recording.model->ngeom + recording.model->ngeom) * cars + 100 * cars +
-         static_cast<int>(kMostPieces + 2) * (cars + 1) + static_cast<int>(of_new_plans);
+  return (recording.model->ngeom + recording.model->ngeom) * cars + 200 * cars +
+         static_cast<int>(on_ground) + static_cast<int>(kMostPieces + 2) * (cars + 1) +
+         static_cast<int>(of_new_plans);
 }
 
 /// Like the lines of a transport map: each narrower than the one it covers.
@@ -97,12 +144,22 @@ void MakeGhostly(mjvGeom& geom, const Color& color) {
 
 /// Whether a camera can see beyond the ground. If not, the sky behind it need not be drawn, which
 /// is a third of a picture's time.
-bool SeesSky(const mjModel& model, const CameraPose& camera) {
+bool SeesSky(const mjModel& model, const World& world, const CameraPose& camera) {
   const int ground = mj_name2id(&model, mjOBJ_GEOM, "ground");
   const bool endless = ground >= 0 && model.geom_type[ground] == mjGEOM_PLANE &&
                        model.geom_size[3 * ground] == 0 && model.geom_size[3 * ground + 1] == 0;
-  constexpr double kHaze = 0.1;  // [rad] under the horizon
-  return !endless || camera.elevation + 0.5 * camera.view_angle > -kHaze;
+  constexpr double kHaze = 0.1;                                  // [rad] under the horizon
+  const double horizon = -std::atan(world.ground.grade.norm());  // down the hill
+  return !endless || camera.elevation + 0.5 * camera.view_angle > horizon - kHaze;
+}
+
+/// Where they rise by nothing they would flicker on the plane that they stand on.
+void SinkHeightFields(mjvScene& scene) {
+  for (int i = 0; i < scene.ngeom; ++i) {
+    if (scene.geoms[i].type == mjGEOM_HFIELD) {
+      scene.geoms[i].pos[2] -= kSunk;
+    }
+  }
 }
 
 }  // namespace
@@ -118,9 +175,11 @@ Color CarColor(std::size_t car) {
 
 FilmScene::FilmScene(Recording& recording, bool shadows)
     : recording_(recording),
+      patches_(PatchTiles(recording.world)),
+      gusts_(GustLines(recording)),
       car_data_(mj_makeData(recording.model.get())),
       ghost_data_(mj_makeData(recording.model.get())),
-      scene_(*recording.model, MaxGeoms(recording)),
+      scene_(*recording.model, MaxGeoms(recording, patches_, gusts_)),
       ghost_scene_(*recording.model, 2 * recording.model->ngeom + 100) {
   mjv_defaultOption(&visible_);
   std::fill(std::begin(visible_.sitegroup), std::end(visible_.sitegroup), mjtByte{0});
@@ -135,7 +194,7 @@ FilmScene::FilmScene(Recording& recording, bool shadows)
   for (const PlantRecording& plant : recording.plants) {
     std::vector<Point> driven;
     for (const double time : plant.times()) {
-      driven.push_back(plant.Position(time));
+      driven.push_back(recording.OnGround(plant.Position(time)));
     }
     Trail trail;
     for (const std::size_t i : Thin(driven, kLineTolerance, kMostPieces)) {
@@ -147,11 +206,11 @@ FilmScene::FilmScene(Recording& recording, bool shadows)
 }
 
 void FilmScene::AddPlanLine(double from, const Color& color, const std::vector<Point>& path) {
-  PlanLine line{from, color, {}};
-  for (const std::size_t i : Thin(path, kLineTolerance, kMostPieces)) {
-    line.points.push_back(path[i]);
+  std::vector<Point> points;
+  for (const Point& point : path) {
+    points.push_back(recording_.OnGround(point));
   }
-  plans_.push_back(std::move(line));
+  plans_.push_back({from, color, Thinned(points)});
 }
 
 mjvScene& FilmScene::At(double time, const CameraPose& camera) {
@@ -159,8 +218,11 @@ mjvScene& FilmScene::At(double time, const CameraPose& camera) {
   Aim(camera);
   recording_.plants.front().Pose(time, model, *car_data_);
   mjv_updateScene(&model, car_data_.get(), &visible_, nullptr, &camera_, mjCAT_ALL, &scene_.get());
-  scene_.get().flags[mjRND_SKYBOX] = SeesSky(model, camera) ? 1 : 0;
+  SinkHeightFields(scene_.get());
+  scene_.get().flags[mjRND_SKYBOX] = SeesSky(model, recording_.world, camera) ? 1 : 0;
   AimLamps(scene_.get(), camera);
+  AddPatches(camera);
+  AddGusts(time, camera);
   AddPlans(time, camera);
   for (std::size_t car = 0; car < recording_.plants.size(); ++car) {
     AddTrail(car, time, camera);
@@ -188,6 +250,36 @@ void FilmScene::Aim(const CameraPose& camera) {
   model.vis.map.zfar = static_cast<float>((1000.0 + 2.0 * camera.distance) / model.stat.extent);
 }
 
+void FilmScene::AddPiece(const Point& a, const Point& b, const RibbonStyle& style) {
+  AddRibbonPiece(scene_.get(), a, b, style,
+                 GroundNormal(recording_.world, {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}));
+}
+
+void FilmScene::AddPatches(const CameraPose& camera) {
+  const Vec2 around(camera.target_x, camera.target_y);
+  for (const Tile& tile : patches_) {
+    const double reach = kPaintRange + tile.half_length + tile.half_width;
+    if ((tile.centre.head<2>() - around).norm() < reach) {
+      AddTile(scene_.get(), tile);
+    }
+  }
+}
+
+void FilmScene::AddGusts(double time, const CameraPose& camera) {
+  const Point around{camera.target_x, camera.target_y};
+  for (const GustLine& line : gusts_) {
+    if (GustStrength(line.gust, time) == 0.0) {
+      continue;
+    }
+    const RibbonStyle style{kGustColor, kGustWidth * camera.paint_scale, kGustHeight};
+    for (std::size_t i = 1; i < line.points.size(); ++i) {
+      if (IsNear(line.points[i - 1], line.points[i], around)) {
+        AddPiece(line.points[i - 1], line.points[i], style);
+      }
+    }
+  }
+}
+
 void FilmScene::AddPlans(double time, const CameraPose& camera) {
   const Point around{camera.target_x, camera.target_y};
   const auto held = static_cast<std::size_t>(std::count_if(
@@ -197,7 +289,7 @@ void FilmScene::AddPlans(double time, const CameraPose& camera) {
     const RibbonStyle style = PlanStyle(plans_[plan].color, held - 1 - plan, camera.paint_scale);
     for (std::size_t i = 1; i < points.size(); ++i) {
       if (IsNear(points[i - 1], points[i], around)) {
-        AddRibbonPiece(scene_.get(), points[i - 1], points[i], style);
+        AddPiece(points[i - 1], points[i], style);
       }
     }
   }
@@ -209,10 +301,11 @@ void FilmScene::AddTrail(std::size_t car, double time, const CameraPose& camera)
   const RibbonStyle style = TrailStyle(car, camera.paint_scale);
   for (std::size_t i = 1; i < trail.points.size() && trail.times[i - 1] < time; ++i) {
     // The last piece grows with the car.
-    const Point end =
-        trail.times[i] <= time ? trail.points[i] : recording_.plants[car].Position(time);
+    const Point end = trail.times[i] <= time
+                          ? trail.points[i]
+                          : recording_.OnGround(recording_.plants[car].Position(time));
     if (IsNear(trail.points[i - 1], end, around)) {
-      AddRibbonPiece(scene_.get(), trail.points[i - 1], end, style);
+      AddPiece(trail.points[i - 1], end, style);
     }
   }
 }
@@ -255,10 +348,21 @@ void FilmScene::AddContactShadow() {
   }
   const mjtNum* center = car_data_->site_xpos + 3 * site;
   const mjtNum* rotation = car_data_->site_xmat + 9 * site;
-  const double heading = std::atan2(rotation[3], rotation[0]);
-  const std::array<mjtNum, 9> flat{
-      std::cos(heading), -std::sin(heading), 0, std::sin(heading), std::cos(heading), 0, 0, 0, 1};
-  const std::array<mjtNum, 3> place{center[0], center[1], kShadowHeight};
+  // On the plane through the ground under the middles of its sides.
+  const Pose2 middle{center[0], center[1], std::atan2(rotation[3], rotation[0])};
+  const auto side = [&](double forward, double left) {
+    const Vec2 p = ToWorld(
+        middle, {forward * model.site_size[3 * site], left * model.site_size[3 * site + 1]});
+    return Eigen::Vector3d(p.x(), p.y(), GroundHeight(recording_.world, p));
+  };
+  const Eigen::Vector3d along = side(1.0, 0.0) - side(-1.0, 0.0);
+  Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor> flat;
+  flat.col(0) = along.normalized();
+  flat.col(2) = along.cross(side(0.0, 1.0) - side(0.0, -1.0)).normalized();
+  flat.col(1) = flat.col(2).cross(flat.col(0));
+  const Eigen::Vector3d place =
+      0.25 * (side(1.0, 0.0) + side(-1.0, 0.0) + side(0.0, 1.0) + side(0.0, -1.0)) +
+      kShadowHeight * flat.col(2);
   const std::array<float, 4> rgba{0.0F, 0.0F, 0.02F, kShadowAlpha};
   for (int layer = 0; layer < kShadowLayers && scene.ngeom < scene.maxgeom; ++layer) {
     // From well inside the outline to as far outside.
@@ -283,12 +387,13 @@ void FilmScene::AddFootprint(const mjData& data, const RibbonStyle& style) {
   const mjtNum* rotation = data.site_xmat + 9 * site;
   const mjtNum* size = model.site_size + 3 * site;
   const auto corner = [&](double forward, double left) {
-    return Point{center[0] + rotation[0] * forward * size[0] + rotation[1] * left * size[1],
-                 center[1] + rotation[3] * forward * size[0] + rotation[4] * left * size[1]};
+    return Vec2(center[0] + rotation[0] * forward * size[0] + rotation[1] * left * size[1],
+                center[1] + rotation[3] * forward * size[0] + rotation[4] * left * size[1]);
   };
-  const std::array<Point, 4> corners{corner(1, 1), corner(-1, 1), corner(-1, -1), corner(1, -1)};
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    AddRibbonPiece(scene_.get(), corners[i], corners[(i + 1) % corners.size()], style);
+  const std::vector<Point> outline =
+      Outline(recording_, {corner(1, 1), corner(-1, 1), corner(-1, -1), corner(1, -1)});
+  for (std::size_t i = 1; i < outline.size(); ++i) {
+    AddPiece(outline[i - 1], outline[i], style);
   }
 }
 

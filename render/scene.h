@@ -2,10 +2,12 @@
 
 #include <mujoco/mujoco.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include "render/camera.h"
+#include "render/ground_paint.h"
 #include "render/handles.h"
 #include "render/recording.h"
 #include "render/ribbon.h"
@@ -16,7 +18,14 @@ namespace trackbed::render {
 /// (the main car's first).
 constexpr Color kPlanColor{1.00F, 1.00F, 0.97F};
 constexpr Color kNewPlanColor{1.00F, 0.84F, 0.05F};  // as temporary markings overrule white ones
+constexpr Color kGustColor{0.66F, 0.56F, 0.96F};     // around where a gust blows
 Color CarColor(std::size_t car);
+
+/// The outline of an area in which a gust blows.
+struct GustLine {
+  Gust gust;
+  std::vector<Point> points;
+};
 
 /// The recorded world, posed at a moment: the car, the ghosts, the plans so far, the trails.
 class FilmScene {
@@ -44,6 +53,9 @@ class FilmScene {
 
   void AddPlanLine(double from, const Color& color, const std::vector<Point>& path);
   void Aim(const CameraPose& camera);
+  void AddPiece(const Point& a, const Point& b, const RibbonStyle& style);
+  void AddPatches(const CameraPose& camera);
+  void AddGusts(double time, const CameraPose& camera);
   void AddPlans(double time, const CameraPose& camera);
   void AddTrail(std::size_t car, double time, const CameraPose& camera);
   void AddGhost(std::size_t car, double time, const CameraPose& camera);
@@ -51,6 +63,8 @@ class FilmScene {
   void AddFootprint(const mjData& data, const RibbonStyle& style);
 
   Recording& recording_;
+  std::vector<Tile> patches_;
+  std::vector<GustLine> gusts_;
   DataHandle car_data_;
   DataHandle ghost_data_;
   SceneHandle scene_;

@@ -37,7 +37,7 @@ void AimLamps(mjvScene& scene, const CameraPose& camera) {
   const auto in_steps = [step](double place) { return step * std::round(place / step); };
   const std::array<double, 3> middle{in_steps(camera.target_x + ahead * std::cos(camera.azimuth)),
                                      in_steps(camera.target_y + ahead * std::sin(camera.azimuth)),
-                                     0.0};
+                                     camera.ground_z};
   // So far back that all the ground under the map is in front of a lamp 20 degrees high.
   const double back = 3.0 * reach;
   for (int i = 0; i < scene.nlight; ++i) {

@@ -98,7 +98,7 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
   Scene scene = car_scene;
   XMLElement* assets = root.InsertNewChildElement("asset");
   int count = 0;
-  const auto add = [&](const auto& feature) {
+  const auto add = [&](const auto& feature, const char* rgba) {
     const HeightField field = Sample(feature, ground);
     if (field.highest == field.lowest) {
       return;  // a side slope of 0
@@ -118,10 +118,17 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
     geom.DeleteAttribute("size");
     geom.SetAttribute("type", "hfield");
     geom.SetAttribute("hfield", name.c_str());
+    if (rgba != nullptr) {
+      geom.SetAttribute("rgba", rgba);
+    }
     Place(geom, {box.centre.x, box.centre.y, field.lowest}, Upright(Vec2::Zero(), box.centre.yaw));
   };
-  std::for_each(ground.bumps.begin(), ground.bumps.end(), add);
-  std::for_each(ground.side_slopes.begin(), ground.side_slopes.end(), add);
+  for (const Bump& bump : ground.bumps) {
+    add(bump, "1 0.93 0.68 1");  // one would hardly see it
+  }
+  for (const SideSlope& side_slope : ground.side_slopes) {
+    add(side_slope, nullptr);
+  }
   if (count > 0) {
     for (const char* wheel : kWheels) {
       XMLElement& geom = AddLike(*plane, fmt::format("ground_{}", wheel));

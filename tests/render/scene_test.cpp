@@ -7,87 +7,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <optional>
 #include <string>
 
-#include "render/offscreen.h"
 #include "render/painter.h"
 #include "render/shadow.h"
-#include "tests/render/run_folder.h"
-#include "tests/support/temp_folder.h"
+#include "tests/render/pictures.h"
 
 namespace trackbed::render {
 namespace {
-
-constexpr int kWidth = 320;
-constexpr int kHeight = 180;
-
-struct Pixel {
-  int x = 0;
-  int y = 0;
-};
-
-/// Where a pinhole camera sees a point: written from the definition of CameraPose alone.
-Pixel Project(const CameraPose& pose, double x, double y, double z) {
-  const double ca = std::cos(pose.azimuth);
-  const double sa = std::sin(pose.azimuth);
-  const double ce = std::cos(pose.elevation);
-  const double se = std::sin(pose.elevation);
-  const std::array<double, 3> forward{ce * ca, ce * sa, se};
-  const std::array<double, 3> right{sa, -ca, 0.0};
-  const std::array<double, 3> up{-se * ca, -se * sa, ce};
-  const std::array<double, 3> from{x - pose.target_x + pose.distance * forward[0],
-                                   y - pose.target_y + pose.distance * forward[1],
-                                   z - pose.target_z + pose.distance * forward[2]};
-  const auto dot = [&](const std::array<double, 3>& axis) {
-    return axis[0] * from[0] + axis[1] * from[1] + axis[2] * from[2];
-  };
-  const double pixels = 0.5 * kHeight / std::tan(0.5 * pose.view_angle) / dot(forward);
-  return {static_cast<int>(0.5 * kWidth + pixels * dot(right)),
-          static_cast<int>(0.5 * kHeight - pixels * dot(up))};
-}
-
-class FilmSceneTest : public testing::Test {
- protected:
-  FilmSceneTest() {
-    CopyPrius(folder_.path());
-    WritePlant(folder_.path(), "mujoco", 2.0, [](double time) {
-      return CarPlace{3.0 * time, 0.0, 0.0};
-    });
-  }
-
-  Image Picture(const std::string& camera, double time, bool shadows = false,
-                int supersampling = 1) {
-    Recording recording = ReadRecording(folder_.path());
-    const CameraSubject subject(recording);
-    pose_ = FindCamera(camera).pose(subject, time, static_cast<double>(kWidth) / kHeight);
-    if (shadows) {
-      FitShadowMap(*recording.model, *pose_);
-    }
-    Offscreen offscreen(*recording.model, kWidth, kHeight, supersampling);
-    FilmScene scene(recording, shadows);
-    Image image;
-    offscreen.Render(scene.At(time, *pose_), image);
-    return image;
-  }
-
-  /// Channel values of the picture where a point of the ground is.
-  std::array<int, 3> At(const Image& image, double x, double y, double z = 0.0) const {
-    const Pixel pixel = Project(*pose_, x, y, z);
-    EXPECT_TRUE(pixel.x >= 0 && pixel.x < kWidth && pixel.y >= 0 && pixel.y < kHeight)
-        << x << ", " << y << " is out of the picture";
-    const std::uint8_t* rgb = image.Pixel(pixel.x, pixel.y);
-    return {rgb[0], rgb[1], rgb[2]};
-  }
-
-  const MuJoCoErrorsAsExceptions guard_;
-  TempFolder folder_;
-  std::optional<CameraPose> pose_;
-};
-
-// Light on flat paint: the lamps of the Prius add up to 0.96 of its colour or more; the asphalt
-// between its lines is at most 0.67. A threshold of 225 / 255 = 0.88 lies well between.
-constexpr int kWhite = 225;
 
 TEST_F(FilmSceneTest, ThePlannedPathIsWhereItsProjectionSays) {
   WriteStraightPlan(folder_.path(), 16.0);

@@ -45,15 +45,16 @@ void CheckFilmName(const std::filesystem::path& output);
 /// Films a finished run from its folder alone: no display, no GPU, nothing is simulated again.
 ///
 /// The folder holds `model.xml` and, per plant, `<plant>.state.csv` and `<plant>.csv`; `plan.csv`
-/// may be absent, and `<plant>.plan.csv` is where a plant took up new plans on its way. The car is
+/// may be absent, `scenario.resolved.yaml` too where the world is flat, calm and the same all over,
+/// and `<plant>.plan.csv` is where a plant took up new plans on its way. The car is
 /// the first plant whose name begins with "mujoco", else the first by name; every other plant is a
-/// translucent ghost. Shown are the planned path and each car's trail so far on the ground z = 0,
-/// the footprints of the ghosts, and a caption of the car's numbers. From the moment when the car
-/// takes up a new plan, that one is shown in a colour of its own and those before it faint and
-/// narrow; new plans of the ghosts are not shown.
-/// Frame k is the run at (its first time) + k / fps, states in between interpolated linearly; the
-/// last frame is the last one not after the end of the longest recording, and a plant that ends
-/// before stays where it stopped.
+/// translucent ghost. Shown are the planned path and each car's trail so far on the ground, the
+/// footprints of the ghosts, friction patches, the outline of where a gust is blowing, and a
+/// caption of the car's numbers and the wind at the car. From the moment when the car takes up a
+/// new plan, that one is shown in a colour of its own and those before it faint and narrow; new
+/// plans of the ghosts are not shown. Frame k is the run at (its first time) + k / fps, states in
+/// between interpolated linearly; the last frame is the last one not after the end of the longest
+/// recording, and a plant that ends before stays where it stopped.
 ///
 /// `progress` (may be empty) is called after every frame with the fraction done, in (0, 1]. What it
 /// throws ends the film and is passed on.

@@ -1,0 +1,167 @@
+#include "render/ground_paint.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace trackbed::render {
+namespace {
+
+// Below all ribbons [m].
+constexpr double kLowest = 0.0010;
+constexpr double kHighest = 0.0018;
+
+constexpr double kIce = 0.25;       // factors up to this look like ice
+constexpr float kIceAlpha = 0.45F;  // MuJoCo draws translucent surfaces twice: 1 - 0.55^2 = 0.70
+constexpr float kWetAlpha = 0.35F;
+
+float AlphaOf(double friction) {
+  return friction <= kIce ? kIceAlpha : kWetAlpha;
+}
+
+bool IsPlane(const Ground& ground, const OrientedBox& box) {
+  const auto apart = [&box](const auto& feature) { return Separation(box, Extent(feature)) > 0.0; };
+  return std::all_of(ground.bumps.begin(), ground.bumps.end(), apart) &&
+         std::all_of(ground.side_slopes.begin(), ground.side_slopes.end(), apart);
+}
+
+/// How far the ground leaves the straight line between two points [m].
+double Bend(const Ground& ground, const Vec2& a, const Vec2& b) {
+  double most = 0.0;
+  for (const double part : {0.25, 0.5, 0.75}) {
+    const double line = (1.0 - part) * GroundHeight(ground, a) + part * GroundHeight(ground, b);
+    most = std::max(most, std::abs(GroundHeight(ground, (1.0 - part) * a + part * b) - line));
+  }
+  return most;
+}
+
+OrientedBox Part(const OrientedBox& box, double x, double y, double length, double width) {
+  const Vec2 centre = ToWorld(box.centre, {x, y});
+  return {{centre.x(), centre.y(), box.centre.yaw}, length, width};
+}
+
+class Tiler {
+ public:
+  Tiler(const Ground& ground, std::vector<Tile>& tiles) : ground_(ground), tiles_(tiles) {}
+
+  void Cut(const OrientedBox& box, const Tile& like, double above) {
+    constexpr double kLargest = 2.0;   // [m] where the ground is no plane
+    constexpr double kSmallest = 0.1;  // [m]
+    constexpr double kTolerance = 0.0015;
+    if (IsPlane(ground_, box)) {
+      Add(box, like, above);
+      return;
+    }
+    const auto at = [&](double x, double y) {
+      return ToWorld(box.centre, {0.5 * x * box.length, 0.5 * y * box.width});
+    };
+    double along = 0.0;
+    double across = 0.0;
+    for (const double side : {-1.0, 0.0, 1.0}) {
+      along = std::max(along, Bend(ground_, at(-1.0, side), at(1.0, side)));
+      across = std::max(across, Bend(ground_, at(side, -1.0), at(side, 1.0)));
+    }
+    // Ground may twist without bending along any of these lines.
+    const auto height = [&](double x, double y) { return GroundHeight(ground_, at(x, y)); };
+    const double twist = 0.25 * std::abs(height(1.0, 1.0) + height(-1.0, -1.0) - height(1.0, -1.0) -
+                                         height(-1.0, 1.0));
+    double& longer = box.length >= box.width ? along : across;
+    longer = std::max(longer, twist);
+    // Of the two sides the worse is cut; a long one may hide what it spans.
+    along = box.length > kLargest ? 1e3 * box.length : box.length > kSmallest ? along : 0.0;
+    across = box.width > kLargest ? 1e3 * box.width : box.width > kSmallest ? across : 0.0;
+    if (std::max(along, across) < kTolerance) {
+      Add(box, like, above);
+    } else if (along >= across) {
+      const double half = 0.5 * box.length;
+      Cut(Part(box, -0.5 * half, 0.0, half, box.width), like, above);
+      Cut(Part(box, 0.5 * half, 0.0, half, box.width), like, above);
+    } else {
+      const double half = 0.5 * box.width;
+      Cut(Part(box, 0.0, -0.5 * half, box.length, half), like, above);
+      Cut(Part(box, 0.0, 0.5 * half, box.length, half), like, above);
+    }
+  }
+
+ private:
+  void Add(const OrientedBox& box, const Tile& like, double above) {
+    // Through the middles of its sides: neighbours meet there.
+    std::array<Eigen::Vector3d, 4> sides;
+    const std::array<Vec2, 4> ways{{{1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}}};
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      const Vec2 p =
+          ToWorld(box.centre, {0.5 * ways[i].x() * box.length, 0.5 * ways[i].y() * box.width});
+      sides[i] = {p.x(), p.y(), GroundHeight(ground_, p)};
+      middle += 0.25 * sides[i];
+    }
+    Tile tile = like;
+    const Eigen::Vector3d length = sides[0] - sides[1];
+    const Eigen::Vector3d width = sides[2] - sides[3];
+    tile.rotation.col(0) = length.normalized();
+    tile.rotation.col(2) = length.cross(width).normalized();
+    tile.rotation.col(1) = tile.rotation.col(2).cross(tile.rotation.col(0));
+    tile.centre = middle + above * tile.rotation.col(2);
+    tile.half_length = 0.5 * length.norm();
+    tile.half_width = 0.5 * width.norm();
+    tiles_.push_back(tile);
+  }
+
+  const Ground& ground_;
+  std::vector<Tile>& tiles_;
+};
+
+}  // namespace
+
+Color PatchColor(double friction) {
+  if (friction <= kIce) {
+    return {0.66F, 0.87F, 1.00F};
+  }
+  if (friction > 1.0) {
+    return {0.52F, 0.42F, 0.30F};
+  }
+  // From wet to nearly dry.
+  const auto dry = static_cast<float>((friction - kIce) / (1.0 - kIce));
+  return {0.16F + 0.34F * dry, 0.24F + 0.29F * dry, 0.36F + 0.17F * dry};
+}
+
+Color PatchColorOnRoad(double friction) {
+  constexpr float kAsphalt = 0.62F;
+  const Color own = PatchColor(friction);
+  const float through = 1.0F - AlphaOf(friction);
+  const auto mix = [through](float channel) {
+    return through * through * kAsphalt + (1.0F - through * through) * channel;
+  };
+  return {mix(own.r), mix(own.g), mix(own.b)};
+}
+
+std::vector<Tile> PatchTiles(const World& world) {
+  std::vector<Tile> tiles;
+  Tiler tiler(world.ground, tiles);
+  const auto count = static_cast<double>(world.friction_patches.size());
+  double above = kLowest;
+  for (const FrictionPatch& patch : world.friction_patches) {
+    Tile like;
+    like.color = PatchColor(patch.friction);
+    like.alpha = AlphaOf(patch.friction);
+    tiler.Cut(patch.area, like, above);
+    above += (kHighest - kLowest) / count;
+  }
+  return tiles;
+}
+
+void AddTile(mjvScene& scene, const Tile& tile) {
+  if (scene.ngeom >= scene.maxgeom) {
+    return;
+  }
+  const std::array<mjtNum, 3> size{tile.half_length, tile.half_width, 1.0};
+  const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor> rotation = tile.rotation;
+  const std::array<float, 4> rgba{tile.color.r, tile.color.g, tile.color.b, tile.alpha};
+  mjvGeom& geom = scene.geoms[scene.ngeom];
+  mjv_initGeom(&geom, mjGEOM_PLANE, size.data(), tile.centre.data(), rotation.data(), rgba.data());
+  geom.specular = 0.0F;
+  geom.category = mjCAT_DECOR;
+  ++scene.ngeom;
+}
+
+}  // namespace trackbed::render
