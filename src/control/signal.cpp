@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trackbed/core/error.h"
+
 namespace trackbed {
 namespace {
 
@@ -15,6 +17,7 @@ auto Beyond(const std::vector<Vec2>& knots, double x) {
 }  // namespace
 
 double Signal::At(double x) const {
+  TRACKBED_CHECK(!knots.empty(), "a signal without knots has no values");
   const auto after = Beyond(knots, x);
   if (after == knots.begin()) {
     return knots.front().y();

@@ -54,14 +54,48 @@ class PreviewController final : public SteeringController {
   PreviewOptions options_;
 };
 
-class ConstantSteeringController final : public SteeringController {
+/// Steers as a profile over time says.
+template <typename Options>
+class ProfileController final : public SteeringController {
  public:
-  explicit ConstantSteeringController(const ConstantSteeringOptions& options) : options_(options) {}
+  explicit ProfileController(const Options& options) : options_(options) {}
 
-  double Steer(const ControlInput&) override { return options_.steering; }
+  double Steer(const ControlInput& input) override {
+    return SteeringAt(options_, input.state.time + input.period);
+  }
 
  private:
-  ConstantSteeringOptions options_;
+  Options options_;
+};
+
+class PlaybackController final : public SteeringController {
+ public:
+  explicit PlaybackController(const PlaybackOptions& options) : options_(options) {
+    const Recording& recording = options.recording;
+    TRACKBED_CHECK(!recording.steering.empty() && recording.steering.Rises() &&
+                       recording.speed.Rises() && recording.acceleration.Rises(),
+                   "a recording without steering, or whose rows do not rise");
+    TRACKBED_CHECK(recording.speed.empty() || recording.acceleration.empty(),
+                   "a recording of both speed and acceleration");
+  }
+
+  double Steer(const ControlInput& input) override {
+    return PlaybackSteering(options_, Axis(input), input.state.speed, input.period);
+  }
+
+  std::optional<double> Accelerate(const ControlInput& input) override {
+    return PlaybackAcceleration(options_, Axis(input), input.state.speed, input.speed_gain,
+                                input.period);
+  }
+
+ private:
+  /// A change of plan does not wind the recording back: by distance it is the car's, not the
+  /// plan's.
+  [[nodiscard]] double Axis(const ControlInput& input) const {
+    return options_.by == PlaybackAxis::kTime ? input.state.time : input.state.distance;
+  }
+
+  PlaybackOptions options_;
 };
 
 std::unique_ptr<SteeringController> Make(const ScheduleOptions& options) {
@@ -70,8 +104,12 @@ std::unique_ptr<SteeringController> Make(const ScheduleOptions& options) {
 std::unique_ptr<SteeringController> Make(const PreviewOptions& options) {
   return std::make_unique<PreviewController>(options);
 }
-std::unique_ptr<SteeringController> Make(const ConstantSteeringOptions& options) {
-  return std::make_unique<ConstantSteeringController>(options);
+std::unique_ptr<SteeringController> Make(const PlaybackOptions& options) {
+  return std::make_unique<PlaybackController>(options);
+}
+template <typename Profile>
+std::unique_ptr<SteeringController> Make(const Profile& options) {
+  return std::make_unique<ProfileController<Profile>>(options);
 }
 
 /// Station of the first point after `station` that is `distance` away from p.
@@ -113,6 +151,18 @@ const std::vector<ControllerEntry>& Controllers() {
       {"preview", "aims at the path's point at a preview distance (MacAdam, one point)",
        PreviewOptions{}, StationSource::kProjection, true},
       {"constant_steering", "holds one steering angle", ConstantSteeringOptions{},
+       StationSource::kOdometer, false},
+      {"step", "turns the wheels once, at a rate, and holds them (ISO 7401)", StepSteeringOptions{},
+       StationSource::kOdometer, false},
+      {"ramp", "turns the wheels slowly to an angle (SAE J266, ISO 4138)", RampSteeringOptions{},
+       StationSource::kOdometer, false},
+      {"sine", "sine steering for a number of cycles", SineSteeringOptions{},
+       StationSource::kOdometer, false},
+      {"sine_with_dwell", "one sine that stays at its second peak (ISO 19365)",
+       SineWithDwellOptions{}, StationSource::kOdometer, false},
+      {"swept_sine", "sine steering from one frequency to another", SweptSineOptions{},
+       StationSource::kOdometer, false},
+      {"playback", "replays recorded steering and speed or acceleration", PlaybackOptions{},
        StationSource::kOdometer, false},
   };
   return table;

@@ -79,7 +79,7 @@ class Progress {
 
 SpeedLimits SpeedLimitsOf(const Scenario& scenario) {
   const SpeedControlOptions& speed = scenario.control.speed;
-  return {scenario.mission.speed, speed.acceleration, speed.deceleration};
+  return {SpeedOf(scenario), speed.acceleration, speed.deceleration};
 }
 
 /// The plan that is driven, and where it began.
@@ -178,7 +178,7 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
   const StartState start = StartOf(scenario);
   if (!scenario.plan) {
     Plan plan;
-    plan.reference.speed = SpeedProfile({{0.0, scenario.mission.speed}});
+    plan.reference.speed = SpeedProfile({{0.0, SpeedOf(scenario)}});
     plan.schedule_speed = plan.reference.speed;
     return plan;
   }
@@ -213,8 +213,8 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
   TRACKBED_CHECK(plan.ok(), "a plan with status {} cannot be driven", ToString(plan.status));
   const DriveSpec& drive = scenario.drive;
   const bool has_path = scenario.plan.has_value();
-  double end_time =
-      std::min(drive.time_limit, scenario.mission.duration.value_or(drive.time_limit));
+  const std::optional<double> duration = DurationOf(scenario);
+  double end_time = std::min(drive.time_limit, duration.value_or(drive.time_limit));
   const auto steps_per_period =
       static_cast<int>(std::lround(drive.control_period / drive.timestep));
   const StationSource source = ControllerFor(scenario.control.steering).station;
@@ -285,9 +285,8 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
       log.rows.push_back(row);
       const Vec2 goal = path.At(path.length()).pose.position();
       const bool near = (state.pose.position() - goal).norm() <= kNear;
-      const bool there = has_path ? at_rest && near && s >= path.length() - kArrival
-                                  : scenario.mission.duration.has_value() &&
-                                        end_time == *scenario.mission.duration;
+      const bool there =
+          has_path ? at_rest && near && s >= path.length() - kArrival : end_time == duration;
       log.status = interrupted                             ? DriveStatus::kInterrupted
                    : collided                              ? DriveStatus::kCollided
                    : there && !driven.plan.blocked.empty() ? DriveStatus::kBlocked

@@ -19,6 +19,7 @@ class CrossCheck {
 
   std::vector<std::pair<std::string, std::string>> Run() {
     CheckMission();
+    CheckSpeedOverTime();
     CheckSteps();
     CheckPicture();
     if (CouldRead({"drive.plants"})) {
@@ -65,6 +66,15 @@ class CrossCheck {
     if (!CouldReadPlan({"method"})) {
       return;
     }
+    const Recording* recording = RecordingOf(scenario_);
+    const bool has_start_speed = mission.start.speed ||
+                                 !scenario_.control.speed.over_time.empty() ||
+                                 (recording != nullptr && !recording->speed.empty()) ||
+                                 !CouldRead({"mission.start.speed", "control.speed.over_time",
+                                             "control.file", "control.columns"});
+    if (mission.speed == 0.0 && CouldRead({"mission.speed"}) && (plan || !has_start_speed)) {
+      Complain("mission.speed", "missing");
+    }
     if (CouldRead({"control.method"})) {
       const ControllerEntry& controller = ControllerFor(scenario_.control.steering);
       if (controller.needs_plan && !plan) {
@@ -74,7 +84,8 @@ class CrossCheck {
     if (plan && mission.duration) {
       Complain("mission.duration", "with a plan the drive ends at the goal; leave one out");
     }
-    if (!plan && !mission.duration && CouldRead({"mission.duration"})) {
+    if (!plan && !DurationOf(scenario_) &&
+        CouldRead({"mission.duration", "control.file", "control.columns"})) {
       Complain("mission.duration", "missing; without a plan there is no goal to stop at");
     }
     const auto* fillet = plan ? std::get_if<FilletOptions>(&plan->global) : nullptr;
@@ -97,6 +108,35 @@ class CrossCheck {
       Complain("mission.waypoints", fmt::format("{} given; a plan by {} needs at least {}", given,
                                                 PlannerName(scenario_.plan->global),
                                                 FewestWaypoints(scenario_.plan->global)));
+    }
+  }
+
+  void CheckSpeedOverTime() {
+    const Recording* recording = RecordingOf(scenario_);
+    if (recording != nullptr && (!recording->speed.empty() || !recording->acceleration.empty())) {
+      const SpeedControlOptions& speed = scenario_.control.speed;
+      const std::string message = "the recording has the speed or acceleration; leave this out";
+      if (!speed.over_time.empty()) {
+        Complain("control.speed.over_time", message);
+      }
+      if (speed.braking) {
+        Complain("control.speed.braking", message);
+      }
+    }
+    const Signal& over_time = scenario_.control.speed.over_time;
+    const std::string key = "control.speed.over_time";
+    if (over_time.empty() || !could_read_(key)) {
+      return;
+    }
+    for (std::size_t i = 1; i < over_time.knots.size(); ++i) {
+      const double before = over_time.knots[i - 1].x();
+      if (over_time.knots[i].x() <= before) {
+        Complain(fmt::format("{}[{}]", key, i), fmt::format("{} s is not after the {} s before it",
+                                                            over_time.knots[i].x(), before));
+      }
+    }
+    if (scenario_.plan && CouldReadPlan({"method"})) {
+      Complain(key, "with a plan the speed is the plan's; leave one out");
     }
   }
 

@@ -45,6 +45,9 @@ class KeyLister {
   void Field(const Key& key, std::string& value, Need need, const Names& allowed = {}) {
     Add(key, "name", need, value, Joined(allowed));
   }
+  void Field(const Key& key, std::optional<std::string>&) {
+    Add(key, "name", Need::kOptional, "", "");
+  }
   void Identifier(const Key& key, std::string&) {
     Add(key, "name", Need::kRequired, "", "letters, digits, '_', '-', '.'");
   }
@@ -52,8 +55,8 @@ class KeyLister {
     Add(key, "list of names", need, value.empty() ? "" : fmt::format("[{}]", Joined(value)),
         Joined(allowed));
   }
-  void Field(const Key& key, std::vector<Vec2>&, Need need) {
-    Add(key, "list of points", need, "", "");
+  void Field(const Key& key, std::vector<Vec2>&, Need need, const PairShape& shape = kPoint) {
+    Add(key, fmt::format("list of {}", shape.many), need, "", "");
   }
   void Pair(const Key& key, int& first, int& second, Range range) {
     Add(key, "two whole numbers", Need::kOptional, fmt::format("[{}, {}]", first, second),
@@ -119,10 +122,11 @@ class KeyLister {
   }
 
   /// A key that is described by what is written about it alone.
-  void Add(const Key& key, const char* type, Need need, std::string fallback, std::string allowed) {
+  void Add(const Key& key, std::string type, Need need, std::string fallback, std::string allowed) {
     const bool required = need == Need::kRequired;
-    sections_[index_].keys.push_back({key.name, type, key.unit, required ? "" : std::move(fallback),
-                                      std::move(allowed), key.text, required});
+    sections_[index_].keys.push_back({key.name, std::move(type), key.unit,
+                                      required ? "" : std::move(fallback), std::move(allowed),
+                                      key.text, required});
   }
 
  private:

@@ -8,6 +8,7 @@
 #include "src/scenario/visit.h"
 #include "src/scenario/yaml_file.h"
 #include "trackbed/core/spelling.h"
+#include "trackbed/scenario/recording_file.h"
 
 namespace trackbed {
 namespace {
@@ -44,6 +45,30 @@ YAML::Node NodeAt(const YAML::Node& root, const std::string& key) {
   return node;
 }
 
+/// Reads the recording that is to be replayed. What is wrong in it is placed there, and follows
+/// the problems of the scenario.
+template <typename Complain>
+std::vector<Problem> ReadInputs(Scenario& scenario, const ReaderContext& context,
+                                const Complain& complain) {
+  auto* playback = std::get_if<PlaybackOptions>(&scenario.control.steering);
+  if (playback == nullptr || !context.Read("control.file") || !context.Read("control.columns")) {
+    return {};
+  }
+  try {
+    playback->recording =
+        ReadRecording(scenario.folder / playback->file, playback->by, playback->columns);
+  } catch (const InputError& error) {
+    const Problem& first = error.problems().front();
+    if (!first.file.empty()) {
+      return error.problems();
+    }
+    complain(first.key, first.message);
+  } catch (const RunError& error) {
+    complain("control.file", error.what());
+  }
+  return {};
+}
+
 }  // namespace
 
 Scenario ParseScenario(const std::string& yaml, const std::string& name,
@@ -67,6 +92,10 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
   } catch (const InputError& error) {
     complain("vehicle.model", error.problems().front().message);
   }
+  const std::vector<Problem> of_inputs = ReadInputs(scenario, context, complain);
+  if (!of_inputs.empty()) {
+    context.unread.emplace_back("control.file");
+  }
   const std::string& camera = scenario.render.camera;
   if (!cameras.empty() && std::find(cameras.begin(), cameras.end(), camera) == cameras.end()) {
     complain("render.camera", "unknown " + UnknownName(camera, cameras));
@@ -79,11 +108,12 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
   for (auto& [key, message] : CrossProblems(scenario, could_read)) {
     complain(key, std::move(message));
   }
+  std::stable_sort(context.problems.begin(), context.problems.end(),
+                   [](const Problem& a, const Problem& b) {
+                     return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+                   });
+  context.problems.insert(context.problems.end(), of_inputs.begin(), of_inputs.end());
   if (!context.problems.empty()) {
-    std::stable_sort(context.problems.begin(), context.problems.end(),
-                     [](const Problem& a, const Problem& b) {
-                       return std::pair(a.line, a.column) < std::pair(b.line, b.column);
-                     });
     throw InputError(context.problems);
   }
   return scenario;
@@ -128,6 +158,11 @@ void CheckScenario(const Scenario& scenario) {
   }
 }
 
+const Recording* RecordingOf(const Scenario& scenario) {
+  const auto* playback = std::get_if<PlaybackOptions>(&scenario.control.steering);
+  return playback != nullptr ? &playback->recording : nullptr;
+}
+
 StartState StartOf(const Scenario& scenario) {
   const MissionSpec& mission = scenario.mission;
   const StartSpec& given = mission.start;
@@ -142,9 +177,35 @@ StartState StartOf(const Scenario& scenario) {
   }
   start.pose = {given.x.value_or(start.pose.x), given.y.value_or(start.pose.y),
                 given.yaw.value_or(start.pose.yaw)};
-  start.speed = given.speed.value_or(mission.speed);
-  start.steering = given.steering;
+  const Recording* recording = RecordingOf(scenario);
+  const Signal& over_time = scenario.control.speed.over_time;
+  if (recording != nullptr && !recording->speed.empty()) {
+    start.speed = recording->speed.At(0.0);
+  } else {
+    start.speed = over_time.empty() ? mission.speed : over_time.At(0.0);
+  }
+  start.speed = given.speed.value_or(start.speed);
+  if (recording != nullptr && scenario.drive.steering == SteeringInput::kPrescribed) {
+    start.steering = recording->steering.At(0.0);
+  }
+  start.steering = given.steering.value_or(start.steering);
   return start;
+}
+
+std::optional<double> DurationOf(const Scenario& scenario) {
+  const auto* playback = std::get_if<PlaybackOptions>(&scenario.control.steering);
+  if (scenario.mission.duration || scenario.plan || playback == nullptr ||
+      playback->by != PlaybackAxis::kTime) {
+    return scenario.mission.duration;
+  }
+  const Signal& steering = playback->recording.steering;
+  const double end = steering.empty() ? 0.0 : steering.knots.back().x();
+  return end > 0.0 ? std::optional(end) : std::nullopt;
+}
+
+double SpeedOf(const Scenario& scenario) {
+  const double speed = scenario.mission.speed;
+  return speed > 0.0 ? speed : StartOf(scenario).speed;
 }
 
 namespace {
@@ -184,6 +245,13 @@ std::string ResolvedYaml(const Scenario& scenario) {
         std::filesystem::absolute(FindModel(scenario.vehicle.model, scenario.folder))
             .lexically_normal()
             .string();
+  }
+  resolved.mission.duration = DurationOf(scenario);
+  if (auto* playback = std::get_if<PlaybackOptions>(&resolved.control.steering);
+      playback != nullptr && !playback->file.empty()) {
+    playback->file = std::filesystem::weakly_canonical(
+                         std::filesystem::absolute(scenario.folder / playback->file))
+                         .string();
   }
   YAML::Emitter out;
   out << YAML::BeginMap;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "src/scenario/key_lister.h"
+#include "src/scenario/visit_control.h"
 #include "src/scenario/visit_world.h"
 #include "src/scenario/yaml_reader.h"
 #include "src/scenario/yaml_writer.h"
@@ -34,20 +35,30 @@ void Visit(Archive& a, StartSpec& start) {
   a.Field({"x", "m", "rear axle at the start; else the first waypoint's, or 0"}, start.x, kMap);
   a.Field({"y", "m", "likewise"}, start.y, kMap);
   a.Field({"yaw", "rad", "heading at the start; else along the first leg, or 0"}, start.yaw);
-  a.Field({"speed", "m/s", "speed at the start; else the mission's"}, start.speed,
-          Range{.min = 0.0, .max = 100.0});
-  a.Field({"steering", "rad", "bicycle angle of wheels and actuator at the start"}, start.steering,
-          Need::kOptional, Range{.min = -1.5, .max = 1.5});
+  a.Field({"speed", "m/s",
+           "speed at the start; else the recording's, that of control.speed.over_time, or the "
+           "mission's"},
+          start.speed, kSpeed);
+  a.Field({"steering", "rad",
+           "bicycle angle of wheels and actuator at the start; else 0, or what was recorded if it "
+           "is prescribed"},
+          start.steering, kSteering);
 }
 
 template <typename Archive>
 void Visit(Archive& a, MissionSpec& mission) {
-  a.Field({"speed", "m/s", "the speed to keep between start and goal"}, mission.speed,
-          Need::kRequired, Range{.min = 0.1, .max = 100.0});
-  a.Field({"waypoints", "m", "the route, at least three points [x, y]; needed by a plan"},
-          mission.waypoints, Need::kOptional);
-  a.Field({"duration", "s", "ends the drive; needed without a plan, refused with one"},
-          mission.duration, kPositive);
+  std::optional<double> speed = mission.speed > 0.0 ? std::optional(mission.speed) : std::nullopt;
+  a.Field({"speed", "m/s",
+           "the speed to keep between start and goal; needed by a plan, and unless something else "
+           "gives the speed at the start"},
+          speed, Range{.min = 0.1, .max = 100.0});
+  mission.speed = speed.value_or(0.0);
+  a.Field({"waypoints", "m", "the route, at least three; needed by a plan"}, mission.waypoints,
+          Need::kOptional);
+  a.Field(
+      {"duration", "s",
+       "ends the drive; needed without a plan unless a recording over time ends, refused with one"},
+      mission.duration, kPositive);
   a.Section({"start", "", "where and how the car starts"}, mission.start);
 }
 
@@ -201,38 +212,6 @@ inline void VisitPlan(KeyLister& a, std::optional<PlanSpec>&) {
               "section", Need::kOptional, "", "");
     inner.Method(kAvoid, avoid, Avoiders(), Need::kOptional, [](auto&) {});
   });
-}
-
-template <typename Archive>
-void Visit(Archive&, ScheduleOptions&) {}
-
-template <typename Archive>
-void Visit(Archive& a, PreviewOptions& options) {
-  a.Field({"distance", "m", "how far ahead of the rear axle the car aims"}, options.distance,
-          Need::kOptional, Range{.min = 0.01, .max = 1000.0});
-  static const EnumNames<PreviewLaw> laws{{PreviewLaw::kLinear, "linear"},
-                                          {PreviewLaw::kExactArc, "exact_arc"}};
-  a.Field({"law", "",
-           "from the angle to the point aimed at to steering: MacAdam's gain, or the circle "
-           "through the point"},
-          options.law, Need::kOptional, laws);
-}
-
-template <typename Archive>
-void Visit(Archive& a, ConstantSteeringOptions& options) {
-  a.Field({"steering", "rad", "bicycle angle to hold, positive to the left"}, options.steering,
-          Need::kRequired, Range{.min = -1.5, .max = 1.5});
-}
-
-template <typename Archive>
-void Visit(Archive& a, SpeedControlOptions& options) {
-  a.Field({"acceleration", "m/s^2", "largest wanted; also shapes the plan's speed"},
-          options.acceleration, Need::kOptional, kPositive);
-  a.Field({"deceleration", "m/s^2",
-           "of the plan's speed; the controller brakes with up to twice as much"},
-          options.deceleration, Need::kOptional, kPositive);
-  a.Field({"gain", "1/s", "wanted acceleration per speed error"}, options.gain, Need::kOptional,
-          kPositive);
 }
 
 template <typename Archive>

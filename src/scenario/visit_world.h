@@ -10,10 +10,6 @@
 /// The keys of the section `world`.
 namespace trackbed {
 
-inline constexpr Range kPositive{.above = 0.0};
-inline constexpr Range kNotNegative{.min = 0.0};
-
-inline constexpr Range kMap{.min = -1e5, .max = 1e5};    // [m]; beyond any route
 inline constexpr Range kSize{.max = 1e4, .above = 0.0};  // [m]
 inline constexpr Range kRoadFactor{.max = 10.0, .above = 0.0};
 inline constexpr Range kRiseOverRun{.min = -0.5, .max = 0.5};    // 27 degrees

@@ -26,6 +26,23 @@ struct Range {
   double above = -std::numeric_limits<double>::infinity();
 };
 
+inline constexpr Range kPositive{.above = 0.0};
+inline constexpr Range kNotNegative{.min = 0.0};
+
+inline constexpr Range kMap{.min = -1e5, .max = 1e5};       // [m]; beyond any route
+inline constexpr Range kSpeed{.min = 0.0, .max = 100.0};    // [m/s]
+inline constexpr Range kSteering{.min = -1.5, .max = 1.5};  // [rad]
+
+/// The pairs of numbers in a list: what one is called and what many are, and the allowed values.
+struct PairShape {
+  const char* one;
+  const char* many;
+  Range first;
+  Range second;
+};
+
+inline constexpr PairShape kPoint{"a point [x, y]", "points [x, y]", kMap, kMap};
+
 /// "above 0 and at most 10"; empty when everything is allowed.
 std::string AllowedBy(Range range);
 

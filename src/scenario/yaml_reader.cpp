@@ -239,6 +239,14 @@ void YamlReader::Field(const Key& key, std::string& value, Need need, const Name
   value = node->Scalar();
 }
 
+void YamlReader::Field(const Key& key, std::optional<std::string>& value) {
+  std::string name;
+  Field(key, name, Need::kOptional);
+  if (!name.empty()) {
+    value = name;
+  }
+}
+
 void YamlReader::Identifier(const Key& key, std::string& value) {
   Field(key, value, Need::kRequired);
   const auto fits = [](unsigned char c) {
@@ -288,14 +296,15 @@ void YamlReader::Field(const Key& key, std::vector<std::string>& value, Need nee
   value = names;
 }
 
-void YamlReader::Field(const Key& key, std::vector<Vec2>& value, Need need) {
+void YamlReader::Field(const Key& key, std::vector<Vec2>& value, Need need,
+                       const PairShape& shape) {
   const auto node = Take(key.name, need);
   if (!node) {
     return;
   }
   if (!node->IsSequence()) {
     Complain(*node, Dotted(key.name),
-             fmt::format("expected a list of points [x, y], found {}", Describe(*node)));
+             fmt::format("expected a list of {}, found {}", shape.many, Describe(*node)));
     return;
   }
   value.clear();
@@ -304,15 +313,13 @@ void YamlReader::Field(const Key& key, std::vector<Vec2>& value, Need need) {
     const std::string dotted = fmt::format("{}[{}]", Dotted(key.name), i);
     if (!item.IsSequence() || item.size() != 2) {
       Complain(item, dotted,
-               fmt::format("expected a point [x, y], found {}",
+               fmt::format("expected {}, found {}", shape.one,
                            item.IsSequence() ? Numbers(item.size()) : Describe(item)));
       continue;
     }
     Vec2 point = Vec2::Zero();
-    // A hundred kilometres: far beyond any route.
-    const Range map{.min = -1e5, .max = 1e5};
-    if (ReadNumber(item[0], dotted + "[0]", map, point.x()) &&
-        ReadNumber(item[1], dotted + "[1]", map, point.y())) {
+    if (ReadNumber(item[0], dotted + "[0]", shape.first, point.x()) &&
+        ReadNumber(item[1], dotted + "[1]", shape.second, point.y())) {
       value.push_back(point);
     }
   }

@@ -46,10 +46,11 @@ class YamlReader {
   void Field(const Key& key, int& value, Need need, Range range = {});
   void Field(const Key& key, std::uint64_t& value, Need need);
   void Field(const Key& key, std::string& value, Need need, const Names& allowed = {});
+  void Field(const Key& key, std::optional<std::string>& value);
   /// A required name that can stand in a path: letters, digits, '_', '-', '.', none hidden.
   void Identifier(const Key& key, std::string& value);
   void Field(const Key& key, std::vector<std::string>& value, Need need, const Names& allowed);
-  void Field(const Key& key, std::vector<Vec2>& value, Need need);
+  void Field(const Key& key, std::vector<Vec2>& value, Need need, const PairShape& shape = kPoint);
   void Pair(const Key& key, int& first, int& second, Range range);
   /// A key whose value `read` makes sense of, told its dotted key.
   template <typename Read>

@@ -44,13 +44,20 @@ class YamlWriter {
     out_ << YAML::Key << key.name << YAML::Value << value;
   }
   void Field(const Key& key, std::string& value, Need, const Names& = {}) {
-    out_ << YAML::Key << key.name << YAML::Value << value;
+    if (!value.empty()) {
+      out_ << YAML::Key << key.name << YAML::Value << value;
+    }
+  }
+  void Field(const Key& key, std::optional<std::string>& value) {
+    if (value) {
+      Field(key, *value, Need::kOptional);
+    }
   }
   void Identifier(const Key& key, std::string& value) { Field(key, value, Need::kRequired); }
   void Field(const Key& key, std::vector<std::string>& value, Need, const Names&) {
     out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << value;
   }
-  void Field(const Key& key, std::vector<Vec2>& value, Need) {
+  void Field(const Key& key, std::vector<Vec2>& value, Need, const PairShape& = kPoint) {
     if (value.empty()) {
       return;
     }

@@ -85,7 +85,6 @@ TEST(Program, BadInputIsExitCodeTwoAndTouchesNothing) {
   EXPECT_EQ(outcome.code, 2);
   EXPECT_EQ(outcome.output,
             "bad.yaml:1:1: plan: missing; the controller preview follows a plan\n"
-            "bad.yaml:3:10: mission.speed: missing\n"
             "bad.yaml:3:10: mission.duration: missing; without a plan there is no goal to stop at\n"
             "bad.yaml:3:11: mission.sped: unknown key 'sped'; did you mean 'speed'?\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));

@@ -26,10 +26,12 @@ namespace {
 constexpr double kFound = 1e-11;
 
 double Steer(const ControllerOptions& options, const Path& path, const Pose2& pose, double station,
-             const SteeringSchedule& schedule = {}, double speed = 3.0, double period = 0.02) {
+             const SteeringSchedule& schedule = {}, double speed = 3.0, double period = 0.02,
+             double time = 0.0) {
   const VehicleParams car = SeedCar();
   const Reference reference{path, StopAtEnd(path.length(), 3.0, {3.0, 1.0, 1.5})};
   VehicleState state;
+  state.time = time;
   state.pose = pose;
   state.speed = speed;
   return MakeSteeringController(options)->Steer({.vehicle = car,
@@ -197,8 +199,23 @@ TEST(ConstantSteeringController, HoldsItsAngle) {
   EXPECT_EQ(Steer(ConstantSteeringOptions{.steering = -0.3}, {}, {1.0, 2.0, 3.0}, 7.0), -0.3);
 }
 
-// --- What every controller of the table owes its caller
-// -------------------------------------------
+TEST(ProfileControllers, GiveTheAngleAtTheEndOfThePeriod) {
+  const auto steer = [](const ControllerOptions& options, double time) {
+    return Steer(options, {}, {1.0, 2.0, 3.0}, 7.0, {}, 3.0, 0.1, time);
+  };
+  const RampSteeringOptions ramp{.end = 0.3, .rate = 0.1, .at = 1.0};
+  EXPECT_NEAR(steer(ramp, 0.95), 0.005, Tolerance(1e-15));
+  EXPECT_NEAR(steer(ramp, 2.0), 0.11, Tolerance(1e-15));
+  EXPECT_EQ(steer(StepSteeringOptions{.amplitude = 0.2, .at = 1.0, .rate = {}}, 0.95), 0.2);
+  const SineSteeringOptions sine{.amplitude = 0.2};
+  EXPECT_EQ(steer(sine, 1.4), SteeringAt(sine, 1.5));
+  const SineWithDwellOptions dwell{.amplitude = 0.2};
+  EXPECT_EQ(steer(dwell, 1.4), SteeringAt(dwell, 1.5));
+  const SweptSineOptions swept{.amplitude = 0.2};
+  EXPECT_EQ(steer(swept, 1.4), SteeringAt(swept, 1.5));
+}
+
+// --- What every controller of the table owes its caller ------------------------------------------
 
 class EveryController : public ::testing::TestWithParam<ControllerEntry> {};
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -29,12 +30,16 @@ Table RoundTrip(const Table& table) {
 }
 
 /// The text of the InputError that reading `content` as "t.csv" gives, without the folder.
-std::string ProblemsOf(const std::string& content) {
+std::string ProblemsOf(const std::string& content, const std::vector<std::string>& needed = {}) {
   const TempFolder folder;
   const std::string file = (folder.path() / "t.csv").string();
   WriteFileAtomically(file, content);
   try {
-    ReadCsv(file);
+    if (needed.empty()) {
+      ReadCsv(file);
+    } else {
+      ReadCsvExcerpt(file, needed);
+    }
   } catch (const InputError& error) {
     std::string text = error.what();
     for (auto at = text.find(file); at != std::string::npos; at = text.find(file)) {
@@ -130,6 +135,13 @@ TEST(ReadCsv, SkipsEmptyLinesAndTakesWindowsEndings) {
   EXPECT_THAT(table.Column("b"), ElementsAre(2.0, 4.0));
 }
 
+TEST(ReadCsv, SkipsAByteOrderMarkAndSpacesAroundCells) {
+  const Table table = Read("\xEF\xBB\xBF a ,\tb\n 1 ,\t2 \n");
+  EXPECT_THAT(table.columns(), ElementsAre("a", "b"));
+  EXPECT_EQ(table.at(0, 0), 1.0);
+  EXPECT_EQ(table.at(0, 1), 2.0);
+}
+
 TEST(ReadCsv, TakesALastLineWithoutItsEnd) {
   EXPECT_THAT(Read("a\n1\n2").Column("a"), ElementsAre(1.0, 2.0));
 }
@@ -153,11 +165,26 @@ TEST(ReadCsv, ListsEveryProblem) {
   EXPECT_EQ(ProblemsOf("a,b\nx,y\n1\n"),
             "t.csv:2: cell 1 (a): 'x' is not a number\n"
             "t.csv:2: cell 2 (b): 'y' is not a number\n"
-            "t.csv:3: 1 cell where the header has 2");
+            "t.csv:3: cell 2 (b): missing; 1 cell, where the header has 2");
+}
+
+TEST(ReadCsv, StopsListingAfterTwenty) {
+  std::string content = "a\n";
+  for (int i = 0; i < 1000; ++i) {
+    content += "x\n";
+  }
+  const std::string problems = ProblemsOf(content);
+  EXPECT_EQ(std::count(problems.begin(), problems.end(), '\n'), 20);
+  EXPECT_TRUE(
+      problems.ends_with("t.csv:21: cell 1 (a): 'x' is not a number\n"
+                         "t.csv: and 980 more problems"))
+      << problems;
 }
 
 TEST(ReadCsv, RefusesRowsOfAnotherLength) {
   EXPECT_EQ(ProblemsOf("a,b\n1,2,3\n"), "t.csv:2: 3 cells where the header has 2");
+  EXPECT_EQ(ProblemsOf("a,b,c,d\n1,2\n"),
+            "t.csv:2: cell 3 (c): missing; 2 cells, where the header has 4");
 }
 
 TEST(ReadCsv, RefusesBadHeaders) {
@@ -175,6 +202,40 @@ TEST(ReadCsv, RefusesAnOpenQuote) {
 
 TEST(ReadCsv, OfAMissingFileIsARunError) {
   EXPECT_THROW(ReadCsv("/nonexistent/t.csv"), RunError);
+}
+
+TEST(ReadCsvExcerpt, TakesTheColumnsAskedForAndLooksAtNoOthers) {
+  const TempFolder folder;
+  const auto file = folder.Write("t.csv",
+                                 "note,b,a,,note,inf\n"
+                                 "slow,2,1,,x,inf\n"
+                                 "\n"
+                                 "\"so, so\",4,3,-,,nan\n");
+  const CsvExcerpt excerpt = ReadCsvExcerpt(file, {"a"}, {"b", "c"});
+  EXPECT_THAT(excerpt.table.columns(), ElementsAre("b", "a"));
+  EXPECT_THAT(excerpt.table.Column("a"), ElementsAre(1.0, 3.0));
+  EXPECT_THAT(excerpt.table.Column("b"), ElementsAre(2.0, 4.0));
+  EXPECT_THAT(excerpt.lines, ElementsAre(2, 4));
+}
+
+TEST(ReadCsvExcerpt, NamesWhatIsMissing) {
+  EXPECT_EQ(ProblemsOf("time,delta\n1,2\n", {"steering_rad"}),
+            "t.csv:1: no column 'steering_rad'; there are: time, delta");
+  EXPECT_EQ(ProblemsOf("t_s,stering_rad\n1,2\n", {"t_s", "steering_rad"}),
+            "t.csv:1: no column 'steering_rad'; did you mean 'stering_rad'?");
+  EXPECT_EQ(ProblemsOf("a,b\n1\n", {"b"}),
+            "t.csv:2: cell 2 (b): missing; 1 cell, where the header has 2");
+  EXPECT_EQ(ProblemsOf("a,a\n1,2\n", {"a"}), "t.csv:1: cell 2 (a): repeated column");
+  EXPECT_EQ(ProblemsOf("", {"a"}),
+            "t.csv:1: empty file where a header line of column names is expected");
+}
+
+TEST(ReadCsvExcerpt, WantsFiniteNumbers) {
+  EXPECT_EQ(ProblemsOf("a,b\n1,\nnan,2\n-inf,x\n", {"a", "b"}),
+            "t.csv:2: cell 2 (b): '' is not a number\n"
+            "t.csv:3: cell 1 (a): 'nan' is not a finite number\n"
+            "t.csv:4: cell 1 (a): '-inf' is not a finite number\n"
+            "t.csv:4: cell 2 (b): 'x' is not a number");
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ TEST(ScenarioKeys, TellTypeUnitDefaultAndWhatIsAllowed) {
   const KeyInfo speed = KeyOf("mission", "speed");
   EXPECT_EQ(speed.type, "number");
   EXPECT_EQ(speed.unit, "m/s");
-  EXPECT_TRUE(speed.required);
+  EXPECT_FALSE(speed.required);
   EXPECT_EQ(speed.fallback, "");
   EXPECT_EQ(speed.allowed, "at least 0.1 and at most 100");
   EXPECT_EQ(KeyOf("drive", "plants").fallback, "[kinematic, mujoco]");
@@ -46,8 +46,11 @@ TEST(ScenarioKeys, TellTypeUnitDefaultAndWhatIsAllowed) {
   EXPECT_EQ(KeyOf("control", "distance", "preview").fallback, "2.5");
   EXPECT_EQ(KeyOf("plan", "constraint", "fillet").allowed, "steering_room, half_leg, none");
   EXPECT_EQ(KeyOf("world.obstacles[N].box", "length").unit, "m");
+  EXPECT_TRUE(KeyOf("world.obstacles[N].box", "length").required);
   EXPECT_EQ(KeyOf("world.wind.gusts[N]", "shape").fallback, "one_minus_cosine");
   EXPECT_EQ(KeyOf("world.wind.gusts[N].area", "length").unit, "m");
+  EXPECT_EQ(KeyOf("control.speed", "over_time").type, "list of knots [t, v]");
+  EXPECT_TRUE(KeyOf("control.speed.braking", "deceleration").required);
   EXPECT_FALSE(KeyOf("expect", "mujoco").required);
 }
 

@@ -5,6 +5,7 @@
 
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/error.h"
+#include "trackbed/scenario/recording_file.h"
 
 namespace trackbed {
 namespace {
@@ -55,6 +56,49 @@ TEST(ReadScenario, StartsAtTheFirstWaypointAlongTheFirstLeg) {
   EXPECT_EQ(moved.pose, (Pose2{5.0, 2.0, 0.0}));
   EXPECT_EQ(moved.speed, 0.0);
   EXPECT_EQ(moved.steering, 0.1);
+}
+
+TEST(ReadScenario, StartsWithTheSpeedThatIsGivenForThen) {
+  const std::string braked =
+      "schema: 1\nname: x\ncontrol: {method: sine, amplitude: 0.01, speed: {over_time: "
+      "[[1, 20], [3, 5]]}}\nmission: ";
+  EXPECT_EQ(StartOf(Parse(braked + "{duration: 5}")).speed, 20.0);
+  EXPECT_EQ(SpeedOf(Parse(braked + "{duration: 5}")), 20.0);
+  EXPECT_EQ(StartOf(Parse(braked + "{speed: 7, duration: 5}")).speed, 20.0);
+  EXPECT_EQ(SpeedOf(Parse(braked + "{speed: 7, duration: 5}")), 7.0);
+  EXPECT_EQ(StartOf(Parse(braked + "{start: {speed: 3}, duration: 5}")).speed, 3.0);
+  const std::string held =
+      "schema: 1\nname: x\ncontrol: {method: sine, amplitude: 0.01}\nmission: ";
+  EXPECT_EQ(SpeedOf(Parse(held + "{start: {speed: 3}, duration: 5}")), 3.0);
+  EXPECT_EQ(ErrorsOf(held + "{duration: 5}"), "test.yaml:4:10: mission.speed: missing");
+}
+
+TEST(ReadScenario, TakesWhatTheMissionDoesNotSayFromTheRecording) {
+  const TempFolder folder;
+  folder.Write("inputs/r.csv",
+               "t_s,s_m,steering_rad,speed_mps\n-1,0,0.2,10\n1,5,0.1,20\n4.5,9,0,5\n");
+  const auto parse = [&](const std::vector<Override>& overrides) {
+    return ParseScenario(
+        "schema: 1\nname: x\nmission: {}\ncontrol: {method: playback, file: inputs/r.csv}\n",
+        "test.yaml", folder.path(), overrides);
+  };
+  const Scenario scenario = parse({});
+  EXPECT_EQ(DurationOf(scenario), 4.5);
+  EXPECT_EQ(StartOf(scenario).speed, 15.0);
+  EXPECT_EQ(SpeedOf(scenario), 15.0);
+  EXPECT_EQ(StartOf(scenario).steering, 0.0);
+  const StartState prescribed = StartOf(parse({"drive.steering=prescribed"}));
+  EXPECT_NEAR(prescribed.steering, 0.15, 1e-15);
+  const Scenario given = parse({"drive.steering=prescribed",
+                                "mission={speed: 3, duration: 2, start: {speed: 4, "
+                                "steering: -0.1}}"});
+  EXPECT_EQ(DurationOf(given), 2.0);
+  EXPECT_EQ(StartOf(given).speed, 4.0);
+  EXPECT_EQ(SpeedOf(given), 3.0);
+  EXPECT_EQ(StartOf(given).steering, -0.1);
+  // Over the distance it has no end in time.
+  EXPECT_EQ(DurationOf(parse({"control.by=distance", "mission.duration=3"})), 3.0);
+  EXPECT_THROW(parse({"control.by=distance"}), InputError);
 }
 
 TEST(ReadScenario, ReportsEveryProblemWithItsPlace) {
@@ -260,12 +304,48 @@ TEST(ReadWorld, ReadsThatSectionAlone) {
   EXPECT_THROW(ReadWorld(folder.Write("c.yaml", "world: {wind: {z: 1}}\n")), InputError);
 }
 
+TEST(ResolvedYaml, KeepsManoeuvres) {
+  const std::string once = ResolvedYaml(
+      Parse("schema: 1\nname: x\nmission: {duration: 5}\n"
+            "control: {method: step, amplitude: 0.1, rate: 0.4, speed: {over_time: [[0, 20], [2, "
+            "5.5]], braking: {at: 3, deceleration: 8}}}\n"));
+  EXPECT_EQ(once, ResolvedYaml(Parse(once)));
+  for (const char* text : {"rate: 0.4", "over_time: [[0, 20], [2, 5.5]]", "deceleration: 8"}) {
+    EXPECT_THAT(once, testing::HasSubstr(text));
+  }
+}
+
 TEST(ResolvedYaml, FindsAModelGivenByPathFromAnywhere) {
   const TempFolder folder;
   const auto car = folder.Write("cars/car.xml", "<mujoco/>");
   const Scenario scenario =
       ParseScenario(kSmall, "test.yaml", folder.path(), {"vehicle.model=cars/car.xml"});
   EXPECT_THAT(ResolvedYaml(scenario), testing::HasSubstr("model: " + car.string()));
+}
+
+TEST(ResolvedYaml, FindsARecordingFromAnywhere) {
+  const TempFolder folder;
+  const auto file = folder.Write("inputs/r.csv", "time,steering_rad,speed_mps\n0,0,9\n2,0.1,9\n");
+  const std::string once = ResolvedYaml(ParseScenario(
+      "schema: 1\nname: x\nmission: {}\ncontrol: {method: playback, file: inputs/../inputs/r.csv, "
+      "columns: {time: time}}\n",
+      "test.yaml", folder.path()));
+  EXPECT_THAT(once, testing::HasSubstr("file: " + file.string() + "\n"));
+  EXPECT_THAT(once, testing::HasSubstr("duration: 2\n"));
+  EXPECT_THAT(once, testing::HasSubstr("speed: 9\n"));
+  EXPECT_EQ(once, ResolvedYaml(Parse(once)));
+}
+
+TEST(PlaybackLaneChange, IsOnePeriodOfASine) {
+  const Recording recording =
+      ReadRecording(std::string(TRACKBED_SOURCE_DIR) + "/scenarios/playback_lane_change.csv",
+                    PlaybackAxis::kTime);
+  const SineSteeringOptions sine{.amplitude = 0.04, .frequency = 0.4, .cycles = 1.0, .at = 1.0};
+  ASSERT_EQ(recording.steering.knots.size(), 501U);
+  for (const Vec2& knot : recording.steering.knots) {
+    EXPECT_NEAR(knot.y(), SteeringAt(sine, knot.x()), 0.500001e-6);  // six decimals
+    EXPECT_EQ(recording.speed.At(knot.x()), 15.0);
+  }
 }
 
 class ScenarioFiles : public testing::TestWithParam<std::filesystem::path> {};

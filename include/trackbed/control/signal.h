@@ -7,7 +7,8 @@
 namespace trackbed {
 
 /// A quantity known at some points: linear between knots (x, value), held before the first and
-/// after the last. Its functions need at least one knot; x rises strictly.
+/// after the last. x rises strictly. Without knots it has no
+/// values: to ask for one is an InternalError.
 struct Signal {
   std::vector<Vec2> knots;
 

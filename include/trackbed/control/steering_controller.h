@@ -5,7 +5,9 @@
 #include <variant>
 #include <vector>
 
+#include "trackbed/control/playback.h"
 #include "trackbed/control/speed_controller.h"
+#include "trackbed/control/steering_profile.h"
 #include "trackbed/path/reference.h"
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/state.h"
@@ -64,12 +66,11 @@ struct PreviewOptions {
   PreviewLaw law = PreviewLaw::kExactArc;
 };
 
-/// A steering angle held for the whole drive; needs no plan.
-struct ConstantSteeringOptions {
-  double steering = 0.0;  ///< [rad]
-};
-
-using ControllerOptions = std::variant<ScheduleOptions, PreviewOptions, ConstantSteeringOptions>;
+/// With the manoeuvres of steering_profile.h and recorded inputs, which need no plan.
+using ControllerOptions =
+    std::variant<ScheduleOptions, PreviewOptions, ConstantSteeringOptions, StepSteeringOptions,
+                 RampSteeringOptions, SineSteeringOptions, SineWithDwellOptions, SweptSineOptions,
+                 PlaybackOptions>;
 
 /// Where a controller takes the station from.
 enum class StationSource {

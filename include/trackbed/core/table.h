@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "trackbed/core/error.h"
+
 namespace trackbed {
 
 /// A table of numbers with named columns, as the CSV files of a run are: one header line of names
@@ -40,7 +42,24 @@ class Table {
 
 /// Reads a CSV file with a header line (RFC 4180 through libcsv). InputError with file and line for
 /// a cell that is not a number or a repeated or empty column name (each with the number of its
-/// cell), a row of the wrong length, or an empty file. Empty lines are skipped.
+/// cell), a row of the wrong length, or an empty file; of more than twenty problems the first.
+/// Empty lines, spaces around cells and a byte order mark are skipped.
 Table ReadCsv(const std::filesystem::path& file);
+
+/// The first twenty problems of a file, and how many more there are: a long file can be wrong in
+/// every row, and nobody reads more.
+std::vector<Problem> FirstProblems(std::vector<Problem> problems);
+
+/// Some columns of a CSV file that others have written.
+struct CsvExcerpt {
+  Table table;             ///< the columns asked for that the file has, in its own order
+  std::vector<int> lines;  ///< where the table's rows stand in the file, from 1
+};
+
+/// Reads the columns `needed`, at least one, and those of `optional` that there are; what stands in
+/// others, as names or as cells, is not looked at. InputError as ReadCsv, and for a needed column
+/// that is missing (with the nearest spelling) and a cell that is not finite.
+CsvExcerpt ReadCsvExcerpt(const std::filesystem::path& file, std::vector<std::string> needed,
+                          std::vector<std::string> optional = {});
 
 }  // namespace trackbed

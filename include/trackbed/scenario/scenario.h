@@ -23,15 +23,18 @@ struct VehicleSpec {
 
 /// Where the car starts; what is not given follows from the mission.
 struct StartSpec {
-  std::optional<double> x;      ///< [m]; default: the first waypoint, or 0
-  std::optional<double> y;      ///< [m]
-  std::optional<double> yaw;    ///< [rad]; default: along the first leg, or 0
-  std::optional<double> speed;  ///< [m/s]; default: the mission's speed
-  double steering = 0.0;        ///< bicycle angle of wheels and actuator [rad]
+  std::optional<double> x;    ///< [m]; default: the first waypoint, or 0
+  std::optional<double> y;    ///< [m]
+  std::optional<double> yaw;  ///< [rad]; default: along the first leg, or 0
+  /// [m/s]; default: what is recorded or given over time for the start, or the mission's speed
+  std::optional<double> speed;
+  /// Bicycle angle of wheels and actuator [rad]; default: what is recorded for the start if the
+  /// wheels' angle is prescribed, else 0
+  std::optional<double> steering;
 };
 
 struct MissionSpec {
-  double speed = 0.0;              ///< [m/s]
+  double speed = 0.0;              ///< [m/s]; 0: not given, for missions without a plan
   std::vector<Vec2> waypoints;     ///< [m]
   std::optional<double> duration;  ///< [s]; ends the drive, for missions without a goal
   StartSpec start;
@@ -133,7 +136,8 @@ World ReadWorld(const std::filesystem::path& file);
 void CheckScenario(const Scenario& scenario);
 
 /// The scenario with every default filled in, as YAML that ReadScenario reads back to an equal one
-/// from any folder: a model given by its path is written with its absolute path.
+/// from any folder: a model given by its path and a recording are written with their absolute
+/// paths.
 std::string ResolvedYaml(const Scenario& scenario);
 
 /// The keys of a method's options with their values, on one line: "distance: 2.5, law: exact_arc".
@@ -141,7 +145,17 @@ std::string OptionDefaults(const PlannerOptions& options);
 std::string OptionDefaults(const AvoiderOptions& options);
 std::string OptionDefaults(const ControllerOptions& options);
 
+/// The recording that is replayed, if one is; it lives as long as the scenario.
+const Recording* RecordingOf(const Scenario& scenario);
+
 /// Where the car starts, with the mission's defaults filled in.
 StartState StartOf(const Scenario& scenario);
+
+/// When the drive ends [s]: the mission's duration, or without a plan the end of a recording over
+/// time. None: at the goal.
+std::optional<double> DurationOf(const Scenario& scenario);
+
+/// The speed to keep [m/s]: the mission's, or that of the start if it gives none.
+double SpeedOf(const Scenario& scenario);
 
 }  // namespace trackbed

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "trackbed/control/signal.h"
+
+/// Recorded inputs, replayed on any plant.
+namespace trackbed {
+
+/// What a recording runs over.
+enum class PlaybackAxis {
+  kTime,      ///< since the drive began [s]
+  kDistance,  ///< that the car has driven [m]
+};
+
+/// The inputs of a drive; all over the same axis. At most one of speed and acceleration is there;
+/// empty signals say nothing.
+struct Recording {
+  Signal steering{{{0.0, 0.0}}};  ///< bicycle angle [rad], positive to the left; not empty
+  Signal speed;                   ///< of the rear axle [m/s], >= 0
+  Signal acceleration;            ///< dv/dt [m/s^2]
+};
+
+/// The names of a recording's columns in its file. Those that are not given have the default name:
+/// `t_s`, `s_m`, `steering_rad`, `speed_mps`, `acceleration_mps2`.
+struct RecordingColumns {
+  std::optional<std::string> time;
+  std::optional<std::string> distance;
+  std::optional<std::string> steering;
+  std::optional<std::string> speed;
+  std::optional<std::string> acceleration;
+};
+
+/// A recording replayed, open loop, over the coming period (x the axis, T the period):
+///   steering      the recorded angle where the period ends, at t + T or D + abs(v) T
+///   speed         its change over the period by T, plus gain times the speed error (SpeedAlong)
+///   acceleration  its mean over the period
+/// so that on a car that obeys exactly what was recorded is there at every control period. Before
+/// the first row and after the last the values are held. By distance, a recorded speed of zero is
+/// where the car stays.
+struct PlaybackOptions {
+  std::string file;  ///< where the recording was read; empty for one that was filled in by hand
+  PlaybackAxis by = PlaybackAxis::kTime;
+  RecordingColumns columns;
+  Recording recording;
+};
+
+/// The angle [rad] that is wanted after `period` [s] of a car with `speed` [m/s] that is at `x`.
+double PlaybackSteering(const PlaybackOptions& options, double x, double speed, double period);
+
+/// The acceleration [m/s^2] wanted over the period; none where the recording has neither speed nor
+/// acceleration.
+std::optional<double> PlaybackAcceleration(const PlaybackOptions& options, double x, double speed,
+                                           double gain, double period);
+
+}  // namespace trackbed

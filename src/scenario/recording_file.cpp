@@ -1,0 +1,121 @@
+#include "trackbed/scenario/recording_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "src/scenario/yaml_field.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/table.h"
+
+namespace trackbed {
+namespace {
+
+/// Turns the columns of an excerpt into signals, with every problem on the way.
+class Excerpt {
+ public:
+  Excerpt(const std::filesystem::path& file, CsvExcerpt excerpt, std::string axis)
+      : file_(file.string()), excerpt_(std::move(excerpt)), axis_name_(std::move(axis)) {
+    axis_ = excerpt_.table.Column(axis_name_);
+    if (axis_.empty()) {
+      problems_.push_back({.file = file_, .line = 1, .message = "no rows follow the header"});
+    }
+    for (std::size_t row = 1; row < axis_.size(); ++row) {
+      if (axis_[row] <= axis_[row - 1]) {
+        Complain(
+            row, axis_name_,
+            fmt::format("{} is not after the {} of the row before", axis_[row], axis_[row - 1]));
+      }
+    }
+  }
+
+  [[nodiscard]] bool Has(const std::string& column) const {
+    return excerpt_.table.Find(column) >= 0;
+  }
+
+  /// Empty when there is no such column. The last row may lie in another range.
+  Signal Column(const std::string& column, Range range, Range last) {
+    Signal signal;
+    if (!Has(column)) {
+      return signal;
+    }
+    const std::vector<double> values = excerpt_.table.Column(column);
+    for (std::size_t row = 0; row < values.size(); ++row) {
+      const Range& own = row + 1 == values.size() ? last : range;
+      if (values[row] < own.min || values[row] > own.max || values[row] <= own.above) {
+        Complain(row, column,
+                 fmt::format("{} is out of range; must be {}", values[row], AllowedBy(own)));
+      }
+      signal.knots.emplace_back(axis_[row], values[row]);
+    }
+    return signal;
+  }
+
+  Signal Column(const std::string& column, Range range) { return Column(column, range, range); }
+
+  /// InputError unless all is well, in the order of the file.
+  void Finish() {
+    if (problems_.empty()) {
+      return;
+    }
+    std::stable_sort(problems_.begin(), problems_.end(),
+                     [](const Problem& a, const Problem& b) { return a.line < b.line; });
+    throw InputError(FirstProblems(std::move(problems_)));
+  }
+
+ private:
+  void Complain(std::size_t row, const std::string& column, std::string message) {
+    problems_.push_back({file_, excerpt_.lines[row], 0, column, std::move(message)});
+  }
+
+  std::string file_;
+  CsvExcerpt excerpt_;
+  std::string axis_name_;
+  std::vector<double> axis_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+Recording ReadRecording(const std::filesystem::path& file, PlaybackAxis by,
+                        const RecordingColumns& columns) {
+  if (columns.speed && columns.acceleration) {
+    throw InputError(
+        Problem{.key = "control.columns", .message = "give speed or acceleration, not both"});
+  }
+  const bool by_distance = by == PlaybackAxis::kDistance;
+  const std::string axis =
+      by_distance ? columns.distance.value_or("s_m") : columns.time.value_or("t_s");
+  const std::string steering = columns.steering.value_or("steering_rad");
+  const std::string speed = columns.speed.value_or("speed_mps");
+  const std::string acceleration = columns.acceleration.value_or("acceleration_mps2");
+  std::vector<std::string> needed{axis, steering};
+  std::vector<std::string> optional;
+  if (columns.speed || columns.acceleration) {
+    needed.push_back(columns.speed ? speed : acceleration);
+  } else {
+    optional = {speed, acceleration};
+  }
+  Excerpt excerpt(file, ReadCsvExcerpt(file, needed, optional), axis);
+  if (!optional.empty() && excerpt.Has(speed) && excerpt.Has(acceleration)) {
+    throw InputError(
+        Problem{.file = file.string(),
+                .line = 1,
+                .message = fmt::format("has both '{}' and '{}'; choose one in control.columns",
+                                       speed, acceleration)});
+  }
+  Recording recording;
+  recording.steering = excerpt.Column(steering, kSteering);
+  const Range moving{.max = kSpeed.max, .above = 0.0};
+  if (!columns.acceleration) {
+    recording.speed = excerpt.Column(speed, by_distance ? moving : kSpeed, kSpeed);
+  }
+  if (!columns.speed) {
+    recording.acceleration = excerpt.Column(acceleration, {});
+  }
+  excerpt.Finish();
+  return recording;
+}
+
+}  // namespace trackbed
