@@ -58,6 +58,7 @@ std::vector<std::string> PossibleOutputs(const Scenario& scenario) {
   for (const std::string& plant : scenario.drive.plants) {
     PlantMetrics metrics;
     metrics.plant = plant;
+    metrics.yaw_rate_ratio = 1.0;
     if (scenario.plan) {
       metrics.tracking.emplace();
       metrics.blocked = scenario.plan->avoid ? "why" : "";

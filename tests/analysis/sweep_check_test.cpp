@@ -78,9 +78,11 @@ TEST(CheckStudy, NamesCarsThatLackWhatAPlantAsksOfThem) {
                                      "']\n  vehicle.tyre: [contact, magic_formula]\n"));
     });
   };
-  EXPECT_EQ(error("mujoco"),
-            "the car small_car has no tyre coefficients (<custom> p_cx1, p_dx1, …); "
-            "tyre: magic_formula needs them");
+  EXPECT_EQ(
+      error("mujoco"),
+      "bare.xml: the car small_car has no tyre coefficients; tyre: magic_formula needs them in "
+      "<custom>: p_cx1, p_dx1, p_kx1, p_cy1, p_dy1 and p_ky1, of both axles under these names "
+      "or of each with _front and _rear");
   EXPECT_EQ(error("mujoco:contact"), "no error");
   EXPECT_EQ(error("kinematic"), "no error");
 }
@@ -113,6 +115,36 @@ TEST(DriveOnce, ComesToWhatARunOfTheScenarioComesTo) {
       EXPECT_THAT(possible, testing::Contains(output.first));
     }
   }
+}
+
+/// Keys of every section that the physics can feel; sections of the world come first, so that
+/// what is compiled for one of them would be seen in those after it.
+const std::string kEveryKind = R"(set: {drive.time_limit: 1, expect: {}}
+list:
+  - {world.ground.grade.x: 0.05}
+  - {world.ground.grade.x: 0.0}
+  - {world.ground.bumps: [{x: 4, y: 0, length: 2, width: 4}]}
+  - {world.friction: 0.05, mission.start.speed: 0.5}
+  - {world.wind.x: -30}
+  - {vehicle.tyre: magic_formula}
+  - {vehicle.model: bmw320i}
+  - {drive.plants: [kinematic]}
+  - {drive.plants: ["mujoco:magic_formula"]}
+  - {drive.timestep: 0.004}
+  - {mission.speed: 2, mission.start.speed: 0.5, plan.radius: 6}
+outputs: [metrics.mujoco.distance]
+)";
+
+TEST(DriveOnce, DrivesEveryPointAsIfItWereAlone) {
+  const TempFolder folder;
+  const CheckedStudy checked = CheckStudy(StudyOf(folder, kEveryKind));
+  std::set<Outputs> different;
+  for (const StudyPoint& point : checked.points) {
+    const std::optional<RunOutcome> outcome = DriveOnce(checked, point.scenario);
+    EXPECT_EQ(outcome->outputs, OutputsOf(RunMission(point.scenario))) << point.settings[0].key;
+    different.insert(outcome->outputs);
+  }
+  EXPECT_EQ(different.size(), checked.points.size());  // so that a mix-up would show
 }
 
 TEST(DriveOnce, TellsThatThereIsNoPlan) {
