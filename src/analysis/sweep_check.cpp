@@ -8,9 +8,12 @@
 namespace trackbed {
 namespace {
 
+using CarKey = decltype(CheckedStudy::cars)::key_type;
+
 /// What tells the cars of scenarios with a bare world apart.
-std::pair<std::string, double> CarOf(const Scenario& scenario) {
-  return {FindModel(scenario.vehicle.model, scenario.folder).string(), scenario.drive.timestep};
+CarKey CarOf(const Scenario& scenario) {
+  return {FindModel(scenario.vehicle.model, scenario.folder).string(), scenario.drive.timestep,
+          scenario.vehicle.steering_rate.value_or(0.0)};
 }
 
 /// Whether the world puts nothing into the car's scene.
@@ -20,7 +23,7 @@ bool IsBare(const World& world) {
 
 void CompileCars(CheckedStudy& checked) {
   std::vector<Problem> problems;
-  std::set<std::pair<std::string, double>> tried;
+  std::set<CarKey> tried;
   for (const StudyPoint& point : checked.points) {
     Scenario scenario = point.scenario;
     scenario.world.obstacles.clear();
@@ -43,7 +46,7 @@ void CompileCars(CheckedStudy& checked) {
 /// Puts every car once on each of its plants: not every car has what every plant asks of it.
 void CheckPlants(const CheckedStudy& checked) {
   std::vector<Problem> problems;
-  std::set<std::tuple<std::pair<std::string, double>, std::string, TyreLaw>> tried;
+  std::set<std::tuple<CarKey, std::string, TyreLaw>> tried;
   const World bare;
   for (const StudyPoint& point : checked.points) {
     const auto car = CarOf(point.scenario);

@@ -167,7 +167,9 @@ double WantedAcceleration(const SpeedControlOptions& options, SteeringController
 
 CarModel LoadCar(const Scenario& scenario) {
   const auto file = FindModel(scenario.vehicle.model, scenario.folder);
-  CarModel car(ComposeScene(file, {.timestep = scenario.drive.timestep}), file.string());
+  CarModel car(ComposeScene(file, {.timestep = scenario.drive.timestep,
+                                   .steering_rate = scenario.vehicle.steering_rate}),
+               file.string());
   if (scenario.world.obstacles.empty() && IsFlat(scenario.world.ground)) {
     return car;
   }

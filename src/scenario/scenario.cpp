@@ -144,6 +144,10 @@ RenderSpec ReadRenderSpec(const std::filesystem::path& file) {
   return ReadSection<RenderSpec>(file, kRenderSection);
 }
 
+VehicleSpec ReadVehicleSpec(const std::filesystem::path& file) {
+  return ReadSection<VehicleSpec>(file, kVehicleSection);
+}
+
 World ReadWorld(const std::filesystem::path& file) {
   return ReadSection<World>(file, kWorldSection);
 }

@@ -11,6 +11,7 @@
 namespace trackbed {
 
 inline constexpr Key kRenderSection{"render", "", "how the run is filmed"};
+inline constexpr Key kVehicleSection{"vehicle", "", "the car"};
 
 inline Names PlantNames() {
   Names names;
@@ -29,6 +30,8 @@ void Visit(Archive& a, VehicleSpec& vehicle) {
   a.Field({"tyre", "", "what holds the plant mujoco to the road"}, vehicle.tyre, Need::kOptional,
           laws);
 }
+  a.Field({"steering_rate", "rad/s", "of the road wheels, instead of the car's own"},
+          vehicle.steering_rate, Range{.max = 10.0, .above = 0.0});
 
 template <typename Archive>
 void Visit(Archive& a, StartSpec& start) {
@@ -305,7 +308,7 @@ void Visit(Archive& a, Scenario& scenario) {
           Range{.min = 1, .max = 1});
   a.Identifier({"name", "", "names the run and its folder"}, scenario.name);
   a.Field({"seed", "", "of every random choice"}, scenario.seed, Need::kOptional);
-  a.Section({"vehicle", "", "the car"}, scenario.vehicle);
+  a.Section(kVehicleSection, scenario.vehicle);
   a.Section({"mission", "", "where to drive, and how fast"}, scenario.mission, Need::kRequired);
   a.Section(kWorldSection, scenario.world);
   VisitPlan(a, scenario.plan);

@@ -162,6 +162,20 @@ void GatherAssets(XMLElement& root, const fs::path& file, const fs::path& folder
   }
 }
 
+/// The rate of the steering gear is the range of its actuator's control.
+void SetSteeringRate(XMLElement& root, double rate) {
+  for (XMLElement* section = root.FirstChildElement("actuator"); section != nullptr;
+       section = section->NextSiblingElement("actuator")) {
+    for (XMLElement* actuator = section->FirstChildElement(); actuator != nullptr;
+         actuator = actuator->NextSiblingElement()) {
+      const char* name = actuator->Attribute("name");
+      if (name != nullptr && std::string_view(name) == "steer") {
+        actuator->SetAttribute("ctrlrange", Numbers({-rate, rate}).c_str());
+      }
+    }
+  }
+}
+
 }  // namespace
 
 fs::path DataFolder() {
@@ -213,6 +227,9 @@ Scene ComposeScene(const fs::path& car_file, const SceneOptions& options) {
 
   Scene scene;
   GatherAssets(root, car_file, folder, scene);
+  if (options.steering_rate) {
+    SetSteeringRate(root, *options.steering_rate);
+  }
   // Of several <option> elements the last one wins.
   XMLElement* option = document.NewElement("option");
   option->SetAttribute("timestep", fmt::format("{}", options.timestep).c_str());

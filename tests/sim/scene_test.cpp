@@ -8,6 +8,7 @@
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/sim/car_model.h"
 
 namespace trackbed {
 namespace {
@@ -46,6 +47,13 @@ TEST(ComposeScene, SetsTheTimestepLast) {
   const auto file = folder.Write("car.xml", "<mujoco><option timestep='0.1'/></mujoco>");
   const Scene scene = ComposeScene(file, {.timestep = 0.004});
   EXPECT_LT(scene.xml.find("timestep=\"0.1\""), scene.xml.find("timestep=\"0.004\""));
+}
+
+TEST(ComposeScene, SetsTheSteeringRate) {
+  const auto file = FindModel("bmw320i", "");
+  const Scene scene = ComposeScene(file, {.steering_rate = 0.75});
+  EXPECT_EQ(CarModel(scene, "bmw320i").params().steering_rate, 0.75);
+  EXPECT_EQ(CarModel(ComposeScene(file, {}), "bmw320i").params().steering_rate, 0.4);
 }
 
 TEST(ComposeScene, PutsIncludedFilesInPlace) {

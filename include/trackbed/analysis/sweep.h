@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -41,9 +42,9 @@ using RunScenarioOnce = std::function<std::optional<RunOutcome>(const Scenario& 
 struct CheckedStudy {
   Study study;
   std::vector<StudyPoint> points;
-  /// By the model's file and the timestep: compiled once, for scenarios on flat ground without
-  /// obstacles.
-  std::map<std::pair<std::string, double>, CarModel> cars;
+  /// By the model's file, the timestep and the steering rate (0: the car's own): compiled once, for
+  /// scenarios on flat ground without obstacles.
+  std::map<std::tuple<std::string, double, double>, CarModel> cars;
 };
 
 /// Reads every point of the study's grid, compiles its cars, puts them on their plants, and looks

@@ -18,7 +18,8 @@ namespace trackbed {
 
 struct VehicleSpec {
   std::string model = "prius";  ///< a name under models/, or a path relative to the scenario file
-  TyreLaw tyre = TyreLaw::kContact;  ///< of the plant `mujoco`
+  TyreLaw tyre = TyreLaw::kContact;     ///< of the plant `mujoco`
+  std::optional<double> steering_rate;  ///< at the road wheels, instead of the car's [rad/s]
 };
 
 /// Where the car starts; what is not given follows from the mission.
@@ -139,6 +140,9 @@ void CheckScenario(const Scenario& scenario);
 /// from any folder: a model given by its path and a recording are written with their absolute
 /// paths.
 std::string ResolvedYaml(const Scenario& scenario);
+/// The `vehicle` section alone, likewise.
+VehicleSpec ReadVehicleSpec(const std::filesystem::path& file);
+
 
 /// The keys of a method's options with their values, on one line: "distance: 2.5, law: exact_arc".
 std::string OptionDefaults(const PlannerOptions& options);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@ namespace trackbed {
 
 /// What a run decides about the physics, whatever the car's own file says for MuJoCo's viewer.
 struct SceneOptions {
-  double timestep = 0.002;  ///< [s]
+  double timestep = 0.002;              ///< [s]
+  std::optional<double> steering_rate;  ///< at the road wheels, instead of the car's [rad/s]
 };
 
 /// A file the composed model refers to, under the name it is referred to by.
