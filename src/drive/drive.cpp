@@ -186,6 +186,7 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
   }
   const PlanRequest request{.vehicle = vehicle,
                             .waypoints = scenario.mission.waypoints,
+                            .start = start.pose,
                             .start_speed = start.speed,
                             .speed = SpeedLimitsOf(scenario),
                             .seed = scenario.seed};

@@ -1,5 +1,7 @@
 #include "trackbed/planning/planner.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "src/planning/fillet_layout.h"
@@ -145,12 +147,68 @@ Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
   return plan;
 }
 
+Plan PlanWith(const LaneChangePlannerOptions& options, const PlanRequest& request) {
+  const Pose2& start = request.start;
+  const Vec2 first = ToWorld(start, Vec2(options.lead_in, 0.0));
+  Plan plan;
+  plan.gates = LaneChangeGates(options.standard, options.first, request.vehicle.width,
+                               {first.x(), first.y(), start.yaw});
+  const double speed = request.speed.speed;
+  const double stop = 0.5 * speed * speed / request.speed.deceleration;
+  const std::vector<Segment> segments = LaneChangePath(options, plan.gates, start, stop);
+  for (const Segment& segment : segments) {
+    const double steering = std::abs(SteeringForCurvature(request.vehicle, segment.curvature));
+    if (steering > request.vehicle.steering_limit) {
+      plan.gates.clear();
+      plan.status = PlanStatus::kTurnTooTight;
+      plan.reason = fmt::format(
+          "between the gates the car would have to steer {:.3f} rad; it can steer {:.3f} rad",
+          steering, request.vehicle.steering_limit);
+      return plan;
+    }
+  }
+  plan.reference.path = Path(start, segments);
+  const Path& path = plan.reference.path;
+  plan.reference.speed = StopAtEnd(path.length(), request.start_speed, request.speed);
+  plan.schedule_speed = plan.reference.speed;
+  plan.goal = path.At(path.length()).pose;
+
+  constexpr double kSpacing = 0.5;  // [m]
+  std::vector<SteeringSchedule::Knot> knots;
+  std::vector<Pose2> poses;
+  for (const PathPoint& point : path.Sample(kSpacing)) {
+    knots.push_back({point.s, SteeringForCurvature(request.vehicle, point.curvature)});
+    poses.push_back(point.pose);
+  }
+  plan.schedule = SteeringSchedule::Through(std::move(knots));
+
+  json& out = plan.diagnostics;
+  out["turns"] = json::array();
+  out["gates"] = json::array();
+  const std::vector<double> margins = GateMargins(plan.gates, request.vehicle, poses);
+  for (std::size_t i = 0; i < plan.gates.size(); ++i) {
+    const OrientedBox& lane = plan.gates[i].lane;
+    json cones = json::array();
+    for (const Vec2& cone : ConesOf(plan.gates[i])) {
+      cones.push_back(Point(cone));
+    }
+    out["gates"].push_back({{"section", plan.gates[i].section},
+                            {"cones_m", cones},
+                            {"length_m", lane.length},
+                            {"width_m", lane.width},
+                            {"planned_margin_m", margins[i]}});
+  }
+  return plan;
+}
+
 }  // namespace
 
 const std::vector<PlannerEntry>& Planners() {
   static const std::vector<PlannerEntry> table{
       {"fillet", "straight legs and arcs of the largest radius the steering rate allows (C.1-C.40)",
        FilletOptions{}, kFewestFilletWaypoints},
+      {"lane_change", "through the gates of a double lane change (ISO 3888)",
+       LaneChangePlannerOptions{}, 0},
   };
   return table;
 }
@@ -183,6 +241,12 @@ Plan MakePlan(const PlanRequest& request, const PlannerOptions& options) {
                      speed.speed > 0.0 && speed.acceleration > 0.0 && speed.deceleration > 0.0,
                  "start speed {}, speed {}, acceleration {}, deceleration {}", request.start_speed,
                  speed.speed, speed.acceleration, speed.deceleration);
+  const Pose2& start = request.start;
+  TRACKBED_CHECK(std::isfinite(start.x) && std::isfinite(start.y) && std::isfinite(start.yaw),
+                 "start at {}, {}, {}", start.x, start.y, start.yaw);
+  for (const Vec2& point : request.waypoints) {
+    TRACKBED_CHECK(point.allFinite(), "waypoint {}, {}", point.x(), point.y());
+  }
   return std::visit([&](const auto& own) { return PlanWith(own, request); }, options);
 }
 

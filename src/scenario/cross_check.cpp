@@ -105,6 +105,11 @@ class CrossCheck {
     }
     if (scenario_.plan && waypoints.size() < FewestWaypoints(scenario_.plan->global)) {
       const std::string given = waypoints.empty() ? "none" : std::to_string(waypoints.size());
+    if (scenario_.plan && FewestWaypoints(scenario_.plan->global) == 0 && !waypoints.empty() &&
+        CouldReadPlan({"method"})) {
+      Complain("mission.waypoints", fmt::format("a plan by {} has its own course; leave them out",
+                                                PlannerName(scenario_.plan->global)));
+    }
       Complain("mission.waypoints", fmt::format("{} given; a plan by {} needs at least {}", given,
                                                 PlannerName(scenario_.plan->global),
                                                 FewestWaypoints(scenario_.plan->global)));

@@ -137,6 +137,25 @@ void Visit(Archive& a, FilletOptions& options) {
 }
 
 template <typename Archive>
+template <typename Archive>
+void Visit(Archive& a, LaneChangePlannerOptions& options) {
+  static const EnumNames<LaneChangeStandard> standards{
+      {LaneChangeStandard::kIso3888_1, "iso_3888_1"},
+      {LaneChangeStandard::kIso3888_2, "iso_3888_2"}};
+  a.Field({"standard", "", "whose gates"}, options.standard, Need::kOptional, standards);
+  static const EnumNames<Side> sides{{Side::kLeft, "left"}, {Side::kRight, "right"}};
+  a.Field({"first", "", "to which side the first change is"}, options.first, Need::kOptional,
+          sides);
+  a.Field({"lead_in", "m", "from the start to the first gate"}, options.lead_in, Need::kOptional,
+          kPositive);
+  a.Field({"lead_out", "m", "straight on after the last gate, before stopping"}, options.lead_out,
+          Need::kOptional, kPositive);
+  a.Field({"leave", "m", "the rear axle leaves a gate's middle so far before its end"},
+          options.leave, Need::kOptional, Range{.min = -5.0, .max = 5.0});
+  a.Field({"join", "m", "and is on the next one's so far after its beginning"}, options.join,
+          Need::kOptional, Range{.min = -5.0, .max = 5.0});
+}
+
 void Visit(Archive& a, BezierAvoidanceOptions& options) {
   a.Field({"safe_distance", "m", "of the car's outline from obstacles"}, options.safe_distance,
           Need::kOptional, kNotNegative);

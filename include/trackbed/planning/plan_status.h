@@ -8,7 +8,7 @@ enum class PlanStatus {
   kTooFewWaypoints,     ///< a route needs at least three
   kDuplicateWaypoints,  ///< a leg of no length
   kUTurn,               ///< a leg turns back on itself: no fillet joins it
-  kTurnTooTight,        ///< even the smallest radius does not fit (C.34, or a radius below it)
+  kTurnTooTight,        ///< tighter than the car can steer, or no radius fits (C.34)
   kNoRoomForSteering,   ///< C.40 has no radius: the legs leave no distance for turning the wheels
   kTurnsOverlap,        ///< given radii need more of a leg than it has
   kSearchFailed,        ///< the search ended without a point that keeps the constraints

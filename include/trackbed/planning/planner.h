@@ -9,6 +9,7 @@
 
 #include "trackbed/path/reference.h"
 #include "trackbed/planning/fillet.h"
+#include "trackbed/planning/lane_change.h"
 #include "trackbed/planning/rrt_star.h"
 #include "trackbed/planning/turn_prediction.h"
 #include "trackbed/vehicle/params.h"
@@ -22,6 +23,7 @@ namespace trackbed {
 struct PlanRequest {
   VehicleParams vehicle;
   std::vector<Vec2> waypoints;  ///< [m]
+  Pose2 start;                  ///< where the car is
   double start_speed = 0.0;     ///< [m/s]
   SpeedLimits speed;            ///< the mission's speed and how to change it
   std::uint64_t seed = 0;       ///< of every random choice
@@ -38,6 +40,7 @@ struct Plan {
   Pose2 goal;                   ///< where the mission ends: the path too, unless it is blocked
   /// Why the path ends before the goal, for people; empty when it does not.
   std::string blocked;
+  std::vector<Gate> gates;        ///< that it leads through
   std::vector<LoneTurn> turns;    ///< whose cost to an open-loop drive can be told
   nlohmann::json diagnostics;     ///< the method's own findings, as in plan.json
   std::vector<RrtStarNode> tree;  ///< of every RRT* that was used, one after the other
@@ -46,13 +49,13 @@ struct Plan {
 };
 
 /// The options of one planner; which alternative it holds says which planner is meant.
-using PlannerOptions = std::variant<FilletOptions>;
+using PlannerOptions = std::variant<FilletOptions, LaneChangePlannerOptions>;
 
 struct PlannerEntry {
   const char* name;
   const char* summary;
   PlannerOptions defaults;
-  std::size_t fewest_waypoints;  ///< that it can plan with
+  std::size_t fewest_waypoints;  ///< that it can plan with; 0: it needs no route
 };
 
 /// Every planner there is.
