@@ -113,21 +113,27 @@ double TitlePanel(const Layout& layout) {
   return TitleSize(layout) + 0.8 * layout.pad;
 }
 
-void DrawTitle(Canvas& canvas, const Font& font, const Layout& layout, const std::string& title) {
+/// Where the panel of a line begins, 0 the title's.
+double TopOfLine(const Layout& layout, int line) {
+  return layout.margin + line * (TitlePanel(layout) + 0.5 * layout.pad);
+}
+
+void DrawLine(Canvas& canvas, const Font& font, const Layout& layout, int line,
+              const std::string& text) {
   const double size = TitleSize(layout);
-  const double tall = TitlePanel(layout);
-  canvas.Fill({layout.margin, layout.margin, font.Width(title, size) + 2.0 * layout.pad, tall},
+  const double top = TopOfLine(layout, line);
+  canvas.Fill({layout.margin, top, font.Width(text, size) + 2.0 * layout.pad, TitlePanel(layout)},
               0.7 * layout.pad, kPanel, kPanelAlpha);
-  canvas.Text(layout.margin + layout.pad, layout.margin + 0.4 * layout.pad, title, size, kValue);
+  canvas.Text(layout.margin + layout.pad, top + 0.4 * layout.pad, text, size, kValue);
 }
 
 /// An arrow that shows the wind on the ground as a map does whose top is where the camera looks.
-void DrawWind(Canvas& canvas, const Font& font, const Layout& layout, const Vec2& wind,
+void DrawWind(Canvas& canvas, const Font& font, const Layout& layout, int line, const Vec2& wind,
               double azimuth) {
   constexpr double kCalm = 0.05;  // [m/s]; reads 0.0 or 0.1
   const double size = TitleSize(layout);
   const double tall = TitlePanel(layout);
-  const double top = layout.margin + tall + 0.5 * layout.pad;
+  const double top = TopOfLine(layout, line);
   const double speed = wind.norm();
   const std::string text = fmt::format("wind {:.1f} m/s", speed);
   const double arrow = 1.1 * size;
@@ -149,13 +155,17 @@ std::string Shortened(const std::string& title) {
 
 }  // namespace
 
-void DrawCaption(Image& image, Font& font, const std::string& title,
+void DrawCaption(Image& image, Font& font, const std::string& title, const std::string& note,
                  const std::vector<LegendEntry>& legend, const Readings& readings, double azimuth) {
   Canvas canvas(image, font);
   const Layout layout(image.width, image.height);
-  DrawTitle(canvas, font, layout, Shortened(title));
+  int line = 0;
+  DrawLine(canvas, font, layout, line++, Shortened(title));
+  if (!note.empty()) {
+    DrawLine(canvas, font, layout, line++, note);
+  }
   if (readings.wind) {
-    DrawWind(canvas, font, layout, *readings.wind, azimuth);
+    DrawWind(canvas, font, layout, line, *readings.wind, azimuth);
   }
   DrawLegend(canvas, font, layout, image.width, legend);
   DrawReadings(canvas, font, layout, image.height, readings);

@@ -100,7 +100,7 @@ Painter::Painter(Recording& recording, const FilmOptions& options)
 
 void Painter::Paint(double time, Image& image) {
   offscreen_.Render(SceneAt(time), image);
-  DrawCaption(image, font_, recording_.name, legend_, recording_.ReadingsAt(time),
+  DrawCaption(image, font_, recording_.name, recording_.note, legend_, recording_.ReadingsAt(time),
               camera_.pose(subject_, time, aspect_).azimuth);
 }
 

@@ -1,13 +1,17 @@
 #include "render/recording.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
 #include "trackbed/scenario/scenario.h"
 
 namespace trackbed::render {
@@ -115,6 +119,32 @@ std::vector<NewPlan> ReadNewPlans(const fs::path& file) {
     plans.back().path.push_back({x[i], y[i]});
   }
   return plans;
+}
+
+std::vector<Point> ReadCones(const fs::path& file) {
+  std::vector<Point> cones;
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) {
+    return cones;
+  }
+  try {
+    const nlohmann::json plan = nlohmann::json::parse(ReadFile(file));
+    for (const nlohmann::json& gate : plan.value("gates", nlohmann::json::array())) {
+      for (const nlohmann::json& cone : gate.at("cones_m")) {
+        cones.push_back({cone.at(0).get<double>(), cone.at(1).get<double>()});
+      }
+    }
+  } catch (const nlohmann::json::exception& error) {
+    Reject(file, "gates", error.what());
+  }
+  return cones;
+}
+
+/// What the run changed of its car.
+std::string NoteOf(const VehicleSpec& vehicle) {
+  return vehicle.steering_rate
+             ? fmt::format("steering rate set to {:.2f} rad/s", *vehicle.steering_rate)
+             : "";
 }
 
 }  // namespace
@@ -297,6 +327,10 @@ Recording ReadRecording(const fs::path& folder) {
   }
   if (const fs::path scenario = folder / "scenario.resolved.yaml"; fs::exists(scenario, ignored)) {
     recording.world = ReadWorld(scenario);
+    recording.note = NoteOf(ReadVehicleSpec(scenario));
+  }
+  for (const Point& cone : ReadCones(folder / "plan.json")) {
+    recording.cones.push_back(recording.OnGround(cone));
   }
   recording.plan = ReadPlan(folder / "plan.csv");
   recording.new_plans = ReadNewPlans(folder / (plants.front() + ".plan.csv"));

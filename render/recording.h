@@ -114,11 +114,13 @@ struct NewPlan {
 /// A run folder, read.
 struct Recording {
   std::string name;  ///< of the folder
+  std::string note;  ///< what to know of the run beside its name; else empty
   World world;       ///< of `scenario.resolved.yaml`; without that file, flat and calm
   ModelHandle model;
   std::vector<PlantRecording> plants;  ///< the car first, then the ghosts
   std::vector<Point> plan;             ///< from the start; empty when there was none
   std::vector<NewPlan> new_plans;      ///< of the car alone, in the order of time
+  std::vector<Point> cones;            ///< of the gates that the plan leads through
 
   [[nodiscard]] double begin() const { return plants.front().begin(); }
   [[nodiscard]] double end() const;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "render/cone.h"
 #include "render/shadow.h"
 #include "trackbed/core/angle.h"
 
@@ -87,7 +88,7 @@ int MaxGeoms(const Recording& recording, const std::vector<Tile>& patches,
   }
   return (recording.model->ngeom + recording.model->ngeom) * cars + 200 * cars +
          static_cast<int>(on_ground) + static_cast<int>(kMostPieces + 2) * (cars + 1) +
-         static_cast<int>(of_new_plans);
+         static_cast<int>(of_new_plans) + static_cast<int>(kConePieces * recording.cones.size());
 }
 
 /// Like the lines of a transport map: each narrower than the one it covers.
@@ -226,6 +227,9 @@ mjvScene& FilmScene::At(double time, const CameraPose& camera) {
   AddPlans(time, camera);
   for (std::size_t car = 0; car < recording_.plants.size(); ++car) {
     AddTrail(car, time, camera);
+  }
+  for (const Point& cone : recording_.cones) {
+    AddCone(scene_.get(), cone);
   }
   if (scene_.get().flags[mjRND_SHADOW] == 0) {
     AddContactShadow();

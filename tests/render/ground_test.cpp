@@ -269,7 +269,7 @@ TEST(DrawCaption, TheWindsArrowPointsUpWhereTheCameraLooks) {
     readings.wind = wind;
     Image image;
     image.Resize(1920, 1080);
-    DrawCaption(image, font, "run", {}, readings, azimuth);
+    DrawCaption(image, font, "run", "", {}, readings, azimuth);
     return image;
   };
   const Image calm = picture({0.0, 0.01}, 0.0);  // has no arrow

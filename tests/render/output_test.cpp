@@ -182,7 +182,7 @@ TEST_F(Frames, AreThePicturesThatAVideoIsMadeOf) {
   const CameraSubject subject(recording);
   Image image;
   offscreen.Render(scene.At(1.0, FindCamera("chase").pose(subject, 1.0, 160.0 / 90.0)), image);
-  DrawCaption(image, font, "run", {{kPlanColor, "planned path"}, {CarColor(0), "mujoco"}},
+  DrawCaption(image, font, "run", "", {{kPlanColor, "planned path"}, {CarColor(0), "mujoco"}},
               recording.ReadingsAt(1.0), 0.0);
   EXPECT_TRUE(Decode(ReadFile(FrameName(output_, 1))).rgb == image.rgb);
 }

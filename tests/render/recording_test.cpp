@@ -124,6 +124,23 @@ TEST_F(RecordingTest, ReadsThePlansThatTheCarTookUpAndNoGhosts) {
   EXPECT_EQ(recording.plan.size(), 51U);
 }
 
+TEST_F(RecordingTest, HasConesAndNotesOfTheRun) {
+  WritePlant(folder_.path(), "mujoco", 1.0, [](double) { return CarPlace{}; });
+  EXPECT_TRUE(ReadRecording(folder_.path()).cones.empty());
+  EXPECT_EQ(ReadRecording(folder_.path()).note, "");
+  WriteFileAtomically(folder_.path() / "plan.json",
+                      R"({"gates": [{"cones_m": [[1, 2], [3, 4]]}, {"cones_m": [[5, 6]]}]})");
+  WriteFileAtomically(folder_.path() / "scenario.resolved.yaml",
+                      "schema: 1\nvehicle: {model: gone, steering_rate: 0.8}\n");
+  const Recording recording = ReadRecording(folder_.path());
+  ASSERT_EQ(recording.cones.size(), 3U);
+  EXPECT_EQ(recording.cones[2].x, 5.0);
+  EXPECT_EQ(recording.cones[2].y, 6.0);
+  EXPECT_EQ(recording.note, "steering rate set to 0.80 rad/s");
+  WriteFileAtomically(folder_.path() / "plan.json", R"({"gates": [{}]})");
+  EXPECT_THROW(ReadRecording(folder_.path()), InputError);
+}
+
 TEST_F(RecordingTest, RefusesBrokenPlans) {
   WritePlant(folder_.path(), "mujoco", 1.0, [](double) { return CarPlace{}; });
   const auto message = [this](const std::string& name, const std::string& text) {
