@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src/analysis/metric_expectations.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
@@ -172,10 +173,20 @@ bool ExpectsCollision(const Expectations& expect, const std::string& plant) {
   return expected;
 }
 
+void NoteLimitedSteering(const PlantMetrics& metrics, Verdict& verdict) {
+  constexpr double kNoticed = 0.02;
+  if (metrics.manoeuvre && metrics.manoeuvre->steering_saturated_fraction > kNoticed) {
+    verdict.notes.push_back(fmt::format("{}: steering limited ({:.0f} % of the time)",
+                                        metrics.plant,
+                                        100.0 * metrics.manoeuvre->steering_saturated_fraction));
+  }
+}
+
 void JudgePlant(const PlantExpectation& expect, const PlantMetrics& metrics, Verdict& verdict) {
   if (metrics.clearance) {
     JudgeClearance(expect, metrics, verdict);
   }
+  JudgeMetrics(expect.metrics, metrics, verdict);
   if (!metrics.tracking) {
     return;
   }
@@ -274,6 +285,7 @@ Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plant
                       ToString(metrics.status), metrics.time,
                       metrics.blocked.empty() ? "" : fmt::format(" (it {})", metrics.blocked)));
     }
+    NoteLimitedSteering(metrics, verdict);
     JudgePlant(expect.all, metrics, verdict);
     for (const auto& [plant, own] : expect.plants) {
       if (plant == metrics.plant) {
@@ -336,6 +348,9 @@ nlohmann::ordered_json ToJson(const PlantMetrics& metrics) {
   if (metrics.yaw_rate_ratio) {
     json["yaw_rate_ratio"] = *metrics.yaw_rate_ratio;
   }
+  if (metrics.manoeuvre) {
+    json["manoeuvre"] = ToJson(*metrics.manoeuvre);
+  }
   for (const TurnMetrics& turn : metrics.turns) {
     json["turns"].push_back({{"waypoint", turn.waypoint},
                              {"heading_deficit_predicted", turn.predicted.heading_deficit},
@@ -356,7 +371,7 @@ nlohmann::ordered_json ToJson(const PlantComparison& comparison) {
 }
 
 nlohmann::ordered_json ToJson(const Verdict& verdict) {
-  return {{"passed", verdict.passed}, {"failures", verdict.failures}};
+  return {{"passed", verdict.passed}, {"failures", verdict.failures}, {"notes", verdict.notes}};
 }
 
 }  // namespace trackbed

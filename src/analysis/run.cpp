@@ -163,7 +163,9 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
   result.planning_time = planning.Seconds();
   if (!result.plan.ok()) {
     result.verdict = {
-        false, {fmt::format("no plan ({}): {}", ToString(result.plan.status), result.plan.reason)}};
+        false,
+        {fmt::format("no plan ({}): {}", ToString(result.plan.status), result.plan.reason)},
+        {}};
     return result;
   }
   for (const std::string& plant : scenario.drive.plants) {
@@ -174,6 +176,10 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
     result.metrics.push_back(Measure(result.logs.back(), result.plan, car.params(),
                                      scenario.drive.control_period,
                                      ControllerFor(scenario.control.steering).station));
+    if (scenario.manoeuvre) {
+      result.metrics.back().manoeuvre =
+          EvaluateManoeuvre(*scenario.manoeuvre, result.logs.back(), result.plan, car.params());
+    }
     result.timing.push_back({plant, wall, result.metrics.back().time / wall});
     if (result.logs.back().status == DriveStatus::kInterrupted) {
       result.interrupted = true;
@@ -186,6 +192,9 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
     }
   }
   result.verdict = Judge(scenario.expect, result.metrics, result.comparisons);
+  if (const auto& rate = scenario.vehicle.steering_rate) {
+    result.verdict.notes.push_back(fmt::format("steering rate set to {:.4g} rad/s", *rate));
+  }
   return result;
 }
 

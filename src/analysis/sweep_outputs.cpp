@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "src/analysis/json_leaves.h"
 #include "trackbed/analysis/sweep.h"
 
 namespace trackbed {
@@ -13,20 +14,6 @@ std::string TextOf(const ordered_json& value) {
     return ShortestText(value.get<double>());
   }
   return value.is_string() ? value.get<std::string>() : value.dump();
-}
-
-void AddLeaves(const ordered_json& json, const std::string& path, Outputs& outputs) {
-  if (json.is_object()) {
-    for (const auto& [key, value] : json.items()) {
-      AddLeaves(value, path.empty() ? key : path + "." + key, outputs);
-    }
-  } else if (json.is_array()) {
-    for (std::size_t i = 0; i < json.size(); ++i) {
-      AddLeaves(json[i], fmt::format("{}[{}]", path, i), outputs);
-    }
-  } else {
-    outputs[path] = TextOf(json);
-  }
 }
 
 }  // namespace
@@ -48,7 +35,9 @@ Outputs OutputsOf(const RunResult& result) {
     }
   }
   Outputs outputs;
-  AddLeaves(json, "", outputs);
+  for (const auto& [path, value] : LeavesOf(json)) {
+    outputs[path] = TextOf(value);
+  }
   return outputs;
 }
 
@@ -67,6 +56,10 @@ std::vector<std::string> PossibleOutputs(const Scenario& scenario) {
     }
     if (!scenario.world.obstacles.empty()) {
       metrics.clearance.emplace();
+    }
+    metrics.yaw_rate_ratio = 1.0;
+    if (scenario.manoeuvre) {
+      metrics.manoeuvre = EveryMetricOf(*scenario.manoeuvre);
     }
     for (const PlantMetrics& other : all.metrics) {
       all.comparisons.push_back({.first = other.plant, .second = plant});

@@ -52,7 +52,8 @@ std::vector<Line> Models() {
 
 std::vector<Line> Scenarios() {
   std::vector<Line> lines;
-  for (const auto& file : ScenarioFiles({(DataFolder() / "scenarios").string()})) {
+  for (const auto& file : ScenarioFiles({(DataFolder() / "scenarios").string(),
+                                         (DataFolder() / "scenarios" / "manoeuvres").string()})) {
     lines.push_back({file.stem().string(), file.string()});
   }
   return lines;
@@ -81,6 +82,14 @@ const std::vector<Kind>& Kinds() {
          }
          return lines;
        }},
+      {"manoeuvres",
+       [] {
+         std::vector<Line> lines = Summaries(Manoeuvres());
+         for (std::size_t i = 0; i < lines.size(); ++i) {
+           AddDefaults(OptionDefaults(Manoeuvres()[i].defaults), lines[i]);
+         }
+         return lines;
+       }},
       {"plants", [] { return Summaries(Plants()); }},
       {"optimizers", [] { return Summaries(Searches()); }},
       {"cameras", [] { return Summaries(Cameras()); }},
@@ -91,9 +100,14 @@ const std::vector<Kind>& Kinds() {
 }
 
 void Print(const Kind& kind) {
+  const std::vector<Line> lines = kind.lines();
+  std::size_t longest = 18;
+  for (const Line& line : lines) {
+    longest = std::max(longest, line.name.size());
+  }
   fmt::print("{}:\n", kind.name);
-  for (const Line& line : kind.lines()) {
-    fmt::print("  {:<18} {}\n", line.name, line.text);
+  for (const Line& line : lines) {
+    fmt::print("  {:<{}} {}\n", line.name, longest, line.text);
   }
 }
 

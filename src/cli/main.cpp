@@ -33,7 +33,9 @@ const std::vector<Verb> kVerbs{
     {"check", "Read and validate scenarios and studies without driving them", AddCheck},
     {"sweep", "Run a study: one scenario with many values of its keys, made into one table",
      AddSweep},
-    {"list", "What there is: planners, controllers, plants, optimizers, cameras, models, scenarios",
+    {"list",
+     "What there is: planners, controllers, manoeuvres, plants, optimizers, cameras, models, "
+     "scenarios",
      AddList},
     {"model", "What a car is, or its composed MJCF", AddModel},
     {"docs", "Bring the tables of docs/cli.md up to date with this program", AddDocs},

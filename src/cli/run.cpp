@@ -25,6 +25,19 @@ struct RunOptions {
   ScenarioOptions scenario;
 };
 
+void PrintManoeuvre(const ManoeuvreMetrics& manoeuvre) {
+  fmt::print("    {}{}\n", manoeuvre.method,
+             !manoeuvre.passed   ? ""
+             : *manoeuvre.passed ? ": passed"
+                                 : ": NOT passed");
+  for (const auto& [name, value] : manoeuvre.values) {
+    fmt::print("    {:<36} {:>10.4g}\n", name, value);
+  }
+  if (!manoeuvre.missing.empty()) {
+    fmt::print("    {}\n", manoeuvre.missing);
+  }
+}
+
 void PrintSummary(const RunResult& result) {
   for (const PlantMetrics& plant : result.metrics) {
     fmt::print("  {:<10} {} after {:.2f} s, {:.2f} m", plant.plant, ToString(plant.status),
@@ -35,6 +48,9 @@ void PrintSummary(const RunResult& result) {
                  tracking.cross_track_max, tracking.cross_track_rms, tracking.goal_distance);
     }
     fmt::print("\n");
+    if (plant.manoeuvre) {
+      PrintManoeuvre(*plant.manoeuvre);
+    }
   }
   for (const PlantComparison& between : result.comparisons) {
     fmt::print("  {} - {}: position max {:.4f} m, heading max {:.4f} rad\n", between.first,
@@ -42,6 +58,9 @@ void PrintSummary(const RunResult& result) {
   }
   for (const std::string& failure : result.verdict.failures) {
     fmt::print("  {}\n", failure);
+  }
+  for (const std::string& note : result.verdict.notes) {
+    fmt::print("  {}\n", note);
   }
 }
 

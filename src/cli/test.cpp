@@ -23,9 +23,13 @@ int TestOne(const std::filesystem::path& file, const ScenarioOptions& options) {
       return kInterrupted;
     }
     if (!run.verdict.passed || !options.quiet) {
-      fmt::print("{} {}: {}\n", run.verdict.passed ? "pass" : "FAIL", file.string(),
-                 run.verdict.passed ? "as expected"
-                                    : fmt::format("{}", fmt::join(run.verdict.failures, "; ")));
+      std::string line = run.verdict.passed
+                             ? "as expected"
+                             : fmt::format("{}", fmt::join(run.verdict.failures, "; "));
+      for (const std::string& note : run.verdict.notes) {
+        line += "; " + note;
+      }
+      fmt::print("{} {}: {}\n", run.verdict.passed ? "pass" : "FAIL", file.string(), line);
     }
     return run.verdict.passed ? kOk : kFailedExpectations;
   } catch (const InputError& error) {

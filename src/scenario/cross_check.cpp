@@ -30,6 +30,8 @@ class CrossCheck {
     CheckGusts();
     CheckObstacles();
     CheckWhatIsMeasured();
+    CheckManoeuvre();
+    CheckMetrics();
     return std::move(found_);
   }
 
@@ -103,13 +105,13 @@ class CrossCheck {
         Complain(fmt::format("mission.waypoints[{}]", i), "the same point as the one before it");
       }
     }
-    if (scenario_.plan && waypoints.size() < FewestWaypoints(scenario_.plan->global)) {
-      const std::string given = waypoints.empty() ? "none" : std::to_string(waypoints.size());
     if (scenario_.plan && FewestWaypoints(scenario_.plan->global) == 0 && !waypoints.empty() &&
         CouldReadPlan({"method"})) {
       Complain("mission.waypoints", fmt::format("a plan by {} has its own course; leave them out",
                                                 PlannerName(scenario_.plan->global)));
     }
+    if (scenario_.plan && waypoints.size() < FewestWaypoints(scenario_.plan->global)) {
+      const std::string given = waypoints.empty() ? "none" : std::to_string(waypoints.size());
       Complain("mission.waypoints", fmt::format("{} given; a plan by {} needs at least {}", given,
                                                 PlannerName(scenario_.plan->global),
                                                 FewestWaypoints(scenario_.plan->global)));
@@ -251,6 +253,44 @@ class CrossCheck {
     for (const auto& [plant, expectation] : scenario_.expect.plants) {
       call("expect." + plant, expectation);
     }
+  }
+
+  void CheckManoeuvre() {
+    const auto& plan = scenario_.plan;
+    const bool has_gates = plan && std::holds_alternative<LaneChangePlannerOptions>(plan->global);
+    if (scenario_.manoeuvre && std::holds_alternative<LaneChangeOptions>(*scenario_.manoeuvre) &&
+        !has_gates && CouldReadPlan({"method"})) {
+      Complain("manoeuvre", "a lane change needs gates; plan: {method: lane_change} has them");
+    }
+    if (scenario_.manoeuvre && CouldRead({"manoeuvre.fit_from", "manoeuvre.fit_to"})) {
+      std::visit([this](const auto& options) { CheckFit(options); }, *scenario_.manoeuvre);
+    }
+  }
+
+  template <typename Options>
+  void CheckFit(const Options& options) {
+    if constexpr (requires { options.fit_from; }) {
+      if (options.fit_from >= options.fit_to) {
+        Complain("manoeuvre.fit_to", fmt::format("{} m/s^2 is not above fit_from, {} m/s^2",
+                                                 options.fit_to, options.fit_from));
+      }
+    }
+  }
+
+  void CheckMetrics() {
+    ForEachExpectation([&](const std::string& key, const PlantExpectation& expectation) {
+      for (std::size_t i = 0; i < expectation.metrics.size(); ++i) {
+        const MetricExpectation& metric = expectation.metrics[i];
+        const std::string own = fmt::format("{}.metrics[{}]", key, i);
+        if (!metric.min && !metric.max && !metric.equals && could_read_(own + ".min") &&
+            could_read_(own + ".max") && could_read_(own + ".equals")) {
+          Complain(own, "asks nothing; give min, max or equals");
+        }
+        if (metric.min && metric.max && *metric.min > *metric.max) {
+          Complain(own, fmt::format("min {} is above max {}", *metric.min, *metric.max));
+        }
+      }
+    });
   }
 
   /// Without a path or obstacles there is nothing to measure.

@@ -239,6 +239,10 @@ std::string OptionDefaults(const ControllerOptions& options) {
   return OneLine(options);
 }
 
+std::string OptionDefaults(const ManoeuvreOptions& options) {
+  return OneLine(options);
+}
+
 std::string ResolvedYaml(const Scenario& scenario) {
   Scenario resolved = scenario;
   const StartState start = StartOf(scenario);

@@ -2,6 +2,7 @@
 
 #include "src/scenario/key_lister.h"
 #include "src/scenario/visit_control.h"
+#include "src/scenario/visit_manoeuvre.h"
 #include "src/scenario/visit_world.h"
 #include "src/scenario/yaml_reader.h"
 #include "src/scenario/yaml_writer.h"
@@ -10,8 +11,8 @@
 /// The keys of a scenario, each named once for reading, writing and listing alike.
 namespace trackbed {
 
-inline constexpr Key kRenderSection{"render", "", "how the run is filmed"};
 inline constexpr Key kVehicleSection{"vehicle", "", "the car"};
+inline constexpr Key kRenderSection{"render", "", "how the run is filmed"};
 
 inline Names PlantNames() {
   Names names;
@@ -29,9 +30,9 @@ void Visit(Archive& a, VehicleSpec& vehicle) {
                                        {TyreLaw::kMagicFormula, "magic_formula"}};
   a.Field({"tyre", "", "what holds the plant mujoco to the road"}, vehicle.tyre, Need::kOptional,
           laws);
-}
   a.Field({"steering_rate", "rad/s", "of the road wheels, instead of the car's own"},
           vehicle.steering_rate, Range{.max = 10.0, .above = 0.0});
+}
 
 template <typename Archive>
 void Visit(Archive& a, StartSpec& start) {
@@ -137,7 +138,6 @@ void Visit(Archive& a, FilletOptions& options) {
 }
 
 template <typename Archive>
-template <typename Archive>
 void Visit(Archive& a, LaneChangePlannerOptions& options) {
   static const EnumNames<LaneChangeStandard> standards{
       {LaneChangeStandard::kIso3888_1, "iso_3888_1"},
@@ -156,6 +156,7 @@ void Visit(Archive& a, LaneChangePlannerOptions& options) {
           Need::kOptional, Range{.min = -5.0, .max = 5.0});
 }
 
+template <typename Archive>
 void Visit(Archive& a, BezierAvoidanceOptions& options) {
   a.Field({"safe_distance", "m", "of the car's outline from obstacles"}, options.safe_distance,
           Need::kOptional, kNotNegative);
@@ -257,6 +258,15 @@ void Visit(Archive& a, DriveSpec& drive) {
 }
 
 template <typename Archive>
+void Visit(Archive& a, MetricExpectation& expect) {
+  a.Field({"metric", "", "path into the plant's entry of metrics.json: manoeuvre.margin"},
+          expect.metric, Need::kRequired);
+  a.Field({"min", "", "smallest value, in the metric's unit"}, expect.min);
+  a.Field({"max", "", "largest value, in the metric's unit"}, expect.max);
+  a.Field({"equals", "", "the very value: a number, a text, true or false"}, expect.equals);
+}
+
+template <typename Archive>
 void Visit(Archive& a, PlantExpectation& expect) {
   a.Field({"reach_goal", "m", "largest distance to the goal at the end"}, expect.reach_goal,
           kNotNegative);
@@ -269,6 +279,7 @@ void Visit(Archive& a, PlantExpectation& expect) {
   a.Field({"min_clearance", "m", "smallest distance of the car's outline from an obstacle"},
           expect.min_clearance, kNotNegative);
   a.Field({"collision", "", "whether the car hits an obstacle"}, expect.collision);
+  a.List({"metrics", "", "bounds on whatever else was measured"}, expect.metrics);
 }
 
 template <typename Archive>
@@ -337,6 +348,8 @@ void Visit(Archive& a, Scenario& scenario) {
              inner.Section({"speed", "", "how the speed is kept"}, scenario.control.speed);
            });
   scenario.control.steering = *steering;
+  a.Method({"manoeuvre", "", "the standard manoeuvre that the drive is evaluated as"},
+           scenario.manoeuvre, Manoeuvres(), Need::kOptional, [](auto&) {});
   a.Section({"drive", "", "what is driven, and in which steps"}, scenario.drive);
   a.Section({"expect", "",
              "bounds that the run must keep, on every plant; what is not given is not asked"},

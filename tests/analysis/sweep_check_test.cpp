@@ -49,6 +49,30 @@ TEST(CheckStudy, KnowsTheOutputsOfEveryPoint) {
   EXPECT_EQ(checked.cars.size(), 1U);  // one model at one timestep
 }
 
+TEST(CheckStudy, TellsCarsOfDifferentSteeringRatesApart) {
+  const TempFolder folder;
+  const CheckedStudy checked =
+      CheckStudy(StudyOf(folder, "vary: {vehicle.steering_rate: [0.2, 0.3]}\n"));
+  std::set<double> rates;
+  for (const auto& [key, car] : checked.cars) {
+    rates.insert(car.params().steering_rate);
+  }
+  EXPECT_EQ(rates, (std::set<double>{0.2, 0.3}));
+}
+
+TEST(CheckStudy, KnowsWhatAManoeuvreMeasures) {
+  const TempFolder folder;
+  const auto error = [&](const std::string& output) {
+    return ErrorOf(folder, [&] {
+      CheckStudy(StudyOf(
+          folder, "set: {manoeuvre: {method: braking}}\nrepeat: 1\noutputs: [" + output + "]\n"));
+    });
+  };
+  EXPECT_EQ(error("metrics.mujoco.manoeuvre.distance"), "no error");
+  EXPECT_THAT(error("metrics.mujoco.manoeuvre.distanse"),
+              testing::HasSubstr("did you mean 'metrics.mujoco.manoeuvre.distance'?"));
+}
+
 TEST(CheckStudy, CompilesEveryCarThatThereIs) {
   const TempFolder folder;
   folder.Write("broken.xml", "<mujoco><worldbody/></mujoco>\n");

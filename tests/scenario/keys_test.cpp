@@ -5,6 +5,7 @@
 
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/planning/planner.h"
+#include "trackbed/scenario/manoeuvre.h"
 
 namespace trackbed {
 namespace {
@@ -71,6 +72,9 @@ TEST(ScenarioKeys, EveryMethodHasItsSection) {
   }
   for (const ControllerEntry& controller : Controllers()) {
     EXPECT_NE(FindSection(sections, "control", controller.name), nullptr) << controller.name;
+  }
+  for (const ManoeuvreEntry& manoeuvre : Manoeuvres()) {
+    EXPECT_NE(FindSection(sections, "manoeuvre", manoeuvre.name), nullptr) << manoeuvre.name;
   }
 }
 

@@ -240,6 +240,25 @@ TEST(ResolvedYaml, ReadsBackToItself) {
   EXPECT_THAT(once, testing::HasSubstr("max_cross_track: 0.1"));
 }
 
+TEST(ResolvedYaml, KeepsManoeuvresAndWhatIsAskedOfThem) {
+  const std::string once = ResolvedYaml(
+      Parse(kSmall, {"vehicle.steering_rate=0.25", "manoeuvre={method: step_steer, steady: 0.5}",
+                     "expect.metrics=[{metric: manoeuvre.tb, min: 0.125, max: 2}, "
+                     "{metric: manoeuvre.passed, equals: true}]"}));
+  const Scenario scenario = Parse(once);
+  EXPECT_EQ(once, ResolvedYaml(scenario));
+  EXPECT_EQ(scenario.vehicle.steering_rate, 0.25);
+  ASSERT_TRUE(scenario.manoeuvre.has_value());
+  EXPECT_EQ(std::get<StepSteerOptions>(*scenario.manoeuvre).steady, 0.5);
+  const auto& metrics = scenario.expect.all.metrics;
+  ASSERT_EQ(metrics.size(), 2U);
+  EXPECT_EQ(metrics[0].metric, "manoeuvre.tb");
+  EXPECT_EQ(metrics[0].min, 0.125);
+  EXPECT_EQ(metrics[0].max, 2.0);
+  EXPECT_FALSE(metrics[0].equals.has_value());
+  EXPECT_EQ(metrics[1].equals, "true");
+}
+
 constexpr const char* kWorld = R"(world:
   friction: 0.8
   friction_patches:
@@ -352,10 +371,12 @@ class ScenarioFiles : public testing::TestWithParam<std::filesystem::path> {};
 
 std::vector<std::filesystem::path> AllScenarioFiles() {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::string(TRACKBED_SOURCE_DIR) + "/scenarios")) {
-    if (entry.path().extension() == ".yaml") {
-      files.push_back(entry.path());
+  for (const char* folder : {"/scenarios", "/scenarios/manoeuvres"}) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::string(TRACKBED_SOURCE_DIR) + folder)) {
+      if (entry.path().extension() == ".yaml") {
+        files.push_back(entry.path());
+      }
     }
   }
   std::sort(files.begin(), files.end());

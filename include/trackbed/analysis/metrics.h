@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "trackbed/analysis/manoeuvre.h"
 #include "trackbed/drive/run_log.h"
 #include "trackbed/scenario/scenario.h"
 
@@ -60,6 +61,7 @@ struct PlantMetrics {
   std::optional<ClearanceMetrics> clearance;  ///< none without obstacles
   int plan_changes = 0;                       ///< new plans taken up on the way
   std::string blocked;                        ///< why the plan ended before the goal; else empty
+  std::optional<ManoeuvreMetrics> manoeuvre;  ///< none when the drive is not evaluated as one
   std::vector<TurnMetrics> turns;             ///< of the turns that stand alone and were driven
 };
 
@@ -79,6 +81,7 @@ struct PlantComparison {
 struct Verdict {
   bool passed = true;
   std::vector<std::string> failures;  ///< expected, actual, where and when; one line each
+  std::vector<std::string> notes;     ///< what to know of a run beside whether it passed
 };
 
 /// Turns are measured at the stations that the controller went by (`source`), between rows.
@@ -89,7 +92,8 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
 /// rolls back by a hair when it stops.
 PlantComparison ComparePlants(const RunLog& first, const RunLog& second);
 
-/// A drive that did not arrive fails whatever the scenario expects.
+/// A drive that did not arrive fails whatever the scenario expects. Notes tell of a manoeuvre in
+/// which the steering did not reach its command for more than 2 % of the time.
 Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plants,
               const std::vector<PlantComparison>& comparisons);
 

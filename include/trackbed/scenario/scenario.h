@@ -11,6 +11,7 @@
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/planning/avoidance.h"
 #include "trackbed/planning/planner.h"
+#include "trackbed/scenario/manoeuvre.h"
 #include "trackbed/sim/plant.h"
 
 /// A scenario: one file, one reproducible experiment. SI units and radians throughout.
@@ -61,6 +62,14 @@ struct DriveSpec {
   double time_limit = 600.0;         ///< simulated [s]
 };
 
+/// A bound on any number of a plant's entry in metrics.json.
+struct MetricExpectation {
+  std::string metric;  ///< its path: "manoeuvre.yaw_rate_overshoot", "turns[0].lateral_offset"
+  std::optional<double> min;
+  std::optional<double> max;
+  std::optional<std::string> equals;  ///< "true", "arrived", "3"
+};
+
 /// Bounds that one plant's metrics must keep; what is not given is not asked.
 struct PlantExpectation {
   std::optional<double> reach_goal;         ///< largest distance to the goal at the end [m]
@@ -69,6 +78,7 @@ struct PlantExpectation {
   std::optional<double> max_heading_error;  ///< [rad]
   std::optional<double> min_clearance;      ///< smallest distance of the outline to an obstacle [m]
   std::optional<bool> collision;            ///< whether the car hits an obstacle
+  std::vector<MetricExpectation> metrics;   ///< of whatever else was measured
 };
 
 /// Bounds on how far two plants may part.
@@ -97,7 +107,8 @@ struct Scenario {
   VehicleSpec vehicle;
   MissionSpec mission;
   World world;
-  std::optional<PlanSpec> plan;  ///< none: the mission is driven without a path
+  std::optional<PlanSpec> plan;               ///< none: the mission is driven without a path
+  std::optional<ManoeuvreOptions> manoeuvre;  ///< how the drive is evaluated, if as one
   ControlSpec control;
   DriveSpec drive;
   Expectations expect;
@@ -129,6 +140,9 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
 /// InputError.
 RenderSpec ReadRenderSpec(const std::filesystem::path& file);
 
+/// The `vehicle` section alone, likewise.
+VehicleSpec ReadVehicleSpec(const std::filesystem::path& file);
+
 /// The `world` section alone, likewise; what a film shows of it.
 World ReadWorld(const std::filesystem::path& file);
 
@@ -140,14 +154,12 @@ void CheckScenario(const Scenario& scenario);
 /// from any folder: a model given by its path and a recording are written with their absolute
 /// paths.
 std::string ResolvedYaml(const Scenario& scenario);
-/// The `vehicle` section alone, likewise.
-VehicleSpec ReadVehicleSpec(const std::filesystem::path& file);
-
 
 /// The keys of a method's options with their values, on one line: "distance: 2.5, law: exact_arc".
 std::string OptionDefaults(const PlannerOptions& options);
 std::string OptionDefaults(const AvoiderOptions& options);
 std::string OptionDefaults(const ControllerOptions& options);
+std::string OptionDefaults(const ManoeuvreOptions& options);
 
 /// The recording that is replayed, if one is; it lives as long as the scenario.
 const Recording* RecordingOf(const Scenario& scenario);

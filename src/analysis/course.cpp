@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/analysis/evaluations.h"
+#include "src/analysis/log_reading.h"
+
+namespace trackbed {
+namespace {
+
+/// The circle or straight line that the rear axle is on at one row, held from there on.
+class HeldCourse {
+ public:
+  HeldCourse(const VehicleParams& vehicle, const VehicleState& state, double length)
+      : start_yaw_(state.pose.yaw), curvature_(CurvatureOf(state)) {
+    // The rear axle may slip: the course is where it goes, not where it points.
+    const double lateral = state.lateral_speed - state.yaw_rate * vehicle.cg_to_rear;
+    const double course = state.pose.yaw + std::atan2(lateral, state.speed);
+    path_ = Path({state.pose.x, state.pose.y, course}, {{length, curvature_}});
+  }
+
+  /// How far the car is from it, and its heading from that of the start turned along it.
+  [[nodiscard]] Projection At(const VehicleState& state) {
+    constexpr double kReach = 5.0;  // between rows [m]
+    Projection at = path_.Project(state.pose, {station_ - kReach, station_ + kReach});
+    station_ = at.s;
+    at.heading_error = state.pose.yaw - start_yaw_ - curvature_ * at.s;
+    return at;
+  }
+
+  /// psi' of a car that keeps to it [rad/s].
+  [[nodiscard]] double YawRate(const VehicleState& state) const { return curvature_ * state.speed; }
+
+ private:
+  static double CurvatureOf(const VehicleState& state) {
+    constexpr double kSlow = 0.1;  // [m/s]
+    return std::abs(state.speed) < kSlow ? 0.0 : state.yaw_rate / state.speed;
+  }
+
+  Path path_;
+  double start_yaw_;
+  double curvature_;
+  double station_ = 0.0;
+};
+
+/// The largest departures so far.
+struct Departure {
+  double lateral = 0.0;
+  double heading = 0.0;
+
+  void Take(const Projection& at) {
+    lateral = std::max(lateral, std::abs(at.cross_track));
+    heading = std::max(heading, std::abs(at.heading_error));
+  }
+};
+
+}  // namespace
+
+void Evaluate(const BrakingTestOptions& options, const ManoeuvreInput& input,
+              ManoeuvreMetrics& metrics) {
+  constexpr double kBraking = 0.5;      // more than keeping a speed asks for [m/s^2]
+  constexpr double kStandstill = 0.05;  // [m/s]; from there it is a millimetre
+  const auto& rows = input.log.rows;
+  std::size_t onset = 0;
+  while (onset < rows.size() && rows[onset].command.acceleration > -kBraking) {
+    ++onset;
+  }
+  if (onset == rows.size()) {
+    metrics.missing = "the car is not braked";
+    return;
+  }
+  const VehicleState& start = rows[onset].state;
+  metrics.begin = start.time;
+  metrics.values.emplace_back("initial_speed", start.speed);
+  const auto slowness = [](const LogRow& row) { return -row.state.speed; };
+  const auto distance_at = [&](double speed) -> std::optional<double> {
+    const auto time = TimeOfReaching(input.log, onset, -speed, slowness);
+    const auto driven = [](const LogRow& row) { return row.state.distance; };
+    return time ? std::optional(ValueAt(input.log, *time, driven) - start.distance) : std::nullopt;
+  };
+  const double end_speed = std::max(options.to_speed, kStandstill);
+  const std::optional<double> end = TimeOfReaching(input.log, onset, -end_speed, slowness);
+  if (end) {
+    metrics.end = *end;
+    metrics.values.emplace_back("distance", *distance_at(end_speed));
+  } else {
+    metrics.missing = fmt::format("the car does not get down to {:.3g} m/s", options.to_speed);
+  }
+  const double v_b = 0.8 * start.speed;
+  const double v_e = 0.1 * start.speed;
+  if (const auto s_e = distance_at(v_e)) {
+    metrics.values.emplace_back("mean_fully_developed_deceleration",
+                                (v_b * v_b - v_e * v_e) / (2.0 * (*s_e - *distance_at(v_b))));
+  }
+  HeldCourse course(input.vehicle, start, rows.back().state.distance - start.distance + 1.0);
+  Departure departure;
+  double yaw_rate = 0.0;
+  for (std::size_t i = onset; i < rows.size() && rows[i].state.time <= metrics.end; ++i) {
+    departure.Take(course.At(rows[i].state));
+    yaw_rate = std::max(yaw_rate, std::abs(rows[i].state.yaw_rate));
+  }
+  metrics.values.emplace_back("yaw_rate_max", yaw_rate);
+  metrics.values.emplace_back("heading_deviation_max", departure.heading);
+  metrics.values.emplace_back("lateral_deviation_max", departure.lateral);
+}
+
+void Evaluate(const DisturbanceOptions& options, const ManoeuvreInput& input,
+              ManoeuvreMetrics& metrics) {
+  const auto& rows = input.log.rows;
+  std::size_t from = 0;
+  while (from < rows.size() && rows[from].state.time < options.at - 1e-9) {
+    ++from;
+  }
+  if (from == rows.size()) {
+    metrics.missing = fmt::format("the drive ends before {} s", options.at);
+    return;
+  }
+  metrics.begin = rows[from].state.time;
+  HeldCourse course(input.vehicle, rows[from].state,
+                    rows.back().state.distance - rows[from].state.distance + 1.0);
+  const bool straight = !rows.front().tracking;
+  Departure departure;
+  double yaw_rate = 0.0;
+  std::optional<double> left;  // its bound, first
+  double back = 0.0;           // last
+  for (std::size_t i = from; i < rows.size(); ++i) {
+    const VehicleState& state = rows[i].state;
+    departure.Take(straight ? course.At(state) : *rows[i].tracking);
+    const double expected =
+        straight ? course.YawRate(state)
+                 : input.plan.reference.path.At(rows[i].tracking->s).curvature * state.speed;
+    const double deviation = std::abs(state.yaw_rate - expected);
+    yaw_rate = std::max(yaw_rate, deviation);
+    if (deviation > options.yaw_rate_bound) {
+      left = left.value_or(state.time);
+      back = i + 1 < rows.size() ? rows[i + 1].state.time : std::numeric_limits<double>::infinity();
+    }
+  }
+  metrics.values.emplace_back("lateral_deviation_max", departure.lateral);
+  metrics.values.emplace_back("heading_deviation_max", departure.heading);
+  metrics.values.emplace_back("yaw_rate_deviation_max", yaw_rate);
+  if (left && !std::isfinite(back)) {
+    metrics.missing = "the yaw rate does not come back to its bound";
+  } else {
+    metrics.values.emplace_back("recovery_time", left ? back - *left : 0.0);
+  }
+}
+
+}  // namespace trackbed

@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "src/analysis/evaluations.h"
+#include "trackbed/world/world.h"
+
+namespace trackbed {
+
+void Evaluate(const LaneChangeOptions&, const ManoeuvreInput& input, ManoeuvreMetrics& metrics) {
+  const std::vector<Gate>& gates = input.plan.gates;
+  if (gates.empty()) {
+    metrics.missing = "the plan has no gates";
+    return;
+  }
+  // Along the course, from the line across it at one end of a gate.
+  const auto foremost = [&](const LogRow& row, const Gate& gate) {
+    double x = -std::numeric_limits<double>::infinity();
+    for (const Vec2& corner : OutlineAt(input.vehicle, row.state.pose).Corners()) {
+      x = std::max(x, ToLocal(gate.lane.centre, corner).x());
+    }
+    return x;
+  };
+  const auto hindmost = [&](const LogRow& row, const Gate& gate) {
+    double x = std::numeric_limits<double>::infinity();
+    for (const Vec2& corner : OutlineAt(input.vehicle, row.state.pose).Corners()) {
+      x = std::min(x, ToLocal(gate.lane.centre, corner).x());
+    }
+    return x;
+  };
+  std::vector<Pose2> poses;
+  std::optional<double> entry;
+  std::optional<double> exit;
+  for (const LogRow& row : input.log.rows) {
+    poses.push_back(row.state.pose);
+    if (!entry && foremost(row, gates.front()) >= -0.5 * gates.front().lane.length) {
+      entry = row.state.speed;
+      metrics.begin = row.state.time;
+    }
+    if (entry && hindmost(row, gates.back()) >= 0.5 * gates.back().lane.length) {
+      exit = row.state.speed;
+      metrics.end = row.state.time;
+      break;
+    }
+  }
+  const std::vector<double> margins = GateMargins(gates, input.vehicle, poses);
+  const auto smallest = std::min_element(margins.begin(), margins.end());
+  metrics.passed = exit.has_value() && *smallest >= 0.0;
+  if (std::isfinite(*smallest)) {
+    metrics.values.emplace_back("margin", *smallest);
+    metrics.values.emplace_back(
+        "margin_gate", gates[static_cast<std::size_t>(smallest - margins.begin())].section);
+  }
+  for (std::size_t i = 0; i < gates.size(); ++i) {
+    if (std::isfinite(margins[i])) {
+      metrics.values.emplace_back(fmt::format("margin_{}", gates[i].section), margins[i]);
+    }
+  }
+  if (entry) {
+    metrics.values.emplace_back("entry_speed", *entry);
+  }
+  if (exit) {
+    metrics.values.emplace_back("speed_loss", *entry - *exit);
+  } else {
+    metrics.missing = "the car does not get through the last gate";
+  }
+}
+
+}  // namespace trackbed

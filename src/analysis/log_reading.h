@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "trackbed/drive/run_log.h"
+
+/// Quantities of a log between its rows. `of` is a function of a row.
+namespace trackbed {
+
+/// The quantity at `time` [s], linear between rows, held before the first and after the last.
+template <typename Of>
+double ValueAt(const RunLog& log, double time, const Of& of) {
+  for (std::size_t i = 1; i < log.rows.size(); ++i) {
+    const double t = log.rows[i].state.time;
+    if (t >= time) {
+      const double before = log.rows[i - 1].state.time;
+      const double share = time <= before ? 0.0 : (time - before) / (t - before);
+      return std::lerp(of(log.rows[i - 1]), of(log.rows[i]), share);
+    }
+  }
+  return of(log.rows.back());
+}
+
+/// When the quantity first reaches `level` from below at or after row `from` [s]; none when it does
+/// not.
+template <typename Of>
+std::optional<double> TimeOfReaching(const RunLog& log, std::size_t from, double level,
+                                     const Of& of) {
+  for (std::size_t i = from; i < log.rows.size(); ++i) {
+    const double value = of(log.rows[i]);
+    if (value >= level) {
+      const double time = log.rows[i].state.time;
+      if (i == from) {
+        return time;
+      }
+      const double before = of(log.rows[i - 1]);
+      return std::lerp(log.rows[i - 1].state.time, time, (level - before) / (value - before));
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace trackbed

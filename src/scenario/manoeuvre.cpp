@@ -1,0 +1,34 @@
+#include "trackbed/scenario/manoeuvre.h"
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+
+const std::vector<ManoeuvreEntry>& Manoeuvres() {
+  static const std::vector<ManoeuvreEntry> table{
+      {"steady_state_circle", "understeer, roll and side-slip gradients (ISO 4138)",
+       SteadyStateCircleOptions{}},
+      {"slowly_increasing_steer", "the same by a slow ramp at constant speed (SAE J266)",
+       SlowlyIncreasingSteerOptions{}},
+      {"step_steer", "response to a step of the steering (ISO 7401)", StepSteerOptions{}},
+      {"sine_with_dwell", "stability and responsiveness (ISO 19365, FMVSS 126)",
+       SineWithDwellTestOptions{}},
+      {"lane_change", "room left in the gates of a double lane change (ISO 3888)",
+       LaneChangeOptions{}},
+      {"braking", "distance, deceleration and departure from the course (ISO 21994, ISO 7975)",
+       BrakingTestOptions{}},
+      {"disturbance", "departure from the course, and recovery", DisturbanceOptions{}},
+  };
+  return table;
+}
+
+const char* ManoeuvreName(const ManoeuvreOptions& options) {
+  for (const ManoeuvreEntry& entry : Manoeuvres()) {
+    if (entry.defaults.index() == options.index()) {
+      return entry.name;
+    }
+  }
+  throw InternalError("options of a manoeuvre that is not in the table");
+}
+
+}  // namespace trackbed

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "src/scenario/yaml_field.h"
+#include "trackbed/scenario/manoeuvre.h"
+
+/// The keys of the manoeuvres.
+namespace trackbed {
+
+/// Of the manoeuvres that fit gradients.
+template <typename Archive, typename Options>
+void VisitGradients(Archive& a, Options& options) {
+  a.Field({"settle", "s", "samples count after it"}, options.settle, Need::kOptional, kNotNegative);
+  a.Field({"fit_from", "m/s^2", "gradients are fitted from this lateral acceleration"},
+          options.fit_from, Need::kOptional, kNotNegative);
+  a.Field({"fit_to", "m/s^2", "up to this one"}, options.fit_to, Need::kOptional, kPositive);
+}
+
+template <typename Archive>
+void Visit(Archive& a, SteadyStateCircleOptions& options) {
+  VisitGradients(a, options);
+}
+
+template <typename Archive>
+void Visit(Archive& a, SlowlyIncreasingSteerOptions& options) {
+  VisitGradients(a, options);
+}
+
+template <typename Archive>
+void Visit(Archive& a, StepSteerOptions& options) {
+  a.Field({"steady", "s", "the steady state is the mean over the last so many seconds"},
+          options.steady, Need::kOptional, kPositive);
+}
+
+template <typename Archive>
+void Visit(Archive&, SineWithDwellTestOptions&) {}
+
+template <typename Archive>
+void Visit(Archive&, LaneChangeOptions&) {}
+
+template <typename Archive>
+void Visit(Archive& a, BrakingTestOptions& options) {
+  a.Field({"to_speed", "m/s", "the braking distance ends here"}, options.to_speed, Need::kOptional,
+          kNotNegative);
+}
+
+template <typename Archive>
+void Visit(Archive& a, DisturbanceOptions& options) {
+  a.Field({"at", "s", "the course held then is what is departed from"}, options.at, Need::kOptional,
+          kNotNegative);
+  a.Field({"yaw_rate_bound", "rad/s", "below it for good, the car has recovered"},
+          options.yaw_rate_bound, Need::kOptional, kPositive);
+}
+
+}  // namespace trackbed
