@@ -9,8 +9,8 @@
 #include <memory>
 #include <numbers>
 
+#include "src/sim/tyre_reader.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/spelling.h"
 
 namespace trackbed {
 namespace {
@@ -83,22 +83,6 @@ class CarReader {
   double Number(const std::string& name) {
     const int id = Find(mjOBJ_NUMERIC, "<custom><numeric>", name);
     return id < 0 ? 0.0 : m_.numeric_data[m_.numeric_adr[id]];
-  }
-
-  [[nodiscard]] const mjtNum* FindNumbers(const std::string& name, int count) {
-    const int id = mj_name2id(&m_, mjOBJ_NUMERIC, name.c_str());
-    if (id >= 0 && m_.numeric_size[id] != count) {
-      Complain(name, fmt::format("has {} numbers and needs {}", m_.numeric_size[id], count));
-      return nullptr;
-    }
-    return id < 0 ? nullptr : m_.numeric_data + m_.numeric_adr[id];
-  }
-
-  /// What need not be there.
-  void Read(const std::string& name, double& value) {
-    if (const mjtNum* number = FindNumbers(name, 1)) {
-      value = *number;
-    }
   }
 
   void FindNames() {
@@ -194,7 +178,7 @@ class CarReader {
                                     "torque [N m] and must be above 0",
                                     range[0], range[1]));
     }
-    Read("drive_power", parts_.drive_power);
+    numerics_.Read("drive_power", parts_.drive_power);
     if (!(parts_.drive_power >= 0.0)) {
       Complain("drive_power",
                fmt::format("must not be negative, found {:.4g}", parts_.drive_power));
@@ -341,104 +325,24 @@ class CarReader {
     }
   }
 
-  /// A coefficient of both axles, and of each.
-  void ReadCoefficient(const MagicFormulaField& field, CarTyres& tyres, bool& any) {
-    const std::string name = field.name;
-    const auto has = [&](const std::string& key) {
-      return mj_name2id(&m_, mjOBJ_NUMERIC, key.c_str()) >= 0;
-    };
-    const std::array<std::string, 2> own{name + "_front", name + "_rear"};
-    for (std::size_t axle = 0; axle < own.size(); ++axle) {
-      double& value = tyres.axle[axle].*field.value;
-      Read(name, value);
-      Read(own[axle], value);
-      any = any ||
-            ((has(name) || has(own[axle])) && (name.starts_with("p_") || name.starts_with("r_")));
-      if (field.required && !has(name) && !has(own[axle])) {
-        missing_coefficients_.push_back(own[axle]);
-      }
-    }
-  }
-
   void ReadTyres() {
-    CarTyres tyres;
-    bool any = false;
-    for (const MagicFormulaField& field : MagicFormulaFields()) {
-      ReadCoefficient(field, tyres, any);
-    }
-    CheckCoefficientNames();
-    Read("camber_gain_front", tyres.camber_gain[0]);
-    Read("camber_gain_rear", tyres.camber_gain[1]);
-    Read("tyre_vertical_stiffness", tyres.vertical_stiffness);
-    Read("tyre_vertical_damping", tyres.vertical_damping);
-    if (!any) {
+    parts_.tyres = trackbed::ReadTyres(numerics_);
+    if (!parts_.tyres) {
       return;
-    }
-    for (const std::string& name : missing_coefficients_) {
-      Complain(name, std::string("missing; a tyre needs ") + kNeededCoefficients);
-    }
-    for (std::size_t axle = 0; axle < tyres.axle.size(); ++axle) {
-      CheckTyre(tyres.axle[axle], axle == 0 ? "front" : "rear");
     }
     const double load = 0.5 * params_.mass * std::abs(m_.opt.gravity[2]) / params_.wheelbase;
     params_.cornering_stiffness_front =
-        2.0 * CorneringStiffness(tyres.axle[0], load * params_.cg_to_rear);
+        2.0 * CorneringStiffness(parts_.tyres->axle[0], load * params_.cg_to_rear);
     params_.cornering_stiffness_rear =
-        2.0 * CorneringStiffness(tyres.axle[1], load * params_.cg_to_front());
-    parts_.tyres = tyres;
-  }
-
-  /// A coefficient that nobody reads is a misspelt or an unsupported one.
-  void CheckCoefficientNames() {
-    std::vector<std::string> known;
-    for (const MagicFormulaField& field : MagicFormulaFields()) {
-      for (const char* ending : {"", "_front", "_rear"}) {
-        known.push_back(std::string(field.name) + ending);
-      }
-    }
-    for (int id = 0; id < m_.nnumeric; ++id) {
-      const std::string name = m_.names + m_.name_numericadr[id];
-      const bool is_coefficient = name.size() > 2 && name[1] == '_' &&
-                                  std::string("pqrstl").find(name[0]) != std::string::npos;
-      if (is_coefficient && std::find(known.begin(), known.end(), name) == known.end()) {
-        Complain(name, "unknown tyre coefficient " + UnknownName(name, known));
-      }
-    }
-  }
-
-  void CheckTyre(const MagicFormula& tyre, const char* axle) {
-    const auto need = [&](bool holds, const char* name, const char* what, double found) {
-      if (!holds && missing_coefficients_.empty()) {
-        Complain(fmt::format("{} ({})", name, axle),
-                 fmt::format("must be {}, found {:.4g}", what, found));
-      }
-    };
-    need(tyre.p_cx1 > 0.0, "p_cx1", "above 0", tyre.p_cx1);
-    need(tyre.p_dx1 > 0.0, "p_dx1", "above 0", tyre.p_dx1);
-    need(tyre.p_kx1 > 0.0, "p_kx1", "above 0", tyre.p_kx1);
-    need(tyre.p_ex1 <= 1.0, "p_ex1", "at most 1", tyre.p_ex1);
-    need(tyre.p_cy1 > 0.0, "p_cy1", "above 0", tyre.p_cy1);
-    need(tyre.p_dy1 > 0.0, "p_dy1", "above 0", tyre.p_dy1);
-    need(tyre.p_ky1 < 0.0, "p_ky1",
-         "below 0: a positive slip angle, with the tyre moving to the left, makes a force to the "
-         "right",
-         tyre.p_ky1);
-    need(tyre.p_ey1 <= 1.0, "p_ey1", "at most 1", tyre.p_ey1);
-    need(tyre.p_ky2 >= 0.0, "p_ky2", "at least 0", tyre.p_ky2);
-    need(tyre.relaxation_length > 0.0, "relaxation_length", "above 0", tyre.relaxation_length);
-    need(tyre.rolling_resistance >= 0.0, "rolling_resistance", "at least 0",
-         tyre.rolling_resistance);
-    const bool needs_load = tyre.p_ky2 != 0.0 || tyre.p_dx2 != 0.0 || tyre.p_dy2 != 0.0;
-    need(tyre.f_z0 >= 0.0 && (tyre.f_z0 > 0.0 || !needs_load), "F_z0",
-         "above 0: p_ky2, p_dx2 and p_dy2 need the nominal load", tyre.f_z0);
+        2.0 * CorneringStiffness(parts_.tyres->axle[1], load * params_.cg_to_front());
   }
 
   void ReadAerodynamics() {
     CarAerodynamics& air = parts_.aerodynamics;
-    Read("drag_area", air.drag_area);
-    Read("side_area", air.side_area);
+    numerics_.Read("drag_area", air.drag_area);
+    numerics_.Read("side_area", air.side_area);
     air.centre_of_pressure = {params_.cg_to_rear, parts_.cg_height};
-    if (const mjtNum* at = FindNumbers("centre_of_pressure", 2)) {
+    if (const mjtNum* at = numerics_.Find("centre_of_pressure", 2)) {
       air.centre_of_pressure = {at[0], at[1]};
     }
     if (!(air.drag_area >= 0.0 && air.side_area >= 0.0)) {
@@ -470,6 +374,8 @@ class CarReader {
   std::string file_;
   std::unique_ptr<mjData, DataDeleter> data_;
   std::vector<Problem> problems_;
+  Numerics numerics_{
+      m_, [this](const std::string& name, const std::string& message) { Complain(name, message); }};
   CarParts parts_;
   VehicleParams params_;
   int free_ = -1;  // joints
@@ -477,7 +383,6 @@ class CarReader {
   std::array<int, 4> spin_{};
   std::array<int, 2> steer_{};
   int outline_ = -1;  // site
-  std::vector<std::string> missing_coefficients_;
 };
 
 }  // namespace

@@ -1,0 +1,125 @@
+#include "src/sim/tyre_reader.h"
+
+#include <fmt/format.h>
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "src/sim/car_parts.h"
+#include "trackbed/core/spelling.h"
+#include "trackbed/vehicle/magic_formula.h"
+
+namespace trackbed {
+namespace {
+
+/// The names of a coefficient: of both axles, and of each.
+std::array<std::string, 3> NamesOf(const MagicFormulaField& field) {
+  const std::string name = field.name;
+  return {name, name + "_front", name + "_rear"};
+}
+
+/// A coefficient that nobody reads is a misspelt or an unsupported one.
+void CheckNames(const Numerics& numerics) {
+  std::vector<std::string> known;
+  for (const MagicFormulaField& field : MagicFormulaFields()) {
+    const auto names = NamesOf(field);
+    known.insert(known.end(), names.begin(), names.end());
+  }
+  const mjModel& model = numerics.model();
+  for (int id = 0; id < model.nnumeric; ++id) {
+    const std::string name = model.names + model.name_numericadr[id];
+    const bool is_coefficient = name.size() > 2 && name[1] == '_' &&
+                                std::string("pqrstl").find(name[0]) != std::string::npos;
+    if (is_coefficient && std::find(known.begin(), known.end(), name) == known.end()) {
+      numerics.Tell(name, "unknown tyre coefficient " + UnknownName(name, known));
+    }
+  }
+}
+
+void CheckTyre(const Numerics& numerics, const MagicFormula& tyre, const char* axle) {
+  const auto need = [&](bool holds, const char* name, const char* what, double found) {
+    if (!holds) {
+      numerics.Tell(fmt::format("{} ({})", name, axle),
+                    fmt::format("must be {}, found {:.4g}", what, found));
+    }
+  };
+  need(tyre.p_cx1 > 0.0, "p_cx1", "above 0", tyre.p_cx1);
+  need(tyre.p_dx1 > 0.0, "p_dx1", "above 0", tyre.p_dx1);
+  need(tyre.p_kx1 > 0.0, "p_kx1", "above 0", tyre.p_kx1);
+  need(tyre.p_ex1 <= 1.0, "p_ex1", "at most 1", tyre.p_ex1);
+  need(tyre.p_cy1 > 0.0, "p_cy1", "above 0", tyre.p_cy1);
+  need(tyre.p_dy1 > 0.0, "p_dy1", "above 0", tyre.p_dy1);
+  need(tyre.p_ky1 < 0.0, "p_ky1",
+       "below 0: a positive slip angle, with the tyre moving to the left, makes a force to the "
+       "right",
+       tyre.p_ky1);
+  need(tyre.p_ey1 <= 1.0, "p_ey1", "at most 1", tyre.p_ey1);
+  need(tyre.p_ky2 >= 0.0, "p_ky2", "at least 0", tyre.p_ky2);
+  need(tyre.relaxation_length > 0.0, "relaxation_length", "above 0", tyre.relaxation_length);
+  need(tyre.rolling_resistance >= 0.0, "rolling_resistance", "at least 0", tyre.rolling_resistance);
+  const bool needs_load = tyre.p_ky2 != 0.0 || tyre.p_dx2 != 0.0 || tyre.p_dy2 != 0.0;
+  need(tyre.f_z0 >= 0.0 && (tyre.f_z0 > 0.0 || !needs_load), "F_z0",
+       "above 0: p_ky2, p_dx2 and p_dy2 need the nominal load", tyre.f_z0);
+}
+
+}  // namespace
+
+bool Numerics::Has(const std::string& name) const {
+  return mj_name2id(&model_, mjOBJ_NUMERIC, name.c_str()) >= 0;
+}
+
+const double* Numerics::Find(const std::string& name, int count) const {
+  const int id = mj_name2id(&model_, mjOBJ_NUMERIC, name.c_str());
+  if (id >= 0 && model_.numeric_size[id] != count) {
+    Tell(name, fmt::format("has {} numbers and needs {}", model_.numeric_size[id], count));
+    return nullptr;
+  }
+  return id < 0 ? nullptr : model_.numeric_data + model_.numeric_adr[id];
+}
+
+void Numerics::Read(const std::string& name, double& value) const {
+  if (const double* number = Find(name, 1)) {
+    value = *number;
+  }
+}
+
+std::optional<CarTyres> ReadTyres(const Numerics& numerics) {
+  CarTyres tyres;
+  bool any = false;
+  std::vector<std::string> missing;
+  for (const MagicFormulaField& field : MagicFormulaFields()) {
+    const auto [both, front, rear] = NamesOf(field);
+    const std::string own[] = {front, rear};
+    for (std::size_t axle = 0; axle < tyres.axle.size(); ++axle) {
+      double& value = tyres.axle[axle].*field.value;
+      numerics.Read(both, value);
+      numerics.Read(own[axle], value);
+      const bool given = numerics.Has(both) || numerics.Has(own[axle]);
+      // The others, such as a relaxation length, do not make a tyre.
+      any = any || (given && (both.starts_with("p_") || both.starts_with("r_")));
+      if (field.required && !given) {
+        missing.push_back(own[axle]);
+      }
+    }
+  }
+  CheckNames(numerics);
+  numerics.Read("camber_gain_front", tyres.camber_gain[0]);
+  numerics.Read("camber_gain_rear", tyres.camber_gain[1]);
+  numerics.Read("tyre_vertical_stiffness", tyres.vertical_stiffness);
+  numerics.Read("tyre_vertical_damping", tyres.vertical_damping);
+  if (!any) {
+    return std::nullopt;
+  }
+  for (const std::string& name : missing) {
+    numerics.Tell(name, std::string("missing; a tyre needs ") + kNeededCoefficients);
+  }
+  if (missing.empty()) {
+    CheckTyre(numerics, tyres.axle[0], "front");
+    CheckTyre(numerics, tyres.axle[1], "rear");
+  }
+  return tyres;
+}
+
+}  // namespace trackbed
