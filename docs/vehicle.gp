@@ -1,0 +1,95 @@
+# Figures of vehicle.md; made by scripts/figures, which drives the scenarios first.
+set datafile separator ","
+set encoding utf8
+set grid lt 1 lw 1 lc rgb "#d8d8d8"
+set key opaque
+
+reference(name) = "tests/data/commonroad/" . name . "_bmw320i_" . (name eq "lane_change" ? "15" : "20") . "mps.csv"
+car(name, plant) = runs . "/" . name . "/" . plant . ".csv"
+
+set terminal pngcairo noenhanced size 1200,760 font "sans,12" background "white"
+set output images . "/vehicle_validation.png"
+set multiplot layout 2,2 margins 0.075,0.985,0.085,0.94 spacing 0.09,0.11
+do for [quantity = 1:2] {
+  do for [name in "step_steer lane_change"] {
+    set title (quantity == 1 ? (name eq "step_steer" ? "Step steer at 20 m/s" : "Lane change at 15 m/s") : "")
+    set xlabel (quantity == 2 ? "time [s]" : "")
+    set ylabel (name eq "lane_change" ? "" : quantity == 1 ? "yaw rate [rad/s]" : "lateral acceleration [m/s²]")
+    if (quantity == 1 && name eq "step_steer") { set key bottom right } else { set key off }
+    column_name = quantity == 1 ? "yaw_rate_radps" : "lateral_acceleration_mps2"
+    reference_column = quantity == 1 ? "yaw_rate_radps" : "ay_mps2"
+    set xrange [0:(name eq "step_steer" ? 4 : 7)]
+    plot reference(name) using "t_s":reference_column with lines lw 6 lc rgb "#c0c0c0" title "CommonRoad, multi-body", \
+         car(name, "kinematic") using "t_s":column_name with lines lw 1.5 dt 3 lc rgb "#404040" title "kinematic", \
+         car(name, "single_track") using "t_s":column_name with lines lw 1.5 dt 2 lc rgb "#1f77b4" title "single_track", \
+         car(name, "mujoco") using "t_s":column_name with lines lw 2 lc rgb "#d62728" title "mujoco:magic_formula"
+  }
+}
+unset multiplot
+unset xrange
+
+# The study: one panel for each tyre law and friction. A run without a yaw-rate ratio failed wholly.
+$taghia << end
+3,0.0085
+3,0.118
+end
+$werner << end
+4.5,0.0085
+4.5,0.118
+end
+sweep = study . "/sweep.csv"
+set key off
+set logscale xy
+set xrange [1.7:35]
+set yrange [0.0085:0.118]
+set xtics (2, 3, 4.5, 6, 8, 10, 13, 16, 20, 25, 30)
+curvatures = '("1/100" 0.01, "1/63" 1/63., "1/40" 0.025, "1/25" 0.04, "1/16" 1/16., "1/10" 0.1)'
+set datafile missing NaN
+in_panel(tyre, mu) = strcol("vehicle.tyre") eq tyre && abs(column("world.friction") - mu) < 1e-9
+number(name) = (text = strcol(name), strlen(text) > 0 ? real(text) : NaN)
+wrong(unused) = (ratio = number("metrics.mujoco.yaw_rate_ratio"), ratio == ratio ? abs(1 - ratio) : 1)
+off_path(unused) = (off = number("metrics.mujoco.cross_track.max"), off == off ? off : 1000)
+# Where a quantity that rises with the speed passes a limit; runs of one radius follow each other.
+passes(v, e, limit) = (before_v = last_v, before_e = last_e, last_v = v, last_e = e, \
+  v > before_v && before_e < limit && e >= limit ? \
+  exp(log(before_v) + (log(v) - log(before_v))*(limit - before_e)/(e - before_e)) : NaN)
+
+do for [what = 1:2] {
+  set output images . (what == 1 ? "/vehicle_validity_yaw_rate.png" : "/vehicle_validity_cross_track.png")
+  set terminal pngcairo noenhanced size 1400,860 font "sans,11" background "white"
+  set multiplot layout 2,3 margins 0.065,0.9,0.08,0.94 spacing 0.03,0.1
+  if (what == 1) {
+    set palette defined (0 "#f7fbff", 0.05 "#c6dbef", 0.0501 "#fdd49e", 0.1 "#fdbb84", 0.1001 "#ef6548", 0.3 "#990000")
+    set cbrange [0:0.3]
+    set cblabel "yaw rate off the kinematic prediction"
+    set format cb "%.2f"
+    low = 0.05; high = 0.1
+  } else {
+    set palette defined (0 "#f7fbff", 0.3 "#c6dbef", 0.301 "#fdd49e", 1 "#fdbb84", 1.01 "#ef6548", 3 "#990000")
+    set cbrange [0:3]
+    set cblabel "largest cross-track error [m]"
+    set format cb "%.1f"
+    low = 0.3; high = 1
+  }
+  do for [tyre in "contact magic_formula"] {
+    do for [mu in "1 0.5 0.2"] {
+      set title tyre . ", friction " . mu
+      set xlabel (tyre eq "magic_formula" ? "speed [m/s]" : "")
+      set ylabel (mu eq "1" ? "curvature [1/m]" : "")
+      if (mu eq "1") { set ytics @curvatures } else { set ytics ("" 0.01, "" 1/63., "" 0.025, "" 0.04, "" 1/16., "" 0.1) }
+      if (mu eq "0.2" && tyre eq "contact") { set colorbox user origin 0.925,0.08 size 0.015,0.86 } else { unset colorbox }
+      if (mu eq "1" && tyre eq "contact") { set key bottom left } else { set key off }
+      last_v = 1e9; last_e = 0
+      plot sweep using (in_panel(tyre, real(mu)) ? column("mission.speed") : NaN):(1/column("plan.radius")) \
+             :(what == 1 ? wrong(0) : off_path(0)) with points pt 5 ps 4.6 lc palette notitle, \
+           [1.7:35] 0.5*real(mu)*9.81/x**2 with lines lw 2 dt 3 lc rgb "#000000" title "0.5 µ g (Polack)", \
+           $taghia using 1:2 with lines lw 2 dt 2 lc rgb "#1b7837" title "3 m/s (Taghia)", \
+           $werner using 1:2 with lines lw 2 dt 4 lc rgb "#762a83" title "4.5 m/s (Werner)", \
+           sweep using (in_panel(tyre, real(mu)) ? passes(column("mission.speed"), what == 1 ? wrong(0) : off_path(0), low) : NaN) \
+             :(1/column("plan.radius")) with linespoints lw 2 pt 7 ps 0.9 lc rgb "#08519c" title (what == 1 ? "5 % off" : "0.3 m off"), \
+           sweep using (in_panel(tyre, real(mu)) ? passes(column("mission.speed"), what == 1 ? wrong(0) : off_path(0), high) : NaN) \
+             :(1/column("plan.radius")) with linespoints lw 2 pt 9 ps 0.9 lc rgb "#67000d" title (what == 1 ? "10 % off" : "1 m off")
+    }
+  }
+  unset multiplot
+}
