@@ -34,6 +34,12 @@ void KinematicCar::Step(const Command& command, double duration) {
   acceleration_ = motion.acceleration;
 }
 
+void KinematicCar::Shift(double left) {
+  const Vec2 to = ToWorld(state_.pose, {0.0, left});
+  state_.pose.x = to.x();
+  state_.pose.y = to.y();
+}
+
 void KinematicCar::Advance(const MotionPiece& piece) {
   const double duration = piece.duration;
   const double moved = (state_.speed + 0.5 * piece.acceleration * duration) * duration;

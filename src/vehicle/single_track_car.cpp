@@ -73,6 +73,18 @@ void SingleTrackCar::Step(const Command& command, double duration) {
   acceleration_ = motion.acceleration;
 }
 
+void SingleTrackCar::Shift(double left) {
+  const Vec2 to = ToWorld(state_.pose, {0.0, left});
+  state_.pose.x = to.x();
+  state_.pose.y = to.y();
+}
+
+void SingleTrackCar::Push(double impulse) {
+  if (state_.speed != 0.0) {
+    state_.lateral_speed += impulse / params_.mass;
+  }
+}
+
 void SingleTrackCar::Advance(const MotionPiece& piece) {
   if (state_.speed == 0.0 && piece.acceleration == 0.0) {
     state_.steering = piece.end_steering;

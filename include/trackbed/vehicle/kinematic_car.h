@@ -36,6 +36,9 @@ class KinematicCar {
   /// Advances by `duration` [s] >= 0 under a constant command.
   void Step(const Command& command, double duration);
 
+  /// Sets the car aside by `left` [m], to its left, at once.
+  void Shift(double left);
+
   [[nodiscard]] const KinematicState& state() const { return state_; }
 
   /// The full state, rear-axle pose and speed whatever the reference point is; accelerations are

@@ -52,6 +52,13 @@ class SingleTrackCar {
   /// Advances by `duration` [s] >= 0 under a constant command.
   void Step(const Command& command, double duration);
 
+  /// Sets the car aside by `left` [m], to its left, at once.
+  void Shift(double left);
+
+  /// A blow to the left [N s] at the centre of gravity. A car at rest, which has no lateral speed,
+  /// does not feel it.
+  void Push(double impulse);
+
   [[nodiscard]] const SingleTrackState& state() const { return state_; }
 
   /// As KinematicCar's: accelerations are those at the end of the last step, `time` is the sum of
