@@ -2,6 +2,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -78,6 +79,18 @@ mjModel* Compile(const Scene& scene, const std::string& name) {
   return model;
 }
 
+/// What the car would be if its payload weighed nothing.
+VehicleParams Unladen(const mjModel& laden, int payload, const std::string& name) {
+  const std::unique_ptr<mjModel, void (*)(mjModel*)> model(mj_copyModel(nullptr, &laden),
+                                                           mj_deleteModel);
+  TRACKBED_CHECK(model != nullptr, "no memory for the simulation");
+  const std::unique_ptr<mjData, void (*)(mjData*)> data(mj_makeData(model.get()), mj_deleteData);
+  TRACKBED_CHECK(data != nullptr, "no memory for mjData");
+  model->body_mass[payload] = 0.0;
+  mj_setConst(model.get(), data.get());
+  return DescribeCar(*model, name).params;
+}
+
 /// Where the frame V of a car lies that stands on the ground.
 struct Stand {
   double height = 0.0;  ///< [m]
@@ -115,6 +128,8 @@ CarModel::CarModel(Scene scene, std::string name_for_messages)
   const CarDescription car = DescribeCar(*model_, file_);
   parts_ = car.parts;
   params_ = car.params;
+  const int payload = mj_name2id(model_.get(), mjOBJ_BODY, kPayloadBody);
+  unladen_ = payload >= 0 ? Unladen(*model_, payload, file_) : params_;
 }
 
 CarModel::CarModel(CarModel&&) noexcept = default;
@@ -158,17 +173,24 @@ std::vector<double> CarModel::StandingPosition(const Pose2& pose, double steerin
                                                const std::array<double, 4>& spin,
                                                const Ground& ground) const {
   const Stand stand = StandOn(params_, pose, ground);
-  std::vector<double> qpos(model_->qpos0, model_->qpos0 + model_->nq);
+  const int laden = mj_name2id(model_.get(), mjOBJ_KEY, kLadenKeyframe);
+  const mjtNum* level = laden < 0 ? model_->qpos0 : model_->key_qpos + laden * model_->nq;
+  std::vector<double> qpos(level, level + model_->nq);
   const auto set = [&](int address, double value) {
     qpos[static_cast<std::size_t>(address)] = value;
   };
   set(parts_.chassis_qpos, pose.x);
   set(parts_.chassis_qpos + 1, pose.y);
-  qpos[static_cast<std::size_t>(parts_.chassis_qpos) + 2] += stand.height;
-  set(parts_.chassis_qpos + 3, stand.turn.w());
-  set(parts_.chassis_qpos + 4, stand.turn.x());
-  set(parts_.chassis_qpos + 5, stand.turn.y());
-  set(parts_.chassis_qpos + 6, stand.turn.z());
+  const mjtNum sag = level[parts_.chassis_qpos + 2];  // across the ground
+  const double upright = laden < 0 ? 1.0 : (stand.turn * Eigen::Vector3d::UnitZ()).z();
+  set(parts_.chassis_qpos + 2, sag / upright + stand.height);
+  const mjtNum* lean = level + parts_.chassis_qpos + 3;
+  const Eigen::Quaterniond turn =
+      laden < 0 ? stand.turn : stand.turn * Eigen::Quaterniond(lean[0], lean[1], lean[2], lean[3]);
+  set(parts_.chassis_qpos + 3, turn.w());
+  set(parts_.chassis_qpos + 4, turn.x());
+  set(parts_.chassis_qpos + 5, turn.y());
+  set(parts_.chassis_qpos + 6, turn.z());
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     set(parts_.spin_qpos[w], spin[w]);
   }
@@ -177,6 +199,10 @@ std::vector<double> CarModel::StandingPosition(const Pose2& pose, double steerin
   set(parts_.steer_qpos[1], front.right);
   set(parts_.rack_qpos, steering);
   return qpos;
+}
+
+Eigen::Vector3d CarModel::AheadOnGround(const Pose2& pose, const Ground& ground) const {
+  return StandOn(params_, pose, ground).turn.normalized().toRotationMatrix().col(0);
 }
 
 std::vector<double> CarModel::FlatConfiguration(const Pose2& pose, double steering,

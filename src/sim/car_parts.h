@@ -17,6 +17,10 @@ inline constexpr const char* kNeededCoefficients =
     "p_cx1, p_dx1, p_kx1, p_cy1, p_dy1 and p_ky1, of both axles under these names or of each with "
     "_front and _rear";
 
+/// Names of what WithPayload adds.
+inline constexpr const char* kPayloadBody = "payload";
+inline constexpr const char* kLadenKeyframe = "laden";
+
 /// The car's tyres; InputError naming its file and what is missing there when it has none.
 /// `needed_by` is what cannot do without.
 const CarTyres& TyresOf(const CarModel& car, const std::string& needed_by);

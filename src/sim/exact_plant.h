@@ -31,6 +31,14 @@ class ExactPlant final : public Plant {
     }
   }
 
+  void Shift(double left) override { car_.Shift(left); }
+
+  void Push(double force) override {
+    if constexpr (requires { car_.Push(force); }) {
+      car_.Push(force * model_.timestep());
+    }
+  }
+
   [[nodiscard]] VehicleState Observe() const override { return car_.FullState(); }
 
   [[nodiscard]] std::vector<double> Configuration() const override {

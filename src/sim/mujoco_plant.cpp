@@ -68,6 +68,7 @@ class MujocoPlant final : public Plant {
     mj_step1(model_.get(), data_.get());
     std::fill_n(data_->qfrc_applied, model_->nv, 0.0);
     PushByAir();
+    PushAside();
     if (tyres_) {
       tyres_->Apply(*model_, *data_, loads, road);
     }
@@ -79,6 +80,10 @@ class MujocoPlant final : public Plant {
     yaw_ += AngleDifference(yaw, yaw_);
     distance_ += std::abs(Speed()) * model_->opt.timestep;
   }
+
+  void Shift(double left) override;
+
+  void Push(double force) override { push_ = force; }
 
   [[nodiscard]] VehicleState Observe() const override;
 
@@ -124,6 +129,7 @@ class MujocoPlant final : public Plant {
   [[nodiscard]] std::array<double, 4> Road();
   [[nodiscard]] Vector3d AirSpeed() const;
   void PushByAir();
+  void PushAside();
   [[nodiscard]] double Resistance(int gear) const;
   void PrescribeVelocity(double steering);
   void PrescribeAngle(double steering);
@@ -141,6 +147,7 @@ class MujocoPlant final : public Plant {
   std::array<double, 4> bearing_friction_{};  // [N m]
   double yaw_ = 0.0;                          // unwrapped [rad]
   double distance_ = 0.0;                     // [m]
+  double push_ = 0.0;                         // to the left, in the coming step [N]
 };
 
 void MujocoPlant::Reset(const StartState& start) {
@@ -149,7 +156,7 @@ void MujocoPlant::Reset(const StartState& start) {
   const auto qpos = car_.StandingPosition(start.pose, start.steering, {}, car_.scene().ground);
   std::copy(qpos.begin(), qpos.end(), data_->qpos);
   mjtNum* velocity = data_->qvel + parts.chassis_dof;
-  const Vector3d ahead_W = ChassisRotation().col(0);  // along the ground, where it is not level
+  const Vector3d ahead_W = car_.AheadOnGround(start.pose, car_.scene().ground);
   Eigen::Map<Vector3d>{velocity} = start.speed / ahead_W.head<2>().norm() * ahead_W;
   velocity[5] = start.speed * CurvatureForSteering(car_.params(), start.steering);
   const auto rolling = RollingSpeeds(car_.params(), start.speed, start.steering);
@@ -173,7 +180,7 @@ void MujocoPlant::Steer(double wanted) {
 void MujocoPlant::Propel(const Command& command) {
   const CarParts& parts = car_.parts();
   const double radius = car_.params().wheel_radius;
-  double rolling_mass = car_.params().mass;  // with the wheels' own inertia
+  double rolling_mass = car_.unladen().mass;  // with the wheels' own inertia
   for (const double inertia : parts.spin_inertia) {
     rolling_mass += inertia / (radius * radius);
   }
@@ -247,6 +254,28 @@ void MujocoPlant::PushByAir() {
   const std::array<mjtNum, 3> no_moment{};
   mj_applyFT(model_.get(), data_.get(), force_W.data(), no_moment.data(), at_W.data(),
              car_.parts().chassis, data_->qfrc_applied);
+}
+
+void MujocoPlant::Shift(double left) {
+  mjtNum* at = data_->qpos + car_.parts().chassis_qpos;
+  const Vec2 from(at[0], at[1]);
+  const Vec2 to = from + left * LeftOf(Direction(Yaw()));
+  at[0] = to.x();
+  at[1] = to.y();
+  at[2] += GroundHeight(world_, to) - GroundHeight(world_, from);
+}
+
+void MujocoPlant::PushAside() {
+  if (push_ == 0.0) {
+    return;
+  }
+  const Vec2 force = push_ * LeftOf(Direction(Yaw()));
+  const Vector3d force_W(force.x(), force.y(), 0.0);
+  const std::array<mjtNum, 3> no_moment{};
+  mj_applyFT(model_.get(), data_.get(), force_W.data(), no_moment.data(),
+             data_->subtree_com + 3 * car_.parts().chassis, car_.parts().chassis,
+             data_->qfrc_applied);
+  push_ = 0.0;
 }
 
 /// The wheels move to `steering` during the coming step, whatever forces say.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <memory>
 #include <optional>
@@ -75,6 +76,8 @@ class CarModel {
   ~CarModel();
 
   [[nodiscard]] const VehicleParams& params() const { return params_; }
+  /// Without the payload of its scene, what planners and controllers go by; else the same.
+  [[nodiscard]] const VehicleParams& unladen() const { return unladen_; }
   [[nodiscard]] const CarParts& parts() const { return parts_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   /// What messages call the car's file.
@@ -91,10 +94,15 @@ class CarModel {
 
   /// qpos of the car standing on `ground`, its rear-axle centre at `pose` as seen from above, its
   /// wheels at `steering` (bicycle angle) and turned by `spin` [rad]. Its frame V lies on the plane
-  /// that fits the heights under the four wheels best, moved up until no wheel is in the ground.
+  /// that fits the heights under the four wheels best, moved up until no wheel is in the ground; a
+  /// payload's weight on the springs moves it from there.
   [[nodiscard]] std::vector<double> StandingPosition(const Pose2& pose, double steering,
                                                      const std::array<double, 4>& spin,
                                                      const Ground& ground) const;
+
+  /// The unit vector ahead of that car along the ground, in the world: a laden car's own x axis
+  /// leans away from it.
+  [[nodiscard]] Eigen::Vector3d AheadOnGround(const Pose2& pose, const Ground& ground) const;
 
   /// A configuration of the car standing on its scene's ground, as above.
   [[nodiscard]] std::vector<double> FlatConfiguration(const Pose2& pose, double steering,
@@ -113,6 +121,7 @@ class CarModel {
   std::string file_;
   std::unique_ptr<mjModel_, Deleter> model_;
   VehicleParams params_;
+  VehicleParams unladen_;
   CarParts parts_;
 };
 

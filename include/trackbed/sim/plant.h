@@ -28,6 +28,14 @@ class Plant {
   /// Advances by one timestep of the model.
   virtual void Step(const Command& command) = 0;
 
+  /// Sets the car aside by `left` [m], to its left, at once: as it stands and moves, on the ground
+  /// that is there.
+  virtual void Shift(double left) = 0;
+
+  /// A horizontal force to the left [N] that acts on its centre of gravity during the next step
+  /// alone. Cars that know no forces do not feel it.
+  virtual void Push(double force) = 0;
+
   /// The state now. For plants with forces, accelerations and wheel forces are those of the step
   /// that led here.
   [[nodiscard]] virtual VehicleState Observe() const = 0;
@@ -78,10 +86,12 @@ struct PlantEntry {
 /// InputError names its file and what is missing there; it begins without slip, as every plant
 /// does. Where it is unstable it ends as diverged, 1e10 m or rad away.
 ///
+/// `kinematic` feels no Push, and `single_track` none at rest.
+///
 /// The MuJoCo plant turns a wanted acceleration into drive torque on its differential, or, against
 /// the gear, into dry friction of the brakes, front to rear as the model's brake torques; both are
-/// cut at the model's limits. Its steering actuator's rate limit is the model's own, fed anew at
-/// every physics step.
+/// cut at the model's limits. It reckons with the car's unladen mass. Its steering actuator's rate
+/// limit is the model's own, fed anew at every physics step.
 const std::vector<PlantEntry>& Plants();
 
 /// InputError with the nearest spelling when there is no such plant.

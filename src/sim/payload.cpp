@@ -1,0 +1,153 @@
+#include "trackbed/sim/payload.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <mujoco/mujoco.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "src/sim/car_parts.h"
+#include "src/sim/scene_xml.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+using tinyxml2::XMLDocument;
+using tinyxml2::XMLElement;
+
+struct ModelDeleter {
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+};
+struct DataDeleter {
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+
+/// Lets a car sink on its springs, held by its brakes, until it stands.
+class Settling {
+ public:
+  explicit Settling(const CarModel& car)
+      : car_(car), model_(mj_copyModel(nullptr, car.get())), data_(mj_makeData(model_.get())) {
+    TRACKBED_CHECK(model_ && data_, "no memory for the simulation");
+    const auto start = car.FlatPosition({}, 0.0, {});
+    std::copy(start.begin(), start.end(), data_->qpos);
+    for (std::size_t w = 0; w < kWheels.size(); ++w) {
+      model_->dof_frictionloss[car.parts().spin_dof[w]] +=
+          w < 2 ? car.parts().brake_torque_front : car.parts().brake_torque_rear;
+    }
+  }
+
+  /// False when that has not happened in 30 s.
+  bool Run() {
+    constexpr double kLongest = 30.0;  // [s]
+    // With springs of 1 Hz and more, a car this slow is less than a micrometre from where it stays.
+    constexpr double kStands = 1e-6;  // [m/s], [rad/s]
+    constexpr double kLookEvery = 0.5;
+    // It also passes its highest and lowest point slowly: it must be slow all the time.
+    double fastest = 0.0;
+    for (double next = kLookEvery; data_->time < kLongest;) {
+      mj_step(model_.get(), data_.get());
+      if (std::any_of(std::begin(data_->warning), std::end(data_->warning),
+                      [](const mjWarningStat& warning) { return warning.number > 0; })) {
+        return false;
+      }
+      for (int dof = 0; dof < model_->nv; ++dof) {
+        fastest = std::max(fastest, std::abs(data_->qvel[dof]));
+      }
+      if (data_->time > next) {
+        if (fastest < kStands) {
+          return true;
+        }
+        fastest = 0.0;
+        next += kLookEvery;
+      }
+    }
+    return false;
+  }
+
+  /// As it stands, but at the origin, heading along x, with its wheels straight.
+  [[nodiscard]] std::vector<double> Position() const {
+    std::vector<double> qpos(data_->qpos, data_->qpos + model_->nq);
+    const auto chassis = static_cast<std::size_t>(car_.parts().chassis_qpos);
+    qpos[chassis] = 0.0;
+    qpos[chassis + 1] = 0.0;
+    const Eigen::Quaterniond turn(qpos[chassis + 3], qpos[chassis + 4], qpos[chassis + 5],
+                                  qpos[chassis + 6]);
+    const Eigen::Vector3d ahead = turn * Eigen::Vector3d::UnitX();
+    const Eigen::Quaterniond straight =
+        Eigen::AngleAxisd(-std::atan2(ahead.y(), ahead.x()), Eigen::Vector3d::UnitZ()) * turn;
+    qpos[chassis + 3] = straight.w();
+    qpos[chassis + 4] = straight.x();
+    qpos[chassis + 5] = straight.y();
+    qpos[chassis + 6] = straight.z();
+    const CarParts& parts = car_.parts();
+    for (const int address :
+         {parts.spin_qpos[0], parts.spin_qpos[1], parts.spin_qpos[2], parts.spin_qpos[3],
+          parts.steer_qpos[0], parts.steer_qpos[1], parts.rack_qpos}) {
+      qpos[static_cast<std::size_t>(address)] = 0.0;
+    }
+    return qpos;
+  }
+
+  [[nodiscard]] bool OnAllWheels() const {
+    const std::vector<double> qpos = Position();
+    const auto chassis = static_cast<std::size_t>(car_.parts().chassis_qpos);
+    const Eigen::Quaterniond turn(qpos[chassis + 3], qpos[chassis + 4], qpos[chassis + 5],
+                                  qpos[chassis + 6]);
+    constexpr double kUpright = 0.9;
+    return (turn * Eigen::Vector3d::UnitZ()).z() > kUpright &&
+           std::all_of(car_.parts().tyre.begin(), car_.parts().tyre.end(), [&](int tyre) {
+             return std::any_of(data_->contact, data_->contact + data_->ncon,
+                                [&](const mjContact& contact) {
+                                  return contact.geom1 == tyre || contact.geom2 == tyre;
+                                });
+           });
+  }
+
+ private:
+  const CarModel& car_;
+  std::unique_ptr<mjModel, ModelDeleter> model_;
+  std::unique_ptr<mjData, DataDeleter> data_;
+};
+
+}  // namespace
+
+Scene WithPayload(const CarModel& car, const Payload& payload) {
+  const double mass = payload.mass ? *payload.mass : *payload.share * car.params().mass;
+  XMLDocument document;
+  ParseComposed(car.scene().xml, document);
+  XMLElement& root = *document.RootElement();
+  XMLElement* chassis = FindInWorld(root, "body", "chassis");
+  TRACKBED_CHECK(chassis != nullptr, "the car has no body 'chassis'");
+  XMLElement* body = chassis->InsertNewChildElement("body");
+  body->SetAttribute("name", kPayloadBody);
+  body->SetAttribute(
+      "pos", Numbers({payload.x, payload.y, payload.z.value_or(car.parts().cg_height)}).c_str());
+  XMLElement* inertial = body->InsertNewChildElement("inertial");
+  inertial->SetAttribute("pos", "0 0 0");
+  inertial->SetAttribute("mass", Numbers({mass}).c_str());
+  inertial->SetAttribute("diaginertia", "0 0 0");
+  Scene scene = car.scene();
+  scene.lines.clear();
+  scene.xml = Print(document);
+
+  const CarModel laden(scene, car.file());
+  Settling settling(laden);
+  if (!settling.Run() || !settling.OnAllWheels()) {
+    throw InputError(Problem{
+        .file = car.file(),
+        .message = fmt::format("{} does not come to rest on its four wheels with a payload of "
+                               "{:.4g} kg at x {:.4g} m, y {:.4g} m",
+                               car.params().name, mass, payload.x, payload.y)});
+  }
+  XMLElement* key = root.InsertNewChildElement("keyframe")->InsertNewChildElement("key");
+  key->SetAttribute("name", kLadenKeyframe);
+  key->SetAttribute("qpos", fmt::format("{}", fmt::join(settling.Position(), " ")).c_str());
+  scene.xml = Print(document);
+  return scene;
+}
+
+}  // namespace trackbed

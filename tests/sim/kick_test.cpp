@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/tolerance.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/sim/plant.h"
+
+// Plant::Shift and Plant::Push.
+namespace trackbed {
+namespace {
+
+const CarModel& Prius() {
+  static const CarModel car(ComposeScene(FindModel("prius", ""), {}), "prius");
+  return car;
+}
+
+TEST(Shift, SetsEveryPlantAside) {
+  const World world;
+  for (const PlantEntry& entry : Plants()) {
+    const auto plant = MakePlant(
+        entry.name,
+        {.car = Prius(), .world = world, .start = {.pose = {5.0, 3.0, 0.7}, .speed = 4.0}});
+    plant->Shift(0.5);
+    const VehicleState state = plant->Observe();
+    EXPECT_NEAR(state.pose.x, 5.0 - 0.5 * std::sin(0.7), Tolerance(1e-14)) << entry.name;
+    EXPECT_NEAR(state.pose.y, 3.0 + 0.5 * std::cos(0.7), Tolerance(1e-14)) << entry.name;
+    EXPECT_EQ(state.pose.yaw, 0.7) << entry.name;
+    EXPECT_NEAR(state.speed, 4.0, Tolerance(1e-14)) << entry.name;
+    EXPECT_EQ(state.distance, 0.0) << entry.name;
+    for (int i = 0; i < 500; ++i) {
+      plant->Step({});
+    }
+    // It goes on straight beside its old line, at walking pace and without any force across.
+    const Pose2 pose = plant->Observe().pose;
+    EXPECT_NEAR(ToLocal({5.0, 3.0, 0.7}, pose.position()).y(), 0.5, Tolerance(1e-4)) << entry.name;
+    EXPECT_FALSE(plant->diverged()) << entry.name;
+  }
+}
+
+TEST(Shift, GoesUpWithTheGround) {
+  World world;
+  world.ground.grade = {0.0, 0.1};
+  const CarModel car(WithWorld(Prius().scene(), Prius().params(), world), "prius");
+  const auto plant = MakePlant("mujoco", {.car = car, .world = world, .start = {}});
+  const double before = plant->Configuration()[2];
+  plant->Shift(2.0);
+  EXPECT_NEAR(plant->Configuration()[2] - before, 0.2, Tolerance(1e-14));
+}
+
+/// On ice, where nothing else acts across, the impulse is the car's momentum.
+TEST(Push, GivesMujocosCarTheMomentum) {
+  const World ice{.friction = 1e-5};
+  const auto plant = MakePlant(
+      "mujoco",
+      {.car = Prius(), .world = ice, .start = {.pose = {0.0, 0.0, kPi / 3.0}, .speed = 5.0}});
+  for (int i = 0; i < 50; ++i) {
+    plant->Push(4000.0);
+    plant->Step({});
+  }
+  const VehicleState state = plant->Observe();
+  // 400 N s. The road takes 1e-5 g of 0.1 s; the air, at 0.3 m/s across, 0.3 N of 4000 at most
+  // (1/2 1.225 5 0.3 5.07 = 4.7 N at the end, half of it on average): 0.06 %.
+  EXPECT_NEAR(state.lateral_speed, 400.0 / 1317.0, Tolerance(3e-4));
+  // At the centre of gravity: no moments but the air's, 0.28 m 2.3 N 0.1 s / 2157 kg m^2.
+  EXPECT_NEAR(state.yaw_rate, 0.0, Tolerance(1e-4));
+  EXPECT_NEAR(state.roll, 0.0, Tolerance(1e-3));
+  plant->Step({});
+  EXPECT_NEAR(plant->Observe().lateral_speed, state.lateral_speed, Tolerance(1e-4));
+}
+
+TEST(Push, MovesTheSingleTrackCarAndNotTheKinematicOne) {
+  const World world;
+  const PlantSetup setup{.car = Prius(), .world = world, .start = {.speed = 10.0}};
+  const auto dynamic = MakePlant("single_track", setup);
+  dynamic->Push(4000.0);
+  const double mass = Prius().params().mass;
+  EXPECT_NEAR(dynamic->Observe().lateral_speed, 4000.0 * 0.002 / mass, Tolerance(1e-15));
+  dynamic->Step({});
+  EXPECT_GT(dynamic->Observe().pose.y, 0.0);
+  const auto kinematic = MakePlant("kinematic", setup);
+  kinematic->Push(4000.0);
+  kinematic->Step({});
+  EXPECT_EQ(kinematic->Observe().pose.y, 0.0);
+}
+
+}  // namespace
+}  // namespace trackbed
