@@ -29,6 +29,7 @@ class CrossCheck {
     CheckGround();
     CheckGusts();
     CheckObstacles();
+    CheckDisturbances();
     CheckWhatIsMeasured();
     CheckManoeuvre();
     CheckMetrics();
@@ -206,6 +207,29 @@ class CrossCheck {
       const Obstacle& obstacle = scenario_.world.obstacles[i];
       if (obstacle.known_from_time && obstacle.known_from_range) {
         Complain(fmt::format("world.obstacles[{}].known_from", i), "give time or range, not both");
+      }
+    }
+  }
+
+  void CheckDisturbances() {
+    const Disturbances& disturb = scenario_.disturb;
+    const auto& loss = disturb.speed_loss;
+    if (loss && loss->from && loss->station) {
+      Complain("disturb.speed_loss", "give from or station, not both");
+    }
+    const auto& payload = disturb.payload;
+    if (payload && payload->mass.has_value() == payload->share.has_value() &&
+        CouldRead({"disturb.payload.mass", "disturb.payload.share"})) {
+      Complain("disturb.payload", "give either mass or share");
+    }
+    for (std::size_t i = 0; i < disturb.kicks.size(); ++i) {
+      const Kick& kick = disturb.kicks[i];
+      const std::string key = fmt::format("disturb.kicks[{}]", i);
+      if (kick.displacement.has_value() == kick.impulse.has_value() &&
+          could_read_(key + ".displacement") && could_read_(key + ".impulse")) {
+        Complain(key, "give either displacement or impulse");
+      } else if (kick.displacement && kick.duration) {
+        Complain(key + ".duration", "a displacement has none");
       }
     }
   }

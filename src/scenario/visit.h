@@ -2,6 +2,7 @@
 
 #include "src/scenario/key_lister.h"
 #include "src/scenario/visit_control.h"
+#include "src/scenario/visit_disturb.h"
 #include "src/scenario/visit_manoeuvre.h"
 #include "src/scenario/visit_world.h"
 #include "src/scenario/yaml_reader.h"
@@ -351,6 +352,8 @@ void Visit(Archive& a, Scenario& scenario) {
   a.Method({"manoeuvre", "", "the standard manoeuvre that the drive is evaluated as"},
            scenario.manoeuvre, Manoeuvres(), Need::kOptional, [](auto&) {});
   a.Section({"drive", "", "what is driven, and in which steps"}, scenario.drive);
+  a.Section({"disturb", "", "what goes wrong on the drive; nothing unless it is asked for"},
+            scenario.disturb);
   a.Section({"expect", "",
              "bounds that the run must keep, on every plant; what is not given is not asked"},
             scenario.expect);

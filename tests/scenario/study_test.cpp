@@ -273,7 +273,7 @@ TEST_F(Studies, TellOfTheirScenariosOwnProblemsOnce) {
   folder_.Write("small.yaml", std::string(kScenario) + "extra: 1\n");
   EXPECT_EQ(ErrorsOf("vary: {mission.speed: [1, 2]}\n"),
             "small.yaml:8:1: extra: unknown key 'extra'; allowed: schema, name, seed, vehicle, "
-            "mission, world, plan, control, manoeuvre, drive, expect, render");
+            "mission, world, plan, control, manoeuvre, drive, disturb, expect, render");
 }
 
 TEST_F(Studies, TryBisectionsAtBothEndsAndBetween) {

@@ -11,6 +11,7 @@
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/planning/avoidance.h"
 #include "trackbed/planning/planner.h"
+#include "trackbed/scenario/disturbances.h"
 #include "trackbed/scenario/manoeuvre.h"
 #include "trackbed/sim/plant.h"
 
@@ -111,6 +112,7 @@ struct Scenario {
   std::optional<ManoeuvreOptions> manoeuvre;  ///< how the drive is evaluated, if as one
   ControlSpec control;
   DriveSpec drive;
+  Disturbances disturb;
   Expectations expect;
   RenderSpec render;
 
