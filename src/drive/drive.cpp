@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/drive/disturber.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/avoidance.h"
 
@@ -170,6 +171,9 @@ CarModel LoadCar(const Scenario& scenario) {
   CarModel car(ComposeScene(file, {.timestep = scenario.drive.timestep,
                                    .steering_rate = scenario.vehicle.steering_rate}),
                file.string());
+  if (scenario.disturb.payload) {
+    car = {WithPayload(car, *scenario.disturb.payload), file.string()};
+  }
   if (scenario.world.obstacles.empty() && IsFlat(scenario.world.ground)) {
     return car;
   }
@@ -222,6 +226,7 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
       static_cast<int>(std::lround(drive.control_period / drive.timestep));
   const StationSource source = ControllerFor(scenario.control.steering).station;
 
+  const VehicleParams believed = BelievedBy(scenario.disturb, car);
   const auto controller = MakeSteeringController(scenario.control.steering);
   const auto plant = MakePlant(plant_name, {.car = car,
                                             .world = scenario.world,
@@ -238,16 +243,22 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
   Progress progress(hooks.progress);
 
   Driven driven{plan};
-  Lookout lookout(scenario, car.params());
+  Lookout lookout(scenario, car.unladen());
+  Disturber disturber(scenario);
   double station = 0.0;  // of the last projection, on the plan that is driven
   bool collided = false;
   Command command;
+  double asked = StartOf(scenario).steering / scenario.disturb.steering.factor;  // last [rad]
   for (long tick = 0;; ++tick) {
     // Observe and project.
     VehicleState state = plant->Observe();
     // To the nanosecond: 11.7, not 11.700000000000001.
     state.time = std::round(static_cast<double>(tick) * drive.control_period * 1e9) / 1e9;
-    LogRow row{.state = state, .command = command, .tracking = {}, .clearance = {}};
+    LogRow row{.state = state,
+               .command = command,
+               .tracking = {},
+               .clearance = {},
+               .measured = disturber.Measure(state.pose)};
     const auto project = [&] {
       row.tracking = driven.plan.reference.path.Project(
           state.pose, Around(station, std::abs(state.speed) * drive.control_period));
@@ -300,15 +311,23 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
     }
 
     // Control and log.
-    const ControlInput input{.vehicle = car.params(),
-                             .reference = driven.plan.reference,
-                             .schedule = driven.plan.schedule,
-                             .state = state,
-                             .station = s,
-                             .period = drive.control_period,
-                             .speed_gain = scenario.control.speed.gain};
+    ControlInput input{.vehicle = believed,
+                       .reference = driven.plan.reference,
+                       .schedule = driven.plan.schedule,
+                       .state = state,
+                       .station = s,
+                       .period = drive.control_period,
+                       .speed_gain = scenario.control.speed.gain};
+    if (row.measured) {
+      input.state.pose = *row.measured;
+      if (has_path && !by_odometer) {
+        input.station = path.Project(*row.measured, Around(station, 0.0)).s;
+      }
+    }
     command.steering = controller->Steer(input);
-    command.acceleration = WantedAcceleration(scenario.control.speed, *controller, input, speed);
+    command.acceleration =
+        disturber.Slow(WantedAcceleration(scenario.control.speed, *controller, input, speed), state,
+                       row.tracking ? row.tracking->s : state.distance);
     row.command = command;
     log.rows.push_back(row);
 
@@ -316,14 +335,17 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
     for (int step = 0; step < steps_per_period && !plant->diverged(); ++step) {
       Command now = command;
       if (drive.steering == SteeringInput::kPrescribed) {
-        now.steering = std::lerp(state.steering_actuator, command.steering,
-                                 static_cast<double>(step + 1) / steps_per_period);
+        now.steering =
+            std::lerp(asked, command.steering, static_cast<double>(step + 1) / steps_per_period);
       }
+      now.steering = disturber.Steer(now.steering);
+      disturber.Kick(tick * steps_per_period + step, *plant);
       plant->Step(now);
       if (!plant->diverged()) {
         configurations.Record(*plant, state.time + (step + 1) * drive.timestep);
       }
     }
+    asked = command.steering;
     progress.Report(has_path ? (driven.station + s) / (driven.station + path.length())
                              : state.time / end_time);
   }

@@ -30,6 +30,7 @@ Table ToTable(const RunLog& log) {
   const bool tracked = !log.rows.empty() && log.rows.front().tracking.has_value();
   const bool obstacles = !log.rows.empty() && log.rows.front().clearance.has_value();
   const bool wheels = !log.rows.empty() && log.rows.front().state.wheels.has_value();
+  const bool noise = !log.rows.empty() && log.rows.front().measured.has_value();
   std::vector<std::string> columns{"t_s",
                                    "x_m",
                                    "y_m",
@@ -51,6 +52,9 @@ Table ToTable(const RunLog& log) {
   }
   if (obstacles) {
     columns.insert(columns.end(), {"clearance_m", "obstacle_force_N"});
+  }
+  if (noise) {
+    columns.insert(columns.end(), {"measured_x_m", "measured_y_m", "measured_yaw_rad"});
   }
   if (wheels) {
     for (const char* wheel : kWheels) {
@@ -84,6 +88,9 @@ Table ToTable(const RunLog& log) {
     }
     if (obstacles) {
       cells.insert(cells.end(), {*row.clearance, state.obstacle_force});
+    }
+    if (noise) {
+      cells.insert(cells.end(), {row.measured->x, row.measured->y, row.measured->yaw});
     }
     if (wheels) {
       for (const WheelState& wheel : *state.wheels) {

@@ -31,6 +31,7 @@ struct LogRow {
   Command command;
   std::optional<Projection> tracking;  ///< none without a path
   std::optional<double> clearance;     ///< of the outline [m]; none without obstacles
+  std::optional<Pose2> measured;       ///< what the controller saw; none without noise
 };
 
 /// A new plan that was taken up while driving.
