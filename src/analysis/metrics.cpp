@@ -71,6 +71,17 @@ double SteeringRate(const RunLog& log, double control_period) {
   return fastest / (static_cast<double>(window) * control_period);
 }
 
+/// Root mean square of the measured steering's mean rate in each control period.
+double SteeringRateRms(const RunLog& log, double control_period) {
+  double squares = 0.0;
+  for (std::size_t i = 1; i < log.rows.size(); ++i) {
+    const double change = log.rows[i].state.steering - log.rows[i - 1].state.steering;
+    squares += change * change;
+  }
+  const auto periods = static_cast<double>(std::max<std::size_t>(log.rows.size(), 2) - 1);
+  return std::sqrt(squares / periods) / control_period;
+}
+
 /// Share of the control periods at whose end the actuator had not reached what was asked.
 double SaturatedFraction(const RunLog& log) {
   // A microradian: less than any command matters, more than rounding in the actuator.
@@ -226,6 +237,7 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
         std::max(metrics.lateral_acceleration_max, std::abs(row.state.lateral_acceleration));
   }
   metrics.steering_rate_max = SteeringRate(log, control_period);
+  metrics.steering_rate_rms = SteeringRateRms(log, control_period);
   metrics.steering_saturated_fraction = SaturatedFraction(log);
   metrics.yaw_rate_ratio = YawRateRatio(log, vehicle.wheelbase);
   if (log.rows.front().tracking) {
@@ -338,12 +350,17 @@ nlohmann::ordered_json ToJson(const PlantMetrics& metrics) {
     json["collision"] = metrics.clearance->collision;
     json["obstacle_force_max"] = metrics.clearance->force_max;
   }
+  if (metrics.recovery) {
+    json["recovery_time"] = metrics.recovery->time ? nlohmann::ordered_json(*metrics.recovery->time)
+                                                   : nlohmann::ordered_json(nullptr);
+  }
   json["plan_changes"] = metrics.plan_changes;
   if (!metrics.blocked.empty()) {
     json["blocked"] = metrics.blocked;
   }
   json["lateral_acceleration_max"] = metrics.lateral_acceleration_max;
   json["steering_rate_max"] = metrics.steering_rate_max;
+  json["steering_rate_rms"] = metrics.steering_rate_rms;
   json["steering_saturated_fraction"] = metrics.steering_saturated_fraction;
   if (metrics.yaw_rate_ratio) {
     json["yaw_rate_ratio"] = *metrics.yaw_rate_ratio;

@@ -159,7 +159,7 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
   result.scenario = scenario;
   result.scene = car.scene();
   const Stopwatch planning;
-  result.plan = PlanMission(scenario, car.params());
+  result.plan = PlanMission(scenario, car.unladen());
   result.planning_time = planning.Seconds();
   if (!result.plan.ok()) {
     result.verdict = {
@@ -180,6 +180,8 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
       result.metrics.back().manoeuvre =
           EvaluateManoeuvre(*scenario.manoeuvre, result.logs.back(), result.plan, car.params());
     }
+    result.metrics.back().recovery =
+        MeasureRecovery(result.logs.back(), scenario.disturb, scenario.world.wind);
     result.timing.push_back({plant, wall, result.metrics.back().time / wall});
     if (result.logs.back().status == DriveStatus::kInterrupted) {
       result.interrupted = true;

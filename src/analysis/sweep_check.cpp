@@ -10,15 +10,16 @@ namespace {
 
 using CarKey = decltype(CheckedStudy::cars)::key_type;
 
-/// What tells the cars of scenarios with a bare world apart.
+/// What tells the bare cars of scenarios apart.
 CarKey CarOf(const Scenario& scenario) {
   return {FindModel(scenario.vehicle.model, scenario.folder).string(), scenario.drive.timestep,
           scenario.vehicle.steering_rate.value_or(0.0)};
 }
 
-/// Whether the world puts nothing into the car's scene.
-bool IsBare(const World& world) {
-  return world.obstacles.empty() && IsFlat(world.ground);
+/// Whether nothing is put into the car's scene.
+bool IsBare(const Scenario& scenario) {
+  return scenario.world.obstacles.empty() && IsFlat(scenario.world.ground) &&
+         !scenario.disturb.payload;
 }
 
 void CompileCars(CheckedStudy& checked) {
@@ -28,6 +29,7 @@ void CompileCars(CheckedStudy& checked) {
     Scenario scenario = point.scenario;
     scenario.world.obstacles.clear();
     scenario.world.ground = {};
+    scenario.disturb.payload.reset();
     const auto car = CarOf(scenario);
     if (!tried.insert(car).second) {
       continue;
@@ -105,7 +107,7 @@ std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario&
     return DriveHooks{.progress = {}, .interrupted = interrupted};
   }};
   const auto car = checked.cars.find(CarOf(scenario));
-  const bool compiled = car != checked.cars.end() && IsBare(scenario.world);
+  const bool compiled = car != checked.cars.end() && IsBare(scenario);
   const RunResult result =
       compiled ? RunMission(scenario, car->second, hooks) : RunMission(scenario, hooks);
   if (result.interrupted) {

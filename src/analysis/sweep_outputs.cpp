@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <limits>
+
 #include "src/analysis/json_leaves.h"
 #include "trackbed/analysis/sweep.h"
 
@@ -50,6 +52,10 @@ std::vector<std::string> PossibleOutputs(const Scenario& scenario) {
     metrics.yaw_rate_ratio = 1.0;
     if (scenario.plan) {
       metrics.tracking.emplace();
+      constexpr double kAnyTime = std::numeric_limits<double>::infinity();
+      if (DisturbedUntil(scenario.disturb, scenario.world.wind, kAnyTime)) {
+        metrics.recovery.emplace();
+      }
       metrics.blocked = scenario.plan->avoid ? "why" : "";
       // At most one turn at every waypoint between the first and the last.
       metrics.turns.resize(std::max<std::size_t>(scenario.mission.waypoints.size(), 2) - 2);

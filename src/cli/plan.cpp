@@ -116,7 +116,7 @@ int PlanOne(const PlanOptions& options) {
       options.out.empty() ? fs::path("out") / scenario.name : fs::path(options.out);
   MakeFolder(out);
   const CarModel car = LoadCar(scenario);
-  const Plan plan = PlanMission(scenario, car.params());
+  const Plan plan = PlanMission(scenario, car.unladen());
   if (!plan.ok()) {
     std::error_code ignored;
     for (const char* name : {"plan.csv", "schedule.csv", "convergence.csv", "tree.csv"}) {

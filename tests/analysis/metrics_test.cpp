@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/tolerance.h"
@@ -47,6 +48,22 @@ TEST(YawRateRatio, IsNotSaidOfACarThatHardlyTurned) {
   EXPECT_TRUE(Ratio(10.0, 5e-4, 0.0).has_value());
   EXPECT_FALSE(Ratio(10.0, 2e-4, 0.0).has_value());
   EXPECT_FALSE(Ratio(0.0, 0.1, 0.0).has_value());
+}
+
+TEST(SteeringRateRms, IsThatOfARampAndARest) {
+  // 0.1 rad/s for a quarter of the time: 0.1 sqrt(1/4).
+  RunLog log{.plant = "made_up", .configurations = Table({"t_s"})};
+  for (int i = 0; i <= 400; ++i) {
+    LogRow row;
+    row.state.time = 0.02 * i;
+    row.state.steering = 0.002 * std::min(i, 100);
+    log.rows.push_back(row);
+  }
+  VehicleParams vehicle;
+  vehicle.wheelbase = 2.5;
+  const PlantMetrics metrics = Measure(log, Plan{}, vehicle, 0.02, StationSource::kProjection);
+  EXPECT_NEAR(metrics.steering_rate_rms, 0.05, Tolerance(1e-12));
+  EXPECT_NEAR(ToJson(metrics)["steering_rate_rms"].get<double>(), 0.05, Tolerance(1e-12));
 }
 
 }  // namespace

@@ -148,6 +148,7 @@ list:
   - {world.ground.grade.x: 0.05}
   - {world.ground.grade.x: 0.0}
   - {world.ground.bumps: [{x: 4, y: 0, length: 2, width: 4}]}
+  - {disturb.payload: {mass: 300}}
   - {world.friction: 0.05, mission.start.speed: 0.5}
   - {world.wind.x: -30}
   - {vehicle.tyre: magic_formula}
@@ -169,6 +170,25 @@ TEST(DriveOnce, DrivesEveryPointAsIfItWereAlone) {
     different.insert(outcome->outputs);
   }
   EXPECT_EQ(different.size(), checked.points.size());  // so that a mix-up would show
+}
+
+TEST(DriveOnce, DisturbsEveryPointInItsOwnWay) {
+  const TempFolder folder;
+  const CheckedStudy checked = CheckStudy(
+      StudyOf(folder,
+              "set: {drive.plants: [mujoco], drive.time_limit: 3, mission.start.speed: 1}\n"
+              "list:\n  - {disturb.kicks: [{at: 1, displacement: 0.2}]}\n"
+              "  - {disturb.payload: {mass: 300}}\n  - {disturb.recovered_within: 1}\n"
+              "outputs: [metrics.mujoco.recovery_time]\n"));
+  EXPECT_EQ(checked.cars.size(), 1U);  // without payload
+  std::set<std::string> distances;
+  for (const StudyPoint& point : checked.points) {
+    const Outputs outputs = DriveOnce(checked, point.scenario)->outputs;
+    EXPECT_EQ(outputs, OutputsOf(RunMission(point.scenario)));
+    EXPECT_EQ(outputs.count("metrics.mujoco.recovery_time"), point.scenario.disturb.kicks.size());
+    distances.insert(outputs.at("metrics.mujoco.distance"));
+  }
+  EXPECT_EQ(distances.size(), 3U);
 }
 
 TEST(DriveOnce, TellsThatThereIsNoPlan) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trackbed/analysis/manoeuvre.h"
+#include "trackbed/analysis/recovery.h"
 #include "trackbed/drive/run_log.h"
 #include "trackbed/scenario/scenario.h"
 
@@ -51,6 +52,7 @@ struct PlantMetrics {
   /// Of the measured angle, mean over any 0.1 s, or one control period where that is longer
   /// [rad/s].
   double steering_rate_max = 0.0;
+  double steering_rate_rms = 0.0;            ///< of its means over the control periods [rad/s]
   double steering_saturated_fraction = 0.0;  ///< of the periods: actuator did not reach the command
   /// Of the yaw rate to v tan(delta)/L, what the kinematic model makes of the measured speed and
   /// steering: least squares over the drive, so that turns count and straights do not. 1 / (1 + K
@@ -59,6 +61,7 @@ struct PlantMetrics {
   std::optional<double> yaw_rate_ratio;
   std::optional<TrackingMetrics> tracking;    ///< none without a path
   std::optional<ClearanceMetrics> clearance;  ///< none without obstacles
+  std::optional<RecoveryMetrics> recovery;    ///< none without a disturbance that ends
   int plan_changes = 0;                       ///< new plans taken up on the way
   std::string blocked;                        ///< why the plan ended before the goal; else empty
   std::optional<ManoeuvreMetrics> manoeuvre;  ///< none when the drive is not evaluated as one
