@@ -131,6 +131,24 @@ double SpeedProfile::TimeAt(double s) const {
   return time;
 }
 
+double SpeedProfile::StationAt(double time) const {
+  if (knots_.empty()) {
+    return 0.0;
+  }
+  for (std::size_t i = 0; i + 1 < knots_.size(); ++i) {
+    const Knot& a = knots_[i];
+    const Knot& b = knots_[i + 1];
+    // Infinite where both speeds are 0: there it stays.
+    const double duration = 2.0 * (b.s - a.s) / (a.speed + b.speed);
+    if (time < duration) {
+      const double acceleration = (b.speed - a.speed) / duration;
+      return a.s + time * (a.speed + 0.5 * time * acceleration);
+    }
+    time -= duration;
+  }
+  return knots_.back().s + time * knots_.back().speed;
+}
+
 SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& limits,
                        const std::vector<SpeedCap>& caps) {
   if (length <= 0.0) {

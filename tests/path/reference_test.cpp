@@ -56,6 +56,19 @@ TEST(SpeedProfile, TimeIsDistanceOverMeanSpeed) {
   EXPECT_NEAR(profile.TimeAt(15.0), 5.0, Tolerance(kRounding));
 }
 
+TEST(SpeedProfile, StationIsTheInverseOfTime) {
+  const SpeedProfile profile({{2.0, 1.0}, {6.0, 3.0}, {12.0, 3.0}, {15.0, 0.0}});
+  for (double s = 2.0; s < 15.0; s += 0.37) {
+    EXPECT_NEAR(profile.StationAt(profile.TimeAt(s)), s, Tolerance(kRounding));
+  }
+  EXPECT_EQ(profile.StationAt(0.0), 2.0);
+  EXPECT_NEAR(profile.StationAt(1.0), 2.0 + 1.5, Tolerance(kRounding));  // t + t^2/2
+  EXPECT_EQ(profile.StationAt(100.0), 15.0);
+  EXPECT_NEAR(SpeedProfile({{1.0, 2.0}}).StationAt(3.0), 7.0, Tolerance(kRounding));
+  EXPECT_EQ(SpeedProfile({{0.0, 0.0}, {3.0, 0.0}}).StationAt(9.0), 0.0);
+  EXPECT_EQ(SpeedProfile().StationAt(1.0), 0.0);
+}
+
 TEST(SpeedProfile, StandstillTakesForEver) {
   constexpr double kForEver = std::numeric_limits<double>::infinity();
   const SpeedProfile stopping({{0.0, 3.0}, {3.0, 0.0}});

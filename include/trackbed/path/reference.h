@@ -35,6 +35,9 @@ class SpeedProfile {
   /// Time [s] from the first knot to s when driven exactly; infinite where the profile stands
   /// still.
   [[nodiscard]] double TimeAt(double s) const;
+  /// Where a car is [m] that has driven the profile exactly for `time` [s] from its first knot on:
+  /// the inverse of TimeAt. Where the profile comes to rest, it stays.
+  [[nodiscard]] double StationAt(double time) const;
 
  private:
   [[nodiscard]] std::size_t IntervalAt(double s) const;
