@@ -1,5 +1,6 @@
 #include "trackbed/analysis/run.h"
 
+#include <algorithm>
 #include <chrono>
 #include <system_error>
 
@@ -169,7 +170,14 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
     return result;
   }
   for (const std::string& plant : scenario.drive.plants) {
-    const DriveHooks drive_hooks = hooks.drive ? hooks.drive(plant) : DriveHooks{};
+    DriveHooks drive_hooks = hooks.drive ? hooks.drive(plant) : DriveHooks{};
+    DriveTiming timing{.plant = plant};
+    double steering = 0.0;
+    drive_hooks.steered = [&](double seconds) {
+      ++timing.updates;
+      steering += seconds;
+      timing.update_max = std::max(timing.update_max, seconds);
+    };
     const Stopwatch driving;
     result.logs.push_back(DrivePlant(scenario, car, result.plan, plant, drive_hooks));
     const double wall = driving.Seconds();
@@ -182,7 +190,10 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
     }
     result.metrics.back().recovery =
         MeasureRecovery(result.logs.back(), scenario.disturb, scenario.world.wind);
-    result.timing.push_back({plant, wall, result.metrics.back().time / wall});
+    timing.wall_time = wall;
+    timing.real_time_factor = result.metrics.back().time / wall;
+    timing.update_mean = timing.updates > 0 ? steering / timing.updates : 0.0;
+    result.timing.push_back(timing);
     if (result.logs.back().status == DriveStatus::kInterrupted) {
       result.interrupted = true;
       break;
@@ -258,8 +269,11 @@ void WriteRunFolder(const RunResult& result, const fs::path& folder) {
   }
   ordered_json timing{{"planning_s", result.planning_time}};
   for (const DriveTiming& plant : result.timing) {
-    timing["plants"][plant.plant] = {{"wall_s", plant.wall_time},
-                                     {"real_time_factor", plant.real_time_factor}};
+    timing["plants"][plant.plant] = {
+        {"wall_s", plant.wall_time},
+        {"real_time_factor", plant.real_time_factor},
+        {"steering",
+         {{"updates", plant.updates}, {"mean_s", plant.update_mean}, {"max_s", plant.update_max}}}};
   }
   WriteFileAtomically(folder / "timing.json", Pretty(timing));
 

@@ -4,13 +4,12 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 
+#include "src/control/optimal_steering_controller.h"
+#include "src/control/return_distance.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {
 namespace {
-
-/// Below this speed previews no longer shrink with it [m/s].
-constexpr double kCrawl = 0.5;
 
 class ScheduleController final : public SteeringController {
  public:
@@ -21,27 +20,15 @@ class ScheduleController final : public SteeringController {
   }
 };
 
-/// The shortest preview that the steering rate can act on, for a car beside its path: on wheels
-/// that turn at their full rate the curvature changes by c = omega/(L v) per metre, and swinging
-/// back over an offset e takes a way in proportion to cbrt(e/c).
-double ReturnDistance(const ControlInput& input) {
-  // Found by trial on offsets of 0.2 to 4 m with previews of 2 to 4 m: all return to the path with
-  // it; with 1 some swing on for ever, with 2 they return more slowly.
-  constexpr double kShare = 1.5;
-  const Vec2 foot = input.reference.path.At(input.station).pose.position();
-  const double offset = (input.state.pose.position() - foot).norm();
-  const double curvature_rate =
-      input.vehicle.steering_rate /
-      (input.vehicle.wheelbase * std::max(std::abs(input.state.speed), kCrawl));
-  return kShare * std::cbrt(offset / curvature_rate);
-}
-
 class PreviewController final : public SteeringController {
  public:
   explicit PreviewController(const PreviewOptions& options) : options_(options) {}
 
   double Steer(const ControlInput& input) override {
-    const double distance = std::max(options_.distance, ReturnDistance(input));
+    const Vec2 foot = input.reference.path.At(input.station).pose.position();
+    const double offset = (input.state.pose.position() - foot).norm();
+    const double distance =
+        std::max(options_.distance, ReturnDistance(input.vehicle, input.state.speed, offset));
     const double u = PreviewAngle(input.reference.path, input.state.pose, input.station, distance);
     const double gain = 2.0 * input.vehicle.wheelbase / distance;
     const double steering =
@@ -107,6 +94,9 @@ std::unique_ptr<SteeringController> Make(const PreviewOptions& options) {
 std::unique_ptr<SteeringController> Make(const PlaybackOptions& options) {
   return std::make_unique<PlaybackController>(options);
 }
+std::unique_ptr<SteeringController> Make(const OptimalSteeringOptions& options) {
+  return MakeOptimalSteering(options);
+}
 template <typename Profile>
 std::unique_ptr<SteeringController> Make(const Profile& options) {
   return std::make_unique<ProfileController<Profile>>(options);
@@ -137,6 +127,14 @@ std::optional<double> SteeringController::Accelerate(const ControlInput&) {
   return std::nullopt;
 }
 
+std::vector<std::string> SteeringController::Columns() const {
+  return {};
+}
+
+std::vector<double> SteeringController::Values() const {
+  return {};
+}
+
 double PreviewAngle(const Path& path, const Pose2& pose, double station, double distance) {
   const double s = PreviewStation(path, pose.position(), station, distance);
   // Backwards, the direction of motion is against the heading.
@@ -150,6 +148,8 @@ const std::vector<ControllerEntry>& Controllers() {
        StationSource::kOdometer, true},
       {"preview", "aims at the path's point at a preview distance (MacAdam, one point)",
        PreviewOptions{}, StationSource::kProjection, true},
+      {"optimal_steering", "searches the angle that leads nearest to the path's pose ahead",
+       OptimalSteeringOptions{}, StationSource::kProjection, true},
       {"constant_steering", "holds one steering angle", ConstantSteeringOptions{},
        StationSource::kOdometer, false},
       {"step", "turns the wheels once, at a rate, and holds them (ISO 7401)", StepSteeringOptions{},

@@ -1,6 +1,7 @@
 #include "trackbed/drive/drive.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "src/drive/disturber.h"
@@ -88,6 +89,7 @@ struct Driven {
   Plan plan;
   double station = 0.0;   ///< in the log, where the plan's own stations begin [m]
   double distance = 0.0;  ///< odometer there [m]
+  double time = 0.0;      ///< then [s]
 };
 
 /// Notices obstacles as they become known, and plans around those that stand in the way once the
@@ -152,6 +154,18 @@ class Lookout {
   const VehicleParams& vehicle_;
   std::vector<Seen> seen_;  // obstacle by obstacle
 };
+
+/// Asks the controller, and tells how long it took.
+double Steer(SteeringController& controller, const ControlInput& input, const DriveHooks& hooks) {
+  if (!hooks.steered) {
+    return controller.Steer(input);
+  }
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const double steering = controller.Steer(input);
+  hooks.steered(std::chrono::duration<double>(Clock::now() - start).count());
+  return steering;
+}
 
 /// What is set over time goes first, then what the controller wants, then the plan's profile.
 double WantedAcceleration(const SpeedControlOptions& options, SteeringController& controller,
@@ -235,6 +249,7 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
                                             .steering = drive.steering});
   RunLog log{.plant = plant_name,
              .status = DriveStatus::kArrived,
+             .controller_columns = controller->Columns(),
              .rows = {},
              .changes = {},
              .configurations = Table({"t_s"})};
@@ -258,7 +273,8 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
                .command = command,
                .tracking = {},
                .clearance = {},
-               .measured = disturber.Measure(state.pose)};
+               .measured = disturber.Measure(state.pose),
+               .controller = controller->Values()};
     const auto project = [&] {
       row.tracking = driven.plan.reference.path.Project(
           state.pose, Around(station, std::abs(state.speed) * drive.control_period));
@@ -268,7 +284,7 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
     if (has_path) {
       project();
       if (std::optional<Plan> next = lookout.Look(state, driven.plan, station)) {
-        driven = {std::move(*next), driven.station + station, state.distance};
+        driven = {std::move(*next), driven.station + station, state.distance, state.time};
         log.changes.push_back({state.time, driven.station, driven.plan});
         station = 0.0;
         project();
@@ -317,6 +333,7 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
                        .state = state,
                        .station = s,
                        .period = drive.control_period,
+                       .plan_time = state.time - driven.time,
                        .speed_gain = scenario.control.speed.gain};
     if (row.measured) {
       input.state.pose = *row.measured;
@@ -324,11 +341,12 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
         input.station = path.Project(*row.measured, Around(station, 0.0)).s;
       }
     }
-    command.steering = controller->Steer(input);
+    command.steering = Steer(*controller, input, hooks);
     command.acceleration =
         disturber.Slow(WantedAcceleration(scenario.control.speed, *controller, input, speed), state,
                        row.tracking ? row.tracking->s : state.distance);
     row.command = command;
+    row.controller = controller->Values();
     log.rows.push_back(row);
 
     // Drive. Prescribed wheels reach the wanted angle at the end of the period, on a ramp.

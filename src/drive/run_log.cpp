@@ -64,6 +64,7 @@ Table ToTable(const RunLog& log) {
       }
     }
   }
+  columns.insert(columns.end(), log.controller_columns.begin(), log.controller_columns.end());
   Table table(columns);
   for (const LogRow& row : log.rows) {
     const VehicleState& state = row.state;
@@ -98,6 +99,7 @@ Table ToTable(const RunLog& log) {
                                    wheel.lateral_force, wheel.slip_angle, wheel.slip_ratio});
       }
     }
+    cells.insert(cells.end(), row.controller.begin(), row.controller.end());
     table.AddRow(cells);
   }
   return table;

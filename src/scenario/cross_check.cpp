@@ -20,6 +20,7 @@ class CrossCheck {
   std::vector<std::pair<std::string, std::string>> Run() {
     CheckMission();
     CheckSpeedOverTime();
+    CheckOptimalSteering();
     CheckSteps();
     CheckPicture();
     if (CouldRead({"drive.plants"})) {
@@ -145,6 +146,15 @@ class CrossCheck {
     }
     if (scenario_.plan && CouldReadPlan({"method"})) {
       Complain(key, "with a plan the speed is the plan's; leave one out");
+    }
+  }
+
+  void CheckOptimalSteering() {
+    const auto* options = std::get_if<OptimalSteeringOptions>(&scenario_.control.steering);
+    if (options != nullptr &&
+        CouldRead({"control.method", "control.weights.position", "control.weights.heading"}) &&
+        options->weights.position == 0.0 && options->weights.heading == 0.0) {
+      Complain("control.weights", "position and heading are both 0: nothing is left to minimise");
     }
   }
 

@@ -27,6 +27,38 @@ void Visit(Archive& a, PreviewOptions& options) {
 }
 
 template <typename Archive>
+void Visit(Archive& a, DeviationWeights& weights) {
+  a.Field({"position", "1/m^2", "of the squared distance from the wanted position"},
+          weights.position, Need::kOptional, kNotNegative);
+  a.Field({"heading", "1/rad^2", "of the squared heading error"}, weights.heading, Need::kOptional,
+          kNotNegative);
+}
+
+template <typename Archive>
+void Visit(Archive& a, OptimalSteeringOptions& options) {
+  static const EnumNames<Matching> matchings{{Matching::kArcLength, "arc_length"},
+                                             {Matching::kTime, "time"}};
+  a.Field({"matching", "",
+           "the wanted pose: that of the path where the car is, or where it should be by now"},
+          options.matching, Need::kOptional, matchings);
+  a.Field({"horizon", "m", "how far ahead the wanted motion is predicted"}, options.horizon,
+          Need::kOptional, Range{.min = 0.1, .max = 1000.0});
+  a.Section({"search", "",
+             "for the angle, at every update; evaluations 0: 60, or 600 of isres, "
+             "esch and crs2"},
+            options.search);
+  a.Section({"weights", "", "of the deviation"}, options.weights);
+  a.Field({"deviation_limit", "",
+           "on the root of the weighted squares; up to it the plan's "
+           "curvature is steered"},
+          options.deviation_limit, Need::kOptional, kNotNegative);
+  a.Field({"max_steering", "rad", "either way; else the car's"}, options.max_steering,
+          Range{.max = 1.5, .above = 0.0});
+  a.Field({"primary_speed", "m/s", "of the wanted motion that time matches; else the plan's"},
+          options.primary_speed, Range{.max = 100.0, .above = 0.0});
+}
+
+template <typename Archive>
 void Visit(Archive& a, ConstantSteeringOptions& options) {
   a.Field({"steering", "rad", "bicycle angle to hold, positive to the left"}, options.steering,
           Need::kRequired, kSteering);

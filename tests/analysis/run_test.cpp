@@ -179,6 +179,31 @@ TEST(WriteRunFolder, GivesTheSameBytesEveryTime) {
   EXPECT_EQ(a, b);
 }
 
+TEST(WriteRunFolder, TellsWhatTheControllerDidAndWhatItTook) {
+  const TempFolder folder;
+  const RunResult result =
+      RunMission(Load("winding", {"drive.time_limit=12", "drive.plants=[kinematic]", "expect={}",
+                                  "control={method: optimal_steering, search: {method: crs2}}"}));
+  WriteRunFolder(result, folder.path());
+  const Table table = ToTable(result.logs.front());
+  const std::size_t first = table.columns().size() - 5;
+  EXPECT_EQ(table.columns()[first], "deviation_x_m");
+  EXPECT_EQ(table.columns()[first + 3], "search_evaluations");
+  const std::string csv = ReadFile(folder.path() / "kinematic.csv");
+  EXPECT_THAT(csv.substr(0, csv.find('\n')),
+              testing::EndsWith(
+                  ",deviation_x_m,deviation_y_m,deviation_yaw_rad,search_evaluations,search_cost"));
+  // One update for every row but the last, which keeps what led to it.
+  const auto timing = nlohmann::json::parse(ReadFile(folder.path() / "timing.json"));
+  const auto& steering = timing["plants"]["kinematic"]["steering"];
+  const std::size_t rows = result.logs.front().rows.size();
+  EXPECT_EQ(steering["updates"].get<std::size_t>(), rows - 1);
+  EXPECT_GT(steering["mean_s"].get<double>(), 0.0);
+  EXPECT_GE(steering["max_s"].get<double>(), steering["mean_s"].get<double>());
+  EXPECT_EQ(result.logs.front().rows[rows - 1].controller,
+            result.logs.front().rows[rows - 2].controller);
+}
+
 TEST(WriteRunFolder, ResolvedScenarioRunsToTheSameBytes) {
   const TempFolder folder;
   WriteRunFolder(RunMission(Load("winding", {"drive.time_limit=5"})), folder.path() / "a");

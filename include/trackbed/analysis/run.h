@@ -15,6 +15,9 @@ struct DriveTiming {
   std::string plant;
   double wall_time = 0.0;         ///< [s]
   double real_time_factor = 0.0;  ///< simulated over wall time
+  int updates = 0;                ///< of the steering
+  double update_mean = 0.0;       ///< [s]
+  double update_max = 0.0;        ///< [s]
 };
 
 /// One run of a scenario: planned once, driven on each of its plants, measured and judged.

@@ -2,9 +2,11 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
+#include "trackbed/control/optimal_steering.h"
 #include "trackbed/control/playback.h"
 #include "trackbed/control/speed_controller.h"
 #include "trackbed/control/steering_profile.h"
@@ -22,8 +24,9 @@ struct ControlInput {
   const Reference& reference;
   const SteeringSchedule& schedule;
   VehicleState state;
-  double station = 0.0;  ///< where on the path the car is [m]; see StationSource
-  double period = 0.0;   ///< until it is asked again [s]
+  double station = 0.0;    ///< where on the path the car is [m]; see StationSource
+  double period = 0.0;     ///< until it is asked again [s]
+  double plan_time = 0.0;  ///< since the plan was taken up [s]
   double speed_gain = SpeedControlOptions{}.gain;  ///< for those that set the speed too [1/s]
 };
 
@@ -38,6 +41,11 @@ class SteeringController {
   /// The wanted acceleration [m/s^2] over the coming period, which only the car's own limits cut.
   /// None: the speed is not the controller's business, SpeedControl keeps it.
   virtual std::optional<double> Accelerate(const ControlInput& input);
+
+  /// What it tells of its last answer, for the log: the columns' names, always the same, and one
+  /// value for each. None by default.
+  [[nodiscard]] virtual std::vector<std::string> Columns() const;
+  [[nodiscard]] virtual std::vector<double> Values() const;
 };
 
 /// Open loop: the plan's steering schedule at the distance the car will have driven at the end of
@@ -70,7 +78,7 @@ struct PreviewOptions {
 using ControllerOptions =
     std::variant<ScheduleOptions, PreviewOptions, ConstantSteeringOptions, StepSteeringOptions,
                  RampSteeringOptions, SineSteeringOptions, SineWithDwellOptions, SweptSineOptions,
-                 PlaybackOptions>;
+                 PlaybackOptions, OptimalSteeringOptions>;
 
 /// Where a controller takes the station from.
 enum class StationSource {

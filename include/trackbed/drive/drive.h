@@ -9,10 +9,12 @@
 
 namespace trackbed {
 
-/// How a caller follows a drive and ends it early. Either may be empty.
+/// How a caller follows a drive and ends it early. Each may be empty.
 struct DriveHooks {
   std::function<void(double fraction)> progress;  ///< called at most 100 times, with 0 to 1
   std::function<bool()> interrupted;              ///< asked once per control period
+  std::function<void(double seconds)> steered;    ///< told what each update of the steering took,
+                                                  ///< by the clock on the wall
 };
 
 /// The car of a scenario, compiled for its timestep. InputError when the model cannot be used.

@@ -32,6 +32,7 @@ struct LogRow {
   std::optional<Projection> tracking;  ///< none without a path
   std::optional<double> clearance;     ///< of the outline [m]; none without obstacles
   std::optional<Pose2> measured;       ///< what the controller saw; none without noise
+  std::vector<double> controller;      ///< what it tells of its last answer: RunLog's columns
 };
 
 /// A new plan that was taken up while driving.
@@ -45,7 +46,8 @@ struct PlanChange {
 struct RunLog {
   std::string plant;
   DriveStatus status = DriveStatus::kArrived;
-  std::vector<LogRow> rows;  ///< stations go on over changes of plan
+  std::vector<std::string> controller_columns;  ///< SteeringController::Columns
+  std::vector<LogRow> rows;                     ///< stations go on over changes of plan
   std::vector<PlanChange> changes;
   Table configurations;  ///< `t_s` and the car's configuration (CarModel::configuration_columns)
 };

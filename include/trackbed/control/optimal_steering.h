@@ -1,0 +1,125 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "trackbed/geometry/pose.h"
+#include "trackbed/optimize/search.h"
+#include "trackbed/vehicle/kinematic_car.h"
+#include "trackbed/vehicle/params.h"
+
+/// Steering found by a search at every control step (Skackauskas, Mejeras, Sokolovskij; seed 003).
+/// A primary model moves as wanted; the car, the secondary one, is disturbed. While the car's
+/// deviation (9) from the primary exceeds a limit, now or after the horizon if the plan's curvature
+/// were steered, the angle is steered that minimises
+///   (1)  F = (x_i - x_i0)^2 + (y_i - y_i0)^2 + (psi_i - psi_i0)^2,  (2)  |delta| <= delta_max
+/// over a prediction of both.
+///
+/// Symbols: q_i = (x_i, y_i, psi_i) pose of the car, q_i0 that of the primary; delta steering
+/// [rad], positive to the left; S horizon [m]; v speed of the car, v_0 of the primary [m/s].
+namespace trackbed {
+
+/// Which of the primary's poses the car's is compared with.
+enum class Matching {
+  kArcLength,  ///< that at the car's own station, S metres further when predicted
+  kTime,       ///< that at the same time, however far behind the car is: the paper's first stage
+};
+
+/// w of the weighted (1): w_position (x_e^2 + y_e^2) + w_heading psi_e^2.
+struct DeviationWeights {
+  double position = 1.0;  ///< [1/m^2], >= 0
+  double heading = 1.0;   ///< [1/rad^2], >= 0; not both 0
+};
+
+/// (9): where the car is, seen from the primary.
+struct Deviation {
+  double x = 0.0;    ///< along the primary's heading [m]
+  double y = 0.0;    ///< to its left [m]
+  double yaw = 0.0;  ///< [rad], not wrapped
+};
+
+/// q_e = R(psi_0)^T (q - q_0).
+Deviation DeviationOf(const Pose2& actual, const Pose2& wanted);
+
+/// The weighted (1) of a deviation; its root is the norm that `deviation_limit` bounds.
+double CostOf(const Deviation& deviation, const DeviationWeights& weights);
+
+/// The controller. `search.evaluations` 0 stands for ControlEvaluations. Random searches draw the
+/// same numbers at every update.
+struct OptimalSteeringOptions {
+  Matching matching = Matching::kArcLength;
+  /// S [m], > 0; of the primary: with kTime the car's is S v/v_0. With kArcLength never shorter
+  /// than 1.5 cbrt(e L v/omega) for a car e beside its path, as for PreviewOptions.
+  double horizon = 3.0;
+  SearchOptions search{.method = SearchMethod::kNelderMead, .population = 20, .tolerance = 1e-6};
+  DeviationWeights weights;
+  double deviation_limit = 0.01;        ///< epsilon, on the norm: up to it the plan's curvature is
+                                        ///< steered
+  std::optional<double> max_steering;   ///< delta_max [rad], > 0; default and at most the car's
+  std::optional<double> primary_speed;  ///< v_0 [m/s], > 0, from the start on; default: the plan's
+};
+
+/// Evaluations of one update when none are given: 60 of a search that converges, 600 of one that
+/// draws random numbers.
+int ControlEvaluations(SearchMethod method);
+
+/// Where the rear axle of a kinematic car gets from the origin, along x, over `distance` [m] (< 0:
+/// backwards) at `speed` [m/s] > 0, while its actuator turns from `steering` to `wanted` [rad] at
+/// its rate and stays there. Closed form for the heading and on the arc, quadrature on the ramp:
+/// within 1e-9 m as long as the ramp turns the car by less than 2 rad. Cost 0.5 us.
+Pose2 PredictPose(const VehicleParams& vehicle, double steering, double wanted, double speed,
+                  double distance);
+
+/// What one search found.
+struct SteeringMatch {
+  double steering = 0.0;  ///< [rad]
+  double cost = 0.0;      ///< the weighted (1) there
+  int evaluations = 0;
+};
+
+/// A pose that the car is to reach over a distance.
+struct SteeringProblem {
+  Pose2 wanted;               ///< of the rear axle, in the frame of the car's; yaw not wrapped
+  double distance = 0.0;      ///< [m], not 0, < 0 backwards
+  double speed = 0.0;         ///< [m/s], > 0
+  double steering = 0.0;      ///< of the actuator now [rad]
+  double max_steering = 0.0;  ///< delta_max [rad], > 0
+  double start = 0.0;         ///< where the search begins [rad]
+};
+
+/// The deviation from the wanted pose, in axes of the car's, where `steering` [rad] would lead.
+Deviation DeviationAhead(const VehicleParams& vehicle, const SteeringProblem& problem,
+                         double steering);
+
+/// What the search varies: the share u of the heading that the wheels can add on the way, turning
+/// at their full rate from where they are (+-1). With R the angle they can turn by,
+///   delta = delta_now +- R (1 - sqrt(1 - abs(u))).
+/// The pose reached is nearly linear in u; in delta it is not, since an angle that is reached late
+/// counts for next to nothing, and searches would get stuck on that plateau.
+double SteeringOfShare(const VehicleParams& vehicle, const SteeringProblem& problem, double share);
+/// The inverse, +-1 for angles out of reach.
+double TurnShare(const VehicleParams& vehicle, const SteeringProblem& problem, double steering);
+
+/// The angle that leads nearest to the wanted pose, within delta_max and within what the actuator
+/// reaches on the way: angles beyond are all alike. The mirrored problem has exactly the mirrored
+/// solution. InternalError for options that make no sense.
+SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem& problem,
+                             const DeviationWeights& weights, const SearchOptions& search);
+
+/// The paper's experiment: the primary drives one lap on a constant angle, the car another constant
+/// angle at another speed; both begin in one pose with their wheels turned. Compared are the ends:
+/// with kTime after the lap's time, with kArcLength where the primary had come as far as the car.
+struct CircleExperiment {
+  double primary_steering = 0.0;  ///< [rad], not 0
+  double primary_speed = 0.0;     ///< v_0 of the reference point [m/s], > 0
+  double speed = 0.0;             ///< v likewise
+  double max_steering = 0.0;      ///< delta_max [rad]
+  Matching matching = Matching::kArcLength;
+  ReferencePoint reference = ReferencePoint::kCentreOfGravity;
+};
+
+/// The constant angle within +-delta_max that minimises (1) of the experiment, weights 1.
+SteeringMatch MatchSteering(const VehicleParams& vehicle, const CircleExperiment& experiment,
+                            const SearchOptions& search, std::uint64_t seed);
+
+}  // namespace trackbed

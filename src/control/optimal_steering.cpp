@@ -1,0 +1,156 @@
+#include "trackbed/control/optimal_steering.h"
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/vehicle/steering_actuator.h"
+
+namespace trackbed {
+namespace {
+
+/// Bounds of the one variable of a search, and where it begins.
+struct Range {
+  double lower = 0.0;
+  double upper = 0.0;
+  double start = 0.0;
+};
+
+/// How far the wheels turn at their full rate over the problem's distance [rad].
+double Reach(const VehicleParams& vehicle, const SteeringProblem& problem) {
+  return vehicle.steering_rate * std::abs(problem.distance) / problem.speed;
+}
+
+/// In the axes in which the poses are given; (1) is the same in all.
+Deviation Difference(const Pose2& actual, const Pose2& wanted) {
+  return {actual.x - wanted.x, actual.y - wanted.y, actual.yaw - wanted.yaw};
+}
+
+/// The variable that minimises its cost, in place of the steering.
+template <typename Cost>
+SteeringMatch Minimise(const Cost& cost, const Range& range, const SearchOptions& search,
+                       std::uint64_t seed) {
+  const SearchProblem problem{.lower = {range.lower},
+                              .upper = {range.upper},
+                              .start = {range.start},
+                              .objective = [&](std::span<const double> x) { return cost(x[0]); },
+                              .constraint_count = 0,
+                              .constraints = {}};
+  const SearchResult result = Search(problem, search, seed);
+  TRACKBED_CHECK(result.ok(), "a search for steering ended {}", ToString(result.status));
+  return {result.x[0], result.value, result.evaluations};
+}
+
+}  // namespace
+
+Deviation DeviationOf(const Pose2& actual, const Pose2& wanted) {
+  const Vec2 offset = ToLocal(wanted, actual.position());
+  return {offset.x(), offset.y(), actual.yaw - wanted.yaw};
+}
+
+double CostOf(const Deviation& deviation, const DeviationWeights& weights) {
+  return weights.position * (deviation.x * deviation.x + deviation.y * deviation.y) +
+         weights.heading * deviation.yaw * deviation.yaw;
+}
+
+int ControlEvaluations(SearchMethod method) {
+  return SearchFor(method).random ? 600 : 60;
+}
+
+Pose2 PredictPose(const VehicleParams& vehicle, double steering, double wanted, double speed,
+                  double distance) {
+  const SteeringMove move =
+      MoveSteering({vehicle.steering_limit, vehicle.steering_rate}, steering, wanted);
+  const double direction = std::copysign(1.0, distance);
+  const double ramp = std::min(speed * move.ramp_time, std::abs(distance));
+  Pose2 pose;
+  if (ramp > 0.0) {
+    // delta = delta_0 + slope s; the integral of tan(delta)/L over s.
+    const double slope = move.rate / speed;
+    const double cosine = std::cos(steering);
+    const auto heading = [&](double s) {
+      return direction * std::log(cosine / std::cos(steering + slope * s)) /
+             (vehicle.wheelbase * slope);
+    };
+    // The nodes are the same for both coordinates.
+    using Quadrature = boost::math::quadrature::gauss<double, 10>;
+    const double half = 0.5 * ramp;
+    Vec2 sum = Vec2::Zero();
+    for (std::size_t i = 0; i < Quadrature::abscissa().size(); ++i) {
+      const double node = half * Quadrature::abscissa()[i];
+      sum += Quadrature::weights()[i] *
+             (Direction(heading(half - node)) + Direction(heading(half + node)));
+    }
+    pose = {direction * half * sum.x(), direction * half * sum.y(), heading(ramp)};
+  }
+  const double held = direction * (std::abs(distance) - ramp);
+  return held == 0.0 ? pose : MoveOnArc(pose, held, held * CurvatureForSteering(vehicle, move.end));
+}
+
+Deviation DeviationAhead(const VehicleParams& vehicle, const SteeringProblem& problem,
+                         double steering) {
+  return Difference(
+      PredictPose(vehicle, problem.steering, steering, problem.speed, problem.distance),
+      problem.wanted);
+}
+
+double SteeringOfShare(const VehicleParams& vehicle, const SteeringProblem& problem, double share) {
+  return problem.steering +
+         std::copysign(Reach(vehicle, problem) * (1.0 - std::sqrt(1.0 - std::abs(share))), share);
+}
+
+double TurnShare(const VehicleParams& vehicle, const SteeringProblem& problem, double steering) {
+  const double turn =
+      std::clamp((steering - problem.steering) / Reach(vehicle, problem), -1.0, 1.0);
+  const double left = 1.0 - std::abs(turn);
+  return std::copysign(1.0 - left * left, turn);
+}
+
+SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem& problem,
+                             const DeviationWeights& weights, const SearchOptions& search) {
+  // Solved as if the wanted pose lay to the left, so that a mirrored problem takes the same steps.
+  const Pose2& wanted = problem.wanted;
+  const bool mirrored = wanted.y < 0.0 || (wanted.y == 0.0 && wanted.yaw < 0.0);
+  const double side = mirrored ? -1.0 : 1.0;
+  SteeringProblem own = problem;
+  own.wanted = {wanted.x, side * wanted.y, side * wanted.yaw};
+  own.steering = side * problem.steering;
+
+  const double limit = problem.max_steering;
+  const double lower = TurnShare(vehicle, own, -limit);
+  const double upper = TurnShare(vehicle, own, limit);
+  // A simplex that begins on a bound and finds the next point worse ends there.
+  const double margin = 0.05 * (upper - lower);
+  const double start =
+      std::clamp(TurnShare(vehicle, own, side * problem.start), lower + margin, upper - margin);
+  const auto cost = [&](double share) {
+    return CostOf(DeviationAhead(vehicle, own, SteeringOfShare(vehicle, own, share)), weights);
+  };
+  constexpr std::uint64_t kSeed = 1;  // of every update
+  SteeringMatch match = Minimise(cost, {lower, upper, start}, search, kSeed);
+  match.steering = side * std::clamp(SteeringOfShare(vehicle, own, match.steering), -limit, limit);
+  return match;
+}
+
+SteeringMatch MatchSteering(const VehicleParams& vehicle, const CircleExperiment& experiment,
+                            const SearchOptions& search, std::uint64_t seed) {
+  // Where constant steering leads in a time.
+  const auto drive = [&](double steering, double speed, double time) {
+    KinematicCar car(vehicle, experiment.reference, {.speed = speed, .steering = steering});
+    car.Step({.steering = steering}, time);
+    return car.state().pose;
+  };
+  const double yaw_rate = drive(experiment.primary_steering, experiment.primary_speed, 1.0).yaw;
+  const double lap = 2.0 * kPi / std::abs(yaw_rate);  // [s]
+  const bool by_time = experiment.matching == Matching::kTime;
+  const Pose2 wanted = drive(experiment.primary_steering,
+                             by_time ? experiment.primary_speed : experiment.speed, lap);
+  const auto cost = [&](double steering) {
+    return CostOf(Difference(drive(steering, experiment.speed, lap), wanted), {});
+  };
+  return Minimise(cost, {-experiment.max_steering, experiment.max_steering, 0.0}, search, seed);
+}
+
+}  // namespace trackbed
