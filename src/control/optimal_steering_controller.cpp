@@ -75,10 +75,6 @@ class OptimalSteeringController final : public SteeringController {
     if (options_.matching == Matching::kArcLength) {
       return {input.station, {}};
     }
-    if (options_.primary_speed) {
-      const double station = *options_.primary_speed * input.plan_time;
-      return {std::min(station, input.reference.path.length()), options_.primary_speed};
-    }
     const double station = input.reference.speed.StationAt(input.plan_time);
     return {station, std::max(input.reference.speed.SpeedAt(station), kCrawl)};
   }

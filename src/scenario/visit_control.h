@@ -54,8 +54,6 @@ void Visit(Archive& a, OptimalSteeringOptions& options) {
           options.deviation_limit, Need::kOptional, kNotNegative);
   a.Field({"max_steering", "rad", "either way; else the car's"}, options.max_steering,
           Range{.max = 1.5, .above = 0.0});
-  a.Field({"primary_speed", "m/s", "of the wanted motion that time matches; else the plan's"},
-          options.primary_speed, Range{.max = 100.0, .above = 0.0});
 }
 
 template <typename Archive>

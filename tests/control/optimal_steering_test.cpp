@@ -436,11 +436,9 @@ TEST(OptimalSteering, ByTimeChasesTheMotionThatIsAhead) {
   EXPECT_NEAR(Steer(*controller, straight, {4.0, 0.0, 0.0}, 4.0, {.plan_time = 2.0}), 0.0,
               Tolerance(1e-4));
   EXPECT_NEAR(controller->Values()[0], -2.0, Tolerance(kRounding));
-  // A slower primary is where the car is.
-  OptimalSteeringOptions slower = by_time;
-  slower.primary_speed = 2.0;
-  const auto met = MakeSteeringController(slower);
-  EXPECT_EQ(Steer(*met, straight, {4.0, 0.0, 0.0}, 4.0, {.plan_time = 2.0}), 0.0);
+  // At 4/3 s it is where the car is.
+  const auto met = MakeSteeringController(by_time);
+  EXPECT_EQ(Steer(*met, straight, {4.0, 0.0, 0.0}, 4.0, {.plan_time = 4.0 / 3.0}), 0.0);
   EXPECT_NEAR(met->Values()[0], 0.0, Tolerance(kRounding));
   // In a bend the short cut to it is the tighter one.
   const Path circle{{}, {{60.0, 0.05, 1}}};

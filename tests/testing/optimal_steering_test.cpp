@@ -58,7 +58,7 @@ double MeanSteering(const RunLog& log) {
 
 TEST_P(PaperSpeeds, MatchedByArcLengthTheCarStaysOnTheCircle) {
   const RunResult run =
-      RunScenario(File("paper_circle"), {fmt::format("mission.speed={}", GetParam())});
+      RunScenario(File("paper_circle"), {fmt::format("disturb.speed_loss.speed={}", GetParam())});
   EXPECT_THAT(run, MeetsItsExpectations());
   for (const RunLog& log : run.logs) {
     // The paper's own +-2.3 %; tyres and body roll of MuJoCo's car included.
@@ -67,9 +67,10 @@ TEST_P(PaperSpeeds, MatchedByArcLengthTheCarStaysOnTheCircle) {
 }
 
 TEST_P(PaperSpeeds, MatchedByTimeItCutsInside) {
-  const RunResult run = RunScenario(
-      File("paper_circle"), {fmt::format("mission.speed={}", GetParam()), "control.matching=time",
-                             "drive.plants=[kinematic]", "drive.time_limit=30", "expect={}"});
+  const RunResult run =
+      RunScenario(File("paper_circle"),
+                  {fmt::format("disturb.speed_loss.speed={}", GetParam()), "control.matching=time",
+                   "drive.plants=[kinematic]", "drive.time_limit=30", "expect={}"});
   // The wanted motion is ahead by (3 - v) t and the short cut to it is on the inner side, the left.
   EXPECT_GT(run.metrics.front().tracking->cross_track_max, 1.0);
   EXPECT_GT(MeanSteering(run.logs.front()), 1.05 * kPi / 18.0);

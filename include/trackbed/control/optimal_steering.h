@@ -53,10 +53,9 @@ struct OptimalSteeringOptions {
   double horizon = 3.0;
   SearchOptions search{.method = SearchMethod::kNelderMead, .population = 20, .tolerance = 1e-6};
   DeviationWeights weights;
-  double deviation_limit = 0.01;        ///< epsilon, on the norm: up to it the plan's curvature is
-                                        ///< steered
-  std::optional<double> max_steering;   ///< delta_max [rad], > 0; default and at most the car's
-  std::optional<double> primary_speed;  ///< v_0 [m/s], > 0, from the start on; default: the plan's
+  double deviation_limit = 0.01;       ///< epsilon, on the norm: up to it the plan's curvature is
+                                       ///< steered
+  std::optional<double> max_steering;  ///< delta_max [rad], > 0; default and at most the car's
 };
 
 /// Evaluations of one update when none are given: 60 of a search that converges, 600 of one that
