@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+
+/// Convex quadratic programs of a few dozen variables, for controllers:
+///   minimise x^T H x/2 + f^T x  subject to  G x <= h
+namespace trackbed {
+
+/// Sizes are bounded so that solving takes no heap memory but NLopt's.
+struct QuadraticProgram {
+  static constexpr int kMostVariables = 40;
+  static constexpr int kMostConstraints = 4 * kMostVariables;
+  using Matrix =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostVariables, kMostVariables>;
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostVariables, 1>;
+  using Rows =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostConstraints, kMostVariables>;
+  using Bounds = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostConstraints, 1>;
+
+  Matrix hessian;    ///< H, symmetric positive definite
+  Vector linear;     ///< f
+  Rows constraints;  ///< G, any number of rows
+  Bounds bounds;     ///< h
+};
+
+struct QuadraticSolution {
+  bool ok = false;  ///< the constraints are kept
+  QuadraticProgram::Vector x;
+  double violation = 0.0;  ///< largest G x - h, 0 when kept
+  int solves = 0;          ///< by SLSQP; 0: the unconstrained minimum keeps the constraints
+};
+
+/// Solves by Cholesky decomposition where no constraint is in the way, else with NLopt's SLSQP on
+/// the constraints that are, taken in until none of the others is violated. SLSQP works in
+/// variables that turn H into the identity, which it takes the Hessian for at first: its first step
+/// is the solution, wherever it starts.
+///
+/// Guarantees: constraints kept to `tolerance`, absolute; the same program gives the same bits.
+/// Not ok when they contradict each other; x is then what violates them least of what was tried.
+/// InternalError unless H is positive definite, the sizes agree and all numbers are finite.
+/// Cost: 20 variables about 10 us without, 0.1 to 1 ms with active constraints.
+QuadraticSolution Solve(const QuadraticProgram& program, double tolerance = 1e-9);
+
+}  // namespace trackbed
