@@ -201,6 +201,46 @@ Plan PlanWith(const LaneChangePlannerOptions& options, const PlanRequest& reques
   return plan;
 }
 
+Plan PlanWith(const CourseOptions& options, const PlanRequest& request) {
+  const std::vector<Segment> segments = CourseSegments(options);
+  Plan plan;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const double sharpest = SharpestCurvature(segments[i]);
+    const double steering = std::abs(SteeringForCurvature(request.vehicle, sharpest));
+    if (steering > request.vehicle.steering_limit) {
+      plan.status = PlanStatus::kTurnTooTight;
+      plan.reason = fmt::format(
+          "segments[{}] has a curvature of {:.4g} 1/m, which takes {:.3f} rad of steering; the car "
+          "can steer {:.3f} rad",
+          i, sharpest, steering, request.vehicle.steering_limit);
+      plan.diagnostics["segment"] = i;
+      return plan;
+    }
+  }
+  plan.reference.path = Path(request.start, segments);
+  const Path& path = plan.reference.path;
+  plan.reference.speed = StopAtEnd(path.length(), request.start_speed, request.speed);
+  plan.schedule = CourseSchedule(request.vehicle, segments, request.speed.speed);
+  plan.schedule_speed = plan.reference.speed;
+  plan.goal = path.At(path.length()).pose;
+
+  json& out = plan.diagnostics;
+  out["turns"] = json::array();
+  out["segments"] = json::array();
+  double start = 0.0;
+  for (const Segment& segment : segments) {
+    const double speed = request.speed.speed;
+    out["segments"].push_back(
+        {{"start_s_m", start},
+         {"length_m", segment.length},
+         {"curvature_from_radpm", segment.curvature},
+         {"curvature_to_radpm", segment.CurvatureAt(segment.length)},
+         {"lateral_acceleration_mps2", SharpestCurvature(segment) * speed * speed}});
+    start += segment.length;
+  }
+  return plan;
+}
+
 }  // namespace
 
 const std::vector<PlannerEntry>& Planners() {
@@ -209,6 +249,8 @@ const std::vector<PlannerEntry>& Planners() {
        FilletOptions{}, kFewestFilletWaypoints},
       {"lane_change", "through the gates of a double lane change (ISO 3888)",
        LaneChangePlannerOptions{}, 0},
+      {"course", "straights, arcs and curvature ramps, piece by piece as given", CourseOptions{},
+       0},
   };
   return table;
 }

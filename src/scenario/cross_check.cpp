@@ -19,6 +19,7 @@ class CrossCheck {
 
   std::vector<std::pair<std::string, std::string>> Run() {
     CheckMission();
+    CheckCourse();
     CheckSpeedOverTime();
     CheckOptimalSteering();
     CheckSteps();
@@ -97,6 +98,31 @@ class CrossCheck {
         fillet->constraint == RadiusConstraint::kNone) {
       Complain(plan->avoid ? "plan.global.constraint" : "plan.constraint",
                "'none' needs a radius: nothing else would limit it");
+    }
+  }
+
+  void CheckCourse() {
+    const auto* course =
+        scenario_.plan ? std::get_if<CourseOptions>(&scenario_.plan->global) : nullptr;
+    if (course == nullptr) {
+      return;
+    }
+    const std::string key = scenario_.plan->avoid ? "plan.global.segments" : "plan.segments";
+    if (course->segments.empty() && CouldReadPlan({"segments"})) {
+      Complain(key, "a course needs at least one");
+    }
+    for (std::size_t i = 0; i < course->segments.size(); ++i) {
+      const CoursePiece& piece = course->segments[i];
+      const std::string own = fmt::format("{}[{}]", key, i);
+      if (!could_read_(own) || !could_read_(own + ".curvature") ||
+          !could_read_(own + ".curvature_from") || !could_read_(own + ".curvature_to")) {
+        continue;
+      }
+      if (piece.curvature && (piece.curvature_from || piece.curvature_to)) {
+        Complain(own, "give curvature, or curvature_to of a ramp, not both");
+      } else if (!piece.curvature && !piece.curvature_to) {
+        Complain(own, "needs curvature (0 for a straight), or curvature_to of a ramp");
+      }
     }
   }
 

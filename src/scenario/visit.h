@@ -58,8 +58,8 @@ void Visit(Archive& a, MissionSpec& mission) {
            "gives the speed at the start"},
           speed, Range{.min = 0.1, .max = 100.0});
   mission.speed = speed.value_or(0.0);
-  a.Field({"waypoints", "m", "the route, at least three; needed by a plan"}, mission.waypoints,
-          Need::kOptional);
+  a.Field({"waypoints", "m", "the route, at least three; needed by a plan by fillet"},
+          mission.waypoints, Need::kOptional);
   a.Field(
       {"duration", "s",
        "ends the drive; needed without a plan unless a recording over time ends, refused with one"},
@@ -155,6 +155,23 @@ void Visit(Archive& a, LaneChangePlannerOptions& options) {
           options.leave, Need::kOptional, Range{.min = -5.0, .max = 5.0});
   a.Field({"join", "m", "and is on the next one's so far after its beginning"}, options.join,
           Need::kOptional, Range{.min = -5.0, .max = 5.0});
+}
+
+template <typename Archive>
+void Visit(Archive& a, CoursePiece& piece) {
+  static constexpr Range kCurvature{.min = -10.0, .max = 10.0};  // [1/m]
+  a.Field({"length", "m", "along the course"}, piece.length, Need::kRequired,
+          Range{.max = 1e6, .above = 0.0});
+  a.Field({"curvature", "1/m", "of a straight (0) or an arc, positive to the left"},
+          piece.curvature, kCurvature);
+  a.Field({"curvature_from", "1/m", "where a ramp begins; else where the piece before it ends"},
+          piece.curvature_from, kCurvature);
+  a.Field({"curvature_to", "1/m", "where a ramp ends"}, piece.curvature_to, kCurvature);
+}
+
+template <typename Archive>
+void Visit(Archive& a, CourseOptions& options) {
+  a.List({"segments", "", "of the course from the car's start on, at least one"}, options.segments);
 }
 
 template <typename Archive>

@@ -40,6 +40,18 @@ PlanRequest Request(std::vector<Vec2> waypoints) {
 
 // --- What every planner of the table owes its caller ---------------------------------------------
 
+/// The defaults, and a course for the one that cannot do without.
+PlannerOptions OptionsOf(const PlannerEntry& entry) {
+  PlannerOptions options = entry.defaults;
+  if (auto* course = std::get_if<CourseOptions>(&options)) {
+    course->segments = {{.length = 10.0, .curvature = 0.0},
+                        {.length = 5.0, .curvature_to = 0.05},
+                        {.length = 12.0, .curvature = 0.05},
+                        {.length = 8.0, .curvature = -0.1}};
+  }
+  return options;
+}
+
 class EveryPlanner : public ::testing::TestWithParam<PlannerEntry> {};
 
 TEST_P(EveryPlanner, IsNamedByItsOptions) {
@@ -55,15 +67,15 @@ TEST_P(EveryPlanner, NeedsItsFewestWaypointsAndNoMore) {
   route.resize(fewest);
   PlanRequest request = Request(RouteA());
   request.waypoints = route;
-  EXPECT_TRUE(MakePlan(request, GetParam().defaults).ok());
+  EXPECT_TRUE(MakePlan(request, OptionsOf(GetParam())).ok());
   if (fewest > 0) {
     request.waypoints.pop_back();
-    EXPECT_EQ(MakePlan(request, GetParam().defaults).status, PlanStatus::kTooFewWaypoints);
+    EXPECT_EQ(MakePlan(request, OptionsOf(GetParam())).status, PlanStatus::kTooFewWaypoints);
   }
 }
 
 TEST_P(EveryPlanner, StartsWhereTheCarIsAndEndsAtGoal) {
-  const Plan plan = MakePlan(Request(RouteA()), GetParam().defaults);
+  const Plan plan = MakePlan(Request(RouteA()), OptionsOf(GetParam()));
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_EQ(plan.reason, "");
   const Path& path = plan.reference.path;
@@ -77,7 +89,7 @@ TEST_P(EveryPlanner, StartsWhereTheCarIsAndEndsAtGoal) {
 }
 
 TEST_P(EveryPlanner, StaysWithinTheCarsSteering) {
-  const Plan plan = MakePlan(Request(RouteA()), GetParam().defaults);
+  const Plan plan = MakePlan(Request(RouteA()), OptionsOf(GetParam()));
   ASSERT_TRUE(plan.ok()) << plan.reason;
   for (const Segment& segment : plan.reference.path.segments()) {
     EXPECT_LE(std::abs(SteeringForCurvature(SeedCar(), segment.curvature)),
@@ -91,7 +103,7 @@ TEST_P(EveryPlanner, StaysWithinTheCarsSteering) {
 TEST_P(EveryPlanner, StopsAtTheEndOfItsPath) {
   PlanRequest request = Request(RouteA());
   request.start_speed = 1.25;
-  const Plan plan = MakePlan(request, GetParam().defaults);
+  const Plan plan = MakePlan(request, OptionsOf(GetParam()));
   ASSERT_TRUE(plan.ok()) << plan.reason;
   const auto& knots = plan.reference.speed.knots();
   ASSERT_GE(knots.size(), 2U);
@@ -105,8 +117,8 @@ TEST_P(EveryPlanner, StopsAtTheEndOfItsPath) {
 }
 
 TEST_P(EveryPlanner, IsAFunctionOfItsRequest) {
-  const Plan a = MakePlan(Request(RouteB()), GetParam().defaults);
-  const Plan b = MakePlan(Request(RouteB()), GetParam().defaults);
+  const Plan a = MakePlan(Request(RouteB()), OptionsOf(GetParam()));
+  const Plan b = MakePlan(Request(RouteB()), OptionsOf(GetParam()));
   EXPECT_EQ(a.diagnostics, b.diagnostics);
   EXPECT_EQ(a.reference.path.segments(), b.reference.path.segments());
 }
@@ -114,7 +126,7 @@ TEST_P(EveryPlanner, IsAFunctionOfItsRequest) {
 TEST_P(EveryPlanner, RefusesWithAReasonAndNoPath) {
   PlanRequest request = Request(RouteA());
   request.vehicle.steering_limit = 1e-3;  // a car that needs 2.7 km to turn
-  const Plan plan = MakePlan(request, GetParam().defaults);
+  const Plan plan = MakePlan(request, OptionsOf(GetParam()));
   EXPECT_FALSE(plan.ok());
   EXPECT_NE(plan.reason, "");
   EXPECT_EQ(plan.reference.path.length(), 0.0);
@@ -129,19 +141,22 @@ TEST_P(EveryPlanner, ThrowsForNumbersThatAreNone) {
     SCOPED_TRACE(bad);
     PlanRequest waypoint = Request(RouteA());
     waypoint.waypoints[2].y() = bad;
-    EXPECT_THROW(MakePlan(waypoint, GetParam().defaults), InternalError);
+    EXPECT_THROW(MakePlan(waypoint, OptionsOf(GetParam())), InternalError);
+    PlanRequest start = Request(RouteA());
+    start.start.yaw = bad;
+    EXPECT_THROW(MakePlan(start, OptionsOf(GetParam())), InternalError) << "start";
     PlanRequest start_speed = Request(RouteA());
     start_speed.start_speed = bad;
-    EXPECT_THROW(MakePlan(start_speed, GetParam().defaults), InternalError) << "start speed";
+    EXPECT_THROW(MakePlan(start_speed, OptionsOf(GetParam())), InternalError) << "start speed";
     PlanRequest speed = Request(RouteA());
     speed.speed.speed = bad;
-    EXPECT_THROW(MakePlan(speed, GetParam().defaults), InternalError) << "speed";
+    EXPECT_THROW(MakePlan(speed, OptionsOf(GetParam())), InternalError) << "speed";
     PlanRequest acceleration = Request(RouteA());
     acceleration.speed.acceleration = bad;
-    EXPECT_THROW(MakePlan(acceleration, GetParam().defaults), InternalError) << "acceleration";
+    EXPECT_THROW(MakePlan(acceleration, OptionsOf(GetParam())), InternalError) << "acceleration";
     PlanRequest deceleration = Request(RouteA());
     deceleration.speed.deceleration = bad;
-    EXPECT_THROW(MakePlan(deceleration, GetParam().defaults), InternalError) << "deceleration";
+    EXPECT_THROW(MakePlan(deceleration, OptionsOf(GetParam())), InternalError) << "deceleration";
   }
 }
 

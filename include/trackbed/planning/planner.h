@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "trackbed/path/reference.h"
+#include "trackbed/planning/course.h"
 #include "trackbed/planning/fillet.h"
 #include "trackbed/planning/lane_change.h"
 #include "trackbed/planning/rrt_star.h"
@@ -49,7 +50,7 @@ struct Plan {
 };
 
 /// The options of one planner; which alternative it holds says which planner is meant.
-using PlannerOptions = std::variant<FilletOptions, LaneChangePlannerOptions>;
+using PlannerOptions = std::variant<FilletOptions, LaneChangePlannerOptions, CourseOptions>;
 
 struct PlannerEntry {
   const char* name;
