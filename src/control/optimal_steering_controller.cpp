@@ -5,7 +5,6 @@
 
 #include "src/control/return_distance.h"
 #include "trackbed/core/angle.h"
-#include "trackbed/core/error.h"
 
 namespace trackbed {
 namespace {
@@ -19,17 +18,18 @@ class OptimalSteeringController final : public SteeringController {
   }
 
   double Steer(const ControlInput& input) override {
-    CheckFinite(input);
     const Primary primary = PrimaryOf(input);
     const double limit = std::min(options_.max_steering.value_or(input.vehicle.steering_limit),
                                   input.vehicle.steering_limit);
     const double speed = std::max(std::abs(input.state.speed), kCrawl);
     const int direction = input.reference.path.At(input.station).direction;
     deviation_ = DeviationOf(input.state.pose, Seen(input, primary.station));
+    const double planned =
+        std::max(options_.horizon, options_.time * primary.speed.value_or(speed));
     const double horizon =
         options_.matching == Matching::kTime
-            ? options_.horizon
-            : std::max(options_.horizon, ReturnDistance(input.vehicle, speed, deviation_.y));
+            ? planned
+            : std::max(planned, ReturnDistance(input.vehicle, speed, deviation_.y));
     const Pose2 wanted = Seen(input, primary.station + horizon);
     const Vec2 aim = ToLocal(input.state.pose, wanted.position());
     const SteeringProblem problem{
@@ -87,17 +87,6 @@ class OptimalSteeringController final : public SteeringController {
     Pose2 pose = path.At(station).pose;
     pose.yaw += AngleDifference(here, input.state.pose.yaw) - here + input.state.pose.yaw;
     return pose;
-  }
-
-  static void CheckFinite(const ControlInput& input) {
-    const VehicleState& state = input.state;
-    TRACKBED_CHECK(std::isfinite(state.pose.x) && std::isfinite(state.pose.y) &&
-                       std::isfinite(state.pose.yaw) && std::isfinite(state.speed) &&
-                       std::isfinite(state.steering_actuator) && std::isfinite(input.station),
-                   "optimal_steering: the car's state is not finite: x {} m, y {} m, yaw {} rad, "
-                   "speed {} m/s, steering {} rad, station {} m",
-                   state.pose.x, state.pose.y, state.pose.yaw, state.speed, state.steering_actuator,
-                   input.station);
   }
 
   OptimalSteeringOptions options_;

@@ -6,6 +6,7 @@
 
 #include "src/control/optimal_steering_controller.h"
 #include "src/control/return_distance.h"
+#include "src/control/tracking.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {
@@ -20,6 +21,13 @@ class ScheduleController final : public SteeringController {
   }
 };
 
+/// The angle from where the rear axle points to where it moves [rad], left positive; 0 at a crawl.
+double RearSlip(const ControlInput& input) {
+  const VehicleState& state = input.state;
+  const double across = state.lateral_speed - input.vehicle.cg_to_rear * state.yaw_rate;
+  return std::abs(state.speed) < kCrawl ? 0.0 : std::atan(across / state.speed);
+}
+
 class PreviewController final : public SteeringController {
  public:
   explicit PreviewController(const PreviewOptions& options) : options_(options) {}
@@ -28,16 +36,29 @@ class PreviewController final : public SteeringController {
     const Vec2 foot = input.reference.path.At(input.station).pose.position();
     const double offset = (input.state.pose.position() - foot).norm();
     const double distance =
-        std::max(options_.distance, ReturnDistance(input.vehicle, input.state.speed, offset));
-    const double u = PreviewAngle(input.reference.path, input.state.pose, input.station, distance);
-    const double gain = 2.0 * input.vehicle.wheelbase / distance;
-    const double steering =
-        options_.law == PreviewLaw::kLinear ? gain * u : std::atan(gain * std::sin(u));
+        std::max({options_.distance, options_.time * std::abs(input.state.speed),
+                  ReturnDistance(input.vehicle, input.state.speed, offset)});
+    const int direction = input.reference.path.At(input.station).direction;
+    const double u = PreviewAngle(input.reference.path, input.state.pose, input.station, distance) -
+                     (options_.slip ? RearSlip(input) : 0.0);
     // Backwards, wheels to the right turn the motion to the left.
-    return input.reference.path.At(input.station).direction * steering;
+    const double bend =
+        direction * 2.0 / distance * (options_.law == PreviewLaw::kLinear ? u : std::sin(u));
+    return SteeringOn(input, bend, direction);
   }
 
  private:
+  /// delta [rad] for a bend of `curvature`.
+  [[nodiscard]] double SteeringOn(const ControlInput& input, double curvature,
+                                  int direction) const {
+    if (options_.slip) {
+      const double speed = direction * std::abs(input.state.speed);
+      return SteadyTurnOn(input.vehicle, curvature, speed).steering;
+    }
+    return options_.law == PreviewLaw::kLinear ? input.vehicle.wheelbase * curvature
+                                               : SteeringForCurvature(input.vehicle, curvature);
+  }
+
   PreviewOptions options_;
 };
 
@@ -97,10 +118,59 @@ std::unique_ptr<SteeringController> Make(const PlaybackOptions& options) {
 std::unique_ptr<SteeringController> Make(const OptimalSteeringOptions& options) {
   return MakeOptimalSteering(options);
 }
+std::unique_ptr<SteeringController> Make(const PreviewIntegralOptions& options) {
+  return MakePreviewIntegral(options);
+}
+std::unique_ptr<SteeringController> Make(const PurePursuitOptions& options) {
+  return MakePurePursuit(options);
+}
+std::unique_ptr<SteeringController> Make(const StanleyOptions& options) {
+  return MakeStanley(options);
+}
+std::unique_ptr<SteeringController> Make(const LqrOptions& options) {
+  return MakeLqr(options);
+}
+std::unique_ptr<SteeringController> Make(const MpcOptions& options) {
+  return MakeMpc(options);
+}
 template <typename Profile>
 std::unique_ptr<SteeringController> Make(const Profile& options) {
   return std::make_unique<ProfileController<Profile>>(options);
 }
+
+/// Refuses what is no state before a controller makes an angle of it.
+class Guarded final : public SteeringController {
+ public:
+  explicit Guarded(std::unique_ptr<SteeringController> inner) : inner_(std::move(inner)) {}
+
+  double Steer(const ControlInput& input) override {
+    const VehicleState& state = input.state;
+    for (const double number :
+         {state.time, state.pose.x, state.pose.y, state.pose.yaw, state.speed, state.distance,
+          state.lateral_speed, state.yaw_rate, state.steering_actuator, state.steering,
+          input.station, input.period}) {
+      TRACKBED_CHECK(
+          std::isfinite(number),
+          "the car's state at {} s is not finite: x {}, y {}, yaw {}, speed {}, distance "
+          "{}, lateral speed {}, yaw rate {}, steering {} and {}, station {}",
+          state.time, state.pose.x, state.pose.y, state.pose.yaw, state.speed, state.distance,
+          state.lateral_speed, state.yaw_rate, state.steering_actuator, state.steering,
+          input.station);
+    }
+    return inner_->Steer(input);
+  }
+
+  std::optional<double> Accelerate(const ControlInput& input) override {
+    return inner_->Accelerate(input);
+  }
+
+  [[nodiscard]] std::vector<std::string> Columns() const override { return inner_->Columns(); }
+
+  [[nodiscard]] std::vector<double> Values() const override { return inner_->Values(); }
+
+ private:
+  std::unique_ptr<SteeringController> inner_;
+};
 
 /// Station of the first point after `station` that is `distance` away from p.
 double PreviewStation(const Path& path, const Vec2& p, double station, double distance) {
@@ -148,8 +218,18 @@ const std::vector<ControllerEntry>& Controllers() {
        StationSource::kOdometer, true},
       {"preview", "aims at the path's point at a preview distance (MacAdam, one point)",
        PreviewOptions{}, StationSource::kProjection, true},
+      {"preview_integral", "the steering that, held, fits the previewed way best (MacAdam)",
+       PreviewIntegralOptions{}, StationSource::kProjection, true},
       {"optimal_steering", "searches the angle that leads nearest to the path's pose ahead",
        OptimalSteeringOptions{}, StationSource::kProjection, true},
+      {"pure_pursuit", "the circle through the path's point at a lookahead distance",
+       PurePursuitOptions{}, StationSource::kProjection, true},
+      {"stanley", "heading error and the front axle's offset (Stanley)", StanleyOptions{},
+       StationSource::kProjection, true},
+      {"lqr", "linear-quadratic regulator with preview of the path's curvature", LqrOptions{},
+       StationSource::kProjection, true},
+      {"mpc", "the same cost within the car's steering angle and rate, predicted ahead",
+       MpcOptions{}, StationSource::kProjection, true},
       {"constant_steering", "holds one steering angle", ConstantSteeringOptions{},
        StationSource::kOdometer, false},
       {"step", "turns the wheels once, at a rate, and holds them (ISO 7401)", StepSteeringOptions{},
@@ -178,7 +258,7 @@ const ControllerEntry& ControllerFor(const ControllerOptions& options) {
 }
 
 std::unique_ptr<SteeringController> MakeSteeringController(const ControllerOptions& options) {
-  return std::visit([](const auto& own) { return Make(own); }, options);
+  return std::make_unique<Guarded>(std::visit([](const auto& own) { return Make(own); }, options));
 }
 
 }  // namespace trackbed

@@ -14,16 +14,75 @@ inline constexpr Key kBegin{"at", "s", "when it begins"};
 template <typename Archive>
 void Visit(Archive&, ScheduleOptions&) {}
 
+inline constexpr Range kAhead{.min = 0.01, .max = 1000.0};  // [m]
+inline constexpr Key kAheadTime{"time", "s", "looks at least as far as the car drives in it"};
+
 template <typename Archive>
 void Visit(Archive& a, PreviewOptions& options) {
   a.Field({"distance", "m", "how far ahead of the rear axle the car aims"}, options.distance,
-          Need::kOptional, Range{.min = 0.01, .max = 1000.0});
+          Need::kOptional, kAhead);
+  a.Field(kAheadTime, options.time, Need::kOptional, kNotNegative);
   static const EnumNames<PreviewLaw> laws{{PreviewLaw::kLinear, "linear"},
                                           {PreviewLaw::kExactArc, "exact_arc"}};
   a.Field({"law", "",
            "from the angle to the point aimed at to steering: MacAdam's gain, or the circle "
            "through the point"},
           options.law, Need::kOptional, laws);
+  a.Field({"slip", "", "whether to reckon with the tyres' slip"}, options.slip, Need::kOptional);
+}
+
+template <typename Archive>
+void Visit(Archive& a, PreviewIntegralOptions& options) {
+  a.Field({"distance", "m", "how far ahead of the rear axle the path is looked at, at least"},
+          options.distance, Need::kOptional, kAhead);
+  a.Field(kAheadTime, options.time, Need::kOptional, kNotNegative);
+  static const EnumNames<PreviewWeight> weights{{PreviewWeight::kUniform, "uniform"},
+                                                {PreviewWeight::kNear, "near"}};
+  a.Field(
+      {"weight", "", "of the previewed way: all of it alike, or less and less toward its far end"},
+      options.weight, Need::kOptional, weights);
+  a.Field({"delay", "s", "the driver's, before the wanted angle takes effect"}, options.delay,
+          Need::kOptional, Range{.min = 0.0, .max = 2.0});
+}
+
+template <typename Archive>
+void Visit(Archive& a, PurePursuitOptions& options) {
+  a.Field({"distance", "m", "how far ahead of the rear axle the car aims, at least"},
+          options.distance, Need::kOptional, kAhead);
+  a.Field(kAheadTime, options.time, Need::kOptional, kNotNegative);
+}
+
+template <typename Archive>
+void Visit(Archive& a, StanleyOptions& options) {
+  a.Field({"gain", "1/s", "at which the front axle's offset shrinks"}, options.gain,
+          Need::kOptional, kPositive);
+  a.Field({"softening", "m/s", "added to the speed, so that a slow car steers calmly"},
+          options.softening, Need::kOptional, kNotNegative);
+}
+
+inline constexpr Range kWeight{.min = 1e-6, .max = 1e6};
+inline constexpr Key kCrossTrackWeight{"cross_track", "1/m^2", "weight of the cross-track error"};
+inline constexpr Key kHeadingWeight{"heading", "1/rad^2", "weight of the heading error"};
+inline constexpr Key kRateWeight{"steering_rate", "s^2/rad^2", "weight of the steering rate"};
+
+template <typename Archive>
+void Visit(Archive& a, LqrOptions& options) {
+  a.Field(kCrossTrackWeight, options.cross_track, Need::kOptional, kWeight);
+  a.Field(kHeadingWeight, options.heading, Need::kOptional, Range{.min = 0.0, .max = 1e6});
+  a.Field(kRateWeight, options.steering_rate, Need::kOptional, kWeight);
+  a.Field({"preview", "s", "how far ahead the path's curvature is looked at"}, options.preview,
+          Need::kOptional, Range{.min = 0.0, .max = 20.0});
+}
+
+template <typename Archive>
+void Visit(Archive& a, MpcOptions& options) {
+  a.Field(kCrossTrackWeight, options.cross_track, Need::kOptional, kWeight);
+  a.Field(kHeadingWeight, options.heading, Need::kOptional, Range{.min = 0.0, .max = 1e6});
+  a.Field(kRateWeight, options.steering_rate, Need::kOptional, kWeight);
+  a.Field({"horizon", "", "how many steps are planned"}, options.horizon, Need::kOptional,
+          Range{.min = 1, .max = MpcOptions::kLongestHorizon});
+  a.Field({"step", "s", "of the horizon; at least the control period"}, options.step,
+          Need::kOptional, Range{.min = 1e-3, .max = 1.0});
 }
 
 template <typename Archive>
@@ -41,8 +100,9 @@ void Visit(Archive& a, OptimalSteeringOptions& options) {
   a.Field({"matching", "",
            "the wanted pose: that of the path where the car is, or where it should be by now"},
           options.matching, Need::kOptional, matchings);
-  a.Field({"horizon", "m", "how far ahead the wanted motion is predicted"}, options.horizon,
-          Need::kOptional, Range{.min = 0.1, .max = 1000.0});
+  a.Field({"horizon", "m", "how far ahead the wanted motion is predicted, at least"},
+          options.horizon, Need::kOptional, Range{.min = 0.1, .max = 1000.0});
+  a.Field(kAheadTime, options.time, Need::kOptional, kNotNegative);
   a.Section({"search", "",
              "for the angle, at every update; evaluations 0: 60, or 600 of isres, "
              "esch and crs2"},

@@ -6,9 +6,14 @@
 #include <variant>
 #include <vector>
 
+#include "trackbed/control/lqr.h"
+#include "trackbed/control/mpc.h"
 #include "trackbed/control/optimal_steering.h"
 #include "trackbed/control/playback.h"
+#include "trackbed/control/preview_integral.h"
+#include "trackbed/control/pure_pursuit.h"
 #include "trackbed/control/speed_controller.h"
+#include "trackbed/control/stanley.h"
 #include "trackbed/control/steering_profile.h"
 #include "trackbed/path/reference.h"
 #include "trackbed/vehicle/params.h"
@@ -68,17 +73,24 @@ enum class PreviewLaw {
 /// distance that short cannot bring a car back from beside its path: the wheels are always late,
 /// and it swings out for good (0.2 m off with R = 2 m). So R is never shorter than 1.5 cbrt(e L
 /// v/omega) for a car e off its path, which leaves a car that is on its path alone and returns one
-/// that is metres off.
+/// that is metres off. At higher speeds the car's own response takes longer in space; `time` lets R
+/// grow with the speed.
 struct PreviewOptions {
-  double distance = 2.5;  ///< R [m]
+  double distance = 2.5;  ///< shortest R [m]
+  double time = 0.0;      ///< R is at least time |v| [s]
   PreviewLaw law = PreviewLaw::kExactArc;
+  /// With the tyres' slip: u from where the rear axle really moves, and the steering that leads a
+  /// car that understeers round the circle. Asks for a distance of half a second at 20 m/s, where
+  /// 0.3 s swing out for good.
+  bool slip = false;
 };
 
 /// With the manoeuvres of steering_profile.h and recorded inputs, which need no plan.
 using ControllerOptions =
     std::variant<ScheduleOptions, PreviewOptions, ConstantSteeringOptions, StepSteeringOptions,
                  RampSteeringOptions, SineSteeringOptions, SineWithDwellOptions, SweptSineOptions,
-                 PlaybackOptions, OptimalSteeringOptions>;
+                 PlaybackOptions, OptimalSteeringOptions, PreviewIntegralOptions,
+                 PurePursuitOptions, StanleyOptions, LqrOptions, MpcOptions>;
 
 /// Where a controller takes the station from.
 enum class StationSource {
@@ -100,6 +112,7 @@ const std::vector<ControllerEntry>& Controllers();
 /// The entry of the controller that `options` belong to.
 const ControllerEntry& ControllerFor(const ControllerOptions& options);
 
+/// Its Steer refuses a state with a number that is none: InternalError.
 std::unique_ptr<SteeringController> MakeSteeringController(const ControllerOptions& options);
 
 /// The preview angle u [rad] of a car whose rear axle is at `pose`, looking `distance` [m] ahead

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+
+namespace trackbed {
+
+class SteeringController;
+
+/// The linear-quadratic regulator with preview: of all ways to steer from here on, the one with the
+/// least
+///   sum over control periods of  cross_track e^2 + heading (psi - psi_0)^2 + steering_rate w^2
+/// for the linear error model (docs/algorithms/control.md), without limits.
+///
+/// Symbols: e, psi cross-track and heading error of the rear axle [m, rad]; w steering rate
+/// [rad/s], the input, held over a control period; delta_0, psi_0 steering and heading error of the
+/// steady turn on the path's curvature, with understeer; z the state's deviation from that turn;
+/// g_k how the path's curvature changes k periods ahead; K, P gain and solution of the discrete
+/// Riccati equation; A_c = A - B K.
+///   w = -K z - (R + B'PB)^-1 B' sum_k (A_c')^k P g_k
+/// The car is the dynamic single-track one at the present speed, or the kinematic one if it has no
+/// tyre coefficients, behind its steering actuator and lag. Gains are computed anew in each period,
+/// for the present speed and direction: nothing is scheduled between grid points.
+///
+/// On a path of constant curvature without error it steers delta_0. The rate and the angle are cut
+/// to the car's limits after the fact; the regulator does not know them: see MpcOptions. But a car
+/// off its path is steered more calmly the further it is off, with a larger weight of the rate, so
+/// that its slow wheels can follow, and approaches the path at 0.6 rad at most. Reverse paths are
+/// the same model with u < 0.
+/// Cost: about 55 us with 100 periods of preview; no heap memory.
+struct LqrOptions {
+  double cross_track = 1.0;    ///< [1/m^2], > 0
+  double heading = 1.0;        ///< [1/rad^2], >= 0
+  double steering_rate = 1.0;  ///< [s^2/rad^2], > 0
+  double preview = 2.0;        ///< how far ahead the path's curvature is looked at [s], >= 0
+};
+
+std::unique_ptr<SteeringController> MakeLqr(const LqrOptions& options);
+
+}  // namespace trackbed

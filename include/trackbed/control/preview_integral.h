@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+
+namespace trackbed {
+
+class SteeringController;
+
+/// How much each part of the previewed way counts.
+enum class PreviewWeight {
+  kUniform,  ///< W = 1
+  kNear,     ///< W = 1 - eta/T: falls to nothing at the preview's end
+};
+
+/// MacAdam's optimal preview control (IEEE Trans. SMC 11, 1981): the steering which, held, brings
+/// the car over the whole previewed way nearest to the path, with a driver's delay.
+///
+/// Symbols: T = R/|v| the preview time, R = max(distance, time |v|); eta time ahead in [0, T];
+/// f(eta) where the path is, y_0(eta) where the car comes with straight wheels, A(eta) how far one
+/// unit of tan(delta) moves it, all across the direction of motion [m]; W(eta) the weight.
+///   tan(delta) = int (f - y_0) A W d(eta) / int A^2 W d(eta)
+/// A car without tyre coefficients is kinematic: y_0 = 0, A = (v eta)^2/(2 L); one with them is the
+/// linear single-track car with its present lateral speed and yaw rate. f(eta) is taken at the
+/// path's first point at the distance v eta of the rear axle, as PreviewAngle finds it. So the law
+/// gives atan(L/r) on a circle of radius r, for a kinematic car exactly, for one with tyres with
+/// its understeer and to the order of (R/r)^2; with all weight at the end it is pure pursuit.
+///
+/// The integrals are Gauss's with ten points: exact for the kinematic car. `delay` holds the angle
+/// back, between two control periods by linear interpolation: a driver's reaction time, of about
+/// 0.2 s, which the car is stable under only with a preview of several times that.
+///
+/// Reverse paths are previewed backwards, kinematically.
+struct PreviewIntegralOptions {
+  double distance = 4.0;  ///< shortest R [m], > 0
+  double time = 0.8;      ///< [s], >= 0
+  PreviewWeight weight = PreviewWeight::kUniform;
+  double delay = 0.0;  ///< tau [s], >= 0
+};
+
+std::unique_ptr<SteeringController> MakePreviewIntegral(const PreviewIntegralOptions& options);
+
+}  // namespace trackbed

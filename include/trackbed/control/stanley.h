@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+
+namespace trackbed {
+
+class SteeringController;
+
+/// The law of the car Stanley (Hoffmann, Tomlin, Montemerlo, Thrun, American Control Conference
+/// 2007) for a path of the rear axle.
+///
+/// Symbols: e, psi cross-track and heading error of the rear axle [m, rad]; v speed; kappa the
+/// path's curvature at the car; delta_0(kappa), psi_0(kappa) steering and heading error of the
+/// steady turn on it: atan(L kappa) and 0 for a car without slip, with the understeer of the linear
+/// single-track car if it has tyre coefficients.
+///   forwards   delta = delta_0 - (psi - psi_0) - atan(k (e + L sin(psi))/(k_s + |v|))
+///   backwards  delta = delta_0 + (psi - psi_0) - atan(k e/(k_s + |v|))
+/// The offset is that of the leading axle: e + L sin(psi) is how far the front axle is off the way
+/// it takes when the rear axle is on its path. Without slip and with k_s = 0 it shrinks as
+/// exp(-k t) when it is small, and at no more than |v| when it is large.
+///
+/// Does not look ahead, so that it meets a step of curvature late by the time that the wheels take
+/// to turn, and has no damping of its own: at speeds where the car's yaw lags (above some 10 m/s
+/// with the default k) it swings, and the more the larger k is.
+struct StanleyOptions {
+  double gain = 1.0;       ///< k [1/s], > 0
+  double softening = 1.0;  ///< k_s [m/s], >= 0
+};
+
+std::unique_ptr<SteeringController> MakeStanley(const StanleyOptions& options);
+
+}  // namespace trackbed

@@ -1,0 +1,177 @@
+#include "src/control/error_model.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+enum State { kOffset, kHeading, kActuator, kWheels, kLateral, kYawRate };
+
+/// Slower cars are reckoned with this speed [m/s]: the tyres' part grows without bound at rest.
+constexpr double kSlowest = 1.0;
+/// Shorter lags are reckoned as this [s].
+constexpr double kShortestLag = 1e-3;
+
+using Matrix = ErrorModel::Matrix;
+using Vector = ErrorModel::Vector;
+
+Vector SteadyState(const VehicleParams& vehicle, double curvature, const ErrorModel& model) {
+  const SteadyTurn turn = SteadyTurnOn(vehicle, curvature, model.speed);
+  Vector x = Vector::Zero(model.a.rows());
+  x[kHeading] = turn.heading_error;
+  x[kActuator] = turn.steering;
+  x[kWheels] = turn.steering;
+  if (x.size() > kLateral) {
+    x[kLateral] = turn.lateral_speed;
+    x[kYawRate] = turn.yaw_rate;
+  }
+  return x;
+}
+
+double TangentExcess(double steering) {
+  return std::tan(steering) - steering;
+}
+
+}  // namespace
+
+ErrorModel ErrorModelOf(const ControlInput& input, const Tracking& tracking, double period) {
+  const VehicleParams& vehicle = input.vehicle;
+  const int direction = tracking.foot.direction;
+  const bool tyres = HasTyres(vehicle);
+  const int n = tyres ? kYawRate + 1 : kWheels + 1;
+  ErrorModel model;
+  model.period = period;
+  model.speed = direction * std::max(direction * input.state.speed, kSlowest);
+  const double u = model.speed;
+
+  // d/dt of (x, w, kappa, c), the last three constant.
+  using Augmented = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, ErrorModel::kMost + 3,
+                                  ErrorModel::kMost + 3>;
+  Augmented rates = Augmented::Zero(n + 3, n + 3);
+  const int rate = n;
+  const int curvature = n + 1;
+  const int excess = n + 2;
+  rates(kOffset, kHeading) = u;
+  rates(kHeading, curvature) = -u;
+  rates(kActuator, rate) = 1.0;
+  const double lag = std::max(vehicle.steering_lag, kShortestLag);
+  rates(kWheels, kActuator) = 1.0 / lag;
+  rates(kWheels, kWheels) = -1.0 / lag;
+  if (tyres) {
+    rates(kOffset, kLateral) = 1.0;
+    rates(kOffset, kYawRate) = -vehicle.cg_to_rear;
+    rates(kHeading, kYawRate) = 1.0;
+    const Eigen::Matrix<double, 2, 3> lateral = LateralRates(vehicle, u);
+    rates.block<2, 2>(kLateral, kLateral) = lateral.leftCols<2>();
+    rates.block<2, 1>(kLateral, kWheels) = lateral.col(2);
+    rates.block<2, 1>(kLateral, excess) = lateral.col(2);
+  } else {
+    rates(kHeading, kWheels) = u / vehicle.wheelbase;
+    rates(kHeading, excess) = u / vehicle.wheelbase;
+  }
+  const Augmented scaled = rates * period;
+  const Augmented after = scaled.exp();
+  model.a = after.topLeftCorner(n, n);
+  model.b = after.col(rate).head(n);
+  model.d = after.col(curvature).head(n);
+  model.c = after.col(excess).head(n);
+  return model;
+}
+
+Vector StateOf(const ControlInput& input, const Tracking& tracking) {
+  const bool tyres = HasTyres(input.vehicle);
+  Vector x(tyres ? kYawRate + 1 : kWheels + 1);
+  x[kOffset] = tracking.cross_track;
+  x[kHeading] = tracking.heading_error;
+  x[kActuator] = input.state.steering_actuator;
+  x[kWheels] = input.state.steering;
+  if (tyres) {
+    x[kLateral] = input.state.lateral_speed;
+    x[kYawRate] = input.state.yaw_rate;
+  }
+  return x;
+}
+
+Vector StateCost(const ErrorModel& model, const ErrorWeights& weights) {
+  Vector cost = Vector::Zero(model.a.rows());
+  cost[kOffset] = weights.cross_track;
+  cost[kHeading] = weights.heading;
+  return cost;
+}
+
+Regulator RegulatorOf(const ErrorModel& model, const ErrorWeights& weights) {
+  const auto n = model.a.rows();
+  const Matrix identity = Matrix::Identity(n, n);
+  Matrix a = model.a;
+  Matrix g = model.b * model.b.transpose() / weights.steering_rate;
+  Matrix h = StateCost(model, weights).asDiagonal();
+  constexpr int kMostDoublings = 40;
+  for (int i = 0; i < kMostDoublings; ++i) {
+    const Matrix inverse = (identity + g * h).partialPivLu().inverse();
+    const Matrix step = a.transpose() * h * inverse * a;
+    g += (a * inverse * g * a.transpose()).eval();
+    a = (a * inverse * a).eval();
+    h += step;
+    h = (0.5 * (h + h.transpose())).eval();
+    if (step.lpNorm<Eigen::Infinity>() <= 1e-13 * h.lpNorm<Eigen::Infinity>()) {
+      break;
+    }
+  }
+  TRACKBED_CHECK(h.allFinite(), "no regulator at {} m/s", model.speed);
+  Regulator regulator;
+  regulator.cost = h;
+  regulator.input_cost = weights.steering_rate + model.b.dot(h * model.b);
+  regulator.gain = model.b.transpose() * h * model.a / regulator.input_cost;
+  return regulator;
+}
+
+Ahead::Ahead(const ControlInput& input, const Tracking& tracking, const ErrorModel& model)
+    : input_(input),
+      model_(model),
+      station_(input.station),
+      stride_(std::abs(model.speed) * model.period),
+      direction_(tracking.foot.direction),
+      steady_(SteadyState(input.vehicle, tracking.foot.curvature, model)),
+      yaw_(tracking.foot.pose.yaw) {}
+
+Vector Ahead::Next() {
+  station_ += stride_;
+  const PathPoint next = input_.reference.path.At(station_);
+  // The mean over the step, whatever jumps within it.
+  const double curvature = AngleDifference(next.pose.yaw, yaw_) / (direction_ * stride_);
+  yaw_ = next.pose.yaw;
+  const Vector now = steady_;
+  steady_ = SteadyState(input_.vehicle, next.curvature, model_);
+  const double excess =
+      TangentExcess(SteadyTurnOn(input_.vehicle, curvature, model_.speed).steering);
+  return model_.a * now + model_.d * curvature + model_.c * excess - steady_;
+}
+
+Regulator ScheduledRegulator(const ErrorModel& model, double steering_rate, ErrorWeights& weights,
+                             Vector& z) {
+  constexpr double kApproach = 0.6;  // [rad]
+  constexpr double kMostRates = 2.0;
+  constexpr int kMostRaises = 30;
+  for (int i = 0;; ++i) {
+    const Regulator regulator = RegulatorOf(model, weights);
+    const double per_offset = std::abs(regulator.gain[kOffset]);
+    const double per_heading = std::abs(regulator.gain[kHeading]);
+    const double most = kApproach * per_heading / per_offset;
+    const double offset = std::clamp(z[kOffset], -most, most);
+    const double rate =
+        std::max(per_offset * std::abs(offset), per_heading * std::abs(z[kHeading]));
+    if (rate <= kMostRates * steering_rate || i == kMostRaises) {
+      z[kOffset] = offset;
+      return regulator;
+    }
+    weights.steering_rate *= 2.0;
+  }
+}
+
+}  // namespace trackbed

@@ -1,0 +1,48 @@
+#include "trackbed/control/lqr.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/control/error_model.h"
+
+namespace trackbed {
+namespace {
+
+class Lqr final : public SteeringController {
+ public:
+  explicit Lqr(const LqrOptions& options) : options_(options) {}
+
+  double Steer(const ControlInput& input) override {
+    const VehicleParams& vehicle = input.vehicle;
+    const Tracking tracking = TrackingOf(input);
+    const ErrorModel model = ErrorModelOf(input, tracking, input.period);
+    Ahead ahead(input, tracking, model);
+    ErrorModel::Vector z = StateOf(input, tracking) - ahead.steady();
+    ErrorWeights weights{options_.cross_track, options_.heading, options_.steering_rate};
+    const Regulator regulator = ScheduledRegulator(model, vehicle.steering_rate, weights, z);
+
+    double rate = -regulator.gain.dot(z);
+    // B^T (A_c^T)^k P, carried along as A_c^k B.
+    const ErrorModel::Matrix closed = model.a - model.b * regulator.gain;
+    ErrorModel::Vector reach = model.b;
+    const auto steps = static_cast<long>(std::ceil(options_.preview / input.period));
+    for (long k = 0; k < steps; ++k) {
+      rate -= reach.dot(regulator.cost * ahead.Next()) / regulator.input_cost;
+      reach = (closed * reach).eval();
+    }
+    rate = std::clamp(rate, -vehicle.steering_rate, vehicle.steering_rate);
+    return std::clamp(input.state.steering_actuator + rate * input.period, -vehicle.steering_limit,
+                      vehicle.steering_limit);
+  }
+
+ private:
+  LqrOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<SteeringController> MakeLqr(const LqrOptions& options) {
+  return std::make_unique<Lqr>(options);
+}
+
+}  // namespace trackbed

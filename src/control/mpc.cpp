@@ -1,0 +1,87 @@
+#include "trackbed/control/mpc.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/control/error_model.h"
+#include "trackbed/optimize/quadratic_program.h"
+
+namespace trackbed {
+namespace {
+
+static_assert(MpcOptions::kLongestHorizon <= QuadraticProgram::kMostVariables);
+
+/// z of a step as a linear function of all rates: free + reach w.
+struct Prediction {
+  ErrorModel::Vector free;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, ErrorModel::kMost,
+                MpcOptions::kLongestHorizon>
+      reach;
+};
+
+class Mpc final : public SteeringController {
+ public:
+  explicit Mpc(const MpcOptions& options) : options_(options) {}
+
+  double Steer(const ControlInput& input) override {
+    const VehicleParams& vehicle = input.vehicle;
+    const Tracking tracking = TrackingOf(input);
+    const double step = std::max(options_.step, input.period);
+    const ErrorModel model = ErrorModelOf(input, tracking, step);
+    Ahead ahead(input, tracking, model);
+    Prediction z{StateOf(input, tracking) - ahead.steady(), {}};
+    ErrorWeights weights{options_.cross_track, options_.heading, options_.steering_rate};
+    const Regulator regulator = ScheduledRegulator(model, vehicle.steering_rate, weights, z.free);
+    z.reach.setZero(model.a.rows(), options_.horizon);
+
+    QuadraticProgram program;
+    program.hessian.setZero(options_.horizon, options_.horizon);
+    program.hessian.diagonal().setConstant(weights.steering_rate);
+    program.linear.setZero(options_.horizon);
+    const ErrorModel::Matrix cost = StateCost(model, weights).asDiagonal();
+    for (int k = 0; k < options_.horizon; ++k) {
+      z.free = (model.a * z.free + ahead.Next()).eval();
+      z.reach = (model.a * z.reach).eval();
+      z.reach.col(k) += model.b;
+      const ErrorModel::Matrix& of_step = k + 1 < options_.horizon ? cost : regulator.cost;
+      program.hessian += z.reach.transpose() * of_step * z.reach;
+      program.linear += z.reach.transpose() * (of_step * z.free);
+    }
+    // Rounding may have left the actuator a hair beyond its limit.
+    const double start =
+        std::clamp(input.state.steering_actuator, -vehicle.steering_limit, vehicle.steering_limit);
+    Limit(vehicle, start, step, program);
+
+    const QuadraticSolution solution = Solve(program);
+    const double rate = std::clamp(solution.x[0], -vehicle.steering_rate, vehicle.steering_rate);
+    return std::clamp(start + rate * input.period, -vehicle.steering_limit, vehicle.steering_limit);
+  }
+
+ private:
+  /// Rates, and the angles that they add up to, both ways.
+  static void Limit(const VehicleParams& vehicle, double start, double step,
+                    QuadraticProgram& program) {
+    const auto n = program.linear.size();
+    program.constraints.setZero(4 * n, n);
+    program.bounds.resize(4 * n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      program.constraints(k, k) = 1.0;
+      program.constraints(n + k, k) = -1.0;
+      program.constraints.row(2 * n + k).head(k + 1).setConstant(step);
+      program.constraints.row(3 * n + k).head(k + 1).setConstant(-step);
+    }
+    program.bounds.head(2 * n).setConstant(vehicle.steering_rate);
+    program.bounds.segment(2 * n, n).setConstant(vehicle.steering_limit - start);
+    program.bounds.tail(n).setConstant(vehicle.steering_limit + start);
+  }
+
+  MpcOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<SteeringController> MakeMpc(const MpcOptions& options) {
+  return std::make_unique<Mpc>(options);
+}
+
+}  // namespace trackbed

@@ -1,0 +1,102 @@
+#include "trackbed/control/preview_integral.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <unsupported/Eigen/MatrixFunctions>
+#include <vector>
+
+#include "src/control/tracking.h"
+
+namespace trackbed {
+namespace {
+
+/// Slower cars are reckoned as kinematic ones [m/s]; there they differ by less than 1e-2.
+constexpr double kSlowest = 1.0;
+
+/// Across the direction of motion, `time` after now.
+struct Responses {
+  double free = 0.0;  ///< y_0 [m]
+  double step = 0.0;  ///< A [m]
+};
+
+/// Of the rear axle, without slip.
+Responses KinematicResponses(const ControlInput& input, double way) {
+  return {.free = 0.0, .step = way * way / (2.0 * input.vehicle.wheelbase)};
+}
+
+/// Of the linear single-track car, forwards: (y, psi, v, r) in the frame of the car now.
+Responses SingleTrackResponses(const ControlInput& input, double time) {
+  const VehicleParams& vehicle = input.vehicle;
+  const VehicleState& state = input.state;
+  Eigen::Matrix<double, 5, 5> rates = Eigen::Matrix<double, 5, 5>::Zero();
+  rates(0, 1) = state.speed;
+  rates(0, 2) = 1.0;
+  rates(0, 3) = -vehicle.cg_to_rear;
+  rates(1, 3) = 1.0;
+  rates.block<2, 3>(2, 2) = LateralRates(vehicle, state.speed);
+  const Eigen::Matrix<double, 5, 5> scaled = rates * time;
+  const Eigen::Matrix<double, 5, 5> after = scaled.exp();
+  return {.free = after(0, 2) * state.lateral_speed + after(0, 3) * state.yaw_rate,
+          .step = after(0, 4)};
+}
+
+class PreviewIntegral final : public SteeringController {
+ public:
+  explicit PreviewIntegral(const PreviewIntegralOptions& options) : options_(options) {}
+
+  double Steer(const ControlInput& input) override {
+    const VehicleParams& vehicle = input.vehicle;
+    const Path& path = input.reference.path;
+    const int direction = path.At(input.station).direction;
+    const double speed = std::abs(input.state.speed);
+    const double distance = std::max(options_.distance, options_.time * speed);
+    const bool dynamic = direction > 0 && input.state.speed >= kSlowest && HasTyres(vehicle);
+
+    using Gauss = boost::math::quadrature::gauss<double, 10>;
+    double moved = 0.0;
+    double square = 0.0;
+    for (std::size_t i = 0; i < Gauss::abscissa().size(); ++i) {
+      for (const double side : {-1.0, 1.0}) {
+        const double share = 0.5 * (1.0 + side * Gauss::abscissa()[i]);
+        const double way = share * distance;
+        const Responses responses =
+            dynamic ? SingleTrackResponses(input, way / speed) : KinematicResponses(input, way);
+        const double importance =
+            Gauss::weights()[i] * (options_.weight == PreviewWeight::kNear ? 1.0 - share : 1.0);
+        const double across =
+            way * std::sin(PreviewAngle(path, input.state.pose, input.station, way));
+        moved += importance * (across - responses.free) * responses.step;
+        square += importance * responses.step * responses.step;
+      }
+    }
+    // Backwards, wheels to the right turn the motion to the left.
+    const double wanted = direction * std::atan(moved / square);
+    return Delayed(std::clamp(wanted, -vehicle.steering_limit, vehicle.steering_limit), input);
+  }
+
+ private:
+  /// What was wanted the delay ago; where the wheels stood before anything was.
+  double Delayed(double wanted, const ControlInput& input) {
+    const double periods = options_.delay / input.period;
+    const auto whole = static_cast<std::size_t>(periods);
+    if (past_.empty()) {
+      past_.assign(whole + 2, input.state.steering_actuator);
+    }
+    std::rotate(past_.begin(), past_.end() - 1, past_.end());
+    past_.front() = wanted;
+    return std::lerp(past_[whole], past_[whole + 1], periods - static_cast<double>(whole));
+  }
+
+  PreviewIntegralOptions options_;
+  std::vector<double> past_;  // newest first
+};
+
+}  // namespace
+
+std::unique_ptr<SteeringController> MakePreviewIntegral(const PreviewIntegralOptions& options) {
+  return std::make_unique<PreviewIntegral>(options);
+}
+
+}  // namespace trackbed

@@ -1,0 +1,42 @@
+#include "trackbed/control/stanley.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/control/tracking.h"
+
+namespace trackbed {
+namespace {
+
+class Stanley final : public SteeringController {
+ public:
+  explicit Stanley(const StanleyOptions& options) : options_(options) {}
+
+  double Steer(const ControlInput& input) override {
+    const VehicleParams& vehicle = input.vehicle;
+    const Tracking tracking = TrackingOf(input);
+    const int direction = tracking.foot.direction;
+    const double speed = std::abs(input.state.speed);
+    const SteadyTurn turn = SteadyTurnOn(vehicle, tracking.foot.curvature, direction * speed);
+    const double heading = tracking.heading_error - turn.heading_error;
+    double offset = tracking.cross_track;
+    if (direction > 0) {
+      offset += vehicle.wheelbase * std::sin(heading);
+    }
+    // atan2: at rest without softening, as far as the angle goes.
+    const double approach = std::atan2(options_.gain * offset, options_.softening + speed);
+    const double steering = turn.steering - direction * heading - approach;
+    return std::clamp(steering, -vehicle.steering_limit, vehicle.steering_limit);
+  }
+
+ private:
+  StanleyOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<SteeringController> MakeStanley(const StanleyOptions& options) {
+  return std::make_unique<Stanley>(options);
+}
+
+}  // namespace trackbed

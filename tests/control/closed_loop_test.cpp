@@ -1,0 +1,312 @@
+// What every controller of the table that follows a path owes its caller.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/control/loop.h"
+#include "tests/geometry/random.h"
+#include "tests/tolerance.h"
+#include "trackbed/core/error.h"
+
+namespace {
+
+long allocations = 0;  // NOLINT: counted behind everyone's back
+
+}  // namespace
+
+// The linker lets malloc, which Eigen calls, and operator new end here (--wrap) for all of our own
+// code, not for what shared libraries such as NLopt's take for themselves.
+extern "C" {
+void* __real_malloc(std::size_t size);   // NOLINT: the linker's names
+void* __wrap_malloc(std::size_t size) {  // NOLINT
+  ++allocations;
+  return __real_malloc(size);
+}
+void* __real__Znwm(std::size_t size);   // NOLINT
+void* __wrap__Znwm(std::size_t size) {  // NOLINT
+  ++allocations;
+  return __real__Znwm(size);
+}
+}
+
+namespace trackbed {
+
+void PrintTo(const ControllerEntry& entry, std::ostream* out);
+
+namespace {
+
+/// A state of a car, and what it follows.
+struct Case {
+  VehicleParams vehicle = SeedCar();
+  Reference reference;
+  VehicleState state;
+  double station = 0.0;
+};
+
+double Steer(const ControllerOptions& options, const Case& at) {
+  return MakeSteeringController(options)->Steer({.vehicle = at.vehicle,
+                                                 .reference = at.reference,
+                                                 .schedule = {},
+                                                 .state = at.state,
+                                                 .station = at.station,
+                                                 .period = 0.02});
+}
+
+/// Anywhere near a path of any shape, on any of the cars.
+Case RandomCase(Random& random, int direction = 1) {
+  Case at;
+  at.vehicle = random.Uniform(0.0, 1.0) < 0.5 ? SeedCar() : SeedCarWithTyres();
+  std::vector<Segment> segments;
+  for (int i = 0; i < 6; ++i) {
+    segments.push_back({.length = random.Uniform(5.0, 30.0),
+                        .curvature = random.Uniform(-0.1, 0.1),
+                        .direction = direction,
+                        .sharpness = random.Uniform(-0.003, 0.003)});
+  }
+  at.reference.path = Path({}, segments);
+  at.station = random.Uniform(0.0, at.reference.path.length());
+  const double heading = random.Uniform(-0.3, 0.3);
+  at.state.pose =
+      Compose(at.reference.path.At(at.station).pose, {0.0, random.Uniform(-1.5, 1.5), heading});
+  at.state.speed = direction * random.Uniform(1.0, 20.0);
+  at.state.steering_actuator = random.Uniform(-0.2, 0.2);
+  at.state.steering = at.state.steering_actuator;
+  at.state.yaw_rate = random.Uniform(-0.3, 0.3);
+  at.state.lateral_speed = random.Uniform(-0.3, 0.3);
+  return at;
+}
+
+std::vector<ControllerEntry> Followers() {
+  std::vector<ControllerEntry> followers;
+  for (const ControllerEntry& entry : Controllers()) {
+    if (entry.station == StationSource::kProjection) {
+      followers.push_back(entry);
+    }
+  }
+  return followers;
+}
+
+std::string NameOf(const testing::TestParamInfo<ControllerEntry>& test) {
+  return test.param.name;
+}
+
+class EveryFollower : public testing::TestWithParam<ControllerEntry> {};
+
+INSTANTIATE_TEST_SUITE_P(Table, EveryFollower, testing::ValuesIn(Followers()), NameOf);
+
+// Sines and cosines of paths and poses within 200 m round at 1e-14 m/m; laws divide by a tenth of a
+// metre at the least, and MPC's program is solved to 1e-9 rad/s over 0.02 s.
+constexpr double kRounding = 1e-9;
+
+TEST_P(EveryFollower, MirroredWorldMirrorsTheSteering) {
+  Random random(81);
+  for (int i = 0; i < 200; ++i) {
+    SCOPED_TRACE(fmt::format("case {}", i));
+    const Case at = RandomCase(random, i % 4 == 0 ? -1 : 1);
+    Case mirrored = at;
+    std::vector<Segment> segments = at.reference.path.segments();
+    for (Segment& segment : segments) {
+      segment.curvature = -segment.curvature;
+      segment.sharpness = -segment.sharpness;
+    }
+    mirrored.reference.path = Path({}, segments);
+    VehicleState& state = mirrored.state;
+    state.pose = {state.pose.x, -state.pose.y, -state.pose.yaw};
+    for (double* number :
+         {&state.lateral_speed, &state.yaw_rate, &state.steering_actuator, &state.steering}) {
+      *number = -*number;
+    }
+    EXPECT_NEAR(Steer(GetParam().defaults, mirrored), -Steer(GetParam().defaults, at),
+                Tolerance(kRounding));
+  }
+}
+
+TEST_P(EveryFollower, DoesNotCareWhereTheWorldBegins) {
+  Random random(82);
+  for (int i = 0; i < 200; ++i) {
+    SCOPED_TRACE(fmt::format("case {}", i));
+    const Case at = RandomCase(random, i % 4 == 0 ? -1 : 1);
+    const Pose2 X_WA{random.Uniform(-50.0, 50.0), random.Uniform(-50.0, 50.0),
+                     random.Uniform(-7.0, 7.0)};
+    Case moved = at;
+    moved.reference.path = Path(X_WA, at.reference.path.segments());
+    moved.state.pose = Compose(X_WA, at.state.pose);
+    EXPECT_NEAR(Steer(GetParam().defaults, moved), Steer(GetParam().defaults, at),
+                Tolerance(kRounding));
+  }
+}
+
+TEST_P(EveryFollower, WantsAnAngleThatTheCarHas) {
+  if (std::string(GetParam().name) == "preview") {
+    GTEST_SKIP() << "promises none: a point aimed at may lie behind";
+  }
+  Random random(83);
+  for (int i = 0; i < 500; ++i) {
+    Case at = RandomCase(random, i % 4 == 0 ? -1 : 1);
+    at.state.pose.x += random.Uniform(-20.0, 20.0);
+    at.state.pose.y += random.Uniform(-20.0, 20.0);
+    at.state.pose.yaw += random.Uniform(-4.0, 4.0);
+    at.state.speed *= random.Uniform(-1.0, 1.0);
+    EXPECT_LE(std::abs(Steer(GetParam().defaults, at)), at.vehicle.steering_limit);
+  }
+}
+
+TEST_P(EveryFollower, KeepsTheKinematicCarOnItsCircle) {
+  for (const double curvature : {0.0, 0.01, -0.05, 0.15}) {
+    for (const int direction : {1, -1}) {
+      SCOPED_TRACE(fmt::format("curvature {}, direction {}", curvature, direction));
+      Case at;
+      at.reference.path = Path({}, {{200.0, curvature, direction}});
+      at.station = 20.0;
+      at.state.pose = at.reference.path.At(at.station).pose;
+      at.state.speed = direction * 3.0;
+      at.state.steering = SteeringForCurvature(at.vehicle, curvature);
+      at.state.steering_actuator = at.state.steering;
+      EXPECT_NEAR(Steer(GetParam().defaults, at), at.state.steering, Tolerance(kRounding));
+    }
+  }
+}
+
+TEST_P(EveryFollower, ComesBackToItsPath) {
+  // The kinematic car, behind its rate limit. A tenth of the offset is left after 40 m, and it
+  // never swings further out on the other side than where it came from.
+  for (const double offset : {0.3, -0.3}) {
+    for (const int direction : {1, -1}) {
+      SCOPED_TRACE(fmt::format("offset {}, direction {}", offset, direction));
+      LoopSetup setup;
+      setup.path = Path({}, {{100.0, 0.0, direction}});
+      setup.start = {0.0, offset, 0.0};
+      setup.speed = 3.0 * direction;
+      const std::vector<LoopRow> rows = Loop(GetParam().defaults, setup);
+      EXPECT_LT(LargestOffset(rows), std::abs(offset) + 1e-9);
+      EXPECT_LT(LargestOffset(rows, rows.size() * 2 / 3), 0.1 * std::abs(offset));
+    }
+  }
+}
+
+TEST_P(EveryFollower, GoesOnAlongTheEndTangent) {
+  // Off a straight path that ends after 10 m, and for 50 m beyond.
+  LoopSetup setup;
+  setup.path = Path({}, {{10.0, 0.0, 1}});
+  setup.start = {0.0, 0.2, 0.0};
+  const std::vector<LoopRow> rows = Loop(GetParam().defaults, setup);
+  EXPECT_GT(rows.back().state.pose.x, 55.0);
+  EXPECT_LT(LargestOffset(rows, rows.size() * 2 / 3), 0.02);
+  for (const LoopRow& row : rows) {
+    EXPECT_LT(std::abs(row.wanted), 0.4);
+  }
+}
+
+TEST_P(EveryFollower, StandsAndCrawlsWithoutTurningItsWheelsAbout) {
+  // On its path, at rest and up to 1 m/s.
+  for (const VehicleParams& vehicle : {SeedCar(), SeedCarWithTyres()}) {
+    for (const double speed : {0.0, 1e-6, 0.01, 0.3, 1.0}) {
+      Case at;
+      at.vehicle = vehicle;
+      at.reference.path = Path({}, {{200.0, 0.0, 1}});
+      at.station = 20.0;
+      at.state.pose = {20.0, 0.0, 0.0};
+      at.state.speed = speed;
+      EXPECT_NEAR(Steer(GetParam().defaults, at), 0.0, Tolerance(kRounding)) << speed;
+    }
+  }
+}
+
+class AnyController : public testing::TestWithParam<ControllerEntry> {};
+
+INSTANTIATE_TEST_SUITE_P(ClosedLoop, AnyController, testing::ValuesIn(Controllers()), NameOf);
+
+TEST_P(AnyController, RefusesAStateThatIsNone) {
+  if (std::string(GetParam().name) == "playback") {
+    GTEST_SKIP() << "has no defaults that can be driven";
+  }
+  const std::vector<double VehicleState::*> numbers{
+      &VehicleState::speed,    &VehicleState::lateral_speed,     &VehicleState::yaw_rate,
+      &VehicleState::steering, &VehicleState::steering_actuator, &VehicleState::distance};
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    for (const auto number : numbers) {
+      Case at;
+      at.reference.path = Path({}, {{200.0, 0.0, 1}});
+      at.state.speed = 3.0;
+      EXPECT_NO_THROW(Steer(GetParam().defaults, at));
+      at.state.*number = bad;
+      EXPECT_THROW(Steer(GetParam().defaults, at), InternalError);
+    }
+    for (double Pose2::*number : {&Pose2::x, &Pose2::y, &Pose2::yaw}) {
+      Case at;
+      at.state.pose.*number = bad;
+      try {
+        Steer(GetParam().defaults, at);
+        ADD_FAILURE() << "took it";
+      } catch (const InternalError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("the car's state at 0 s is not finite"));
+      }
+    }
+  }
+}
+
+/// A drive beside a path with an arc.
+long AllocationsOf(const ControllerOptions& options, const VehicleParams& vehicle, double offset,
+                   double curvature) {
+  const auto controller = MakeSteeringController(options);
+  const Reference reference{Path({}, {{20.0, 0.0, 1}, {40.0, curvature, 1}, {100.0, 0.0, 1}}),
+                            SpeedProfile({{0.0, 5.0}})};
+  const SteeringSchedule schedule;
+  VehicleState state;
+  state.speed = 5.0;
+  long before = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double station = 0.5 * i;
+    state.pose = Compose(reference.path.At(station).pose, {0.0, offset, 0.0});
+    state.time = 0.1 * i;
+    state.distance = station;
+    if (i == 1) {
+      before = allocations;
+    }
+    static_cast<void>(controller->Steer({.vehicle = vehicle,
+                                         .reference = reference,
+                                         .schedule = schedule,
+                                         .state = state,
+                                         .station = station,
+                                         .period = 0.02}));
+  }
+  return allocations - before;
+}
+
+TEST_P(AnyController, TakesNoHeapMemoryAfterItsFirstStep) {
+  if (std::string(GetParam().name) == "playback") {
+    GTEST_SKIP() << "has no defaults that can be driven";
+  }
+  if (std::string(GetParam().name) == "optimal_steering") {
+    GTEST_SKIP() << "searches, see TakeNLoptsMemoryAlone";
+  }
+  for (const VehicleParams& vehicle : {SeedCar(), SeedCarWithTyres()}) {
+    EXPECT_EQ(AllocationsOf(GetParam().defaults, vehicle, 0.0, 0.003), 0);
+  }
+}
+
+// nlopt.hpp wraps options and vectors: some 20 each time that it is called.
+constexpr long kOfOneCall = 30;
+
+TEST(ControllersThatSearch, TakeNLoptsMemoryAlone) {
+  // A program with limits in the way is solved once or twice in each of the 199 periods.
+  const long of_mpc = AllocationsOf(MpcOptions{}, SeedCar(), 1.0, 0.05);
+  EXPECT_GT(of_mpc, 0);
+  EXPECT_LT(of_mpc, 199 * 2 * kOfOneCall);
+  // One search in each period, whatever it evaluates; none on a straight.
+  const OptimalSteeringOptions searching{.deviation_limit = 0.0};
+  const long of_search = AllocationsOf(searching, SeedCar(), 0.1, 0.05);
+  EXPECT_GT(of_search, 0);
+  EXPECT_LT(of_search, 199 * kOfOneCall);
+  EXPECT_EQ(AllocationsOf(OptimalSteeringOptions{}, SeedCar(), 0.0, 0.0), 0);
+}
+
+}  // namespace
+}  // namespace trackbed

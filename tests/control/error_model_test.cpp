@@ -1,0 +1,199 @@
+#include "src/control/error_model.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "tests/control/loop.h"
+#include "tests/geometry/random.h"
+#include "tests/tolerance.h"
+
+namespace trackbed {
+namespace {
+
+/// A car on a path, in a steady turn unless told otherwise.
+class Situation {
+ public:
+  Situation(const VehicleParams& vehicle, double speed, double curvature)
+      : vehicle_(vehicle), reference_{Path({}, {{500.0, curvature, speed < 0.0 ? -1 : 1}}), {}} {
+    const SteadyTurn turn = SteadyTurnOn(vehicle, curvature, speed);
+    const double station = 10.0;
+    state.pose = reference_.path.At(station).pose;
+    state.pose.yaw += turn.heading_error;
+    state.speed = speed;
+    state.lateral_speed = turn.lateral_speed;
+    state.yaw_rate = turn.yaw_rate;
+    state.steering = turn.steering;
+    state.steering_actuator = turn.steering;
+  }
+
+  [[nodiscard]] ControlInput input() const {
+    return {.vehicle = vehicle_,
+            .reference = reference_,
+            .schedule = schedule_,
+            .state = state,
+            .station = 10.0,
+            .period = 0.02};
+  }
+
+  VehicleState state;
+
+ private:
+  VehicleParams vehicle_;
+  Reference reference_;
+  SteeringSchedule schedule_;
+};
+
+std::vector<VehicleParams> Cars() {
+  return {SeedCar(), SeedCarWithTyres()};
+}
+
+TEST(SteadyTurn, IsWhereTheSingleTrackCarSettles) {
+  const VehicleParams car = SeedCarWithTyres();
+  for (const double curvature : {0.02, -0.05, 0.15}) {
+    for (const double speed : {2.0, 8.0, -3.0}) {
+      SCOPED_TRACE(fmt::format("curvature {}, speed {}", curvature, speed));
+      const SteadyTurn turn = SteadyTurnOn(car, curvature, speed);
+      SingleTrackCar driven(car, {.pose = {},
+                                  .speed = speed,
+                                  .lateral_speed = turn.lateral_speed,
+                                  .yaw_rate = turn.yaw_rate,
+                                  .steering = turn.steering});
+      driven.Step({.steering = turn.steering, .acceleration = 0.0, .gear = speed < 0.0 ? -1 : 1},
+                  2.0);
+      // SingleTrackCar promises 1e-9.
+      EXPECT_NEAR(driven.state().lateral_speed, turn.lateral_speed, Tolerance(1e-9));
+      EXPECT_NEAR(driven.state().yaw_rate, turn.yaw_rate, Tolerance(1e-9));
+      // The rear axle moves along the path where the car's heading is off by psi_0.
+      const double rear = turn.lateral_speed - car.cg_to_rear * turn.yaw_rate;
+      EXPECT_NEAR(std::atan(rear / speed), -turn.heading_error,
+                  Tolerance(std::pow(std::abs(turn.heading_error), 3)) + 1e-12);
+    }
+  }
+}
+
+TEST(ErrorModel, StaysInASteadyTurn) {
+  for (const VehicleParams& car : Cars()) {
+    for (const double speed : {1.0, 3.0, 20.0, -2.0}) {
+      for (const double curvature : {0.0, 0.01, -0.12}) {
+        SCOPED_TRACE(fmt::format("{} m/s, {} 1/m", speed, curvature));
+        const Situation situation(car, speed, curvature);
+        const ControlInput input = situation.input();
+        const Tracking tracking = TrackingOf(input);
+        const ErrorModel model = ErrorModelOf(input, tracking, 0.1);
+        Ahead ahead(input, tracking, model);
+        // Path headings within 500 m round at 1e-13; per stride of 0.1 m or more 1e-12.
+        EXPECT_LT((StateOf(input, tracking) - ahead.steady()).norm(), Tolerance(1e-12));
+        for (int k = 0; k < 5; ++k) {
+          EXPECT_LT(ahead.Next().norm(), Tolerance(1e-11));
+        }
+      }
+    }
+  }
+}
+
+TEST(ErrorModel, RunsAsTheCarDoesNearItsPath) {
+  // A tenth of a second at a steering rate of 0.1 rad/s, from 1e-3 of everything: what the linear
+  // model leaves out are squares, 1e-6 of each, and cubes of the steering angle.
+  for (const double speed : {2.0, 10.0, 20.0, -2.0}) {
+    SCOPED_TRACE(speed);
+    VehicleParams car = SeedCarWithTyres();
+    car.steering_lag = 0.0;
+    Situation situation(car, speed, 0.0);
+    VehicleState& state = situation.state;
+    state.pose.y += 1e-3;
+    state.pose.yaw += 1e-3;
+    state.lateral_speed += 1e-3;
+    state.yaw_rate += 1e-3;
+    const ControlInput input = situation.input();
+    const Tracking tracking = TrackingOf(input);
+    const ErrorModel model = ErrorModelOf(input, tracking, 0.1);
+    const ErrorModel::Vector x = model.a * StateOf(input, tracking) + model.b * 0.1;
+
+    car.steering_rate = 0.1;
+    SingleTrackCar driven(car, {.pose = state.pose,
+                                .speed = speed,
+                                .lateral_speed = state.lateral_speed,
+                                .yaw_rate = state.yaw_rate});
+    driven.Step({.steering = 1.0, .acceleration = 0.0, .gear = speed < 0.0 ? -1 : 1}, 0.1);
+    // The wheels' shortest lag is a millisecond: 1e-4 rad for as long as the drive.
+    const double wheels = 1e-4;
+    EXPECT_NEAR(x[0], driven.state().pose.y, Tolerance(1e-5 + 0.01 * wheels * std::abs(speed)));
+    EXPECT_NEAR(x[1], driven.state().pose.yaw, Tolerance(1e-5 + 0.2 * wheels));
+    EXPECT_NEAR(x[2], driven.state().steering, Tolerance(1e-12));
+    EXPECT_NEAR(x[4], driven.state().lateral_speed, Tolerance(1e-5 + 10.0 * wheels));
+    EXPECT_NEAR(x[5], driven.state().yaw_rate, Tolerance(1e-5 + 5.0 * wheels));
+  }
+}
+
+TEST(Regulator, SolvesTheRiccatiEquationAndIsStable) {
+  for (const VehicleParams& car : Cars()) {
+    for (const double speed : {0.0, 1.0, 3.0, 10.0, 20.0, 40.0, -3.0, -10.0}) {
+      for (const double period : {0.005, 0.02, 0.1, 0.5}) {
+        SCOPED_TRACE(fmt::format("{} m/s, {} s", speed, period));
+        const Situation situation(car, speed, 0.0);
+        const ControlInput input = situation.input();
+        const ErrorModel model = ErrorModelOf(input, TrackingOf(input), period);
+        const ErrorWeights weights{.cross_track = 2.0, .heading = 0.5, .steering_rate = 3.0};
+        const Regulator regulator = RegulatorOf(model, weights);
+        const Eigen::MatrixXd a = model.a;
+        const Eigen::VectorXd b = model.b;
+        const Eigen::MatrixXd p = regulator.cost;
+        const Eigen::MatrixXd q = Eigen::VectorXd(StateCost(model, weights)).asDiagonal();
+        const Eigen::MatrixXd residual =
+            a.transpose() * p * a -
+            a.transpose() * p * b * b.transpose() * p * a / (3.0 + b.dot(p * b)) + q - p;
+        EXPECT_LT(residual.norm(), Tolerance(1e-9) * p.norm());
+        const Eigen::MatrixXd closed = a - b * Eigen::RowVectorXd(regulator.gain);
+        EXPECT_LT(closed.eigenvalues().cwiseAbs().maxCoeff(), 1.0);
+      }
+    }
+  }
+}
+
+TEST(Regulator, CostsWhatItSays) {
+  // Driven to the end, the sum of the costs is x^T P x.
+  const Situation situation(SeedCarWithTyres(), 10.0, 0.0);
+  const ControlInput input = situation.input();
+  const ErrorModel model = ErrorModelOf(input, TrackingOf(input), 0.05);
+  const ErrorWeights weights;
+  const Regulator regulator = RegulatorOf(model, weights);
+  ErrorModel::Vector x = ErrorModel::Vector::Constant(6, 0.1);
+  const double promised = x.dot(regulator.cost * x);
+  double sum = 0.0;
+  for (int k = 0; k < 2000; ++k) {
+    const double w = -regulator.gain.dot(x);
+    sum += x.dot(StateCost(model, weights).cwiseProduct(x)) + weights.steering_rate * w * w;
+    x = (model.a * x + model.b * w).eval();
+  }
+  EXPECT_NEAR(sum, promised, Tolerance(1e-9) * promised);
+}
+
+TEST(Ahead, MovesTheSteadyTurnToTheCurvatureAhead) {
+  const VehicleParams car = SeedCarWithTyres();
+  const Reference reference{Path({}, {{10.0, 0.0, 1}, {50.0, 0.02, 1}}), {}};
+  const SteeringSchedule schedule;
+  VehicleState state;
+  state.speed = 10.0;
+  const ControlInput input{.vehicle = car,
+                           .reference = reference,
+                           .schedule = schedule,
+                           .state = state,
+                           .station = 0.0,
+                           .period = 0.1};
+  const Tracking tracking = TrackingOf(input);
+  const ErrorModel model = ErrorModelOf(input, tracking, 0.1);
+  Ahead ahead(input, tracking, model);
+  // 1 m a step: the tenth ends on the arc.
+  for (int k = 0; k < 9; ++k) {
+    EXPECT_EQ(ahead.Next().norm(), 0.0);
+  }
+  const ErrorModel::Vector jump = ahead.Next();
+  EXPECT_NEAR(jump[2], -SteadyTurnOn(car, 0.02, 10.0).steering, Tolerance(1e-12));
+  EXPECT_LT(ahead.Next().norm(), Tolerance(1e-11));
+}
+
+}  // namespace
+}  // namespace trackbed

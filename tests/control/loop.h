@@ -1,0 +1,81 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tests/vehicle/seed_car.h"
+#include "trackbed/control/steering_controller.h"
+#include "trackbed/vehicle/kinematic_car.h"
+#include "trackbed/vehicle/single_track_car.h"
+
+namespace trackbed {
+
+/// The seeds' car on tyres: a Prius's, understeering by 0.002 rad per m/s^2.
+inline VehicleParams SeedCarWithTyres() {
+  VehicleParams car = SeedCar();
+  car.yaw_inertia = 2200.0;
+  car.cornering_stiffness_front = 90000.0;
+  car.cornering_stiffness_rear = 110000.0;
+  car.steering_lag = 0.01;
+  return car;
+}
+
+struct LoopSetup {
+  VehicleParams vehicle = SeedCar();
+  Path path;
+  Pose2 start;
+  double speed = 3.0;  ///< [m/s], signed
+  double duration = 20.0;
+  double period = 0.02;
+};
+
+struct LoopRow {
+  Projection tracking;
+  double wanted = 0.0;
+  VehicleState state;
+};
+
+/// A controller and a car at constant speed: the kinematic one, or the linear single-track one if
+/// it has tyres.
+inline std::vector<LoopRow> Loop(const ControllerOptions& options, const LoopSetup& setup) {
+  const auto controller = MakeSteeringController(options);
+  const KinematicState start{.pose = setup.start, .speed = setup.speed};
+  KinematicCar kinematic(setup.vehicle, ReferencePoint::kRearAxle, start);
+  std::vector<SingleTrackCar> single_track;
+  if (setup.vehicle.cornering_stiffness_front > 0.0) {
+    single_track.emplace_back(setup.vehicle, RollingWithoutSlip(setup.vehicle, start));
+  }
+  const Reference reference{setup.path, SpeedProfile({{0.0, std::abs(setup.speed)}})};
+  std::vector<LoopRow> rows;
+  double station = 0.0;
+  for (double t = 0.0; t < setup.duration; t += setup.period) {
+    LoopRow row;
+    row.state = single_track.empty() ? kinematic.FullState() : single_track[0].FullState();
+    row.tracking = setup.path.Project(row.state.pose, {station - 2.0, station + 4.0});
+    station = row.tracking.s;
+    row.wanted = controller->Steer({.vehicle = setup.vehicle,
+                                    .reference = reference,
+                                    .schedule = {},
+                                    .state = row.state,
+                                    .station = station,
+                                    .period = setup.period});
+    const Command command{
+        .steering = row.wanted, .acceleration = 0.0, .gear = setup.speed < 0.0 ? -1 : 1};
+    single_track.empty() ? kinematic.Step(command, setup.period)
+                         : single_track[0].Step(command, setup.period);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// Largest cross-track error [m] from row `from` on.
+inline double LargestOffset(const std::vector<LoopRow>& rows, std::size_t from = 0) {
+  double largest = 0.0;
+  for (std::size_t i = from; i < rows.size(); ++i) {
+    largest = std::max(largest, std::abs(rows[i].tracking.cross_track));
+  }
+  return largest;
+}
+
+}  // namespace trackbed

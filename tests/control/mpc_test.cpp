@@ -1,0 +1,114 @@
+#include "trackbed/control/mpc.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/control/loop.h"
+#include "tests/geometry/random.h"
+#include "tests/tolerance.h"
+
+namespace trackbed {
+namespace {
+
+double Steer(const ControllerOptions& options, const VehicleParams& vehicle,
+             const Reference& reference, const VehicleState& state, double station, double period) {
+  return MakeSteeringController(options)->Steer({.vehicle = vehicle,
+                                                 .reference = reference,
+                                                 .schedule = {},
+                                                 .state = state,
+                                                 .station = station,
+                                                 .period = period});
+}
+
+TEST(Mpc, IsTheRegulatorWhereNoLimitIsInTheWay) {
+  // The same model and cost: one by a Riccati recursion, the other by a condensed program. Angles
+  // below 0.1 rad, Cholesky decompositions of a condition below 1e4.
+  Random random(91);
+  const double period = 0.1;
+  for (int i = 0; i < 100; ++i) {
+    VehicleParams car = i % 2 == 0 ? SeedCar() : SeedCarWithTyres();
+    car.steering_rate = 100.0;
+    car.steering_limit = 1.5;
+    const int direction = i % 5 == 0 ? -1 : 1;
+    const double speed = direction * random.Uniform(1.0, 25.0);
+    SCOPED_TRACE(fmt::format("case {}: {} m/s", i, speed));
+    std::vector<Segment> segments;
+    for (int k = 0; k < 12; ++k) {
+      segments.push_back({.length = random.Uniform(2.0, 12.0),
+                          .curvature = random.Uniform(-0.02, 0.02),
+                          .direction = direction,
+                          .sharpness = random.Uniform(-1e-3, 1e-3)});
+    }
+    const Reference reference{Path({}, segments), {}};
+    const double station = random.Uniform(0.0, 20.0);
+    VehicleState state;
+    state.pose = Compose(reference.path.At(station).pose,
+                         {0.0, random.Uniform(-0.2, 0.2), random.Uniform(-0.05, 0.05)});
+    state.speed = speed;
+    state.steering_actuator = random.Uniform(-0.05, 0.05);
+    state.steering = random.Uniform(-0.05, 0.05);
+    state.lateral_speed = random.Uniform(-0.1, 0.1);
+    state.yaw_rate = random.Uniform(-0.1, 0.1);
+    const double mpc =
+        Steer(MpcOptions{.horizon = 20, .step = period}, car, reference, state, station, period);
+    const double lqr =
+        Steer(LqrOptions{.preview = 20 * period}, car, reference, state, station, period);
+    EXPECT_NEAR(mpc, lqr, Tolerance(1e-9));
+  }
+}
+
+TEST(Mpc, TurnsTheWheelsAsEarlyAsTheirRateNeeds) {
+  // Into a step of curvature of 0.1 1/m: 0.264 rad, which takes these wheels 3.3 s. Both look 4 s
+  // ahead in the same steps, but only the MPC knows that the wheels are slow.
+  LoopSetup setup;
+  setup.vehicle.steering_rate = 0.08;
+  setup.path = Path({}, {{30.0, 0.0, 1}, {15.0, 0.1, 1}, {100.0, 0.0, 1}});
+  setup.duration = 30.0;
+  setup.period = 0.1;
+  const double mpc = LargestOffset(Loop(MpcOptions{.horizon = 40, .step = 0.1}, setup));
+  const double lqr = LargestOffset(Loop(LqrOptions{.preview = 4.0}, setup));
+  EXPECT_LT(mpc, 0.8 * lqr);
+}
+
+TEST(Mpc, ComesBackFromFarAway) {
+  LoopSetup setup;
+  setup.path = Path({}, {{300.0, 0.0, 1}});
+  setup.start = {0.0, 20.0, 0.0};
+  setup.duration = 60.0;
+  const std::vector<LoopRow> rows = Loop(MpcOptions{}, setup);
+  EXPECT_LT(LargestOffset(rows, rows.size() * 9 / 10), 0.05);
+}
+
+TEST(Mpc, KeepsRateAndAngle) {
+  LoopSetup setup;
+  setup.path = Path({}, {{30.0, 0.0, 1}, {12.0, 0.19, 1}, {100.0, 0.0, 1}});
+  setup.start = {0.0, 1.5, 0.3};
+  setup.duration = 30.0;
+  const double most = SeedCar().steering_rate * setup.period;
+  double before = 0.0;
+  bool at_rate = false;
+  for (const LoopRow& row : Loop(MpcOptions{}, setup)) {
+    EXPECT_LE(std::abs(row.wanted - before), most + Tolerance(1e-12));
+    EXPECT_LE(std::abs(row.wanted), SeedCar().steering_limit);
+    at_rate = at_rate || std::abs(std::abs(row.wanted - before) - most) < 1e-9;
+    before = row.wanted;
+  }
+  EXPECT_TRUE(at_rate);
+}
+
+TEST(Mpc, SmallLimitsAreKeptByThePlanToo) {
+  // A car that can turn its wheels by 0.02 rad is held on a circle of 0.01 1/m, which takes 0.027:
+  // it plans with full lock and no more.
+  VehicleParams car = SeedCar();
+  car.steering_limit = 0.02;
+  LoopSetup setup;
+  setup.vehicle = car;
+  setup.path = Path({}, {{20.0, 0.0, 1}, {100.0, 0.01, 1}});
+  const std::vector<LoopRow> rows = Loop(MpcOptions{}, setup);
+  EXPECT_NEAR(rows.back().wanted, 0.02, Tolerance(1e-9));
+}
+
+}  // namespace
+}  // namespace trackbed

@@ -1,0 +1,71 @@
+#include "trackbed/control/stanley.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/control/loop.h"
+#include "tests/tolerance.h"
+
+namespace trackbed {
+namespace {
+
+double Steer(const StanleyOptions& options, const Path& path, const Pose2& pose, double speed) {
+  const VehicleParams car = SeedCar();
+  const Reference reference{path, {}};
+  VehicleState state;
+  state.pose = pose;
+  state.speed = speed;
+  return MakeSteeringController(options)->Steer({.vehicle = car,
+                                                 .reference = reference,
+                                                 .schedule = {},
+                                                 .state = state,
+                                                 .station = 0.0,
+                                                 .period = 0.02});
+}
+
+TEST(Stanley, AddsHeadingAndOffsetOfTheFrontAxle) {
+  const Path straight({}, {{100.0, 0.0, 1}});
+  // 0.5 m left: atan(1 * 0.5/(1 + 3)).
+  EXPECT_NEAR(Steer({}, straight, {0.0, 0.5, 0.0}, 3.0), -std::atan(0.125), Tolerance(1e-12));
+  // Heading 0.1 left: the front axle is L sin(0.1) off.
+  EXPECT_NEAR(Steer({}, straight, {0.0, 0.0, 0.1}, 3.0),
+              -0.1 - std::atan(2.7 * std::sin(0.1) / 4.0), Tolerance(1e-12));
+  // Backwards the rear axle leads, and the heading turns the other way.
+  const Path back({}, {{100.0, 0.0, -1}});
+  EXPECT_NEAR(Steer({}, back, {0.0, 0.5, 0.1}, -3.0), 0.1 - std::atan(0.125), Tolerance(1e-12));
+}
+
+TEST(Stanley, FrontAxleReturnsExponentially) {
+  // e_f' = -v sin(atan(k e_f/v)) with k_s = 0 and wheels that obey at once: exp(-k t) but for the
+  // third power of k e_f/v = 0.03, and the 20 ms that the angle is held for.
+  LoopSetup setup;
+  setup.vehicle.steering_rate = 1e6;
+  setup.path = Path({}, {{100.0, 0.0, 1}});
+  setup.start = {0.0, 0.1, 0.0};
+  setup.period = 0.001;
+  setup.duration = 3.0;
+  const std::vector<LoopRow> rows = Loop(StanleyOptions{.gain = 1.0, .softening = 0.0}, setup);
+  for (const LoopRow& row : rows) {
+    const double front = row.tracking.cross_track + 2.7 * std::sin(row.tracking.heading_error);
+    EXPECT_NEAR(front, 0.1 * std::exp(-row.state.time), Tolerance(2e-4)) << row.state.time;
+  }
+}
+
+TEST(Stanley, KeepsTheSingleTrackCarInASteadyTurn) {
+  // Understeer and the rear axle's slip are in its feed-forward.
+  const VehicleParams car = SeedCarWithTyres();
+  LoopSetup setup;
+  setup.vehicle = car;
+  setup.path = Path({}, {{.length = 20.0},
+                         {.length = 30.0, .sharpness = 0.02 / 30.0},
+                         {.length = 200.0, .curvature = 0.02}});
+  setup.speed = 8.0;
+  setup.duration = 25.0;
+  const std::vector<LoopRow> rows = Loop(StanleyOptions{}, setup);
+  EXPECT_LT(LargestOffset(rows, rows.size() * 9 / 10), 2e-3);
+}
+
+}  // namespace
+}  // namespace trackbed

@@ -1,0 +1,114 @@
+// Controllers at speeds where tyres slip: whole drives on Magic Formula tyres.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <string>
+#include <tuple>
+
+#include "tests/tolerance.h"
+#include "trackbed/testing/scenario_testing.h"
+
+namespace trackbed {
+namespace {
+
+std::filesystem::path Course(const std::string& name) {
+  return std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / "courses" / (name + ".yaml");
+}
+
+/// A course of scenarios/courses, bent so that it takes 0.4 g at another speed too.
+Scenario CourseAt(const std::string& name, const std::string& car, double speed) {
+  Scenario scenario = ReadScenario(Course(name));
+  const double share = (scenario.mission.speed * scenario.mission.speed) / (speed * speed);
+  for (CoursePiece& piece : std::get<CourseOptions>(scenario.plan->global).segments) {
+    for (std::optional<double>* curvature : {&piece.curvature, &piece.curvature_to}) {
+      if (*curvature) {
+        **curvature *= share;
+      }
+    }
+  }
+  scenario.mission.speed = speed;
+  scenario.vehicle.model = car;
+  scenario.expect = {};
+  return scenario;
+}
+
+class Courses : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Files, Courses, testing::Values("s_course", "step_course"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST_P(Courses, MeetTheirExpectations) {
+  const Scenario scenario = ReadScenario(Course(GetParam()));
+  EXPECT_EQ(scenario.name, GetParam());
+  EXPECT_THAT(RunScenario(scenario), MeetsItsExpectations());
+}
+
+using Drive = std::tuple<std::string, double, std::string>;
+
+class SCourse : public testing::TestWithParam<Drive> {};
+
+INSTANTIATE_TEST_SUITE_P(Cars, SCourse,
+                         testing::Combine(testing::Values("prius", "bmw320i"),
+                                          testing::Values(15.0, 20.0),
+                                          testing::Values("lqr", "mpc", "preview")),
+                         [](const auto& test) {
+                           return fmt::format("{}_{}_{:.0f}", std::get<0>(test.param),
+                                              std::get<2>(test.param), std::get<1>(test.param));
+                         });
+
+TEST_P(SCourse, IsDrivenWithin30Centimetres) {
+  // Two opposed arcs of 0.4 g joined by 15 m ramps. The bound is what a lane leaves; what was
+  // measured stands in docs/algorithms/control.md.
+  const auto& [car, speed, controller] = GetParam();
+  Scenario scenario = CourseAt("s_course", car, speed);
+  if (controller == "lqr") {
+    scenario.control.steering = LqrOptions{};
+  } else if (controller == "mpc") {
+    scenario.control.steering = MpcOptions{};
+  } else {
+    scenario.control.steering = PreviewOptions{.time = 0.6, .slip = true};
+  }
+  const RunResult run = RunScenario(scenario);
+  EXPECT_THAT(run, TracksWithin(Tolerance(0.3)));
+}
+
+TEST(SCourse, PreviewIsLeftOutsideWithoutItsSlip) {
+  // The Prius understeers: the circle through the point ahead takes more steering than a rolling
+  // car's.
+  Scenario scenario = CourseAt("s_course", "prius", 20.0);
+  const auto largest = [&](bool slip) {
+    scenario.control.steering = PreviewOptions{.distance = 8.0, .slip = slip};
+    return RunScenario(scenario).metrics.at(0).tracking->cross_track_max;
+  };
+  EXPECT_LT(largest(true), 0.6 * largest(false));
+}
+
+TEST(SCourse, PreviewHasToLookFurtherTheFasterItGoes) {
+  // 4 m are a fifth of a second at 20 m/s: where the car moves lags behind by as much, and it
+  // swings out for good.
+  Scenario scenario = CourseAt("s_course", "prius", 20.0);
+  scenario.control.steering = PreviewOptions{.distance = 4.0, .slip = true};
+  EXPECT_THAT(RunScenario(scenario), testing::Not(TracksWithin(3.0)));
+}
+
+TEST(SlowDrives, FollowersTrackThreeTurnsAndWinding) {
+  // The contact car at 3 m/s, whose arcs begin with a step of curvature.
+  for (const char* name : {"three_turns", "winding"}) {
+    for (const ControllerOptions& options :
+         {ControllerOptions(LqrOptions{}), ControllerOptions(MpcOptions{}),
+          ControllerOptions(PreviewIntegralOptions{}), ControllerOptions(PurePursuitOptions{})}) {
+      SCOPED_TRACE(fmt::format("{} by {}", name, ControllerFor(options).name));
+      Scenario scenario = ReadScenario(std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" /
+                                       (std::string(name) + ".yaml"));
+      scenario.control.steering = options;
+      scenario.drive.plants = {"mujoco"};
+      scenario.expect = {};
+      EXPECT_THAT(RunScenario(scenario), TracksWithin(Tolerance(0.2)));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trackbed
