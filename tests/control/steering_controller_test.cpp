@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/control/loop.h"
 #include "tests/geometry/random.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/seed_car.h"
@@ -180,6 +181,44 @@ TEST(PreviewController, ReversePathsSteerTheSameCircle) {
     EXPECT_NEAR(Steer(options, circle, {}, 0.0, {}, -1.0),
                 law == PreviewLaw::kLinear ? 0.135226 : 0.134189, Tolerance(0.5e-6));
   }
+}
+
+TEST(PreviewController, WithSlipSteersTheSteadyTurn) {
+  // Section 8 takes u from the velocity. A car with tyres on its circle: the rear axle moves along
+  // it, the car heads inward by its slip, and the angle is that of the understeering car,
+  // tan(delta) = kappa (L + K v^2).
+  const VehicleParams car = SeedCarWithTyres();
+  const double speed = 15.0;
+  const double curvature = 0.01;
+  const double force = car.mass * speed * speed * curvature / car.wheelbase;
+  const double rear_slip = force * car.cg_to_front() / car.cornering_stiffness_rear;
+  const double front_slip = force * car.cg_to_rear / car.cornering_stiffness_front;
+  const Reference reference{Path({}, {{100.0, curvature, 1}}), {}};
+  VehicleState state;
+  state.pose.yaw = std::atan(rear_slip);
+  state.speed = speed;
+  state.yaw_rate = speed * curvature;
+  state.lateral_speed = car.cg_to_rear * state.yaw_rate - speed * rear_slip;
+  const auto steer = [&](const PreviewOptions& options) {
+    return MakeSteeringController(options)->Steer({.vehicle = car,
+                                                   .reference = reference,
+                                                   .schedule = {},
+                                                   .state = state,
+                                                   .station = 0.0,
+                                                   .period = 0.02});
+  };
+  const double wanted = std::atan(car.wheelbase * curvature + front_slip - rear_slip);
+  EXPECT_NEAR(steer({.distance = 8.0, .slip = true}), wanted, Tolerance(kFound));
+  EXPECT_GT(std::abs(steer({.distance = 8.0}) - wanted), 0.001);
+}
+
+TEST(PreviewController, LooksFurtherAheadTheFasterItGoes) {
+  const PreviewOptions options{.distance = 4.0, .time = 1.0};
+  const PreviewOptions far{.distance = 9.0};
+  EXPECT_EQ(Steer(options, Circle(20.0), {0.0, 0.1, 0.0}, 0.0, {}, 9.0),
+            Steer(far, Circle(20.0), {0.0, 0.1, 0.0}, 0.0, {}, 9.0));
+  EXPECT_EQ(Steer(options, Circle(20.0), {0.0, 0.1, 0.0}, 0.0, {}, 3.0),
+            Steer({PreviewOptions{.distance = 4.0}}, Circle(20.0), {0.0, 0.1, 0.0}, 0.0, {}, 3.0));
 }
 
 // --- Schedule controller -------------------------------------------------------------------------
