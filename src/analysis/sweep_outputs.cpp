@@ -23,6 +23,10 @@ std::string TextOf(const ordered_json& value) {
 Outputs OutputsOf(const RunResult& result) {
   ordered_json json;
   json["metrics"] = MetricsJson(result)["plants"];
+  if (result.metrics.size() == 1) {
+    const ordered_json only = json["metrics"].front();
+    json["metrics"]["*"] = only;
+  }
   for (const PlantComparison& comparison : result.comparisons) {
     ordered_json& between = json["between"][comparison.first][comparison.second];
     between = ToJson(comparison);

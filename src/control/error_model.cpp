@@ -105,6 +105,20 @@ Vector StateCost(const ErrorModel& model, const ErrorWeights& weights) {
   return cost;
 }
 
+double CommandedAngle::Now(const ControlInput& input) const {
+  // Rounding may have left the actuator a hair beyond its limit.
+  const double limit = input.vehicle.steering_limit;
+  return std::clamp(last_.value_or(input.state.steering_actuator), -limit, limit);
+}
+
+double CommandedAngle::Turn(const ControlInput& input, double rate) {
+  const VehicleParams& vehicle = input.vehicle;
+  const double turn =
+      std::clamp(rate, -vehicle.steering_rate, vehicle.steering_rate) * input.period;
+  last_ = std::clamp(Now(input) + turn, -vehicle.steering_limit, vehicle.steering_limit);
+  return *last_;
+}
+
 Regulator RegulatorOf(const ErrorModel& model, const ErrorWeights& weights) {
   const auto n = model.a.rows();
   const Matrix identity = Matrix::Identity(n, n);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "src/control/tracking.h"
 
@@ -36,6 +37,20 @@ ErrorModel ErrorModelOf(const ControlInput& input, const Tracking& tracking, dou
 
 /// x of the car now.
 ErrorModel::Vector StateOf(const ControlInput& input, const Tracking& tracking);
+
+/// The angle that is asked for, turned by a rate. It goes on from what was asked before, not from
+/// where the actuator stands: an actuator that is late, has play or gives a tenth too little would
+/// else never get anywhere. Its angle, as measured, is in x, so that what it lacks is made up for.
+class CommandedAngle {
+ public:
+  /// delta [rad] to go on from; at first the actuator's.
+  [[nodiscard]] double Now(const ControlInput& input) const;
+  /// delta at the end of the period, both within the car's limits.
+  double Turn(const ControlInput& input, double rate);
+
+ private:
+  std::optional<double> last_;
+};
 
 /// What LQR and MPC minimise: the sum over all steps of
 ///   cross_track e^2 + heading (psi - psi_0)^2 + rate w^2.

@@ -30,13 +30,12 @@ class Lqr final : public SteeringController {
       rate -= reach.dot(regulator.cost * ahead.Next()) / regulator.input_cost;
       reach = (closed * reach).eval();
     }
-    rate = std::clamp(rate, -vehicle.steering_rate, vehicle.steering_rate);
-    return std::clamp(input.state.steering_actuator + rate * input.period, -vehicle.steering_limit,
-                      vehicle.steering_limit);
+    return angle_.Turn(input, rate);
   }
 
  private:
   LqrOptions options_;
+  CommandedAngle angle_;
 };
 
 }  // namespace

@@ -47,14 +47,8 @@ class Mpc final : public SteeringController {
       program.hessian += z.reach.transpose() * of_step * z.reach;
       program.linear += z.reach.transpose() * (of_step * z.free);
     }
-    // Rounding may have left the actuator a hair beyond its limit.
-    const double start =
-        std::clamp(input.state.steering_actuator, -vehicle.steering_limit, vehicle.steering_limit);
-    Limit(vehicle, start, step, program);
-
-    const QuadraticSolution solution = Solve(program);
-    const double rate = std::clamp(solution.x[0], -vehicle.steering_rate, vehicle.steering_rate);
-    return std::clamp(start + rate * input.period, -vehicle.steering_limit, vehicle.steering_limit);
+    Limit(vehicle, angle_.Now(input), step, program);
+    return angle_.Turn(input, Solve(program).x[0]);
   }
 
  private:
@@ -76,6 +70,7 @@ class Mpc final : public SteeringController {
   }
 
   MpcOptions options_;
+  CommandedAngle angle_;
 };
 
 }  // namespace

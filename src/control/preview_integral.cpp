@@ -7,6 +7,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
+#include "src/control/return_distance.h"
 #include "src/control/tracking.h"
 
 namespace trackbed {
@@ -51,7 +52,10 @@ class PreviewIntegral final : public SteeringController {
     const Path& path = input.reference.path;
     const int direction = path.At(input.station).direction;
     const double speed = std::abs(input.state.speed);
-    const double distance = std::max(options_.distance, options_.time * speed);
+    const Vec2 foot = path.At(input.station).pose.position();
+    const double offset = (input.state.pose.position() - foot).norm();
+    const double distance = std::max(
+        {options_.distance, options_.time * speed, ReturnDistance(vehicle, speed, offset)});
     const bool dynamic = direction > 0 && input.state.speed >= kSlowest && HasTyres(vehicle);
 
     using Gauss = boost::math::quadrature::gauss<double, 10>;

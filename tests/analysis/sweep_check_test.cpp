@@ -49,6 +49,26 @@ TEST(CheckStudy, KnowsTheOutputsOfEveryPoint) {
   EXPECT_EQ(checked.cars.size(), 1U);  // one model at one timestep
 }
 
+TEST(CheckStudy, AStudyOfPlantsNeedsOneColumnForEachResult) {
+  const TempFolder folder;
+  const CheckedStudy checked = CheckStudy(
+      StudyOf(folder,
+              "vary: {drive.plants: [[kinematic], [single_track], [kinematic, single_track]]}\n"
+              "outputs: [metrics.*.cross_track.max]\n"));
+  for (std::size_t i = 0; i < 2; ++i) {
+    SCOPED_TRACE(i);
+    const StudyPoint& point = checked.points[i];
+    const Outputs outputs = DriveOnce(checked, point.scenario)->outputs;
+    const std::string& plant = point.scenario.drive.plants.at(0);
+    EXPECT_EQ(outputs.at("metrics.*.cross_track.max"),
+              outputs.at("metrics." + plant + ".cross_track.max"));
+  }
+  // Of two plants neither is meant.
+  const Outputs of_two = DriveOnce(checked, checked.points[2].scenario)->outputs;
+  EXPECT_EQ(of_two.count("metrics.*.cross_track.max"), 0U);
+  EXPECT_EQ(of_two.count("metrics.single_track.cross_track.max"), 1U);
+}
+
 TEST(CheckStudy, TellsCarsOfDifferentSteeringRatesApart) {
   const TempFolder folder;
   const CheckedStudy checked =

@@ -93,6 +93,26 @@ TEST(SCourse, PreviewHasToLookFurtherTheFasterItGoes) {
   EXPECT_THAT(RunScenario(scenario), testing::Not(TracksWithin(3.0)));
 }
 
+TEST(SlowDrives, FollowersTrackInSpiteOfTheirSteering) {
+  // An actuator that is late, has play, or gives another angle than it is asked for; and a kick.
+  // The kinematic car: what is seen is the controller.
+  for (const char* disturbance :
+       {"disturb.steering.delay=0.1", "disturb.steering.dead_band=0.00873",
+        "disturb.steering.factor=0.9", "disturb.steering.factor=1.1",
+        "disturb.kicks=[{at: 5, displacement: 0.5}]"}) {
+    for (const char* method :
+         {"preview", "preview_integral", "optimal_steering", "pure_pursuit", "lqr", "mpc"}) {
+      SCOPED_TRACE(fmt::format("{} with {}", method, disturbance));
+      const RunResult run =
+          RunScenario(std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / "winding.yaml",
+                      {fmt::format("control={{method: {}}}", method), disturbance,
+                       "drive.plants=[kinematic]", "expect={reach_goal: 0.5}"});
+      EXPECT_THAT(run, MeetsItsExpectations());
+      EXPECT_LE(run.metrics.front().tracking->cross_track_rms, 0.10);
+    }
+  }
+}
+
 TEST(SlowDrives, FollowersTrackThreeTurnsAndWinding) {
   // The contact car at 3 m/s, whose arcs begin with a step of curvature.
   for (const char* name : {"three_turns", "winding"}) {

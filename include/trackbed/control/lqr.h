@@ -21,6 +21,9 @@ class SteeringController;
 /// tyre coefficients, behind its steering actuator and lag. Gains are computed anew in each period,
 /// for the present speed and direction: nothing is scheduled between grid points.
 ///
+/// The rate turns the angle that was asked for last, from where the actuator stood at first, so
+/// that an actuator that is late, has play or gives a tenth too little is driven until it is there.
+///
 /// On a path of constant curvature without error it steers delta_0. The rate and the angle are cut
 /// to the car's limits after the fact; the regulator does not know them: see MpcOptions. But a car
 /// off its path is steered more calmly the further it is off, with a larger weight of the rate, so

@@ -15,7 +15,8 @@ enum class PreviewWeight {
 /// MacAdam's optimal preview control (IEEE Trans. SMC 11, 1981): the steering which, held, brings
 /// the car over the whole previewed way nearest to the path, with a driver's delay.
 ///
-/// Symbols: T = R/|v| the preview time, R = max(distance, time |v|); eta time ahead in [0, T];
+/// Symbols: T = R/|v| the preview time, R = max(distance, time |v|), and never shorter than a car
+/// off its path needs to swing back (PreviewOptions); eta time ahead in [0, T];
 /// f(eta) where the path is, y_0(eta) where the car comes with straight wheels, A(eta) how far one
 /// unit of tan(delta) moves it, all across the direction of motion [m]; W(eta) the weight.
 ///   tan(delta) = int (f - y_0) A W d(eta) / int A^2 W d(eta)
