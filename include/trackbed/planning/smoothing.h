@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "trackbed/geometry/oriented_box.h"
+#include "trackbed/geometry/pose.h"
+#include "trackbed/world/wind.h"
+
+/// Smoothing of a way with corners (seed 002, "Smoothing"): each inner point is drawn toward where
+/// it was and toward the middle of its neighbours, as long as nothing stands in the way and the
+/// wind does not get worse.
+///
+/// Symbols: x_i given points, y_i smoothed ones, both ends fixed; alpha weight of the data, beta
+/// weight of smoothness; w wind [m/s]; V speed through the air [m/s].
+namespace trackbed {
+
+/// How wind counts in the length of a way.
+struct WindScoring {
+  Wind wind;
+  double time = 0.0;    ///< the moment of its gusts [s]
+  double speed = 1.0;   ///< V [m/s], > 0
+  double weight = 1.0;  ///< k_w; 0: wind does not count
+};
+
+/// W = k_w sum over segments of w(middle) . dx / V [m], positive with the wind: how much shorter
+/// the way is, to first order, for what moves at V through the air. In uniform wind it depends on
+/// the ends alone. 0 for fewer than two points.
+double WindScore(const std::vector<Vec2>& path, const WindScoring& scoring);
+
+struct SmoothingOptions {
+  double data = 0.5;        ///< alpha, >= 0
+  double smoothness = 0.1;  ///< beta, >= 0; 0 < alpha + 2 beta < 1: converges without overshoot
+  double tolerance = 1e-6;  ///< ends when a sweep moves all coordinates by less in sum [m], > 0
+  int sweeps = 1000;        ///< at most, >= 0
+};
+
+struct SmoothingResult {
+  std::vector<Vec2> path;
+  int sweeps = 0;          ///< used, the last one too
+  bool converged = false;  ///< the last one moved less than the tolerance
+};
+
+/// y_i <- y_i + alpha (x_i - y_i) + beta (y_{i-1} + y_{i+1} - 2 y_i), point by point and coordinate
+/// by coordinate. A move is taken if both edges at the point keep further than `inflation` [m] from
+/// every obstacle, and the wind score of the two does not fall.
+///
+/// Guarantees: ends do not move; a way that is free stays free; without obstacles and wind it
+/// converges to (alpha + 2 beta) y_i - beta (y_{i-1} + y_{i+1}) = alpha x_i. Obstacles may stop a
+/// point in one coordinate and not in the other. Rounds no corners: points stay points.
+/// Errors: InternalError for options out of range. Cost O(sweeps x points x obstacles).
+SmoothingResult SmoothPath(const std::vector<Vec2>& path, const std::vector<OrientedBox>& obstacles,
+                           double inflation, const WindScoring& wind,
+                           const SmoothingOptions& options);
+
+}  // namespace trackbed
