@@ -32,4 +32,9 @@ double BicycleAngle(const VehicleParams& params, const FrontAngles& front) {
   return 0.5 * (seen_from(front.left, 1.0) + seen_from(front.right, -1.0));
 }
 
+AxleSpeeds AxleSpeedsFor(const VehicleParams& params, double speed, double steering) {
+  const double yaw_rate = speed * CurvatureForSteering(params, steering);
+  return {speed - yaw_rate * 0.5 * params.track_rear, speed + yaw_rate * 0.5 * params.track_rear};
+}
+
 }  // namespace trackbed

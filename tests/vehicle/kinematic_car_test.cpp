@@ -9,6 +9,7 @@
 #include "tests/geometry/random.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/wheel_pair.h"
 #include "trackbed/core/angle.h"
 
 namespace trackbed {
@@ -54,6 +55,44 @@ TEST(KinematicCar, PositiveSteeringTurnsRightwardsInReverse) {
   EXPECT_GT(car.state().pose.y, 0.0);  // the tail swings to the left
   EXPECT_LT(car.state().pose.yaw, 0.0);
   EXPECT_NEAR(car.state().distance, 2.0, Tolerance(1e-14));
+}
+
+// --- Differential drive --------------------------------------------------------------------------
+
+TEST(KinematicCar, WithDifferentialDriveIsTheUnicycleOfItsWheelSpeeds) {
+  // A rigid body on two wheels that roll: v = (v_R + v_L)/2, psi' = (v_R - v_L)/b.
+  const VehicleParams pair = WheelPair();
+  const double track = 0.6;
+  const double time = 2.3;
+  for (const auto& [left, right] :
+       {std::pair{1.0, 2.0}, {2.0, 1.0}, {1.5, 1.5}, {0.5, 1.9}, {-1.0, -1.4}}) {
+    SCOPED_TRACE(fmt::format("wheels at {} and {} m/s", left, right));
+    const double speed = 0.5 * (left + right);
+    const double yaw_rate = (right - left) / track;
+    const double steering = std::atan((right - left) / speed);
+    KinematicCar car(pair, kRear, {.speed = speed, .steering = steering});
+    car.Step({.steering = steering, .gear = speed < 0.0 ? -1 : 1}, time);
+    const double turn = yaw_rate * time;
+    const Pose2 expected = turn == 0.0 ? Pose2{speed * time, 0.0, 0.0}
+                                       : Pose2{speed / yaw_rate * std::sin(turn),
+                                               speed / yaw_rate * (1.0 - std::cos(turn)), turn};
+    ExpectSamePose(car.state().pose, expected, 1e-14);
+    EXPECT_NEAR(car.FullState().yaw_rate, yaw_rate, Tolerance(1e-14));
+  }
+}
+
+TEST(KinematicCar, WithDifferentialDriveChangesItsRatioAtTheLimitedRate) {
+  // At v, psi' = v tan(delta)/b with delta = omega t: psi = -v ln(cos(omega t))/(b omega).
+  const VehicleParams pair = WheelPair();
+  KinematicCar car(pair, kRear, {.speed = 2.0});
+  for (int i = 0; i < 50; ++i) {
+    car.Step({.steering = 1.5}, 0.01);
+  }
+  EXPECT_NEAR(car.state().steering, 0.5, Tolerance(1e-14));
+  // A fourth-order method in steps of 10 ms: far below the 1e-10 that 20 ms are good for.
+  EXPECT_NEAR(car.state().pose.yaw, -2.0 / 0.6 * std::log(std::cos(0.5)), Tolerance(1e-10));
+  car.Step({.steering = 1.5}, 1.0);
+  EXPECT_EQ(car.state().steering, pair.steering_limit);
 }
 
 // --- Constant steering: exact

@@ -8,6 +8,7 @@
 #include "tests/geometry/random.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/wheel_pair.h"
 #include "trackbed/core/angle.h"
 
 namespace trackbed {
@@ -124,6 +125,23 @@ TEST(BicycleAngle, IsTheMeanOfSmallAngles) {
     // To first order; the second is k epsilon^2.
     EXPECT_NEAR(BicycleAngle(car, {left, right}), 0.5 * (left + right), Tolerance(0.28e-8));
   }
+}
+
+TEST(AxleSpeedsFor, GivesTheRatioThatTheAngleStandsFor) {
+  const VehicleParams pair = WheelPair();
+  for (const double speed : {2.0, 0.3, -1.5}) {
+    for (const double steering : {0.0, 0.2, -0.9}) {
+      const AxleSpeeds wheels = AxleSpeedsFor(pair, speed, steering);
+      EXPECT_NEAR(0.5 * (wheels.left + wheels.right), speed, Tolerance(kRounding));
+      EXPECT_NEAR((wheels.right - wheels.left) / speed, std::tan(steering), Tolerance(kRounding));
+    }
+  }
+}
+
+TEST(AxleSpeedsFor, StopsTheInnerWheelOnHalfTheTrack) {
+  const AxleSpeeds wheels = AxleSpeedsFor(WheelPair(), 2.0, std::atan(0.6 / 0.3));
+  EXPECT_NEAR(wheels.left, 0.0, Tolerance(kRounding));
+  EXPECT_NEAR(wheels.right, 4.0, Tolerance(kRounding));
 }
 
 }  // namespace

@@ -35,8 +35,9 @@ struct VehicleState {
   double lateral_acceleration = 0.0;       ///< of the centre of gravity, free of gravity [m/s^2]
   double sideslip = 0.0;                   ///< at the centre of gravity [rad]
   double steering_actuator = 0.0;          ///< where the rate-limited actuator stands [rad]
-  double steering = 0.0;                   ///< bicycle angle measured at the front wheels [rad]
-  std::optional<std::array<WheelState, 4>> wheels;  ///< fl, fr, rl, rr; none without tyres
+  /// Bicycle angle measured at the front wheels, or from the speeds of two driven wheels [rad].
+  double steering = 0.0;
+  std::optional<std::array<WheelState, 4>> wheels;  ///< fl, fr, rl, rr; none without four tyres
   double obstacle_force = 0.0;  ///< sum of the normal forces between car and obstacles [N]
 };
 
