@@ -9,36 +9,63 @@
 namespace trackbed::cli {
 namespace {
 
+void Row(const char* name, double value, const char* unit) {
+  fmt::print("  {:<26} {:>12.6g} {}\n", name, value, unit);
+}
+
+void PrintCar(const CarModel& car) {
+  const VehicleParams& p = car.params();
+  const CarParts& parts = car.parts();
+  Row("wheelbase", p.wheelbase, "m");
+  Row("cg_to_rear", p.cg_to_rear, "m");
+  Row("cg_to_front", p.cg_to_front(), "m");
+  Row("cg_height", parts.cg_height, "m");
+  Row("track_front", p.track_front, "m");
+  Row("track_rear", p.track_rear, "m");
+  Row("wheel_radius", p.wheel_radius, "m");
+  Row("mass", p.mass, "kg");
+  Row("yaw_inertia", p.yaw_inertia, "kg m^2");
+  if (parts.tyres) {
+    Row("cornering_stiffness_front", p.cornering_stiffness_front, "N/rad");
+    Row("cornering_stiffness_rear", p.cornering_stiffness_rear, "N/rad");
+  }
+  Row("steering_limit", p.steering_limit, "rad");
+  Row("steering_rate", p.steering_rate, "rad/s");
+  Row("steering_ratio", p.steering_ratio, "");
+  Row("min_turning_radius", p.min_turning_radius(), "m");
+}
+
+void PrintWheelPair(const CarModel& car) {
+  const VehicleParams& p = car.params();
+  Row("track", p.track_rear, "m");
+  Row("cg_to_axle", p.cg_to_rear, "m");
+  Row("cg_height", car.chassis().cg_height, "m");
+  Row("wheel_radius", p.wheel_radius, "m");
+  Row("mass", p.mass, "kg");
+  Row("yaw_inertia", p.yaw_inertia, "kg m^2");
+  Row("steering_limit", p.steering_limit, "rad, atan((v_R - v_L)/v)");
+  Row("steering_rate", p.steering_rate, "rad/s, of the same");
+  Row("min_turning_radius", p.min_turning_radius(), "m");
+}
+
 void Print(const CarModel& car, const std::string& file) {
   const VehicleParams& p = car.params();
-  const auto row = [](const char* name, double value, const char* unit) {
-    fmt::print("  {:<26} {:>12.6g} {}\n", name, value, unit);
-  };
-  fmt::print("{} ({})\n", p.name, file);
-  row("wheelbase", p.wheelbase, "m");
-  row("cg_to_rear", p.cg_to_rear, "m");
-  row("cg_to_front", p.cg_to_front(), "m");
-  row("cg_height", car.parts().cg_height, "m");
-  row("track_front", p.track_front, "m");
-  row("track_rear", p.track_rear, "m");
-  row("wheel_radius", p.wheel_radius, "m");
-  row("mass", p.mass, "kg");
-  row("yaw_inertia", p.yaw_inertia, "kg m^2");
-  if (car.parts().tyres) {
-    row("cornering_stiffness_front", p.cornering_stiffness_front, "N/rad");
-    row("cornering_stiffness_rear", p.cornering_stiffness_rear, "N/rad");
+  const bool steered = p.kind == VehicleKind::kSteered;
+  fmt::print("{} ({}){}\n", p.name, file, steered ? "" : ", differential drive");
+  steered ? PrintCar(car) : PrintWheelPair(car);
+  Row("length", p.length, "m");
+  Row("width", p.width, "m");
+  Row("height", p.height, "m");
+  Row("rear_overhang", p.rear_overhang, "m");
+  if (steered) {
+    Row("drive_torque", car.parts().drive_limit, "N m");
+    Row("brake_torque_front", car.parts().brake_torque_front, "N m per wheel");
+    Row("brake_torque_rear", car.parts().brake_torque_rear, "N m per wheel");
+  } else {
+    const WheelPairParts& parts = car.wheel_pair();
+    Row("top_speed", (parts.wheel_speed - parts.servo_slack) * p.wheel_radius, "m/s");
+    Row("brake_torque", car.wheel_pair().brake_torque, "N m per wheel");
   }
-  row("steering_limit", p.steering_limit, "rad");
-  row("steering_rate", p.steering_rate, "rad/s");
-  row("steering_ratio", p.steering_ratio, "");
-  row("min_turning_radius", p.min_turning_radius(), "m");
-  row("length", p.length, "m");
-  row("width", p.width, "m");
-  row("height", p.height, "m");
-  row("rear_overhang", p.rear_overhang, "m");
-  row("drive_torque", car.parts().drive_limit, "N m");
-  row("brake_torque_front", car.parts().brake_torque_front, "N m per wheel");
-  row("brake_torque_rear", car.parts().brake_torque_rear, "N m per wheel");
 }
 
 }  // namespace

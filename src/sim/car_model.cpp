@@ -88,7 +88,7 @@ VehicleParams Unladen(const mjModel& laden, int payload, const std::string& name
   TRACKBED_CHECK(data != nullptr, "no memory for mjData");
   model->body_mass[payload] = 0.0;
   mj_setConst(model.get(), data.get());
-  return DescribeCar(*model, name).params;
+  return DescribeVehicle(*model, name).params;
 }
 
 /// Where the frame V of a car lies that stands on the ground.
@@ -100,16 +100,19 @@ struct Stand {
 Stand StandOn(const VehicleParams& params, const Pose2& pose, const Ground& ground) {
   // Under the wheels, as they lie on level ground: a slope brings them nearer together, but by its
   // square.
-  const double front = 0.5 * params.track_front;
+  const bool steered = params.kind == VehicleKind::kSteered;
+  const double ahead_of_axle = steered ? params.wheelbase : params.length - params.rear_overhang;
+  const double track_front = steered ? params.track_front : params.width;
+  const double front = 0.5 * track_front;
   const double rear = 0.5 * params.track_rear;
   const std::array<Vec2, 4> wheels{
-      {{params.wheelbase, front}, {params.wheelbase, -front}, {0.0, rear}, {0.0, -rear}}};
+      {{ahead_of_axle, front}, {ahead_of_axle, -front}, {0.0, rear}, {0.0, -rear}}};
   std::array<double, 4> z{};
   for (std::size_t w = 0; w < z.size(); ++w) {
     z[w] = GroundHeight(ground, ToWorld(pose, wheels[w]));
   }
-  const Vec2 slope((z[0] + z[1] - z[2] - z[3]) / (2.0 * params.wheelbase),
-                   0.5 * ((z[0] - z[1]) / params.track_front + (z[2] - z[3]) / params.track_rear));
+  const Vec2 slope((z[0] + z[1] - z[2] - z[3]) / (2.0 * ahead_of_axle),
+                   0.5 * ((z[0] - z[1]) / track_front + (z[2] - z[3]) / params.track_rear));
   double height = 0.5 * (z[2] + z[3]);
   double deepest = 0.0;
   for (std::size_t w = 0; w < z.size(); ++w) {
@@ -125,7 +128,7 @@ CarModel::CarModel(Scene scene, std::string name_for_messages)
     : scene_(std::move(scene)),
       file_(std::move(name_for_messages)),
       model_(Compile(scene_, file_)) {
-  const CarDescription car = DescribeCar(*model_, file_);
+  const VehicleDescription car = DescribeVehicle(*model_, file_);
   parts_ = car.parts;
   params_ = car.params;
   const int payload = mj_name2id(model_.get(), mjOBJ_BODY, kPayloadBody);
@@ -138,6 +141,28 @@ CarModel::~CarModel() = default;
 
 void CarModel::Deleter::operator()(mjModel_* model) const {
   mj_deleteModel(model);
+}
+
+const ChassisParts& CarModel::chassis() const {
+  return std::visit([](const ChassisParts& parts) -> const ChassisParts& { return parts; }, parts_);
+}
+
+const CarParts& CarModel::parts() const {
+  TRACKBED_CHECK(params_.kind == VehicleKind::kSteered, "{} has no steered wheels", params_.name);
+  return std::get<CarParts>(parts_);
+}
+
+const WheelPairParts& CarModel::wheel_pair() const {
+  TRACKBED_CHECK(params_.kind == VehicleKind::kDifferential, "{} has steered wheels", params_.name);
+  return std::get<WheelPairParts>(parts_);
+}
+
+std::span<const int> CarModel::tyres() const {
+  return std::visit([](const auto& parts) { return std::span<const int>(parts.tyre); }, parts_);
+}
+
+std::span<const int> CarModel::wheels() const {
+  return std::visit([](const auto& parts) { return std::span<const int>(parts.wheel); }, parts_);
 }
 
 double CarModel::timestep() const {
@@ -158,8 +183,8 @@ std::vector<std::string> CarModel::configuration_columns() const {
 }
 
 std::vector<double> CarModel::ConfigurationOf(std::span<const double> qpos) const {
-  const auto chassis = qpos.subspan(static_cast<std::size_t>(parts_.chassis_qpos), 7);
-  std::vector<double> values(chassis.begin(), chassis.end());
+  const auto place = qpos.subspan(static_cast<std::size_t>(chassis().chassis_qpos), 7);
+  std::vector<double> values(place.begin(), place.end());
   for (int joint = 0; joint < model_->njnt; ++joint) {
     const int type = model_->jnt_type[joint];
     if (type == mjJNT_HINGE || type == mjJNT_SLIDE) {
@@ -170,7 +195,7 @@ std::vector<double> CarModel::ConfigurationOf(std::span<const double> qpos) cons
 }
 
 std::vector<double> CarModel::StandingPosition(const Pose2& pose, double steering,
-                                               const std::array<double, 4>& spin,
+                                               const std::vector<double>& spin,
                                                const Ground& ground) const {
   const Stand stand = StandOn(params_, pose, ground);
   const int laden = mj_name2id(model_.get(), mjOBJ_KEY, kLadenKeyframe);
@@ -179,25 +204,35 @@ std::vector<double> CarModel::StandingPosition(const Pose2& pose, double steerin
   const auto set = [&](int address, double value) {
     qpos[static_cast<std::size_t>(address)] = value;
   };
-  set(parts_.chassis_qpos, pose.x);
-  set(parts_.chassis_qpos + 1, pose.y);
-  const mjtNum sag = level[parts_.chassis_qpos + 2];  // across the ground
+  const int chassis_qpos = chassis().chassis_qpos;
+  set(chassis_qpos, pose.x);
+  set(chassis_qpos + 1, pose.y);
+  const mjtNum sag = level[chassis_qpos + 2];  // across the ground
   const double upright = laden < 0 ? 1.0 : (stand.turn * Eigen::Vector3d::UnitZ()).z();
-  set(parts_.chassis_qpos + 2, sag / upright + stand.height);
-  const mjtNum* lean = level + parts_.chassis_qpos + 3;
+  set(chassis_qpos + 2, sag / upright + stand.height);
+  const mjtNum* lean = level + chassis_qpos + 3;
   const Eigen::Quaterniond turn =
       laden < 0 ? stand.turn : stand.turn * Eigen::Quaterniond(lean[0], lean[1], lean[2], lean[3]);
-  set(parts_.chassis_qpos + 3, turn.w());
-  set(parts_.chassis_qpos + 4, turn.x());
-  set(parts_.chassis_qpos + 5, turn.y());
-  set(parts_.chassis_qpos + 6, turn.z());
-  for (std::size_t w = 0; w < kWheels.size(); ++w) {
-    set(parts_.spin_qpos[w], spin[w]);
+  set(chassis_qpos + 3, turn.w());
+  set(chassis_qpos + 4, turn.x());
+  set(chassis_qpos + 5, turn.y());
+  set(chassis_qpos + 6, turn.z());
+  const auto roll = [&](std::span<const int> wheels) {
+    TRACKBED_CHECK(spin.empty() || spin.size() == wheels.size(), "{} angles for {} wheels",
+                   spin.size(), wheels.size());
+    for (std::size_t w = 0; w < wheels.size(); ++w) {
+      set(wheels[w], spin.empty() ? 0.0 : spin[w]);
+    }
+  };
+  if (params_.kind == VehicleKind::kDifferential) {
+    roll(wheel_pair().spin_qpos);
+    return qpos;
   }
+  roll(parts().spin_qpos);
   const FrontAngles front = AckermannAngles(params_, steering);
-  set(parts_.steer_qpos[0], front.left);
-  set(parts_.steer_qpos[1], front.right);
-  set(parts_.rack_qpos, steering);
+  set(parts().steer_qpos[0], front.left);
+  set(parts().steer_qpos[1], front.right);
+  set(parts().rack_qpos, steering);
   return qpos;
 }
 
@@ -206,24 +241,27 @@ Eigen::Vector3d CarModel::AheadOnGround(const Pose2& pose, const Ground& ground)
 }
 
 std::vector<double> CarModel::FlatConfiguration(const Pose2& pose, double steering,
-                                                const std::array<double, 4>& spin) const {
+                                                const std::vector<double>& spin) const {
   return ConfigurationOf(StandingPosition(pose, steering, spin, scene_.ground));
 }
 
 std::vector<double> CarModel::FlatPosition(const Pose2& pose, double steering,
-                                           const std::array<double, 4>& spin) const {
+                                           const std::vector<double>& spin) const {
   return StandingPosition(pose, steering, spin, {});
 }
 
-std::array<double, 4> RollingSpeeds(const VehicleParams& params, double speed, double steering) {
+std::vector<double> RollingSpeeds(const VehicleParams& params, double speed, double steering) {
+  const AxleSpeeds rear = AxleSpeedsFor(params, speed, steering);
+  if (params.kind == VehicleKind::kDifferential) {
+    return {rear.left, rear.right};
+  }
   const double yaw_rate = speed * CurvatureForSteering(params, steering);
   const FrontAngles front = AckermannAngles(params, steering);
   const auto front_speed = [&](double angle, double y) {
     return (speed - yaw_rate * y) * std::cos(angle) + yaw_rate * params.wheelbase * std::sin(angle);
   };
   return {front_speed(front.left, 0.5 * params.track_front),
-          front_speed(front.right, -0.5 * params.track_front),
-          speed - yaw_rate * 0.5 * params.track_rear, speed + yaw_rate * 0.5 * params.track_rear};
+          front_speed(front.right, -0.5 * params.track_front), rear.left, rear.right};
 }
 
 }  // namespace trackbed

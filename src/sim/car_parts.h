@@ -1,14 +1,15 @@
 #pragma once
 
 #include <string>
+#include <variant>
 
 #include "trackbed/sim/car_model.h"
 
 namespace trackbed {
 
-/// What Trackbed knows of a car, read from its compiled model.
-struct CarDescription {
-  CarParts parts;
+/// What Trackbed knows of a vehicle, read from its compiled model.
+struct VehicleDescription {
+  std::variant<CarParts, WheelPairParts> parts;
   VehicleParams params;
 };
 
@@ -21,12 +22,15 @@ inline constexpr const char* kNeededCoefficients =
 inline constexpr const char* kPayloadBody = "payload";
 inline constexpr const char* kLadenKeyframe = "laden";
 
+/// The parts of a car; InputError naming its file when it has no steered wheels. `needed_by` is
+/// what cannot do without.
+const CarParts& SteeredParts(const CarModel& car, const std::string& needed_by);
+
 /// The car's tyres; InputError naming its file and what is missing there when it has none.
-/// `needed_by` is what cannot do without.
 const CarTyres& TyresOf(const CarModel& car, const std::string& needed_by);
 
 /// InputError naming `file` and every part that is missing; or, when all are there, every one that
 /// is not as docs/models.md asks.
-CarDescription DescribeCar(const mjModel_& model, const std::string& file);
+VehicleDescription DescribeVehicle(const mjModel_& model, const std::string& file);
 
 }  // namespace trackbed

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -26,7 +25,8 @@ class ExactPlant final : public Plant {
     const VehicleState after = car_.FullState();
     const auto speeds = RollingSpeeds(model_.params(), 0.5 * (before.speed + after.speed),
                                       0.5 * (before.steering + after.steering));
-    for (std::size_t w = 0; w < spin_.size(); ++w) {
+    spin_.resize(speeds.size());
+    for (std::size_t w = 0; w < speeds.size(); ++w) {
       spin_[w] += speeds[w] / model_.params().wheel_radius * timestep;
     }
   }
@@ -57,7 +57,7 @@ class ExactPlant final : public Plant {
  private:
   const CarModel& model_;
   Car car_;
-  std::array<double, 4> spin_{};
+  std::vector<double> spin_;
 };
 
 }  // namespace trackbed

@@ -116,6 +116,7 @@ class Settling {
 }  // namespace
 
 Scene WithPayload(const CarModel& car, const Payload& payload) {
+  static_cast<void>(SteeredParts(car, "disturb.payload"));
   const double mass = payload.mass ? *payload.mass : *payload.share * car.params().mass;
   XMLDocument document;
   ParseComposed(car.scene().xml, document);

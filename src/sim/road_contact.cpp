@@ -48,10 +48,13 @@ RoadContact::RoadContact(const CarModel& car, mjModel& model)
   if (!curved_) {
     return;
   }
-  for (std::size_t w = 0; w < kWheels.size(); ++w) {
-    const int tyre = car.parts().tyre[w];
+  const std::span<const int> tyres = car.tyres();
+  for (std::size_t w = 0; w < tyres.size(); ++w) {
+    const int tyre = tyres[w];
     half_axes_T[w] = HalfAxes(model, tyre);
-    const std::string name = fmt::format("ground_{}", kWheels[w]);
+    constexpr std::string_view kTyre = "tyre";
+    const std::string_view own_name = mj_id2name(&model, mjOBJ_GEOM, tyre);
+    const std::string name = fmt::format("ground{}", own_name.substr(kTyre.size()));
     plane_[w] = mj_name2id(&model, mjOBJ_GEOM, name.c_str());
     TRACKBED_CHECK(plane_[w] >= 0, "the scene has no geom '{}'", name);
     model.geom_sameframe[plane_[w]] = 0;  // else MuJoCo takes its place for the world's origin
@@ -102,14 +105,15 @@ void RoadContact::Place(mjModel& model, mjData& data) const {
     return;
   }
   mj_kinematics(&model, &data);
-  const mjtNum* chassis = data.qpos + car_.parts().chassis_qpos;
-  const mjtNum* velocity = data.qvel + car_.parts().chassis_dof;
+  const mjtNum* chassis = data.qpos + car_.chassis().chassis_qpos;
+  const mjtNum* velocity = data.qvel + car_.chassis().chassis_dof;
   const Vector3d origin_W(chassis);
   const Matrix3d R_WV =
       Eigen::Quaterniond(chassis[3], chassis[4], chassis[5], chassis[6]).toRotationMatrix();
   const Vector3d w_W = R_WV * Vector3d(velocity + 3);
-  for (std::size_t w = 0; w < kWheels.size(); ++w) {
-    const int tyre = car_.parts().tyre[w];
+  const std::span<const int> tyres = car_.tyres();
+  for (std::size_t w = 0; w < tyres.size(); ++w) {
+    const int tyre = tyres[w];
     const Vector3d centre_W(data.geom_xpos + 3 * tyre);
     const Matrix3d R_WT =
         Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data.geom_xmat + 9 * tyre);

@@ -162,17 +162,28 @@ void GatherAssets(XMLElement& root, const fs::path& file, const fs::path& folder
   }
 }
 
-/// The rate of the steering gear is the range of its actuator's control.
-void SetSteeringRate(XMLElement& root, double rate) {
-  for (XMLElement* section = root.FirstChildElement("actuator"); section != nullptr;
-       section = section->NextSiblingElement("actuator")) {
-    for (XMLElement* actuator = section->FirstChildElement(); actuator != nullptr;
-         actuator = actuator->NextSiblingElement()) {
-      const char* name = actuator->Attribute("name");
-      if (name != nullptr && std::string_view(name) == "steer") {
-        actuator->SetAttribute("ctrlrange", Numbers({-rate, rate}).c_str());
+/// The first element below the root's children `section` that has this name.
+XMLElement* FindNamed(XMLElement& root, const char* section, std::string_view name) {
+  for (XMLElement* part = root.FirstChildElement(section); part != nullptr;
+       part = part->NextSiblingElement(section)) {
+    for (XMLElement* element = part->FirstChildElement(); element != nullptr;
+         element = element->NextSiblingElement()) {
+      const char* own = element->Attribute("name");
+      if (own != nullptr && own == name) {
+        return element;
       }
     }
+  }
+  return nullptr;
+}
+
+/// The rate of a steering gear is the range of its actuator's control; that of a differential
+/// drive, which has none, is a number of its own.
+void SetSteeringRate(XMLElement& root, double rate) {
+  if (XMLElement* steer = FindNamed(root, "actuator", "steer")) {
+    steer->SetAttribute("ctrlrange", Numbers({-rate, rate}).c_str());
+  } else if (XMLElement* number = FindNamed(root, "custom", "steering_rate")) {
+    number->SetAttribute("data", Numbers({rate}).c_str());
   }
 }
 

@@ -130,7 +130,10 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
     add(side_slope, nullptr);
   }
   if (count > 0) {
-    for (const char* wheel : kWheels) {
+    for (const char* wheel : {"fl", "fr", "rl", "rr", "left", "right"}) {
+      if (FindInWorld(root, "geom", fmt::format("tyre_{}", wheel)) == nullptr) {
+        continue;
+      }
       XMLElement& geom = AddLike(*plane, fmt::format("ground_{}", wheel));
       geom.SetAttribute("contype", 0);
       geom.SetAttribute("conaffinity", 0);

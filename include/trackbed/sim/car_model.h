@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "trackbed/sim/scene.h"
@@ -36,11 +37,18 @@ struct CarAerodynamics {
   std::array<double, 2> centre_of_pressure{};  ///< x and z of where it pushes [m]
 };
 
-/// Where Trackbed finds the parts of a car in the compiled model (docs name the MJCF names).
-struct CarParts {
+/// Where Trackbed finds the parts of a vehicle in the compiled model (docs name the MJCF names).
+/// These are there whatever moves it.
+struct ChassisParts {
   int chassis = -1;       ///< body
   int chassis_qpos = -1;  ///< of its free joint
   int chassis_dof = -1;
+  double cg_height = 0.0;  ///< [m]
+  CarAerodynamics aerodynamics;
+};
+
+/// Those of a car with steered front wheels.
+struct CarParts : ChassisParts {
   std::array<int, 4> tyre{};     ///< collision geom of each wheel
   std::array<int, 4> wheel{};    ///< body
   std::array<int, 4> carrier{};  ///< body the wheel spins on
@@ -59,12 +67,25 @@ struct CarParts {
   double brake_torque_rear = 0.0;        ///< largest, per wheel [N m]
   std::array<double, 4> spin_inertia{};  ///< [kg m^2]
   std::array<double, 4> hub_height{};    ///< of the wheel centres at rest, in the car's frame [m]
-  double cg_height = 0.0;                ///< [m]
   std::optional<CarTyres> tyres;         ///< none when the file has no coefficients
-  CarAerodynamics aerodynamics;
 };
 
-/// A compiled car with its scene. Immutable, and safe to share between threads once made.
+/// Those of a vehicle with differential drive; of the wheels left, right.
+struct WheelPairParts : ChassisParts {
+  std::array<int, 2> tyre{};   ///< collision geom
+  std::array<int, 2> wheel{};  ///< body
+  std::array<int, 2> spin_qpos{};
+  std::array<int, 2> spin_dof{};
+  std::array<int, 2> actuator{};  ///< index into ctrl
+  double wheel_speed = 0.0;       ///< largest [rad/s]
+  double servo_slack = 0.0;       ///< the difference to its wanted speed at which a motor gives all
+                                  ///< its torque [rad/s]
+  double integral_time = 0.0;     ///< in which a servo's integral part grows as large as the
+                                  ///< difference that it is of [s]
+  double brake_torque = 0.0;      ///< largest, per wheel [N m]
+};
+
+/// A compiled vehicle with its scene. Immutable, and safe to share between threads once made.
 ///
 /// Errors: InputError naming the file and, all at once, what is missing or wrong, when the MJCF
 /// does not compile, lacks a needed name, or has a part that is not as docs/models.md asks.
@@ -78,7 +99,16 @@ class CarModel {
   [[nodiscard]] const VehicleParams& params() const { return params_; }
   /// Without the payload of its scene, what planners and controllers go by; else the same.
   [[nodiscard]] const VehicleParams& unladen() const { return unladen_; }
-  [[nodiscard]] const CarParts& parts() const { return parts_; }
+  /// Of a vehicle of either kind.
+  [[nodiscard]] const ChassisParts& chassis() const;
+  /// Of a car with steered front wheels; InternalError for other vehicles.
+  [[nodiscard]] const CarParts& parts() const;
+  /// Of a vehicle with differential drive; InternalError for other vehicles.
+  [[nodiscard]] const WheelPairParts& wheel_pair() const;
+  /// The collision geoms of the wheels, in the order of the vehicle's parts: four, or two.
+  [[nodiscard]] std::span<const int> tyres() const;
+  /// Their bodies.
+  [[nodiscard]] std::span<const int> wheels() const;
   [[nodiscard]] const Scene& scene() const { return scene_; }
   /// What messages call the car's file.
   [[nodiscard]] const std::string& file() const { return file_; }
@@ -93,11 +123,12 @@ class CarModel {
   [[nodiscard]] std::vector<double> ConfigurationOf(std::span<const double> qpos) const;
 
   /// qpos of the car standing on `ground`, its rear-axle centre at `pose` as seen from above, its
-  /// wheels at `steering` (bicycle angle) and turned by `spin` [rad]. Its frame V lies on the plane
-  /// that fits the heights under the four wheels best, moved up until no wheel is in the ground; a
-  /// payload's weight on the springs moves it from there.
+  /// wheels at `steering` (bicycle angle) and turned by `spin` [rad], one for each of wheels() or
+  /// none. Its frame V lies on the plane that fits the heights under the four wheels best, moved up
+  /// until no wheel is in the ground; a payload's weight on the springs moves it from there. With
+  /// differential drive, the front corners of its outline take the front wheels' place.
   [[nodiscard]] std::vector<double> StandingPosition(const Pose2& pose, double steering,
-                                                     const std::array<double, 4>& spin,
+                                                     const std::vector<double>& spin,
                                                      const Ground& ground) const;
 
   /// The unit vector ahead of that car along the ground, in the world: a laden car's own x axis
@@ -106,11 +137,11 @@ class CarModel {
 
   /// A configuration of the car standing on its scene's ground, as above.
   [[nodiscard]] std::vector<double> FlatConfiguration(const Pose2& pose, double steering,
-                                                      const std::array<double, 4>& spin) const;
+                                                      const std::vector<double>& spin) const;
 
   /// qpos of the car standing on the plane z = 0.
   [[nodiscard]] std::vector<double> FlatPosition(const Pose2& pose, double steering,
-                                                 const std::array<double, 4>& spin) const;
+                                                 const std::vector<double>& spin) const;
 
  private:
   struct Deleter {
@@ -122,12 +153,12 @@ class CarModel {
   std::unique_ptr<mjModel_, Deleter> model_;
   VehicleParams params_;
   VehicleParams unladen_;
-  CarParts parts_;
+  std::variant<CarParts, WheelPairParts> parts_;
 };
 
 /// Speed [m/s] along each wheel's own direction when the car's rear axle moves at `speed` with its
-/// wheels at `steering` and does not slip.
-std::array<double, 4> RollingSpeeds(const VehicleParams& params, double speed, double steering);
+/// wheels at `steering` and does not slip; one for each of CarModel::wheels().
+std::vector<double> RollingSpeeds(const VehicleParams& params, double speed, double steering);
 
 /// "MuJoCo 2.2.2"; InternalError when the library is not the one the headers were made for.
 std::string PhysicsVersion();

@@ -92,6 +92,12 @@ struct PlantEntry {
 /// the gear, into dry friction of the brakes, front to rear as the model's brake torques; both are
 /// cut at the model's limits. It reckons with the car's unladen mass. Its steering actuator's rate
 /// limit is the model's own, fed anew at every physics step.
+///
+/// With differential drive there are `kinematic` and `mujoco` with the tyre law kContact; for the
+/// others, for prescribed steering in MuJoCo, InputError. There MuJoCo integrates the wanted
+/// acceleration to a wanted speed, and servos of limited torque hold each wheel at its share. The
+/// measured steering angle is atan((v_R - v_L)/v) of the wheels' speeds; below 0.1 m/s what they
+/// are off counts with (v/0.1 m/s)^2 only, so that it is the actuator's at rest.
 const std::vector<PlantEntry>& Plants();
 
 /// InputError with the nearest spelling when there is no such plant.

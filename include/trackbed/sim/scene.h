@@ -50,9 +50,9 @@ Scene ComposeScene(const std::filesystem::path& car_file, const SceneOptions& op
 
 /// Lays the ground under the car: the geom `ground` becomes the plane of the grade, and every bump
 /// and side slope a height field `ground_0`, `ground_1`, … that stands on it, at most 5 cm from one
-/// sample to the next, or a 256th of its side. With those there are four planes `ground_fl`, … that
-/// touch nothing; RoadContact moves them. All take friction and the like from the car's own ground.
-/// Flat ground leaves the scene as it is.
+/// sample to the next, or a 256th of its side. With those there is a plane `ground_fl`, … for
+/// every wheel that touches nothing; RoadContact moves them. All take friction and the like from
+/// the car's own ground. Flat ground leaves the scene as it is.
 Scene WithGround(const Scene& car_scene, const Ground& ground);
 
 /// Adds the world's obstacles as bodies that cannot be moved, `obstacle_0`, `obstacle_1`, …, and to

@@ -1,0 +1,167 @@
+#include "src/sim/parts_reader.h"
+
+#include <Eigen/Core>
+#include <cmath>
+
+namespace trackbed {
+namespace {
+
+double Square(double value) {
+  return value * value;
+}
+
+}  // namespace
+
+PartsReader::PartsReader(const mjModel& model, const std::string& file)
+    : m_(model), file_(file), data_(mj_makeData(&model)) {
+  TRACKBED_CHECK(data_ != nullptr, "no memory for mjData");
+  mj_kinematics(&m_, data_.get());
+  mj_comPos(&m_, data_.get());
+}
+
+void PartsReader::Complain(std::string name, std::string message) {
+  problems_.push_back({file_, 0, 0, std::move(name), std::move(message)});
+}
+
+void PartsReader::ThrowIfAnything() const {
+  if (!problems_.empty()) {
+    throw InputError(problems_);
+  }
+}
+
+int PartsReader::Find(int type, const char* kind, const std::string& name) {
+  const int id = mj_name2id(&m_, type, name.c_str());
+  if (id < 0) {
+    Complain(name, fmt::format("the model has no {} of this name", kind));
+  }
+  return id;
+}
+
+int PartsReader::Joint(const std::string& name, int type, const char* kind) {
+  const int id = Find(mjOBJ_JOINT, kind, name);
+  if (id >= 0 && m_.jnt_type[id] != type) {
+    Complain(name, fmt::format("must be a {}", kind));
+    return -1;
+  }
+  return id;
+}
+
+double PartsReader::Number(const std::string& name) {
+  const int id = Find(mjOBJ_NUMERIC, "<custom><numeric>", name);
+  return id < 0 ? 0.0 : m_.numeric_data[m_.numeric_adr[id]];
+}
+
+std::string PartsReader::NameOf(int type, int id) const {
+  const char* name = mj_id2name(&m_, type, id);
+  return name == nullptr ? "without a name" : fmt::format("'{}'", name);
+}
+
+double PartsReader::Offset(const mjtNum* point, std::size_t axis) const {
+  return point[axis] - data_->xpos[3 * static_cast<std::size_t>(chassis_.chassis) + axis];
+}
+
+std::string PartsReader::Text(const mjtNum* v) {
+  return fmt::format("{:.4g} {:.4g} {:.4g}", v[0] + 0.0, v[1] + 0.0, v[2] + 0.0);
+}
+
+void PartsReader::ReadChassis(int free_joint) {
+  if (const int body = m_.jnt_bodyid[free_joint]; body != chassis_.chassis) {
+    Complain("chassis", fmt::format("the free joint is that of the body {}; it must be that of "
+                                    "the body 'chassis'",
+                                    NameOf(mjOBJ_BODY, body)));
+  }
+  params_.name = m_.names;  // the model's own name comes first
+  chassis_.chassis_qpos = m_.jnt_qposadr[free_joint];
+  chassis_.chassis_dof = m_.jnt_dofadr[free_joint];
+  params_.mass = m_.body_subtreemass[chassis_.chassis];
+  const mjtNum* cg = data_->subtree_com + 3 * chassis_.chassis;
+  params_.cg_to_rear = Offset(cg, 0);
+  chassis_.cg_height = Offset(cg, 2);
+  for (int body = 1; body < m_.nbody; ++body) {
+    if (m_.body_rootid[body] != m_.body_rootid[chassis_.chassis]) {
+      continue;
+    }
+    const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> axes(data_->ximat +
+                                                                              9 * body);
+    const mjtNum* at = data_->xipos + 3 * body;
+    params_.yaw_inertia += axes.row(2).cwiseAbs2().dot(
+                               Eigen::Map<const Eigen::RowVector3d>(m_.body_inertia + 3 * body)) +
+                           m_.body_mass[body] * (Square(at[0] - cg[0]) + Square(at[1] - cg[1]));
+  }
+}
+
+void PartsReader::ReadAerodynamics() {
+  CarAerodynamics& air = chassis_.aerodynamics;
+  numerics_.Read("drag_area", air.drag_area);
+  numerics_.Read("side_area", air.side_area);
+  air.centre_of_pressure = {params_.cg_to_rear, chassis_.cg_height};
+  if (const mjtNum* at = numerics_.Find("centre_of_pressure", 2)) {
+    air.centre_of_pressure = {at[0], at[1]};
+  }
+  if (!(air.drag_area >= 0.0 && air.side_area >= 0.0)) {
+    Complain("drag_area", "drag_area and side_area must not be negative");
+  }
+}
+
+void PartsReader::ReadOutline(int site) {
+  if (m_.site_type[site] != mjGEOM_BOX) {
+    Complain("outline", "must be a box site");
+  }
+  if (const int body = m_.site_bodyid[site]; body != chassis_.chassis) {
+    Complain("outline", fmt::format("must be a site of the body 'chassis'; it is on {}",
+                                    NameOf(mjOBJ_BODY, body)));
+  }
+  const mjtNum* half = m_.site_size + 3 * site;
+  const mjtNum* middle = m_.site_pos + 3 * site;
+  const mjtNum* turn = m_.site_quat + 4 * site;
+  if (std::abs(middle[1]) > kExact || !(std::abs(turn[0]) > 1.0 - kExact)) {
+    Complain("outline", "must be centred on y = 0 and not turned");
+  }
+  params_.length = 2.0 * half[0];
+  params_.width = 2.0 * half[1];
+  params_.height = middle[2] + half[2];
+  params_.rear_overhang = half[0] - middle[0];
+}
+
+double PartsReader::Place(int body, std::size_t axis) const {
+  return Offset(data_->xpos + 3 * body, axis);
+}
+
+void PartsReader::CheckOrigin(const char* axle, const char* wheels, int left, int right) {
+  if (std::abs(Place(left, 0)) > kExact || std::abs(Place(right, 0)) > kExact) {
+    const double ahead = 0.5 * (Place(left, 0) + Place(right, 0));
+    Complain("chassis",
+             fmt::format("the body's origin must lie under {}; {} are {:.4g} m {} it", axle, wheels,
+                         std::abs(ahead), ahead < 0.0 ? "behind" : "ahead of"));
+  }
+}
+
+void PartsReader::CheckWheel(const std::string& wheel, int spin, int tyre, int first,
+                             const char* all) {
+  const mjtNum* axis = m_.jnt_axis + 3 * spin;
+  const mjtNum* axis_W = data_->xaxis + 3 * spin;
+  if (!(axis[1] > 1.0 - kExact)) {
+    Complain("spin_" + wheel, fmt::format("a wheel spins about its body's y axis, so that "
+                                          "positive rolls forwards: axis must be 0 1 0, found {}",
+                                          Text(axis)));
+  } else if (!(axis_W[1] > kUpright)) {
+    Complain(
+        "spin_" + wheel,
+        fmt::format("its axis must point to the car's left; it points along {}", Text(axis_W)));
+  }
+  const int turned = m_.jnt_bodyid[spin];
+  if (const int body = m_.geom_bodyid[tyre]; body != turned) {
+    Complain("tyre_" + wheel,
+             fmt::format("must be on the body that spin_{} turns, {}; it is on {}", wheel,
+                         NameOf(mjOBJ_BODY, turned), NameOf(mjOBJ_BODY, body)));
+  }
+  const double radius = m_.geom_size[3 * tyre];
+  const double wanted = m_.geom_size[3 * first];
+  if (!(std::abs(radius - wanted) <= kExact * wanted)) {
+    Complain("tyre_" + wheel,
+             fmt::format("its radius is {:.6g} m and that of {} {:.6g} m; {} must be equal", radius,
+                         mj_id2name(&m_, mjOBJ_GEOM, first), wanted, all));
+  }
+}
+
+}  // namespace trackbed

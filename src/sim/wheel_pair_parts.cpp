@@ -1,0 +1,172 @@
+#include "src/sim/wheel_pair_parts.h"
+
+#include <cmath>
+
+#include "src/sim/parts_reader.h"
+
+namespace trackbed {
+namespace {
+
+/// A wheel's speed servo, as its actuator's numbers say.
+struct Servo {
+  double gain = 0.0;    ///< torque over missing speed [N m s/rad]
+  double torque = 0.0;  ///< largest [N m]
+  double speed = 0.0;   ///< largest [rad/s]
+};
+
+class WheelPairReader final : private PartsReader {
+ public:
+  WheelPairReader(const mjModel& model, const std::string& file) : PartsReader(model, file) {}
+
+  VehicleDescription Read() {
+    FindNames();
+    ThrowIfAnything();
+    FindAddresses();
+    ReadChassis(free_);
+    params_.kind = VehicleKind::kDifferential;
+    ReadWheels();
+    ReadServos();
+    ReadLimits();
+    ReadOutline(outline_);
+    ReadAerodynamics();
+    ThrowIfAnything();
+    static_cast<ChassisParts&>(parts_) = chassis_;
+    return {parts_, params_};
+  }
+
+ private:
+  void FindNames() {
+    chassis_.chassis = Find(mjOBJ_BODY, "body", "chassis");
+    free_ = Joint("chassis", mjJNT_FREE, "free joint");
+    Find(mjOBJ_GEOM, "geom", "ground");
+    for (std::size_t w = 0; w < kDrivenWheels.size(); ++w) {
+      const std::string wheel = kDrivenWheels[w];
+      parts_.tyre[w] = Find(mjOBJ_GEOM, "geom", "tyre_" + wheel);
+      spin_[w] = Joint("spin_" + wheel, mjJNT_HINGE, "hinge joint");
+      parts_.actuator[w] = Find(mjOBJ_ACTUATOR, "actuator", "drive_" + wheel);
+    }
+    outline_ = Find(mjOBJ_SITE, "box site", "outline");
+    turning_radius_ = Number("turning_radius");
+    params_.steering_rate = Number("steering_rate");
+    parts_.integral_time = Number("integral_time");
+    parts_.brake_torque = Number("brake_torque");
+  }
+
+  void FindAddresses() {
+    for (std::size_t w = 0; w < kDrivenWheels.size(); ++w) {
+      parts_.spin_qpos[w] = m_.jnt_qposadr[spin_[w]];
+      parts_.spin_dof[w] = m_.jnt_dofadr[spin_[w]];
+      parts_.wheel[w] = m_.jnt_bodyid[spin_[w]];
+    }
+  }
+
+  void ReadWheels() {
+    for (std::size_t w = 0; w < kDrivenWheels.size(); ++w) {
+      CheckWheel(kDrivenWheels[w], spin_[w], parts_.tyre[w], parts_.tyre[0], "both");
+    }
+    params_.wheel_radius = m_.geom_size[3 * parts_.tyre[0]];
+    const double left = Place(parts_.wheel[0], 1);
+    const double right = Place(parts_.wheel[1], 1);
+    params_.track_rear = left - right;
+    params_.wheelbase = params_.track_rear;
+    CheckOrigin("the axle of the driven wheels", "they", parts_.wheel[0], parts_.wheel[1]);
+    if (!(left > 0.0 && std::abs(left + right) <= kExact)) {
+      Complain("chassis", fmt::format("the driven wheels must stand as far to the left, y pointing "
+                                      "left, as to the right; they are at y = {:.4g} and {:.4g} m",
+                                      left, right));
+    }
+  }
+
+  void ReadServos() {
+    const Servo left = ReadServo(0);
+    const Servo right = ReadServo(1);
+    const bool readable = left.gain > 0.0 && right.gain > 0.0;
+    if (readable &&
+        (left.gain != right.gain || left.torque != right.torque || left.speed != right.speed)) {
+      Complain("drive_right", "must have the kv, ctrlrange and forcerange of drive_left");
+    }
+    parts_.wheel_speed = left.speed;
+    parts_.servo_slack = left.torque / left.gain;
+  }
+
+  Servo ReadServo(std::size_t w) {
+    const std::string name = std::string("drive_") + kDrivenWheels[w];
+    const int a = parts_.actuator[w];
+    if (m_.actuator_trntype[a] != mjTRN_JOINT || m_.actuator_trnid[2 * a] != spin_[w]) {
+      Complain(name, fmt::format("must act on the joint 'spin_{}'", kDrivenWheels[w]));
+    }
+    const double gain = m_.actuator_gainprm[mjNGAIN * a];
+    const mjtNum* bias = m_.actuator_biasprm + mjNBIAS * a;
+    const mjtNum* speed = m_.actuator_ctrlrange + 2 * a;
+    const mjtNum* torque = m_.actuator_forcerange + 2 * a;
+    const bool limited = m_.actuator_ctrllimited[a] && m_.actuator_forcelimited[a];
+    const bool is_velocity = m_.actuator_dyntype[a] == mjDYN_NONE && gain > 0.0 &&
+                             m_.actuator_biastype[a] == mjBIAS_AFFINE && bias[1] == 0.0 &&
+                             bias[2] == -gain && m_.actuator_gear[6 * a] == 1.0;
+    if (!limited || !is_velocity) {
+      Complain(name,
+               "must be a <velocity> of gear 1 with ctrllimited and forcelimited: its ctrlrange is "
+               "the largest speed of the wheel, its forcerange the largest torque");
+      return {};
+    }
+    CheckSymmetric(name, "ctrlrange", "the largest speed of the wheel [rad/s]", speed);
+    CheckSymmetric(name, "forcerange", "the largest torque [N m]", torque);
+    if (!(torque[1] / gain < speed[1])) {
+      Complain(name, fmt::format("kv {:.4g} is too small: forcerange/kv, the difference of speed "
+                                 "that takes all the torque, is {:.4g} rad/s and must be below the "
+                                 "ctrlrange of {:.4g} rad/s",
+                                 gain, torque[1] / gain, speed[1]));
+    }
+    return {gain, torque[1], speed[1]};
+  }
+
+  void CheckSymmetric(const std::string& name, const char* attribute, const char* meaning,
+                      const mjtNum* range) {
+    if (!(range[1] > 0.0 && std::abs(range[0] + range[1]) <= kExact * range[1])) {
+      Complain(name, fmt::format("{} {:.4g} {:.4g} is {} backwards and forwards, which must be "
+                                 "equal and above 0",
+                                 attribute, range[0], range[1], meaning));
+    }
+  }
+
+  void ReadLimits() {
+    // At half the track the inner wheel stands still.
+    if (!(turning_radius_ >= 0.5 * params_.track_rear)) {
+      Complain("turning_radius",
+               fmt::format("must be at least half the track, {:.4g} m, or the inner wheel would "
+                           "turn backwards; found {:.4g}",
+                           0.5 * params_.track_rear, turning_radius_));
+    }
+    params_.steering_limit = std::atan(params_.wheelbase / turning_radius_);
+    CheckAboveZero("steering_rate", params_.steering_rate);
+    CheckAboveZero("integral_time", parts_.integral_time);
+    CheckAboveZero("brake_torque", parts_.brake_torque);
+  }
+
+  void CheckAboveZero(const char* name, double value) {
+    if (!(value > 0.0)) {
+      Complain(name, fmt::format("must be above 0, found {:.4g}", value));
+    }
+  }
+
+  WheelPairParts parts_;
+  int free_ = -1;  // joints
+  std::array<int, 2> spin_{};
+  int outline_ = -1;             // site
+  double turning_radius_ = 0.0;  // smallest [m]
+};
+
+}  // namespace
+
+bool IsWheelPair(const mjModel& model) {
+  const auto has = [&](const char* actuator) {
+    return mj_name2id(&model, mjOBJ_ACTUATOR, actuator) >= 0;
+  };
+  return (has("drive_left") || has("drive_right")) && !has("steer");
+}
+
+VehicleDescription DescribeWheelPair(const mjModel& model, const std::string& file) {
+  return WheelPairReader(model, file).Read();
+}
+
+}  // namespace trackbed

@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <cmath>
+
+#include "src/sim/car_parts.h"
+#include "src/sim/mujoco_plant.h"
+#include "trackbed/core/error.h"
+#include "trackbed/vehicle/steering_actuator.h"
+
+namespace trackbed {
+namespace {
+
+/// Two wheels on speed servos with an integral part. Without that, a turn would come out too wide:
+/// what holds the centre of gravity on it, m l_g v psi', is a moment that the motors must give.
+class WheelPairPlant final : public MujocoPlant {
+ public:
+  explicit WheelPairPlant(const PlantSetup& setup)
+      : MujocoPlant(setup), wanted_speed_(setup.start.speed), ratio_(setup.start.steering) {
+    const WheelPairParts& parts = car().wheel_pair();
+    const auto rolling = RollingSpeeds(car().params(), wanted_speed_, ratio_);
+    for (std::size_t w = 0; w < rolling.size(); ++w) {
+      bearing_friction_[w] = model().dof_frictionloss[parts.spin_dof[w]];
+      data().qvel[parts.spin_dof[w]] = rolling[w] / car().params().wheel_radius;
+    }
+    Begin();
+  }
+
+ private:
+  void Act(const Command& command) override {
+    const WheelPairParts& parts = car().wheel_pair();
+    const VehicleParams& params = car().params();
+    const double timestep = model().opt.timestep;
+    ratio_ = MoveSteering({params.steering_limit, params.steering_rate}, ratio_, command.steering)
+                 .At(timestep);
+    const double along_gear = command.acceleration * command.gear;
+    const double speed = command.gear * Speed();
+    const bool hold = along_gear <= 0.0 && speed < kStandstill;
+    wanted_speed_ = hold ? 0.0 : command.gear * NextSpeed(command.gear, along_gear, speed);
+    const auto speeds = RollingSpeeds(params, wanted_speed_, ratio_);
+    for (std::size_t w = 0; w < speeds.size(); ++w) {
+      const double wanted = speeds[w] / params.wheel_radius;
+      const double missing = wanted - data().qvel[parts.spin_dof[w]];
+      // It never asks for more than all the torque there is.
+      integral_[w] = hold ? 0.0
+                          : std::clamp(integral_[w] + missing * timestep / parts.integral_time,
+                                       -parts.servo_slack, parts.servo_slack);
+      data().ctrl[parts.actuator[w]] = wanted + integral_[w];
+      model().dof_frictionloss[parts.spin_dof[w]] =
+          bearing_friction_[w] + (hold ? parts.brake_torque : 0.0);
+    }
+  }
+
+  /// The speed to be wanted in the coming step, along the gear.
+  [[nodiscard]] double NextSpeed(int gear, double acceleration, double speed) const {
+    const WheelPairParts& parts = car().wheel_pair();
+    const double radius = car().params().wheel_radius;
+    // Beyond this difference the motors give no more: it would only have to be wound back later.
+    const double slack = parts.servo_slack * radius;
+    const double wanted = gear * wanted_speed_;
+    const double change = acceleration * model().opt.timestep;
+    const double next = change > 0.0 ? std::min(wanted + change, std::max(wanted, speed + slack))
+                                     : std::max(wanted + change, std::min(wanted, speed - slack));
+    // At the motors' largest speed, less what the servos' integrals may add, the vehicle slows down
+    // rather than leave its curve: the outer wheel runs at 1 + |tan delta|/2 times the speed.
+    const double fastest =
+        (parts.wheel_speed * radius - slack) / (1.0 + 0.5 * std::abs(std::tan(ratio_)));
+    return std::clamp(next, 0.0, fastest);
+  }
+
+  [[nodiscard]] Wheels ObserveWheels() const override {
+    const auto& spin = car().wheel_pair().spin_dof;
+    const double radius = car().params().wheel_radius;
+    const double left = radius * data().qvel[spin[0]];
+    const double right = radius * data().qvel[spin[1]];
+    const double speed = 0.5 * (left + right);
+    // tan(delta) is a ratio to the speed, and below this speed [m/s] it fades into what is wanted:
+    // at rest it would be that of rounding errors.
+    constexpr double kCrawl = 0.1;
+    const double wanted = std::tan(ratio_);
+    const double missing = right - left - speed * wanted;
+    const double tangent = wanted + missing * speed / std::max(speed * speed, kCrawl * kCrawl);
+    return {.actuator = ratio_, .steering = std::atan(tangent), .forces = {}};
+  }
+
+  double wanted_speed_;                       // [m/s]
+  double ratio_;                              // delta, after its rate limit [rad]
+  std::array<double, 2> integral_{};          // of the servos [rad/s]
+  std::array<double, 2> bearing_friction_{};  // [N m]
+};
+
+}  // namespace
+
+std::unique_ptr<Plant> MakeWheelPairPlant(const PlantSetup& setup) {
+  if (setup.tyre == TyreLaw::kMagicFormula) {
+    static_cast<void>(SteeredParts(setup.car, "tyre: magic_formula"));
+  }
+  if (setup.steering == SteeringInput::kPrescribed) {
+    static_cast<void>(SteeredParts(setup.car, "drive.steering: prescribed on the plant mujoco"));
+  }
+  return std::make_unique<WheelPairPlant>(setup);
+}
+
+}  // namespace trackbed
