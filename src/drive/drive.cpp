@@ -31,7 +31,16 @@ Stations Around(double station, double moved) {
 /// Logs configurations at the first physics step at or after every multiple of the period.
 class ConfigurationLog {
  public:
-  ConfigurationLog(const CarModel& car, double period) : period_(period), table_(Columns(car)) {}
+  ConfigurationLog(const CarModel& car, const World& world, double period)
+      : period_(period), table_(Columns(car)) {
+    for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
+      const Obstacle& obstacle = world.obstacles[i];
+      if (obstacle.moves()) {
+        moving_.emplace_back(Find(fmt::format("obstacle_{}_x_m", i)), obstacle.velocity.x());
+        moving_.emplace_back(Find(fmt::format("obstacle_{}_y_m", i)), obstacle.velocity.y());
+      }
+    }
+  }
 
   void Record(const Plant& plant, double time) {
     // Half a microsecond: times are sums of timesteps and may fall short of the multiple by
@@ -42,6 +51,9 @@ class ConfigurationLog {
     std::vector<double> row{time};
     const std::vector<double> configuration = plant.Configuration();
     row.insert(row.end(), configuration.begin(), configuration.end());
+    for (const auto& [column, speed] : moving_) {
+      row[column] = speed * time;  // whatever the plant knows of it
+    }
     table_.AddRow(row);
     next_ = static_cast<long>(std::floor((time + 5e-7) / period_)) + 1;
   }
@@ -56,9 +68,17 @@ class ConfigurationLog {
     return columns;
   }
 
+  [[nodiscard]] std::size_t Find(const std::string& column) const {
+    const auto& columns = table_.columns();
+    const auto found = std::find(columns.begin(), columns.end(), column);
+    TRACKBED_CHECK(found != columns.end(), "configurations have no column '{}'", column);
+    return static_cast<std::size_t>(found - columns.begin());
+  }
+
   double period_;
   long next_ = 0;
   Table table_;
+  std::vector<std::pair<std::size_t, double>> moving_;  // column and speed [m/s] of obstacles
 };
 
 /// Calls back when another hundredth is done.
@@ -114,7 +134,7 @@ class Lookout {
                              .seed = scenario_.seed};
     for (std::size_t i = 0; i < seen_.size(); ++i) {
       if (seen_[i].taken_in) {
-        request.obstacles.push_back(scenario_.world.obstacles[i].footprint);
+        request.obstacles.push_back(FootprintAt(scenario_.world.obstacles[i], state.time));
       }
     }
     return PlanAround(request, *scenario_.plan->avoid);
@@ -144,7 +164,7 @@ class Lookout {
       if (seen.since && !seen.taken_in && state.time >= *seen.since + delay - kSameTime) {
         seen.taken_in = true;
         in_the_way = in_the_way || IsInTheWay(vehicle_, plan.reference.path, station,
-                                              obstacle.footprint, distance);
+                                              FootprintAt(obstacle, state.time), distance);
       }
     }
     return in_the_way;
@@ -253,7 +273,7 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
              .rows = {},
              .changes = {},
              .configurations = Table({"t_s"})};
-  ConfigurationLog configurations(car, drive.state_period);
+  ConfigurationLog configurations(car, scenario.world, drive.state_period);
   configurations.Record(*plant, 0.0);
   Progress progress(hooks.progress);
 
@@ -296,7 +316,7 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
         by_odometer ? driven.plan.schedule_speed : driven.plan.reference.speed;
     const double s = by_odometer ? state.distance - driven.distance : station;
 
-    row.clearance = Clearance(scenario.world, car.params(), state.pose);
+    row.clearance = Clearance(scenario.world, car.params(), state.pose, state.time);
     if (row.clearance && *row.clearance == 0.0) {
       end_time = std::min(end_time, state.time + kAfterCollision);
       collided = true;

@@ -244,6 +244,10 @@ class CrossCheck {
       if (obstacle.known_from_time && obstacle.known_from_range) {
         Complain(fmt::format("world.obstacles[{}].known_from", i), "give time or range, not both");
       }
+      if (obstacle.moves() && !IsFlat(scenario_.world.ground)) {
+        Complain(fmt::format("world.obstacles[{}].velocity", i),
+                 "what moves needs level ground; here world.ground is not");
+      }
     }
   }
 

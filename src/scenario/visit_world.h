@@ -117,6 +117,17 @@ void Visit(Archive& a, BoxKeys& keys) {
   a.Field({"height", "m", "above the ground"}, keys.obstacle.height, Need::kOptional, kSize);
 }
 
+/// The keys of `velocity`.
+struct VelocityKeys {
+  Vec2& velocity;
+};
+
+template <typename Archive>
+void Visit(Archive& a, VelocityKeys& keys) {
+  a.Field({"x", "m/s", "eastward"}, keys.velocity.x(), Need::kOptional, kWindSpeed);
+  a.Field({"y", "m/s", "northward"}, keys.velocity.y(), Need::kOptional, kWindSpeed);
+}
+
 /// The keys of `known_from`.
 struct KnownFromKeys {
   Obstacle& obstacle;
@@ -133,8 +144,16 @@ void Visit(Archive& a, KnownFromKeys& keys) {
 template <typename Archive>
 void Visit(Archive& a, Obstacle& obstacle) {
   BoxKeys keys{obstacle};
-  a.Section({"box", "", "a box that stands on the ground and does not move"}, keys,
-            Need::kRequired);
+  a.Section({"box", "", "a box that stands on the ground"}, keys, Need::kRequired);
+  if constexpr (std::is_same_v<Archive, YamlWriter>) {
+    if (obstacle.moves()) {
+      VelocityKeys velocity{obstacle.velocity};
+      a.Section({"velocity", "", ""}, velocity);
+    }
+  } else {
+    VelocityKeys velocity{obstacle.velocity};
+    a.Section({"velocity", "", "of the box, which does not turn; else it stands"}, velocity);
+  }
   if constexpr (std::is_same_v<Archive, YamlWriter>) {
     if (!obstacle.known_from_time && !obstacle.known_from_range) {
       return;  // an empty section would say no more

@@ -43,16 +43,30 @@ MujocoPlant::MujocoPlant(const PlantSetup& setup)
   Eigen::Map<Vector3d>{velocity} = start.speed / ahead_W.head<2>().norm() * ahead_W;
   velocity[5] = start.speed * CurvatureForSteering(car_.params(), start.steering);
   yaw_ = start.pose.yaw;
+  for (std::size_t i = 0; i < world_.obstacles.size(); ++i) {
+    const Obstacle& obstacle = world_.obstacles[i];
+    for (const auto& [axis, speed] :
+         {std::pair("x", obstacle.velocity.x()), std::pair("y", obstacle.velocity.y())}) {
+      if (obstacle.moves()) {
+        const std::string name = fmt::format("obstacle_{}_{}", i, axis);
+        const int joint = mj_name2id(model_.get(), mjOBJ_JOINT, name.c_str());
+        TRACKBED_CHECK(joint >= 0, "the scene has no joint '{}'", name);
+        sliders_.push_back({model_->jnt_qposadr[joint], model_->jnt_dofadr[joint], speed});
+      }
+    }
+  }
 }
 
 void MujocoPlant::Begin() {
   ground_.Place(*model_, *data_);
+  MoveObstacles();
   mj_forward(model_.get(), data_.get());
 }
 
 void MujocoPlant::Step(const Command& command) {
   Act(command);
   ground_.Place(*model_, *data_);
+  MoveObstacles();
   const Road road = LayRoad();
   mj_step1(model_.get(), data_.get());
   std::fill_n(data_->qfrc_applied, model_->nv, 0.0);
@@ -64,6 +78,14 @@ void MujocoPlant::Step(const Command& command) {
   const double yaw = Yaw();
   yaw_ += AngleDifference(yaw, yaw_);
   distance_ += std::abs(Speed()) * model_->opt.timestep;
+}
+
+/// Puts what moves where it is by now, whatever has hit it.
+void MujocoPlant::MoveObstacles() {
+  for (const Slider& slider : sliders_) {
+    data_->qpos[slider.qpos] = slider.speed * data_->time;
+    data_->qvel[slider.dof] = slider.speed;
+  }
 }
 
 std::vector<double> MujocoPlant::Configuration() const {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "src/sim/road_contact.h"
 #include "trackbed/sim/plant.h"
@@ -68,6 +69,14 @@ class MujocoPlant : public Plant {
     void operator()(mjData* data) const { mj_deleteData(data); }
   };
 
+  /// A joint along which an obstacle moves.
+  struct Slider {
+    int qpos = -1;
+    int dof = -1;
+    double speed = 0.0;  // [m/s]
+  };
+
+  void MoveObstacles();
   [[nodiscard]] const mjtNum* ChassisPosition() const;
   [[nodiscard]] const mjtNum* ChassisVelocity() const;
   [[nodiscard]] Eigen::Matrix3d ChassisRotation() const;
@@ -83,6 +92,7 @@ class MujocoPlant : public Plant {
   std::unique_ptr<mjModel, ModelDeleter> model_;  // own copy: brakes and road change it
   std::unique_ptr<mjData, DataDeleter> data_;
   RoadContact ground_;
+  std::vector<Slider> sliders_;
   std::array<double, 4> tyre_friction_{};  // of the contacts, on a road of factor 1
   double yaw_ = 0.0;                       // unwrapped [rad]
   double distance_ = 0.0;                  // [m]

@@ -146,6 +146,47 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
   return scene;
 }
 
+/// So heavy that no car moves it [kg].
+constexpr double kHeavy = 1e6;
+
+/// A body that slides over the ground, with the joints `name`_x and `name`_y; their defaults are
+/// the car's, which must not matter here.
+XMLElement* InsertSlider(XMLElement& bodies, const std::string& name, const Vec2& place) {
+  XMLElement* body = bodies.InsertNewChildElement("body");
+  body->SetAttribute("name", name.c_str());
+  body->SetAttribute("pos", Numbers({place.x(), place.y(), 0.0}).c_str());
+  for (const auto& [axis, direction] : {std::pair("x", "1 0 0"), std::pair("y", "0 1 0")}) {
+    XMLElement* joint = body->InsertNewChildElement("joint");
+    joint->SetAttribute("name", (name + "_" + axis).c_str());
+    joint->SetAttribute("type", "slide");
+    joint->SetAttribute("axis", direction);
+    for (const char* nothing : {"damping", "stiffness", "armature", "frictionloss", "ref"}) {
+      joint->SetAttribute(nothing, 0);
+    }
+    joint->SetAttribute("limited", false);
+  }
+  return body;
+}
+
+/// New joints come last: keyframes have them where they were made.
+void ExtendKeyframes(XMLElement& root, int joints) {
+  for (XMLElement* frame = root.FirstChildElement("keyframe"); frame != nullptr;
+       frame = frame->NextSiblingElement("keyframe")) {
+    for (XMLElement* key = frame->FirstChildElement("key"); key != nullptr;
+         key = key->NextSiblingElement("key")) {
+      for (const char* vector : {"qpos", "qvel"}) {
+        if (const char* numbers = key->Attribute(vector)) {
+          std::string longer = numbers;
+          for (int i = 0; i < joints; ++i) {
+            longer += " 0";
+          }
+          key->SetAttribute(vector, longer.c_str());
+        }
+      }
+    }
+  }
+}
+
 Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const World& world) {
   if (world.obstacles.empty()) {
     return car_scene;
@@ -175,18 +216,31 @@ Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const 
   shell->SetAttribute("rgba", "0 0 0 0");
 
   XMLElement* bodies = root.InsertNewChildElement("worldbody");
+  int moving = 0;
   for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
     const Obstacle& obstacle = world.obstacles[i];
     const OrientedBox& box = obstacle.footprint;
     const Vec2 place = box.centre.position();
     const Eigen::Quaterniond turn = Upright(GroundSlope(world.ground, place), box.centre.yaw);
     const Eigen::Vector3d up = turn * Eigen::Vector3d(0.0, 0.0, 0.5 * obstacle.height);
-    XMLElement* geom = bodies->InsertNewChildElement("geom");
-    geom->SetAttribute("name", fmt::format("obstacle_{}", i).c_str());
+    const std::string name = fmt::format("obstacle_{}", i);
+    XMLElement* parent = bodies;
+    Vec2 origin = Vec2::Zero();
+    if (obstacle.moves()) {
+      parent = InsertSlider(*bodies, name, place);
+      origin = place;
+      ++moving;
+    }
+    XMLElement* geom = parent->InsertNewChildElement("geom");
+    if (obstacle.moves()) {
+      geom->SetAttribute("mass", kHeavy);
+    }
+    geom->SetAttribute("name", name.c_str());
     geom->SetAttribute("type", "box");
-    geom->SetAttribute("pos", Numbers({place.x() + up.x(), place.y() + up.y(),
-                                       GroundHeight(world, place) + up.z()})
-                                  .c_str());
+    geom->SetAttribute("pos",
+                       Numbers({place.x() - origin.x() + up.x(), place.y() - origin.y() + up.y(),
+                                GroundHeight(world, place) + up.z()})
+                           .c_str());
     geom->SetAttribute("quat", Numbers({turn.w(), turn.x(), turn.y(), turn.z()}).c_str());
     geom->SetAttribute("size",
                        Numbers({0.5 * box.length, 0.5 * box.width, 0.5 * obstacle.height}).c_str());
@@ -195,6 +249,7 @@ Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const 
     geom->SetAttribute("group", 0);
     geom->SetAttribute("rgba", "0.78 0.15 0.20 1");
   }
+  ExtendKeyframes(root, 2 * moving);
   Scene scene = car_scene;
   scene.xml = Print(document);
   scene.lines.clear();

@@ -1,6 +1,7 @@
 #include "trackbed/world/world.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace trackbed {
 
@@ -29,22 +30,29 @@ OrientedBox OutlineAt(const VehicleParams& vehicle, const Pose2& pose) {
   return {{middle.x(), middle.y(), pose.yaw}, vehicle.length, vehicle.width};
 }
 
+OrientedBox FootprintAt(const Obstacle& obstacle, double time) {
+  OrientedBox footprint = obstacle.footprint;
+  footprint.centre.x += obstacle.velocity.x() * time;
+  footprint.centre.y += obstacle.velocity.y() * time;
+  return footprint;
+}
+
 bool IsKnown(const Obstacle& obstacle, double time, const OrientedBox& outline) {
   if (obstacle.known_from_range) {
-    return Distance(outline, obstacle.footprint) <= *obstacle.known_from_range;
+    return Distance(outline, FootprintAt(obstacle, time)) <= *obstacle.known_from_range;
   }
   return time >= obstacle.known_from_time.value_or(0.0);
 }
 
-std::optional<double> Clearance(const World& world, const VehicleParams& vehicle,
-                                const Pose2& pose) {
+std::optional<double> Clearance(const World& world, const VehicleParams& vehicle, const Pose2& pose,
+                                double time) {
   if (world.obstacles.empty()) {
     return std::nullopt;
   }
   const OrientedBox outline = OutlineAt(vehicle, pose);
-  double nearest = Distance(outline, world.obstacles.front().footprint);
+  double nearest = std::numeric_limits<double>::infinity();
   for (const Obstacle& obstacle : world.obstacles) {
-    nearest = std::min(nearest, Distance(outline, obstacle.footprint));
+    nearest = std::min(nearest, Distance(outline, FootprintAt(obstacle, time)));
   }
   return nearest;
 }

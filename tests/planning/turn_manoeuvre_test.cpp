@@ -828,7 +828,7 @@ TEST(DriveManoeuvre, ClearanceIsThatOfTheCarOnItsRearAxle) {
   const ManoeuvreDrive drive = DriveManoeuvre(manoeuvre, layout, SeedCar(), curve);
   double smallest = std::numeric_limits<double>::infinity();
   for (const ManoeuvreSample& sample : drive.samples) {
-    smallest = std::min(smallest, Clearance(world, SeedCar(), sample.pose).value());
+    smallest = std::min(smallest, Clearance(world, SeedCar(), sample.pose, 0.0).value());
   }
   EXPECT_EQ(drive.clearance, smallest);
   // A car as long behind its rear axle as before it has the outline of the listing.

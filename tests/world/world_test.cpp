@@ -22,15 +22,39 @@ TEST(OutlineAt, ReachesFromTheRearBumperToTheFront) {
 TEST(Clearance, IsMeasuredFromTheOutlineToTheNearestObstacle) {
   const VehicleParams car = SeedCar();
   World world;
-  EXPECT_FALSE(Clearance(world, car, {}).has_value());
+  EXPECT_FALSE(Clearance(world, car, {}, 0.0).has_value());
   world.obstacles.push_back({{{30.0, 0.0, 0.0}, 2.0, 2.0}, 1.0});
   world.obstacles.push_back({{{0.0, 4.0, 0.0}, 2.0, 2.0}, 1.0});
   // To the left: 4 - 1 - half the width.
-  EXPECT_NEAR(*Clearance(world, car, {}), 3.0 - 0.8625, Tolerance(1e-12));
+  EXPECT_NEAR(*Clearance(world, car, {}, 0.0), 3.0 - 0.8625, Tolerance(1e-12));
   // Turned to face the second one, 2.7 m in front of its near side.
-  EXPECT_NEAR(*Clearance(world, car, {0.0, -3.325, std::acos(-1.0) / 2.0}),
+  EXPECT_NEAR(*Clearance(world, car, {0.0, -3.325, std::acos(-1.0) / 2.0}, 0.0),
               3.0 + 3.325 - (4.45 - car.rear_overhang), Tolerance(1e-12));
-  EXPECT_EQ(*Clearance(world, car, {28.0, 0.0, 0.0}), 0.0);
+  EXPECT_EQ(*Clearance(world, car, {28.0, 0.0, 0.0}, 0.0), 0.0);
+}
+
+TEST(Obstacles, MoveOnWithoutTurning) {
+  const VehicleParams car = SeedCar();
+  World world;
+  world.obstacles.push_back({.footprint = {{30.0, 2.0, 0.5}, 4.0, 2.0}, .velocity = {-3.0, 0.5}});
+  const OrientedBox later = FootprintAt(world.obstacles[0], 4.0);
+  EXPECT_EQ(later.centre.x, 18.0);
+  EXPECT_EQ(later.centre.y, 4.0);
+  EXPECT_EQ(later.centre.yaw, 0.5);
+  EXPECT_EQ(*Clearance(world, car, {}, 4.0), Distance(OutlineAt(car, {}), later));
+  EXPECT_EQ(*Clearance(world, car, {}, 0.0),
+            Distance(OutlineAt(car, {}), world.obstacles[0].footprint));
+}
+
+TEST(Obstacles, AreSeenWhereTheyAreByThen) {
+  const VehicleParams car = SeedCar();
+  const Obstacle obstacle{
+      .footprint = {{40.0, 0.0, 0.0}, 4.0, 2.0}, .known_from_range = 10.0, .velocity = {-5.0, 0.0}};
+  // From the front bumper to its near side: 38 - front - 5 t.
+  const double front = car.length - car.rear_overhang;
+  const double seen = (38.0 - front - 10.0) / 5.0;
+  EXPECT_FALSE(IsKnown(obstacle, seen - 1e-6, OutlineAt(car, {})));
+  EXPECT_TRUE(IsKnown(obstacle, seen + 1e-6, OutlineAt(car, {})));
 }
 
 }  // namespace

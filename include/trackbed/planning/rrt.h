@@ -25,7 +25,7 @@ struct RrtOptions {
   int iterations = 5000;         ///< samples drawn at most, >= 0
   double expand_distance = 2.0;  ///< from the nearest node toward a sample at most; and how near
                                  ///< the goal is tried from [m], > 0
-  double goal_bias = 0.05;  ///< share of samples at the goal, 0 to 1; the seed has none
+  double goal_bias = 0.05;       ///< share of samples at the goal, 0 to 1; the seed has none
   /// Asked before every iteration (may be empty): true ends the search, such as at a time limit.
   /// Planners read no clock themselves.
   std::function<bool()> stop;

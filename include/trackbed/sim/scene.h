@@ -55,7 +55,8 @@ Scene ComposeScene(const std::filesystem::path& car_file, const SceneOptions& op
 /// the car's own ground. Flat ground leaves the scene as it is.
 Scene WithGround(const Scene& car_scene, const Ground& ground);
 
-/// Adds the world's obstacles as bodies that cannot be moved, `obstacle_0`, `obstacle_1`, …, and to
+/// Adds the world's obstacles, `obstacle_0`, `obstacle_1`, …, as boxes that cannot be moved, or
+/// that slide by the joints `obstacle_0_x` and `obstacle_0_y` where they have a velocity, and to
 /// the car a shell that only they can touch: a box geom `shell` in its body `chassis`, the outline
 /// from a hand's breadth above the ground to the roof. They stand
 /// on the world's ground. Without obstacles the scene stays as it is.

@@ -10,13 +10,16 @@
 
 namespace trackbed {
 
-/// A box that stands on the ground.
+/// A box that stands on the ground, or moves along it without turning.
 struct Obstacle {
-  OrientedBox footprint;
-  double height = 1.0;  ///< [m], > 0
+  OrientedBox footprint;  ///< at time 0
+  double height = 1.0;    ///< [m], > 0
   /// When planners learn of it; it stands there before, too. Neither: they know from the start.
   std::optional<double> known_from_time;   ///< [s]
   std::optional<double> known_from_range;  ///< once the car's outline is this close [m]
+  Vec2 velocity = Vec2::Zero();            ///< in the world, always the same [m/s]
+
+  [[nodiscard]] bool moves() const { return velocity != Vec2::Zero(); }
 };
 
 /// What a car drives in.
@@ -40,12 +43,16 @@ Vec2 WindAt(const World& world, const Vec2& point_W, double time);
 /// The car's outline on the ground when its rear-axle centre is at `pose`.
 OrientedBox OutlineAt(const VehicleParams& vehicle, const Pose2& pose);
 
+/// Where an obstacle is at `time` [s].
+OrientedBox FootprintAt(const Obstacle& obstacle, double time);
+
 /// Whether planners that have not known of the obstacle yet learn of it now.
 bool IsKnown(const Obstacle& obstacle, double time, const OrientedBox& outline);
 
-/// Shortest distance from the car's outline to any obstacle [m]; 0 when they touch or overlap,
-/// which is what counts as a collision on every plant. None without obstacles. Cost O(obstacles).
-std::optional<double> Clearance(const World& world, const VehicleParams& vehicle,
-                                const Pose2& pose);
+/// Shortest distance from the car's outline to any obstacle, where that is at `time` [m]; 0 when
+/// they touch or overlap, which is what counts as a collision on every plant. None without
+/// obstacles. Cost O(obstacles).
+std::optional<double> Clearance(const World& world, const VehicleParams& vehicle, const Pose2& pose,
+                                double time);
 
 }  // namespace trackbed
