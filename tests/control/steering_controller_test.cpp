@@ -13,6 +13,7 @@
 #include "tests/geometry/random.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/wheel_pair.h"
 #include "trackbed/core/angle.h"
 
 namespace trackbed {
@@ -326,6 +327,31 @@ TEST(Controllers, OpenLoopsReadTheOdometer) {
   EXPECT_TRUE(ControllerFor(ScheduleOptions{}).needs_plan);
   EXPECT_TRUE(ControllerFor(PreviewOptions{}).needs_plan);
   EXPECT_FALSE(ControllerFor(ConstantSteeringOptions{}).needs_plan);
+}
+
+// --- Differential drive --------------------------------------------------------------------------
+
+TEST(Preview, WithDifferentialDriveCommandsADifferenceOfWheelSpeedsInProportionToTheAngle) {
+  // omega_R - omega_L = (2 b v/(R r_w)) sin(u): for the small angles of driving, K u.
+  const VehicleParams pair = WheelPair();
+  const Path path = Straight();
+  const Reference reference{path, StopAtEnd(path.length(), 3.0, {3.0, 1.0, 1.5})};
+  for (const double heading : {-0.4, -0.02, 0.0, 0.1, 0.7}) {
+    VehicleState state;
+    state.pose = {10.0, 0.0, heading};
+    state.speed = 1.5;
+    const double steering = MakeSteeringController(PreviewOptions{.distance = 2.0})
+                                ->Steer({.vehicle = pair,
+                                         .reference = reference,
+                                         .schedule = {},
+                                         .state = state,
+                                         .station = 10.0,
+                                         .period = 0.02});
+    const AxleSpeeds wheels = AxleSpeedsFor(pair, state.speed, steering);
+    const double u = -heading;
+    EXPECT_NEAR((wheels.right - wheels.left) / pair.wheel_radius,
+                2.0 * 0.6 * 1.5 / (2.0 * 0.165) * std::sin(u), Tolerance(100.0 * kFound));
+  }
 }
 
 }  // namespace
