@@ -1,0 +1,70 @@
+#pragma once
+
+#include <optional>
+
+#include "trackbed/path/path.h"
+
+/// The frame that moves along a path (Frenet's): where a car is and how it moves, seen from the
+/// path, and back.
+///
+/// Symbols: r(s), theta_r, kappa_r, kappa_r' point, yaw, curvature and sharpness of the path at
+/// station s; n its left normal; d = (x - r(s)) n lateral offset [m], positive to the left;
+/// d' = dd/ds and d'' = d^2d/ds^2; s_t, s_tt derivatives of s by time; Dtheta = theta - theta_r;
+/// v, a, kappa speed, acceleration and curvature of the car's own way.
+///   x = r + d n                            d' = (1 - kappa_r d) tan Dtheta
+///   v = s_t (1 - kappa_r d)/cos Dtheta
+///   d'' = -(kappa_r' d + kappa_r d') tan Dtheta
+///         + (1 - kappa_r d)/cos^2 Dtheta (kappa (1 - kappa_r d)/cos Dtheta - kappa_r)
+///   a = s_tt (1 - kappa_r d)/cos Dtheta + s_t^2/cos Dtheta
+///       [(1 - kappa_r d) tan Dtheta (kappa (1 - kappa_r d)/cos Dtheta - kappa_r)
+///        - (kappa_r' d + kappa_r d')]
+/// (Werling, Ziegler, Kammel and Thrun 2010). In d(s) they hold at standstill too; by time,
+/// d_t = d' s_t and d_tt = d'' s_t^2 + d' s_tt.
+namespace trackbed {
+
+/// A car seen from a path.
+struct FrenetState {
+  double s = 0.0;               ///< [m]
+  double s_rate = 0.0;          ///< s_t [m/s]
+  double s_acceleration = 0.0;  ///< s_tt [m/s^2]
+  double d = 0.0;               ///< [m], positive left of the path
+  double d_slope = 0.0;         ///< d'
+  double d_bend = 0.0;          ///< d'' [1/m]
+
+  /// d_t [m/s] and d_tt [m/s^2].
+  [[nodiscard]] double d_rate() const { return d_slope * s_rate; }
+  [[nodiscard]] double d_acceleration() const {
+    return d_bend * s_rate * s_rate + d_slope * s_acceleration;
+  }
+
+  bool operator==(const FrenetState&) const = default;
+};
+
+/// A car in the world: its rear-axle centre.
+struct MotionState {
+  Pose2 pose;
+  double curvature = 0.0;     ///< kappa, of its steering [1/m]
+  double speed = 0.0;         ///< v [m/s]
+  double acceleration = 0.0;  ///< a, along its heading [m/s^2]
+
+  bool operator==(const MotionState&) const = default;
+};
+
+/// The car seen from the nearest point of the path within the stations. None where there is no
+/// frame: the car is at or beyond the path's centre of curvature (1 - kappa_r d <= 0), looks across
+/// or back (|Dtheta| >= 90 degrees), or the path is driven backwards there. Cost: a projection.
+std::optional<FrenetState> ToFrenet(const Path& path, const MotionState& motion,
+                                    Stations within = {});
+
+/// The other way round: None where 1 - kappa_r d <= 0 or the path is driven backwards. The yaw goes
+/// on from the path's, not wrapped. Round trips are exact to 1e-9 where the path's curvature is
+/// continuous, some steps of rounding for lines and arcs.
+///
+/// Along a motion, what the path's curvature jumps by the heading does where d d' is not 0, and
+/// what its sharpness jumps by the curvature does: motions need a path of continuous curvature.
+std::optional<MotionState> FromFrenet(const Path& path, const FrenetState& state);
+
+/// The same with the path's point at `state.s` at hand.
+std::optional<MotionState> FromFrenet(const PathPoint& at, const FrenetState& state);
+
+}  // namespace trackbed
