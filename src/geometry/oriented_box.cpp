@@ -30,6 +30,13 @@ std::array<Vec2, 4> OrientedBox::Corners() const {
           ToWorld(centre, {x, -y})};
 }
 
+OrientedBox MovingBox::At(double time) const {
+  OrientedBox moved = box;
+  moved.centre.x += velocity.x() * time;
+  moved.centre.y += velocity.y() * time;
+  return moved;
+}
+
 bool Contains(const OrientedBox& box, const Vec2& point) {
   return SquareToPoint(HalfSizes(box), ToLocal(box.centre, point)) == 0.0;
 }

@@ -267,5 +267,14 @@ TEST(DistanceOfALine, IsZeroWithinAcrossAndAtTheTouch) {
   EXPECT_NEAR(Distance({1.0, 3.0}, {3.0, 1.0}, box), std::sqrt(0.5), Tolerance(kRounding));
 }
 
+TEST(MovingBox, GoesOnWithoutTurning) {
+  const MovingBox box{{{1.0, 2.0, 0.5}, 4.0, 2.0}, {3.0, -1.0}};
+  const OrientedBox later = box.At(2.0);
+  EXPECT_EQ(later.centre, (Pose2{7.0, 0.0, 0.5}));
+  EXPECT_EQ(later.length, 4.0);
+  EXPECT_EQ(later.width, 2.0);
+  EXPECT_EQ(box.At(0.0).centre, box.box.centre);
+}
+
 }  // namespace
 }  // namespace trackbed

@@ -16,6 +16,15 @@ struct OrientedBox {
   [[nodiscard]] std::array<Vec2, 4> Corners() const;
 };
 
+/// A rectangle that moves on as it does now, without turning.
+struct MovingBox {
+  OrientedBox box;          ///< at time 0
+  Vec2 velocity{0.0, 0.0};  ///< [m/s]
+
+  /// Where it is at a time [s].
+  [[nodiscard]] OrientedBox At(double time) const;
+};
+
 /// Whether a point lies within a rectangle or on its border.
 bool Contains(const OrientedBox& box, const Vec2& point);
 
