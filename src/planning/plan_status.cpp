@@ -22,6 +22,8 @@ const char* ToString(PlanStatus status) {
       return "search_failed";
     case PlanStatus::kSteersBeforeStart:
       return "steers_before_start";
+    case PlanStatus::kStartBlocked:
+      return "start_blocked";
   }
   return "";
 }

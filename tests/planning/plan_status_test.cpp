@@ -14,6 +14,7 @@ TEST(PlanStatus, HasTheSpellingsOfPlanJson) {
   EXPECT_STREQ(ToString(PlanStatus::kNoRoomForSteering), "no_room_for_steering");
   EXPECT_STREQ(ToString(PlanStatus::kTurnsOverlap), "turns_overlap");
   EXPECT_STREQ(ToString(PlanStatus::kSteersBeforeStart), "steers_before_start");
+  EXPECT_STREQ(ToString(PlanStatus::kStartBlocked), "start_blocked");
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ enum class PlanStatus {
   kTurnsOverlap,        ///< given radii need more of a leg than it has
   kSearchFailed,        ///< the search ended without a point that keeps the constraints
   kSteersBeforeStart,  ///< the wheels would have to start turning before the route begins (D_1 < 0)
+  kStartBlocked,       ///< the car stands in an obstacle, or where the planner has no frame
 };
 
 /// "ok", "too_few_waypoints", …: the spelling of plan.json.

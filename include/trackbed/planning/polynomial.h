@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace trackbed {
+
+/// x(t) = sum c_i t^i, of degree 5 at most.
+struct Polynomial {
+  std::array<double, 6> coefficients{};
+
+  /// d^order x/dt^order at t; order 0 to 5. Cost: five multiplications at most.
+  [[nodiscard]] double At(double t, std::size_t order = 0) const;
+  /// The integral of (d^order x/dt^order)^2 over [0, duration], in closed form.
+  [[nodiscard]] double IntegralOfSquare(std::size_t order, double duration) const;
+
+  bool operator==(const Polynomial&) const = default;
+};
+
+/// How something moves along a line at one moment.
+struct LineMotion {
+  double position = 0.0;
+  double velocity = 0.0;
+  double acceleration = 0.0;
+};
+
+/// From one motion to another within `duration` > 0: of all motions the one whose jerk has the
+/// least integral of its square.
+Polynomial QuinticBetween(const LineMotion& from, const LineMotion& to, double duration);
+
+/// The same where the end's position is free: that of `to` is not looked at.
+Polynomial QuarticBetween(const LineMotion& from, const LineMotion& to, double duration);
+
+}  // namespace trackbed
