@@ -31,10 +31,7 @@ OrientedBox OutlineAt(const VehicleParams& vehicle, const Pose2& pose) {
 }
 
 OrientedBox FootprintAt(const Obstacle& obstacle, double time) {
-  OrientedBox footprint = obstacle.footprint;
-  footprint.centre.x += obstacle.velocity.x() * time;
-  footprint.centre.y += obstacle.velocity.y() * time;
-  return footprint;
+  return MovingBox{obstacle.footprint, obstacle.velocity}.At(time);
 }
 
 bool IsKnown(const Obstacle& obstacle, double time, const OrientedBox& outline) {
