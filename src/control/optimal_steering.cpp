@@ -112,7 +112,9 @@ SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem
                              const DeviationWeights& weights, const SearchOptions& search) {
   // Solved as if the wanted pose lay to the left, so that a mirrored problem takes the same steps.
   const Pose2& wanted = problem.wanted;
-  const bool mirrored = wanted.y < 0.0 || (wanted.y == 0.0 && wanted.yaw < 0.0);
+  const bool ahead = wanted.y == 0.0 && wanted.yaw == 0.0;
+  const bool mirrored =
+      wanted.y < 0.0 || (wanted.y == 0.0 && wanted.yaw < 0.0) || (ahead && problem.steering < 0.0);
   const double side = mirrored ? -1.0 : 1.0;
   SteeringProblem own = problem;
   own.wanted = {wanted.x, side * wanted.y, side * wanted.yaw};

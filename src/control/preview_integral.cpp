@@ -52,10 +52,8 @@ class PreviewIntegral final : public SteeringController {
     const Path& path = input.reference.path;
     const int direction = path.At(input.station).direction;
     const double speed = std::abs(input.state.speed);
-    const Vec2 foot = path.At(input.station).pose.position();
-    const double offset = (input.state.pose.position() - foot).norm();
-    const double distance = std::max(
-        {options_.distance, options_.time * speed, ReturnDistance(vehicle, speed, offset)});
+    const double distance = std::max({options_.distance, options_.time * speed,
+                                      std::sqrt(OffsetGain()) * ReturnDistance(input)});
     const bool dynamic = direction > 0 && input.state.speed >= kSlowest && HasTyres(vehicle);
 
     using Gauss = boost::math::quadrature::gauss<double, 10>;
@@ -81,6 +79,13 @@ class PreviewIntegral final : public SteeringController {
   }
 
  private:
+  /// How much more than the single point at the same distance it steers for an offset: of the
+  /// kinematic car, R^2/2 times the integral of A W over that of A^2 W. An oscillation as calm as
+  /// that law's needs the distance to grow with its root.
+  [[nodiscard]] double OffsetGain() const {
+    return options_.weight == PreviewWeight::kNear ? 5.0 / 2.0 : 5.0 / 3.0;
+  }
+
   /// What was wanted the delay ago; where the wheels stood before anything was.
   double Delayed(double wanted, const ControlInput& input) {
     const double periods = options_.delay / input.period;

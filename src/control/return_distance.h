@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trackbed/vehicle/params.h"
+#include "trackbed/control/steering_controller.h"
 
 namespace trackbed {
 
@@ -21,6 +21,13 @@ inline double ReturnDistance(const VehicleParams& vehicle, double speed, double 
   const double curvature_rate =
       vehicle.steering_rate / (vehicle.wheelbase * std::max(std::abs(speed), kCrawl));
   return kShare * std::cbrt(std::abs(offset) / curvature_rate);
+}
+
+/// Of the car where it is now.
+inline double ReturnDistance(const ControlInput& input) {
+  const Vec2 foot = input.reference.path.At(input.station).pose.position();
+  const double offset = (input.state.pose.position() - foot).norm();
+  return ReturnDistance(input.vehicle, input.state.speed, offset);
 }
 
 }  // namespace trackbed

@@ -33,18 +33,16 @@ class PreviewController final : public SteeringController {
   explicit PreviewController(const PreviewOptions& options) : options_(options) {}
 
   double Steer(const ControlInput& input) override {
-    const Vec2 foot = input.reference.path.At(input.station).pose.position();
-    const double offset = (input.state.pose.position() - foot).norm();
-    const double distance =
-        std::max({options_.distance, options_.time * std::abs(input.state.speed),
-                  ReturnDistance(input.vehicle, input.state.speed, offset)});
+    const double distance = std::max(
+        {options_.distance, options_.time * std::abs(input.state.speed), ReturnDistance(input)});
     const int direction = input.reference.path.At(input.station).direction;
     const double u = PreviewAngle(input.reference.path, input.state.pose, input.station, distance) -
                      (options_.slip ? RearSlip(input) : 0.0);
     // Backwards, wheels to the right turn the motion to the left.
     const double bend =
         direction * 2.0 / distance * (options_.law == PreviewLaw::kLinear ? u : std::sin(u));
-    return SteeringOn(input, bend, direction);
+    return std::clamp(SteeringOn(input, bend, direction), -input.vehicle.steering_limit,
+                      input.vehicle.steering_limit);
   }
 
  private:
@@ -144,23 +142,12 @@ class Guarded final : public SteeringController {
   explicit Guarded(std::unique_ptr<SteeringController> inner) : inner_(std::move(inner)) {}
 
   double Steer(const ControlInput& input) override {
-    const VehicleState& state = input.state;
-    for (const double number :
-         {state.time, state.pose.x, state.pose.y, state.pose.yaw, state.speed, state.distance,
-          state.lateral_speed, state.yaw_rate, state.steering_actuator, state.steering,
-          input.station, input.period}) {
-      TRACKBED_CHECK(
-          std::isfinite(number),
-          "the car's state at {} s is not finite: x {}, y {}, yaw {}, speed {}, distance "
-          "{}, lateral speed {}, yaw rate {}, steering {} and {}, station {}",
-          state.time, state.pose.x, state.pose.y, state.pose.yaw, state.speed, state.distance,
-          state.lateral_speed, state.yaw_rate, state.steering_actuator, state.steering,
-          input.station);
-    }
+    Check(input);
     return inner_->Steer(input);
   }
 
   std::optional<double> Accelerate(const ControlInput& input) override {
+    Check(input);
     return inner_->Accelerate(input);
   }
 
@@ -169,6 +156,24 @@ class Guarded final : public SteeringController {
   [[nodiscard]] std::vector<double> Values() const override { return inner_->Values(); }
 
  private:
+  static void Check(const ControlInput& input) {
+    const VehicleState& state = input.state;
+    for (const double number :
+         {state.time, state.pose.x, state.pose.y, state.pose.yaw, state.speed, state.distance,
+          state.lateral_speed, state.yaw_rate, state.steering_actuator, state.steering,
+          input.station, input.plan_time, input.speed_gain}) {
+      TRACKBED_CHECK(
+          std::isfinite(number),
+          "the car's state at {} s is not finite: x {}, y {}, yaw {}, speed {}, distance "
+          "{}, lateral speed {}, yaw rate {}, steering {} and {}, station {}",
+          state.time, state.pose.x, state.pose.y, state.pose.yaw, state.speed, state.distance,
+          state.lateral_speed, state.yaw_rate, state.steering_actuator, state.steering,
+          input.station);
+    }
+    TRACKBED_CHECK(input.period > 0.0 && std::isfinite(input.period), "a control period of {} s",
+                   input.period);
+  }
+
   std::unique_ptr<SteeringController> inner_;
 };
 

@@ -234,6 +234,9 @@ TEST_P(EverySearch, SolvesTheMirroredProblemExactlyAlike) {
   for (int i = 0; i < 50; ++i) {
     SteeringProblem problem = Problem(car, random.Uniform(-0.4, 0.4), 0.0, 3.0);
     problem.wanted = {3.0, random.Uniform(-0.5, 0.5), random.Uniform(-0.4, 0.4)};
+    if (i % 5 == 0) {
+      problem.wanted = {3.0, 0.0, i % 2 == 0 ? 0.0 : problem.wanted.yaw};  // dead ahead
+    }
     SteeringProblem mirrored = problem;
     mirrored.wanted.y = -problem.wanted.y;
     mirrored.wanted.yaw = -problem.wanted.yaw;

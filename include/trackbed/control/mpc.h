@@ -20,10 +20,10 @@ class SteeringController;
 ///
 /// Guarantees: the wanted angle is within the limit, and within what the actuator reaches in the
 /// period from the angle asked for last (as in LqrOptions). Where no limit is active it is the LQR
-/// with the same step and a preview of N steps. Far beside its path it is as calm as the LQR. Does
-/// not foresee that the speed will change, nor that tyres saturate. Reverse paths are the same
-/// model with u < 0. Cost: about 80 us with 20 steps, twice that where a limit is active; heap
-/// memory only NLopt's, and only there.
+/// with the same step and a preview of N steps. Far beside its path it is as calm as the LQR, and
+/// takes as much longer. Does not foresee that the speed will change, nor that tyres saturate.
+/// Reverse paths are the same model with u < 0. Cost: about 80 us with 20 steps, twice that where a
+/// limit is active; heap memory only NLopt's, and only there.
 struct MpcOptions {
   static constexpr int kLongestHorizon = 40;
 

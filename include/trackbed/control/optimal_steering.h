@@ -91,10 +91,10 @@ struct SteeringProblem {
 Deviation DeviationAhead(const VehicleParams& vehicle, const SteeringProblem& problem,
                          double steering);
 
-/// What the search varies: the share u of the heading that the wheels can add on the way, turning
+/// What the search varies: the share q of the heading that the wheels can add on the way, turning
 /// at their full rate from where they are (+-1). With R the angle they can turn by,
-///   delta = delta_now +- R (1 - sqrt(1 - abs(u))).
-/// The pose reached is nearly linear in u; in delta it is not, since an angle that is reached late
+///   delta = delta_now +- R (1 - sqrt(1 - abs(q))).
+/// The pose reached is nearly linear in q; in delta it is not, since an angle that is reached late
 /// counts for next to nothing, and searches would get stuck on that plateau.
 double SteeringOfShare(const VehicleParams& vehicle, const SteeringProblem& problem, double share);
 /// The inverse, +-1 for angles out of reach.

@@ -36,8 +36,8 @@ struct ControlInput {
 };
 
 /// Gives the wanted bicycle angle [rad] at the end of the coming period; the vehicle's actuator
-/// limits angle and rate. A controller does no input or output, reads no clock, and draws no random
-/// numbers.
+/// limits angle and rate. A controller does no input or output, reads no clock, and draws random
+/// numbers from a fixed seed alone.
 class SteeringController {
  public:
   virtual ~SteeringController() = default;
