@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "src/planning/frenet_pieces.h"
 #include "src/planning/trajectory_check.h"
@@ -36,6 +37,16 @@ std::vector<FrenetPiece> AlongPath(const FrenetRequest& request, const FrenetOpt
     }
   }
   return pieces;
+}
+
+/// What goes on from the end of a piece up to the horizon; none when it lasts as long.
+std::optional<FrenetPiece> GoingOn(const FrenetPiece& piece, double horizon) {
+  if (!(horizon > piece.duration)) {
+    return std::nullopt;
+  }
+  const FrenetState end = piece.At(piece.duration);
+  return FrenetPiece{horizon - piece.duration, Polynomial{{end.s, std::max(end.s_rate, 0.0)}},
+                     Polynomial{{end.d}}, true};
 }
 
 bool IsOverStation(const FrenetPiece& piece, const FrenetOptions& options) {
@@ -198,7 +209,9 @@ FrenetPlan PlanFrenet(const Path& reference, const FrenetRequest& request,
   plan.candidates = static_cast<int>(candidates.size());
   double to = request.start.s;
   for (const FrenetCandidate& candidate : candidates) {
-    to = std::max(to, candidate.piece.s.At(candidate.piece.duration));
+    const double end = candidate.piece.s.At(candidate.piece.duration);
+    const double rate = candidate.piece.s.At(candidate.piece.duration, 1);
+    to = std::max(to, end + rate * std::max(options.horizon - candidate.piece.duration, 0.0));
   }
   const TrajectoryCheck check(reference, request, options.limits, to);
   if (check.blocked()) {
@@ -213,6 +226,11 @@ FrenetPlan PlanFrenet(const Path& reference, const FrenetRequest& request,
     ++plan.checked;
     if (const auto rejection = check.Coarse(candidate.piece, 0.0)) {
       plan.rejected.Add(*rejection);
+      continue;
+    }
+    const auto later = GoingOn(candidate.piece, options.horizon);
+    if (later && check.Coarse(*later, candidate.piece.duration) == Rejection::kCollision) {
+      plan.rejected.Add(Rejection::kCollision);
       continue;
     }
     FrenetMotion motion{{candidate.piece}};

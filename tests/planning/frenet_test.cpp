@@ -239,6 +239,26 @@ TEST(Frenet, ForeseesWhereAMovingBoxWillBe) {
   ExpectDrivable(StraightRoad(), request, options.limits, plan);
 }
 
+TEST(Frenet, LooksBeyondTheEndOfItsMotion) {
+  // At 3 m/s 1.5 m aside take 5.4 s. The cheapest motion takes 2 s and ends 9 m before the box.
+  FrenetRequest request = OnPath(3.0);
+  request.obstacles = {BoxAt(StraightRoad(), 20.0, 0.8)};
+  FrenetOptions options;
+  options.horizon = 0.0;
+  const FrenetPlan blind = PlanFrenet(StraightRoad(), request, options);
+  ASSERT_TRUE(blind.ok());
+  EXPECT_EQ(blind.motion.duration(), 2.0);
+  EXPECT_EQ(blind.motion.At(2.0).d, 0.0);
+  options.horizon = 8.0;
+  const FrenetPlan plan = PlanFrenet(StraightRoad(), request, options);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_GT(plan.rejected.Of(Rejection::kCollision), 0);
+  // It is clear of the box wherever it has got to after 8 s, going on as its motion ends.
+  const FrenetState end = plan.motion.At(plan.motion.duration());
+  const double later = end.s + end.s_rate * (8.0 - plan.motion.duration());
+  EXPECT_TRUE(end.d < -1.3 || later + 3.625 < 20.0 - 1.0 - 0.5) << end.d << ", " << later;
+}
+
 TEST(Frenet, KeepsItsDistanceFromALeader) {
   FrenetRequest request = OnPath(3.0);
   const FollowLeader leader{13.0, 2.0, 4.0, 1.5};

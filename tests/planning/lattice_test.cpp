@@ -57,6 +57,7 @@ TEST(Lattice, OfOneLayerIsFrenet) {
       frenet.end_offsets = lattice.end_offsets;
       frenet.speed_factors = {factor};
       frenet.lateral = LateralMotion::kOverStation;
+      frenet.horizon = 0.0;
       frenet.end_times = {2.0 * 35.0 / ((1.0 + factor) * request.start.s_rate)};
       const FrenetPlan single = PlanFrenet(path, request, frenet);
       candidates += single.candidates;

@@ -109,7 +109,10 @@ struct FrenetOptions {
   std::vector<double> station_offsets{0.0, -0.5, -1.0, -2.0, -4.0};  ///< s(T) - S_1 [m]
   LateralMotion lateral = LateralMotion::kAuto;
   double low_speed = 2.0;  ///< [m/s]
-  int budget = 10000;      ///< candidates checked at most, >= 0
+  /// Up to when a motion must stay clear if it goes on at its end's offset and speed [s]; else
+  /// short motions, which are cheap, lead up to obstacles until it is too late for long ones.
+  double horizon = 8.0;
+  int budget = 10000;  ///< candidates checked at most, >= 0
 };
 
 struct FrenetCost {
@@ -150,7 +153,7 @@ enum class Rejection {
   kSteeringRate,  ///< the steering would have to turn faster than it can
   kFrame,         ///< the path is bent too much, or driven backwards, for a frame there
   kRoad,          ///< the outline leaves the road
-  kCollision,     ///< the outline comes closer than the safe distance to an obstacle
+  kCollision,     ///< the outline comes closer than the safe distance to an obstacle, now or later
 };
 
 /// "speed", "acceleration", "curvature", "steering_rate", "frame", "road", "collision".
@@ -189,9 +192,10 @@ struct FrenetPlan {
 ///
 /// Guarantees: the points keep every limit; between them, `spacing` apart, the clearance can be
 /// less by half of what car and obstacle move towards each other from point to point. checked =
-/// passed + rejected.total(). Same input, same bytes. Does not look beyond the end of the motion.
-/// Errors: InternalError for options out of range or a start that is not finite. Cost: below 1 ms
-/// for 525 candidates and a few obstacles; it grows with the candidates that are rejected.
+/// passed + rejected.total(). Same input, same bytes. Beyond the end of the motion only collisions
+/// are looked for, every `time_step`, up to the horizon. Errors: InternalError for options out of
+/// range or a start that is not finite. Cost: below 1 ms for 525 candidates and a few obstacles; it
+/// grows with the candidates that are rejected.
 FrenetPlan PlanFrenet(const Path& reference, const FrenetRequest& request,
                       const FrenetOptions& options);
 
