@@ -162,6 +162,20 @@ TEST(Lattice, PlansOnlyWhatCanBeDriven) {
   EXPECT_GT(found, 10);
 }
 
+TEST(Lattice, LooksCloselyAtWhatItTakes) {
+  // A first check every 20 s sees nothing between the nodes.
+  FrenetRequest request = OnPath(3.0);
+  request.obstacles = SlalomBoxes(StraightRoad());
+  LatticeOptions options;
+  options.limits.safe_distance = 0.3;
+  options.limits.time_step = 20.0;
+  const FrenetPlan plan = PlanLattice(StraightRoad(), request, options);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_GT(plan.rejected.Of(Rejection::kCollision), 0);
+  EXPECT_EQ(plan.checked, plan.passed + plan.rejected.total());
+  ExpectDrivable(StraightRoad(), request, options.limits, plan);
+}
+
 TEST(Lattice, IsTheCheapestOfAllWays) {
   // Two layers, three offsets, one speed: every way by hand, each edge as a lattice of its own.
   const Path path = StraightRoad();
@@ -226,6 +240,25 @@ TEST(Lattice, FollowsItsLeader) {
   const FrenetTarget target = TargetAt(request.goal, request.vehicle, duration);
   // As near as three speeds let it: a layer takes 6 s at 2 m/s, a half step faster or slower 1.5 m.
   EXPECT_NEAR(end.s, target.station.value(), 2.0);
+}
+
+TEST(Lattice, MeasuresEachEdgeByWhereTheLeaderIsThen) {
+  FrenetRequest request = OnPath(3.0);
+  request.road = {4.0, 4.0};
+  request.goal = FollowLeader{13.0, 2.0, 4.0, 1.5};
+  request.obstacles = SlalomBoxes(StraightRoad());
+  LatticeOptions options = SlalomOptions();
+  options.speed_factors = {1.0, 1.25, 0.75};
+  const FrenetPlan plan = PlanLattice(StraightRoad(), request, options);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  ASSERT_GE(plan.motion.pieces.size(), 3U);
+  double cost = 0.0;
+  double time = 0.0;
+  for (const FrenetPiece& piece : plan.motion.pieces) {
+    time += piece.duration;
+    cost += CostOf(piece, TargetAt(request.goal, request.vehicle, time), options.weights).total;
+  }
+  EXPECT_NEAR(plan.cost, cost, Tolerance(1e-9));
 }
 
 TEST(Lattice, IsCalledAgainFromWhereItsMotionIs) {
