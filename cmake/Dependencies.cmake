@@ -25,8 +25,13 @@ if(TRACKBED_VIDEO)
   add_library(ffmpeg::ffmpeg ALIAS PkgConfig::ffmpeg)
 endif()
 
+# A peer: benchmarks need it, tests compare with it where it is.
 if(TRACKBED_BENCH)
   find_package(ompl REQUIRED CONFIG PATHS /usr/share/ompl/cmake)
+elseif(TRACKBED_BUILD_TESTS)
+  find_package(ompl QUIET CONFIG PATHS /usr/share/ompl/cmake)
+endif()
+if(ompl_FOUND)
   # Debian's 1.5.2 also lists what it only needs to be built itself.
   list(GET OMPL_LIBRARIES 0 ompl_library)
   add_library(ompl::ompl INTERFACE IMPORTED)
