@@ -195,15 +195,31 @@ std::vector<PathPoint> Path::Sample(double spacing) const {
 std::vector<Segment> Path::Cut(Stations within) const {
   std::vector<Segment> pieces;
   for (std::size_t i = 0; i < segments_.size(); ++i) {
-    const double from = std::max(within.from - stations_[i], 0.0);
-    const double to = std::min(within.to - stations_[i], segments_[i].length);
+    const Segment& whole = segments_[i];
+    // A stretch that begins or ends at a joint holds nothing of what lies beyond it, also when the
+    // joint's station is rounded.
+    const double end = stations_[i + 1];
+    const double from =
+        within.from >= end ? whole.length : std::max(within.from - stations_[i], 0.0);
+    const double to = within.to >= end ? whole.length : within.to - stations_[i];
     if (to > from) {
-      const Segment& whole = segments_[i];
       pieces.push_back({to - from, whole.CurvatureAt(from), whole.direction,
                         whole.sharpness + from * whole.sharpness_rate, whole.sharpness_rate});
     }
   }
   return pieces;
+}
+
+std::vector<Stations> LegsOf(const Path& path) {
+  std::vector<Stations> legs{{0.0, 0.0}};
+  const std::vector<Segment>& segments = path.segments();
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (i > 0 && segments[i].direction != segments[i - 1].direction) {
+      legs.push_back({legs.back().to, legs.back().to});
+    }
+    legs.back().to += segments[i].length;
+  }
+  return legs;
 }
 
 std::vector<Segment> SegmentsThrough(const std::vector<CurvePoint>& points) {

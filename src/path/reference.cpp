@@ -187,4 +187,46 @@ SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& lim
   return SpeedProfile(std::move(knots));
 }
 
+SpeedProfile StopAtCusps(const Path& path, double start_speed, const SpeedLimits& limits,
+                         const std::vector<SpeedCap>& caps) {
+  std::vector<SpeedProfile::Knot> knots;
+  for (const Stations& leg : LegsOf(path)) {
+    if (!knots.empty() && leg.to - leg.from < kNegligible) {
+      continue;
+    }
+    std::vector<SpeedCap> own;
+    for (const SpeedCap& cap : caps) {
+      own.push_back({cap.from - leg.from, cap.to - leg.from, cap.speed});
+    }
+    const bool first = knots.empty();
+    const SpeedProfile profile =
+        StopAtEnd(leg.to - leg.from, first ? start_speed : 0.0, limits, own);
+    for (const SpeedProfile::Knot& knot : profile.knots()) {
+      if (first || knot.s > 0.0) {
+        knots.push_back({leg.from + knot.s, knot.speed});
+      }
+    }
+    knots.back().s = leg.to;
+  }
+  return SpeedProfile(std::move(knots));
+}
+
+SpeedProfile Excerpt(const SpeedProfile& profile, Stations within) {
+  std::vector<SpeedProfile::Knot> knots{{0.0, profile.SpeedAt(within.from)}};
+  for (const SpeedProfile::Knot& knot : profile.knots()) {
+    if (knot.s > within.from && knot.s < within.to) {
+      knots.push_back({knot.s - within.from, knot.speed});
+    }
+  }
+  if (within.to > within.from) {
+    knots.push_back({within.to - within.from, profile.SpeedAt(within.to)});
+  }
+  return SpeedProfile(std::move(knots));
+}
+
+Reference Excerpt(const Reference& reference, Stations within) {
+  return {Path(reference.path.At(within.from).pose, reference.path.Cut(within)),
+          Excerpt(reference.speed, within)};
+}
+
 }  // namespace trackbed

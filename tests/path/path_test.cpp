@@ -631,5 +631,21 @@ TEST(SegmentsThrough, NeedRisingDistances) {
   EXPECT_THROW(SegmentsThrough({{1.0, 0.0, 0.0}, {0.5, 0.0, 0.0}}), InternalError);
 }
 
+TEST(LegsOf, EndWhereTheDirectionChanges) {
+  const Path path({}, {{.length = 3.0},
+                       {.length = 2.0, .curvature = 0.1},
+                       {.length = 4.0, .curvature = 0.1, .direction = -1},
+                       {.length = 1.0}});
+  const std::vector<Stations> legs = LegsOf(path);
+  ASSERT_EQ(legs.size(), 3U);
+  EXPECT_EQ(legs[0].from, 0.0);
+  EXPECT_EQ(legs[0].to, 5.0);
+  EXPECT_EQ(legs[1].from, 5.0);
+  EXPECT_EQ(legs[1].to, 9.0);
+  EXPECT_EQ(legs[2].to, path.length());
+  EXPECT_EQ(LegsOf(Path()).size(), 1U);
+  EXPECT_EQ(LegsOf(Path()).front().to, 0.0);
+}
+
 }  // namespace
 }  // namespace trackbed

@@ -234,5 +234,76 @@ TEST(StopAtEnd, KeepsItsLimitsOnRandomMissions) {
   }
 }
 
+Path ThereAndBack() {
+  return Path(
+      {}, {{.length = 20.0}, {.length = 8.0, .curvature = 0.1, .direction = -1}, {.length = 12.0}});
+}
+
+TEST(StopAtCusps, StopsAtEveryChangeOfDirection) {
+  const SpeedLimits limits{.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
+  const SpeedProfile profile =
+      StopAtCusps(ThereAndBack(), 1.0, limits, {{10.0, 22.0, 2.0}, {25.0, 30.0, 1.0}});
+  EXPECT_EQ(profile.SpeedAt(0.0), 1.0);
+  for (const double s : {20.0, 28.0, 40.0}) {
+    EXPECT_EQ(profile.SpeedAt(s), 0.0) << s;
+  }
+  EXPECT_NEAR(profile.SpeedAt(15.0), 2.0, Tolerance(1e-12));
+  EXPECT_NEAR(profile.SpeedAt(26.0), 1.0, Tolerance(1e-12));
+  for (double s = 0.0; s < 40.0; s += 0.1) {
+    EXPECT_LE(profile.AccelerationAt(s), 1.0 + Tolerance(1e-9));
+    EXPECT_GE(profile.AccelerationAt(s), -1.5 - Tolerance(1e-9));
+  }
+  EXPECT_TRUE(std::isfinite(profile.TimeAt(40.0)));
+}
+
+TEST(Excerpt, HoldsNothingOfTheLegBefore) {
+  // Stations that do not add up exactly, as 0.1 and its multiples do not.
+  const SpeedLimits limits{.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
+  std::vector<Segment> segments;
+  for (int i = 0; i < 40; ++i) {
+    segments.push_back(
+        {.length = 0.1 + 0.37 * i, .curvature = 0.01 * i, .direction = i % 4 < 2 ? 1 : -1});
+  }
+  const Path path({}, segments);
+  const Reference whole{path, StopAtCusps(path, 0.0, limits)};
+  int direction = 1;
+  for (const Stations& leg : LegsOf(path)) {
+    const std::vector<Segment> own = Excerpt(whole, leg).path.segments();
+    ASSERT_EQ(own.size(), 2U);
+    EXPECT_EQ(own[0].direction, direction);
+    EXPECT_EQ(own[1].direction, direction);
+    direction = -direction;
+  }
+}
+
+TEST(StopAtCusps, IsStopAtEndWithoutCusps) {
+  const SpeedLimits limits{.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
+  const SpeedProfile a = StopAtCusps(Path({}, {{.length = 30.0}}), 1.0, limits);
+  const SpeedProfile b = StopAtEnd(30.0, 1.0, limits);
+  ASSERT_EQ(a.knots().size(), b.knots().size());
+  for (std::size_t i = 0; i < a.knots().size(); ++i) {
+    EXPECT_EQ(a.knots()[i].s, b.knots()[i].s);
+    EXPECT_EQ(a.knots()[i].speed, b.knots()[i].speed);
+  }
+}
+
+TEST(Excerpt, IsTheReferenceOfALeg) {
+  const SpeedLimits limits{.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
+  const Reference whole{ThereAndBack(), StopAtCusps(ThereAndBack(), 1.0, limits)};
+  for (const Stations& leg : LegsOf(whole.path)) {
+    const Reference own = Excerpt(whole, leg);
+    EXPECT_NEAR(own.path.length(), leg.to - leg.from, Tolerance(1e-12));
+    EXPECT_EQ(own.speed.knots().front().s, 0.0);
+    EXPECT_EQ(own.speed.knots().back().speed, 0.0);
+    for (double s = 0.0; s < own.path.length(); s += 0.7) {
+      EXPECT_NEAR(own.speed.SpeedAt(s), whole.speed.SpeedAt(leg.from + s), Tolerance(1e-9));
+      EXPECT_NEAR(
+          (own.path.At(s).pose.position() - whole.path.At(leg.from + s).pose.position()).norm(),
+          0.0, Tolerance(1e-12));
+      EXPECT_EQ(own.path.At(s).direction, whole.path.At(leg.from + s).direction);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace trackbed

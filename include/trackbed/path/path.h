@@ -103,6 +103,10 @@ class Path {
   double length_ = 0.0;
 };
 
+/// The stretches of a path that are driven in one direction each, one after the other; between them
+/// are its cusps, where a car stops and changes gear. One of no length for a path of no length.
+std::vector<Stations> LegsOf(const Path& path);
+
 /// A point that a curve passes through.
 struct CurvePoint {
   double s = 0.0;          ///< distance along the curve [m]

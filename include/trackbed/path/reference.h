@@ -59,10 +59,21 @@ struct SpeedCap {
 SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& limits,
                        const std::vector<SpeedCap>& caps = {});
 
+/// The same for a path that may have cusps: stops at each of them, too.
+SpeedProfile StopAtCusps(const Path& path, double start_speed, const SpeedLimits& limits,
+                         const std::vector<SpeedCap>& caps = {});
+
 /// What a controller follows: where, and how fast.
 struct Reference {
   Path path;
   SpeedProfile speed;
 };
+
+/// The speeds between two stations, which then count from the first of them; the knots in between
+/// stay what they are.
+SpeedProfile Excerpt(const SpeedProfile& profile, Stations within);
+
+/// A stretch of a path and its speeds, likewise.
+Reference Excerpt(const Reference& reference, Stations within);
 
 }  // namespace trackbed
