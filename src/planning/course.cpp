@@ -33,6 +33,14 @@ double SharpestCurvature(const Segment& segment) {
 
 SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<Segment>& segments,
                                 double speed) {
+  return CourseSchedule(vehicle, segments, SpeedProfile({{0.0, speed}}));
+}
+
+SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<Segment>& segments,
+                                const SpeedProfile& profile) {
+  // Where the car stands the wheels have to turn on the spot; a schedule over the distance needs
+  // some for that [m].
+  constexpr double kLeast = 1e-3;
   constexpr double kSpacing = 0.5;  // [m]; atan bends by less than 1e-5 rad within
   const auto steering = [&](double curvature) { return SteeringForCurvature(vehicle, curvature); };
   std::vector<SteeringSchedule::Knot> knots;
@@ -45,8 +53,10 @@ SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<
       const Segment& next = segments[i + 1];
       const double step =
           std::abs(steering(next.curvature) - steering(segment.CurvatureAt(segment.length)));
+      const double speed = profile.SpeedAt(begin + segment.length);
+      const double half = 0.5 * speed * step / vehicle.steering_rate;
       room_after = std::min(
-          {0.5 * speed * step / vehicle.steering_rate, 0.4 * segment.length, 0.4 * next.length});
+          {step > 0.0 ? std::max(half, kLeast) : 0.0, 0.4 * segment.length, 0.4 * next.length});
     }
     const double from = room_before;
     const double to = segment.length - room_after;

@@ -24,6 +24,14 @@ const char* ToString(PlanStatus status) {
       return "steers_before_start";
     case PlanStatus::kStartBlocked:
       return "start_blocked";
+    case PlanStatus::kGoalBlocked:
+      return "goal_blocked";
+    case PlanStatus::kNoPath:
+      return "no_path";
+    case PlanStatus::kBudgetUsedUp:
+      return "budget_used_up";
+    case PlanStatus::kCollides:
+      return "collides";
   }
   return "";
 }

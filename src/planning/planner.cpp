@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "src/planning/fillet_layout.h"
+#include "src/planning/route_planners.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {
@@ -251,13 +252,19 @@ const std::vector<PlannerEntry>& Planners() {
        LaneChangePlannerOptions{}, 0},
       {"course", "straights, arcs and curvature ramps, piece by piece as given", CourseOptions{},
        0},
+      {"dubins", "the shortest curve through the waypoints with headings, forwards",
+       DubinsOptions{}, 2, true, true},
+      {"reeds_shepp", "the shortest curve through the waypoints with headings, either way",
+       ReedsSheppOptions{}, 2, true, true, true},
+      {"astar", "around obstacles on a grid, corners rounded or refused (seed 004, variant 1)",
+       AStarOptions{}, 2, true},
+      {"hybrid_astar", "around obstacles through poses that the car can drive, either way",
+       HybridAStarOptions{}, 2, true, true, true},
   };
   return table;
 }
 
-namespace {
-
-const PlannerEntry& EntryOf(const PlannerOptions& options) {
+const PlannerEntry& PlannerFor(const PlannerOptions& options) {
   for (const PlannerEntry& entry : Planners()) {
     if (entry.defaults.index() == options.index()) {
       return entry;
@@ -266,14 +273,12 @@ const PlannerEntry& EntryOf(const PlannerOptions& options) {
   throw InternalError("options of a planner that is not in the table");
 }
 
-}  // namespace
-
 const char* PlannerName(const PlannerOptions& options) {
-  return EntryOf(options).name;
+  return PlannerFor(options).name;
 }
 
 std::size_t FewestWaypoints(const PlannerOptions& options) {
-  return EntryOf(options).fewest_waypoints;
+  return PlannerFor(options).fewest_waypoints;
 }
 
 Plan MakePlan(const PlanRequest& request, const PlannerOptions& options) {
@@ -288,6 +293,11 @@ Plan MakePlan(const PlanRequest& request, const PlannerOptions& options) {
                  "start at {}, {}, {}", start.x, start.y, start.yaw);
   for (const Vec2& point : request.waypoints) {
     TRACKBED_CHECK(point.allFinite(), "waypoint {}, {}", point.x(), point.y());
+  }
+  TRACKBED_CHECK(request.headings.empty() || request.headings.size() == request.waypoints.size(),
+                 "{} headings for {} waypoints", request.headings.size(), request.waypoints.size());
+  for (const double heading : request.headings) {
+    TRACKBED_CHECK(std::isfinite(heading), "heading {}", heading);
   }
   return std::visit([&](const auto& own) { return PlanWith(own, request); }, options);
 }

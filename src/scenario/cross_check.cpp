@@ -20,6 +20,7 @@ class CrossCheck {
   std::vector<std::pair<std::string, std::string>> Run() {
     CheckMission();
     CheckCourse();
+    CheckAvoider();
     CheckSpeedOverTime();
     CheckOptimalSteering();
     CheckSteps();
@@ -126,6 +127,17 @@ class CrossCheck {
     }
   }
 
+  void CheckAvoider() {
+    const auto& plan = scenario_.plan;
+    if (plan && plan->avoid && PlannerFor(plan->global).goes_backwards &&
+        CouldReadPlan({"method"})) {
+      Complain("plan.avoid",
+               fmt::format("a plan by {} may go backwards, which cannot be led around "
+                           "anything on the way; leave one out",
+                           PlannerName(plan->global)));
+    }
+  }
+
   void CheckWaypoints() {
     const std::vector<Vec2>& waypoints = scenario_.mission.waypoints;
     for (std::size_t i = 1; i < waypoints.size(); ++i) {
@@ -138,11 +150,28 @@ class CrossCheck {
       Complain("mission.waypoints", fmt::format("a plan by {} has its own course; leave them out",
                                                 PlannerName(scenario_.plan->global)));
     }
+    CheckHeadings();
     if (scenario_.plan && waypoints.size() < FewestWaypoints(scenario_.plan->global)) {
       const std::string given = waypoints.empty() ? "none" : std::to_string(waypoints.size());
       Complain("mission.waypoints", fmt::format("{} given; a plan by {} needs at least {}", given,
                                                 PlannerName(scenario_.plan->global),
                                                 FewestWaypoints(scenario_.plan->global)));
+    }
+  }
+
+  void CheckHeadings() {
+    const MissionSpec& mission = scenario_.mission;
+    if (mission.headings.empty() || !CouldRead({"mission.headings"})) {
+      return;
+    }
+    if (mission.headings.size() != mission.waypoints.size()) {
+      Complain("mission.headings", fmt::format("{} given for {} waypoints; give one for each",
+                                               mission.headings.size(), mission.waypoints.size()));
+    }
+    if (scenario_.plan && !PlannerFor(scenario_.plan->global).has_headings &&
+        CouldReadPlan({"method"})) {
+      Complain("mission.headings", fmt::format("a plan by {} does not look at them; leave them out",
+                                               PlannerName(scenario_.plan->global)));
     }
   }
 

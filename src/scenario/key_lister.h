@@ -58,6 +58,9 @@ class KeyLister {
   void Field(const Key& key, std::vector<Vec2>&, Need need, const PairShape& shape = kPoint) {
     Add(key, fmt::format("list of {}", shape.many), need, "", "");
   }
+  void Field(const Key& key, std::vector<double>&, Need need, Range range = {}) {
+    Add(key, "list of numbers", need, "", AllowedBy(range));
+  }
   void Pair(const Key& key, int& first, int& second, Range range) {
     Add(key, "two whole numbers", Need::kOptional, fmt::format("[{}, {}]", first, second),
         AllowedBy(range));

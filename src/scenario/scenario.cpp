@@ -179,6 +179,9 @@ StartState StartOf(const Scenario& scenario) {
     const Vec2 leg = mission.waypoints[1] - mission.waypoints[0];
     start.pose.yaw = std::atan2(leg.y(), leg.x());
   }
+  if (!mission.headings.empty()) {
+    start.pose.yaw = mission.headings.front();
+  }
   start.pose = {given.x.value_or(start.pose.x), given.y.value_or(start.pose.y),
                 given.yaw.value_or(start.pose.yaw)};
   const Recording* recording = RecordingOf(scenario);

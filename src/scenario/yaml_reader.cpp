@@ -325,6 +325,25 @@ void YamlReader::Field(const Key& key, std::vector<Vec2>& value, Need need,
   }
 }
 
+void YamlReader::Field(const Key& key, std::vector<double>& value, Need need, Range range) {
+  const auto node = Take(key.name, need);
+  if (!node) {
+    return;
+  }
+  if (!node->IsSequence()) {
+    Complain(*node, Dotted(key.name),
+             fmt::format("expected a list of numbers, found {}", Describe(*node)));
+    return;
+  }
+  value.clear();
+  for (std::size_t i = 0; i < node->size(); ++i) {
+    double number = 0.0;
+    if (ReadNumber((*node)[i], fmt::format("{}[{}]", Dotted(key.name), i), range, number)) {
+      value.push_back(number);
+    }
+  }
+}
+
 void YamlReader::Pair(const Key& key, int& first, int& second, Range range) {
   const auto node = Take(key.name, Need::kOptional);
   if (!node) {

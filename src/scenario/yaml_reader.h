@@ -51,6 +51,7 @@ class YamlReader {
   void Identifier(const Key& key, std::string& value);
   void Field(const Key& key, std::vector<std::string>& value, Need need, const Names& allowed);
   void Field(const Key& key, std::vector<Vec2>& value, Need need, const PairShape& shape = kPoint);
+  void Field(const Key& key, std::vector<double>& value, Need need, Range range = {});
   void Pair(const Key& key, int& first, int& second, Range range);
   /// A key whose value `read` makes sense of, told its dotted key.
   template <typename Read>

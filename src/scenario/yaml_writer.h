@@ -68,6 +68,16 @@ class YamlWriter {
     }
     out_ << YAML::EndSeq;
   }
+  void Field(const Key& key, std::vector<double>& value, Need, Range = {}) {
+    if (value.empty()) {
+      return;
+    }
+    out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const double number : value) {
+      out_ << fmt::format("{}", number);
+    }
+    out_ << YAML::EndSeq;
+  }
   void Pair(const Key& key, int& first, int& second, Range) {
     out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << YAML::BeginSeq << first << second
          << YAML::EndSeq;

@@ -15,6 +15,10 @@ TEST(PlanStatus, HasTheSpellingsOfPlanJson) {
   EXPECT_STREQ(ToString(PlanStatus::kTurnsOverlap), "turns_overlap");
   EXPECT_STREQ(ToString(PlanStatus::kSteersBeforeStart), "steers_before_start");
   EXPECT_STREQ(ToString(PlanStatus::kStartBlocked), "start_blocked");
+  EXPECT_STREQ(ToString(PlanStatus::kGoalBlocked), "goal_blocked");
+  EXPECT_STREQ(ToString(PlanStatus::kNoPath), "no_path");
+  EXPECT_STREQ(ToString(PlanStatus::kBudgetUsedUp), "budget_used_up");
+  EXPECT_STREQ(ToString(PlanStatus::kCollides), "collides");
 }
 
 }  // namespace

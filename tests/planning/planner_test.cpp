@@ -5,22 +5,17 @@
 
 #include <cmath>
 #include <limits>
-#include <ostream>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "tests/planning/print_planner.h"
 #include "tests/planning/routes.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/seed_car.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {
-
-void PrintTo(const PlannerEntry& entry, std::ostream* out) {
-  *out << entry.name;
-}
-
 namespace {
 
 using ::testing::HasSubstr;
@@ -92,8 +87,11 @@ TEST_P(EveryPlanner, StaysWithinTheCarsSteering) {
   const Plan plan = MakePlan(Request(RouteA()), OptionsOf(GetParam()));
   ASSERT_TRUE(plan.ok()) << plan.reason;
   for (const Segment& segment : plan.reference.path.segments()) {
-    EXPECT_LE(std::abs(SteeringForCurvature(SeedCar(), segment.curvature)),
-              SeedCar().steering_limit);
+    for (const double d : {0.0, segment.length}) {
+      EXPECT_LE(std::abs(SteeringForCurvature(SeedCar(), segment.CurvatureAt(d))),
+                SeedCar().steering_limit + Tolerance(1e-12));
+    }
+    EXPECT_TRUE(segment.direction > 0 || GetParam().goes_backwards);
   }
   for (const SteeringSchedule::Knot& knot : plan.schedule.knots()) {
     EXPECT_LE(std::abs(knot.steering), SeedCar().steering_limit);
@@ -121,11 +119,16 @@ TEST_P(EveryPlanner, IsAFunctionOfItsRequest) {
   const Plan b = MakePlan(Request(RouteB()), OptionsOf(GetParam()));
   EXPECT_EQ(a.diagnostics, b.diagnostics);
   EXPECT_EQ(a.reference.path.segments(), b.reference.path.segments());
+  EXPECT_EQ(a.caps.size(), b.caps.size());
 }
 
 TEST_P(EveryPlanner, RefusesWithAReasonAndNoPath) {
   PlanRequest request = Request(RouteA());
-  request.vehicle.steering_limit = 1e-3;  // a car that needs 2.7 km to turn
+  if (GetParam().has_headings) {
+    request.obstacles.push_back({{40.0, 40.0, 0.0}, 1.0, 1.0});  // where it is to go through
+  } else {
+    request.vehicle.steering_limit = 1e-3;  // a car that needs 2.7 km to turn
+  }
   const Plan plan = MakePlan(request, OptionsOf(GetParam()));
   EXPECT_FALSE(plan.ok());
   EXPECT_NE(plan.reason, "");

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "trackbed/path/path.h"
+#include "trackbed/path/reference.h"
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/steering_schedule.h"
 
@@ -39,5 +40,9 @@ double SharpestCurvature(const Segment& segment);
 /// middle on the step, steeper only where the pieces beside it leave no room for that.
 SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<Segment>& segments,
                                 double speed);
+
+/// The same for a car whose speed changes on the way.
+SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<Segment>& segments,
+                                const SpeedProfile& profile);
 
 }  // namespace trackbed

@@ -13,7 +13,11 @@ enum class PlanStatus {
   kTurnsOverlap,        ///< given radii need more of a leg than it has
   kSearchFailed,        ///< the search ended without a point that keeps the constraints
   kSteersBeforeStart,  ///< the wheels would have to start turning before the route begins (D_1 < 0)
-  kStartBlocked,       ///< the car stands in an obstacle, or where the planner has no frame
+  kStartBlocked,       ///< the car stands too near to an obstacle, or where there is no frame
+  kGoalBlocked,        ///< an obstacle is too near to the goal, or to a waypoint on the way
+  kNoPath,             ///< there is none, or none of the kind that is looked for
+  kBudgetUsedUp,       ///< the search ended before it was there
+  kCollides,           ///< what could be driven comes too near to an obstacle
 };
 
 /// "ok", "too_few_waypoints", …: the spelling of plan.json.

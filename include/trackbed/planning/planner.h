@@ -3,13 +3,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "trackbed/path/reference.h"
+#include "trackbed/planning/corners.h"
 #include "trackbed/planning/course.h"
 #include "trackbed/planning/fillet.h"
+#include "trackbed/planning/hybrid_astar.h"
 #include "trackbed/planning/lane_change.h"
 #include "trackbed/planning/rrt_star.h"
 #include "trackbed/planning/turn_prediction.h"
@@ -24,10 +27,13 @@ namespace trackbed {
 struct PlanRequest {
   VehicleParams vehicle;
   std::vector<Vec2> waypoints;  ///< [m]
-  Pose2 start;                  ///< where the car is
-  double start_speed = 0.0;     ///< [m/s]
-  SpeedLimits speed;            ///< the mission's speed and how to change it
-  std::uint64_t seed = 0;       ///< of every random choice
+  /// Of the car at each waypoint [rad]; none: along the legs, see StopsOf.
+  std::vector<double> headings{};
+  std::vector<OrientedBox> obstacles{};  ///< that are known
+  Pose2 start;                           ///< where the car is
+  double start_speed = 0.0;              ///< [m/s]
+  SpeedLimits speed;                     ///< the mission's speed and how to change it
+  std::uint64_t seed = 0;                ///< of every random choice
 };
 
 /// What a planner gives back. With any status but kOk there is a reason and no path.
@@ -49,14 +55,44 @@ struct Plan {
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }
 };
 
+/// The shortest curves between the stops of a route, of Dubins (dubins.h).
+struct DubinsOptions {
+  std::optional<double> radius;  ///< of every arc [m]; none: a tenth more than the car's smallest
+  double safe_distance = 0.3;    ///< of the outline from obstacles [m], >= 0
+  double min_speed = 0.3;        ///< no step of curvature is taken more slowly [m/s]
+};
+
+/// And of Reeds and Shepp (reeds_shepp.h).
+struct ReedsSheppOptions {
+  std::optional<double> radius;
+  double safe_distance = 0.3;
+  double min_speed = 0.3;
+};
+
+/// A* from waypoint to waypoint (astar.h), its corners rounded or refused (corners.h).
+struct AStarOptions {
+  Corners corners = Corners::kRound;
+  double safe_distance = 0.3;  ///< of the outline from obstacles [m], >= 0
+  double corner_room = 1.0;    ///< that the search keeps besides, for rounded corners [m], >= 0
+  double cell = 0.5;           ///< [m], > 0
+  double margin = 10.0;        ///< around waypoints and obstacles [m], within which to look
+  double min_speed = 0.5;      ///< no corner is taken more slowly [m/s]
+  int budget = 1000000;        ///< cells to look at, for each leg, >= 0
+};
+
 /// The options of one planner; which alternative it holds says which planner is meant.
-using PlannerOptions = std::variant<FilletOptions, LaneChangePlannerOptions, CourseOptions>;
+using PlannerOptions =
+    std::variant<FilletOptions, LaneChangePlannerOptions, CourseOptions, DubinsOptions,
+                 ReedsSheppOptions, AStarOptions, HybridAStarOptions>;
 
 struct PlannerEntry {
   const char* name;
   const char* summary;
   PlannerOptions defaults;
   std::size_t fewest_waypoints;  ///< that it can plan with; 0: it needs no route
+  bool keeps_clear = false;      ///< it knows obstacles and keeps clear of them itself
+  bool has_headings = false;     ///< it leads through the waypoints with headings
+  bool goes_backwards = false;   ///< it may
 };
 
 /// Every planner there is.
@@ -65,8 +101,16 @@ const std::vector<PlannerEntry>& Planners();
 /// The name of the planner that `options` belong to.
 const char* PlannerName(const PlannerOptions& options);
 
+/// The entry of the planner that `options` belong to.
+const PlannerEntry& PlannerFor(const PlannerOptions& options);
+
 /// How many waypoints the planner that `options` belong to needs.
 std::size_t FewestWaypoints(const PlannerOptions& options);
+
+/// Where a route leads through: the car's start, then every waypoint but the first, with its
+/// heading; without given ones along the last leg at the goal, and from the stop before to the stop
+/// after on the way.
+std::vector<Pose2> StopsOf(const PlanRequest& request);
 
 /// Plans with the planner that `options` belong to. Never throws for a mission that cannot be
 /// planned; InternalError for one that the caller should have refused (a non-finite number).

@@ -28,7 +28,7 @@ struct VehicleSpec {
 struct StartSpec {
   std::optional<double> x;    ///< [m]; default: the first waypoint, or 0
   std::optional<double> y;    ///< [m]
-  std::optional<double> yaw;  ///< [rad]; default: along the first leg, or 0
+  std::optional<double> yaw;  ///< [rad]; default: the first heading, along the first leg, or 0
   /// [m/s]; default: what is recorded or given over time for the start, or the mission's speed
   std::optional<double> speed;
   /// Bicycle angle of wheels and actuator [rad]; default: what is recorded for the start if the
@@ -39,6 +39,7 @@ struct StartSpec {
 struct MissionSpec {
   double speed = 0.0;              ///< [m/s]; 0: not given, for missions without a plan
   std::vector<Vec2> waypoints;     ///< [m]
+  std::vector<double> headings;    ///< of the car at each of them [rad]; none: along the legs
   std::optional<double> duration;  ///< [s]; ends the drive, for missions without a goal
   StartSpec start;
 };

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <ostream>
+
+#include "trackbed/planning/planner.h"
+
+namespace trackbed {
+
+/// What GoogleTest prints of a planner.
+inline void PrintTo(const PlannerEntry& entry, std::ostream* out) {
+  *out << entry.name;
+}
+
+}  // namespace trackbed
