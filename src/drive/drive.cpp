@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 
 #include "src/drive/disturber.h"
+#include "src/drive/legs.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/avoidance.h"
 
@@ -175,6 +177,10 @@ class Lookout {
   std::vector<Seen> seen_;  // obstacle by obstacle
 };
 
+bool AtRest(const VehicleState& state, const Command& command) {
+  return std::abs(state.speed) < kAtRest && command.acceleration * command.gear <= 0.0;
+}
+
 /// Asks the controller, and tells how long it took.
 double Steer(SteeringController& controller, const ControlInput& input, const DriveHooks& hooks) {
   if (!hooks.steered) {
@@ -222,8 +228,16 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
     plan.schedule_speed = plan.reference.speed;
     return plan;
   }
+  std::vector<OrientedBox> known;
+  for (const Obstacle& obstacle : scenario.world.obstacles) {
+    if (IsKnown(obstacle, 0.0, OutlineAt(vehicle, start.pose))) {
+      known.push_back(obstacle.footprint);
+    }
+  }
   const PlanRequest request{.vehicle = vehicle,
                             .waypoints = scenario.mission.waypoints,
+                            .headings = scenario.mission.headings,
+                            .obstacles = known,
                             .start = start.pose,
                             .start_speed = start.speed,
                             .speed = SpeedLimitsOf(scenario),
@@ -231,12 +245,6 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
   Plan plan = MakePlan(request, scenario.plan->global);
   if (!plan.ok() || !scenario.plan->avoid) {
     return plan;
-  }
-  std::vector<OrientedBox> known;
-  for (const Obstacle& obstacle : scenario.world.obstacles) {
-    if (IsKnown(obstacle, 0.0, OutlineAt(vehicle, start.pose))) {
-      known.push_back(obstacle.footprint);
-    }
   }
   return PlanAround({.vehicle = vehicle,
                      .plan = plan,
@@ -277,12 +285,21 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
   configurations.Record(*plant, 0.0);
   Progress progress(hooks.progress);
 
-  Driven driven{plan};
+  std::deque<Plan> legs = InLegs(plan);
+  Driven driven{legs.front()};
+  legs.pop_front();
+  Standing standing;
+  bool stood = false;  // the last command was to stand until the wheels have turned
+  if (has_path && StartOf(scenario).speed == 0.0 &&
+      driven.plan.reference.path.At(0.0).curvature != 0.0) {
+    standing.Begin();
+  }
   Lookout lookout(scenario, car.unladen());
   Disturber disturber(scenario);
   double station = 0.0;  // of the last projection, on the plan that is driven
   bool collided = false;
   Command command;
+  command.gear = has_path ? GearOf(driven.plan) : 1;
   double asked = StartOf(scenario).steering / scenario.disturb.steering.factor;  // last [rad]
   for (long tick = 0;; ++tick) {
     // Observe and project.
@@ -301,14 +318,28 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
       station = row.tracking->s;
       row.tracking->s += driven.station;
     };
+    const bool at_rest = tick > 0 && !stood && AtRest(state, command);
     if (has_path) {
       project();
       if (std::optional<Plan> next = lookout.Look(state, driven.plan, station)) {
         driven = {std::move(*next), driven.station + station, state.distance, state.time};
         log.changes.push_back({state.time, driven.station, driven.plan});
         station = 0.0;
+        legs.clear();
         project();
       }
+      const double length = driven.plan.reference.path.length();
+      if (!legs.empty() && at_rest && station >= length - std::min(kArrival, 0.5 * length)) {
+        driven = {std::move(legs.front()), driven.station + length, state.distance, state.time};
+        legs.pop_front();
+        station = 0.0;
+        standing.Begin();
+        project();
+      }
+    }
+    stood = standing.GoesOn(state.steering_actuator);
+    if (has_path && !stood) {
+      command.gear = GearOf(driven.plan);
     }
     const Path& path = driven.plan.reference.path;
     const bool by_odometer = source == StationSource::kOdometer;
@@ -327,11 +358,9 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
       log.status = DriveStatus::kDiverged;
       break;
     }
-    const bool at_rest =
-        tick > 0 && std::abs(state.speed) < kAtRest && command.acceleration * command.gear <= 0.0;
     const bool time_over = state.time >= end_time - 0.5 * drive.timestep;
     const bool interrupted = hooks.interrupted && hooks.interrupted();
-    if (interrupted || time_over || (has_path && at_rest)) {
+    if (interrupted || time_over || (has_path && at_rest && !stood)) {
       log.rows.push_back(row);
       const Vec2 goal = path.At(path.length()).pose.position();
       const bool near = (state.pose.position() - goal).norm() <= kNear;
@@ -362,9 +391,10 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
       }
     }
     command.steering = Steer(*controller, input, hooks);
-    command.acceleration =
+    const double wanted =
         disturber.Slow(WantedAcceleration(scenario.control.speed, *controller, input, speed), state,
                        row.tracking ? row.tracking->s : state.distance);
+    command.acceleration = command.gear * (stood ? -scenario.control.speed.deceleration : wanted);
     row.command = command;
     row.controller = controller->Values();
     log.rows.push_back(row);
