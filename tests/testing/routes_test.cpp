@@ -1,0 +1,43 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "trackbed/core/angle.h"
+#include "trackbed/testing/scenario_testing.h"
+
+// Plans around obstacles and to goals with headings, driven on both plants.
+namespace trackbed {
+namespace {
+
+std::filesystem::path File(const std::string& name) {
+  return std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml");
+}
+
+TEST(Routes, ParkInAFreeBayBackwards) {
+  const RunResult run = RunScenario(File("parking_lot"));
+  EXPECT_THAT(run, MeetsItsExpectations());
+  EXPECT_EQ(run.plan.reference.path.segments().back().direction, -1);
+  EXPECT_NEAR(AngleDifference(run.plan.goal.yaw, 1.5708), 0.0, 1e-9);
+}
+
+TEST(Routes, LeadAroundARowOfCarsOnAGrid) {
+  EXPECT_THAT(RunScenario(File("parking_lot_astar")), MeetsItsExpectations());
+}
+
+TEST(Routes, AreRefusedWithTheirCorners) {
+  const RunResult run = RunScenario(File("parking_lot_astar"), {"plan.corners=refuse"});
+  EXPECT_EQ(run.plan.status, PlanStatus::kTurnTooTight);
+}
+
+TEST(Routes, MeetAGoalWithItsHeading) {
+  const RunResult forwards = RunScenario(File("heading_goal"));
+  EXPECT_THAT(forwards, MeetsItsExpectations());
+  const RunResult either = RunScenario(File("heading_goal"), {"plan.method=reeds_shepp"});
+  EXPECT_THAT(either, MeetsItsExpectations());
+  EXPECT_LT(either.plan.reference.path.length(), forwards.plan.reference.path.length());
+  EXPECT_GT(LegsOf(either.plan.reference.path).size(), 1U);
+}
+
+}  // namespace
+}  // namespace trackbed
