@@ -107,6 +107,9 @@ constexpr double kPlanHeight = 0.008;
 constexpr double kGivenUpWidth = 0.24;
 constexpr Color kAsphalt{0.60F, 0.62F, 0.60F};
 constexpr float kGivenUpShare = 0.35F;  // of its own colour
+// A plan that was driven for less than this leaves nothing behind: planning again twice a second
+// would fill the road with fans of lines [s].
+constexpr double kBrief = 1.0;
 
 /// `newer` plans have been taken up since.
 RibbonStyle PlanStyle(const Color& color, std::size_t newer, double scale) {
@@ -289,6 +292,9 @@ void FilmScene::AddPlans(double time, const CameraPose& camera) {
   const auto held = static_cast<std::size_t>(std::count_if(
       plans_.begin(), plans_.end(), [time](const PlanLine& line) { return line.from <= time; }));
   for (std::size_t plan = 0; plan < held; ++plan) {
+    if (plan + 1 < held && plans_[plan + 1].from - plans_[plan].from < kBrief) {
+      continue;
+    }
     const std::vector<Point>& points = plans_[plan].points;
     const RibbonStyle style = PlanStyle(plans_[plan].color, held - 1 - plan, camera.paint_scale);
     for (std::size_t i = 1; i < points.size(); ++i) {

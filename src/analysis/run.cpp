@@ -102,7 +102,7 @@ ordered_json ChangesJson(const RunLog& log) {
     ordered_json entry{{"time_s", change.time},
                        {"station_m", change.station},
                        {"length_m", change.plan.reference.path.length()}};
-    for (const char* key : {"avoid", "blocked"}) {
+    for (const char* key : {"avoid", "blocked", "replan"}) {
       if (change.plan.diagnostics.contains(key)) {
         entry[key] = change.plan.diagnostics[key];
       }

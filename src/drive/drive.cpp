@@ -7,6 +7,7 @@
 
 #include "src/drive/disturber.h"
 #include "src/drive/legs.h"
+#include "src/drive/lookout.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/avoidance.h"
 
@@ -101,80 +102,12 @@ class Progress {
   int last_ = 0;
 };
 
-SpeedLimits SpeedLimitsOf(const Scenario& scenario) {
-  const SpeedControlOptions& speed = scenario.control.speed;
-  return {SpeedOf(scenario), speed.acceleration, speed.deceleration};
-}
-
 /// The plan that is driven, and where it began.
 struct Driven {
   Plan plan;
   double station = 0.0;   ///< in the log, where the plan's own stations begin [m]
   double distance = 0.0;  ///< odometer there [m]
   double time = 0.0;      ///< then [s]
-};
-
-/// Notices obstacles as they become known, and plans around those that stand in the way once the
-/// avoider's delay has passed.
-class Lookout {
- public:
-  Lookout(const Scenario& scenario, const VehicleParams& vehicle)
-      : scenario_(scenario), vehicle_(vehicle), seen_(scenario.world.obstacles.size()) {}
-
-  /// The new plan, if one is due. `station` is the car's on the plan that is driven.
-  std::optional<Plan> Look(const VehicleState& state, const Plan& plan, double station) {
-    if (!scenario_.plan || !scenario_.plan->avoid || !TakeIn(state, plan, station)) {
-      return std::nullopt;
-    }
-    AvoidanceRequest request{.vehicle = vehicle_,
-                             .plan = plan,
-                             .speed = SpeedLimitsOf(scenario_),
-                             .obstacles = {},
-                             .station = station,
-                             .station_speed = std::abs(state.speed),
-                             .car = AvoidanceRequest::Car{state.pose, state.steering},
-                             .seed = scenario_.seed};
-    for (std::size_t i = 0; i < seen_.size(); ++i) {
-      if (seen_[i].taken_in) {
-        request.obstacles.push_back(FootprintAt(scenario_.world.obstacles[i], state.time));
-      }
-    }
-    return PlanAround(request, *scenario_.plan->avoid);
-  }
-
- private:
-  struct Seen {
-    std::optional<double> since;  ///< when it became known [s]
-    bool taken_in = false;        ///< plans reckon with it
-  };
-
-  /// Whether an obstacle that has been known for the delay now stands in the way.
-  bool TakeIn(const VehicleState& state, const Plan& plan, double station) {
-    constexpr double kSameTime = 1e-9;  // [s]
-    const auto [delay, distance] = std::visit(
-        [](const auto& options) { return std::pair(options.delay, options.safe_distance); },
-        *scenario_.plan->avoid);
-    const OrientedBox outline = OutlineAt(vehicle_, state.pose);
-    bool in_the_way = false;
-    for (std::size_t i = 0; i < seen_.size(); ++i) {
-      const Obstacle& obstacle = scenario_.world.obstacles[i];
-      Seen& seen = seen_[i];
-      if (!seen.since && IsKnown(obstacle, state.time, outline)) {
-        seen.since = state.time;
-        seen.taken_in = state.time == 0.0;  // the mission's plan was made with it
-      }
-      if (seen.since && !seen.taken_in && state.time >= *seen.since + delay - kSameTime) {
-        seen.taken_in = true;
-        in_the_way = in_the_way || IsInTheWay(vehicle_, plan.reference.path, station,
-                                              FootprintAt(obstacle, state.time), distance);
-      }
-    }
-    return in_the_way;
-  }
-
-  const Scenario& scenario_;
-  const VehicleParams& vehicle_;
-  std::vector<Seen> seen_;  // obstacle by obstacle
 };
 
 bool AtRest(const VehicleState& state, const Command& command) {
@@ -230,7 +163,9 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
   }
   std::vector<OrientedBox> known;
   for (const Obstacle& obstacle : scenario.world.obstacles) {
-    if (IsKnown(obstacle, 0.0, OutlineAt(vehicle, start.pose))) {
+    // What moves will be elsewhere: whoever plans again on the way reckons with that.
+    const bool for_later = obstacle.moves() && scenario.plan->replan;
+    if (!for_later && IsKnown(obstacle, 0.0, OutlineAt(vehicle, start.pose))) {
       known.push_back(obstacle.footprint);
     }
   }
@@ -246,6 +181,9 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
   if (!plan.ok() || !scenario.plan->avoid) {
     return plan;
   }
+  std::erase_if(known, [&](const OrientedBox& box) {
+    return !IsForAvoider(*scenario.plan, vehicle, plan.reference.path, 0.0, box);
+  });
   return PlanAround({.vehicle = vehicle,
                      .plan = plan,
                      .speed = SpeedLimitsOf(scenario),
@@ -294,7 +232,7 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
       driven.plan.reference.path.At(0.0).curvature != 0.0) {
     standing.Begin();
   }
-  Lookout lookout(scenario, car.unladen());
+  Lookout lookout(scenario, car.unladen(), plan);
   Disturber disturber(scenario);
   double station = 0.0;  // of the last projection, on the plan that is driven
   bool collided = false;
@@ -321,7 +259,8 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
     const bool at_rest = tick > 0 && !stood && AtRest(state, command);
     if (has_path) {
       project();
-      if (std::optional<Plan> next = lookout.Look(state, driven.plan, station)) {
+      const Projection at{station, row.tracking->cross_track, row.tracking->heading_error};
+      if (std::optional<Plan> next = lookout.Look(state, driven.plan, at)) {
         driven = {std::move(*next), driven.station + station, state.distance, state.time};
         log.changes.push_back({state.time, driven.station, driven.plan});
         station = 0.0;
@@ -360,7 +299,8 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
     }
     const bool time_over = state.time >= end_time - 0.5 * drive.timestep;
     const bool interrupted = hooks.interrupted && hooks.interrupted();
-    if (interrupted || time_over || (has_path && at_rest && !stood)) {
+    const bool stays = at_rest && !stood && !lookout.Waits(state);
+    if (interrupted || time_over || (has_path && stays)) {
       log.rows.push_back(row);
       const Vec2 goal = path.At(path.length()).pose.position();
       const bool near = (state.pose.position() - goal).norm() <= kNear;

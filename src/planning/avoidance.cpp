@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "src/planning/avoidance_stretch.h"
+#include "src/planning/plan_stretch.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/world/world.h"
@@ -28,50 +29,6 @@ constexpr double kCurveSpacing = 0.1;
 
 json Point(const Vec2& p) {
   return json::array({p.x(), p.y()});
-}
-
-/// Open-loop steering between two distances, moved along by `shift`.
-std::vector<SteeringSchedule::Knot> Moved(const SteeringSchedule& schedule, Stations within,
-                                          double shift) {
-  // A knot at the cut itself is that of what is put there.
-  constexpr double kAtTheCut = 1e-9;  // [m]
-  std::vector<SteeringSchedule::Knot> knots;
-  for (const SteeringSchedule::Knot& knot : schedule.knots()) {
-    if (knot.distance > within.from + kAtTheCut && knot.distance < within.to - kAtTheCut) {
-      knots.push_back({knot.distance + shift, knot.steering});
-    }
-  }
-  return knots;
-}
-
-std::vector<SpeedCap> Moved(const std::vector<SpeedCap>& caps, Stations within, double shift) {
-  std::vector<SpeedCap> moved;
-  for (const SpeedCap& cap : caps) {
-    const double from = std::max(cap.from, within.from);
-    const double to = std::min(cap.to, within.to);
-    if (to > from) {
-      moved.push_back({from + shift, to + shift, cap.speed});
-    }
-  }
-  return moved;
-}
-
-/// The turns that lie within as far as they are looked at, from the first ramp to their middle.
-std::vector<LoneTurn> Moved(const std::vector<LoneTurn>& turns, Stations within, double shift) {
-  std::vector<LoneTurn> moved;
-  for (LoneTurn turn : turns) {
-    if (turn.from >= within.from && turn.middle <= within.to) {
-      turn.from += shift;
-      turn.middle += shift;
-      moved.push_back(turn);
-    }
-  }
-  return moved;
-}
-
-template <typename T>
-void Append(std::vector<T>& list, const std::vector<T>& more) {
-  list.insert(list.end(), more.begin(), more.end());
 }
 
 class AroundObstacles {
@@ -114,19 +71,10 @@ class AroundObstacles {
 
   /// What lies ahead of the car, in stations from there.
   void StartAtCar() {
-    const double s = request_.station;
-    const Stations ahead{s, path().length()};
-    std::vector<SteeringSchedule::Knot> knots{{0.0, plan_.schedule.At(s)}};
-    Append(knots, Moved(plan_.schedule, {s, std::numeric_limits<double>::infinity()}, -s));
-    const double open_loop_end = plan_.schedule_speed.knots().back().s - s;
-    plan_.reference.path = Path(path().At(s).pose, path().Cut(ahead));
-    plan_.schedule = SteeringSchedule::Through(std::move(knots));
-    plan_.caps = Moved(plan_.caps, ahead, -s);
-    plan_.turns = Moved(plan_.turns, ahead, -s);
+    plan_ = RestOf(plan_, request_.station, request_.station_speed, request_.speed);
     plan_.diagnostics.erase("avoid");  // told of stations that no longer count
     plan_.tree.clear();
-    MoveTurns({-1.0, -1.0}, -s);
-    SetSpeed(request_.station_speed, open_loop_end);
+    MoveTurns({-1.0, -1.0}, -request_.station);
   }
 
   void SetSpeed(double start_speed, double open_loop_end) {

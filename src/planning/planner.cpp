@@ -277,6 +277,11 @@ const char* PlannerName(const PlannerOptions& options) {
   return PlannerFor(options).name;
 }
 
+bool MayGoBackwards(const PlannerOptions& options) {
+  const auto* hybrid = std::get_if<HybridAStarOptions>(&options);
+  return PlannerFor(options).goes_backwards && (hybrid == nullptr || hybrid->reverse);
+}
+
 std::size_t FewestWaypoints(const PlannerOptions& options) {
   return PlannerFor(options).fewest_waypoints;
 }

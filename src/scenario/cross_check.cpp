@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 
 #include "trackbed/core/angle.h"
 
@@ -21,6 +22,7 @@ class CrossCheck {
     CheckMission();
     CheckCourse();
     CheckAvoider();
+    CheckReplan();
     CheckSpeedOverTime();
     CheckOptimalSteering();
     CheckSteps();
@@ -53,6 +55,12 @@ class CrossCheck {
            std::all_of(keys.begin(), keys.end(), [&](const std::string& key) {
              return could_read_("plan." + key) && could_read_("plan.global." + key);
            });
+  }
+
+  /// A key of the planner of the whole path.
+  [[nodiscard]] std::string KeyOfPlan(const char* key) const {
+    const bool layers = scenario_.plan->avoid || scenario_.plan->replan;
+    return std::string(layers ? "plan.global." : "plan.") + key;
   }
 
   void Complain(std::string key, std::string message) {
@@ -97,8 +105,7 @@ class CrossCheck {
     const auto* fillet = plan ? std::get_if<FilletOptions>(&plan->global) : nullptr;
     if (fillet != nullptr && CouldReadPlan({"radius", "constraint"}) && !fillet->radius &&
         fillet->constraint == RadiusConstraint::kNone) {
-      Complain(plan->avoid ? "plan.global.constraint" : "plan.constraint",
-               "'none' needs a radius: nothing else would limit it");
+      Complain(KeyOfPlan("constraint"), "'none' needs a radius: nothing else would limit it");
     }
   }
 
@@ -108,7 +115,7 @@ class CrossCheck {
     if (course == nullptr) {
       return;
     }
-    const std::string key = scenario_.plan->avoid ? "plan.global.segments" : "plan.segments";
+    const std::string key = KeyOfPlan("segments");
     if (course->segments.empty() && CouldReadPlan({"segments"})) {
       Complain(key, "a course needs at least one");
     }
@@ -129,13 +136,84 @@ class CrossCheck {
 
   void CheckAvoider() {
     const auto& plan = scenario_.plan;
-    if (plan && plan->avoid && PlannerFor(plan->global).goes_backwards &&
-        CouldReadPlan({"method"})) {
+    if (plan && plan->avoid && MayGoBackwards(plan->global) && CouldReadPlan({"method"})) {
       Complain("plan.avoid",
                fmt::format("a plan by {} may go backwards, which cannot be led around "
                            "anything on the way; leave one out",
                            PlannerName(plan->global)));
     }
+  }
+
+  void CheckReplan() {
+    const auto& plan = scenario_.plan;
+    if (!plan || !plan->replan) {
+      return;
+    }
+    const ReplanOptions& replan = *plan->replan;
+    if (MayGoBackwards(plan->global) && CouldReadPlan({"method"})) {
+      Complain("plan.replan",
+               fmt::format("a plan by {} may go backwards; planning again on the way goes "
+                           "forwards only: leave one out",
+                           PlannerName(plan->global)));
+    }
+    if (!CouldRead({"plan.replan.along", "plan.replan.along.method", "plan.replan.detour",
+                    "plan.replan.detour.method"})) {
+      return;
+    }
+    if (replan.detour && MayGoBackwards(*replan.detour) &&
+        CouldRead({"plan.replan.detour.reverse"})) {
+      Complain("plan.replan.detour",
+               fmt::format("a detour by {} may go backwards; it has to go forwards{}",
+                           PlannerName(*replan.detour),
+                           std::holds_alternative<HybridAStarOptions>(*replan.detour)
+                               ? ": set reverse: false"
+                               : ""));
+    }
+    if (!replan.along && !replan.detour) {
+      Complain("plan.replan", "needs along, detour or both: nothing else plans again");
+    }
+    if (!replan.detour && replan.comparator) {
+      Complain("plan.replan.comparator", "needs detour: there is nothing else to compare");
+    }
+    if (replan.detour &&
+        CouldRead({"plan.replan.safe_distance", "plan.replan.detour.safe_distance"})) {
+      const double own = SafeDistanceOf(*replan.detour);
+      if (own < replan.settings.safe_distance) {
+        Complain("plan.replan.detour.safe_distance",
+                 fmt::format("{:.4g} m is less than plan.replan.safe_distance, {:.4g} m: every "
+                             "detour would be blocked",
+                             own, replan.settings.safe_distance));
+      }
+    }
+    if (const auto* lists = replan.along ? std::get_if<FrenetOptions>(&*replan.along) : nullptr) {
+      CheckNotEmpty("end_times", lists->end_times);
+      CheckNotEmpty("end_offsets", lists->end_offsets);
+      CheckNotEmpty("speed_factors", lists->speed_factors);
+      CheckNotEmpty("station_offsets", lists->station_offsets);
+    } else if (const auto* own =
+                   replan.along ? std::get_if<LatticeOptions>(&*replan.along) : nullptr) {
+      CheckNotEmpty("end_offsets", own->end_offsets);
+      CheckNotEmpty("speed_factors", own->speed_factors);
+    }
+  }
+
+  void CheckNotEmpty(const std::string& key, const std::vector<double>& values) {
+    const std::string dotted = "plan.replan.along." + key;
+    if (values.empty() && could_read_(dotted)) {
+      Complain(dotted, "needs at least one");
+    }
+  }
+
+  static double SafeDistanceOf(const PlannerOptions& planner) {
+    return std::visit(
+        [](const auto& options) {
+          if constexpr (requires { options.safe_distance; }) {
+            return options.safe_distance;
+          } else {
+            return std::numeric_limits<double>::infinity();
+          }
+        },
+        planner);
   }
 
   void CheckWaypoints() {

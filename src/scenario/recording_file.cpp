@@ -107,9 +107,9 @@ Recording ReadRecording(const std::filesystem::path& file, PlaybackAxis by,
   }
   Recording recording;
   recording.steering = excerpt.Column(steering, kSteering);
-  const Range moving{.max = kSpeed.max, .above = 0.0};
+  const Range moving{.max = kSpeedRange.max, .above = 0.0};
   if (!columns.acceleration) {
-    recording.speed = excerpt.Column(speed, by_distance ? moving : kSpeed, kSpeed);
+    recording.speed = excerpt.Column(speed, by_distance ? moving : kSpeedRange, kSpeedRange);
   }
   if (!columns.speed) {
     recording.acceleration = excerpt.Column(acceleration, {});

@@ -46,7 +46,7 @@ void Visit(Archive& a, StartSpec& start) {
   a.Field({"speed", "m/s",
            "speed at the start; else the recording's, that of control.speed.over_time, or the "
            "mission's"},
-          start.speed, kSpeed);
+          start.speed, kSpeedRange);
   a.Field({"steering", "rad",
            "bicycle angle of wheels and actuator at the start; else 0, or what was recorded if it "
            "is prescribed"},

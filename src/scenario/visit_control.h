@@ -213,7 +213,7 @@ void Visit(Archive& a, SpeedControlOptions& options) {
           options.deceleration, Need::kOptional, kPositive);
   a.Field({"gain", "1/s", "wanted acceleration per speed error"}, options.gain, Need::kOptional,
           kPositive);
-  static const PairShape knot{"a knot [t, v]", "knots [t, v]", kNotNegative, kSpeed};
+  static const PairShape knot{"a knot [t, v]", "knots [t, v]", kNotNegative, kSpeedRange};
   a.Field({"over_time", "s, m/s",
            "the speed instead of the mission's, linear between knots and held after the last; "
            "limited by the car alone"},

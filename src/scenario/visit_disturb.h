@@ -15,7 +15,8 @@ template <typename Archive>
 void Visit(Archive& a, SpeedLoss& loss) {
   a.Field({"from", "s", "from this moment on; else from the start"}, loss.from, kNotNegative);
   a.Field({"station", "m", "instead: from this station (`s_m`) on"}, loss.station, kNotNegative);
-  a.Field({"speed", "m/s", "the car's largest from then on"}, loss.speed, Need::kRequired, kSpeed);
+  a.Field({"speed", "m/s", "the car's largest from then on"}, loss.speed, Need::kRequired,
+          kSpeedRange);
 }
 
 template <typename Archive>

@@ -29,9 +29,9 @@ struct Range {
 inline constexpr Range kPositive{.above = 0.0};
 inline constexpr Range kNotNegative{.min = 0.0};
 
-inline constexpr Range kMap{.min = -1e5, .max = 1e5};       // [m]; beyond any route
-inline constexpr Range kSpeed{.min = 0.0, .max = 100.0};    // [m/s]
-inline constexpr Range kSteering{.min = -1.5, .max = 1.5};  // [rad]
+inline constexpr Range kMap{.min = -1e5, .max = 1e5};          // [m]; beyond any route
+inline constexpr Range kSpeedRange{.min = 0.0, .max = 100.0};  // [m/s]
+inline constexpr Range kSteering{.min = -1.5, .max = 1.5};     // [rad]
 
 /// The pairs of numbers in a list: what one is called and what many are, and the allowed values.
 struct PairShape {

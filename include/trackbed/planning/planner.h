@@ -104,6 +104,9 @@ const char* PlannerName(const PlannerOptions& options);
 /// The entry of the planner that `options` belong to.
 const PlannerEntry& PlannerFor(const PlannerOptions& options);
 
+/// Whether a plan with these options may lead backwards somewhere.
+bool MayGoBackwards(const PlannerOptions& options);
+
 /// How many waypoints the planner that `options` belong to needs.
 std::size_t FewestWaypoints(const PlannerOptions& options);
 

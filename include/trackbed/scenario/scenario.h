@@ -11,6 +11,7 @@
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/planning/avoidance.h"
 #include "trackbed/planning/planner.h"
+#include "trackbed/planning/replan.h"
 #include "trackbed/scenario/disturbances.h"
 #include "trackbed/scenario/manoeuvre.h"
 #include "trackbed/sim/plant.h"
@@ -48,6 +49,7 @@ struct MissionSpec {
 struct PlanSpec {
   PlannerOptions global = FilletOptions{};
   std::optional<AvoiderOptions> avoid;  ///< leads it around obstacles; none: it is not led around
+  std::optional<ReplanOptions> replan;  ///< plans again on the way; none: it does not
 };
 
 struct ControlSpec {

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "trackbed/planning/replan.h"
+#include "trackbed/scenario/scenario.h"
+#include "trackbed/vehicle/state.h"
+
+namespace trackbed {
+
+/// Which local planner an obstacle is for: one in a turn for the avoider, any other for replanning;
+/// if there is only one of the two, all are its.
+bool IsForAvoider(const PlanSpec& spec, const VehicleParams& vehicle, const Path& path,
+                  double station, const OrientedBox& obstacle);
+
+SpeedLimits SpeedLimitsOf(const Scenario& scenario);
+
+/// Notices obstacles as they become known, and plans again when that is due: around those that
+/// stand in the way once the avoider's delay has passed, and at the period of replanning.
+class Lookout {
+ public:
+  Lookout(const Scenario& scenario, const VehicleParams& vehicle, const Plan& plan);
+
+  /// The new plan, if one is to be taken up. `station` is the car's on the plan that is driven.
+  std::optional<Plan> Look(const VehicleState& state, const Plan& plan, const Projection& at);
+
+  /// Whether a car at rest before the end of its route may yet go on: something known still moves,
+  /// or nothing has been tried since it came to rest.
+  [[nodiscard]] bool Waits(const VehicleState& state) const;
+
+ private:
+  struct Seen {
+    std::optional<double> since;  ///< when it became known [s]
+    bool taken_in = false;        ///< the avoider reckons with it
+  };
+
+  void See(const VehicleState& state);
+  std::optional<Plan> Avoid(const VehicleState& state, const Plan& plan, double station);
+  std::optional<Plan> PlanAgain(const VehicleState& state, const Plan& plan, const Projection& at);
+  void SetRoute(const Plan& plan);
+
+  const Scenario& scenario_;
+  const VehicleParams& vehicle_;
+  std::vector<Seen> seen_;  // obstacle by obstacle
+  Driving driving_;
+  long looks_ = 0;  // of replanning, so far
+  bool tried_at_rest_ = false;
+};
+
+}  // namespace trackbed

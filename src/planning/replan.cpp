@@ -1,0 +1,346 @@
+#include "trackbed/planning/replan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/planning/plan_stretch.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/world/world.h"
+
+namespace trackbed {
+namespace {
+
+using nlohmann::json;
+
+/// Slower than this a car is at rest [m/s].
+constexpr double kAtRest = 0.01;
+/// Slower than this along the way, an obstacle stands [m/s].
+constexpr double kStands = 0.05;
+/// A plan that ends at the goal is kept for its last metres, unless something comes in the way.
+constexpr double kLastMetres = 1.0;
+/// As near as this to the route, a car is back on it.
+constexpr double kBackOffset = 0.02;     // [m]
+constexpr double kBackHeading = 0.005;   // [rad]
+constexpr double kBackSteering = 0.002;  // [rad]
+/// Room that is left before an obstacle when the car has to brake for it [m].
+constexpr double kBrakeRoom = 0.5;
+
+bool Stands(const MovingBox& box) {
+  return box.velocity.norm() < kStands;
+}
+
+std::string Place(const OrientedBox& box) {
+  return fmt::format("({:.4g}, {:.4g})", box.centre.x, box.centre.y);
+}
+
+/// A plan that follows a motion.
+Plan ToPlan(const VehicleParams& vehicle, const std::vector<TrajectoryPoint>& points,
+            const Pose2& goal) {
+  Plan plan;
+  plan.reference = ToReference(points);
+  plan.schedule_speed = plan.reference.speed;
+  plan.goal = goal;
+  std::vector<SteeringSchedule::Knot> knots;
+  for (const TrajectoryPoint& point : points) {
+    if (knots.empty() || point.distance > knots.back().distance + 1e-6) {
+      knots.push_back({point.distance, SteeringForCurvature(vehicle, point.motion.curvature)});
+    }
+  }
+  plan.schedule = SteeringSchedule::Through(std::move(knots));
+  return plan;
+}
+
+json ToJson(const AlongPlan& along) {
+  json out{{"kind", ToString(along.kind)},
+           {"status", ToString(along.found.status)},
+           {"candidates", along.found.candidates},
+           {"checked", along.found.checked},
+           {"rejected", along.found.rejected.ToString()}};
+  if (along.ok()) {
+    const FrenetState end = along.found.motion.At(along.found.motion.duration());
+    out["cost"] = along.found.cost;
+    out["duration_s"] = along.found.motion.duration();
+    out["end_offset_m"] = end.d;
+    out["end_speed_mps"] = end.s_rate;
+  }
+  return out;
+}
+
+json ToJson(const WayScore& score) {
+  return {{"length_m", score.length},
+          {"wind_m", score.wind},
+          {"collides", score.collides},
+          {"total_m", score.total}};
+}
+
+class Replanning {
+ public:
+  Replanning(const ReplanRequest& request, const Driving& driving, const ReplanOptions& options)
+      : request_(request), driving_(driving), options_(options) {}
+
+  Replanned Run() {
+    const auto encounter = EncounterOf(driving_.plan.reference, driving_.station);
+    const bool stuck = !driving_.plan.blocked.empty();
+    if (!encounter && !stuck && !request_.strayed && (driving_.on_route || NearlyThere())) {
+      return Keep();
+    }
+    AlongPlan along;
+    if (options_.along) {
+      along = Along();
+    }
+    // Behind a leader the route is clear only up to where it is too near.
+    if (!driving_.on_route && (!options_.along || along.kind == AlongKind::kOn)) {
+      if (auto back = BackOnRoute()) {
+        return std::move(*back);
+      }
+    }
+    if (along.kind == AlongKind::kOn || along.kind == AlongKind::kFollow) {
+      return Follow(along);
+    }
+    if (options_.detour) {
+      Detour detour = FindDetour();
+      Tell(detour);
+      if (detour.route) {
+        detour.route->diagnostics["replan"] = told_;
+        return {ReplanKind::kRoute, std::move(*detour.route)};
+      }
+    }
+    if (along.ok()) {
+      return Follow(along);
+    }
+    return encounter ? Brake(*encounter) : Keep();
+  }
+
+ private:
+  [[nodiscard]] Replanned Keep() const { return {ReplanKind::kKeep, driving_.plan}; }
+
+  [[nodiscard]] std::optional<Encounter> EncounterOf(const Reference& reference,
+                                                     double station) const {
+    return FirstEncounter(request_.vehicle, reference, station, request_.obstacles,
+                          options_.settings.safe_distance, options_.settings.look_ahead);
+  }
+
+  [[nodiscard]] bool NearlyThere() const {
+    return driving_.plan.reference.path.length() - driving_.station < kLastMetres;
+  }
+
+  /// The planned motion beside the car, or the car's own.
+  [[nodiscard]] MotionState Start() const {
+    if (request_.strayed) {
+      return request_.car;
+    }
+    const Reference& reference = driving_.plan.reference;
+    const PathPoint at = reference.path.At(driving_.station);
+    MotionState start{.pose = at.pose,
+                      .curvature = at.curvature,
+                      .speed = reference.speed.SpeedAt(driving_.station),
+                      .acceleration = reference.speed.AccelerationAt(driving_.station)};
+    if (request_.car.speed < kAtRest && start.speed < 10.0 * kAtRest) {
+      start.speed = 0.0;
+      start.acceleration = 0.0;
+    }
+    return start;
+  }
+
+  /// The rest of the route, if the motion has come back to it.
+  [[nodiscard]] std::optional<Replanned> BackOnRoute() const {
+    const MotionState start = Start();
+    const Path& path = driving_.route.reference.path;
+    constexpr double kSearch = 5.0;  // [m]
+    const Projection at = path.Project(
+        start.pose, {driving_.route_station - kSearch, driving_.route_station + kSearch});
+    const double steering = SteeringForCurvature(request_.vehicle, start.curvature);
+    const double on_route = SteeringForCurvature(request_.vehicle, path.At(at.s).curvature);
+    if (at.s < 0.0 || at.s > path.length() || std::abs(at.cross_track) > kBackOffset ||
+        std::abs(at.heading_error) > kBackHeading ||
+        std::abs(steering - on_route) > kBackSteering) {
+      return std::nullopt;
+    }
+    Plan rest = RestOf(driving_.route, at.s, start.speed, request_.speed);
+    if (EncounterOf(rest.reference, 0.0)) {
+      return std::nullopt;
+    }
+    rest.diagnostics["replan"] = {{"kind", "back_on_route"}};
+    return Replanned{ReplanKind::kRoute, std::move(rest)};
+  }
+
+  /// The mission's speed, or that of what lies ahead: a slow turn, and the way to slow down to it.
+  [[nodiscard]] double WantedSpeed(double speed) const {
+    constexpr double kSooner = 2.0;  // [s]
+    double wanted = request_.speed.speed;
+    for (const SpeedCap& cap : driving_.route.caps) {
+      const double down = std::max(
+          0.0, (speed * speed - cap.speed * cap.speed) / (2.0 * request_.speed.deceleration));
+      const double reach = driving_.route_station + kSooner * speed + down;
+      if (cap.from <= reach && driving_.route_station <= cap.to) {
+        wanted = std::min(wanted, cap.speed);
+      }
+    }
+    return wanted;
+  }
+
+  [[nodiscard]] AlongPlan Along() const {
+    const MotionState start = Start();
+    constexpr double kSearch = 10.0;  // [m]
+    const auto frenet =
+        ToFrenet(driving_.frame.path, start,
+                 {driving_.route_station - kSearch, driving_.route_station + kSearch});
+    if (!frenet) {
+      return {};
+    }
+    return PlanAlong(driving_.frame,
+                     {.vehicle = request_.vehicle,
+                      .speed = request_.speed,
+                      .wanted = WantedSpeed(start.speed),
+                      .start = *frenet,
+                      .obstacles = request_.obstacles},
+                     options_.settings, *options_.along);
+  }
+
+  Replanned Follow(const AlongPlan& along) {
+    Plan plan = ToPlan(request_.vehicle, along.points, driving_.route.goal);
+    told_["along"] = ToJson(along);
+    told_["kind"] = "motion";
+    plan.diagnostics["replan"] = told_;
+    if (along.kind == AlongKind::kStop) {
+      plan.blocked = "stops behind what stands in the way: no motion leads past it";
+    } else if (!along.to_goal) {
+      plan.blocked = "no way on was found from here";
+    }
+    return {ReplanKind::kMotion, std::move(plan)};
+  }
+
+  [[nodiscard]] Detour FindDetour() const {
+    DetourRequest request{.vehicle = request_.vehicle,
+                          .speed = request_.speed,
+                          .driven = driving_.plan,
+                          .station = driving_.station,
+                          .station_speed = Start().speed,
+                          .route = driving_.route,
+                          .route_station = driving_.route_station,
+                          .obstacles = {},
+                          .safe_distance = options_.settings.safe_distance,
+                          .wind = request_.wind,
+                          .time = request_.time,
+                          .seed = request_.seed};
+    for (const MovingBox& obstacle : request_.obstacles) {
+      if (Stands(obstacle)) {
+        request.obstacles.push_back(obstacle.box);
+      }
+    }
+    return PlanDetour(request, *options_.detour, options_.comparator.value_or(DetourChoice{}));
+  }
+
+  void Tell(const Detour& detour) {
+    json& out = told_["detour"];
+    out = {{"planner", PlannerName(*options_.detour)},
+           {"tried", detour.tried},
+           {"current", ToJson(detour.current)}};
+    if (std::isfinite(detour.best.total)) {
+      out["best"] = ToJson(detour.best);
+    }
+    if (detour.route) {
+      told_["kind"] = "detour";
+      for (const char* key : {"leave_s_m", "return_s_m"}) {
+        out[key] = detour.route->diagnostics[key];
+      }
+    } else {
+      out["why"] = detour.why;
+    }
+  }
+
+  /// Along the plan that is driven, to rest before the place of the encounter, or as soon as the
+  /// car can if that is nearer.
+  Replanned Brake(const Encounter& encounter) {
+    const double speed = Start().speed;
+    const double shortest = speed * speed / (2.0 * request_.speed.deceleration);
+    const MovingBox& obstacle = request_.obstacles[encounter.obstacle];
+    const double room = encounter.station - driving_.station - kBrakeRoom;
+    // What moves may be gone or come nearer: then the sooner the better.
+    const double way = Stands(obstacle) ? std::max(shortest, room) : shortest;
+    Plan plan;
+    const Path& path = driving_.plan.reference.path;
+    const double until = std::min(driving_.station + way, path.length());
+    plan.reference.path = Path(path.At(driving_.station).pose, path.Cut({driving_.station, until}));
+    const Path& own = plan.reference.path;
+    plan.caps = Moved(driving_.plan.caps, {driving_.station, until}, -driving_.station);
+    plan.reference.speed = StopAtEnd(own.length(), speed, request_.speed, plan.caps);
+    plan.schedule = CourseSchedule(request_.vehicle, own.segments(), plan.reference.speed);
+    plan.schedule_speed = plan.reference.speed;
+    plan.goal = driving_.route.goal;
+    plan.blocked =
+        fmt::format("stops before the obstacle at {}: no way leads past it", Place(obstacle.box));
+    told_["kind"] = "brake";
+    plan.diagnostics["replan"] = told_;
+    return {ReplanKind::kStop, std::move(plan)};
+  }
+
+  const ReplanRequest& request_;
+  const Driving& driving_;
+  const ReplanOptions& options_;
+  json told_ = json::object();
+};
+
+}  // namespace
+
+const char* ToString(ReplanKind kind) {
+  switch (kind) {
+    case ReplanKind::kKeep:
+      return "keep";
+    case ReplanKind::kMotion:
+      return "motion";
+    case ReplanKind::kRoute:
+      return "route";
+    case ReplanKind::kStop:
+      return "stop";
+  }
+  return "keep";
+}
+
+std::optional<Encounter> FirstEncounter(const VehicleParams& vehicle, const Reference& reference,
+                                        double station, const std::vector<MovingBox>& obstacles,
+                                        double distance, double look_ahead) {
+  constexpr double kStep = 0.1;    // [s]
+  constexpr double kTouch = 1e-2;  // [m], what planners may fall short by between their samples
+  // From the station on: times before it may be infinite, if the profile comes to rest there.
+  const SpeedProfile ahead =
+      Excerpt(reference.speed, {station, std::max(station, reference.path.length())});
+  const auto steps = static_cast<int>(std::ceil(look_ahead / kStep));
+  for (int i = 0; i <= steps; ++i) {
+    const double time = i * kStep;
+    const double s = station + ahead.StationAt(time);
+    const OrientedBox outline = OutlineAt(vehicle, reference.path.At(s).pose);
+    for (std::size_t j = 0; j < obstacles.size(); ++j) {
+      if (Separation(outline, obstacles[j].At(time)) < distance - kTouch) {
+        return Encounter{time, s, j};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+bool StandsInTurn(const VehicleParams& vehicle, const Path& path, double station,
+                  const OrientedBox& obstacle, double distance) {
+  constexpr double kBent = 1e-3;  // [1/m]
+  const std::vector<Stations> stretches =
+      BlockedStretches(vehicle, path, station, {obstacle}, distance);
+  return std::any_of(stretches.begin(), stretches.end(), [&](const Stations& stretch) {
+    const std::vector<Segment> within = path.Cut(stretch);
+    return std::any_of(within.begin(), within.end(), [&](const Segment& segment) {
+      return std::abs(segment.curvature) > kBent ||
+             std::abs(segment.CurvatureAt(segment.length)) > kBent;
+    });
+  });
+}
+
+Replanned Replan(const ReplanRequest& request, const Driving& driving,
+                 const ReplanOptions& options) {
+  TRACKBED_CHECK((options.along || options.detour) && driving.plan.ok() && driving.route.ok(),
+                 "nothing to plan with, or no plan to begin with");
+  return Replanning(request, driving, options).Run();
+}
+
+}  // namespace trackbed
