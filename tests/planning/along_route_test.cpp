@@ -259,8 +259,9 @@ TEST(FrameOf, IsSharperWhereTheRouteIsSlow) {
     return reaches(0.9 / 8.0) - reaches(0.1 / 8.0);
   };
   const double turning = SteeringForCurvature(SeedCar(), 1.0 / 8.0) / SeedCar().steering_rate;
-  // The arc's own curvature grows by (k w)^2/24 = 0.11 at 6 m/s, so that nine tenths come sooner.
-  EXPECT_NEAR(ramp(), 0.8 * 6.0 * turning, Tolerance(0.11 * 6.0 * turning));
+  // The arc's own curvature grows by (k w)^2/24 = 0.11 at 6 m/s and 0.11^2, so that nine tenths
+  // come sooner.
+  EXPECT_NEAR(ramp(), 0.8 * 6.0 * turning, Tolerance(0.1221 * 6.0 * turning));
   plan.caps = {{50.0, 95.0, 2.0}};
   EXPECT_NEAR(ramp(), 0.8 * 2.0 * turning, Tolerance(0.0123 * 2.0 * turning + 0.1));
 }
