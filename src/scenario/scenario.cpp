@@ -152,6 +152,10 @@ World ReadWorld(const std::filesystem::path& file) {
   return ReadSection<World>(file, kWorldSection);
 }
 
+Expectations ReadExpectations(const std::filesystem::path& file) {
+  return ReadSection<Expectations>(file, kExpectSection);
+}
+
 void CheckScenario(const Scenario& scenario) {
   std::vector<Problem> problems;
   for (const auto& [key, message] : CrossProblems(scenario, [](const auto&) { return true; })) {

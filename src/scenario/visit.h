@@ -14,6 +14,8 @@
 namespace trackbed {
 
 inline constexpr Key kVehicleSection{"vehicle", "", "the car"};
+inline constexpr Key kExpectSection{
+    "expect", "", "bounds that the run must keep, on every plant; what is not given is not asked"};
 inline constexpr Key kRenderSection{"render", "", "how the run is filmed"};
 
 inline Names PlantNames() {
@@ -191,9 +193,7 @@ void Visit(Archive& a, Scenario& scenario) {
   a.Section({"drive", "", "what is driven, and in which steps"}, scenario.drive);
   a.Section({"disturb", "", "what goes wrong on the drive; nothing unless it is asked for"},
             scenario.disturb);
-  a.Section({"expect", "",
-             "bounds that the run must keep, on every plant; what is not given is not asked"},
-            scenario.expect);
+  a.Section(kExpectSection, scenario.expect);
   a.Section(kRenderSection, scenario.render);
 }
 

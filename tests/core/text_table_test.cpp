@@ -1,11 +1,13 @@
 #include "trackbed/core/text_table.h"
 
 #include <csv.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <limits>
 
+#include "tests/support/temp_folder.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {
@@ -69,6 +71,38 @@ TEST(ShortestText, ReadsBackToTheSameNumber) {
   for (const double number : {1.0 / 3.0, 1e300, std::numeric_limits<double>::denorm_min(), -2e-7}) {
     EXPECT_EQ(std::strtod(ShortestText(number).c_str(), nullptr), number);
   }
+}
+
+TEST(ReadTextCsv, IsTheInverseOfToCsv) {
+  const TempFolder folder;
+  TextTable table({"drive.plants", "status, of \"it\"", "empty"});
+  table.AddRow({"[kinematic, mujoco]", "two\nlines", ""});
+  table.AddRow({"\"", "", ""});
+  const TextTable read = ReadTextCsv(folder.Write("sweep.csv", "\xEF\xBB\xBF" + table.ToCsv()));
+  EXPECT_EQ(read.columns(), table.columns());
+  EXPECT_EQ(read.rows(), table.rows());
+}
+
+TEST(ReadTextCsv, NamesFileAndLineOfWhatIsWrong) {
+  const TempFolder folder;
+  const auto error = [&](const std::string& text) -> std::string {
+    try {
+      ReadTextCsv(folder.Write("sweep.csv", text));
+    } catch (const InputError& problem) {
+      return problem.what();
+    }
+    return "no error";
+  };
+  using testing::EndsWith;
+  EXPECT_THAT(error("a,b\n1,2\n\n3\n"), EndsWith("sweep.csv:4: 1 cell where the header has 2"));
+  // A cell of two lines is one row.
+  EXPECT_THAT(error("a,b\n\"1\n2\",2\n3,4,5\n"),
+              EndsWith("sweep.csv:4: 3 cells where the header has 2"));
+  EXPECT_THAT(error("a,a\n"), EndsWith("sweep.csv:1: repeated column 'a'"));
+  EXPECT_THAT(error("a,,b\n"), EndsWith("sweep.csv:1: cell 2: a column without a name"));
+  EXPECT_THAT(error("a,b\n\"1\"2,3\n"), testing::HasSubstr("sweep.csv:2: "));
+  EXPECT_THAT(error(""), testing::HasSubstr("empty file"));
+  EXPECT_THROW(ReadTextCsv(folder.path() / "missing.csv"), RunError);
 }
 
 }  // namespace

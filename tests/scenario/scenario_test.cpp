@@ -323,6 +323,22 @@ TEST(ReadWorld, ReadsThatSectionAlone) {
   EXPECT_THROW(ReadWorld(folder.Write("c.yaml", "world: {wind: {z: 1}}\n")), InputError);
 }
 
+TEST(ReadExpectations, ReadsThatSectionAlone) {
+  const TempFolder folder;
+  const Expectations expect = ReadExpectations(folder.Write(
+      "a.yaml",
+      "vehicle: {model: gone}\nexpect: {reach_goal: 0.5, mujoco: {max_cross_track: 0.1}, "
+      "between: [{plants: [kinematic, mujoco], position_max: 0.3}]}\n"));
+  EXPECT_EQ(expect.all.reach_goal, 0.5);
+  ASSERT_EQ(expect.plants.size(), 1U);
+  EXPECT_EQ(expect.plants[0].first, "mujoco");
+  EXPECT_EQ(expect.plants[0].second.max_cross_track, 0.1);
+  ASSERT_EQ(expect.between.size(), 1U);
+  EXPECT_EQ(expect.between[0].position_max, 0.3);
+  EXPECT_FALSE(ReadExpectations(folder.Write("b.yaml", "schema: 1\n")).all.reach_goal);
+  EXPECT_THROW(ReadExpectations(folder.Write("c.yaml", "expect: {reach: 1}\n")), InputError);
+}
+
 TEST(ResolvedYaml, KeepsManoeuvres) {
   const std::string once = ResolvedYaml(
       Parse("schema: 1\nname: x\nmission: {duration: 5}\n"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -29,5 +30,11 @@ class TextTable {
   std::vector<std::string> columns_;
   std::vector<std::vector<std::string>> rows_;
 };
+
+/// Reads a CSV file with a header line as text (RFC 4180 through libcsv), cells as ToCsv wrote
+/// them. InputError with file and line for a row of the wrong length, a repeated or empty column
+/// name, or an empty file; of more than twenty problems the first. Empty lines, spaces around cells
+/// and a byte order mark are skipped.
+TextTable ReadTextCsv(const std::filesystem::path& file);
 
 }  // namespace trackbed

@@ -151,6 +151,9 @@ VehicleSpec ReadVehicleSpec(const std::filesystem::path& file);
 /// The `world` section alone, likewise; what a film shows of it.
 World ReadWorld(const std::filesystem::path& file);
 
+/// The `expect` section alone, likewise; what a report shows of it.
+Expectations ReadExpectations(const std::filesystem::path& file);
+
 /// Checks that concern more than one key; ReadScenario has made them, callers that fill the struct
 /// by hand make them here. InputError.
 void CheckScenario(const Scenario& scenario);
