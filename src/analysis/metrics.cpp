@@ -174,14 +174,24 @@ void JudgeClearance(const PlantExpectation& expect, const PlantMetrics& metrics,
   }
 }
 
-bool ExpectsCollision(const Expectations& expect, const std::string& plant) {
-  bool expected = expect.all.collision.value_or(false);
+/// How a drive is to end.
+DriveStatus ExpectedEnd(const Expectations& expect, const std::string& plant) {
+  bool collision = expect.all.collision.value_or(false);
+  bool blocked = expect.all.blocked.value_or(false);
   for (const auto& [name, own] : expect.plants) {
     if (name == plant) {
-      expected = own.collision.value_or(expected);
+      collision = own.collision.value_or(collision);
+      blocked = own.blocked.value_or(blocked);
     }
   }
-  return expected;
+  return collision ? DriveStatus::kCollided
+         : blocked ? DriveStatus::kBlocked
+                   : DriveStatus::kArrived;
+}
+
+/// What one expects of a car that is to end so.
+const char* ToEnd(DriveStatus expected) {
+  return expected == DriveStatus::kBlocked ? "to end as blocked" : "to arrive";
 }
 
 void NoteLimitedSteering(const PlantMetrics& metrics, Verdict& verdict) {
@@ -290,10 +300,12 @@ Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plant
               const std::vector<PlantComparison>& comparisons) {
   Verdict verdict;
   for (const PlantMetrics& metrics : plants) {
-    if (metrics.status != DriveStatus::kArrived &&
-        !(ExpectsCollision(expect, metrics.plant) && metrics.status == DriveStatus::kCollided)) {
+    const DriveStatus end = ExpectedEnd(expect, metrics.plant);
+    // A car that was to hit something and arrived is told of with the collision.
+    if (metrics.status != end &&
+        !(end == DriveStatus::kCollided && metrics.status == DriveStatus::kArrived)) {
       verdict.failures.push_back(
-          fmt::format("{}: expected to arrive, ended as {} at t = {:.4g} s{}", metrics.plant,
+          fmt::format("{}: expected {}, ended as {} at t = {:.4g} s{}", metrics.plant, ToEnd(end),
                       ToString(metrics.status), metrics.time,
                       metrics.blocked.empty() ? "" : fmt::format(" (it {})", metrics.blocked)));
     }

@@ -160,8 +160,16 @@ std::optional<Plan> Lookout::PlanAgain(const VehicleState& state, const Plan& pl
       .seed = scenario_.seed + static_cast<std::uint64_t>(looks_) * 1000};
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     const Obstacle& obstacle = scenario_.world.obstacles[i];
-    if (seen_[i].since) {
-      request.obstacles.push_back({FootprintAt(obstacle, state.time), obstacle.velocity});
+    if (!seen_[i].since) {
+      continue;
+    }
+    const OrientedBox box = FootprintAt(obstacle, state.time);
+    // The avoider gets its delay first; what it finds no way around is for here after all.
+    const bool for_avoider =
+        !seen_[i].taken_in && driving_.on_route &&
+        IsForAvoider(*scenario_.plan, vehicle_, plan.reference.path, at.s, box);
+    if (!for_avoider) {
+      request.obstacles.push_back({box, obstacle.velocity});
     }
   }
   ++looks_;

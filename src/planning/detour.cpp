@@ -71,6 +71,10 @@ class DetourSearch {
     Detour detour;
     detour.current = Score(WayAsItIs());
     detour.best.total = std::numeric_limits<double>::infinity();
+    if (!detour.current.collides) {
+      detour.why = "nothing that stands blocks the way";
+      return detour;
+    }
     const Path& path = request_.driven.reference.path;
     const double lead = request_.station + kLead + kLeadTime * request_.station_speed;
     // At once, or once the car could have stopped.
@@ -159,7 +163,8 @@ class DetourSearch {
       backs.push_back(*back);
       from = *back + kBackStep;
     }
-    if (blocked.empty() || blocked.back().to < path.length() - 2.0 * kLook) {
+    // At the end only where there is nowhere else: it would leave out what the mission leads through.
+    if (backs.empty() && behind < path.length() - 2.0 * kLook) {
       backs.push_back(path.length());
     }
     return backs;
@@ -189,7 +194,7 @@ class DetourSearch {
     }
     const Plan way = MakePlan(request, planner_);
     if (!way.ok()) {
-      why = way.reason;
+      why = why.empty() ? way.reason : why;
       return std::nullopt;
     }
     const PathPoint first = way.reference.path.At(0.0);

@@ -25,6 +25,8 @@ constexpr double kLastMetres = 1.0;
 constexpr double kBackOffset = 0.02;     // [m]
 constexpr double kBackHeading = 0.005;   // [rad]
 constexpr double kBackSteering = 0.002;  // [rad]
+/// No path is shorter than this [m].
+constexpr double kNoWay = 1e-3;
 /// Room that is left before an obstacle when the car has to brake for it [m].
 constexpr double kBrakeRoom = 0.5;
 
@@ -103,7 +105,9 @@ class Replanning {
     if (options_.detour) {
       Detour detour = FindDetour();
       Tell(detour);
-      if (detour.route) {
+      // Detours know only what stands.
+      if (detour.route && !EncounterOf(detour.route->reference, 0.0)) {
+        told_["kind"] = "detour";
         detour.route->diagnostics["replan"] = told_;
         return {ReplanKind::kRoute, std::move(*detour.route)};
       }
@@ -243,7 +247,6 @@ class Replanning {
       out["best"] = ToJson(detour.best);
     }
     if (detour.route) {
-      told_["kind"] = "detour";
       for (const char* key : {"leave_s_m", "return_s_m"}) {
         out[key] = detour.route->diagnostics[key];
       }
@@ -264,6 +267,9 @@ class Replanning {
     Plan plan;
     const Path& path = driving_.plan.reference.path;
     const double until = std::min(driving_.station + way, path.length());
+    if (until - driving_.station < kNoWay) {
+      return Keep();  // it ends here anyway
+    }
     plan.reference.path = Path(path.At(driving_.station).pose, path.Cut({driving_.station, until}));
     const Path& own = plan.reference.path;
     plan.caps = Moved(driving_.plan.caps, {driving_.station, until}, -driving_.station);

@@ -160,14 +160,8 @@ class CrossCheck {
                     "plan.replan.detour.method"})) {
       return;
     }
-    if (replan.detour && MayGoBackwards(*replan.detour) &&
-        CouldRead({"plan.replan.detour.reverse"})) {
-      Complain("plan.replan.detour",
-               fmt::format("a detour by {} may go backwards; it has to go forwards{}",
-                           PlannerName(*replan.detour),
-                           std::holds_alternative<HybridAStarOptions>(*replan.detour)
-                               ? ": set reverse: false"
-                               : ""));
+    if (replan.detour && MayGoBackwards(*replan.detour)) {
+      Complain("plan.replan.detour.reverse", "a detour goes forwards: leave it out");
     }
     if (!replan.along && !replan.detour) {
       Complain("plan.replan", "needs along, detour or both: nothing else plans again");
@@ -474,8 +468,10 @@ class CrossCheck {
                         expectation.rms_cross_track || expectation.max_heading_error)) {
         Complain(key, "without a plan there is no goal and no path to be off");
       }
-      if (!has_obstacles && (expectation.min_clearance || expectation.collision.value_or(false))) {
-        Complain(key, "without world.obstacles there is nothing to be clear of or to hit");
+      if (!has_obstacles && (expectation.min_clearance || expectation.collision.value_or(false) ||
+                             expectation.blocked.value_or(false))) {
+        Complain(key,
+                 "without world.obstacles there is nothing to be clear of, to hit or to stop for");
       }
     });
   }

@@ -119,6 +119,7 @@ void Visit(Archive& a, PlantExpectation& expect) {
   a.Field({"min_clearance", "m", "smallest distance of the car's outline from an obstacle"},
           expect.min_clearance, kNotNegative);
   a.Field({"collision", "", "whether the car hits an obstacle"}, expect.collision);
+  a.Field({"blocked", "", "whether it ends at rest before what blocks its way"}, expect.blocked);
   a.List({"metrics", "", "bounds on whatever else was measured"}, expect.metrics);
 }
 

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
 #include "src/scenario/key_lister.h"
@@ -302,12 +300,18 @@ void Visit(Archive& a, RoadWidths& road) {
   VisitRoadSide(a, {"right", "m", "of the route; without it there is no end"}, road.right);
 }
 
-/// Planners that find a way round by themselves.
+/// Planners that find a way round by themselves, set to go forwards.
 inline const std::vector<PlannerEntry>& DetourPlanners() {
   static const std::vector<PlannerEntry> table = [] {
     std::vector<PlannerEntry> fit;
-    std::copy_if(Planners().begin(), Planners().end(), std::back_inserter(fit),
-                 [](const PlannerEntry& entry) { return entry.keeps_clear; });
+    for (PlannerEntry entry : Planners()) {
+      if (auto* hybrid = std::get_if<HybridAStarOptions>(&entry.defaults)) {
+        hybrid->reverse = false;
+      }
+      if (entry.keeps_clear && !MayGoBackwards(entry.defaults)) {
+        fit.push_back(entry);
+      }
+    }
     return fit;
   }();
   return table;

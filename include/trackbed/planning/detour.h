@@ -42,9 +42,10 @@ struct Detour {
   std::string why;            ///< there is none, for people
 };
 
-/// Leaves the driven path where it is straight, as early as the car can, and comes back on straight
-/// stretches of the route behind the last of what blocks it or at its end. Of all that is found the
-/// comparator takes the best, and that only if it is better than going on as before.
+/// Looks for a way only where something that stands blocks the route. Leaves the driven path where
+/// it is straight, as early as the car can, and comes back on straight stretches of the route
+/// behind the last of what blocks it or at its end. Of all that is found the comparator takes the
+/// best, and that only if it is better than going on as before.
 ///
 /// Guarantees: the new route begins with the driven one, its curvature included, for as long as the
 /// steering needs to follow; keeps the planner's own distance from every obstacle beyond; is slow

@@ -82,6 +82,7 @@ struct PlantExpectation {
   std::optional<double> max_heading_error;  ///< [rad]
   std::optional<double> min_clearance;      ///< smallest distance of the outline to an obstacle [m]
   std::optional<bool> collision;            ///< whether the car hits an obstacle
+  std::optional<bool> blocked;              ///< whether it ends at rest before what blocks its way
   std::vector<MetricExpectation> metrics;   ///< of whatever else was measured
 };
 

@@ -1,0 +1,216 @@
+// Planning again while driving, through the whole loop.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "tests/tolerance.h"
+#include "trackbed/drive/drive.h"
+#include "trackbed/testing/scenario_testing.h"
+
+namespace trackbed {
+namespace {
+
+using testing::HasSubstr;
+
+Scenario Read(const std::string& name) {
+  return ReadScenario(std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml"));
+}
+
+std::string KindOf(const PlanChange& change) {
+  return change.plan.diagnostics.contains("avoid") && !change.plan.diagnostics.contains("replan")
+             ? "avoid"
+             : change.plan.diagnostics.at("replan").at("kind").get<std::string>();
+}
+
+std::set<std::string> KindsOf(const RunLog& log) {
+  std::set<std::string> kinds;
+  for (const PlanChange& change : log.changes) {
+    kinds.insert(KindOf(change));
+  }
+  return kinds;
+}
+
+const LogRow& RowAt(const RunLog& log, double time) {
+  return *std::find_if(log.rows.begin(), log.rows.end(),
+                       [&](const LogRow& row) { return row.state.time == time; });
+}
+
+/// No plan asks at its start for another angle than the one before it did at that moment, by more
+/// than the wheels turn in a control period; nor is it elsewhere or of another speed.
+void ExpectSmoothSwitches(const Scenario& scenario, const RunLog& log, const Plan& first) {
+  const VehicleParams vehicle = LoadCar(scenario).params();
+  const double turned = vehicle.steering_rate * scenario.drive.control_period;
+  const Plan* before = &first;
+  double began = 0.0;
+  for (const PlanChange& change : log.changes) {
+    SCOPED_TRACE(log.plant + " at " + std::to_string(change.time));
+    const PathPoint was = before->reference.path.At(change.station - began);
+    const PathPoint is = change.plan.reference.path.At(0.0);
+    EXPECT_LE(std::abs(SteeringForCurvature(vehicle, was.curvature) -
+                       SteeringForCurvature(vehicle, is.curvature)),
+              turned);
+    // Back on the route from within 2 cm and 0.005 rad of it.
+    EXPECT_LE((was.pose.position() - is.pose.position()).norm(), 0.021);
+    EXPECT_LE(std::abs(was.pose.yaw - is.pose.yaw), 0.006);
+    before = &change.plan;
+    began = change.station;
+  }
+}
+
+class Replanned : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Scenarios, Replanned,
+                         testing::Values("overtake", "follow_and_stop", "slalom_road",
+                                         "blocked_road", "dead_end"),
+                         [](const auto& of) { return std::string(of.param); });
+
+TEST_P(Replanned, MeetsItsExpectationsAndSwitchesSmoothly) {
+  const Scenario scenario = Read(GetParam());
+  const RunResult run = RunScenario(scenario);
+  EXPECT_THAT(run, MeetsItsExpectations());
+  for (const RunLog& log : run.logs) {
+    EXPECT_FALSE(log.changes.empty());
+    ExpectSmoothSwitches(scenario, log, run.plan);
+    // Every look is at a multiple of the period.
+    const double period = scenario.plan->replan->period;
+    for (const PlanChange& change : log.changes) {
+      EXPECT_NEAR(std::remainder(change.time, period), 0.0, Tolerance(1e-9));
+    }
+  }
+}
+
+TEST(Overtake, PassesOnTheLeftAtFullSpeed) {
+  const RunResult run = RunScenario(Read("overtake"));
+  for (const RunLog& log : run.logs) {
+    double left = 0.0;
+    double slowest = 1e9;
+    for (const LogRow& row : log.rows) {
+      left = std::max(left, row.state.pose.y);
+      if (row.state.time < 15.0) {
+        slowest = std::min(slowest, row.state.speed);
+      }
+      // Ahead and back in the lane 2 s before it stops.
+      if (row.state.time > 18.0) {
+        EXPECT_GT(row.state.pose.x, 50.0 + 5.0 * row.state.time + 5.0);
+        EXPECT_NEAR(row.state.pose.y, 0.0, 0.1);
+      }
+      if (row.state.pose.x > 250.0) {
+        break;
+      }
+    }
+    // Half of both widths, the safe distance: 0.8625 + 0.9 + 0.8.
+    EXPECT_GE(left, 2.5);
+    EXPECT_GE(slowest, 11.5);
+  }
+}
+
+TEST(FollowAndStop, KeepsItsGaps) {
+  const Scenario scenario = Read("follow_and_stop");
+  const RunResult run = RunScenario(scenario);
+  const VehicleParams vehicle = LoadCar(scenario).params();
+  for (const RunLog& log : run.logs) {
+    const LogRow& row = RowAt(log, 20.0);
+    // At 7 m/s behind it: 4 m and 1.5 s.
+    const double rear = 60.0 + 7.0 * 20.0 - 2.2;
+    const double front = row.state.pose.x + vehicle.length - vehicle.rear_overhang;
+    EXPECT_NEAR(row.state.speed, 7.0, 0.05);
+    // Motions that are planned anew before their end come there ever more slowly; K_st makes
+    // up for less than the station offset of half a metre.
+    EXPECT_NEAR(rear - front, 4.0 + 1.5 * 7.0, 0.5);
+  }
+}
+
+TEST(BlockedRoad, TakesADetour) {
+  const Scenario scenario = Read("blocked_road");
+  const RunResult run = RunScenario(scenario);
+  for (const RunLog& log : run.logs) {
+    EXPECT_THAT(KindsOf(log), testing::Contains("detour"));
+    const auto& told = log.changes.front().plan.diagnostics.at("replan").at("detour");
+    EXPECT_TRUE(told.at("current").at("collides").get<bool>());
+    EXPECT_FALSE(told.at("best").at("collides").get<bool>());
+    EXPECT_LT(told.at("best").at("total_m").get<double>(),
+              told.at("current").at("total_m").get<double>());
+  }
+}
+
+TEST(BlockedRoad, WithoutPenaltyTheComparatorKeepsTheCarWhereItIs) {
+  Scenario scenario = Read("blocked_road");
+  scenario.plan->replan->comparator->comparator.collision_penalty = 0.0;
+  scenario.expect = {};
+  scenario.drive.plants = {"kinematic"};
+  const RunResult run = RunScenario(scenario);
+  EXPECT_EQ(run.logs[0].status, DriveStatus::kBlocked);
+  EXPECT_FALSE(run.metrics[0].clearance->collision);
+}
+
+TEST(DeadEnd, StopsTheGapBeforeTheWall) {
+  const RunResult run = RunScenario(Read("dead_end"));
+  for (std::size_t i = 0; i < run.logs.size(); ++i) {
+    EXPECT_EQ(run.logs[i].status, DriveStatus::kBlocked);
+    EXPECT_THAT(run.metrics[i].blocked, HasSubstr("stops behind what stands in the way"));
+    // The gap of 3 m; turned by 1.571 instead of pi/2 the wall is 0.01 m nearer 60 m out.
+    EXPECT_NEAR(*run.logs[i].rows.back().clearance, 3.0, 0.05);
+  }
+}
+
+TEST(Waiting, EndsWhenWhatMovesHasGone) {
+  Scenario scenario = Read("dead_end");
+  // A lorry crosses at walking pace: the car stops for it, waits and goes on.
+  Obstacle& lorry = scenario.world.obstacles[0];
+  lorry.footprint = {{50.0, -12.0, 1.5707963267948966}, 16.0, 2.5};
+  lorry.velocity = {0.0, 0.8};
+  lorry.known_from_range.reset();
+  scenario.expect = {};
+  const RunResult run = RunScenario(scenario);
+  for (std::size_t i = 0; i < run.logs.size(); ++i) {
+    SCOPED_TRACE(run.logs[i].plant);
+    EXPECT_EQ(run.logs[i].status, DriveStatus::kArrived);
+    EXPECT_FALSE(run.metrics[i].clearance->collision);
+    EXPECT_LE(run.metrics[i].tracking->goal_distance, 0.5);
+    double slowest = 1e9;
+    for (const LogRow& row : run.logs[i].rows) {
+      if (row.state.pose.x > 10.0 && row.state.pose.x < 60.0) {
+        slowest = std::min(slowest, row.state.speed);
+      }
+    }
+    EXPECT_LT(slowest, 1.5);
+  }
+}
+
+/// Every planner of a whole path with every controller, over a short mission.
+TEST(EveryPlanner, IsDrivenByEveryController) {
+  Scenario base = Read("heading_goal");
+  base.world.obstacles.clear();
+  base.mission.headings.clear();
+  base.mission.waypoints = {{0.0, 0.0}, {30.0, 0.0}, {45.0, 20.0}};
+  base.mission.start = {};
+  base.mission.speed = 2.0;
+  base.expect = {};
+  base.drive.plants = {"kinematic", "mujoco"};
+  for (const PlannerEntry& planner : Planners()) {
+    if (planner.fewest_waypoints == 0) {
+      continue;  // courses and lane changes know no goal
+    }
+    base.plan = PlanSpec{.global = planner.defaults};
+    for (const ControllerEntry& controller : Controllers()) {
+      if (!controller.needs_plan) {
+        continue;
+      }
+      SCOPED_TRACE(std::string(planner.name) + ", " + controller.name);
+      base.control.steering = controller.defaults;
+      const RunResult run = RunScenario(base);
+      ASSERT_TRUE(run.plan.ok()) << run.plan.reason;
+      for (const RunLog& log : run.logs) {
+        EXPECT_EQ(log.status, DriveStatus::kArrived) << log.plant;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trackbed
