@@ -89,21 +89,22 @@ std::optional<Plan> Lookout::Avoid(const VehicleState& state, const Plan& plan, 
                            .station_speed = std::abs(state.speed),
                            .car = AvoidanceRequest::Car{state.pose, state.steering},
                            .seed = scenario_.seed};
+  const auto is_due = [&](const Seen& seen) {
+    return seen.since && !seen.taken_in && state.time >= *seen.since + delay - kSameTime;
+  };
+  if (std::none_of(seen_.begin(), seen_.end(), is_due)) {
+    return std::nullopt;
+  }
   bool in_the_way = false;
   for (std::size_t i = 0; i < seen_.size(); ++i) {
-    Seen& seen = seen_[i];
-    if (!seen.since) {
-      continue;
-    }
+    const bool due = is_due(seen_[i]);
+    seen_[i].taken_in = seen_[i].taken_in || due;
     const OrientedBox box = FootprintAt(scenario_.world.obstacles[i], state.time);
-    const bool due = !seen.taken_in && state.time >= *seen.since + delay - kSameTime;
-    if ((due || seen.taken_in) &&
-        IsForAvoider(*scenario_.plan, vehicle_, plan.reference.path, station, box)) {
+    const Path& path = plan.reference.path;
+    if (seen_[i].taken_in && IsForAvoider(*scenario_.plan, vehicle_, path, station, box)) {
       request.obstacles.push_back(box);
-      in_the_way =
-          in_the_way || (due && IsInTheWay(vehicle_, plan.reference.path, station, box, distance));
+      in_the_way = in_the_way || (due && IsInTheWay(vehicle_, path, station, box, distance));
     }
-    seen.taken_in = seen.taken_in || due;
   }
   if (!in_the_way) {
     return std::nullopt;
