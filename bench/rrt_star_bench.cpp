@@ -1,15 +1,10 @@
 #include <benchmark/benchmark.h>
-#include <ompl/base/MotionValidator.h>
-#include <ompl/base/ProblemDefinition.h>
-#include <ompl/base/SpaceInformation.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
-#include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/base/terminationconditions/IterationTerminationCondition.h>
 #include <ompl/geometric/planners/rrt/RRTstar.h>
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
-#include <algorithm>
 #include <limits>
 #include <memory>
 #include <string>
@@ -17,44 +12,15 @@
 #include <vector>
 
 #include "bench/in_turn.h"
+#include "bench/ompl_plane.h"
 #include "tests/planning/maps.h"
 
 // Our RRT* against that of OMPL: the same maps, step, goal bias, budget and test of an edge.
 namespace trackbed::bench {
 namespace {
 
-namespace ob = ompl::base;
-using Space = ob::RealVectorStateSpace;
-
 constexpr double kStep = 10.0;      // [m]
 constexpr double kGoalBias = 0.05;  // of both by default
-
-Vec2 PositionOf(const ob::State* state) {
-  const auto* values = state->as<Space::StateType>();
-  return {(*values)[0], (*values)[1]};
-}
-
-/// Whether an edge is free, by the distances that our own search asks for.
-class Edges : public ob::MotionValidator {
- public:
-  Edges(const ob::SpaceInformationPtr& space, const RrtStarProblem& problem)
-      : ob::MotionValidator(space), problem_(problem) {}
-
-  bool checkMotion(const ob::State* from, const ob::State* to) const override {
-    const Vec2 a = PositionOf(from);
-    const Vec2 b = PositionOf(to);
-    return std::all_of(
-        problem_.obstacles.begin(), problem_.obstacles.end(),
-        [&](const OrientedBox& obstacle) { return Distance(a, b, obstacle) > problem_.inflation; });
-  }
-  bool checkMotion(const ob::State* from, const ob::State* to,
-                   std::pair<ob::State*, double>& /*last_valid*/) const override {
-    return checkMotion(from, to);
-  }
-
- private:
-  const RrtStarProblem& problem_;
-};
 
 struct Run {
   double seconds = 0.0;
@@ -74,25 +40,8 @@ Run Ours(const RrtStarProblem& problem, int iterations, std::uint64_t seed) {
 /// OMPL's, from the first sample to the last: what it sets up is not counted. Its generators draw
 /// on from the program's one seed.
 Run Ompls(const RrtStarProblem& problem, int iterations) {
-  const auto space = std::make_shared<Space>(2);
-  ob::RealVectorBounds bounds(2);
-  for (unsigned axis = 0; axis < 2; ++axis) {
-    bounds.setLow(axis, problem.low[axis]);
-    bounds.setHigh(axis, problem.high[axis]);
-  }
-  space->setBounds(bounds);
-  const auto information = std::make_shared<ob::SpaceInformation>(space);
-  information->setStateValidityChecker([](const ob::State*) { return true; });  // edges tell all
-  information->setMotionValidator(std::make_shared<Edges>(information, problem));
-  information->setup();
-  ob::ScopedState<Space> start(space);
-  ob::ScopedState<Space> goal(space);
-  for (unsigned axis = 0; axis < 2; ++axis) {
-    start[axis] = problem.start[axis];
-    goal[axis] = problem.goal[axis];
-  }
-  const auto definition = std::make_shared<ob::ProblemDefinition>(information);
-  definition->setStartAndGoalStates(start, goal);
+  const ob::ProblemDefinitionPtr definition = DefinitionOf(problem);
+  const ob::SpaceInformationPtr information = definition->getSpaceInformation();
   definition->setOptimizationObjective(
       std::make_shared<ob::PathLengthOptimizationObjective>(information));
   ompl::geometric::RRTstar planner(information);
@@ -108,12 +57,6 @@ Run Ompls(const RrtStarProblem& problem, int iterations) {
     run.cost = definition->getSolutionPath()->length();
   }
   return run;
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Medians over the seeds, of times and of costs; both ratios are meant to be at most 1, that of

@@ -173,6 +173,7 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
                             .waypoints = scenario.mission.waypoints,
                             .headings = scenario.mission.headings,
                             .obstacles = known,
+                            .wind = scenario.world.wind,
                             .start = start.pose,
                             .start_speed = start.speed,
                             .speed = SpeedLimitsOf(scenario),

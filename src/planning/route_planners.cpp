@@ -14,6 +14,23 @@
 namespace trackbed {
 namespace {
 
+std::string FirstCorner(const std::vector<Vec2>& points) {
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const Vec2 in = points[i] - points[i - 1];
+    const Vec2 out = points[i + 1] - points[i];
+    const double turn = std::atan2(Cross(in, out), in.dot(out));
+    if (std::abs(turn) > 1e-6) {
+      return fmt::format("the heading jumps by {:.3g} rad at ({:.4g}, {:.4g}); no car drives that",
+                         turn, points[i].x(), points[i].y());
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+namespace route {
+
 Plan Refused(PlanStatus status, std::string reason) {
   Plan plan;
   plan.status = status;
@@ -21,7 +38,6 @@ Plan Refused(PlanStatus status, std::string reason) {
   return plan;
 }
 
-/// What is wrong with the route itself, if anything.
 Plan CheckRoute(const PlanRequest& request) {
   if (request.waypoints.size() < 2) {
     return Refused(
@@ -34,8 +50,69 @@ Plan CheckRoute(const PlanRequest& request) {
                      fmt::format("waypoint {} is the one before it", i));
     }
   }
+  if (request.waypoints[1] == request.start.position()) {
+    return Refused(PlanStatus::kDuplicateWaypoints, "the car stands at waypoint 1");
+  }
   return {};
 }
+
+void Complete(Plan& plan, const PlanRequest& request) {
+  const Path& path = plan.reference.path;
+  plan.reference.speed = StopAtCusps(path, request.start_speed, request.speed, plan.caps);
+  plan.schedule_speed = plan.reference.speed;
+  plan.schedule = CourseSchedule(request.vehicle, path.segments(), plan.reference.speed);
+  plan.goal = path.At(path.length()).pose;
+  plan.diagnostics["turns"] = nlohmann::json::array();
+  plan.diagnostics["changes_of_direction"] = LegsOf(path).size() - 1;
+}
+
+Plan AlongPolyline(Plan plan, const PlanRequest& request, const std::vector<Vec2>& points,
+                   Corners corners, double safe_distance, double min_speed) {
+  if (corners == Corners::kRefuse) {
+    if (const std::string corner = FirstCorner(points); !corner.empty()) {
+      return Refused(PlanStatus::kTurnTooTight, corner);
+    }
+  }
+  RoundedCorners rounded =
+      RoundCorners(request.vehicle, points,
+                   {.speed = request.speed.speed,
+                    .min_speed = std::min(min_speed, request.speed.speed),
+                    .max_curvature = 1.0 / request.vehicle.min_turning_radius()},
+                   ClearWay(request.vehicle, request.obstacles, safe_distance));
+  if (rounded.status != PlanStatus::kOk) {
+    return Refused(rounded.status, rounded.reason);
+  }
+  plan.diagnostics["corners"] = nlohmann::json::array();
+  for (const RoundCorner& corner : rounded.corners) {
+    plan.diagnostics["corners"].push_back({{"at_m", {corner.at.x(), corner.at.y()}},
+                                           {"heading_change_rad", corner.heading_change},
+                                           {"speed_mps", corner.speed},
+                                           {"curvature_radpm", corner.curvature},
+                                           {"tangent_length_m", corner.tangent_length},
+                                           {"from_s_m", corner.from},
+                                           {"to_s_m", corner.to}});
+  }
+  plan.reference.path = std::move(rounded.path);
+  plan.caps = std::move(rounded.caps);
+  Complete(plan, request);
+  return plan;
+}
+
+nlohmann::json ToJson(const std::vector<Vec2>& points) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Vec2& point : points) {
+    list.push_back({point.x(), point.y()});
+  }
+  return list;
+}
+
+}  // namespace route
+
+namespace {
+
+using route::CheckRoute;
+using route::Complete;
+using route::Refused;
 
 /// The radius to plan with, or why there is none.
 Plan CheckRadius(const VehicleParams& vehicle, const std::optional<double>& radius) {
@@ -64,17 +141,6 @@ Plan CheckStops(const std::vector<Pose2>& stops, const ClearWay& clear) {
     }
   }
   return {};
-}
-
-/// Fills in what follows from the path and the caps.
-void Complete(Plan& plan, const PlanRequest& request) {
-  const Path& path = plan.reference.path;
-  plan.reference.speed = StopAtCusps(path, request.start_speed, request.speed, plan.caps);
-  plan.schedule_speed = plan.reference.speed;
-  plan.schedule = CourseSchedule(request.vehicle, path.segments(), plan.reference.speed);
-  plan.goal = path.At(path.length()).pose;
-  plan.diagnostics["turns"] = nlohmann::json::array();
-  plan.diagnostics["changes_of_direction"] = LegsOf(path).size() - 1;
 }
 
 bool IsFree(const ClearWay& clear, Pose2 pose, const std::vector<Segment>& segments) {
@@ -154,19 +220,6 @@ std::vector<Vec2> PointsOf(const OccupancyGrid& grid, const GridPath& way, const
   return points;
 }
 
-std::string FirstCorner(const std::vector<Vec2>& points) {
-  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    const Vec2 in = points[i] - points[i - 1];
-    const Vec2 out = points[i + 1] - points[i];
-    const double turn = std::atan2(Cross(in, out), in.dot(out));
-    if (std::abs(turn) > 1e-6) {
-      return fmt::format("the heading jumps by {:.3g} rad at ({:.4g}, {:.4g}); no car drives that",
-                         turn, points[i].x(), points[i].y());
-    }
-  }
-  return "";
-}
-
 }  // namespace
 
 std::vector<Pose2> StopsOf(const PlanRequest& request) {
@@ -236,14 +289,10 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
     }
     std::vector<Vec2> leg = PointsOf(grid, way, goal);
     leg.front() = points.back();
-    nlohmann::json on_the_grid = nlohmann::json::array();
-    for (const Vec2& point : WithoutStraightOn(leg)) {
-      on_the_grid.push_back({point.x(), point.y()});
-    }
     plan.diagnostics["legs"].push_back({{"cost_m", way.cost * options.cell},
                                         {"expansions", way.expansions},
                                         {"cells", grid.size()},
-                                        {"path_m", on_the_grid}});
+                                        {"path_m", route::ToJson(WithoutStraightOn(leg))}});
     if (round) {
       leg = Shortcut(leg, request.obstacles, inflation);
     }
@@ -251,34 +300,9 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
   }
   if (!round) {
     points = WithoutStraightOn(points);
-    if (const std::string corner = FirstCorner(points); !corner.empty()) {
-      return Refused(PlanStatus::kTurnTooTight, corner);
-    }
   }
-  const ClearWay clear(request.vehicle, request.obstacles, options.safe_distance);
-  RoundedCorners rounded =
-      RoundCorners(request.vehicle, points,
-                   {.speed = request.speed.speed,
-                    .min_speed = std::min(options.min_speed, request.speed.speed),
-                    .max_curvature = 1.0 / request.vehicle.min_turning_radius()},
-                   clear);
-  if (rounded.status != PlanStatus::kOk) {
-    return Refused(rounded.status, rounded.reason);
-  }
-  plan.diagnostics["corners"] = nlohmann::json::array();
-  for (const RoundCorner& corner : rounded.corners) {
-    plan.diagnostics["corners"].push_back({{"at_m", {corner.at.x(), corner.at.y()}},
-                                           {"heading_change_rad", corner.heading_change},
-                                           {"speed_mps", corner.speed},
-                                           {"curvature_radpm", corner.curvature},
-                                           {"tangent_length_m", corner.tangent_length},
-                                           {"from_s_m", corner.from},
-                                           {"to_s_m", corner.to}});
-  }
-  plan.reference.path = std::move(rounded.path);
-  plan.caps = std::move(rounded.caps);
-  Complete(plan, request);
-  return plan;
+  return route::AlongPolyline(std::move(plan), request, points, options.corners,
+                              options.safe_distance, options.min_speed);
 }
 
 Plan PlanWith(const HybridAStarOptions& options, const PlanRequest& request) {

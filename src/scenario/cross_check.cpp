@@ -21,6 +21,7 @@ class CrossCheck {
   std::vector<std::pair<std::string, std::string>> Run() {
     CheckMission();
     CheckCourse();
+    CheckSmoothing();
     CheckAvoider();
     CheckReplan();
     CheckSpeedOverTime();
@@ -131,6 +132,21 @@ class CrossCheck {
       } else if (!piece.curvature && !piece.curvature_to) {
         Complain(own, "needs curvature (0 for a straight), or curvature_to of a ramp");
       }
+    }
+  }
+
+  void CheckSmoothing() {
+    const auto* rrt =
+        scenario_.plan ? std::get_if<RrtPlannerOptions>(&scenario_.plan->global) : nullptr;
+    if (rrt == nullptr || !CouldReadPlan({"data_weight", "smoothness_weight"})) {
+      return;
+    }
+    const double step = rrt->data_weight + 2.0 * rrt->smoothness_weight;
+    if (step <= 0.0 || step >= 1.0) {
+      Complain(scenario_.plan->avoid ? "plan.global.smoothness_weight" : "plan.smoothness_weight",
+               fmt::format("data_weight + 2 smoothness_weight is {:.4g}; must be above 0 and below "
+                           "1, or smoothing does not converge",
+                           step));
     }
   }
 

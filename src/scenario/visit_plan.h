@@ -147,20 +147,26 @@ inline constexpr Key kGridMargin{"margin", "m",
                                  "around waypoints and obstacles, within which to look"};
 inline constexpr Range kCellSize{.min = 0.05, .max = 10.0};
 
+inline constexpr Key kCornerSpeed{"min_speed", "m/s", "no corner is taken more slowly"};
+
 template <typename Archive>
-void Visit(Archive& a, AStarOptions& options) {
-  static const EnumNames<Corners> corners{{Corners::kRound, "round"}, {Corners::kRefuse, "refuse"}};
+void VisitCorners(Archive& a, Corners& corners, double& safe_distance, double& corner_room) {
+  static const EnumNames<Corners> names{{Corners::kRound, "round"}, {Corners::kRefuse, "refuse"}};
   a.Field({"corners", "",
            "what becomes of corners: rounded by clothoids and arcs that the wheels can follow, or "
            "no plan"},
-          options.corners, Need::kOptional, corners);
-  a.Field(kOutlineDistance, options.safe_distance, Need::kOptional, kNotNegative);
-  a.Field({"corner_room", "m", "that the search keeps besides, for rounded corners"},
-          options.corner_room, Need::kOptional, kNotNegative);
+          corners, Need::kOptional, names);
+  a.Field(kOutlineDistance, safe_distance, Need::kOptional, kNotNegative);
+  a.Field({"corner_room", "m", "that the search keeps besides, for rounded corners"}, corner_room,
+          Need::kOptional, kNotNegative);
+}
+
+template <typename Archive>
+void Visit(Archive& a, AStarOptions& options) {
+  VisitCorners(a, options.corners, options.safe_distance, options.corner_room);
   a.Field(kGridCell, options.cell, Need::kOptional, kCellSize);
   a.Field(kGridMargin, options.margin, Need::kOptional, kNotNegative);
-  a.Field({"min_speed", "m/s", "no corner is taken more slowly"}, options.min_speed,
-          Need::kOptional, kPositive);
+  a.Field(kCornerSpeed, options.min_speed, Need::kOptional, kPositive);
   a.Field({"budget", "", "cells to look at for each leg, at most"}, options.budget, Need::kOptional,
           Range{.min = 0, .max = 1e9});
 }
@@ -186,6 +192,33 @@ void Visit(Archive& a, HybridAStarOptions& options) {
   a.Field(kGridMargin, options.margin, Need::kOptional, kNotNegative);
   a.Field({"budget", "", "poses to look at for each leg, at most"}, options.budget, Need::kOptional,
           Range{.min = 0, .max = 1e7});
+}
+
+template <typename Archive>
+void Visit(Archive& a, RrtPlannerOptions& options) {
+  VisitCorners(a, options.corners, options.safe_distance, options.corner_room);
+  a.Field(kGridMargin, options.margin, Need::kOptional, kNotNegative);
+  a.Field({"lead_in", "m", "straight on from the start, before the trees begin; 0: none"},
+          options.lead_in, Need::kOptional, kNotNegative);
+  a.Field(kCornerSpeed, options.min_speed, Need::kOptional, kPositive);
+  a.Field({"trees", "", "grown; of their ways the best one that the car can drive is the plan"},
+          options.trees, Need::kOptional, Range{.min = 1, .max = 1000});
+  a.Field({"iterations", "", "samples for each leg of each tree, at most"}, options.iterations,
+          Need::kOptional, Range{.min = 0, .max = 1e6});
+  a.Field({"expand_distance", "m", "from a node toward a sample at most"}, options.expand_distance,
+          Need::kOptional, kPositive);
+  a.Field({"goal_bias", "", "share of samples at the goal"}, options.goal_bias, Need::kOptional,
+          Range{.min = 0.0, .max = 1.0});
+  a.Field({"data_weight", "", "alpha of the smoothing: keeps points where they are"},
+          options.data_weight, Need::kOptional, Range{.min = 0.0, .max = 1.0});
+  a.Field({"smoothness_weight", "",
+           "beta of the smoothing: draws points between their neighbours; data_weight + 2 "
+           "smoothness_weight is above 0 and below 1"},
+          options.smoothness_weight, Need::kOptional, Range{.min = 0.0, .max = 0.5});
+  a.Field({"corner_cost", "m", "of a corner, as so much way: fewer corners, with longer legs"},
+          options.corner_cost, Need::kOptional, kNotNegative);
+  a.Field({"wind_weight", "", "how much wind counts in the length of a way; 0: not at all"},
+          options.wind_weight, Need::kOptional, kNotNegative);
 }
 
 template <typename Archive>

@@ -158,6 +158,20 @@ std::vector<std::string> LinksOfTheBuild() {
   return links;
 }
 
+TEST(Pages, ShowTheirExamplesAsTheyAreBuilt) {
+  const auto read = [](const fs::path& path) {
+    std::ifstream file(path);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+  };
+  const fs::path folder = kRoot / "docs" / "how-to";
+  const std::string example = read(folder / "add_a_planner.cpp");
+  ASSERT_FALSE(example.empty());
+  EXPECT_NE(read(folder / "add-a-planner.md").find("```cpp\n" + example + "```\n"),
+            std::string::npos);
+}
+
 TEST(Rooms, AreDrawnAsTheBuildLinksThem) {
   const std::string page = TextOf(kRoot / "docs/architecture.md");
   const std::size_t begin = page.find("flowchart BT");

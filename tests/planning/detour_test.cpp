@@ -133,6 +133,30 @@ TEST_P(EveryDetour, SaysWhyThereIsNone) {
   EXPECT_TRUE(std::isinf(detour.best.total));
 }
 
+TEST(PlanDetour, GoesTheWayTheWindBlows) {
+  // A box in the middle: both ways round are equally long, but the wind blows harder on the left.
+  DetourRequest request = Blocked();
+  request.obstacles = {{{50.0, 0.0, 0.0}, 4.0, 8.0}};
+  const auto side_of = [&](double strength) {
+    request.wind.gusts = {{.velocity = {strength, 0.0},
+                           .from = 0.0,
+                           .shape = GustShape::kStep,
+                           .area = OrientedBox{{50.0, 20.0, 0.0}, 60.0, 37.0}}};
+    const Detour detour =
+        PlanDetour(request, PlannerOptions{RrtPlannerOptions{}}, {.attempts = 12});
+    EXPECT_TRUE(detour.route) << detour.why;
+    double side = 0.0;
+    const Path& path = detour.route->reference.path;
+    for (double s = 0.0; s < path.length(); s += 0.5) {
+      const double y = path.At(s).pose.y;
+      side = std::abs(y) > std::abs(side) ? y : side;
+    }
+    return side;
+  };
+  EXPECT_GT(side_of(2.0), 0.0);
+  EXPECT_LT(side_of(-2.0), 0.0);
+}
+
 TEST(PlanDetour, NeedsAStraightStretchToLeaveOn) {
   DetourRequest request = Blocked();
   const Path bent({0.0, 0.0, 0.0}, {{120.0, 0.01}});

@@ -13,6 +13,7 @@
 #include "tests/planning/routes.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/seed_car.h"
+#include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {
@@ -120,6 +121,83 @@ TEST_P(EveryPlanner, IsAFunctionOfItsRequest) {
   EXPECT_EQ(a.diagnostics, b.diagnostics);
   EXPECT_EQ(a.reference.path.segments(), b.reference.path.segments());
   EXPECT_EQ(a.caps.size(), b.caps.size());
+}
+
+TEST_P(EveryPlanner, IsAsLongAsItsSteps) {
+  for (const std::vector<Vec2>& route : {RouteA(), RouteB()}) {
+    const Plan plan = MakePlan(Request(route), OptionsOf(GetParam()));
+    ASSERT_TRUE(plan.ok()) << plan.reason;
+    const Path& path = plan.reference.path;
+    constexpr double kStep = 0.01;  // [m]
+    const auto steps = static_cast<int>(std::ceil(path.length() / kStep));
+    const double step = path.length() / steps;
+    double length = 0.0;
+    for (int i = 1; i <= steps; ++i) {
+      const PathPoint a = path.At(step * (i - 1));
+      const PathPoint b = path.At(step * i);
+      length += (b.pose.position() - a.pose.position()).norm();
+      // Where a step leads along the heading, one with a cusp in it aside.
+      const double turn = std::abs(AngleDifference(b.pose.yaw, a.pose.yaw));
+      ASSERT_LE(turn, step / SeedCar().min_turning_radius() + Tolerance(1e-9)) << "at " << b.s;
+    }
+    // A chord of an arc is short of it by kappa^2 step^3/24: 1.6e-7 of a length of 160 m or less;
+    // a cusp folds one step.
+    const double cusps = static_cast<double>(LegsOf(path).size() - 1);
+    EXPECT_NEAR(length, path.length(), Tolerance(1.6e-7 * 160.0) + cusps * step);
+  }
+}
+
+TEST_P(EveryPlanner, PlansWithEverySeed) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    PlanRequest request = Request(RouteB());
+    request.seed = seed;
+    const Plan plan = MakePlan(request, OptionsOf(GetParam()));
+    ASSERT_TRUE(plan.ok()) << plan.reason;
+    const Path& path = plan.reference.path;
+    EXPECT_NEAR((path.At(path.length()).pose.position() - plan.goal.position()).norm(), 0.0,
+                Tolerance(1e-9));
+    if (!GetParam().is_random) {
+      request.seed = 0;
+      EXPECT_EQ(MakePlan(request, OptionsOf(GetParam())).reference.path.segments(),
+                path.segments());
+    }
+  }
+}
+
+TEST_P(EveryPlanner, IsMovedWithItsMission) {
+  const Pose2 by{-200.0, 77.0, 2.1};
+  PlanRequest moved = Request(RouteB());
+  for (Vec2& waypoint : moved.waypoints) {
+    waypoint = ToWorld(by, waypoint);
+  }
+  moved.start = Compose(by, moved.start);
+  const Plan here = MakePlan(Request(RouteB()), OptionsOf(GetParam()));
+  const Plan there = MakePlan(moved, OptionsOf(GetParam()));
+  ASSERT_TRUE(here.ok() && there.ok()) << there.reason;
+  const Path& path = here.reference.path;
+  // Rounding of coordinates of some 250 m, carried through a search.
+  ASSERT_NEAR(there.reference.path.length(), path.length(), Tolerance(1e-6));
+  for (double s = 0.0; s < path.length(); s += 1.0) {
+    const Vec2 expected = ToWorld(by, path.At(s).pose.position());
+    ASSERT_NEAR((there.reference.path.At(s).pose.position() - expected).norm(), 0.0,
+                Tolerance(1e-6));
+    ASSERT_NEAR(there.reference.speed.SpeedAt(s), here.reference.speed.SpeedAt(s), Tolerance(1e-4));
+  }
+}
+
+TEST_P(EveryPlanner, IsNeverFasterThanTheMissionAndEndsAtRest) {
+  for (const double speed : {0.7, 2.0, 5.0}) {
+    PlanRequest request = Request(RouteA());
+    request.speed.speed = speed;
+    const Plan plan = MakePlan(request, OptionsOf(GetParam()));
+    ASSERT_TRUE(plan.ok()) << plan.reason;
+    const double length = plan.reference.path.length();
+    for (double s = 0.0; s <= length; s += 0.1) {
+      ASSERT_LE(plan.reference.speed.SpeedAt(s), speed + Tolerance(1e-12));
+      ASSERT_GE(plan.reference.speed.SpeedAt(s), 0.0);
+    }
+    EXPECT_EQ(plan.reference.speed.SpeedAt(length), 0.0);
+  }
 }
 
 TEST_P(EveryPlanner, RefusesWithAReasonAndNoPath) {

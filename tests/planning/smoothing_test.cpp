@@ -92,6 +92,17 @@ TEST(Smoothing, KeepsAFreeWayFree) {
   EXPECT_LT(nearest(open.path), kInflation);
 }
 
+TEST(Smoothing, AnObstacleMayHoldOneCoordinateAlone) {
+  // A box under the corner, of 1.15 m: it may go back by 0.4 (0 + 5 - 8) m, down to 1.12 m not.
+  const std::vector<Vec2> way{{0.0, 1.0}, {4.0, 1.6}, {5.0, 1.0}};
+  const std::vector<OrientedBox> box{{{2.5, 0.65, 0.0}, 2.0, 1.0}};
+  const SmoothingOptions once{.data = 0.1, .smoothness = 0.4, .sweeps = 1};
+  const SmoothingResult free = SmoothPath(way, {}, 0.1, {}, once);
+  EXPECT_NEAR((free.path[1] - Vec2(2.8, 1.12)).norm(), 0.0, Tolerance(1e-12));
+  const SmoothingResult held = SmoothPath(way, box, 0.1, {}, once);
+  EXPECT_NEAR((held.path[1] - Vec2(2.8, 1.6)).norm(), 0.0, Tolerance(1e-12));
+}
+
 TEST(Smoothing, UniformWindChangesNothing) {
   const WindScoring windy{.wind = {.velocity = {7.0, -3.0}}, .speed = 3.0};
   EXPECT_EQ(SmoothPath(Stairs(), {}, 0.0, windy, {}).path,
@@ -161,6 +172,9 @@ TEST(WindScore, SeesAGustOnlyWhereAndWhenItBlows) {
                             .speed = 3.0};
   EXPECT_NEAR(WindScore({{0, 0}, {10, 0}}, scoring), 20.0, Tolerance(1e-12));
   EXPECT_EQ(WindScore({{0, 5}, {10, 5}}, scoring), 0.0);
+  WindScoring against = scoring;
+  against.wind.gusts[0].velocity *= -1.0;
+  EXPECT_NEAR(WindScore({{0, 0}, {10, 0}}, against), -20.0, Tolerance(1e-12));
   WindScoring before = scoring;
   before.time = 1.0;
   EXPECT_EQ(WindScore({{0, 0}, {10, 0}}, before), 0.0);

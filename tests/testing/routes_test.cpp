@@ -30,6 +30,23 @@ TEST(Routes, AreRefusedWithTheirCorners) {
   EXPECT_EQ(run.plan.status, PlanStatus::kTurnTooTight);
 }
 
+TEST(Routes, GoWithTheStreamInAWindyField) {
+  const RunResult run = RunScenario(File("windy_field"));
+  EXPECT_THAT(run, MeetsItsExpectations());
+  const auto score = [](const RunResult& other) {
+    const auto& diagnostics = other.plan.diagnostics;
+    return diagnostics["trees"].at(diagnostics["chosen"].get<std::size_t>());
+  };
+  EXPECT_GT(score(run)["wind_m"], 0.0);
+  const RunResult again =
+      RunScenario(File("windy_field"), {"drive.plants=[kinematic]", "expect={}"});
+  EXPECT_EQ(again.plan.reference.path.segments(), run.plan.reference.path.segments());
+  // With the stream turned against the car the way with it is none to take.
+  const RunResult against = RunScenario(
+      File("windy_field"), {"drive.plants=[kinematic]", "expect={}", "world.wind.gusts[0].x=-12"});
+  EXPECT_GT(score(against)["total_m"], score(run)["total_m"]);
+}
+
 TEST(Routes, MeetAGoalWithItsHeading) {
   const RunResult forwards = RunScenario(File("heading_goal"));
   EXPECT_THAT(forwards, MeetsItsExpectations());

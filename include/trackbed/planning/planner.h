@@ -18,6 +18,7 @@
 #include "trackbed/planning/turn_prediction.h"
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/steering_schedule.h"
+#include "trackbed/world/wind.h"
 
 /// One interface and one table for everything that plans.
 namespace trackbed {
@@ -30,6 +31,7 @@ struct PlanRequest {
   /// Of the car at each waypoint [rad]; none: along the legs, see StopsOf.
   std::vector<double> headings{};
   std::vector<OrientedBox> obstacles{};  ///< that are known
+  Wind wind{};                           ///< as it blows when the drive begins
   Pose2 start;                           ///< where the car is
   double start_speed = 0.0;              ///< [m/s]
   SpeedLimits speed;                     ///< the mission's speed and how to change it
@@ -50,7 +52,7 @@ struct Plan {
   std::vector<Gate> gates;        ///< that it leads through
   std::vector<LoneTurn> turns;    ///< whose cost to an open-loop drive can be told
   nlohmann::json diagnostics;     ///< the method's own findings, as in plan.json
-  std::vector<RrtStarNode> tree;  ///< of every RRT* that was used, one after the other
+  std::vector<RrtStarNode> tree;  ///< of every RRT or RRT* that was used, one after the other
 
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }
 };
@@ -80,10 +82,30 @@ struct AStarOptions {
   int budget = 1000000;        ///< cells to look at, for each leg, >= 0
 };
 
+/// RRT from waypoint to waypoint (rrt.h), smoothed in the wind (smoothing.h), the points left out
+/// that make it no better, its corners rounded or refused (corners.h). Of several trees the way
+/// that the comparator prefers (comparator.h), of those that the car can drive.
+struct RrtPlannerOptions {
+  Corners corners = Corners::kRound;
+  double safe_distance = 0.3;      ///< of the outline from obstacles [m], >= 0
+  double corner_room = 1.0;        ///< that the trees keep besides, for rounded corners [m], >= 0
+  double margin = 10.0;            ///< around waypoints and obstacles [m], within which to sample
+  double lead_in = 4.0;            ///< straight on from the start, at most [m], >= 0; 0: none
+  double min_speed = 0.5;          ///< no corner is taken more slowly [m/s]
+  int trees = 10;                  ///< > 0
+  int iterations = 10000;          ///< samples at most, for each leg of each tree, >= 0
+  double expand_distance = 2.0;    ///< length of an edge at most [m], > 0
+  double goal_bias = 0.05;         ///< share of samples at the goal, 0 to 1
+  double data_weight = 0.1;        ///< alpha of the smoothing
+  double smoothness_weight = 0.4;  ///< beta; 0 < alpha + 2 beta < 1
+  double corner_cost = 5.0;        ///< of a corner, in metres of way [m], >= 0
+  double wind_weight = 1.0;        ///< k_w: how much wind counts, in metres of way, >= 0
+};
+
 /// The options of one planner; which alternative it holds says which planner is meant.
 using PlannerOptions =
     std::variant<FilletOptions, LaneChangePlannerOptions, CourseOptions, DubinsOptions,
-                 ReedsSheppOptions, AStarOptions, HybridAStarOptions>;
+                 ReedsSheppOptions, AStarOptions, HybridAStarOptions, RrtPlannerOptions>;
 
 struct PlannerEntry {
   const char* name;
@@ -93,6 +115,9 @@ struct PlannerEntry {
   bool keeps_clear = false;      ///< it knows obstacles and keeps clear of them itself
   bool has_headings = false;     ///< it leads through the waypoints with headings
   bool goes_backwards = false;   ///< it may
+  bool searches = false;         ///< as long as its budget lasts; so it finds ways round
+  bool has_ties = false;         ///< of ways that cost the same it takes any, mirrored or not
+  bool is_random = false;        ///< another seed, another plan
 };
 
 /// Every planner there is.

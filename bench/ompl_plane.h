@@ -1,0 +1,77 @@
+#pragma once
+
+#include <ompl/base/MotionValidator.h>
+#include <ompl/base/ProblemDefinition.h>
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "trackbed/planning/rrt_star.h"
+
+// The maps of tests/planning/maps.h for the planners of OMPL.
+namespace trackbed::bench {
+
+namespace ob = ompl::base;
+
+inline Vec2 PositionOf(const ob::State* state) {
+  const auto* values = state->as<ob::RealVectorStateSpace::StateType>();
+  return {(*values)[0], (*values)[1]};
+}
+
+/// Whether an edge is free, by the distances that our own searches ask for.
+class Edges : public ob::MotionValidator {
+ public:
+  Edges(const ob::SpaceInformationPtr& space, const RrtStarProblem& problem)
+      : ob::MotionValidator(space), problem_(problem) {}
+
+  bool checkMotion(const ob::State* from, const ob::State* to) const override {
+    const Vec2 a = PositionOf(from);
+    const Vec2 b = PositionOf(to);
+    return std::all_of(
+        problem_.obstacles.begin(), problem_.obstacles.end(),
+        [&](const OrientedBox& obstacle) { return Distance(a, b, obstacle) > problem_.inflation; });
+  }
+  bool checkMotion(const ob::State* from, const ob::State* to,
+                   std::pair<ob::State*, double>& /*last_valid*/) const override {
+    return checkMotion(from, to);
+  }
+
+ private:
+  const RrtStarProblem& problem_;
+};
+
+/// The box that is sampled, start, goal and edges of a map, which must outlive it.
+inline ob::ProblemDefinitionPtr DefinitionOf(const RrtStarProblem& problem) {
+  const auto space = std::make_shared<ob::RealVectorStateSpace>(2);
+  ob::RealVectorBounds bounds(2);
+  for (unsigned axis = 0; axis < 2; ++axis) {
+    bounds.setLow(axis, problem.low[axis]);
+    bounds.setHigh(axis, problem.high[axis]);
+  }
+  space->setBounds(bounds);
+  const auto information = std::make_shared<ob::SpaceInformation>(space);
+  information->setStateValidityChecker([](const ob::State*) { return true; });  // edges tell all
+  information->setMotionValidator(std::make_shared<Edges>(information, problem));
+  information->setup();
+  ob::ScopedState<ob::RealVectorStateSpace> start(space);
+  ob::ScopedState<ob::RealVectorStateSpace> goal(space);
+  for (unsigned axis = 0; axis < 2; ++axis) {
+    start[axis] = problem.start[axis];
+    goal[axis] = problem.goal[axis];
+  }
+  auto definition = std::make_shared<ob::ProblemDefinition>(information);
+  definition->setStartAndGoalStates(start, goal);
+  return definition;
+}
+
+inline double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace trackbed::bench
