@@ -92,7 +92,8 @@ class DetourSearch {
       return detour;
     }
     const std::vector<double> backs = Backs();
-    for (int attempt = 0; attempt < choice_.attempts; ++attempt) {
+    const int attempts = entry_.is_random ? choice_.attempts : 1;
+    for (int attempt = 0; attempt < attempts; ++attempt) {
       for (const double leave : leaves) {
         for (const double back : backs) {
           Try(leave, back, static_cast<std::uint64_t>(attempt), detour);
@@ -163,7 +164,8 @@ class DetourSearch {
       backs.push_back(*back);
       from = *back + kBackStep;
     }
-    // At the end only where there is nowhere else: it would leave out what the mission leads through.
+    // At the end only where there is nowhere else: it would leave out what the mission leads
+    // through.
     if (backs.empty() && behind < path.length() - 2.0 * kLook) {
       backs.push_back(path.length());
     }

@@ -352,7 +352,7 @@ inline const std::vector<PlannerEntry>& DetourPlanners() {
 
 template <typename Archive>
 void Visit(Archive& a, DetourChoice& choice) {
-  a.Field({"attempts", "", "of the detour's planner, each with a seed of its own"}, choice.attempts,
+  a.Field({"attempts", "", "of a random planner, each with a seed of its own"}, choice.attempts,
           Need::kOptional, Range{.min = 1, .max = 1000});
   a.Field({"collision_penalty", "m", "for a way that is blocked"},
           choice.comparator.collision_penalty, Need::kOptional, kNotNegative);

@@ -13,7 +13,7 @@ namespace trackbed {
 
 /// How one is chosen.
 struct DetourChoice {
-  int attempts = 4;          ///< of the planner, with seeds of their own, >= 1
+  int attempts = 4;          ///< of a random planner, with seeds of their own, >= 1
   double wind_weight = 1.0;  ///< k_w, see WindScoring
   ComparatorOptions comparator;
 };
