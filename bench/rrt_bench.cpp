@@ -6,6 +6,7 @@
 #include <ompl/util/RandomNumbers.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
@@ -92,9 +93,11 @@ void CompareRrt(benchmark::State& state, const RrtStarProblem& map, int budget) 
       });
   state.counters["ours_iterations"] = Median(our_iterations);
   state.counters["bare_iterations"] = Median(their_iterations);
-  state.counters["ours_length_m"] = Median(our_lengths);
-  state.counters["bare_length_m"] = Median(their_lengths);
-  state.counters["length_ratio"] = Median(our_lengths) / Median(their_lengths);
+  if (std::isfinite(Median(our_lengths)) && std::isfinite(Median(their_lengths))) {
+    state.counters["ours_length_m"] = Median(our_lengths);
+    state.counters["bare_length_m"] = Median(their_lengths);
+    state.counters["length_ratio"] = Median(our_lengths) / Median(their_lengths);
+  }
 }
 
 /// The map with its goal walled in: every search uses up its budget.

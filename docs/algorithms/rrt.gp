@@ -9,7 +9,8 @@ set ylabel "y [m]"
 set key top left
 
 set xrange [-6:66]
-set yrange [-14:38]
+set yrange [-30:36]
+set key bottom right
 set object 1 rectangle from 0,19 to 60,33 fc rgb "#eaf3fb" fs solid noborder behind
 set label 1 "12 m/s along x" at 42,31.5 tc rgb "#6699bb"
 set output images . "/rrt_field.png"
