@@ -292,7 +292,8 @@ void FilmScene::AddPlans(double time, const CameraPose& camera) {
   const auto held = static_cast<std::size_t>(std::count_if(
       plans_.begin(), plans_.end(), [time](const PlanLine& line) { return line.from <= time; }));
   for (std::size_t plan = 0; plan < held; ++plan) {
-    if (plan + 1 < held && plans_[plan + 1].from - plans_[plan].from < kBrief) {
+    const bool is_new = plan > 0 && plan + 1 < held;
+    if (is_new && plans_[plan + 1].from - plans_[plan].from < kBrief) {
       continue;
     }
     const std::vector<Point>& points = plans_[plan].points;

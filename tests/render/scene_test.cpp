@@ -159,7 +159,7 @@ std::string PaintAt(const std::array<int, 3>& rgb) {
 
 TEST_F(FilmSceneTest, ANewPlanTakesThePlaceOfTheOldOneWhenItHolds) {
   WriteStraightPlan(folder_.path(), 16.0);
-  WriteNewPlans(folder_.path(), "mujoco", {{0.5, 2.0, 16.0}, {1.0, -2.0, 16.0}});
+  WriteNewPlans(folder_.path(), "mujoco", {{0.5, 2.0, 16.0}, {1.5, -2.0, 16.0}});
   for (const char* camera : {"chase", "top"}) {
     const auto shown = [&](double time) {
       const Image image = Picture(camera, time);
@@ -173,10 +173,22 @@ TEST_F(FilmSceneTest, ANewPlanTakesThePlaceOfTheOldOneWhenItHolds) {
     using Paints = std::array<std::string, 3>;
     EXPECT_EQ(shown(0.49), (Paints{"white", "none", "none"})) << camera;
     EXPECT_EQ(shown(0.5), (Paints{"pale", "yellow", "none"})) << camera;
-    EXPECT_EQ(shown(0.99), (Paints{"pale", "yellow", "none"})) << camera;
-    EXPECT_EQ(shown(1.0), (Paints{"pale", "pale yellow", "yellow"})) << camera;
+    EXPECT_EQ(shown(1.49), (Paints{"pale", "yellow", "none"})) << camera;
+    EXPECT_EQ(shown(1.5), (Paints{"pale", "pale yellow", "yellow"})) << camera;
     EXPECT_EQ(shown(2.0), (Paints{"pale", "pale yellow", "yellow"})) << camera;
   }
+}
+
+TEST_F(FilmSceneTest, APlanThatWasSoonReplacedLeavesNothing) {
+  WriteStraightPlan(folder_.path(), 16.0);
+  WriteNewPlans(folder_.path(), "mujoco", {{0.2, 2.0, 16.0}, {1.1, -2.0, 16.0}});
+  const auto at = [this](double time, double y) {
+    return PaintAt(At(Picture("top", time), 12.0, y));
+  };
+  EXPECT_EQ(at(1.0, 2.0), "yellow");
+  EXPECT_EQ(at(1.1, 2.0), "none");
+  EXPECT_EQ(at(1.1, -2.0), "yellow");
+  EXPECT_EQ(at(1.1, 0.0), "pale");
 }
 
 TEST_F(FilmSceneTest, APlanThatWasGivenUpIsNarrowerAndBelowTheOneInForce) {
@@ -198,14 +210,14 @@ TEST_F(FilmSceneTest, NewPlansAreWithinTheSceneHoweverMany) {
   std::string rows = "from_t_s,x_m,y_m\n";
   for (int plan = 0; plan < 400; ++plan) {
     for (int i = 0; i <= 16; ++i) {
-      rows += fmt::format("{},{},{}\n", 0.001 * plan, i, i % 2);
+      rows += fmt::format("{},{},{}\n", 1.0 * plan, i, i % 2);
     }
   }
   WriteFileAtomically(folder_.path() / "mujoco.plan.csv", rows);
   Recording recording = ReadRecording(folder_.path());
   FilmScene scene(recording, false);
   const CameraPose pose = FindCamera("top").pose(CameraSubject(recording), 1.0, 16.0 / 9.0);
-  const mjvScene& posed = scene.At(1.0, pose);
+  const mjvScene& posed = scene.At(400.0, pose);
   EXPECT_LT(posed.ngeom, posed.maxgeom);
   EXPECT_GT(posed.ngeom, 400 * 16);
 }
