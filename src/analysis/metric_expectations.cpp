@@ -10,6 +10,33 @@
 namespace trackbed {
 namespace {
 
+using Leaves = std::vector<std::pair<std::string, nlohmann::ordered_json>>;
+
+const nlohmann::ordered_json* Find(const Leaves& leaves, const std::string& path) {
+  const auto found = std::find_if(leaves.begin(), leaves.end(),
+                                  [&](const auto& leaf) { return leaf.first == path; });
+  return found == leaves.end() ? nullptr : &found->second;
+}
+
+/// Where and when a metric was what it is: a largest value stands beside its `…_s` and `…_t`.
+std::string Whereabouts(const std::string& path, const Leaves& leaves,
+                        const PlantMetrics& metrics) {
+  const nlohmann::ordered_json* s = Find(leaves, path + "_s");
+  const nlohmann::ordered_json* t = Find(leaves, path + "_t");
+  if (s != nullptr && t != nullptr) {
+    return fmt::format(" at s = {:.4g} m, t = {:.4g} s", s->get<double>(), t->get<double>());
+  }
+  if (path.starts_with("manoeuvre.") && metrics.manoeuvre) {
+    return fmt::format(" between t = {:.4g} s and {:.4g} s", metrics.manoeuvre->begin,
+                       metrics.manoeuvre->end);
+  }
+  if (path == "status" || path == "distance" || path == "time" || path == "cross_track.final" ||
+      path.starts_with("goal_")) {
+    return fmt::format(" at the end, s = {:.4g} m, t = {:.4g} s", metrics.end_s, metrics.time);
+  }
+  return "";
+}
+
 /// Whether a value is what a scenario wrote.
 bool Equals(const nlohmann::ordered_json& value, const std::string& expected) {
   if (value.is_string()) {
@@ -26,14 +53,13 @@ void JudgeMetrics(const std::vector<MetricExpectation>& expectations, const Plan
   if (expectations.empty()) {
     return;
   }
-  const auto leaves = LeavesOf(ToJson(metrics));
+  const Leaves leaves = LeavesOf(ToJson(metrics));
   const auto fail = [&](std::string message) {
     verdict.failures.push_back(metrics.plant + ": " + std::move(message));
   };
   for (const MetricExpectation& expect : expectations) {
-    const auto found = std::find_if(leaves.begin(), leaves.end(),
-                                    [&](const auto& leaf) { return leaf.first == expect.metric; });
-    if (found == leaves.end()) {
+    const nlohmann::ordered_json* found = Find(leaves, expect.metric);
+    if (found == nullptr) {
       std::vector<std::string> paths;
       for (const auto& leaf : leaves) {
         paths.push_back(leaf.first);
@@ -43,10 +69,11 @@ void JudgeMetrics(const std::vector<MetricExpectation>& expectations, const Plan
                        gone ? " (" + metrics.manoeuvre->missing + ")" : ""));
       continue;
     }
-    const nlohmann::ordered_json& value = found->second;
+    const nlohmann::ordered_json& value = *found;
+    const std::string where = Whereabouts(expect.metric, leaves, metrics);
     if (expect.equals && !Equals(value, *expect.equals)) {
-      fail(fmt::format("{} expected to be {}, was {}", expect.metric, *expect.equals,
-                       value.is_string() ? value.get<std::string>() : value.dump()));
+      fail(fmt::format("{} expected to be {}, was {}{}", expect.metric, *expect.equals,
+                       value.is_string() ? value.get<std::string>() : value.dump(), where));
     }
     if (!expect.min && !expect.max) {
       continue;
@@ -57,12 +84,12 @@ void JudgeMetrics(const std::vector<MetricExpectation>& expectations, const Plan
     }
     const double actual = value.get<double>();
     if (expect.min && !(actual >= *expect.min)) {
-      fail(fmt::format("{} expected at least {:.4g}, was {:.4g}", expect.metric, *expect.min,
-                       actual));
+      fail(fmt::format("{} expected at least {:.4g}, was {:.4g}{}", expect.metric, *expect.min,
+                       actual, where));
     }
     if (expect.max && !(actual <= *expect.max)) {
-      fail(fmt::format("{} expected at most {:.4g}, was {:.4g}", expect.metric, *expect.max,
-                       actual));
+      fail(fmt::format("{} expected at most {:.4g}, was {:.4g}{}", expect.metric, *expect.max,
+                       actual, where));
     }
   }
 }

@@ -61,14 +61,18 @@ ClearanceMetrics MeasureClearance(const RunLog& log) {
 }
 
 /// Largest |change| of the measured steering over any 0.1 s, per second.
-double SteeringRate(const RunLog& log, double control_period) {
+void MeasureSteeringRate(const RunLog& log, double control_period, PlantMetrics& metrics) {
   const auto window = static_cast<std::size_t>(std::max(1.0, std::round(0.1 / control_period)));
-  double fastest = 0.0;
+  const double duration = static_cast<double>(window) * control_period;
   for (std::size_t i = window; i < log.rows.size(); ++i) {
     const double change = log.rows[i].state.steering - log.rows[i - window].state.steering;
-    fastest = std::max(fastest, std::abs(change));
+    const double rate = std::abs(change) / duration;
+    if (rate > metrics.steering_rate_max) {
+      metrics.steering_rate_max = rate;
+      metrics.steering_rate_max_s = StationOf(log.rows[i]);
+      metrics.steering_rate_max_t = log.rows[i].state.time;
+    }
   }
-  return fastest / (static_cast<double>(window) * control_period);
 }
 
 /// Root mean square of the measured steering's mean rate in each control period.
@@ -108,49 +112,22 @@ std::optional<double> YawRateRatio(const RunLog& log, double wheelbase) {
   return turned ? std::optional(products / squares) : std::nullopt;
 }
 
-/// Poses over rising station.
-struct Trace {
-  std::vector<double> s;
-  std::vector<double> t;
-  std::vector<Pose2> pose;
-
-  explicit Trace(const RunLog& log, StationSource source = StationSource::kProjection) {
-    for (const LogRow& row : log.rows) {
-      const double station =
-          source == StationSource::kOdometer ? row.state.distance : StationOf(row);
-      if (s.empty() || station > s.back()) {
-        s.push_back(station);
-        t.push_back(row.state.time);
-        pose.push_back(row.state.pose);
-      }
-    }
-  }
-
-  [[nodiscard]] Pose2 At(double station) const {
-    const auto after = std::upper_bound(s.begin() + 1, s.end() - 1, station) - s.begin();
-    const auto i = static_cast<std::size_t>(after);
-    const double share = (station - s[i - 1]) / (s[i] - s[i - 1]);
-    const Pose2& a = pose[i - 1];
-    const Pose2& b = pose[i];
-    return {std::lerp(a.x, b.x, share), std::lerp(a.y, b.y, share), std::lerp(a.yaw, b.yaw, share)};
-  }
-};
-
 std::vector<TurnMetrics> MeasureTurns(const RunLog& log, const Plan& plan,
                                       const VehicleParams& vehicle, StationSource source) {
   std::vector<TurnMetrics> turns;
-  const Trace trace(log, source);
+  const Trace trace = TraceOf(log, source);
   // Wheels that are moved by forces follow their actuator late; prescribed ones do not.
   const double lag = log.rows.front().state.wheels ? vehicle.steering_lag : 0.0;
   // Beyond a change of plan, stations are those of another path.
   const double until =
       log.changes.empty() ? std::numeric_limits<double>::infinity() : log.changes.front().station;
   for (const LoneTurn& turn : plan.turns) {
-    if (trace.s.size() > 2 && turn.middle <= until && trace.s.front() <= turn.from &&
-        turn.middle <= trace.s.back()) {
+    if (trace.station.size() > 2 && turn.middle <= until && trace.station.front() <= turn.from &&
+        turn.middle <= trace.station.back()) {
       const Path& path = plan.reference.path;
-      turns.push_back({turn.waypoint, PredictTurn(vehicle, path, turn, lag),
-                       ErrorInTurn(path, turn, trace.At(turn.from), trace.At(turn.middle))});
+      turns.push_back(
+          {turn.waypoint, PredictTurn(vehicle, path, turn, lag),
+           ErrorInTurn(path, turn, trace.PoseAt(turn.from), trace.PoseAt(turn.middle))});
     }
   }
   return turns;
@@ -174,24 +151,22 @@ void JudgeClearance(const PlantExpectation& expect, const PlantMetrics& metrics,
   }
 }
 
-/// How a drive is to end.
-DriveStatus ExpectedEnd(const Expectations& expect, const std::string& plant) {
-  bool collision = expect.all.collision.value_or(false);
-  bool blocked = expect.all.blocked.value_or(false);
-  for (const auto& [name, own] : expect.plants) {
-    if (name == plant) {
-      collision = own.collision.value_or(collision);
-      blocked = own.blocked.value_or(blocked);
-    }
-  }
-  return collision ? DriveStatus::kCollided
-         : blocked ? DriveStatus::kBlocked
-                   : DriveStatus::kArrived;
+bool HasExpectationOf(std::string_view metric, const PlantExpectation& expect) {
+  return std::any_of(expect.metrics.begin(), expect.metrics.end(),
+                     [&](const MetricExpectation& own) { return own.metric == metric; });
 }
 
-/// What one expects of a car that is to end so.
-const char* ToEnd(DriveStatus expected) {
-  return expected == DriveStatus::kBlocked ? "to end as blocked" : "to arrive";
+/// Whether the scenario says how the plant's drive is to end; then its expectations judge that.
+bool ExpectsItsEnd(const Expectations& expect, const PlantMetrics& metrics) {
+  bool collision = expect.all.collision.value_or(false);
+  bool status = HasExpectationOf("status", expect.all);
+  for (const auto& [name, own] : expect.plants) {
+    if (name == metrics.plant) {
+      collision = own.collision.value_or(collision);
+      status = status || HasExpectationOf("status", own);
+    }
+  }
+  return status || (collision && metrics.status == DriveStatus::kCollided);
 }
 
 void NoteLimitedSteering(const PlantMetrics& metrics, Verdict& verdict) {
@@ -224,12 +199,28 @@ void JudgePlant(const PlantExpectation& expect, const PlantMetrics& metrics, Ver
     return fmt::format(" at s = {:.4g} m, t = {:.4g} s", s, t);
   };
   bound(expect.reach_goal, tracking.goal_distance, "distance to the goal", "m",
-        fmt::format(" at the end, t = {:.4g} s", metrics.time));
+        fmt::format(" at the end, s = {:.4g} m, t = {:.4g} s", metrics.end_s, metrics.time));
   bound(expect.max_cross_track, tracking.cross_track_max, "cross-track maximum", "m",
         at(tracking.cross_track_max_s, tracking.cross_track_max_t));
   bound(expect.rms_cross_track, tracking.cross_track_rms, "cross-track rms", "m", "");
   bound(expect.max_heading_error, tracking.heading_error_max, "heading error maximum", "rad",
         at(tracking.heading_error_max_s, tracking.heading_error_max_t));
+}
+
+void JudgeBetween(const BetweenExpectation& between,
+                  const std::vector<PlantComparison>& comparisons, Verdict& verdict) {
+  const std::string& first = between.plants[0];
+  const std::string& second = between.plants[1];
+  const auto found =
+      std::find_if(comparisons.begin(), comparisons.end(), [&](const PlantComparison& c) {
+        return (c.first == first && c.second == second) || (c.first == second && c.second == first);
+      });
+  const std::vector<std::string> failures =
+      found != comparisons.end()
+          ? Exceeded(between.bounds, *found)
+          : std::vector{fmt::format("{} and {}: expected to be compared, but were not both driven",
+                                    first, second)};
+  verdict.failures.insert(verdict.failures.end(), failures.begin(), failures.end());
 }
 
 }  // namespace
@@ -242,11 +233,16 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
   metrics.status = log.status;
   metrics.distance = log.rows.back().state.distance;
   metrics.time = log.rows.back().state.time;
+  metrics.end_s = StationOf(log.rows.back());
   for (const LogRow& row : log.rows) {
-    metrics.lateral_acceleration_max =
-        std::max(metrics.lateral_acceleration_max, std::abs(row.state.lateral_acceleration));
+    const double acceleration = std::abs(row.state.lateral_acceleration);
+    if (acceleration > metrics.lateral_acceleration_max) {
+      metrics.lateral_acceleration_max = acceleration;
+      metrics.lateral_acceleration_max_s = StationOf(row);
+      metrics.lateral_acceleration_max_t = row.state.time;
+    }
   }
-  metrics.steering_rate_max = SteeringRate(log, control_period);
+  MeasureSteeringRate(log, control_period, metrics);
   metrics.steering_rate_rms = SteeringRateRms(log, control_period);
   metrics.steering_saturated_fraction = SaturatedFraction(log);
   metrics.yaw_rate_ratio = YawRateRatio(log, vehicle.wheelbase);
@@ -262,51 +258,14 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
   return metrics;
 }
 
-PlantComparison ComparePlants(const RunLog& first, const RunLog& second) {
-  PlantComparison comparison;
-  comparison.first = first.plant;
-  comparison.second = second.plant;
-  const Trace a(first);
-  const Trace b(second);
-  if (a.s.size() < 2 || b.s.size() < 2) {
-    return comparison;
-  }
-  double squares = 0.0;
-  double count = 0.0;
-  for (std::size_t i = 0; i < a.s.size(); ++i) {
-    if (a.s[i] < b.s.front() || a.s[i] > b.s.back()) {
-      continue;
-    }
-    const Pose2 other = b.At(a.s[i]);
-    const double apart = (a.pose[i].position() - other.position()).norm();
-    const double turned = std::abs(AngleDifference(a.pose[i].yaw, other.yaw));
-    squares += apart * apart;
-    count += 1.0;
-    if (apart > comparison.position_max) {
-      comparison.position_max = apart;
-      comparison.position_max_s = a.s[i];
-      comparison.position_max_t = a.t[i];
-    }
-    if (turned > comparison.heading_max) {
-      comparison.heading_max = turned;
-      comparison.heading_max_s = a.s[i];
-    }
-  }
-  comparison.position_rms = count > 0.0 ? std::sqrt(squares / count) : 0.0;
-  return comparison;
-}
-
 Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plants,
               const std::vector<PlantComparison>& comparisons) {
   Verdict verdict;
   for (const PlantMetrics& metrics : plants) {
-    const DriveStatus end = ExpectedEnd(expect, metrics.plant);
-    // A car that was to hit something and arrived is told of with the collision.
-    if (metrics.status != end &&
-        !(end == DriveStatus::kCollided && metrics.status == DriveStatus::kArrived)) {
+    if (metrics.status != DriveStatus::kArrived && !ExpectsItsEnd(expect, metrics)) {
       verdict.failures.push_back(
-          fmt::format("{}: expected {}, ended as {} at t = {:.4g} s{}", metrics.plant, ToEnd(end),
-                      ToString(metrics.status), metrics.time,
+          fmt::format("{}: expected to arrive, ended as {} at s = {:.4g} m, t = {:.4g} s{}",
+                      metrics.plant, ToString(metrics.status), metrics.end_s, metrics.time,
                       metrics.blocked.empty() ? "" : fmt::format(" (it {})", metrics.blocked)));
     }
     NoteLimitedSteering(metrics, verdict);
@@ -318,24 +277,7 @@ Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plant
     }
   }
   for (const BetweenExpectation& between : expect.between) {
-    for (const PlantComparison& c : comparisons) {
-      const auto names = [&](const std::string& a, const std::string& b) {
-        return between.plants[0] == a && between.plants[1] == b;
-      };
-      if (!names(c.first, c.second) && !names(c.second, c.first)) {
-        continue;
-      }
-      const auto bound = [&](const std::optional<double>& limit, double actual, double s,
-                             const char* what, const char* unit) {
-        if (limit && !(actual <= *limit)) {
-          verdict.failures.push_back(
-              fmt::format("{} and {}: {} expected at most {:.4g} {}, was {:.4g} {} at s = {:.4g} m",
-                          c.first, c.second, what, *limit, unit, actual, unit, s));
-        }
-      };
-      bound(between.position_max, c.position_max, c.position_max_s, "position difference", "m");
-      bound(between.heading_max, c.heading_max, c.heading_max_s, "heading difference", "rad");
-    }
+    JudgeBetween(between, comparisons, verdict);
   }
   verdict.passed = verdict.failures.empty();
   return verdict;
@@ -349,16 +291,19 @@ nlohmann::ordered_json ToJson(const PlantMetrics& metrics) {
     json["cross_track"] = {{"rms", tracking.cross_track_rms},
                            {"max", tracking.cross_track_max},
                            {"max_s", tracking.cross_track_max_s},
+                           {"max_t", tracking.cross_track_max_t},
                            {"final", tracking.cross_track_final}};
     json["heading_error"] = {{"rms", tracking.heading_error_rms},
                              {"max", tracking.heading_error_max},
-                             {"max_s", tracking.heading_error_max_s}};
+                             {"max_s", tracking.heading_error_max_s},
+                             {"max_t", tracking.heading_error_max_t}};
     json["goal_distance"] = tracking.goal_distance;
     json["goal_heading_error"] = tracking.goal_heading_error;
   }
   if (metrics.clearance) {
     json["clearance_min"] = metrics.clearance->min;
     json["clearance_min_s"] = metrics.clearance->min_s;
+    json["clearance_min_t"] = metrics.clearance->min_t;
     json["collision"] = metrics.clearance->collision;
     json["obstacle_force_max"] = metrics.clearance->force_max;
   }
@@ -371,7 +316,11 @@ nlohmann::ordered_json ToJson(const PlantMetrics& metrics) {
     json["blocked"] = metrics.blocked;
   }
   json["lateral_acceleration_max"] = metrics.lateral_acceleration_max;
+  json["lateral_acceleration_max_s"] = metrics.lateral_acceleration_max_s;
+  json["lateral_acceleration_max_t"] = metrics.lateral_acceleration_max_t;
   json["steering_rate_max"] = metrics.steering_rate_max;
+  json["steering_rate_max_s"] = metrics.steering_rate_max_s;
+  json["steering_rate_max_t"] = metrics.steering_rate_max_t;
   json["steering_rate_rms"] = metrics.steering_rate_rms;
   json["steering_saturated_fraction"] = metrics.steering_saturated_fraction;
   if (metrics.yaw_rate_ratio) {
@@ -388,15 +337,6 @@ nlohmann::ordered_json ToJson(const PlantMetrics& metrics) {
                              {"lateral_offset", turn.measured.lateral_offset}});
   }
   return json;
-}
-
-nlohmann::ordered_json ToJson(const PlantComparison& comparison) {
-  return {{"plants", {comparison.first, comparison.second}},
-          {"position",
-           {{"rms", comparison.position_rms},
-            {"max", comparison.position_max},
-            {"max_s", comparison.position_max_s}}},
-          {"heading", {{"max", comparison.heading_max}, {"max_s", comparison.heading_max_s}}}};
 }
 
 nlohmann::ordered_json ToJson(const Verdict& verdict) {

@@ -1,12 +1,10 @@
 #include "trackbed/analysis/sweep.h"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <mutex>
 #include <system_error>
-#include <thread>
 
+#include "src/analysis/parallel.h"
 #include "trackbed/analysis/bisect.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
@@ -16,38 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-/// Calls `work` with every index below `count`, on as many threads as asked, until one call says
-/// to stop or throws; the exception is thrown on.
-void ForEachIndex(std::size_t count, int threads, const std::function<bool(std::size_t)>& work) {
-  std::atomic<std::size_t> next{0};
-  std::atomic<bool> stop{false};
-  std::mutex mutex;
-  std::exception_ptr failure;
-  const auto worker = [&] {
-    for (std::size_t i = next++; i < count && !stop; i = next++) {
-      try {
-        if (!work(i)) {
-          stop = true;
-        }
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        failure = failure ? failure : std::current_exception();
-        stop = true;
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> workers;
-    const auto size = std::min(static_cast<std::size_t>(threads), count);
-    for (std::size_t i = 0; i < size; ++i) {
-      workers.emplace_back(worker);
-    }
-  }
-  if (failure) {
-    std::rethrow_exception(failure);
-  }
-}
 
 /// Keys of the parameters in the order of their columns.
 std::vector<std::string> ParameterKeys(const Study& study) {

@@ -7,11 +7,8 @@
 #include <memory>
 
 #include "src/cli/film_of_run.h"
-#include "src/cli/progress_bar.h"
-#include "src/cli/scenario_options.h"
+#include "src/cli/scenario_runs.h"
 #include "src/cli/verbs.h"
-#include "trackbed/core/error.h"
-#include "trackbed/core/file.h"
 
 namespace trackbed::cli {
 namespace {
@@ -54,7 +51,7 @@ void PrintSummary(const RunResult& result) {
   }
   for (const PlantComparison& between : result.comparisons) {
     fmt::print("  {} - {}: position max {:.4f} m, heading max {:.4f} rad\n", between.first,
-               between.second, between.position_max, between.heading_max);
+               between.second, between.position.max, between.heading.max);
   }
   for (const std::string& failure : result.verdict.failures) {
     fmt::print("  {}\n", failure);
@@ -64,20 +61,10 @@ void PrintSummary(const RunResult& result) {
   }
 }
 
-int RunOne(const Scenario& scenario, const fs::path& out, const RunOptions& options) {
-  static_cast<void>(LoadCar(scenario));  // a model that cannot be used leaves no folder behind
-  MakeFolder(out);                       // before the work, not after it
-
-  std::unique_ptr<ProgressBar> bar;
-  const RunResult result =
-      RunMission(scenario, {.drive = [&](const std::string& plant) {
-                   bar.reset();
-                   bar = std::make_unique<ProgressBar>(fmt::format("{} {}", scenario.name, plant),
-                                                       options.scenario.quiet);
-                   return DriveHooks{.progress = [&](double fraction) { bar->Show(fraction); },
-                                     .interrupted = [] { return interrupted.load(); }};
-                 }});
-  bar.reset();
+int RunOne(const ScenarioRun& run, const RunOptions& options) {
+  const Scenario& scenario = run.scenario;
+  const fs::path& out = run.folder;
+  const RunResult result = DriveScenario(run, options.scenario.quiet);
   WriteRunFolder(result, out);
   if (options.video && !result.interrupted && result.plan.ok()) {
     const RenderSpec& render = scenario.render;
@@ -112,28 +99,15 @@ void AddRun(CLI::App& command, int& exit_code) {
   options->scenario.AddTo(command);
   command.add_flag("--video", options->video, "Film the run: video.mp4 in its folder");
   command.callback([options, &exit_code] {
-    // Read everything before driving anything: the last file's mistake should not cost a run.
-    std::vector<std::pair<Scenario, fs::path>> runs;
-    for (const std::string& file : options->files) {
-      Scenario scenario = options->scenario.Read(file);
-      const fs::path parent = options->out.empty() ? fs::path("out") : fs::path(options->out);
-      const fs::path out =
-          options->out.empty() || options->files.size() > 1 ? parent / scenario.name : parent;
-      for (const auto& [other, folder] : runs) {
-        if (folder == out) {
-          throw InputError(
-              Problem{file, 0, 0, "name",
-                      fmt::format("'{}' is the name of an earlier file too; both would write to {}",
-                                  scenario.name, out.string())});
-        }
-      }
+    const std::vector<ScenarioRun> runs =
+        ReadScenarioRuns(options->files, options->scenario, options->out, "out");
+    for (const ScenarioRun& run : runs) {
       if (options->video) {
-        CheckFilmName(out / kVideoName);
+        CheckFilmName(run.folder / kVideoName);
       }
-      runs.emplace_back(std::move(scenario), out);
     }
-    for (const auto& [scenario, out] : runs) {
-      const int code = RunOne(scenario, out, *options);
+    for (const ScenarioRun& run : runs) {
+      const int code = RunOne(run, *options);
       exit_code = std::max(exit_code, code);
       if (code == kInterrupted) {
         return;

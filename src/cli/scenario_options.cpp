@@ -27,6 +27,10 @@ std::vector<std::string> CameraNames() {
 void ScenarioOptions::AddTo(CLI::App& command) {
   command.add_option("--plant", plants, "Drive these plants instead of the scenario's")
       ->type_name("NAME...");
+  AddKeysTo(command);
+}
+
+void ScenarioOptions::AddKeysTo(CLI::App& command) {
   command.add_option("--set", overrides, "Replace keys of the scenario, such as mission.speed=2")
       ->type_name("KEY=VALUE...");
   command.add_option("--seed", seed, "Replace the scenario's seed")->type_name("N");

@@ -20,6 +20,9 @@ struct ScenarioOptions {
   /// Adds --plant, --set, --seed and --quiet.
   void AddTo(CLI::App& command);
 
+  /// Adds --set, --seed and --quiet, for verbs that ask for plants in their own way.
+  void AddKeysTo(CLI::App& command);
+
   /// The scenario as these options change it. InputError as ReadScenario.
   [[nodiscard]] Scenario Read(const std::filesystem::path& file) const;
 

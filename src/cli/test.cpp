@@ -1,70 +1,101 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
+#include <thread>
 
-#include "src/cli/progress_bar.h"
 #include "src/cli/scenario_options.h"
 #include "src/cli/verbs.h"
-#include "trackbed/analysis/run.h"
-#include "trackbed/core/error.h"
+#include "trackbed/analysis/suite.h"
+#include "trackbed/core/file.h"
 
 namespace trackbed::cli {
 namespace {
 
-int TestOne(const std::filesystem::path& file, const ScenarioOptions& options) {
-  try {
-    const Scenario scenario = options.Read(file);
-    const RunResult run = RunMission(
-        scenario, {.drive = [](const std::string&) {
-          return DriveHooks{.progress = {}, .interrupted = [] { return interrupted.load(); }};
-        }});
-    if (run.interrupted) {
-      return kInterrupted;
-    }
-    if (!run.verdict.passed || !options.quiet) {
-      std::string line = run.verdict.passed
-                             ? "as expected"
-                             : fmt::format("{}", fmt::join(run.verdict.failures, "; "));
-      for (const std::string& note : run.verdict.notes) {
-        line += "; " + note;
-      }
-      fmt::print("{} {}: {}\n", run.verdict.passed ? "pass" : "FAIL", file.string(), line);
-    }
-    return run.verdict.passed ? kOk : kFailedExpectations;
-  } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return kBadInput;
+namespace fs = std::filesystem;
+
+struct TestOptions {
+  std::vector<std::string> paths;
+  std::string junit;
+  int jobs = 0;  // 0: as many as the machine runs threads
+  ScenarioOptions scenario;
+};
+
+void Tell(const SuiteCase& one, bool quiet) {
+  std::string line = one.status == CaseStatus::kPassed
+                         ? "as expected"
+                         : fmt::format("{}", fmt::join(one.reasons, "; "));
+  for (const std::string& note : one.notes) {
+    line += "; " + note;
   }
+  switch (one.status) {
+    case CaseStatus::kPassed:
+      if (!quiet) {
+        fmt::print("pass {}: {}\n", one.file.string(), line);
+      }
+      break;
+    case CaseStatus::kFailed:
+      fmt::print("FAIL {}: {}\n", one.file.string(), line);
+      break;
+    case CaseStatus::kBadInput:
+    case CaseStatus::kInternalError:
+      fmt::print(stderr, "{}\n", fmt::join(one.reasons, "\n"));
+      break;
+    case CaseStatus::kInterrupted:
+      break;
+  }
+  std::fflush(stdout);  // lines come as they are known, in a pipe too
+}
+
+/// A bug outranks everything; bad input outranks a failed expectation: the suite did not say what
+/// it was to say.
+int CodeOf(const std::vector<SuiteCase>& cases) {
+  const auto any = [&](CaseStatus status) {
+    return std::any_of(cases.begin(), cases.end(),
+                       [&](const SuiteCase& one) { return one.status == status; });
+  };
+  return any(CaseStatus::kInternalError) ? kInternal
+         : any(CaseStatus::kInterrupted) ? kInterrupted
+         : any(CaseStatus::kBadInput)    ? kBadInput
+         : any(CaseStatus::kFailed)      ? kFailedExpectations
+                                         : kOk;
+}
+
+int Test(const TestOptions& options) {
+  const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  if (!options.junit.empty()) {
+    MakeFolder((fs::path(".") / options.junit).parent_path());  // before the work, not after it
+  }
+  const std::vector<SuiteCase> cases =
+      RunSuite(ScenarioFiles(options.paths),
+               [&](const fs::path& file) { return options.scenario.Read(file); },
+               {.jobs = options.jobs > 0 ? options.jobs : threads,
+                .finished = [&](const SuiteCase& one) { Tell(one, options.scenario.quiet); },
+                .interrupted = [] { return interrupted.load(); }});
+  if (!options.junit.empty()) {
+    WriteFileAtomically(options.junit, ToJUnit(cases));
+  }
+  return CodeOf(cases);
 }
 
 }  // namespace
 
 void AddTest(CLI::App& command, int& exit_code) {
-  struct Options {
-    std::vector<std::string> paths;
-    ScenarioOptions scenario;
-  };
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<TestOptions>();
   command.add_option("paths", options->paths, "Scenario files, or folders of them")
       ->required()
       ->type_name("PATH...");
+  command.add_option("--junit", options->junit, "Write the outcome as JUnit XML as well")
+      ->type_name("FILE");
+  command
+      .add_option("-j,--jobs", options->jobs,
+                  "Scenarios at the same time (default: as many as the machine has threads)")
+      ->check(CLI::Range(1, 1000).description(""))
+      ->type_name("N");
   options->scenario.AddTo(command);
-  command.callback([options, &exit_code] {
-    // Bad input outranks a failed expectation: the suite did not say what it was to say.
-    bool failed = false;
-    bool bad = false;
-    for (const auto& file : ScenarioFiles(options->paths)) {
-      const int code = TestOne(file, options->scenario);
-      if (code == kInterrupted) {
-        exit_code = kInterrupted;
-        return;
-      }
-      failed = failed || code == kFailedExpectations;
-      bad = bad || code == kBadInput;
-    }
-    exit_code = bad ? kBadInput : failed ? kFailedExpectations : kOk;
-  });
+  command.callback([options, &exit_code] { exit_code = Test(*options); });
 }
 
 }  // namespace trackbed::cli

@@ -25,6 +25,7 @@ void AddRun(CLI::App& command, int& exit_code);
 void AddPlan(CLI::App& command, int& exit_code);
 void AddRender(CLI::App& command, int& exit_code);
 void AddCheck(CLI::App& command, int& exit_code);
+void AddCompare(CLI::App& command, int& exit_code);
 void AddTest(CLI::App& command, int& exit_code);
 void AddSweep(CLI::App& command, int& exit_code);
 void AddList(CLI::App& command, int& exit_code);

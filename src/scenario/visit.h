@@ -119,7 +119,6 @@ void Visit(Archive& a, PlantExpectation& expect) {
   a.Field({"min_clearance", "m", "smallest distance of the car's outline from an obstacle"},
           expect.min_clearance, kNotNegative);
   a.Field({"collision", "", "whether the car hits an obstacle"}, expect.collision);
-  a.Field({"blocked", "", "whether it ends at rest before what blocks its way"}, expect.blocked);
   a.List({"metrics", "", "bounds on whatever else was measured"}, expect.metrics);
 }
 
@@ -128,9 +127,14 @@ void Visit(Archive& a, BetweenExpectation& expect) {
   a.Field({"plants", "", "the two plants to compare"}, expect.plants, Need::kRequired,
           PlantNames());
   a.Field({"position_max", "m", "largest distance between them at equal station"},
-          expect.position_max, kNotNegative);
-  a.Field({"heading_max", "rad", "largest angle between them at equal station"}, expect.heading_max,
-          kNotNegative);
+          expect.bounds.position_max, kNotNegative);
+  a.Field({"heading_max", "rad", "largest angle between them at equal station"},
+          expect.bounds.heading_max, kNotNegative);
+  a.Field({"yaw_rate_max", "rad/s", "largest difference of their yaw rates at equal station"},
+          expect.bounds.yaw_rate_max, kNotNegative);
+  a.Field({"steering_max", "rad",
+           "largest difference of their measured steering angles at equal station"},
+          expect.bounds.steering_max, kNotNegative);
 }
 
 inline void VisitPlants(YamlReader& a, Expectations& expect) {

@@ -1,9 +1,12 @@
 #include "trackbed/testing/scenario_testing.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <functional>
 #include <ostream>
+
+#include "trackbed/core/error.h"
 
 namespace trackbed {
 namespace {
@@ -57,7 +60,79 @@ Check ForEveryPlant(std::function<std::string(const PlantMetrics&)> check) {
   };
 }
 
+class PartsAtMostMatcher {
+ public:
+  using is_gtest_matcher = void;
+
+  explicit PartsAtMostMatcher(const DifferenceBounds& bounds) : bounds_(bounds) {}
+
+  bool MatchAndExplain(const PlantComparison& comparison, std::ostream* out) const {
+    const std::vector<std::string> failures = Exceeded(bounds_, comparison);
+    if (out != nullptr) {
+      *out << fmt::format("{}", fmt::join(failures, "; "));
+    }
+    return failures.empty();
+  }
+
+  void DescribeTo(std::ostream* out) const { *out << "part at most " << Bounds(); }
+  void DescribeNegationTo(std::ostream* out) const { *out << "part more than " << Bounds(); }
+
+ private:
+  [[nodiscard]] std::string Bounds() const {
+    std::vector<std::string> all;
+    const auto add = [&](const std::optional<double>& limit, const char* unit, const char* what) {
+      if (limit) {
+        all.push_back(fmt::format("{} {} in {}", *limit, unit, what));
+      }
+    };
+    add(bounds_.position_max, "m", "position");
+    add(bounds_.heading_max, "rad", "heading");
+    add(bounds_.yaw_rate_max, "rad/s", "yaw rate");
+    add(bounds_.steering_max, "rad", "steering");
+    return fmt::format("{}", fmt::join(all, ", "));
+  }
+
+  DifferenceBounds bounds_;
+};
+
+const RunLog& LogOf(const RunResult& run, const std::string& plant) {
+  std::vector<std::string> driven;
+  for (const RunLog& log : run.logs) {
+    if (log.plant == plant) {
+      return log;
+    }
+    driven.push_back(log.plant);
+  }
+  throw InputError(
+      Problem{.message = fmt::format("the run {} did not drive {}; driven: {}", run.scenario.name,
+                                     plant, fmt::join(driven, ", "))});
+}
+
 }  // namespace
+
+PlantComparison Compare(const RunResult& run, const std::string& first, const std::string& second) {
+  return ComparePlants(LogOf(run, first), LogOf(run, second));
+}
+
+PlantComparison Compare(const RunResult& first, const RunResult& second, const std::string& plant) {
+  PlantComparison comparison = ComparePlants(LogOf(first, plant), LogOf(second, plant));
+  comparison.first = first.scenario.name + "/" + plant;
+  comparison.second = second.scenario.name + "/" + plant;
+  return comparison;
+}
+
+void PrintTo(const PlantComparison& comparison, std::ostream* out) {
+  *out << fmt::format(
+      "{} and {} from {:.4g} m to {:.4g} m: position {:.4g} m, heading {:.4g} rad, yaw rate {:.4g} "
+      "rad/s, steering {:.4g} rad at most",
+      comparison.first, comparison.second, comparison.from_s, comparison.to_s,
+      comparison.position.max, comparison.heading.max, comparison.yaw_rate.max,
+      comparison.steering.max);
+}
+
+testing::Matcher<const PlantComparison&> PartsAtMost(const DifferenceBounds& bounds) {
+  return PartsAtMostMatcher(bounds);
+}
 
 RunResult RunScenario(const std::filesystem::path& file, const std::vector<Override>& overrides) {
   return RunMission(ReadScenario(file, overrides));
@@ -103,11 +178,14 @@ testing::Matcher<const RunResult&> StaysWithin(const std::string& first, const s
         for (const PlantComparison& c : run.comparisons) {
           if ((c.first == first && c.second == second) ||
               (c.first == second && c.second == first)) {
-            if (c.position_max <= limit) {
+            if (!c.comparable()) {
+              return {"they have no stretch in common"};
+            }
+            if (c.position.max <= limit) {
               return {};
             }
             return {fmt::format("they were {:.4g} m apart at s = {:.4g} m, t = {:.4g} s",
-                                c.position_max, c.position_max_s, c.position_max_t)};
+                                c.position.max, c.position.max_s, c.position.max_t)};
           }
         }
         return {fmt::format("the run did not drive both {} and {}", first, second)};

@@ -375,15 +375,18 @@ TEST(MetricExpectations, AreJudgedByTheirPath) {
   using testing::ElementsAre;
   using testing::IsEmpty;
   const std::string overshoot = "manoeuvre.yaw_rate_overshoot";
+  const std::string when = " between t = 0 s and 1 s";
   EXPECT_THAT(Failures({overshoot, 0.2, 0.3, {}}), IsEmpty());
-  EXPECT_THAT(Failures({overshoot, {}, 0.2, {}}),
-              ElementsAre("mujoco: manoeuvre.yaw_rate_overshoot expected at most 0.2, was 0.25"));
-  EXPECT_THAT(Failures({overshoot, 0.3, {}, {}}),
-              ElementsAre("mujoco: manoeuvre.yaw_rate_overshoot expected at least 0.3, was 0.25"));
+  EXPECT_THAT(
+      Failures({overshoot, {}, 0.2, {}}),
+      ElementsAre("mujoco: manoeuvre.yaw_rate_overshoot expected at most 0.2, was 0.25" + when));
+  EXPECT_THAT(
+      Failures({overshoot, 0.3, {}, {}}),
+      ElementsAre("mujoco: manoeuvre.yaw_rate_overshoot expected at least 0.3, was 0.25" + when));
   EXPECT_THAT(Failures({overshoot, {}, {}, "0.25"}), IsEmpty());
   EXPECT_THAT(Failures({"manoeuvre.passed", {}, {}, "true"}), IsEmpty());
   EXPECT_THAT(Failures({"manoeuvre.passed", {}, {}, "false"}),
-              ElementsAre("mujoco: manoeuvre.passed expected to be false, was true"));
+              ElementsAre("mujoco: manoeuvre.passed expected to be false, was true" + when));
   EXPECT_THAT(Failures({"status", {}, {}, "arrived"}), IsEmpty());
   EXPECT_THAT(Failures({"status", 1.0, {}, {}}),
               ElementsAre("mujoco: status expected to be a number, was \"arrived\""));

@@ -66,5 +66,110 @@ TEST(SteeringRateRms, IsThatOfARampAndARest) {
   EXPECT_NEAR(ToJson(metrics)["steering_rate_rms"].get<double>(), 0.05, Tolerance(1e-12));
 }
 
+/// A drive that went as far as 20 m in 8 s.
+PlantMetrics Measured(const std::string& plant) {
+  PlantMetrics metrics;
+  metrics.plant = plant;
+  metrics.end_s = 20.0;
+  metrics.time = 8.0;
+  metrics.lateral_acceleration_max = 3.0;
+  metrics.lateral_acceleration_max_s = 12.0;
+  metrics.lateral_acceleration_max_t = 4.0;
+  metrics.steering_rate_rms = 0.25;
+  metrics.tracking = TrackingMetrics{.cross_track_max = 0.5,
+                                     .cross_track_max_s = 6.0,
+                                     .cross_track_max_t = 2.0,
+                                     .cross_track_final = -0.125,
+                                     .goal_distance = 0.75};
+  metrics.clearance = ClearanceMetrics{.min = 0.25, .min_s = 7.0, .min_t = 2.5};
+  metrics.manoeuvre = ManoeuvreMetrics{
+      .method = "braking", .begin = 1.0, .end = 3.0, .values = {{"distance", 40.0}}};
+  return metrics;
+}
+
+/// The only failure of a drive of which this is expected.
+std::string FailureOf(const MetricExpectation& expect) {
+  Expectations all;
+  all.all.metrics = {expect};
+  const Verdict verdict = Judge(all, {Measured("mujoco")}, {});
+  EXPECT_EQ(verdict.failures.size(), 1U);
+  EXPECT_FALSE(verdict.passed);
+  return verdict.failures.empty() ? "" : verdict.failures.front();
+}
+
+TEST(Judge, SaysOfAnyMetricWhatWasWhereAndWhen) {
+  EXPECT_EQ(FailureOf({.metric = "lateral_acceleration_max", .max = 2.0}),
+            "mujoco: lateral_acceleration_max expected at most 2, was 3 at s = 12 m, t = 4 s");
+  EXPECT_EQ(FailureOf({.metric = "cross_track.max", .max = 0.1}),
+            "mujoco: cross_track.max expected at most 0.1, was 0.5 at s = 6 m, t = 2 s");
+  EXPECT_EQ(FailureOf({.metric = "clearance_min", .min = 1.0}),
+            "mujoco: clearance_min expected at least 1, was 0.25 at s = 7 m, t = 2.5 s");
+  EXPECT_EQ(FailureOf({.metric = "manoeuvre.distance", .max = 30.0}),
+            "mujoco: manoeuvre.distance expected at most 30, was 40 between t = 1 s and 3 s");
+  const std::string end = " at the end, s = 20 m, t = 8 s";
+  EXPECT_EQ(FailureOf({.metric = "time", .max = 5.0}),
+            "mujoco: time expected at most 5, was 8" + end);
+  EXPECT_EQ(FailureOf({.metric = "goal_distance", .max = 0.5}),
+            "mujoco: goal_distance expected at most 0.5, was 0.75" + end);
+  EXPECT_EQ(FailureOf({.metric = "cross_track.final", .min = 0.0}),
+            "mujoco: cross_track.final expected at least 0, was -0.125" + end);
+  EXPECT_EQ(FailureOf({.metric = "status", .equals = "collided"}),
+            "mujoco: status expected to be collided, was arrived" + end);
+  EXPECT_EQ(FailureOf({.metric = "steering_rate_rms", .max = 0.1}),
+            "mujoco: steering_rate_rms expected at most 0.1, was 0.25");
+}
+
+TEST(Judge, LetsAScenarioSayHowItEnds) {
+  PlantMetrics metrics = Measured("mujoco");
+  metrics.status = DriveStatus::kTimeLimit;
+  EXPECT_EQ(Judge({}, {metrics}, {}).failures,
+            std::vector<std::string>{
+                "mujoco: expected to arrive, ended as time_limit at s = 20 m, t = 8 s"});
+  Expectations expect;
+  expect.plants = {{"mujoco", {.metrics = {{.metric = "status", .equals = "time_limit"}}}}};
+  EXPECT_TRUE(Judge(expect, {metrics}, {}).passed);
+  expect.plants[0].first = "kinematic";  // says nothing of this one
+  EXPECT_FALSE(Judge(expect, {metrics}, {}).passed);
+}
+
+TEST(Judge, HoldsPlantsAgainstEachOtherInEitherOrder) {
+  const PlantComparison apart{.first = "kinematic",
+                              .second = "mujoco",
+                              .to_s = 20.0,
+                              .position = {.rms = 0.1, .max = 0.5, .max_s = 12.0, .max_t = 4.0}};
+  Expectations expect;
+  expect.between = {{{"mujoco", "kinematic"}, {.position_max = 0.5}}};
+  EXPECT_TRUE(Judge(expect, {}, {apart}).passed);
+  expect.between[0].bounds.position_max = 0.25;
+  EXPECT_EQ(Judge(expect, {}, {apart}).failures,
+            std::vector<std::string>{"kinematic and mujoco: position difference expected at most "
+                                     "0.25 m, was 0.5 m at s = 12 m, t = 4 s"});
+  EXPECT_EQ(Judge(expect, {}, {}).failures,
+            std::vector<std::string>{
+                "mujoco and kinematic: expected to be compared, but were not both driven"});
+}
+
+TEST(Measure, SaysWhereAndWhenTheLargestValuesWere) {
+  RunLog log{.plant = "made_up", .configurations = Table({"t_s"})};
+  for (int i = 0; i <= 400; ++i) {
+    LogRow row;
+    row.state.time = 0.02 * i;
+    row.state.distance = 0.06 * i;
+    row.state.lateral_acceleration = i == 150 ? -2.0 : 1.0;
+    row.state.steering = 0.002 * std::clamp(i - 200, 0, 5);  // 0.01 rad in the 0.1 s up to 4.1 s
+    log.rows.push_back(row);
+  }
+  VehicleParams vehicle;
+  vehicle.wheelbase = 2.5;
+  const PlantMetrics metrics = Measure(log, Plan{}, vehicle, 0.02, StationSource::kProjection);
+  EXPECT_EQ(metrics.lateral_acceleration_max, 2.0);
+  EXPECT_DOUBLE_EQ(metrics.lateral_acceleration_max_s, 9.0);
+  EXPECT_DOUBLE_EQ(metrics.lateral_acceleration_max_t, 3.0);
+  EXPECT_NEAR(metrics.steering_rate_max, 0.1, Tolerance(1e-12));
+  EXPECT_DOUBLE_EQ(metrics.steering_rate_max_s, 12.3);
+  EXPECT_DOUBLE_EQ(metrics.steering_rate_max_t, 4.1);
+  EXPECT_DOUBLE_EQ(metrics.end_s, 24.0);
+}
+
 }  // namespace
 }  // namespace trackbed

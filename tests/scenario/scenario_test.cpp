@@ -133,7 +133,7 @@ test.yaml:11:40: drive.plants[2]: unknown 'mujocco'; did you mean 'mujoco'?
 test.yaml:11:60: drive.timestep: expected a number, found 'fast'
 test.yaml:12:1: drive: the key is given twice
 test.yaml:13:10: expect.kinematik: unknown key 'kinematik'; did you mean 'kinematic'?
-test.yaml:13:35: expect.between[0]: asks nothing; give position_max, heading_max or both
+test.yaml:13:35: expect.between[0]: asks nothing; give position_max, heading_max, yaw_rate_max or steering_max
 test.yaml:13:44: expect.between[0].plants: expected a list of names, found 'kinematic')");
 }
 

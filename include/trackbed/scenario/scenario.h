@@ -82,15 +82,25 @@ struct PlantExpectation {
   std::optional<double> max_heading_error;  ///< [rad]
   std::optional<double> min_clearance;      ///< smallest distance of the outline to an obstacle [m]
   std::optional<bool> collision;            ///< whether the car hits an obstacle
-  std::optional<bool> blocked;              ///< whether it ends at rest before what blocks its way
   std::vector<MetricExpectation> metrics;   ///< of whatever else was measured
+};
+
+/// Bounds on how far two drives may part at equal station; what is not given is not asked.
+struct DifferenceBounds {
+  std::optional<double> position_max;  ///< [m]
+  std::optional<double> heading_max;   ///< [rad]
+  std::optional<double> yaw_rate_max;  ///< [rad/s]
+  std::optional<double> steering_max;  ///< of the measured road-wheel angle [rad]
+
+  [[nodiscard]] bool any() const {
+    return position_max || heading_max || yaw_rate_max || steering_max;
+  }
 };
 
 /// Bounds on how far two plants may part.
 struct BetweenExpectation {
-  std::vector<std::string> plants;     ///< two of them
-  std::optional<double> position_max;  ///< at equal station [m]
-  std::optional<double> heading_max;   ///< at equal station [rad]
+  std::vector<std::string> plants;  ///< two of them
+  DifferenceBounds bounds;
 };
 
 struct Expectations {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "trackbed/analysis/compare.h"
 #include "trackbed/analysis/run.h"
 
 /// Scenarios in your own GoogleTest: drive one, then say what must hold.
@@ -15,6 +16,8 @@
 ///     EXPECT_THAT(run, trackbed::ReachesGoal(0.5));
 ///     EXPECT_THAT(run, trackbed::TracksWithin(0.15));
 ///     EXPECT_THAT(run, trackbed::StaysWithin("kinematic", "mujoco", 0.1));
+///     EXPECT_THAT(trackbed::Compare(run, "kinematic", "mujoco"),
+///                 trackbed::PartsAtMost({.position_max = 0.1, .yaw_rate_max = 0.05}));
 ///
 /// A matcher that fails says what was expected, what was, where (station) and when (time). Each
 /// matcher asks every plant of the run; a run without a plan, without the plants asked for, or
@@ -28,6 +31,21 @@ RunResult RunScenario(const std::filesystem::path& file,
 
 /// The same for a scenario that was filled in or changed in code.
 RunResult RunScenario(const Scenario& scenario);
+
+/// How far two plants of a run part. InputError when the run did not drive both.
+PlantComparison Compare(const RunResult& run, const std::string& first, const std::string& second);
+
+/// How far a plant parts from itself in another run, such as one with another controller; the two
+/// are named "<run>/<plant>". InputError when one of the runs did not drive it.
+PlantComparison Compare(const RunResult& first, const RunResult& second, const std::string& plant);
+
+/// What GoogleTest prints of a comparison: "kinematic and mujoco from 0 m to 138.2 m: position
+/// 0.02108 m, heading 0.01 rad, yaw rate 0.02 rad/s, steering 0.004 rad at most".
+void PrintTo(const PlantComparison& comparison, std::ostream* out);
+
+/// The two are never further apart than the bounds; two that have no stretch in common do not
+/// match.
+testing::Matcher<const PlantComparison&> PartsAtMost(const DifferenceBounds& bounds);
 
 /// What GoogleTest prints of a run: "three_turns: kinematic arrived at 47.12 s, mujoco arrived at
 /// 47.13 s; met its expectations".

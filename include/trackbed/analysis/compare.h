@@ -1,0 +1,96 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "trackbed/core/table.h"
+#include "trackbed/drive/run_log.h"
+#include "trackbed/scenario/scenario.h"
+
+/// Two drives of one way, held against each other over arc length.
+///
+/// Symbols: s station, how far along the way [m]: that of the nearest point of the path, or without
+/// a path the distance driven; p position of the rear axle [m]; psi yaw [rad]; psi' yaw rate
+/// [rad/s]; delta steering of the road wheels as measured [rad]. Indices 1 and 2 are the first and
+/// the second drive, which are compared at equal s, whenever each of them was there. Signed
+/// differences are those of the second from the first: positive when the second one is further to
+/// the left.
+namespace trackbed {
+
+/// One drive over rising station: rows in which it did not get on are left out, so that a car which
+/// stands is where it came to a stop. All of equal length.
+struct Trace {
+  std::string name;  ///< the plant's, or however the drive is to be called
+  std::vector<double> station;
+  std::vector<double> time;
+  std::vector<Pose2> pose;  ///< yaw is not wrapped
+  std::vector<double> yaw_rate;
+  std::vector<double> steering;
+
+  /// The pose at a station, linear between rows. There must be two of them at least.
+  [[nodiscard]] Pose2 PoseAt(double at) const;
+};
+
+/// `source` says what counts as the station of a drive with a path.
+Trace TraceOf(const RunLog& log, StationSource source = StationSource::kProjection);
+
+/// Reads the log `<plant>.csv` of a run. InputError as ReadCsvExcerpt.
+Trace ReadTrace(const std::filesystem::path& file, const std::string& name);
+
+/// How much one quantity differs over the stations that both drives have.
+struct Difference {
+  double rms = 0.0;    ///< root of the mean square over arc length
+  double max = 0.0;    ///< largest magnitude
+  double max_s = 0.0;  ///< where [m]
+  double max_t = 0.0;  ///< when the first drive was there [s]
+};
+
+/// How far two drives part at equal station.
+struct PlantComparison {
+  std::string first;
+  std::string second;
+  double from_s = 0.0;  ///< where both begin to be [m]
+  double to_s = 0.0;    ///< where the first of them ends [m]
+  Difference position;  ///< |p_2 - p_1| [m]
+  Difference heading;   ///< |psi_2 - psi_1|, in [0, pi] [rad]
+  Difference yaw_rate;  ///< |psi'_2 - psi'_1| [rad/s]
+  Difference steering;  ///< |delta_2 - delta_1| [rad]
+
+  /// Whether there is a stretch that both have driven; without one nothing is known.
+  [[nodiscard]] bool comparable() const { return to_s > from_s; }
+};
+
+/// Compares two drives, both taken as linear between their rows.
+///
+/// Guarantees: exact for drives that are, at any spacing of the rows, equal or not; the largest
+/// differences are those at the rows of either. Exchanging the two changes `max_t` alone.
+/// Cost: linear in the rows.
+PlantComparison CompareTraces(const Trace& first, const Trace& second);
+
+PlantComparison ComparePlants(const RunLog& first, const RunLog& second);
+
+/// The signed differences over arc length, a row for every station that either drive has a row at:
+/// `s_m`, `first_t_s`, `second_t_s`, `x_m`, `y_m`, `position_m` (unsigned), `yaw_rad`,
+/// `yaw_rate_radps`, `steering_rad`.
+Table DifferencesOverArcLength(const Trace& first, const Trace& second);
+
+/// One line for each bound that a comparison does not keep: what was expected, what was, where and
+/// when. Drives with nothing in common keep no bound.
+std::vector<std::string> Exceeded(const DifferenceBounds& bounds,
+                                  const PlantComparison& comparison);
+
+/// A drive of a finished run, as its folder tells of it.
+struct FinishedDrive {
+  std::string status;  ///< of metrics.json: "arrived", …
+  Trace trace;         ///< named after the plant
+};
+
+/// Reads the drives of a run folder in the order of metrics.json. InputError when the folder holds
+/// no finished run, or logs without the columns of a drive.
+std::vector<FinishedDrive> ReadRunFolder(const std::filesystem::path& folder);
+
+nlohmann::ordered_json ToJson(const PlantComparison& comparison);
+
+}  // namespace trackbed

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trackbed/analysis/compare.h"
+#include "trackbed/analysis/run.h"
+
+/// Comparisons of whole runs: of the plants of one, or of two finished ones, with a verdict.
+namespace trackbed {
+
+/// One pair of drives.
+struct ComparedPair {
+  PlantComparison comparison;
+  DifferenceBounds bounds;     ///< what it is judged by
+  Table differences{{"s_m"}};  ///< DifferencesOverArcLength
+};
+
+struct RunComparison {
+  std::vector<ComparedPair> pairs;
+  Verdict verdict;
+};
+
+/// Every pair of the plants of a run. Judged by `tolerances`, or else by what the scenario expects
+/// `between` them; and every drive must end as the scenario expects, which is by arriving unless it
+/// says otherwise. A run without a plan fails.
+RunComparison CompareRun(const RunResult& run, const std::optional<DifferenceBounds>& tolerances);
+
+/// Finished runs, from their folders alone. Of one: every pair of `plants`, or of all that it has.
+/// Of two: each of `plants`, or of those that both have, in the first and in the second; or, if
+/// `plants` are two different ones, the first of them in the first run and the second in the
+/// second. Without tolerances nothing is judged; with them, drives that ended differently fail.
+/// InputError when a folder is no run, a plant was not driven, or nothing is left to compare.
+RunComparison CompareFolders(const std::vector<std::filesystem::path>& folders,
+                             const std::vector<std::string>& plants,
+                             const DifferenceBounds& tolerances);
+
+/// Reads "position=0.1", "heading=", "yaw_rate=" and "steering=" [SI]. InputError for names that
+/// are none of these and values that are no numbers of at least 0.
+DifferenceBounds ParseTolerances(const std::vector<std::string>& texts);
+
+/// Writes compare.csv (the differences over arc length, with the number of the `pair` in front),
+/// then compare.json, each under its name only when complete. RunError.
+void WriteComparison(const RunComparison& comparison, const std::filesystem::path& folder);
+
+}  // namespace trackbed

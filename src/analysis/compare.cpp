@@ -1,0 +1,249 @@
+#include "trackbed/analysis/compare.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where a station lies among the rows of a trace: `share` of the way from row `before` to the
+/// next.
+struct Place {
+  std::size_t before = 0;
+  double share = 0.0;
+
+  [[nodiscard]] double Between(const std::vector<double>& values) const {
+    return std::lerp(values[before], values[before + 1], share);
+  }
+};
+
+Place PlaceAt(const Trace& trace, double station) {
+  const std::vector<double>& s = trace.station;
+  const auto after = std::upper_bound(s.begin() + 1, s.end() - 1, station) - s.begin();
+  const auto i = static_cast<std::size_t>(after);
+  return {i - 1, (station - s[i - 1]) / (s[i] - s[i - 1])};
+}
+
+Pose2 PoseIn(const Trace& trace, const Place& place) {
+  const Pose2& a = trace.pose[place.before];
+  const Pose2& b = trace.pose[place.before + 1];
+  return {std::lerp(a.x, b.x, place.share), std::lerp(a.y, b.y, place.share),
+          std::lerp(a.yaw, b.yaw, place.share)};
+}
+
+/// The second drive minus the first at one station.
+struct Apart {
+  double s = 0.0;
+  double first_t = 0.0;
+  double second_t = 0.0;
+  Vec2 position = Vec2::Zero();
+  double yaw = 0.0;
+  double yaw_rate = 0.0;
+  double steering = 0.0;
+};
+
+/// The drives apart at every station where either has a row and both have been.
+std::vector<Apart> ApartAtRows(const Trace& first, const Trace& second) {
+  if (first.station.size() < 2 || second.station.size() < 2) {
+    return {};
+  }
+  const double from = std::max(first.station.front(), second.station.front());
+  const double to = std::min(first.station.back(), second.station.back());
+  if (!(from < to)) {
+    return {};
+  }
+  std::vector<double> stations;
+  std::merge(first.station.begin(), first.station.end(), second.station.begin(),
+             second.station.end(), std::back_inserter(stations));
+  stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
+  std::vector<Apart> all;
+  for (const double s : stations) {
+    if (s < from || s > to) {
+      continue;
+    }
+    const Place a = PlaceAt(first, s);
+    const Place b = PlaceAt(second, s);
+    const Pose2 pose_1 = PoseIn(first, a);
+    const Pose2 pose_2 = PoseIn(second, b);
+    all.push_back({.s = s,
+                   .first_t = a.Between(first.time),
+                   .second_t = b.Between(second.time),
+                   .position = pose_2.position() - pose_1.position(),
+                   .yaw = AngleDifference(pose_2.yaw, pose_1.yaw),
+                   .yaw_rate = b.Between(second.yaw_rate) - a.Between(first.yaw_rate),
+                   .steering = b.Between(second.steering) - a.Between(first.steering)});
+  }
+  return all;
+}
+
+/// What a quantity comes to over arc length; `of` gives it as a vector, linear between the rows.
+template <typename Of>
+Difference Summarise(const std::vector<Apart>& rows, const Of& of) {
+  Difference difference;
+  double integral = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Vec2 here = of(rows[i]);
+    if (i == 0 || here.norm() > difference.max) {
+      difference.max = here.norm();
+      difference.max_s = rows[i].s;
+      difference.max_t = rows[i].first_t;
+    }
+    if (i > 0) {
+      // Of a quantity that goes from a to b along a line, the mean square is (a.a + a.b + b.b)/3.
+      const Vec2 before = of(rows[i - 1]);
+      integral += (rows[i].s - rows[i - 1].s) *
+                  (before.squaredNorm() + before.dot(here) + here.squaredNorm()) / 3.0;
+    }
+  }
+  difference.rms = std::sqrt(integral / (rows.back().s - rows.front().s));
+  return difference;
+}
+
+nlohmann::ordered_json ToJson(const Difference& difference) {
+  return {{"rms", difference.rms},
+          {"max", difference.max},
+          {"max_s", difference.max_s},
+          {"max_t", difference.max_t}};
+}
+
+void AddRow(Trace& trace, double station, double time, const Pose2& pose, double yaw_rate,
+            double steering) {
+  if (trace.station.empty() || station > trace.station.back()) {
+    trace.station.push_back(station);
+    trace.time.push_back(time);
+    trace.pose.push_back(pose);
+    trace.yaw_rate.push_back(yaw_rate);
+    trace.steering.push_back(steering);
+  }
+}
+
+}  // namespace
+
+Pose2 Trace::PoseAt(double at) const {
+  return PoseIn(*this, PlaceAt(*this, at));
+}
+
+Trace TraceOf(const RunLog& log, StationSource source) {
+  Trace trace{.name = log.plant};
+  for (const LogRow& row : log.rows) {
+    const VehicleState& state = row.state;
+    const bool projected = row.tracking && source == StationSource::kProjection;
+    AddRow(trace, projected ? row.tracking->s : state.distance, state.time, state.pose,
+           state.yaw_rate, state.steering);
+  }
+  return trace;
+}
+
+Trace ReadTrace(const fs::path& file, const std::string& name) {
+  const Table table = ReadCsvExcerpt(file, {"s_m", "t_s", "x_m", "y_m", "yaw_rad", "yaw_rate_radps",
+                                            "steering_rad"})
+                          .table;
+  const auto column = [&](std::string_view of) { return table.Column(of); };
+  const auto s = column("s_m");
+  const auto t = column("t_s");
+  const auto x = column("x_m");
+  const auto y = column("y_m");
+  const auto yaw = column("yaw_rad");
+  const auto yaw_rate = column("yaw_rate_radps");
+  const auto steering = column("steering_rad");
+  Trace trace{.name = name};
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    AddRow(trace, s[i], t[i], {x[i], y[i], yaw[i]}, yaw_rate[i], steering[i]);
+  }
+  return trace;
+}
+
+PlantComparison CompareTraces(const Trace& first, const Trace& second) {
+  PlantComparison comparison{.first = first.name, .second = second.name};
+  const std::vector<Apart> rows = ApartAtRows(first, second);
+  if (rows.empty()) {
+    return comparison;
+  }
+  comparison.from_s = rows.front().s;
+  comparison.to_s = rows.back().s;
+  comparison.position = Summarise(rows, [](const Apart& row) { return row.position; });
+  comparison.heading = Summarise(rows, [](const Apart& row) { return Vec2(row.yaw, 0.0); });
+  comparison.yaw_rate = Summarise(rows, [](const Apart& row) { return Vec2(row.yaw_rate, 0.0); });
+  comparison.steering = Summarise(rows, [](const Apart& row) { return Vec2(row.steering, 0.0); });
+  return comparison;
+}
+
+PlantComparison ComparePlants(const RunLog& first, const RunLog& second) {
+  return CompareTraces(TraceOf(first), TraceOf(second));
+}
+
+Table DifferencesOverArcLength(const Trace& first, const Trace& second) {
+  Table table({"s_m", "first_t_s", "second_t_s", "x_m", "y_m", "position_m", "yaw_rad",
+               "yaw_rate_radps", "steering_rad"});
+  for (const Apart& row : ApartAtRows(first, second)) {
+    table.AddRow({row.s, row.first_t, row.second_t, row.position.x(), row.position.y(),
+                  row.position.norm(), row.yaw, row.yaw_rate, row.steering});
+  }
+  return table;
+}
+
+std::vector<std::string> Exceeded(const DifferenceBounds& bounds,
+                                  const PlantComparison& comparison) {
+  const std::string names = comparison.first + " and " + comparison.second;
+  if (!comparison.comparable()) {
+    return {names + ": expected to be compared, but they have no stretch in common"};
+  }
+  struct Bound {
+    const char* what;
+    const char* unit;
+    std::optional<double> limit;
+    const Difference& actual;
+  };
+  std::vector<std::string> failures;
+  for (const Bound& bound : {Bound{"position", "m", bounds.position_max, comparison.position},
+                             Bound{"heading", "rad", bounds.heading_max, comparison.heading},
+                             Bound{"yaw rate", "rad/s", bounds.yaw_rate_max, comparison.yaw_rate},
+                             Bound{"steering", "rad", bounds.steering_max, comparison.steering}}) {
+    if (bound.limit && !(bound.actual.max <= *bound.limit)) {
+      failures.push_back(fmt::format(
+          "{}: {} difference expected at most {:.4g} {}, was {:.4g} {} at s = {:.4g} m, t = {:.4g} "
+          "s",
+          names, bound.what, *bound.limit, bound.unit, bound.actual.max, bound.unit,
+          bound.actual.max_s, bound.actual.max_t));
+    }
+  }
+  return failures;
+}
+
+std::vector<FinishedDrive> ReadRunFolder(const fs::path& folder) {
+  const fs::path file = folder / "metrics.json";
+  if (!fs::exists(file)) {
+    throw InputError(Problem{.file = folder.string(),
+                             .message = "the folder of no finished run (it has no metrics.json)"});
+  }
+  const auto json = nlohmann::ordered_json::parse(ReadFile(file), nullptr, false);
+  std::vector<FinishedDrive> drives;
+  try {
+    for (const auto& [plant, metrics] : json.at("plants").items()) {
+      drives.push_back({metrics.at("status").get<std::string>(),
+                        ReadTrace(folder / (PlantFileName(plant) + ".csv"), plant)});
+    }
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(Problem{.file = file.string(), .message = "not the metrics of a run"});
+  }
+  return drives;
+}
+
+nlohmann::ordered_json ToJson(const PlantComparison& comparison) {
+  return {{"plants", {comparison.first, comparison.second}},
+          {"from_s", comparison.from_s},
+          {"to_s", comparison.to_s},
+          {"position", ToJson(comparison.position)},
+          {"heading", ToJson(comparison.heading)},
+          {"yaw_rate", ToJson(comparison.yaw_rate)},
+          {"steering", ToJson(comparison.steering)}};
+}
+
+}  // namespace trackbed

@@ -1,0 +1,259 @@
+#include "trackbed/analysis/compare_runs.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+#include "trackbed/core/spelling.h"
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+/// Of what a scenario expects, that which says how the drives are to end.
+PlantExpectation EndOnly(const PlantExpectation& expect) {
+  PlantExpectation end{.collision = expect.collision};
+  std::copy_if(expect.metrics.begin(), expect.metrics.end(), std::back_inserter(end.metrics),
+               [](const MetricExpectation& metric) { return metric.metric == "status"; });
+  return end;
+}
+
+Expectations EndsOnly(const Expectations& expect) {
+  Expectations ends{.all = EndOnly(expect.all)};
+  for (const auto& [plant, own] : expect.plants) {
+    ends.plants.emplace_back(plant, EndOnly(own));
+  }
+  return ends;
+}
+
+DifferenceBounds BoundsBetween(const Expectations& expect, const std::string& a,
+                               const std::string& b) {
+  for (const BetweenExpectation& between : expect.between) {
+    if (std::is_permutation(between.plants.begin(), between.plants.end(),
+                            std::vector{a, b}.begin())) {
+      return between.bounds;
+    }
+  }
+  return {};
+}
+
+ComparedPair Pair(const Trace& first, const Trace& second, const DifferenceBounds& bounds) {
+  return {CompareTraces(first, second), bounds, DifferencesOverArcLength(first, second)};
+}
+
+/// Adds what the pair does not keep to the verdict.
+void Judge(const ComparedPair& pair, Verdict& verdict) {
+  if (pair.bounds.any() || !pair.comparison.comparable()) {
+    const std::vector<std::string> failures = Exceeded(pair.bounds, pair.comparison);
+    verdict.failures.insert(verdict.failures.end(), failures.begin(), failures.end());
+  }
+  verdict.passed = verdict.failures.empty();
+}
+
+/// A finished run whose drives carry its name.
+struct FinishedRun {
+  fs::path folder;
+  std::vector<FinishedDrive> drives;
+
+  [[nodiscard]] std::vector<std::string> Plants() const {
+    std::vector<std::string> plants;
+    for (const FinishedDrive& drive : drives) {
+      plants.push_back(drive.trace.name);
+    }
+    return plants;
+  }
+
+  [[nodiscard]] const FinishedDrive& Of(const std::string& plant) const {
+    const auto found = std::find_if(drives.begin(), drives.end(), [&](const FinishedDrive& drive) {
+      return drive.trace.name == plant;
+    });
+    if (found == drives.end()) {
+      throw InputError(Problem{.file = folder.string(),
+                               .message = fmt::format("the run did not drive {}; driven: {}", plant,
+                                                      fmt::join(Plants(), ", "))});
+    }
+    return *found;
+  }
+};
+
+/// Two drives of finished runs, under names that tell them apart.
+struct Candidates {
+  FinishedDrive first;
+  FinishedDrive second;
+};
+
+std::vector<Candidates> WithinOne(const FinishedRun& run, const std::vector<std::string>& wanted) {
+  const std::vector<std::string> plants = wanted.empty() ? run.Plants() : wanted;
+  std::vector<Candidates> pairs;
+  for (std::size_t i = 0; i < plants.size(); ++i) {
+    for (std::size_t j = i + 1; j < plants.size(); ++j) {
+      pairs.push_back({run.Of(plants[i]), run.Of(plants[j])});
+    }
+  }
+  if (pairs.empty()) {
+    throw InputError(Problem{.file = run.folder.string(),
+                             .message = fmt::format("nothing to compare {} with; a run with two "
+                                                    "plants is needed, or a second run",
+                                                    fmt::join(plants, ", "))});
+  }
+  return pairs;
+}
+
+std::vector<Candidates> AcrossTwo(const FinishedRun& first, const FinishedRun& second,
+                                  const std::vector<std::string>& wanted) {
+  std::vector<Candidates> pairs;
+  const auto add = [&](const std::string& a, const std::string& b) {
+    Candidates pair{first.Of(a), second.Of(b)};
+    pair.first.trace.name = (first.folder / a).lexically_normal().string();
+    pair.second.trace.name = (second.folder / b).lexically_normal().string();
+    pairs.push_back(std::move(pair));
+  };
+  if (wanted.size() == 2 && wanted[0] != wanted[1]) {
+    add(wanted[0], wanted[1]);
+    return pairs;
+  }
+  for (const std::string& plant : wanted.empty() ? first.Plants() : wanted) {
+    const std::vector<std::string> others = second.Plants();
+    if (!wanted.empty() || std::find(others.begin(), others.end(), plant) != others.end()) {
+      add(plant, plant);
+    }
+  }
+  if (pairs.empty()) {
+    throw InputError(Problem{
+        .file = second.folder.string(),
+        .message =
+            fmt::format("no plant in common with {}; driven: {} and {}", first.folder.string(),
+                        fmt::join(first.Plants(), ", "), fmt::join(second.Plants(), ", "))});
+  }
+  return pairs;
+}
+
+ordered_json ToJson(const DifferenceBounds& bounds) {
+  ordered_json json = ordered_json::object();
+  const auto add = [&](const char* key, const std::optional<double>& limit) {
+    if (limit) {
+      json[key] = *limit;
+    }
+  };
+  add("position_max", bounds.position_max);
+  add("heading_max", bounds.heading_max);
+  add("yaw_rate_max", bounds.yaw_rate_max);
+  add("steering_max", bounds.steering_max);
+  return json;
+}
+
+[[noreturn]] void BadTolerance(const std::string& message) {
+  throw InputError(Problem{.file = "--tolerance", .message = message});
+}
+
+}  // namespace
+
+RunComparison CompareRun(const RunResult& run, const std::optional<DifferenceBounds>& tolerances) {
+  RunComparison result;
+  if (!run.plan.ok()) {
+    result.verdict = run.verdict;
+    return result;
+  }
+  result.verdict = trackbed::Judge(EndsOnly(run.scenario.expect), run.metrics, {});
+  for (std::size_t i = 0; i < run.logs.size(); ++i) {
+    for (std::size_t j = i + 1; j < run.logs.size(); ++j) {
+      const Trace first = TraceOf(run.logs[i]);
+      const Trace second = TraceOf(run.logs[j]);
+      result.pairs.push_back(
+          Pair(first, second,
+               tolerances.value_or(BoundsBetween(run.scenario.expect, first.name, second.name))));
+      Judge(result.pairs.back(), result.verdict);
+    }
+  }
+  return result;
+}
+
+RunComparison CompareFolders(const std::vector<fs::path>& folders,
+                             const std::vector<std::string>& plants,
+                             const DifferenceBounds& tolerances) {
+  TRACKBED_CHECK(folders.size() == 1 || folders.size() == 2, "{} folders", folders.size());
+  std::vector<FinishedRun> runs;
+  for (const fs::path& folder : folders) {
+    runs.push_back({folder, ReadRunFolder(folder)});
+  }
+  const std::vector<Candidates> candidates =
+      runs.size() == 1 ? WithinOne(runs[0], plants) : AcrossTwo(runs[0], runs[1], plants);
+  RunComparison result;
+  for (const auto& [first, second] : candidates) {
+    if (first.status != second.status) {
+      const std::string ends = fmt::format("{} ended as {}, {} as {}", first.trace.name,
+                                           first.status, second.trace.name, second.status);
+      (tolerances.any() ? result.verdict.failures : result.verdict.notes).push_back(ends);
+    }
+    result.pairs.push_back(Pair(first.trace, second.trace, tolerances));
+    Judge(result.pairs.back(), result.verdict);
+  }
+  return result;
+}
+
+DifferenceBounds ParseTolerances(const std::vector<std::string>& texts) {
+  DifferenceBounds bounds;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    const std::string name = text.substr(0, equals);
+    if (equals == std::string::npos) {
+      BadTolerance(fmt::format("'{}' is not of the form position=0.1", text));
+    }
+    const std::string value = text.substr(equals + 1);
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    if (error != std::errc() || end != value.data() + value.size() || !std::isfinite(number) ||
+        number < 0.0) {
+      BadTolerance(fmt::format("{}: expected a number of at least 0, found '{}'", name, value));
+    }
+    if (name == "position") {
+      bounds.position_max = number;
+    } else if (name == "heading") {
+      bounds.heading_max = number;
+    } else if (name == "yaw_rate") {
+      bounds.yaw_rate_max = number;
+    } else if (name == "steering") {
+      bounds.steering_max = number;
+    } else {
+      BadTolerance("unknown " + UnknownName(name, {"position", "heading", "yaw_rate", "steering"}));
+    }
+  }
+  return bounds;
+}
+
+void WriteComparison(const RunComparison& comparison, const fs::path& folder) {
+  MakeFolder(folder);
+  std::error_code ignored;  // what cannot be removed cannot be replaced either: that will tell
+  fs::remove(folder / "compare.json", ignored);
+
+  std::vector<std::string> columns{"pair"};
+  const Table any = DifferencesOverArcLength({}, {});
+  columns.insert(columns.end(), any.columns().begin(), any.columns().end());
+  Table table(columns);
+  ordered_json json{{"pairs", ordered_json::array()}};
+  for (std::size_t pair = 0; pair < comparison.pairs.size(); ++pair) {
+    const ComparedPair& own = comparison.pairs[pair];
+    for (std::size_t row = 0; row < own.differences.rows(); ++row) {
+      std::vector<double> cells{static_cast<double>(pair)};
+      for (std::size_t column = 0; column < any.columns().size(); ++column) {
+        cells.push_back(own.differences.at(row, column));
+      }
+      table.AddRow(cells);
+    }
+    json["pairs"].push_back(ToJson(own.comparison));
+    json["pairs"].back()["tolerances"] = ToJson(own.bounds);
+  }
+  json["verdict"] = ToJson(comparison.verdict);
+  json["versions"] = Versions();
+  WriteFileAtomically(folder / "compare.csv", table.ToCsv());
+  WriteFileAtomically(folder / "compare.json", json.dump(2) + "\n");
+}
+
+}  // namespace trackbed

@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "src/cli/scenario_runs.h"
+#include "src/cli/verbs.h"
+#include "trackbed/analysis/compare_runs.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CompareOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> tolerances;
+  std::string out;
+  ScenarioOptions scenario;
+};
+
+void PrintRow(const char* what, const char* unit, const Difference& difference,
+              const std::optional<double>& tolerance) {
+  const bool exceeded = tolerance && !(difference.max <= *tolerance);
+  fmt::print("    {:<8} {:>9.3g} {:<5} at {:>6.4g} m, {:>6.4g} s; rms {:>9.3g} {}{}\n", what,
+             difference.max, unit, difference.max_s, difference.max_t, difference.rms, unit,
+             !tolerance
+                 ? ""
+                 : fmt::format("; at most {:.4g}{}", *tolerance, exceeded ? ": EXCEEDED" : ""));
+}
+
+void Print(const std::string& name, const RunComparison& result, const fs::path& out) {
+  fmt::print("{}: {}, in {}\n", name, result.verdict.passed ? "passed" : "FAILED",
+             (out / "compare.json").string());
+  for (const ComparedPair& pair : result.pairs) {
+    const PlantComparison& c = pair.comparison;
+    fmt::print("  {} - {}, from {:.4g} m to {:.4g} m\n", c.first, c.second, c.from_s, c.to_s);
+    PrintRow("position", "m", c.position, pair.bounds.position_max);
+    PrintRow("heading", "rad", c.heading, pair.bounds.heading_max);
+    PrintRow("yaw rate", "rad/s", c.yaw_rate, pair.bounds.yaw_rate_max);
+    PrintRow("steering", "rad", c.steering, pair.bounds.steering_max);
+  }
+  for (const auto& lines : {result.verdict.failures, result.verdict.notes}) {
+    for (const std::string& line : lines) {
+      fmt::print("  {}\n", line);
+    }
+  }
+}
+
+int Finish(const std::string& name, const RunComparison& result, const fs::path& out, bool quiet) {
+  WriteComparison(result, out);
+  if (!quiet) {
+    Print(name, result, out);
+  }
+  return result.verdict.passed ? kOk : kFailedExpectations;
+}
+
+int CompareFinished(const CompareOptions& options) {
+  if (!options.scenario.overrides.empty() || !options.scenario.seed.empty()) {
+    throw InputError(Problem{.message = "--set and --seed are for scenarios; finished runs stay as "
+                                        "they are"});
+  }
+  const std::vector<fs::path> folders(options.files.begin(), options.files.end());
+  const RunComparison result =
+      CompareFolders(folders, options.scenario.plants, ParseTolerances(options.tolerances));
+  const fs::path out = options.out.empty() ? "out/compare" : options.out;
+  return Finish(folders.back().string(), result, out, options.scenario.quiet);
+}
+
+int CompareScenario(const ScenarioRun& run, const CompareOptions& options) {
+  const RunResult result = DriveScenario(run, options.scenario.quiet);
+  WriteRunFolder(result, run.folder);
+  if (result.interrupted) {
+    return kInterrupted;
+  }
+  const auto tolerances = options.tolerances.empty() ? std::optional<DifferenceBounds>()
+                                                     : ParseTolerances(options.tolerances);
+  return Finish(run.scenario.name, CompareRun(result, tolerances), run.folder,
+                options.scenario.quiet);
+}
+
+int CompareScenarios(const CompareOptions& options) {
+  static_cast<void>(ParseTolerances(options.tolerances));  // before the work, not after it
+  const std::vector<ScenarioRun> runs =
+      ReadScenarioRuns(options.files, options.scenario, options.out, "out/compare");
+  for (const ScenarioRun& run : runs) {
+    if (run.scenario.drive.plants.size() < 2) {
+      throw InputError(Problem{.key = run.scenario.name + ": drive.plants",
+                               .message = fmt::format("only {}; two plants are needed to compare, "
+                                                      "such as --plants kinematic,mujoco",
+                                                      run.scenario.drive.plants.front())});
+    }
+  }
+  int worst = kOk;
+  for (const ScenarioRun& run : runs) {
+    worst = std::max(worst, CompareScenario(run, options));
+    if (worst == kInterrupted) {
+      break;
+    }
+  }
+  return worst;
+}
+
+int Compare(const CompareOptions& options) {
+  const auto folders =
+      std::count_if(options.files.begin(), options.files.end(),
+                    [](const std::string& file) { return fs::is_directory(file); });
+  if (folders == 0) {
+    return CompareScenarios(options);
+  }
+  if (folders != static_cast<std::ptrdiff_t>(options.files.size()) || folders > 2) {
+    throw InputError(Problem{
+        .message = "compares scenarios, or one or two folders of finished runs, and not both"});
+  }
+  return CompareFinished(options);
+}
+
+}  // namespace
+
+void AddCompare(CLI::App& command, int& exit_code) {
+  const auto options = std::make_shared<CompareOptions>();
+  command
+      .add_option("files", options->files, "Scenario files, or one or two folders of finished runs")
+      ->required()
+      ->type_name("FILE...");
+  command
+      .add_option("--plants", options->scenario.plants,
+                  "Compare these plants (default: the scenario's; those of the run, or that both "
+                  "runs have); of two runs A,B: A of the first with B of the second")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("A,B...");
+  command
+      .add_option("--tolerance", options->tolerances,
+                  "Largest differences that pass, of position [m], heading [rad], yaw_rate "
+                  "[rad/s], steering [rad] (default: the scenario's expect.between)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAME=VALUE,...");
+  command
+      .add_option("-o,--out", options->out,
+                  "Folder to write to (default: out/compare/<scenario>, for finished runs "
+                  "out/compare); of several scenarios: parent of one folder each")
+      ->type_name("DIR");
+  options->scenario.AddKeysTo(command);
+  command.callback([options, &exit_code] { exit_code = Compare(*options); });
+}
+
+}  // namespace trackbed::cli

@@ -1,0 +1,51 @@
+#include "src/cli/scenario_runs.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "src/cli/progress_bar.h"
+#include "src/cli/verbs.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+
+namespace trackbed::cli {
+
+namespace fs = std::filesystem;
+
+std::vector<ScenarioRun> ReadScenarioRuns(const std::vector<std::string>& files,
+                                          const ScenarioOptions& options, const std::string& out,
+                                          const fs::path& parent) {
+  std::vector<ScenarioRun> runs;
+  for (const std::string& file : files) {
+    Scenario scenario = options.Read(file);
+    const fs::path folder = out.empty()        ? parent / scenario.name
+                            : files.size() > 1 ? fs::path(out) / scenario.name
+                                               : fs::path(out);
+    for (const ScenarioRun& other : runs) {
+      if (other.folder == folder) {
+        throw InputError(
+            Problem{file, 0, 0, "name",
+                    fmt::format("'{}' is the name of an earlier file too; both would write to {}",
+                                scenario.name, folder.string())});
+      }
+    }
+    runs.push_back({std::move(scenario), folder});
+  }
+  return runs;
+}
+
+RunResult DriveScenario(const ScenarioRun& run, bool quiet) {
+  static_cast<void>(LoadCar(run.scenario));
+  MakeFolder(run.folder);
+  std::unique_ptr<ProgressBar> bar;
+  return RunMission(run.scenario, {.drive = [&](const std::string& plant) {
+                      bar.reset();
+                      bar = std::make_unique<ProgressBar>(
+                          fmt::format("{} {}", run.scenario.name, plant), quiet);
+                      return DriveHooks{.progress = [&](double fraction) { bar->Show(fraction); },
+                                        .interrupted = [] { return interrupted.load(); }};
+                    }});
+}
+
+}  // namespace trackbed::cli

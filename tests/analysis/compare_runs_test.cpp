@@ -1,0 +1,213 @@
+#include "trackbed/analysis/compare_runs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/temp_folder.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// A short open-loop drive of the plants, without a path.
+RunResult Turn(const std::string& plants, const std::string& more = "") {
+  return RunMission(
+      ParseScenario("schema: 1\nname: turn\nmission: {duration: 1, speed: 3}\n"
+                    "control: {method: constant_steering, steering: 0.1}\ndrive: {plants: [" +
+                        plants + "]}\n" + more,
+                    "turn.yaml", "."));
+}
+
+/// The folder of a finished run along y = `offset`, 10 m long, on each of the plants.
+fs::path Line(const TempFolder& folder, const std::string& name, double offset,
+              const std::vector<std::pair<std::string, std::string>>& plants) {
+  nlohmann::json metrics;
+  for (const auto& [plant, status] : plants) {
+    metrics["plants"][plant]["status"] = status;
+    folder.Write(name + "/" + plant + ".csv",
+                 fmt::format("t_s,x_m,y_m,yaw_rad,yaw_rate_radps,steering_rad,s_m\n"
+                             "0,0,{0},0,0,0,0\n5,10,{0},0,0,0,10\n",
+                             offset));
+  }
+  folder.Write(name + "/metrics.json", metrics.dump());
+  return folder.path() / name;
+}
+
+std::vector<std::string> Names(const RunComparison& comparison) {
+  std::vector<std::string> names;
+  for (const ComparedPair& pair : comparison.pairs) {
+    names.push_back(pair.comparison.first + " - " + pair.comparison.second);
+  }
+  return names;
+}
+
+template <typename Call>
+std::string Complaint(const Call& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(CompareRun, ComparesEveryPairAsTheScenarioExpects) {
+  const RunResult run = Turn("kinematic, single_track, mujoco",
+                             "expect: {between: [{plants: [single_track, kinematic], "
+                             "yaw_rate_max: 1e-6, steering_max: 1}]}\n");
+  const RunComparison result = CompareRun(run, {});
+  EXPECT_THAT(Names(result), ElementsAre("kinematic - single_track", "kinematic - mujoco",
+                                         "single_track - mujoco"));
+  EXPECT_EQ(result.pairs[0].bounds.yaw_rate_max, 1e-6);
+  EXPECT_FALSE(result.pairs[1].bounds.any());
+  EXPECT_FALSE(result.verdict.passed);
+  EXPECT_THAT(result.verdict.failures,
+              ElementsAre(testing::MatchesRegex(
+                  "kinematic and single_track: yaw rate difference expected at most 1e-06 rad/s, "
+                  "was 0\\.[0-9]+ rad/s at s = [0-9.]+ m, t = [0-9.]+ s")));
+  EXPECT_EQ(result.pairs[0].differences.rows() > 50, true);
+}
+
+TEST(CompareRun, IsJudgedByTolerancesInstead) {
+  const RunResult run =
+      Turn("kinematic, single_track",
+           "expect: {between: [{plants: [single_track, kinematic], position_max: 0}]}\n");
+  EXPECT_FALSE(CompareRun(run, {}).verdict.passed);
+  EXPECT_TRUE(CompareRun(run, DifferenceBounds{.position_max = 1.0}).verdict.passed);
+  EXPECT_TRUE(CompareRun(run, DifferenceBounds{}).verdict.passed);
+  EXPECT_FALSE(CompareRun(run, DifferenceBounds{.heading_max = 1e-9}).verdict.passed);
+}
+
+TEST(CompareRun, FailsDrivesThatDoNotEndAsExpected) {
+  RunResult run = Turn("kinematic, single_track", "expect: {metrics: [{metric: time, max: 0}]}\n");
+  EXPECT_FALSE(run.verdict.passed);
+  EXPECT_TRUE(CompareRun(run, {}).verdict.passed);  // of the rest only how they ended
+  run.metrics[1].status = DriveStatus::kDiverged;
+  EXPECT_THAT(CompareRun(run, {}).verdict.failures,
+              ElementsAre(testing::StartsWith("single_track: expected to arrive, ended as "
+                                              "diverged")));
+  run.scenario.expect.all.metrics = {{.metric = "status", .equals = "diverged"}};
+  EXPECT_THAT(CompareRun(run, {}).verdict.failures,
+              ElementsAre(testing::StartsWith("kinematic: status expected to be diverged, was "
+                                              "arrived at the end, s = ")));
+}
+
+TEST(CompareRun, FailsWithoutAPlan) {
+  RunResult run;
+  run.plan.status = PlanStatus::kUTurn;
+  run.verdict = {false, {"no plan"}, {}};
+  const RunComparison result = CompareRun(run, {});
+  EXPECT_FALSE(result.verdict.passed);
+  EXPECT_THAT(result.verdict.failures, ElementsAre("no plan"));
+  EXPECT_THAT(result.pairs, IsEmpty());
+}
+
+TEST(CompareFolders, OfOneRunComparesItsPlants) {
+  const TempFolder folder;
+  const fs::path run =
+      Line(folder, "r", 0.0,
+           {{"kinematic", "arrived"}, {"mujoco", "arrived"}, {"single_track", "arrived"}});
+  EXPECT_THAT(
+      Names(CompareFolders({run}, {}, {})),
+      ElementsAre("kinematic - mujoco", "kinematic - single_track", "mujoco - single_track"));
+  EXPECT_THAT(Names(CompareFolders({run}, {"single_track", "mujoco"}, {})),
+              ElementsAre("single_track - mujoco"));
+  EXPECT_EQ(Complaint([&] { CompareFolders({run}, {"mujoco"}, {}); }),
+            run.string() +
+                ": nothing to compare mujoco with; a run with two plants is needed, or "
+                "a second run");
+  EXPECT_EQ(Complaint([&] {
+              CompareFolders({run}, {"mujoco", "car"}, {});
+            }),
+            run.string() + ": the run did not drive car; driven: kinematic, mujoco, single_track");
+}
+
+TEST(CompareFolders, OfTwoRunsComparesThePlantsThatBothHave) {
+  const TempFolder folder;
+  const fs::path a = Line(folder, "a", 0.0, {{"kinematic", "arrived"}, {"mujoco", "arrived"}});
+  const fs::path b = Line(folder, "b", 0.25, {{"mujoco", "arrived"}, {"single_track", "arrived"}});
+  const RunComparison result = CompareFolders({a, b}, {}, {.position_max = 0.2});
+  EXPECT_THAT(Names(result), ElementsAre(a.string() + "/mujoco - " + b.string() + "/mujoco"));
+  EXPECT_EQ(result.pairs[0].comparison.position.max, 0.25);
+  EXPECT_THAT(result.verdict.failures,
+              ElementsAre(a.string() + "/mujoco and " + b.string() +
+                          "/mujoco: position difference expected at most 0.2 m, was 0.25 m at s = "
+                          "0 m, t = 0 s"));
+  EXPECT_TRUE(CompareFolders({a, b}, {}, {.position_max = 0.25}).verdict.passed);
+  EXPECT_THAT(Names(CompareFolders({a, b}, {"kinematic", "single_track"}, {})),
+              ElementsAre(a.string() + "/kinematic - " + b.string() + "/single_track"));
+  EXPECT_EQ(Complaint([&] {
+              CompareFolders({a, b}, {"kinematic"}, {});
+            }),
+            b.string() + ": the run did not drive kinematic; driven: mujoco, single_track");
+  const fs::path c = Line(folder, "c", 0.0, {{"kinematic", "arrived"}});
+  EXPECT_EQ(Complaint([&] {
+              CompareFolders({b, c}, {}, {});
+            }),
+            c.string() + ": no plant in common with " + b.string() +
+                "; driven: mujoco, single_track and kinematic");
+}
+
+TEST(CompareFolders, OfDrivesThatEndedDifferentlyKeepsNoTolerance) {
+  const TempFolder folder;
+  const fs::path run = Line(folder, "r", 0.0, {{"kinematic", "arrived"}, {"mujoco", "collided"}});
+  const char* const ends = "kinematic ended as arrived, mujoco as collided";
+  const RunComparison shown = CompareFolders({run}, {}, {});
+  EXPECT_TRUE(shown.verdict.passed);
+  EXPECT_THAT(shown.verdict.notes, ElementsAre(ends));
+  const RunComparison judged = CompareFolders({run}, {}, {.position_max = 1.0});
+  EXPECT_FALSE(judged.verdict.passed);
+  EXPECT_THAT(judged.verdict.failures, ElementsAre(ends));
+}
+
+TEST(ParseTolerances, ReadsEachQuantity) {
+  const DifferenceBounds bounds =
+      ParseTolerances({"position=0.1", "heading=2e-2", "yaw_rate=3", "steering=0"});
+  EXPECT_EQ(bounds.position_max, 0.1);
+  EXPECT_EQ(bounds.heading_max, 0.02);
+  EXPECT_EQ(bounds.yaw_rate_max, 3.0);
+  EXPECT_EQ(bounds.steering_max, 0.0);
+  EXPECT_FALSE(ParseTolerances({}).any());
+}
+
+TEST(ParseTolerances, RefusesEverythingElse) {
+  const auto told = [](const std::string& text) {
+    return Complaint([&] { ParseTolerances({text}); });
+  };
+  EXPECT_EQ(told("positon=1"), "--tolerance: unknown 'positon'; did you mean 'position'?");
+  EXPECT_EQ(told("position"), "--tolerance: 'position' is not of the form position=0.1");
+  for (const char* value : {"", "-1", "nan", "inf", "1m", "1,5", "1e999"}) {
+    EXPECT_EQ(
+        told(std::string("heading=") + value),
+        fmt::format("--tolerance: heading: expected a number of at least 0, found '{}'", value));
+  }
+}
+
+TEST(WriteComparison, LeavesTheFiguresAndTheCurves) {
+  const TempFolder folder;
+  const fs::path a = Line(folder, "a", 0.0, {{"kinematic", "arrived"}, {"mujoco", "arrived"}});
+  const fs::path b = Line(folder, "b", 0.5, {{"kinematic", "arrived"}, {"mujoco", "arrived"}});
+  WriteComparison(CompareFolders({a, b}, {}, {.position_max = 0.1}), folder.path() / "c");
+  const auto json = nlohmann::json::parse(ReadFile(folder.path() / "c/compare.json"));
+  ASSERT_EQ(json["pairs"].size(), 2U);
+  EXPECT_EQ(json["pairs"][1]["plants"][0], a.string() + "/mujoco");
+  EXPECT_EQ(json["pairs"][1]["position"]["max"], 0.5);
+  EXPECT_EQ(json["pairs"][1]["position"]["rms"], 0.5);
+  EXPECT_EQ(json["pairs"][1]["to_s"], 10.0);
+  EXPECT_EQ(json["pairs"][1]["tolerances"], nlohmann::json({{"position_max", 0.1}}));
+  EXPECT_EQ(json["verdict"]["passed"], false);
+  EXPECT_EQ(json["verdict"]["failures"].size(), 2U);
+  EXPECT_TRUE(json["versions"].contains("trackbed"));
+  const Table table = ReadCsv(folder.path() / "c/compare.csv");
+  EXPECT_THAT(table.Column("pair"), ElementsAre(0.0, 0.0, 1.0, 1.0));
+  EXPECT_THAT(table.Column("s_m"), ElementsAre(0.0, 10.0, 0.0, 10.0));
+  EXPECT_THAT(table.Column("y_m"), testing::Each(0.5));
+}
+
+}  // namespace
+}  // namespace trackbed
