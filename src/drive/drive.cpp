@@ -300,19 +300,19 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
     }
     const bool time_over = state.time >= end_time - 0.5 * drive.timestep;
     const bool interrupted = hooks.interrupted && hooks.interrupted();
-    const bool stays = at_rest && !stood && !lookout.Waits(state);
+    const bool stays = at_rest && !stood && !lookout.Waits();
     if (interrupted || time_over || (has_path && stays)) {
       log.rows.push_back(row);
       const Vec2 goal = path.At(path.length()).pose.position();
       const bool near = (state.pose.position() - goal).norm() <= kNear;
       const bool there =
           has_path ? at_rest && near && s >= path.length() - kArrival : end_time == duration;
-      log.status = interrupted                             ? DriveStatus::kInterrupted
-                   : collided                              ? DriveStatus::kCollided
-                   : there && !driven.plan.blocked.empty() ? DriveStatus::kBlocked
-                   : there                                 ? DriveStatus::kArrived
-                   : at_rest                               ? DriveStatus::kStopped
-                                                           : DriveStatus::kTimeLimit;
+      log.status = interrupted                               ? DriveStatus::kInterrupted
+                   : collided                                ? DriveStatus::kCollided
+                   : at_rest && !driven.plan.blocked.empty() ? DriveStatus::kBlocked
+                   : there                                   ? DriveStatus::kArrived
+                   : at_rest                                 ? DriveStatus::kStopped
+                                                             : DriveStatus::kTimeLimit;
       break;
     }
 

@@ -55,15 +55,8 @@ std::optional<Plan> Lookout::Look(const VehicleState& state, const Plan& plan,
   return scenario_.plan->replan ? PlanAgain(state, plan, at) : std::nullopt;
 }
 
-bool Lookout::Waits(const VehicleState& state) const {
-  if (!scenario_.plan || !scenario_.plan->replan || driving_.plan.blocked.empty()) {
-    return false;
-  }
-  bool moves = false;
-  for (std::size_t i = 0; i < seen_.size(); ++i) {
-    moves = moves || (seen_[i].since && scenario_.world.obstacles[i].moves());
-  }
-  return moves || !tried_at_rest_ || state.time == 0.0;
+bool Lookout::Waits() const {
+  return scenario_.plan && scenario_.plan->replan && !driving_.plan.blocked.empty() && !gave_up_;
 }
 
 void Lookout::See(const VehicleState& state) {
@@ -177,7 +170,9 @@ std::optional<Plan> Lookout::PlanAgain(const VehicleState& state, const Plan& pl
   Replanned next = Replan(request, driving_, options);
   constexpr double kNowhere = 0.1;  // [m]
   const bool moves = next.kind != ReplanKind::kKeep && next.plan.reference.path.length() > kNowhere;
-  tried_at_rest_ = speed < kAtRest && !moves;
+  gave_up_ = speed < kAtRest && !moves &&
+             !MayClear(vehicle_, driving_.route.reference.path, driving_.route_station,
+                       request.obstacles, options.settings.safe_distance);
   if (next.kind == ReplanKind::kKeep) {
     return std::nullopt;
   }

@@ -25,9 +25,9 @@ class Lookout {
   /// The new plan, if one is to be taken up. `station` is the car's on the plan that is driven.
   std::optional<Plan> Look(const VehicleState& state, const Plan& plan, const Projection& at);
 
-  /// Whether a car at rest before the end of its route may yet go on: something known still moves,
-  /// or nothing has been tried since it came to rest.
-  [[nodiscard]] bool Waits(const VehicleState& state) const;
+  /// Whether a car at rest before the end of its route may yet go on: something that is in its way
+  /// moves, or nothing has been tried since it came to rest.
+  [[nodiscard]] bool Waits() const;
 
  private:
   struct Seen {
@@ -44,8 +44,8 @@ class Lookout {
   const VehicleParams& vehicle_;
   std::vector<Seen> seen_;  // obstacle by obstacle
   Driving driving_;
-  long looks_ = 0;  // of replanning, so far
-  bool tried_at_rest_ = false;
+  long looks_ = 0;        // of replanning, so far
+  bool gave_up_ = false;  // the last look was from rest, and nothing but standing is left
 };
 
 }  // namespace trackbed

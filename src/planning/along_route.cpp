@@ -7,12 +7,13 @@
 
 #include "trackbed/core/error.h"
 #include "trackbed/path/rounded.h"
+#include "trackbed/world/world.h"
 
 namespace trackbed {
 namespace {
 
-/// Slower than this along the path, an obstacle stands [m/s].
-constexpr double kStands = 0.3;
+/// A motion that is slower at its end comes to rest there [m/s].
+constexpr double kAtRest = 0.01;
 /// A car comes smoothly to rest over this share of speed times duration, or less.
 constexpr double kStopShare = 0.55;
 
@@ -81,7 +82,7 @@ class AlongRoute {
         std::visit([](const auto& own) { return own.speed_factors; }, options_);
     std::vector<double> falling = all;
     std::sort(falling.rbegin(), falling.rend());
-    std::optional<FrenetPlan> for_now;
+    std::optional<AlongPlan> for_now;
     const auto on = [&](const std::vector<double>& factors) {
       if (!Try(KeepSpeed{request_.wanted}, factors)) {
         return false;
@@ -90,14 +91,14 @@ class AlongRoute {
         return true;
       }
       if (!for_now) {
-        for_now = found_;
+        for_now = Taken(AlongKind::kApproach);
       }
       return false;
     };
     if (on({falling.front()})) {
       return Taken(AlongKind::kOn);
     }
-    if (leader && leader->speed >= kStands &&
+    if (leader && leader->speed >= kStandsBelow &&
         Try(FollowLeader{leader->rear, std::min(leader->speed, request_.wanted), settings_.gap,
                          settings_.time_gap})) {
       return Taken(AlongKind::kFollow);
@@ -110,18 +111,15 @@ class AlongRoute {
         return Taken(AlongKind::kOn);
       }
     }
-    if (leader && leader->speed < kStands &&
+    if (leader && leader->speed < kStandsBelow &&
         Try(StopAt{leader->rear - Front(request_.vehicle) - settings_.gap})) {
       return Taken(AlongKind::kStop);
     }
-    if (for_now) {
-      found_ = *for_now;
-      return Taken(AlongKind::kApproach);
-    }
-    return {.kind = AlongKind::kNone, .found = found_};
+    return for_now ? *for_now : AlongPlan{.kind = AlongKind::kNone, .found = found_};
   }
 
  private:
+  /// Whether there is a motion, and braking after it that is clear.
   bool Try(const FrenetGoal& goal, const std::vector<double>& factors = {1.0}) {
     const FrenetRequest request{.vehicle = request_.vehicle,
                                 .speed = request_.speed,
@@ -134,7 +132,54 @@ class AlongRoute {
           return Find(frame_.path, request, Adapted(own, settings_, factors));
         },
         options_);
-    return found_.ok();
+    if (!found_.ok()) {
+      return false;
+    }
+    const FrenetState end = found_.motion.At(found_.motion.duration());
+    if (std::holds_alternative<StopAt>(goal) && end.s_rate > kAtRest) {
+      return false;  // the lattice does not reach so far
+    }
+    points_ = WithBraking(end);
+    return BrakingIsClear();
+  }
+
+  [[nodiscard]] std::vector<TrajectoryPoint> WithBraking(const FrenetState& end) const {
+    FrenetMotion motion = found_.motion;
+    if (end.s_rate > 0.0) {
+      // At rest after time end.s_rate/a.
+      const double braking = request_.speed.deceleration;
+      motion.pieces.push_back({end.s_rate / braking,
+                               Polynomial{{end.s, end.s_rate, -0.5 * braking}}, Polynomial{{end.d}},
+                               true});
+    }
+    const FrenetLimits& limits = LimitsOf(options_);
+    auto points = SampleMotion(frame_.path, motion, limits.time_step, limits.spacing);
+    // Where the frame does not reach so far, the motion alone.
+    return points ? std::move(*points) : found_.points;
+  }
+
+  [[nodiscard]] bool BrakingIsClear() const {
+    constexpr double kTouch = 1e-2;  // [m], what motions may fall short by between their samples
+    const double began = found_.motion.duration();
+    // A start that is nearer than the safe distance may stay as near.
+    const OrientedBox outline = OutlineAt(request_.vehicle, points_.front().motion.pose);
+    std::vector<double> margins;
+    for (const MovingBox& obstacle : request_.obstacles) {
+      margins.push_back(std::min(settings_.safe_distance, Separation(outline, obstacle.box)) -
+                        kTouch);
+    }
+    return std::all_of(points_.begin(), points_.end(), [&](const TrajectoryPoint& point) {
+      if (point.t <= began) {
+        return true;
+      }
+      const OrientedBox there = OutlineAt(request_.vehicle, point.motion.pose);
+      for (std::size_t i = 0; i < margins.size(); ++i) {
+        if (Separation(there, request_.obstacles[i].At(point.t)) < margins[i]) {
+          return false;
+        }
+      }
+      return true;
+    });
   }
 
   /// Whether the motion's last offset is beside the obstacle's, or its end beyond.
@@ -147,28 +192,15 @@ class AlongRoute {
   }
 
   [[nodiscard]] AlongPlan Taken(AlongKind kind) const {
-    AlongPlan plan{.kind = kind, .found = found_};
-    FrenetMotion motion = found_.motion;
-    const FrenetState end = motion.At(motion.duration());
-    if (end.s_rate > 0.0) {
-      // At rest after time end.s_rate/a.
-      const double braking = request_.speed.deceleration;
-      motion.pieces.push_back({end.s_rate / braking,
-                               Polynomial{{end.s, end.s_rate, -0.5 * braking}}, Polynomial{{end.d}},
-                               true});
-    }
-    const FrenetLimits& limits = LimitsOf(options_);
-    auto points = SampleMotion(frame_.path, motion, limits.time_step, limits.spacing);
-    // Where the frame does not reach so far, the motion alone.
-    plan.points = points ? std::move(*points) : found_.points;
-    return plan;
+    return {.kind = kind, .found = found_, .points = points_};
   }
 
   const RouteFrame& frame_;
   const AlongRequest& request_;
   const AlongSettings& settings_;
   const AlongOptions& options_;
-  FrenetPlan found_;  // by the last try
+  FrenetPlan found_;                     // by the last try
+  std::vector<TrajectoryPoint> points_;  // of that, and of the braking after it
 };
 
 }  // namespace

@@ -24,7 +24,9 @@ constexpr double kStraight = 1e-4;
 constexpr std::array<double, 3> kStraightOn{10.0, 6.0, 3.0};
 /// Between the places at which to come back [m], and how many of them.
 constexpr double kBackStep = 5.0;
-constexpr int kBacks = 4;
+constexpr int kBacks = 3;
+/// For how long the route is straight after the way has come back, at the mission's speed [s].
+constexpr double kSettle = 2.0;
 /// What a route keeps of the driven path, at least [m] and [s].
 constexpr double kLead = 0.5;
 constexpr double kLeadTime = 0.5;
@@ -34,14 +36,33 @@ bool IsStraight(const Path& path, double s) {
   return std::abs(at.curvature) < kStraight && std::abs(at.sharpness) < kStraight;
 }
 
-/// The first straight station at or beyond `from`; none up to the end.
-std::optional<double> StraightFrom(const Path& path, double from, double to) {
-  for (double s = from; s <= to; s += kLook) {
-    if (IsStraight(path, s)) {
-      return s;
+/// The first station at or beyond `from` from which the path is straight for `length`, or to its
+/// end.
+std::optional<double> StraightFrom(const Path& path, double from, double length) {
+  double straight = 0.0;
+  for (double s = from; s <= path.length(); s += kLook) {
+    straight = IsStraight(path, s) ? straight + kLook : 0.0;
+    if (straight > length) {
+      return s - (straight - kLook);
     }
   }
-  return std::nullopt;
+  const double left = path.length() - straight;
+  return straight > 0.0 ? std::optional(std::max(from, left)) : std::nullopt;
+}
+
+/// What a joint between two pieces of path takes of the speed, as CapsOfSteps does it.
+std::vector<SpeedCap> CapOfJoint(const VehicleParams& vehicle, const Path& path, double s,
+                                 double speed) {
+  const double before = path.At(s - kLook).curvature;
+  const double after = path.At(s + kLook).curvature;
+  const double joint = StepSpeed(vehicle, before, after);
+  if (joint >= speed) {
+    return {};
+  }
+  const double turned =
+      std::abs(SteeringForCurvature(vehicle, after) - SteeringForCurvature(vehicle, before));
+  const double half = 0.5 * joint * turned / vehicle.steering_rate;
+  return {{std::max(s - half, 0.0), std::min(s + half, path.length()), joint}};
 }
 
 std::vector<Vec2> PointsOf(const Path& path) {
@@ -82,7 +103,7 @@ class DetourSearch {
         0.5 * request_.station_speed * request_.station_speed / request_.speed.deceleration;
     std::vector<double> leaves;
     for (const double from : {lead, lead + braking}) {
-      const auto leave = StraightFrom(path, from, path.length());
+      const auto leave = StraightFrom(path, from, 0.0);
       if (leave && (leaves.empty() || *leave > leaves.back())) {
         leaves.push_back(*leave);
       }
@@ -98,6 +119,9 @@ class DetourSearch {
         for (const double back : backs) {
           Try(leave, back, static_cast<std::uint64_t>(attempt), detour);
         }
+      }
+      if (!detour.route) {
+        break;  // what finds nothing anywhere will not do so with another seed
       }
     }
     if (detour.route && !IsBetter(detour.best, detour.current)) {
@@ -157,7 +181,7 @@ class DetourSearch {
     std::vector<double> backs;
     double from = behind + kStraightOn.front();
     while (static_cast<int>(backs.size()) < kBacks) {
-      const auto back = StraightFrom(path, from, path.length());
+      const auto back = StraightFrom(path, from, kSettle * request_.speed.speed);
       if (!back) {
         break;
       }
@@ -223,12 +247,15 @@ class DetourSearch {
     plan.caps = Moved(request_.driven.caps, {request_.station, leave}, -request_.station);
     Append(plan.caps, Moved(way.caps, {0.0, way.reference.path.length()}, lead));
     Append(plan.caps, Moved(request_.route.caps, {back, route.length()}, beyond - back));
+    plan.reference.path = Path(driven.At(request_.station).pose, std::move(segments));
+    const Path& path = plan.reference.path;
+    for (const double joint : {lead, beyond}) {
+      Append(plan.caps, CapOfJoint(request_.vehicle, path, joint, request_.speed.speed));
+    }
     if (!CanSlowDown(plan.caps, request_.station_speed, request_.speed)) {
       why = "the car is too fast for its first corner";
       return std::nullopt;
     }
-    plan.reference.path = Path(driven.At(request_.station).pose, std::move(segments));
-    const Path& path = plan.reference.path;
     if (!BlockedStretches(request_.vehicle, path, 0.0, request_.obstacles,
                           0.9 * request_.safe_distance)
              .empty()) {

@@ -17,8 +17,6 @@ using nlohmann::json;
 
 /// Slower than this a car is at rest [m/s].
 constexpr double kAtRest = 0.01;
-/// Slower than this along the way, an obstacle stands [m/s].
-constexpr double kStands = 0.05;
 /// A plan that ends at the goal is kept for its last metres, unless something comes in the way.
 constexpr double kLastMetres = 1.0;
 /// As near as this to the route, a car is back on it.
@@ -31,7 +29,7 @@ constexpr double kNoWay = 1e-3;
 constexpr double kBrakeRoom = 0.5;
 
 bool Stands(const MovingBox& box) {
-  return box.velocity.norm() < kStands;
+  return box.velocity.norm() < kStandsBelow;
 }
 
 std::string Place(const OrientedBox& box) {
@@ -84,7 +82,13 @@ class Replanning {
       : request_(request), driving_(driving), options_(options) {}
 
   Replanned Run() {
-    const auto encounter = EncounterOf(driving_.plan.reference, driving_.station);
+    auto encounter = EncounterOf(driving_.plan.reference, driving_.station);
+    if (request_.strayed && !encounter) {
+      // Beside the plan as far as the car is.
+      const Pose2 beside = driving_.plan.reference.path.At(driving_.station).pose;
+      encounter = EncounterOf(driving_.plan.reference, driving_.station,
+                              ToLocal(beside, request_.car.pose.position()).y());
+    }
     const bool stuck = !driving_.plan.blocked.empty();
     if (!encounter && !stuck && !request_.strayed && (driving_.on_route || NearlyThere())) {
       return Keep();
@@ -121,10 +125,10 @@ class Replanning {
  private:
   [[nodiscard]] Replanned Keep() const { return {ReplanKind::kKeep, driving_.plan}; }
 
-  [[nodiscard]] std::optional<Encounter> EncounterOf(const Reference& reference,
-                                                     double station) const {
+  [[nodiscard]] std::optional<Encounter> EncounterOf(const Reference& reference, double station,
+                                                     double offset = 0.0) const {
     return FirstEncounter(request_.vehicle, reference, station, request_.obstacles,
-                          options_.settings.safe_distance, options_.settings.look_ahead);
+                          options_.settings.safe_distance, options_.settings.look_ahead, offset);
   }
 
   [[nodiscard]] bool NearlyThere() const {
@@ -212,7 +216,7 @@ class Replanning {
     if (along.kind == AlongKind::kStop) {
       plan.blocked = "stops behind what stands in the way: no motion leads past it";
     } else if (!along.to_goal) {
-      plan.blocked = "no way on was found from here";
+      plan.blocked = "stops where no way on was found";
     }
     return {ReplanKind::kMotion, std::move(plan)};
   }
@@ -308,7 +312,7 @@ const char* ToString(ReplanKind kind) {
 
 std::optional<Encounter> FirstEncounter(const VehicleParams& vehicle, const Reference& reference,
                                         double station, const std::vector<MovingBox>& obstacles,
-                                        double distance, double look_ahead) {
+                                        double distance, double look_ahead, double offset) {
   constexpr double kStep = 0.1;    // [s]
   constexpr double kTouch = 1e-2;  // [m], what planners may fall short by between their samples
   // From the station on: times before it may be infinite, if the profile comes to rest there.
@@ -318,7 +322,8 @@ std::optional<Encounter> FirstEncounter(const VehicleParams& vehicle, const Refe
   for (int i = 0; i <= steps; ++i) {
     const double time = i * kStep;
     const double s = station + ahead.StationAt(time);
-    const OrientedBox outline = OutlineAt(vehicle, reference.path.At(s).pose);
+    const OrientedBox outline =
+        OutlineAt(vehicle, Compose(reference.path.At(s).pose, {0.0, offset, 0.0}));
     for (std::size_t j = 0; j < obstacles.size(); ++j) {
       if (Separation(outline, obstacles[j].At(time)) < distance - kTouch) {
         return Encounter{time, s, j};
@@ -346,7 +351,31 @@ Replanned Replan(const ReplanRequest& request, const Driving& driving,
                  const ReplanOptions& options) {
   TRACKBED_CHECK((options.along || options.detour) && driving.plan.ok() && driving.route.ok(),
                  "nothing to plan with, or no plan to begin with");
-  return Replanning(request, driving, options).Run();
+  ReplanOptions own = options;
+  own.settings.look_ahead = std::max(
+      own.settings.look_ahead, request.speed.speed / request.speed.deceleration + 2.0 * own.period);
+  return Replanning(request, driving, own).Run();
+}
+
+bool MayClear(const VehicleParams& vehicle, const Path& path, double station,
+              const std::vector<MovingBox>& obstacles, double distance) {
+  constexpr double kAhead = 30.0;   // [m]
+  constexpr double kWithin = 60.0;  // [s]
+  constexpr double kStep = 0.5;     // [m] and [s]
+  for (const MovingBox& obstacle : obstacles) {
+    if (obstacle.velocity == Vec2::Zero()) {
+      continue;
+    }
+    for (double s = station; s <= std::min(station + kAhead, path.length()); s += kStep) {
+      const OrientedBox outline = OutlineAt(vehicle, path.At(s).pose);
+      for (double time = 0.0; time <= kWithin; time += kStep) {
+        if (Separation(outline, obstacle.At(time)) < distance) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
 }
 
 }  // namespace trackbed

@@ -136,14 +136,27 @@ class CrossCheck {
   }
 
   void CheckSmoothing() {
-    const auto* rrt =
-        scenario_.plan ? std::get_if<RrtPlannerOptions>(&scenario_.plan->global) : nullptr;
-    if (rrt == nullptr || !CouldReadPlan({"data_weight", "smoothness_weight"})) {
+    if (!scenario_.plan) {
+      return;
+    }
+    if (CouldReadPlan({"data_weight", "smoothness_weight"})) {
+      CheckSmoothing(scenario_.plan->global, KeyOfPlan("smoothness_weight"));
+    }
+    const std::string detour = "plan.replan.detour.";
+    if (scenario_.plan->replan && scenario_.plan->replan->detour &&
+        CouldRead({"plan.replan.detour.data_weight", "plan.replan.detour.smoothness_weight"})) {
+      CheckSmoothing(*scenario_.plan->replan->detour, detour + "smoothness_weight");
+    }
+  }
+
+  void CheckSmoothing(const PlannerOptions& planner, const std::string& key) {
+    const auto* rrt = std::get_if<RrtPlannerOptions>(&planner);
+    if (rrt == nullptr) {
       return;
     }
     const double step = rrt->data_weight + 2.0 * rrt->smoothness_weight;
     if (step <= 0.0 || step >= 1.0) {
-      Complain(scenario_.plan->avoid ? "plan.global.smoothness_weight" : "plan.smoothness_weight",
+      Complain(key,
                fmt::format("data_weight + 2 smoothness_weight is {:.4g}; must be above 0 and below "
                            "1, or smoothing does not converge",
                            step));

@@ -113,17 +113,42 @@ TEST_P(EveryAlongMethod, ApproachesWhatStandsTooFarAwayToStopThere) {
   scene.settings.road = {1.5, 1.5};
   scene.request.wanted = 3.0;
   scene.request.obstacles = {BoxAt(scene.frame.path, 40.0 + 20.0 + Front(), 0.0)};
-  // Motions that take 4 s or less do not stop 16 m ahead, and there is no slow way on.
+  // Motions that take 4 s or less do not stop 16 m ahead, nor do layers of which the last is 8 m
+  // ahead; and there is no slow way on.
   AlongOptions options = GetParam().defaults;
   if (auto* frenet = std::get_if<FrenetOptions>(&options)) {
     frenet->end_times = {2.0, 3.0, 4.0};
-    const AlongPlan plan = PlanAlong(scene.frame, scene.request, scene.settings, options);
-    EXPECT_EQ(plan.kind, AlongKind::kApproach) << plan.found.reason;
-    ExpectEndsAtRest(scene, plan);
-    // Clear even if it is the last one that is found.
-    const double front = plan.points.back().frenet.s + Front();
-    EXPECT_LT(front + scene.settings.safe_distance, 40.0 + 20.0 + Front() - 1.0);
+  } else {
+    std::get<LatticeOptions>(options).layers = 2;
+    std::get<LatticeOptions>(options).spacing = 4.0;
   }
+  const AlongPlan plan = PlanAlong(scene.frame, scene.request, scene.settings, options);
+  EXPECT_EQ(plan.kind, AlongKind::kApproach) << plan.found.reason;
+  ExpectEndsAtRest(scene, plan);
+  // Clear even if it is the last one that is found.
+  const double front = plan.points.back().frenet.s + Front();
+  EXPECT_LT(front + scene.settings.safe_distance, 40.0 + 20.0 + Front() - 1.0);
+}
+
+TEST_P(EveryAlongMethod, NeverLeadsToWhereItCannotStop) {
+  // Fast towards a wall, from all distances: what is found ends at rest before it, or nothing is.
+  Scene scene;
+  scene.settings.road = {1.5, 1.5};
+  scene.request.speed = {15.0, 2.0, 3.0};
+  scene.request.wanted = 15.0;
+  scene.request.start.s_rate = 15.0;
+  int found = 0;
+  for (double ahead = 20.0; ahead < 120.0; ahead += 5.0) {
+    scene.request.obstacles = {BoxAt(scene.frame.path, 40.0 + Front() + ahead + 1.0, 0.0)};
+    const AlongPlan plan =
+        PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults);
+    if (plan.ok()) {
+      ++found;
+      EXPECT_LE(plan.points.back().frenet.s + scene.settings.safe_distance, 40.0 + ahead + 0.01);
+      EXPECT_NEAR(plan.points.back().motion.speed, 0.0, Tolerance(1e-9));
+    }
+  }
+  EXPECT_GE(found, 10);
 }
 
 TEST_P(EveryAlongMethod, FollowsWhatMovesSlowlyInANarrowRoad) {

@@ -9,6 +9,7 @@
 #include "tests/planning/frenet_scenes.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
+#include "trackbed/planning/curvature_steps.h"
 #include "trackbed/world/world.h"
 
 namespace trackbed {
@@ -94,6 +95,15 @@ TEST_P(EveryDetour, LeadsRoundAndBack) {
   }
   for (const SpeedCap& cap : plan.caps) {
     EXPECT_LE(plan.reference.speed.SpeedAt(0.5 * (cap.from + cap.to)), cap.speed + 1e-9);
+  }
+  // Nor is any step of curvature taken faster than leads 0.1 m off, at the joints too.
+  double joint = 0.0;
+  for (std::size_t i = 1; i < path.segments().size(); ++i) {
+    const Segment& before = path.segments()[i - 1];
+    joint += before.length;
+    const double speed =
+        StepSpeed(SeedCar(), before.CurvatureAt(before.length), path.segments()[i].curvature);
+    EXPECT_LE(plan.reference.speed.SpeedAt(joint), std::max(1.001 * speed, 0.3)) << joint;
   }
   EXPECT_FALSE(detour.best.collides);
   EXPECT_TRUE(detour.current.collides);

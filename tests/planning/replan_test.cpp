@@ -111,6 +111,26 @@ TEST(StandsInTurn, AsksForTheBendBesideIt) {
   EXPECT_FALSE(StandsInTurn(SeedCar(), path, 60.0, box(47.0), 1.0));  // it is behind
 }
 
+TEST(FirstEncounter, ReckonsWithAnOffset) {
+  const Reference reference{Path({0.0, 0.0, 0.0}, {{150.0, 0.0}}), SpeedProfile({{0.0, 3.0}})};
+  const std::vector<MovingBox> boxes{BoxAt(reference.path, 50.0, 3.0)};
+  EXPECT_FALSE(FirstEncounter(SeedCar(), reference, 30.0, boxes, 0.5, 12.0));
+  EXPECT_TRUE(FirstEncounter(SeedCar(), reference, 30.0, boxes, 0.5, 12.0, 1.2));
+  EXPECT_FALSE(FirstEncounter(SeedCar(), reference, 30.0, boxes, 0.5, 12.0, -1.2));
+}
+
+TEST(MayClear, CountsWhatIsOrComesInTheWay) {
+  const Path path({0.0, 0.0, 0.0}, {{150.0, 0.0}});
+  std::vector<MovingBox> boxes{BoxAt(path, 50.0, 0.0)};
+  EXPECT_FALSE(MayClear(SeedCar(), path, 30.0, boxes, 0.5));  // it stands
+  boxes[0].velocity = {0.0, 1.0};
+  EXPECT_TRUE(MayClear(SeedCar(), path, 30.0, boxes, 0.5));
+  boxes[0].box.centre.y = 20.0;  // and is gone
+  EXPECT_FALSE(MayClear(SeedCar(), path, 30.0, boxes, 0.5));
+  boxes[0].velocity = {0.0, -1.0};  // or comes back
+  EXPECT_TRUE(MayClear(SeedCar(), path, 30.0, boxes, 0.5));
+}
+
 // --- what comes of it
 
 TEST(Replan, KeepsARouteThatIsClear) {

@@ -15,6 +15,9 @@
 /// Symbols: those of planning/frenet.h; V wanted speed [m/s].
 namespace trackbed {
 
+/// Slower than this, an obstacle stands: nobody follows it, ways are looked for round it [m/s].
+inline constexpr double kStandsBelow = 0.3;
+
 /// How motions are found: PlanFrenet or PlanLattice. Their safe distance is not looked at: that of
 /// AlongSettings holds.
 using AlongOptions = std::variant<FrenetOptions, LatticeOptions>;
@@ -100,8 +103,8 @@ std::optional<Leader> LeaderIn(const Path& path, const AlongRequest& request,
 /// offset above a lower speed: slowing down before what stands leads nowhere.
 ///
 /// Guarantees: those of PlanFrenet or PlanLattice for the motion. The braking after it keeps the
-/// limits but for the steering rate, and is clear of what stands still within the horizon. Same
-/// input, same bytes. Does not change route or frame. Cost: a few times that of the method.
+/// limits but for the steering rate, and the safe distance too, every 0.1 s. Same input, same
+/// bytes. Does not change route or frame. Cost: a few times that of the method.
 AlongPlan PlanAlong(const RouteFrame& frame, const AlongRequest& request,
                     const AlongSettings& settings, const AlongOptions& options);
 

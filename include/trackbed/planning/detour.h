@@ -50,7 +50,8 @@ struct Detour {
 /// Guarantees: the new route begins with the driven one, its curvature included, for as long as the
 /// steering needs to follow; keeps the planner's own distance from every obstacle beyond; is slow
 /// enough for its corners without braking harder than the limits. Errors: InternalError for a
-/// planner that does not keep clear or may go backwards. Cost: `attempts` times a few plans.
+/// planner that does not keep clear or may go backwards. Cost: up to 18 plans
+/// an attempt; one attempt if that finds nothing.
 Detour PlanDetour(const DetourRequest& request, const PlannerOptions& planner,
                   const DetourChoice& choice);
 

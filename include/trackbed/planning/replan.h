@@ -69,22 +69,29 @@ struct Encounter {
   std::size_t obstacle = 0;
 };
 
-/// Looks every 0.1 s along the plan's own speeds from `station` on.
+/// Looks every 0.1 s along the plan's own speeds from `station` on, for a car that keeps `offset`
+/// [m] left of it.
 std::optional<Encounter> FirstEncounter(const VehicleParams& vehicle, const Reference& reference,
                                         double station, const std::vector<MovingBox>& obstacles,
-                                        double distance, double look_ahead);
+                                        double distance, double look_ahead, double offset = 0.0);
 
 /// Whether an obstacle stands in a turn: where it is closer than `distance` to the path, from
 /// `station` on, that is bent.
 bool StandsInTurn(const VehicleParams& vehicle, const Path& path, double station,
                   const OrientedBox& obstacle, double distance);
 
+/// Whether waiting may help: something that moves is in the way of the next 30 m of a path, closer
+/// than `distance`, or will be within a minute.
+bool MayClear(const VehicleParams& vehicle, const Path& path, double station,
+              const std::vector<MovingBox>& obstacles, double distance);
+
 /// Keeps a route or a motion to the goal that is clear; else, in this order, the rest of the route
 /// if the car is back on it and it is clear, a motion that leads on, a detour that the comparator
 /// prefers, a motion that comes to rest or goes on for now, what is driven if it is clear, braking.
 ///
 /// Guarantees: the steering planned at the start of a new plan is that of the old one beside the
-/// car, or the car's own if it has strayed. Same input, same bytes. Does not plan backwards.
+/// car, or the car's own if it has strayed. Looks ahead no less than it takes to stop from the
+/// mission's speed, and two periods. Same input, same bytes. Does not plan backwards.
 /// Errors: InternalError for options without a method. Cost: below 5 ms without a detour.
 Replanned Replan(const ReplanRequest& request, const Driving& driving,
                  const ReplanOptions& options);
