@@ -1,22 +1,10 @@
 # Everything comes from Debian (scripts/packages.txt); nothing is downloaded.
 include_guard()
+include(LibraryDependencies)
 
-find_package(fmt REQUIRED)
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(Boost 1.74 REQUIRED)
-find_package(nlohmann_json 3.11 REQUIRED)
-find_package(yaml-cpp REQUIRED)
-find_package(tinyxml2 REQUIRED)
 find_package(CLI11 2 REQUIRED)
-find_package(NLopt REQUIRED)
-find_package(GTest REQUIRED)  # the testing room is a library of matchers, not only our own tests
 find_package(PNG REQUIRED)
-find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
-
-find_package(mujoco REQUIRED CONFIG)
-# Debian's 2.2.2 exports an include directory of libqhull, which it only needs to be built itself.
-set_target_properties(mujoco::mujoco PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")
 
 pkg_check_modules(osmesa REQUIRED IMPORTED_TARGET osmesa)
 add_library(osmesa::osmesa ALIAS PkgConfig::osmesa)
@@ -38,10 +26,3 @@ if(ompl_FOUND)
   target_link_libraries(ompl::ompl INTERFACE ${ompl_library})
   target_include_directories(ompl::ompl INTERFACE ${OMPL_INCLUDE_DIR})
 endif()
-
-# libcsv ships neither a pkg-config file nor a CMake package.
-find_path(CSV_INCLUDE_DIR csv.h REQUIRED)
-find_library(CSV_LIBRARY csv REQUIRED)
-add_library(csv::csv UNKNOWN IMPORTED)
-set_target_properties(csv::csv PROPERTIES IMPORTED_LOCATION ${CSV_LIBRARY}
-                                          INTERFACE_INCLUDE_DIRECTORIES ${CSV_INCLUDE_DIR})

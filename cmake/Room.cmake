@@ -3,6 +3,7 @@
 # One static library per room: public headers in include/trackbed/NAME, sources in src/NAME (or DIR).
 # ROOMS must be declared already, so the order of the calls is the order of the house.
 # Each public header is compiled alone as well (trackbed_NAME_headers).
+include(GNUInstallDirs)
 set_property(GLOBAL PROPERTY TRACKBED_ROOMS "")
 
 function(trackbed_room name)
@@ -21,13 +22,18 @@ function(trackbed_room name)
   file(GLOB sources CONFIGURE_DEPENDS ${ARG_SOURCE_DIR}/*.cpp)
   add_library(trackbed_${name} STATIC ${sources})
   add_library(trackbed::${name} ALIAS trackbed_${name})
-  target_include_directories(trackbed_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include
-                                              PRIVATE ${PROJECT_SOURCE_DIR})
+  target_include_directories(
+    trackbed_${name}
+    PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+           $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE ${PROJECT_SOURCE_DIR})
+  target_compile_features(trackbed_${name} PUBLIC cxx_std_20)
+  set_target_properties(trackbed_${name} PROPERTIES EXPORT_NAME ${name})
   list(TRANSFORM ARG_ROOMS PREPEND trackbed_)
   target_link_libraries(
     trackbed_${name}
     PUBLIC ${ARG_ROOMS} ${ARG_LIBRARIES}
-    PRIVATE trackbed_compiler ${ARG_PRIVATE_LIBRARIES})
+    PRIVATE $<BUILD_INTERFACE:trackbed_compiler> ${ARG_PRIVATE_LIBRARIES})
 
   file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/include
        ${PROJECT_SOURCE_DIR}/include/trackbed/${name}/*.h)

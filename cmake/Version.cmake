@@ -10,5 +10,5 @@ add_custom_target(
   COMMENT "")
 add_library(trackbed_version STATIC ${TRACKBED_VERSION_FILE})
 add_dependencies(trackbed_version trackbed_describe)
-target_link_libraries(trackbed_version PRIVATE trackbed_compiler)
+target_link_libraries(trackbed_version PRIVATE $<BUILD_INTERFACE:trackbed_compiler>)
 target_include_directories(trackbed_version PRIVATE ${PROJECT_SOURCE_DIR}/include)

@@ -14,6 +14,10 @@
 #include "trackbed/core/spelling.h"
 
 namespace trackbed {
+
+/// The folder of models/ and scenarios/, as the build of the program names it (cmake/Place.cmake).
+const char* PlaceOfData();
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -193,7 +197,14 @@ fs::path DataFolder() {
   if (const char* folder = std::getenv("TRACKBED_DATA"); folder != nullptr && *folder != '\0') {
     return folder;
   }
-  return TRACKBED_SOURCE_DIR;
+  // The installed program lies beside its data, wherever both were moved to.
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const fs::path beside = (program.parent_path() / TRACKBED_DATA_FROM_PROGRAM).lexically_normal();
+  if (!error && fs::is_directory(beside / "models", error)) {
+    return beside;
+  }
+  return PlaceOfData();
 }
 
 std::vector<std::string> ModelNames() {

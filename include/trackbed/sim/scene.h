@@ -40,8 +40,9 @@ std::filesystem::path FindModel(const std::string& model, const std::filesystem:
 /// Names that FindModel knows, sorted.
 std::vector<std::string> ModelNames();
 
-/// Where models/ and scenarios/ are: the environment variable TRACKBED_DATA, or the source tree
-/// this was built from.
+/// Where models/ and scenarios/ are: the environment variable TRACKBED_DATA; or ../share/trackbed
+/// from the folder of the program, if there are models; or, for a program that links the installed
+/// package, the data installed with it, and for Trackbed's own build the source tree.
 std::filesystem::path DataFolder();
 
 /// Reads a car's MJCF, resolves its includes, gathers the files it refers to, and sets the options.
