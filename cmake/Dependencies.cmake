@@ -45,3 +45,16 @@ find_library(CSV_LIBRARY csv REQUIRED)
 add_library(csv::csv UNKNOWN IMPORTED)
 set_target_properties(csv::csv PROPERTIES IMPORTED_LOCATION ${CSV_LIBRARY}
                                           INTERFACE_INCLUDE_DIRECTORIES ${CSV_INCLUDE_DIR})
+
+# JavaScript that the reports carry with them, and its licences.
+macro(trackbed_find_script variable package file)
+  find_file(${variable} ${file} PATHS ${ARGN} NO_DEFAULT_PATH)
+  if(NOT ${variable})
+    message(FATAL_ERROR "${file} is missing, which reports need: install Debian's ${package}")
+  endif()
+endmacro()
+trackbed_find_script(D3_SCRIPT node-d3 d3.min.js /usr/share/nodejs/d3/dist)
+trackbed_find_script(D3_LICENCE node-d3 copyright /usr/share/doc/node-d3)
+trackbed_find_script(DYGRAPHS_SCRIPT libjs-dygraphs dygraph.min.js /usr/share/javascript/dygraphs)
+trackbed_find_script(DYGRAPHS_STYLE libjs-dygraphs dygraph.min.css /usr/share/javascript/dygraphs)
+trackbed_find_script(DYGRAPHS_LICENCE libjs-dygraphs copyright /usr/share/doc/libjs-dygraphs)

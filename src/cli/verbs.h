@@ -27,6 +27,7 @@ void AddRender(CLI::App& command, int& exit_code);
 void AddCheck(CLI::App& command, int& exit_code);
 void AddTest(CLI::App& command, int& exit_code);
 void AddSweep(CLI::App& command, int& exit_code);
+void AddReport(CLI::App& command, int& exit_code);
 void AddList(CLI::App& command, int& exit_code);
 void AddModel(CLI::App& command, int& exit_code);
 void AddDocs(CLI::App& command, int& exit_code);
