@@ -18,7 +18,7 @@ struct Entry {
 };
 
 constexpr std::array kMetrics{
-    Entry{"status", "Ended as", "", true},
+    Entry{"status", "Ended as", ""},
     Entry{"time", "Time", "s", true},
     Entry{"distance", "Distance driven", "m"},
     Entry{"cross_track.max", "Largest cross-track error", "m", true},
@@ -37,7 +37,7 @@ constexpr std::array kMetrics{
     Entry{"recovery_time", "Recovered after", "s"},
     Entry{"plan_changes", "Plans taken up on the way", ""},
     Entry{"blocked", "Blocked", ""},
-    Entry{"lateral_acceleration_max", "Lateral acceleration, largest", "m/s²", true},
+    Entry{"lateral_acceleration_max", "Largest lateral acceleration", "m/s²", true},
     Entry{"steering_rate_max", "Largest steering rate", "rad/s"},
     Entry{"steering_rate_rms", "Steering rate, rms", "rad/s"},
     Entry{"steering_saturated_fraction", "Share of time at the steering rate's limit", ""},

@@ -60,14 +60,15 @@ auto WithJson(const fs::path& file, const Read& read) {
   }
 }
 
-/// x and y of a path, with the places where it changes direction.
+/// x and y of a path.
 ordered_json LineOf(const Table& table, const std::vector<std::size_t>& rows) {
   return {{"x", RoundedColumn(table, "x_m", rows)}, {"y", RoundedColumn(table, "y_m", rows)}};
 }
 
 ordered_json PlanLine(const fs::path& file) {
+  constexpr std::size_t kMost = 20000;  // of plan.csv: 2 km
   const Table table = ReadCsvExcerpt(file, {"x_m", "y_m"}).table;
-  return LineOf(table, RowsToShow(table, 20000));
+  return LineOf(table, RowsToShow(table, kMost));
 }
 
 /// One plan after the other, each row with the time from which its plan holds.

@@ -239,7 +239,7 @@ class Reports(unittest.TestCase):
 
     def test_steering_shows_what_was_asked_and_done(self):
         self.open("slow/report.html")
-        self.point_at("steering", 0.55)
+        self.point_at("steering", 0.4)  # the wheels do not follow
         rows = rows_of(self.root / "slow/mujoco.csv")
         text = self.text("[data-quantity=steering] .readout[data-track=mujoco]").replace("−", "-")
         done, asked = (float(n) for n in re.fullmatch(r"(-?[\d.]+) \((-?[\d.]+)\)", text).groups())
@@ -249,6 +249,7 @@ class Reports(unittest.TestCase):
         self.assertAlmostEqual(
             asked, value_at(rows, "steering_command_rad", self.moment()), delta=0.01
         )
+        self.assertGreater(abs(asked - done), 0.05)
 
     def test_map_zooms_and_moves(self):
         self.open("slow/report.html")
@@ -411,8 +412,14 @@ class Reports(unittest.TestCase):
             self.browser.picture(PICTURES / f"phone-{page.split('/')[0].split('.')[0]}.png")
         self.open("slow/report.html", width=390, height=844)
         plot = self.box("[data-quantity=speed] .plot")
-        touch = {"x": plot["x"] + 0.6 * plot["width"], "y": plot["y"] + 60}
-        for kind, points in (("touchStart", [touch]), ("touchEnd", [])):
+        # A finger along the chart: no mouse is made of that.
+        touches = [
+            {"x": plot["x"] + share * plot["width"], "y": plot["y"] + 60}
+            for share in (0.3, 0.4, 0.5, 0.6)
+        ]
+        steps = [("touchStart", [touches[0]])]
+        steps += [("touchMove", [touch]) for touch in touches[1:]]
+        for kind, points in [*steps, ("touchEnd", [])]:
             self.browser.driver.execute_cdp_cmd(
                 "Input.dispatchTouchEvent", {"type": kind, "touchPoints": points}
             )
@@ -431,6 +438,16 @@ class Reports(unittest.TestCase):
         self.assertEqual(
             names, ["slow · kinematic", "slow · mujoco", "quick · kinematic", "quick · mujoco"]
         )
+        shown = self.run_in_page(
+            "const i = Array.from(document.querySelectorAll('#headline thead th'))"
+            ".findIndex(e => e.textContent.startsWith('Largest cross-track'));"
+            "return Array.from(document.querySelectorAll('#headline tbody tr'))"
+            ".map(row => parseFloat(row.children[i].textContent))"
+        )
+        for one, (run, plant) in zip(shown, (name.split(" · ") for name in names)):
+            metrics = json.loads((self.root / run / "metrics.json").read_text())
+            exact = metrics["plants"][plant]["cross_track"]["max"]
+            self.assertAlmostEqual(one, exact, delta=max(5e-5, 5e-3 * exact))
         # One colour each, the same in the legend, on the map and beside the readings.
         colours = self.run_in_page(
             "const of = s => Array.from(document.querySelectorAll(s)).map(e => getComputedStyle(e).color);"

@@ -25,8 +25,8 @@ inline std::filesystem::path DriveCorner(const TempFolder& folder, const std::st
   return out;
 }
 
-/// The first log again and again until it is `duration` long, a row each `period`: as many digits
-/// as a real one.
+/// Repeats the rows of a log until it is `duration` long, a row each `period`, with as many digits
+/// as before.
 inline void LengthenLog(const std::filesystem::path& file, double duration, double period) {
   const Table log = ReadCsv(file);
   Table longer(log.columns());
