@@ -131,7 +131,8 @@ void RemoveEarlierRun(const fs::path& folder) {
   std::vector<std::string> names{"plan.csv",    "schedule.csv", "convergence.csv",
                                  "tree.csv",    "plan.json",    "metrics.json",
                                  "timing.json", "model.xml",    "scenario.resolved.yaml",
-                                 "video.mp4",   "compare.csv",  "compare.json"};
+                                 "video.mp4",   "compare.csv",  "compare.json",
+                                 "report.html"};
   for (const PlantEntry& plant : Plants()) {
     for (const char* ending : {".csv", ".state.csv", ".plan.csv", ".plan.json", ".tree.csv"}) {
       names.push_back(PlantFileName(plant.name) + ending);

@@ -250,6 +250,7 @@ void WriteSweep(const SweepResult& sweep, const fs::path& folder) {
   MakeFolder(folder);
   std::error_code ignored;  // what cannot be removed cannot be replaced either: that will tell
   fs::remove(folder / "sweep.json", ignored);
+  fs::remove(folder / "report.html", ignored);
   WriteFileAtomically(folder / "sweep.csv", sweep.table.ToCsv());
   WriteFileAtomically(folder / "sweep.json", sweep.description.dump(2) + "\n");
 }

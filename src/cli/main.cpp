@@ -36,6 +36,7 @@ const std::vector<Verb> kVerbs{
     {"check", "Read and validate scenarios and studies without driving them", AddCheck},
     {"sweep", "Run a study: one scenario with many values of its keys, made into one table",
      AddSweep},
+    {"report", "Make one HTML page of finished runs, or of a study", AddReport},
     {"list",
      "What there is: planners, controllers, manoeuvres, plants, optimizers, cameras, models, "
      "scenarios",

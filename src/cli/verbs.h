@@ -28,6 +28,7 @@ void AddCheck(CLI::App& command, int& exit_code);
 void AddCompare(CLI::App& command, int& exit_code);
 void AddTest(CLI::App& command, int& exit_code);
 void AddSweep(CLI::App& command, int& exit_code);
+void AddReport(CLI::App& command, int& exit_code);
 void AddList(CLI::App& command, int& exit_code);
 void AddModel(CLI::App& command, int& exit_code);
 void AddDocs(CLI::App& command, int& exit_code);

@@ -82,8 +82,8 @@ struct SweepResult {
 SweepResult RunSweep(const Study& study, const std::vector<StudyPoint>& points,
                      const RunScenarioOnce& run, const SweepOptions& options);
 
-/// Writes sweep.csv, then sweep.json, each under its name only when complete; a sweep.json of an
-/// earlier sweep goes first. RunError.
+/// Writes sweep.csv, then sweep.json, each under its name only when complete; a sweep.json and
+/// a report.html of an earlier sweep go first. RunError.
 void WriteSweep(const SweepResult& sweep, const std::filesystem::path& folder);
 
 }  // namespace trackbed

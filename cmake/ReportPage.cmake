@@ -1,0 +1,17 @@
+# The page of a report as C++: src/report/page/ with the libraries that it needs, made anew when one
+# of them changes.
+set(page_folder ${PROJECT_SOURCE_DIR}/src/report/page)
+set(page_text ${PROJECT_BINARY_DIR}/report/page_text.cpp)
+file(GLOB page_parts CONFIGURE_DEPENDS ${page_folder}/*)
+add_custom_command(
+  OUTPUT ${page_text}
+  COMMAND
+    ${CMAKE_COMMAND} -DPAGE=${page_folder} -DD3_SCRIPT=${D3_SCRIPT} -DD3_LICENCE=${D3_LICENCE}
+    -DDYGRAPHS_SCRIPT=${DYGRAPHS_SCRIPT} -DDYGRAPHS_STYLE=${DYGRAPHS_STYLE}
+    -DDYGRAPHS_LICENCE=${DYGRAPHS_LICENCE} -DOUTPUT=${page_text} -P
+    ${PROJECT_SOURCE_DIR}/cmake/report_page.cmake
+  DEPENDS ${page_parts} ${D3_SCRIPT} ${D3_LICENCE} ${DYGRAPHS_SCRIPT} ${DYGRAPHS_STYLE}
+          ${DYGRAPHS_LICENCE} ${PROJECT_SOURCE_DIR}/cmake/report_page.cmake
+  COMMENT "Putting the page of the reports together"
+  VERBATIM)
+target_sources(trackbed_report PRIVATE ${page_text})

@@ -1,0 +1,65 @@
+# Writes OUTPUT, a C++ file with the texts of src/report/page_text.h.
+
+# page.html names its parts as <!-- part --> in a line of their own.
+file(READ ${PAGE}/page.html page)
+function(put part text)
+  string(FIND "${page}" "<!-- ${part} -->" place)
+  if(place EQUAL -1)
+    message(FATAL_ERROR "page.html has no place for ${part}")
+  endif()
+  string(LENGTH "<!-- ${part} -->" length)
+  math(EXPR after "${place} + ${length}")
+  string(SUBSTRING "${page}" 0 ${place} before)
+  string(SUBSTRING "${page}" ${after} -1 rest)
+  set(page
+      "${before}${text}${rest}"
+      PARENT_SCOPE)
+endfunction()
+
+file(READ ${DYGRAPHS_STYLE} library_style)
+file(READ ${PAGE}/page.css style)
+put(style "<style>\n${library_style}\n${style}</style>")
+
+file(READ ${D3_LICENCE} d3_licence)
+file(READ ${DYGRAPHS_LICENCE} dygraphs_licence)
+put(licences
+    "<script type=\"text/plain\" id=\"licences\">d3\n\n${d3_licence}\n\ndygraphs\n\n${dygraphs_licence}</script>"
+)
+
+file(READ ${D3_SCRIPT} d3)
+file(READ ${DYGRAPHS_SCRIPT} dygraphs)
+put(libraries "<script>${d3}</script>\n<script>${dygraphs}</script>")
+
+set(script "")
+foreach(part IN ITEMS base map series film tables study main)
+  file(READ ${PAGE}/${part}.js text)
+  string(APPEND script "${text}\n")
+endforeach()
+put(script "<script>\n\"use strict\";\n${script}</script>")
+
+# What changes from report to report divides the page.
+foreach(cut IN ITEMS title data)
+  string(FIND "${page}" "<!-- ${cut} -->" place_of_${cut})
+endforeach()
+string(LENGTH "<!-- title -->" after_title)
+math(EXPR after_title "${place_of_title} + ${after_title}")
+math(EXPR between "${place_of_data} - ${after_title}")
+string(LENGTH "<!-- data -->" after_data)
+math(EXPR after_data "${place_of_data} + ${after_data}")
+string(SUBSTRING "${page}" 0 ${place_of_title} before_title)
+string(SUBSTRING "${page}" ${after_title} ${between} before_data)
+string(SUBSTRING "${page}" ${after_data} -1 after_data)
+
+set(delimiter trackbed)
+file(
+  WRITE ${OUTPUT}
+  "#include \"src/report/page_text.h\"
+
+namespace trackbed {
+
+const std::string_view kPageBeforeTitle = R\"${delimiter}(${before_title})${delimiter}\";
+const std::string_view kPageBeforeData = R\"${delimiter}(${before_data})${delimiter}\";
+const std::string_view kPageAfterData = R\"${delimiter}(${after_data})${delimiter}\";
+
+}  // namespace trackbed
+")

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+/// One HTML page that shows finished runs, or a study, and needs nothing beside itself.
+namespace trackbed {
+
+/// What becomes of the films (video.mp4) in the runs' folders.
+enum class FilmPlace {
+  kEmbedded,  ///< in the page, a third larger than the files
+  kBeside,    ///< the page refers to the files where they lie, relative to itself
+  kAbsent,    ///< the page does not show them
+};
+
+/// What the page shows, as it stands in it: metrics, verdicts, plans, logs and resolved scenarios
+/// of one or more run folders, or the table of one study (the folder of a sweep, or its CSV file).
+///
+/// Numbers are rounded to six significant digits, those below 5e-7 to 0. Logs that have more than
+/// 20000 rows together are thinned out: rows are kept where a column has its largest or smallest
+/// value of a stretch, so that every extreme value stays. SI units and radians, as in the files.
+///
+/// Errors: InputError naming what is missing or broken, when a path is neither a run nor a study,
+/// when a study is mixed with something else, and when a run is given twice.
+/// Cost: proportional to the size of the logs; 60 s on two plants take a fifth of a second.
+nlohmann::ordered_json ReportData(const std::vector<std::filesystem::path>& paths);
+
+/// The whole page of some data. Text from files never becomes markup or script, whatever is in it.
+std::string ReportPage(const nlohmann::ordered_json& data);
+
+/// Makes the report of `paths` and writes it to `file`, which is either what it was or complete.
+/// The page loads nothing from a network and forbids the browser to. The same folders give the same
+/// bytes. Errors: as ReportData, and RunError when something cannot be read or written.
+void WriteReport(const std::vector<std::filesystem::path>& paths, const std::filesystem::path& file,
+                 FilmPlace film = FilmPlace::kEmbedded);
+
+}  // namespace trackbed

@@ -1,0 +1,64 @@
+#include "trackbed/report/report.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "src/cli/verbs.h"
+
+namespace trackbed::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReportOptions {
+  std::vector<fs::path> paths;
+  std::string out;
+  FilmPlace film = FilmPlace::kEmbedded;
+  bool quiet = false;
+};
+
+int Report(const ReportOptions& options) {
+  constexpr const char* kName = "report.html";
+  const fs::path& first = options.paths.front();
+  // Of several runs the page is no part of one of them.
+  const fs::path folder = options.paths.size() > 1  ? fs::path()
+                          : fs::is_directory(first) ? first
+                                                    : first.parent_path();
+  const fs::path file = options.out.empty() ? folder / kName : fs::path(options.out);
+  WriteReport(options.paths, file, options.film);
+  if (!options.quiet) {
+    fmt::print("{}\n", file.string());
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void AddReport(CLI::App& command, int& exit_code) {
+  const auto options = std::make_shared<ReportOptions>();
+  command
+      .add_option("paths", options->paths,
+                  "Folders of finished runs, compared if there are several; or the folder or the "
+                  ".csv file of one study")
+      ->required()
+      ->type_name("DIR...");
+  command
+      .add_option("-o,--out", options->out,
+                  "The page to write (default: report.html in the folder; of several, here)")
+      ->type_name("FILE");
+  const std::map<std::string, FilmPlace> places{{"embedded", FilmPlace::kEmbedded},
+                                                {"beside", FilmPlace::kBeside},
+                                                {"none", FilmPlace::kAbsent}};
+  command
+      .add_option("--film", options->film,
+                  "Where the page has a run's video.mp4 from: embedded, in the page; beside, the "
+                  "file where it lies; or none")
+      ->transform(CLI::CheckedTransformer(places).description(""))
+      ->type_name("embedded|beside|none");
+  command.add_flag("-q,--quiet", options->quiet, "Print errors only");
+  command.callback([options, &exit_code] { exit_code = Report(*options); });
+}
+
+}  // namespace trackbed::cli

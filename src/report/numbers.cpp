@@ -1,0 +1,74 @@
+#include "src/report/numbers.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <utility>
+
+namespace trackbed {
+namespace {
+
+/// The rows where a column has its extremes in each of so many stretches, and both ends.
+std::vector<std::size_t> ExtremesOf(const Table& table, std::size_t stretches) {
+  std::set<std::size_t> rows{0, table.rows() - 1};
+  for (std::size_t k = 0; k < stretches; ++k) {
+    const std::size_t begin = k * table.rows() / stretches;
+    const std::size_t end = (k + 1) * table.rows() / stretches;
+    for (std::size_t column = 0; column < table.columns().size(); ++column) {
+      std::size_t least = begin;
+      std::size_t most = begin;
+      for (std::size_t row = begin; row < end; ++row) {
+        least = table.at(row, column) < table.at(least, column) ? row : least;
+        most = table.at(row, column) > table.at(most, column) ? row : most;
+      }
+      rows.insert({least, most});
+    }
+  }
+  return {rows.begin(), rows.end()};
+}
+
+}  // namespace
+
+double Rounded(double value) {
+  constexpr double kNothing = 5e-7;
+  if (std::abs(value) < kNothing) {
+    return 0.0;
+  }
+  const std::string text = fmt::format("{:.6g}", value);
+  double rounded = value;
+  std::from_chars(text.data(), text.data() + text.size(), rounded);
+  return rounded;
+}
+
+nlohmann::ordered_json RoundedColumn(const Table& table, const std::string& column,
+                                     const std::vector<std::size_t>& rows) {
+  const std::vector<double> values = table.Column(column);
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const std::size_t row : rows) {
+    json.push_back(Rounded(values[row]));
+  }
+  return json;
+}
+
+std::vector<std::size_t> RowsToShow(const Table& table, std::size_t limit) {
+  if (table.rows() <= limit) {
+    std::vector<std::size_t> all(table.rows());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
+  }
+  // Columns often have their extremes in the same rows, so that there is room for more stretches.
+  std::vector<std::size_t> rows = ExtremesOf(table, 1);
+  for (std::size_t stretches = 2; stretches < table.rows(); stretches *= 2) {
+    std::vector<std::size_t> more = ExtremesOf(table, stretches);
+    if (more.size() > limit) {
+      break;
+    }
+    rows = std::move(more);
+  }
+  return rows;
+}
+
+}  // namespace trackbed

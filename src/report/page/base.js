@@ -1,0 +1,117 @@
+// What all parts of the page use: the data, the tracks, the common moment, numbers as text.
+
+const data = JSON.parse(document.getElementById('data').textContent);
+const runs = data.runs || [];
+const root = d3.select('#report');
+
+/** Four digits, as people read them; what is no number as it is. */
+function shown(value) {
+  if (value === null || value === undefined || Number.isNaN(value)) return '–';
+  if (value === true) return 'yes';
+  if (value === false) return 'no';
+  if (typeof value !== 'number') return String(value);
+  const size = Math.abs(value);
+  const format = size === 0 || Number.isInteger(value) && size < 1e6 ? 'd'
+    : size >= 1e6 || size < 1e-4 ? '.3~e'
+    : size >= 1000 ? '.1~f' : '.4~r';
+  return d3.format(format)(value).replace(/-/g, '−');
+}
+
+/** At most three digits and four decimals, for what is read at a glance. */
+function brief(value) {
+  if (typeof value !== 'number') return shown(value);
+  const size = Math.abs(value);
+  if (Number.isInteger(value) || size >= 1e6) return shown(value);
+  if (size < 5e-5) return d3.format('.1~e')(value).replace(/-/g, '−');
+  return d3.format(size >= 100 ? '.1~f' : size < 0.01 ? '.4~f' : '.3~r')(value).replace('-', '−');
+}
+
+/** "Speed [m/s]": the unit is set apart. */
+function withUnit(selection, label, unit) {
+  selection.text(label);
+  if (unit) selection.append('span').attr('class', 'unit').text(` [${unit}]`);
+  return selection;
+}
+
+/** A section with a title. */
+function section(id, title) {
+  const made = root.append('section').attr('id', id);
+  if (title) made.append('h2').text(title);
+  return made;
+}
+
+/** Every drive of every run: what has a colour. The film's colours, where they can be had. */
+const tracks = runs.flatMap((run, r) => run.plants.map((plant) => ({
+  run: r,
+  plant: plant.name,
+  label: runs.length > 1 ? `${run.name} · ${plant.name}` : plant.name,
+  log: plant.log,
+  newPlans: plant.new_plans || [],
+  numbers: plant.numbers,
+  visible: true,
+})));
+(function giveColours() {
+  const free = d3.range(8);
+  const take = (colour) => {
+    const at = free.indexOf(colour);
+    return at < 0 ? undefined : free.splice(at, 1)[0];
+  };
+  for (const track of tracks) {
+    if (track.plant === 'kinematic') track.colour = take(0);
+    else if (track.plant.startsWith('mujoco')) track.colour = take(1);
+  }
+  tracks.forEach((track, i) => {
+    track.id = i;
+    if (track.colour === undefined) track.colour = free.length ? free.shift() : i % 8;
+    track.css = `var(--track-${track.colour})`;
+  });
+})();
+
+const duration = d3.max(tracks, (track) => track.log.t[track.log.t.length - 1]) || 0;
+
+/** Where between two rows of a log a moment lies; held at its ends. */
+function placeAt(log, time) {
+  const next = Math.min(Math.max(d3.bisectRight(log.t, time), 1), log.t.length - 1);
+  if (next < 1) return { row: 0, next: 0, part: 0 };
+  const row = next - 1;
+  const part = (time - log.t[row]) / (log.t[next] - log.t[row]);
+  return { row, next, part: Math.min(Math.max(part, 0), 1) };
+}
+
+/** A quantity at a moment; nothing after the end of the drive. */
+function valueAt(track, name, time) {
+  const values = track.log[name];
+  const end = track.log.t[track.log.t.length - 1];
+  if (!values || time > end + 1e-9) return null;
+  const { row, next, part } = placeAt(track.log, time);
+  return values[row] + part * (values[next] - values[row]);
+}
+
+/** The car's pose at a moment; after the end where it stopped. */
+function poseAt(track, time) {
+  const { x, y, yaw } = track.log;
+  const { row, next, part } = placeAt(track.log, time);
+  const turn = Math.atan2(Math.sin(yaw[next] - yaw[row]), Math.cos(yaw[next] - yaw[row]));
+  return {
+    x: x[row] + part * (x[next] - x[row]),
+    y: y[row] + part * (y[next] - y[row]),
+    yaw: yaw[row] + part * turn,
+  };
+}
+
+// The moment that map, series and films show together, and who follows it.
+const bus = d3.dispatch('time', 'visibility', 'scheme');
+let now = 0;
+
+function setTime(time, from) {
+  now = Math.min(Math.max(time, 0), duration);
+  bus.call('time', null, now, from);
+}
+
+window.matchMedia('(prefers-color-scheme: dark)')
+  .addEventListener('change', () => bus.call('scheme'));
+
+/** A colour of the style sheet, as a canvas needs it. */
+function colourOf(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+}

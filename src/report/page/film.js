@@ -1,0 +1,42 @@
+// The films of the runs; they and the cursor follow each other.
+
+function drawFilms(parent) {
+  const filmed = runs.filter((run) => run.film);
+  if (!filmed.length) return;
+  const films = parent.append('div').attr('class', 'films');
+  for (const run of filmed) {
+    const figure = films.append('figure').attr('class', 'panel');
+    const video = figure.append('video').attr('controls', '').attr('playsinline', '').attr('preload', 'auto')
+      .property('muted', true).node();
+    if (runs.length > 1) figure.append('figcaption').text(run.name);
+    if (run.film.url) {
+      video.src = run.film.url;
+    } else {
+      const bytes = Uint8Array.from(atob(run.film.base64), (c) => c.charCodeAt(0));
+      video.src = URL.createObjectURL(new Blob([bytes], { type: 'video/mp4' }));
+      delete run.film.base64;
+    }
+    // While it plays the cursor goes along; its own clock ticks too rarely for that.
+    let ticking = null;
+    video.addEventListener('play', () => {
+      ticking = d3.timer(() => setTime(video.currentTime, 'film'));
+    });
+    video.addEventListener('pause', () => ticking && ticking.stop());
+    video.addEventListener('seeked', () => {
+      if (document.activeElement === video) setTime(video.currentTime, 'film');
+    });
+    let wanted = null;
+    const seek = () => {
+      if (wanted === null || video.seeking || !video.paused) return;
+      video.currentTime = wanted;
+      wanted = null;
+    };
+    video.addEventListener('seeked', seek);
+    video.addEventListener('loadedmetadata', seek);
+    bus.on(`time.film${runs.indexOf(run)}`, (time, from) => {
+      if (from === 'film') return;
+      wanted = Math.min(time, Number.isFinite(video.duration) ? video.duration : time);
+      if (video.readyState > 0) seek();
+    });
+  }
+}

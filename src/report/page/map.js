@@ -1,0 +1,227 @@
+// The way seen from above: equal scales, in metres; x to the right, y up.
+
+function extentOfMap() {
+  const xs = [];
+  const ys = [];
+  const add = (x, y) => { xs.push(x); ys.push(y); };
+  for (const run of runs) {
+    const line = run.plan && run.plan.line;
+    if (line) line.x.forEach((x, i) => add(x, line.y[i]));
+    for (const cone of (run.plan && run.plan.cones) || []) add(cone[0], cone[1]);
+    for (const box of run.world.obstacles) {
+      const reach = Math.hypot(box.length, box.width) / 2;
+      add(box.x - reach, box.y - reach);
+      add(box.x + reach, box.y + reach);
+    }
+  }
+  for (const track of tracks) track.log.x.forEach((x, i) => add(x, track.log.y[i]));
+  if (!xs.length) add(0, 0);
+  const margin = Math.max(4, 0.03 * Math.max(d3.max(xs) - d3.min(xs), d3.max(ys) - d3.min(ys)));
+  return {
+    x: [d3.min(xs) - margin, d3.max(xs) + margin],
+    y: [d3.min(ys) - margin, d3.max(ys) + margin],
+  };
+}
+
+function lineText(x, y, count) {
+  let text = '';
+  for (let i = 0; i < count; ++i) text += `${i ? 'L' : 'M'}${x[i]} ${y[i]}`;
+  return text;
+}
+
+function placed(pose) {
+  return `translate(${pose.x} ${pose.y}) rotate(${(pose.yaw * 180) / Math.PI})`;
+}
+
+function drawMap(parent) {
+  const extent = extentOfMap();
+  const margin = { left: 50, right: 12, top: 52, bottom: 38 };
+  const frame = parent.append('div').attr('class', 'map');
+  const svg = frame.append('svg').attr('tabindex', 0).attr('role', 'img')
+    .attr('aria-label', 'Map of the way, the obstacles and the cars');
+  const clip = svg.append('defs').append('clipPath').attr('id', 'map-area').append('rect');
+  const xAxis = svg.append('g').attr('class', 'axis x');
+  const yAxis = svg.append('g').attr('class', 'axis y');
+  const world = svg.append('g').attr('clip-path', 'url(#map-area)').append('g').attr('class', 'world');
+  const xName = svg.append('text').attr('class', 'axis-name').attr('text-anchor', 'end').text('x [m]');
+  const yName = svg.append('text').attr('class', 'axis-name').text('y [m]');
+
+  // What is the same in several runs is drawn once.
+  const once = new Set();
+  const fresh = (kind, thing) => {
+    const key = kind + JSON.stringify(thing);
+    return !once.has(key) && once.add(key);
+  };
+  const box = (selection, area) => selection
+    .attr('x', -area.length / 2).attr('y', -area.width / 2)
+    .attr('width', area.length).attr('height', area.width);
+  const moving = [];
+  for (const run of runs) {
+    for (const patch of run.world.patches.filter((p) => fresh('patch', p))) {
+      box(world.append('rect').attr('class', 'patch').attr('transform', placed(patch)), patch)
+        .append('title').text(`friction ${patch.friction}`);
+    }
+  }
+  for (const run of runs) {
+    if (run.plan && run.plan.line && fresh('plan', run.plan.line)) {
+      const { x, y } = run.plan.line;
+      world.append('path').attr('class', 'plan').attr('d', lineText(x, y, x.length));
+    }
+    for (const cone of ((run.plan && run.plan.cones) || []).filter((c) => fresh('cone', c))) {
+      world.append('path').attr('class', 'cone').attr('d', `M${cone[0]} ${cone[1]}h0`);
+    }
+    for (const obstacle of run.world.obstacles.filter((o) => fresh('obstacle', o))) {
+      const moves = obstacle.vx !== 0 || obstacle.vy !== 0;
+      if (moves) {
+        world.append('path').attr('class', 'obstacle-way')
+          .attr('d', `M${obstacle.x} ${obstacle.y}l${obstacle.vx * duration} ${obstacle.vy * duration}`);
+      }
+      const shape = world.append('g').attr('class', moves ? 'obstacle moving' : 'obstacle')
+        .attr('transform', placed(obstacle));
+      box(shape.append('rect'), obstacle);
+      if (moves) moving.push({ obstacle, shape });
+    }
+  }
+
+  const layers = tracks.map((track) => {
+    const layer = world.append('g').attr('class', 'track').style('color', track.css);
+    const { x, y } = track.log;
+    layer.append('path').attr('class', 'way').attr('d', lineText(x, y, x.length));
+    for (const plan of track.newPlans) {
+      layer.append('path').attr('class', 'new-plan').attr('d', lineText(plan.x, plan.y, plan.x.length))
+        .append('title').text(`plan of ${track.label} from ${plan.from} s on`);
+    }
+    return { layer, trail: layer.append('path').attr('class', 'trail') };
+  });
+  const cars = tracks.map((track) => {
+    const size = runs[track.run].car;
+    const rear = -size.rear_overhang;
+    const front = size.length - size.rear_overhang;
+    const side = size.width / 2;
+    const car = world.append('g').attr('class', 'car').attr('data-track', track.label)
+      .style('color', track.css);
+    const nose = front - 0.3 * size.length;
+    car.append('path').attr('class', 'body')
+      .attr('d', `M${rear} ${-side}H${front - 0.3 * side}L${front} ${-0.6 * side}V${0.6 * side}L${front - 0.3 * side} ${side}H${rear}Z`);
+    car.append('path').attr('class', 'nose').attr('d', `M${nose} ${-side}L${nose + 0.12 * size.length} 0L${nose} ${side}`);
+    car.append('path').attr('class', 'origin').attr('d', 'M0 0h0');
+    car.append('title').text(track.label);
+    return car;
+  });
+
+  let size = { width: 0, height: 0 };
+  let zoomed = d3.zoomIdentity;
+
+  function redraw() {
+    const width = size.width - margin.left - margin.right;
+    const height = size.height - margin.top - margin.bottom;
+    if (width <= 0 || height <= 0) return;
+    const fit = Math.min(width / (extent.x[1] - extent.x[0]), height / (extent.y[1] - extent.y[0]));
+    const k = fit * zoomed.k;
+    const left = zoomed.applyX(margin.left + width / 2 - (fit * (extent.x[0] + extent.x[1])) / 2);
+    const base = zoomed.applyY(margin.top + height / 2 + (fit * (extent.y[0] + extent.y[1])) / 2);
+    world.attr('transform', `matrix(${k} 0 0 ${-k} ${left} ${base})`);
+    const right = margin.left + width;
+    const bottom = margin.top + height;
+    const x = d3.scaleLinear().range([margin.left, right])
+      .domain([(margin.left - left) / k, (right - left) / k]);
+    const y = d3.scaleLinear().range([bottom, margin.top])
+      .domain([(base - bottom) / k, (base - margin.top) / k]);
+    // Ticks as far apart along both axes.
+    const step = d3.tickStep(0, 60 / k, 1);
+    const ticks = (scale) => d3.range(Math.ceil(scale.domain()[0] / step),
+      Math.floor(scale.domain()[1] / step) + 1).map((i) => i * step);
+    const name = (value) => shown(Number(value.toPrecision(10)));
+    clip.attr('x', margin.left).attr('y', margin.top).attr('width', width).attr('height', height);
+    xAxis.attr('transform', `translate(0 ${bottom})`)
+      .call(d3.axisBottom(x).tickValues(ticks(x)).tickFormat(name).tickSize(-height).tickSizeOuter(0).tickPadding(7));
+    yAxis.attr('transform', `translate(${margin.left} 0)`)
+      .call(d3.axisLeft(y).tickValues(ticks(y)).tickFormat(name).tickSize(-width).tickSizeOuter(0).tickPadding(7));
+    xName.attr('x', right).attr('y', size.height - 6);
+    yName.attr('x', 12).attr('y', 32);
+    svg.attr('data-scale', k);
+  }
+
+  const zoom = d3.zoom().scaleExtent([0.5, 400])
+    // One finger scrolls the page, and so does the wheel: two fingers and Ctrl zoom.
+    .filter(() => {
+      const event = d3.event;
+      if (event.type === 'wheel') return event.ctrlKey || event.metaKey || document.activeElement === svg.node();
+      return event.touches ? event.touches.length > 1 : !event.button;
+    })
+    .on('zoom', () => { zoomed = d3.event.transform; redraw(); });
+  const fitAll = () => svg.transition().duration(250).call(zoom.transform, d3.zoomIdentity);
+  svg.call(zoom).style('touch-action', 'pan-x pan-y').on('dblclick.zoom', fitAll);
+  svg.append('title').text('Drag to move. Ctrl and wheel, or two fingers, to zoom. Double click for all.');
+  const buttons = frame.append('div').attr('class', 'zoom tools').style('border', 0).style('padding', 0);
+  for (const [sign, name, act] of [
+    ['+', 'Zoom in', () => svg.transition().duration(200).call(zoom.scaleBy, 1.6)],
+    ['−', 'Zoom out', () => svg.transition().duration(200).call(zoom.scaleBy, 1 / 1.6)],
+    ['⤢', 'Show all', fitAll]]) {
+    buttons.append('button').attr('type', 'button').attr('title', name).attr('aria-label', name)
+      .style('min-width', 0).text(sign).on('click', act);
+  }
+
+  new ResizeObserver(() => {
+    const width = frame.node().clientWidth;
+    // As high as the way needs, as far as there is room.
+    const needed = ((width - margin.left - margin.right) * (extent.y[1] - extent.y[0]))
+      / (extent.x[1] - extent.x[0]) + margin.top + margin.bottom;
+    frame.style('height', `${Math.max(280, needed)}px`);
+    size = { width, height: frame.node().clientHeight };
+    redraw();
+  }).observe(frame.node());
+
+  bus.on('time.map', (time) => {
+    tracks.forEach((track, i) => {
+      const pose = poseAt(track, time);
+      cars[i].attr('transform', placed(pose));
+      const { row } = placeAt(track.log, time);
+      layers[i].trail.attr('d', `${lineText(track.log.x, track.log.y, row + 1)}L${pose.x} ${pose.y}`);
+    });
+    for (const { obstacle, shape } of moving) {
+      shape.attr('transform', placed({
+        x: obstacle.x + obstacle.vx * time, y: obstacle.y + obstacle.vy * time, yaw: obstacle.yaw,
+      }));
+    }
+  });
+  bus.on('visibility.map', () => tracks.forEach((track, i) => {
+    layers[i].layer.style('display', track.visible ? null : 'none');
+    cars[i].style('display', track.visible ? null : 'none');
+  }));
+}
+
+/** Plays the drive, and says what moment is shown. */
+function drawClock(parent) {
+  const tools = parent.append('div').attr('class', 'tools');
+  const play = tools.append('button').attr('type', 'button').attr('id', 'play').text('Play');
+  const speed = tools.append('select').attr('aria-label', 'How fast');
+  for (const factor of [1, 2, 5, 10]) speed.append('option').attr('value', factor).text(`${factor}×`);
+  const slider = tools.append('input').attr('type', 'range').attr('min', 0).attr('max', duration)
+    .attr('step', duration / 2000 || 1).attr('aria-label', 'Time');
+  const text = tools.append('output').attr('class', 'time').attr('id', 'time');
+  let timer = null;
+  const stop = () => {
+    if (timer) timer.stop();
+    timer = null;
+    play.text('Play');
+  };
+  play.on('click', () => {
+    if (timer) return stop();
+    if (now >= duration) setTime(0, 'clock');
+    let last = 0;
+    timer = d3.timer((elapsed) => {
+      setTime(now + ((elapsed - last) / 1000) * Number(speed.node().value), 'clock');
+      last = elapsed;
+      if (now >= duration) stop();
+    });
+    play.text('Pause');
+    return undefined;
+  });
+  slider.on('input', () => { stop(); setTime(Number(slider.node().value), 'slider'); });
+  bus.on('time.clock', (time, from) => {
+    if (from !== 'clock') stop();
+    if (from !== 'slider') slider.node().value = time;
+    text.text(`t = ${time.toFixed(2)} s`);
+  });
+}

@@ -1,0 +1,219 @@
+// What a report of runs says in words and numbers.
+
+function badge(parent, good, text) {
+  return parent.append('span').attr('class', `badge ${good ? 'good' : 'bad'}`).text(text);
+}
+
+function verdictOf(run) {
+  if (!run.complete) return { good: false, text: 'interrupted' };
+  return run.verdict.passed ? { good: true, text: 'passed' } : { good: false, text: 'failed' };
+}
+
+function facts(parent, list) {
+  const facts = parent.append('ul').attr('class', 'facts');
+  for (const fact of list.filter(Boolean)) facts.append('li').text(fact);
+}
+
+function planFact(plan) {
+  if (!plan) return 'without a plan';
+  const length = plan.length_m === undefined ? '' : `, ${shown(plan.length_m)} m`;
+  return `plan: ${plan.method}${length}${plan.status === 'ok' ? '' : ` (${plan.status})`}`;
+}
+
+function drawHead() {
+  const header = root.append('header');
+  const heading = header.append('div').attr('class', 'heading');
+  heading.append('h1').text(runs.length === 1 ? runs[0].scenario : `${runs.length} runs compared`);
+  if (runs.length === 1) {
+    const { good, text } = verdictOf(runs[0]);
+    badge(heading, good, text).attr('id', 'verdict');
+  }
+  const one = runs[0];
+  facts(header, [
+    runs.length === 1 && runs[0].name !== runs[0].scenario && `folder ${one.name}`,
+    runs.length === 1 && planFact(one.plan),
+    runs.length === 1 && `car: ${one.car.name}`,
+    runs.length === 1 && `seed ${one.seed}`,
+    `Trackbed ${one.versions.trackbed}`, one.versions.physics, one.versions.optimizer,
+  ]);
+  for (const run of runs) {
+    const { failures, notes } = run.verdict;
+    if (runs.length === 1 && !failures.length && !notes.length) continue;
+    const { good, text } = verdictOf(run);
+    const verdict = header.append('div').attr('class', `verdict ${good ? '' : 'bad'}`);
+    if (runs.length > 1) {
+      const line = verdict.append('div').attr('class', 'heading');
+      line.append('span').text(run.name);
+      badge(line, good, text);
+      facts(verdict, [run.scenario !== run.name && `scenario ${run.scenario}`, planFact(run.plan), `car: ${run.car.name}`, `seed ${run.seed}`]);
+    }
+    if (failures.length || notes.length) {
+      const list = verdict.append('ul');
+      for (const failure of failures) list.append('li').text(failure);
+      for (const note of notes) list.append('li').attr('class', 'note').text(note);
+    }
+  }
+}
+
+/** The rows of several lists of numbers, each path once, in order. */
+function rowsOf(lists) {
+  const rows = new Map();
+  for (const list of lists) {
+    let before = null;
+    for (const { path, label, unit, headline } of list) {
+      if (!rows.has(path)) rows.set(path, { path, label, unit, headline, before });
+      before = path;
+    }
+  }
+  // What only a later list has stands where it stands there.
+  const order = [];
+  for (const row of rows.values()) {
+    const at = order.findIndex((other) => other.path === row.before);
+    if (row.before === null) order.unshift(row);
+    else order.splice(at + 1, 0, row);
+  }
+  return order;
+}
+
+function valueOf(list, path) {
+  const found = list.find((number) => number.path === path);
+  return found ? found.value : null;
+}
+
+/** What is read first: a card for each number, or with many tracks a row for each of those. */
+function drawHeadline() {
+  if (!tracks.length) return;
+  const rows = rowsOf(tracks.map((track) => track.numbers)).filter((row) => row.headline);
+  const made = section('headline');
+  if (tracks.length > 2) drawHeadlineTable(made, rows);
+  else drawCards(made, rows);
+}
+
+function drawHeadlineTable(parent, rows) {
+  const table = parent.append('div').attr('class', 'panel scroll').append('table');
+  const head = table.append('thead').append('tr');
+  head.append('th').attr('class', 'text').text('Plant');
+  for (const row of rows) withUnit(head.append('th').attr('class', 'brief'), row.label, row.unit);
+  const body = table.append('tbody');
+  for (const track of tracks) {
+    const line = body.append('tr').attr('data-track', track.label);
+    const name = line.append('th').attr('scope', 'row');
+    name.append('span').attr('class', 'dot').style('color', track.css);
+    name.append('span').text(track.label);
+    for (const row of rows) line.append('td').text(brief(valueOf(track.numbers, row.path)));
+  }
+}
+
+function drawCards(parent, rows) {
+  const cards = parent.append('div').attr('class', 'cards');
+  for (const row of rows) {
+    const card = cards.append('div').attr('class', 'card panel').attr('data-path', row.path);
+    card.append('p').attr('class', 'label').text(row.label);
+    for (const track of tracks) {
+      const value = card.append('p').attr('class', 'value');
+      value.append('span').attr('class', 'dot').style('color', track.css);
+      value.append('span').attr('class', 'of').attr('title', track.label).text(track.label);
+      const number = value.append('span').attr('class', 'number').text(brief(valueOf(track.numbers, row.path)));
+      if (row.unit) number.append('span').attr('class', 'unit').text(` ${row.unit}`);
+    }
+  }
+}
+
+function drawLegend(parent) {
+  const legend = parent.append('div').attr('class', 'legend');
+  for (const track of tracks) {
+    const button = legend.append('button').attr('type', 'button').attr('aria-pressed', 'true')
+      .attr('data-track', track.label).attr('title', 'Show or hide');
+    button.append('span').attr('class', 'dot').style('color', track.css);
+    button.append('span').text(track.label);
+    button.on('click', () => {
+      track.visible = !track.visible;
+      button.attr('aria-pressed', String(track.visible));
+      bus.call('visibility');
+    });
+  }
+  const sign = (name, draw) => {
+    const entry = legend.append('span').attr('class', 'sign');
+    draw(entry.append('svg').attr('width', 26).attr('height', 12).append('g').attr('class', 'world'));
+    entry.append('span').text(name);
+  };
+  if (runs.some((run) => run.plan && run.plan.line)) {
+    sign('plan', (svg) => svg.append('path').attr('class', 'plan').attr('d', 'M0 6h26'));
+  }
+  if (tracks.some((track) => track.newPlans.length)) {
+    sign('plan taken up on the way', (svg) => svg.append('path').attr('class', 'new-plan').attr('d', 'M0 6h26'));
+  }
+  if (runs.some((run) => run.world.obstacles.length)) {
+    sign('obstacle', (svg) => svg.append('g').attr('class', 'obstacle').append('rect')
+      .attr('x', 4).attr('y', 1).attr('width', 18).attr('height', 10));
+  }
+  if (runs.some((run) => run.plan && run.plan.cones.length)) {
+    sign('cone', (svg) => svg.append('path').attr('class', 'cone').attr('d', 'M13 6h0'));
+  }
+  if (runs.some((run) => run.world.patches.length)) {
+    sign('other friction', (svg) => svg.append('rect').attr('class', 'patch').attr('width', 26).attr('height', 12));
+  }
+}
+
+/** A table with a row for each number and a column for each list of them. */
+function drawNumbers(parent, columns) {
+  const table = parent.append('div').attr('class', 'panel scroll').append('table');
+  const head = table.append('thead').append('tr');
+  head.append('th').attr('class', 'text').text('');
+  for (const column of columns) {
+    const cell = head.append('th');
+    if (column.css) cell.append('span').attr('class', 'dot').style('color', column.css);
+    cell.append('span').text(column.label);
+  }
+  const body = table.append('tbody');
+  for (const row of rowsOf(columns.map((column) => column.numbers))) {
+    const line = body.append('tr').attr('class', row.headline ? 'headline' : null).attr('data-path', row.path);
+    withUnit(line.append('th').attr('scope', 'row').attr('title', row.path), row.label, row.unit);
+    for (const column of columns) line.append('td').text(shown(valueOf(column.numbers, row.path)));
+  }
+}
+
+function drawExpectations() {
+  if (!runs.some((run) => run.expectations.length)) return;
+  const table = section('expectations', 'Expectations').append('div').attr('class', 'panel scroll').append('table');
+  const head = table.append('thead').append('tr');
+  const names = [...(runs.length > 1 ? ['Run'] : []), 'Of', 'What'];
+  for (const name of names) head.append('th').attr('class', 'text').text(name);
+  for (const name of ['Expected', 'Found', 'Met']) head.append('th').text(name);
+  const body = table.append('tbody');
+  for (const run of runs) {
+    for (const entry of run.expectations) {
+      const line = body.append('tr');
+      if (runs.length > 1) line.append('td').attr('class', 'text').text(run.name);
+      line.append('td').attr('class', 'text').text(entry.of);
+      withUnit(line.append('td').attr('class', 'text'), entry.what, entry.unit);
+      line.append('td').text(entry.asked);
+      line.append('td').text(shown(entry.found));
+      line.append('td').attr('class', entry.met ? 'good' : 'bad').text(entry.met ? '✓ yes' : '✗ no');
+    }
+  }
+}
+
+/** The resolved scenarios; of several, what not all have is marked. */
+function drawScenarios() {
+  const lines = runs.map((run) => run.resolved.replace(/\n$/, '').split('\n'));
+  const common = new Set(lines[0].filter((line) => lines.every((other) => other.includes(line))));
+  const made = section('scenario', runs.length > 1 ? 'Resolved scenarios' : 'Resolved scenario');
+  runs.forEach((run, i) => {
+    const details = made.append('details').attr('class', 'panel');
+    const summary = details.append('summary').text(run.name);
+    if (runs.length > 1) summary.append('span').attr('class', 'hint').text('  lines that not all runs have are marked');
+    const text = details.append('pre');
+    for (const line of lines[i]) {
+      if (common.has(line)) text.append('span').text(`${line}\n`);
+      else text.append('span').attr('class', 'differs').text(`${line}\n`);
+    }
+  });
+}
+
+function drawFoot() {
+  const footer = root.append('footer');
+  const details = footer.append('details');
+  details.append('summary').text('Made by Trackbed, with d3 and dygraphs: their licences');
+  details.append('pre').text(document.getElementById('licences').textContent);
+}

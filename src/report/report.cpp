@@ -1,0 +1,157 @@
+#include "trackbed/report/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
+#include <cctype>
+
+#include "src/report/page_text.h"
+#include "src/report/run_data.h"
+#include "src/report/study_data.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+/// Rows of all logs together: some 2 MB.
+constexpr std::size_t kRows = 20000;
+
+std::string Escaped(const std::string& text) {
+  std::string markup;
+  for (const char c : text) {
+    markup += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  }
+  return markup;
+}
+
+/// What is no UTF-8 becomes U+FFFD.
+std::string Dumped(const ordered_json& json) {
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+/// JSON that can stand in a script element: nothing in it ends the element.
+std::string ScriptJson(const ordered_json& json) {
+  const std::string text = Dumped(json);
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<') {
+      safe += "\\u003c";  // outside strings JSON has none
+    } else {
+      safe += c;
+    }
+  }
+  return safe;
+}
+
+std::string Base64(const std::string& bytes) {
+  using boost::archive::iterators::base64_from_binary;
+  using boost::archive::iterators::transform_width;
+  using Encoder = base64_from_binary<transform_width<const char*, 6, 8>>;
+  std::string text(Encoder(bytes.data()), Encoder(bytes.data() + bytes.size()));
+  text.append((3 - bytes.size() % 3) % 3, '=');
+  return text;
+}
+
+/// A path as a relative reference: what is not plainly a name is percent-encoded.
+std::string UrlOf(const fs::path& path) {
+  std::string url;
+  for (const char c : path.generic_string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) != 0 || std::string_view("-._~/").find(c) != std::string_view::npos) {
+      url += c;
+    } else {
+      url += fmt::format("%{:02X}", byte);
+    }
+  }
+  return url;
+}
+
+std::string TitleOf(const ordered_json& data) {
+  if (data.contains("study")) {
+    return data["study"]["name"].get<std::string>();
+  }
+  std::string title;
+  for (const ordered_json& run : data["runs"]) {
+    title += (title.empty() ? "" : " · ") + run["name"].get<std::string>();
+  }
+  return ordered_json::parse(Dumped(title)).get<std::string>();
+}
+
+void RefuseOthers(const std::vector<fs::path>& paths) {
+  for (auto path = paths.begin(); path != paths.end(); ++path) {
+    std::error_code ignored;
+    if (!fs::exists(*path, ignored)) {
+      throw InputError(Problem{.file = path->string(), .message = "no such folder"});
+    }
+    if (!IsRunFolder(*path) && !StudyTable(*path)) {
+      throw InputError(Problem{.file = path->string(),
+                               .message =
+                                   "neither a finished run (no metrics.json) nor a study (no "
+                                   "sweep.csv, and no .csv file)"});
+    }
+    if (!IsRunFolder(*path) && paths.size() > 1) {
+      throw InputError(Problem{.file = path->string(),
+                               .message = "a study has a report of its own; give it alone"});
+    }
+    const fs::path real = fs::weakly_canonical(*path);
+    if (std::any_of(paths.begin(), path,
+                    [&](const fs::path& other) { return fs::weakly_canonical(other) == real; })) {
+      throw InputError(Problem{.file = path->string(), .message = "given twice"});
+    }
+  }
+}
+
+}  // namespace
+
+ordered_json ReportData(const std::vector<fs::path>& paths) {
+  TRACKBED_CHECK(!paths.empty(), "a report of nothing");
+  RefuseOthers(paths);
+  if (!IsRunFolder(paths.front())) {
+    return {{"study", StudyData(*StudyTable(paths.front()))}};
+  }
+  std::size_t plants = 0;
+  for (const fs::path& folder : paths) {
+    plants += PlantCount(folder);
+  }
+  ordered_json data{{"runs", ordered_json::array()}};
+  for (const fs::path& folder : paths) {
+    data["runs"].push_back(RunData(folder, kRows / std::max<std::size_t>(plants, 1)));
+  }
+  return data;
+}
+
+std::string ReportPage(const ordered_json& data) {
+  return fmt::format("{}{}{}<script type=\"application/json\" id=\"data\">{}</script>\n{}",
+                     kPageBeforeTitle, Escaped(TitleOf(data)), kPageBeforeData, ScriptJson(data),
+                     kPageAfterData);
+}
+
+void WriteReport(const std::vector<fs::path>& paths, const fs::path& file, FilmPlace film) {
+  ordered_json data = ReportData(paths);
+  if (data.contains("runs") && film != FilmPlace::kAbsent) {
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      const fs::path video = paths[i] / "video.mp4";
+      std::error_code ignored;
+      if (!fs::is_regular_file(video, ignored)) {
+        continue;
+      }
+      ordered_json& run = data["runs"][i];
+      if (film == FilmPlace::kEmbedded) {
+        run["film"] = {{"base64", Base64(ReadFile(video))}};
+      } else {
+        const fs::path from = fs::weakly_canonical(fs::absolute(file).parent_path());
+        run["film"] = {{"url", UrlOf(fs::weakly_canonical(video).lexically_relative(from))}};
+      }
+    }
+  }
+  WriteFileAtomically(file, ReportPage(data));
+}
+
+}  // namespace trackbed

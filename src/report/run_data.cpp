@@ -1,0 +1,242 @@
+#include "src/report/run_data.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "src/report/expectations.h"
+#include "src/report/names.h"
+#include "src/report/numbers.h"
+#include "src/report/paths.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+#include "trackbed/core/table.h"
+#include "trackbed/sim/car_model.h"
+#include "trackbed/sim/plant.h"
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr const char* kMetricsName = "metrics.json";
+
+/// What the page calls a column, and whether every log has it.
+struct Channel {
+  const char* name;
+  const char* column;
+  bool needed;
+};
+
+constexpr std::array kChannels{Channel{"t", "t_s", true},
+                               Channel{"x", "x_m", true},
+                               Channel{"y", "y_m", true},
+                               Channel{"yaw", "yaw_rad", true},
+                               Channel{"speed", "speed_mps", true},
+                               Channel{"steering_command", "steering_command_rad", true},
+                               Channel{"steering", "steering_rad", true},
+                               Channel{"yaw_rate", "yaw_rate_radps", false},
+                               Channel{"lateral_acceleration", "lateral_acceleration_mps2", false},
+                               Channel{"cross_track", "cross_track_m", false},
+                               Channel{"heading_error", "heading_error_rad", false},
+                               Channel{"clearance", "clearance_m", false}};
+
+fs::path Needed(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) {
+    throw InputError(Problem{.file = file.string(), .message = "missing from the run folder"});
+  }
+  return file;
+}
+
+/// Calls `read` with the JSON in `file`; what is not there as the run wrote it is an InputError.
+template <typename Read>
+auto WithJson(const fs::path& file, const Read& read) {
+  try {
+    return read(ordered_json::parse(ReadFile(Needed(file))));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(Problem{.file = file.string(), .message = error.what()});
+  }
+}
+
+/// x and y of a path.
+ordered_json LineOf(const Table& table, const std::vector<std::size_t>& rows) {
+  return {{"x", RoundedColumn(table, "x_m", rows)}, {"y", RoundedColumn(table, "y_m", rows)}};
+}
+
+ordered_json PlanLine(const fs::path& file) {
+  constexpr std::size_t kMost = 20000;  // of plan.csv: 2 km
+  const Table table = ReadCsvExcerpt(file, {"x_m", "y_m"}).table;
+  return LineOf(table, RowsToShow(table, kMost));
+}
+
+/// One plan after the other, each row with the time from which its plan holds.
+ordered_json NewPlans(const fs::path& file) {
+  const Table table = ReadCsvExcerpt(file, {"from_t_s", "x_m", "y_m"}).table;
+  const std::vector<double> from = table.Column("from_t_s");
+  ordered_json plans = ordered_json::array();
+  for (std::size_t row = 0; row < from.size();) {
+    std::vector<std::size_t> rows;
+    const double begin = from[row];
+    for (; row < from.size() && from[row] == begin; ++row) {
+      rows.push_back(row);
+    }
+    plans.push_back(LineOf(table, rows));
+    plans.back()["from"] = Rounded(begin);
+  }
+  return plans;
+}
+
+ordered_json LogOf(const fs::path& file, std::size_t row_limit) {
+  std::vector<std::string> needed;
+  std::vector<std::string> optional;
+  for (const Channel& channel : kChannels) {
+    (channel.needed ? needed : optional).emplace_back(channel.column);
+  }
+  const CsvExcerpt log = ReadCsvExcerpt(Needed(file), needed, optional);
+  const std::vector<double> times = log.table.Column("t_s");
+  if (times.empty()) {
+    throw InputError(Problem{.file = file.string(), .message = "no rows"});
+  }
+  for (std::size_t row = 1; row < times.size(); ++row) {
+    if (!(times[row] > times[row - 1])) {
+      throw InputError(
+          Problem{file.string(), log.lines[row], 0, "t_s",
+                  fmt::format("{} does not come after {}", times[row], times[row - 1])});
+    }
+  }
+  const std::vector<std::size_t> rows = RowsToShow(log.table, row_limit);
+  ordered_json json;
+  for (const Channel& channel : kChannels) {
+    if (log.table.Find(channel.column) >= 0) {
+      json[channel.name] = RoundedColumn(log.table, channel.column, rows);
+    }
+  }
+  return json;
+}
+
+ordered_json PlantOf(const fs::path& folder, const std::string& plant, std::size_t row_limit) {
+  const std::string name = PlantFileName(plant);
+  ordered_json json{{"name", plant}, {"log", LogOf(folder / (name + ".csv"), row_limit)}};
+  if (const fs::path plans = folder / (name + ".plan.csv"); fs::exists(plans)) {
+    json["new_plans"] = NewPlans(plans);
+  }
+  return json;
+}
+
+ordered_json BoxOf(const OrientedBox& box) {
+  return {{"x", Rounded(box.centre.x)},
+          {"y", Rounded(box.centre.y)},
+          {"yaw", Rounded(box.centre.yaw)},
+          {"length", Rounded(box.length)},
+          {"width", Rounded(box.width)}};
+}
+
+ordered_json WorldOf(const World& world) {
+  ordered_json json{{"obstacles", ordered_json::array()}, {"patches", ordered_json::array()}};
+  for (const Obstacle& obstacle : world.obstacles) {
+    ordered_json box = BoxOf(obstacle.footprint);
+    box["vx"] = Rounded(obstacle.velocity.x());
+    box["vy"] = Rounded(obstacle.velocity.y());
+    json["obstacles"].push_back(box);
+  }
+  for (const FrictionPatch& patch : world.friction_patches) {
+    json["patches"].push_back(BoxOf(patch.area));
+    json["patches"].back()["friction"] = Rounded(patch.friction);
+  }
+  return json;
+}
+
+ordered_json CarOf(const fs::path& model) {
+  const VehicleParams car = CarModel(ComposeScene(Needed(model), {}), model.string()).params();
+  return {{"name", car.name},
+          {"length", Rounded(car.length)},
+          {"width", Rounded(car.width)},
+          {"rear_overhang", Rounded(car.rear_overhang)}};
+}
+
+/// How the plan was found, the gates it leads through, and its line.
+ordered_json PlanOf(const fs::path& folder) {
+  ordered_json plan = WithJson(folder / "plan.json", [](const ordered_json& file) {
+    ordered_json json;
+    for (const char* key : {"status", "reason", "method", "length_m", "duration_s"}) {
+      if (file.contains(key)) {
+        json[key] = RoundedLeaf(file.at(key));
+      }
+    }
+    json["cones"] = ordered_json::array();
+    for (const ordered_json& gate : file.value("gates", ordered_json::array())) {
+      for (const ordered_json& cone : gate.at("cones_m")) {
+        json["cones"].push_back(
+            {Rounded(cone.at(0).get<double>()), Rounded(cone.at(1).get<double>())});
+      }
+    }
+    return json;
+  });
+  if (const fs::path line = folder / "plan.csv"; fs::exists(line)) {
+    plan["line"] = PlanLine(line);
+  }
+  return plan;
+}
+
+/// The numbers of an entry of metrics.json as rows of a table.
+template <typename NameOf>
+ordered_json NumbersOf(const ordered_json& entry, const NameOf& name_of) {
+  ordered_json rows = ordered_json::array();
+  for (const auto& [path, value] : LeafValues(entry)) {
+    const ShownName name = name_of(path);
+    rows.push_back({{"path", path}, {"label", name.label}, {"value", RoundedLeaf(value)}});
+    if (!name.unit.empty()) {
+      rows.back()["unit"] = name.unit;
+    }
+    if (name.headline) {
+      rows.back()["headline"] = true;
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+bool IsRunFolder(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_regular_file(folder / kMetricsName, ignored);
+}
+
+std::size_t PlantCount(const fs::path& folder) {
+  return WithJson(folder / kMetricsName,
+                  [](const ordered_json& metrics) { return metrics.at("plants").size(); });
+}
+
+ordered_json RunData(const fs::path& folder, std::size_t row_limit) {
+  const fs::path scenario = Needed(folder / "scenario.resolved.yaml");
+  return WithJson(folder / kMetricsName, [&](const ordered_json& metrics) {
+    ordered_json run{{"name", fs::weakly_canonical(folder).filename().string()}};
+    for (const char* key : {"scenario", "complete", "seed", "versions", "verdict"}) {
+      run[key] = metrics.at(key);
+    }
+    run["expectations"] = ExpectationRows(ReadExpectations(scenario), metrics);
+    run["car"] = CarOf(folder / "model.xml");
+    run["world"] = WorldOf(ReadWorld(scenario));
+    if (fs::exists(folder / "plan.json")) {
+      run["plan"] = PlanOf(folder);
+    }
+    run["plants"] = ordered_json::array();
+    for (const auto& [plant, entry] : metrics.at("plants").items()) {
+      run["plants"].push_back(PlantOf(folder, plant, row_limit));
+      run["plants"].back()["numbers"] = NumbersOf(entry, NameOfMetric);
+    }
+    run["between"] = ordered_json::array();
+    for (ordered_json pair : metrics.at("between")) {
+      const ordered_json plants = pair.at("plants");
+      pair.erase("plants");
+      run["between"].push_back(
+          {{"plants", plants}, {"numbers", NumbersOf(pair, NameOfComparison)}});
+    }
+    run["resolved"] = ReadFile(scenario);
+    return run;
+  });
+}
+
+}  // namespace trackbed

@@ -1,0 +1,103 @@
+#include "src/report/study_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "src/report/names.h"
+#include "src/report/numbers.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+#include "trackbed/core/text_table.h"
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+/// A number as one, an empty cell as null, all else as text.
+ordered_json ValueOf(const std::string& cell) {
+  if (cell.empty()) {
+    return nullptr;
+  }
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  const bool is_number = error == std::errc{} && end == cell.data() + cell.size();
+  return is_number && std::isfinite(value) ? ordered_json(Rounded(value)) : ordered_json(cell);
+}
+
+/// What stands in sweep.json beside the table; nothing when there is none.
+ordered_json DescriptionOf(const fs::path& table) {
+  const fs::path file = table.parent_path() / "sweep.json";
+  std::error_code ignored;
+  if (table.filename() != "sweep.csv" || !fs::is_regular_file(file, ignored)) {
+    return ordered_json::object();
+  }
+  try {
+    ordered_json json = ordered_json::parse(ReadFile(file));
+    return {{"name", json.at("study")},        {"scenario", json.at("scenario")},
+            {"complete", json.at("complete")}, {"rows_expected", json.at("rows_expected")},
+            {"versions", json.at("versions")}, {"text", json.dump(2)}};
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(Problem{.file = file.string(), .message = error.what()});
+  }
+}
+
+ordered_json ColumnsOf(const TextTable& table, const std::string& file) {
+  const std::vector<std::string>& names = table.columns();
+  const auto status = std::find(names.begin(), names.end(), "status");
+  if (status == names.end()) {
+    throw InputError(Problem{
+        file, 1, 0, "", "no column 'status', which the table of a study has after its parameters"});
+  }
+  ordered_json columns = ordered_json::array();
+  for (auto name = names.begin(); name != names.end(); ++name) {
+    const bool is_output = name > status;
+    const bool is_parameter = name < status && *name != "seed";
+    const ShownName shown = is_output      ? NameOfOutput(*name)
+                            : is_parameter ? NameOfKey(*name)
+                                           : ShownName{*name, ""};
+    columns.push_back({{"name", *name},
+                       {"label", shown.label},
+                       {"unit", shown.unit},
+                       {"kind", name == status ? "status"
+                                : is_output    ? "output"
+                                : is_parameter ? "parameter"
+                                               : "seed"}});
+  }
+  return columns;
+}
+
+}  // namespace
+
+std::optional<fs::path> StudyTable(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::is_regular_file(path, ignored) && path.extension() == ".csv") {
+    return path;
+  }
+  const fs::path table = path / "sweep.csv";
+  return fs::is_regular_file(table, ignored) ? std::optional(table) : std::nullopt;
+}
+
+ordered_json StudyData(const fs::path& file) {
+  const TextTable table = ReadTextCsv(file);
+  ordered_json study = DescriptionOf(file);
+  if (!study.contains("name")) {
+    study["name"] = file.stem().string();
+  }
+  study["columns"] = ColumnsOf(table, file.string());
+  study["rows"] = ordered_json::array();
+  for (const std::vector<std::string>& row : table.rows()) {
+    ordered_json cells = ordered_json::array();
+    for (const std::string& cell : row) {
+      cells.push_back(ValueOf(cell));
+    }
+    study["rows"].push_back(cells);
+  }
+  return study;
+}
+
+}  // namespace trackbed

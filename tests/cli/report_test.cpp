@@ -1,0 +1,88 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/cli/program.h"
+#include "tests/support/temp_folder.h"
+#include "trackbed/core/file.h"
+
+namespace trackbed {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+
+std::string RunOf(const std::string& out) {
+  return "run -q " + ScenarioFile("winding") +
+         " --plant kinematic --set 'expect={}' --set drive.time_limit=1 -o " + out;
+}
+
+TEST(Report, WritesAPageIntoTheRunsFolder) {
+  const TempFolder folder;
+  Trackbed(folder, RunOf("a"));
+  const Outcome outcome = Trackbed(folder, "report a");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_EQ(outcome.output, "a/report.html\n");
+  const std::string page = ReadFile(folder.path() / "a/report.html");
+  EXPECT_THAT(page, testing::StartsWith("<!DOCTYPE html>"));
+  EXPECT_THAT(page, EndsWith("</html>\n"));
+  EXPECT_THAT(page, HasSubstr("<title>a</title>"));
+  EXPECT_EQ(Trackbed(folder, "report a -q -o b.html").output, "");
+  EXPECT_EQ(ReadFile(folder.path() / "b.html"), page);
+  // A new run of the folder takes the page of the old one away.
+  Trackbed(folder, RunOf("a"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a/report.html"));
+}
+
+TEST(Report, WritesThatOfSeveralRunsHere) {
+  const TempFolder folder;
+  Trackbed(folder, RunOf("a"));
+  Trackbed(folder, RunOf("b"));
+  const Outcome outcome = Trackbed(folder, "report a b/");
+  EXPECT_EQ(outcome.output, "report.html\n");
+  EXPECT_THAT(ReadFile(folder.path() / "report.html"), HasSubstr("<title>a · b</title>"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a/report.html"));
+}
+
+TEST(Report, WritesThatOfAStudyBesideItsTable) {
+  const TempFolder folder;
+  folder.Write("study.yaml",
+               "schema: 1\nname: study\nscenario: " + ScenarioFile("winding") +
+                   "\nset: {drive.plants: [kinematic], drive.time_limit: 1, expect: {}}\n"
+                   "vary: {mission.speed: [2, 3]}\n"
+                   "outputs: [metrics.kinematic.distance]\n");
+  ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml").code, 0);
+  EXPECT_EQ(Trackbed(folder, "report out/study").output, "out/study/report.html\n");
+  EXPECT_THAT(ReadFile(folder.path() / "out/study/report.html"),
+              HasSubstr("\"metrics.kinematic.distance\""));
+  EXPECT_EQ(Trackbed(folder, "report out/study/sweep.csv -o x.html").code, 0);
+  EXPECT_EQ(ReadFile(folder.path() / "x.html"), ReadFile(folder.path() / "out/study/report.html"));
+  ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml").code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/study/report.html"));
+}
+
+TEST(Report, RefusesWhatIsNoRun) {
+  const TempFolder folder;
+  folder.Write("empty/x.txt", "");
+  Outcome outcome = Trackbed(folder, "report gone");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.output, "gone: no such folder\n");
+  outcome = Trackbed(folder, "report empty");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("empty: neither a finished run (no metrics.json) nor"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "empty/report.html"));
+  EXPECT_EQ(Trackbed(folder, "report").code, 2);
+  EXPECT_EQ(Trackbed(folder, "report empty --film somewhere").code, 2);
+  Trackbed(folder, RunOf("a"));
+  outcome = Trackbed(folder, "report a -o gone/page.html");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("cannot write gone/page.html"));
+  outcome = Trackbed(folder, "report a -o /dev/full");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("cannot write /dev/full"));
+}
+
+}  // namespace
+}  // namespace trackbed

@@ -1,0 +1,107 @@
+"""A headless Chromium without a network, for looking at reports.
+
+As a script: browser.py PAGE PICTURE [WIDTH HEIGHT [JAVASCRIPT]] takes a picture of a page, after
+running something in it.
+"""
+
+import json
+import pathlib
+import sys
+import tempfile
+import time
+
+from selenium import webdriver
+from selenium.webdriver.chrome.options import Options
+from selenium.webdriver.chrome.service import Service
+
+
+class Browser:
+    def __init__(self):
+        self.profile = tempfile.TemporaryDirectory()
+        options = Options()
+        options.binary_location = "/usr/bin/chromium"
+        for argument in (
+            "--headless=new",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-dev-shm-usage",
+            "--hide-scrollbars",
+            "--host-resolver-rules=MAP * ~NOTFOUND",
+            "--user-data-dir=" + self.profile.name,
+        ):
+            options.add_argument(argument)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+        self.driver = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+        self.requests = []
+
+    def close(self):
+        self.driver.quit()
+        self.profile.cleanup()
+
+    def open(self, page, width=1440, height=1000, dark=False):
+        """Opens a file, on a screen of that size, a phone's if it is narrow."""
+        call = self.driver.execute_cdp_cmd
+        phone = width < 600
+        call(
+            "Emulation.setDeviceMetricsOverride",
+            {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": phone},
+        )
+        call("Emulation.setTouchEmulationEnabled", {"enabled": phone})
+        scheme = "dark" if dark else "light"
+        call(
+            "Emulation.setEmulatedMedia",
+            {"features": [{"name": "prefers-color-scheme", "value": scheme}]},
+        )
+        call("Network.enable", {})
+        call(
+            "Network.emulateNetworkConditions",
+            {"offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0},
+        )
+        self.driver.get_log("browser")
+        self.driver.get(pathlib.Path(page).resolve().as_uri())
+        self.settle()
+
+    def settle(self):
+        """Waits for what observers still have to do: two frames, and a moment more."""
+        time.sleep(0.1)
+        self.driver.execute_async_script(
+            "const done = arguments[0];"
+            "requestAnimationFrame(() => requestAnimationFrame(() => done()));"
+        )
+
+    def run(self, script, *arguments):
+        return self.driver.execute_script(script, *arguments)
+
+    def picture(self, file):
+        self.driver.save_screenshot(str(file))
+
+    def complaints(self):
+        """What the console says since the last page was opened."""
+        return [entry["message"] for entry in self.driver.get_log("browser")]
+
+    def loaded(self):
+        """Every address that was asked for since the last call."""
+        urls = []
+        for entry in self.driver.get_log("performance"):
+            message = json.loads(entry["message"])["message"]
+            if message["method"] == "Network.requestWillBeSent":
+                urls.append(message["params"]["request"]["url"])
+        return urls
+
+
+def main():
+    page, picture = sys.argv[1:3]
+    size = [int(number) for number in sys.argv[3:5]]
+    browser = Browser()
+    try:
+        browser.open(page, *size)
+        if len(sys.argv) > 5:
+            browser.run(sys.argv[5])
+            browser.settle()
+        browser.picture(picture)
+    finally:
+        browser.close()
+
+
+if __name__ == "__main__":
+    main()

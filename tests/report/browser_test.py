@@ -1,0 +1,559 @@
+"""Reports as people see them: drives scenarios with the program, makes their reports, opens them in
+a headless Chromium without a network, and uses them.
+
+browser_test.py PROGRAM PICTURES [unittest's options]: pictures of the pages are left in a folder.
+"""
+
+import csv
+import json
+import math
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from browser import Browser  # noqa: E402
+
+PROGRAM = pathlib.Path(sys.argv[1]).resolve()
+PICTURES = pathlib.Path(sys.argv[2]).resolve()
+
+SCENARIO = """schema: 1
+name: corner
+mission: {speed: %s, waypoints: [[0, 0], [30, 0], [30, 30]]}
+world:
+  obstacles:
+    - {box: {x: 5, y: 12, yaw: 0.3, length: 3, width: 1.5}, velocity: {x: 0.5, y: 0.25}}
+plan: {method: fillet}
+control: {method: preview}
+expect: {reach_goal: 0.5}
+"""
+
+STUDY = """schema: 1
+name: fast
+scenario: slow.yaml
+set: {drive.plants: [kinematic]}
+vary:
+  control.distance: [2, 3]
+  mission.speed: [2, 4, 3]
+outputs: [metrics.kinematic.cross_track.max, metrics.kinematic.time, plan.status]
+"""
+
+EVIL = "<b>&\"'</script><script>alert(1)</script>"
+
+
+def rows_of(file):
+    with open(file, newline="") as lines:
+        return list(csv.DictReader(lines))
+
+
+def value_at(rows, column, moment):
+    """Linear between the rows, held at the ends."""
+    moments = [float(row["t_s"]) for row in rows]
+    values = [float(row[column]) for row in rows]
+    if moment >= moments[-1]:
+        return values[-1]
+    i = next(k for k, t in enumerate(moments) if t > moment)
+    part = (moment - moments[i - 1]) / (moments[i] - moments[i - 1])
+    return values[i - 1] + part * (values[i] - values[i - 1])
+
+
+class Reports(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        PICTURES.mkdir(parents=True, exist_ok=True)
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.root = pathlib.Path(cls.folder.name)
+        for name, speed in (("slow", 3), ("quick", 3.3)):
+            (cls.root / f"{name}.yaml").write_text(SCENARIO % speed)
+            cls.trackbed("run", "-q", f"{name}.yaml", "-o", name)
+        (cls.root / "study.yaml").write_text(STUDY)
+        cls.trackbed("sweep", "-q", "study.yaml", "-o", "study")
+        cls.has_video = "video off" not in cls.trackbed("--version")
+        if cls.has_video:
+            cls.trackbed("render", "-q", "slow", "--size", "160x120", "--fps", "10")
+        cls.trackbed("report", "slow")
+        cls.trackbed("report", "slow", "--film", "beside", "-o", "beside.html")
+        cls.trackbed("report", "slow", "quick", "--film", "none", "-o", "both.html")
+        cls.trackbed("report", "study")
+        evil = cls.root / "evil"
+        shutil.copytree(cls.root / "slow", evil)
+        metrics = json.loads((evil / "metrics.json").read_text())
+        metrics["scenario"] = EVIL
+        metrics["verdict"]["failures"] = [EVIL]
+        (evil / "metrics.json").write_text(json.dumps(metrics))
+        cls.trackbed("report", "evil", "--film", "none", "-o", "evil.html")
+        cls.browser = Browser()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        cls.folder.cleanup()
+
+    @classmethod
+    def trackbed(cls, *arguments):
+        done = subprocess.run(
+            [PROGRAM, *arguments], cwd=cls.root, capture_output=True, text=True, check=False
+        )
+        if done.returncode != 0:
+            raise RuntimeError(f"{arguments}: {done.stdout}{done.stderr}")
+        return done.stdout
+
+    def open(self, page, **screen):
+        self.browser.open(self.root / page, **screen)
+
+    def tearDown(self):
+        self.assertEqual(self.browser.complaints(), [])
+        for url in self.browser.loaded():
+            self.assertRegex(url, r"^(file|data|blob|chrome):", url[:100])
+
+    # What a page is asked with.
+
+    def run_in_page(self, script, *arguments):
+        return self.browser.run(script, *arguments)
+
+    def text(self, selector):
+        return self.run_in_page(
+            "return document.querySelector(arguments[0]).textContent", selector
+        )
+
+    def box(self, selector):
+        return self.run_in_page(
+            "const e = document.querySelector(arguments[0]); e.scrollIntoView({block: 'center'});"
+            "const b = e.getBoundingClientRect();"
+            "return {x: b.x, y: b.y, width: b.width, height: b.height}",
+            selector,
+        )
+
+    def mouse(self, kind, x, y, **more):
+        self.browser.driver.execute_cdp_cmd(
+            "Input.dispatchMouseEvent", {"type": kind, "x": x, "y": y, **more}
+        )
+
+    def drag(self, x, y, to_x, to_y):
+        self.mouse("mousePressed", x, y, button="left", clickCount=1)
+        for share in (0.3, 0.7, 1):
+            self.mouse("mouseMoved", x + share * (to_x - x), y + share * (to_y - y), button="left", buttons=1)
+        self.mouse("mouseReleased", to_x, to_y, button="left", clickCount=1)
+        self.browser.settle()
+
+    def double_click(self, x, y):
+        for count in (1, 2):
+            self.mouse("mousePressed", x, y, button="left", clickCount=count)
+            self.mouse("mouseReleased", x, y, button="left", clickCount=count)
+        self.browser.settle()
+
+    def click(self, selector):
+        self.run_in_page("document.querySelector(arguments[0]).click()", selector)
+        self.browser.settle()
+
+    def numbers(self, selector, attribute="transform"):
+        text = self.run_in_page(
+            "return document.querySelector(arguments[0]).getAttribute(arguments[1])",
+            selector,
+            attribute,
+        )
+        return [float(n) for n in re.findall(r"-?[\d.]+(?:e-?\d+)?", text)]
+
+    def moment(self):
+        return float(re.fullmatch(r"t = ([\d.]+) s", self.text("#time")).group(1))
+
+    def eventually(self, check):
+        """Waits until a check no longer fails; what moves takes its time."""
+        last = time.monotonic() + 60
+        while True:
+            try:
+                check()
+                return
+            except AssertionError:
+                if time.monotonic() > last:
+                    raise
+            self.browser.settle()
+
+    def point_at(self, quantity, share):
+        """Points at a chart, that share of its width from the left."""
+        plot = self.box(f"[data-quantity={quantity}] .plot")
+        self.mouse("mouseMoved", plot["x"] + 60 + share * (plot["width"] - 60), plot["y"] + 60)
+        self.browser.settle()
+
+    def width_is_kept(self):
+        wide, screen = self.run_in_page(
+            "return [document.documentElement.scrollWidth, window.innerWidth]"
+        )
+        self.assertLessEqual(wide, screen)
+
+    # One run.
+
+    def test_run_says_first_how_it_went(self):
+        self.open("slow/report.html")
+        self.assertEqual(self.text("h1"), "corner")
+        self.assertEqual(self.text("#verdict"), "passed")
+        metrics = json.loads((self.root / "slow/metrics.json").read_text())
+        shown = self.run_in_page(
+            "return Array.from(document.querySelectorAll("
+            "'[data-path=\"cross_track.max\"] .number')).map(e => parseFloat(e.textContent))"
+        )
+        exact = [plant["cross_track"]["max"] for plant in metrics["plants"].values()]
+        self.assertEqual(len(shown), 2)
+        for one, other in zip(shown, exact):
+            self.assertAlmostEqual(one, other, delta=max(5e-5, 5e-3 * other))  # three digits, four decimals
+        self.assertIn("resolved", self.text("#scenario h2").lower())
+        self.assertIn("waypoints: [[0, 0], [30, 0], [30, 30]]", self.text("#scenario pre"))
+        self.width_is_kept()
+        self.browser.picture(PICTURES / "run.png")
+
+    def test_pointing_at_a_chart_moves_cars_and_obstacle(self):
+        self.open("slow/report.html")
+        moments = []
+        for quantity, share in (("cross_track", 0.25), ("speed", 0.5), ("lateral_acceleration", 0.7)):
+            self.point_at(quantity, share)
+            moment = self.moment()
+            moments.append(moment)
+            for plant in ("kinematic", "mujoco"):
+                rows = rows_of(self.root / "slow" / f"{plant}.csv")
+                x, y, degrees = self.numbers(f".car[data-track={plant}]")
+                # Six digits of 30 m, and the time to two decimals at 3 m/s.
+                self.assertAlmostEqual(x, value_at(rows, "x_m", moment), delta=0.02)
+                self.assertAlmostEqual(y, value_at(rows, "y_m", moment), delta=0.02)
+                yaw = math.degrees(value_at(rows, "yaw_rad", moment))
+                self.assertAlmostEqual(degrees, yaw, delta=0.3)
+                speed = self.text(f"[data-quantity=speed] .readout[data-track={plant}]")
+                self.assertAlmostEqual(float(speed), value_at(rows, "speed_mps", moment), delta=0.02)
+            x, y, degrees = self.numbers(".obstacle.moving")
+            self.assertAlmostEqual(x, 5 + 0.5 * moment, delta=0.01)
+            self.assertAlmostEqual(y, 12 + 0.25 * moment, delta=0.01)
+            self.assertAlmostEqual(degrees, math.degrees(0.3), delta=1e-3)
+            cursors = self.run_in_page(
+                "return Array.from(document.querySelectorAll('.cursor'))"
+                ".map(e => e.getBoundingClientRect().x)"
+            )
+            self.assertEqual(len(cursors), 7)
+            self.assertLess(max(cursors) - min(cursors), 0.6)
+        self.assertLess(moments[0] + 1, moments[1])
+        self.assertLess(moments[1] + 1, moments[2])
+        self.browser.picture(PICTURES / "drive.png")
+
+    def test_steering_shows_what_was_asked_and_done(self):
+        self.open("slow/report.html")
+        self.point_at("steering", 0.4)  # the wheels do not follow
+        rows = rows_of(self.root / "slow/mujoco.csv")
+        text = self.text("[data-quantity=steering] .readout[data-track=mujoco]").replace("−", "-")
+        done, asked = (float(n) for n in re.fullmatch(r"(-?[\d.]+) \((-?[\d.]+)\)", text).groups())
+        # The rate limit of 0.15 rad/s over half of the last digit of the time, and four decimals.
+        delta = 0.15 * 0.005 + 5e-5
+        self.assertAlmostEqual(done, value_at(rows, "steering_rad", self.moment()), delta=delta)
+        self.assertAlmostEqual(
+            asked, value_at(rows, "steering_command_rad", self.moment()), delta=0.01
+        )
+        self.assertGreater(abs(asked - done), 0.05)
+
+    def test_map_zooms_and_moves(self):
+        self.open("slow/report.html")
+        area = self.box(".map svg")
+        x, y = area["x"] + area["width"] / 2, area["y"] + area["height"] / 2
+
+        def view():
+            a, b, c, d, e, f = self.numbers(".map .world")
+            self.assertEqual([b, c], [0, 0])
+            self.assertAlmostEqual(a, -d)  # as long along x as along y
+            return a, e, f
+
+        whole = view()
+        self.mouse("mouseWheel", x, y, deltaX=0, deltaY=-300)
+        self.browser.settle()
+        self.assertEqual(view(), whole)  # the page scrolls, not the map
+        area = self.box(".map svg")
+        x, y = area["x"] + area["width"] / 2, area["y"] + area["height"] / 2
+        self.mouse("mouseWheel", x, y, deltaX=0, deltaY=-300, modifiers=2)
+        self.browser.settle()
+        near = view()
+        self.assertGreater(near[0], 1.3 * whole[0])
+        # What is under the pointer stays there.
+        inside = (x - area["x"], y - area["y"])
+        for place, before, after in ((inside[0], whole[1], near[1]), (inside[1], whole[2], near[2])):
+            self.assertAlmostEqual((place - before) / whole[0], (place - after) / near[0], delta=0.1)
+        self.drag(x, y, x + 80, y - 50)
+        moved = view()
+        self.assertAlmostEqual(moved[0], near[0])
+        self.assertAlmostEqual(moved[1] - near[1], 80, delta=1)
+        self.assertAlmostEqual(moved[2] - near[2], -50, delta=1)
+        self.double_click(x, y)
+
+        def assert_whole():
+            for one, other in zip(view(), whole):
+                self.assertAlmostEqual(one, other, delta=1e-6 * abs(other) + 1e-6)
+
+        self.eventually(assert_whole)
+        self.click(".map .zoom button[aria-label='Zoom in']")
+        self.eventually(
+            lambda: self.assertAlmostEqual(view()[0], 1.6 * whole[0], delta=1e-6 * whole[0])
+        )
+        self.browser.picture(PICTURES / "zoomed.png")
+
+    def test_a_plant_can_be_hidden(self):
+        self.open("slow/report.html")
+
+        def shown():
+            return self.run_in_page(
+                "const shown = e => getComputedStyle(e).display !== 'none';"
+                "return [Array.from(document.querySelectorAll('.car')).filter(shown).length,"
+                "  Array.from(document.querySelectorAll('.track')).filter(shown).length,"
+                "  Array.from(document.querySelectorAll('[data-quantity=speed] .readout')).filter(shown).length]"
+            )
+
+        def colours():
+            """How many pixels of the chart are of each plant's colour."""
+            return self.run_in_page(
+                "const canvas = document.querySelectorAll('[data-quantity=speed] canvas')[0];"
+                "const copy = new OffscreenCanvas(canvas.width, canvas.height)"
+                ".getContext('2d', {willReadFrequently: true});"
+                "copy.drawImage(canvas, 0, 0);"
+                "const d = copy.getImageData(0, 0, canvas.width, canvas.height).data;"
+                "let blue = 0, orange = 0;"
+                "for (let i = 0; i < d.length; i += 4) if (d[i + 3] > 100) {"
+                "  if (d[i + 2] > d[i] + 60) ++blue; else if (d[i] > d[i + 2] + 60) ++orange; }"
+                "return [blue, orange]"
+            )
+
+        self.assertEqual(shown(), [2, 2, 2])
+        blue, orange = colours()
+        self.assertGreater(orange, 300)
+        self.click(".legend [data-track=mujoco]")
+        self.assertEqual(shown(), [1, 1, 1])
+        alone = colours()
+        self.assertEqual(alone[1], 0)
+        self.assertGreater(alone[0], blue)  # what lay below
+        self.click(".legend [data-track=mujoco]")
+        self.assertEqual(shown(), [2, 2, 2])
+        self.assertEqual(colours(), [blue, orange])
+
+    def test_charts_zoom_together(self):
+        self.open("slow/report.html")
+
+        def ticks():
+            return self.run_in_page(
+                "return Array.from(document.querySelectorAll('.chart')).map(c => Array.from("
+                "c.querySelectorAll('.dygraph-axis-label-x')).map(e => e.textContent).join())"
+            )
+
+        whole = ticks()
+        self.assertEqual(len(set(whole)), 1)
+        plot = self.box("[data-quantity=speed] .plot")
+        y = plot["y"] + 60
+        self.drag(plot["x"] + 0.4 * plot["width"], y, plot["x"] + 0.6 * plot["width"], y + 2)
+        part = ticks()
+        self.assertEqual(len(set(part)), 1)
+        self.assertNotEqual(part, whole)
+        moments = [float(n) for n in re.findall(r"[\d.]+", part[0])]
+        self.assertGreater(moments[0], 2)
+        self.browser.picture(PICTURES / "part.png")
+        self.double_click(plot["x"] + 0.5 * plot["width"], y)
+        self.assertEqual(ticks(), whole)
+
+    def test_play_moves_on(self):
+        self.open("slow/report.html")
+        self.click("#play")
+        self.assertEqual(self.text("#play"), "Pause")
+        before = self.moment()
+        self.eventually(lambda: self.assertGreater(self.moment(), before))
+        self.click("#play")
+        still = self.moment()
+        self.browser.settle()
+        self.assertEqual(self.moment(), still)
+
+    def test_film_follows_and_leads(self):
+        if not self.has_video:
+            self.skipTest("built without video")
+        end = float(rows_of(self.root / "slow/mujoco.csv")[-1]["t_s"])
+        for page in ("slow/report.html", "beside.html"):
+            self.open(page)
+            self.eventually(
+                lambda: self.assertAlmostEqual(
+                    self.run_in_page("return document.querySelector('video').duration || 0"),
+                    end,
+                    delta=0.3,  # frames each 0.1 s
+                )
+            )
+            self.point_at("speed", 0.5)
+            self.eventually(
+                lambda: self.assertAlmostEqual(
+                    self.run_in_page("return document.querySelector('video').currentTime"),
+                    self.moment(),
+                    delta=0.011,
+                )
+            )
+            self.browser.driver.execute_async_script(
+                "const done = arguments[0]; document.querySelector('video').play().then(() => done());"
+            )
+            before = self.moment()
+            self.eventually(lambda: self.assertGreater(self.moment(), before + 0.1))
+            self.run_in_page("document.querySelector('video').pause()")
+
+    def test_dark(self):
+        self.open("slow/report.html", dark=True)
+        self.point_at("speed", 0.5)
+        light = self.run_in_page(
+            "const of = e => getComputedStyle(e);"
+            "const sum = c => c.match(/\\d+/g).slice(0, 3).reduce((a, b) => a + Number(b), 0);"
+            "return [sum(of(document.body).backgroundColor), sum(of(document.body).color)]"
+        )
+        self.assertLess(light[0], 120)
+        self.assertGreater(light[1], 600)
+        self.browser.picture(PICTURES / "dark.png")
+
+    def test_phone(self):
+        for page in ("slow/report.html", "both.html", "study/report.html"):
+            self.open(page, width=390, height=844)
+            self.width_is_kept()
+            self.browser.picture(PICTURES / f"phone-{page.split('/')[0].split('.')[0]}.png")
+        self.open("slow/report.html", width=390, height=844)
+        plot = self.box("[data-quantity=speed] .plot")
+        # A finger along the chart: no mouse is made of that.
+        touches = [
+            {"x": plot["x"] + share * plot["width"], "y": plot["y"] + 60}
+            for share in (0.3, 0.4, 0.5, 0.6)
+        ]
+        steps = [("touchStart", [touches[0]])]
+        steps += [("touchMove", [touch]) for touch in touches[1:]]
+        for kind, points in [*steps, ("touchEnd", [])]:
+            self.browser.driver.execute_cdp_cmd(
+                "Input.dispatchTouchEvent", {"type": kind, "touchPoints": points}
+            )
+        self.browser.settle()
+        end = float(rows_of(self.root / "slow/mujoco.csv")[-1]["t_s"])
+        self.assertAlmostEqual(self.moment() / end, 0.55, delta=0.15)
+        self.browser.picture(PICTURES / "phone-drive.png")
+
+    # Several runs.
+
+    def test_comparison(self):
+        self.open("both.html")
+        names = self.run_in_page(
+            "return Array.from(document.querySelectorAll('#headline tbody th')).map(e => e.textContent)"
+        )
+        self.assertEqual(
+            names, ["slow · kinematic", "slow · mujoco", "quick · kinematic", "quick · mujoco"]
+        )
+        shown = self.run_in_page(
+            "const i = Array.from(document.querySelectorAll('#headline thead th'))"
+            ".findIndex(e => e.textContent.startsWith('Largest cross-track'));"
+            "return Array.from(document.querySelectorAll('#headline tbody tr'))"
+            ".map(row => parseFloat(row.children[i].textContent))"
+        )
+        for one, (run, plant) in zip(shown, (name.split(" · ") for name in names)):
+            metrics = json.loads((self.root / run / "metrics.json").read_text())
+            exact = metrics["plants"][plant]["cross_track"]["max"]
+            self.assertAlmostEqual(one, exact, delta=max(5e-5, 5e-3 * exact))
+        # One colour each, the same in the legend, on the map and beside the readings.
+        colours = self.run_in_page(
+            "const of = s => Array.from(document.querySelectorAll(s)).map(e => getComputedStyle(e).color);"
+            "return [of('.legend button .dot'), of('.car'), of('.track'),"
+            " of('[data-quantity=speed] .readout .dot'), of('#numbers thead .dot')]"
+        )
+        self.assertEqual(len(set(colours[0])), 4)
+        for other in colours[1:]:
+            self.assertEqual(other, colours[0])
+        self.point_at("speed", 0.5)
+        for run, plant in (("slow", "mujoco"), ("quick", "kinematic")):
+            rows = rows_of(self.root / run / f"{plant}.csv")
+            x, y, _ = self.numbers(f".car[data-track='{run} · {plant}']")
+            self.assertAlmostEqual(x, value_at(rows, "x_m", self.moment()), delta=0.03)
+            self.assertAlmostEqual(y, value_at(rows, "y_m", self.moment()), delta=0.03)
+        # The obstacle is the same one; what differs in the scenarios is marked.
+        self.assertEqual(
+            self.run_in_page("return document.querySelectorAll('.map .obstacle').length"), 1
+        )
+        marked = self.run_in_page(
+            "return Array.from(document.querySelectorAll('pre .differs')).map(e => e.textContent.trim())"
+        )
+        self.assertEqual(sorted(set(marked)), ["speed: 3", "speed: 3.3"])
+        self.browser.picture(PICTURES / "comparison.png")
+
+    # A study.
+
+    def test_study(self):
+        self.open("study/report.html")
+        self.assertEqual(self.text("h1"), "fast")
+        rows = rows_of(self.root / "study/sweep.csv")
+        column = "metrics.kinematic.cross_track.max"
+        exact = [float(row[column]) for row in rows]
+        self.assertEqual(len(rows), 6)
+
+        def cells():
+            return self.run_in_page(
+                "const i = Array.from(document.querySelectorAll('#table thead th'))"
+                ".findIndex(e => e.dataset.column === arguments[0]);"
+                "return Array.from(document.querySelectorAll('#table tbody tr'))"
+                ".map(row => parseFloat(row.children[i].textContent))",
+                column,
+            )
+
+        def assert_shown(expected):
+            for one, other in zip(cells(), expected):
+                self.assertAlmostEqual(one, other, delta=1e-3 * other)  # four digits
+
+        assert_shown(exact)
+        button = f"#table th[data-column='{column}'] button"
+        self.click(button)
+        assert_shown(sorted(exact))
+        self.click(button)
+        assert_shown(sorted(exact, reverse=True))
+
+        def places(output):
+            return self.run_in_page(
+                "return Array.from(document.querySelectorAll(arguments[0])).map(e =>"
+                "[Number(e.getAttribute('cx')), Number(e.getAttribute('cy')), Number(e.dataset.row)])",
+                f"[data-output='{output}'] circle",
+            )
+
+        def assert_linear(pixels, values):
+            """Pixels are a linear function of the values."""
+            low, high = values.index(min(values)), values.index(max(values))
+            slope = (pixels[high] - pixels[low]) / (values[high] - values[low])
+            self.assertGreater(abs(slope), 0)
+            for pixel, value in zip(pixels, values):
+                self.assertAlmostEqual(
+                    pixel, pixels[low] + slope * (value - values[low]), delta=0.05
+                )
+
+        for over in ("control.distance", "mission.speed"):
+            self.run_in_page(
+                "const s = document.querySelector('#over');"
+                "s.value = Array.from(s.options).find(o => o.text.startsWith(arguments[0])).value;"
+                "s.dispatchEvent(new Event('change'))",
+                over,
+            )
+            self.browser.settle()
+            points = places(column)
+            self.assertEqual([row for _, _, row in points], [0, 1, 2, 3, 4, 5])
+            assert_linear([x for x, _, _ in points], [float(row[over]) for row in rows])
+            assert_linear([y for _, y, _ in points], exact)
+            self.assertLess(points[exact.index(max(exact))][1], points[exact.index(min(exact))][1])
+        # Only numbers are drawn.
+        self.assertEqual(places("plan.status"), [])
+        point = self.box(f"[data-output='{column}'] circle[data-row='4']")
+        self.mouse("mouseMoved", point["x"] + 4, point["y"] + 4)
+        self.browser.settle()
+        self.assertEqual(
+            self.run_in_page("return document.querySelector('#table .chosen').dataset.row"), "4"
+        )
+        tip = self.text(".tooltip")
+        self.assertIn("mission.speed [m/s]4", tip)
+        self.browser.picture(PICTURES / "study.png")
+        self.width_is_kept()
+
+    # What stands in files is text.
+
+    def test_text_is_no_markup(self):
+        self.open("evil.html")
+        self.assertEqual(self.text("h1"), EVIL)
+        self.assertEqual(self.text(".verdict li"), EVIL)
+        self.assertEqual(self.run_in_page("return document.querySelectorAll('#report b').length"), 0)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

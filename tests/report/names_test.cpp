@@ -1,0 +1,42 @@
+#include "src/report/names.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace trackbed {
+namespace {
+
+TEST(NameOfMetric, SaysWhatPeopleSay) {
+  EXPECT_EQ(NameOfMetric("cross_track.max").label, "Largest cross-track error");
+  EXPECT_EQ(NameOfMetric("cross_track.max").unit, "m");
+  EXPECT_TRUE(NameOfMetric("cross_track.max").headline);
+  EXPECT_FALSE(NameOfMetric("cross_track.rms").headline);
+  EXPECT_EQ(NameOfMetric("turns[1].heading_deficit").label, "Turn 2: heading deficit");
+  EXPECT_EQ(NameOfMetric("turns[1].heading_deficit").unit, "rad");
+  // Manoeuvres have numbers of their own.
+  EXPECT_EQ(NameOfMetric("manoeuvre.margin").label, "manoeuvre.margin");
+  EXPECT_EQ(NameOfMetric("manoeuvre.margin").unit, "");
+}
+
+TEST(NameOfOutput, SaysOfWhichPlant) {
+  EXPECT_EQ(NameOfOutput("metrics.mujoco:contact.goal_distance").label,
+            "Distance to the goal (mujoco:contact)");
+  EXPECT_EQ(NameOfOutput("metrics.*.goal_distance").label, "Distance to the goal");
+  EXPECT_EQ(NameOfOutput("metrics.kinematic.cross_track.max_s").label,
+            "cross_track.max_s (kinematic)");
+  EXPECT_EQ(NameOfOutput("between.kinematic.mujoco.position.max").label,
+            "Largest distance (kinematic – mujoco)");
+  EXPECT_EQ(NameOfOutput("between.kinematic.mujoco.heading.max").unit, "rad");
+  EXPECT_EQ(NameOfOutput("plan.length_m").unit, "m");
+  EXPECT_EQ(NameOfOutput("verdict.passed").label, "verdict.passed");
+}
+
+TEST(NameOfKey, HasTheUnitOfTheKeyTable) {
+  EXPECT_EQ(NameOfKey("mission.speed").unit, "m/s");
+  EXPECT_EQ(NameOfKey("seed").unit, "");
+  EXPECT_EQ(NameOfKey("control.distance").unit, "m");
+  EXPECT_EQ(NameOfKey("mission.waypoints[1]").label, "mission.waypoints[1]");
+}
+
+}  // namespace
+}  // namespace trackbed

@@ -1,0 +1,368 @@
+#include "trackbed/report/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boost/archive/iterators/binary_from_base64.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
+#include <regex>
+
+#include "tests/report/run_folders.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+using testing::EndsWith;
+using testing::HasSubstr;
+
+/// What stands in the page as its data.
+ordered_json DataIn(const std::string& page) {
+  const std::string begin = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t from = page.find(begin) + begin.size();
+  return ordered_json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+std::size_t Count(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) {
+    ++count;
+  }
+  return count;
+}
+
+/// The page with nothing in its script and style elements.
+std::string Markup(std::string page) {
+  for (const char* name : {"script", "style"}) {
+    const std::string open = std::string("<") + name;
+    const std::string close = std::string("</") + name + ">";
+    for (std::size_t at = 0; (at = page.find(open, at)) != std::string::npos;) {
+      const std::size_t from = page.find('>', at) + 1;
+      page.erase(from, page.find(close, from) - from);
+      at = from;
+    }
+  }
+  return page;
+}
+
+template <typename Call>
+std::string ErrorOf(const Call& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(ReportData, HoldsTheLogsOfTheRun) {
+  const TempFolder folder;
+  const fs::path run = DriveCorner(folder, "run",
+                                   "world: {obstacles: [{box: {x: 5, y: 9, yaw: 0.5, length: 3, "
+                                   "width: 1}, velocity: {x: 1}}]}\n");
+  const ordered_json data = ReportData({run})["runs"][0];
+  const std::vector<std::pair<const char*, const char*>> channels{
+      {"t", "t_s"},
+      {"x", "x_m"},
+      {"y", "y_m"},
+      {"yaw", "yaw_rad"},
+      {"speed", "speed_mps"},
+      {"steering_command", "steering_command_rad"},
+      {"steering", "steering_rad"},
+      {"yaw_rate", "yaw_rate_radps"},
+      {"lateral_acceleration", "lateral_acceleration_mps2"},
+      {"cross_track", "cross_track_m"},
+      {"heading_error", "heading_error_rad"},
+      {"clearance", "clearance_m"}};
+  ASSERT_EQ(data["plants"].size(), 2U);
+  for (const ordered_json& plant : data["plants"]) {
+    const Table csv = ReadCsv(run / (plant["name"].get<std::string>() + ".csv"));
+    ASSERT_EQ(plant["log"].size(), channels.size());
+    for (const auto& [name, column] : channels) {
+      const std::vector<double> values = csv.Column(column);
+      const ordered_json& shown = plant["log"][name];
+      ASSERT_EQ(shown.size(), values.size()) << name;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        // Half a unit of the sixth digit, or what counts as nothing.
+        ASSERT_NEAR(shown[i].get<double>(), values[i], std::max(5e-6 * std::abs(values[i]), 5e-7))
+            << name << " of row " << i;
+      }
+    }
+  }
+  const Table plan = ReadCsv(run / "plan.csv");
+  ASSERT_EQ(data["plan"]["line"]["x"].size(), plan.rows());
+  // The corner is at 20, 20: six digits are a tenth of a millimetre.
+  EXPECT_NEAR(data["plan"]["line"]["y"].back().get<double>(), plan.Column("y_m").back(), 1e-4);
+  EXPECT_EQ(data["world"]["obstacles"].dump(),
+            R"([{"x":5.0,"y":9.0,"yaw":0.5,"length":3.0,"width":1.0,"vx":1.0,"vy":0.0}])");
+  // The Prius, from the model that was driven.
+  EXPECT_EQ(data["car"]["length"], 4.45);
+  EXPECT_EQ(data["car"]["width"], 1.725);
+  EXPECT_EQ(data["resolved"], ReadFile(run / "scenario.resolved.yaml"));
+}
+
+TEST(ReportData, NamesEveryNumberOfADrive) {
+  const TempFolder folder;
+  const fs::path run = DriveCorner(
+      folder, "run", "world: {obstacles: [{box: {x: 5, y: 9, length: 3, width: 1}}]}\n");
+  const ordered_json data = ReportData({run})["runs"][0];
+  const ordered_json metrics = ordered_json::parse(ReadFile(run / "metrics.json"));
+  for (const ordered_json& plant : data["plants"]) {
+    const std::string name = plant["name"];
+    for (const ordered_json& number : plant["numbers"]) {
+      EXPECT_NE(number["label"], number["path"]);
+      if (number["path"] == "cross_track.max") {
+        const double exact = metrics["plants"][name]["cross_track"]["max"];
+        EXPECT_NEAR(number["value"].get<double>(), exact, 5e-6 * exact);
+      }
+    }
+  }
+  for (const ordered_json& number : data["between"][0]["numbers"]) {
+    EXPECT_NE(number["label"], number["path"]);
+  }
+}
+
+TEST(ReportData, FindsUnmetWhatTheVerdictFinds) {
+  const TempFolder folder;
+  const fs::path run = DriveCorner(
+      folder, "run",
+      "world: {obstacles: [{box: {x: 5, y: 9, length: 3, width: 1}}]}\n"
+      "expect:\n"
+      "  reach_goal: 0.5\n"
+      "  max_cross_track: 1.0e-9\n"
+      "  rms_cross_track: 1.0e-9\n"
+      "  max_heading_error: 1\n"
+      "  min_clearance: 100\n"
+      "  collision: true\n"
+      "  mujoco:\n"
+      "    reach_goal: 1.0e-9\n"
+      "    metrics:\n"
+      "      - {metric: distance, min: 1, max: 2}\n"
+      "      - {metric: plan_changes, equals: 1}\n"
+      "      - {metric: status, equals: arrived}\n"
+      "      - {metric: distanze, min: 1}\n"
+      "  between: [{plants: [mujoco, kinematic], position_max: 1.0e-9, heading_max: 1}]\n");
+  const ordered_json data = ReportData({run})["runs"][0];
+  std::vector<std::string> unmet;
+  for (const ordered_json& row : data["expectations"]) {
+    if (!row["met"]) {
+      unmet.push_back(row["of"].get<std::string>() + ": " + row["what"].get<std::string>() + " " +
+                      row["asked"].get<std::string>());
+    }
+  }
+  EXPECT_EQ(unmet.size(), data["verdict"]["failures"].size());
+  EXPECT_THAT(
+      unmet, testing::UnorderedElementsAre(
+                 "kinematic: Largest cross-track error ≤ 1e-09",
+                 "kinematic: Cross-track error, rms ≤ 1e-09", "kinematic: Smallest clearance ≥ 100",
+                 "kinematic: Collision = true", "mujoco: Largest cross-track error ≤ 1e-09",
+                 "mujoco: Cross-track error, rms ≤ 1e-09", "mujoco: Smallest clearance ≥ 100",
+                 "mujoco: Collision = true", "mujoco: Distance to the goal ≤ 1e-09",
+                 "mujoco: Distance driven ≤ 2", "mujoco: Plans taken up on the way = 1",
+                 "mujoco: distanze ≥ 1", "kinematic – mujoco: Largest distance ≤ 1e-09"));
+  // Every bound is there, and that the car arrives: 7 of each plant, 6 more of one, 2 of both.
+  EXPECT_EQ(data["expectations"].size(), 22U);
+}
+
+TEST(ReportData, ShowsAMissionWithoutAPlan) {
+  const TempFolder folder;
+  const fs::path run = DriveCorner(folder, "run", "");
+  const fs::path none = folder.path() / "none";
+  WriteRunFolder(RunMission(ParseScenario(
+                     "schema: 1\nname: none\nmission: {speed: 3, waypoints: [[0, 0], [10, "
+                     "0], [10, 10]]}\nplan: {method: fillet}\n",
+                     "none.yaml", ".")),
+                 none);
+  const ordered_json data = ReportData({none});
+  EXPECT_TRUE(data["runs"][0]["plants"].empty());
+  EXPECT_EQ(data["runs"][0]["plan"]["status"], "turn_too_tight");
+  EXPECT_FALSE(data["runs"][0]["verdict"]["passed"]);
+  EXPECT_EQ(ReportData({none, run})["runs"].size(), 2U);
+}
+
+TEST(ReportData, SaysWhatIsWrong) {
+  const TempFolder folder;
+  const fs::path run = DriveCorner(folder, "run", "drive: {plants: [kinematic]}\n");
+  const auto error = [&](const std::vector<fs::path>& paths) {
+    return ErrorOf([&] { ReportData(paths); });
+  };
+  EXPECT_THAT(error({folder.path() / "gone"}), EndsWith("gone: no such folder"));
+  EXPECT_THAT(error({folder.path()}), HasSubstr("neither a finished run (no metrics.json) nor"));
+  EXPECT_THAT(error({run / "metrics.json"}), HasSubstr("neither a finished run"));
+  EXPECT_THAT(error({run, folder.path() / "run/../run"}), HasSubstr("given twice"));
+  const fs::path study = folder.Write("study/sweep.csv", "seed,status\n1,passed\n");
+  EXPECT_THAT(error({run, study}), HasSubstr("a study has a report of its own"));
+  const auto broken = [&](const std::string& name, const std::string& text) {
+    const fs::path copy = folder.path() / "copy";
+    fs::remove_all(copy);
+    fs::copy(run, copy);
+    fs::remove(copy / name);
+    if (!text.empty()) {
+      folder.Write("copy/" + name, text);
+    }
+    return error({copy});
+  };
+  EXPECT_THAT(broken("kinematic.csv", ""), EndsWith("kinematic.csv: missing from the run folder"));
+  EXPECT_THAT(broken("kinematic.csv", "t_s,x_m\n0,a\n"), HasSubstr("no column 'y_m'"));
+  const std::string header = "t_s,x_m,y_m,yaw_rad,speed_mps,steering_command_rad,steering_rad\n";
+  EXPECT_THAT(broken("kinematic.csv", header + "0,0,0,0,0,0,0\n0,0,0,0,0,0,0\n"),
+              EndsWith("kinematic.csv:3: t_s: 0 does not come after 0"));
+  EXPECT_THAT(broken("kinematic.csv", header + "0,0,nan,0,0,0,0\n"),
+              HasSubstr("kinematic.csv:2: cell 3 (y_m)"));
+  EXPECT_THAT(broken("kinematic.csv", header), HasSubstr("kinematic.csv: no rows"));
+  EXPECT_THAT(broken("metrics.json", "{\"plants\": "), HasSubstr("metrics.json: "));
+  EXPECT_THAT(broken("metrics.json", "{}"), HasSubstr("metrics.json: "));
+  EXPECT_THAT(broken("plan.json", "[1"), HasSubstr("plan.json: "));
+  EXPECT_THAT(broken("scenario.resolved.yaml", ""), HasSubstr("missing from the run folder"));
+  EXPECT_THAT(broken("model.xml", ""), HasSubstr("missing from the run folder"));
+}
+
+TEST(ReportData, HoldsTheTableOfAStudy) {
+  const TempFolder folder;
+  const std::string csv =
+      "mission.speed,drive.plants,seed,status,metrics.*.cross_track.max,verdict.failures\n"
+      "2.5,\"[kinematic, mujoco]\",7,passed,0.0123456789,\n"
+      "3,[mujoco],8,no_plan,,\"no plan (<b>&), \"\"x\"\"\"\n";
+  folder.Write("study/sweep.csv", csv);
+  const fs::path table = folder.Write("my table.csv", csv);
+  const ordered_json study = ReportData({table})["study"];
+  EXPECT_EQ(study["name"], "my table");
+  const auto& columns = study["columns"];
+  std::vector<std::string> kinds;
+  for (const ordered_json& column : columns) {
+    kinds.push_back(column["kind"]);
+  }
+  EXPECT_THAT(kinds,
+              testing::ElementsAre("parameter", "parameter", "seed", "status", "output", "output"));
+  EXPECT_EQ(columns[0]["unit"], "m/s");
+  EXPECT_EQ(columns[4]["label"], "Largest cross-track error");
+  EXPECT_EQ(study["rows"].dump(),
+            R"([[2.5,"[kinematic, mujoco]",7.0,"passed",0.0123457,null],)"
+            R"([3.0,"[mujoco]",8.0,"no_plan",null,"no plan (<b>&), \"x\""]])");
+  // In the folder of a sweep its description tells more.
+  EXPECT_EQ(ReportData({folder.path() / "study"})["study"]["name"], "sweep");
+  folder.Write("study/sweep.json",
+               R"({"study": "fast", "scenario": "a.yaml", "complete": false, "rows_expected": 3,)"
+               R"( "versions": {}})");
+  EXPECT_EQ(ReportData({folder.path() / "study"})["study"]["name"], "fast");
+  EXPECT_EQ(ReportData({folder.path() / "study"})["study"]["complete"], false);
+  folder.Write("study/sweep.json", "{}");
+  EXPECT_THAT(ErrorOf([&] { ReportData({folder.path() / "study"}); }), HasSubstr("sweep.json: "));
+  EXPECT_THAT(ErrorOf([&] { ReportData({folder.Write("other.csv", "a,b\n1,2\n")}); }),
+              HasSubstr("other.csv:1: no column 'status'"));
+}
+
+TEST(ReportPage, HoldsTheDataWhateverIsInIt) {
+  const TempFolder folder;
+  const fs::path run = DriveCorner(folder, "run", "drive: {plants: [kinematic]}\n");
+  const std::string plain = ReportPage(ReportData({run}));
+  const std::string evil = "<b>&amp;\"'<!--<script>alert(1)</script><img src=x onerror=alert(2)>";
+  const fs::path odd = folder.path() / "<b>&\"<img src=x>";
+  fs::copy(run, odd);
+  ordered_json metrics = ordered_json::parse(ReadFile(run / "metrics.json"));
+  metrics["scenario"] = evil;
+  metrics["verdict"]["failures"] = {evil};
+  WriteFileAtomically(odd / "metrics.json", metrics.dump());
+  const ordered_json data = ReportData({odd});
+  const std::string page = ReportPage(data);
+  EXPECT_EQ(DataIn(page), data);
+  EXPECT_EQ(data["runs"][0]["scenario"], evil);
+  EXPECT_THAT(page, HasSubstr("<title>&lt;b&gt;&amp;\"&lt;img src=x&gt;</title>"));
+  // Beside the title, the markup is that of any other page.
+  const std::regex title("<title>.*</title>");
+  EXPECT_EQ(std::regex_replace(Markup(page), title, ""),
+            std::regex_replace(Markup(plain), title, ""));
+  EXPECT_EQ(Count(page, "</script"), Count(plain, "</script"));
+  EXPECT_EQ(Count(page, "<!--"), Count(plain, "<!--"));
+}
+
+TEST(ReportPage, TakesWhatIsNoUtf8) {
+  const TempFolder folder;
+  const fs::path run = DriveCorner(folder, "run", "drive: {plants: [kinematic]}\n");
+  const fs::path odd = folder.path() / "latin \xE9";
+  fs::copy(run, odd);
+  const std::string page = ReportPage(ReportData({odd}));
+  EXPECT_EQ(DataIn(page)["runs"][0]["name"], "latin \xEF\xBF\xBD");
+  EXPECT_THAT(page, HasSubstr("<title>latin \xEF\xBF\xBD</title>"));
+}
+
+TEST(ReportPage, LoadsNothing) {
+  const TempFolder folder;
+  const std::string page =
+      ReportPage(ReportData({DriveCorner(folder, "run", "drive: {plants: [kinematic]}\n")}));
+  EXPECT_THAT(page, HasSubstr("http-equiv=\"Content-Security-Policy\" content=\"default-src "
+                              "'none'; script-src 'unsafe-inline'; "));
+  const std::string markup = Markup(page);
+  const std::regex load(R"re((src|href|action|data)\s*=\s*"([^"]*)")re");
+  for (std::sregex_iterator it(markup.begin(), markup.end(), load), end; it != end; ++it) {
+    EXPECT_THAT((*it)[2].str(), testing::StartsWith("data:"));
+  }
+  EXPECT_EQ(Count(markup, "http:") + Count(markup, "https:") + Count(markup, "<link"), 1U)
+      << "the icon, which is empty";
+  const std::string style = page.substr(page.find("<style>"), page.find("</style>"));
+  EXPECT_EQ(Count(style, "@import") + Count(style, "url("), 0U);
+}
+
+TEST(ReportPage, StaysSmall) {
+  const TempFolder folder;
+  const fs::path run = DriveCorner(folder, "run", "");
+  for (const double period : {0.02, 0.002}) {
+    for (const char* plant : {"kinematic", "mujoco"}) {
+      LengthenLog(run / (std::string(plant) + ".csv"), 60.0, period);
+    }
+    EXPECT_LT(ReportPage(ReportData({run})).size(), 3'000'000U) << "a row each " << period << " s";
+  }
+  const ordered_json log = ReportData({run})["runs"][0]["plants"][0]["log"];
+  EXPECT_LE(log["t"].size(), 10000U);  // half of all rows
+  EXPECT_GT(log["t"].size(), 3000U);
+}
+
+std::string FromBase64(std::string text) {
+  using boost::archive::iterators::binary_from_base64;
+  using boost::archive::iterators::transform_width;
+  using Decoder = transform_width<binary_from_base64<std::string::const_iterator>, 8, 6>;
+  const auto padding = static_cast<std::size_t>(std::count(text.begin(), text.end(), '='));
+  std::replace(text.begin(), text.end(), '=', 'A');
+  std::string bytes(Decoder(text.cbegin()), Decoder(text.cend()));
+  return bytes.substr(0, bytes.size() - padding);
+}
+
+TEST(WriteReport, PutsTheFilmWhereItIsAsked) {
+  const TempFolder folder;
+  const fs::path run = DriveCorner(folder, "a run", "drive: {plants: [kinematic]}\n");
+  fs::create_directory(folder.path() / "pages");
+  const fs::path page = folder.path() / "pages" / "page.html";
+  // RFC 4648 has these.
+  const std::vector<std::pair<std::string, std::string>> known{
+      {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foobar", "Zm9vYmFy"}};
+  for (const auto& [bytes, text] : known) {
+    folder.Write("a run/video.mp4", bytes);
+    WriteReport({run}, page);
+    EXPECT_EQ(DataIn(ReadFile(page))["runs"][0]["film"]["base64"], text);
+  }
+  std::string film;
+  for (int i = 0; i < 1000; ++i) {
+    film += static_cast<char>(i * 37 % 256);
+  }
+  folder.Write("a run/video.mp4", film);
+  WriteReport({run}, page);
+  EXPECT_EQ(FromBase64(DataIn(ReadFile(page))["runs"][0]["film"]["base64"]), film);
+  WriteReport({run}, page, FilmPlace::kBeside);
+  EXPECT_EQ(DataIn(ReadFile(page))["runs"][0]["film"]["url"], "../a%20run/video.mp4");
+  WriteReport({run}, page, FilmPlace::kAbsent);
+  EXPECT_FALSE(DataIn(ReadFile(page))["runs"][0].contains("film"));
+}
+
+TEST(WriteReport, RepeatsItself) {
+  const TempFolder folder;
+  const fs::path run = DriveCorner(folder, "run", "drive: {plants: [kinematic]}\n");
+  WriteReport({run}, folder.path() / "a.html");
+  WriteReport({run}, folder.path() / "b.html");
+  EXPECT_EQ(ReadFile(folder.path() / "a.html"), ReadFile(folder.path() / "b.html"));
+  EXPECT_THROW(WriteReport({run}, folder.path() / "gone" / "a.html"), RunError);
+}
+
+}  // namespace
+}  // namespace trackbed

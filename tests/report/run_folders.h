@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/support/temp_folder.h"
+#include "trackbed/analysis/run.h"
+#include "trackbed/core/file.h"
+#include "trackbed/core/table.h"
+
+namespace trackbed {
+
+/// Drives a scenario of a corner and writes its run folder. `keys` are sections beside the mission.
+inline std::filesystem::path DriveCorner(const TempFolder& folder, const std::string& name,
+                                         const std::string& keys) {
+  const std::string yaml =
+      "schema: 1\n"
+      "name: corner\n"
+      "mission: {speed: 3, waypoints: [[0, 0], [20, 0], [20, 20]]}\n"
+      "plan: {method: fillet}\n" +
+      keys;
+  const std::filesystem::path out = folder.path() / name;
+  WriteRunFolder(RunMission(ParseScenario(yaml, "corner.yaml", ".")), out);
+  return out;
+}
+
+/// Repeats the rows of a log until it is `duration` long, a row each `period`, with as many digits
+/// as before.
+inline void LengthenLog(const std::filesystem::path& file, double duration, double period) {
+  const Table log = ReadCsv(file);
+  Table longer(log.columns());
+  const auto rows = static_cast<std::size_t>(duration / period);
+  for (std::size_t i = 0; i <= rows; ++i) {
+    std::vector<double> row;
+    for (std::size_t column = 0; column < log.columns().size(); ++column) {
+      row.push_back(log.at(i % log.rows(), column));
+    }
+    row[0] = period * static_cast<double>(i);
+    longer.AddRow(row);
+  }
+  WriteFileAtomically(file, longer.ToCsv());
+}
+
+}  // namespace trackbed
