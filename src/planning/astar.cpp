@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 
 #include "trackbed/core/error.h"
 
@@ -12,6 +13,8 @@ namespace trackbed {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
+/// The cost of an occupied cell: no way there is ever a better one.
+constexpr double kOccupied = -kNever;
 
 struct Step {
   int dx;
@@ -21,16 +24,18 @@ struct Step {
 constexpr std::array<Step, 8> kSteps{
     {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
 
-/// The grid with a border of occupied cells, so that no step needs to look where it is.
-struct Bordered {
-  explicit Bordered(const OccupancyGrid& grid)
+/// The cost of the best known way to each cell, of a grid with a border of occupied cells, so that
+/// no step needs to look where it is.
+struct Costs {
+  explicit Costs(const OccupancyGrid& grid)
       : width(grid.columns + 2),
-        occupied(static_cast<std::size_t>(width) * static_cast<std::size_t>(grid.rows + 2), 1),
+        cost(static_cast<std::size_t>(width) * static_cast<std::size_t>(grid.rows + 2), kOccupied),
         columns(grid.columns) {
     for (int row = 0; row < grid.rows; ++row) {
       const auto from = grid.occupied.begin() + static_cast<std::ptrdiff_t>(row) * grid.columns;
-      std::copy(from, from + grid.columns,
-                occupied.begin() + static_cast<std::ptrdiff_t>(row + 1) * width + 1);
+      std::transform(from, from + grid.columns,
+                     cost.begin() + static_cast<std::ptrdiff_t>(row + 1) * width + 1,
+                     [](std::uint8_t occupied) { return occupied != 0 ? kOccupied : kNever; });
     }
     for (std::size_t i = 0; i < kSteps.size(); ++i) {
       offset[i] = kSteps[i].dy * width + kSteps[i].dx;
@@ -44,12 +49,10 @@ struct Bordered {
   [[nodiscard]] std::size_t Outside(int index) const {
     return static_cast<std::size_t>((index / width - 1) * columns + index % width - 1);
   }
-  [[nodiscard]] bool Occupied(int index) const {
-    return occupied[static_cast<std::size_t>(index)] != 0;
-  }
+  double& operator[](int index) { return cost[static_cast<std::size_t>(index)]; }
 
   int width;
-  std::vector<std::uint8_t> occupied;
+  std::vector<double> cost;
   std::array<int, 8> offset{};
 
  private:
@@ -61,7 +64,8 @@ struct Bordered {
 class Buckets {
  public:
   struct Entry {
-    int cell;
+    int x;  // of the bordered grid: without them every estimate would take two divisions
+    int y;
     double cost;
   };
 
@@ -100,20 +104,64 @@ class Buckets {
   std::size_t now_ = 0;
 };
 
-/// Calls `take` with each neighbour that can be stepped to, the step's number and its cost.
-template <typename Take>
-void ForEachNeighbour(const Bordered& grid, int cell, const Take& take) {
-  std::array<bool, 4> free{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    free[i] = !grid.Occupied(cell + grid.offset[i]);
-    if (free[i]) {
-      take(cell + grid.offset[i], i, 1.0);
+/// A cell from which no more than this many can be reached is in a pocket.
+constexpr std::size_t kPocket = 64;
+
+/// How many cells can be reached from one that is in a pocket without the other; else 0. Looked at
+/// first: it takes microseconds, and what the search itself sets up takes longer; without it, a
+/// goal in a pocket would be found out only when all else has been looked at.
+std::size_t PocketOf(const OccupancyGrid& grid, std::size_t cell, std::size_t other) {
+  const auto free = [&](int x, int y) {
+    return x >= 0 && y >= 0 && x < grid.columns && y < grid.rows &&
+           grid.occupied[static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.columns) +
+                         static_cast<std::size_t>(x)] == 0;
+  };
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  std::vector<std::size_t> reached{cell};
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const auto x = static_cast<int>(reached[i] % columns);
+    const auto y = static_cast<int>(reached[i] / columns);
+    // What is across can be reached, if at all, along what is beside.
+    for (const auto& [dx, dy] : {kSteps[0], kSteps[1], kSteps[2], kSteps[3]}) {
+      if (!free(x + dx, y + dy)) {
+        continue;
+      }
+      const std::size_t next =
+          static_cast<std::size_t>(y + dy) * columns + static_cast<std::size_t>(x + dx);
+      if (next == other) {
+        return 0;
+      }
+      if (std::find(reached.begin(), reached.end(), next) == reached.end()) {
+        if (reached.size() == kPocket) {
+          return 0;
+        }
+        reached.push_back(next);
+      }
     }
   }
+  return reached.size();
+}
+
+/// Notes every neighbour to which the way through `cell`, at `cost`, is the best one known, and
+/// calls `take` with it, the step's number and the cost.
+template <typename Take>
+void ForEachBetter(Costs& costs, int cell, double cost, const Take& take) {
+  const auto offer = [&](std::size_t i, double through) {
+    double& best = costs[cell + costs.offset[i]];
+    const bool free = best != kOccupied;
+    if (through < best) {
+      best = through;
+      take(cell + costs.offset[i], i, through);
+    }
+    return free;
+  };
+  std::array<bool, 4> free{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    free[i] = offer(i, cost + 1.0);
+  }
   for (std::size_t i = 4; i < 8; ++i) {
-    const bool beside = free[kSteps[i].dx > 0 ? 0 : 1] && free[kSteps[i].dy > 0 ? 2 : 3];
-    if (beside && !grid.Occupied(cell + grid.offset[i])) {
-      take(cell + grid.offset[i], i, std::numbers::sqrt2);
+    if (free[kSteps[i].dx > 0 ? 0 : 1] && free[kSteps[i].dy > 0 ? 2 : 3]) {
+      offer(i, cost + std::numbers::sqrt2);
     }
   }
 }
@@ -151,24 +199,31 @@ GridPath SearchGrid(const OccupancyGrid& grid, std::size_t start, std::size_t go
         grid.occupied[start] != 0 ? GridStatus::kStartOccupied : GridStatus::kGoalOccupied;
     return result;
   }
-  const Bordered bordered(grid);
-  const int from = bordered.Inside(start);
-  const int to = bordered.Inside(goal);
-  const int goal_x = to % bordered.width;
-  const int goal_y = to / bordered.width;
-  const auto heuristic = [&](int cell) {
-    return OctileDistance(cell % bordered.width - goal_x, cell / bordered.width - goal_y);
-  };
-  std::vector<double> cost(bordered.occupied.size(), kNever);
-  std::vector<std::uint8_t> came_by(bordered.occupied.size(), 0);
-  const double least = heuristic(from);
+  for (const auto& [cell, other] : {std::pair(start, goal), std::pair(goal, start)}) {
+    const auto pocket = start == goal ? 0L : static_cast<long>(PocketOf(grid, cell, other));
+    if (pocket > 0 && pocket <= budget) {
+      result.expansions = pocket;
+      return result;
+    }
+  }
+  Costs costs(grid);
+  const int from = costs.Inside(start);
+  const int to = costs.Inside(goal);
+  const int goal_x = to % costs.width;
+  const int goal_y = to / costs.width;
+  const auto heuristic = [&](int x, int y) { return OctileDistance(x - goal_x, y - goal_y); };
+  std::vector<std::uint8_t> came_by(costs.cost.size(), 0);
+  const int start_x = from % costs.width;
+  const int start_y = from / costs.width;
+  const double least = heuristic(start_x, start_y);
   Buckets open;
-  cost[static_cast<std::size_t>(from)] = 0.0;
-  open.Push(0.0, {from, 0.0});
-  const double& goal_cost = cost[static_cast<std::size_t>(to)];
+  costs[from] = 0.0;
+  open.Push(0.0, {start_x, start_y, 0.0});
+  const double& goal_cost = costs[to];
   const auto found = [&](double keys_left) { return goal_cost - least < keys_left; };
   for (Buckets::Entry at{}; open.Pop(at, found);) {
-    if (at.cost > cost[static_cast<std::size_t>(at.cell)] || at.cost >= goal_cost) {
+    const int here = at.y * costs.width + at.x;
+    if (at.cost > costs[here] || at.cost >= goal_cost) {
       continue;  // a better way to here, or to the goal, has been found since
     }
     if (result.expansions >= budget) {
@@ -176,14 +231,11 @@ GridPath SearchGrid(const OccupancyGrid& grid, std::size_t start, std::size_t go
       return result;
     }
     ++result.expansions;
-    ForEachNeighbour(bordered, at.cell, [&](int cell, std::size_t step, double length) {
-      const double through = at.cost + length;
-      double& best = cost[static_cast<std::size_t>(cell)];
-      if (through < best) {
-        best = through;
-        came_by[static_cast<std::size_t>(cell)] = static_cast<std::uint8_t>(step);
-        open.Push(through + heuristic(cell) - least, {cell, through});
-      }
+    ForEachBetter(costs, here, at.cost, [&](int cell, std::size_t step, double through) {
+      came_by[static_cast<std::size_t>(cell)] = static_cast<std::uint8_t>(step);
+      const int x = at.x + kSteps[step].dx;
+      const int y = at.y + kSteps[step].dy;
+      open.Push(through + heuristic(x, y) - least, {x, y, through});
     });
   }
   if (goal_cost == kNever) {
@@ -191,8 +243,8 @@ GridPath SearchGrid(const OccupancyGrid& grid, std::size_t start, std::size_t go
   }
   result.status = GridStatus::kFound;
   result.cost = goal_cost;
-  for (int cell = to;; cell -= bordered.offset[came_by[static_cast<std::size_t>(cell)]]) {
-    result.cells.push_back(bordered.Outside(cell));
+  for (int cell = to;; cell -= costs.offset[came_by[static_cast<std::size_t>(cell)]]) {
+    result.cells.push_back(costs.Outside(cell));
     if (cell == from) {
       break;
     }
@@ -203,28 +255,24 @@ GridPath SearchGrid(const OccupancyGrid& grid, std::size_t start, std::size_t go
 
 std::vector<double> DistancesTo(const OccupancyGrid& grid, std::size_t goal) {
   TRACKBED_CHECK(goal < grid.size(), "cell {} of {}", goal, grid.size());
-  const Bordered bordered(grid);
-  const int to = bordered.Inside(goal);
-  std::vector<double> cost(bordered.occupied.size(), kNever);
+  Costs costs(grid);
+  const int to = costs.Inside(goal);
   Buckets open;
-  cost[static_cast<std::size_t>(to)] = 0.0;
-  open.Push(0.0, {to, 0.0});
+  costs[to] = 0.0;
+  open.Push(0.0, {to % costs.width, to / costs.width, 0.0});
   for (Buckets::Entry at{}; open.Pop(at, [](double) { return false; });) {
-    if (at.cost > cost[static_cast<std::size_t>(at.cell)]) {
+    const int here = at.y * costs.width + at.x;
+    if (at.cost > costs[here]) {
       continue;
     }
-    ForEachNeighbour(bordered, at.cell, [&](int cell, std::size_t, double length) {
-      const double through = at.cost + length;
-      double& best = cost[static_cast<std::size_t>(cell)];
-      if (through < best) {
-        best = through;
-        open.Push(through, {cell, through});
-      }
+    ForEachBetter(costs, here, at.cost, [&](int, std::size_t step, double through) {
+      open.Push(through, {at.x + kSteps[step].dx, at.y + kSteps[step].dy, through});
     });
   }
   std::vector<double> distances(grid.size());
   for (std::size_t i = 0; i < distances.size(); ++i) {
-    distances[i] = cost[static_cast<std::size_t>(bordered.Inside(i))];
+    const double cost = costs[costs.Inside(i)];
+    distances[i] = cost == kOccupied ? kNever : cost;
   }
   return distances;
 }

@@ -98,6 +98,26 @@ TEST(AStar, CostsWhatBruteForceFinds) {
   EXPECT_GT(found, 80);
 }
 
+TEST(AStar, SeesAtOnceThatAnEndIsInAPocket) {
+  const OccupancyGrid grid = Drawn({"............",  //
+                                    "............",  //
+                                    "..###.......",  //
+                                    "..#.#.......",  //
+                                    "..#.#.......",  //
+                                    "..###.......",  //
+                                    "............",  //
+                                    "............"});
+  const std::size_t inside = 3 * 12 + 3;
+  for (const auto& [start, goal] : {std::pair{inside, std::size_t{0}}, {std::size_t{0}, inside}}) {
+    const GridPath path = SearchGrid(grid, start, goal);
+    EXPECT_EQ(path.status, GridStatus::kUnreachable);
+    EXPECT_EQ(path.expansions, 2);
+    EXPECT_EQ(SearchGrid(grid, start, goal, 1).status, GridStatus::kBudgetUsedUp);
+  }
+  EXPECT_TRUE(SearchGrid(grid, inside, inside + 12).ok());
+  EXPECT_TRUE(SearchGrid(grid, inside, inside).ok());
+}
+
 TEST(AStar, WalksFromCellToNeighbourAndCutsNoCorner) {
   Random random(2);
   for (int i = 0; i < 40; ++i) {
