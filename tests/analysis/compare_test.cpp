@@ -154,24 +154,28 @@ TEST(DifferencesOverArcLength, AreThoseOfTheSecondFromTheFirst) {
 }
 
 TEST(Exceeded, SaysWhatWasExpectedWhatWasWhereAndWhen) {
-  const Difference half{.rms = 0.1, .max = 0.5, .max_s = 12.0, .max_t = 4.0};
+  const auto apart = [](double max) {
+    return Difference{.rms = 0.1, .max = max, .max_s = 20.0 * max, .max_t = 8.0 * max};
+  };
   const PlantComparison c{.first = "a",
                           .second = "b",
                           .from_s = 0.0,
                           .to_s = 20.0,
-                          .position = half,
-                          .heading = half,
-                          .yaw_rate = half,
-                          .steering = half};
-  EXPECT_THAT(Exceeded({0.5, 0.5, 0.5, 0.5}, c), testing::IsEmpty());
+                          .position = apart(0.5),
+                          .heading = apart(0.25),
+                          .yaw_rate = apart(0.75),
+                          .steering = apart(1.0)};
+  EXPECT_THAT(Exceeded({0.5, 0.25, 0.75, 1.0}, c), testing::IsEmpty());
   EXPECT_THAT(Exceeded({}, c), testing::IsEmpty());
-  const std::string was = " at s = 12 m, t = 4 s";
-  EXPECT_THAT(Exceeded({0.4, 0.3, 0.2, 0.1}, c),
-              testing::ElementsAre(
-                  "a and b: position difference expected at most 0.4 m, was 0.5 m" + was,
-                  "a and b: heading difference expected at most 0.3 rad, was 0.5 rad" + was,
-                  "a and b: yaw rate difference expected at most 0.2 rad/s, was 0.5 rad/s" + was,
-                  "a and b: steering difference expected at most 0.1 rad, was 0.5 rad" + was));
+  EXPECT_THAT(
+      Exceeded({0.4, 0.2, 0.7, 0.9}, c),
+      testing::ElementsAre(
+          "a and b: position difference expected at most 0.4 m, was 0.5 m at s = 10 m, t = 4 s",
+          "a and b: heading difference expected at most 0.2 rad, was 0.25 rad at s = 5 m, t = 2 s",
+          "a and b: yaw rate difference expected at most 0.7 rad/s, was 0.75 rad/s at s = 15 m, t "
+          "= 6 s",
+          "a and b: steering difference expected at most 0.9 rad, was 1 rad at s = 20 m, t = 8 "
+          "s"));
 }
 
 TEST(TraceOf, LeavesOutWhereTheCarDoesNotGetOn) {
