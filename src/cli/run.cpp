@@ -9,6 +9,8 @@
 #include "src/cli/film_of_run.h"
 #include "src/cli/scenario_runs.h"
 #include "src/cli/verbs.h"
+#include "trackbed/analysis/mcap.h"
+#include "trackbed/core/file.h"
 
 namespace trackbed::cli {
 namespace {
@@ -19,6 +21,7 @@ struct RunOptions {
   std::vector<std::string> files;
   std::string out;
   bool video = false;
+  bool mcap = false;
   ScenarioOptions scenario;
 };
 
@@ -66,6 +69,9 @@ int RunOne(const ScenarioRun& run, const RunOptions& options) {
   const fs::path& out = run.folder;
   const RunResult result = DriveScenario(run, options.scenario.quiet);
   WriteRunFolder(result, out);
+  if (options.mcap && !result.logs.empty()) {
+    WriteFileAtomically(out / kMcapName, ToMcap(result));
+  }
   if (options.video && !result.interrupted && result.plan.ok()) {
     const RenderSpec& render = scenario.render;
     FilmRun(out, out / kVideoName,
@@ -98,6 +104,8 @@ void AddRun(CLI::App& command, int& exit_code) {
       ->type_name("DIR");
   options->scenario.AddTo(command);
   command.add_flag("--video", options->video, "Film the run: video.mp4 in its folder");
+  command.add_flag("--mcap", options->mcap,
+                   "Log for Foxglove and others, too: run.mcap in its folder");
   command.callback([options, &exit_code] {
     const std::vector<ScenarioRun> runs =
         ReadScenarioRuns(options->files, options->scenario, options->out, "out");

@@ -334,7 +334,7 @@ TEST(ReadExpectations, ReadsThatSectionAlone) {
   EXPECT_EQ(expect.plants[0].first, "mujoco");
   EXPECT_EQ(expect.plants[0].second.max_cross_track, 0.1);
   ASSERT_EQ(expect.between.size(), 1U);
-  EXPECT_EQ(expect.between[0].position_max, 0.3);
+  EXPECT_EQ(expect.between[0].bounds.position_max, 0.3);
   EXPECT_FALSE(ReadExpectations(folder.Write("b.yaml", "schema: 1\n")).all.reach_goal);
   EXPECT_THROW(ReadExpectations(folder.Write("c.yaml", "expect: {reach: 1}\n")), InputError);
 }
