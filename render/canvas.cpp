@@ -125,6 +125,104 @@ void Canvas::Arrow(double middle_x, double middle_y, double length, double direc
   }
 }
 
+Canvas::Box Canvas::BoxAround(const std::vector<CanvasPoint>& points, double reach) const {
+  double left = image_.width;
+  double top = image_.height;
+  double right = 0.0;
+  double bottom = 0.0;
+  for (const CanvasPoint& point : points) {
+    left = std::min(left, point.x - reach);
+    top = std::min(top, point.y - reach);
+    right = std::max(right, point.x + reach + 1.0);
+    bottom = std::max(bottom, point.y + reach + 1.0);
+  }
+  return {static_cast<int>(std::max(0.0, left)), static_cast<int>(std::max(0.0, top)),
+          static_cast<int>(std::min<double>(image_.width, right)),
+          static_cast<int>(std::min<double>(image_.height, bottom))};
+}
+
+void Canvas::Stroke(const std::vector<CanvasPoint>& points, double width, Color color,
+                    double alpha) {
+  const double reach = 0.5 * width + 0.5;  // half a pixel of fading
+  const Box all = BoxAround(points, reach);
+  if (points.size() < 2 || all.right <= all.left || all.bottom <= all.top) {
+    return;
+  }
+  // Pieces overlap at the points between them: each pixel takes the most that any covers of it.
+  const auto columns = static_cast<std::size_t>(all.right - all.left);
+  std::vector<float> covered(columns * static_cast<std::size_t>(all.bottom - all.top));
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const CanvasPoint& a = points[i - 1];
+    const CanvasPoint& b = points[i];
+    const double dx = b.x - a.x;
+    const double dy = b.y - a.y;
+    const double squared = std::max(dx * dx + dy * dy, 1e-12);
+    const Box box = BoxAround({a, b}, reach);
+    for (int y = box.top; y < box.bottom; ++y) {
+      for (int x = box.left; x < box.right; ++x) {
+        const double right = x + 0.5 - a.x;
+        const double down = y + 0.5 - a.y;
+        const double along = std::clamp((right * dx + down * dy) / squared, 0.0, 1.0);
+        const double away_x = right - along * dx;
+        const double away_y = down - along * dy;
+        const double away = away_x * away_x + away_y * away_y;
+        if (away < reach * reach) {
+          float& most = covered[static_cast<std::size_t>(y - all.top) * columns +
+                                static_cast<std::size_t>(x - all.left)];
+          most = std::max(most, static_cast<float>(std::min(1.0, reach - std::sqrt(away))));
+        }
+      }
+    }
+  }
+  for (int y = all.top; y < all.bottom; ++y) {
+    for (int x = all.left; x < all.right; ++x) {
+      const float share = covered[static_cast<std::size_t>(y - all.top) * columns +
+                                  static_cast<std::size_t>(x - all.left)];
+      if (share > 0.0F) {
+        Blend(x, y, color, alpha * static_cast<double>(share));
+      }
+    }
+  }
+}
+
+void Canvas::FillConvex(const std::vector<CanvasPoint>& corners, Color color, double alpha) {
+  double area = 0.0;  // twice; its sign is the order of the corners
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const CanvasPoint& a = corners[i];
+    const CanvasPoint& b = corners[(i + 1) % corners.size()];
+    area += a.x * b.y - b.x * a.y;
+  }
+  struct Edge {
+    double across_x;  // unit vector inwards
+    double across_y;
+    double offset;
+  };
+  std::vector<Edge> edges;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const CanvasPoint& a = corners[i];
+    const CanvasPoint& b = corners[(i + 1) % corners.size()];
+    const double length = std::copysign(std::hypot(b.x - a.x, b.y - a.y), area);
+    if (length != 0.0) {
+      const double across_x = (a.y - b.y) / length;
+      const double across_y = (b.x - a.x) / length;
+      edges.push_back({across_x, across_y, across_x * a.x + across_y * a.y});
+    }
+  }
+  const Box box = BoxAround(corners, 0.5);
+  for (int y = box.top; y < box.bottom; ++y) {
+    for (int x = box.left; x < box.right; ++x) {
+      double inside = 1.0;
+      for (const Edge& edge : edges) {
+        inside = std::min(
+            inside, edge.across_x * (x + 0.5) + edge.across_y * (y + 0.5) - edge.offset + 0.5);
+      }
+      if (inside > 0.0) {
+        Blend(x, y, color, alpha * inside);
+      }
+    }
+  }
+}
+
 double Canvas::Text(double left, double top, std::string_view text, double size, Color color) {
   double pen = left;
   const int first_row = static_cast<int>(std::lround(top));

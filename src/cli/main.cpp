@@ -34,7 +34,8 @@ const std::vector<Verb> kVerbs{
     {"sweep", "Run a study: one scenario with many values of its keys, made into one table",
      AddSweep},
     {"list",
-     "What there is: planners, controllers, manoeuvres, plants, optimizers, cameras, models, "
+     "What there is: planners, controllers, manoeuvres, plants, optimizers, cameras, overlays, "
+     "models, "
      "scenarios",
      AddList},
     {"model", "What a car is, or its composed MJCF", AddModel},
