@@ -1,6 +1,7 @@
 #include "render/canvas.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -23,6 +24,18 @@ std::uint8_t AverageOver(const Image& glyph, double left, double top, double ste
     }
   }
   return static_cast<std::uint8_t>(std::lround(std::clamp(sum / (step * step), 0.0, 255.0)));
+}
+
+std::array<std::uint8_t, 3> Blended(const std::array<std::uint8_t, 3>& under, Color color,
+                                    double alpha) {
+  const std::array<float, 3> rgb{color.r, color.g, color.b};
+  std::array<std::uint8_t, 3> blended{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    // Rounds what is never negative: std::lround takes ten times as long.
+    blended[i] = static_cast<std::uint8_t>(
+        under[i] + alpha * (255.0 * static_cast<double>(rgb[i]) - under[i]) + 0.5);
+  }
+  return blended;
 }
 
 }  // namespace
@@ -73,20 +86,37 @@ void Canvas::Blend(int x, int y, Color color, double alpha) {
     return;
   }
   std::uint8_t* pixel = image_.Pixel(x, y);
-  const std::array<float, 3> rgb{color.r, color.g, color.b};
-  for (const float channel : rgb) {
-    // Rounds what is never negative: std::lround takes ten times as long.
-    *pixel = static_cast<std::uint8_t>(
-        *pixel + alpha * (255.0 * static_cast<double>(channel) - *pixel) + 0.5);
-    ++pixel;
-  }
+  const std::array<std::uint8_t, 3> blended = Blended({pixel[0], pixel[1], pixel[2]}, color, alpha);
+  std::copy(blended.begin(), blended.end(), pixel);
 }
 
 void Canvas::Fill(const Rectangle& rectangle, double radius, Color color, double alpha) {
   const double center_x = rectangle.left + 0.5 * rectangle.width;
   const double center_y = rectangle.top + 0.5 * rectangle.height;
+  // Away from the edges every pixel of a value becomes the same: a panel is mostly that.
+  const int inner_left = std::max(0, static_cast<int>(std::ceil(rectangle.left + radius)) + 1);
+  const int inner_right = std::min(
+      image_.width, static_cast<int>(std::floor(rectangle.left + rectangle.width - radius)) - 1);
+  std::array<std::array<std::uint8_t, 256>, 3> blended;
+  for (std::size_t value = 0; value < 256; ++value) {
+    const auto grey = static_cast<std::uint8_t>(value);
+    const std::array<std::uint8_t, 3> pixel = Blended({grey, grey, grey}, color, alpha);
+    for (std::size_t i = 0; i < 3; ++i) {
+      blended[i][value] = pixel[i];
+    }
+  }
   for (int y = static_cast<int>(rectangle.top); y < rectangle.top + rectangle.height; ++y) {
+    const bool is_inner = y >= 0 && y < image_.height && y >= rectangle.top + 1.0 &&
+                          y + 2.0 <= rectangle.top + rectangle.height;
     for (int x = static_cast<int>(rectangle.left); x < rectangle.left + rectangle.width; ++x) {
+      if (is_inner && x == inner_left && inner_left < inner_right) {
+        std::uint8_t* pixel = image_.Pixel(x, y);
+        for (; x < inner_right; ++x) {
+          for (std::size_t i = 0; i < 3; ++i, ++pixel) {
+            *pixel = blended[i][*pixel];
+          }
+        }
+      }
       // Signed distance of the pixel's centre from the rounded outline: one pixel of fading.
       const double across = std::abs(x + 0.5 - center_x) - 0.5 * rectangle.width + radius;
       const double down = std::abs(y + 0.5 - center_y) - 0.5 * rectangle.height + radius;
