@@ -42,13 +42,14 @@ void LiftOnto(CameraPose& pose, const CameraSubject& subject, double time) {
 CameraPose Chase(const CameraSubject& subject, double time, double /*aspect*/) {
   const Point car = subject.Position(time);
   const double heading = subject.SmoothHeading(time);
-  // Ahead of the rear axle, so that the road the car is about to take fills the picture.
-  constexpr double kAhead = 3.0;
+  // Ahead of the rear axle, so that the road the car is about to take fills the picture, and so
+  // little that the car stays above the strip and the caption.
+  constexpr double kAhead = 1.0;
   CameraPose pose;
   pose.target_x = car.x + kAhead * std::cos(heading);
   pose.target_y = car.y + kAhead * std::sin(heading);
   pose.target_z = 1.0;
-  pose.distance = 15.0;
+  pose.distance = 14.5;
   // A little from the side: one sees the car's flank, and its trail beside the caption.
   pose.azimuth = heading + 14.0 * kPi / 180.0;
   pose.elevation = -18.0 * kPi / 180.0;
@@ -166,7 +167,7 @@ const std::vector<Camera>& CameraTable() {
   return table;
 }
 
-const Camera& FindCamera(const std::string& name) {
+const Camera& FindCamera(const std::string& name, const char* key) {
   std::vector<std::string> names;
   for (const Camera& camera : CameraTable()) {
     if (camera.name == name) {
@@ -174,8 +175,8 @@ const Camera& FindCamera(const std::string& name) {
     }
     names.emplace_back(camera.name);
   }
-  throw InputError(Problem{
-      .file = "", .key = "camera", .message = "unknown camera " + UnknownName(name, names)});
+  throw InputError(
+      Problem{.file = "", .key = key, .message = "unknown camera " + UnknownName(name, names)});
 }
 
 }  // namespace trackbed::render

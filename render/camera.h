@@ -60,7 +60,7 @@ struct Camera {
 /// The only list of cameras; the default is first.
 const std::vector<Camera>& CameraTable();
 
-/// InputError with the nearest name when there is no such camera.
-const Camera& FindCamera(const std::string& name);
+/// InputError with the nearest name, under `key`, when there is no such camera.
+const Camera& FindCamera(const std::string& name, const char* key = "camera");
 
 }  // namespace trackbed::render

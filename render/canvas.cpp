@@ -1,6 +1,7 @@
 #include "render/canvas.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -23,6 +24,18 @@ std::uint8_t AverageOver(const Image& glyph, double left, double top, double ste
     }
   }
   return static_cast<std::uint8_t>(std::lround(std::clamp(sum / (step * step), 0.0, 255.0)));
+}
+
+std::array<std::uint8_t, 3> Blended(const std::array<std::uint8_t, 3>& under, Color color,
+                                    double alpha) {
+  const std::array<float, 3> rgb{color.r, color.g, color.b};
+  std::array<std::uint8_t, 3> blended{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    // Rounds what is never negative: std::lround takes ten times as long.
+    blended[i] = static_cast<std::uint8_t>(
+        under[i] + alpha * (255.0 * static_cast<double>(rgb[i]) - under[i]) + 0.5);
+  }
+  return blended;
 }
 
 }  // namespace
@@ -73,20 +86,37 @@ void Canvas::Blend(int x, int y, Color color, double alpha) {
     return;
   }
   std::uint8_t* pixel = image_.Pixel(x, y);
-  const std::array<float, 3> rgb{color.r, color.g, color.b};
-  for (const float channel : rgb) {
-    // Rounds what is never negative: std::lround takes ten times as long.
-    *pixel = static_cast<std::uint8_t>(
-        *pixel + alpha * (255.0 * static_cast<double>(channel) - *pixel) + 0.5);
-    ++pixel;
-  }
+  const std::array<std::uint8_t, 3> blended = Blended({pixel[0], pixel[1], pixel[2]}, color, alpha);
+  std::copy(blended.begin(), blended.end(), pixel);
 }
 
 void Canvas::Fill(const Rectangle& rectangle, double radius, Color color, double alpha) {
   const double center_x = rectangle.left + 0.5 * rectangle.width;
   const double center_y = rectangle.top + 0.5 * rectangle.height;
+  // Away from the edges every pixel of a value becomes the same: a panel is mostly that.
+  const int inner_left = std::max(0, static_cast<int>(std::ceil(rectangle.left + radius)) + 1);
+  const int inner_right = std::min(
+      image_.width, static_cast<int>(std::floor(rectangle.left + rectangle.width - radius)) - 1);
+  std::array<std::array<std::uint8_t, 256>, 3> blended;
+  for (std::size_t value = 0; value < 256; ++value) {
+    const auto grey = static_cast<std::uint8_t>(value);
+    const std::array<std::uint8_t, 3> pixel = Blended({grey, grey, grey}, color, alpha);
+    for (std::size_t i = 0; i < 3; ++i) {
+      blended[i][value] = pixel[i];
+    }
+  }
   for (int y = static_cast<int>(rectangle.top); y < rectangle.top + rectangle.height; ++y) {
+    const bool is_inner = y >= 0 && y < image_.height && y >= rectangle.top + 1.0 &&
+                          y + 2.0 <= rectangle.top + rectangle.height;
     for (int x = static_cast<int>(rectangle.left); x < rectangle.left + rectangle.width; ++x) {
+      if (is_inner && x == inner_left && inner_left < inner_right) {
+        std::uint8_t* pixel = image_.Pixel(x, y);
+        for (; x < inner_right; ++x) {
+          for (std::size_t i = 0; i < 3; ++i, ++pixel) {
+            *pixel = blended[i][*pixel];
+          }
+        }
+      }
       // Signed distance of the pixel's centre from the rounded outline: one pixel of fading.
       const double across = std::abs(x + 0.5 - center_x) - 0.5 * rectangle.width + radius;
       const double down = std::abs(y + 0.5 - center_y) - 0.5 * rectangle.height + radius;
@@ -120,6 +150,104 @@ void Canvas::Arrow(double middle_x, double middle_y, double length, double direc
       }
       if (inside > 0) {
         Blend(x, y, color, static_cast<double>(inside) / (kSamples * kSamples));
+      }
+    }
+  }
+}
+
+Canvas::Box Canvas::BoxAround(const std::vector<CanvasPoint>& points, double reach) const {
+  double left = image_.width;
+  double top = image_.height;
+  double right = 0.0;
+  double bottom = 0.0;
+  for (const CanvasPoint& point : points) {
+    left = std::min(left, point.x - reach);
+    top = std::min(top, point.y - reach);
+    right = std::max(right, point.x + reach + 1.0);
+    bottom = std::max(bottom, point.y + reach + 1.0);
+  }
+  return {static_cast<int>(std::max(0.0, left)), static_cast<int>(std::max(0.0, top)),
+          static_cast<int>(std::min<double>(image_.width, right)),
+          static_cast<int>(std::min<double>(image_.height, bottom))};
+}
+
+void Canvas::Stroke(const std::vector<CanvasPoint>& points, double width, Color color,
+                    double alpha) {
+  const double reach = 0.5 * width + 0.5;  // half a pixel of fading
+  const Box all = BoxAround(points, reach);
+  if (points.size() < 2 || all.right <= all.left || all.bottom <= all.top) {
+    return;
+  }
+  // Pieces overlap at the points between them: each pixel takes the most that any covers of it.
+  const auto columns = static_cast<std::size_t>(all.right - all.left);
+  std::vector<float> covered(columns * static_cast<std::size_t>(all.bottom - all.top));
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const CanvasPoint& a = points[i - 1];
+    const CanvasPoint& b = points[i];
+    const double dx = b.x - a.x;
+    const double dy = b.y - a.y;
+    const double squared = std::max(dx * dx + dy * dy, 1e-12);
+    const Box box = BoxAround({a, b}, reach);
+    for (int y = box.top; y < box.bottom; ++y) {
+      for (int x = box.left; x < box.right; ++x) {
+        const double right = x + 0.5 - a.x;
+        const double down = y + 0.5 - a.y;
+        const double along = std::clamp((right * dx + down * dy) / squared, 0.0, 1.0);
+        const double away_x = right - along * dx;
+        const double away_y = down - along * dy;
+        const double away = away_x * away_x + away_y * away_y;
+        if (away < reach * reach) {
+          float& most = covered[static_cast<std::size_t>(y - all.top) * columns +
+                                static_cast<std::size_t>(x - all.left)];
+          most = std::max(most, static_cast<float>(std::min(1.0, reach - std::sqrt(away))));
+        }
+      }
+    }
+  }
+  for (int y = all.top; y < all.bottom; ++y) {
+    for (int x = all.left; x < all.right; ++x) {
+      const float share = covered[static_cast<std::size_t>(y - all.top) * columns +
+                                  static_cast<std::size_t>(x - all.left)];
+      if (share > 0.0F) {
+        Blend(x, y, color, alpha * static_cast<double>(share));
+      }
+    }
+  }
+}
+
+void Canvas::FillConvex(const std::vector<CanvasPoint>& corners, Color color, double alpha) {
+  double area = 0.0;  // twice; its sign is the order of the corners
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const CanvasPoint& a = corners[i];
+    const CanvasPoint& b = corners[(i + 1) % corners.size()];
+    area += a.x * b.y - b.x * a.y;
+  }
+  struct Edge {
+    double across_x;  // unit vector inwards
+    double across_y;
+    double offset;
+  };
+  std::vector<Edge> edges;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const CanvasPoint& a = corners[i];
+    const CanvasPoint& b = corners[(i + 1) % corners.size()];
+    const double length = std::copysign(std::hypot(b.x - a.x, b.y - a.y), area);
+    if (length != 0.0) {
+      const double across_x = (a.y - b.y) / length;
+      const double across_y = (b.x - a.x) / length;
+      edges.push_back({across_x, across_y, across_x * a.x + across_y * a.y});
+    }
+  }
+  const Box box = BoxAround(corners, 0.5);
+  for (int y = box.top; y < box.bottom; ++y) {
+    for (int x = box.left; x < box.right; ++x) {
+      double inside = 1.0;
+      for (const Edge& edge : edges) {
+        inside = std::min(
+            inside, edge.across_x * (x + 0.5) + edge.across_y * (y + 0.5) - edge.offset + 0.5);
+      }
+      if (inside > 0.0) {
+        Blend(x, y, color, alpha * inside);
       }
     }
   }

@@ -41,6 +41,12 @@ class Font {
   std::map<double, std::vector<Mask>> masks_;
 };
 
+/// A place in a picture [px], from its top left corner.
+struct CanvasPoint {
+  double x = 0;
+  double y = 0;
+};
+
 /// Draws flat shapes and text on a picture. Coordinates are pixels from the top left; what lies
 /// outside is cut off.
 class Canvas {
@@ -60,11 +66,26 @@ class Canvas {
   /// An arrow of `length` around its middle, pointing along `direction`: 0 to the right, pi/2 up.
   void Arrow(double middle_x, double middle_y, double length, double direction, Color color);
 
+  /// A line through the points with round ends and corners and smooth edges.
+  void Stroke(const std::vector<CanvasPoint>& points, double width, Color color, double alpha);
+
+  /// A convex shape with smooth edges, its corners in either order.
+  void FillConvex(const std::vector<CanvasPoint>& corners, Color color, double alpha);
+
   /// One line of text, `left` and `top` of its first glyph cell; capitals fill the cell from about
   /// a fifth to three quarters of its height. Returns where the next character would begin.
   double Text(double left, double top, std::string_view text, double size, Color color);
 
  private:
+  /// Whole pixels, the last ones excluded.
+  struct Box {
+    int left = 0;
+    int top = 0;
+    int right = 0;
+    int bottom = 0;
+  };
+  /// What of the picture lies within `reach` of the points.
+  [[nodiscard]] Box BoxAround(const std::vector<CanvasPoint>& points, double reach) const;
   void Blend(int x, int y, Color color, double alpha);
 
   Image& image_;

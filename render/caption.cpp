@@ -5,35 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/layout.h"
 #include "trackbed/core/angle.h"
 
 namespace trackbed::render {
 namespace {
-
-constexpr Color kPanel{0.06F, 0.07F, 0.09F};
-constexpr double kPanelAlpha = 0.66;
-constexpr Color kLabel{0.70F, 0.74F, 0.78F};
-constexpr Color kValue{1.00F, 1.00F, 1.00F};
-
-/// Sizes in pixels.
-struct Layout {
-  double margin;  // from the picture's edge to a panel
-  double pad;     // from a panel's edge to its text
-  double label;   // height of a text cell
-  double value;
-  double gap;  // between columns
-
-  Layout(int width, int height) {
-    const double scale = height / 720.0;
-    // Five columns at the least readable sizes take about 600 px.
-    const double shrink = std::min(1.0, width / 640.0);
-    margin = std::max(20.0 * scale, 10.0 * shrink);
-    pad = std::max(14.0 * scale, 8.0 * shrink);
-    label = std::round(std::max(23.0 * scale, 16.0 * shrink));
-    value = std::round(std::max(36.0 * scale, 22.0 * shrink));
-    gap = std::max(30.0 * scale, 16.0 * shrink);
-  }
-};
 
 struct Reading {
   std::string label;
@@ -62,7 +38,8 @@ std::vector<Reading> ReadingsToShow(const Readings& readings) {
   return shown;
 }
 
-void DrawReadings(Canvas& canvas, const Font& font, const Layout& layout, int height,
+/// `bottom` is where the panel ends [px].
+void DrawReadings(Canvas& canvas, const Font& font, const Layout& layout, double bottom,
                   const Readings& readings) {
   const std::vector<Reading> shown = ReadingsToShow(readings);
   std::vector<double> widths;
@@ -74,8 +51,8 @@ void DrawReadings(Canvas& canvas, const Font& font, const Layout& layout, int he
     total += widths.back();
   }
   const double tall = layout.label + layout.value + 1.2 * layout.pad;
-  const double top = height - layout.margin - tall;
-  canvas.Fill({layout.margin, top, total, tall}, 0.7 * layout.pad, kPanel, kPanelAlpha);
+  const double top = bottom - tall;
+  canvas.Fill({layout.margin, top, total, tall}, layout.round(), kPanel, kPanelAlpha);
   double left = layout.margin + layout.pad;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     canvas.Text(left, top + 0.6 * layout.pad, shown[i].label, layout.label, kLabel);
@@ -84,8 +61,9 @@ void DrawReadings(Canvas& canvas, const Font& font, const Layout& layout, int he
   }
 }
 
-void DrawLegend(Canvas& canvas, const Font& font, const Layout& layout, int width,
-                const std::vector<LegendEntry>& legend) {
+/// Returns where the panel ends [px].
+double DrawLegend(Canvas& canvas, const Font& font, const Layout& layout, int width,
+                  const std::vector<LegendEntry>& legend) {
   double widest = 0.0;
   for (const LegendEntry& entry : legend) {
     widest = std::max(widest, font.Width(entry.text, layout.label));
@@ -94,15 +72,25 @@ void DrawLegend(Canvas& canvas, const Font& font, const Layout& layout, int widt
   const double total = 2.4 * layout.pad + swatch + widest;
   const double tall = layout.label * static_cast<double>(legend.size()) + 1.2 * layout.pad;
   const double left = width - layout.margin - total;
-  canvas.Fill({left, layout.margin, total, tall}, 0.7 * layout.pad, kPanel, kPanelAlpha);
+  canvas.Fill({left, layout.margin, total, tall}, layout.round(), kPanel, kPanelAlpha);
   double top = layout.margin + 0.6 * layout.pad;
   for (const LegendEntry& entry : legend) {
     const double thick = 0.28 * layout.label;
-    canvas.Fill({left + layout.pad, top + 0.53 * layout.label - 0.5 * thick, swatch, thick},
-                0.5 * thick, entry.color, 1.0);
+    const Canvas::Rectangle bar{left + layout.pad, top + 0.53 * layout.label - 0.5 * thick, swatch,
+                                thick};
+    if (entry.ramp.empty()) {
+      canvas.Fill(bar, 0.5 * thick, entry.color, 1.0);
+    }
+    const double part = swatch / static_cast<double>(std::max<std::size_t>(1, entry.ramp.size()));
+    for (std::size_t i = 0; i < entry.ramp.size(); ++i) {
+      canvas.Fill(
+          {bar.left + part * static_cast<double>(i), bar.top - 0.25 * thick, part, 1.5 * thick},
+          0.0, entry.ramp[i], 1.0);
+    }
     canvas.Text(left + 1.4 * layout.pad + swatch, top, entry.text, layout.label, kValue);
     top += layout.label;
   }
+  return layout.margin + tall;
 }
 
 /// Height of the title's letters, and of the panel around a line of them.
@@ -123,7 +111,7 @@ void DrawLine(Canvas& canvas, const Font& font, const Layout& layout, int line,
   const double size = TitleSize(layout);
   const double top = TopOfLine(layout, line);
   canvas.Fill({layout.margin, top, font.Width(text, size) + 2.0 * layout.pad, TitlePanel(layout)},
-              0.7 * layout.pad, kPanel, kPanelAlpha);
+              layout.round(), kPanel, kPanelAlpha);
   canvas.Text(layout.margin + layout.pad, top + 0.4 * layout.pad, text, size, kValue);
 }
 
@@ -138,7 +126,7 @@ void DrawWind(Canvas& canvas, const Font& font, const Layout& layout, int line, 
   const std::string text = fmt::format("wind {:.1f} m/s", speed);
   const double arrow = 1.1 * size;
   const double wide = std::max(font.Width(text, size), font.Width("wind 00.0 m/s", size));
-  canvas.Fill({layout.margin, top, wide + arrow + 2.6 * layout.pad, tall}, 0.7 * layout.pad, kPanel,
+  canvas.Fill({layout.margin, top, wide + arrow + 2.6 * layout.pad, tall}, layout.round(), kPanel,
               kPanelAlpha);
   if (speed >= kCalm) {
     canvas.Arrow(layout.margin + layout.pad + 0.5 * arrow, top + 0.5 * tall, arrow,
@@ -155,20 +143,20 @@ std::string Shortened(const std::string& title) {
 
 }  // namespace
 
-void DrawCaption(Image& image, Font& font, const std::string& title, const std::string& note,
-                 const std::vector<LegendEntry>& legend, const Readings& readings, double azimuth) {
+double DrawCaption(Image& image, Font& font, const Caption& caption, const Readings& readings,
+                   double azimuth, double bottom) {
   Canvas canvas(image, font);
   const Layout layout(image.width, image.height);
   int line = 0;
-  DrawLine(canvas, font, layout, line++, Shortened(title));
-  if (!note.empty()) {
-    DrawLine(canvas, font, layout, line++, note);
+  DrawLine(canvas, font, layout, line++, Shortened(caption.title));
+  if (!caption.note.empty()) {
+    DrawLine(canvas, font, layout, line++, caption.note);
   }
   if (readings.wind) {
     DrawWind(canvas, font, layout, line, *readings.wind, azimuth);
   }
-  DrawLegend(canvas, font, layout, image.width, legend);
-  DrawReadings(canvas, font, layout, image.height, readings);
+  DrawReadings(canvas, font, layout, bottom, readings);
+  return DrawLegend(canvas, font, layout, image.width, caption.legend);
 }
 
 }  // namespace trackbed::render

@@ -1,11 +1,13 @@
 #include "trackbed/render/film.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "render/camera.h"
 #include "render/handles.h"
 #include "render/output.h"
+#include "render/overlays.h"
 #include "render/painter.h"
 #include "render/recording.h"
 #include "trackbed/core/error.h"
@@ -40,19 +42,55 @@ void CheckOptions(const FilmOptions& options, const render::FilmFormat& format) 
                         .key = "fps",
                         .message = fmt::format("{}; allowed are 1 to 240", options.fps)});
   }
+  constexpr std::size_t kMostParts = 4;
+  if (options.plants.size() > kMostParts) {
+    problems.push_back({.file = "",
+                        .key = "plants",
+                        .message = fmt::format("{} side by side; allowed are 1 to {}",
+                                               options.plants.size(), kMostParts)});
+  }
   if (!problems.empty()) {
     throw InputError(std::move(problems));
   }
 }
 
+/// One of all plants, or one of each that is named.
+std::vector<render::Recording> ReadRecordings(const fs::path& folder,
+                                              const std::vector<std::string>& plants) {
+  std::vector<render::Recording> recordings;
+  for (const std::string& plant : plants) {
+    recordings.push_back(render::ReadRecording(folder, {plant}));
+  }
+  if (plants.empty()) {
+    recordings.push_back(render::ReadRecording(folder));
+  }
+  return recordings;
+}
+
 }  // namespace
 
-std::vector<CameraSummary> Cameras() {
-  std::vector<CameraSummary> cameras;
+std::vector<FilmChoice> Cameras() {
+  std::vector<FilmChoice> cameras;
   for (const render::Camera& camera : render::CameraTable()) {
     cameras.push_back({std::string(camera.name), std::string(camera.summary)});
   }
   return cameras;
+}
+
+std::vector<FilmChoice> Overlays() {
+  std::vector<FilmChoice> overlays;
+  for (const render::Overlay& overlay : render::OverlayTable()) {
+    overlays.push_back({std::string(overlay.name), std::string(overlay.summary)});
+  }
+  return overlays;
+}
+
+std::vector<std::string> AllOverlays() {
+  std::vector<std::string> names;
+  for (const render::Overlay& overlay : render::OverlayTable()) {
+    names.emplace_back(overlay.name);
+  }
+  return names;
 }
 
 void CheckFilmName(const fs::path& output) {
@@ -65,23 +103,28 @@ FilmReport RenderFilm(const fs::path& run_folder, const fs::path& output,
   const render::FilmFormat& format = render::FormatOf(output);
   CheckOptions(options, format);
   const render::MuJoCoErrorsAsExceptions guard;
-  render::Recording recording = render::ReadRecording(run_folder);
-  render::Painter painter(recording, options);
+  std::vector<render::Recording> recordings = ReadRecordings(run_folder, options.plants);
+  render::Painter painter(recordings, options);
   render::BackgroundOutput film(format.open(output, options.width, options.height, options.fps));
 
+  const double begin = recordings.front().begin();
+  double end = begin;
+  for (const render::Recording& recording : recordings) {
+    end = std::max(end, recording.end());
+  }
   FilmReport report;
   // The small surplus keeps a last frame that falls on the end but for rounding.
-  report.frames =
-      static_cast<int>(std::floor((recording.end() - recording.begin()) * options.fps + 1e-6)) + 1;
+  report.frames = static_cast<int>(std::floor((end - begin) * options.fps + 1e-6)) + 1;
   report.duration = (report.frames - 1) / options.fps;
-  report.car = recording.plants.front().plant();
-  for (std::size_t i = 1; i < recording.plants.size(); ++i) {
-    report.ghosts.push_back(recording.plants[i].plant());
+  const std::vector<render::PlantRecording>& plants = recordings.front().plants;
+  report.car = plants.front().plant();
+  for (std::size_t i = 1; i < plants.size(); ++i) {
+    report.ghosts.push_back(plants[i].plant());
   }
 
   render::Image image;
   for (int frame = 0; frame < report.frames; ++frame) {
-    const double time = recording.begin() + frame / options.fps;
+    const double time = begin + frame / options.fps;
     painter.Paint(time, image);
     film.Add(image);
     if (progress) {

@@ -77,17 +77,19 @@ Offscreen::~Offscreen() {
   OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
 }
 
-void Offscreen::Draw(mjvScene& scene) {
-  const mjrRect viewport{0, 0, supersampling_ * width_, supersampling_ * height_};
+void Offscreen::Draw(mjvScene& scene, int width, int height) {
+  TRACKBED_CHECK(width <= width_ && height <= height_, "a picture of {}x{} in buffers of {}x{}",
+                 width, height, width_, height_);
+  const mjrRect viewport{0, 0, supersampling_ * width, supersampling_ * height};
   upside_down_.resize(3 * static_cast<std::size_t>(viewport.width) *
                       static_cast<std::size_t>(viewport.height));
   mjr_render(viewport, &scene, &context_);
   mjr_readPixels(upside_down_.data(), nullptr, viewport, &context_);
 }
 
-void Offscreen::Render(mjvScene& scene, Image& image) {
-  Draw(scene);
-  image.Resize(width_, height_);
+void Offscreen::Render(mjvScene& scene, Image& image, int width, int height) {
+  Draw(scene, width, height);
+  image.Resize(width, height);
   if (supersampling_ == 1) {
     CopyFlipped(upside_down_, image);
   } else {

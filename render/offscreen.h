@@ -24,10 +24,12 @@ class Offscreen {
   Offscreen& operator=(const Offscreen&) = delete;
 
   /// The scene from its own camera. 60 to 290 ms at 1280x720.
-  void Render(mjvScene& scene, Image& image);
+  void Render(mjvScene& scene, Image& image) { Render(scene, image, width_, height_); }
+  /// The same in a size [px] that is at most the one of the buffers.
+  void Render(mjvScene& scene, Image& image, int width, int height);
 
   /// MuJoCo's part of Render alone: draws the scene and reads its samples back.
-  void Draw(mjvScene& scene);
+  void Draw(mjvScene& scene) { Draw(scene, width_, height_); }
 
   /// A printable ASCII character of MuJoCo's big font at its largest, white on black. `width` is
   /// the pen's advance; every glyph has the same height.
@@ -37,6 +39,8 @@ class Offscreen {
   struct FreeMesa {
     void operator()(osmesa_context* context) const { OSMesaDestroyContext(context); }
   };
+
+  void Draw(mjvScene& scene, int width, int height);
 
   int width_;
   int height_;

@@ -46,9 +46,11 @@ class FrameOutput : public FilmOutput {
 };
 
 /// The only list of formats.
-const std::array<FilmFormat, 2>& FormatTable() {
-  static const std::array<FilmFormat, 2> table{{
+const std::array<FilmFormat, 4>& FormatTable() {
+  static const std::array<FilmFormat, 4> table{{
       {".mp4", "video", true, VideoOpener()},
+      {".webp", "animation", false, WebpOpener()},
+      {".apng", "animation", false, ApngOpener()},
       {".png", "frames", false,
        [](const fs::path& output, int /*width*/, int /*height*/, double /*fps*/)
            -> std::unique_ptr<FilmOutput> { return std::make_unique<FrameOutput>(output); }},
@@ -58,20 +60,65 @@ const std::array<FilmFormat, 2>& FormatTable() {
 
 }  // namespace
 
+BackgroundOutput::BackgroundOutput(std::unique_ptr<FilmOutput> output)
+    : output_(std::move(output)), thread_([this](const std::stop_token& stop) { Write(stop); }) {}
+
 void BackgroundOutput::Add(const Image& image) {
-  Await();
-  image_ = image;
-  writing_ = std::async(std::launch::async, [this] { output_->Add(image_); });
+  constexpr std::size_t kMostWaiting = 2;
+  Image copy;
+  {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return failure_ || waiting_.size() < kMostWaiting; });
+    Rethrow();
+    if (!spare_.empty()) {
+      copy = std::move(spare_.back());
+      spare_.pop_back();
+    }
+  }
+  copy = image;
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back(std::move(copy));
+  }
+  changed_.notify_all();
 }
 
 void BackgroundOutput::Finish() {
-  Await();
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return failure_ || (waiting_.empty() && !writing_); });
+  Rethrow();
   output_->Finish();
 }
 
-void BackgroundOutput::Await() {
-  if (writing_.valid()) {
-    writing_.get();
+void BackgroundOutput::Rethrow() {
+  if (failure_) {
+    std::rethrow_exception(failure_);
+  }
+}
+
+void BackgroundOutput::Write(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  // Once it is asked to stop, until nothing waits.
+  while (changed_.wait(lock, stop, [this] { return !waiting_.empty(); })) {
+    Image image = std::move(waiting_.front());
+    waiting_.pop_front();
+    writing_ = true;
+    lock.unlock();
+    changed_.notify_all();
+    std::exception_ptr failure;
+    try {
+      output_->Add(image);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    lock.lock();
+    writing_ = false;
+    spare_.push_back(std::move(image));
+    failure_ = failure;
+    changed_.notify_all();
+    if (failure) {
+      return;
+    }
   }
 }
 
@@ -91,8 +138,7 @@ const FilmFormat& FormatOf(const fs::path& output) {
     if (format.extension == extension) {
       return format;
     }
-    known +=
-        fmt::format("{}{} ({})", known.empty() ? "" : " and ", format.extension, format.summary);
+    known += fmt::format("{}{} ({})", known.empty() ? "" : ", ", format.extension, format.summary);
   }
   throw InputError(Problem{.file = output.string(),
                            .message = fmt::format("{}; a film is made as {}", found, known)});

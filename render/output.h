@@ -1,10 +1,15 @@
 #pragma once
 
+#include <condition_variable>
+#include <deque>
+#include <exception>
 #include <filesystem>
-#include <future>
 #include <memory>
+#include <mutex>
+#include <stop_token>
 #include <string>
-#include <utility>
+#include <thread>
+#include <vector>
 
 #include "render/image.h"
 
@@ -23,22 +28,29 @@ class FilmOutput {
   virtual void Finish() = 0;
 };
 
-/// Writes to another output in a thread of its own: while a picture is written, the next one is
-/// made. One picture waits, never more. What writing one throws comes out of the next call; on the
-/// way out after an exception the picture that is being written is awaited.
+/// Writes to another output in a thread of its own: while pictures are written, the next one is
+/// made. Two wait at most; Add waits while they do. What writing one throws comes out of the next
+/// call, and nothing is written after it; on the way out after another exception those that wait
+/// are written first.
 class BackgroundOutput : public FilmOutput {
  public:
-  explicit BackgroundOutput(std::unique_ptr<FilmOutput> output) : output_(std::move(output)) {}
+  explicit BackgroundOutput(std::unique_ptr<FilmOutput> output);
 
   void Add(const Image& image) override;
   void Finish() override;
 
  private:
-  void Await();
+  void Write(const std::stop_token& stop);
+  void Rethrow();
 
   std::unique_ptr<FilmOutput> output_;
-  Image image_;                // that is being written
-  std::future<void> writing_;  // the last one, so that it is awaited before the rest goes
+  std::mutex mutex_;  // of what follows, but for the thread
+  std::condition_variable_any changed_;
+  std::deque<Image> waiting_;
+  std::vector<Image> spare_;  // pictures written, whose memory the next ones take
+  bool writing_ = false;
+  std::exception_ptr failure_;
+  std::jthread thread_;  // last: it is asked to stop and awaited before the rest goes
 };
 
 /// Opens an output for pictures of a size [px] at frames per second.

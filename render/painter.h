@@ -1,47 +1,64 @@
 #pragma once
 
+#include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "render/camera.h"
 #include "render/caption.h"
 #include "render/offscreen.h"
+#include "render/overlays.h"
 #include "render/recording.h"
 #include "render/scene.h"
+#include "render/strip.h"
+#include "render/tyre_forces.h"
 #include "trackbed/render/film.h"
 
 namespace trackbed::render {
 
 struct Quality;
 
-/// What the colours of a film of `recording` stand for.
-std::vector<LegendEntry> LegendOf(const Recording& recording);
+/// What the colours of a film of `recording` with these overlays stand for.
+std::vector<LegendEntry> LegendOf(const Recording& recording, const Overlays& overlays);
 
-/// Makes the pictures of a film: the recorded world, what is drawn over it, and the caption.
+/// Makes the pictures of a film: the recorded worlds, what is drawn over them, and the captions.
 class Painter {
  public:
-  /// Borrows the recording, and its model's visual settings, for its lifetime. Size, camera and
-  /// quality are those of `options`. InputError for names that there are none of; RunError when
-  /// there is no off-screen OpenGL.
-  Painter(Recording& recording, const FilmOptions& options);
+  /// Borrows the recordings, and their models' visual settings, for its lifetime. There is at least
+  /// one, and they are of the same model: each has a part of the picture, from left to right. Size,
+  /// cameras, quality and overlays are those of `options`. InputError for names that there are none
+  /// of; RunError when there is no off-screen OpenGL.
+  Painter(std::span<Recording> recordings, const FilmOptions& options);
+  ~Painter();
+  Painter(const Painter&) = delete;
+  Painter& operator=(const Painter&) = delete;
 
   /// The picture at `time` [s].
   void Paint(double time, Image& image);
 
-  /// What Paint draws at `time` [s], without the caption, and where; valid until the next call.
+  /// What Paint draws of the first recording at `time` [s] with the main camera, without what comes
+  /// over it, and where; valid until the next call.
   mjvScene& SceneAt(double time);
   [[nodiscard]] Offscreen& offscreen() { return offscreen_; }
 
  private:
-  Recording& recording_;
+  struct Part;
+
+  void Paint(Part& part, double time, Image& image);
+  void PaintInset(Part& part, double time, double top, Image& image);
+
+  FilmOptions options_;
   const Quality& quality_;
   const Camera& camera_;
-  CameraSubject subject_;
-  double aspect_;
+  const Camera* inset_;
+  Overlays overlays_;
   Offscreen offscreen_;
   Font font_;
-  FilmScene scene_;
-  std::vector<LegendEntry> legend_;
+  std::vector<std::unique_ptr<Part>> parts_;
+  Image part_image_;
+  Image inset_image_;
 };
 
 }  // namespace trackbed::render

@@ -12,6 +12,7 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/core/spelling.h"
 #include "trackbed/scenario/scenario.h"
 
 namespace trackbed::render {
@@ -119,6 +120,45 @@ std::vector<NewPlan> ReadNewPlans(const fs::path& file) {
     plans.back().path.push_back({x[i], y[i]});
   }
   return plans;
+}
+
+/// Adds the curvature of each plan in `file`, in so far as that has it.
+void AddCurvatures(const fs::path& file, double begin, std::vector<CurvatureProfile>& profiles) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) {
+    return;
+  }
+  const Table table = ReadRunTable(file);
+  if (table.Find("s_m") < 0 || table.Find("curvature_radpm") < 0) {
+    return;
+  }
+  const std::vector<double> s = FiniteColumn(table, file, "s_m");
+  const std::vector<double> curvature = FiniteColumn(table, file, "curvature_radpm");
+  const std::vector<double> from = table.Find("from_t_s") < 0
+                                       ? std::vector<double>(s.size(), begin)
+                                       : FiniteColumn(table, file, "from_t_s");
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (i == 0 || from[i] > from[i - 1]) {
+      profiles.push_back({from[i], {}, {}});
+    }
+    CurvatureProfile& profile = profiles.back();
+    // Where a station comes twice, as at a jump, the first one is as good.
+    if (profile.s.empty() || s[i] > profile.s.back()) {
+      profile.s.push_back(s[i]);
+      profile.curvature.push_back(curvature[i]);
+    }
+  }
+}
+
+/// The plants to film out of those there are.
+std::vector<std::string> Chosen(const fs::path& folder, std::vector<std::string> there_are,
+                                const std::vector<std::string>& asked) {
+  for (const std::string& plant : asked) {
+    if (std::find(there_are.begin(), there_are.end(), plant) == there_are.end()) {
+      Reject(folder, "plants", "unknown plant " + UnknownName(plant, there_are));
+    }
+  }
+  return asked.empty() ? std::move(there_are) : asked;
 }
 
 std::vector<Point> ReadCones(const fs::path& file) {
@@ -310,7 +350,7 @@ Point Recording::OnGround(const Point& point) const {
   return {point.x, point.y, GroundHeight(world, {point.x, point.y})};
 }
 
-Recording ReadRecording(const fs::path& folder) {
+Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& asked) {
   std::error_code ignored;
   if (!fs::exists(folder, ignored)) {
     Reject(folder, "", "no such folder");
@@ -318,7 +358,7 @@ Recording ReadRecording(const fs::path& folder) {
   if (!fs::is_directory(folder, ignored)) {
     Reject(folder, "", "not a folder, but a run is one");
   }
-  const std::vector<std::string> plants = FindPlants(folder);
+  const std::vector<std::string> plants = Chosen(folder, FindPlants(folder), asked);
   Recording recording;
   recording.name = fs::weakly_canonical(folder).filename().string();
   recording.model = LoadModel(folder / "model.xml");
@@ -327,13 +367,18 @@ Recording ReadRecording(const fs::path& folder) {
   }
   if (const fs::path scenario = folder / "scenario.resolved.yaml"; fs::exists(scenario, ignored)) {
     recording.world = ReadWorld(scenario);
-    recording.note = NoteOf(ReadVehicleSpec(scenario));
+    const VehicleSpec vehicle = ReadVehicleSpec(scenario);
+    recording.note = NoteOf(vehicle);
+    recording.tyre = vehicle.tyre;
   }
   for (const Point& cone : ReadCones(folder / "plan.json")) {
     recording.cones.push_back(recording.OnGround(cone));
   }
   recording.plan = ReadPlan(folder / "plan.csv");
-  recording.new_plans = ReadNewPlans(folder / (plants.front() + ".plan.csv"));
+  const fs::path new_plans = folder / (plants.front() + ".plan.csv");
+  recording.new_plans = ReadNewPlans(new_plans);
+  AddCurvatures(folder / "plan.csv", recording.begin(), recording.curvatures);
+  AddCurvatures(new_plans, recording.begin(), recording.curvatures);
   return recording;
 }
 

@@ -9,6 +9,7 @@
 
 #include "render/handles.h"
 #include "trackbed/core/table.h"
+#include "trackbed/sim/plant.h"
 #include "trackbed/world/world.h"
 
 namespace trackbed::render {
@@ -85,6 +86,7 @@ class PlantRecording {
   [[nodiscard]] double Heading(double time) const;
 
   [[nodiscard]] Readings ReadingsAt(double time) const;
+  [[nodiscard]] const TimedTable& log() const { return log_; }
 
  private:
   struct JointColumn {
@@ -111,16 +113,25 @@ struct NewPlan {
   std::vector<Point> path;
 };
 
+/// The curvature of a plan along its way; one value at least.
+struct CurvatureProfile {
+  double from = 0;                ///< the moment from which the plan holds [s]
+  std::vector<double> s;          ///< rising [m]
+  std::vector<double> curvature;  ///< [rad/m]
+};
+
 /// A run folder, read.
 struct Recording {
   std::string name;  ///< of the folder
   std::string note;  ///< what to know of the run beside its name; else empty
   World world;       ///< of `scenario.resolved.yaml`; without that file, flat and calm
   ModelHandle model;
-  std::vector<PlantRecording> plants;  ///< the car first, then the ghosts
-  std::vector<Point> plan;             ///< from the start; empty when there was none
-  std::vector<NewPlan> new_plans;      ///< of the car alone, in the order of time
-  std::vector<Point> cones;            ///< of the gates that the plan leads through
+  std::vector<PlantRecording> plants;        ///< the car first, then the ghosts
+  std::vector<Point> plan;                   ///< from the start; empty when there was none
+  std::vector<NewPlan> new_plans;            ///< of the car alone, in the order of time
+  std::vector<CurvatureProfile> curvatures;  ///< of both, where their files have it
+  std::vector<Point> cones;                  ///< of the gates that the plan leads through
+  TyreLaw tyre = TyreLaw::kContact;          ///< of the plant `mujoco`
 
   [[nodiscard]] double begin() const { return plants.front().begin(); }
   [[nodiscard]] double end() const;
@@ -131,7 +142,9 @@ struct Recording {
   [[nodiscard]] Point OnGround(const Point& point) const;
 };
 
-/// Reads everything that a film needs. InputError when the folder does not hold it.
-Recording ReadRecording(const std::filesystem::path& folder);
+/// Reads everything that a film needs: of these plants alone, the first of them as the car, or of
+/// every plant where none is named. InputError when the folder does not hold it.
+Recording ReadRecording(const std::filesystem::path& folder,
+                        const std::vector<std::string>& plants = {});
 
 }  // namespace trackbed::render

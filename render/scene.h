@@ -9,6 +9,7 @@
 #include "render/camera.h"
 #include "render/ground_paint.h"
 #include "render/handles.h"
+#include "render/overlays.h"
 #include "render/recording.h"
 #include "render/ribbon.h"
 
@@ -19,6 +20,7 @@ namespace trackbed::render {
 constexpr Color kPlanColor{1.00F, 1.00F, 0.97F};
 constexpr Color kNewPlanColor{1.00F, 0.84F, 0.05F};  // as temporary markings overrule white ones
 constexpr Color kGustColor{0.66F, 0.56F, 0.96F};     // around where a gust blows
+constexpr Color kWindColor{0.80F, 0.76F, 1.00F};     // arrows of the wind
 Color CarColor(std::size_t car);
 
 /// The outline of an area in which a gust blows.
@@ -27,23 +29,28 @@ struct GustLine {
   std::vector<Point> points;
 };
 
-/// The recorded world, posed at a moment: the car, the ghosts, the plans so far, the trails.
+/// A thinned drive: point i was reached at times[i], and the piece from it on has colors[i], or the
+/// car's where there are none.
+struct Trail {
+  std::vector<Point> points;
+  std::vector<double> times;
+  std::vector<Color> colors;
+};
+
+/// The recorded world, posed at a moment, and the overlays in it: all but forces, strip and
+/// caption.
 class FilmScene {
  public:
   /// Borrows the recording, and its model's visual settings (lens and clipping), for its lifetime.
   /// `shadows` are MuJoCo's, cast by the model's lights; without, a soft patch under the car.
-  explicit FilmScene(Recording& recording, bool shadows);
+  FilmScene(Recording& recording, const Overlays& overlays, bool shadows);
 
   /// The scene at `time` [s] from `camera`; valid until the next call.
   mjvScene& At(double time, const CameraPose& camera);
+  /// The car as the last scene has it.
+  [[nodiscard]] const mjData& car() const { return *car_data_; }
 
  private:
-  /// A thinned drive: point i was reached at times[i].
-  struct Trail {
-    std::vector<Point> points;
-    std::vector<double> times;
-  };
-
   /// A thinned plan, and from when it holds.
   struct PlanLine {
     double from;
@@ -63,6 +70,8 @@ class FilmScene {
   void AddFootprint(const mjData& data, const RibbonStyle& style);
 
   Recording& recording_;
+  Overlays overlays_;
+  std::vector<Trail> trails_;
   std::vector<Tile> patches_;
   std::vector<GustLine> gusts_;
   DataHandle car_data_;
@@ -72,7 +81,6 @@ class FilmScene {
   mjvOption visible_;
   mjvCamera camera_;
   std::vector<PlanLine> plans_;  // in the order of time
-  std::vector<Trail> trails_;
 };
 
 }  // namespace trackbed::render

@@ -11,4 +11,12 @@ render::OpenOutput render::VideoOpener() {
   return nullptr;
 }
 
+render::OpenOutput render::WebpOpener() {
+  return nullptr;
+}
+
+render::OpenOutput render::ApngOpener() {
+  return nullptr;
+}
+
 }  // namespace trackbed

@@ -18,13 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A video, under a temporary name until it is complete.
+/// A film in one file, under a temporary name until it is complete.
 class VideoOutput : public FilmOutput {
  public:
-  VideoOutput(fs::path output, int width, int height, double fps)
+  VideoOutput(fs::path output, FilmCodec codec, int width, int height, double fps)
       : output_(std::move(output)),
         temporary_(TemporaryNameFor(output_)),
-        writer_(temporary_.path, output_, width, height, fps) {}
+        writer_(temporary_.path, output_, codec, width, height, fps) {}
 
   void Add(const Image& image) override { writer_.Add(image); }
   void Finish() override {
@@ -51,13 +51,23 @@ class VideoOutput : public FilmOutput {
   VideoWriter writer_;
 };
 
+template <FilmCodec codec>
+std::unique_ptr<FilmOutput> Open(const fs::path& output, int width, int height, double fps) {
+  return std::make_unique<VideoOutput>(output, codec, width, height, fps);
+}
+
 }  // namespace
 
 OpenOutput VideoOpener() {
-  return
-      [](const fs::path& output, int width, int height, double fps) -> std::unique_ptr<FilmOutput> {
-        return std::make_unique<VideoOutput>(output, width, height, fps);
-      };
+  return &Open<FilmCodec::kH264>;
+}
+
+OpenOutput WebpOpener() {
+  return &Open<FilmCodec::kWebp>;
+}
+
+OpenOutput ApngOpener() {
+  return &Open<FilmCodec::kApng>;
 }
 
 }  // namespace render

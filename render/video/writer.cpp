@@ -11,6 +11,8 @@ extern "C" {
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "trackbed/core/error.h"
 
@@ -42,9 +44,40 @@ std::string Describe(int error) {
   return text.data();
 }
 
+/// How libav makes a kind of film.
+struct Recipe {
+  const char* encoder;
+  const char* container;
+  AVPixelFormat pixels;
+  bool bt709;  // else the pictures' own red, green and blue
+  std::vector<std::pair<const char*, const char*>> encoder_options;
+  std::vector<std::pair<const char*, const char*>> container_options;
+};
+
+const Recipe& RecipeOf(FilmCodec codec) {
+  // x264's macroblock tree reads past the end of its rows, into memory that differs from run to
+  // run, unless the width is a multiple of 128 (seen with build 164 at 96, 320, 854, 960 px).
+  static const Recipe h264{"libx264",
+                           "mp4",
+                           AV_PIX_FMT_YUV420P,
+                           true,
+                           {{"preset", "veryfast"}, {"crf", "23"}, {"mbtree", "0"}},
+                           {{"movflags", "+faststart"}}};
+  static const Recipe webp{"libwebp_anim",
+                           "webp",
+                           AV_PIX_FMT_BGRA,
+                           false,
+                           {{"quality", "80"}, {"compression_level", "4"}},
+                           {{"loop", "0"}}};
+  static const Recipe apng{"apng",          "apng", AV_PIX_FMT_RGB24, false, {{"pred", "mixed"}},
+                           {{"plays", "0"}}};
+  return codec == FilmCodec::kH264 ? h264 : codec == FilmCodec::kWebp ? webp : apng;
+}
+
 }  // namespace
 
 struct VideoWriter::Encoder {
+  const Recipe& recipe;
   std::string name;
   std::unique_ptr<AVFormatContext, FreeFormat> format;
   std::unique_ptr<AVCodecContext, FreeCodec> codec;
@@ -74,35 +107,36 @@ struct VideoWriter::Encoder {
   }
 
   void OpenCodec(int width, int height, double fps) {
-    const AVCodec* h264 = avcodec_find_encoder_by_name("libx264");
-    if (h264 == nullptr) {
-      Fail("this libavcodec has no encoder libx264");
+    const AVCodec* found = avcodec_find_encoder_by_name(recipe.encoder);
+    if (found == nullptr) {
+      Fail(fmt::format("this libavcodec has no encoder {}", recipe.encoder));
     }
-    codec.reset(Check(avcodec_alloc_context3(h264)));
+    codec.reset(Check(avcodec_alloc_context3(found)));
     codec->width = width;
     codec->height = height;
     codec->framerate = av_d2q(fps, 1001000);
     codec->time_base = av_inv_q(codec->framerate);
-    codec->pix_fmt = AV_PIX_FMT_YUV420P;
-    codec->color_range = AVCOL_RANGE_MPEG;
-    codec->colorspace = AVCOL_SPC_BT709;
-    codec->color_primaries = AVCOL_PRI_BT709;
-    codec->color_trc = AVCOL_TRC_BT709;
+    codec->pix_fmt = recipe.pixels;
+    if (recipe.bt709) {
+      codec->color_range = AVCOL_RANGE_MPEG;
+      codec->colorspace = AVCOL_SPC_BT709;
+      codec->color_primaries = AVCOL_PRI_BT709;
+      codec->color_trc = AVCOL_TRC_BT709;
+    }
     codec->thread_count = 1;
     codec->flags |= AV_CODEC_FLAG_BITEXACT | AV_CODEC_FLAG_GLOBAL_HEADER;
-    Check(av_opt_set(codec->priv_data, "preset", "veryfast", 0));
-    Check(av_opt_set(codec->priv_data, "crf", "23", 0));
-    // x264's macroblock tree reads past the end of its rows, into memory that differs from run to
-    // run, unless the width is a multiple of 128 (seen with build 164 at 96, 320, 854, 960 px).
-    Check(av_opt_set(codec->priv_data, "mbtree", "0", 0));
-    Check(avcodec_open2(codec.get(), h264, nullptr));
+    for (const auto& [key, value] : recipe.encoder_options) {
+      // Some are the encoder's own, some every encoder's.
+      Check(av_opt_set(codec.get(), key, value, AV_OPT_SEARCH_CHILDREN));
+    }
+    Check(avcodec_open2(codec.get(), found, nullptr));
   }
 
   void OpenFile(const std::filesystem::path& file) {
     AVFormatContext* made = nullptr;
     // The protocol keeps a name with a colon from being read as another one.
     const std::string url = "file:" + file.string();
-    Check(avformat_alloc_output_context2(&made, nullptr, "mp4", url.c_str()));
+    Check(avformat_alloc_output_context2(&made, nullptr, recipe.container, url.c_str()));
     format.reset(made);
     format->flags |= AVFMT_FLAG_BITEXACT;
     stream = Check(avformat_new_stream(format.get(), nullptr));
@@ -111,7 +145,9 @@ struct VideoWriter::Encoder {
     Check(avcodec_parameters_from_context(stream->codecpar, codec.get()));
     Check(avio_open(&format->pb, url.c_str(), AVIO_FLAG_WRITE));
     AVDictionary* options = nullptr;
-    av_dict_set(&options, "movflags", "+faststart", 0);
+    for (const auto& [key, value] : recipe.container_options) {
+      av_dict_set(&options, key, value, 0);
+    }
     const int result = avformat_write_header(format.get(), &options);
     av_dict_free(&options);
     Check(result);
@@ -137,10 +173,12 @@ struct VideoWriter::Encoder {
     scaler.reset(Check(sws_getContext(
         codec->width, codec->height, AV_PIX_FMT_RGB24, codec->width, codec->height, codec->pix_fmt,
         SWS_BILINEAR | SWS_ACCURATE_RND | SWS_BITEXACT, nullptr, nullptr, nullptr)));
-    // Without this swscale converts by BT.601, whatever the film says of itself.
-    const int* bt709 = sws_getCoefficients(SWS_CS_ITU709);
-    constexpr int kOne = 1 << 16;
-    Check(sws_setColorspaceDetails(scaler.get(), bt709, 1, bt709, 0, 0, kOne, kOne));
+    if (recipe.bt709) {
+      // Without this swscale converts by BT.601, whatever the film says of itself.
+      const int* bt709 = sws_getCoefficients(SWS_CS_ITU709);
+      constexpr int kOne = 1 << 16;
+      Check(sws_setColorspaceDetails(scaler.get(), bt709, 1, bt709, 0, 0, kOne, kOne));
+    }
   }
 
   /// Hands a frame to the encoder (null: the end) and writes what it gives back.
@@ -162,8 +200,8 @@ struct VideoWriter::Encoder {
 };
 
 VideoWriter::VideoWriter(const std::filesystem::path& file, const std::filesystem::path& shown_name,
-                         int width, int height, double fps)
-    : encoder_(std::make_unique<Encoder>()) {
+                         FilmCodec codec, int width, int height, double fps)
+    : encoder_(std::make_unique<Encoder>(RecipeOf(codec))) {
   // libav and x264 write to the terminal unless told otherwise; their failures come back as codes.
   av_log_set_level(AV_LOG_QUIET);
   encoder_->name = shown_name.string();

@@ -7,18 +7,25 @@
 
 namespace trackbed::render {
 
-/// Writes pictures into an H.264 film in MP4: libx264, veryfast, crf 23, yuv420p, BT.709, the index
-/// in front. One encoder thread and no dates or versions inside: equal pictures give equal bytes.
+/// What a film is in.
+enum class FilmCodec {
+  kH264,  ///< MP4: libx264, veryfast, crf 23, yuv420p, BT.709, the index in front
+  kWebp,  ///< animated WebP: libwebp_anim, quality 80, played for ever
+  kApng,  ///< animated PNG: without loss, played for ever
+};
+
+/// Writes pictures into a film. One encoder thread and no dates or versions inside: equal pictures
+/// give equal bytes.
 ///
 /// The file is complete only after Finish; without it, the destructor leaves what there is. About
 /// 25 ms per picture at 1280x720 on a busy machine. RunError, naming `shown_name`, when encoder or
 /// disk refuse.
 class VideoWriter {
  public:
-  /// `width` and `height` must be even. `shown_name` is what messages call the file, which may be a
-  /// temporary.
-  VideoWriter(const std::filesystem::path& file, const std::filesystem::path& shown_name, int width,
-              int height, double fps);
+  /// For H.264 `width` and `height` must be even. `shown_name` is what messages call the file,
+  /// which may be a temporary.
+  VideoWriter(const std::filesystem::path& file, const std::filesystem::path& shown_name,
+              FilmCodec codec, int width, int height, double fps);
   ~VideoWriter();
   VideoWriter(const VideoWriter&) = delete;
   VideoWriter& operator=(const VideoWriter&) = delete;

@@ -93,6 +93,7 @@ const std::vector<Kind>& Kinds() {
       {"plants", [] { return Summaries(Plants()); }},
       {"optimizers", [] { return Summaries(Searches()); }},
       {"cameras", [] { return Summaries(Cameras()); }},
+      {"overlays", [] { return Summaries(Overlays()); }},
       {"models", Models},
       {"scenarios", Scenarios},
   };

@@ -38,7 +38,8 @@ const std::vector<Verb> kVerbs{
      AddSweep},
     {"report", "Make one HTML page of finished runs, or of a study", AddReport},
     {"list",
-     "What there is: planners, controllers, manoeuvres, plants, optimizers, cameras, models, "
+     "What there is: planners, controllers, manoeuvres, plants, optimizers, cameras, overlays, "
+     "models, "
      "scenarios",
      AddList},
     {"model", "What a car is, or its composed MJCF", AddModel},

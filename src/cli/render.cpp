@@ -21,6 +21,9 @@ struct RenderOptions {
   std::optional<double> fps;
   std::optional<std::string> camera;
   std::string quality = FilmOptions{}.quality;
+  std::string inset;
+  std::vector<std::string> overlays;
+  std::vector<std::string> plants;
   std::string out;
   bool quiet = false;
 };
@@ -40,6 +43,15 @@ std::pair<int, int> ParseSize(const std::string& text) {
       Problem{.key = "--size", .message = fmt::format("'{}' is not of the form 1280x720", text)});
 }
 
+/// "chase (behind the car), side (from its right)".
+std::string Listed(const std::vector<FilmChoice>& choices) {
+  std::string text;
+  for (const FilmChoice& choice : choices) {
+    text += (text.empty() ? "" : ", ") + choice.name + " (" + choice.summary + ")";
+  }
+  return text;
+}
+
 int RenderOne(const RenderOptions& options) {
   const fs::path folder = options.folder;
   FilmOptions film;
@@ -55,6 +67,13 @@ int RenderOne(const RenderOptions& options) {
   film.fps = options.fps.value_or(film.fps);
   film.camera = options.camera.value_or(film.camera);
   film.quality = options.quality;
+  film.inset = options.inset;
+  film.plants = options.plants;
+  if (options.overlays == std::vector<std::string>{"none"}) {
+    film.overlays.clear();
+  } else if (!options.overlays.empty()) {
+    film.overlays = options.overlays;
+  }
   const fs::path out = options.out.empty() ? folder / kVideoName : fs::path(options.out);
   FilmRun(folder, out, film, options.quiet);
   if (!options.quiet) {
@@ -79,10 +98,6 @@ void FilmRun(const fs::path& folder, const fs::path& output, const FilmOptions& 
 
 void AddRender(CLI::App& command, int& exit_code) {
   const auto options = std::make_shared<RenderOptions>();
-  std::string cameras;
-  for (const CameraSummary& camera : Cameras()) {
-    cameras += (cameras.empty() ? "" : ", ") + camera.name + " (" + camera.summary + ")";
-  }
   command.add_option("run", options->folder, "Folder of a finished run")
       ->required()
       ->type_name("RUNDIR");
@@ -93,8 +108,23 @@ void AddRender(CLI::App& command, int& exit_code) {
       ->type_name("N");
   command
       .add_option("--camera", options->camera,
-                  "Point of view (default: the scenario's render.camera): " + cameras)
+                  "Point of view (default: the scenario's render.camera): " + Listed(Cameras()))
       ->type_name("NAME");
+  command
+      .add_option("--inset", options->inset, "Another camera, for a small picture in the picture")
+      ->type_name("NAME");
+  command
+      .add_option("--plants", options->plants,
+                  "These plants of the run side by side, each alone (default: one picture, the car "
+                  "and the others as its ghosts)")
+      ->delimiter(',')
+      ->type_name("NAME,...");
+  command
+      .add_option(
+          "--overlays", options->overlays,
+          "What to draw over the world, or none (default: everything): " + Listed(Overlays()))
+      ->delimiter(',')
+      ->type_name("NAME,...");
   command
       .add_option("--quality", options->quality,
                   "draft, or film: smooth edges and cast shadows, 4 times slower")
@@ -103,8 +133,8 @@ void AddRender(CLI::App& command, int& exit_code) {
   command
       .add_option(
           "-o,--out", options->out,
-          "A video FILE.mp4, or frames: DIR/F.png writes DIR/F_00000.png, ... (default: video.mp4 "
-          "in the run folder)")
+          "A video FILE.mp4, an animated picture FILE.webp or FILE.apng, or frames: DIR/F.png "
+          "writes DIR/F_00000.png, ... (default: video.mp4 in the run folder)")
       ->type_name("FILE");
   command.add_flag("-q,--quiet", options->quiet, "Print errors only");
   command.callback([options, &exit_code] { exit_code = RenderOne(*options); });

@@ -16,7 +16,7 @@ namespace {
 /// The cameras are a room below the scenario's.
 std::vector<std::string> CameraNames() {
   std::vector<std::string> names;
-  for (const CameraSummary& camera : Cameras()) {
+  for (const FilmChoice& camera : Cameras()) {
     names.push_back(camera.name);
   }
   return names;

@@ -114,6 +114,27 @@ TEST(Canvas, BlendsARectangleAndRoundsItsCorners) {
   EXPECT_EQ(image.Pixel(13, 13)[0], 128);
 }
 
+TEST(Canvas, FillsEveryPixelOfARectangleOnce) {
+  Font font = BlockFont();
+  // Whole ones of half the light that was there, whatever the place of the edges between pixels.
+  for (const double shift : {0.0, 0.3, 0.5, 0.9}) {
+    Image image;
+    image.Resize(60, 30);
+    std::fill(image.rgb.begin(), image.rgb.end(), std::uint8_t{200});
+    Canvas(image, font).Fill({5.0 + shift, 4.0 + shift, 40.0, 20.0}, 3.0, {0, 0, 0}, 0.5);
+    for (int y = 6; y < 23; ++y) {
+      for (int x = 7; x < 44; ++x) {
+        const bool corner = (x < 10 || x > 41) && (y < 9 || y > 20);
+        if (!corner) {
+          ASSERT_EQ(image.Pixel(x, y)[1], 100) << x << ", " << y << ", " << shift;
+        }
+      }
+    }
+    EXPECT_EQ(image.Pixel(3, 12)[1], 200);
+    EXPECT_EQ(image.Pixel(47, 12)[1], 200);
+  }
+}
+
 TEST(Canvas, CutsOffWhatLiesOutside) {
   Font font = BlockFont();
   Image image;

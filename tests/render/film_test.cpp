@@ -134,6 +134,52 @@ TEST_F(Film, HasItsIndexInFrontOfThePictures) {
   EXPECT_LT(bytes.find("moov"), bytes.find("mdat"));
 }
 
+/// The chunks of a RIFF file, by name.
+int Chunks(const std::string& bytes, const std::string& name) {
+  int count = 0;
+  for (std::size_t at = 12; at + 8 <= bytes.size();) {
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      size |= static_cast<std::size_t>(static_cast<unsigned char>(bytes[at + 4 + i])) << (8 * i);
+    }
+    count += bytes.compare(at, 4, name) == 0 ? 1 : 0;
+    at += 8 + size + size % 2;
+  }
+  return count;
+}
+
+TEST_F(Film, IsAnAnimatedPictureWhereThatIsAskedFor) {
+  options_.width = 97;  // odd: only H.264 cannot be
+  output_.replace_extension(".apng");
+  ASSERT_EQ(Make().frames, 11);
+  const Played apng = Play(output_);
+  EXPECT_EQ(apng.frames, 11);
+  EXPECT_EQ(apng.width, 97);
+  EXPECT_EQ(apng.codec, AV_CODEC_ID_APNG);
+
+  output_.replace_extension(".webp");
+  Make();
+  const std::string webp = ReadFile(output_);
+  EXPECT_EQ(webp.substr(0, 4), "RIFF");
+  EXPECT_EQ(webp.substr(8, 8), "WEBPVP8X");
+  EXPECT_EQ(Chunks(webp, "ANIM"), 1);
+  // WebP joins pictures that are the same; these are not.
+  EXPECT_EQ(Chunks(webp, "ANMF"), 11);
+  Make();
+  EXPECT_TRUE(webp == ReadFile(output_));
+}
+
+TEST_F(Film, ShowsPlantsSideBySide) {
+  options_.width = 192;
+  options_.plants = {"kinematic", "mujoco"};
+  const FilmReport report = Make();
+  EXPECT_EQ(report.car, "kinematic");
+  EXPECT_THAT(report.ghosts, testing::IsEmpty());
+  EXPECT_EQ(Play(output_).width, 192);
+  options_.plants = {"mujoco", "mujoco", "mujoco", "mujoco", "mujoco"};
+  EXPECT_EQ(InputMessage(), "plants: 5 side by side; allowed are 1 to 4");
+}
+
 TEST_F(Film, IsTheSameBytesTwice) {
   // Fresh memory is filled with another byte each time, so that whoever reads it before writing
   // it shows: libx264 does in some widths.
@@ -149,7 +195,7 @@ TEST_F(Film, IsTheSameBytesTwice) {
 TEST_F(Film, EveryCameraMakesAFilmOfItsOwn) {
   options_.fps = 1.0;
   std::vector<std::string> films;
-  for (const CameraSummary& camera : Cameras()) {
+  for (const FilmChoice& camera : Cameras()) {
     options_.camera = camera.name;
     EXPECT_EQ(Make().frames, 2) << camera.name;
     EXPECT_FALSE(camera.summary.empty()) << camera.name;

@@ -209,10 +209,11 @@ TEST_F(GroundFilm, TheLegendNamesFrictionAndGusts) {
   wind: {gusts: [{y: 10, shape: step, area: {x: 10, y: 0, length: 8, width: 4}}]}
 )");
   std::vector<std::string> texts;
-  for (const LegendEntry& entry : LegendOf(ReadRecording(folder_.path()))) {
+  for (const LegendEntry& entry : LegendOf(ReadRecording(folder_.path()), overlays_)) {
     texts.push_back(entry.text);
   }
-  EXPECT_EQ(texts, (std::vector<std::string>{"mujoco", "friction x0.1", "friction x0.5", "gust"}));
+  EXPECT_EQ(texts,
+            (std::vector<std::string>{"mujoco", "friction x0.1", "friction x0.5", "wind", "gust"}));
 }
 
 TEST_F(GroundFilm, TheCaptionTellsTheWindAtTheCar) {
@@ -269,7 +270,7 @@ TEST(DrawCaption, TheWindsArrowPointsUpWhereTheCameraLooks) {
     readings.wind = wind;
     Image image;
     image.Resize(1920, 1080);
-    DrawCaption(image, font, "run", "", {}, readings, azimuth);
+    DrawCaption(image, font, {.title = "run"}, readings, azimuth, 1000.0);
     return image;
   };
   const Image calm = picture({0.0, 0.01}, 0.0);  // has no arrow

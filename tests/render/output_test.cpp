@@ -5,12 +5,14 @@
 #include <png.h>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <stdexcept>
 #include <thread>
 
 #include "render/caption.h"
+#include "render/layout.h"
 #include "render/offscreen.h"
 #include "render/scene.h"
 #include "tests/render/run_folder.h"
@@ -65,8 +67,10 @@ bool HasVideo() {
 
 /// How the list of formats ends every message about them.
 std::string KnownFormats() {
-  return HasVideo() ? "; a film is made as .mp4 (video) and .png (frames)"
-                    : "; a film is made as .png (frames)";
+  return HasVideo()
+             ? "; a film is made as .mp4 (video), .webp (animation), .apng (animation), .png "
+               "(frames)"
+             : "; a film is made as .png (frames)";
 }
 
 TEST(FormatOf, NamesTheFormatsThereAre) {
@@ -124,7 +128,14 @@ TEST(BackgroundOutput, PassesOnWhatWritingThrows) {
   {
     BackgroundOutput output(std::make_unique<SlowOutput>(written));
     output.Add(refused);
-    EXPECT_THROW(output.Add(image), RunError);
+    // Two wait at most, so the third after it comes when the first was refused.
+    EXPECT_THROW(
+        {
+          for (int i = 0; i < 3; ++i) {
+            output.Add(image);
+          }
+        },
+        RunError);
   }
   {
     BackgroundOutput output(std::make_unique<SlowOutput>(written));
@@ -133,9 +144,52 @@ TEST(BackgroundOutput, PassesOnWhatWritingThrows) {
   }
   {
     BackgroundOutput output(std::make_unique<SlowOutput>(written));
-    output.Add(image);  // and no Finish: it is written all the same
+    output.Add(refused);
+    EXPECT_THROW(output.Finish(), RunError);
+    EXPECT_THROW(output.Add(image), RunError);  // and so it stays
   }
-  EXPECT_THAT(written, testing::ElementsAre(1));
+  EXPECT_THAT(written, testing::IsEmpty());
+}
+
+/// Waits in Add until it is let go; says when it has begun and how many pictures it was given.
+class HeldOutput : public FilmOutput {
+ public:
+  explicit HeldOutput(std::atomic<bool>& let_go, std::atomic<int>& given)
+      : let_go_(let_go), given_(given) {}
+
+  void Add(const Image& /*image*/) override {
+    ++given_;
+    given_.notify_all();
+    let_go_.wait(false);
+  }
+  void Finish() override {}
+
+ private:
+  std::atomic<bool>& let_go_;
+  std::atomic<int>& given_;
+};
+
+TEST(BackgroundOutput, GoesOnWhileAPictureIsWrittenAndWritesWhatWaits) {
+  std::atomic<bool> let_go = false;
+  std::atomic<int> given = 0;
+  std::thread later;
+  {
+    BackgroundOutput output(std::make_unique<HeldOutput>(let_go, given));
+    Image image;
+    output.Add(image);
+    given.wait(0);
+    // The first is being written and stays so: these come back all the same.
+    output.Add(image);
+    output.Add(image);
+    EXPECT_EQ(given, 1);
+    // No Finish, as after an exception.
+    later = std::thread([&] {
+      let_go = true;
+      let_go.notify_all();
+    });
+  }
+  EXPECT_EQ(given, 3);
+  later.join();
 }
 
 class Frames : public testing::Test {
@@ -169,6 +223,7 @@ TEST_F(Frames, AreThePicturesThatAVideoIsMadeOf) {
   options_.width = 160;
   options_.height = 90;
   options_.fps = 1.0;
+  options_.overlays = {"plan", "trail", "caption"};
   RenderFilm(run_, output_, options_);
   const MuJoCoErrorsAsExceptions guard;
   Recording recording = ReadRecording(run_);
@@ -178,12 +233,13 @@ TEST_F(Frames, AreThePicturesThatAVideoIsMadeOf) {
     glyphs.push_back(offscreen.Glyph(character));
   }
   Font font(std::move(glyphs));
-  FilmScene scene(recording, false);
+  FilmScene scene(recording, OverlaysOf({"plan", "trail"}), false);
   const CameraSubject subject(recording);
   Image image;
   offscreen.Render(scene.At(1.0, FindCamera("chase").pose(subject, 1.0, 160.0 / 90.0)), image);
-  DrawCaption(image, font, "run", "", {{kPlanColor, "planned path"}, {CarColor(0), "mujoco"}},
-              recording.ReadingsAt(1.0), 0.0);
+  DrawCaption(image, font,
+              {.title = "run", .legend = {{kPlanColor, "planned path"}, {CarColor(0), "mujoco"}}},
+              recording.ReadingsAt(1.0), 0.0, 90.0 - Layout(160, 90).margin);
   EXPECT_TRUE(Decode(ReadFile(FrameName(output_, 1))).rgb == image.rgb);
 }
 

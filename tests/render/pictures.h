@@ -62,7 +62,7 @@ class FilmSceneTest : public testing::Test {
       FitShadowMap(*recording.model, *pose_);
     }
     Offscreen offscreen(*recording.model, kWidth, kHeight, supersampling);
-    FilmScene scene(recording, shadows);
+    FilmScene scene(recording, overlays_, shadows);
     Image image;
     offscreen.Render(scene.At(time, *pose_), image);
     return image;
@@ -78,6 +78,7 @@ class FilmSceneTest : public testing::Test {
   }
 
   const MuJoCoErrorsAsExceptions guard_;
+  Overlays overlays_ = OverlaysOf({"plan", "trail", "ghosts", "wind"});
   TempFolder folder_;
   std::optional<CameraPose> pose_;
 };

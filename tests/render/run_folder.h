@@ -61,6 +61,31 @@ inline void WritePlant(const std::filesystem::path& folder, const std::string& p
   WriteFileAtomically(folder / (plant + ".csv"), log.ToCsv());
 }
 
+/// Gives a plant's log a column, or other values in it.
+inline void SetLogColumn(const std::filesystem::path& folder, const std::string& plant,
+                         const std::string& column, const std::function<double(double)>& value) {
+  const std::filesystem::path file = folder / (plant + ".csv");
+  const Table before = ReadCsv(file);
+  std::vector<std::string> columns = before.columns();
+  const int found = before.Find(column);
+  if (found < 0) {
+    columns.push_back(column);
+  }
+  Table after(columns);
+  for (std::size_t row = 0; row < before.rows(); ++row) {
+    std::vector<double> cells;
+    for (std::size_t i = 0; i < before.columns().size(); ++i) {
+      cells.push_back(before.at(row, i));
+    }
+    if (found < 0) {
+      cells.push_back(0.0);
+    }
+    cells[found < 0 ? cells.size() - 1 : static_cast<std::size_t>(found)] = value(cells[0]);
+    after.AddRow(cells);
+  }
+  WriteFileAtomically(file, after.ToCsv());
+}
+
 inline void CopyPrius(const std::filesystem::path& folder) {
   std::filesystem::copy_file(
       std::filesystem::path(TRACKBED_SOURCE_DIR) / "models" / "prius" / "prius.xml",

@@ -39,7 +39,7 @@ TEST_F(FilmSceneTest, PaintCastsNoShadowOnItself) {
   recording.model->vis.map.shadowclip = static_cast<float>(200.0 / recording.model->stat.extent);
   recording.model->vis.quality.shadowsize = 512;
   Offscreen offscreen(*recording.model, kWidth, kHeight, 1);
-  FilmScene scene(recording, true);
+  FilmScene scene(recording, overlays_, true);
   pose_ =
       FindCamera("top").pose(CameraSubject(recording), 0.0, static_cast<double>(kWidth) / kHeight);
   Image image;
@@ -158,8 +158,10 @@ std::string PaintAt(const std::array<int, 3>& rgb) {
 }
 
 TEST_F(FilmSceneTest, ANewPlanTakesThePlaceOfTheOldOneWhenItHolds) {
+  // So slowly that it is never between the camera and what is looked at.
+  WritePlant(folder_.path(), "mujoco", 2.0, [](double time) { return CarPlace{time, 0.0, 0.0}; });
   WriteStraightPlan(folder_.path(), 16.0);
-  WriteNewPlans(folder_.path(), "mujoco", {{0.5, 2.0, 16.0}, {1.5, -2.0, 16.0}});
+  WriteNewPlans(folder_.path(), "mujoco", {{1.0, 2.0, 16.0}, {2.0, -2.0, 16.0}});
   for (const char* camera : {"chase", "top"}) {
     const auto shown = [&](double time) {
       const Image image = Picture(camera, time);
@@ -171,24 +173,20 @@ TEST_F(FilmSceneTest, ANewPlanTakesThePlaceOfTheOldOneWhenItHolds) {
       return paint;
     };
     using Paints = std::array<std::string, 3>;
-    EXPECT_EQ(shown(0.49), (Paints{"white", "none", "none"})) << camera;
-    EXPECT_EQ(shown(0.5), (Paints{"pale", "yellow", "none"})) << camera;
-    EXPECT_EQ(shown(1.49), (Paints{"pale", "yellow", "none"})) << camera;
-    EXPECT_EQ(shown(1.5), (Paints{"pale", "pale yellow", "yellow"})) << camera;
+    EXPECT_EQ(shown(0.99), (Paints{"white", "none", "none"})) << camera;
+    EXPECT_EQ(shown(1.0), (Paints{"pale", "yellow", "none"})) << camera;
+    EXPECT_EQ(shown(1.99), (Paints{"pale", "yellow", "none"})) << camera;
     EXPECT_EQ(shown(2.0), (Paints{"pale", "pale yellow", "yellow"})) << camera;
   }
 }
 
-TEST_F(FilmSceneTest, APlanThatWasSoonReplacedLeavesNothing) {
+TEST_F(FilmSceneTest, APlanThatHeldForLessThanASecondLeavesNothing) {
   WriteStraightPlan(folder_.path(), 16.0);
-  WriteNewPlans(folder_.path(), "mujoco", {{0.2, 2.0, 16.0}, {1.1, -2.0, 16.0}});
-  const auto at = [this](double time, double y) {
-    return PaintAt(At(Picture("top", time), 12.0, y));
-  };
-  EXPECT_EQ(at(1.0, 2.0), "yellow");
-  EXPECT_EQ(at(1.1, 2.0), "none");
-  EXPECT_EQ(at(1.1, -2.0), "yellow");
-  EXPECT_EQ(at(1.1, 0.0), "pale");
+  WriteNewPlans(folder_.path(), "mujoco", {{1.0, 2.0, 16.0}, {1.9, -2.0, 16.0}});
+  const Image image = Picture("top", 2.0);
+  EXPECT_EQ(PaintAt(At(image, 12.0, 0.0)), "pale");
+  EXPECT_EQ(PaintAt(At(image, 12.0, 2.0)), "none");
+  EXPECT_EQ(PaintAt(At(image, 12.0, -2.0)), "yellow");
 }
 
 TEST_F(FilmSceneTest, APlanThatWasGivenUpIsNarrowerAndBelowTheOneInForce) {
@@ -210,13 +208,13 @@ TEST_F(FilmSceneTest, NewPlansAreWithinTheSceneHoweverMany) {
   std::string rows = "from_t_s,x_m,y_m\n";
   for (int plan = 0; plan < 400; ++plan) {
     for (int i = 0; i <= 16; ++i) {
-      rows += fmt::format("{},{},{}\n", 1.0 * plan, i, i % 2);
+      rows += fmt::format("{},{},{}\n", plan, i, i % 2);
     }
   }
   WriteFileAtomically(folder_.path() / "mujoco.plan.csv", rows);
   Recording recording = ReadRecording(folder_.path());
-  FilmScene scene(recording, false);
-  const CameraPose pose = FindCamera("top").pose(CameraSubject(recording), 1.0, 16.0 / 9.0);
+  FilmScene scene(recording, overlays_, false);
+  const CameraPose pose = FindCamera("top").pose(CameraSubject(recording), 400.0, 16.0 / 9.0);
   const mjvScene& posed = scene.At(400.0, pose);
   EXPECT_LT(posed.ngeom, posed.maxgeom);
   EXPECT_GT(posed.ngeom, 400 * 16);
@@ -225,7 +223,7 @@ TEST_F(FilmSceneTest, NewPlansAreWithinTheSceneHoweverMany) {
 TEST_F(FilmSceneTest, TheLegendNamesWhatThereIs) {
   const auto legend = [this] {
     std::vector<std::string> texts;
-    for (const LegendEntry& entry : LegendOf(ReadRecording(folder_.path()))) {
+    for (const LegendEntry& entry : LegendOf(ReadRecording(folder_.path()), overlays_)) {
       texts.push_back(entry.text);
     }
     return texts;
@@ -309,7 +307,7 @@ TEST_F(FilmSceneTest, ALongRouteStaysWithinTheScene) {
   WritePlant(folder_.path(), "mujoco", 600.0, slalom);
   WritePlant(folder_.path(), "kinematic", 600.0, slalom);
   Recording recording = ReadRecording(folder_.path());
-  FilmScene scene(recording, false);
+  FilmScene scene(recording, overlays_, false);
   const CameraSubject subject(recording);
   const double end = recording.end();
   mjvScene& posed = scene.At(end, FindCamera("top").pose(subject, end, 16.0 / 9.0));

@@ -24,7 +24,7 @@ TEST(WheelPair, IsSeenWhereItWasDriven) {
   const CameraPose pose = FindCamera("side").pose(CameraSubject(recording), time,
                                                   static_cast<double>(kWidth) / kHeight);
   Offscreen offscreen(*recording.model, kWidth, kHeight, 1);
-  FilmScene scene(recording, false);
+  FilmScene scene(recording, {}, false);
   Image image;
   offscreen.Render(scene.At(time, pose), image);
   // The green hood, in the middle of its right flank, 0.21 m out and 0.27 m high.

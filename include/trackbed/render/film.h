@@ -7,6 +7,21 @@
 
 namespace trackbed {
 
+/// Something drawn over the recorded world that can be left out, or a point of view.
+struct FilmChoice {
+  std::string name;
+  std::string summary;  ///< one line
+};
+
+/// Every camera there is, the default first.
+std::vector<FilmChoice> Cameras();
+
+/// Every overlay there is.
+std::vector<FilmChoice> Overlays();
+
+/// The names of all overlays.
+std::vector<std::string> AllOverlays();
+
 /// How a film is taken. The defaults are what `trackbed run --video` makes.
 struct FilmOptions {
   int width = 1280;              ///< [px], 64 to 7680, even for a video
@@ -16,24 +31,20 @@ struct FilmOptions {
   /// "draft": one sample a pixel and a painted shadow under the car. "film": four samples, for
   /// smooth edges, and the shadows that the model's lamps cast, for about four times the time.
   std::string quality = "draft";
+  std::string inset{};  ///< another camera, for a small picture in the picture; empty: none
+  std::vector<std::string> overlays = AllOverlays();  ///< names of Overlays()
+  /// Plants of the run, each with a part of the picture of its own, side by side, as the car and
+  /// alone. None: one picture, the car and the other plants as its ghosts.
+  std::vector<std::string> plants{};
 };
 
 /// What was filmed.
 struct FilmReport {
   int frames = 0;
   double duration = 0.0;            ///< [s] of the run, first to last frame
-  std::string car;                  ///< the plant shown as the car
+  std::string car;                  ///< the plant shown as the car, the leftmost one
   std::vector<std::string> ghosts;  ///< the plants shown as translucent cars
 };
-
-/// A point of view that a film can be taken from.
-struct CameraSummary {
-  std::string name;
-  std::string summary;  ///< one line
-};
-
-/// Every camera there is, the default first.
-std::vector<CameraSummary> Cameras();
 
 /// What encodes videos, such as "H.264 (libavcodec 59.37.100)", or "off" in a build without them.
 std::string VideoEncoder();
@@ -48,28 +59,28 @@ void CheckFilmName(const std::filesystem::path& output);
 /// may be absent, `scenario.resolved.yaml` too where the world is flat, calm and the same all over,
 /// and `<plant>.plan.csv` is where a plant took up new plans on its way. The car is
 /// the first plant whose name begins with "mujoco", else the first by name; every other plant is a
-/// translucent ghost. Shown are the planned path and each car's trail so far on the ground, the
-/// footprints of the ghosts, friction patches, the outline of where a gust is blowing, and a
-/// caption of the car's numbers and the wind at the car. From the moment when the car takes up a
-/// new plan, that one is shown in a colour of its own and those before it faint and narrow; new
-/// plans of the ghosts are not shown. Frame k is the run at (its first time) + k / fps, states in
-/// between interpolated linearly; the last frame is the last one not after the end of the longest
-/// recording, and a plant that ends before stays where it stopped.
+/// translucent ghost. With `plants`, each of them has a picture of its own, without ghosts. Shown
+/// are the recorded world with its friction patches, and the `overlays`. From the moment when the
+/// car takes up a new plan, that one is shown in a colour of its own and those before it faint and
+/// narrow; new plans of the ghosts are not shown. Frame k is the run at (its first time) + k / fps,
+/// states in between interpolated linearly; the last frame is the last one not after the end of the
+/// longest recording, and a plant that ends before stays where it stopped.
 ///
 /// `progress` (may be empty) is called after every frame with the fraction done, in (0, 1]. What it
 /// throws ends the film and is passed on.
 ///
 /// `output` says by its extension what is made:
 ///  * `.mp4`: a video, H.264, yuv420p, playable while still loading; not in a build without. The
-///  file is either what it was
-///    or a complete film, also after an exception. Its folder must exist.
+///    file is either what it was or a complete film, also after an exception. Its folder must
+///    exist.
+///  * `.webp`, `.apng`: the same as an animated picture that repeats.
 ///  * `.png`: a picture per frame. `frames/f.png` asks for `frames/f_00000.png`,
 ///    `frames/f_00001.png`, ...; the folder is made if it is missing. Each file is either what it
 ///    was or complete; after an exception those written before stay. When the last one is written,
 ///    the frames that an older and longer film of the same name left beyond it are removed.
 ///
 /// Guarantees: the same folder and options give the same bytes. Pictures are encoded and written in
-/// a thread of their own, one behind the drawing; it has ended when this returns or throws.
+/// a thread of their own, up to three behind the drawing; it has ended when this returns or throws.
 /// Does not: run on two threads at a time (MuJoCo's error handlers, which are set while it runs and
 /// restored after, are global). Silences libav's log for good.
 /// Errors: InputError for a folder that is missing, incomplete or inconsistent, for an unknown

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/image.h"
+
+/// How everything that is written over a picture looks.
+namespace trackbed::render {
+
+inline constexpr Color kPanel{0.06F, 0.07F, 0.09F};
+inline constexpr double kPanelAlpha = 0.66;
+inline constexpr Color kLabel{0.70F, 0.74F, 0.78F};
+inline constexpr Color kValue{1.00F, 1.00F, 1.00F};
+
+/// Sizes [px]. They follow the picture's height but stay readable down to 640x360; in smaller
+/// pictures everything shrinks to fit the width.
+struct Layout {
+  double margin;  ///< from the picture's edge to a panel
+  double pad;     ///< from a panel's edge to its text
+  double label;   ///< height of a text cell
+  double value;
+  double gap;       ///< between columns
+  double hairline;  ///< thickness of thin lines
+
+  Layout(int width, int height) {
+    const double scale = height / 720.0;
+    // Five columns at the least readable sizes take about 600 px.
+    const double shrink = std::min(1.0, width / 640.0);
+    // A tall and narrow picture, such as one of two side by side, has room for no more than this.
+    const double widest = width / 960.0;
+    const auto size = [&](double of_height, double least) {
+      return std::max(of_height * std::min(scale, widest), least * shrink);
+    };
+    margin = size(20.0, 10.0);
+    pad = size(14.0, 8.0);
+    label = std::round(size(23.0, 16.0));
+    value = std::round(size(36.0, 22.0));
+    gap = size(30.0, 16.0);
+    hairline = size(2.0, 1.2);
+  }
+  /// Radius of a panel's corners.
+  [[nodiscard]] double round() const { return 0.7 * pad; }
+};
+
+}  // namespace trackbed::render

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "render/camera.h"
+#include "render/canvas.h"
+
+namespace trackbed::render {
+
+/// Where a camera sees points of the world in a picture.
+class Projection {
+ public:
+  /// For a picture of this size [px].
+  Projection(const CameraPose& camera, int width, int height);
+
+  /// The point of the picture, which may lie outside of it; none for what is behind the camera, or
+  /// nearer than a tenth of the way to its target.
+  [[nodiscard]] std::optional<CanvasPoint> operator()(const Eigen::Vector3d& point_W) const;
+
+ private:
+  Eigen::Vector3d eye_;
+  Eigen::Matrix3d axes_;  // rows: right, down, forward
+  double nearest_;
+  double focal_;  // [px]
+  CanvasPoint middle_;
+};
+
+}  // namespace trackbed::render

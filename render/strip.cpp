@@ -1,0 +1,185 @@
+#include "render/strip.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "render/round_up.h"
+#include "trackbed/core/angle.h"
+
+namespace trackbed::render {
+namespace {
+
+constexpr Color kCurvature{0.86F, 0.88F, 0.84F};
+constexpr Color kAsked{0.35F, 0.80F, 1.00F};
+constexpr Color kActual{1.00F, 0.55F, 0.15F};
+constexpr double kLettersToCell = 0.86;  // the labels are a little smaller than the legend's
+
+/// Planned curvature where the car is at `time` [s], by the plan that holds then.
+std::optional<double> CurvatureAt(const Recording& recording, double time) {
+  const CurvatureProfile* held = nullptr;
+  for (const CurvatureProfile& profile : recording.curvatures) {
+    if (held == nullptr || profile.from <= time) {
+      held = &profile;
+    }
+  }
+  const TimedTable& log = recording.plants.front().log();
+  const std::optional<std::size_t> station = log.Find("s_m");
+  if (held == nullptr || !station) {
+    return std::nullopt;
+  }
+  const double s = log.Value(log.At(time), *station);
+  const auto after = std::upper_bound(held->s.begin(), held->s.end(), s);
+  const auto next = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
+      after - held->s.begin(), 1, std::max<std::ptrdiff_t>(1, std::ssize(held->s) - 1)));
+  if (next >= held->s.size()) {
+    return held->curvature.front();
+  }
+  const double part =
+      std::clamp((s - held->s[next - 1]) / (held->s[next] - held->s[next - 1]), 0.0, 1.0);
+  return held->curvature[next - 1] + part * (held->curvature[next] - held->curvature[next - 1]);
+}
+
+}  // namespace
+
+Strip::Strip(const Recording& recording, int width, int height, Font& font)
+    : begin_(recording.begin()), end_(recording.end()), layout_(width, height) {
+  const double tall = 4.1 * layout_.label;
+  const double letters = kLettersToCell * layout_.label;
+  panel_ = {layout_.margin, height - layout_.margin - tall, width - 2.0 * layout_.margin, tall};
+  left_ = static_cast<int>(std::round(panel_.left + layout_.pad));
+  top_ = static_cast<int>(std::round(panel_.top + 0.4 * layout_.pad + letters));
+  columns_ = std::max(2, static_cast<int>(panel_.width - 2.0 * layout_.pad));
+  rows_ = std::max(4, static_cast<int>(panel_.top + tall - 0.5 * layout_.pad) - top_);
+
+  std::vector<double> asked;
+  std::vector<double> actual;
+  std::vector<std::optional<double>> curvature;
+  double most_steering = kPi / 180.0;
+  double most_curvature = 0.0;
+  for (int column = 0; column < columns_; ++column) {
+    const double time = begin_ + (end_ - begin_) * column / (columns_ - 1);
+    const Readings readings = recording.plants.front().ReadingsAt(time);
+    asked.push_back(readings.steering_asked);
+    actual.push_back(readings.steering);
+    curvature.push_back(CurvatureAt(recording, time));
+    most_steering = std::max({most_steering, std::abs(asked.back()), std::abs(actual.back())});
+    most_curvature = std::max(most_curvature, std::abs(curvature.back().value_or(0.0)));
+  }
+
+  Image scratch;
+  const auto blank = [&] {
+    scratch.Resize(columns_, rows_);
+    std::fill(scratch.rgb.begin(), scratch.rgb.end(), std::uint8_t{0});
+    return Canvas(scratch, font);
+  };
+  // Of the rows above the middle: half a line's thickness is left free.
+  const double reach = 0.5 * rows_ - layout_.hairline;
+  const auto curve = [&](const std::vector<double>& values, double hairlines) {
+    std::vector<CanvasPoint> points;
+    for (int column = 0; column < columns_; ++column) {
+      points.push_back(
+          {column + 0.5,
+           0.5 * rows_ - reach * values[static_cast<std::size_t>(column)] / most_steering});
+    }
+    blank().Stroke(points, hairlines * layout_.hairline, kValue, 1.0);
+    return MaskOf(scratch);
+  };
+  // Where both agree each is seen: one lies on the other and is narrower.
+  asked_ = curve(asked, 2.6);
+  actual_ = curve(actual, 1.1);
+  if (most_curvature > 0.0) {
+    Canvas canvas = blank();
+    for (int column = 0; column < columns_; ++column) {
+      const double up =
+          reach * curvature[static_cast<std::size_t>(column)].value_or(0.0) / most_curvature;
+      const double middle = 0.5 * rows_;
+      canvas.FillConvex({{column + 0.0, middle},
+                         {column + 1.0, middle},
+                         {column + 1.0, middle - up},
+                         {column + 0.0, middle - up}},
+                        kValue, 1.0);
+    }
+    curvature_ = MaskOf(scratch);
+  }
+
+  const double degrees = most_steering * 180.0 / kPi;
+  labels_ = {{0.0, kAsked, "steering asked"},
+             {0.0, kActual, fmt::format("steering actual (most {:.1f} deg)", degrees)}};
+  if (most_curvature > 0.0) {
+    labels_.insert(
+        labels_.begin(),
+        {0.0, kCurvature, fmt::format("planned curvature (most {:.3g} 1/m)", most_curvature)});
+  }
+  double pen = left_;
+  for (Label& label : labels_) {
+    label.left = pen;
+    pen += font.Width(label.text, letters) + layout_.gap;
+  }
+}
+
+double Strip::ColumnOf(double time) const {
+  return end_ > begin_ ? std::clamp((time - begin_) / (end_ - begin_), 0.0, 1.0) * (columns_ - 1)
+                       : 0.0;
+}
+
+Strip::Mask Strip::MaskOf(const Image& drawn) const {
+  Mask mask;
+  mask.reserve(drawn.rgb.size() / 3);
+  for (std::size_t i = 0; i < drawn.rgb.size(); i += 3) {
+    mask.push_back(drawn.rgb[i]);
+  }
+  return mask;
+}
+
+void Strip::Blend(Image& image, const Mask& mask, Color color, double alpha, int first,
+                  int last) const {
+  if (mask.empty()) {
+    return;
+  }
+  const std::array<int, 3> rgb{static_cast<int>(255.0F * color.r),
+                               static_cast<int>(255.0F * color.g),
+                               static_cast<int>(255.0F * color.b)};
+  const int weight = static_cast<int>(256.0 * alpha);
+  const int right = std::min(last, image.width - left_);
+  const int bottom = std::min(rows_, image.height - top_);
+  for (int row = 0; row < bottom; ++row) {
+    const std::uint8_t* share = mask.data() + static_cast<std::ptrdiff_t>(row) * columns_;
+    std::uint8_t* pixel = image.Pixel(left_ + first, top_ + row);
+    for (int column = first; column < right; ++column, pixel += 3) {
+      if (share[column] > 0) {
+        for (std::size_t i = 0; i < 3; ++i) {
+          // In 65280 parts, 255 times 256; to the nearest.
+          const int change = weight * share[column] * (rgb[i] - pixel[i]);
+          pixel[i] = static_cast<std::uint8_t>(pixel[i] +
+                                               (change + (change < 0 ? -32640 : 32640)) / 65280);
+        }
+      }
+    }
+  }
+}
+
+void Strip::Draw(Image& image, Font& font, double time) const {
+  Canvas canvas(image, font);
+  canvas.Fill(panel_, layout_.round(), kPanel, kPanelAlpha);
+  const double cursor = ColumnOf(time);
+  const int now = std::min(columns_, static_cast<int>(cursor) + 1);
+  Blend(image, curvature_, kCurvature, 0.55, 0, now);
+  Blend(image, curvature_, kCurvature, 0.28, now, columns_);
+  canvas.Fill(
+      {static_cast<double>(left_), top_ + 0.5 * rows_ - 0.5, static_cast<double>(columns_), 1.0},
+      0.0, kLabel, 0.55);
+  Blend(image, asked_, kAsked, 1.0, 0, now);
+  Blend(image, actual_, kActual, 1.0, 0, now);
+  canvas.Fill(
+      {left_ + cursor, static_cast<double>(top_), layout_.hairline, static_cast<double>(rows_)},
+      0.0, kValue, 0.9);
+  for (const Label& label : labels_) {
+    canvas.Text(label.left, panel_.top + 0.3 * layout_.pad, label.text,
+                kLettersToCell * layout_.label, label.color);
+  }
+}
+
+}  // namespace trackbed::render

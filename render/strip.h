@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "render/canvas.h"
+#include "render/layout.h"
+#include "render/recording.h"
+
+namespace trackbed::render {
+
+/// A panel along the bottom of the picture: the curvature of the path that is planned there, and
+/// the steering asked for and done until now, over the time of the whole drive.
+class Strip {
+ public:
+  /// For pictures of this size [px].
+  Strip(const Recording& recording, int width, int height, Font& font);
+
+  /// Upper edge of the panel [px].
+  [[nodiscard]] double top() const { return panel_.top; }
+  void Draw(Image& image, Font& font, double time) const;
+
+ private:
+  /// A curve's share of each pixel of the plot, 0 to 255, rows from the top.
+  using Mask = std::vector<std::uint8_t>;
+
+  struct Label {
+    double left;
+    Color color;
+    std::string text;
+  };
+
+  [[nodiscard]] double ColumnOf(double time) const;
+  [[nodiscard]] Mask MaskOf(const Image& drawn) const;
+  void Blend(Image& image, const Mask& mask, Color color, double alpha, int first, int last) const;
+
+  double begin_;  // [s]
+  double end_;
+  Layout layout_;
+  Canvas::Rectangle panel_;
+  // The plot, in whole pixels.
+  int left_ = 0;
+  int top_ = 0;
+  int columns_ = 0;
+  int rows_ = 0;
+  Mask curvature_;
+  Mask asked_;
+  Mask actual_;
+  std::vector<Label> labels_;
+};
+
+}  // namespace trackbed::render

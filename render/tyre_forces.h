@@ -1,0 +1,64 @@
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "render/canvas.h"
+#include "render/projection.h"
+#include "render/recording.h"
+
+namespace trackbed::render {
+
+/// A tyre's force on the car at a moment, and what friction allows it.
+struct WheelForce {
+  Eigen::Vector3d place;    ///< on the ground under the hub
+  Eigen::Vector3d forward;  ///< unit vectors along the ground: where the wheel rolls to,
+  Eigen::Vector3d left;     ///< and across
+  Vec2 force;               ///< along them [N]
+  Vec2 most;                ///< half axes of the ellipse that friction times load is [N]
+
+  /// How much of the friction is used: 1 on the ellipse. Tyre laws may give a little more.
+  [[nodiscard]] double Use() const;
+};
+
+/// The forces of a recorded car whose log has them.
+class TyreForces {
+ public:
+  /// Of the car, `recording.plants.front()`, whose lifetime must be longer.
+  explicit TyreForces(const Recording& recording);
+
+  /// Whether the log has forces and the model the wheels that they are of.
+  [[nodiscard]] bool known() const { return !wheels_.empty(); }
+  /// One per wheel that carries load. `data` is posed at `time` [s].
+  [[nodiscard]] std::vector<WheelForce> At(double time, const mjData& data) const;
+  /// How long a newton is in pictures [m]: a circle of friction is as wide as half the car at rest.
+  [[nodiscard]] double metres_per_newton() const { return metres_per_newton_; }
+
+ private:
+  struct Wheel {
+    int joint = -1;  // about which it spins
+    int body = -1;
+    std::array<std::size_t, 3> columns{};  // load, along, across
+    Vec2 friction{0.0, 0.0};               // along, across, at the nominal load
+    Vec2 friction_per_load{0.0, 0.0};      // their change with load over the nominal one
+    double nominal_load = 0.0;             // [N]; 0: friction does not depend on the load
+  };
+
+  [[nodiscard]] std::optional<Wheel> FindWheel(const char* name, const char* axle) const;
+
+  const Recording& recording_;
+  std::vector<Wheel> wheels_;
+  double metres_per_newton_ = 0.0;
+};
+
+/// Draws each force as an arrow inside its ellipse, flat on the ground and over what hides that.
+/// `hairline` is the thickness of the ellipse [px].
+void DrawTyreForces(Canvas& canvas, const Projection& projection,
+                    const std::vector<WheelForce>& forces, double metres_per_newton,
+                    double hairline);
+
+}  // namespace trackbed::render

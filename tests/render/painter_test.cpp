@@ -1,0 +1,140 @@
+#include "render/painter.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/render/pictures.h"
+#include "trackbed/core/error.h"
+#include "trackbed/render/film.h"
+
+namespace trackbed::render {
+namespace {
+
+/// Two plants: one goes straight on, the other one to the left.
+class PainterTest : public FilmSceneTest {
+ protected:
+  PainterTest() {
+    WritePlant(folder_.path(), "kinematic", 2.0, [](double time) {
+      return CarPlace{3.0 * time, 1.5 * time, 0.3};
+    });
+    WriteStraightPlan(folder_.path(), 16.0);
+    options_.width = kWidth;
+    options_.height = kHeight;
+  }
+
+  Image Painted(const FilmOptions& options, double time = 1.0) const {
+    std::vector<Recording> recordings;
+    for (const std::string& plant : options.plants) {
+      recordings.push_back(ReadRecording(folder_.path(), {plant}));
+    }
+    if (options.plants.empty()) {
+      recordings.push_back(ReadRecording(folder_.path()));
+    }
+    Painter painter(recordings, options);
+    Image image;
+    painter.Paint(time, image);
+    return image;
+  }
+  template <typename Function>
+  static std::string InputMessage(const Function& function) {
+    try {
+      function();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no InputError";
+  }
+
+  FilmOptions options_;
+};
+
+/// Pixels that differ, of a part of two pictures.
+int Different(const Image& a, const Image& b, int left, int right, int top, int bottom) {
+  int count = 0;
+  for (int y = top; y < bottom; ++y) {
+    for (int x = left; x < right; ++x) {
+      const std::uint8_t* p = a.Pixel(x, y);
+      const std::uint8_t* q = b.Pixel(x, y);
+      count += p[0] != q[0] || p[1] != q[1] || p[2] != q[2] ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+TEST_F(PainterTest, WithoutOverlaysThereIsTheWorldAlone) {
+  options_.overlays.clear();
+  const Image bare = Painted(options_);
+  overlays_ = {};
+  EXPECT_TRUE(bare.rgb == Picture("chase", 1.0).rgb);
+  for (const char* name : {"plan", "trail", "error", "ghosts", "strip", "caption"}) {
+    options_.overlays = {name};
+    EXPECT_FALSE(Painted(options_).rgb == bare.rgb) << name;
+  }
+}
+
+TEST_F(PainterTest, PlantsSideBySideAreEachAsAlone) {
+  options_.plants = {"kinematic", "mujoco"};
+  options_.overlays = {"plan", "trail", "strip", "caption"};
+  for (const char* quality : {"draft", "film"}) {
+    options_.quality = quality;
+    const Image both = Painted(options_);
+    ASSERT_EQ(both.width, kWidth);
+    for (int part = 0; part < 2; ++part) {
+      FilmOptions one = options_;
+      one.width = kWidth / 2;
+      one.plants = {options_.plants[static_cast<std::size_t>(part)]};
+      const Image alone = Painted(one);
+      // But for the seam, which is 1.2 px wide on either side at most.
+      int different = 0;
+      for (int y = 0; y < kHeight; ++y) {
+        for (int x = 2; x < kWidth / 2 - 2; ++x) {
+          const std::uint8_t* here = both.Pixel(part * kWidth / 2 + x, y);
+          different += std::equal(here, here + 3, alone.Pixel(x, y)) ? 0 : 1;
+        }
+      }
+      // The map of shadows is fitted to the whole picture's camera, the same for both widths.
+      EXPECT_EQ(different, 0) << quality << ", " << one.plants.front();
+    }
+  }
+}
+
+TEST_F(PainterTest, TheInsetIsTheOtherCamerasPicture) {
+  options_.width = 640;
+  options_.height = 360;
+  options_.overlays = {"plan", "trail"};
+  const Image without = Painted(options_);
+  options_.inset = "top";
+  const Image with = Painted(options_);
+  // 0.3 of the sides, inside the right and upper margins of 10 px and a frame of 2 px.
+  const int left = 640 - 10 - 192 - 2;
+  const int top = 10 + 2;
+  EXPECT_EQ(Different(with, without, 0, left - 2, 0, 360), 0);
+  EXPECT_EQ(Different(with, without, 0, 640, top + 108 + 2, 360), 0);
+  FilmOptions other = options_;
+  other.width = 192;
+  other.height = 108;
+  other.camera = "top";
+  other.inset.clear();
+  const Image alone = Painted(other);
+  int different = 0;
+  for (int y = 0; y < 108; ++y) {
+    for (int x = 0; x < 192; ++x) {
+      const std::uint8_t* here = with.Pixel(left + x, top + y);
+      different += std::equal(here, here + 3, alone.Pixel(x, y)) ? 0 : 1;
+    }
+  }
+  EXPECT_EQ(different, 0);
+}
+
+TEST_F(PainterTest, NamesWhatThereIsNot) {
+  options_.inset = "tip";
+  EXPECT_EQ(InputMessage([this] { Painted(options_); }),
+            "inset: unknown camera 'tip'; did you mean 'top'?");
+  EXPECT_EQ(InputMessage([this] { ReadRecording(folder_.path(), {"mojoco"}); }),
+            folder_.path().string() + ": plants: unknown plant 'mojoco'; did you mean 'mujoco'?");
+}
+
+}  // namespace
+}  // namespace trackbed::render
