@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -234,9 +235,14 @@ TEST(Docs, CommandsDoWhatTheySay) {
     if (film && !HasVideo(folder)) {
       continue;
     }
-    const Outcome outcome = Trackbed(folder, command + (film    ? " --size 128x72 --fps 2"
-                                                        : sweep ? " --set drive.time_limit=1"
-                                                                : ""));
+    const bool run_film = command.find(" --video") != std::string::npos;
+    static const std::regex kLook(" --(size|fps) [^ ]+");
+    const Outcome outcome =
+        Trackbed(folder, std::regex_replace(command, kLook, "") +
+                             (film       ? " --size 128x72 --fps 2"
+                              : run_film ? " --set render.size=[128,72] --set render.fps=2"
+                              : sweep    ? " --set drive.time_limit=1"
+                                         : ""));
     EXPECT_EQ(outcome.code, 0) << command << "\n" << outcome.output;
   }
 }
