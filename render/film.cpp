@@ -11,6 +11,7 @@
 #include "render/painter.h"
 #include "render/recording.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
 
 namespace trackbed {
 namespace {
@@ -33,10 +34,10 @@ void CheckSide(std::vector<Problem>& problems, const char* key, int value, int m
   }
 }
 
-void CheckOptions(const FilmOptions& options, const render::FilmFormat& format) {
+void CheckOptions(const FilmOptions& options, bool even_sides) {
   std::vector<Problem> problems;
-  CheckSide(problems, "width", options.width, 7680, format.even_sides);
-  CheckSide(problems, "height", options.height, 4320, format.even_sides);
+  CheckSide(problems, "width", options.width, 7680, even_sides);
+  CheckSide(problems, "height", options.height, 4320, even_sides);
   if (!(options.fps >= 1.0 && options.fps <= 240.0)) {
     problems.push_back({.file = "",
                         .key = "fps",
@@ -65,6 +66,42 @@ std::vector<render::Recording> ReadRecordings(const fs::path& folder,
     recordings.push_back(render::ReadRecording(folder));
   }
   return recordings;
+}
+
+/// A part of a run [s].
+struct Times {
+  double begin = 0;
+  double end = 0;
+};
+
+Times TimesOf(const std::vector<render::Recording>& recordings) {
+  Times times{recordings.front().begin(), recordings.front().end()};
+  for (const render::Recording& recording : recordings) {
+    times.end = std::max(times.end, recording.end());
+  }
+  return times;
+}
+
+void CheckTime(const char* key, double time, const Times& allowed) {
+  if (!(time >= allowed.begin && time <= allowed.end)) {
+    throw InputError(Problem{.key = key,
+                             .message = fmt::format("{} s; allowed are {:.6g} to {:.6g}", time,
+                                                    allowed.begin, allowed.end)});
+  }
+}
+
+/// What the film shows of the whole run.
+Times TimesAskedFor(const FilmOptions& options, const Times& run) {
+  Times times = run;
+  if (options.from) {
+    CheckTime("from", *options.from, run);
+    times.begin = *options.from;
+  }
+  if (options.to) {
+    CheckTime("to", *options.to, times);
+    times.end = *options.to;
+  }
+  return times;
 }
 
 }  // namespace
@@ -101,17 +138,13 @@ FilmReport RenderFilm(const fs::path& run_folder, const fs::path& output,
                       const FilmOptions& options,
                       const std::function<void(double fraction)>& progress) {
   const render::FilmFormat& format = render::FormatOf(output);
-  CheckOptions(options, format);
+  CheckOptions(options, format.even_sides);
   const render::MuJoCoErrorsAsExceptions guard;
   std::vector<render::Recording> recordings = ReadRecordings(run_folder, options.plants);
+  const auto [begin, end] = TimesAskedFor(options, TimesOf(recordings));
   render::Painter painter(recordings, options);
   render::BackgroundOutput film(format.open(output, options.width, options.height, options.fps));
 
-  const double begin = recordings.front().begin();
-  double end = begin;
-  for (const render::Recording& recording : recordings) {
-    end = std::max(end, recording.end());
-  }
   FilmReport report;
   // The small surplus keeps a last frame that falls on the end but for rounding.
   report.frames = static_cast<int>(std::floor((end - begin) * options.fps + 1e-6)) + 1;
@@ -133,6 +166,23 @@ FilmReport RenderFilm(const fs::path& run_folder, const fs::path& output,
   }
   film.Finish();
   return report;
+}
+
+void RenderPicture(const fs::path& run_folder, const fs::path& output, double time,
+                   const FilmOptions& options) {
+  if (output.extension() != ".png") {
+    throw InputError(Problem{.file = output.string(), .message = "a picture is made as .png"});
+  }
+  CheckOptions(options, false);
+  const render::MuJoCoErrorsAsExceptions guard;
+  std::vector<render::Recording> recordings = ReadRecordings(run_folder, options.plants);
+  CheckTime("time", time, TimesOf(recordings));
+  render::Image image;
+  render::Painter(recordings, options).Paint(time, image);
+  if (output.has_parent_path()) {
+    MakeFolder(output.parent_path());
+  }
+  WriteFileAtomically(output, render::EncodePng(image));
 }
 
 }  // namespace trackbed

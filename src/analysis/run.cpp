@@ -133,7 +133,7 @@ void RemoveEarlierRun(const fs::path& folder) {
                                  "tree.csv",    "plan.json",    "metrics.json",
                                  "timing.json", "model.xml",    "scenario.resolved.yaml",
                                  "video.mp4",   "compare.csv",  "compare.json",
-                                 "report.html", kMcapName};
+                                 "report.html", "picture.png",  kMcapName};
   for (const PlantEntry& plant : Plants()) {
     for (const char* ending : {".csv", ".state.csv", ".plan.csv", ".plan.json", ".tree.csv"}) {
       names.push_back(PlantFileName(plant.name) + ending);

@@ -24,6 +24,9 @@ struct RenderOptions {
   std::string inset;
   std::vector<std::string> overlays;
   std::vector<std::string> plants;
+  std::optional<double> from;
+  std::optional<double> to;
+  std::optional<double> at;
   std::string out;
   bool quiet = false;
 };
@@ -69,13 +72,20 @@ int RenderOne(const RenderOptions& options) {
   film.quality = options.quality;
   film.inset = options.inset;
   film.plants = options.plants;
+  film.from = options.from;
+  film.to = options.to;
   if (options.overlays == std::vector<std::string>{"none"}) {
     film.overlays.clear();
   } else if (!options.overlays.empty()) {
     film.overlays = options.overlays;
   }
-  const fs::path out = options.out.empty() ? folder / kVideoName : fs::path(options.out);
-  FilmRun(folder, out, film, options.quiet);
+  const char* name = options.at ? "picture.png" : kVideoName;
+  const fs::path out = options.out.empty() ? folder / name : fs::path(options.out);
+  if (options.at) {
+    RenderPicture(folder, out, *options.at, film);
+  } else {
+    FilmRun(folder, out, film, options.quiet);
+  }
   if (!options.quiet) {
     fmt::print("{}\n", out.string());
   }
@@ -130,11 +140,19 @@ void AddRender(CLI::App& command, int& exit_code) {
                   "draft, or film: smooth edges and cast shadows, 4 times slower")
       ->type_name("draft|film")
       ->capture_default_str();
+  auto* from = command.add_option("--from", options->from, "Begin there in the run's time [s]");
+  auto* to = command.add_option("--to", options->to, "End there [s]");
+  command
+      .add_option("--at", options->at, "Make one picture of the run there [s], FILE.png, no film")
+      ->excludes(from, to)
+      ->type_name("S");
+  from->type_name("S");
+  to->type_name("S");
   command
       .add_option(
           "-o,--out", options->out,
           "A video FILE.mp4, an animated picture FILE.webp or FILE.apng, or frames: DIR/F.png "
-          "writes DIR/F_00000.png, ... (default: video.mp4 in the run folder)")
+          "writes DIR/F_00000.png, ... (default: video.mp4, or picture.png, in the run folder)")
       ->type_name("FILE");
   command.add_flag("-q,--quiet", options->quiet, "Print errors only");
   command.callback([options, &exit_code] { exit_code = RenderOne(*options); });

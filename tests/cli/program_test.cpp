@@ -130,6 +130,14 @@ TEST(Program, MakesFramesWithOrWithoutVideo) {
   const Outcome frames = Trackbed(folder, "render r --size 128x72 --fps 5 -o p/f.png");
   EXPECT_EQ(frames.code, 0) << frames.output;
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "p/f_00001.png"));
+  const Outcome cut =
+      Trackbed(folder, "render r --size 128x72 --fps 5 --from 0.1 --to 0.2 -o q/f.png");
+  EXPECT_EQ(cut.code, 0) << cut.output;
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "q/f_00000.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "q/f_00001.png"));
+  const Outcome one = Trackbed(folder, "render r --size 128x72 --at 0.2");
+  EXPECT_EQ(one.output, "r/picture.png\n");
+  EXPECT_EQ(ReadFile(folder.path() / "r/picture.png"), ReadFile(folder.path() / "p/f_00001.png"));
 }
 
 TEST(Program, SaysAtOnceThatItWasBuiltWithoutVideo) {

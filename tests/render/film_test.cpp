@@ -223,6 +223,49 @@ TEST_F(Film, LastsAsLongAsTheLongestRecording) {
   EXPECT_EQ(Make().frames, 4);  // 0, 0.5, 1, 1.5 s
 }
 
+TEST_F(Film, IsCutWhereItIsAskedFor) {
+  options_.overlays = {"trail"};
+  const fs::path whole = folder_.path() / "whole" / "f.png";
+  const fs::path part = folder_.path() / "part" / "f.png";
+  RenderFilm(run_, whole, options_);
+  options_.from = 0.3;
+  options_.to = 0.75;
+  const FilmReport report = RenderFilm(run_, part, options_);
+  EXPECT_EQ(report.frames, 5);  // 0.3, 0.4, ..., 0.7 s
+  EXPECT_DOUBLE_EQ(report.duration, 0.4);
+  for (int frame = 0; frame < 5; ++frame) {
+    EXPECT_TRUE(ReadFile(part.parent_path() / fmt::format("f_{:05}.png", frame)) ==
+                ReadFile(whole.parent_path() / fmt::format("f_{:05}.png", frame + 3)))
+        << frame;
+  }
+  options_.from = options_.to = 1.0;
+  EXPECT_EQ(Make().frames, 1);
+}
+
+TEST_F(Film, IsNotCutOutsideOfTheRun) {
+  options_.from = -0.1;
+  EXPECT_EQ(InputMessage(), "from: -0.1 s; allowed are 0 to 1");
+  options_.from = 0.6;
+  options_.to = 0.5;
+  EXPECT_EQ(InputMessage(), "to: 0.5 s; allowed are 0.6 to 1");
+  options_.from.reset();
+  options_.to = std::nan("");
+  EXPECT_EQ(InputMessage(), "to: nan s; allowed are 0 to 1");
+}
+
+TEST_F(Film, APictureIsWhatAFrameIs) {
+  const fs::path frames = folder_.path() / "frames" / "f.png";
+  const fs::path picture = folder_.path() / "new" / "one.png";
+  options_.width = 97;
+  RenderFilm(run_, frames, options_);
+  RenderPicture(run_, picture, 0.7, options_);
+  EXPECT_TRUE(ReadFile(picture) == ReadFile(frames.parent_path() / "f_00007.png"));
+  EXPECT_EQ(MessageOf<InputError>([&] { RenderPicture(run_, picture, 1.2, options_); }),
+            "time: 1.2 s; allowed are 0 to 1");
+  EXPECT_EQ(MessageOf<InputError>([&] { RenderPicture(run_, "one.jpg", 0.7, options_); }),
+            "one.jpg: a picture is made as .png");
+}
+
 TEST_F(Film, ReportsRisingProgressUpToOne) {
   std::vector<double> fractions;
   options_.fps = 2.0;

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <algorithm>
 #include <atomic>
@@ -15,6 +14,7 @@
 #include "render/layout.h"
 #include "render/offscreen.h"
 #include "render/scene.h"
+#include "tests/render/decode_png.h"
 #include "tests/render/run_folder.h"
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/error.h"
@@ -24,20 +24,6 @@ namespace trackbed::render {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// As libpng reads it; png_test has another reader.
-Image Decode(const std::string& bytes) {
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  Image image;
-  if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) != 0) {
-    png.format = PNG_FORMAT_RGB;
-    image.Resize(static_cast<int>(png.width), static_cast<int>(png.height));
-    png_image_finish_read(&png, nullptr, image.rgb.data(), 0, nullptr);
-  }
-  EXPECT_STREQ(png.message, "");
-  return image;
-}
 
 std::vector<std::string> FilesIn(const fs::path& folder) {
   std::vector<std::string> names;
@@ -214,7 +200,7 @@ TEST_F(Frames, AreOneCompletePictureEach) {
   EXPECT_EQ(RenderFilm(run_, output_, options_).frames, 3);
   EXPECT_THAT(FilesIn(output_.parent_path()),
               testing::UnorderedElementsAre("f_00000.png", "f_00001.png", "f_00002.png"));
-  const Image image = Decode(ReadFile(FrameName(output_, 2)));
+  const Image image = DecodePng(ReadFile(FrameName(output_, 2)));
   EXPECT_EQ(image.width, 161);
   EXPECT_EQ(image.height, 91);
 }
@@ -240,7 +226,7 @@ TEST_F(Frames, AreThePicturesThatAVideoIsMadeOf) {
   DrawCaption(image, font,
               {.title = "run", .legend = {{kPlanColor, "planned path"}, {CarColor(0), "mujoco"}}},
               recording.ReadingsAt(1.0), 0.0, 90.0 - Layout(160, 90).margin);
-  EXPECT_TRUE(Decode(ReadFile(FrameName(output_, 1))).rgb == image.rgb);
+  EXPECT_TRUE(DecodePng(ReadFile(FrameName(output_, 1))).rgb == image.rgb);
 }
 
 TEST_F(Frames, WrittenBeforeAnInterruptionStay) {
@@ -305,7 +291,7 @@ TEST_F(Frames, OfEveryQualityDifferButNotInSize) {
     options_.quality = quality;
     RenderFilm(run_, output_, options_);
     pictures.push_back(ReadFile(FrameName(output_, 0)));
-    EXPECT_EQ(Decode(pictures.back()).width, 161) << quality;
+    EXPECT_EQ(DecodePng(pictures.back()).width, 161) << quality;
   }
   EXPECT_FALSE(pictures[0] == pictures[1]);
 }

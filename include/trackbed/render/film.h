@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,8 @@ struct FilmOptions {
   /// Plants of the run, each with a part of the picture of its own, side by side, as the car and
   /// alone. None: one picture, the car and the other plants as its ghosts.
   std::vector<std::string> plants{};
+  std::optional<double> from{};  ///< [s] of the run, where the film begins; none: at its first time
+  std::optional<double> to{};    ///< [s], at least `from`, where it ends; none: at its last time
 };
 
 /// What was filmed.
@@ -62,9 +65,9 @@ void CheckFilmName(const std::filesystem::path& output);
 /// translucent ghost. With `plants`, each of them has a picture of its own, without ghosts. Shown
 /// are the recorded world with its friction patches, and the `overlays`. From the moment when the
 /// car takes up a new plan, that one is shown in a colour of its own and those before it faint and
-/// narrow; new plans of the ghosts are not shown. Frame k is the run at (its first time) + k / fps,
-/// states in between interpolated linearly; the last frame is the last one not after the end of the
-/// longest recording, and a plant that ends before stays where it stopped.
+/// narrow; new plans of the ghosts are not shown. Frame k is the run at `from` + k / fps, states in
+/// between interpolated linearly; the last frame is the last one not after `to`, or after the end
+/// of the longest recording; a plant that ends before stays where it stopped.
 ///
 /// `progress` (may be empty) is called after every frame with the fraction done, in (0, 1]. What it
 /// throws ends the film and is passed on.
@@ -91,5 +94,11 @@ void CheckFilmName(const std::filesystem::path& output);
 FilmReport RenderFilm(const std::filesystem::path& run_folder, const std::filesystem::path& output,
                       const FilmOptions& options,
                       const std::function<void(double fraction)>& progress = {});
+
+/// One picture of such a film: the run at `time` [s], written to `output`, a `.png`, whose folder
+/// is made if it is missing. Of the options fps, from and to have no meaning here. Otherwise as
+/// RenderFilm; InputError, too, for a time outside of the run.
+void RenderPicture(const std::filesystem::path& run_folder, const std::filesystem::path& output,
+                   double time, const FilmOptions& options);
 
 }  // namespace trackbed
