@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/round_up.h"
-
 namespace trackbed::render {
 
 Color ErrorColor(double share) {
@@ -16,28 +14,15 @@ Color ErrorColor(double share) {
   return {a.r + part * (b.r - a.r), a.g + part * (b.g - a.g), a.b + part * (b.b - a.b)};
 }
 
-double ErrorScale(const Recording& recording) {
-  const PlantRecording& car = recording.plants.front();
-  const std::optional<std::size_t> column = car.log().Find("cross_track_m");
-  if (recording.plan.empty() || !column) {
-    return 0.0;
-  }
-  constexpr double kLeast = 0.05;
-  double most = kLeast;
-  for (std::size_t row = 0; row < car.log().times().size(); ++row) {
-    most = std::max(most, std::abs(car.log().table().at(row, *column)));
-  }
-  return RoundedUp(most);
-}
-
-std::vector<double> ErrorShares(const Recording& recording, double scale) {
+std::vector<double> ErrorShares(const Recording& recording) {
   constexpr double kSteps = 16.0;
   constexpr double kHold = 0.6;  // of a step: half would change where two steps meet
   const PlantRecording& car = recording.plants.front();
   std::vector<double> shares;
   double step = -1.0;
   for (const double time : car.times()) {
-    const double share = kSteps * std::abs(car.ReadingsAt(time).cross_track.value_or(0.0)) / scale;
+    const double share =
+        kSteps * std::abs(car.ReadingsAt(time).cross_track.value_or(0.0)) / recording.scales.error;
     if (step < 0.0 || std::abs(share - step) > kHold) {
       step = std::round(share);
     }

@@ -10,7 +10,7 @@
 /// A trail in the colours of how far from the path it is.
 namespace trackbed::render {
 
-/// Colours from on the path to as far off as the car ever was.
+/// Colours from on the path to Scales::error.
 inline constexpr std::array<Color, 5> kErrorColors{{{0.10F, 0.62F, 0.36F},
                                                     {0.58F, 0.78F, 0.22F},
                                                     {0.99F, 0.80F, 0.16F},
@@ -20,13 +20,9 @@ inline constexpr std::array<Color, 5> kErrorColors{{{0.10F, 0.62F, 0.36F},
 /// The colour of a share of the scale, in [0, 1].
 Color ErrorColor(double share);
 
-/// The distance from the path that the last colour stands for [m]: the largest of the drive,
-/// rounded up to 1, 2 or 5 times a power of ten, and at least 0.05 m. 0 when the car follows no
-/// path or its log does not say how far from it it is.
-double ErrorScale(const Recording& recording);
-
-/// Shares of the scale along the car's drive, one per recorded state, in steps so coarse that long
-/// stretches keep one colour, and with hysteresis: what sways between two steps stays at one.
-std::vector<double> ErrorShares(const Recording& recording, double scale);
+/// Shares of Scales::error, which must not be 0, along the car's drive, one per recorded state, in
+/// steps so coarse that long stretches keep one colour, and with hysteresis: what sways between two
+/// steps stays at one.
+std::vector<double> ErrorShares(const Recording& recording);
 
 }  // namespace trackbed::render

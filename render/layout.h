@@ -14,7 +14,7 @@ inline constexpr Color kLabel{0.70F, 0.74F, 0.78F};
 inline constexpr Color kValue{1.00F, 1.00F, 1.00F};
 
 /// Sizes [px]. They follow the picture's height but stay readable down to 640x360; in smaller
-/// pictures everything shrinks to fit the width.
+/// pictures everything shrinks to fit.
 struct Layout {
   double margin;  ///< from the picture's edge to a panel
   double pad;     ///< from a panel's edge to its text
@@ -25,8 +25,9 @@ struct Layout {
 
   Layout(int width, int height) {
     const double scale = height / 720.0;
-    // Five columns at the least readable sizes take about 600 px.
-    const double shrink = std::min(1.0, width / 640.0);
+    // Five columns at the least readable sizes take about 600 px, all panels one below the other
+    // 250.
+    const double shrink = std::min({1.0, width / 640.0, height / 270.0});
     // A tall and narrow picture, such as one of two side by side, has room for no more than this.
     const double widest = width / 960.0;
     const auto size = [&](double of_height, double least) {

@@ -78,7 +78,7 @@ std::vector<LegendEntry> LegendOf(const Recording& recording, const Overlays& ov
   if (overlays.plan && !recording.new_plans.empty()) {
     legend.push_back({kNewPlanColor, "new plan"});
   }
-  const double scale = overlays.error ? ErrorScale(recording) : 0.0;
+  const double scale = overlays.error ? recording.scales.error : 0.0;
   const std::string& car = recording.plants.front().plant();
   if (scale > 0.0) {
     legend.push_back({CarColor(0),
@@ -162,6 +162,7 @@ Painter::Painter(std::span<Recording> recordings, const FilmOptions& options)
                                 static_cast<double>(options.width) / options.height)),
           options.width, options.height, quality_.supersampling),
       font_(ReadFont(offscreen_)) {
+  ShareScales(recordings);
   const auto count = static_cast<int>(recordings.size());
   for (int i = 0; i < count; ++i) {
     const int left = options.width * i / count;

@@ -14,6 +14,7 @@
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/scenario/scenario.h"
+#include "trackbed/sim/plant.h"
 
 namespace trackbed::render {
 namespace {
@@ -25,14 +26,6 @@ constexpr std::string_view kStateSuffix = ".state.csv";
 [[noreturn]] void Reject(const fs::path& file, std::string key, std::string message) {
   throw InputError(
       Problem{.file = file.string(), .key = std::move(key), .message = std::move(message)});
-}
-
-Table ReadRunTable(const fs::path& file) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) {
-    Reject(file, "", "missing from the run folder");
-  }
-  return ReadCsv(file);
 }
 
 ModelHandle LoadModel(const fs::path& file) {
@@ -50,104 +43,58 @@ ModelHandle LoadModel(const fs::path& file) {
   return model;
 }
 
-/// The plants that left states, the one to show as the car first.
-std::vector<std::string> FindPlants(const fs::path& folder) {
+/// The plants whose states lie in the folder.
+std::vector<std::string> PlantsWithStates(const fs::path& folder) {
   std::vector<std::string> plants;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
+    std::string name = entry.path().filename().string();
     // Names with a leading dot are files that a writer has not finished.
     if (name.size() > kStateSuffix.size() && name.ends_with(kStateSuffix) && name[0] != '.') {
-      plants.push_back(name.substr(0, name.size() - kStateSuffix.size()));
+      name.resize(name.size() - kStateSuffix.size());
+      for (const PlantEntry& plant : Plants()) {
+        if (PlantFileName(plant.name) == name) {
+          name = plant.name;
+        }
+      }
+      plants.push_back(std::move(name));
     }
   }
   if (plants.empty()) {
     Reject(folder, "",
            "no <plant>.state.csv in the folder: not a run, or one that recorded nothing");
   }
+  return plants;
+}
+
+/// InputError when `metrics.json`, if there is one, tells of a plant that is not among these.
+void CheckAllAreThere(const fs::path& folder, const std::vector<std::string>& plants) {
+  const fs::path metrics = folder / "metrics.json";
+  std::error_code ignored;
+  if (!fs::exists(metrics, ignored)) {
+    return;
+  }
+  try {
+    const nlohmann::json told = nlohmann::json::parse(ReadFile(metrics));
+    for (const auto& item : told.at("plants").items()) {
+      if (std::find(plants.begin(), plants.end(), item.key()) == plants.end()) {
+        Reject(folder / (PlantFileName(item.key()) + std::string(kStateSuffix)), "",
+               fmt::format("missing from the run folder, whose metrics.json tells of a drive of {}",
+                           item.key()));
+      }
+    }
+  } catch (const nlohmann::json::exception& error) {
+    Reject(metrics, "plants", error.what());
+  }
+}
+
+/// The plants of the run, the one to show as the car first.
+std::vector<std::string> FindPlants(const fs::path& folder) {
+  std::vector<std::string> plants = PlantsWithStates(folder);
+  CheckAllAreThere(folder, plants);
   std::sort(plants.begin(), plants.end());
   std::stable_partition(plants.begin(), plants.end(),
                         [](const std::string& plant) { return plant.starts_with("mujoco"); });
   return plants;
-}
-
-std::vector<double> FiniteColumn(const Table& table, const fs::path& file, const char* column) {
-  if (table.Find(column) < 0) {
-    Reject(file, column, "no such column");
-  }
-  std::vector<double> values = table.Column(column);
-  for (std::size_t row = 0; row < values.size(); ++row) {
-    if (!std::isfinite(values[row])) {
-      Reject(file, column, fmt::format("row {}: not finite", row + 1));
-    }
-  }
-  return values;
-}
-
-std::vector<Point> ReadPlan(const fs::path& file) {
-  std::vector<Point> points;
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) {
-    return points;
-  }
-  const Table table = ReadRunTable(file);
-  const std::vector<double> x = FiniteColumn(table, file, "x_m");
-  const std::vector<double> y = FiniteColumn(table, file, "y_m");
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    points.push_back({x[i], y[i]});
-  }
-  return points;
-}
-
-/// One plan after the other, each row with the time from which its plan holds.
-std::vector<NewPlan> ReadNewPlans(const fs::path& file) {
-  std::vector<NewPlan> plans;
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) {
-    return plans;
-  }
-  const Table table = ReadRunTable(file);
-  const std::vector<double> from = FiniteColumn(table, file, "from_t_s");
-  const std::vector<double> x = FiniteColumn(table, file, "x_m");
-  const std::vector<double> y = FiniteColumn(table, file, "y_m");
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    if (i > 0 && from[i] < from[i - 1]) {
-      Reject(file, "from_t_s",
-             fmt::format("row {}: {} comes before {}", i + 1, from[i], from[i - 1]));
-    }
-    if (i == 0 || from[i] > from[i - 1]) {
-      plans.push_back({from[i], {}});
-    }
-    plans.back().path.push_back({x[i], y[i]});
-  }
-  return plans;
-}
-
-/// Adds the curvature of each plan in `file`, in so far as that has it.
-void AddCurvatures(const fs::path& file, double begin, std::vector<CurvatureProfile>& profiles) {
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) {
-    return;
-  }
-  const Table table = ReadRunTable(file);
-  if (table.Find("s_m") < 0 || table.Find("curvature_radpm") < 0) {
-    return;
-  }
-  const std::vector<double> s = FiniteColumn(table, file, "s_m");
-  const std::vector<double> curvature = FiniteColumn(table, file, "curvature_radpm");
-  const std::vector<double> from = table.Find("from_t_s") < 0
-                                       ? std::vector<double>(s.size(), begin)
-                                       : FiniteColumn(table, file, "from_t_s");
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    if (i == 0 || from[i] > from[i - 1]) {
-      profiles.push_back({from[i], {}, {}});
-    }
-    CurvatureProfile& profile = profiles.back();
-    // Where a station comes twice, as at a jump, the first one is as good.
-    if (profile.s.empty() || s[i] > profile.s.back()) {
-      profile.s.push_back(s[i]);
-      profile.curvature.push_back(curvature[i]);
-    }
-  }
 }
 
 /// The plants to film out of those there are.
@@ -157,27 +104,11 @@ std::vector<std::string> Chosen(const fs::path& folder, std::vector<std::string>
     if (std::find(there_are.begin(), there_are.end(), plant) == there_are.end()) {
       Reject(folder, "plants", "unknown plant " + UnknownName(plant, there_are));
     }
+    if (std::count(asked.begin(), asked.end(), plant) > 1) {
+      Reject(folder, "plants", fmt::format("'{}' is listed twice", plant));
+    }
   }
   return asked.empty() ? std::move(there_are) : asked;
-}
-
-std::vector<Point> ReadCones(const fs::path& file) {
-  std::vector<Point> cones;
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) {
-    return cones;
-  }
-  try {
-    const nlohmann::json plan = nlohmann::json::parse(ReadFile(file));
-    for (const nlohmann::json& gate : plan.value("gates", nlohmann::json::array())) {
-      for (const nlohmann::json& cone : gate.at("cones_m")) {
-        cones.push_back({cone.at(0).get<double>(), cone.at(1).get<double>()});
-      }
-    }
-  } catch (const nlohmann::json::exception& error) {
-    Reject(file, "gates", error.what());
-  }
-  return cones;
 }
 
 /// What the run changed of its car.
@@ -248,8 +179,8 @@ double TimedTable::Value(const Place& place, std::size_t column) const {
 PlantRecording::PlantRecording(const fs::path& folder, const std::string& plant,
                                const mjModel& model)
     : plant_(plant),
-      state_(folder / (plant + std::string(kStateSuffix))),
-      log_(folder / (plant + ".csv")),
+      state_(folder / (PlantFileName(plant) + std::string(kStateSuffix))),
+      log_(folder / (PlantFileName(plant) + ".csv")),
       speed_(log_.Require("speed_mps")),
       steering_asked_(log_.Require("steering_command_rad")),
       steering_(log_.Require("steering_rad")),
@@ -346,6 +277,30 @@ Readings Recording::ReadingsAt(double time) const {
   return readings;
 }
 
+std::optional<double> Recording::PlannedCurvature(double time) const {
+  const TimedTable& log = plants.front().log();
+  const CurvatureProfile* held = nullptr;
+  for (const CurvatureProfile& profile : curvatures) {
+    if (held == nullptr || profile.from <= time) {
+      held = &profile;
+    }
+  }
+  const std::optional<std::size_t> station = log.Find("s_m");
+  if (held == nullptr || !station || time > log.end()) {
+    return std::nullopt;
+  }
+  const double s = log.Value(log.At(time), *station) - held->station;
+  const auto after = std::upper_bound(held->s.begin(), held->s.end(), s);
+  const auto next = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
+      after - held->s.begin(), 1, std::max<std::ptrdiff_t>(1, std::ssize(held->s) - 1)));
+  if (next >= held->s.size()) {
+    return held->curvature.front();
+  }
+  const double part =
+      std::clamp((s - held->s[next - 1]) / (held->s[next] - held->s[next - 1]), 0.0, 1.0);
+  return held->curvature[next - 1] + part * (held->curvature[next] - held->curvature[next - 1]);
+}
+
 Point Recording::OnGround(const Point& point) const {
   return {point.x, point.y, GroundHeight(world, {point.x, point.y})};
 }
@@ -374,11 +329,22 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
   for (const Point& cone : ReadCones(folder / "plan.json")) {
     recording.cones.push_back(recording.OnGround(cone));
   }
-  recording.plan = ReadPlan(folder / "plan.csv");
-  const fs::path new_plans = folder / (plants.front() + ".plan.csv");
+  const fs::path plan = folder / "plan.csv";
+  if (fs::exists(folder / "plan.json", ignored) && !fs::exists(plan, ignored)) {
+    Reject(plan, "", "missing from the run folder, which has plan.json");
+  }
+  const fs::path new_plans = folder / (PlantFileName(plants.front()) + ".plan.csv");
+  recording.plan = ReadPlan(plan);
   recording.new_plans = ReadNewPlans(new_plans);
-  AddCurvatures(folder / "plan.csv", recording.begin(), recording.curvatures);
-  AddCurvatures(new_plans, recording.begin(), recording.curvatures);
+  recording.curvatures = ReadCurvatures(plan, recording.begin());
+  // The log counts stations on from one plan to the next, and each plan its own from 0.
+  const TimedTable& log = recording.plants.front().log();
+  const std::optional<std::size_t> station = log.Find("s_m");
+  for (CurvatureProfile& profile : ReadCurvatures(new_plans, recording.begin())) {
+    profile.station = station ? log.Value(log.At(profile.from), *station) : 0.0;
+    recording.curvatures.push_back(std::move(profile));
+  }
+  recording.scales = ScalesOf(recording);
   return recording;
 }
 

@@ -8,18 +8,13 @@
 #include <vector>
 
 #include "render/handles.h"
+#include "render/recorded_plans.h"
+#include "render/scales.h"
 #include "trackbed/core/table.h"
 #include "trackbed/sim/plant.h"
 #include "trackbed/world/world.h"
 
 namespace trackbed::render {
-
-/// A point on the ground [m]. Who does not care how high that is leaves z out.
-struct Point {
-  double x = 0;
-  double y = 0;
-  double z = 0;
-};
 
 /// A table whose first column is time, read between its rows.
 class TimedTable {
@@ -67,8 +62,8 @@ struct Readings {
 /// One plant's drive.
 class PlantRecording {
  public:
-  /// From `<plant>.state.csv` and `<plant>.csv` in `folder`; the former must have a column for
-  /// every joint of `model`. InputError otherwise.
+  /// Of the plant of that name, from its `.state.csv` and `.csv` in `folder`; the former must have
+  /// a column for every joint of `model`. InputError otherwise.
   PlantRecording(const std::filesystem::path& folder, const std::string& plant,
                  const mjModel& model);
 
@@ -107,19 +102,6 @@ class PlantRecording {
   std::optional<std::size_t> cross_track_;
 };
 
-/// A path that the car took up on its way, in place of the one it had.
-struct NewPlan {
-  double from = 0;  ///< the moment from which it holds [s]
-  std::vector<Point> path;
-};
-
-/// The curvature of a plan along its way; one value at least.
-struct CurvatureProfile {
-  double from = 0;                ///< the moment from which the plan holds [s]
-  std::vector<double> s;          ///< rising [m]
-  std::vector<double> curvature;  ///< [rad/m]
-};
-
 /// A run folder, read.
 struct Recording {
   std::string name;  ///< of the folder
@@ -132,18 +114,23 @@ struct Recording {
   std::vector<CurvatureProfile> curvatures;  ///< of both, where their files have it
   std::vector<Point> cones;                  ///< of the gates that the plan leads through
   TyreLaw tyre = TyreLaw::kContact;          ///< of the plant `mujoco`
+  Scales scales;                             ///< of this recording, or common with others
 
   [[nodiscard]] double begin() const { return plants.front().begin(); }
   [[nodiscard]] double end() const;
 
   /// What the caption says of the car at a moment.
   [[nodiscard]] Readings ReadingsAt(double time) const;
+  /// Planned curvature [rad/m] where the car is then, by the plan that holds then; none without a
+  /// plan, and after the end of the car's drive.
+  [[nodiscard]] std::optional<double> PlannedCurvature(double time) const;
   /// The point of the ground above or below a point.
   [[nodiscard]] Point OnGround(const Point& point) const;
 };
 
 /// Reads everything that a film needs: of these plants alone, the first of them as the car, or of
-/// every plant where none is named. InputError when the folder does not hold it.
+/// every plant where none is named. InputError when the folder does not hold it, or not all that
+/// its `metrics.json` and `plan.json` tell of.
 Recording ReadRecording(const std::filesystem::path& folder,
                         const std::vector<std::string>& plants = {});
 

@@ -55,9 +55,8 @@ std::vector<Trail> TrailsOf(const Recording& recording, const Overlays& overlays
       driven.push_back(recording.OnGround(plant.Position(time)));
     }
     std::vector<std::size_t> kept = Thin(driven, kLineTolerance, kMostPieces);
-    const double scale = car == 0 && overlays.error ? ErrorScale(recording) : 0.0;
-    const std::vector<double> shares =
-        scale > 0.0 ? ErrorShares(recording, scale) : std::vector<double>();
+    const bool coloured = car == 0 && overlays.error && recording.scales.error > 0.0;
+    const std::vector<double> shares = coloured ? ErrorShares(recording) : std::vector<double>();
     for (std::size_t i = 1; i < shares.size(); ++i) {
       if (shares[i] != shares[i - 1]) {
         kept.push_back(i);

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "render/round_up.h"
 #include "trackbed/core/angle.h"
 
 namespace trackbed::render {
@@ -17,35 +15,10 @@ constexpr Color kAsked{0.35F, 0.80F, 1.00F};
 constexpr Color kActual{1.00F, 0.55F, 0.15F};
 constexpr double kLettersToCell = 0.86;  // the labels are a little smaller than the legend's
 
-/// Planned curvature where the car is at `time` [s], by the plan that holds then.
-std::optional<double> CurvatureAt(const Recording& recording, double time) {
-  const CurvatureProfile* held = nullptr;
-  for (const CurvatureProfile& profile : recording.curvatures) {
-    if (held == nullptr || profile.from <= time) {
-      held = &profile;
-    }
-  }
-  const TimedTable& log = recording.plants.front().log();
-  const std::optional<std::size_t> station = log.Find("s_m");
-  if (held == nullptr || !station) {
-    return std::nullopt;
-  }
-  const double s = log.Value(log.At(time), *station);
-  const auto after = std::upper_bound(held->s.begin(), held->s.end(), s);
-  const auto next = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
-      after - held->s.begin(), 1, std::max<std::ptrdiff_t>(1, std::ssize(held->s) - 1)));
-  if (next >= held->s.size()) {
-    return held->curvature.front();
-  }
-  const double part =
-      std::clamp((s - held->s[next - 1]) / (held->s[next] - held->s[next - 1]), 0.0, 1.0);
-  return held->curvature[next - 1] + part * (held->curvature[next] - held->curvature[next - 1]);
-}
-
 }  // namespace
 
 Strip::Strip(const Recording& recording, int width, int height, Font& font)
-    : begin_(recording.begin()), end_(recording.end()), layout_(width, height) {
+    : begin_(recording.begin()), end_(recording.scales.end), layout_(width, height) {
   const double tall = 4.1 * layout_.label;
   const double letters = kLettersToCell * layout_.label;
   panel_ = {layout_.margin, height - layout_.margin - tall, width - 2.0 * layout_.margin, tall};
@@ -54,19 +27,19 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
   columns_ = std::max(2, static_cast<int>(panel_.width - 2.0 * layout_.pad));
   rows_ = std::max(4, static_cast<int>(panel_.top + tall - 0.5 * layout_.pad) - top_);
 
+  const Scales& most = recording.scales;
   std::vector<double> asked;
   std::vector<double> actual;
-  std::vector<std::optional<double>> curvature;
-  double most_steering = kPi / 180.0;
-  double most_curvature = 0.0;
+  std::vector<double> curvature;
   for (int column = 0; column < columns_; ++column) {
     const double time = begin_ + (end_ - begin_) * column / (columns_ - 1);
-    const Readings readings = recording.plants.front().ReadingsAt(time);
-    asked.push_back(readings.steering_asked);
-    actual.push_back(readings.steering);
-    curvature.push_back(CurvatureAt(recording, time));
-    most_steering = std::max({most_steering, std::abs(asked.back()), std::abs(actual.back())});
-    most_curvature = std::max(most_curvature, std::abs(curvature.back().value_or(0.0)));
+    // Nothing after the end of the car's own drive.
+    if (time <= recording.plants.front().log().end()) {
+      const Readings readings = recording.plants.front().ReadingsAt(time);
+      asked.push_back(readings.steering_asked);
+      actual.push_back(readings.steering);
+      curvature.push_back(recording.PlannedCurvature(time).value_or(0.0));
+    }
   }
 
   Image scratch;
@@ -79,10 +52,9 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
   const double reach = 0.5 * rows_ - layout_.hairline;
   const auto curve = [&](const std::vector<double>& values, double hairlines) {
     std::vector<CanvasPoint> points;
-    for (int column = 0; column < columns_; ++column) {
+    for (const double value : values) {
       points.push_back(
-          {column + 0.5,
-           0.5 * rows_ - reach * values[static_cast<std::size_t>(column)] / most_steering});
+          {static_cast<double>(points.size()) + 0.5, 0.5 * rows_ - reach * value / most.steering});
     }
     blank().Stroke(points, hairlines * layout_.hairline, kValue, 1.0);
     return MaskOf(scratch);
@@ -90,28 +62,29 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
   // Where both agree each is seen: one lies on the other and is narrower.
   asked_ = curve(asked, 2.6);
   actual_ = curve(actual, 1.1);
-  if (most_curvature > 0.0) {
+  if (most.curvature > 0.0) {
     Canvas canvas = blank();
-    for (int column = 0; column < columns_; ++column) {
-      const double up =
-          reach * curvature[static_cast<std::size_t>(column)].value_or(0.0) / most_curvature;
+    double column = 0.0;
+    for (const double value : curvature) {
       const double middle = 0.5 * rows_;
-      canvas.FillConvex({{column + 0.0, middle},
+      const double up = reach * value / most.curvature;
+      canvas.FillConvex({{column, middle},
                          {column + 1.0, middle},
                          {column + 1.0, middle - up},
-                         {column + 0.0, middle - up}},
+                         {column, middle - up}},
                         kValue, 1.0);
+      column += 1.0;
     }
     curvature_ = MaskOf(scratch);
   }
 
-  const double degrees = most_steering * 180.0 / kPi;
+  const double degrees = most.steering * 180.0 / kPi;
   labels_ = {{0.0, kAsked, "steering asked"},
              {0.0, kActual, fmt::format("steering actual (most {:.1f} deg)", degrees)}};
-  if (most_curvature > 0.0) {
+  if (most.curvature > 0.0) {
     labels_.insert(
         labels_.begin(),
-        {0.0, kCurvature, fmt::format("planned curvature (most {:.3g} 1/m)", most_curvature)});
+        {0.0, kCurvature, fmt::format("planned curvature (most {:.3g} 1/m)", most.curvature)});
   }
   double pen = left_;
   for (Label& label : labels_) {

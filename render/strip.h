@@ -11,7 +11,8 @@
 namespace trackbed::render {
 
 /// A panel along the bottom of the picture: the curvature of the path that is planned there, and
-/// the steering asked for and done until now, over the time of the whole drive.
+/// the steering asked for and done until now, over the time of the whole drive. The axes end at the
+/// recording's scales.
 class Strip {
  public:
   /// For pictures of this size [px].

@@ -180,7 +180,7 @@ TEST_F(FilmSceneTest, TheErrorRibbonHasTheColourOfTheDistanceFromThePath) {
                [](double time) { return time < 1.0 ? 0.0 : -0.18; });
   overlays_.error = true;
   const Recording recording = ReadRecording(folder_.path());
-  EXPECT_DOUBLE_EQ(ErrorScale(recording), 0.2);
+  EXPECT_DOUBLE_EQ(recording.scales.error, 0.2);
   const Image image = Picture("top", 2.0);
   const std::array<int, 3> on = At(image, 1.5, 0.0);
   const std::array<int, 3> off = At(image, 4.2, 0.0);
@@ -191,7 +191,7 @@ TEST_F(FilmSceneTest, TheErrorRibbonHasTheColourOfTheDistanceFromThePath) {
 }
 
 TEST_F(FilmSceneTest, WithoutAPathThereIsNoErrorRibbon) {
-  EXPECT_EQ(ErrorScale(ReadRecording(folder_.path())), 0.0);
+  EXPECT_EQ(ReadRecording(folder_.path()).scales.error, 0.0);
 }
 
 TEST_F(FilmSceneTest, ErrorsThatSwayByLittleKeepOneColour) {
@@ -199,7 +199,7 @@ TEST_F(FilmSceneTest, ErrorsThatSwayByLittleKeepOneColour) {
   // A step of the scale is 0.05 / 16 m: half a step and a tenth of one to each side.
   SetLogColumn(folder_.path(), "mujoco", "cross_track_m",
                [](double time) { return 0.05 / 16.0 * (3.5 + 0.1 * std::sin(40.0 * time)); });
-  const std::vector<double> shares = ErrorShares(ReadRecording(folder_.path()), 0.05);
+  const std::vector<double> shares = ErrorShares(ReadRecording(folder_.path()));
   EXPECT_LE(std::set<double>(shares.begin(), shares.end()).size(), 2U);
   int changes = 0;
   for (std::size_t i = 1; i < shares.size(); ++i) {
@@ -305,10 +305,10 @@ TEST_F(StripTest, ShowsWhatIsPlannedAndWhatWasSteeredUntilNow) {
 }
 
 TEST_F(StripTest, FollowsThePlanThatHolds) {
-  // Taken up at 1.5 s: to the right.
+  // Taken up at 1.5 s, 4.5 m on the way: straight on for 0.9 m, 0.3 s, then to the right.
   Table plans({"from_t_s", "s_m", "x_m", "y_m", "curvature_radpm"});
   for (int i = 0; i <= 60; ++i) {
-    plans.AddRow({1.5, 0.1 * i, 0.1 * i, 0.0, -0.05});
+    plans.AddRow({1.5, 0.1 * i, 4.5 + 0.1 * i, 0.0, i < 9 ? 0.0 : -0.05});
   }
   WriteFileAtomically(folder_.path() / "mujoco.plan.csv", plans.ToCsv());
   const Image image = DrawAt(2.0);
@@ -319,8 +319,23 @@ TEST_F(StripTest, FollowsThePlanThatHolds) {
   };
   EXPECT_TRUE(is_planned(1.3, middle - 6));
   EXPECT_FALSE(is_planned(1.3, middle + 6));
-  EXPECT_TRUE(is_planned(1.7, middle + 6));
+  EXPECT_FALSE(is_planned(1.7, middle + 6));
   EXPECT_FALSE(is_planned(1.7, middle - 6));
+  EXPECT_TRUE(is_planned(1.9, middle + 6));
+  EXPECT_FALSE(is_planned(1.9, middle - 6));
+}
+
+TEST_F(StripTest, EndsWithItsOwnDriveOnTheAxisOfAll) {
+  WritePlant(folder_.path(), "kinematic", 4.0, [](double) { return CarPlace{}; });
+  const Image image = DrawAt(4.0);
+  const int first = static_cast<int>(std::round(top_ + 3.2 + 0.86 * 16.0));
+  const int middle = (first + 346) / 2;
+  // The car's own 2 s of 4: asked for to the left, done to the right, and nothing after.
+  const auto column = [](double time) { return 18 + static_cast<int>(time / 4.0 * 603.0); };
+  EXPECT_GT(Brightest(image, column(1.9), first, middle - 2)[2], 100);
+  EXPECT_LT(Brightest(image, column(2.1), first, middle - 2)[2], 60);
+  EXPECT_GT(Brightest(image, column(1.9), middle + 3, 346)[0], 150);
+  EXPECT_LT(Brightest(image, column(2.1), middle + 3, 346)[0], 60);
 }
 
 TEST_F(FilmSceneTest, GhostAndCarAreApartInThePictureAsInTheLogs) {

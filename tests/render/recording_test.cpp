@@ -1,5 +1,6 @@
 #include "render/recording.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/render/run_folder.h"
@@ -84,8 +85,78 @@ TEST_F(RecordingTest, ShowsTheMujocoPlantAsTheCar) {
   for (const PlantRecording& plant : recording.plants) {
     names.push_back(plant.plant());
   }
-  EXPECT_EQ(names, (std::vector<std::string>{"mujoco-contact", "mujoco-magic_formula", "kinematic",
+  EXPECT_EQ(names, (std::vector<std::string>{"mujoco:contact", "mujoco:magic_formula", "kinematic",
                                              "single_track"}));
+}
+
+TEST_F(RecordingTest, TakesThePlantsThatAreAskedForByTheirNames) {
+  for (const char* plant : {"kinematic", "mujoco-contact"}) {
+    WritePlant(folder_.path(), plant, 0.1, [](double) { return CarPlace{}; });
+  }
+  const auto message = [this](const std::vector<std::string>& plants) -> std::string {
+    try {
+      ReadRecording(folder_.path(), plants);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no InputError";
+  };
+  EXPECT_EQ(ReadRecording(folder_.path(), {"mujoco:contact"}).plants.front().plant(),
+            "mujoco:contact");
+  const std::string where = folder_.path().string() + ": plants: ";
+  EXPECT_EQ(message({"mujoco:contract"}),
+            where + "unknown plant 'mujoco:contract'; did you mean 'mujoco:contact'?");
+  EXPECT_EQ(message({"kinematic", "kinematic"}), where + "'kinematic' is listed twice");
+}
+
+TEST_F(RecordingTest, MissesWhatTheRunTellsOf) {
+  WritePlant(folder_.path(), "mujoco", 0.1, [](double) { return CarPlace{}; });
+  const auto message = [this]() -> std::string {
+    try {
+      ReadRecording(folder_.path());
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no InputError";
+  };
+  const auto in_folder = [this](const char* name) { return (folder_.path() / name).string(); };
+  WriteFileAtomically(in_folder("metrics.json"),
+                      R"({"plants": {"mujoco": {}, "mujoco:magic_formula": {}}})");
+  EXPECT_EQ(message(), in_folder("mujoco-magic_formula.state.csv") +
+                           ": missing from the run folder, whose metrics.json tells of a drive of "
+                           "mujoco:magic_formula");
+  WriteFileAtomically(in_folder("metrics.json"), "{}");
+  EXPECT_THAT(message(), testing::StartsWith(in_folder("metrics.json") + ": plants: "));
+  WriteFileAtomically(in_folder("metrics.json"), R"({"plants": {"mujoco": {}}})");
+  EXPECT_EQ(message(), "no InputError");
+  WriteFileAtomically(in_folder("plan.json"), "{}");
+  EXPECT_EQ(message(),
+            in_folder("plan.csv") + ": missing from the run folder, which has plan.json");
+}
+
+TEST_F(RecordingTest, ScalesAreTheLargestOfAllThatAreShownTogether) {
+  for (const char* plant : {"kinematic", "mujoco"}) {
+    WritePlant(folder_.path(), plant, 1.0, [](double) { return CarPlace{}; });
+  }
+  WritePlant(folder_.path(), "kinematic", 3.0, [](double) { return CarPlace{}; });
+  WriteStraightPlan(folder_.path(), 5.0);
+  SetLogColumn(folder_.path(), "mujoco", "cross_track_m", [](double time) { return -0.7 * time; });
+  SetLogColumn(folder_.path(), "kinematic", "steering_rad", [](double) { return -0.3; });
+  std::vector<Recording> recordings;
+  for (const char* plant : {"kinematic", "mujoco"}) {
+    recordings.push_back(ReadRecording(folder_.path(), {plant}));
+  }
+  EXPECT_DOUBLE_EQ(recordings[0].scales.error, 0.05);
+  EXPECT_DOUBLE_EQ(recordings[0].scales.steering, 0.3);
+  EXPECT_DOUBLE_EQ(recordings[1].scales.error, 1.0);
+  EXPECT_DOUBLE_EQ(recordings[1].scales.steering, 0.1);  // asked for
+  EXPECT_DOUBLE_EQ(recordings[1].scales.end, 1.0);
+  ShareScales(recordings);
+  for (const Recording& recording : recordings) {
+    EXPECT_DOUBLE_EQ(recording.scales.end, 3.0);
+    EXPECT_DOUBLE_EQ(recording.scales.error, 1.0);
+    EXPECT_DOUBLE_EQ(recording.scales.steering, 0.3);
+  }
 }
 
 TEST_F(RecordingTest, ReadsTheLogBetweenRows) {
@@ -128,6 +199,7 @@ TEST_F(RecordingTest, HasConesAndNotesOfTheRun) {
   WritePlant(folder_.path(), "mujoco", 1.0, [](double) { return CarPlace{}; });
   EXPECT_TRUE(ReadRecording(folder_.path()).cones.empty());
   EXPECT_EQ(ReadRecording(folder_.path()).note, "");
+  WriteStraightPlan(folder_.path(), 5.0);
   WriteFileAtomically(folder_.path() / "plan.json",
                       R"({"gates": [{"cones_m": [[1, 2], [3, 4]]}, {"cones_m": [[5, 6]]}]})");
   WriteFileAtomically(folder_.path() / "scenario.resolved.yaml",
