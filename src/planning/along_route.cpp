@@ -59,6 +59,11 @@ const FrenetLimits& LimitsOf(const AlongOptions& options) {
   return std::visit([](const auto& own) -> const FrenetLimits& { return own.limits; }, options);
 }
 
+const std::vector<double>& SpeedFactors(const AlongOptions& options) {
+  return std::visit(
+      [](const auto& own) -> const auto& { return own.speed_factors; }, options);
+}
+
 class AlongRoute {
  public:
   AlongRoute(const RouteFrame& frame, const AlongRequest& request, const AlongSettings& settings,
@@ -78,8 +83,7 @@ class AlongRoute {
     const auto leader = LeaderIn(
         frame_.path, request_, settings_,
         request_.start.s + Front(request_.vehicle) + std::max(reach, speed * settings_.look_ahead));
-    const std::vector<double> all =
-        std::visit([](const auto& own) { return own.speed_factors; }, options_);
+    const std::vector<double>& all = SpeedFactors(options_);
     std::vector<double> falling = all;
     std::sort(falling.rbegin(), falling.rend());
     std::optional<AlongPlan> for_now;
@@ -289,6 +293,7 @@ AlongPlan PlanAlong(const RouteFrame& frame, const AlongRequest& request,
                      settings.gap >= 0.0 && settings.time_gap >= 0.0,
                  "speed {} of {}, gaps {} and {}", request.wanted, request.speed.speed,
                  settings.gap, settings.time_gap);
+  TRACKBED_CHECK(!SpeedFactors(options).empty(), "no speed factors");
   return AlongRoute(frame, request, settings, options).Plan();
 }
 

@@ -209,6 +209,13 @@ TEST(PlanAlong, RefusesWhatMakesNoSense) {
                InternalError);
 }
 
+TEST_P(EveryAlongMethod, RefusesToTryNoSpeed) {
+  const Scene scene;
+  AlongOptions options = GetParam().defaults;
+  std::visit([](auto& own) { own.speed_factors.clear(); }, options);
+  EXPECT_THROW(PlanAlong(scene.frame, scene.request, scene.settings, options), InternalError);
+}
+
 // --- the leader
 
 TEST(LeaderIn, IsTheNearestInTheLane) {

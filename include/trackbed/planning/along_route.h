@@ -104,7 +104,8 @@ std::optional<Leader> LeaderIn(const Path& path, const AlongRequest& request,
 ///
 /// Guarantees: those of PlanFrenet or PlanLattice for the motion. The braking after it keeps the
 /// limits but for the steering rate, and the safe distance too, every 0.1 s. Same input, same
-/// bytes. Does not change route or frame. Cost: a few times that of the method.
+/// bytes. Does not change route or frame. Errors: InternalError without speed factors, for a wanted
+/// speed or gaps out of range, and those of the method. Cost: a few times that of the method.
 AlongPlan PlanAlong(const RouteFrame& frame, const AlongRequest& request,
                     const AlongSettings& settings, const AlongOptions& options);
 
