@@ -156,6 +156,11 @@ TEST_F(Film, IsAnAnimatedPictureWhereThatIsAskedFor) {
   EXPECT_EQ(apng.frames, 11);
   EXPECT_EQ(apng.width, 97);
   EXPECT_EQ(apng.codec, AV_CODEC_ID_APNG);
+  // acTL: the number of frames, then how often they are played, 0 for ever.
+  const std::string bytes = ReadFile(output_);
+  const std::size_t control = bytes.find("acTL");
+  ASSERT_NE(control, std::string::npos);
+  EXPECT_EQ(bytes.substr(control + 8, 4), std::string(4, '\0'));
 
   output_.replace_extension(".webp");
   Make();
@@ -163,6 +168,8 @@ TEST_F(Film, IsAnAnimatedPictureWhereThatIsAskedFor) {
   EXPECT_EQ(webp.substr(0, 4), "RIFF");
   EXPECT_EQ(webp.substr(8, 8), "WEBPVP8X");
   EXPECT_EQ(Chunks(webp, "ANIM"), 1);
+  // Its size, the background, and how often it is played.
+  EXPECT_EQ(webp.substr(webp.find("ANIM") + 12, 2), std::string(2, '\0'));
   // WebP joins pictures that are the same; these are not.
   EXPECT_EQ(Chunks(webp, "ANMF"), 11);
   Make();
