@@ -162,6 +162,20 @@ TEST(RrtPlanner, TellsHowFarItCame) {
   EXPECT_TRUE(plan.tree.empty());
 }
 
+TEST(RrtPlanner, TellsOfTheTreeThatCameNearest) {
+  // Behind the wall nothing is reached; the first of eight trees are those of fewer.
+  const PlanRequest request = Across({{{30.0, 0.0, 0.0}, 1.0, 200.0}});
+  std::vector<double> left;
+  for (int trees = 1; trees <= 8; ++trees) {
+    const Plan plan = MakePlan(request, RrtPlannerOptions{.trees = trees, .iterations = 25});
+    ASSERT_EQ(plan.status, PlanStatus::kBudgetUsedUp);
+    const auto& nearest = plan.diagnostics["legs"].at(0)["path_m"].back();
+    left.push_back((Vec2(nearest[0], nearest[1]) - Vec2(request.waypoints.back())).norm());
+  }
+  EXPECT_TRUE(std::is_sorted(left.rbegin(), left.rend()));
+  EXPECT_LT(left.back(), left.front());
+}
+
 TEST(RrtPlanner, SaysWhenTheFirstMetresAreBlocked) {
   const Plan plan = MakePlan(Across({{{7.0, 0.0, 0.0}, 2.0, 1.0}}), RrtPlannerOptions{});
   EXPECT_EQ(plan.status, PlanStatus::kStartBlocked);
