@@ -12,6 +12,7 @@
 
 #include "tests/geometry/random.h"
 #include "tests/planning/routes.h"
+#include "tests/support/obstacle_cases.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/seed_car.h"
 #include "trackbed/core/angle.h"
@@ -159,47 +160,19 @@ void ExpectSafe(const Plan& plan, const Plan& global, const std::vector<Oriented
   EXPECT_LE((end - goal).norm(), Tolerance(1e-6));
 }
 
-struct Case {
-  Ring ring;
-  double side;
-  double reduction;
-  int sixth;
-};
+class ObstacleInTurn : public testing::TestWithParam<ObstacleCase> {};
 
-std::vector<Case> AllCases() {
-  std::vector<Case> cases;
-  for (const Ring ring : {Ring::kInner, Ring::kOuter}) {
-    for (const double side : {1.0, -1.0}) {
-      for (const double reduction : {0.0, kPi / 12.0}) {
-        for (int sixth = 1; sixth <= 5; ++sixth) {
-          cases.push_back({ring, side, reduction, sixth});
-        }
-      }
-    }
-  }
-  return cases;
-}
-
-std::string NameOf(const testing::TestParamInfo<Case>& info) {
-  const Case& c = info.param;
-  return std::string(c.ring == Ring::kInner ? "Inner" : "Outer") +
-         (c.side > 0.0 ? "Left" : "Right") + (c.reduction > 0.0 ? "75" : "90") + "At" +
-         std::to_string(c.sixth);
-}
-
-class ObstacleInTurn : public testing::TestWithParam<Case> {};
-
-INSTANTIATE_TEST_SUITE_P(Cases, ObstacleInTurn, testing::ValuesIn(AllCases()), NameOf);
+INSTANTIATE_TEST_SUITE_P(Cases, ObstacleInTurn, testing::ValuesIn(AllObstacleCases()), NameOf);
 
 TEST_P(ObstacleInTurn, IsPassedSafelyOnTheSideAskedFor) {
-  const Case& c = GetParam();
+  const ObstacleCase& c = GetParam();
   const Course course{.turn = c.side * (0.5 * kPi - c.reduction)};
   const Plan global = course.Global();
   ASSERT_TRUE(global.ok()) << global.reason;
   const Pose2 at = course.OnArc(c.sixth / 6.0);
   const OrientedBox obstacle{{at.x, at.y, 0.0}, 2.0, 2.0};  // along the axes, as in the listing
   BezierAvoidanceOptions options;
-  options.ring = c.ring == Ring::kInner ? RingChoice::kInner : RingChoice::kOuter;
+  options.ring = c.ring;
 
   const Plan plan = Around(global, {obstacle}, options);
   ASSERT_EQ(plan.blocked, "");
@@ -220,7 +193,7 @@ TEST_P(ObstacleInTurn, IsPassedSafelyOnTheSideAskedFor) {
       beside = p.norm();
     }
   }
-  EXPECT_EQ(c.ring == Ring::kInner, beside < course.radius) << beside;
+  EXPECT_EQ(c.ring == RingChoice::kInner, beside < course.radius) << beside;
 }
 
 TEST(PlanAround, LeavesAPlanThatNothingStandsInTheWayOf) {

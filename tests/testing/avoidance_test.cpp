@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "tests/support/obstacle_cases.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/drive/drive.h"
@@ -17,41 +18,13 @@ std::filesystem::path ScenarioFile(const std::string& name) {
   return std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml");
 }
 
-struct Case {
-  RingChoice ring;
-  double side;
-  double reduction;
-  int sixth;
-};
+class DrivenRoundObstacle : public testing::TestWithParam<ObstacleCase> {};
 
-std::vector<Case> AllCases() {
-  std::vector<Case> cases;
-  for (const RingChoice ring : {RingChoice::kInner, RingChoice::kOuter}) {
-    for (const double side : {1.0, -1.0}) {
-      for (const double reduction : {0.0, kPi / 12.0}) {
-        for (int sixth = 1; sixth <= 5; ++sixth) {
-          cases.push_back({ring, side, reduction, sixth});
-        }
-      }
-    }
-  }
-  return cases;
-}
-
-std::string NameOf(const testing::TestParamInfo<Case>& info) {
-  const Case& c = info.param;
-  return std::string(c.ring == RingChoice::kInner ? "Inner" : "Outer") +
-         (c.side > 0.0 ? "Left" : "Right") + (c.reduction > 0.0 ? "75" : "90") + "At" +
-         std::to_string(c.sixth);
-}
-
-class DrivenRoundObstacle : public testing::TestWithParam<Case> {};
-
-INSTANTIATE_TEST_SUITE_P(Cases, DrivenRoundObstacle, testing::ValuesIn(AllCases()), NameOf);
+INSTANTIATE_TEST_SUITE_P(Cases, DrivenRoundObstacle, testing::ValuesIn(AllObstacleCases()), NameOf);
 
 /// The listing's turns: 20 m of radius, S = 22.7 m of straight before and behind, a box of 2 m.
 TEST_P(DrivenRoundObstacle, KeepsToThePlanAndClearOnBothPlants) {
-  const Case& c = GetParam();
+  const ObstacleCase& c = GetParam();
   constexpr double kRadius = 20.0;
   constexpr double kStraight = 22.7 + 20.0;  // and room for what leaves or returns later
   const double turn = 0.5 * kPi - c.reduction;
