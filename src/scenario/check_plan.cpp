@@ -1,0 +1,221 @@
+#include <limits>
+
+#include "src/scenario/complaints.h"
+
+namespace trackbed {
+namespace {
+
+void CheckCourse(Complaints& c) {
+  const auto* course =
+      c.scenario.plan ? std::get_if<CourseOptions>(&c.scenario.plan->global) : nullptr;
+  if (course == nullptr) {
+    return;
+  }
+  const std::string key = c.KeyOfPlan("segments");
+  if (course->segments.empty() && c.CouldReadPlan({"segments"})) {
+    c.Complain(key, "a course needs at least one");
+  }
+  for (std::size_t i = 0; i < course->segments.size(); ++i) {
+    const CoursePiece& piece = course->segments[i];
+    const std::string own = fmt::format("{}[{}]", key, i);
+    if (!c.could_read(own) || !c.could_read(own + ".curvature") ||
+        !c.could_read(own + ".curvature_from") || !c.could_read(own + ".curvature_to")) {
+      continue;
+    }
+    if (piece.curvature && (piece.curvature_from || piece.curvature_to)) {
+      c.Complain(own, "give curvature, or curvature_to of a ramp, not both");
+    } else if (!piece.curvature && !piece.curvature_to) {
+      c.Complain(own, "needs curvature (0 for a straight), or curvature_to of a ramp");
+    }
+  }
+}
+
+void CheckSmoothing(Complaints& c, const PlannerOptions& planner, const std::string& key) {
+  const auto* rrt = std::get_if<RrtPlannerOptions>(&planner);
+  if (rrt == nullptr) {
+    return;
+  }
+  const double step = rrt->data_weight + 2.0 * rrt->smoothness_weight;
+  if (step <= 0.0 || step >= 1.0) {
+    c.Complain(key,
+               fmt::format("data_weight + 2 smoothness_weight is {:.4g}; must be above 0 and below "
+                           "1, or smoothing does not converge",
+                           step));
+  }
+}
+
+void CheckSmoothing(Complaints& c) {
+  if (!c.scenario.plan) {
+    return;
+  }
+  if (c.CouldReadPlan({"data_weight", "smoothness_weight"})) {
+    CheckSmoothing(c, c.scenario.plan->global, c.KeyOfPlan("smoothness_weight"));
+  }
+  const std::string detour = "plan.replan.detour.";
+  if (c.scenario.plan->replan && c.scenario.plan->replan->detour &&
+      c.CouldRead({"plan.replan.detour.data_weight", "plan.replan.detour.smoothness_weight"})) {
+    CheckSmoothing(c, *c.scenario.plan->replan->detour, detour + "smoothness_weight");
+  }
+}
+
+void CheckAvoider(Complaints& c) {
+  const auto& plan = c.scenario.plan;
+  if (plan && plan->avoid && MayGoBackwards(plan->global) && c.CouldReadPlan({"method"})) {
+    c.Complain("plan.avoid",
+               fmt::format("a plan by {} may go backwards, which cannot be led around "
+                           "anything on the way; leave one out",
+                           PlannerName(plan->global)));
+  }
+}
+
+double SafeDistanceOf(const PlannerOptions& planner) {
+  return std::visit(
+      [](const auto& options) {
+        if constexpr (requires { options.safe_distance; }) {
+          return options.safe_distance;
+        } else {
+          return std::numeric_limits<double>::infinity();
+        }
+      },
+      planner);
+}
+
+void CheckNotEmpty(Complaints& c, const std::string& key, const std::vector<double>& values) {
+  const std::string dotted = "plan.replan.along." + key;
+  if (values.empty() && c.could_read(dotted)) {
+    c.Complain(dotted, "needs at least one");
+  }
+}
+
+void CheckReplan(Complaints& c) {
+  const auto& plan = c.scenario.plan;
+  if (!plan || !plan->replan) {
+    return;
+  }
+  const ReplanOptions& replan = *plan->replan;
+  if (MayGoBackwards(plan->global) && c.CouldReadPlan({"method"})) {
+    c.Complain("plan.replan",
+               fmt::format("a plan by {} may go backwards; planning again on the way goes "
+                           "forwards only: leave one out",
+                           PlannerName(plan->global)));
+  }
+  if (!c.CouldRead({"plan.replan.along", "plan.replan.along.method", "plan.replan.detour",
+                    "plan.replan.detour.method"})) {
+    return;
+  }
+  if (replan.detour && MayGoBackwards(*replan.detour)) {
+    c.Complain("plan.replan.detour.reverse", "a detour goes forwards: leave it out");
+  }
+  if (!replan.along && !replan.detour) {
+    c.Complain("plan.replan", "needs along, detour or both: nothing else plans again");
+  }
+  if (!replan.detour && replan.comparator) {
+    c.Complain("plan.replan.comparator", "needs detour: there is nothing else to compare");
+  }
+  if (replan.detour &&
+      c.CouldRead({"plan.replan.safe_distance", "plan.replan.detour.safe_distance"})) {
+    const double own = SafeDistanceOf(*replan.detour);
+    if (own < replan.settings.safe_distance) {
+      c.Complain("plan.replan.detour.safe_distance",
+                 fmt::format("{:.4g} m is less than plan.replan.safe_distance, {:.4g} m: every "
+                             "detour would be blocked",
+                             own, replan.settings.safe_distance));
+    }
+  }
+  if (const auto* lists = replan.along ? std::get_if<FrenetOptions>(&*replan.along) : nullptr) {
+    CheckNotEmpty(c, "end_times", lists->end_times);
+    CheckNotEmpty(c, "end_offsets", lists->end_offsets);
+    CheckNotEmpty(c, "speed_factors", lists->speed_factors);
+    CheckNotEmpty(c, "station_offsets", lists->station_offsets);
+  } else if (const auto* own =
+                 replan.along ? std::get_if<LatticeOptions>(&*replan.along) : nullptr) {
+    CheckNotEmpty(c, "end_offsets", own->end_offsets);
+    CheckNotEmpty(c, "speed_factors", own->speed_factors);
+  }
+}
+
+void CheckHeadings(Complaints& c) {
+  const MissionSpec& mission = c.scenario.mission;
+  if (mission.headings.empty() || !c.CouldRead({"mission.headings"})) {
+    return;
+  }
+  if (mission.headings.size() != mission.waypoints.size()) {
+    c.Complain("mission.headings", fmt::format("{} given for {} waypoints; give one for each",
+                                               mission.headings.size(), mission.waypoints.size()));
+  }
+  if (c.scenario.plan && !PlannerFor(c.scenario.plan->global).has_headings &&
+      c.CouldReadPlan({"method"})) {
+    c.Complain("mission.headings", fmt::format("a plan by {} does not look at them; leave them out",
+                                               PlannerName(c.scenario.plan->global)));
+  }
+}
+
+void CheckWaypoints(Complaints& c) {
+  const std::vector<Vec2>& waypoints = c.scenario.mission.waypoints;
+  for (std::size_t i = 1; i < waypoints.size(); ++i) {
+    if (waypoints[i] == waypoints[i - 1]) {
+      c.Complain(fmt::format("mission.waypoints[{}]", i), "the same point as the one before it");
+    }
+  }
+  if (c.scenario.plan && FewestWaypoints(c.scenario.plan->global) == 0 && !waypoints.empty() &&
+      c.CouldReadPlan({"method"})) {
+    c.Complain("mission.waypoints", fmt::format("a plan by {} has its own course; leave them out",
+                                                PlannerName(c.scenario.plan->global)));
+  }
+  CheckHeadings(c);
+  if (c.scenario.plan && waypoints.size() < FewestWaypoints(c.scenario.plan->global)) {
+    const std::string given = waypoints.empty() ? "none" : std::to_string(waypoints.size());
+    c.Complain("mission.waypoints", fmt::format("{} given; a plan by {} needs at least {}", given,
+                                                PlannerName(c.scenario.plan->global),
+                                                FewestWaypoints(c.scenario.plan->global)));
+  }
+}
+
+void CheckMission(Complaints& c) {
+  const MissionSpec& mission = c.scenario.mission;
+  const auto& plan = c.scenario.plan;
+  if (c.CouldRead({"mission.waypoints"})) {
+    CheckWaypoints(c);
+  }
+  if (!c.CouldReadPlan({"method"})) {
+    return;
+  }
+  const Recording* recording = RecordingOf(c.scenario);
+  const bool has_start_speed = mission.start.speed || !c.scenario.control.speed.over_time.empty() ||
+                               (recording != nullptr && !recording->speed.empty()) ||
+                               !c.CouldRead({"mission.start.speed", "control.speed.over_time",
+                                             "control.file", "control.columns"});
+  if (mission.speed == 0.0 && c.CouldRead({"mission.speed"}) && (plan || !has_start_speed)) {
+    c.Complain("mission.speed", "missing");
+  }
+  if (c.CouldRead({"control.method"})) {
+    const ControllerEntry& controller = ControllerFor(c.scenario.control.steering);
+    if (controller.needs_plan && !plan) {
+      c.Complain("plan", fmt::format("missing; the controller {} follows a plan", controller.name));
+    }
+  }
+  if (plan && mission.duration) {
+    c.Complain("mission.duration", "with a plan the drive ends at the goal; leave one out");
+  }
+  if (!plan && !DurationOf(c.scenario) &&
+      c.CouldRead({"mission.duration", "control.file", "control.columns"})) {
+    c.Complain("mission.duration", "missing; without a plan there is no goal to stop at");
+  }
+  const auto* fillet = plan ? std::get_if<FilletOptions>(&plan->global) : nullptr;
+  if (fillet != nullptr && c.CouldReadPlan({"radius", "constraint"}) && !fillet->radius &&
+      fillet->constraint == RadiusConstraint::kNone) {
+    c.Complain(c.KeyOfPlan("constraint"), "'none' needs a radius: nothing else would limit it");
+  }
+}
+
+}  // namespace
+
+void CheckMissionAndPlan(Complaints& c) {
+  CheckMission(c);
+  CheckCourse(c);
+  CheckSmoothing(c);
+  CheckAvoider(c);
+  CheckReplan(c);
+}
+
+}  // namespace trackbed

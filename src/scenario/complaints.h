@@ -1,0 +1,56 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trackbed/scenario/scenario.h"
+
+namespace trackbed {
+
+/// What is found wrong between keys of a scenario, each with the key that it is said of.
+struct Complaints {
+  const Scenario& scenario;
+  /// Whether the value of a key was read: what could not be is complained about already.
+  const std::function<bool(const std::string& key)>& could_read;
+  std::vector<std::pair<std::string, std::string>> found{};
+
+  [[nodiscard]] bool CouldRead(std::initializer_list<const char*> keys) const {
+    return std::all_of(keys.begin(), keys.end(), could_read);
+  }
+
+  /// The same for keys of the global plan, which may stand in `plan` or in `plan.global`.
+  [[nodiscard]] bool CouldReadPlan(std::initializer_list<const char*> keys) const {
+    return could_read("plan.global") &&
+           std::all_of(keys.begin(), keys.end(), [&](const std::string& key) {
+             return could_read("plan." + key) && could_read("plan.global." + key);
+           });
+  }
+
+  /// A key of the planner of the whole path.
+  [[nodiscard]] std::string KeyOfPlan(const char* key) const {
+    const bool layers = scenario.plan->avoid || scenario.plan->replan;
+    return std::string(layers ? "plan.global." : "plan.") + key;
+  }
+
+  [[nodiscard]] std::string Driven() const {
+    return fmt::format("{}", fmt::join(scenario.drive.plants, ", "));
+  }
+
+  void Complain(std::string key, std::string message) {
+    found.emplace_back(std::move(key), std::move(message));
+  }
+};
+
+/// Of the mission and its plan.
+void CheckMissionAndPlan(Complaints& c);
+/// Of what is expected of the drive.
+void CheckExpectations(Complaints& c);
+
+}  // namespace trackbed
