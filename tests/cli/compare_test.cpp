@@ -65,6 +65,11 @@ TEST(Compare, HoldsFinishedRunsAgainstEachOther) {
   EXPECT_EQ(across.code, 3);
   EXPECT_THAT(across.output, HasSubstr("\n  a/kinematic - b/kinematic, from 0 m to "));
   EXPECT_EQ(across.output.find("mujoco"), std::string::npos);
+  EXPECT_THAT(across.output, StartsWith("a and b: FAILED, in out/compare/compare.json\n"));
+  // Without tolerances nothing is judged.
+  const Outcome shown = Trackbed(folder, "compare a b");
+  EXPECT_EQ(shown.code, 0);
+  EXPECT_THAT(shown.output, StartsWith("a and b: compared, without a tolerance to judge by, in "));
   // A run is itself, read back from its files.
   const Outcome same = Trackbed(
       folder, "compare a a --tolerance position=0,heading=0,yaw_rate=0,steering=0 -o same");
