@@ -133,6 +133,10 @@ Pose2 Trace::PoseAt(double at) const {
   return PoseIn(*this, PlaceAt(*this, at));
 }
 
+double Trace::TimeAt(double at) const {
+  return PlaceAt(*this, at).Between(time);
+}
+
 Trace TraceOf(const RunLog& log, StationSource source) {
   Trace trace{.name = log.plant};
   for (const LogRow& row : log.rows) {

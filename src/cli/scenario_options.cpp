@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "trackbed/analysis/metrics.h"
 #include "trackbed/core/error.h"
 #include "trackbed/render/film.h"
 
@@ -49,11 +50,11 @@ std::vector<Override> ScenarioOptions::Overrides() const {
 }
 
 Scenario ScenarioOptions::Read(const fs::path& file) const {
-  return ReadScenario(file, Overrides(), CameraNames());
+  return ReadScenario(file, Overrides(), CameraNames(), PossibleMetrics);
 }
 
 Study ScenarioOptions::ReadStudyFile(const fs::path& file) const {
-  return ReadStudy(file, Overrides(), CameraNames());
+  return ReadStudy(file, Overrides(), CameraNames(), PossibleMetrics);
 }
 
 std::vector<fs::path> ScenarioFiles(const std::vector<std::string>& paths) {

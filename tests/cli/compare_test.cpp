@@ -118,9 +118,8 @@ TEST(Test, RunsManyAtOnceInTheOrderOfTheFiles) {
   const std::string options =
       " --plant kinematic --set 'expect={reach_goal: 0.5, metrics: [{metric: time, max: 48}]}'";
   const std::string lines =
-      "pass s/a.yaml: as expected\nFAIL s/c.yaml: kinematic: time expected at most 48, was 48.84 "
-      "at "
-      "the end, s = 143.5 m, t = 48.84 s\n";
+      "pass s/a.yaml: as expected\nFAIL s/c.yaml: kinematic: time expected at most 48 s, was "
+      "48.84 s at the end, s = 143.5 m, t = 48.84 s\n";
   for (const char* jobs : {"1", "3"}) {
     const Outcome outcome =
         Trackbed(folder, std::string("test s --jobs ") + jobs + options + " 2>errors");

@@ -324,6 +324,27 @@ TEST(Program, ChecksWithoutDriving) {
   EXPECT_EQ(Trackbed(folder, "check .").output, ".: the folder has no scenarios (*.yaml)\n");
 }
 
+TEST(Program, ChecksWhatIsExpectedOfMetrics) {
+  const TempFolder folder;
+  std::string text = ReadFile(ScenarioFile("winding"));
+  text.insert(text.find("expect:") + 7, "\n  metrics: [{metric: steering_rat_max, max: 1}]");
+  folder.Write("s.yaml", text);
+  for (const char* verb : {"check", "run", "test", "compare"}) {
+    const Outcome outcome = Trackbed(folder, std::string(verb) + " s.yaml");
+    EXPECT_EQ(outcome.code, 2) << verb;
+    EXPECT_THAT(outcome.output,
+                testing::MatchesRegex("s.yaml:12:22: expect.metrics.0..metric: no run can have "
+                                      "'steering_rat_max'; did you mean 'steering_rate_max'.\n"))
+        << verb;
+  }
+  EXPECT_THAT(folder.Names(), testing::ElementsAre("s.yaml"));  // nothing was driven
+  // How many turns there are is known when there is a plan.
+  const Outcome turns = Trackbed(
+      folder, "check " + ScenarioFile("winding") +
+                  " --set 'expect.metrics=[{metric: \"turns[2].lateral_offset\", max: 1}]'");
+  EXPECT_EQ(turns.code, 0) << turns.output;
+}
+
 TEST(Program, ListsWhatThereIs) {
   const TempFolder folder;
   const Outcome everything = Trackbed(folder, "list");

@@ -31,6 +31,8 @@ struct Trace {
 
   /// The pose at a station, linear between rows. There must be two of them at least.
   [[nodiscard]] Pose2 PoseAt(double at) const;
+  /// When the drive was at a station [s], likewise.
+  [[nodiscard]] double TimeAt(double at) const;
 };
 
 /// `source` says what counts as the station of a drive with a path.
