@@ -92,6 +92,9 @@ int CompareScenario(const ScenarioRun& run, const CompareOptions& options) {
   const RunResult result = DriveScenario(run, options.scenario.quiet);
   WriteRunFolder(result, run.folder);
   if (result.interrupted) {
+    if (!options.scenario.quiet) {
+      fmt::print("{}: interrupted, in {}\n", run.scenario.name, run.folder.string());
+    }
     return kInterrupted;
   }
   return Finish(run.scenario.name, CompareRun(result, Tolerances(options)), run.folder,
@@ -110,14 +113,7 @@ int CompareScenarios(const CompareOptions& options) {
                                                       run.scenario.drive.plants.front())});
     }
   }
-  int worst = kOk;
-  for (const ScenarioRun& run : runs) {
-    worst = std::max(worst, CompareScenario(run, options));
-    if (worst == kInterrupted) {
-      break;
-    }
-  }
-  return worst;
+  return ForEachRun(runs, [&](const ScenarioRun& run) { return CompareScenario(run, options); });
 }
 
 int Compare(const CompareOptions& options) {

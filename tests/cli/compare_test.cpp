@@ -157,6 +157,29 @@ TEST(Test, WritesJUnit) {
       Trackbed(folder, "test --plant kinematic --junit taken/x.xml -- " + ScenarioFile("winding"));
   EXPECT_EQ(taken.code, 2);
   EXPECT_EQ(taken.output, "cannot create the folder ./taken: Not a directory\n");
+  const Outcome out =
+      Trackbed(folder, "test --plant kinematic --junit out -- " + ScenarioFile("winding"));
+  EXPECT_EQ(out.code, 2);
+  EXPECT_EQ(out.output, "cannot write out: Is a directory\n");
+}
+
+TEST(Test, GoesThroughFoldersAndTakesEveryScenarioOnce) {
+  const TempFolder folder;
+  const std::string scenario = ReadFile(ScenarioFile("winding"));
+  for (const char* name : {"s/b.yaml", "s/a/deep/c.yml", "s/.git/hidden.yaml", "s/a.txt"}) {
+    folder.Write(name, scenario);
+  }
+  folder.Write("s/study.yaml", "schema: 1\nname: study\nscenario: b.yaml\n");
+  std::filesystem::create_directory_symlink("..", folder.path() / "s/a/round");
+  std::filesystem::create_directory(folder.path() / "empty");
+  const std::string options = "test --jobs 1 --plant kinematic --set 'expect={}' --junit j.xml -- ";
+  const Outcome outcome = Trackbed(folder, options + "empty ./s/b.yaml s s/a/../b.yaml 2>errors");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.output, "pass ./s/b.yaml: as expected\npass s/a/deep/c.yml: as expected\n");
+  EXPECT_EQ(ReadFile(folder.path() / "errors"),
+            "empty: the folder has no scenarios (*.yaml, *.yml)\n");
+  EXPECT_THAT(ReadFile(folder.path() / "j.xml"),
+              HasSubstr("tests=\"3\" failures=\"0\" errors=\"1\""));
 }
 
 TEST(Test, CtrlCSkipsTheRest) {
