@@ -19,7 +19,8 @@ endforeach()
 set_target_properties(trackbed_version PROPERTIES EXPORT_NAME version)
 install(TARGETS ${installed} trackbed EXPORT trackbedTargets)
 install(EXPORT trackbedTargets NAMESPACE trackbed:: DESTINATION ${package_folder})
-install(DIRECTORY models scenarios DESTINATION ${data_folder})
+# Without scenarios/validation, which replays the tests' recordings.
+install(DIRECTORY models scenarios DESTINATION ${data_folder} PATTERN validation EXCLUDE)
 
 configure_package_config_file(cmake/trackbedConfig.cmake.in package/trackbedConfig.cmake
                               INSTALL_DESTINATION ${package_folder} PATH_VARS data_folder)

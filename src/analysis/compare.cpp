@@ -7,6 +7,9 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/core/spelling.h"
+#include "trackbed/core/text_table.h"
+#include "trackbed/sim/plant.h"
 
 namespace trackbed {
 namespace {
@@ -130,6 +133,10 @@ Pose2 Trace::PoseAt(double at) const {
   return PoseIn(*this, PlaceAt(*this, at));
 }
 
+double Trace::TimeAt(double at) const {
+  return PlaceAt(*this, at).Between(time);
+}
+
 Trace TraceOf(const RunLog& log, StationSource source) {
   Trace trace{.name = log.plant};
   for (const LogRow& row : log.rows) {
@@ -153,6 +160,12 @@ Trace ReadTrace(const fs::path& file, const std::string& name) {
   const auto yaw = column("yaw_rad");
   const auto yaw_rate = column("yaw_rate_radps");
   const auto steering = column("steering_rad");
+  if (table.rows() < 2) {
+    throw InputError(Problem{
+        .file = file.string(),
+        .message =
+            fmt::format("the log of a drive needs at least two rows, and has {}", table.rows())});
+  }
   Trace trace{.name = name};
   for (std::size_t i = 0; i < table.rows(); ++i) {
     AddRow(trace, s[i], t[i], {x[i], y[i], yaw[i]}, yaw_rate[i], steering[i]);
@@ -207,11 +220,11 @@ std::vector<std::string> Exceeded(const DifferenceBounds& bounds,
                              Bound{"yaw rate", "rad/s", bounds.yaw_rate_max, comparison.yaw_rate},
                              Bound{"steering", "rad", bounds.steering_max, comparison.steering}}) {
     if (bound.limit && !(bound.actual.max <= *bound.limit)) {
+      const auto [limit, actual] = TextsApart(*bound.limit, bound.actual.max);
       failures.push_back(fmt::format(
-          "{}: {} difference expected at most {:.4g} {}, was {:.4g} {} at s = {:.4g} m, t = {:.4g} "
-          "s",
-          names, bound.what, *bound.limit, bound.unit, bound.actual.max, bound.unit,
-          bound.actual.max_s, bound.actual.max_t));
+          "{}: {} difference expected at most {} {}, was {} {} at s = {:.4g} m, t = {:.4g} s",
+          names, bound.what, limit, bound.unit, actual, bound.unit, bound.actual.max_s,
+          bound.actual.max_t));
     }
   }
   return failures;
@@ -224,9 +237,24 @@ std::vector<FinishedDrive> ReadRunFolder(const fs::path& folder) {
                              .message = "the folder of no finished run (it has no metrics.json)"});
   }
   const auto json = nlohmann::ordered_json::parse(ReadFile(file), nullptr, false);
+  std::vector<std::string> known;
+  for (const PlantEntry& plant : Plants()) {
+    known.push_back(plant.name);
+  }
   std::vector<FinishedDrive> drives;
   try {
-    for (const auto& [plant, metrics] : json.at("plants").items()) {
+    if (!json.value("complete", true)) {
+      throw InputError(Problem{.file = folder.string(),
+                               .message = "the run was interrupted; it has no whole drives to "
+                                          "compare"});
+    }
+    using Object = nlohmann::ordered_json::object_t;
+    for (const auto& [plant, metrics] : json.at("plants").get_ref<const Object&>()) {
+      if (std::find(known.begin(), known.end(), plant) == known.end()) {
+        throw InputError(Problem{.file = file.string(),
+                                 .key = "plants",
+                                 .message = "unknown " + UnknownName(plant, known)});
+      }
       drives.push_back({metrics.at("status").get<std::string>(),
                         ReadTrace(folder / (PlantFileName(plant) + ".csv"), plant)});
     }

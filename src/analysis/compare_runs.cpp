@@ -33,15 +33,26 @@ Expectations EndsOnly(const Expectations& expect) {
   return ends;
 }
 
+void Tighten(std::optional<double>& bound, const std::optional<double>& other) {
+  if (other) {
+    bound = std::min(bound.value_or(*other), *other);
+  }
+}
+
+/// The tightest of all bounds that are given for the two.
 DifferenceBounds BoundsBetween(const Expectations& expect, const std::string& a,
                                const std::string& b) {
+  DifferenceBounds bounds;
   for (const BetweenExpectation& between : expect.between) {
     if (std::is_permutation(between.plants.begin(), between.plants.end(),
                             std::vector{a, b}.begin())) {
-      return between.bounds;
+      Tighten(bounds.position_max, between.bounds.position_max);
+      Tighten(bounds.heading_max, between.bounds.heading_max);
+      Tighten(bounds.yaw_rate_max, between.bounds.yaw_rate_max);
+      Tighten(bounds.steering_max, between.bounds.steering_max);
     }
   }
-  return {};
+  return bounds;
 }
 
 ComparedPair Pair(const Trace& first, const Trace& second, const DifferenceBounds& bounds) {
@@ -57,10 +68,11 @@ void Judge(const ComparedPair& pair, Verdict& verdict) {
   verdict.passed = verdict.failures.empty();
 }
 
-/// A finished run whose drives carry its name.
+/// A finished run, as its folder tells of it.
 struct FinishedRun {
   fs::path folder;
   std::vector<FinishedDrive> drives;
+  Expectations expect;
 
   [[nodiscard]] std::vector<std::string> Plants() const {
     std::vector<std::string> plants;
@@ -83,10 +95,23 @@ struct FinishedRun {
   }
 };
 
+FinishedRun ReadRun(const fs::path& folder) {
+  FinishedRun run{.folder = folder, .drives = ReadRunFolder(folder), .expect = {}};
+  if (run.drives.empty()) {
+    throw InputError(
+        Problem{.file = folder.string(), .message = "the run did not drive; it had no plan"});
+  }
+  if (const fs::path scenario = folder / "scenario.resolved.yaml"; fs::exists(scenario)) {
+    run.expect = ReadExpectations(scenario);
+  }
+  return run;
+}
+
 /// Two drives of finished runs, under names that tell them apart.
 struct Candidates {
   FinishedDrive first;
   FinishedDrive second;
+  DifferenceBounds bounds;
 };
 
 std::vector<Candidates> WithinOne(const FinishedRun& run, const std::vector<std::string>& wanted) {
@@ -94,7 +119,8 @@ std::vector<Candidates> WithinOne(const FinishedRun& run, const std::vector<std:
   std::vector<Candidates> pairs;
   for (std::size_t i = 0; i < plants.size(); ++i) {
     for (std::size_t j = i + 1; j < plants.size(); ++j) {
-      pairs.push_back({run.Of(plants[i]), run.Of(plants[j])});
+      pairs.push_back(
+          {run.Of(plants[i]), run.Of(plants[j]), BoundsBetween(run.expect, plants[i], plants[j])});
     }
   }
   if (pairs.empty()) {
@@ -110,12 +136,12 @@ std::vector<Candidates> AcrossTwo(const FinishedRun& first, const FinishedRun& s
                                   const std::vector<std::string>& wanted) {
   std::vector<Candidates> pairs;
   const auto add = [&](const std::string& a, const std::string& b) {
-    Candidates pair{first.Of(a), second.Of(b)};
+    Candidates pair{first.Of(a), second.Of(b), {}};
     pair.first.trace.name = (first.folder / a).lexically_normal().string();
     pair.second.trace.name = (second.folder / b).lexically_normal().string();
     pairs.push_back(std::move(pair));
   };
-  if (wanted.size() == 2 && wanted[0] != wanted[1]) {
+  if (wanted.size() == 2) {
     add(wanted[0], wanted[1]);
     return pairs;
   }
@@ -133,6 +159,78 @@ std::vector<Candidates> AcrossTwo(const FinishedRun& first, const FinishedRun& s
                         fmt::join(first.Plants(), ", "), fmt::join(second.Plants(), ", "))});
   }
   return pairs;
+}
+
+void RefuseTwice(const std::vector<std::string>& plants) {
+  for (auto plant = plants.begin(); plant != plants.end(); ++plant) {
+    if (std::find(plants.begin(), plant, *plant) != plant) {
+      throw InputError(
+          Problem{.file = "--plants", .message = fmt::format("'{}' is listed twice", *plant)});
+    }
+  }
+}
+
+/// The path of plan.csv as if it were driven.
+Trace PathIn(const Table& plan) {
+  Trace trace{.station = plan.Column("s_m")};
+  const auto x = plan.Column("x_m");
+  const auto y = plan.Column("y_m");
+  const auto yaw = plan.Column("yaw_rad");
+  for (std::size_t i = 0; i < plan.rows(); ++i) {
+    trace.pose.push_back({x[i], y[i], yaw[i]});
+  }
+  trace.time = trace.yaw_rate = trace.steering = std::vector<double>(plan.rows(), 0.0);
+  return trace;
+}
+
+/// What another build may round differently, of metres, radians and metres per second: less than
+/// anyone looks at.
+constexpr double kRounding = 1e-6;
+
+bool AreAlike(const Table& first, const Table& second) {
+  if (first.columns() != second.columns() || first.rows() != second.rows()) {
+    return false;
+  }
+  for (std::size_t row = 0; row < first.rows(); ++row) {
+    for (std::size_t column = 0; column < first.columns().size(); ++column) {
+      if (!(std::abs(first.at(row, column) - second.at(row, column)) <= kRounding)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// Whoever compares two runs mostly means runs of one plan, and should know when they are not.
+void NoteOtherPlan(const fs::path& first, const fs::path& second, Verdict& verdict) {
+  const bool has_first = fs::exists(first / "plan.csv");
+  const bool has_second = fs::exists(second / "plan.csv");
+  if (!has_first && !has_second) {
+    return;
+  }
+  if (has_first != has_second) {
+    verdict.notes.push_back(
+        fmt::format("only {} followed a plan", (has_first ? first : second).string()));
+    return;
+  }
+  const Table plan_1 = ReadCsv(first / "plan.csv");
+  const Table plan_2 = ReadCsv(second / "plan.csv");
+  if (AreAlike(plan_1, plan_2)) {
+    return;
+  }
+  const auto length = [](const Trace& path) {
+    return path.station.empty() ? 0.0 : path.station.back();
+  };
+  const Trace path_1 = PathIn(plan_1);
+  const Trace path_2 = PathIn(plan_2);
+  const Difference apart = CompareTraces(path_1, path_2).position;
+  const bool one_path =
+      apart.max <= kRounding && std::abs(length(path_1) - length(path_2)) <= kRounding;
+  verdict.notes.push_back(
+      one_path ? "the runs planned one path at different speeds"
+               : fmt::format("the runs planned different paths, {:.4g} m and {:.4g} m long and up "
+                             "to {:.4g} m apart at s = {:.4g} m",
+                             length(path_1), length(path_2), apart.max, apart.max_s));
 }
 
 ordered_json ToJson(const DifferenceBounds& bounds) {
@@ -154,6 +252,15 @@ ordered_json ToJson(const DifferenceBounds& bounds) {
 }
 
 }  // namespace
+
+bool RunComparison::judged() const {
+  return std::any_of(pairs.begin(), pairs.end(),
+                     [](const ComparedPair& pair) { return pair.bounds.any(); });
+}
+
+const char* RunComparison::status() const {
+  return !verdict.passed ? "failed" : judged() ? "passed" : "compared";
+}
 
 RunComparison CompareRun(const RunResult& run, const std::optional<DifferenceBounds>& tolerances) {
   RunComparison result;
@@ -177,22 +284,29 @@ RunComparison CompareRun(const RunResult& run, const std::optional<DifferenceBou
 
 RunComparison CompareFolders(const std::vector<fs::path>& folders,
                              const std::vector<std::string>& plants,
-                             const DifferenceBounds& tolerances) {
+                             const std::optional<DifferenceBounds>& tolerances) {
   TRACKBED_CHECK(folders.size() == 1 || folders.size() == 2, "{} folders", folders.size());
+  if (folders.size() == 1 || plants.size() != 2) {
+    RefuseTwice(plants);
+  }
   std::vector<FinishedRun> runs;
   for (const fs::path& folder : folders) {
-    runs.push_back({folder, ReadRunFolder(folder)});
+    runs.push_back(ReadRun(folder));
   }
   const std::vector<Candidates> candidates =
       runs.size() == 1 ? WithinOne(runs[0], plants) : AcrossTwo(runs[0], runs[1], plants);
   RunComparison result;
-  for (const auto& [first, second] : candidates) {
+  if (runs.size() == 2) {
+    NoteOtherPlan(runs[0].folder, runs[1].folder, result.verdict);
+  }
+  for (const auto& [first, second, expected] : candidates) {
+    const DifferenceBounds bounds = tolerances.value_or(expected);
     if (first.status != second.status) {
       const std::string ends = fmt::format("{} ended as {}, {} as {}", first.trace.name,
                                            first.status, second.trace.name, second.status);
-      (tolerances.any() ? result.verdict.failures : result.verdict.notes).push_back(ends);
+      (bounds.any() ? result.verdict.failures : result.verdict.notes).push_back(ends);
     }
-    result.pairs.push_back(Pair(first.trace, second.trace, tolerances));
+    result.pairs.push_back(Pair(first.trace, second.trace, bounds));
     Judge(result.pairs.back(), result.verdict);
   }
   return result;
@@ -213,17 +327,18 @@ DifferenceBounds ParseTolerances(const std::vector<std::string>& texts) {
         number < 0.0) {
       BadTolerance(fmt::format("{}: expected a number of at least 0, found '{}'", name, value));
     }
-    if (name == "position") {
-      bounds.position_max = number;
-    } else if (name == "heading") {
-      bounds.heading_max = number;
-    } else if (name == "yaw_rate") {
-      bounds.yaw_rate_max = number;
-    } else if (name == "steering") {
-      bounds.steering_max = number;
-    } else {
+    std::optional<double>* bound = name == "position"   ? &bounds.position_max
+                                   : name == "heading"  ? &bounds.heading_max
+                                   : name == "yaw_rate" ? &bounds.yaw_rate_max
+                                   : name == "steering" ? &bounds.steering_max
+                                                        : nullptr;
+    if (bound == nullptr) {
       BadTolerance("unknown " + UnknownName(name, {"position", "heading", "yaw_rate", "steering"}));
     }
+    if (*bound) {
+      BadTolerance(name + ": given twice");
+    }
+    *bound = number;
   }
   return bounds;
 }
@@ -237,7 +352,7 @@ void WriteComparison(const RunComparison& comparison, const fs::path& folder) {
   const Table any = DifferencesOverArcLength({}, {});
   columns.insert(columns.end(), any.columns().begin(), any.columns().end());
   Table table(columns);
-  ordered_json json{{"pairs", ordered_json::array()}};
+  ordered_json json{{"status", comparison.status()}, {"pairs", ordered_json::array()}};
   for (std::size_t pair = 0; pair < comparison.pairs.size(); ++pair) {
     const ComparedPair& own = comparison.pairs[pair];
     for (std::size_t row = 0; row < own.differences.rows(); ++row) {
@@ -251,6 +366,9 @@ void WriteComparison(const RunComparison& comparison, const fs::path& folder) {
     json["pairs"].back()["tolerances"] = ToJson(own.bounds);
   }
   json["verdict"] = ToJson(comparison.verdict);
+  if (std::string_view(comparison.status()) == "compared") {
+    json["verdict"]["passed"] = nullptr;
+  }
   json["versions"] = Versions();
   WriteFileAtomically(folder / "compare.csv", table.ToCsv());
   WriteFileAtomically(folder / "compare.json", json.dump(2) + "\n");

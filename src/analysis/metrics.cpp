@@ -7,6 +7,7 @@
 #include "src/analysis/metric_expectations.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/text_table.h"
 
 namespace trackbed {
 namespace {
@@ -54,7 +55,11 @@ ClearanceMetrics MeasureClearance(const RunLog& log) {
       metrics.min_s = StationOf(row);
       metrics.min_t = row.state.time;
     }
-    metrics.force_max = std::max(metrics.force_max, row.state.obstacle_force);
+    if (row.state.obstacle_force > metrics.force_max) {
+      metrics.force_max = row.state.obstacle_force;
+      metrics.force_max_s = StationOf(row);
+      metrics.force_max_t = row.state.time;
+    }
   }
   metrics.collision = metrics.min == 0.0;
   return metrics;
@@ -125,9 +130,9 @@ std::vector<TurnMetrics> MeasureTurns(const RunLog& log, const Plan& plan,
     if (trace.station.size() > 2 && turn.middle <= until && trace.station.front() <= turn.from &&
         turn.middle <= trace.station.back()) {
       const Path& path = plan.reference.path;
-      turns.push_back(
-          {turn.waypoint, PredictTurn(vehicle, path, turn, lag),
-           ErrorInTurn(path, turn, trace.PoseAt(turn.from), trace.PoseAt(turn.middle))});
+      turns.push_back({turn.waypoint, PredictTurn(vehicle, path, turn, lag),
+                       ErrorInTurn(path, turn, trace.PoseAt(turn.from), trace.PoseAt(turn.middle)),
+                       turn.middle, trace.TimeAt(turn.middle)});
     }
   }
   return turns;
@@ -138,9 +143,9 @@ void JudgeClearance(const PlantExpectation& expect, const PlantMetrics& metrics,
   const std::string where =
       fmt::format(" at s = {:.4g} m, t = {:.4g} s", clearance.min_s, clearance.min_t);
   if (expect.min_clearance && !(clearance.min >= *expect.min_clearance)) {
-    verdict.failures.push_back(
-        fmt::format("{}: clearance expected at least {:.4g} m, was {:.4g} m{}", metrics.plant,
-                    *expect.min_clearance, clearance.min, where));
+    const auto [expected, actual] = TextsApart(*expect.min_clearance, clearance.min);
+    verdict.failures.push_back(fmt::format("{}: clearance expected at least {} m, was {} m{}",
+                                           metrics.plant, expected, actual, where));
   }
   if (expect.collision && *expect.collision != clearance.collision) {
     verdict.failures.push_back(
@@ -190,9 +195,9 @@ void JudgePlant(const PlantExpectation& expect, const PlantMetrics& metrics, Ver
   const auto bound = [&](const std::optional<double>& limit, double actual, const char* key,
                          const char* unit, const std::string& where) {
     if (limit && !(actual <= *limit)) {
-      verdict.failures.push_back(fmt::format("{}: {} expected at most {:.4g} {}, was {:.4g} {}{}",
-                                             metrics.plant, key, *limit, unit, actual, unit,
-                                             where));
+      const auto [expected, was] = TextsApart(*limit, actual);
+      verdict.failures.push_back(fmt::format("{}: {} expected at most {} {}, was {} {}{}",
+                                             metrics.plant, key, expected, unit, was, unit, where));
     }
   };
   const auto at = [](double s, double t) {
@@ -202,7 +207,8 @@ void JudgePlant(const PlantExpectation& expect, const PlantMetrics& metrics, Ver
         fmt::format(" at the end, s = {:.4g} m, t = {:.4g} s", metrics.end_s, metrics.time));
   bound(expect.max_cross_track, tracking.cross_track_max, "cross-track maximum", "m",
         at(tracking.cross_track_max_s, tracking.cross_track_max_t));
-  bound(expect.rms_cross_track, tracking.cross_track_rms, "cross-track rms", "m", "");
+  bound(expect.rms_cross_track, tracking.cross_track_rms, "cross-track rms", "m",
+        OverTheDrive(metrics));
   bound(expect.max_heading_error, tracking.heading_error_max, "heading error maximum", "rad",
         at(tracking.heading_error_max_s, tracking.heading_error_max_t));
 }

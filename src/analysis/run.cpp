@@ -251,7 +251,8 @@ void WritePlan(const Plan& plan, const Scenario& scenario, const fs::path& folde
   WriteFileAtomically(folder / "plan.json", Pretty(json));
 }
 
-void WriteRunFolder(const RunResult& result, const fs::path& folder) {
+void WriteRunFolder(const RunResult& result, const fs::path& folder,
+                    const RunFolderOptions& options) {
   MakeFolder(folder);
   RemoveEarlierRun(folder);
   WriteFileAtomically(folder / "scenario.resolved.yaml", ResolvedYaml(result.scenario));
@@ -278,6 +279,9 @@ void WriteRunFolder(const RunResult& result, const fs::path& folder) {
          {{"updates", plant.updates}, {"mean_s", plant.update_mean}, {"max_s", plant.update_max}}}};
   }
   WriteFileAtomically(folder / "timing.json", Pretty(timing));
+  if (options.mcap && !result.logs.empty()) {
+    WriteFileAtomically(folder / kMcapName, ToMcap(result));
+  }
 
   WriteFileAtomically(folder / "metrics.json", Pretty(MetricsJson(result)));
 }

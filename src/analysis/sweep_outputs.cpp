@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <limits>
-
 #include "src/analysis/json_leaves.h"
+#include "src/analysis/metric_expectations.h"
 #include "trackbed/analysis/sweep.h"
 
 namespace trackbed {
@@ -51,30 +50,10 @@ std::vector<std::string> PossibleOutputs(const Scenario& scenario) {
   RunResult all;
   all.scenario = scenario;
   for (const std::string& plant : scenario.drive.plants) {
-    PlantMetrics metrics;
-    metrics.plant = plant;
-    metrics.yaw_rate_ratio = 1.0;
-    if (scenario.plan) {
-      metrics.tracking.emplace();
-      constexpr double kAnyTime = std::numeric_limits<double>::infinity();
-      if (DisturbedUntil(scenario.disturb, scenario.world.wind, kAnyTime)) {
-        metrics.recovery.emplace();
-      }
-      metrics.blocked = scenario.plan->avoid ? "why" : "";
-      // At most one turn at every waypoint between the first and the last.
-      metrics.turns.resize(std::max<std::size_t>(scenario.mission.waypoints.size(), 2) - 2);
-    }
-    if (!scenario.world.obstacles.empty()) {
-      metrics.clearance.emplace();
-    }
-    metrics.yaw_rate_ratio = 1.0;
-    if (scenario.manoeuvre) {
-      metrics.manoeuvre = EveryMetricOf(*scenario.manoeuvre);
-    }
     for (const PlantMetrics& other : all.metrics) {
       all.comparisons.push_back({.first = other.plant, .second = plant});
     }
-    all.metrics.push_back(metrics);
+    all.metrics.push_back(EveryMetricOf(scenario, plant));
   }
   std::vector<std::string> paths;
   for (const auto& output : OutputsOf(all)) {

@@ -16,13 +16,16 @@ void AddCheck(CLI::App& command, int& exit_code) {
     ScenarioOptions scenario;
   };
   const auto options = std::make_shared<Options>();
-  command.add_option("files", options->paths, "Scenario or study files, or folders of them")
+  command
+      .add_option("files", options->paths,
+                  "Scenario or study files, or folders with them at any depth")
       ->required()
       ->type_name("FILE...");
   options->scenario.AddTo(command);
   command.callback([options, &exit_code] {
-    for (const auto& file : ScenarioFiles(options->paths)) {
+    for (const auto& file : ScenarioFiles(options->paths, FolderContent::kScenariosAndStudies)) {
       try {
+        RefuseFolder(file);
         if (IsStudy(file)) {
           static_cast<void>(CheckStudy(options->scenario.ReadStudyFile(file)));
         } else {

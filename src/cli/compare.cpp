@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -8,6 +9,7 @@
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/compare_runs.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/text_table.h"
 
 namespace trackbed::cli {
 namespace {
@@ -23,19 +25,30 @@ struct CompareOptions {
 
 void PrintRow(const char* what, const char* unit, const Difference& difference,
               const std::optional<double>& tolerance) {
-  const bool exceeded = tolerance && !(difference.max <= *tolerance);
-  fmt::print("    {:<8} {:>9.3g} {:<5} at {:>6.4g} m, {:>6.4g} s; rms {:>9.3g} {}{}\n", what,
-             difference.max, unit, difference.max_s, difference.max_t, difference.rms, unit,
-             !tolerance
-                 ? ""
-                 : fmt::format("; at most {:.4g}{}", *tolerance, exceeded ? ": EXCEEDED" : ""));
+  std::string max = fmt::format("{:.3g}", difference.max);
+  std::string limit = tolerance ? fmt::format("; at most {:.4g}", *tolerance) : "";
+  if (tolerance && !(difference.max <= *tolerance)) {
+    const auto [expected, actual] = TextsApart(*tolerance, difference.max);
+    max = actual;
+    limit = "; at most " + expected + ": EXCEEDED";
+  }
+  fmt::print("    {:<8} {:>9} {:<5} at {:>6.4g} m, {:>6.4g} s; rms {:>9.3g} {}{}\n", what, max,
+             unit, difference.max_s, difference.max_t, difference.rms, unit, limit);
+}
+
+std::string StatusText(const RunComparison& result) {
+  return !result.verdict.passed ? "FAILED"
+         : result.judged()      ? "passed"
+                                : "compared, without a tolerance to judge by";
 }
 
 void Print(const std::string& name, const RunComparison& result, const fs::path& out) {
-  fmt::print("{}: {}, in {}\n", name, result.verdict.passed ? "passed" : "FAILED",
-             (out / "compare.json").string());
+  fmt::print("{}: {}, in {}\n", name, StatusText(result), (out / "compare.json").string());
   for (const ComparedPair& pair : result.pairs) {
     const PlantComparison& c = pair.comparison;
+    if (!c.comparable()) {
+      continue;  // the verdict says so
+    }
     fmt::print("  {} - {}, from {:.4g} m to {:.4g} m\n", c.first, c.second, c.from_s, c.to_s);
     PrintRow("position", "m", c.position, pair.bounds.position_max);
     PrintRow("heading", "rad", c.heading, pair.bounds.heading_max);
@@ -57,6 +70,11 @@ int Finish(const std::string& name, const RunComparison& result, const fs::path&
   return result.verdict.passed ? kOk : kFailedExpectations;
 }
 
+std::optional<DifferenceBounds> Tolerances(const CompareOptions& options) {
+  return options.tolerances.empty() ? std::optional<DifferenceBounds>()
+                                    : ParseTolerances(options.tolerances);
+}
+
 int CompareFinished(const CompareOptions& options) {
   if (!options.scenario.overrides.empty() || !options.scenario.seed.empty()) {
     throw InputError(Problem{.message = "--set and --seed are for scenarios; finished runs stay as "
@@ -64,25 +82,27 @@ int CompareFinished(const CompareOptions& options) {
   }
   const std::vector<fs::path> folders(options.files.begin(), options.files.end());
   const RunComparison result =
-      CompareFolders(folders, options.scenario.plants, ParseTolerances(options.tolerances));
+      CompareFolders(folders, options.scenario.plants, Tolerances(options));
   const fs::path out = options.out.empty() ? "out/compare" : options.out;
-  return Finish(folders.back().string(), result, out, options.scenario.quiet);
+  return Finish(fmt::format("{}", fmt::join(options.files, " and ")), result, out,
+                options.scenario.quiet);
 }
 
 int CompareScenario(const ScenarioRun& run, const CompareOptions& options) {
   const RunResult result = DriveScenario(run, options.scenario.quiet);
   WriteRunFolder(result, run.folder);
   if (result.interrupted) {
+    if (!options.scenario.quiet) {
+      fmt::print("{}: interrupted, in {}\n", run.scenario.name, run.folder.string());
+    }
     return kInterrupted;
   }
-  const auto tolerances = options.tolerances.empty() ? std::optional<DifferenceBounds>()
-                                                     : ParseTolerances(options.tolerances);
-  return Finish(run.scenario.name, CompareRun(result, tolerances), run.folder,
+  return Finish(run.scenario.name, CompareRun(result, Tolerances(options)), run.folder,
                 options.scenario.quiet);
 }
 
 int CompareScenarios(const CompareOptions& options) {
-  static_cast<void>(ParseTolerances(options.tolerances));  // before the work, not after it
+  static_cast<void>(Tolerances(options));  // before the work, not after it
   const std::vector<ScenarioRun> runs =
       ReadScenarioRuns(options.files, options.scenario, options.out, "out/compare");
   for (const ScenarioRun& run : runs) {
@@ -93,14 +113,7 @@ int CompareScenarios(const CompareOptions& options) {
                                                       run.scenario.drive.plants.front())});
     }
   }
-  int worst = kOk;
-  for (const ScenarioRun& run : runs) {
-    worst = std::max(worst, CompareScenario(run, options));
-    if (worst == kInterrupted) {
-      break;
-    }
-  }
-  return worst;
+  return ForEachRun(runs, [&](const ScenarioRun& run) { return CompareScenario(run, options); });
 }
 
 int Compare(const CompareOptions& options) {
@@ -133,9 +146,11 @@ void AddCompare(CLI::App& command, int& exit_code) {
       ->allow_extra_args(false)
       ->type_name("A,B...");
   command
-      .add_option("--tolerance", options->tolerances,
-                  "Largest differences that pass, of position [m], heading [rad], yaw_rate "
-                  "[rad/s], steering [rad] (default: the scenario's expect.between)")
+      .add_option(
+          "--tolerance", options->tolerances,
+          "Largest differences that pass, of position [m], heading [rad], yaw_rate "
+          "[rad/s], steering [rad] (default: what the scenario, or that of the one finished "
+          "run, expects between the plants; of two runs none)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("NAME=VALUE,...");

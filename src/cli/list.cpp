@@ -52,8 +52,8 @@ std::vector<Line> Models() {
 
 std::vector<Line> Scenarios() {
   std::vector<Line> lines;
-  for (const auto& file : ScenarioFiles({(DataFolder() / "scenarios").string(),
-                                         (DataFolder() / "scenarios" / "manoeuvres").string()})) {
+  for (const auto& file :
+       ScenarioFiles({(DataFolder() / "scenarios").string()}, FolderContent::kScenarios)) {
     lines.push_back({file.stem().string(), file.string()});
   }
   return lines;

@@ -97,6 +97,12 @@ int main(int argc, char** argv) {
   struct sigaction action {};
   action.sa_handler = [](int) { cli::interrupted = true; };
   sigaction(SIGTERM, &action, nullptr);
+  // A terminal that is closed ends the drive, too, unless nohup has said that it shall not.
+  struct sigaction hang_up {};
+  sigaction(SIGHUP, nullptr, &hang_up);
+  if (hang_up.sa_handler != SIG_IGN) {
+    sigaction(SIGHUP, &action, nullptr);
+  }
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigaction(SIGINT, &action, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
@@ -115,7 +121,8 @@ int main(int argc, char** argv) {
     say(error.what());
     code = cli::interrupted ? cli::kInterrupted : cli::kBadInput;
   } catch (const std::system_error& error) {
-    say(error.what());  // fmt could not print
+    // What fmt could not print is told as what could not be flushed.
+    say(std::ferror(stdout) != 0 ? "cannot write to standard output" : error.what());
     code = cli::kBadInput;
   } catch (const std::exception& error) {
     say(std::string("internal error: ") + error.what());

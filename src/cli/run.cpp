@@ -3,14 +3,13 @@
 #include <fmt/color.h>
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "src/cli/film_of_run.h"
 #include "src/cli/scenario_runs.h"
 #include "src/cli/verbs.h"
-#include "trackbed/analysis/mcap.h"
-#include "trackbed/core/file.h"
 
 namespace trackbed::cli {
 namespace {
@@ -68,9 +67,15 @@ int RunOne(const ScenarioRun& run, const RunOptions& options) {
   const Scenario& scenario = run.scenario;
   const fs::path& out = run.folder;
   const RunResult result = DriveScenario(run, options.scenario.quiet);
-  WriteRunFolder(result, out);
-  if (options.mcap && !result.logs.empty()) {
-    WriteFileAtomically(out / kMcapName, ToMcap(result));
+  WriteRunFolder(result, out, {.mcap = options.mcap});
+  if (!options.scenario.quiet) {
+    fmt::print("{}: {}, in {}\n", scenario.name,
+               result.interrupted      ? "interrupted"
+               : result.verdict.passed ? "passed"
+                                       : "FAILED",
+               out.string());
+    PrintSummary(result);
+    std::fflush(stdout);  // a film takes its time, and may find no room
   }
   if (options.video && !result.interrupted && result.plan.ok()) {
     const RenderSpec& render = scenario.render;
@@ -80,14 +85,6 @@ int RunOne(const ScenarioRun& run, const RunOptions& options) {
              .fps = render.fps,
              .camera = render.camera},
             options.scenario.quiet);
-  }
-  if (!options.scenario.quiet) {
-    fmt::print("{}: {}, in {}\n", scenario.name,
-               result.interrupted      ? "interrupted"
-               : result.verdict.passed ? "passed"
-                                       : "FAILED",
-               out.string());
-    PrintSummary(result);
   }
   return result.interrupted ? kInterrupted : result.verdict.passed ? kOk : kFailedExpectations;
 }
@@ -114,13 +111,7 @@ void AddRun(CLI::App& command, int& exit_code) {
         CheckFilmName(run.folder / kVideoName);
       }
     }
-    for (const ScenarioRun& run : runs) {
-      const int code = RunOne(run, *options);
-      exit_code = std::max(exit_code, code);
-      if (code == kInterrupted) {
-        return;
-      }
-    }
+    exit_code = ForEachRun(runs, [&](const ScenarioRun& run) { return RunOne(run, *options); });
   });
 }
 

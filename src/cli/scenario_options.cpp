@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <system_error>
 
+#include "trackbed/analysis/metrics.h"
 #include "trackbed/core/error.h"
 #include "trackbed/render/film.h"
 
@@ -20,6 +23,39 @@ std::vector<std::string> CameraNames() {
     names.push_back(camera.name);
   }
   return names;
+}
+
+/// Adds the files in `folder`, then those in its folders.
+void AddFilesIn(const fs::path& folder, FolderContent content, std::vector<fs::path>& files) {
+  std::vector<fs::path> own;
+  std::vector<fs::path> folders;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path& path = entry->path();
+    const std::string extension = path.extension().string();
+    if (path.filename().string().starts_with('.')) {
+      continue;
+    }
+    if (entry->is_directory()) {
+      if (!entry->is_symlink()) {
+        folders.push_back(path);
+      }
+    } else if (extension == ".yaml" || extension == ".yml") {
+      if (content == FolderContent::kScenariosAndStudies || !IsStudy(path)) {
+        own.push_back(path);
+      }
+    }
+  }
+  if (error) {
+    throw RunError(fmt::format("cannot read {}: {}", folder.string(), error.message()));
+  }
+  std::sort(own.begin(), own.end());
+  std::sort(folders.begin(), folders.end());
+  files.insert(files.end(), own.begin(), own.end());
+  for (const fs::path& inner : folders) {
+    AddFilesIn(inner, content, files);
+  }
 }
 
 }  // namespace
@@ -49,32 +85,39 @@ std::vector<Override> ScenarioOptions::Overrides() const {
 }
 
 Scenario ScenarioOptions::Read(const fs::path& file) const {
-  return ReadScenario(file, Overrides(), CameraNames());
+  return ReadScenario(file, Overrides(), CameraNames(), PossibleMetrics);
 }
 
 Study ScenarioOptions::ReadStudyFile(const fs::path& file) const {
-  return ReadStudy(file, Overrides(), CameraNames());
+  return ReadStudy(file, Overrides(), CameraNames(), PossibleMetrics);
 }
 
-std::vector<fs::path> ScenarioFiles(const std::vector<std::string>& paths) {
-  std::vector<fs::path> files;
+std::vector<fs::path> ScenarioFiles(const std::vector<std::string>& paths, FolderContent content) {
+  std::vector<fs::path> found;
   for (const std::string& path : paths) {
-    if (!fs::is_directory(path)) {
-      files.emplace_back(path);
-      continue;
+    const std::size_t before = found.size();
+    if (fs::is_directory(path)) {
+      AddFilesIn(path, content, found);
     }
-    const std::size_t before = files.size();
-    for (const auto& entry : fs::directory_iterator(path)) {
-      if (entry.path().extension() == ".yaml") {
-        files.push_back(entry.path());
-      }
+    if (found.size() == before) {
+      found.emplace_back(path);
     }
-    if (files.size() == before) {
-      throw InputError(Problem{.file = path, .message = "the folder has no scenarios (*.yaml)"});
+  }
+  std::vector<fs::path> files;
+  std::set<fs::path> known;
+  for (const fs::path& file : found) {
+    if (known.insert(fs::absolute(file).lexically_normal()).second) {
+      files.push_back(file);
     }
-    std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
   }
   return files;
+}
+
+void RefuseFolder(const fs::path& file) {
+  if (fs::is_directory(file)) {
+    throw InputError(
+        Problem{.file = file.string(), .message = "the folder has no scenarios (*.yaml, *.yml)"});
+  }
 }
 
 }  // namespace trackbed::cli

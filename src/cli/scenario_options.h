@@ -34,8 +34,17 @@ struct ScenarioOptions {
   [[nodiscard]] std::vector<Override> Overrides() const;
 };
 
-/// The scenario files that `paths` name: files as they are, folders by the *.yaml in them, sorted.
-/// InputError when a folder has none.
-std::vector<std::filesystem::path> ScenarioFiles(const std::vector<std::string>& paths);
+/// What to take from folders.
+enum class FolderContent { kScenarios, kScenariosAndStudies };
+
+/// The scenario files that `paths` name, each once: files as they are, folders by the *.yaml and
+/// *.yml in them and their folders, the files of a folder before those of its folders, sorted.
+/// What is hidden (.git) and links to folders are passed by. A folder that has none stands for
+/// itself, for RefuseFolder to tell of. RunError when a folder cannot be read.
+std::vector<std::filesystem::path> ScenarioFiles(const std::vector<std::string>& paths,
+                                                 FolderContent content);
+
+/// InputError if `file` is a folder, which has no scenarios then.
+void RefuseFolder(const std::filesystem::path& file);
 
 }  // namespace trackbed::cli

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "src/cli/progress_bar.h"
@@ -33,6 +34,27 @@ std::vector<ScenarioRun> ReadScenarioRuns(const std::vector<std::string>& files,
     runs.push_back({std::move(scenario), folder});
   }
   return runs;
+}
+
+int ForEachRun(const std::vector<ScenarioRun>& runs,
+               const std::function<int(const ScenarioRun& run)>& work) {
+  int worst = kOk;
+  for (std::size_t i = 0; i < runs.size() && worst != kInterrupted; ++i) {
+    try {
+      worst = std::max(worst, work(runs[i]));
+    } catch (const RunError& error) {
+      if (!interrupted) {
+        throw;
+      }
+      fmt::print(stderr, "{}\n", error.what());
+      worst = kInterrupted;
+    }
+    const std::size_t left = runs.size() - i - 1;
+    if (worst == kInterrupted && left > 0) {
+      fmt::print(stderr, "interrupted: {} of {} scenarios not driven\n", left, runs.size());
+    }
+  }
+  return worst;
 }
 
 RunResult DriveScenario(const ScenarioRun& run, bool quiet) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,11 @@ struct ScenarioRun {
 std::vector<ScenarioRun> ReadScenarioRuns(const std::vector<std::string>& files,
                                           const ScenarioOptions& options, const std::string& out,
                                           const std::filesystem::path& parent);
+
+/// Works through the runs until Ctrl-C; then says on stderr how many were not begun. Gives back the
+/// worst exit code. A RunError of `work` is thrown on, but for that of an interrupted film.
+int ForEachRun(const std::vector<ScenarioRun>& runs,
+               const std::function<int(const ScenarioRun& run)>& work);
 
 /// Runs the scenario with a progress bar until Ctrl-C. The folder is made before the work, not
 /// after it, and not at all for a model that cannot be used; nothing is written to it yet.

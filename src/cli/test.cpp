@@ -65,12 +65,17 @@ int CodeOf(const std::vector<SuiteCase>& cases) {
 
 int Test(const TestOptions& options) {
   const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  if (!options.junit.empty()) {
-    MakeFolder((fs::path(".") / options.junit).parent_path());  // before the work, not after it
+  const std::vector<fs::path> files = ScenarioFiles(options.paths, FolderContent::kScenarios);
+  if (!options.junit.empty()) {  // before the work, not after it
+    MakeFolder((fs::path(".") / options.junit).parent_path());
+    CheckCanWrite(options.junit);
   }
   const std::vector<SuiteCase> cases =
-      RunSuite(ScenarioFiles(options.paths),
-               [&](const fs::path& file) { return options.scenario.Read(file); },
+      RunSuite(files,
+               [&](const fs::path& file) {
+                 RefuseFolder(file);
+                 return options.scenario.Read(file);
+               },
                {.jobs = options.jobs > 0 ? options.jobs : threads,
                 .finished = [&](const SuiteCase& one) { Tell(one, options.scenario.quiet); },
                 .interrupted = [] { return interrupted.load(); }});
@@ -84,7 +89,7 @@ int Test(const TestOptions& options) {
 
 void AddTest(CLI::App& command, int& exit_code) {
   const auto options = std::make_shared<TestOptions>();
-  command.add_option("paths", options->paths, "Scenario files, or folders of them")
+  command.add_option("paths", options->paths, "Scenario files, or folders with them at any depth")
       ->required()
       ->type_name("PATH...");
   command.add_option("--junit", options->junit, "Write the outcome as JUnit XML as well")

@@ -62,6 +62,13 @@ int WriteAll(const fs::path& file, std::string_view content) {
   return out.Close() == 0 ? 0 : errno;
 }
 
+/// Devices and pipes (/dev/stdout, /dev/full) can be written but not replaced.
+bool IsDevice(const fs::path& file) {
+  struct stat existing {};
+  return ::stat(file.c_str(), &existing) == 0 && !S_ISREG(existing.st_mode) &&
+         !S_ISDIR(existing.st_mode);
+}
+
 }  // namespace
 
 std::string ReadFile(const fs::path& file) {
@@ -112,11 +119,24 @@ void PublishFile(const fs::path& temporary, const fs::path& file) {
   }
 }
 
+void CheckCanWrite(const fs::path& file) {
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored)) {
+    Fail("write", file, EISDIR);
+  }
+  if (IsDevice(file)) {
+    return;
+  }
+  const fs::path temporary = TemporaryNameFor(file);
+  const int error = WriteAll(temporary, "");
+  ::unlink(temporary.c_str());
+  if (error != 0) {
+    Fail("write", file, error);
+  }
+}
+
 void WriteFileAtomically(const fs::path& file, std::string_view content) {
-  // Devices and pipes (/dev/stdout, /dev/full) can be written but not replaced.
-  struct stat existing {};
-  if (::stat(file.c_str(), &existing) == 0 && !S_ISREG(existing.st_mode) &&
-      !S_ISDIR(existing.st_mode)) {
+  if (IsDevice(file)) {
     if (const int error = WriteAll(file, content); error != 0) {
       Fail("write", file, error);
     }

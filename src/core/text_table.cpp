@@ -82,6 +82,18 @@ std::string ShortestText(double number) {
   return fmt::format("{}", number + 0.0);  // `+ 0.0` turns a negative zero into zero
 }
 
+std::pair<std::string, std::string> TextsApart(double first, double second) {
+  std::pair<std::string, std::string> texts;
+  constexpr int kAllDigits = 17;  // of a double: no two share them
+  for (int digits = 4; digits <= kAllDigits; ++digits) {
+    texts = {fmt::format("{:.{}g}", first, digits), fmt::format("{:.{}g}", second, digits)};
+    if (first == second || texts.first != texts.second) {
+      break;
+    }
+  }
+  return texts;
+}
+
 TextTable::TextTable(std::vector<std::string> columns) : columns_(std::move(columns)) {
   TRACKBED_CHECK(!columns_.empty(), "a table needs columns");
 }

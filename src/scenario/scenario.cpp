@@ -1,5 +1,7 @@
 #include "trackbed/scenario/scenario.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -22,6 +24,32 @@ void DropWhatIsNotDriven(Scenario& scenario) {
     return std::any_of(between.plants.begin(), between.plants.end(),
                        [&](const std::string& plant) { return !Drives(scenario, plant); });
   });
+}
+
+/// The keys of metrics that no run can have, each with what is wrong.
+std::vector<std::pair<std::string, std::string>> UnknownMetrics(
+    const Expectations& expect, const std::vector<std::string>& possible) {
+  std::vector<std::string> shown;  // the first element of a list shows what all have
+  std::copy_if(possible.begin(), possible.end(), std::back_inserter(shown),
+               [](const std::string& path) {
+                 const std::size_t bracket = path.find('[');
+                 return bracket == std::string::npos || path[bracket + 1] == '0';
+               });
+  std::vector<std::pair<std::string, std::string>> found;
+  const auto look = [&](const std::string& key, const PlantExpectation& own) {
+    for (std::size_t i = 0; i < own.metrics.size(); ++i) {
+      const std::string& metric = own.metrics[i].metric;
+      if (std::find(possible.begin(), possible.end(), metric) == possible.end()) {
+        found.emplace_back(fmt::format("{}.metrics[{}].metric", key, i),
+                           "no run can have " + UnknownName(metric, shown));
+      }
+    }
+  };
+  look("expect", expect.all);
+  for (const auto& [plant, own] : expect.plants) {
+    look("expect." + plant, own);
+  }
+  return found;
 }
 
 /// The node that a dotted key names, or the nearest one above it that is there.
@@ -73,7 +101,7 @@ std::vector<Problem> ReadInputs(Scenario& scenario, const ReaderContext& context
 
 Scenario ParseScenario(const std::string& yaml, const std::string& name,
                        const std::filesystem::path& folder, const std::vector<Override>& overrides,
-                       const std::vector<std::string>& cameras) {
+                       const std::vector<std::string>& cameras, const MetricPaths& metrics) {
   YAML::Node root = LoadYaml(yaml, name);
   ReaderContext context{.file = name, .overridden = {}, .problems = {}};
   for (const Override& override_text : overrides) {
@@ -108,6 +136,11 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
   for (auto& [key, message] : CrossProblems(scenario, could_read)) {
     complain(key, std::move(message));
   }
+  if (metrics && context.problems.empty() && of_inputs.empty()) {
+    for (auto& [key, message] : UnknownMetrics(scenario.expect, metrics(scenario))) {
+      complain(key, std::move(message));
+    }
+  }
   std::stable_sort(context.problems.begin(), context.problems.end(),
                    [](const Problem& a, const Problem& b) {
                      return std::pair(a.line, a.column) < std::pair(b.line, b.column);
@@ -120,8 +153,9 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
 }
 
 Scenario ReadScenario(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                      const std::vector<std::string>& cameras) {
-  return ParseScenario(ReadInput(file), file.string(), file.parent_path(), overrides, cameras);
+                      const std::vector<std::string>& cameras, const MetricPaths& metrics) {
+  return ParseScenario(ReadInput(file), file.string(), file.parent_path(), overrides, cameras,
+                       metrics);
 }
 
 namespace {

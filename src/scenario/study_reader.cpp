@@ -325,10 +325,11 @@ bool IsStudy(const std::filesystem::path& file) {
 }
 
 Study ReadStudy(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                const std::vector<std::string>& cameras) {
+                const std::vector<std::string>& cameras, const MetricPaths& metrics) {
   Study study = StudyReader(file, LoadYaml(ReadInput(file), file.string(), "a study")).Read();
   study.overrides = overrides;
   study.cameras = cameras;
+  study.metrics = metrics;
   return study;
 }
 

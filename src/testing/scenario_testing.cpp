@@ -135,7 +135,7 @@ testing::Matcher<const PlantComparison&> PartsAtMost(const DifferenceBounds& bou
 }
 
 RunResult RunScenario(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  return RunMission(ReadScenario(file, overrides));
+  return RunMission(ReadScenario(file, overrides, {}, PossibleMetrics));
 }
 
 RunResult RunScenario(const Scenario& scenario) {

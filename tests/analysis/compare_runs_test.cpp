@@ -83,6 +83,21 @@ TEST(CompareRun, IsJudgedByTolerancesInstead) {
   EXPECT_FALSE(CompareRun(run, DifferenceBounds{.heading_max = 1e-9}).verdict.passed);
 }
 
+TEST(CompareRun, HoldsThePairToTheTightestOfAllItsBounds) {
+  const RunResult run = Turn("kinematic, single_track",
+                             "expect:\n  between:\n"
+                             "    - {plants: [kinematic, single_track], position_max: 5, "
+                             "heading_max: 1}\n"
+                             "    - {plants: [single_track, kinematic], position_max: 2, "
+                             "yaw_rate_max: 3}\n"
+                             "    - {plants: [kinematic, single_track], position_max: 4}\n");
+  const DifferenceBounds bounds = CompareRun(run, {}).pairs.at(0).bounds;
+  EXPECT_EQ(bounds.position_max, 2.0);
+  EXPECT_EQ(bounds.heading_max, 1.0);
+  EXPECT_EQ(bounds.yaw_rate_max, 3.0);
+  EXPECT_FALSE(bounds.steering_max);
+}
+
 TEST(CompareRun, FailsDrivesThatDoNotEndAsExpected) {
   RunResult run = Turn("kinematic, single_track", "expect: {metrics: [{metric: time, max: 0}]}\n");
   EXPECT_FALSE(run.verdict.passed);
@@ -131,14 +146,14 @@ TEST(CompareFolders, OfTwoRunsComparesThePlantsThatBothHave) {
   const TempFolder folder;
   const fs::path a = Line(folder, "a", 0.0, {{"kinematic", "arrived"}, {"mujoco", "arrived"}});
   const fs::path b = Line(folder, "b", 0.25, {{"mujoco", "arrived"}, {"single_track", "arrived"}});
-  const RunComparison result = CompareFolders({a, b}, {}, {.position_max = 0.2});
+  const RunComparison result = CompareFolders({a, b}, {}, DifferenceBounds{.position_max = 0.2});
   EXPECT_THAT(Names(result), ElementsAre(a.string() + "/mujoco - " + b.string() + "/mujoco"));
   EXPECT_EQ(result.pairs[0].comparison.position.max, 0.25);
   EXPECT_THAT(result.verdict.failures,
               ElementsAre(a.string() + "/mujoco and " + b.string() +
                           "/mujoco: position difference expected at most 0.2 m, was 0.25 m at s = "
                           "0 m, t = 0 s"));
-  EXPECT_TRUE(CompareFolders({a, b}, {}, {.position_max = 0.25}).verdict.passed);
+  EXPECT_TRUE(CompareFolders({a, b}, {}, DifferenceBounds{.position_max = 0.25}).verdict.passed);
   EXPECT_THAT(Names(CompareFolders({a, b}, {"kinematic", "single_track"}, {})),
               ElementsAre(a.string() + "/kinematic - " + b.string() + "/single_track"));
   EXPECT_EQ(Complaint([&] {
@@ -153,6 +168,63 @@ TEST(CompareFolders, OfTwoRunsComparesThePlantsThatBothHave) {
                 "; driven: mujoco, single_track and kinematic");
 }
 
+TEST(CompareFolders, OfOneRunIsJudgedByWhatItsScenarioExpects) {
+  const TempFolder folder;
+  const fs::path run = Line(folder, "r", 0.0, {{"kinematic", "arrived"}, {"mujoco", "arrived"}});
+  folder.Write("r/mujoco.csv",
+               "t_s,x_m,y_m,yaw_rad,yaw_rate_radps,steering_rad,s_m\n0,0,2,0,0,0,0\n5,10,2,0,0,0,"
+               "10\n");
+  folder.Write("r/scenario.resolved.yaml",
+               "schema: 1\nexpect: {between: [{plants: [mujoco, kinematic], position_max: 1}]}\n");
+  EXPECT_THAT(CompareFolders({run}, {}, {}).verdict.failures,
+              ElementsAre("kinematic and mujoco: position difference expected at most 1 m, was 2 m "
+                          "at s = 0 m, t = 0 s"));
+  EXPECT_TRUE(CompareFolders({run}, {}, DifferenceBounds{.position_max = 3}).verdict.passed);
+  // Two runs were not expected to do anything alike.
+  EXPECT_FALSE(CompareFolders({run, run}, {}, {}).judged());
+}
+
+/// A plan of 10 m along y = `offset`.
+void WritePlanAt(const TempFolder& folder, const std::string& run, double offset, double speed) {
+  folder.Write(run + "/plan.csv",
+               fmt::format("s_m,x_m,y_m,yaw_rad,curvature_radpm,speed_mps,direction\n"
+                           "0,0,{0},0,0,{1},1\n10,10,{0},0,0,{1},1\n",
+                           offset, speed));
+}
+
+TEST(CompareFolders, NotesThatTheRunsHadDifferentPlans) {
+  const TempFolder folder;
+  const fs::path a = Line(folder, "a", 0.0, {{"kinematic", "arrived"}});
+  const fs::path b = Line(folder, "b", 0.0, {{"kinematic", "arrived"}});
+  const auto notes = [&] { return CompareFolders({a, b}, {}, {}).verdict.notes; };
+  EXPECT_THAT(notes(), IsEmpty());
+  WritePlanAt(folder, "a", 0.0, 3.0);
+  EXPECT_THAT(notes(), ElementsAre("only " + a.string() + " followed a plan"));
+  WritePlanAt(folder, "b", 1e-9, 3.0);
+  EXPECT_THAT(notes(), IsEmpty());  // rounding
+  WritePlanAt(folder, "b", 0.0, 4.0);
+  EXPECT_THAT(notes(), ElementsAre("the runs planned one path at different speeds"));
+  WritePlanAt(folder, "b", 2.0, 3.0);
+  EXPECT_THAT(notes(), ElementsAre("the runs planned different paths, 10 m and 10 m long and up to "
+                                   "2 m apart at s = 0 m"));
+}
+
+TEST(CompareFolders, RefusesPlantsListedTwiceAndRunsThatDidNotDrive) {
+  const TempFolder folder;
+  const fs::path run = Line(folder, "r", 0.0, {{"kinematic", "arrived"}, {"mujoco", "arrived"}});
+  const auto told = [&](const std::vector<fs::path>& runs, const std::vector<std::string>& plants) {
+    return Complaint([&] { CompareFolders(runs, plants, {}); });
+  };
+  EXPECT_EQ(told({run}, {"kinematic", "kinematic"}), "--plants: 'kinematic' is listed twice");
+  EXPECT_EQ(told({run, run}, {"kinematic", "mujoco", "kinematic"}),
+            "--plants: 'kinematic' is listed twice");
+  // Of two runs: of the first, and of the second.
+  EXPECT_THAT(Names(CompareFolders({run, run}, {"mujoco", "mujoco"}, {})), testing::SizeIs(1));
+  folder.Write("none/metrics.json", R"({"complete": true, "plants": {}})");
+  EXPECT_EQ(told({folder.path() / "none"}, {}),
+            (folder.path() / "none").string() + ": the run did not drive; it had no plan");
+}
+
 TEST(CompareFolders, OfDrivesThatEndedDifferentlyKeepsNoTolerance) {
   const TempFolder folder;
   const fs::path run = Line(folder, "r", 0.0, {{"kinematic", "arrived"}, {"mujoco", "collided"}});
@@ -160,7 +232,7 @@ TEST(CompareFolders, OfDrivesThatEndedDifferentlyKeepsNoTolerance) {
   const RunComparison shown = CompareFolders({run}, {}, {});
   EXPECT_TRUE(shown.verdict.passed);
   EXPECT_THAT(shown.verdict.notes, ElementsAre(ends));
-  const RunComparison judged = CompareFolders({run}, {}, {.position_max = 1.0});
+  const RunComparison judged = CompareFolders({run}, {}, DifferenceBounds{.position_max = 1.0});
   EXPECT_FALSE(judged.verdict.passed);
   EXPECT_THAT(judged.verdict.failures, ElementsAre(ends));
 }
@@ -180,6 +252,10 @@ TEST(ParseTolerances, RefusesEverythingElse) {
     return Complaint([&] { ParseTolerances({text}); });
   };
   EXPECT_EQ(told("positon=1"), "--tolerance: unknown 'positon'; did you mean 'position'?");
+  EXPECT_EQ(Complaint([] {
+              ParseTolerances({"position=0.1", "heading=1", "position=0.2"});
+            }),
+            "--tolerance: position: given twice");
   EXPECT_EQ(told("position"), "--tolerance: 'position' is not of the form position=0.1");
   for (const char* value : {"", "-1", "nan", "inf", "1m", "1,5", "1e999"}) {
     EXPECT_EQ(
@@ -192,7 +268,8 @@ TEST(WriteComparison, LeavesTheFiguresAndTheCurves) {
   const TempFolder folder;
   const fs::path a = Line(folder, "a", 0.0, {{"kinematic", "arrived"}, {"mujoco", "arrived"}});
   const fs::path b = Line(folder, "b", 0.5, {{"kinematic", "arrived"}, {"mujoco", "arrived"}});
-  WriteComparison(CompareFolders({a, b}, {}, {.position_max = 0.1}), folder.path() / "c");
+  WriteComparison(CompareFolders({a, b}, {}, DifferenceBounds{.position_max = 0.1}),
+                  folder.path() / "c");
   const auto json = nlohmann::json::parse(ReadFile(folder.path() / "c/compare.json"));
   ASSERT_EQ(json["pairs"].size(), 2U);
   EXPECT_EQ(json["pairs"][1]["plants"][0], a.string() + "/mujoco");
@@ -200,6 +277,7 @@ TEST(WriteComparison, LeavesTheFiguresAndTheCurves) {
   EXPECT_EQ(json["pairs"][1]["position"]["rms"], 0.5);
   EXPECT_EQ(json["pairs"][1]["to_s"], 10.0);
   EXPECT_EQ(json["pairs"][1]["tolerances"], nlohmann::json({{"position_max", 0.1}}));
+  EXPECT_EQ(json["status"], "failed");
   EXPECT_EQ(json["verdict"]["passed"], false);
   EXPECT_EQ(json["verdict"]["failures"].size(), 2U);
   EXPECT_TRUE(json["versions"].contains("trackbed"));
@@ -207,6 +285,20 @@ TEST(WriteComparison, LeavesTheFiguresAndTheCurves) {
   EXPECT_THAT(table.Column("pair"), ElementsAre(0.0, 0.0, 1.0, 1.0));
   EXPECT_THAT(table.Column("s_m"), ElementsAre(0.0, 10.0, 0.0, 10.0));
   EXPECT_THAT(table.Column("y_m"), testing::Each(0.5));
+}
+
+TEST(WriteComparison, SaysNothingOfPassingWhereNothingWasJudged) {
+  const TempFolder folder;
+  const fs::path a = Line(folder, "a", 0.0, {{"kinematic", "arrived"}});
+  const fs::path b = Line(folder, "b", 0.5, {{"kinematic", "arrived"}});
+  const auto written = [&](const std::optional<DifferenceBounds>& bounds) {
+    WriteComparison(CompareFolders({a, b}, {}, bounds), folder.path() / "c");
+    return nlohmann::json::parse(ReadFile(folder.path() / "c/compare.json"));
+  };
+  EXPECT_EQ(written({})["status"], "compared");
+  EXPECT_TRUE(written({})["verdict"]["passed"].is_null());
+  EXPECT_EQ(written(DifferenceBounds{.heading_max = 0.0})["status"], "passed");
+  EXPECT_EQ(written(DifferenceBounds{.heading_max = 0.0})["verdict"]["passed"], true);
 }
 
 }  // namespace

@@ -178,6 +178,14 @@ TEST(Exceeded, SaysWhatWasExpectedWhatWasWhereAndWhen) {
           "s"));
 }
 
+TEST(Exceeded, TellsApartWhatFourDigitsDoNot) {
+  const PlantComparison c{
+      .first = "a", .second = "b", .from_s = 0, .to_s = 1, .position = {.max = 0.0370349}};
+  EXPECT_THAT(Exceeded({.position_max = 0.03703}, c),
+              testing::ElementsAre("a and b: position difference expected at most 0.03703 m, was "
+                                   "0.037035 m at s = 0 m, t = 0 s"));
+}
+
 TEST(TraceOf, LeavesOutWhereTheCarDoesNotGetOn) {
   RunLog log{.plant = "made_up", .configurations = Table({"t_s"})};
   for (const double s : {0.0, 1.0, 1.0, 0.999, 2.0}) {
@@ -204,7 +212,7 @@ TEST(ReadRunFolder, GivesTheDrivesThatWereLogged) {
                R"("collided"}}})");
   const std::string header = "t_s,x_m,y_m,yaw_rad,yaw_rate_radps,steering_rad,other,s_m\n";
   folder.Write("kinematic.csv", header + "0,0,0,0,0,0,9,0\n1,3,0.5,0.1,0.2,0.3,9,3\n");
-  folder.Write("mujoco-contact.csv", header + "0,0,0,0,0,0,9,0\n");
+  folder.Write("mujoco-contact.csv", header + "0,0,0,0,0,0,9,0\n1,0,0,0,0,0,9,0\n");
   const std::vector<FinishedDrive> drives = ReadRunFolder(folder.path());
   ASSERT_EQ(drives.size(), 2U);
   EXPECT_EQ(drives[0].status, "arrived");
@@ -216,6 +224,7 @@ TEST(ReadRunFolder, GivesTheDrivesThatWereLogged) {
   EXPECT_THAT(drives[0].trace.steering, testing::ElementsAre(0.0, 0.3));
   EXPECT_EQ(drives[1].status, "collided");
   EXPECT_EQ(drives[1].trace.name, "mujoco:contact");
+  EXPECT_THAT(drives[1].trace.station, testing::ElementsAre(0.0));  // it did not get on
 }
 
 std::string Complaint(const std::filesystem::path& folder) {
@@ -236,6 +245,22 @@ TEST(ReadRunFolder, RefusesWhatIsNoRun) {
   folder.Write("metrics.json", R"({"plants": {"kinematic": {"status": "arrived"}}})");
   const auto log = folder.Write("kinematic.csv", "t_s,x_m\n0,0\n");
   EXPECT_THAT(Complaint(folder.path()), testing::StartsWith(log.string() + ":1"));
+  const std::string header = "t_s,x_m,y_m,yaw_rad,yaw_rate_radps,steering_rad,s_m\n";
+  for (const auto& [rows, count] : {std::pair("", 0), std::pair("0,0,0,0,0,0,0\n", 1)}) {
+    folder.Write("kinematic.csv", header + rows);
+    EXPECT_EQ(Complaint(folder.path()),
+              fmt::format("{}: the log of a drive needs at least two rows, and has {}",
+                          log.string(), count));
+  }
+  folder.Write("metrics.json", R"({"plants": []})");
+  EXPECT_EQ(Complaint(folder.path()), file.string() + ": not the metrics of a run");
+  folder.Write("metrics.json", R"({"plants": {"../kinematic": {"status": "arrived"}}})");
+  EXPECT_EQ(Complaint(folder.path()),
+            file.string() + ": plants: unknown '../kinematic'; did you mean 'kinematic'?");
+  folder.Write("metrics.json", R"({"complete": false, "plants": {}})");
+  EXPECT_EQ(Complaint(folder.path()), folder.path().string() +
+                                          ": the run was interrupted; it has no whole drives to "
+                                          "compare");
 }
 
 }  // namespace

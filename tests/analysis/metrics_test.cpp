@@ -81,7 +81,13 @@ PlantMetrics Measured(const std::string& plant) {
                                      .cross_track_max_t = 2.0,
                                      .cross_track_final = -0.125,
                                      .goal_distance = 0.75};
-  metrics.clearance = ClearanceMetrics{.min = 0.25, .min_s = 7.0, .min_t = 2.5};
+  metrics.clearance = ClearanceMetrics{.min = 0.25,
+                                       .min_s = 7.0,
+                                       .min_t = 2.5,
+                                       .force_max = 9.0,
+                                       .force_max_s = 7.5,
+                                       .force_max_t = 2.75};
+  metrics.turns = {{.measured = {.lateral_offset = 0.75}, .s = 11.0, .t = 4.5}};
   metrics.manoeuvre = ManoeuvreMetrics{
       .method = "braking", .begin = 1.0, .end = 3.0, .values = {{"distance", 40.0}}};
   return metrics;
@@ -99,24 +105,76 @@ std::string FailureOf(const MetricExpectation& expect) {
 
 TEST(Judge, SaysOfAnyMetricWhatWasWhereAndWhen) {
   EXPECT_EQ(FailureOf({.metric = "lateral_acceleration_max", .max = 2.0}),
-            "mujoco: lateral_acceleration_max expected at most 2, was 3 at s = 12 m, t = 4 s");
+            "mujoco: lateral_acceleration_max expected at most 2 m/s^2, was 3 m/s^2 at s = 12 m, t "
+            "= 4 s");
   EXPECT_EQ(FailureOf({.metric = "cross_track.max", .max = 0.1}),
-            "mujoco: cross_track.max expected at most 0.1, was 0.5 at s = 6 m, t = 2 s");
+            "mujoco: cross_track.max expected at most 0.1 m, was 0.5 m at s = 6 m, t = 2 s");
   EXPECT_EQ(FailureOf({.metric = "clearance_min", .min = 1.0}),
-            "mujoco: clearance_min expected at least 1, was 0.25 at s = 7 m, t = 2.5 s");
+            "mujoco: clearance_min expected at least 1 m, was 0.25 m at s = 7 m, t = 2.5 s");
   EXPECT_EQ(FailureOf({.metric = "manoeuvre.distance", .max = 30.0}),
-            "mujoco: manoeuvre.distance expected at most 30, was 40 between t = 1 s and 3 s");
+            "mujoco: manoeuvre.distance expected at most 30 m, was 40 m between t = 1 s and 3 s");
   const std::string end = " at the end, s = 20 m, t = 8 s";
   EXPECT_EQ(FailureOf({.metric = "time", .max = 5.0}),
-            "mujoco: time expected at most 5, was 8" + end);
+            "mujoco: time expected at most 5 s, was 8 s" + end);
   EXPECT_EQ(FailureOf({.metric = "goal_distance", .max = 0.5}),
-            "mujoco: goal_distance expected at most 0.5, was 0.75" + end);
+            "mujoco: goal_distance expected at most 0.5 m, was 0.75 m" + end);
   EXPECT_EQ(FailureOf({.metric = "cross_track.final", .min = 0.0}),
-            "mujoco: cross_track.final expected at least 0, was -0.125" + end);
+            "mujoco: cross_track.final expected at least 0 m, was -0.125 m" + end);
   EXPECT_EQ(FailureOf({.metric = "status", .equals = "collided"}),
             "mujoco: status expected to be collided, was arrived" + end);
-  EXPECT_EQ(FailureOf({.metric = "steering_rate_rms", .max = 0.1}),
-            "mujoco: steering_rate_rms expected at most 0.1, was 0.25");
+  EXPECT_EQ(
+      FailureOf({.metric = "steering_rate_rms", .max = 0.1}),
+      "mujoco: steering_rate_rms expected at most 0.1 rad/s, was 0.25 rad/s over the drive to "
+      "s = 20 m, t = 8 s");
+  EXPECT_EQ(FailureOf({.metric = "plan_changes", .equals = "2"}),
+            "mujoco: plan_changes expected to be 2, was 0 over the drive to s = 20 m, t = 8 s");
+  EXPECT_EQ(FailureOf({.metric = "obstacle_force_max", .max = 5.0}),
+            "mujoco: obstacle_force_max expected at most 5 N, was 9 N at s = 7.5 m, t = 2.75 s");
+  EXPECT_EQ(FailureOf({.metric = "collision", .equals = "true"}),
+            "mujoco: collision expected to be true, was false at s = 7 m, t = 2.5 s");
+  EXPECT_EQ(
+      FailureOf({.metric = "turns[0].lateral_offset", .max = 0.5}),
+      "mujoco: turns[0].lateral_offset expected at most 0.5 m, was 0.75 m at s = 11 m, t = 4.5 "
+      "s");
+  EXPECT_EQ(FailureOf({.metric = "cross_track.max_s", .max = 5.0}),
+            "mujoco: cross_track.max_s expected at most 5 m, was 6 m over the drive to s = 20 m, t "
+            "= 8 s");
+}
+
+TEST(Judge, TellsApartWhatFourDigitsDoNot) {
+  EXPECT_EQ(FailureOf({.metric = "steering_rate_rms", .max = 0.2499999}),
+            "mujoco: steering_rate_rms expected at most 0.2499999 rad/s, was 0.25 rad/s over the "
+            "drive to s = 20 m, t = 8 s");
+  Expectations expect;
+  expect.all = {.rms_cross_track = 0.0370301};
+  PlantMetrics metrics = Measured("mujoco");
+  metrics.tracking->cross_track_rms = 0.0370302;
+  EXPECT_EQ(Judge(expect, {metrics}, {}).failures,
+            std::vector<std::string>{"mujoco: cross-track rms expected at most 0.0370301 m, was "
+                                     "0.0370302 m over the drive to s = 20 m, t = 8 s"});
+}
+
+TEST(Judge, SaysWhyAMetricIsNotThere) {
+  EXPECT_EQ(FailureOf({.metric = "turns[7].lateral_offset", .max = 0.5}),
+            "mujoco: turns[7].lateral_offset expected, but the drive has 1 turns that stand alone");
+  EXPECT_EQ(FailureOf({.metric = "steering_rat_max", .max = 0.5}),
+            "mujoco: no metric 'steering_rat_max'; did you mean 'steering_rate_max'?");
+  Expectations expect;
+  expect.all.metrics = {{.metric = "manoeuvre.margin", .min = 0.0},
+                        {.metric = "recovery_time", .max = 1.0}};
+  PlantMetrics metrics = Measured("mujoco");
+  metrics.manoeuvre->missing = "the car never came there";
+  metrics.recovery = RecoveryMetrics{.from = 3.0, .time = {}};
+  EXPECT_EQ(Judge(expect, {metrics}, {}).failures,
+            (std::vector<std::string>{
+                "mujoco: manoeuvre.margin expected, but not measured: the car never came there",
+                "mujoco: recovery_time expected to be a number, but the car had not recovered from "
+                "t = 3 s on at the end, s = 20 m, t = 8 s"}));
+  metrics.recovery->time = 2.0;
+  expect.all.metrics = {{.metric = "recovery_time", .max = 1.0}};
+  EXPECT_EQ(Judge(expect, {metrics}, {}).failures,
+            std::vector<std::string>{
+                "mujoco: recovery_time expected at most 1 s, was 2 s from t = 3 s on"});
 }
 
 TEST(Judge, LetsAScenarioSayHowItEnds) {
@@ -157,6 +215,8 @@ TEST(Measure, SaysWhereAndWhenTheLargestValuesWere) {
     row.state.distance = 0.06 * i;
     row.state.lateral_acceleration = i == 150 ? -2.0 : 1.0;
     row.state.steering = 0.002 * std::clamp(i - 200, 0, 5);  // 0.01 rad in the 0.1 s up to 4.1 s
+    row.clearance = 1.0;
+    row.state.obstacle_force = i == 50 ? 7.0 : 0.0;
     log.rows.push_back(row);
   }
   VehicleParams vehicle;
@@ -169,6 +229,9 @@ TEST(Measure, SaysWhereAndWhenTheLargestValuesWere) {
   EXPECT_DOUBLE_EQ(metrics.steering_rate_max_s, 12.3);
   EXPECT_DOUBLE_EQ(metrics.steering_rate_max_t, 4.1);
   EXPECT_DOUBLE_EQ(metrics.end_s, 24.0);
+  EXPECT_EQ(metrics.clearance->force_max, 7.0);
+  EXPECT_DOUBLE_EQ(metrics.clearance->force_max_s, 3.0);
+  EXPECT_DOUBLE_EQ(metrics.clearance->force_max_t, 1.0);
 }
 
 }  // namespace

@@ -34,6 +34,31 @@ TEST(CheckStudy, NamesOutputsThatNoRunCanHave) {
             "no error");
 }
 
+TEST(CheckStudy, NamesMetricsThatNoRunCanBeExpectedToHave) {
+  const TempFolder folder;
+  Study study = StudyOf(folder,
+                        "set: {expect.metrics: [{metric: manoeuvre.passed, equals: true}]}\n"
+                        "repeat: 2\n");
+  study.metrics = PossibleMetrics;
+  EXPECT_THAT(ErrorOf(folder, [&] { CheckStudy(study); }),
+              testing::StartsWith("study.yaml:4:23: expect.metrics[0].metric: no run can have "
+                                  "'manoeuvre.passed'; allowed: status, "));
+}
+
+TEST(PossibleMetrics, AreThoseOfTheRun) {
+  const Scenario scenario = ReadScenario(
+      std::string(TRACKBED_SOURCE_DIR) + "/scenarios/disturbed.yaml", {"drive.plants=[kinematic]"});
+  const std::vector<std::string> possible = PossibleMetrics(scenario);
+  for (const auto& [path, value] : OutputsOf(RunMission(scenario))) {
+    const std::string start = "metrics.kinematic.";
+    if (path.starts_with(start)) {
+      EXPECT_THAT(possible, testing::Contains(path.substr(start.size())));
+    }
+  }
+  EXPECT_THAT(possible, testing::Contains("recovery_time"));
+  EXPECT_THAT(possible, testing::Not(testing::Contains("clearance_min")));
+}
+
 TEST(CheckStudy, KnowsTheOutputsOfEveryPoint) {
   const TempFolder folder;
   const std::string box = "[{box: {x: 20, y: 3, length: 1, width: 1}}]";

@@ -65,6 +65,11 @@ TEST(Compare, HoldsFinishedRunsAgainstEachOther) {
   EXPECT_EQ(across.code, 3);
   EXPECT_THAT(across.output, HasSubstr("\n  a/kinematic - b/kinematic, from 0 m to "));
   EXPECT_EQ(across.output.find("mujoco"), std::string::npos);
+  EXPECT_THAT(across.output, StartsWith("a and b: FAILED, in out/compare/compare.json\n"));
+  // Without tolerances nothing is judged.
+  const Outcome shown = Trackbed(folder, "compare a b");
+  EXPECT_EQ(shown.code, 0);
+  EXPECT_THAT(shown.output, StartsWith("a and b: compared, without a tolerance to judge by, in "));
   // A run is itself, read back from its files.
   const Outcome same = Trackbed(
       folder, "compare a a --tolerance position=0,heading=0,yaw_rate=0,steering=0 -o same");
@@ -113,9 +118,8 @@ TEST(Test, RunsManyAtOnceInTheOrderOfTheFiles) {
   const std::string options =
       " --plant kinematic --set 'expect={reach_goal: 0.5, metrics: [{metric: time, max: 48}]}'";
   const std::string lines =
-      "pass s/a.yaml: as expected\nFAIL s/c.yaml: kinematic: time expected at most 48, was 48.84 "
-      "at "
-      "the end, s = 143.5 m, t = 48.84 s\n";
+      "pass s/a.yaml: as expected\nFAIL s/c.yaml: kinematic: time expected at most 48 s, was "
+      "48.84 s at the end, s = 143.5 m, t = 48.84 s\n";
   for (const char* jobs : {"1", "3"}) {
     const Outcome outcome =
         Trackbed(folder, std::string("test s --jobs ") + jobs + options + " 2>errors");
@@ -153,6 +157,29 @@ TEST(Test, WritesJUnit) {
       Trackbed(folder, "test --plant kinematic --junit taken/x.xml -- " + ScenarioFile("winding"));
   EXPECT_EQ(taken.code, 2);
   EXPECT_EQ(taken.output, "cannot create the folder ./taken: Not a directory\n");
+  const Outcome out =
+      Trackbed(folder, "test --plant kinematic --junit out -- " + ScenarioFile("winding"));
+  EXPECT_EQ(out.code, 2);
+  EXPECT_EQ(out.output, "cannot write out: Is a directory\n");
+}
+
+TEST(Test, GoesThroughFoldersAndTakesEveryScenarioOnce) {
+  const TempFolder folder;
+  const std::string scenario = ReadFile(ScenarioFile("winding"));
+  for (const char* name : {"s/b.yaml", "s/a/deep/c.yml", "s/.git/hidden.yaml", "s/a.txt"}) {
+    folder.Write(name, scenario);
+  }
+  folder.Write("s/study.yaml", "schema: 1\nname: study\nscenario: b.yaml\n");
+  std::filesystem::create_directory_symlink("..", folder.path() / "s/a/round");
+  std::filesystem::create_directory(folder.path() / "empty");
+  const std::string options = "test --jobs 1 --plant kinematic --set 'expect={}' --junit j.xml -- ";
+  const Outcome outcome = Trackbed(folder, options + "empty ./s/b.yaml s s/a/../b.yaml 2>errors");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.output, "pass ./s/b.yaml: as expected\npass s/a/deep/c.yml: as expected\n");
+  EXPECT_EQ(ReadFile(folder.path() / "errors"),
+            "empty: the folder has no scenarios (*.yaml, *.yml)\n");
+  EXPECT_THAT(ReadFile(folder.path() / "j.xml"),
+              HasSubstr("tests=\"3\" failures=\"0\" errors=\"1\""));
 }
 
 TEST(Test, CtrlCSkipsTheRest) {

@@ -74,6 +74,20 @@ TEST_F(FullDisk, EndsARunInOneLineWithWholeFilesOnly) {
   ExpectWhole(folder.path() / "left/r", folder.path() / "whole");
 }
 
+TEST_F(FullDisk, LeavesNoMetricsOfARunWhoseMcapFoundNoRoom) {
+  Trackbed(folder, "run -q -o whole " + Winding());
+  std::uintmax_t kilobytes = 8;  // to spare
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path() / "whole")) {
+    kilobytes += entry.is_regular_file() ? (entry.file_size() + 4095) / 4096 * 4 : 0;
+  }
+  const Outcome outcome = WithDisk(std::to_string(kilobytes) + "k",
+                                   TRACKBED_PROGRAM " run --mcap -o disk/r " + Winding());
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.output, "cannot write disk/r/run.mcap: No space left on device\n");
+  EXPECT_THAT(NamesIn(folder.path() / "left/r"), Contains("timing.json"));
+  EXPECT_THAT(NamesIn(folder.path() / "left/r"), Not(Contains("metrics.json")));
+}
+
 TEST_F(FullDisk, LeavesAnEarlierPlanAsItWas) {
   // The plan of a short route fits; that of the whole one does not.
   const std::string route = " --set 'mission.waypoints=[[0, 0], [20, 0], [40, 4]]'";

@@ -186,6 +186,11 @@ TEST(Program, NeverWritesOutsideItsFolder) {
 TEST(Program, SaysSoWhenNobodyCanReadItsOutput) {
   const TempFolder folder;
   EXPECT_EQ(Trackbed(folder, "--version > /dev/full").code, 2);
+  for (const char* verb : {"list", "model prius", "list planners"}) {
+    const Outcome outcome = Trackbed(folder, std::string(verb) + " > /dev/full");
+    EXPECT_EQ(outcome.code, 2) << verb;
+    EXPECT_EQ(outcome.output, "cannot write to standard output\n") << verb;
+  }
   EXPECT_EQ(Trackbed(folder, "run none.yaml 2>&-").code, 2);
 }
 
@@ -321,7 +326,36 @@ TEST(Program, ChecksWithoutDriving) {
   const Outcome camera = Trackbed(folder, "check s --set render.camera=chas");
   EXPECT_EQ(camera.code, 2);
   EXPECT_EQ(camera.output, "--set: render.camera: unknown 'chas'; did you mean 'chase'?\n");
-  EXPECT_EQ(Trackbed(folder, "check .").output, ".: the folder has no scenarios (*.yaml)\n");
+  std::filesystem::create_directory(folder.path() / "empty");
+  const Outcome empty = Trackbed(folder, "check empty s/good.yaml");
+  EXPECT_EQ(empty.code, 2);
+  EXPECT_EQ(empty.output, "empty: the folder has no scenarios (*.yaml, *.yml)\ns/good.yaml: ok\n");
+  // Folders are gone through to their ends, for studies too.
+  EXPECT_THAT(Trackbed(folder, "check " TRACKBED_SOURCE_DIR "/scenarios").output,
+              testing::AllOf(HasSubstr("/scenarios/winding.yaml: ok\n"),
+                             HasSubstr("/scenarios/manoeuvres/gust.yaml: ok\n"),
+                             HasSubstr("/scenarios/studies/validity.yaml: ok\n")));
+}
+
+TEST(Program, ChecksWhatIsExpectedOfMetrics) {
+  const TempFolder folder;
+  std::string text = ReadFile(ScenarioFile("winding"));
+  text.insert(text.find("expect:") + 7, "\n  metrics: [{metric: steering_rat_max, max: 1}]");
+  folder.Write("s.yaml", text);
+  for (const char* verb : {"check", "run", "test", "compare"}) {
+    const Outcome outcome = Trackbed(folder, std::string(verb) + " s.yaml");
+    EXPECT_EQ(outcome.code, 2) << verb;
+    EXPECT_THAT(outcome.output,
+                testing::MatchesRegex("s.yaml:12:22: expect.metrics.0..metric: no run can have "
+                                      "'steering_rat_max'; did you mean 'steering_rate_max'.\n"))
+        << verb;
+  }
+  EXPECT_THAT(folder.Names(), testing::ElementsAre("s.yaml"));  // nothing was driven
+  // How many turns there are is known when there is a plan.
+  const Outcome turns = Trackbed(
+      folder, "check " + ScenarioFile("winding") +
+                  " --set 'expect.metrics=[{metric: \"turns[2].lateral_offset\", max: 1}]'");
+  EXPECT_EQ(turns.code, 0) << turns.output;
 }
 
 TEST(Program, ListsWhatThereIs) {
@@ -350,16 +384,47 @@ TEST(Program, ShowsAndSavesAModel) {
             "unknown model 'pruis'; did you mean 'prius'?\n");
 }
 
+/// Runs the program and sends it a signal when `there` says so to the shell, at most a minute
+/// later.
+Outcome Interrupted(const TempFolder& folder, const std::string& arguments,
+                    const std::string& there, const std::string& signal) {
+  return Trackbed(folder, arguments + " & n=0; until " + there +
+                              " || [ $n -gt 600 ]; do n=$((n + 1)); sleep 0.1; done; kill -" +
+                              signal + " $!; wait $!");
+}
+
 TEST(Program, CtrlCKeepsTheLogSoFar) {
+  for (const char* signal : {"INT", "TERM", "HUP"}) {
+    const TempFolder folder;
+    // The output folder appears before the drive begins.
+    const Outcome outcome =
+        Interrupted(folder,
+                    "run " + ScenarioFile("three_turns") + " " + ScenarioFile("winding") +
+                        " -o r --set drive.timestep=0.0001",
+                    "[ -d r/three_turns ]", signal);
+    EXPECT_EQ(outcome.code, 130) << signal;
+    EXPECT_THAT(outcome.output, HasSubstr("three_turns: interrupted, in r/three_turns\n"));
+    EXPECT_THAT(outcome.output, HasSubstr("interrupted: 1 of 2 scenarios not driven\n"));
+    EXPECT_THAT(ReadFile(folder.path() / "r/three_turns/metrics.json"),
+                HasSubstr("\"complete\": false"));
+  }
+}
+
+TEST(Program, CtrlCInTheFilmLeavesTheVerdict) {
   const TempFolder folder;
-  // The output folder appears before the drive begins; the loop gives up after a minute.
-  const std::string out = (folder.path() / "r").string();
-  const Outcome outcome = Trackbed(
-      folder, "run " + ScenarioFile("three_turns") + " -o " + out +
-                  " --set drive.timestep=0.0001 & n=0; until [ -d " + out +
-                  " ] || [ $n -gt 600 ]; do n=$((n + 1)); sleep 0.1; done; kill -INT $!; wait $!");
+  if (!HasVideo(folder)) {
+    GTEST_SKIP() << "built without video";
+  }
+  // The verdict is told before the film, which would take many seconds.
+  const Outcome outcome = Interrupted(folder,
+                                      "run --video --plant kinematic -o r --set 'expect={}' -- " +
+                                          ScenarioFile("winding") + " " +
+                                          ScenarioFile("three_turns") + " >told 2>errors",
+                                      "[ -s told ]", "INT");
   EXPECT_EQ(outcome.code, 130);
-  EXPECT_THAT(ReadFile(folder.path() / "r/metrics.json"), HasSubstr("\"complete\": false"));
+  EXPECT_THAT(ReadFile(folder.path() / "told"), StartsWith("winding: passed, in r/winding\n"));
+  EXPECT_EQ(ReadFile(folder.path() / "errors"),
+            "interrupted; no film was written\ninterrupted: 1 of 2 scenarios not driven\n");
 }
 
 }  // namespace

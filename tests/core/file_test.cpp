@@ -50,6 +50,22 @@ TEST(WriteFileAtomically, ReplacesTheWholeFile) {
   EXPECT_EQ(ReadFile(file), "short");
 }
 
+TEST(CheckCanWrite, TellsWhatWritingWouldAndLeavesNothing) {
+  const TempFolder folder;
+  CheckCanWrite(folder.path() / "a.txt");
+  CheckCanWrite("/dev/full");  // what a device takes, only writing shows
+  EXPECT_THAT(folder.Names(), IsEmpty());
+  const fs::path file = folder.Write("there.txt", "as it was");
+  CheckCanWrite(file);
+  EXPECT_EQ(ReadFile(file), "as it was");
+  EXPECT_EQ(RunErrorOf([&] { CheckCanWrite(folder.path()); }),
+            "cannot write " + folder.path().string() + ": Is a directory");
+  EXPECT_EQ(
+      RunErrorOf([&] { CheckCanWrite(folder.path() / "missing/a.txt"); }),
+      "cannot write " + (folder.path() / "missing/a.txt").string() + ": No such file or directory");
+  EXPECT_THAT(folder.Names(), ElementsAre("there.txt"));
+}
+
 TEST(WriteFileAtomically, NamesAMissingFolder) {
   const TempFolder folder;
   const fs::path file = folder.path() / "missing" / "a.txt";

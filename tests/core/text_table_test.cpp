@@ -64,6 +64,14 @@ TEST(TextTable, RefusesRowsOfAnotherWidth) {
   EXPECT_THROW(TextTable({}), InternalError);
 }
 
+TEST(TextsApart, TakesTheDigitsThatItTakes) {
+  using Texts = std::pair<std::string, std::string>;
+  EXPECT_EQ(TextsApart(0.1, 0.12345678), Texts("0.1", "0.1235"));
+  EXPECT_EQ(TextsApart(0.03703, 0.0370349), Texts("0.03703", "0.037035"));
+  EXPECT_EQ(TextsApart(1.0, std::nextafter(1.0, 2.0)), Texts("1", "1.0000000000000002"));
+  EXPECT_EQ(TextsApart(0.5, 0.5), Texts("0.5", "0.5"));
+}
+
 TEST(ShortestText, ReadsBackToTheSameNumber) {
   EXPECT_EQ(ShortestText(0.1), "0.1");
   EXPECT_EQ(ShortestText(3.0), "3");

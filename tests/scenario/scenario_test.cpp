@@ -383,6 +383,33 @@ TEST(PlaybackLaneChange, IsOnePeriodOfASine) {
   }
 }
 
+TEST(ParseScenario, AsksForMetricsThatARunCanHave) {
+  const auto told = [](const std::string& metric) -> std::string {
+    try {
+      ParseScenario(
+          "schema: 1\nname: s\nmission: {duration: 1, speed: 3}\n"
+          "control: {method: constant_steering, steering: 0.1}\n"
+          "expect:\n  mujoco: {metrics: [{metric: \"" +
+              metric + "\", max: 1}]}\n",
+          "s.yaml", ".", {}, {}, [](const Scenario& scenario) {
+            EXPECT_EQ(scenario.name, "s");
+            return std::vector<std::string>{"time", "turns[0].at", "turns[1].at"};
+          });
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_EQ(told("time"), "none");
+  EXPECT_EQ(told("turns[1].at"), "none");
+  EXPECT_EQ(told("tine"),
+            "s.yaml:6:31: expect.mujoco.metrics[0].metric: no run can have 'tine'; did you mean "
+            "'time'?");
+  EXPECT_EQ(told("distance"),
+            "s.yaml:6:31: expect.mujoco.metrics[0].metric: no run can have 'distance'; allowed: "
+            "time, turns[0].at");
+}
+
 class ScenarioFiles : public testing::TestWithParam<std::filesystem::path> {};
 
 std::vector<std::filesystem::path> AllScenarioFiles() {

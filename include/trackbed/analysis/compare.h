@@ -31,12 +31,14 @@ struct Trace {
 
   /// The pose at a station, linear between rows. There must be two of them at least.
   [[nodiscard]] Pose2 PoseAt(double at) const;
+  /// When the drive was at a station [s], likewise.
+  [[nodiscard]] double TimeAt(double at) const;
 };
 
 /// `source` says what counts as the station of a drive with a path.
 Trace TraceOf(const RunLog& log, StationSource source = StationSource::kProjection);
 
-/// Reads the log `<plant>.csv` of a run. InputError as ReadCsvExcerpt.
+/// Reads the log `<plant>.csv` of a run. InputError as ReadCsvExcerpt, and for fewer than two rows.
 Trace ReadTrace(const std::filesystem::path& file, const std::string& name);
 
 /// How much one quantity differs over the stations that both drives have.
@@ -88,7 +90,7 @@ struct FinishedDrive {
 };
 
 /// Reads the drives of a run folder in the order of metrics.json. InputError when the folder holds
-/// no finished run, or logs without the columns of a drive.
+/// no finished run, one that was interrupted, or logs without the columns or the rows of a drive.
 std::vector<FinishedDrive> ReadRunFolder(const std::filesystem::path& folder);
 
 nlohmann::ordered_json ToJson(const PlantComparison& comparison);

@@ -21,6 +21,13 @@ struct ComparedPair {
 struct RunComparison {
   std::vector<ComparedPair> pairs;
   Verdict verdict;
+
+  /// Whether there was anything to hold a difference against; without it a verdict that has not
+  /// failed says little.
+  [[nodiscard]] bool judged() const;
+
+  /// "failed"; else "passed", or "compared" when nothing was judged.
+  [[nodiscard]] const char* status() const;
 };
 
 /// Every pair of the plants of a run. Judged by `tolerances`, or else by what the scenario expects
@@ -28,21 +35,24 @@ struct RunComparison {
 /// says otherwise. A run without a plan fails.
 RunComparison CompareRun(const RunResult& run, const std::optional<DifferenceBounds>& tolerances);
 
-/// Finished runs, from their folders alone. Of one: every pair of `plants`, or of all that it has.
-/// Of two: each of `plants`, or of those that both have, in the first and in the second; or, if
-/// `plants` are two different ones, the first of them in the first run and the second in the
-/// second. Without tolerances nothing is judged; with them, drives that ended differently fail.
-/// InputError when a folder is no run, a plant was not driven, or nothing is left to compare.
+/// Finished runs, from their folders alone. Of one: every pair of `plants`, or of all that it has,
+/// judged by `tolerances`, or else by what its scenario expects `between` them. Of two: each of
+/// `plants`, or of those that both have, in the first and in the second; or, if `plants` are two,
+/// the first of them in the first run and the second in the second; judged by `tolerances` alone,
+/// with a note when the two were not to drive one plan. Where there are bounds, drives that ended
+/// differently fail. InputError when a folder is no complete run, a plant was not driven or is
+/// listed twice, or nothing is left to compare.
 RunComparison CompareFolders(const std::vector<std::filesystem::path>& folders,
                              const std::vector<std::string>& plants,
-                             const DifferenceBounds& tolerances);
+                             const std::optional<DifferenceBounds>& tolerances);
 
 /// Reads "position=0.1", "heading=", "yaw_rate=" and "steering=" [SI]. InputError for names that
-/// are none of these and values that are no numbers of at least 0.
+/// are none of these or given twice, and values that are no numbers of at least 0.
 DifferenceBounds ParseTolerances(const std::vector<std::string>& texts);
 
 /// Writes compare.csv (the differences over arc length, with the number of the `pair` in front),
-/// then compare.json, each under its name only when complete. RunError.
+/// then compare.json, each under its name only when complete. Where nothing was judged, the verdict
+/// in it has neither passed nor failed. RunError.
 void WriteComparison(const RunComparison& comparison, const std::filesystem::path& folder);
 
 }  // namespace trackbed

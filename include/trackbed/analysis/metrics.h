@@ -35,6 +35,8 @@ struct ClearanceMetrics {
   double min_t = 0.0;      ///< when [s]
   bool collision = false;  ///< the outlines overlapped
   double force_max = 0.0;  ///< largest contact force with obstacles [N]
+  double force_max_s = 0.0;
+  double force_max_t = 0.0;
 };
 
 /// What the limited steering rate cost in one turn, and what it had to cost an open-loop drive.
@@ -42,6 +44,8 @@ struct TurnMetrics {
   int waypoint = 0;
   TurnError predicted;
   TurnError measured;
+  double s = 0.0;  ///< where it was measured, the middle of the turn [m]
+  double t = 0.0;  ///< when [s]
 };
 
 struct PlantMetrics {
@@ -90,6 +94,10 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
 /// not reach its command for more than 2 % of the time.
 Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plants,
               const std::vector<PlantComparison>& comparisons);
+
+/// The paths of everything that a plant's entry in metrics.json can have in a run of the scenario:
+/// "cross_track.max", "turns[0].lateral_offset", in the order of the file.
+std::vector<std::string> PossibleMetrics(const Scenario& scenario);
 
 nlohmann::ordered_json ToJson(const PlantMetrics& metrics);
 nlohmann::ordered_json ToJson(const Verdict& verdict);

@@ -49,11 +49,18 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
 /// What metrics.json holds.
 nlohmann::ordered_json MetricsJson(const RunResult& result);
 
+/// Which files a run folder has beside the usual ones.
+struct RunFolderOptions {
+  bool mcap = false;  ///< run.mcap, when anything was driven
+};
+
 /// Writes the run folder (plan.csv, plan.json, <plant>.csv, <plant>.state.csv, model.xml,
-/// metrics.json, timing.json, scenario.resolved.yaml), each file under its name only when complete.
-/// Files of an earlier run of the same folder that this run does not have are removed first, so
-/// that the folder never tells of two runs. RunError when the folder cannot be written.
-void WriteRunFolder(const RunResult& result, const std::filesystem::path& folder);
+/// timing.json, scenario.resolved.yaml, metrics.json), each file under its name only when complete,
+/// and metrics.json when all others are. Files of an earlier run of the same folder that this run
+/// does not have are removed first, so that the folder never tells of two runs. RunError when the
+/// folder cannot be written.
+void WriteRunFolder(const RunResult& result, const std::filesystem::path& folder,
+                    const RunFolderOptions& options = {});
 
 /// Writes plan.csv (when there is a path) and plan.json alone.
 void WritePlan(const Plan& plan, const Scenario& scenario, const std::filesystem::path& folder);

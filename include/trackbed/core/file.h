@@ -14,6 +14,10 @@ std::string ReadFile(const std::filesystem::path& file);
 /// disk or an unwritable folder.
 void WriteFileAtomically(const std::filesystem::path& file, std::string_view content);
 
+/// Whether WriteFileAtomically could begin to write the file, to ask before long work. RunError as
+/// there: the name is a folder's, or its folder is absent or takes no files. Leaves nothing behind.
+void CheckCanWrite(const std::filesystem::path& file);
+
 /// Creates the folder and its parents. RunError when that is not possible.
 void MakeFolder(const std::filesystem::path& folder);
 

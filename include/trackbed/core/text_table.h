@@ -2,12 +2,17 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace trackbed {
 
 /// The shortest text that reads back to the same number; a negative zero is "0".
 std::string ShortestText(double number);
+
+/// Two numbers for a sentence that tells them apart: with four digits, or with as many as it takes
+/// until they differ.
+std::pair<std::string, std::string> TextsApart(double first, double second);
 
 /// A table of texts with named columns, for results that are not all numbers. Text in, text out:
 /// an empty cell is a value that there is none of.

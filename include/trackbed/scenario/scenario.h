@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -137,20 +138,26 @@ struct Scenario {
 /// what the file expects of plants that are then not driven is not asked.
 using Override = std::string;
 
+/// The paths that a plant's entry in metrics.json can have in a run of the scenario.
+using MetricPaths = std::function<std::vector<std::string>(const Scenario& scenario)>;
+
 /// Reads a scenario file strictly. InputError with **every** problem of the file: unknown key (with
 /// the nearest known one), missing or repeated key, wrong type, NaN or infinity, out of range,
 /// unknown name; each with file, line, column and dotted key. Problems of an override name the
 /// override. `cameras` are the names that render.camera may have; none: it is not looked at.
+/// Likewise `metrics`, which is asked when nothing else is wrong, for what `expect.metrics` names.
 Scenario ReadScenario(const std::filesystem::path& file,
                       const std::vector<Override>& overrides = {},
-                      const std::vector<std::string>& cameras = {});
+                      const std::vector<std::string>& cameras = {},
+                      const MetricPaths& metrics = {});
 
 /// The same from text; `name` stands for the file in messages, `folder` is where relative paths
 /// start.
 Scenario ParseScenario(const std::string& yaml, const std::string& name,
                        const std::filesystem::path& folder,
                        const std::vector<Override>& overrides = {},
-                       const std::vector<std::string>& cameras = {});
+                       const std::vector<std::string>& cameras = {},
+                       const MetricPaths& metrics = {});
 
 /// The `render` section of a scenario file alone, for films of runs whose model may be gone.
 /// InputError.

@@ -43,6 +43,7 @@ struct Study {
   std::string scenario_text;               ///< what stood there when the study was read
   std::vector<Override> overrides;         ///< from the command line; they replace `set`
   std::vector<std::string> cameras;        ///< as for ReadScenario
+  MetricPaths metrics;                     ///< likewise
   std::vector<Setting> set;                ///< what is the same in every run
   std::vector<std::vector<Setting>> vary;  ///< the alternatives of each key, in the file's order
   std::vector<std::vector<Setting>> list;  ///< points of several keys; empty: none
@@ -65,7 +66,7 @@ bool IsStudy(const std::filesystem::path& file);
 /// InputError with **every** problem of the study's own keys, those that replace each other among
 /// them.
 Study ReadStudy(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
-                const std::vector<std::string>& cameras = {});
+                const std::vector<std::string>& cameras = {}, const MetricPaths& metrics = {});
 
 /// The settings of every point in the grid's order: the last key changes fastest, points of the
 /// list faster than all keys of `vary`. Pure; the grid of a study without either is one point.
