@@ -40,8 +40,8 @@ void AddReport(CLI::App& command, int& exit_code) {
   const auto options = std::make_shared<ReportOptions>();
   command
       .add_option("paths", options->paths,
-                  "Folders of finished runs, compared if there are several; or the folder or the "
-                  ".csv file of one study")
+                  "Folders of finished runs, compared if there are several; or the folder of one "
+                  "comparison; or the folder or the .csv file of one study")
       ->required()
       ->type_name("DIR...");
   command

@@ -43,6 +43,8 @@ vary:
 outputs: [metrics.kinematic.cross_track.max, metrics.kinematic.time, plan.status]
 """
 
+JUDGED = "position=100,heading=1e-9"
+
 EVIL = "<b>&\"'</script><script>alert(1)</script>"
 
 
@@ -79,6 +81,9 @@ class Reports(unittest.TestCase):
         cls.trackbed("report", "slow")
         cls.trackbed("report", "slow", "--film", "beside", "-o", "beside.html")
         cls.trackbed("report", "slow", "quick", "--film", "none", "-o", "both.html")
+        # Their speeds alone differ: by 0.3 m/s where they steer.
+        cls.trackbed("compare", "-q", "slow", "quick", "-o", "judged", "--tolerance", JUDGED, code=3)
+        cls.trackbed("report", "judged", "--film", "none")
         cls.trackbed("report", "study")
         evil = cls.root / "evil"
         shutil.copytree(cls.root / "slow", evil)
@@ -95,11 +100,11 @@ class Reports(unittest.TestCase):
         cls.folder.cleanup()
 
     @classmethod
-    def trackbed(cls, *arguments):
+    def trackbed(cls, *arguments, code=0):
         done = subprocess.run(
             [PROGRAM, *arguments], cwd=cls.root, capture_output=True, text=True, check=False
         )
-        if done.returncode != 0:
+        if done.returncode != code:
             raise RuntimeError(f"{arguments}: {done.stdout}{done.stderr}")
         return done.stdout
 
@@ -472,6 +477,75 @@ class Reports(unittest.TestCase):
         )
         self.assertEqual(sorted(set(marked)), ["speed: 3", "speed: 3.3"])
         self.browser.picture(PICTURES / "comparison.png")
+
+    def test_differences(self):
+        for page in ("both.html", "judged/report.html"):
+            self.open(page)
+            judged = page != "both.html"
+            pairs = json.loads((self.root / "judged/compare.json").read_text())["pairs"]
+            self.assertEqual(len(pairs), 2)
+            table = self.run_in_page(
+                "return Array.from(document.querySelectorAll('#differences tbody tr')).map(row =>"
+                "[row.querySelector('th').textContent,"
+                " Array.from(row.querySelectorAll('td')).map(e =>"
+                "  Array.from(e.children).map(e => e.textContent))])"
+            )
+            self.assertEqual([row[0] for row in table], [f"{p}: slow – quick" for p in ("kinematic", "mujoco")])
+            for (_, cells), pair in zip(table, pairs):
+                for cell, name in zip(cells, ("position", "heading", "yaw_rate", "steering")):
+                    exact = pair[name]
+                    self.assertAlmostEqual(float(cell[0]), exact["max"], delta=1e-3 * exact["max"])
+                    place = re.fullmatch(r"at ([\d.]+) m, ([\d.]+) s", cell[-2])
+                    self.assertAlmostEqual(float(place.group(1)), exact["max_s"], delta=0.05)
+                    self.assertAlmostEqual(float(place.group(2)), exact["max_t"], delta=0.05)
+                    rms = float(cell[-1].removeprefix("rms "))
+                    self.assertAlmostEqual(rms, exact["rms"], delta=1e-3 * exact["rms"])
+                self.assertEqual([cell[1] for cell in cells if len(cell) > 3],
+                                 ["✓ at most 100", "✗ at most 1e−9"] if judged else [])
+            self.assertEqual(
+                self.run_in_page(
+                    "return Array.from(document.querySelectorAll('.comparison .badge, .comparison li'))"
+                    ".map(e => e.textContent.replace(/ difference .*/, ''))"
+                ),
+                ["failed", *[f"slow/{p} and quick/{p}: heading" for p in ("kinematic", "mujoco")]]
+                if judged else [],
+            )
+            # The curve at the station that is pointed at, and the cars where the first one was.
+            rows = [row for row in rows_of(self.root / "judged/compare.csv") if row["pair"] == "0"]
+            self.point_at("difference_yaw_rate", 0.45)
+            moment = self.moment()
+            self.assertGreater(moment, 3)
+            station = value_at([{**row, "t_s": row["first_t_s"]} for row in rows], "s_m", moment)
+            at = [{**row, "t_s": row["s_m"]} for row in rows]
+            for quantity, column, slack in (
+                ("position", "position_m", 0.01),
+                ("heading", "yaw_rad", 0.004),
+                ("yaw_rate", "yaw_rate_radps", 0.01),
+                ("steering", "steering_rad", 0.01),
+            ):
+                told = self.text(f"[data-quantity=difference_{quantity}] .readout").replace("−", "-")
+                # The time has two decimals: 15 mm of the way, on which the drives part by less than
+                # half of that, turn by 15 mm over a radius of 5 m, and rates change most.
+                self.assertAlmostEqual(float(told), value_at(at, column, station), delta=slack)
+            x, _, _ = self.numbers(".car[data-track='slow · kinematic']")
+            log = rows_of(self.root / "slow/kinematic.csv")
+            self.assertAlmostEqual(x, value_at(log, "x_m", moment), delta=0.03)
+            cursors = self.run_in_page(
+                "return Array.from(document.querySelectorAll('[data-quantity^=difference] .cursor'))"
+                ".map(e => e.getBoundingClientRect().x)"
+            )
+            self.assertEqual(len(cursors), 4)
+            self.assertLess(max(cursors) - min(cursors), 0.6)
+            # Whoever is hidden is in no pair.
+            self.click(".legend [data-track='quick · mujoco']")
+            readouts = self.run_in_page(
+                "return Array.from(document.querySelectorAll("
+                "'[data-quantity=difference_position] .readout')).map(e => getComputedStyle(e).display)"
+            )
+            self.assertNotEqual(readouts[0], "none")
+            self.assertEqual(readouts[1], "none")
+            self.width_is_kept()
+            self.browser.picture(PICTURES / ("judged.png" if judged else "differences.png"))
 
     # A study.
 

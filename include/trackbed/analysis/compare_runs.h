@@ -19,6 +19,8 @@ struct ComparedPair {
 };
 
 struct RunComparison {
+  /// The finished runs that it is of; none of a run that has just been made.
+  std::vector<std::filesystem::path> runs;
   std::vector<ComparedPair> pairs;
   Verdict verdict;
 };
@@ -42,7 +44,9 @@ RunComparison CompareFolders(const std::vector<std::filesystem::path>& folders,
 DifferenceBounds ParseTolerances(const std::vector<std::string>& texts);
 
 /// Writes compare.csv (the differences over arc length, with the number of the `pair` in front),
-/// then compare.json, each under its name only when complete. RunError.
+/// then compare.json, each under its name only when complete; a report.html of an earlier
+/// comparison goes first. Folders of runs stand in compare.json as seen from its own, unless they
+/// were given from the root on. RunError.
 void WriteComparison(const RunComparison& comparison, const std::filesystem::path& folder);
 
 }  // namespace trackbed
