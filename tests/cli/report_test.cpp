@@ -93,8 +93,16 @@ TEST(Report, RefusesWhatIsNoRun) {
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.output, HasSubstr("empty: neither a finished run (no metrics.json) nor"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "empty/report.html"));
-  EXPECT_EQ(Trackbed(folder, "report").code, 2);
-  EXPECT_EQ(Trackbed(folder, "report empty --film somewhere").code, 2);
+  outcome = Trackbed(folder, "report");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.output, testing::StartsWith("folder is required\n"));
+  const auto told = [&](const std::string& film) {
+    const Outcome refused = Trackbed(folder, "report empty --film " + film);
+    EXPECT_EQ(refused.code, 2);
+    return refused.output;
+  };
+  EXPECT_EQ(told("besides"), "--film: unknown 'besides'; did you mean 'beside'?\n");
+  EXPECT_EQ(told("1"), "--film: unknown '1'; allowed: embedded, beside, none\n");
   Trackbed(folder, RunOf("a"));
   outcome = Trackbed(folder, "report a -o gone/page.html");
   EXPECT_EQ(outcome.code, 2);
