@@ -416,8 +416,8 @@ class Reports(unittest.TestCase):
             self.width_is_kept()
             self.browser.picture(PICTURES / f"phone-{page.split('/')[0].split('.')[0]}.png")
         self.open("slow/report.html", width=390, height=844)
-        plot = self.box("[data-quantity=speed] .plot")
         # A finger along the chart: no mouse is made of that.
+        plot = self.box("[data-quantity=speed] .plot")
         touches = [
             {"x": plot["x"] + share * plot["width"], "y": plot["y"] + 60}
             for share in (0.3, 0.4, 0.5, 0.6)
@@ -432,6 +432,33 @@ class Reports(unittest.TestCase):
         end = float(rows_of(self.root / "slow/mujoco.csv")[-1]["t_s"])
         self.assertAlmostEqual(self.moment() / end, 0.55, delta=0.15)
         self.browser.picture(PICTURES / "phone-drive.png")
+
+    def test_tables_on_a_phone(self):
+        places = (
+            "const box = document.querySelector(arguments[0] + ' .scroll');"
+            "box.scrollLeft = arguments[1];"
+            "const place = e => { const b = e.getBoundingClientRect(); return [b.left, b.right]; };"
+            "return [place(box), Array.from(box.querySelectorAll('tr')).map(row => Array.from(row.children).map(place))]"
+        )
+        # Of two plants all is in sight; of the rest what a row is of, and some of its values.
+        for page, tables in (
+            ("slow/report.html", {"#numbers": 2, "#between": 1}),
+            ("both.html", {"#numbers": 1, "#between": 2, "#headline": 1, "#differences": 1}),
+            ("study/report.html", {"#table": 1}),
+        ):
+            self.open(page, width=375, height=812)
+            for table, count in tables.items():
+                for scrolled in (0, 10000):
+                    (left, right), rows = self.run_in_page(places, table, scrolled)
+                    for row in rows:
+                        self.assertAlmostEqual(row[0][0], left, delta=1.5, msg=f"{page} {table}")
+                        self.assertLess(row[0][1], left + 0.55 * (right - left))
+                        inside = [cell for cell in row[1:] if cell[0] >= row[0][1] - 1 and cell[1] <= right + 1]
+                        self.assertGreaterEqual(len(inside), count, f"{page} {table}")
+            self.width_is_kept()
+            self.run_in_page("document.querySelector(arguments[0]).scrollIntoView()", next(iter(tables)))
+            self.browser.settle()
+            self.browser.picture(PICTURES / f"phone-tables-{page.split('/')[0].split('.')[0]}.png")
 
     # Several runs.
 
