@@ -460,6 +460,33 @@ class Reports(unittest.TestCase):
             self.browser.settle()
             self.browser.picture(PICTURES / f"phone-tables-{page.split('/')[0].split('.')[0]}.png")
 
+    def test_nothing_lies_upon_the_film(self):
+        if not self.has_video:
+            self.skipTest("built without video")
+        self.open("slow/report.html")
+        has_controls = "return document.querySelector('video').controls"
+        self.assertFalse(self.run_in_page(has_controls))
+        film = self.box("video")
+        self.mouse("mouseMoved", film["x"] + 20, film["y"] + 20)
+        self.assertTrue(self.run_in_page(has_controls))
+        self.mouse("mouseMoved", 2, 2)
+        self.assertFalse(self.run_in_page(has_controls))
+        # With keys.
+        self.run_in_page("document.querySelector('video').focus()")
+        self.assertTrue(self.run_in_page(has_controls))
+        self.run_in_page("document.querySelector('video').blur()")
+        self.assertFalse(self.run_in_page(has_controls))
+        # At a touch, until another thing is touched.
+        self.open("slow/report.html", width=390, height=844)
+        for selector, controls in (("video", True), ("#play", False)):
+            place = self.box(selector)
+            point = [{"x": place["x"] + place["width"] / 2, "y": place["y"] + place["height"] / 2}]
+            for kind, points in (("touchStart", point), ("touchEnd", [])):
+                self.browser.driver.execute_cdp_cmd(
+                    "Input.dispatchTouchEvent", {"type": kind, "touchPoints": points}
+                )
+            self.eventually(lambda: self.assertEqual(self.run_in_page(has_controls), controls))
+
     # Several runs.
 
     def test_comparison(self):
