@@ -12,6 +12,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/table.h"
+#include "trackbed/planning/plan_status.h"
 #include "trackbed/sim/car_model.h"
 #include "trackbed/sim/plant.h"
 
@@ -157,8 +158,8 @@ ordered_json PlanOf(const fs::path& folder) {
     }
     return json;
   });
-  if (const fs::path line = folder / "plan.csv"; fs::exists(line)) {
-    plan["line"] = PlanLine(line);
+  if (plan.at("status") == ToString(PlanStatus::kOk)) {
+    plan["line"] = PlanLine(Needed(folder / "plan.csv"));
   }
   return plan;
 }
@@ -185,7 +186,7 @@ ordered_json RunData(const fs::path& folder, const std::string& name, std::size_
     run["expectations"] = ExpectationRows(ReadExpectations(scenario), metrics);
     run["car"] = CarOf(folder / "model.xml");
     run["world"] = WorldOf(ReadWorld(scenario));
-    if (fs::exists(folder / "plan.json")) {
+    if (fs::exists(folder / "plan.json") || fs::exists(folder / "plan.csv")) {
       run["plan"] = PlanOf(folder);
     }
     run["plants"] = ordered_json::array();
