@@ -31,7 +31,7 @@ file(READ ${DYGRAPHS_SCRIPT} dygraphs)
 put(libraries "<script>${d3}</script>\n<script>${dygraphs}</script>")
 
 set(script "")
-foreach(part IN ITEMS base map series film tables study main)
+foreach(part IN ITEMS base map charts series differences film tables study main)
   file(READ ${PAGE}/${part}.js text)
   string(APPEND script "${text}\n")
 endforeach()

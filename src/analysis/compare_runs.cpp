@@ -295,7 +295,7 @@ RunComparison CompareFolders(const std::vector<fs::path>& folders,
   }
   const std::vector<Candidates> candidates =
       runs.size() == 1 ? WithinOne(runs[0], plants) : AcrossTwo(runs[0], runs[1], plants);
-  RunComparison result;
+  RunComparison result{.runs = folders};
   if (runs.size() == 2) {
     NoteOtherPlan(runs[0].folder, runs[1].folder, result.verdict);
   }
@@ -347,12 +347,17 @@ void WriteComparison(const RunComparison& comparison, const fs::path& folder) {
   MakeFolder(folder);
   std::error_code ignored;  // what cannot be removed cannot be replaced either: that will tell
   fs::remove(folder / "compare.json", ignored);
+  fs::remove(folder / "report.html", ignored);
 
   std::vector<std::string> columns{"pair"};
   const Table any = DifferencesOverArcLength({}, {});
   columns.insert(columns.end(), any.columns().begin(), any.columns().end());
   Table table(columns);
-  ordered_json json{{"status", comparison.status()}, {"pairs", ordered_json::array()}};
+  ordered_json json{{"status", comparison.status()}};
+  for (const fs::path& run : comparison.runs) {
+    json["runs"].push_back((run.is_absolute() ? run : fs::relative(run, folder)).generic_string());
+  }
+  json["pairs"] = ordered_json::array();
   for (std::size_t pair = 0; pair < comparison.pairs.size(); ++pair) {
     const ComparedPair& own = comparison.pairs[pair];
     for (std::size_t row = 0; row < own.differences.rows(); ++row) {

@@ -6,6 +6,8 @@
 #include <memory>
 
 #include "src/cli/verbs.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/spelling.h"
 
 namespace trackbed::cli {
 namespace {
@@ -15,11 +17,26 @@ namespace fs = std::filesystem;
 struct ReportOptions {
   std::vector<fs::path> paths;
   std::string out;
-  FilmPlace film = FilmPlace::kEmbedded;
+  std::string film = "embedded";
   bool quiet = false;
 };
 
+FilmPlace PlaceOf(const std::string& film) {
+  const std::vector<std::pair<std::string, FilmPlace>> places{{"embedded", FilmPlace::kEmbedded},
+                                                              {"beside", FilmPlace::kBeside},
+                                                              {"none", FilmPlace::kAbsent}};
+  std::vector<std::string> names;
+  for (const auto& [name, place] : places) {
+    if (film == name) {
+      return place;
+    }
+    names.push_back(name);
+  }
+  throw InputError(Problem{.file = "--film", .message = "unknown " + UnknownName(film, names)});
+}
+
 int Report(const ReportOptions& options) {
+  const FilmPlace film = PlaceOf(options.film);
   constexpr const char* kName = "report.html";
   const fs::path& first = options.paths.front();
   // Of several runs the page is no part of one of them.
@@ -27,7 +44,7 @@ int Report(const ReportOptions& options) {
                           : fs::is_directory(first) ? first
                                                     : first.parent_path();
   const fs::path file = options.out.empty() ? folder / kName : fs::path(options.out);
-  WriteReport(options.paths, file, options.film);
+  WriteReport(options.paths, file, film);
   if (!options.quiet) {
     fmt::print("{}\n", file.string());
   }
@@ -39,23 +56,19 @@ int Report(const ReportOptions& options) {
 void AddReport(CLI::App& command, int& exit_code) {
   const auto options = std::make_shared<ReportOptions>();
   command
-      .add_option("paths", options->paths,
-                  "Folders of finished runs, compared if there are several; or the folder or the "
-                  ".csv file of one study")
+      .add_option("folder", options->paths,
+                  "Folders of finished runs, compared if there are several; or the folder of one "
+                  "comparison; or the folder or the .csv file of one study")
       ->required()
       ->type_name("DIR...");
   command
       .add_option("-o,--out", options->out,
                   "The page to write (default: report.html in the folder; of several, here)")
       ->type_name("FILE");
-  const std::map<std::string, FilmPlace> places{{"embedded", FilmPlace::kEmbedded},
-                                                {"beside", FilmPlace::kBeside},
-                                                {"none", FilmPlace::kAbsent}};
   command
       .add_option("--film", options->film,
                   "Where the page has a run's video.mp4 from: embedded, in the page; beside, the "
                   "file where it lies; or none")
-      ->transform(CLI::CheckedTransformer(places).description(""))
       ->type_name("embedded|beside|none");
   command.add_flag("-q,--quiet", options->quiet, "Print errors only");
   command.callback([options, &exit_code] { exit_code = Report(*options); });

@@ -36,4 +36,19 @@ ordered_json RoundedLeaf(const ordered_json& leaf) {
   return leaf.is_number_float() ? ordered_json(Rounded(leaf.get<double>())) : leaf;
 }
 
+ordered_json NumbersOf(const ordered_json& entry, ShownName (*name_of)(const std::string& path)) {
+  ordered_json rows = ordered_json::array();
+  for (const auto& [path, value] : LeafValues(entry)) {
+    const ShownName name = name_of(path);
+    rows.push_back({{"path", path}, {"label", name.label}, {"value", RoundedLeaf(value)}});
+    if (!name.unit.empty()) {
+      rows.back()["unit"] = name.unit;
+    }
+    if (name.headline) {
+      rows.back()["headline"] = true;
+    }
+  }
+  return rows;
+}
+
 }  // namespace trackbed

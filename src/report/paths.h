@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "src/report/names.h"
+
 namespace trackbed {
 
 /// Every value of `json` that is no section or list, in order, with its path as expectations and
@@ -14,5 +16,10 @@ std::vector<std::pair<std::string, nlohmann::ordered_json>> LeafValues(
 
 /// Numbers rounded, all else as it is.
 nlohmann::ordered_json RoundedLeaf(const nlohmann::ordered_json& leaf);
+
+/// Every value of an entry of metrics.json as a row of a table: {path, label, value, unit,
+/// headline}, the last two where there are such.
+nlohmann::ordered_json NumbersOf(const nlohmann::ordered_json& entry,
+                                 ShownName (*name_of)(const std::string& path));
 
 }  // namespace trackbed

@@ -7,6 +7,7 @@
 #include <boost/archive/iterators/transform_width.hpp>
 #include <cctype>
 
+#include "src/report/comparison_data.h"
 #include "src/report/page_text.h"
 #include "src/report/run_data.h"
 #include "src/report/study_data.h"
@@ -90,15 +91,17 @@ void RefuseOthers(const std::vector<fs::path>& paths) {
     if (!fs::exists(*path, ignored)) {
       throw InputError(Problem{.file = path->string(), .message = "no such folder"});
     }
-    if (!IsRunFolder(*path) && !StudyTable(*path)) {
+    const bool is_comparison = HasComparison(*path);
+    if (!IsRunFolder(*path) && !is_comparison && !StudyTable(*path)) {
       throw InputError(Problem{.file = path->string(),
                                .message =
-                                   "neither a finished run (no metrics.json) nor a study (no "
-                                   "sweep.csv, and no .csv file)"});
+                                   "neither a finished run (no metrics.json) nor a comparison (no "
+                                   "compare.json) nor a study (no sweep.csv, and no .csv file)"});
     }
     if (!IsRunFolder(*path) && paths.size() > 1) {
       throw InputError(Problem{.file = path->string(),
-                               .message = "a study has a report of its own; give it alone"});
+                               .message = fmt::format("a {} has a report of its own; give it alone",
+                                                      is_comparison ? "comparison" : "study")});
     }
     const fs::path real = fs::weakly_canonical(*path);
     if (std::any_of(paths.begin(), path,
@@ -108,23 +111,95 @@ void RefuseOthers(const std::vector<fs::path>& paths) {
   }
 }
 
-}  // namespace
+/// The runs that a report is of.
+struct ShownRuns {
+  std::vector<fs::path> folders;       ///< none: it is of a study
+  std::optional<fs::path> comparison;  ///< the folder of that which is shown, if it is one
+};
 
-ordered_json ReportData(const std::vector<fs::path>& paths) {
+ShownRuns RunsToShow(const std::vector<fs::path>& paths) {
   TRACKBED_CHECK(!paths.empty(), "a report of nothing");
   RefuseOthers(paths);
-  if (!IsRunFolder(paths.front())) {
+  const fs::path& first = paths.front();
+  if (paths.size() > 1 || !HasComparison(first)) {
+    return {IsRunFolder(first) ? paths : std::vector<fs::path>(), std::nullopt};
+  }
+  ShownRuns shown{ComparedRuns(first), first};
+  for (const fs::path& run : shown.folders) {
+    if (!IsRunFolder(run)) {
+      throw InputError(Problem{
+          .file = first.string(),
+          .message = fmt::format("the comparison is of the run in {}, where there is none (any "
+                                 "more): no metrics.json",
+                                 run.lexically_normal().string())});
+    }
+  }
+  return shown;
+}
+
+/// As much of the end of each path as tells it from the others.
+std::vector<std::string> ShortNames(const std::vector<fs::path>& folders) {
+  std::vector<fs::path> rest;
+  std::vector<fs::path> names;
+  for (const fs::path& folder : folders) {
+    const fs::path real = fs::weakly_canonical(folder);
+    names.push_back(real.filename());
+    rest.push_back(real.parent_path());
+  }
+  const auto is_taken_twice = [&](const fs::path& name) {
+    return std::count(names.begin(), names.end(), name) > 1;
+  };
+  while (std::any_of(names.begin(), names.end(), is_taken_twice)) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      names[i] = rest[i].filename() / names[i];
+      rest[i] = rest[i].parent_path();
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
+ordered_json DataOf(const std::vector<fs::path>& paths, const ShownRuns& shown) {
+  if (shown.folders.empty()) {
     return {{"study", StudyData(*StudyTable(paths.front()))}};
   }
   std::size_t plants = 0;
-  for (const fs::path& folder : paths) {
+  for (const fs::path& folder : shown.folders) {
     plants += PlantCount(folder);
   }
+  const std::vector<std::string> names = ShortNames(shown.folders);
   ordered_json data{{"runs", ordered_json::array()}};
-  for (const fs::path& folder : paths) {
-    data["runs"].push_back(RunData(folder, kRows / std::max<std::size_t>(plants, 1)));
+  for (std::size_t i = 0; i < shown.folders.size(); ++i) {
+    data["runs"].push_back(
+        RunData(shown.folders[i], names[i], kRows / std::max<std::size_t>(plants, 1)));
+  }
+  const ordered_json comparison = ComparisonData(shown.folders, shown.comparison);
+  if (!comparison.empty()) {
+    data["comparison"] = comparison;
   }
   return data;
+}
+
+void AddFilms(const ShownRuns& shown, const fs::path& file, FilmPlace place, ordered_json& data) {
+  for (std::size_t i = 0; i < shown.folders.size(); ++i) {
+    const fs::path video = shown.folders[i] / "video.mp4";
+    std::error_code ignored;
+    if (!fs::is_regular_file(video, ignored)) {
+      continue;
+    }
+    ordered_json& run = data["runs"][i];
+    if (place == FilmPlace::kEmbedded) {
+      run["film"] = {{"base64", Base64(ReadFile(video))}};
+    } else {
+      const fs::path from = fs::weakly_canonical(fs::absolute(file).parent_path());
+      run["film"] = {{"url", UrlOf(fs::weakly_canonical(video).lexically_relative(from))}};
+    }
+  }
+}
+
+}  // namespace
+
+ordered_json ReportData(const std::vector<fs::path>& paths) {
+  return DataOf(paths, RunsToShow(paths));
 }
 
 std::string ReportPage(const ordered_json& data) {
@@ -134,22 +209,10 @@ std::string ReportPage(const ordered_json& data) {
 }
 
 void WriteReport(const std::vector<fs::path>& paths, const fs::path& file, FilmPlace film) {
-  ordered_json data = ReportData(paths);
-  if (data.contains("runs") && film != FilmPlace::kAbsent) {
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      const fs::path video = paths[i] / "video.mp4";
-      std::error_code ignored;
-      if (!fs::is_regular_file(video, ignored)) {
-        continue;
-      }
-      ordered_json& run = data["runs"][i];
-      if (film == FilmPlace::kEmbedded) {
-        run["film"] = {{"base64", Base64(ReadFile(video))}};
-      } else {
-        const fs::path from = fs::weakly_canonical(fs::absolute(file).parent_path());
-        run["film"] = {{"url", UrlOf(fs::weakly_canonical(video).lexically_relative(from))}};
-      }
-    }
+  const ShownRuns shown = RunsToShow(paths);
+  ordered_json data = DataOf(paths, shown);
+  if (film != FilmPlace::kAbsent) {
+    AddFilms(shown, file, film, data);
   }
   WriteFileAtomically(file, ReportPage(data));
 }

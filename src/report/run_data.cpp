@@ -5,12 +5,14 @@
 #include <array>
 
 #include "src/report/expectations.h"
+#include "src/report/json_file.h"
 #include "src/report/names.h"
 #include "src/report/numbers.h"
 #include "src/report/paths.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/table.h"
+#include "trackbed/planning/plan_status.h"
 #include "trackbed/sim/car_model.h"
 #include "trackbed/sim/plant.h"
 
@@ -41,24 +43,6 @@ constexpr std::array kChannels{Channel{"t", "t_s", true},
                                Channel{"cross_track", "cross_track_m", false},
                                Channel{"heading_error", "heading_error_rad", false},
                                Channel{"clearance", "clearance_m", false}};
-
-fs::path Needed(const fs::path& file) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) {
-    throw InputError(Problem{.file = file.string(), .message = "missing from the run folder"});
-  }
-  return file;
-}
-
-/// Calls `read` with the JSON in `file`; what is not there as the run wrote it is an InputError.
-template <typename Read>
-auto WithJson(const fs::path& file, const Read& read) {
-  try {
-    return read(ordered_json::parse(ReadFile(Needed(file))));
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(Problem{.file = file.string(), .message = error.what()});
-  }
-}
 
 /// x and y of a path.
 ordered_json LineOf(const Table& table, const std::vector<std::size_t>& rows) {
@@ -174,27 +158,10 @@ ordered_json PlanOf(const fs::path& folder) {
     }
     return json;
   });
-  if (const fs::path line = folder / "plan.csv"; fs::exists(line)) {
-    plan["line"] = PlanLine(line);
+  if (plan.at("status") == ToString(PlanStatus::kOk)) {
+    plan["line"] = PlanLine(Needed(folder / "plan.csv"));
   }
   return plan;
-}
-
-/// The numbers of an entry of metrics.json as rows of a table.
-template <typename NameOf>
-ordered_json NumbersOf(const ordered_json& entry, const NameOf& name_of) {
-  ordered_json rows = ordered_json::array();
-  for (const auto& [path, value] : LeafValues(entry)) {
-    const ShownName name = name_of(path);
-    rows.push_back({{"path", path}, {"label", name.label}, {"value", RoundedLeaf(value)}});
-    if (!name.unit.empty()) {
-      rows.back()["unit"] = name.unit;
-    }
-    if (name.headline) {
-      rows.back()["headline"] = true;
-    }
-  }
-  return rows;
 }
 
 }  // namespace
@@ -209,17 +176,17 @@ std::size_t PlantCount(const fs::path& folder) {
                   [](const ordered_json& metrics) { return metrics.at("plants").size(); });
 }
 
-ordered_json RunData(const fs::path& folder, std::size_t row_limit) {
+ordered_json RunData(const fs::path& folder, const std::string& name, std::size_t row_limit) {
   const fs::path scenario = Needed(folder / "scenario.resolved.yaml");
   return WithJson(folder / kMetricsName, [&](const ordered_json& metrics) {
-    ordered_json run{{"name", fs::weakly_canonical(folder).filename().string()}};
+    ordered_json run{{"name", name}};
     for (const char* key : {"scenario", "complete", "seed", "versions", "verdict"}) {
       run[key] = metrics.at(key);
     }
     run["expectations"] = ExpectationRows(ReadExpectations(scenario), metrics);
     run["car"] = CarOf(folder / "model.xml");
     run["world"] = WorldOf(ReadWorld(scenario));
-    if (fs::exists(folder / "plan.json")) {
+    if (fs::exists(folder / "plan.json") || fs::exists(folder / "plan.csv")) {
       run["plan"] = PlanOf(folder);
     }
     run["plants"] = ordered_json::array();

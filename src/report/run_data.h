@@ -3,15 +3,17 @@
 #include <cstddef>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace trackbed {
 
 /// What a finished run leaves beside its logs and that tells one from any other folder.
 bool IsRunFolder(const std::filesystem::path& folder);
 
-/// What the page shows of one run; at most `row_limit` rows of each log. InputError when the folder
-/// does not hold what its metrics.json says.
-nlohmann::ordered_json RunData(const std::filesystem::path& folder, std::size_t row_limit);
+/// What the page shows of one run, which it calls `name`; at most `row_limit` rows of each log.
+/// InputError when the folder does not hold what its metrics.json says.
+nlohmann::ordered_json RunData(const std::filesystem::path& folder, const std::string& name,
+                               std::size_t row_limit);
 
 /// The plants of a run, from its metrics.json alone.
 std::size_t PlantCount(const std::filesystem::path& folder);

@@ -6,10 +6,10 @@
 #include <charconv>
 #include <cmath>
 
+#include "src/report/json_file.h"
 #include "src/report/names.h"
 #include "src/report/numbers.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/file.h"
 #include "trackbed/core/text_table.h"
 
 namespace trackbed {
@@ -36,14 +36,11 @@ ordered_json DescriptionOf(const fs::path& table) {
   if (table.filename() != "sweep.csv" || !fs::is_regular_file(file, ignored)) {
     return ordered_json::object();
   }
-  try {
-    ordered_json json = ordered_json::parse(ReadFile(file));
+  return WithJson(file, [](const ordered_json& json) -> ordered_json {
     return {{"name", json.at("study")},        {"scenario", json.at("scenario")},
             {"complete", json.at("complete")}, {"rows_expected", json.at("rows_expected")},
             {"versions", json.at("versions")}, {"text", json.dump(2)}};
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(Problem{.file = file.string(), .message = error.what()});
-  }
+  });
 }
 
 ordered_json ColumnsOf(const TextTable& table, const std::string& file) {

@@ -285,6 +285,16 @@ TEST(WriteComparison, LeavesTheFiguresAndTheCurves) {
   EXPECT_THAT(table.Column("pair"), ElementsAre(0.0, 0.0, 1.0, 1.0));
   EXPECT_THAT(table.Column("s_m"), ElementsAre(0.0, 10.0, 0.0, 10.0));
   EXPECT_THAT(table.Column("y_m"), testing::Each(0.5));
+  // As given from the root on, otherwise as seen from where it stands.
+  EXPECT_EQ(json["runs"], nlohmann::json({a.string(), b.string()}));
+  RunComparison moved{.runs = {fs::relative(a)}};
+  folder.Write("c/report.html", "of another comparison");
+  WriteComparison(moved, folder.path() / "c");
+  EXPECT_EQ(nlohmann::json::parse(ReadFile(folder.path() / "c/compare.json"))["runs"],
+            nlohmann::json({"../a"}));
+  EXPECT_FALSE(fs::exists(folder.path() / "c/report.html"));
+  WriteComparison(RunComparison{}, folder.path() / "d");
+  EXPECT_FALSE(nlohmann::json::parse(ReadFile(folder.path() / "d/compare.json")).contains("runs"));
 }
 
 TEST(WriteComparison, SaysNothingOfPassingWhereNothingWasJudged) {

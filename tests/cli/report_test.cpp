@@ -46,6 +46,26 @@ TEST(Report, WritesThatOfSeveralRunsHere) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "a/report.html"));
 }
 
+TEST(Report, WritesThatOfAComparisonBesideIt) {
+  const TempFolder folder;
+  Trackbed(folder, RunOf("runs/a"));
+  Trackbed(folder, RunOf("runs/b"));
+  EXPECT_EQ(Trackbed(folder, "compare -q runs/a runs/b -o both").code, 0);
+  EXPECT_EQ(Trackbed(folder, "report both").output, "both/report.html\n");
+  EXPECT_THAT(ReadFile(folder.path() / "both/report.html"), HasSubstr("<title>a · b</title>"));
+  // Moved together, they are still found.
+  std::filesystem::create_directory(folder.path() / "moved");
+  std::filesystem::rename(folder.path() / "both", folder.path() / "moved/both");
+  std::filesystem::rename(folder.path() / "runs", folder.path() / "moved/runs");
+  EXPECT_EQ(Trackbed(folder, "report moved/both").output, "moved/both/report.html\n");
+  std::filesystem::remove_all(folder.path() / "moved/runs/b");
+  const Outcome outcome = Trackbed(folder, "report moved/both");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.output,
+            "moved/both: the comparison is of the run in moved/runs/b, where there is none (any "
+            "more): no metrics.json\n");
+}
+
 TEST(Report, WritesThatOfAStudyBesideItsTable) {
   const TempFolder folder;
   folder.Write("study.yaml",
@@ -73,8 +93,16 @@ TEST(Report, RefusesWhatIsNoRun) {
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.output, HasSubstr("empty: neither a finished run (no metrics.json) nor"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "empty/report.html"));
-  EXPECT_EQ(Trackbed(folder, "report").code, 2);
-  EXPECT_EQ(Trackbed(folder, "report empty --film somewhere").code, 2);
+  outcome = Trackbed(folder, "report");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.output, testing::StartsWith("folder is required\n"));
+  const auto told = [&](const std::string& film) {
+    const Outcome refused = Trackbed(folder, "report empty --film " + film);
+    EXPECT_EQ(refused.code, 2);
+    return refused.output;
+  };
+  EXPECT_EQ(told("besides"), "--film: unknown 'besides'; did you mean 'beside'?\n");
+  EXPECT_EQ(told("1"), "--film: unknown '1'; allowed: embedded, beside, none\n");
   Trackbed(folder, RunOf("a"));
   outcome = Trackbed(folder, "report a -o gone/page.html");
   EXPECT_EQ(outcome.code, 2);

@@ -43,6 +43,8 @@ vary:
 outputs: [metrics.kinematic.cross_track.max, metrics.kinematic.time, plan.status]
 """
 
+JUDGED = "position=100,heading=1e-9"
+
 EVIL = "<b>&\"'</script><script>alert(1)</script>"
 
 
@@ -79,6 +81,9 @@ class Reports(unittest.TestCase):
         cls.trackbed("report", "slow")
         cls.trackbed("report", "slow", "--film", "beside", "-o", "beside.html")
         cls.trackbed("report", "slow", "quick", "--film", "none", "-o", "both.html")
+        # Their speeds alone differ: by 0.3 m/s where they steer.
+        cls.trackbed("compare", "-q", "slow", "quick", "-o", "judged", "--tolerance", JUDGED, code=3)
+        cls.trackbed("report", "judged", "--film", "none")
         cls.trackbed("report", "study")
         evil = cls.root / "evil"
         shutil.copytree(cls.root / "slow", evil)
@@ -95,11 +100,11 @@ class Reports(unittest.TestCase):
         cls.folder.cleanup()
 
     @classmethod
-    def trackbed(cls, *arguments):
+    def trackbed(cls, *arguments, code=0):
         done = subprocess.run(
             [PROGRAM, *arguments], cwd=cls.root, capture_output=True, text=True, check=False
         )
-        if done.returncode != 0:
+        if done.returncode != code:
             raise RuntimeError(f"{arguments}: {done.stdout}{done.stderr}")
         return done.stdout
 
@@ -411,8 +416,8 @@ class Reports(unittest.TestCase):
             self.width_is_kept()
             self.browser.picture(PICTURES / f"phone-{page.split('/')[0].split('.')[0]}.png")
         self.open("slow/report.html", width=390, height=844)
-        plot = self.box("[data-quantity=speed] .plot")
         # A finger along the chart: no mouse is made of that.
+        plot = self.box("[data-quantity=speed] .plot")
         touches = [
             {"x": plot["x"] + share * plot["width"], "y": plot["y"] + 60}
             for share in (0.3, 0.4, 0.5, 0.6)
@@ -427,6 +432,60 @@ class Reports(unittest.TestCase):
         end = float(rows_of(self.root / "slow/mujoco.csv")[-1]["t_s"])
         self.assertAlmostEqual(self.moment() / end, 0.55, delta=0.15)
         self.browser.picture(PICTURES / "phone-drive.png")
+
+    def test_tables_on_a_phone(self):
+        places = (
+            "const box = document.querySelector(arguments[0] + ' .scroll');"
+            "box.scrollLeft = arguments[1];"
+            "const place = e => { const b = e.getBoundingClientRect(); return [b.left, b.right]; };"
+            "return [place(box), Array.from(box.querySelectorAll('tr')).map(row => Array.from(row.children).map(place))]"
+        )
+        # Of two plants all is in sight; of the rest what a row is of, and some of its values.
+        for page, tables in (
+            ("slow/report.html", {"#numbers": 2, "#between": 1}),
+            ("both.html", {"#numbers": 1, "#between": 2, "#headline": 1, "#differences": 1}),
+            ("study/report.html", {"#table": 1}),
+        ):
+            self.open(page, width=375, height=812)
+            for table, count in tables.items():
+                for scrolled in (0, 10000):
+                    (left, right), rows = self.run_in_page(places, table, scrolled)
+                    for row in rows:
+                        self.assertAlmostEqual(row[0][0], left, delta=1.5, msg=f"{page} {table}")
+                        self.assertLess(row[0][1], left + 0.55 * (right - left))
+                        inside = [cell for cell in row[1:] if cell[0] >= row[0][1] - 1 and cell[1] <= right + 1]
+                        self.assertGreaterEqual(len(inside), count, f"{page} {table}")
+            self.width_is_kept()
+            self.run_in_page("document.querySelector(arguments[0]).scrollIntoView()", next(iter(tables)))
+            self.browser.settle()
+            self.browser.picture(PICTURES / f"phone-tables-{page.split('/')[0].split('.')[0]}.png")
+
+    def test_nothing_lies_upon_the_film(self):
+        if not self.has_video:
+            self.skipTest("built without video")
+        self.open("slow/report.html")
+        has_controls = "return document.querySelector('video').controls"
+        self.assertFalse(self.run_in_page(has_controls))
+        film = self.box("video")
+        self.mouse("mouseMoved", film["x"] + 20, film["y"] + 20)
+        self.assertTrue(self.run_in_page(has_controls))
+        self.mouse("mouseMoved", 2, 2)
+        self.assertFalse(self.run_in_page(has_controls))
+        # With keys.
+        self.run_in_page("document.querySelector('video').focus()")
+        self.assertTrue(self.run_in_page(has_controls))
+        self.run_in_page("document.querySelector('video').blur()")
+        self.assertFalse(self.run_in_page(has_controls))
+        # At a touch, until another thing is touched.
+        self.open("slow/report.html", width=390, height=844)
+        for selector, controls in (("video", True), ("#play", False)):
+            place = self.box(selector)
+            point = [{"x": place["x"] + place["width"] / 2, "y": place["y"] + place["height"] / 2}]
+            for kind, points in (("touchStart", point), ("touchEnd", [])):
+                self.browser.driver.execute_cdp_cmd(
+                    "Input.dispatchTouchEvent", {"type": kind, "touchPoints": points}
+                )
+            self.eventually(lambda: self.assertEqual(self.run_in_page(has_controls), controls))
 
     # Several runs.
 
@@ -472,6 +531,75 @@ class Reports(unittest.TestCase):
         )
         self.assertEqual(sorted(set(marked)), ["speed: 3", "speed: 3.3"])
         self.browser.picture(PICTURES / "comparison.png")
+
+    def test_differences(self):
+        for page in ("both.html", "judged/report.html"):
+            self.open(page)
+            judged = page != "both.html"
+            pairs = json.loads((self.root / "judged/compare.json").read_text())["pairs"]
+            self.assertEqual(len(pairs), 2)
+            table = self.run_in_page(
+                "return Array.from(document.querySelectorAll('#differences tbody tr')).map(row =>"
+                "[row.querySelector('th').textContent,"
+                " Array.from(row.querySelectorAll('td')).map(e =>"
+                "  Array.from(e.children).map(e => e.textContent))])"
+            )
+            self.assertEqual([row[0] for row in table], [f"{p}: slow – quick" for p in ("kinematic", "mujoco")])
+            for (_, cells), pair in zip(table, pairs):
+                for cell, name in zip(cells, ("position", "heading", "yaw_rate", "steering")):
+                    exact = pair[name]
+                    self.assertAlmostEqual(float(cell[0]), exact["max"], delta=1e-3 * exact["max"])
+                    place = re.fullmatch(r"at ([\d.]+) m, ([\d.]+) s", cell[-2])
+                    self.assertAlmostEqual(float(place.group(1)), exact["max_s"], delta=0.05)
+                    self.assertAlmostEqual(float(place.group(2)), exact["max_t"], delta=0.05)
+                    rms = float(cell[-1].removeprefix("rms "))
+                    self.assertAlmostEqual(rms, exact["rms"], delta=1e-3 * exact["rms"])
+                self.assertEqual([cell[1] for cell in cells if len(cell) > 3],
+                                 ["✓ at most 100", "✗ at most 1e−9"] if judged else [])
+            self.assertEqual(
+                self.run_in_page(
+                    "return Array.from(document.querySelectorAll('.comparison .badge, .comparison li'))"
+                    ".map(e => e.textContent.replace(/ difference .*/, ''))"
+                ),
+                ["failed", *[f"slow/{p} and quick/{p}: heading" for p in ("kinematic", "mujoco")]]
+                if judged else [],
+            )
+            # The curve at the station that is pointed at, and the cars where the first one was.
+            rows = [row for row in rows_of(self.root / "judged/compare.csv") if row["pair"] == "0"]
+            self.point_at("difference_yaw_rate", 0.45)
+            moment = self.moment()
+            self.assertGreater(moment, 3)
+            station = value_at([{**row, "t_s": row["first_t_s"]} for row in rows], "s_m", moment)
+            at = [{**row, "t_s": row["s_m"]} for row in rows]
+            for quantity, column, slack in (
+                ("position", "position_m", 0.01),
+                ("heading", "yaw_rad", 0.004),
+                ("yaw_rate", "yaw_rate_radps", 0.01),
+                ("steering", "steering_rad", 0.01),
+            ):
+                told = self.text(f"[data-quantity=difference_{quantity}] .readout").replace("−", "-")
+                # The time has two decimals: 15 mm of the way, on which the drives part by less than
+                # half of that, turn by 15 mm over a radius of 5 m, and rates change most.
+                self.assertAlmostEqual(float(told), value_at(at, column, station), delta=slack)
+            x, _, _ = self.numbers(".car[data-track='slow · kinematic']")
+            log = rows_of(self.root / "slow/kinematic.csv")
+            self.assertAlmostEqual(x, value_at(log, "x_m", moment), delta=0.03)
+            cursors = self.run_in_page(
+                "return Array.from(document.querySelectorAll('[data-quantity^=difference] .cursor'))"
+                ".map(e => e.getBoundingClientRect().x)"
+            )
+            self.assertEqual(len(cursors), 4)
+            self.assertLess(max(cursors) - min(cursors), 0.6)
+            # Whoever is hidden is in no pair.
+            self.click(".legend [data-track='quick · mujoco']")
+            readouts = self.run_in_page(
+                "return Array.from(document.querySelectorAll("
+                "'[data-quantity=difference_position] .readout')).map(e => getComputedStyle(e).display)"
+            )
+            self.assertNotEqual(readouts[0], "none")
+            self.assertEqual(readouts[1], "none")
+            self.width_is_kept()
+            self.browser.picture(PICTURES / ("judged.png" if judged else "differences.png"))
 
     # A study.
 

@@ -216,6 +216,8 @@ TEST(ReportData, SaysWhatIsWrong) {
   EXPECT_THAT(broken("metrics.json", "{\"plants\": "), HasSubstr("metrics.json: "));
   EXPECT_THAT(broken("metrics.json", "{}"), HasSubstr("metrics.json: "));
   EXPECT_THAT(broken("plan.json", "[1"), HasSubstr("plan.json: "));
+  EXPECT_THAT(broken("plan.json", ""), EndsWith("plan.json: missing from the run folder"));
+  EXPECT_THAT(broken("plan.csv", ""), EndsWith("plan.csv: missing from the run folder"));
   EXPECT_THAT(broken("scenario.resolved.yaml", ""), HasSubstr("missing from the run folder"));
   EXPECT_THAT(broken("model.xml", ""), HasSubstr("missing from the run folder"));
 }

@@ -19,6 +19,8 @@ struct ComparedPair {
 };
 
 struct RunComparison {
+  /// The finished runs that it is of; none of a run that has just been made.
+  std::vector<std::filesystem::path> runs;
   std::vector<ComparedPair> pairs;
   Verdict verdict;
 
@@ -51,8 +53,10 @@ RunComparison CompareFolders(const std::vector<std::filesystem::path>& folders,
 DifferenceBounds ParseTolerances(const std::vector<std::string>& texts);
 
 /// Writes compare.csv (the differences over arc length, with the number of the `pair` in front),
-/// then compare.json, each under its name only when complete. Where nothing was judged, the verdict
-/// in it has neither passed nor failed. RunError.
+/// then compare.json, each under its name only when complete; a report.html of an earlier
+/// comparison goes first. Where nothing was judged, the verdict in it has neither passed nor
+/// failed. Folders of runs stand in it as seen from its own, unless they were given from the root
+/// on. RunError.
 void WriteComparison(const RunComparison& comparison, const std::filesystem::path& folder);
 
 }  // namespace trackbed

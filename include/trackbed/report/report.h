@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-/// One HTML page that shows finished runs, or a study, and needs nothing beside itself.
+/// One HTML page that shows finished runs, a comparison or a study, and needs nothing beside
+/// itself.
 namespace trackbed {
 
 /// What becomes of the films (video.mp4) in the runs' folders.
@@ -16,14 +17,20 @@ enum class FilmPlace {
 };
 
 /// What the page shows, as it stands in it: metrics, verdicts, plans, logs and resolved scenarios
-/// of one or more run folders, or the table of one study (the folder of a sweep, or its CSV file).
+/// of one or more run folders, or of those that one comparison (the folder of a compare.json) is
+/// of; or the table of one study (the folder of a sweep, or its CSV file).
+///
+/// Drives are held against each other at equal station as trackbed/analysis/compare.h does: those
+/// that a comparison has judged, with its verdict and tolerances, and each plant of the first of
+/// several runs with its namesake in every other.
 ///
 /// Numbers are rounded to six significant digits, those below 5e-7 to 0. Logs that have more than
 /// 20000 rows together are thinned out: rows are kept where a column has its largest or smallest
 /// value of a stretch, so that every extreme value stays. SI units and radians, as in the files.
 ///
-/// Errors: InputError naming what is missing or broken, when a path is neither a run nor a study,
-/// when a study is mixed with something else, and when a run is given twice.
+/// Errors: InputError naming what is missing or broken, when a path is neither a run nor a
+/// comparison nor a study, when one of the latter is mixed with something else, when a run is given
+/// twice, and when a comparison is not of the logs that its runs have now.
 /// Cost: proportional to the size of the logs; 60 s on two plants take a fifth of a second.
 nlohmann::ordered_json ReportData(const std::vector<std::filesystem::path>& paths);
 

@@ -78,6 +78,14 @@ function placeAt(log, time) {
   return { row, next, part: Math.min(Math.max(part, 0), 1) };
 }
 
+/** Linear between the points, held at the ends. */
+function interpolated(xs, ys, x) {
+  if (xs.length < 2) return ys[0];
+  const next = Math.min(Math.max(d3.bisectRight(xs, x), 1), xs.length - 1);
+  const part = (x - xs[next - 1]) / (xs[next] - xs[next - 1]);
+  return ys[next - 1] + Math.min(Math.max(part, 0), 1) * (ys[next] - ys[next - 1]);
+}
+
 /** A quantity at a moment; nothing after the end of the drive. */
 function valueAt(track, name, time) {
   const values = track.log[name];

@@ -6,8 +6,12 @@ function drawFilms(parent) {
   const films = parent.append('div').attr('class', 'films');
   for (const run of filmed) {
     const figure = films.append('figure').attr('class', 'panel');
-    const video = figure.append('video').attr('controls', '').attr('playsinline', '').attr('preload', 'auto')
-      .property('muted', true).node();
+    const video = figure.append('video').attr('playsinline', '').attr('preload', 'auto').attr('tabindex', 0)
+      .attr('aria-label', `Film of ${run.name}`).property('muted', true).node();
+    // The browser's controls lie upon the film's own strip and captions, and go when they are not used.
+    const showControls = (use) => () => { video.controls = use; };
+    for (const event of ['mouseenter', 'focus', 'click']) video.addEventListener(event, showControls(true));
+    for (const event of ['mouseleave', 'blur']) video.addEventListener(event, showControls(false));
     if (runs.length > 1) figure.append('figcaption').text(run.name);
     if (run.film.url) {
       video.src = run.film.url;

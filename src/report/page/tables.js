@@ -36,6 +36,14 @@ function drawHead() {
     runs.length === 1 && `seed ${one.seed}`,
     `Trackbed ${one.versions.trackbed}`, one.versions.physics, one.versions.optimizer,
   ]);
+  for (const { run, passed, failures, notes } of (data.comparison || {}).verdicts || []) {
+    const verdict = header.append('div').attr('class', `verdict comparison ${passed === false ? 'bad' : ''}`);
+    const line = verdict.append('div').attr('class', 'heading');
+    line.append('span').text(run === undefined ? 'The comparison' : `The comparison of ${runs[run].name}`);
+    if (passed === null) line.append('span').attr('class', 'badge plain').text('without tolerances');
+    else badge(line, passed, passed ? 'passed' : 'failed');
+    drawReasons(verdict, failures, notes);
+  }
   for (const run of runs) {
     const { failures, notes } = run.verdict;
     if (runs.length === 1 && !failures.length && !notes.length) continue;
@@ -47,12 +55,15 @@ function drawHead() {
       badge(line, good, text);
       facts(verdict, [run.scenario !== run.name && `scenario ${run.scenario}`, planFact(run.plan), `car: ${run.car.name}`, `seed ${run.seed}`]);
     }
-    if (failures.length || notes.length) {
-      const list = verdict.append('ul');
-      for (const failure of failures) list.append('li').text(failure);
-      for (const note of notes) list.append('li').attr('class', 'note').text(note);
-    }
+    drawReasons(verdict, failures, notes);
   }
+}
+
+function drawReasons(parent, failures, notes) {
+  if (!failures.length && !notes.length) return;
+  const list = parent.append('ul');
+  for (const failure of failures) list.append('li').text(failure);
+  for (const note of notes) list.append('li').attr('class', 'note').text(note);
 }
 
 /** The rows of several lists of numbers, each path once, in order. */

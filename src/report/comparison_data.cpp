@@ -1,0 +1,216 @@
+#include "src/report/comparison_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "src/report/json_file.h"
+#include "src/report/names.h"
+#include "src/report/numbers.h"
+#include "src/report/paths.h"
+#include "src/report/run_data.h"
+#include "trackbed/analysis/compare.h"
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr const char* kComparisonName = "compare.json";
+
+/// Rows of all curves together: a chart has no more pixels, and ten pairs are much.
+constexpr std::size_t kCurveRows = 6000;
+
+[[noreturn]] void Unfit(const fs::path& file, const std::string& message) {
+  throw InputError(Problem{.file = file.string(), .message = message + "; compare the runs again"});
+}
+
+struct Drive {
+  std::size_t run;
+  std::string plant;
+
+  [[nodiscard]] ordered_json ToJson() const { return {{"run", run}, {"plant", plant}}; }
+};
+
+struct Pair {
+  Drive first;
+  Drive second;
+  fs::path file;         ///< where it has been judged; empty if nowhere
+  ordered_json outcome;  ///< what stands there about it
+};
+
+/// The pairs of a comparison and its verdict. The runs are those from `at` on.
+void TakeJudged(const fs::path& folder, const std::vector<fs::path>& runs, std::size_t at,
+                std::vector<Pair>& pairs, ordered_json& verdicts) {
+  const fs::path file = folder / kComparisonName;
+  WithJson(file, [&](const ordered_json& json) {
+    const std::size_t last = ComparedRuns(folder).size() - 1;
+    for (const ordered_json& pair : json.at("pairs")) {
+      // Of two runs, a drive is called after its folder and its plant.
+      const auto drive = [&](std::size_t which, std::size_t run) {
+        return Drive{run, fs::path(pair.at("plants").at(which).get<std::string>()).filename()};
+      };
+      pairs.push_back({drive(0, at), drive(1, at + last), file, pair});
+    }
+    verdicts.push_back(json.at("verdict"));
+    if (runs.size() > 1 && last == 0) {
+      verdicts.back()["run"] = at;
+    }
+  });
+}
+
+bool IsOfItself(const fs::path& run) {
+  const std::vector<fs::path> runs = ComparedRuns(run);
+  return std::all_of(runs.begin(), runs.end(), [&](const fs::path& other) {
+    return fs::weakly_canonical(other) == fs::weakly_canonical(run);
+  });
+}
+
+/// Each plant of the first run with its namesake in every other.
+void TakeNamesakes(const std::vector<std::vector<FinishedDrive>>& drives,
+                   std::vector<Pair>& pairs) {
+  for (std::size_t run = 1; run < drives.size(); ++run) {
+    for (const FinishedDrive& first : drives[0]) {
+      for (const FinishedDrive& second : drives[run]) {
+        if (first.trace.name == second.trace.name) {
+          pairs.push_back({{0, first.trace.name}, {run, second.trace.name}, {}, {}});
+        }
+      }
+    }
+  }
+}
+
+/// The logs may be others than those that were compared.
+void RefuseIfChanged(const Pair& pair, const PlantComparison& now) {
+  constexpr double kSame = 1e-6;  // [m], [rad], [rad/s]: of rounding on another machine
+  const std::vector<std::pair<const char*, const Difference&>> quantities{
+      {"position", now.position},
+      {"heading", now.heading},
+      {"yaw_rate", now.yaw_rate},
+      {"steering", now.steering}};
+  for (const auto& [name, difference] : quantities) {
+    if (!(std::abs(pair.outcome.at(name).at("max").get<double>() - difference.max) <= kSame)) {
+      Unfit(pair.file, "not of the logs that the runs have now");
+    }
+  }
+}
+
+ordered_json CurveOf(const Table& differences, std::size_t row_limit) {
+  const std::vector<std::pair<const char*, const char*>> columns{{"s", "s_m"},
+                                                                 {"t", "first_t_s"},
+                                                                 {"position", "position_m"},
+                                                                 {"heading", "yaw_rad"},
+                                                                 {"yaw_rate", "yaw_rate_radps"},
+                                                                 {"steering", "steering_rad"}};
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> values;
+  for (const auto& [name, column] : columns) {
+    names.emplace_back(name);
+    values.push_back(differences.Column(column));
+  }
+  Table curve(names);
+  for (std::size_t row = 0; row < differences.rows(); ++row) {
+    std::vector<double> cells;
+    for (const std::vector<double>& column : values) {
+      cells.push_back(column[row]);
+    }
+    curve.AddRow(cells);
+  }
+  const std::vector<std::size_t> rows = RowsToShow(curve, row_limit);
+  ordered_json json;
+  for (const std::string& name : names) {
+    json[name] = RoundedColumn(curve, name, rows);
+  }
+  return json;
+}
+
+ordered_json DataOf(const Pair& pair, const Trace& first, const Trace& second,
+                    std::size_t row_limit) {
+  ordered_json json{{"first", pair.first.ToJson()}, {"second", pair.second.ToJson()}};
+  if (!pair.file.empty()) {
+    json["tolerances"] = pair.outcome.at("tolerances");
+  }
+  const PlantComparison comparison = CompareTraces(first, second);
+  if (!pair.file.empty()) {
+    RefuseIfChanged(pair, comparison);
+  }
+  if (comparison.comparable()) {
+    ordered_json numbers = ToJson(comparison);
+    numbers.erase("plants");
+    json["numbers"] = NumbersOf(numbers, NameOfComparison);
+    json["curve"] = CurveOf(DifferencesOverArcLength(first, second), row_limit);
+  }
+  return json;
+}
+
+}  // namespace
+
+bool HasComparison(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_regular_file(folder / kComparisonName, ignored);
+}
+
+std::vector<fs::path> ComparedRuns(const fs::path& folder) {
+  return WithJson(folder / kComparisonName, [&](const ordered_json& json) {
+    std::vector<fs::path> runs;
+    for (const ordered_json& run : json.value("runs", ordered_json::array())) {
+      const fs::path path = folder / run.get<std::string>();  // one from the root on stays so
+      if (runs.empty() || fs::weakly_canonical(runs.front()) != fs::weakly_canonical(path)) {
+        runs.push_back(path);
+      }
+    }
+    if (runs.empty() && IsRunFolder(folder)) {
+      runs.push_back(folder);
+    }
+    if (runs.empty()) {
+      Unfit(folder / kComparisonName, "does not say of which runs it is");
+    }
+    return runs;
+  });
+}
+
+ordered_json ComparisonData(const std::vector<fs::path>& runs,
+                            const std::optional<fs::path>& judged) {
+  std::vector<Pair> pairs;
+  ordered_json verdicts = ordered_json::array();
+  if (judged) {
+    TakeJudged(*judged, runs, 0, pairs, verdicts);
+  } else {
+    for (std::size_t run = 0; run < runs.size(); ++run) {
+      if (HasComparison(runs[run]) && IsOfItself(runs[run])) {
+        TakeJudged(runs[run], runs, run, pairs, verdicts);
+      }
+    }
+  }
+  std::vector<std::vector<FinishedDrive>> drives;
+  if (!pairs.empty() || runs.size() > 1) {
+    std::transform(runs.begin(), runs.end(), std::back_inserter(drives), ReadRunFolder);
+  }
+  if (!judged) {
+    TakeNamesakes(drives, pairs);
+  }
+  if (pairs.empty() && verdicts.empty()) {
+    return {};
+  }
+  ordered_json data{{"verdicts", verdicts}, {"pairs", ordered_json::array()}};
+  for (const Pair& pair : pairs) {
+    const auto trace_of = [&](const Drive& drive) -> const Trace& {
+      const auto found =
+          std::find_if(drives[drive.run].begin(), drives[drive.run].end(),
+                       [&](const FinishedDrive& other) { return other.trace.name == drive.plant; });
+      if (found == drives[drive.run].end()) {
+        Unfit(pair.file,
+              fmt::format("of {}, which {} did not drive", drive.plant, runs[drive.run].string()));
+      }
+      return found->trace;
+    };
+    data["pairs"].push_back(
+        DataOf(pair, trace_of(pair.first), trace_of(pair.second), kCurveRows / pairs.size()));
+  }
+  return data;
+}
+
+}  // namespace trackbed

@@ -1,0 +1,127 @@
+// Charts one below the other, with one cursor at the moment that all of the page shows.
+
+/** Round numbers, about so many pixels apart. */
+function ticksEvery(pixels, name) {
+  return (from, to, length) => d3.ticks(from, to, Math.max(2, Math.round(length / pixels)))
+    .map((value) => ({ v: value, label: name(value) }));
+}
+
+function fixed(number, digits) {
+  if (number === null) return '–';
+  return number.toFixed(digits).replace(/^-(?=[0.]*$)/, '').replace('-', '−');
+}
+
+/**
+ * The charts of `list`, which `key` tells from others, over `axis`: {values, unit, at, timeOf}, the
+ * places of the rows, and which place belongs to a moment and which moment to a place. A chart has
+ * {name, title, unit, note, lines, readouts}, a line {label, colour, tracks, values, pattern, width},
+ * a readout {label, tracks, sign, text}, which is drawn and told at a moment.
+ */
+function drawCharts(list, key, axis, charts) {
+  const drawn = [];
+  let busy = false;
+  const isShown = ({ tracks: own }) => own.every((track) => track.visible);
+
+  /** Others follow, unless it is they who called. */
+  const together = (act) => {
+    if (busy) return;
+    busy = true;
+    try { act(); } finally { busy = false; }
+  };
+
+  const look = (lines) => ({
+    colors: lines.map((line) => colourOf(`--track-${line.colour}`)),
+    axisLineColor: colourOf('--line'),
+    gridLineColor: colourOf('--grid'),
+  });
+
+  for (const { name, title, unit, note, lines, readouts } of charts) {
+    const figure = list.append('figure').attr('class', 'chart panel').attr('data-quantity', name);
+    const caption = figure.append('figcaption');
+    const heading = caption.append('span').attr('class', 'title').text(title);
+    heading.append('span').text(` [${unit}]`);
+    if (note) heading.append('span').attr('class', 'note').text(`  ${note}`);
+    const group = caption.append('span').attr('class', 'readouts');
+    const told = readouts.map((of) => {
+      const readout = group.append('span').attr('class', 'readout').attr('data-track', of.label)
+        .attr('title', of.label);
+      of.sign(readout);
+      return { of, readout, text: readout.append('span') };
+    });
+    const plot = figure.append('div').attr('class', 'plot');
+    const labels = lines.map(({ label }, i) => `${i} ${label}`);
+    const { touchstart, touchmove, touchend, ...mouse } = Dygraph.defaultInteractionModel;
+    const table = axis.values.map((value, i) => [value, ...lines.map((line) => line.values[i])]);
+    const graph = new Dygraph(plot.append('div').style('width', '100%').style('height', '100%').node(), table, {
+      labels: ['at', ...labels],
+      series: Object.fromEntries(lines.map(({ pattern, width }, i) => [labels[i],
+        { strokePattern: pattern || null, strokeWidth: width }])),
+      legend: 'never',
+      connectSeparatedPoints: true,
+      hideOverlayOnMouseOut: false,
+      highlightCircleSize: 3,
+      yRangePad: 8,
+      interactionModel: mouse,
+      axes: {
+        x: { ticker: ticksEvery(80, (value) => `${shown(value)} ${axis.unit}`), axisLabelWidth: 60 },
+        y: { ticker: ticksEvery(30, shown), axisLabelWidth: 52 },
+      },
+      ...look(lines),
+      highlightCallback: (event, place) => together(() => setTime(axis.timeOf(place), key)),
+      drawCallback: (own, first) => {
+        if (first) return;
+        together(() => drawn.forEach((chart) => {
+          if (chart.graph !== own) chart.graph.updateOptions({ dateWindow: own.xAxisRange() });
+        }));
+        placeCursors(now);
+      },
+    });
+    const cursor = plot.append('div').attr('class', 'cursor');
+    // A finger along the chart moves the cursor; the page scrolls up and down under it.
+    plot.on('pointermove pointerdown', () => {
+      const event = d3.event;
+      if (event.pointerType === 'mouse') return;
+      const at = graph.eventToDomCoords(event)[0];
+      setTime(axis.timeOf(graph.toDataXCoord(at)), key);
+    });
+    drawn.push({ graph, cursor, lines, told });
+  }
+
+  function placeCursors(time) {
+    for (const { graph, cursor } of drawn) {
+      const area = graph.getArea();
+      const x = graph.toDomXCoord(axis.at(time));
+      const inside = x >= area.x - 0.5 && x <= area.x + area.w + 0.5;
+      cursor.style('display', inside ? null : 'none')
+        .style('left', `${x}px`).style('height', `${area.y + area.h}px`);
+    }
+  }
+
+  bus.on(`time.${key}`, (time) => {
+    const row = Math.max(0, d3.bisectRight(axis.values, axis.at(time) + 1e-9) - 1);
+    const was = busy;
+    busy = true;
+    for (const { graph } of drawn) graph.setSelection(row);
+    busy = was;
+    placeCursors(time);
+    for (const { told } of drawn) {
+      for (const { of, text } of told) text.text(of.text(time));
+    }
+  });
+  bus.on(`visibility.${key}`, () => {
+    for (const { graph, lines, told } of drawn) {
+      together(() => graph.setVisibility(Object.fromEntries(lines.map((line, i) => [i, isShown(line)]))));
+      for (const { of, readout } of told) readout.style('display', isShown(of) ? null : 'none');
+    }
+    setTime(now);
+  });
+  bus.on(`scheme.${key}`, () => {
+    for (const { graph, lines } of drawn) together(() => graph.updateOptions(look(lines)));
+    setTime(now);
+  });
+  // The charts' own width follows late; the cursor stands right after it.
+  new ResizeObserver(() => {
+    for (const { graph } of drawn) graph.resize();
+    placeCursors(now);
+  }).observe(list.node());
+}
