@@ -309,14 +309,32 @@ TEST(ReportPage, LoadsNothing) {
 }
 
 TEST(ReportPage, StaysSmall) {
+  constexpr std::size_t kMost = 3'000'000;
   const TempFolder folder;
-  const fs::path run = DriveCorner(folder, "run", "");
-  for (const double period : {0.02, 0.002}) {
-    for (const char* plant : {"kinematic", "mujoco"}) {
-      LengthenLog(run / (std::string(plant) + ".csv"), 60.0, period);
-    }
-    EXPECT_LT(ReportPage(ReportData({run})).size(), 3'000'000U) << "a row each " << period << " s";
+  // A minute, with and without turns, and more than that, compared.
+  const std::string minute =
+      "schema: 1\nname: minute\nmission: {speed: 3, waypoints: [[0, 0], [70, 0], [70, 70], [150, "
+      "70]]}\nplan: {method: fillet}\ncontrol: {method: preview}\ndrive: {plants: [kinematic, ";
+  const auto drive = [&](const std::string& name, const std::string& others) {
+    WriteRunFolder(RunMission(ParseScenario(minute + others + "]}\n", "minute.yaml", ".")),
+                   folder.path() / name);
+    return folder.path() / name;
+  };
+  const fs::path two = drive("two", "mujoco");
+  const fs::path three = drive("three", "single_track, mujoco");
+  const ordered_json data = ReportData({two});
+  for (const ordered_json& plant : data["runs"][0]["plants"]) {
+    EXPECT_GE(plant["log"]["t"].back().get<double>(), 60.0);
+    EXPECT_GE(plant["log"]["t"].size(), 3000U);  // each period of 20 ms
   }
+  EXPECT_LT(ReportPage(data).size(), kMost / 2);
+  EXPECT_LT(ReportPage(ReportData({two, three})).size(), kMost);
+  // Rows ten times as near.
+  const fs::path run = DriveCorner(folder, "run", "");
+  for (const char* plant : {"kinematic", "mujoco"}) {
+    LengthenLog(run / (std::string(plant) + ".csv"), 60.0, 0.002);
+  }
+  EXPECT_LT(ReportPage(ReportData({run})).size(), kMost);
   const ordered_json log = ReportData({run})["runs"][0]["plants"][0]["log"];
   EXPECT_LE(log["t"].size(), 10000U);  // half of all rows
   EXPECT_GT(log["t"].size(), 3000U);
