@@ -106,6 +106,12 @@ Times TimesAskedFor(const FilmOptions& options, const Times& run) {
   return times;
 }
 
+void MakeParent(const fs::path& output) {
+  if (output.has_parent_path()) {
+    MakeFolder(output.parent_path());
+  }
+}
+
 }  // namespace
 
 std::vector<FilmChoice> Cameras() {
@@ -145,6 +151,7 @@ FilmReport RenderFilm(const fs::path& run_folder, const fs::path& output,
   std::vector<render::Recording> recordings = ReadRecordings(run_folder, options.plants);
   const auto [begin, end] = TimesAskedFor(options, TimesOf(recordings));
   render::Painter painter(recordings, options);
+  MakeParent(output);
   render::BackgroundOutput film(format.open(output, options.width, options.height, options.fps));
 
   FilmReport report;
@@ -181,9 +188,7 @@ void RenderPicture(const fs::path& run_folder, const fs::path& output, double ti
   CheckTime("time", time, TimesOf(recordings));
   render::Image image;
   render::Painter(recordings, options).Paint(time, image);
-  if (output.has_parent_path()) {
-    MakeFolder(output.parent_path());
-  }
+  MakeParent(output);
   WriteFileAtomically(output, render::EncodePng(image));
 }
 

@@ -19,11 +19,7 @@ namespace fs = std::filesystem;
 /// files, nothing else.
 class FrameOutput : public FilmOutput {
  public:
-  explicit FrameOutput(fs::path output) : output_(std::move(output)) {
-    if (output_.has_parent_path()) {
-      MakeFolder(output_.parent_path());
-    }
-  }
+  explicit FrameOutput(fs::path output) : output_(std::move(output)) {}
 
   void Add(const Image& image) override {
     WriteFileAtomically(FrameName(output_, next_++), EncodePng(image));

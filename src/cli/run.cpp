@@ -10,6 +10,7 @@
 #include "src/cli/film_of_run.h"
 #include "src/cli/scenario_runs.h"
 #include "src/cli/verbs.h"
+#include "trackbed/report/report.h"
 
 namespace trackbed::cli {
 namespace {
@@ -20,6 +21,7 @@ struct RunOptions {
   std::vector<std::string> files;
   std::string out;
   bool video = false;
+  bool report = false;
   bool mcap = false;
   ScenarioOptions scenario;
 };
@@ -86,6 +88,9 @@ int RunOne(const ScenarioRun& run, const RunOptions& options) {
              .camera = render.camera},
             options.scenario.quiet);
   }
+  if (options.report && !result.interrupted) {
+    WriteReport({out}, out / "report.html");
+  }
   return result.interrupted ? kInterrupted : result.verdict.passed ? kOk : kFailedExpectations;
 }
 
@@ -101,6 +106,8 @@ void AddRun(CLI::App& command, int& exit_code) {
       ->type_name("DIR");
   options->scenario.AddTo(command);
   command.add_flag("--video", options->video, "Film the run: video.mp4 in its folder");
+  command.add_flag("--report", options->report,
+                   "Make the page of the run, too, with its film: report.html in its folder");
   command.add_flag("--mcap", options->mcap,
                    "Log for Foxglove and others, too: run.mcap in its folder");
   command.callback([options, &exit_code] {

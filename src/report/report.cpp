@@ -214,7 +214,11 @@ void WriteReport(const std::vector<fs::path>& paths, const fs::path& file, FilmP
   if (film != FilmPlace::kAbsent) {
     AddFilms(shown, file, film, data);
   }
-  WriteFileAtomically(file, ReportPage(data));
+  const std::string page = ReportPage(data);
+  if (file.has_parent_path()) {
+    MakeFolder(file.parent_path());
+  }
+  WriteFileAtomically(file, page);
 }
 
 }  // namespace trackbed

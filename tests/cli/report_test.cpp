@@ -29,8 +29,10 @@ TEST(Report, WritesAPageIntoTheRunsFolder) {
   EXPECT_THAT(page, testing::StartsWith("<!DOCTYPE html>"));
   EXPECT_THAT(page, EndsWith("</html>\n"));
   EXPECT_THAT(page, HasSubstr("<title>a</title>"));
-  EXPECT_EQ(Trackbed(folder, "report a -q -o b.html").output, "");
-  EXPECT_EQ(ReadFile(folder.path() / "b.html"), page);
+  EXPECT_EQ(Trackbed(folder, "report a -q -o new/b.html").output, "");
+  EXPECT_EQ(ReadFile(folder.path() / "new/b.html"), page);
+  Trackbed(folder, RunOf("a") + " --report");
+  EXPECT_EQ(ReadFile(folder.path() / "a/report.html"), page);
   // A new run of the folder takes the page of the old one away.
   Trackbed(folder, RunOf("a"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "a/report.html"));

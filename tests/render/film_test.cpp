@@ -346,10 +346,22 @@ TEST_F(Film, RefusesABrokenModelWithoutAskingForAKey) {
 }
 
 TEST_F(Film, LeavesNothingWhereItCannotWrite) {
-  output_ = folder_.path() / "no folder" / "film.mp4";
-  EXPECT_EQ(MessageOf<RunError>([this] { Make(); }),
-            "cannot write " + output_.string() + ": No such file or directory");
-  EXPECT_FALSE(fs::exists(output_.parent_path()));
+  WriteFileAtomically(folder_.path() / "file", "no folder");
+  output_ = folder_.path() / "file" / "film.mp4";
+  EXPECT_THAT(MessageOf<RunError>([this] { Make(); }),
+              testing::HasSubstr((folder_.path() / "file").string()));
+  EXPECT_EQ(ReadFile(folder_.path() / "file"), "no folder");
+}
+
+TEST_F(Film, MakesItsFolderButNotForNothing) {
+  output_ = folder_.path() / "new" / "deep" / "film.webp";
+  options_.fps = 2.0;
+  options_.camera = "chaise";
+  EXPECT_EQ(InputMessage(), "camera: unknown camera 'chaise'; did you mean 'chase'?");
+  EXPECT_FALSE(fs::exists(folder_.path() / "new"));
+  options_.camera = "chase";
+  Make();
+  EXPECT_TRUE(fs::exists(output_));
 }
 
 /// No file of this process may grow beyond some bytes: what a full disk looks like.

@@ -72,14 +72,13 @@ void CheckFilmName(const std::filesystem::path& output);
 /// `progress` (may be empty) is called after every frame with the fraction done, in (0, 1]. What it
 /// throws ends the film and is passed on.
 ///
-/// `output` says by its extension what is made:
+/// `output` says by its extension what is made; its folder is made if it is missing:
 ///  * `.mp4`: a video, H.264, yuv420p, playable while still loading; not in a build without. The
-///    file is either what it was or a complete film, also after an exception. Its folder must
-///    exist.
+///    file is either what it was or a complete film, also after an exception.
 ///  * `.webp`, `.apng`: the same as an animated picture that repeats.
 ///  * `.png`: a picture per frame. `frames/f.png` asks for `frames/f_00000.png`,
-///    `frames/f_00001.png`, ...; the folder is made if it is missing. Each file is either what it
-///    was or complete; after an exception those written before stay. When the last one is written,
+///    `frames/f_00001.png`, ... Each file is either what it was or complete; after an exception
+///    those written before stay. When the last one is written,
 ///    the frames that an older and longer film of the same name left beyond it are removed.
 ///
 /// Guarantees: the same folder and options give the same bytes. Pictures are encoded and written in

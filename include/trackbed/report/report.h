@@ -37,9 +37,10 @@ nlohmann::ordered_json ReportData(const std::vector<std::filesystem::path>& path
 /// The whole page of some data. Text from files never becomes markup or script, whatever is in it.
 std::string ReportPage(const nlohmann::ordered_json& data);
 
-/// Makes the report of `paths` and writes it to `file`, which is either what it was or complete.
-/// The page loads nothing from a network and forbids the browser to. The same folders give the same
-/// bytes. Errors: as ReportData, and RunError when something cannot be read or written.
+/// Makes the report of `paths` and writes it to `file`, which is either what it was or complete;
+/// its folder is made if it is missing. The page loads nothing from a network and forbids the
+/// browser to. The same folders give the same bytes. Errors: as ReportData, and RunError when
+/// something cannot be read or written.
 void WriteReport(const std::vector<std::filesystem::path>& paths, const std::filesystem::path& file,
                  FilmPlace film = FilmPlace::kEmbedded);
 
