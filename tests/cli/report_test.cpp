@@ -106,9 +106,9 @@ TEST(Report, RefusesWhatIsNoRun) {
   EXPECT_EQ(told("besides"), "--film: unknown 'besides'; did you mean 'beside'?\n");
   EXPECT_EQ(told("1"), "--film: unknown '1'; allowed: embedded, beside, none\n");
   Trackbed(folder, RunOf("a"));
-  outcome = Trackbed(folder, "report a -o gone/page.html");
+  outcome = Trackbed(folder, "report a -o a/metrics.json/page.html");
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.output, HasSubstr("cannot write gone/page.html"));
+  EXPECT_THAT(outcome.output, HasSubstr("a/metrics.json"));
   outcome = Trackbed(folder, "report a -o /dev/full");
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.output, HasSubstr("cannot write /dev/full"));

@@ -382,7 +382,12 @@ TEST(WriteReport, RepeatsItself) {
   WriteReport({run}, folder.path() / "a.html");
   WriteReport({run}, folder.path() / "b.html");
   EXPECT_EQ(ReadFile(folder.path() / "a.html"), ReadFile(folder.path() / "b.html"));
-  EXPECT_THROW(WriteReport({run}, folder.path() / "gone" / "a.html"), RunError);
+  WriteReport({run}, folder.path() / "new" / "a.html");
+  EXPECT_EQ(ReadFile(folder.path() / "new" / "a.html"), ReadFile(folder.path() / "b.html"));
+  EXPECT_THROW(WriteReport({run}, folder.path() / "a.html" / "a.html"), RunError);
+  // Of nothing, nothing is made.
+  EXPECT_THROW(WriteReport({folder.path()}, folder.path() / "gone" / "a.html"), InputError);
+  EXPECT_FALSE(fs::exists(folder.path() / "gone"));
 }
 
 }  // namespace
