@@ -50,6 +50,13 @@ void CheckOptions(const FilmOptions& options, bool even_sides) {
                         .message = fmt::format("{} side by side; allowed are 1 to {}",
                                                options.plants.size(), kMostParts)});
   }
+  for (auto plant = options.plants.begin(); plant != options.plants.end(); ++plant) {
+    if (std::find(options.plants.begin(), plant, *plant) != plant) {
+      problems.push_back(
+          {.file = "", .key = "plants", .message = fmt::format("'{}' is listed twice", *plant)});
+      break;
+    }
+  }
   if (!problems.empty()) {
     throw InputError(std::move(problems));
   }

@@ -80,11 +80,11 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
 
   const double degrees = most.steering * 180.0 / kPi;
   labels_ = {{0.0, kAsked, "steering asked"},
-             {0.0, kActual, fmt::format("steering actual (most {:.1f} deg)", degrees)}};
+             {0.0, kActual, fmt::format("steering actual (axis to {:.1f} deg)", degrees)}};
   if (most.curvature > 0.0) {
     labels_.insert(
         labels_.begin(),
-        {0.0, kCurvature, fmt::format("planned curvature (most {:.3g} 1/m)", most.curvature)});
+        {0.0, kCurvature, fmt::format("planned curvature (axis to {:.3g} 1/m)", most.curvature)});
   }
   double pen = left_;
   for (Label& label : labels_) {

@@ -106,8 +106,9 @@ void AddRun(CLI::App& command, int& exit_code) {
       ->type_name("DIR");
   options->scenario.AddTo(command);
   command.add_flag("--video", options->video, "Film the run: video.mp4 in its folder");
-  command.add_flag("--report", options->report,
-                   "Make the page of the run, too, with its film: report.html in its folder");
+  command.add_flag(
+      "--report", options->report,
+      "Make the page of the run, too, with its film if there is one: report.html in its folder");
   command.add_flag("--mcap", options->mcap,
                    "Log for Foxglove and others, too: run.mcap in its folder");
   command.callback([options, &exit_code] {

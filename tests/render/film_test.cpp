@@ -183,8 +183,10 @@ TEST_F(Film, ShowsPlantsSideBySide) {
   EXPECT_EQ(report.car, "kinematic");
   EXPECT_THAT(report.ghosts, testing::IsEmpty());
   EXPECT_EQ(Play(output_).width, 192);
-  options_.plants = {"mujoco", "mujoco", "mujoco", "mujoco", "mujoco"};
+  options_.plants = {"a", "b", "c", "d", "e"};
   EXPECT_EQ(InputMessage(), "plants: 5 side by side; allowed are 1 to 4");
+  options_.plants = {"mujoco", "mujoco"};
+  EXPECT_EQ(InputMessage(), "plants: 'mujoco' is listed twice");
 }
 
 TEST_F(Film, IsTheSameBytesTwice) {
