@@ -371,7 +371,7 @@ void WriteComparison(const RunComparison& comparison, const fs::path& folder) {
     json["pairs"].back()["tolerances"] = ToJson(own.bounds);
   }
   json["verdict"] = ToJson(comparison.verdict);
-  if (std::string_view(comparison.status()) == "compared") {
+  if (comparison.verdict.passed && !comparison.judged()) {
     json["verdict"]["passed"] = nullptr;
   }
   json["versions"] = Versions();
