@@ -62,9 +62,14 @@ void Print(const CarModel& car, const std::string& file) {
     Row("brake_torque_front", car.parts().brake_torque_front, "N m per wheel");
     Row("brake_torque_rear", car.parts().brake_torque_rear, "N m per wheel");
   } else {
-    const WheelPairParts& parts = car.wheel_pair();
-    Row("top_speed", (parts.wheel_speed - parts.servo_slack) * p.wheel_radius, "m/s");
     Row("brake_torque", car.wheel_pair().brake_torque, "N m per wheel");
+  }
+  Row("friction_longitudinal", p.friction_longitudinal, "");
+  Row("friction_lateral", p.friction_lateral, "");
+  Row("max_deceleration", p.max_deceleration, "m/s^2");
+  Row("max_acceleration", p.max_acceleration, "m/s^2");
+  if (p.top_speed > 0.0) {
+    Row("top_speed", p.top_speed, "m/s");
   }
 }
 

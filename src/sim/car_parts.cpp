@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "src/sim/parts_reader.h"
+#include "src/sim/vehicle_limits.h"
 #include "src/sim/wheel_pair_parts.h"
 #include "trackbed/core/error.h"
 
@@ -29,6 +30,7 @@ class CarReader final : private PartsReader {
     ReadTyres();
     ReadAerodynamics();
     ThrowIfAnything();
+    ReadLimits();
     static_cast<ChassisParts&>(parts_) = chassis_;
     return {parts_, params_};
   }
@@ -214,6 +216,70 @@ class CarReader final : private PartsReader {
         2.0 * CorneringStiffness(parts_.tyres->axle[0], load * params_.cg_to_rear);
     params_.cornering_stiffness_rear =
         2.0 * CorneringStiffness(parts_.tyres->axle[1], load * params_.cg_to_front());
+  }
+
+  void ReadLimits() {
+    const double weight = params_.mass * std::abs(m_.opt.gravity[2]);
+    const std::array<double, 2> share{params_.cg_to_rear / params_.wheelbase,
+                                      params_.cg_to_front() / params_.wheelbase};
+    double rolling = 0.0;  // resistance [N]
+    TyreFriction friction{ContactFriction(parts_.tyre[0]), ContactFriction(parts_.tyre[0])};
+    std::array<double, 2> wheel_mass{};
+    for (std::size_t w = 0; w < kWheels.size(); ++w) {
+      const std::size_t axle = w / 2;
+      const double load = 0.5 * weight * share[axle];
+      TyreFriction own{ContactFriction(parts_.tyre[w]), ContactFriction(parts_.tyre[w])};
+      if (parts_.tyres) {
+        const MagicFormula& tyre = parts_.tyres->axle[axle];
+        const TyreFriction peak = PeakFriction(tyre, load);
+        own = {std::min(own.longitudinal, peak.longitudinal), std::min(own.lateral, peak.lateral)};
+        rolling += tyre.rolling_resistance * load;
+      }
+      friction = {std::min(friction.longitudinal, own.longitudinal),
+                  std::min(friction.lateral, own.lateral)};
+      rolling += m_.dof_frictionloss[parts_.spin_dof[w]] / params_.wheel_radius;
+      wheel_mass[axle] += parts_.spin_inertia[w] / (params_.wheel_radius * params_.wheel_radius);
+    }
+    params_.friction_longitudinal = friction.longitudinal;
+    params_.friction_lateral = friction.lateral;
+    const double rolling_mass = params_.mass + wheel_mass[0] + wheel_mass[1];
+    // `ahead` is what the front axle gains: 1 when braking, -1 when driving.
+    const auto limit = [&](double front_force, double ahead, double force) {
+      AccelerationLimit own{.by_force = force / rolling_mass, .axles = {}};
+      const std::array<double, 2> pushed{front_force, 1.0 - front_force};
+      const double transfer = ahead * chassis_.cg_height / params_.wheelbase;
+      for (std::size_t axle = 0; axle < pushed.size(); ++axle) {
+        const double on_road = pushed[axle] * rolling_mass - wheel_mass[axle];
+        own.axles.push_back({.weight = share[axle],
+                             .force = std::max(0.0, on_road / params_.mass),
+                             .transfer = axle == 0 ? transfer : -transfer});
+      }
+      return own;
+    };
+    const double brakes = parts_.brake_torque_front + parts_.brake_torque_rear;
+    const double force = parts_.drive_limit / params_.wheel_radius - rolling;
+    params_.braking =
+        limit(parts_.brake_torque_front / brakes, 1.0, 2.0 * brakes / params_.wheel_radius);
+    params_.driving = limit(FrontDrive(), -1.0, force);
+    params_.max_deceleration = params_.braking.At(friction.longitudinal);
+    params_.max_acceleration = params_.driving.At(friction.longitudinal);
+    params_.top_speed = TopSpeed({.force = force,
+                                  .power = parts_.drive_power,
+                                  .rolling = rolling,
+                                  .drag_area = chassis_.aerodynamics.drag_area});
+  }
+
+  /// The front wheels' part of the drive torque.
+  double FrontDrive() {
+    mj_tendon(&m_, data_.get());
+    mj_transmission(&m_, data_.get());
+    std::array<double, 2> axle{};
+    for (std::size_t w = 0; w < kWheels.size(); ++w) {
+      axle[w / 2] +=
+          std::abs(data_->actuator_moment[m_.nv * parts_.drive_actuator + parts_.spin_dof[w]]);
+    }
+    const double all = axle[0] + axle[1];
+    return all > 0.0 ? axle[0] / all : 0.0;
   }
 
   CarParts parts_;

@@ -15,8 +15,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kAirDensity = 1.225;  // ISO 2533 at sea level [kg/m^3]
-
 Vector3d Vec(const mjtNum* numbers) {
   return {numbers[0], numbers[1], numbers[2]};
 }

@@ -48,6 +48,8 @@ class PartsReader {
   /// `first`, "`all` must be equal".
   void CheckWheel(const std::string& wheel, int spin, int tyre, int first, const char* all);
   void ReadOutline(int site);
+  /// Sliding friction between a tyre and the ground on which it stands.
+  [[nodiscard]] double ContactFriction(int tyre) const;
   void ReadAerodynamics();
 
   const mjModel& m_;

@@ -1,6 +1,8 @@
 #include "src/sim/wheel_pair_parts.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "src/sim/parts_reader.h"
 
@@ -30,6 +32,7 @@ class WheelPairReader final : private PartsReader {
     ReadOutline(outline_);
     ReadAerodynamics();
     ThrowIfAnything();
+    ReadPerformance();
     static_cast<ChassisParts&>(parts_) = chassis_;
     return {parts_, params_};
   }
@@ -87,6 +90,7 @@ class WheelPairReader final : private PartsReader {
     }
     parts_.wheel_speed = left.speed;
     parts_.servo_slack = left.torque / left.gain;
+    servo_torque_ = left.torque;
   }
 
   Servo ReadServo(std::size_t w) {
@@ -143,6 +147,79 @@ class WheelPairReader final : private PartsReader {
     CheckAboveZero("brake_torque", parts_.brake_torque);
   }
 
+  void ReadPerformance() {
+    const double radius = params_.wheel_radius;
+    double wheel_mass = 0.0;
+    double rolling = 0.0;  // resistance [N]
+    for (std::size_t w = 0; w < kDrivenWheels.size(); ++w) {
+      const mjtNum* inertia = m_.body_inertia + 3 * parts_.wheel[w];
+      const int dof = parts_.spin_dof[w];
+      wheel_mass +=
+          (*std::max_element(inertia, inertia + 3) + m_.dof_armature[dof]) / (radius * radius);
+      rolling += m_.dof_frictionloss[dof] / radius;
+    }
+    const double friction =
+        std::min(ContactFriction(parts_.tyre[0]), ContactFriction(parts_.tyre[1]));
+    params_.friction_longitudinal = friction;
+    params_.friction_lateral = friction;
+    const double rolling_mass = params_.mass + wheel_mass;
+    const std::vector<double> supports = OtherSupports();
+    const auto limit = [&](double direction, double force) {
+      AccelerationLimit own{.by_force = force / rolling_mass, .axles = {}};
+      for (const double ahead : supports) {
+        own.axles.push_back({.weight = 1.0 - params_.cg_to_rear / ahead,
+                             .force = 1.0,
+                             .transfer = direction * chassis_.cg_height / ahead});
+      }
+      if (own.axles.empty()) {
+        own.axles.push_back({.weight = 1.0, .force = 1.0, .transfer = 0.0});
+      }
+      return own;
+    };
+    const double force = 2.0 * servo_torque_ / radius;
+    params_.braking = limit(-1.0, force);
+    params_.driving = limit(1.0, force - rolling);
+    params_.max_deceleration = params_.braking.At(friction);
+    params_.max_acceleration = params_.driving.At(friction);
+    params_.top_speed = (parts_.wheel_speed - parts_.servo_slack) * radius;
+  }
+
+  /// Where else it stands on the ground at qpos0, ahead of the driven wheels [m]: on spheres,
+  /// ellipsoids and capsules. Each is taken for the only other support: with more than one the
+  /// loads depend on springs.
+  [[nodiscard]] std::vector<double> OtherSupports() const {
+    constexpr double kTouching = 1e-3;  // [m]
+    std::vector<double> ahead;
+    for (int geom = 0; geom < m_.ngeom; ++geom) {
+      const bool collides = (m_.geom_contype[geom] | m_.geom_conaffinity[geom]) != 0;
+      const bool is_tyre =
+          std::find(parts_.tyre.begin(), parts_.tyre.end(), geom) != parts_.tyre.end();
+      const bool own = m_.body_rootid[m_.geom_bodyid[geom]] == chassis_.chassis;
+      const mjtNum* at = data_->geom_xpos + 3 * geom;
+      if (collides && own && !is_tyre && std::abs(Offset(at, 0)) > kExact &&
+          Offset(at, 2) - HalfHeight(geom) < kTouching) {
+        ahead.push_back(Offset(at, 0));
+      }
+    }
+    return ahead;
+  }
+
+  /// Of a round geom [m]; 0 for the others.
+  [[nodiscard]] double HalfHeight(int geom) const {
+    const mjtNum* size = m_.geom_size + 3 * geom;
+    const mjtNum* up = data_->geom_xmat + 9 * geom + 6;  // the world's z axis in the geom's frame
+    switch (m_.geom_type[geom]) {
+      case mjGEOM_SPHERE:
+        return size[0];
+      case mjGEOM_CAPSULE:
+        return size[0] + size[1] * std::abs(up[2]);
+      case mjGEOM_ELLIPSOID:
+        return std::hypot(size[0] * up[0], size[1] * up[1], size[2] * up[2]);
+      default:
+        return 0.0;
+    }
+  }
+
   void CheckAboveZero(const char* name, double value) {
     if (!(value > 0.0)) {
       Complain(name, fmt::format("must be above 0, found {:.4g}", value));
@@ -153,6 +230,7 @@ class WheelPairReader final : private PartsReader {
   int free_ = -1;  // joints
   std::array<int, 2> spin_{};
   int outline_ = -1;             // site
+  double servo_torque_ = 0.0;    // largest of one motor [N m]
   double turning_radius_ = 0.0;  // smallest [m]
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace trackbed {
 namespace {
@@ -77,6 +78,15 @@ const std::vector<MagicFormulaField>& MagicFormulaFields() {
       {"rolling_resistance", &M::rolling_resistance, false},
   };
   return fields;
+}
+
+TyreFriction PeakFriction(const MagicFormula& t, double load) {
+  const double load_change = LoadChange(t, load);
+  const auto reached = [](double shape) {
+    return std::sin(0.5 * std::numbers::pi * std::min(1.0, shape));
+  };
+  return {Friction(t.p_dx1, t.p_dx2, load_change) * reached(t.p_cx1),
+          Friction(t.p_dy1, t.p_dy2, load_change) * reached(t.p_cy1)};
 }
 
 double CorneringStiffness(const MagicFormula& tyre, double load) {

@@ -1,11 +1,34 @@
 #include "trackbed/vehicle/params.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace trackbed {
 
 double VehicleParams::min_turning_radius() const {
   return wheelbase / std::tan(steering_limit);
+}
+
+double AccelerationLimit::At(double friction) const {
+  constexpr double kGravity = 9.81;  // [m/s^2]
+  double largest = by_force;
+  for (const AxleGrip& axle : axles) {
+    const double pushed = axle.force - friction * axle.transfer;
+    if (pushed > 0.0) {
+      largest = std::min(largest, friction * kGravity * axle.weight / pushed);
+    }
+  }
+  return std::max(0.0, largest);
+}
+
+double MaxDeceleration(const VehicleParams& params, double road) {
+  return params.braking.axles.empty() ? params.max_deceleration * std::min(1.0, road)
+                                      : params.braking.At(road * params.friction_longitudinal);
+}
+
+double MaxAcceleration(const VehicleParams& params, double road) {
+  return params.driving.axles.empty() ? params.max_acceleration * std::min(1.0, road)
+                                      : params.driving.At(road * params.friction_longitudinal);
 }
 
 double SteeringForCurvature(const VehicleParams& params, double curvature) {

@@ -207,5 +207,159 @@ TEST(CarModel, RefusesAFrameThatIsNotUnderTheRearAxle) {
   EXPECT_THAT(MessageOf(xml), testing::HasSubstr("car.xml: chassis: the body's origin must lie"));
 }
 
+// --- Limits on a flat road
+// -------------------------------------------------------------------------
+
+/// A car's numbers, written down a second time from its file, and what follows from them.
+struct LimitsByHand {
+  double mass, wheelbase, to_rear, cg_height, radius, spin_inertia;  // SI; inertia of one wheel
+  double brake_front, brake_rear;                                    // per wheel [N m]
+  double friction;
+
+  [[nodiscard]] double Wheels() const { return 2.0 * spin_inertia / (radius * radius); }
+  [[nodiscard]] double Rolling() const { return mass + 2.0 * Wheels(); }
+  [[nodiscard]] double BrakeForce() const { return 2.0 * (brake_front + brake_rear) / radius; }
+  [[nodiscard]] double FrontPart() const { return brake_front / (brake_front + brake_rear); }
+  /// Road force over load, of the front and the rear axle at a deceleration: what friction must be.
+  [[nodiscard]] std::array<double, 2> Demand(double a) const {
+    const double front = FrontPart() * Rolling() * a - Wheels() * a;
+    const double rear = (1.0 - FrontPart()) * Rolling() * a - Wheels() * a;
+    const double shift = mass * a * cg_height / wheelbase;
+    const double weight = mass * 9.81;
+    return {front / (weight * to_rear / wheelbase + shift),
+            rear / (weight * (wheelbase - to_rear) / wheelbase - shift)};
+  }
+};
+
+const LimitsByHand kPriusByHand{1317.0, 2.7, 1.4, 0.55, 0.31075, 0.8, 1500.0, 550.0, 0.9};
+const LimitsByHand kBmwByHand{1093.2954, 2.57892, 1.42272, 0.574869, 0.344,
+                              1.7,       1427.27, 735.27,  1.0489};
+const LimitsByHand kSmallByHand{3.0, 0.26, 0.125, 0.04, 0.033, 5e-5, 0.31, 0.18, 0.9};
+
+CarModel Load(const std::string& model) {
+  return {ComposeScene(FindModel(model, TRACKBED_SOURCE_DIR), {}), model};
+}
+
+/// Relative; hand-written masses and places are those of the files to 5 digits and better.
+constexpr double kByHand = 1e-4;
+
+TEST(VehicleLimits, BrakingEndsWhereTheFirstAxleWouldLock) {
+  struct Case {
+    const char* model;
+    const LimitsByHand& hand;
+    std::size_t first;  // axle, 0 in front
+  };
+  for (const auto& [model, hand, first] :
+       {Case{"prius", kPriusByHand, 0}, Case{"bmw320i", kBmwByHand, 1},
+        Case{"tests/data/models/small_car.xml", kSmallByHand, 0}}) {
+    SCOPED_TRACE(model);
+    const VehicleParams params = Load(model).params();
+    const auto demand = hand.Demand(params.max_deceleration);
+    EXPECT_NEAR(demand[first], hand.friction, Tolerance(kByHand));
+    EXPECT_LT(demand[1 - first], hand.friction);
+    EXPECT_LT(params.max_deceleration, hand.BrakeForce() / hand.Rolling());
+    EXPECT_NEAR(params.friction_longitudinal, hand.friction, Tolerance(1e-12));
+  }
+}
+
+TEST(VehicleLimits, OnASlipperyRoadTheAxleThatTheSmallerTransferLeavesLightLocksFirst) {
+  // The BMW's brakes are balanced for about half its grip: there its front locks first.
+  const VehicleParams bmw = Load("bmw320i").params();
+  const auto demand = kBmwByHand.Demand(MaxDeceleration(bmw, 0.3));
+  EXPECT_NEAR(demand[0], 0.3 * 1.0489, Tolerance(kByHand));
+  EXPECT_LT(demand[1], 0.3 * 1.0489);
+  EXPECT_EQ(MaxDeceleration(bmw, 1.0), bmw.max_deceleration);
+  // Filled by hand, they know no axles.
+  const VehicleParams by_hand{.max_deceleration = 6.0, .max_acceleration = 4.0};
+  EXPECT_EQ(MaxDeceleration(by_hand, 0.5), 3.0);
+  EXPECT_EQ(MaxAcceleration(by_hand, 0.5), 2.0);
+  EXPECT_EQ(MaxDeceleration(by_hand, 2.0), 6.0);
+  EXPECT_EQ(MaxDeceleration({}, 0.5), 0.0);
+}
+
+TEST(VehicleLimits, BrakingIsLimitedByWeakBrakesToo) {
+  const CarModel car({.xml = PriusWith("name=\"brake_torque_front\" data=\"1500\"",
+                                       "name=\"brake_torque_front\" data=\"500\""),
+                      .assets = {}},
+                     "car.xml");
+  LimitsByHand weak = kPriusByHand;
+  weak.brake_front = 500.0;
+  EXPECT_NEAR(car.params().max_deceleration, weak.BrakeForce() / weak.Rolling(),
+              Tolerance(kByHand * 5.0));
+}
+
+TEST(VehicleLimits, TheDriveIsLimitedByItsTorqueOrItsAxlesGrip) {
+  // Prius: torque, less 1 % of the weight and four bearings of 1 N m; front-wheel drive would slip
+  // at 3.828 m/s^2 only.
+  const double rolling = 0.01 * 1317.0 * 9.81 + 4.0 / 0.31075;
+  const VehicleParams prius = Load("prius").params();
+  EXPECT_NEAR(prius.max_acceleration, (1645.0 / 0.31075 - rolling) / kPriusByHand.Rolling(),
+              Tolerance(kByHand * 4.0));
+  // BMW: 4325 N m would be 10.9 m/s^2. Its rear axle drives all, the front wheels' inertia too:
+  // X = (M - J) a, under m (g l_f + a h)/L.
+  const VehicleParams bmw = Load("bmw320i").params();
+  const LimitsByHand& b = kBmwByHand;
+  const double a = bmw.max_acceleration;
+  EXPECT_NEAR(
+      (b.Rolling() - b.Wheels()) * a,
+      b.friction * b.mass * (9.81 * (b.wheelbase - b.to_rear) + a * b.cg_height) / b.wheelbase,
+      Tolerance(b.mass * a * kByHand));
+  // Small car: 0.5 N m on the rear axle, four bearings of 1e-3 N m.
+  const VehicleParams small = Load("tests/data/models/small_car.xml").params();
+  EXPECT_NEAR(small.max_acceleration, (0.5 - 4e-3) / 0.033 / kSmallByHand.Rolling(),
+              Tolerance(kByHand * 5.0));
+}
+
+TEST(VehicleLimits, AreTheFrictionOfTheWorseTyreLaw) {
+  // The Prius' contacts have 0.9; its front tyres' mu_y at 3350 N is less and mu_x more.
+  const double load = 0.5 * 1317.0 * 9.81 * 1.4 / 2.7;
+  const VehicleParams params = Load("prius").params();
+  EXPECT_NEAR(params.friction_lateral, 0.8784 - 0.06445 * (load - 4000.0) / 4000.0,
+              Tolerance(1e-5));
+  EXPECT_NEAR(params.friction_longitudinal, 0.9, Tolerance(1e-12));
+  EXPECT_NEAR(Load("bmw320i").params().friction_lateral, 1.0489, Tolerance(1e-12));
+  // With stickier contacts the law's own peaks are left: mu_x of the front is the smaller one.
+  const CarModel sticky({.xml = PriusWith("friction=\"0.9 ", "friction=\"2 "), .assets = {}},
+                        "car.xml");
+  EXPECT_NEAR(sticky.params().friction_longitudinal, 1.0422 - 0.0827 * (load - 4000.0) / 4000.0,
+              Tolerance(1e-5));
+}
+
+TEST(VehicleLimits, TopSpeedIsWhereDragTakesAll) {
+  const VehicleParams prius = Load("prius").params();
+  const double rolling = 0.01 * 1317.0 * 9.81 + 4.0 / 0.31075;
+  EXPECT_NEAR(prius.top_speed, std::sqrt((1645.0 / 0.31075 - rolling) / (0.5 * 1.225 * 0.561)),
+              Tolerance(0.001));
+  // The BMW's power: Cardano for k v^3 + R v - P = 0.
+  const double k = 0.5 * 1.225 * 0.688;
+  const double p = 4.0 * 0.5 / 0.344 / k;
+  const double q = -92021.0 / k;
+  const double root = std::sqrt(q * q / 4.0 + p * p * p / 27.0);
+  EXPECT_NEAR(Load("bmw320i").params().top_speed,
+              std::cbrt(-q / 2.0 + root) + std::cbrt(-q / 2.0 - root), Tolerance(1e-9));
+  // Nothing is known that would hold the small car back.
+  EXPECT_EQ(Load("tests/data/models/small_car.xml").params().top_speed, 0.0);
+}
+
+TEST(VehicleLimits, OfDifferentialDriveAreThoseOfItsMotorsAndOfTheDrivenAxle) {
+  const VehicleParams params = Load("skid").params();
+  // 80 kg, two wheels with 0.26 kg m^2; 30 N m a motor, 0.3 N m in the bearings.
+  const double rolling_mass = 80.0 + 2.0 * 0.26 / (0.165 * 0.165);
+  const double force = 60.0 / 0.165;
+  EXPECT_NEAR(params.max_deceleration, force / rolling_mass, Tolerance(1e-9));
+  EXPECT_NEAR(params.max_acceleration, (force - 0.6 / 0.165) / rolling_mass, Tolerance(1e-9));
+  EXPECT_NEAR(params.top_speed, (22.0 - 30.0 / 60.0) * 0.165, Tolerance(1e-12));
+  EXPECT_EQ(params.friction_longitudinal, 0.8);
+  EXPECT_EQ(params.friction_lateral, 0.8);
+  // With half the grip the tyres slide first: m a = mu m (g 0.44 - a 0.26)/0.62, the caster 0.62 m
+  // ahead gaining what they lose.
+  std::string xml = ReadFile(FindModel("skid", ""));
+  const std::string friction = "friction=\"0.8 ";
+  xml.replace(xml.find(friction), friction.size(), "friction=\"0.4 ");
+  const CarModel slippery({.xml = xml, .assets = {}}, "car.xml");
+  EXPECT_NEAR(slippery.params().max_deceleration, 0.4 * 9.81 * 0.44 / (0.62 + 0.4 * 0.26),
+              Tolerance(1e-9));
+}
+
 }  // namespace
 }  // namespace trackbed

@@ -30,6 +30,8 @@ struct CarTyres {
   double vertical_damping = 0.0;        ///< [N s/m]
 };
 
+inline constexpr double kAirDensity = 1.225;  ///< ISO 2533 at sea level [kg/m^3]
+
 /// How the air pushes the car: 1/2 rho |v| v times an area, along and across. Zero: it does not.
 struct CarAerodynamics {
   double drag_area = 0.0;                      ///< C_d A [m^2], of wind along x

@@ -95,6 +95,16 @@ struct TyreForce {
 /// about 0.2 us.
 TyreForce ForceOf(const MagicFormula& tyre, double load, double road, const TyreSlip& slip);
 
+/// The largest forces over the load, along and across, on a road of factor 1.
+struct TyreFriction {
+  double longitudinal = 0.0;
+  double lateral = 0.0;
+};
+
+/// The peaks D/F_z of pure slip at `load`, without camber and shifts; a shape C below 1 does not
+/// reach D but D sin(C pi/2).
+TyreFriction PeakFriction(const MagicFormula& tyre, double load);
+
 /// C_alpha = -dF_y/dalpha at zero slip [N/rad], > 0.
 double CorneringStiffness(const MagicFormula& tyre, double load);
 

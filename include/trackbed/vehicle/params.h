@@ -1,12 +1,35 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace trackbed {
 
 enum class VehicleKind {
   kSteered,       ///< a car: two axles, steered front wheels
   kDifferential,  ///< turns by the speeds of its two driven wheels, which share one axle
+};
+
+/// One axle of a vehicle that changes its speed by `a` on a flat road. Brakes and motor push it
+/// with a fixed share, so that it puts m force a on the road (its wheels' own inertia is off),
+/// under a load of m (g weight + transfer a), m being the vehicle's mass. It slides where that is
+/// more than the friction mu times that:
+///   a > mu g weight/(force - mu transfer), or never where the denominator is not above 0.
+struct AxleGrip {
+  double weight = 0.0;    ///< share of the weight at rest [1]
+  double force = 0.0;     ///< >= 0 [1]
+  double transfer = 0.0;  ///< of load; +- height of the centre of gravity over the wheelbase [1]
+};
+
+/// How hard a vehicle can brake, or accelerate, straight ahead on a flat road.
+struct AccelerationLimit {
+  double by_force = 0.0;        ///< of the brakes or the motor [m/s^2]
+  std::vector<AxleGrip> axles;  ///< that have to hold
+
+  /// The smaller of both [m/s^2], >= 0. The loads are those of an acceleration which lasts: asked
+  /// for at once, a body that pitches beyond that unloads the rear axle more at first. (MuJoCo: the
+  /// Prius' wheels all hold, the BMW's rear ones up to 95 % of its limit.) Gravity is 9.81 m/s^2.
+  [[nodiscard]] double At(double friction) const;
 };
 
 /// What planners and controllers know of a vehicle. Read from its compiled MJCF
@@ -43,11 +66,33 @@ struct VehicleParams {
   double height = 0.0;          ///< of the outline [m]
   double rear_overhang = 0.0;   ///< rear axle to the rear end of the outline [m]
 
+  // Limits straight ahead on a flat road of factor 1; 0: not known, and nothing is limited by it.
+
+  /// mu: the largest force of a tyre over its load, the least of all tyres at their static loads. A
+  /// car with tyre coefficients has two laws, contacts and Magic Formula, and a plan is for both:
+  /// the smaller counts.
+  double friction_longitudinal = 0.0;  ///< [1]
+  double friction_lateral = 0.0;       ///< [1]
+  AccelerationLimit braking;           ///< drag and rolling resistance, which help, are left out
+  AccelerationLimit driving;           ///< from rest, less the rolling resistance
+  double max_deceleration = 0.0;       ///< braking.At(friction_longitudinal) [m/s^2]
+  double max_acceleration = 0.0;       ///< driving.At(friction_longitudinal) [m/s^2]
+  /// Where torque or power equal drag and rolling resistance in still air [m/s]; with differential
+  /// drive that of both wheels at the largest speed that leaves their servos room.
+  double top_speed = 0.0;
+
   /// l_f: centre of gravity to front axle, along x [m]. Of cars only.
   [[nodiscard]] double cg_to_front() const { return wheelbase - cg_to_rear; }
   /// Of the rear-axle centre at full lock [m].
   [[nodiscard]] double min_turning_radius() const;
 };
+
+/// The largest deceleration [m/s^2] on a flat road of factor `road`; 0: not known. Of parameters
+/// that have no axles, at most the road's share of max_deceleration.
+double MaxDeceleration(const VehicleParams& params, double road);
+
+/// Likewise the largest acceleration.
+double MaxAcceleration(const VehicleParams& params, double road);
 
 /// The constant steering angle [rad] on which the rear axle of a kinematic car runs on `curvature`
 /// [1/m]: delta = atan(L kappa).
