@@ -43,7 +43,7 @@ std::vector<std::string> Split(const std::string& line) {
 
 /// One line of the table of turns.
 void PrintRow(const std::vector<std::string>& cells) {
-  constexpr std::array kWidths{8, 8, 8, 8, 6, 14, 6, 7, 8, 8, 8, 11, 9, 8};
+  constexpr std::array kWidths{8, 8, 8, 8, 6, 14, 6, 7, 8, 8, 11, 9, 8};
   std::string line = " ";
   for (std::size_t i = 0; i < kWidths.size(); ++i) {
     line += fmt::format(" {:>{}}", cells[i], kWidths[i]);
@@ -57,10 +57,9 @@ void PrintTurns(const nlohmann::json& diagnostics) {
   if (!diagnostics.contains("turns") || diagnostics["turns"].empty()) {
     return;
   }
-  for (const char* line :
-       {"waypoint|angle|first r|radius|speed|held by|ramp|ramp|steer|return|until|"
-        "evaluations|objective|deficit",
-        "|[rad]|[m]|[m]|[m/s]||[s]|[m]|from [m]|from [m]|[m]|||[rad]"}) {
+  for (const char* line : {"waypoint|angle|first r|radius|speed|held by|ramp|ramp|steer|return|"
+                           "evaluations|objective|deficit",
+                           "|[rad]|[m]|[m]|[m/s]||[s]|[m]|from [m]|from [m]|||[rad]"}) {
     PrintRow(Split(line));
   }
   for (const nlohmann::json& turn : diagnostics["turns"]) {
@@ -72,8 +71,8 @@ void PrintTurns(const nlohmann::json& diagnostics) {
               number("/radius_m", "{:.4f}"), number("/speed_mps", "{:.3f}"),
               turn["active_constraint"].get<std::string>(), number("/ramp_time_s", "{:.3f}"),
               number("/ramp_distance_m", "{:.3f}"), number("/steer_start_m", "{:.3f}"),
-              number("/steer_return_m", "{:.3f}"), number("/return_until_m", "{:.3f}"),
-              number("/search/evaluations", "{:.0f}"), number("/search/objective", "{:.2e}"),
+              number("/steer_return_m", "{:.3f}"), number("/search/evaluations", "{:.0f}"),
+              number("/search/objective", "{:.2e}"),
               number("/predicted/heading_deficit_rad", "{:.5f}")});
     if (turn["ramp_truncated"].get<bool>()) {
       fmt::print("           ramp truncated: the wheels turn back before they are there\n");

@@ -130,8 +130,7 @@ class AroundObstacles {
     }
     for (json& turn : plan_.diagnostics["turns"]) {
       if (turn["steer_start_m"].get<double>() >= replaced.to) {
-        for (const char* key :
-             {"arc_start_s_m", "steer_start_m", "steer_return_m", "return_until_m"}) {
+        for (const char* key : {"arc_start_s_m", "steer_start_m", "steer_return_m"}) {
           turn[key] = turn[key].get<double>() + shift;
         }
       } else if (turn["steer_return_m"].get<double>() > replaced.from) {

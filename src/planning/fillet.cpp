@@ -81,19 +81,4 @@ FilletPlan PlanFillets(const VehicleParams& vehicle, const std::vector<Vec2>& wa
   return plan;
 }
 
-LiteralEvents LiteralEventsOf(const FilletPlan& plan) {
-  LiteralEvents events;
-  double carried = 0.0;  // the first turn's half ramp
-  for (const FilletTurn& turn : plan.turns) {
-    if (events.start.empty()) {
-      carried = turn.ramp_distance / 2.0;
-    }
-    events.start.push_back(turn.arc_start_s - carried);
-    events.end.push_back(events.start.back() + turn.arc_length);
-    events.return_until.push_back(events.end.back() + turn.arc_length);
-  }
-  events.route_end = plan.path.length() - carried;
-  return events;
-}
-
 }  // namespace trackbed

@@ -65,7 +65,6 @@ json ToJson(const FilletOptions& options, const FilletTurn& turn) {
            {"ramp_distance_m", turn.ramp_distance},
            {"steer_start_m", turn.steer_start},
            {"steer_return_m", turn.steer_return},
-           {"return_until_m", 2.0 * turn.steer_return - turn.steer_start},
            {"ramp_truncated", turn.ramp_truncated}};
   if (!turn.note.empty()) {
     out["note"] = turn.note;

@@ -790,6 +790,27 @@ TEST(PlanFillets, SlowerCarFindsSteeringRoom) {
 
 // --- The listing's own distances -----------------------------------------------------------------
 
+/// The distances as the listing has them, with its defects: every event after the first turn
+/// carries the first turn's ramp instead of its own (G7).
+struct LiteralEvents {
+  std::vector<double> start;         ///< D_{2k-1} [m]
+  std::vector<double> end;           ///< D_2k [m]
+  std::vector<double> return_until;  ///< sal_2k: where the window of the return closes [m]
+  double route_end = 0.0;            ///< D_0 [m]; half a ramp of the first turn before the goal
+};
+
+LiteralEvents LiteralEventsOf(const FilletPlan& plan) {
+  LiteralEvents events;
+  const double carried = 0.5 * plan.turns.front().ramp_distance;
+  for (const FilletTurn& turn : plan.turns) {
+    events.start.push_back(turn.arc_start_s - carried);
+    events.end.push_back(events.start.back() + turn.arc_length);
+    events.return_until.push_back(events.end.back() + turn.arc_length);
+  }
+  events.route_end = plan.path.length() - carried;
+  return events;
+}
+
 TEST(LiteralEvents, AreAsPrinted) {
   // Section 4.6 and 4.9: D_1 to D_6 and D_0_1, with the ramp of turn 1 in all of them (G7).
   struct Case {

@@ -289,12 +289,12 @@ TEST(FilletPlanner, FindingsAreThoseOfTheFillets) {
     for (const auto& [key, value] : json.items()) {
       keys.insert(key);
     }
-    EXPECT_THAT(keys, UnorderedElementsAre(
-                          "waypoint", "heading_change_rad", "interior_angle_rad", "radius_m",
-                          "speed_mps", "return_until_m", "active_constraint", "predicted",
-                          "centre_m", "arc_start_m", "arc_end_m", "arc_start_s_m", "arc_length_m",
-                          "tangent_length_m", "steering_rad", "ramp_time_s", "ramp_distance_m",
-                          "steer_start_m", "steer_return_m", "ramp_truncated"));
+    EXPECT_THAT(keys, UnorderedElementsAre("waypoint", "heading_change_rad", "interior_angle_rad",
+                                           "radius_m", "speed_mps", "active_constraint",
+                                           "predicted", "centre_m", "arc_start_m", "arc_end_m",
+                                           "arc_start_s_m", "arc_length_m", "tangent_length_m",
+                                           "steering_rad", "ramp_time_s", "ramp_distance_m",
+                                           "steer_start_m", "steer_return_m", "ramp_truncated"));
   }
 }
 

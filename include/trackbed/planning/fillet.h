@@ -184,15 +184,4 @@ inline constexpr std::size_t kFewestFilletWaypoints = 3;
 FilletPlan PlanFillets(const VehicleParams& vehicle, const std::vector<Vec2>& waypoints,
                        double speed, const FilletOptions& options, std::uint64_t seed = 0);
 
-/// The distances as the seed's listing has them, with its defects: every event after the first turn
-/// carries the first turn's ramp instead of its own (G7).
-struct LiteralEvents {
-  std::vector<double> start;         ///< D_{2k-1} [m]
-  std::vector<double> end;           ///< D_2k [m]
-  std::vector<double> return_until;  ///< sal_2k: where the window of the return closes [m]
-  double route_end = 0.0;            ///< D_0 [m]; half a ramp of the first turn before the goal
-};
-
-LiteralEvents LiteralEventsOf(const FilletPlan& plan);
-
 }  // namespace trackbed
