@@ -158,6 +158,7 @@ PlantMetrics EveryMetricOf(const Scenario& scenario, const std::string& plant) {
       metrics.recovery.emplace();
     }
     metrics.blocked = scenario.plan->avoid ? "why" : "";
+    metrics.partial = MayBePartial(scenario.plan->global) ? "why" : "";
     // At most one turn at every waypoint between the first and the last.
     metrics.turns.resize(std::max<std::size_t>(scenario.mission.waypoints.size(), 2) - 2);
   }

@@ -174,6 +174,13 @@ bool ExpectsItsEnd(const Expectations& expect, const PlantMetrics& metrics) {
   return status || (collision && metrics.status == DriveStatus::kCollided);
 }
 
+/// Why a plan ended before the goal, as an addition to what is said of its drive.
+std::string WhyNotAtGoal(const PlantMetrics& metrics) {
+  return !metrics.blocked.empty()   ? fmt::format(" (it {})", metrics.blocked)
+         : !metrics.partial.empty() ? fmt::format(" (the plan {})", metrics.partial)
+                                    : "";
+}
+
 void NoteLimitedSteering(const PlantMetrics& metrics, Verdict& verdict) {
   constexpr double kNoticed = 0.02;
   if (metrics.manoeuvre && metrics.manoeuvre->steering_saturated_fraction > kNoticed) {
@@ -260,6 +267,7 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
   }
   metrics.plan_changes = static_cast<int>(log.changes.size());
   metrics.blocked = (log.changes.empty() ? plan : log.changes.back().plan).blocked;
+  metrics.partial = plan.partial;
   metrics.turns = MeasureTurns(log, plan, vehicle, source);
   return metrics;
 }
@@ -269,10 +277,11 @@ Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plant
   Verdict verdict;
   for (const PlantMetrics& metrics : plants) {
     if (metrics.status != DriveStatus::kArrived && !ExpectsItsEnd(expect, metrics)) {
-      verdict.failures.push_back(
-          fmt::format("{}: expected to arrive, ended as {} at s = {:.4g} m, t = {:.4g} s{}",
-                      metrics.plant, ToString(metrics.status), metrics.end_s, metrics.time,
-                      metrics.blocked.empty() ? "" : fmt::format(" (it {})", metrics.blocked)));
+      verdict.failures.push_back(fmt::format(
+          "{}: expected to arrive, ended as {} at s = {:.4g} m, t = {:.4g} s{}", metrics.plant,
+          ToString(metrics.status), metrics.end_s, metrics.time, WhyNotAtGoal(metrics)));
+    } else if (!metrics.partial.empty()) {
+      verdict.notes.push_back(fmt::format("{}: the plan {}", metrics.plant, metrics.partial));
     }
     NoteLimitedSteering(metrics, verdict);
     JudgePlant(expect.all, metrics, verdict);
@@ -320,6 +329,9 @@ nlohmann::ordered_json ToJson(const PlantMetrics& metrics) {
   json["plan_changes"] = metrics.plan_changes;
   if (!metrics.blocked.empty()) {
     json["blocked"] = metrics.blocked;
+  }
+  if (!metrics.partial.empty()) {
+    json["partial"] = metrics.partial;
   }
   json["lateral_acceleration_max"] = metrics.lateral_acceleration_max;
   json["lateral_acceleration_max_s"] = metrics.lateral_acceleration_max_s;

@@ -104,6 +104,9 @@ void PrintAvoided(const Plan& plan) {
   if (!plan.blocked.empty()) {
     fmt::print("  {}\n", plan.blocked);
   }
+  if (!plan.partial.empty()) {
+    fmt::print("  partial: {}\n", plan.partial);
+  }
 }
 
 int PlanOne(const PlanOptions& options) {

@@ -169,15 +169,20 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
       known.push_back(obstacle.footprint);
     }
   }
-  const PlanRequest request{.vehicle = vehicle,
-                            .waypoints = scenario.mission.waypoints,
-                            .headings = scenario.mission.headings,
-                            .obstacles = known,
-                            .wind = scenario.world.wind,
-                            .start = start.pose,
-                            .start_speed = start.speed,
-                            .speed = SpeedLimitsOf(scenario),
-                            .seed = scenario.seed};
+  const auto begin = std::chrono::steady_clock::now();
+  const PlanRequest request{
+      .vehicle = vehicle,
+      .waypoints = scenario.mission.waypoints,
+      .headings = scenario.mission.headings,
+      .obstacles = known,
+      .wind = scenario.world.wind,
+      .start = start.pose,
+      .start_speed = start.speed,
+      .speed = SpeedLimitsOf(scenario),
+      .seed = scenario.seed,
+      .clock = [begin] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      }};
   Plan plan = MakePlan(request, scenario.plan->global);
   if (!plan.ok() || !scenario.plan->avoid) {
     return plan;
@@ -310,6 +315,7 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
       log.status = interrupted                               ? DriveStatus::kInterrupted
                    : collided                                ? DriveStatus::kCollided
                    : at_rest && !driven.plan.blocked.empty() ? DriveStatus::kBlocked
+                   : there && !plan.partial.empty()          ? DriveStatus::kPartial
                    : there                                   ? DriveStatus::kArrived
                    : at_rest                                 ? DriveStatus::kStopped
                                                              : DriveStatus::kTimeLimit;

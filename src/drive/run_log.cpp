@@ -14,6 +14,8 @@ const char* ToString(DriveStatus status) {
       return "stopped";
     case DriveStatus::kBlocked:
       return "blocked";
+    case DriveStatus::kPartial:
+      return "partial";
     case DriveStatus::kTimeLimit:
       return "time_limit";
     case DriveStatus::kDiverged:

@@ -219,8 +219,8 @@ class DetourSearch {
       request.waypoints.insert(request.waypoints.end(), {on, before, to.position()});
     }
     const Plan way = MakePlan(request, planner_);
-    if (!way.ok()) {
-      why = why.empty() ? way.reason : why;
+    if (!way.ok() || !way.partial.empty()) {
+      why = why.empty() ? way.reason + way.partial : why;
       return std::nullopt;
     }
     const PathPoint first = way.reference.path.At(0.0);

@@ -308,6 +308,11 @@ bool MayGoBackwards(const PlannerOptions& options) {
   return PlannerFor(options).goes_backwards && (hybrid == nullptr || hybrid->reverse);
 }
 
+bool MayBePartial(const PlannerOptions& options) {
+  const auto* rrt = std::get_if<RrtPlannerOptions>(&options);
+  return rrt != nullptr && rrt->partial.value_or(rrt->time_limit.has_value());
+}
+
 std::size_t FewestWaypoints(const PlannerOptions& options) {
   return PlannerFor(options).fewest_waypoints;
 }

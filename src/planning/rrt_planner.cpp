@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -96,12 +97,22 @@ class Tangents {
 
 /// A way through all goals, or how far it got.
 struct Way {
-  std::vector<Vec2> points;  ///< from the start on, in the car's frame
-  std::size_t goals = 0;     ///< reached
-  double left = 0.0;         ///< to the next one, from the nearest node [m]
+  std::vector<Vec2> points;   ///< from the start on through the goals reached, in the car's frame
+  std::size_t goals = 0;      ///< reached
+  std::vector<Vec2> nearest;  ///< the tree's path toward the next one, to the node nearest to it
+  double left = 0.0;          ///< from where it ends to the next goal [m]
   RrtStatus status = RrtStatus::kReached;
   nlohmann::json legs = nlohmann::json::array();
   std::vector<RrtStarNode> tree;  ///< in the world
+};
+
+/// All that the trees of one request have in common.
+struct Forest {
+  const RrtPlannerOptions& options;
+  const PlanRequest& request;
+  const Task& task;
+  const Tangents& tangents;
+  std::function<bool()> time_is_over;  ///< empty: never
 };
 
 /// Adds the nodes of a tree, in the world, with the lengths of their ways.
@@ -124,8 +135,33 @@ std::vector<Vec2> InWorld(const Pose2& frame, std::vector<Vec2> points) {
   return points;
 }
 
-Way GrowWay(const RrtPlannerOptions& options, const Task& task, const Tangents& tangents,
-            const Pose2& frame, std::uint64_t seed) {
+/// Goes on along a tree's path, smoothed, and with no more corners than it needs; `leg` is told.
+void AddLeg(const Forest& forest, const std::vector<Vec2>& path, bool is_last,
+            std::vector<Vec2>& points, nlohmann::json& leg) {
+  const RrtPlannerOptions& options = forest.options;
+  const Task& task = forest.task;
+  const SmoothingResult smooth =
+      SmoothPath(path, task.obstacles, task.inflation, task.wind,
+                 {.data = options.data_weight, .smoothness = options.smoothness_weight});
+  leg["sweeps"] = smooth.sweeps;
+  leg["smooth_m"] = route::ToJson(InWorld(forest.request.start, smooth.path));
+  const std::size_t before = points.size();
+  const std::vector<Vec2> few = WithFewCorners(
+      smooth.path, {.before = before > 1 ? std::optional(points[before - 2]) : std::nullopt,
+                    .first_leg = before <= 2,
+                    .last_leg = is_last,
+                    .obstacles = task.obstacles,
+                    .inflation = task.inflation,
+                    .wind = task.wind,
+                    .corner_cost = options.corner_cost,
+                    .tangent = forest.tangents});
+  points.insert(points.end(), few.begin() + 1, few.end());
+}
+
+Way GrowWay(const Forest& forest, std::uint64_t seed) {
+  const RrtPlannerOptions& options = forest.options;
+  const Task& task = forest.task;
+  const Pose2& frame = forest.request.start;
   Way way;
   way.points.emplace_back(0.0, 0.0);
   if (task.lead.x() > 0.0) {
@@ -142,7 +178,7 @@ Way GrowWay(const RrtPlannerOptions& options, const Task& task, const Tangents& 
                                    {.iterations = options.iterations,
                                     .expand_distance = options.expand_distance,
                                     .goal_bias = options.goal_bias,
-                                    .stop = {}},
+                                    .stop = forest.time_is_over},
                                    seed + way.goals);
     AddTree(tree, frame, way.tree);
     way.legs.push_back({{"status", ToString(tree.status)},
@@ -152,26 +188,12 @@ Way GrowWay(const RrtPlannerOptions& options, const Task& task, const Tangents& 
                         {"path_m", route::ToJson(InWorld(frame, tree.path))}});
     if (!tree.ok()) {
       way.status = tree.status;
+      way.nearest = tree.path;
       way.left = tree.path.empty() ? std::numeric_limits<double>::infinity()
                                    : (goal - tree.path.back()).norm();
       return way;
     }
-    const SmoothingResult smooth =
-        SmoothPath(tree.path, task.obstacles, task.inflation, task.wind,
-                   {.data = options.data_weight, .smoothness = options.smoothness_weight});
-    way.legs.back()["sweeps"] = smooth.sweeps;
-    way.legs.back()["smooth_m"] = route::ToJson(InWorld(frame, smooth.path));
-    const std::size_t before = way.points.size();
-    const std::vector<Vec2> few = WithFewCorners(
-        smooth.path, {.before = before > 1 ? std::optional(way.points[before - 2]) : std::nullopt,
-                      .first_leg = before <= 2,
-                      .last_leg = way.goals + 1 == task.goals.size(),
-                      .obstacles = task.obstacles,
-                      .inflation = task.inflation,
-                      .wind = task.wind,
-                      .corner_cost = options.corner_cost,
-                      .tangent = tangents});
-    way.points.insert(way.points.end(), few.begin() + 1, few.end());
+    AddLeg(forest, tree.path, way.goals + 1 == task.goals.size(), way.points, way.legs.back());
     from = goal;
     ++way.goals;
   }
@@ -183,31 +205,128 @@ struct Try {
   Way way;
   Plan plan;
   WayScore score;
+
+  [[nodiscard]] bool is_partial() const { return way.status != RrtStatus::kReached; }
 };
 
+/// A plan to the goal is better than one for part of the way, that than none.
 bool IsBetterTry(const Try& other, const Try& current) {
-  if (other.plan.ok() != current.plan.ok()) {
-    return other.plan.ok();
+  const auto rank = [](const Try& each) { return !each.plan.ok() ? 0 : each.is_partial() ? 1 : 2; };
+  if (rank(other) != rank(current)) {
+    return rank(other) > rank(current);
   }
-  if (other.plan.ok()) {
+  if (rank(other) == 2) {
     return IsBetter(other.score, current.score);
   }
   return std::pair(other.way.goals, -other.way.left) >
          std::pair(current.way.goals, -current.way.left);
 }
 
+/// What there was to look with: "10 trees of 10000 samples", "1 tree in 0.5 s".
+std::string BudgetOf(const RrtPlannerOptions& options, std::size_t trees, bool time_is_over) {
+  return fmt::format("{} {} ", trees, trees == 1 ? "tree" : "trees") +
+         (time_is_over ? fmt::format("in {:.4g} s", *options.time_limit)
+                       : fmt::format("of {} samples", options.iterations));
+}
+
 /// Where a tree begins is free: it is checked, or was a goal.
-Plan RefusedAs(const Way& way, const RrtPlannerOptions& options, const Task& task) {
+Plan RefusedAs(const Way& way, const Forest& forest) {
+  const double inflation = forest.task.inflation;
   if (way.status == RrtStatus::kGoalBlocked) {
     return route::Refused(PlanStatus::kGoalBlocked,
                           fmt::format("an obstacle is nearer than {:.3g} m to waypoint {}",
-                                      task.inflation, way.goals + 1));
+                                      inflation, way.goals + 1));
   }
   return route::Refused(
       PlanStatus::kBudgetUsedUp,
-      fmt::format("the nearest of {} trees of {} samples ends {:.3g} m from waypoint {}; "
-                  "obstacles are inflated by {:.3g} m",
-                  options.trees, options.iterations, way.left, way.goals + 1, task.inflation));
+      fmt::format("ends {:.3g} m from waypoint {}; obstacles are inflated by {:.3g} m", way.left,
+                  way.goals + 1, inflation));
+}
+
+Plan PlanAlong(const Forest& forest, const std::vector<Vec2>& points) {
+  return route::AlongPolyline({}, forest.request, InWorld(forest.request.start, points),
+                              forest.options.corners, forest.options.safe_distance,
+                              forest.options.min_speed);
+}
+
+/// Plans along a way that does not reach its next goal: to the node nearest to that or, where the
+/// car cannot get there or stand there, as its nose reaches further than the node, to the last one
+/// before it where it can.
+void TakePart(const Forest& forest, Try& next) {
+  const std::vector<Vec2> reached = next.way.points;
+  const std::vector<Vec2> nearest = next.way.nearest;
+  const Vec2& goal = forest.task.goals[next.way.goals];
+  const Plan refused = RefusedAs(next.way, forest);
+  std::string why;
+  for (std::size_t nodes = nearest.size(); nodes > 0; --nodes) {
+    std::vector<Vec2> points = reached;
+    nlohmann::json leg = next.way.legs.back();
+    if (nodes > 1) {
+      const std::vector<Vec2> part(nearest.begin(),
+                                   nearest.begin() + static_cast<std::ptrdiff_t>(nodes));
+      AddLeg(forest, part, true, points, leg);
+    }
+    if (points.size() < 2) {
+      break;  // it stands where it is
+    }
+    next.plan = PlanAlong(forest, points);
+    if (next.plan.ok()) {
+      next.way.points = points;
+      next.way.left = (goal - points.back()).norm();
+      next.way.legs.back() = leg;
+      return;
+    }
+    why = why.empty() ? next.plan.reason : why;
+  }
+  next.plan = refused;
+  next.plan.reason += why.empty() ? "" : "; the car cannot drive there: " + why;
+}
+
+Try TryTree(const Forest& forest, std::uint64_t seed) {
+  Try next;
+  next.way = GrowWay(forest, seed);
+  if (!next.is_partial()) {
+    next.plan = PlanAlong(forest, next.way.points);
+  } else if (MayBePartial(forest.options) && !next.way.nearest.empty()) {
+    TakePart(forest, next);
+  } else {
+    next.plan = RefusedAs(next.way, forest);
+  }
+  if (!next.is_partial() || next.plan.ok()) {
+    next.score = ScoreWay(InPieces(next.way.points), {0.0, 0.0}, forest.task.obstacles,
+                          forest.task.inflation, forest.task.wind, {});
+  }
+  return next;
+}
+
+nlohmann::json ToJson(const Try& each) {
+  nlohmann::json json{{"status", ToString(each.plan.status)},
+                      {"reason", each.plan.reason},
+                      {"length_m", each.score.length},
+                      {"wind_m", each.score.wind},
+                      {"total_m", each.score.total}};
+  if (each.plan.ok() && each.is_partial()) {
+    json["partial"] = true;
+    json["left_m"] = each.way.left;
+  }
+  return json;
+}
+
+/// Says of a plan that leads nowhere, or part of the way, how far trees came with what they had.
+void TellBudget(const Forest& forest, const Try& best, const std::string& budget, Plan& plan) {
+  if (plan.status == PlanStatus::kBudgetUsedUp) {
+    plan.reason = fmt::format("not reached by {}: the nearest one {}", budget, plan.reason);
+  } else if (plan.ok() && best.is_partial()) {
+    const std::size_t waypoint = best.way.goals + 1;
+    plan.goal = StopsOf(forest.request).back();
+    plan.partial = fmt::format(
+        "ends {:.3g} m from waypoint {}, the nearest that {} came by a way that the car can drive",
+        best.way.left, waypoint, budget);
+    plan.diagnostics["partial"] = true;
+    plan.diagnostics["partial_reason"] = plan.partial;
+    plan.diagnostics["next_waypoint"] = waypoint;
+    plan.diagnostics["left_m"] = best.way.left;
+  }
 }
 
 }  // namespace
@@ -216,7 +335,8 @@ Plan PlanWith(const RrtPlannerOptions& options, const PlanRequest& request) {
   if (Plan refused = route::CheckRoute(request); !refused.ok()) {
     return refused;
   }
-  TRACKBED_CHECK(options.trees > 0, "{} trees", options.trees);
+  TRACKBED_CHECK(options.trees > 0 && options.time_limit.value_or(1.0) > 0.0,
+                 "{} trees, time limit {}", options.trees, options.time_limit.value_or(0.0));
   const Task task = TaskOf(options, request);
   if (!IsFree(task, {0.0, 0.0}, task.lead)) {
     return route::Refused(
@@ -225,36 +345,32 @@ Plan PlanWith(const RrtPlannerOptions& options, const PlanRequest& request) {
                     task.inflation, task.lead.x()));
   }
   const Tangents tangents(request.vehicle, std::min(options.min_speed, request.speed.speed));
+  Forest forest{options, request, task, tangents, {}};
+  if (options.time_limit && request.clock) {
+    const double end = request.clock() + *options.time_limit;
+    forest.time_is_over = [&request, end] { return request.clock() >= end; };
+  }
   std::optional<Try> best;
   nlohmann::json trees = nlohmann::json::array();
   int chosen = 0;
-  for (int i = 0; i < options.trees; ++i) {
-    Try next;
-    next.way = GrowWay(options, task, tangents, request.start,
-                       request.seed + (static_cast<std::uint64_t>(i) << 32U));
-    if (next.way.status != RrtStatus::kReached) {
-      next.plan = RefusedAs(next.way, options, task);
-    } else {
-      next.plan = route::AlongPolyline({}, request, InWorld(request.start, next.way.points),
-                                       options.corners, options.safe_distance, options.min_speed);
-      next.score = ScoreWay(InPieces(next.way.points), {0.0, 0.0}, task.obstacles, task.inflation,
-                            task.wind, {});
-    }
-    trees.push_back({{"status", ToString(next.plan.status)},
-                     {"reason", next.plan.reason},
-                     {"length_m", next.score.length},
-                     {"wind_m", next.score.wind},
-                     {"total_m", next.score.total}});
-    const bool hopeless = next.way.status == RrtStatus::kGoalBlocked;
-    if (!best || IsBetterTry(next, *best)) {
+  bool time_is_over = false;
+  for (int i = 0; i < options.trees && !time_is_over; ++i) {
+    Try next = TryTree(forest, request.seed + (static_cast<std::uint64_t>(i) << 32U));
+    trees.push_back(ToJson(next));
+    const RrtStatus status = next.way.status;
+    const bool hopeless = status == RrtStatus::kGoalBlocked;  // so it is for every tree
+    if (!best || hopeless || IsBetterTry(next, *best)) {
       best = std::move(next);
       chosen = i;
     }
     if (hopeless) {
       break;
     }
+    time_is_over = status == RrtStatus::kStopped ||
+                   (i + 1 < options.trees && forest.time_is_over && forest.time_is_over());
   }
   Plan plan = std::move(best->plan);
+  TellBudget(forest, *best, BudgetOf(options, trees.size(), time_is_over), plan);
   plan.diagnostics["legs"] = std::move(best->way.legs);
   plan.diagnostics["trees"] = std::move(trees);
   plan.diagnostics["chosen"] = chosen;

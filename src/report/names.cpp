@@ -40,6 +40,7 @@ constexpr std::array kMetrics{
     Entry{"recovery_time", "Recovered after", "s"},
     Entry{"plan_changes", "Plans taken up on the way", ""},
     Entry{"blocked", "Blocked", ""},
+    Entry{"partial", "Part of the way only", ""},
     Entry{"lateral_acceleration_max", "Largest lateral acceleration", "m/s²", true},
     Entry{"lateral_acceleration_max_s", "… at station", "m"},
     Entry{"lateral_acceleration_max_t", "… at", "s"},

@@ -87,6 +87,24 @@ void CheckNotEmpty(Complaints& c, const std::string& key, const std::vector<doub
   }
 }
 
+/// Drives repeat, so nothing on the way goes by the clock; and a detour that does not come back to
+/// the route is none.
+void CheckDetourTrees(Complaints& c) {
+  const auto& detour = c.scenario.plan->replan->detour;
+  const auto* rrt = detour ? std::get_if<RrtPlannerOptions>(&*detour) : nullptr;
+  if (rrt == nullptr) {
+    return;
+  }
+  if (rrt->time_limit) {
+    c.Complain("plan.replan.detour.time_limit",
+               "a detour is planned within its iterations, as a drive repeats: leave it out");
+  }
+  if (rrt->partial.value_or(false)) {
+    c.Complain("plan.replan.detour.partial",
+               "a detour leads all the way back to the route: leave it out");
+  }
+}
+
 void CheckReplan(Complaints& c) {
   const auto& plan = c.scenario.plan;
   if (!plan || !plan->replan) {
@@ -106,6 +124,7 @@ void CheckReplan(Complaints& c) {
   if (replan.detour && MayGoBackwards(*replan.detour)) {
     c.Complain("plan.replan.detour.reverse", "a detour goes forwards: leave it out");
   }
+  CheckDetourTrees(c);
   if (!replan.along && !replan.detour) {
     c.Complain("plan.replan", "needs along, detour or both: nothing else plans again");
   }

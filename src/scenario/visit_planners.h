@@ -199,6 +199,14 @@ void Visit(Archive& a, RrtPlannerOptions& options) {
           options.trees, Need::kOptional, Range{.min = 1, .max = 1000});
   a.Field({"iterations", "", "samples for each leg of each tree, at most"}, options.iterations,
           Need::kOptional, Range{.min = 0, .max = 1e6});
+  a.Field({"time_limit", "s",
+           "by the clock on the wall, after which no tree grows any more: such a plan may differ "
+           "from run to run, one by `iterations` alone does not; else no limit"},
+          options.time_limit, kPositive);
+  a.Field({"partial", "",
+           "whether, when no tree reaches the goal, the path to the node nearest to it is driven; "
+           "else it is if there is a time_limit"},
+          options.partial);
   a.Field({"expand_distance", "m", "from a node toward a sample at most"}, options.expand_distance,
           Need::kOptional, kPositive);
   a.Field({"goal_bias", "", "share of samples at the goal"}, options.goal_bias, Need::kOptional,

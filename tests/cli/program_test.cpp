@@ -79,6 +79,24 @@ TEST(Program, MissionWithoutAPlanIsExitCodeThree) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/winding/plan.csv"));
 }
 
+TEST(Program, APartialPlanIsToldAndNotPassed) {
+  const TempFolder folder;
+  folder.Write("wall.yaml",
+               "schema: 1\nname: wall\nmission: {speed: 3, waypoints: [[0, 0], [50, 0]]}\n"
+               "world: {obstacles: [{box: {x: 30, y: 0, yaw: 0, length: 1, width: 200, height: "
+               "1}}]}\n"
+               "plan: {method: rrt, trees: 3, iterations: 500, partial: true}\n"
+               "drive: {plants: [kinematic]}\n");
+  const Outcome plan = Trackbed(folder, "plan wall.yaml");
+  EXPECT_EQ(plan.code, 0) << plan.output;
+  EXPECT_THAT(plan.output, testing::ContainsRegex("\n  partial: ends [0-9.]+ m from waypoint 1, "));
+  const Outcome run = Trackbed(folder, "run wall.yaml");
+  EXPECT_EQ(run.code, 3);
+  EXPECT_THAT(run.output, StartsWith("wall: FAILED, in out/wall\n"));
+  EXPECT_THAT(run.output, HasSubstr("\n  kinematic  partial after "));
+  EXPECT_THAT(run.output, HasSubstr("(the plan ends "));
+}
+
 TEST(Program, BadInputIsExitCodeTwoAndTouchesNothing) {
   const TempFolder folder;
   folder.Write("bad.yaml", "schema: 1\nname: bad\nmission: {sped: 3}\n");

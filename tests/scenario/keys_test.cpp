@@ -46,6 +46,10 @@ TEST(ScenarioKeys, TellTypeUnitDefaultAndWhatIsAllowed) {
   EXPECT_EQ(KeyOf("", "control").fallback, "{method: preview}");
   EXPECT_EQ(KeyOf("control", "distance", "preview").fallback, "2.5");
   EXPECT_EQ(KeyOf("plan", "constraint", "fillet").allowed, "steering_room, half_leg, none");
+  EXPECT_EQ(KeyOf("plan", "time_limit", "rrt").unit, "s");
+  EXPECT_EQ(KeyOf("plan", "time_limit", "rrt").allowed, "above 0");
+  EXPECT_EQ(KeyOf("plan", "time_limit", "rrt").fallback, "");
+  EXPECT_EQ(KeyOf("plan", "partial", "rrt").type, "true or false");
   EXPECT_EQ(KeyOf("world.obstacles[N].box", "length").unit, "m");
   EXPECT_TRUE(KeyOf("world.obstacles[N].box", "length").required);
   EXPECT_EQ(KeyOf("world.wind.gusts[N]", "shape").fallback, "one_minus_cosine");

@@ -240,6 +240,18 @@ TEST(ResolvedYaml, ReadsBackToItself) {
   EXPECT_THAT(once, testing::HasSubstr("max_cross_track: 0.1"));
 }
 
+TEST(ResolvedYaml, KeepsTheTimeLimitOfTrees) {
+  const Scenario without = Parse(kSmall, {"plan={method: rrt}"});
+  EXPECT_FALSE(std::get<RrtPlannerOptions>(without.plan->global).time_limit.has_value());
+  EXPECT_FALSE(std::get<RrtPlannerOptions>(without.plan->global).partial.has_value());
+  const std::string once =
+      ResolvedYaml(Parse(kSmall, {"plan={method: rrt, time_limit: 0.25, partial: false}"}));
+  const auto trees = std::get<RrtPlannerOptions>(Parse(once).plan->global);
+  EXPECT_EQ(trees.time_limit, 0.25);
+  EXPECT_EQ(trees.partial, false);
+  EXPECT_EQ(once, ResolvedYaml(Parse(once)));
+}
+
 TEST(ResolvedYaml, KeepsManoeuvresAndWhatIsAskedOfThem) {
   const std::string once = ResolvedYaml(
       Parse(kSmall, {"vehicle.steering_rate=0.25", "manoeuvre={method: step_steer, steady: 0.5}",

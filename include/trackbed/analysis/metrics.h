@@ -74,6 +74,7 @@ struct PlantMetrics {
   std::optional<RecoveryMetrics> recovery;    ///< none without a disturbance that ends
   int plan_changes = 0;                       ///< new plans taken up on the way
   std::string blocked;                        ///< why the plan ended before the goal; else empty
+  std::string partial;                        ///< why it led only part of the way; else empty
   std::optional<ManoeuvreMetrics> manoeuvre;  ///< none when the drive is not evaluated as one
   std::vector<TurnMetrics> turns;             ///< of the turns that stand alone and were driven
 };

@@ -21,15 +21,16 @@ struct DriveHooks {
 CarModel LoadCar(const Scenario& scenario);
 
 /// Plans the scenario's mission, around the obstacles that are known at its start. Without a `plan`
-/// section the plan is an empty path at the mission's speed.
+/// section the plan is an empty path at the mission's speed. The same plan every time, but for
+/// planners with a time limit: that is by the clock on the wall.
 Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle);
 
 /// The closed loop on one plant: every control period observe, take up a new plan if one is due,
 /// project onto the path, steer, set the speed, log, and let the plant take its physics steps. An
 /// obstacle that becomes known and stands in the way calls for a new plan; the old one is driven
 /// until the avoider's delay has passed, and the new one starts from where the car then is. Ends at
-/// rest at the end of the path, after the mission's duration, at the time limit, when the physics
-/// diverges, or when asked to.
+/// rest at the end of the path, which is no arrival if the mission's plan is partial, after the
+/// mission's duration, at the time limit, when the physics diverges, or when asked to.
 ///
 /// Guarantees: the same scenario, plan and build give the same log bit for bit. A plan that is not
 /// ok is an InternalError.

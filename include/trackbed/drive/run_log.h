@@ -16,6 +16,7 @@ enum class DriveStatus {
   kArrived,      ///< at rest at the end of the path, or the mission's duration is over
   kStopped,      ///< at rest before the end of the path, and staying there
   kBlocked,      ///< at rest before an obstacle that no way was found around
+  kPartial,      ///< at rest at the end of a plan that leads only part of the way (Plan::partial)
   kTimeLimit,    ///< drive.time_limit is over
   kDiverged,     ///< the physics failed (MuJoCo warned); the log ends before
   kCollided,     ///< the outline overlapped an obstacle; the log goes on for a second

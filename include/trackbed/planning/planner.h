@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -23,8 +24,9 @@
 /// One interface and one table for everything that plans.
 namespace trackbed {
 
-/// What is to be reached, by whatever method. Values only: planners read no clock and keep no
-/// state.
+/// What is to be reached, by whatever method. Planners keep no state and have no clock of their
+/// own: the same values give the same plan. Only a planner with a time limit looks at the caller's
+/// clock, and with one its plan depends on how fast the machine is.
 struct PlanRequest {
   VehicleParams vehicle;
   std::vector<Vec2> waypoints;  ///< [m]
@@ -36,6 +38,9 @@ struct PlanRequest {
   double start_speed = 0.0;              ///< [m/s]
   SpeedLimits speed;                     ///< the mission's speed and how to change it
   std::uint64_t seed = 0;                ///< of every random choice
+  /// The time now [s], from any beginning; asked by planners with a time limit alone. Empty: time
+  /// limits are not kept.
+  std::function<double()> clock{};
 };
 
 /// What a planner gives back. With any status but kOk there is a reason and no path.
@@ -46,9 +51,12 @@ struct Plan {
   SteeringSchedule schedule;    ///< for the open loop, over the distance driven
   SpeedProfile schedule_speed;  ///< likewise: ends where the open loop is to stop
   std::vector<SpeedCap> caps;   ///< stretches of the path that it takes more slowly
-  Pose2 goal;                   ///< where the mission ends: the path too, unless it is blocked
+  Pose2 goal;  ///< where the mission ends: the path too, unless it is blocked or partial
   /// Why the path ends before the goal, for people; empty when it does not.
   std::string blocked;
+  /// Why the path leads only part of the way, for people, when a search for more of it was ended;
+  /// empty when it leads to the goal. Whatever plans again on the way leads no further either.
+  std::string partial;
   std::vector<Gate> gates;        ///< that it leads through
   std::vector<LoneTurn> turns;    ///< whose cost to an open-loop drive can be told
   nlohmann::json diagnostics;     ///< the method's own findings, as in plan.json
@@ -84,7 +92,10 @@ struct AStarOptions {
 
 /// RRT from waypoint to waypoint (rrt.h), smoothed in the wind (smoothing.h), the points left out
 /// that make it no better, its corners rounded or refused (corners.h). Of several trees the way
-/// that the comparator prefers (comparator.h), of those that the car can drive.
+/// that the comparator prefers (comparator.h), of those that the car can drive. Where none reaches
+/// the goal and a partial path is taken (Plan::partial), the one that gets nearest to the first
+/// waypoint not reached: to its tree's node nearest to that, or, where the car cannot stand there
+/// because its front reaches further than its rear axle, to the last node before at which it can.
 struct RrtPlannerOptions {
   Corners corners = Corners::kRound;
   double safe_distance = 0.3;      ///< of the outline from obstacles [m], >= 0
@@ -100,6 +111,11 @@ struct RrtPlannerOptions {
   double smoothness_weight = 0.4;  ///< beta; 0 < alpha + 2 beta < 1
   double corner_cost = 5.0;        ///< of a corner, in metres of way [m], >= 0
   double wind_weight = 1.0;        ///< k_w: how much wind counts, in metres of way, >= 0
+  /// After this time by PlanRequest::clock [s] no tree grows any more, > 0; none: no limit.
+  /// Smoothing and rounding come on top of it.
+  std::optional<double> time_limit{};
+  /// Whether a partial path is taken; none: if there is a time limit.
+  std::optional<bool> partial{};
 };
 
 /// The options of one planner; which alternative it holds says which planner is meant.
@@ -131,6 +147,9 @@ const PlannerEntry& PlannerFor(const PlannerOptions& options);
 
 /// Whether a plan with these options may lead backwards somewhere.
 bool MayGoBackwards(const PlannerOptions& options);
+
+/// Whether a plan with these options may lead only part of the way (Plan::partial).
+bool MayBePartial(const PlannerOptions& options);
 
 /// How many waypoints the planner that `options` belong to needs.
 std::size_t FewestWaypoints(const PlannerOptions& options);
