@@ -1,0 +1,179 @@
+// Every verdict of many random runs, checked by what the runs leave behind.
+//
+// Environment:
+//   TRACKBED_AUDIT_SCENARIOS  how many scenarios instead of the default, for long campaigns: run
+//                             the program itself then, ctest ends a shard after some minutes
+//   TRACKBED_AUDIT_INDEX      that one scenario alone
+//   TRACKBED_AUDIT_FOLDER     an existing folder that takes <index>.yaml of each scenario with a
+//                             finding: `trackbed run` drives it again
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "tests/audit/checker.h"
+#include "tests/audit/random_scenarios.h"
+#include "tests/audit/record_run.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+
+namespace audit {
+namespace {
+
+/// Twice every planner with every controller on every plant: 8 of each of the first two.
+constexpr std::size_t kDefaultScenarios = 768;
+constexpr std::size_t kShards = 16;
+constexpr int kMostAttempts = 50;
+
+std::optional<std::size_t> NumberFrom(const char* variable) {
+  const char* text = std::getenv(variable);
+  return text == nullptr ? std::nullopt : std::optional<std::size_t>(std::stoul(text));
+}
+
+/// What was found over some scenarios.
+struct Tally {
+  std::size_t scenarios = 0;
+  std::size_t planned = 0;
+  std::size_t arrived = 0;
+  std::size_t passed = 0;
+  std::map<std::string, std::size_t> scenarios_with;  ///< a finding of that kind
+
+  [[nodiscard]] std::string Text() const {
+    std::string text =
+        fmt::format("{} scenarios, {} planned, {} arrived, {} passed; findings:", scenarios,
+                    planned, arrived, passed);
+    for (const auto& [kind, count] : scenarios_with) {
+      text += fmt::format("\n  {:22} {}", kind, count);
+    }
+    return text;
+  }
+};
+
+struct Outcome {
+  trackbed::Scenario scenario;
+  Record record;
+  std::vector<Finding> findings;
+};
+
+/// The first attempt that the program does not refuse as wrong input.
+Outcome AuditOf(std::size_t index) {
+  Outcome outcome;
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    outcome.scenario = RandomScenario(index, attempt);
+    try {
+      outcome.record = RecordRun(outcome.scenario);
+      outcome.findings = Check(outcome.record);
+      return outcome;
+    } catch (const trackbed::InputError&) {
+      continue;
+    } catch (const std::exception& error) {
+      outcome.findings = {{"crash", error.what()}};
+      return outcome;
+    }
+  }
+  outcome.findings = {{"generator", "every attempt was refused"}};
+  return outcome;
+}
+
+std::string Describe(std::size_t index, const Outcome& outcome) {
+  const trackbed::Scenario& scenario = outcome.scenario;
+  std::string text = fmt::format(
+      "scenario {}: {}{}{}, {}, {}, {}", index, trackbed::PlannerName(scenario.plan->global),
+      scenario.plan->avoid ? " + avoid" : "", scenario.plan->replan ? " + replan" : "",
+      trackbed::ControllerFor(scenario.control.steering).name, scenario.drive.plants.front(),
+      std::filesystem::path(scenario.vehicle.model).stem().string());
+  for (const Finding& finding : outcome.findings) {
+    text += fmt::format("\n  [{}] {}", finding.kind, finding.text);
+  }
+  return text;
+}
+
+class EveryVerdict : public testing::TestWithParam<std::size_t> {
+ protected:
+  static void TearDownTestSuite() { std::cout << "In all: " << total_.Text() << std::endl; }
+
+  static void Count(const Outcome& outcome, Tally& tally) {
+    ++tally.scenarios;
+    tally.planned += outcome.record.plan_ok ? 1U : 0U;
+    tally.passed += outcome.record.passed ? 1U : 0U;
+    for (const Drive& drive : outcome.record.drives) {
+      tally.arrived += drive.metrics.at("status") == "arrived" ? 1U : 0U;
+    }
+    std::map<std::string, std::size_t> kinds;
+    for (const Finding& finding : outcome.findings) {
+      kinds[finding.kind] = 1;
+    }
+    for (const auto& [kind, one] : kinds) {
+      tally.scenarios_with[kind] += one;
+    }
+  }
+
+  static Tally total_;
+};
+
+Tally EveryVerdict::total_;
+
+INSTANTIATE_TEST_SUITE_P(Shards, EveryVerdict, testing::Range<std::size_t>(0, kShards));
+
+TEST_P(EveryVerdict, IsTrue) {
+  const auto only = NumberFrom("TRACKBED_AUDIT_INDEX");
+  const std::size_t count = NumberFrom("TRACKBED_AUDIT_SCENARIOS").value_or(kDefaultScenarios);
+  const char* folder = std::getenv("TRACKBED_AUDIT_FOLDER");
+  Tally tally;
+  // In stretches: planners come in turn, and strides of 16 would meet but one of them.
+  const std::size_t end = (GetParam() + 1) * count / kShards;
+  for (std::size_t index = GetParam() * count / kShards; index < end; ++index) {
+    if (only && index != *only) {
+      continue;
+    }
+    const Outcome outcome = AuditOf(index);
+    Count(outcome, tally);
+    Count(outcome, total_);
+    if (!outcome.findings.empty()) {
+      ADD_FAILURE() << Describe(index, outcome);
+      if (folder != nullptr) {
+        trackbed::WriteFileAtomically(std::filesystem::path(folder) / fmt::format("{}.yaml", index),
+                                      trackbed::ResolvedYaml(outcome.scenario));
+      }
+    }
+  }
+  std::cout << tally.Text() << std::endl;
+  // Were nearly everything refused, agreement would mean little.
+  if (!only && tally.scenarios >= 30) {
+    EXPECT_GE(tally.planned, tally.scenarios / 4);
+    EXPECT_GE(tally.passed, tally.scenarios / 12);
+  }
+}
+
+TEST(RandomScenarios, AreTheSameEveryTimeAndDifferFromEachOther) {
+  EXPECT_EQ(trackbed::ResolvedYaml(RandomScenario(5, 0)),
+            trackbed::ResolvedYaml(RandomScenario(5, 0)));
+  EXPECT_NE(trackbed::ResolvedYaml(RandomScenario(5, 0)),
+            trackbed::ResolvedYaml(RandomScenario(5, 1)));
+}
+
+TEST(RandomScenarios, HaveEveryPlannerWithEveryControllerOnEveryPlant) {
+  ASSERT_LE(Combinations(), kDefaultScenarios);
+  std::map<std::string, int> seen;
+  for (std::size_t index = 0; index < Combinations(); ++index) {
+    const trackbed::Scenario scenario = RandomScenario(index, 0);
+    ++seen[fmt::format("{} {} {}", trackbed::PlannerName(scenario.plan->global),
+                       trackbed::ControllerFor(scenario.control.steering).name,
+                       scenario.drive.plants.front())];
+  }
+  std::size_t followers = 0;
+  for (const trackbed::ControllerEntry& entry : trackbed::Controllers()) {
+    followers += entry.needs_plan ? 1U : 0U;
+  }
+  constexpr std::size_t kPlants = 4;  // two of them twice as often
+  EXPECT_EQ(seen.size(), trackbed::Planners().size() * followers * kPlants);
+}
+
+}  // namespace
+}  // namespace audit

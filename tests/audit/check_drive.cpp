@@ -1,0 +1,396 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/audit/checker.h"
+
+namespace audit {
+namespace {
+
+constexpr double kTurn = 6.283185307179586;
+constexpr double kSameTime = 1e-8;  // [s]; logs hold nanoseconds
+
+using trackbed::Table;
+
+/// A plan that is driven from a time on.
+struct Driven {
+  double from = 0.0;
+  Polyline line;
+  double sagitta = 0.0;  ///< of the curve over its chords [m]
+  TimedPose end;
+};
+
+/// A plan as a polyline that goes on straight for `beyond` metres.
+Driven DrivenFrom(const Table& table, double time, double beyond) {
+  const auto x = table.Column("x_m"), y = table.Column("y_m"), yaw = table.Column("yaw_rad"),
+             s = table.Column("s_m"), curvature = table.Column("curvature_radpm"),
+             direction = table.Column("direction");
+  std::vector<Point> points;
+  double sagitta = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    points.push_back({x[i], y[i]});
+    if (i > 0) {
+      const double ds = s[i] - s[i - 1];
+      const double bend = std::max(std::abs(curvature[i]), std::abs(curvature[i - 1]));
+      sagitta = std::max(sagitta, bend * ds * ds / 8.0);
+    }
+  }
+  const TimedPose end{0.0, x.back(), y.back(), yaw.back()};
+  points.push_back({end.x + beyond * direction.back() * std::cos(end.yaw),
+                    end.y + beyond * direction.back() * std::sin(end.yaw)});
+  return {time, Polyline(std::move(points)), sagitta, end};
+}
+
+/// Each of the plans that a table of changes holds one after the other.
+std::vector<Table> PlansTakenUp(const Table& changes) {
+  std::vector<Table> plans;
+  if (changes.rows() == 0) {
+    return plans;
+  }
+  const std::vector<double> from = changes.Column("from_t_s");
+  const std::vector<double> s = changes.Column("s_m");
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (i == 0 || from[i] != from[i - 1] || s[i] <= s[i - 1]) {
+      plans.emplace_back(changes.columns());
+    }
+    std::vector<double> cells;
+    for (std::size_t column = 0; column < changes.columns().size(); ++column) {
+      cells.push_back(changes.at(i, column));
+    }
+    plans.back().AddRow(cells);
+  }
+  return plans;
+}
+
+/// The mission's plan and those taken up on the way, in the order of their times.
+std::vector<Driven> PlansOf(const Table& plan, const Table& changes, double beyond) {
+  std::vector<Driven> plans{DrivenFrom(plan, 0.0, beyond)};
+  for (const Table& next : PlansTakenUp(changes)) {
+    plans.push_back(DrivenFrom(next, next.Column("from_t_s").front(), beyond));
+  }
+  return plans;
+}
+
+/// The chassis at every physics step.
+std::vector<TimedPose> PosesOf(const Table& steps) {
+  const auto t = steps.Column("t_s"), x = steps.Column("x_m"), y = steps.Column("y_m"),
+             qw = steps.Column("qw"), qx = steps.Column("qx"), qy = steps.Column("qy"),
+             qz = steps.Column("qz");
+  std::vector<TimedPose> poses;
+  double yaw = 0.0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double now = std::atan2(2.0 * (qw[i] * qz[i] + qx[i] * qy[i]),
+                                  1.0 - 2.0 * (qy[i] * qy[i] + qz[i] * qz[i]));
+    yaw = i == 0 ? now : yaw + std::remainder(now - yaw, kTurn);
+    poses.push_back({t[i], x[i], y[i], yaw});
+  }
+  return poses;
+}
+
+/// The largest distance of a series of poses from the plan that is driven then.
+struct Furthest {
+  double distance = 0.0;
+  double t = 0.0;
+  double sagitta = 0.0;
+};
+
+Furthest FurthestFrom(std::vector<Driven>& plans, const std::vector<TimedPose>& poses) {
+  Furthest furthest;
+  std::size_t plan = 0;
+  double bound = std::numeric_limits<double>::infinity();  // of the distance now
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const TimedPose& pose = poses[i];
+    if (i > 0) {
+      bound += std::hypot(pose.x - poses[i - 1].x, pose.y - poses[i - 1].y);
+    }
+    while (plan + 1 < plans.size() && pose.t >= plans[plan + 1].from - kSameTime) {
+      ++plan;
+      bound = std::numeric_limits<double>::infinity();
+    }
+    furthest.sagitta = std::max(furthest.sagitta, plans[plan].sagitta);
+    if (bound <= furthest.distance) {
+      continue;
+    }
+    const Point at{pose.x, pose.y};
+    bound = plans[plan].line.LocalDistanceTo(at);
+    if (bound <= furthest.distance) {
+      continue;
+    }
+    bound = plans[plan].line.DistanceTo(at);
+    if (bound > furthest.distance) {
+      furthest.distance = bound;
+      furthest.t = pose.t;
+    }
+  }
+  return furthest;
+}
+
+class DriveCheck {
+ public:
+  DriveCheck(const Drive& drive, const Record& record, const Tolerances& tolerances)
+      : drive_(drive),
+        record_(record),
+        tolerances_(tolerances),
+        status_(drive.metrics.at("status").get<std::string>()),
+        poses_(PosesOf(drive.steps)) {
+    const auto t = drive.log.Column("t_s"), x = drive.log.Column("x_m"),
+               y = drive.log.Column("y_m"), yaw = drive.log.Column("yaw_rad");
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      rows_.push_back({t[i], x[i], y[i], yaw[i]});
+    }
+  }
+
+  std::vector<Finding> Run() {
+    if (rows_.empty() || poses_.empty()) {
+      Report("log", "a drive without rows");
+      return findings_;
+    }
+    CheckTime();
+    if (status_ == "diverged") {
+      return findings_;  // what the others would look at are no longer numbers of a car
+    }
+    CheckRows();
+    CheckObstacles();
+    CheckTracking();
+    CheckSteering();
+    if (status_ == "arrived") {
+      CheckArrival();
+    } else if (record_.passed) {
+      Report("verdict", fmt::format("passed, but ended as {}", status_));
+    }
+    return findings_;
+  }
+
+ private:
+  void Report(const char* kind, const std::string& text) {
+    findings_.push_back({kind, drive_.plant + ": " + text});
+  }
+
+  /// The log and the steps are of the same drive.
+  void CheckRows() {
+    std::size_t step = 0;
+    for (const TimedPose& row : rows_) {
+      while (step + 1 < poses_.size() && poses_[step].t < row.t - kSameTime) {
+        ++step;
+      }
+      const TimedPose& pose = poses_[step];
+      const double away = std::hypot(pose.x - row.x, pose.y - row.y);
+      const double turned = std::abs(std::remainder(pose.yaw - row.yaw, kTurn));
+      if (std::abs(pose.t - row.t) < kSameTime && (away > 1e-6 || turned > 1e-6)) {
+        Report("log", fmt::format("at {:.4g} s the log and the physics are {:.4g} m and {:.4g} rad "
+                                  "apart",
+                                  row.t, away, turned));
+        return;
+      }
+    }
+  }
+
+  void CheckTime() {
+    const double period = record_.mission.control_period;
+    for (std::size_t i = 1; i < rows_.size(); ++i) {
+      if (std::abs(rows_[i].t - rows_[i - 1].t - period) > kSameTime) {
+        Report("time", fmt::format("rows {:.9g} s and {:.9g} s, one period is {:.9g} s",
+                                   rows_[i - 1].t, rows_[i].t, period));
+        break;
+      }
+    }
+    const double last = rows_.back().t;
+    const double told = drive_.metrics.at("time").get<double>();
+    if (std::abs(told - last) > kSameTime) {
+      Report("time", fmt::format("says {:.9g} s, its last row {:.9g} s", told, last));
+    }
+    const double limit = record_.mission.time_limit;
+    if (last > limit + period + kSameTime) {
+      Report("time", fmt::format("ended at {:.6g} s, after the limit of {:.6g} s", last, limit));
+    }
+    if (status_ == "time_limit" && last < limit - 0.5 * record_.mission.timestep - kSameTime) {
+      Report("time", fmt::format("says time_limit at {:.6g} s of {:.6g} s", last, limit));
+    }
+  }
+
+  void CheckObstacles() {
+    if (record_.mission.obstacles.empty()) {
+      return;
+    }
+    const bool told_collision = drive_.metrics.at("collision").get<bool>();
+    const double told = drive_.metrics.at("clearance_min").get<double>();
+    Nearest nearest{.gap = std::numeric_limits<double>::infinity()};
+    std::size_t which = 0;
+    for (std::size_t i = 0; i < record_.mission.obstacles.size(); ++i) {
+      const Nearest one =
+          SweptGap(record_.car.outline(), poses_, record_.mission.obstacles[i], 1e-3);
+      if (one.gap < nearest.gap) {
+        nearest = one;
+        which = i;
+      }
+    }
+    touched_ = nearest.gap <= tolerances_.contact;
+    if (nearest.gap < -tolerances_.contact && (!told_collision || record_.passed)) {
+      Report("contact",
+             fmt::format("overlaps obstacle {} by {:.4g} m at {:.5g} s; it says {}{}", which,
+                         -nearest.gap, nearest.t, status_, record_.passed ? ", passed" : ""));
+    }
+    // The smallest distance may lie between two steps, in which the two move so much against each
+    // other; where it is looked at at the steps, at most half of that is missed.
+    const double missed = 0.5 * nearest.step + 1e-6;
+    if (told > std::max(nearest.gap, 0.0) + missed) {
+      Report("clearance", fmt::format("says {:.5g} m, was {:.5g} m from obstacle {} at {:.5g} s",
+                                      told, std::max(nearest.gap, 0.0), which, nearest.t));
+    }
+  }
+
+  void CheckTracking() {
+    if (!drive_.metrics.contains("cross_track")) {
+      return;
+    }
+    // A car about to stop at the end may stand as far beyond it as counts as arrived.
+    const double beyond = tolerances_.goal_position * record_.car.length;
+    std::vector<Driven> plans = PlansOf(record_.plan, drive_.changes, beyond);
+    const double told = drive_.metrics["cross_track"]["max"].get<double>();
+    const Furthest logged = FurthestFrom(plans, rows_);
+    // The polyline lies within its sagittas beside the plan.
+    const double tolerance = logged.sagitta + 1e-6;
+    if (logged.distance > told + tolerance) {
+      Report("cross_track", fmt::format("says {:.5g} m at most, was {:.5g} m from its path at "
+                                        "{:.5g} s",
+                                        told, logged.distance, logged.t));
+    }
+    if (record_.passed) {
+      const double corridor = record_.mission.max_cross_track.value_or(record_.car.width);
+      const Furthest driven = FurthestFrom(plans, poses_);
+      if (driven.distance > corridor + tolerance) {
+        Report("corridor",
+               fmt::format("passed, {:.5g} m from its path at {:.5g} s, with a corridor "
+                           "of {:.5g} m",
+                           driven.distance, driven.t, corridor));
+      }
+    }
+  }
+
+  void CheckSteering() {
+    // What hits the car turns its wheels, too.
+    if (touched_ || drive_.metrics.value("collision", false)) {
+      return;
+    }
+    const Car& car = record_.car;
+    const bool soft = drive_.has_wheels;
+    const double told = drive_.metrics.at("steering_rate_max").get<double>();
+    CheckColumn("steering_actuator_rad", car.steering_limit + 1e-9, tolerances_.actuator_rate);
+    // Wheels on springs go further in a slide; but what passed has not been sliding.
+    const double free = std::numeric_limits<double>::infinity();
+    const double angle = soft ? tolerances_.wheel_angle : 1e-9;
+    const double more = soft ? tolerances_.wheel_rate : tolerances_.actuator_rate;
+    const bool judged = !soft || record_.passed;
+    const double rate = CheckColumn("steering_rad", judged ? car.steering_limit + angle : free,
+                                    judged ? more : free);
+    if (rate > told + 1e-9) {
+      Report("steering_metric",
+             fmt::format("says {:.5g} rad/s at most, was {:.5g} rad/s", told, rate));
+    }
+  }
+
+  /// Angle and rate of a column; the largest rate over any 0.1 s, or one period if that is longer.
+  double CheckColumn(const char* name, double limit, double more) {
+    const std::vector<double> angle = drive_.log.Column(name);
+    const double period = record_.mission.control_period;
+    const auto window = static_cast<std::size_t>(std::max(1.0, std::round(0.1 / period)));
+    double largest = 0.0, largest_t = 0.0, rate = 0.0, rate_t = 0.0;
+    for (std::size_t i = 0; i < angle.size(); ++i) {
+      if (std::abs(angle[i]) > largest) {
+        largest = std::abs(angle[i]);
+        largest_t = rows_[i].t;
+      }
+      if (i >= window) {
+        const double now =
+            std::abs(angle[i] - angle[i - window]) / (static_cast<double>(window) * period);
+        if (now > rate) {
+          rate = now;
+          rate_t = rows_[i].t;
+        }
+      }
+    }
+    if (largest > limit) {
+      Report("steering_angle", fmt::format("{} {:.5f} rad at {:.5g} s, the car has {:.5f} rad",
+                                           name, largest, largest_t, record_.car.steering_limit));
+    }
+    if (rate > record_.car.steering_rate * (1.0 + more) + 1e-9) {
+      Report("steering_rate", fmt::format("{} {:.5f} rad/s up to {:.5g} s, the car has {:.5f} "
+                                          "rad/s{}",
+                                          name, rate, rate_t, record_.car.steering_rate,
+                                          record_.passed ? "; passed" : ""));
+    }
+    return rate;
+  }
+
+  void CheckArrival() {
+    const TimedPose& last = rows_.back();
+    const Mission& mission = record_.mission;
+    const std::vector<Driven> plans = PlansOf(record_.plan, drive_.changes, 0.0);
+    const Point goal = mission.goal.value_or(Point{plans.back().end.x, plans.back().end.y});
+    const double away = std::hypot(last.x - goal.x, last.y - goal.y);
+    const double near = tolerances_.goal_position * record_.car.length;
+    if (away > near) {
+      Report("goal_position", fmt::format("arrived{}, {:.4g} m from the goal; {:.4g} m count as "
+                                          "there",
+                                          record_.passed ? ", passed" : "", away, near));
+    }
+    if (mission.goal_heading) {
+      const double turned = std::abs(std::remainder(last.yaw - *mission.goal_heading, kTurn));
+      if (turned > tolerances_.goal_heading) {
+        Report("goal_heading", fmt::format("arrived{}, {:.4g} rad from the goal's heading",
+                                           record_.passed ? ", passed" : "", turned));
+      }
+    }
+    const double speed = std::abs(drive_.log.Column("speed_mps").back());
+    if (speed > tolerances_.at_rest) {
+      Report("goal_speed", fmt::format("arrived at {:.4g} m/s", speed));
+    }
+    const double told = drive_.metrics.value("goal_distance", 0.0);
+    if (std::abs(told - away) > 1e-6 && mission.goal) {
+      Report("goal_metric", fmt::format("says {:.5g} m from the goal, is {:.5g} m", told, away));
+    }
+  }
+
+  const Drive& drive_;
+  const Record& record_;
+  const Tolerances& tolerances_;
+  std::string status_;
+  std::vector<TimedPose> rows_;
+  std::vector<TimedPose> poses_;
+  bool touched_ = false;  ///< the car an obstacle, or all but
+  std::vector<Finding> findings_;
+};
+
+}  // namespace
+
+std::vector<Finding> CheckDrive(const Drive& drive, const Record& record,
+                                const Tolerances& tolerances) {
+  return DriveCheck(drive, record, tolerances).Run();
+}
+
+std::vector<Finding> Check(const Record& record, const Tolerances& tolerances) {
+  std::vector<Finding> findings;
+  const auto add = [&](std::vector<Finding> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(findings));
+  };
+  if (!record.plan_ok) {
+    if (record.passed) {
+      findings.push_back({"verdict", "passed without a plan"});
+    }
+    return findings;
+  }
+  add(CheckPlan(record.plan, record, nullptr, tolerances));
+  for (const Drive& drive : record.drives) {
+    add(CheckDrive(drive, record, tolerances));
+    for (const Table& plan : PlansTakenUp(drive.changes)) {
+      for (Finding& finding : CheckPlan(plan, record, &drive, tolerances)) {
+        findings.push_back({finding.kind, drive.plant + ", taken up on the way: " + finding.text});
+      }
+    }
+  }
+  return findings;
+}
+
+}  // namespace audit

@@ -1,0 +1,273 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/audit/checker.h"
+
+namespace audit {
+namespace {
+
+constexpr double kGravity = 9.81;  // [m/s^2]
+constexpr double kTurn = 6.283185307179586;
+
+struct PlanRow {
+  double s, x, y, yaw, curvature, speed, direction;
+};
+
+std::vector<PlanRow> RowsOf(const trackbed::Table& table) {
+  const auto column = [&](const char* name) { return table.Column(name); };
+  const auto s = column("s_m"), x = column("x_m"), y = column("y_m"), yaw = column("yaw_rad"),
+             curvature = column("curvature_radpm"), speed = column("speed_mps"),
+             direction = column("direction");
+  std::vector<PlanRow> rows;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    rows.push_back({s[i], x[i], y[i], yaw[i], curvature[i], speed[i], direction[i]});
+  }
+  return rows;
+}
+
+double AngleBetween(double a, double b) {
+  return std::abs(std::remainder(a - b, kTurn));
+}
+
+/// The largest of something, and where it was.
+struct Largest {
+  double value = 0.0;
+  double s = 0.0;
+
+  void Take(double other, double at) {
+    if (other > value) {
+      value = other;
+      s = at;
+    }
+  }
+};
+
+class PlanCheck {
+ public:
+  PlanCheck(const trackbed::Table& table, const Record& record, const Drive* taken_up_in,
+            const Tolerances& tolerances)
+      : rows_(RowsOf(table)),
+        record_(record),
+        at_start_(taken_up_in == nullptr),
+        tolerances_(tolerances),
+        // A plan that begins with the wheels as they stand begins beyond the limit if they do.
+        steering_limit_(
+            record.car.steering_limit +
+            (taken_up_in != nullptr && taken_up_in->has_wheels ? tolerances.wheel_angle : 1e-6)) {}
+
+  std::vector<Finding> Run() {
+    if (rows_.empty()) {
+      Report("plan_geometry", "a plan without points");
+      return findings_;
+    }
+    CheckGeometry();
+    CheckSteering();
+    CheckAccelerations();
+    if (at_start_) {
+      CheckStart();
+      CheckEnd();
+      CheckObstacles();
+    }
+    return findings_;
+  }
+
+ private:
+  void Report(const char* kind, std::string text) { findings_.push_back({kind, std::move(text)}); }
+
+  /// The columns belong to one curve: each chord points where the yaws at its ends do, and from
+  /// point to point the yaw turns no more than it does at full lock. (Not as the curvatures at both
+  /// points say: a shorter arc may lie between them.)
+  void CheckGeometry() {
+    const double sharpest = std::tan(steering_limit_) / record_.car.wheelbase;
+    Largest apart, aside, turned;
+    for (std::size_t i = 0; i + 1 < rows_.size(); ++i) {
+      const PlanRow& a = rows_[i];
+      const PlanRow& b = rows_[i + 1];
+      const double ds = b.s - a.s;
+      const double chord = std::hypot(b.x - a.x, b.y - a.y);
+      apart.Take(std::max(ds, chord), a.s);
+      if (a.direction != b.direction || chord < 1e-9) {
+        continue;
+      }
+      const double heading =
+          std::atan2(b.y - a.y, b.x - a.x) + (a.direction < 0 ? 0.5 * kTurn : 0.0);
+      aside.Take(AngleBetween(heading, a.yaw) - sharpest * ds, a.s);
+      turned.Take(AngleBetween(b.yaw, a.yaw) - sharpest * ds, a.s);
+    }
+    if (apart.value > 0.1 + 1e-9) {
+      Report("plan_geometry",
+             fmt::format("points {:.6g} m apart at s = {:.5g} m", apart.value, apart.s));
+    }
+    constexpr double kRounding = 1e-4;  // [rad]; of positions over a short chord
+    if (aside.value > kRounding || turned.value > kRounding) {
+      Report("plan_geometry", fmt::format("turns more than at full lock: its chord by {:.4g} rad "
+                                          "at s = {:.5g} m, its yaw by {:.4g} rad at s = {:.5g} m",
+                                          aside.value, aside.s, turned.value, turned.s));
+    }
+  }
+
+  [[nodiscard]] double Steering(const PlanRow& row) const {
+    return std::atan(record_.car.wheelbase * row.curvature);
+  }
+
+  void CheckSteering() {
+    Largest angle, rate;
+    for (const PlanRow& row : rows_) {
+      angle.Take(std::abs(Steering(row)), row.s);
+    }
+    if (angle.value > steering_limit_) {
+      Report("plan_steering_angle", fmt::format("asks {:.4f} rad of {:.4f} rad at s = {:.5g} m",
+                                                angle.value, record_.car.steering_limit, angle.s));
+    }
+    // Where the curvature is continuous it grows over several points the same way. A step from one
+    // piece to the next shows between two points alone, or between three with one in its middle.
+    const auto rate_in = [&](std::size_t i) {
+      const PlanRow& a = rows_[i];
+      const PlanRow& b = rows_[i + 1];
+      const double ds = b.s - a.s;
+      if (a.direction != b.direction || ds <= 0.0) {
+        return 0.0;
+      }
+      return std::min(std::abs(a.speed), std::abs(b.speed)) * (Steering(b) - Steering(a)) / ds;
+    };
+    for (std::size_t i = 1; i + 2 < rows_.size(); ++i) {
+      const double r[] = {rate_in(i - 1), rate_in(i), rate_in(i + 1)};
+      if (r[0] * r[1] > 0.0 && r[1] * r[2] > 0.0) {
+        rate.Take(std::min({std::abs(r[0]), std::abs(r[1]), std::abs(r[2])}), rows_[i].s);
+      }
+    }
+    if (rate.value > record_.car.steering_rate * (1.0 + tolerances_.plan_rate)) {
+      Report("plan_steering_rate", fmt::format("asks {:.4g} rad/s of {:.4g} rad/s at s = {:.5g} m",
+                                               rate.value, record_.car.steering_rate, rate.s));
+    }
+  }
+
+  /// v dv/ds as a mean over each piece, v^2 kappa at the points; both together on the circle of the
+  /// tyres' friction.
+  void CheckAccelerations() {
+    const Mission& mission = record_.mission;
+    const double grip = record_.car.friction * mission.road_friction * kGravity;
+    const double more = 1.0 + tolerances_.plan_limit;
+    Largest driving, braking, lateral, combined;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const PlanRow& a = rows_[i];
+      lateral.Take(a.speed * a.speed * std::abs(a.curvature), a.s);
+      if (i + 1 == rows_.size() || rows_[i + 1].s <= a.s) {
+        continue;
+      }
+      const PlanRow& b = rows_[i + 1];
+      const double along = 0.5 * (b.speed * b.speed - a.speed * a.speed) / (b.s - a.s);
+      driving.Take(along, a.s);
+      braking.Take(-along, a.s);
+      // On either side of a step of curvature the smaller one is certain.
+      const double across = std::min(a.speed * a.speed * std::abs(a.curvature),
+                                     b.speed * b.speed * std::abs(b.curvature));
+      combined.Take(std::hypot(along, across), a.s);
+    }
+    if (lateral.value > grip * more) {
+      Report("plan_lateral", fmt::format("asks {:.4g} m/s^2 across at s = {:.5g} m; tyres and road "
+                                         "hold {:.4g}",
+                                         lateral.value, lateral.s, grip));
+    }
+    const double brakes = std::min(grip, record_.car.brake_deceleration);
+    if (braking.value > brakes * more) {
+      Report("plan_braking", fmt::format("asks a deceleration of {:.4g} m/s^2 at s = {:.5g} m; the "
+                                         "car has {:.4g}",
+                                         braking.value, braking.s, brakes));
+    }
+    if (driving.value > mission.acceleration * more) {
+      Report("plan_acceleration", fmt::format("speeds up at {:.4g} m/s^2 at s = {:.5g} m, allowed "
+                                              "are {:.4g}",
+                                              driving.value, driving.s, mission.acceleration));
+    }
+    if (combined.value > grip * more && lateral.value <= grip * more &&
+        braking.value <= brakes * more) {
+      Report("plan_combined", fmt::format("asks {:.4g} m/s^2 along and across together at s = "
+                                          "{:.5g} m; tyres and road hold {:.4g}",
+                                          combined.value, combined.s, grip));
+    }
+  }
+
+  void CheckStart() {
+    const Mission& mission = record_.mission;
+    const PlanRow& first = rows_.front();
+    const double away = std::hypot(first.x - mission.start.x, first.y - mission.start.y);
+    if (away > tolerances_.plan_position) {
+      Report("plan_start_position", fmt::format("begins {:.4g} m from where the car starts", away));
+    }
+    const double turned = AngleBetween(first.yaw, mission.start.yaw);
+    if (turned > tolerances_.plan_heading) {
+      Report("plan_start_heading",
+             fmt::format("begins {:.4g} rad from where the car heads", turned));
+    }
+    const double speed = std::abs(first.speed) - std::abs(mission.start_speed);
+    if (std::abs(speed) > tolerances_.plan_speed) {
+      Report("plan_start_speed", fmt::format("begins at {:.6g} m/s, the car at {:.6g} m/s",
+                                             first.speed, mission.start_speed));
+    }
+    if (mission.start_speed != 0.0 && first.direction * mission.start_speed < 0.0) {
+      Report("plan_start_speed", fmt::format("begins in direction {}, the car rolls at {:.4g} m/s",
+                                             first.direction, mission.start_speed));
+    }
+    if (mission.start_speed != 0.0 &&
+        std::abs(Steering(first) - mission.start_steering) > tolerances_.plan_steering) {
+      Report("plan_start_steering",
+             fmt::format("begins with {:.4f} rad of steering at {:.4g} m/s, the wheels at {:.4f} "
+                         "rad",
+                         Steering(first), mission.start_speed, mission.start_steering));
+    }
+  }
+
+  void CheckEnd() {
+    const Mission& mission = record_.mission;
+    if (!mission.goal || !record_.blocked.empty()) {
+      return;
+    }
+    const PlanRow& last = rows_.back();
+    const double away = std::hypot(last.x - mission.goal->x, last.y - mission.goal->y);
+    if (away > tolerances_.goal_position * record_.car.length) {
+      Report("plan_end", fmt::format("is ok and ends {:.4g} m from the goal", away));
+    }
+    if (mission.goal_heading &&
+        AngleBetween(last.yaw, *mission.goal_heading) > tolerances_.goal_heading) {
+      Report("plan_end", fmt::format("is ok and ends {:.4g} rad from the goal's heading",
+                                     AngleBetween(last.yaw, *mission.goal_heading)));
+    }
+  }
+
+  /// The outline along the plan, against what was known before and stands.
+  void CheckObstacles() {
+    std::vector<TimedPose> poses;
+    double yaw = rows_.front().yaw;
+    for (const PlanRow& row : rows_) {
+      yaw += std::remainder(row.yaw - yaw, kTurn);
+      poses.push_back({0.0, row.x, row.y, yaw});
+    }
+    for (const std::size_t i : record_.mission.planned_around) {
+      const Nearest nearest =
+          SweptGap(record_.car.outline(), poses, record_.mission.obstacles[i], 1e-3);
+      if (nearest.gap < -tolerances_.contact) {
+        Report("plan_contact",
+               fmt::format("leads {:.4g} m deep through the known obstacle {}", -nearest.gap, i));
+      }
+    }
+  }
+
+  std::vector<PlanRow> rows_;
+  const Record& record_;
+  bool at_start_;
+  const Tolerances& tolerances_;
+  double steering_limit_;  ///< [rad]
+  std::vector<Finding> findings_;
+};
+
+}  // namespace
+
+std::vector<Finding> CheckPlan(const trackbed::Table& rows, const Record& record,
+                               const Drive* taken_up_in, const Tolerances& tolerances) {
+  return PlanCheck(rows, record, taken_up_in, tolerances).Run();
+}
+
+}  // namespace audit

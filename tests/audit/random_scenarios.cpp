@@ -1,0 +1,295 @@
+#include "tests/audit/random_scenarios.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+namespace audit {
+namespace {
+
+using namespace trackbed;
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// Two thirds without forces, which are quick; either tyre law in a third of the others.
+constexpr std::array kPlantsInTurn{"kinematic",    "single_track",   "kinematic",
+                                   "single_track", "mujoco:contact", "mujoco:magic_formula"};
+
+/// Numbers that are the same with every standard library.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : engine_(seed) {}
+
+  double Between(double low, double high) {
+    const double share = static_cast<double>(engine_() >> 11U) * 0x1.0p-53;
+    return low + (high - low) * share;
+  }
+  double Logarithmic(double low, double high) {
+    return std::exp(Between(std::log(low), std::log(high)));
+  }
+  bool Chance(double probability) { return Between(0.0, 1.0) < probability; }
+  std::size_t Below(std::size_t count) { return static_cast<std::size_t>(engine_() % count); }
+  template <typename T, std::size_t N>
+  T OneOf(const std::array<T, N>& values) {
+    return values[Below(N)];
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+std::vector<ControllerOptions> PathFollowers() {
+  std::vector<ControllerOptions> options;
+  for (const ControllerEntry& entry : Controllers()) {
+    if (entry.needs_plan) {
+      options.push_back(entry.defaults);
+    }
+  }
+  return options;
+}
+
+struct Generator {
+  Dice dice;
+  Scenario scenario{};
+  double size = 1.0;  ///< of the car and all around it, as a share of a full-sized car
+
+  void Vehicle() {
+    const std::size_t which = dice.Below(8);
+    if (which < 2) {
+      scenario.vehicle.model = TRACKBED_SOURCE_DIR "/tests/data/models/small_car.xml";
+      size = 0.12;
+    } else {
+      scenario.vehicle.model = which < 4 ? "bmw320i" : "prius";
+    }
+  }
+
+  void Drive(bool with_forces) {
+    DriveSpec& drive = scenario.drive;
+    drive.timestep = with_forces ? dice.OneOf(std::array{0.001, 0.002, 0.002, 0.004, 0.005})
+                                 : dice.OneOf(std::array{0.001, 0.002, 0.005});
+    const double period = dice.OneOf(std::array{0.01, 0.02, 0.02, 0.02, 0.05, 0.05, 0.1, 0.2, 0.5});
+    drive.control_period = drive.timestep * std::round(period / drive.timestep);
+    drive.time_limit = 40.0;
+    scenario.mission.speed = size < 1.0 ? dice.Logarithmic(0.2, 2.5) : dice.Logarithmic(0.5, 15.0);
+    if (dice.Chance(0.2)) {
+      scenario.control.speed.acceleration = dice.Between(0.5, 3.0);
+      scenario.control.speed.deceleration = dice.Between(0.5, 5.0);
+    }
+  }
+
+  /// Legs that turn, mostly less than a right angle, at times all the way round.
+  void Route(std::size_t fewest, bool has_headings) {
+    MissionSpec& mission = scenario.mission;
+    const bool close = dice.Chance(0.12);
+    const std::size_t count = std::max(fewest, close ? 2 : 2 + dice.Below(3));
+    double heading = dice.Between(-kPi, kPi);
+    Vec2 at(dice.Between(-20.0, 20.0), dice.Between(-20.0, 20.0));
+    mission.waypoints.push_back(at);
+    // What can be driven in the time there is, and 80 m at most.
+    const double longest =
+        std::min({80.0 * size, 22.0 * mission.speed + 2.0 * size}) / static_cast<double>(count - 1);
+    for (std::size_t i = 1; i < count; ++i) {
+      const double length = close ? dice.Between(0.5, 6.0) * size
+                                  : dice.Between(0.25, 1.0) * std::max(longest, 2.0 * size);
+      at += length * Vec2(std::cos(heading), std::sin(heading));
+      mission.waypoints.push_back(at);
+      heading += dice.Chance(0.7) ? dice.Between(-1.2, 1.2) : dice.Between(-3.0, 3.0);
+    }
+    if (has_headings && dice.Chance(0.6)) {
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t from = std::min(i, count - 2);
+        const Vec2 leg = mission.waypoints[from + 1] - mission.waypoints[from];
+        const double along = std::atan2(leg.y(), leg.x());
+        mission.headings.push_back(dice.Chance(0.8) ? along + dice.Between(-0.6, 0.6)
+                                                    : dice.Between(-kPi, kPi));
+      }
+    }
+  }
+
+  /// The default start rolls along the first leg at the mission's speed with its wheels straight.
+  void Start() {
+    StartSpec& start = scenario.mission.start;
+    if (dice.Chance(0.35)) {
+      return;
+    }
+    if (dice.Chance(0.5)) {
+      start.speed = 0.0;
+    } else if (dice.Chance(0.5)) {
+      start.speed = scenario.mission.speed * dice.Between(0.2, 1.8);
+    }
+    const StartState given = StartOf(scenario);
+    if (dice.Chance(0.2)) {
+      start.yaw =
+          dice.Chance(0.7) ? given.pose.yaw + dice.Between(-0.6, 0.6) : dice.Between(-kPi, kPi);
+    }
+    if (dice.Chance(0.1)) {
+      start.x = given.pose.x + size * dice.Between(-2.0, 2.0);
+      start.y = given.pose.y + size * dice.Between(-2.0, 2.0);
+    }
+    if (dice.Chance(0.15)) {
+      start.steering = dice.Between(-0.25, 0.25);
+    }
+  }
+
+  void Course(CourseOptions& course) {
+    const std::size_t count = 1 + dice.Below(4);
+    const double sharpest = dice.Logarithmic(0.02, 0.2) / size;
+    double before = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      CoursePiece piece;
+      piece.length = size * dice.Between(3.0, 15.0);
+      const double curvature = dice.Chance(0.3) ? 0.0 : dice.Between(-sharpest, sharpest);
+      if (dice.Chance(0.5)) {
+        piece.curvature = curvature;
+      } else {
+        piece.curvature_from = before;
+        piece.curvature_to = curvature;
+      }
+      before = curvature;
+      course.segments.push_back(piece);
+    }
+  }
+
+  void Planner(const PlannerEntry& entry) {
+    scenario.plan = PlanSpec{};
+    scenario.plan->global = entry.defaults;
+    PlannerOptions& global = scenario.plan->global;
+    if (auto* course = std::get_if<CourseOptions>(&global)) {
+      Course(*course);
+    } else if (auto* lane_change = std::get_if<LaneChangePlannerOptions>(&global)) {
+      lane_change->standard = LaneChangeStandard::kIso3888_2;
+      lane_change->lead_in = dice.Between(1.0, 10.0);
+      lane_change->lead_out = 2.0;
+    } else if (auto* hybrid = std::get_if<HybridAStarOptions>(&global)) {
+      hybrid->reverse = dice.Chance(0.5);
+      hybrid->budget = 10000;
+    } else if (auto* rrt = std::get_if<RrtPlannerOptions>(&global)) {
+      rrt->trees = 3;
+      rrt->iterations = 3000;
+    } else if (auto* astar = std::get_if<AStarOptions>(&global)) {
+      astar->budget = 100000;
+    }
+    if (entry.fewest_waypoints > 0) {
+      Route(entry.fewest_waypoints, entry.has_headings);
+    } else {
+      scenario.mission.start.x = dice.Between(-20.0, 20.0);
+      scenario.mission.start.yaw = dice.Between(-kPi, kPi);
+    }
+  }
+
+  /// What plans again on the way, over a share of the plans that only go forwards.
+  void Layers() {
+    PlanSpec& plan = *scenario.plan;
+    if (MayGoBackwards(plan.global)) {
+      return;
+    }
+    if (dice.Chance(0.15)) {
+      plan.avoid = Avoiders()[dice.Below(Avoiders().size())].defaults;
+    }
+    if (dice.Chance(0.25)) {
+      ReplanOptions replan;
+      if (dice.Chance(0.8)) {
+        replan.along = AlongMethods()[dice.Below(AlongMethods().size())].defaults;
+      }
+      if (!replan.along || dice.Chance(0.3)) {
+        AStarOptions detour;
+        detour.budget = 100000;
+        replan.detour = detour;
+      }
+      plan.replan = replan;
+    }
+  }
+
+  /// A point of the route, or ahead of a car that has none.
+  Vec2 OnTheWay() {
+    const MissionSpec& mission = scenario.mission;
+    if (mission.waypoints.size() < 2) {
+      const Pose2 start = StartOf(scenario).pose;
+      return start.position() +
+             size * dice.Between(8.0, 40.0) * Vec2(std::cos(start.yaw), std::sin(start.yaw));
+    }
+    const std::size_t leg = dice.Below(mission.waypoints.size() - 1);
+    const double share = dice.Between(0.1, 1.0);
+    return (1.0 - share) * mission.waypoints[leg] + share * mission.waypoints[leg + 1];
+  }
+
+  void Obstacles() {
+    if (dice.Chance(0.45)) {
+      return;
+    }
+    const std::size_t count = 1 + dice.Below(3);
+    const Vec2 start = StartOf(scenario).pose.position();
+    for (std::size_t i = 0; i < count; ++i) {
+      Obstacle obstacle;
+      Vec2 at = OnTheWay() + size * Vec2(dice.Between(-5.0, 5.0), dice.Between(-5.0, 5.0));
+      obstacle.footprint.length = size * dice.Logarithmic(0.2, 5.0);
+      obstacle.footprint.width = size * dice.Logarithmic(0.05, 3.0);
+      obstacle.height = size;
+      obstacle.footprint.centre.yaw = dice.Between(-kPi, kPi);
+      const double chance = dice.Between(0.0, 1.0);
+      const double heading = dice.Between(-kPi, kPi);
+      const Vec2 direction(std::cos(heading), std::sin(heading));
+      if (chance < 0.2) {
+        obstacle.velocity = size * dice.Between(0.2, 4.0) * direction;
+        at -= obstacle.velocity * dice.Between(0.0, 8.0);
+      } else if (chance < 0.4) {
+        // Thin and fast enough to be on one side of the car at one control period and on the other
+        // at the next.
+        obstacle.footprint.length = size * 0.05;
+        obstacle.footprint.centre.yaw = heading;
+        obstacle.velocity = size * dice.Between(20.0, 80.0) * direction;
+        at -= obstacle.velocity * dice.Between(0.5, 8.0);
+      }
+      obstacle.footprint.centre.x = at.x();
+      obstacle.footprint.centre.y = at.y();
+      if (dice.Chance(0.25)) {
+        obstacle.known_from_range = size * dice.Between(2.0, 30.0);
+      } else if (dice.Chance(0.1)) {
+        obstacle.known_from_time = dice.Between(0.0, 5.0);
+      }
+      if ((at - start).norm() > 7.0 * size) {
+        scenario.world.obstacles.push_back(obstacle);
+      }
+    }
+  }
+};
+
+}  // namespace
+
+std::size_t Combinations() {
+  return Planners().size() * PathFollowers().size() * kPlantsInTurn.size();
+}
+
+Scenario RandomScenario(std::size_t index, int attempt) {
+  const std::vector<ControllerOptions> controllers = PathFollowers();
+  const std::vector<PlannerEntry>& planners = Planners();
+  const std::size_t pairs = planners.size() * controllers.size();
+  const PlannerEntry& planner = planners[index % planners.size()];
+  const ControllerOptions& controller = controllers[index / planners.size() % controllers.size()];
+  const std::string plant = kPlantsInTurn[(index + index / pairs) % kPlantsInTurn.size()];
+
+  Generator generator{Dice(1000003U * index + static_cast<std::uint64_t>(attempt))};
+  Scenario& scenario = generator.scenario;
+  scenario.name = fmt::format("audit_{}", index);
+  scenario.seed = index;
+  scenario.control.steering = controller;
+  scenario.drive.plants = {plant};
+  generator.Vehicle();
+  generator.Drive(plant.starts_with("mujoco"));
+  generator.Planner(planner);
+  generator.Start();
+  generator.Layers();
+  generator.Obstacles();
+  if (generator.dice.Chance(0.15)) {
+    scenario.world.friction = generator.dice.Between(0.3, 0.9);
+  }
+  if (generator.dice.Chance(0.2)) {
+    scenario.expect.all.max_cross_track = generator.size * generator.dice.Between(0.1, 1.0);
+  }
+  return scenario;
+}
+
+}  // namespace audit

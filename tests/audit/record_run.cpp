@@ -1,0 +1,133 @@
+#include "tests/audit/record_run.h"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/sim/car_model.h"
+
+namespace audit {
+namespace {
+
+using trackbed::Table;
+
+const std::vector<std::string> kPlanColumns{
+    "s_m", "x_m", "y_m", "yaw_rad", "curvature_radpm", "speed_mps", "direction"};
+
+/// A plan as plan.csv has it, after the time from which it is driven if that is given.
+void AddPlan(Table& table, const trackbed::Plan& plan, std::optional<double> from) {
+  const trackbed::Reference& reference = plan.reference;
+  for (const trackbed::PathPoint& point : reference.path.Sample(0.1)) {
+    std::vector<double> row{point.s,
+                            point.pose.x,
+                            point.pose.y,
+                            point.pose.yaw,
+                            point.curvature,
+                            point.direction * reference.speed.SpeedAt(point.s),
+                            static_cast<double>(point.direction)};
+    if (from) {
+      row.insert(row.begin(), *from);
+    }
+    table.AddRow(row);
+  }
+}
+
+Table Changes(const trackbed::RunLog& log) {
+  std::vector<std::string> columns{"from_t_s"};
+  columns.insert(columns.end(), kPlanColumns.begin(), kPlanColumns.end());
+  Table table(columns);
+  for (const trackbed::PlanChange& change : log.changes) {
+    AddPlan(table, change.plan, change.time);
+  }
+  return table;
+}
+
+Car CarFrom(const trackbed::CarModel& model) {
+  const trackbed::VehicleParams& params = model.params();
+  Car car{.length = params.length,
+          .width = params.width,
+          .rear_overhang = params.rear_overhang,
+          .wheelbase = params.wheelbase,
+          .steering_limit = params.steering_limit,
+          .steering_rate = params.steering_rate};
+  const trackbed::CarParts& parts = model.parts();
+  for (const int tyre : parts.tyre) {
+    car.friction = std::max(car.friction, model.get()->geom_friction[3 * tyre]);
+  }
+  if (parts.tyres) {
+    for (const trackbed::MagicFormula& axle : parts.tyres->axle) {
+      car.friction = std::max({car.friction, axle.p_dx1, axle.p_dy1});
+    }
+  }
+  car.brake_deceleration = 2.0 * (parts.brake_torque_front + parts.brake_torque_rear) /
+                           (params.wheel_radius * params.mass);
+  return car;
+}
+
+Mission MissionFrom(const trackbed::Scenario& scenario) {
+  const trackbed::StartState start = trackbed::StartOf(scenario);
+  Mission mission{.start = {0.0, start.pose.x, start.pose.y, start.pose.yaw},
+                  .start_speed = start.speed,
+                  .start_steering = start.steering,
+                  .acceleration = scenario.control.speed.acceleration,
+                  .time_limit = scenario.drive.time_limit,
+                  .timestep = scenario.drive.timestep,
+                  .control_period = scenario.drive.control_period,
+                  .max_cross_track = scenario.expect.all.max_cross_track,
+                  .road_friction = scenario.world.friction};
+  if (!scenario.mission.waypoints.empty()) {
+    const trackbed::Vec2& goal = scenario.mission.waypoints.back();
+    mission.goal = Point{goal.x(), goal.y()};
+  }
+  if (!scenario.mission.headings.empty()) {
+    mission.goal_heading = scenario.mission.headings.back();
+  }
+  for (const trackbed::FrictionPatch& patch : scenario.world.friction_patches) {
+    mission.road_friction = std::max(mission.road_friction, patch.friction);
+  }
+  const bool keeps_clear =
+      scenario.plan && (trackbed::PlannerFor(scenario.plan->global).keeps_clear);
+  for (const trackbed::Obstacle& obstacle : scenario.world.obstacles) {
+    const trackbed::OrientedBox& box = obstacle.footprint;
+    mission.obstacles.push_back({{0.0, box.centre.x, box.centre.y, box.centre.yaw},
+                                 box.length,
+                                 box.width,
+                                 {obstacle.velocity.x(), obstacle.velocity.y()}});
+    // Those that become known later it cannot have kept clear of.
+    const bool known = !obstacle.known_from_time && !obstacle.known_from_range;
+    if (keeps_clear && known && !obstacle.moves()) {
+      mission.planned_around.push_back(mission.obstacles.size() - 1);
+    }
+  }
+  return mission;
+}
+
+}  // namespace
+
+Record RecordRun(trackbed::Scenario scenario) {
+  scenario.drive.state_period = scenario.drive.timestep;
+  trackbed::CheckScenario(scenario);
+  const trackbed::CarModel model = trackbed::LoadCar(scenario);
+  const trackbed::RunResult result = trackbed::RunMission(scenario, model);
+  Record record{.name = scenario.name, .plan_ok = result.plan.ok(), .blocked = result.plan.blocked};
+  record.car = CarFrom(model);
+  record.mission = MissionFrom(scenario);
+  record.plan = Table(kPlanColumns);
+  if (record.plan_ok) {
+    AddPlan(record.plan, result.plan, std::nullopt);
+  }
+  const nlohmann::json metrics = trackbed::MetricsJson(result);
+  record.passed = metrics.at("verdict").at("passed").get<bool>();
+  for (const trackbed::RunLog& log : result.logs) {
+    record.drives.push_back({.plant = log.plant,
+                             .has_wheels = log.plant.starts_with("mujoco"),
+                             .log = ToTable(log),
+                             .steps = log.configurations,
+                             .changes = Changes(log),
+                             .metrics = metrics.at("plants").at(log.plant)});
+  }
+  return record;
+}
+
+}  // namespace audit
