@@ -113,14 +113,23 @@ class Evaluator {
     }
     evaluated_ = false;
     std::copy_n(x, point_.size(), point_.begin());
-    try {
-      value_ = problem_.objective(point_);
-      if (!constraints_.empty()) {
-        problem_.constraints(point_, constraints_);
+    if (!failure) {
+      try {
+        value_ = problem_.objective(point_);
+        if (!constraints_.empty()) {
+          problem_.constraints(point_, constraints_);
+        }
+      } catch (...) {
+        failure = std::current_exception();
+        // NLopt 2.7.1's DIRECT reads memory that it has not set when it is stopped while it looks
+        // at its first points. It gets to its end without the caller's functions.
+        if (options_.method != SearchMethod::kDirect) {
+          throw nlopt::forced_stop();
+        }
       }
-    } catch (...) {
-      failure = std::current_exception();
-      throw nlopt::forced_stop();
+    }
+    if (failure) {
+      value_ = std::numeric_limits<double>::quiet_NaN();
     }
     evaluated_ = true;
     ++result_.evaluations;
