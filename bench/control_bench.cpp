@@ -64,9 +64,12 @@ void TimeUpdate(benchmark::State& state, const ControllerOptions& options) {
   state.counters["slowest_us"] = 1e6 * slowest;
 }
 
+constexpr double kHorizon = 2.0;  // [m]
+
 /// Searches at every update, whatever the deviation.
 OptimalSteeringOptions Searching(SearchMethod method) {
   OptimalSteeringOptions options;
+  options.horizon = kHorizon;
   options.search.method = method;
   options.deviation_limit = 0.0;
   return options;
@@ -120,10 +123,10 @@ void CompareSteering(benchmark::State& state, const Compared& compared) {
   const OptimalSteeringOptions options = Searching(compared.method);
   std::vector<SteeringProblem> problems;
   for (const ControlInput& input : route.inputs()) {
-    const Pose2 wanted = input.reference.path.At(input.station + options.horizon).pose;
+    const Pose2 wanted = input.reference.path.At(input.station + kHorizon).pose;
     const Vec2 aim = ToLocal(input.state.pose, wanted.position());
     problems.push_back({.wanted = {aim.x(), aim.y(), wanted.yaw - input.state.pose.yaw},
-                        .distance = options.horizon,
+                        .distance = kHorizon,
                         .speed = input.state.speed,
                         .steering = input.state.steering_actuator,
                         .max_steering = input.vehicle.steering_limit,

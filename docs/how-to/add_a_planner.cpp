@@ -27,9 +27,9 @@ Plan PlanWith(const SidestepOptions& options, const PlanRequest& request) {
                                       {.length = 15.0}};
   plan.reference.path = Path(request.start, segments);
   const double length = plan.reference.path.length();
-  plan.caps = CapsOfSteps(request.vehicle, segments, 0.3);  // the wheels need time to turn
+  plan.caps = PlanSteps(request.vehicle, segments, 0.3).caps;  // the wheels need time to turn
   plan.reference.speed = StopAtEnd(length, request.start_speed, request.speed, plan.caps);
-  plan.schedule = CourseSchedule(request.vehicle, segments, plan.reference.speed);
+  plan.schedule = CourseSchedule(request.vehicle, segments, request.speed.speed, plan.caps);
   plan.schedule_speed = plan.reference.speed;
   plan.goal = plan.reference.path.At(length).pose;
   return plan;

@@ -17,9 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Of what a scenario expects, that which says how the drives are to end.
+/// Of what a scenario expects, that which says how the drives are to end, and how far off their
+/// path they may be.
 PlantExpectation EndOnly(const PlantExpectation& expect) {
-  PlantExpectation end{.collision = expect.collision};
+  PlantExpectation end{.max_cross_track = expect.max_cross_track, .collision = expect.collision};
   std::copy_if(expect.metrics.begin(), expect.metrics.end(), std::back_inserter(end.metrics),
                [](const MetricExpectation& metric) { return metric.metric == "status"; });
   return end;
@@ -269,6 +270,7 @@ RunComparison CompareRun(const RunResult& run, const std::optional<DifferenceBou
     return result;
   }
   result.verdict = trackbed::Judge(EndsOnly(run.scenario.expect), run.metrics, {});
+  result.verdict.passed = result.verdict.failures.empty();
   for (std::size_t i = 0; i < run.logs.size(); ++i) {
     for (std::size_t j = i + 1; j < run.logs.size(); ++j) {
       const Trace first = TraceOf(run.logs[i]);

@@ -12,11 +12,16 @@
 namespace trackbed {
 namespace {
 
-TrackingMetrics MeasureTracking(const RunLog& log, const Pose2& goal) {
-  TrackingMetrics metrics;
+TrackingMetrics MeasureTracking(const RunLog& log, const Pose2& goal, double corridor) {
+  TrackingMetrics metrics{.corridor = corridor};
   double cross_track_squares = 0.0;
   double heading_squares = 0.0;
+  double rows = 0.0;
   for (const LogRow& row : log.rows) {
+    if (log.contact_time && row.state.time > *log.contact_time && rows > 0.0) {
+      break;  // where an obstacle pushes it says nothing of how it was steered
+    }
+    rows += 1.0;
     const Projection& at = *row.tracking;
     cross_track_squares += at.cross_track * at.cross_track;
     heading_squares += at.heading_error * at.heading_error;
@@ -31,7 +36,6 @@ TrackingMetrics MeasureTracking(const RunLog& log, const Pose2& goal) {
       metrics.heading_error_max_t = row.state.time;
     }
   }
-  const auto rows = static_cast<double>(log.rows.size());
   metrics.cross_track_rms = std::sqrt(cross_track_squares / rows);
   metrics.heading_error_rms = std::sqrt(heading_squares / rows);
   const LogRow& last = log.rows.back();
@@ -61,7 +65,10 @@ ClearanceMetrics MeasureClearance(const RunLog& log) {
       metrics.force_max_t = row.state.time;
     }
   }
-  metrics.collision = metrics.min == 0.0;
+  metrics.collision = log.contact_time.has_value();
+  if (log.contact_time) {
+    metrics.min_t = *log.contact_time;  // between two rows
+  }
   return metrics;
 }
 
@@ -70,6 +77,9 @@ void MeasureSteeringRate(const RunLog& log, double control_period, PlantMetrics&
   const auto window = static_cast<std::size_t>(std::max(1.0, std::round(0.1 / control_period)));
   const double duration = static_cast<double>(window) * control_period;
   for (std::size_t i = window; i < log.rows.size(); ++i) {
+    if (log.contact_time && log.rows[i].state.time > *log.contact_time) {
+      break;  // an obstacle may turn the wheels
+    }
     const double change = log.rows[i].state.steering - log.rows[i - window].state.steering;
     const double rate = std::abs(change) / duration;
     if (rate > metrics.steering_rate_max) {
@@ -181,6 +191,51 @@ std::string WhyNotAtGoal(const PlantMetrics& metrics) {
                                     : "";
 }
 
+/// The measured wheels may swing past their actuator by this share of its rate.
+constexpr double kWheelCompliance = 0.03;
+
+void JudgeSteeringRate(const PlantMetrics& metrics, Verdict& verdict) {
+  const double limit = metrics.steering_rate_limit;
+  if (limit > 0.0 && metrics.steering_rate_max > (1.0 + kWheelCompliance) * limit) {
+    verdict.failures.push_back(fmt::format(
+        "{}: the wheels turned at {:.4g} rad/s, and the car's actuator at {:.4g} rad/s at most, at "
+        "s = {:.4g} m, t = {:.4g} s; drive.timestep is too long for this car",
+        metrics.plant, metrics.steering_rate_max, limit, metrics.steering_rate_max_s,
+        metrics.steering_rate_max_t));
+  }
+}
+
+/// Whether the scenario itself says how far from its path the plant may be.
+bool AsksCrossTrack(const Expectations& expect, const std::string& plant) {
+  return expect.all.max_cross_track ||
+         std::any_of(expect.plants.begin(), expect.plants.end(), [&](const auto& own) {
+           return own.first == plant && own.second.max_cross_track;
+         });
+}
+
+void JudgeCorridor(const PlantMetrics& metrics, Verdict& verdict) {
+  const TrackingMetrics& tracking = *metrics.tracking;
+  if (tracking.corridor > 0.0 && !(tracking.cross_track_max <= tracking.corridor)) {
+    const auto [expected, was] = TextsApart(tracking.corridor, tracking.cross_track_max);
+    verdict.failures.push_back(fmt::format(
+        "{}: left its path: cross-track maximum {} m, more than the car's width of {} m, at s = "
+        "{:.4g} m, t = {:.4g} s (expect.max_cross_track sets another bound)",
+        metrics.plant, was, expected, tracking.cross_track_max_s, tracking.cross_track_max_t));
+  }
+}
+
+bool AsksAnything(const PlantExpectation& expect) {
+  return expect.reach_goal || expect.max_cross_track || expect.rms_cross_track ||
+         expect.max_heading_error || expect.min_clearance || expect.collision ||
+         !expect.metrics.empty();
+}
+
+bool AsksAnything(const Expectations& expect) {
+  return AsksAnything(expect.all) || !expect.between.empty() ||
+         std::any_of(expect.plants.begin(), expect.plants.end(),
+                     [](const auto& own) { return AsksAnything(own.second); });
+}
+
 void NoteLimitedSteering(const PlantMetrics& metrics, Verdict& verdict) {
   constexpr double kNoticed = 0.02;
   if (metrics.manoeuvre && metrics.manoeuvre->steering_saturated_fraction > kNoticed) {
@@ -256,11 +311,12 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
     }
   }
   MeasureSteeringRate(log, control_period, metrics);
+  metrics.steering_rate_limit = vehicle.steering_rate;
   metrics.steering_rate_rms = SteeringRateRms(log, control_period);
   metrics.steering_saturated_fraction = SaturatedFraction(log);
   metrics.yaw_rate_ratio = YawRateRatio(log, vehicle.wheelbase);
   if (log.rows.front().tracking) {
-    metrics.tracking = MeasureTracking(log, plan.goal);
+    metrics.tracking = MeasureTracking(log, plan.goal, vehicle.width);
   }
   if (log.rows.front().clearance) {
     metrics.clearance = MeasureClearance(log);
@@ -275,13 +331,19 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
 Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plants,
               const std::vector<PlantComparison>& comparisons) {
   Verdict verdict;
+  verdict.judged = AsksAnything(expect);
   for (const PlantMetrics& metrics : plants) {
+    verdict.judged = verdict.judged || metrics.tracking || metrics.clearance;
     if (metrics.status != DriveStatus::kArrived && !ExpectsItsEnd(expect, metrics)) {
       verdict.failures.push_back(fmt::format(
           "{}: expected to arrive, ended as {} at s = {:.4g} m, t = {:.4g} s{}", metrics.plant,
           ToString(metrics.status), metrics.end_s, metrics.time, WhyNotAtGoal(metrics)));
     } else if (!metrics.partial.empty()) {
       verdict.notes.push_back(fmt::format("{}: the plan {}", metrics.plant, metrics.partial));
+    }
+    JudgeSteeringRate(metrics, verdict);
+    if (metrics.tracking && !AsksCrossTrack(expect, metrics.plant)) {
+      JudgeCorridor(metrics, verdict);
     }
     NoteLimitedSteering(metrics, verdict);
     JudgePlant(expect.all, metrics, verdict);
@@ -294,7 +356,8 @@ Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plant
   for (const BetweenExpectation& between : expect.between) {
     JudgeBetween(between, comparisons, verdict);
   }
-  verdict.passed = verdict.failures.empty();
+  verdict.judged = verdict.judged || !verdict.failures.empty();
+  verdict.passed = verdict.judged && verdict.failures.empty();
   return verdict;
 }
 
@@ -358,7 +421,10 @@ nlohmann::ordered_json ToJson(const PlantMetrics& metrics) {
 }
 
 nlohmann::ordered_json ToJson(const Verdict& verdict) {
-  return {{"passed", verdict.passed}, {"failures", verdict.failures}, {"notes", verdict.notes}};
+  return {{"passed", verdict.judged ? nlohmann::ordered_json(verdict.passed)
+                                    : nlohmann::ordered_json(nullptr)},
+          {"failures", verdict.failures},
+          {"notes", verdict.notes}};
 }
 
 }  // namespace trackbed

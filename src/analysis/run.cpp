@@ -31,10 +31,19 @@ class Stopwatch {
 
 Table PlanTable(const Reference& reference) {
   Table table({"s_m", "x_m", "y_m", "yaw_rad", "curvature_radpm", "speed_mps", "direction"});
-  for (const PathPoint& point : reference.path.Sample(kPlanSpacing)) {
-    const double direction = point.direction;
-    table.AddRow({point.s, point.pose.x, point.pose.y, point.pose.yaw, point.curvature,
-                  direction * reference.speed.SpeedAt(point.s), direction});
+  // Leg by leg, so that the cusps are among the rows: of a leg's two ends, the one before it
+  // counts.
+  for (const Stations& leg : LegsOf(reference.path)) {
+    const Reference part = Excerpt(reference, leg);
+    for (const PathPoint& point : part.path.Sample(kPlanSpacing)) {
+      if (point.s == 0.0 && table.rows() > 0) {
+        continue;
+      }
+      const double direction = point.direction;
+      const double speed = part.speed.SpeedAt(point.s);
+      table.AddRow({leg.from + point.s, point.pose.x, point.pose.y, point.pose.yaw, point.curvature,
+                    speed == 0.0 ? 0.0 : direction * speed, direction});
+    }
   }
   return table;
 }
@@ -165,10 +174,9 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
   result.plan = PlanMission(scenario, car.unladen());
   result.planning_time = planning.Seconds();
   if (!result.plan.ok()) {
-    result.verdict = {
-        false,
-        {fmt::format("no plan ({}): {}", ToString(result.plan.status), result.plan.reason)},
-        {}};
+    result.verdict = {.passed = false,
+                      .failures = {fmt::format("no plan ({}): {}", ToString(result.plan.status),
+                                               result.plan.reason)}};
     return result;
   }
   for (const std::string& plant : scenario.drive.plants) {
@@ -186,6 +194,9 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
     result.metrics.push_back(Measure(result.logs.back(), result.plan, car.params(),
                                      scenario.drive.control_period,
                                      ControllerFor(scenario.control.steering).station));
+    if (scenario.drive.steering == SteeringInput::kPrescribed) {
+      result.metrics.back().steering_rate_limit = 0.0;
+    }
     if (scenario.manoeuvre) {
       result.metrics.back().manoeuvre =
           EvaluateManoeuvre(*scenario.manoeuvre, result.logs.back(), result.plan, car.params());
@@ -207,6 +218,9 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
     }
   }
   result.verdict = Judge(scenario.expect, result.metrics, result.comparisons);
+  for (const std::string& note : result.plan.notes) {
+    result.verdict.notes.push_back("the plan is " + note);
+  }
   if (const auto& rate = scenario.vehicle.steering_rate) {
     result.verdict.notes.push_back(fmt::format("steering rate set to {:.4g} rad/s", *rate));
   }

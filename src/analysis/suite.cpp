@@ -35,9 +35,10 @@ void Drive(const std::function<Scenario(const fs::path&)>& read,
   const RunResult run = RunMission(scenario, {.drive = [&](const std::string&) {
                                      return DriveHooks{.interrupted = interrupted};
                                    }});
-  one.status = run.interrupted      ? CaseStatus::kInterrupted
-               : run.verdict.passed ? CaseStatus::kPassed
-                                    : CaseStatus::kFailed;
+  one.status = run.interrupted       ? CaseStatus::kInterrupted
+               : !run.verdict.judged ? CaseStatus::kNotJudged
+               : run.verdict.passed  ? CaseStatus::kPassed
+                                     : CaseStatus::kFailed;
   if (!run.interrupted) {
     one.reasons = run.verdict.failures;
     one.notes = run.verdict.notes;
@@ -136,6 +137,7 @@ void AddOutcome(tinyxml2::XMLElement& element, const SuiteCase& one) {
         return {"error", "input"};
       case CaseStatus::kInternalError:
         return {"error", "internal"};
+      case CaseStatus::kNotJudged:
       case CaseStatus::kInterrupted:
         return {"skipped", nullptr};
     }
@@ -145,8 +147,9 @@ void AddOutcome(tinyxml2::XMLElement& element, const SuiteCase& one) {
     return;
   }
   tinyxml2::XMLElement& outcome = *element.InsertNewChildElement(kind.element);
-  if (one.status == CaseStatus::kInterrupted) {
-    SetText(outcome, "message", "interrupted");
+  if (one.status == CaseStatus::kInterrupted || one.status == CaseStatus::kNotJudged) {
+    SetText(outcome, "message",
+            one.status == CaseStatus::kInterrupted ? "interrupted" : "nothing was asked of it");
     return;
   }
   SetText(outcome, "message", one.reasons.empty() ? "" : one.reasons.front());
@@ -212,7 +215,7 @@ std::string ToJUnit(const std::vector<SuiteCase>& cases) {
     whole->SetAttribute("tests", static_cast<std::int64_t>(cases.size()));
     whole->SetAttribute("failures", count({CaseStatus::kFailed}));
     whole->SetAttribute("errors", count({CaseStatus::kBadInput, CaseStatus::kInternalError}));
-    whole->SetAttribute("skipped", count({CaseStatus::kInterrupted}));
+    whole->SetAttribute("skipped", count({CaseStatus::kInterrupted, CaseStatus::kNotJudged}));
     SetText(*whole, "time", Seconds(time));
   }
   for (const SuiteCase& one : cases) {

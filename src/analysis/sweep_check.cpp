@@ -114,9 +114,10 @@ std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario&
     return std::nullopt;
   }
   const bool passed = result.verdict.passed;
-  return RunOutcome{.status = !result.plan.ok() ? "no_plan"
-                              : passed          ? "passed"
-                                                : "failed",
+  return RunOutcome{.status = !result.plan.ok()        ? "no_plan"
+                              : !result.verdict.judged ? "driven"
+                              : passed                 ? "passed"
+                                                       : "failed",
                     .passed = passed,
                     .outputs = OutputsOf(result)};
 }

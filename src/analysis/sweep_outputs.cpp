@@ -31,7 +31,7 @@ Outputs OutputsOf(const RunResult& result) {
     between = ToJson(comparison);
     between.erase("plants");
   }
-  json["verdict"] = {{"passed", result.verdict.passed},
+  json["verdict"] = {{"passed", ToJson(result.verdict)["passed"]},
                      {"failures", fmt::format("{}", fmt::join(result.verdict.failures, "; "))}};
   if (result.scenario.plan) {
     json["plan"]["status"] = ToString(result.plan.status);

@@ -37,6 +37,8 @@ const std::vector<Verb> kVerbs{
     {"sweep", "Run a study: one scenario with many values of its keys, made into one table",
      AddSweep},
     {"report", "Make one HTML page of finished runs, or of a study", AddReport},
+    {"experiment", "Repeat a published experiment of the methods, and print its table",
+     AddExperiment},
     {"list",
      "What there is: planners, controllers, manoeuvres, plants, optimizers, cameras, overlays, "
      "models, "

@@ -81,6 +81,12 @@ void PrintTurns(const nlohmann::json& diagnostics) {
       fmt::print("           {}\n", turn["note"].get<std::string>());
     }
   }
+  if (diagnostics.contains("neutral_steering_rad")) {
+    fmt::print(
+        "  between turns the wheels stand at {:.4g} rad, kinematic: a curvature of {:.4g} 1/m\n",
+        diagnostics["neutral_steering_rad"].get<double>(),
+        diagnostics["neutral_curvature_radpm"].get<double>());
+  }
   fmt::print("  open loop, kinematic: {} m from the goal, {} rad off, at most {} m off the path\n",
              Number(diagnostics, Pointer("/open_loop/goal_distance_m"), "{:.4f}"),
              Number(diagnostics, Pointer("/open_loop/goal_heading_error_rad"), "{:.5f}"),

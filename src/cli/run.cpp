@@ -72,9 +72,10 @@ int RunOne(const ScenarioRun& run, const RunOptions& options) {
   WriteRunFolder(result, out, {.mcap = options.mcap});
   if (!options.scenario.quiet) {
     fmt::print("{}: {}, in {}\n", scenario.name,
-               result.interrupted      ? "interrupted"
-               : result.verdict.passed ? "passed"
-                                       : "FAILED",
+               result.interrupted       ? "interrupted"
+               : !result.verdict.judged ? "driven; its scenario asks nothing of it"
+               : result.verdict.passed  ? "passed"
+                                        : "FAILED",
                out.string());
     PrintSummary(result);
     std::fflush(stdout);  // a film takes its time, and may find no room
@@ -91,7 +92,8 @@ int RunOne(const ScenarioRun& run, const RunOptions& options) {
   if (options.report && !result.interrupted) {
     WriteReport({out}, out / "report.html");
   }
-  return result.interrupted ? kInterrupted : result.verdict.passed ? kOk : kFailedExpectations;
+  const bool failed = result.verdict.judged && !result.verdict.passed;
+  return result.interrupted ? kInterrupted : failed ? kFailedExpectations : kOk;
 }
 
 }  // namespace

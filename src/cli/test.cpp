@@ -24,8 +24,9 @@ struct TestOptions {
 };
 
 void Tell(const SuiteCase& one, bool quiet) {
-  std::string line = one.status == CaseStatus::kPassed
-                         ? "as expected"
+  std::string line = one.status == CaseStatus::kPassed ? "as expected"
+                     : one.status == CaseStatus::kNotJudged
+                         ? "its scenario asks nothing of it"
                          : fmt::format("{}", fmt::join(one.reasons, "; "));
   for (const std::string& note : one.notes) {
     line += "; " + note;
@@ -34,6 +35,11 @@ void Tell(const SuiteCase& one, bool quiet) {
     case CaseStatus::kPassed:
       if (!quiet) {
         fmt::print("pass {}: {}\n", one.file.string(), line);
+      }
+      break;
+    case CaseStatus::kNotJudged:
+      if (!quiet) {
+        fmt::print("not judged {}: {}\n", one.file.string(), line);
       }
       break;
     case CaseStatus::kFailed:

@@ -29,6 +29,7 @@ void AddCompare(CLI::App& command, int& exit_code);
 void AddTest(CLI::App& command, int& exit_code);
 void AddSweep(CLI::App& command, int& exit_code);
 void AddReport(CLI::App& command, int& exit_code);
+void AddExperiment(CLI::App& command, int& exit_code);
 void AddList(CLI::App& command, int& exit_code);
 void AddModel(CLI::App& command, int& exit_code);
 void AddDocs(CLI::App& command, int& exit_code);

@@ -47,7 +47,9 @@ ErrorModel ErrorModelOf(const ControlInput& input, const Tracking& tracking, dou
   const int n = tyres ? kYawRate + 1 : kWheels + 1;
   ErrorModel model;
   model.period = period;
-  model.speed = direction * std::max(direction * input.state.speed, kSlowest);
+  const CarScale scale = CarScaleOf(vehicle);
+  const double slowest = kSlowest * std::min(1.0, scale.length / scale.time);
+  model.speed = direction * std::max(direction * input.state.speed, slowest);
   const double u = model.speed;
 
   // d/dt of (x, w, kappa, c), the last three constant.

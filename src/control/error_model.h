@@ -23,7 +23,7 @@ struct ErrorModel {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1>;
 
-  double speed = 0.0;   ///< u [m/s], signed, never within (-1, 1)
+  double speed = 0.0;   ///< u [m/s], signed, never too near 0
   double period = 0.0;  ///< of a step [s]
   Matrix a;             ///< x after a step = a x + b w + d kappa + c (tan(delta_0) - delta_0)
   Vector b;
@@ -32,7 +32,8 @@ struct ErrorModel {
 };
 
 /// The model at the speed that the car has, in the direction of the path at its foot. A car at a
-/// crawl or rolling the other way is reckoned with 1 m/s that way.
+/// crawl or rolling the other way is reckoned with
+/// 2.46 L omega that way, 1 m/s at most.
 ErrorModel ErrorModelOf(const ControlInput& input, const Tracking& tracking, double period);
 
 /// x of the car now.
@@ -59,6 +60,17 @@ struct ErrorWeights {
   double heading = 1.0;        ///< [1/rad^2], >= 0
   double steering_rate = 1.0;  ///< [s^2/rad^2], > 0
 };
+
+/// Of LqrOptions or MpcOptions. The weights that these leave open make the cost of an error the
+/// same for cars of every size: of an offset over the wheelbase, and of the steering rate over that
+/// of the car.
+template <typename Options>
+ErrorWeights WeightsFor(const VehicleParams& vehicle, const Options& options) {
+  const CarScale scale = CarScaleOf(vehicle);
+  return {.cross_track = options.cross_track.value_or(1.0 / (scale.length * scale.length)),
+          .heading = options.heading,
+          .steering_rate = options.steering_rate.value_or(scale.time * scale.time)};
+}
 
 /// The linear-quadratic regulator for a model: the cost of x off the path is x^T P x, and
 /// w = -K x keeps it lowest.

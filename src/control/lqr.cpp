@@ -18,7 +18,7 @@ class Lqr final : public SteeringController {
     const ErrorModel model = ErrorModelOf(input, tracking, input.period);
     Ahead ahead(input, tracking, model);
     ErrorModel::Vector z = StateOf(input, tracking) - ahead.steady();
-    ErrorWeights weights{options_.cross_track, options_.heading, options_.steering_rate};
+    ErrorWeights weights = WeightsFor(vehicle, options_);
     const Regulator regulator = ScheduledRegulator(model, vehicle.steering_rate, weights, z);
 
     double rate = -regulator.gain.dot(z);

@@ -30,7 +30,7 @@ class Mpc final : public SteeringController {
     const ErrorModel model = ErrorModelOf(input, tracking, step);
     Ahead ahead(input, tracking, model);
     Prediction z{StateOf(input, tracking) - ahead.steady(), {}};
-    ErrorWeights weights{options_.cross_track, options_.heading, options_.steering_rate};
+    ErrorWeights weights = WeightsFor(vehicle, options_);
     const Regulator regulator = ScheduledRegulator(model, vehicle.steering_rate, weights, z.free);
     z.reach.setZero(model.a.rows(), options_.horizon);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/control/return_distance.h"
+#include "src/control/preview_distance.h"
 #include "trackbed/core/angle.h"
 
 namespace trackbed {
@@ -24,8 +24,8 @@ class OptimalSteeringController final : public SteeringController {
     const double speed = std::max(std::abs(input.state.speed), kCrawl);
     const int direction = input.reference.path.At(input.station).direction;
     deviation_ = DeviationOf(input.state.pose, Seen(input, primary.station));
-    const double planned =
-        std::max(options_.horizon, options_.time * primary.speed.value_or(speed));
+    const double planned = std::max(options_.horizon ? *options_.horizon : PreviewDistance(input),
+                                    options_.time * primary.speed.value_or(speed));
     const double horizon =
         options_.matching == Matching::kTime
             ? planned

@@ -7,7 +7,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
-#include "src/control/return_distance.h"
+#include "src/control/preview_distance.h"
 #include "src/control/tracking.h"
 
 namespace trackbed {
@@ -52,8 +52,11 @@ class PreviewIntegral final : public SteeringController {
     const Path& path = input.reference.path;
     const int direction = path.At(input.station).direction;
     const double speed = std::abs(input.state.speed);
-    const double distance = std::max({options_.distance, options_.time * speed,
-                                      std::sqrt(OffsetGain()) * ReturnDistance(input)});
+    const double spread = std::sqrt(OffsetGain());
+    const double shortest =
+        options_.distance ? *options_.distance : spread * PreviewDistance(input, options_.delay);
+    const double distance =
+        std::max({shortest, options_.time * speed, spread * ReturnDistance(input)});
     const bool dynamic = direction > 0 && input.state.speed >= kSlowest && HasTyres(vehicle);
 
     using Gauss = boost::math::quadrature::gauss<double, 10>;

@@ -3,10 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trackbed/control/steering_controller.h"
+#include "src/control/preview_distance.h"
 
 namespace trackbed {
 namespace {
+
+/// The offset that the default lookahead brings back a car from, over its wheelbase.
+constexpr double kOffset = 0.125;
+
+double Lookahead(const ControlInput& input) {
+  const double offset = kOffset * input.vehicle.wheelbase;
+  return std::max(PreviewDistance(input), ReturnDistance(input.vehicle, input.state.speed, offset));
+}
 
 class PurePursuit final : public SteeringController {
  public:
@@ -14,8 +22,8 @@ class PurePursuit final : public SteeringController {
 
   double Steer(const ControlInput& input) override {
     const Path& path = input.reference.path;
-    const double distance =
-        std::max(options_.distance, options_.time * std::abs(input.state.speed));
+    const double shortest = options_.distance ? *options_.distance : Lookahead(input);
+    const double distance = std::max(shortest, options_.time * std::abs(input.state.speed));
     const double u = PreviewAngle(path, input.state.pose, input.station, distance);
     const double steering = std::atan(2.0 * input.vehicle.wheelbase * std::sin(u) / distance);
     const double limit = input.vehicle.steering_limit;

@@ -1,15 +1,50 @@
 #include "trackbed/control/speed_controller.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace trackbed {
 
+namespace {
+
+/// The mean acceleration [m/s^2] over the coming period of a car that keeps the profile, so that it
+/// has the profile's speed at the period's end even where the profile has a knot in between.
+double MeanAcceleration(const SpeedProfile& profile, double s, double speed, double period,
+                        double at_middle) {
+  double acceleration = at_middle;
+  constexpr int kIterations = 3;  // each is nearer by the factor a period/speed
+  for (int i = 0; i < kIterations; ++i) {
+    const double next = s + period * (speed + 0.5 * period * acceleration);
+    acceleration = (profile.SpeedAt(next) - profile.SpeedAt(s)) / period;
+  }
+  return acceleration;
+}
+
+/// A profile that brakes this much harder than the comfortable deceleration does so on purpose.
+constexpr double kOnPurpose = 1.1;
+/// What a controller may add to that where the car has come to lag behind.
+constexpr double kCatchUp = 1.25;
+
+/// How a profile that ends at rest comes to it [m/s^2], >= 0.
+double LastDeceleration(const SpeedProfile& profile) {
+  const auto& knots = profile.knots();
+  return knots.size() < 2 ? 0.0 : -profile.AccelerationAt(knots[knots.size() - 2].s);
+}
+
+}  // namespace
+
 double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& profile, double s,
-                    double speed, double period) {
+                    double speed, double period, double max_deceleration) {
+  const double limit =
+      max_deceleration > 0.0 ? max_deceleration : std::numeric_limits<double>::infinity();
+  const auto on_purpose = [&](double deceleration) {
+    return deceleration > kOnPurpose * options.deceleration;
+  };
   const bool stops = !profile.knots().empty() && profile.knots().back().speed == 0.0;
   const double end = profile.knots().empty() ? 0.0 : profile.knots().back().s;
   if (stops && s >= end) {
-    return -options.deceleration;
+    const double last = LastDeceleration(profile);
+    return -(on_purpose(last) ? std::min(last, limit) : options.deceleration);
   }
   // A car that stands a hair behind the start leaves like one that stands at it.
   const double from = profile.knots().empty() ? s : std::max(s, profile.knots().front().s);
@@ -18,10 +53,14 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
   if (stops) {
     middle = std::min(middle, 0.5 * (from + end));
   }
-  const double feed_forward = profile.AccelerationAt(middle);
+  const bool ends = stops && from + speed * period >= end;
+  const double at_middle = profile.AccelerationAt(middle);
+  const double feed_forward =
+      ends ? at_middle : MeanAcceleration(profile, from, speed, period, at_middle);
   const double error = profile.SpeedAt(s) - speed;
-  return std::clamp(feed_forward + options.gain * error, -2.0 * options.deceleration,
-                    options.acceleration);
+  const double hard = on_purpose(-feed_forward) ? std::min(-kCatchUp * feed_forward, limit) : 0.0;
+  return std::clamp(feed_forward + options.gain * error,
+                    -std::max(2.0 * options.deceleration, hard), options.acceleration);
 }
 
 std::optional<double> TimedSpeedControl(const SpeedControlOptions& options, double time,

@@ -23,8 +23,11 @@ class Stanley final : public SteeringController {
     if (direction > 0) {
       offset += vehicle.wheelbase * std::sin(heading);
     }
+    const CarScale scale = CarScaleOf(vehicle);
+    const double gain = options_.gain.value_or(1.0 / scale.time);
+    const double softening = options_.softening.value_or(scale.length / scale.time);
     // atan2: at rest without softening, as far as the angle goes.
-    const double approach = std::atan2(options_.gain * offset, options_.softening + speed);
+    const double approach = std::atan2(gain * offset, softening + speed);
     const double steering = turn.steering - direction * heading - approach;
     return std::clamp(steering, -vehicle.steering_limit, vehicle.steering_limit);
   }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "src/control/optimal_steering_controller.h"
-#include "src/control/return_distance.h"
+#include "src/control/preview_distance.h"
 #include "src/control/tracking.h"
 #include "trackbed/core/error.h"
 
@@ -33,8 +33,9 @@ class PreviewController final : public SteeringController {
   explicit PreviewController(const PreviewOptions& options) : options_(options) {}
 
   double Steer(const ControlInput& input) override {
-    const double distance = std::max(
-        {options_.distance, options_.time * std::abs(input.state.speed), ReturnDistance(input)});
+    const double shortest = options_.distance ? *options_.distance : PreviewDistance(input);
+    const double distance =
+        std::max({shortest, options_.time * std::abs(input.state.speed), ReturnDistance(input)});
     const int direction = input.reference.path.At(input.station).direction;
     const double u = PreviewAngle(input.reference.path, input.state.pose, input.station, distance) -
                      (options_.slip ? RearSlip(input) : 0.0);

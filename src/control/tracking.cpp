@@ -15,6 +15,12 @@ Tracking TrackingOf(const ControlInput& input) {
   return tracking;
 }
 
+CarScale CarScaleOf(const VehicleParams& vehicle) {
+  constexpr double kWheelbase = 2.7;             // [m]
+  constexpr double kSteeringRate = 2.65 / 17.6;  // [rad/s]
+  return {.length = vehicle.wheelbase / kWheelbase, .time = kSteeringRate / vehicle.steering_rate};
+}
+
 bool HasTyres(const VehicleParams& vehicle) {
   return vehicle.mass > 0.0 && vehicle.yaw_inertia > 0.0 &&
          vehicle.cornering_stiffness_front > 0.0 && vehicle.cornering_stiffness_rear > 0.0;

@@ -13,6 +13,15 @@ struct Tracking {
 
 Tracking TrackingOf(const ControlInput& input);
 
+/// Sizes of a car over those of the one that gains and weights were chosen for, the Prius. In these
+/// units all cars are alike, as far as their wheelbase and steering rate go.
+struct CarScale {
+  double length = 1.0;  ///< of the wheelbase: L/2.7 m
+  double time = 1.0;    ///< of the time the wheels need to turn: 0.1506 rad/s over omega
+};
+
+CarScale CarScaleOf(const VehicleParams& vehicle);
+
 /// Whether the car's tyres are known, so that it can be more than kinematic.
 bool HasTyres(const VehicleParams& vehicle);
 

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <deque>
 
+#include "src/drive/collision_watch.h"
 #include "src/drive/disturber.h"
 #include "src/drive/legs.h"
 #include "src/drive/lookout.h"
+#include "src/drive/path_tracking.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/avoidance.h"
 
@@ -16,21 +18,8 @@ namespace {
 
 /// Slower than this, and not asked to move, counts as at rest [m/s].
 constexpr double kAtRest = 0.01;
-/// At rest this close to the end of its path, a car has arrived [m].
-constexpr double kArrival = 0.5;
-/// But not if it came off its path and stands further than this from the path's end [m].
-constexpr double kNear = 5.0;
 /// How long a collision is followed before the drive ends [s].
 constexpr double kAfterCollision = 1.0;
-/// How far behind and beyond the last known station the car is looked for [m]: more than it can
-/// move or be pushed in a control period, less than the way round any turn it could make.
-constexpr double kSearch = 2.0;
-
-/// The stations among which the car must be, `moved` metres after it was at `station`.
-Stations Around(double station, double moved) {
-  return {station - kSearch, station + moved + kSearch};
-}
-
 /// Logs configurations at the first physics step at or after every multiple of the period.
 class ConfigurationLog {
  public:
@@ -110,6 +99,14 @@ struct Driven {
   double time = 0.0;      ///< then [s]
 };
 
+/// Whether a car that stands at `pose` has reached `goal`.
+bool IsAtGoal(const Scenario& scenario, double tolerance, const Pose2& pose, const Pose2& goal) {
+  const bool has_heading = !scenario.mission.headings.empty();
+  return (pose.position() - goal.position()).norm() <= tolerance &&
+         (!has_heading ||
+          std::abs(AngleDifference(pose.yaw, goal.yaw)) <= scenario.drive.goal_heading_tolerance);
+}
+
 bool AtRest(const VehicleState& state, const Command& command) {
   return std::abs(state.speed) < kAtRest && command.acceleration * command.gear <= 0.0;
 }
@@ -128,13 +125,15 @@ double Steer(SteeringController& controller, const ControlInput& input, const Dr
 
 /// What is set over time goes first, then what the controller wants, then the plan's profile.
 double WantedAcceleration(const SpeedControlOptions& options, SteeringController& controller,
-                          const ControlInput& input, const SpeedProfile& profile) {
+                          const ControlInput& input, const SpeedProfile& profile,
+                          double max_deceleration) {
   const double speed = std::abs(input.state.speed);
   std::optional<double> own = TimedSpeedControl(options, input.state.time, speed, input.period);
   if (!own) {
     own = controller.Accelerate(input);
   }
-  return own ? *own : SpeedControl(options, profile, input.station, speed, input.period);
+  return own ? *own
+             : SpeedControl(options, profile, input.station, speed, input.period, max_deceleration);
 }
 
 }  // namespace
@@ -178,11 +177,16 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
       .wind = scenario.world.wind,
       .start = start.pose,
       .start_speed = start.speed,
+      .start_steering = start.steering,
       .speed = SpeedLimitsOf(scenario),
       .seed = scenario.seed,
-      .clock = [begin] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      }};
+      .clock =
+          [begin] {
+            return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+          },
+      .friction = scenario.world.friction,
+      .friction_patches = scenario.world.friction_patches,
+      .infeasible = scenario.plan->infeasible};
   Plan plan = MakePlan(request, scenario.plan->global);
   if (!plan.ok() || !scenario.plan->avoid) {
     return plan;
@@ -211,6 +215,8 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
   const auto steps_per_period =
       static_cast<int>(std::lround(drive.control_period / drive.timestep));
   const StationSource source = ControllerFor(scenario.control.steering).station;
+  const double arrival = drive.goal_tolerance * car.params().length;  // [m]
+  const bool by_schedule = std::holds_alternative<ScheduleOptions>(scenario.control.steering);
 
   const VehicleParams believed = BelievedBy(scenario.disturb, car);
   const auto controller = MakeSteeringController(scenario.control.steering);
@@ -240,8 +246,9 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
   }
   Lookout lookout(scenario, car.unladen(), plan);
   Disturber disturber(scenario);
+  CollisionWatch collisions(scenario.world, car.params());
+  collisions.Update(*plant, 0.0);
   double station = 0.0;  // of the last projection, on the plan that is driven
-  bool collided = false;
   Command command;
   command.gear = has_path ? GearOf(driven.plan) : 1;
   double asked = StartOf(scenario).steering / scenario.disturb.steering.factor;  // last [rad]
@@ -257,12 +264,16 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
                .measured = disturber.Measure(state.pose),
                .controller = controller->Values()};
     const auto project = [&] {
-      row.tracking = driven.plan.reference.path.Project(
-          state.pose, Around(station, std::abs(state.speed) * drive.control_period));
-      station = row.tracking->s;
+      const Path& path = driven.plan.reference.path;
+      const double moved = std::abs(state.speed) * drive.control_period;
+      const Projection extended =
+          path.Project(state.pose, StationsAround(car.params(), station, moved));
+      station = extended.s;
+      row.tracking = DistanceFromPath(path, extended, state.pose, legs.empty() ? arrival : 0.0);
       row.tracking->s += driven.station;
     };
     const bool at_rest = tick > 0 && !stood && AtRest(state, command);
+    const bool by_odometer = source == StationSource::kOdometer;
     if (has_path) {
       project();
       const Projection at{station, row.tracking->cross_track, row.tracking->heading_error};
@@ -274,7 +285,8 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
         project();
       }
       const double length = driven.plan.reference.path.length();
-      if (!legs.empty() && at_rest && station >= length - std::min(kArrival, 0.5 * length)) {
+      const double covered = by_odometer ? state.distance - driven.distance : station;
+      if (!legs.empty() && at_rest && covered >= length - std::min(arrival, 0.5 * length)) {
         driven = {std::move(legs.front()), driven.station + length, state.distance, state.time};
         legs.pop_front();
         station = 0.0;
@@ -287,15 +299,16 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
       command.gear = GearOf(driven.plan);
     }
     const Path& path = driven.plan.reference.path;
-    const bool by_odometer = source == StationSource::kOdometer;
     const SpeedProfile& speed =
         by_odometer ? driven.plan.schedule_speed : driven.plan.reference.speed;
     const double s = by_odometer ? state.distance - driven.distance : station;
 
-    row.clearance = Clearance(scenario.world, car.params(), state.pose, state.time);
-    if (row.clearance && *row.clearance == 0.0) {
-      end_time = std::min(end_time, state.time + kAfterCollision);
-      collided = true;
+    const CollisionWatch::Period seen = collisions.Take();
+    row.clearance = seen.clearance;
+    row.state.obstacle_force = seen.force;
+    log.contact_time = collisions.contact_time();
+    if (log.contact_time) {
+      end_time = std::min(end_time, *log.contact_time + kAfterCollision);
     }
 
     // Is it over? The last row keeps the command that led here.
@@ -308,14 +321,16 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
     const bool stays = at_rest && !stood && !lookout.Waits();
     if (interrupted || time_over || (has_path && stays)) {
       log.rows.push_back(row);
-      const Vec2 goal = path.At(path.length()).pose.position();
-      const bool near = (state.pose.position() - goal).norm() <= kNear;
-      const bool there =
-          has_path ? at_rest && near && s >= path.length() - kArrival : end_time == duration;
+      const bool there = has_path ? at_rest && legs.empty() &&
+                                        IsAtGoal(scenario, arrival, state.pose, driven.plan.goal)
+                                  : end_time == duration;
+      const Vec2 end = path.At(path.length()).pose.position();
+      const bool is_partial =
+          at_rest && !plan.partial.empty() && (state.pose.position() - end).norm() <= arrival;
       log.status = interrupted                               ? DriveStatus::kInterrupted
-                   : collided                                ? DriveStatus::kCollided
+                   : log.contact_time                        ? DriveStatus::kCollided
                    : at_rest && !driven.plan.blocked.empty() ? DriveStatus::kBlocked
-                   : there && !plan.partial.empty()          ? DriveStatus::kPartial
+                   : is_partial                              ? DriveStatus::kPartial
                    : there                                   ? DriveStatus::kArrived
                    : at_rest                                 ? DriveStatus::kStopped
                                                              : DriveStatus::kTimeLimit;
@@ -334,30 +349,50 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
     if (row.measured) {
       input.state.pose = *row.measured;
       if (has_path && !by_odometer) {
-        input.station = path.Project(*row.measured, Around(station, 0.0)).s;
+        input.station = path.Project(*row.measured, StationsAround(car.params(), station, 0.0)).s;
       }
     }
     command.steering = Steer(*controller, input, hooks);
-    const double wanted =
-        disturber.Slow(WantedAcceleration(scenario.control.speed, *controller, input, speed), state,
-                       row.tracking ? row.tracking->s : state.distance);
+    const double hardest =
+        MaxDeceleration(believed, RoadFactor(scenario.world, state.pose.position()));
+    const double wanted = disturber.Slow(
+        WantedAcceleration(scenario.control.speed, *controller, input, speed, hardest), state,
+        row.tracking ? row.tracking->s : state.distance);
     command.acceleration = command.gear * (stood ? -scenario.control.speed.deceleration : wanted);
     row.command = command;
     row.controller = controller->Values();
     log.rows.push_back(row);
 
-    // Drive. Prescribed wheels reach the wanted angle at the end of the period, on a ramp.
+    // Drive. Prescribed wheels reach the wanted angle at the end of the period, on a ramp; those of
+    // a schedule are where it says at every step, since it is a function of the distance.
     for (int step = 0; step < steps_per_period && !plant->diverged(); ++step) {
       Command now = command;
       if (drive.steering == SteeringInput::kPrescribed) {
         now.steering =
             std::lerp(asked, command.steering, static_cast<double>(step + 1) / steps_per_period);
+      } else if (by_schedule) {
+        const auto scheduled = [&](double time) {
+          return driven.plan.schedule.At(s + time * std::abs(state.speed) +
+                                         0.5 * time * time * command.gear * command.acceleration);
+        };
+        // An actuator turns at its full rate, then waits for the next step: on a slower ramp it is
+        // early, on average by half the time it waits. Before a ramp of full rate nothing is left
+        // to be made up.
+        const double end = (step + 1) * drive.timestep;
+        const auto wait = [&](double from) {
+          const double turned = std::abs(scheduled(from + drive.timestep) - scheduled(from));
+          return std::max(0.0, drive.timestep - turned / believed.steering_rate);
+        };
+        const double waits = std::min(wait(end - drive.timestep), wait(end));
+        now.steering = scheduled(end - 0.5 * waits);
       }
       now.steering = disturber.Steer(now.steering);
       disturber.Kick(tick * steps_per_period + step, *plant);
       plant->Step(now);
       if (!plant->diverged()) {
-        configurations.Record(*plant, state.time + (step + 1) * drive.timestep);
+        const double now_time = state.time + (step + 1) * drive.timestep;
+        configurations.Record(*plant, now_time);
+        collisions.Update(*plant, now_time);
       }
     }
     asked = command.steering;

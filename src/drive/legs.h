@@ -6,10 +6,10 @@
 
 #include "trackbed/planning/planner.h"
 
-/// Plans that change direction, driven gear by gear.
+/// Plans that stop on the way, to change direction or to turn the wheels, driven leg by leg.
 namespace trackbed {
 
-/// A plan cut at its cusps: the stretches that are driven in one gear each, at least one.
+/// A plan cut at its cusps and stops: the stretches that are driven in one go each, at least one.
 std::deque<Plan> InLegs(const Plan& plan);
 
 /// +1 for a plan that begins forwards, -1 backwards.

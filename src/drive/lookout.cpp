@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "trackbed/planning/avoidance.h"
 #include "trackbed/world/world.h"
@@ -123,11 +124,76 @@ void Lookout::SetRoute(const Plan& plan) {
   driving_.route_station = 0.0;
 }
 
+std::vector<MovingBox> Lookout::Known(const VehicleState& state, const Path& path,
+                                      double station) const {
+  std::vector<MovingBox> known;
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    const Obstacle& obstacle = scenario_.world.obstacles[i];
+    if (!seen_[i].since) {
+      continue;
+    }
+    const OrientedBox box = FootprintAt(obstacle, state.time);
+    // The avoider gets its delay first; what it finds no way around is for here after all.
+    const bool for_avoider = !seen_[i].taken_in && driving_.on_route &&
+                             IsForAvoider(*scenario_.plan, vehicle_, path, station, box);
+    if (!for_avoider) {
+      known.push_back({box, obstacle.velocity});
+    }
+  }
+  return known;
+}
+
+bool Lookout::IsUrgent(const VehicleState& state, const Plan& plan, const Projection& at) const {
+  const bool news = std::any_of(seen_.begin(), seen_.end(), [&](const Seen& seen) {
+    return seen.since && *seen.since == state.time;
+  });
+  if (!news) {
+    return false;
+  }
+  const ReplanOptions& options = *scenario_.plan->replan;
+  const double speed = std::abs(state.speed);
+  // Comfortable braking from the next look on, and a car's length to spare.
+  const double stop = speed * options.period +
+                      0.5 * speed * speed / SpeedLimitsOf(scenario_).deceleration + vehicle_.length;
+  const auto encounter =
+      FirstEncounter(vehicle_, plan.reference, at.s, Known(state, plan.reference.path, at.s),
+                     options.settings.safe_distance, options.settings.look_ahead, at.cross_track);
+  return encounter && encounter->station - at.s < stop;
+}
+
+double Lookout::HardestBraking(const Path& path, double station, double speed) const {
+  constexpr double kSpacing = 1.0;   // [m]
+  constexpr double kGravity = 9.81;  // [m/s^2]
+  constexpr double kLeast = 0.1;     // [m/s^2]
+  double hardest = MaxDeceleration(vehicle_, 1.0);
+  // What is slippery makes it look further.
+  for (double ahead = 0.0; hardest > kLeast && 2.0 * hardest * ahead <= speed * speed;
+       ahead += kSpacing) {
+    const PathPoint at = path.At(station + ahead);
+    double road = std::numeric_limits<double>::infinity();
+    for (const Vec2& corner : OutlineAt(vehicle_, at.pose).Corners()) {
+      road = std::min(road, RoadFactor(scenario_.world, corner));
+    }
+    const double grip = MaxDeceleration(vehicle_, road);
+    // What a bend takes of the tyres, at the speed that is left there, leaves the rest of the
+    // ellipse: a third at least, for a car that is too fast for the bend slides anyway.
+    const double across = (speed * speed - 2.0 * hardest * ahead) * std::abs(at.curvature);
+    const double most = road * kGravity * vehicle_.friction_lateral;
+    const double rest =
+        most > 0.0 ? std::sqrt(std::max(0.1, 1.0 - std::pow(across / most, 2))) : 1.0;
+    const Eigen::Vector3d normal = GroundNormal(scenario_.world, at.pose.position());
+    const double downhill = normal.head<2>().dot(Direction(at.pose.yaw)) / normal.z();
+    hardest = std::min(hardest, grip * rest - kGravity * std::max(0.0, downhill));
+  }
+  return vehicle_.max_deceleration > 0.0 ? std::max(hardest, kLeast) : 0.0;
+}
+
 std::optional<Plan> Lookout::PlanAgain(const VehicleState& state, const Plan& plan,
                                        const Projection& at) {
   const ReplanOptions& options = *scenario_.plan->replan;
   const double speed = std::abs(state.speed);
-  if (state.time < static_cast<double>(looks_) * options.period - kSameTime) {
+  const bool due = state.time >= static_cast<double>(looks_) * options.period - kSameTime;
+  if (!due && !IsUrgent(state, plan, at)) {
     return std::nullopt;
   }
   // Where the car is on the route, looked for near where it can have got to since the last look.
@@ -150,23 +216,10 @@ std::optional<Plan> Lookout::PlanAgain(const VehicleState& state, const Plan& pl
       .strayed = std::abs(at.cross_track) > kStrayed ||
                  std::abs(at.heading_error) > kStrayedHeading ||
                  std::abs(plan.reference.speed.SpeedAt(at.s) - speed) > kStrayedSpeed,
-      .obstacles = {},
+      .max_deceleration = HardestBraking(plan.reference.path, at.s, speed),
+      .obstacles = Known(state, plan.reference.path, at.s),
       .seed = scenario_.seed + static_cast<std::uint64_t>(looks_) * 1000};
-  for (std::size_t i = 0; i < seen_.size(); ++i) {
-    const Obstacle& obstacle = scenario_.world.obstacles[i];
-    if (!seen_[i].since) {
-      continue;
-    }
-    const OrientedBox box = FootprintAt(obstacle, state.time);
-    // The avoider gets its delay first; what it finds no way around is for here after all.
-    const bool for_avoider =
-        !seen_[i].taken_in && driving_.on_route &&
-        IsForAvoider(*scenario_.plan, vehicle_, plan.reference.path, at.s, box);
-    if (!for_avoider) {
-      request.obstacles.push_back({box, obstacle.velocity});
-    }
-  }
-  ++looks_;
+  looks_ += due ? 1 : 0;
   Replanned next = Replan(request, driving_, options);
   constexpr double kNowhere = 0.1;  // [m]
   const bool moves = next.kind != ReplanKind::kKeep && next.plan.reference.path.length() > kNowhere;

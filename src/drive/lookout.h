@@ -37,6 +37,17 @@ class Lookout {
 
   void See(const VehicleState& state);
   std::optional<Plan> Avoid(const VehicleState& state, const Plan& plan, double station);
+  /// What has become known, where it is now, for replanning.
+  [[nodiscard]] std::vector<MovingBox> Known(const VehicleState& state, const Path& path,
+                                             double station) const;
+  /// Whether something that became known this moment cannot wait for the next look: a car that
+  /// brakes comfortably from then on would get too near.
+  [[nodiscard]] bool IsUrgent(const VehicleState& state, const Plan& plan,
+                              const Projection& at) const;
+  /// The hardest braking on the path ahead, as far as the car takes to stop with it: the least
+  /// friction under its outline, what bends leave of it at its speed, and downhill [m/s^2]. 0: not
+  /// known.
+  [[nodiscard]] double HardestBraking(const Path& path, double station, double speed) const;
   std::optional<Plan> PlanAgain(const VehicleState& state, const Plan& plan, const Projection& at);
   void SetRoute(const Plan& plan);
 

@@ -210,15 +210,26 @@ std::vector<Segment> Path::Cut(Stations within) const {
   return pieces;
 }
 
-std::vector<Stations> LegsOf(const Path& path) {
-  std::vector<Stations> legs{{0.0, 0.0}};
+std::vector<Stations> LegsOf(const Path& path, const std::vector<double>& stops) {
+  constexpr double kSame = 1e-9;  // [m]
+  std::vector<double> ends = stops;
   const std::vector<Segment>& segments = path.segments();
+  double station = 0.0;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     if (i > 0 && segments[i].direction != segments[i - 1].direction) {
-      legs.push_back({legs.back().to, legs.back().to});
+      ends.push_back(station);
     }
-    legs.back().to += segments[i].length;
+    station += segments[i].length;
   }
+  std::sort(ends.begin(), ends.end());
+  std::vector<Stations> legs{{0.0, 0.0}};
+  for (const double end : ends) {
+    if (end > legs.back().from + kSame && end < station - kSame) {
+      legs.back().to = end;
+      legs.push_back({end, end});
+    }
+  }
+  legs.back().to = station;
   return legs;
 }
 

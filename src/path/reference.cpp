@@ -188,10 +188,10 @@ SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& lim
 }
 
 SpeedProfile StopAtCusps(const Path& path, double start_speed, const SpeedLimits& limits,
-                         const std::vector<SpeedCap>& caps) {
+                         const std::vector<SpeedCap>& caps, const std::vector<double>& stops) {
   std::vector<SpeedProfile::Knot> knots;
-  for (const Stations& leg : LegsOf(path)) {
-    if (!knots.empty() && leg.to - leg.from < kNegligible) {
+  for (const Stations& leg : LegsOf(path, stops)) {
+    if (!knots.empty() && leg.to - leg.from < 2.0 * kNegligible) {
       continue;
     }
     std::vector<SpeedCap> own;
@@ -202,7 +202,8 @@ SpeedProfile StopAtCusps(const Path& path, double start_speed, const SpeedLimits
     const SpeedProfile profile =
         StopAtEnd(leg.to - leg.from, first ? start_speed : 0.0, limits, own);
     for (const SpeedProfile::Knot& knot : profile.knots()) {
-      if (first || knot.s > 0.0) {
+      // Stations near a leg's ends may fall together where they are added to its beginning.
+      if (first || leg.from + knot.s > knots.back().s + 0.5 * kNegligible) {
         knots.push_back({leg.from + knot.s, knot.speed});
       }
     }
@@ -214,7 +215,8 @@ SpeedProfile StopAtCusps(const Path& path, double start_speed, const SpeedLimits
 SpeedProfile Excerpt(const SpeedProfile& profile, Stations within) {
   std::vector<SpeedProfile::Knot> knots{{0.0, profile.SpeedAt(within.from)}};
   for (const SpeedProfile::Knot& knot : profile.knots()) {
-    if (knot.s > within.from && knot.s < within.to) {
+    // Stations near the ends may fall together with them where they are counted from `from`.
+    if (knot.s > within.from + 0.5 * kNegligible && knot.s < within.to - 0.5 * kNegligible) {
       knots.push_back({knot.s - within.from, knot.speed});
     }
   }

@@ -147,7 +147,7 @@ class AroundObstacles {
     const double stop = plan_.schedule_speed.knots().back().s;
     plan_.diagnostics["stop_distance_m"] = stop;
     plan_.diagnostics["open_loop"] =
-        ToJson(DriveOpenLoop(request_.vehicle, path(), plan_.schedule, stop, speed));
+        ToJson(DriveOpenLoop(request_.vehicle, path(), plan_.schedule, stop));
   }
 
   void Tell(const Stretch& stretch, double leave, double back) {

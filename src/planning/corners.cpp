@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <optional>
 
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
@@ -60,6 +61,30 @@ Path LayOut(const std::vector<Vec2>& polyline, std::vector<RoundCorner>& corners
   }
   const Vec2 leg = polyline[1] - polyline[0];
   return {{polyline[0].x(), polyline[0].y(), std::atan2(leg.y(), leg.x())}, std::move(segments)};
+}
+
+/// The highest speed up to `highest` at which the leg before the first corner, `leg` [m] long,
+/// holds its tangent and the way to slow down to it; none if there is none.
+template <typename Tangent>
+std::optional<double> SpeedAfterBraking(const CornerLimits& limits, double highest, double leg,
+                                        const Tangent& tangent) {
+  const auto lacks = [&](double v) {
+    const double braking = std::max(0.0, limits.start_speed * limits.start_speed - v * v) /
+                           (2.0 * limits.deceleration);
+    return tangent(v) + braking - leg;
+  };
+  if (lacks(highest) <= 0.0) {
+    return highest;
+  }
+  // A slower corner is shorter, and the way to slow down longer: either may win.
+  constexpr int kSteps = 100;
+  for (int i = kSteps - 1; i >= 0; --i) {
+    const double v = std::lerp(limits.min_speed, highest, static_cast<double>(i) / kSteps);
+    if (lacks(v) <= 0.0) {
+      return v;
+    }
+  }
+  return std::nullopt;
 }
 
 std::string PlaceOf(const RoundCorner& corner) {
@@ -135,14 +160,17 @@ RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2
     if (std::abs(corner.heading_change) > kPi - kStraight) {
       return refuse(PlanStatus::kUTurn, PlaceOf(corner) + " turns back on itself");
     }
-    const double room = std::min(in.norm() * (i == 1 ? 1.0 : 0.5),
-                                 out.norm() * (i + 2 == polyline.size() ? 1.0 : 0.5));
-    const auto lacks = [&](double speed) { return at_speed(corner, speed).tangent_length - room; };
+    const double room_out = out.norm() * (i + 2 == polyline.size() ? 1.0 : 0.5);
+    const double room_in = in.norm() * (i == 1 ? 1.0 : 0.5);
+    const auto lacks = [&](double speed) {
+      return at_speed(corner, speed).tangent_length - std::min(room_in, room_out);
+    };
     if (lacks(limits.min_speed) > 0.0) {
       return refuse(
           PlanStatus::kTurnTooTight,
           fmt::format("{} needs {:.3g} m of its legs even at {:.3g} m/s; there are {:.3g}",
-                      PlaceOf(corner), lacks(limits.min_speed) + room, limits.min_speed, room));
+                      PlaceOf(corner), at_speed(corner, limits.min_speed).tangent_length,
+                      limits.min_speed, std::min(room_in, room_out)));
     }
     double speed = limits.speed;
     if (lacks(speed) > 0.0) {
@@ -150,6 +178,17 @@ RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2
       speed = boost::math::tools::bisect(lacks, limits.min_speed, speed, [](double a, double b) {
                 return b - a < kClose;
               }).first;
+    }
+    if (i == 1) {
+      const auto slowed = SpeedAfterBraking(
+          limits, speed, room_in, [&](double v) { return at_speed(corner, v).tangent_length; });
+      if (!slowed) {
+        return refuse(PlanStatus::kTurnTooTight,
+                      fmt::format("{} is too near for a car that rolls at {:.3g} m/s to slow down "
+                                  "for it at {:.3g} m/s^2",
+                                  PlaceOf(corner), limits.start_speed, limits.deceleration));
+      }
+      speed = *slowed;
     }
     result.corners.push_back(at_speed(corner, speed));
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "trackbed/core/error.h"
+#include "trackbed/planning/curvature_steps.h"
 
 namespace trackbed {
 
@@ -32,41 +33,49 @@ double SharpestCurvature(const Segment& segment) {
 }
 
 SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<Segment>& segments,
-                                double speed) {
-  return CourseSchedule(vehicle, segments, SpeedProfile({{0.0, speed}}));
-}
-
-SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<Segment>& segments,
-                                const SpeedProfile& profile) {
-  // Where the car stands the wheels have to turn on the spot; a schedule over the distance needs
-  // some for that [m].
-  constexpr double kLeast = 1e-3;
+                                double speed, const std::vector<SpeedCap>& caps,
+                                const std::vector<double>& stops) {
+  // A schedule over the distance needs some where the wheels turn on the spot [m].
+  constexpr double kLeast = 1e-6;
   constexpr double kSpacing = 0.5;  // [m]; atan bends by less than 1e-5 rad within
   const auto steering = [&](double curvature) { return SteeringForCurvature(vehicle, curvature); };
+  const std::vector<SteeringRamp> ramps = RampsOfSteps(vehicle, segments, speed, caps, stops);
+  auto ramp = ramps.begin();
   std::vector<SteeringSchedule::Knot> knots;
   double begin = 0.0;
-  double room_before = 0.0;  // how much of the piece the ramp of the step before it takes
+  double taken = 0.0;  // of the piece by the ramp at its beginning
+  bool is_joined = false;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const Segment& segment = segments[i];
-    double room_after = 0.0;
-    if (i + 1 < segments.size()) {
-      const Segment& next = segments[i + 1];
-      const double step =
-          std::abs(steering(next.curvature) - steering(segment.CurvatureAt(segment.length)));
-      const double speed = profile.SpeedAt(begin + segment.length);
-      const double half = 0.5 * speed * step / vehicle.steering_rate;
-      room_after = std::min(
-          {step > 0.0 ? std::max(half, kLeast) : 0.0, 0.4 * segment.length, 0.4 * next.length});
+    const double end = begin + segment.length;
+    double from = taken;
+    double to = segment.length;
+    taken = 0.0;
+    bool joins = false;
+    if (i + 1 < segments.size() &&
+        steering(segments[i + 1].curvature) != steering(segment.CurvatureAt(segment.length))) {
+      joins = true;
+      if (ramp != ramps.end() && ramp->joint == end) {
+        to = ramp->from - begin;
+        taken = ramp->to - end;
+        ++ramp;
+      } else {
+        to = segment.length - std::min(kLeast, 0.5 * segment.length);
+      }
     }
-    const double from = room_before;
-    const double to = segment.length - room_after;
-    const double parts = segment.sharpness == 0.0 ? 1.0 : std::ceil((to - from) / kSpacing);
-    for (double k = from > 0.0 || i == 0 ? 0.0 : 1.0; k <= parts; k += 1.0) {
+    // Ramps may meet in the middle of a piece, up to rounding.
+    from = std::min(from, to);
+    const double parts = segment.sharpness == 0.0 && segment.sharpness_rate == 0.0
+                             ? 1.0
+                             : std::ceil(std::max(to - from, kLeast) / kSpacing);
+    for (double k = is_joined || i == 0 ? 0.0 : 1.0; k <= parts; k += 1.0) {
       const double d = std::lerp(from, to, k / parts);
-      knots.push_back({begin + d, steering(segment.CurvatureAt(d))});
+      if (knots.empty() || begin + d > knots.back().distance) {
+        knots.push_back({begin + d, steering(segment.CurvatureAt(d))});
+      }
     }
-    begin += segment.length;
-    room_before = room_after;
+    begin = end;
+    is_joined = joins;
   }
   return SteeringSchedule::Through(std::move(knots));
 }

@@ -219,8 +219,10 @@ class DetourSearch {
       request.waypoints.insert(request.waypoints.end(), {on, before, to.position()});
     }
     const Plan way = MakePlan(request, planner_);
-    if (!way.ok() || !way.partial.empty()) {
-      why = why.empty() ? way.reason + way.partial : why;
+    if (!way.ok() || !way.partial.empty() || !way.stops.empty()) {
+      const std::string own = way.stops.empty() ? way.reason + way.partial
+                                                : std::string("it would have to stop on the way");
+      why = why.empty() ? own : why;
       return std::nullopt;
     }
     const PathPoint first = way.reference.path.At(0.0);
@@ -264,7 +266,8 @@ class DetourSearch {
     }
     plan.reference.speed =
         StopAtEnd(path.length(), request_.station_speed, request_.speed, plan.caps);
-    plan.schedule = CourseSchedule(request_.vehicle, path.segments(), plan.reference.speed);
+    plan.schedule =
+        CourseSchedule(request_.vehicle, path.segments(), request_.speed.speed, plan.caps);
     plan.schedule_speed = plan.reference.speed;
     plan.goal = request_.route.goal;
     plan.tree = way.tree;

@@ -1,5 +1,7 @@
 #include "trackbed/planning/fillet.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,7 +30,8 @@ FilletPlan PlanRoute(const VehicleParams& vehicle, const Route& route, double sp
     fillet::SearchTurns(vehicle, route, speed, options, seed, limits, turns);
   }
   FilletPlan plan = fillet::LayOut(vehicle, route, std::move(turns));
-  plan.schedule = fillet::ScheduleOf(vehicle, plan.turns);
+  plan.schedule = plan.turns.empty() ? SteeringSchedule({}, {}, options.neutral_steering)
+                                     : fillet::ScheduleOf(vehicle, plan.turns);
   if (options.objective == RadiusObjective::kDriven && !plan.turns.empty()) {
     plan = fillet::SearchDriven(vehicle, route, options, seed, limits, plan);
   }
@@ -68,10 +71,16 @@ FilletPlan PlanFillets(const VehicleParams& vehicle, const std::vector<Vec2>& wa
   TRACKBED_CHECK(options.min_speed > 0.0, "min_speed {}", options.min_speed);
   FilletPlan plan;
   try {
+    if (std::abs(options.neutral_steering) > vehicle.steering_limit) {
+      throw Refusal{PlanStatus::kTurnTooTight, -1,
+                    fmt::format("between turns the wheels would stand at {:.4g} rad; the car can "
+                                "steer {:.4g} rad",
+                                options.neutral_steering, vehicle.steering_limit)};
+    }
     const Route route = fillet::RouteOf(waypoints);
     plan = PlanRoute(vehicle, route, speed, options, seed);
-    plan.verification = DriveOpenLoop(vehicle, plan.path, plan.schedule, plan.stop_distance,
-                                      fillet::SlowestTurn(plan.turns), options.reference);
+    plan.verification =
+        DriveOpenLoop(vehicle, plan.path, plan.schedule, plan.stop_distance, options.reference);
   } catch (const Refusal& refusal) {
     plan = {};
     plan.status = refusal.status;

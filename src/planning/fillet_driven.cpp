@@ -55,7 +55,7 @@ class DrivenProblem {
     for (std::size_t i = 0; i <= intervals; ++i) {
       stations[i] = static_cast<double>(i) * spacing;
     }
-    const KinematicState start{.pose = route_.start(), .speed = SlowestTurn(plan.turns)};
+    const KinematicState start{.pose = route_.start(), .speed = 1.0};  // of no importance
     const auto states =
         RollOut(vehicle_, start, plan.schedule, stations, kSpacing, options_.reference);
     double position = 0.0;

@@ -67,8 +67,9 @@ Path PathThrough(const Route& route, std::vector<FilletTurn>& turns) {
 void CentreRamps(const VehicleParams& vehicle, FilletTurn& turn) {
   const double delta = SteeringForCurvature(vehicle, 1.0 / turn.radius);
   turn.steering = std::copysign(delta, turn.heading_change);
-  turn.ramp_time = delta / vehicle.steering_rate;
-  turn.ramp_distance = SteeringDistance(vehicle, delta, turn.speed);
+  const double travel = turn.steering - turn.neutral;
+  turn.ramp_time = std::abs(travel) / vehicle.steering_rate;
+  turn.ramp_distance = SteeringDistance(vehicle, travel, turn.speed);
   turn.ramp_truncated = turn.arc_length < turn.ramp_distance;
   turn.steer_start = turn.arc_start_s - turn.ramp_distance / 2.0;
   turn.steer_return = turn.steer_start + turn.arc_length;
@@ -161,15 +162,7 @@ SteeringSchedule ScheduleOf(const VehicleParams& vehicle, const std::vector<Fill
     steering.push_back({turn.steer_start, turn.steer_return, turn.steering});
     slopes.push_back(vehicle.steering_rate / turn.speed);
   }
-  return {steering, slopes};
-}
-
-double SlowestTurn(const std::vector<FilletTurn>& turns) {
-  double slowest = 1.0;  // without a turn any speed will do
-  for (std::size_t k = 0; k < turns.size(); ++k) {
-    slowest = k == 0 ? turns[k].speed : std::min(slowest, turns[k].speed);
-  }
-  return slowest;
+  return {steering, slopes, turns.empty() ? 0.0 : turns.front().neutral};
 }
 
 }  // namespace trackbed::fillet

@@ -59,9 +59,6 @@ FilletPlan LayOut(const VehicleParams& vehicle, const Route& route, std::vector<
 /// The schedule of a plan's turns as they stand. Refusal when they are out of order.
 SteeringSchedule ScheduleOf(const VehicleParams& vehicle, const std::vector<FilletTurn>& turns);
 
-/// Slow enough for the wheels to follow a plan's schedule everywhere [m/s].
-double SlowestTurn(const std::vector<FilletTurn>& turns);
-
 /// Runs the two-pass search (kLiteral, kTurnLocal) over all turns; fills in radii and findings.
 void SearchTurns(const VehicleParams& vehicle, const Route& route, double speed,
                  const FilletOptions& options, std::uint64_t seed,

@@ -24,17 +24,23 @@ double Root(const Function& f, double a, double b) {
 
 /// g(r) of C.40 [m].
 double SteeringRoom(const VehicleParams& vehicle, double speed, double interior_angle,
-                    double shorter_leg, double radius) {
-  return radius / std::tan(interior_angle / 2.0) +
-         speed / vehicle.steering_rate * std::atan(vehicle.wheelbase / radius) - 0.5 * shorter_leg;
+                    double shorter_leg, double neutral, double radius) {
+  const double travel = std::abs(std::atan(vehicle.wheelbase / radius) - neutral);
+  return radius / std::tan(interior_angle / 2.0) + speed / vehicle.steering_rate * travel -
+         0.5 * shorter_leg;
 }
 
-/// The radius with the smallest g: g is convex up to there and from there.
+/// The radius with the smallest g: g falls up to there and rises from there.
 double RoomiestRadius(const VehicleParams& vehicle, double speed, double interior_angle,
-                      RadiusInterval bounds) {
+                      double neutral, RadiusInterval bounds) {
   const double L = vehicle.wheelbase;
   const double squared = speed / vehicle.steering_rate * L * std::tan(interior_angle / 2.0) - L * L;
-  return std::clamp(std::sqrt(std::max(0.0, squared)), bounds.low, bounds.high);
+  double roomiest = std::sqrt(std::max(0.0, squared));
+  if (neutral > 0.0) {
+    // Beyond the circle of d_0 the wheels travel the further the larger the radius is.
+    roomiest = std::min(roomiest, L / std::tan(neutral));
+  }
+  return std::clamp(roomiest, bounds.low, bounds.high);
 }
 
 }  // namespace
@@ -50,11 +56,11 @@ std::optional<RadiusInterval> HalfLegRadii(double interior_angle, double shorter
 
 std::optional<RadiusInterval> SteeringRoomRadii(const VehicleParams& vehicle, double speed,
                                                 double interior_angle, double shorter_leg,
-                                                RadiusInterval bounds) {
+                                                RadiusInterval bounds, double neutral) {
   const auto g = [&](double r) {
-    return SteeringRoom(vehicle, speed, interior_angle, shorter_leg, r);
+    return SteeringRoom(vehicle, speed, interior_angle, shorter_leg, neutral, r);
   };
-  const double lowest = RoomiestRadius(vehicle, speed, interior_angle, bounds);
+  const double lowest = RoomiestRadius(vehicle, speed, interior_angle, neutral, bounds);
   if (g(lowest) > kRounding * shorter_leg) {
     return std::nullopt;
   }
@@ -67,11 +73,11 @@ std::optional<RadiusInterval> SteeringRoomRadii(const VehicleParams& vehicle, do
 
 std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double interior_angle,
                                         double shorter_leg, RadiusInterval bounds,
-                                        SpeedInterval speeds) {
+                                        SpeedInterval speeds, double neutral) {
   // The smallest g rises with the speed.
   const auto least = [&](double speed) {
-    const double r = RoomiestRadius(vehicle, speed, interior_angle, bounds);
-    return SteeringRoom(vehicle, speed, interior_angle, shorter_leg, r);
+    const double r = RoomiestRadius(vehicle, speed, interior_angle, neutral, bounds);
+    return SteeringRoom(vehicle, speed, interior_angle, shorter_leg, neutral, r);
   };
   if (least(speeds.high) <= 0.0) {
     return speeds.high;
@@ -83,6 +89,14 @@ std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double int
 }
 
 namespace fillet {
+namespace {
+
+/// n of SteeringRoomRadii.
+double NeutralTowardTurn(const FilletTurn& turn) {
+  return turn.heading_change < 0.0 ? -turn.neutral : turn.neutral;
+}
+
+}  // namespace
 
 RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const FilletOptions& options,
                          FilletTurn& turn) {
@@ -106,6 +120,7 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
                              options.max_radius, r_min));
   }
   turn.speed = speed;
+  turn.neutral = options.neutral_steering;
   const RadiusInterval bounds = options.radius
                                     ? RadiusInterval{*options.radius, *options.radius}
                                     : RadiusInterval{r_min, std::max(r_min, options.max_radius)};
@@ -124,7 +139,8 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
                       RadiusConstraint::kHalfLeg};
   if (options.constraint == RadiusConstraint::kSteeringRoom) {
     const auto room_at = [&](double v) {
-      return SteeringRoomRadii(vehicle, v, turn.interior_angle, turn.shorter_leg, bounds);
+      return SteeringRoomRadii(vehicle, v, turn.interior_angle, turn.shorter_leg, bounds,
+                               NeutralTowardTurn(turn));
     };
     auto room = room_at(speed);
     if (!room) {
@@ -137,17 +153,28 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
       }
       const bool slow_down =
           options.without_room == WithoutRoom::kSlowDown && options.min_speed < speed;
-      const auto slower = slow_down
-                              ? SteeringRoomSpeed(vehicle, turn.interior_angle, turn.shorter_leg,
-                                                  bounds, {options.min_speed, speed})
-                              : std::nullopt;
+      const auto slower =
+          slow_down ? SteeringRoomSpeed(vehicle, turn.interior_angle, turn.shorter_leg, bounds,
+                                        {options.min_speed, speed}, NeutralTowardTurn(turn))
+                    : std::nullopt;
       if (slower) {
         turn.speed = *slower;
         turn.note = fmt::format("{}; taken at {:.4g} m/s", why, *slower);
         room = room_at(*slower);
+      } else if (options.without_room == WithoutRoom::kSlowDown) {
+        // C.40 keeps a whole ramp on the leg, of which half lies on the arc.
+        const double v = std::min(options.min_speed, speed);
+        room = SteeringRoomRadii(vehicle, 0.5 * v, turn.interior_angle, turn.shorter_leg, bounds);
+        if (!room) {
+          throw refuse(PlanStatus::kNoRoomForSteering,
+                       fmt::format("{}, and at {:.4g} m/s its ramps would overlap those of its "
+                                   "neighbours",
+                                   why, v));
+        }
+        turn.speed = v;
+        turn.note = fmt::format("{}; taken at {:.4g} m/s with half a ramp on the leg", why, v);
       } else {
-        turn.note = why + (slow_down ? fmt::format(", nor at {:.4g} m/s", options.min_speed) : "") +
-                    "; under C.34 instead";
+        turn.note = why + "; under C.34 instead";
       }
     }
     if (room) {
@@ -177,7 +204,8 @@ ActiveConstraint ActiveAt(const RadiusLimits& limits, double radius) {
 double ConstraintAt(const VehicleParams& vehicle, RadiusConstraint constraint,
                     const FilletTurn& turn, double radius) {
   return constraint == RadiusConstraint::kSteeringRoom
-             ? SteeringRoom(vehicle, turn.speed, turn.interior_angle, turn.shorter_leg, radius)
+             ? SteeringRoom(vehicle, turn.speed, turn.interior_angle, turn.shorter_leg,
+                            NeutralTowardTurn(turn), radius)
              : radius / std::tan(turn.interior_angle / 2.0) - 0.5 * turn.shorter_leg;
 }
 

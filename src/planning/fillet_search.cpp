@@ -39,7 +39,7 @@ std::vector<double> YawsAtEvents(const VehicleParams& vehicle, const FilletPlan&
   // An event may lie before the return of the turn before it: look at each on its own.
   std::vector<double> rising = distances;
   std::sort(rising.begin(), rising.end());
-  const KinematicState start{.pose = {0.0, 0.0, 0.0}, .speed = speed};
+  const KinematicState start{.pose = {0.0, 0.0, 0.0}, .speed = speed, .steering = schedule.At(0.0)};
   const auto states = RollOut(vehicle, start, schedule, rising, kStep, reference);
   std::vector<double> yaws;
   for (const double distance : distances) {

@@ -8,29 +8,36 @@
 namespace trackbed {
 
 OpenLoopDrive DriveOpenLoop(const VehicleParams& vehicle, const Path& path,
-                            const SteeringSchedule& schedule, double stop_distance, double speed,
+                            const SteeringSchedule& schedule, double stop_distance,
                             ReferencePoint reference) {
   constexpr double kSpacing = 0.5;  // [m]; deviations bend over metres
-  std::vector<double> stations;
-  for (double s = 0.0; s < stop_distance; s += kSpacing) {
-    stations.push_back(s);
-  }
-  stations.push_back(stop_distance);
-  const PathPoint first = path.At(0.0);
-  const KinematicState start{.pose = first.pose, .speed = speed, .steering = schedule.At(0.0)};
-  const auto states = RollOut(vehicle, start, schedule, stations, kSpacing, reference);
+  constexpr double kStep = 0.05;    // [m]; of the roll-out, whose error is of fourth order
+  constexpr double kSearch = 2.0;   // [m]
   OpenLoopDrive drive;
-  double station = 0.0;
-  for (const KinematicState& state : states) {
-    const Projection at = path.Project(state.pose, {station - 2.0, station + 2.0});
-    station = at.s;
-    const double distance = (path.At(at.s).pose.position() - state.pose.position()).norm();
-    drive.deviation_max = std::max(drive.deviation_max, distance);
+  KinematicState state{.pose = path.At(0.0).pose};
+  const std::vector<Stations> legs = LegsOf(path);
+  for (const Stations& leg : legs) {
+    const double end = &leg == &legs.back() ? std::max(stop_distance, leg.from) : leg.to;
+    state.speed = path.At(0.5 * (leg.from + leg.to)).direction;
+    std::vector<double> distances;
+    for (double d = kSpacing; d < end - leg.from; d += kSpacing) {
+      distances.push_back(d);
+    }
+    distances.push_back(end - leg.from);
+    double station = leg.from;
+    for (const KinematicState& at :
+         RollOut(vehicle, state, schedule.From(leg.from), distances, kStep, reference)) {
+      station = path.Project(at.pose, {std::max(station - kSearch, leg.from),
+                                       std::max(std::min(station + kSearch, leg.to), leg.from)})
+                    .s;
+      const double distance = (path.At(station).pose.position() - at.pose.position()).norm();
+      drive.deviation_max = std::max(drive.deviation_max, distance);
+      state = at;
+    }
   }
-  const Pose2& end = states.back().pose;
   const Pose2 goal = path.At(path.length()).pose;
-  drive.goal_distance = (end.position() - goal.position()).norm();
-  drive.goal_heading = AngleDifference(end.yaw, goal.yaw);
+  drive.goal_distance = (state.pose.position() - goal.position()).norm();
+  drive.goal_heading = AngleDifference(state.pose.yaw, goal.yaw);
   return drive;
 }
 

@@ -32,6 +32,8 @@ const char* ToString(PlanStatus status) {
       return "budget_used_up";
     case PlanStatus::kCollides:
       return "collides";
+    case PlanStatus::kInfeasible:
+      return "infeasible";
   }
   return "";
 }

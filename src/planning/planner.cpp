@@ -7,6 +7,7 @@
 #include "src/planning/fillet_layout.h"
 #include "src/planning/route_planners.h"
 #include "trackbed/core/error.h"
+#include "trackbed/planning/feasibility.h"
 
 namespace trackbed {
 namespace {
@@ -84,7 +85,7 @@ std::vector<LoneTurn> LoneTurnsOf(const FilletPlan& plan) {
   std::vector<LoneTurn> lone;
   double straight_from = 0.0;
   for (const FilletTurn& turn : plan.turns) {
-    const bool alone = turn.steer_start >= straight_from;
+    const bool alone = turn.steer_start >= straight_from && turn.neutral == 0.0;
     straight_from = ReturnEnd(turn);
     const double middle = turn.arc_start_s + 0.5 * turn.arc_length;
     if (alone && !turn.ramp_truncated && turn.steer_start + turn.ramp_distance <= middle) {
@@ -126,6 +127,11 @@ Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
       StopAtEnd(fillets.stop_distance, request.start_speed, request.speed, plan.caps);
 
   json& out = plan.diagnostics;
+  if (options.neutral_steering != 0.0) {
+    out["neutral_steering_rad"] = options.neutral_steering;
+    out["neutral_curvature_radpm"] =
+        CurvatureForSteering(request.vehicle, options.neutral_steering);
+  }
   out["turns"] = json::array();
   for (const FilletTurn& turn : fillets.turns) {
     out["turns"].push_back(ToJson(options, turn));
@@ -320,8 +326,9 @@ std::size_t FewestWaypoints(const PlannerOptions& options) {
 Plan MakePlan(const PlanRequest& request, const PlannerOptions& options) {
   const SpeedLimits& speed = request.speed;
   TRACKBED_CHECK(std::isfinite(request.start_speed) && std::isfinite(speed.speed) &&
-                     std::isfinite(speed.acceleration) && std::isfinite(speed.deceleration) &&
-                     speed.speed > 0.0 && speed.acceleration > 0.0 && speed.deceleration > 0.0,
+                     std::isfinite(request.start_steering) && std::isfinite(speed.acceleration) &&
+                     std::isfinite(speed.deceleration) && speed.speed > 0.0 &&
+                     speed.acceleration > 0.0 && speed.deceleration > 0.0,
                  "start speed {}, speed {}, acceleration {}, deceleration {}", request.start_speed,
                  speed.speed, speed.acceleration, speed.deceleration);
   const Pose2& start = request.start;
@@ -335,7 +342,13 @@ Plan MakePlan(const PlanRequest& request, const PlannerOptions& options) {
   for (const double heading : request.headings) {
     TRACKBED_CHECK(std::isfinite(heading), "heading {}", heading);
   }
-  return std::visit([&](const auto& own) { return PlanWith(own, request); }, options);
+  Plan plan = std::visit([&](const auto& own) { return PlanWith(own, request); }, options);
+  plan = MakeFeasible(std::move(plan), request);
+  if (plan.ok() && !plan.diagnostics.contains("open_loop")) {
+    plan.diagnostics["open_loop"] = ToJson(DriveOpenLoop(
+        request.vehicle, plan.reference.path, plan.schedule, plan.schedule_speed.knots().back().s));
+  }
+  return plan;
 }
 
 }  // namespace trackbed

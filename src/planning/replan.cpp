@@ -23,7 +23,7 @@ constexpr double kLastMetres = 1.0;
 constexpr double kBackOffset = 0.02;     // [m]
 constexpr double kBackHeading = 0.005;   // [rad]
 constexpr double kBackSteering = 0.002;  // [rad]
-/// No path is shorter than this [m].
+/// No path is shorter than this, unless it has no length [m].
 constexpr double kNoWay = 1e-3;
 /// Room that is left before an obstacle when the car has to brake for it [m].
 constexpr double kBrakeRoom = 0.5;
@@ -119,6 +119,9 @@ class Replanning {
     if (along.ok()) {
       return Follow(along);
     }
+    if (!encounter && request_.strayed) {
+      encounter = AheadOfTheCar();
+    }
     return encounter ? Brake(*encounter) : Keep();
   }
 
@@ -129,6 +132,19 @@ class Replanning {
                                                      double offset = 0.0) const {
     return FirstEncounter(request_.vehicle, reference, station, request_.obstacles,
                           options_.settings.safe_distance, options_.settings.look_ahead, offset);
+  }
+
+  /// What a car that drives on at its own speed, not at the planned one, gets too near to.
+  [[nodiscard]] std::optional<Encounter> AheadOfTheCar() const {
+    const double speed = request_.car.speed;
+    const double ahead = driving_.plan.reference.path.length() - driving_.station;
+    const Plan plan =
+        StopAfter(std::max(ahead, 0.0) + 0.5 * speed * speed / ComfortableBraking(), speed, true);
+    std::optional<Encounter> encounter = EncounterOf(plan.reference, 0.0);
+    if (encounter) {
+      encounter->station += driving_.station;
+    }
+    return encounter;
   }
 
   [[nodiscard]] bool NearlyThere() const {
@@ -259,33 +275,103 @@ class Replanning {
     }
   }
 
-  /// Along the plan that is driven, to rest before the place of the encounter, or as soon as the
-  /// car can if that is nearer.
+  /// Along the plan that is driven, to rest before the place of the encounter: comfortably if that
+  /// is in time, else as hard as it takes, else as hard as the car can.
   Replanned Brake(const Encounter& encounter) {
-    const double speed = Start().speed;
-    const double shortest = speed * speed / (2.0 * request_.speed.deceleration);
     const MovingBox& obstacle = request_.obstacles[encounter.obstacle];
+    const double speed = std::max(Start().speed, request_.car.speed);
     const double room = encounter.station - driving_.station - kBrakeRoom;
-    // What moves may be gone or come nearer: then the sooner the better.
-    const double way = Stands(obstacle) ? std::max(shortest, room) : shortest;
-    Plan plan;
-    const Path& path = driving_.plan.reference.path;
-    const double until = std::min(driving_.station + way, path.length());
-    if (until - driving_.station < kNoWay) {
+    const double braking = Stands(obstacle) ? BrakingWithin(room, speed) : BrakingFor(speed);
+    const double shortest = speed * speed / (2.0 * braking);
+    const bool comfortable = braking <= ComfortableBraking();
+    // What stands leaves time to come near; what moves may be gone or come nearer.
+    const double way = Stands(obstacle) && comfortable ? std::max(shortest, room) : shortest;
+    if (way < kNoWay && driving_.plan.reference.path.length() - driving_.station < kNoWay) {
       return Keep();  // it ends here anyway
     }
-    plan.reference.path = Path(path.At(driving_.station).pose, path.Cut({driving_.station, until}));
-    const Path& own = plan.reference.path;
-    plan.caps = Moved(driving_.plan.caps, {driving_.station, until}, -driving_.station);
-    plan.reference.speed = StopAtEnd(own.length(), speed, request_.speed, plan.caps);
-    plan.schedule = CourseSchedule(request_.vehicle, own.segments(), plan.reference.speed);
-    plan.schedule_speed = plan.reference.speed;
+    Plan plan = StopAfter(way, speed, comfortable);
     plan.goal = driving_.route.goal;
     plan.blocked =
         fmt::format("stops before the obstacle at {}: no way leads past it", Place(obstacle.box));
     told_["kind"] = "brake";
+    told_["deceleration_mps2"] = braking;
     plan.diagnostics["replan"] = told_;
     return {ReplanKind::kStop, std::move(plan)};
+  }
+
+  /// Hard braking is never more than this; on ice, the comfortable one neither [m/s^2].
+  [[nodiscard]] double HardestBraking() const {
+    return request_.max_deceleration > 0.0 ? request_.max_deceleration
+                                           : request_.speed.deceleration;
+  }
+
+  [[nodiscard]] double ComfortableBraking() const {
+    return std::min(request_.speed.deceleration, HardestBraking());
+  }
+
+  /// The deceleration that comes to rest within `room` from `speed`, no less than the comfortable
+  /// one and no more than the hardest.
+  [[nodiscard]] double BrakingWithin(double room, double speed) const {
+    return 2.0 * ComfortableBraking() * room >= speed * speed
+               ? ComfortableBraking()
+               : std::min(HardestBraking(), 0.5 * speed * speed / std::max(room, kNoWay));
+  }
+
+  /// The mildest braking that keeps clear of everything known, what moves too; else the hardest.
+  [[nodiscard]] double BrakingFor(double speed) const {
+    const double hardest = HardestBraking();
+    constexpr int kSteps = 8;
+    for (int i = 0; i < kSteps; ++i) {
+      const double braking =
+          std::lerp(ComfortableBraking(), hardest, static_cast<double>(i) / kSteps);
+      const Plan plan = StopAfter(0.5 * speed * speed / braking, speed, i == 0);
+      if (!EncounterOf(plan.reference, 0.0)) {
+        return braking;
+      }
+    }
+    return hardest;
+  }
+
+  /// From `speed` beside the car to rest after `way` along the driven plan; or, comfortably, at its
+  /// end if that is nearer.
+  [[nodiscard]] Plan StopAfter(double way, double speed, bool comfortable) const {
+    const Path& path = driving_.plan.reference.path;
+    const double from = driving_.station;
+    const double shortest = 0.5 * speed * speed / ComfortableBraking();
+    double to = from + way;
+    if (comfortable && to > path.length()) {
+      to = std::max(path.length(), from + shortest);
+    }
+    Plan plan;
+    plan.reference.path = Stretch(path, from, to);
+    const Path& own = plan.reference.path;
+    // Caps are for a car that drives on; hard braking obeys them anyway or cannot.
+    plan.caps =
+        comfortable ? Moved(driving_.plan.caps, {from, to}, -from) : std::vector<SpeedCap>{};
+    SpeedLimits limits = request_.speed;
+    limits.deceleration = ComfortableBraking();
+    plan.reference.speed = StopAtEnd(own.length(), speed, limits, plan.caps);
+    plan.schedule = own.length() > 0.0
+                        ? CourseSchedule(request_.vehicle, own.segments(),
+                                         std::max(request_.speed.speed, speed), plan.caps)
+                        : SteeringSchedule::Constant(
+                              SteeringForCurvature(request_.vehicle, path.At(from).curvature));
+    plan.schedule_speed = plan.reference.speed;
+    return plan;
+  }
+
+  /// The path between two stations, straight on before its start and beyond its end; of no length
+  /// where it would be too short.
+  [[nodiscard]] static Path Stretch(const Path& path, double from, double to) {
+    std::vector<Segment> segments;
+    if (to - from >= kNoWay) {
+      segments.push_back({.length = std::min(0.0, to) - from});
+      Append(segments, path.Cut({from, to}));
+      segments.push_back({.length = to - std::max(from, path.length())});
+      constexpr double kNegligible = 1e-9;  // [m]
+      std::erase_if(segments, [](const Segment& piece) { return piece.length < kNegligible; });
+    }
+    return {path.At(from).pose, std::move(segments)};
   }
 
   const ReplanRequest& request_;
@@ -318,15 +404,25 @@ std::optional<Encounter> FirstEncounter(const VehicleParams& vehicle, const Refe
   // From the station on: times before it may be infinite, if the profile comes to rest there.
   const SpeedProfile ahead =
       Excerpt(reference.speed, {station, std::max(station, reference.path.length())});
+  const auto station_at = [&](double time) { return station + ahead.StationAt(time); };
+  const auto too_near = [&](double time, const MovingBox& obstacle) {
+    const OrientedBox outline =
+        OutlineAt(vehicle, Compose(reference.path.At(station_at(time)).pose, {0.0, offset, 0.0}));
+    return Separation(outline, obstacle.At(time)) < distance - kTouch;
+  };
   const auto steps = static_cast<int>(std::ceil(look_ahead / kStep));
   for (int i = 0; i <= steps; ++i) {
     const double time = i * kStep;
-    const double s = station + ahead.StationAt(time);
-    const OrientedBox outline =
-        OutlineAt(vehicle, Compose(reference.path.At(s).pose, {0.0, offset, 0.0}));
     for (std::size_t j = 0; j < obstacles.size(); ++j) {
-      if (Separation(outline, obstacles[j].At(time)) < distance - kTouch) {
-        return Encounter{time, s, j};
+      if (too_near(time, obstacles[j])) {
+        // A tenth of a second is 1.5 m at 15 m/s: where between the looks it began.
+        double clear = i == 0 ? time : time - kStep;
+        double near = time;
+        for (int halving = 0; halving < 10 && i > 0; ++halving) {
+          const double middle = 0.5 * (clear + near);
+          (too_near(middle, obstacles[j]) ? near : clear) = middle;
+        }
+        return Encounter{near, station_at(near), j};
       }
     }
   }

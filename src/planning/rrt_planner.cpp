@@ -12,6 +12,7 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/comparator.h"
+#include "trackbed/planning/feasibility.h"
 #include "trackbed/planning/occupancy_grid.h"
 #include "trackbed/planning/rrt.h"
 
@@ -244,9 +245,11 @@ Plan RefusedAs(const Way& way, const Forest& forest) {
 }
 
 Plan PlanAlong(const Forest& forest, const std::vector<Vec2>& points) {
-  return route::AlongPolyline({}, forest.request, InWorld(forest.request.start, points),
-                              forest.options.corners, forest.options.safe_distance,
-                              forest.options.min_speed);
+  Plan plan = route::AlongPolyline({}, forest.request, InWorld(forest.request.start, points),
+                                   forest.options.corners, forest.options.safe_distance,
+                                   forest.options.min_speed);
+  Plan tested = MakeFeasible(plan, forest.request);
+  return tested.ok() ? plan : tested;
 }
 
 /// Plans along a way that does not reach its next goal: to the node nearest to that or, where the
@@ -331,12 +334,9 @@ void TellBudget(const Forest& forest, const Try& best, const std::string& budget
 
 }  // namespace
 
-Plan PlanWith(const RrtPlannerOptions& options, const PlanRequest& request) {
-  if (Plan refused = route::CheckRoute(request); !refused.ok()) {
-    return refused;
-  }
-  TRACKBED_CHECK(options.trees > 0 && options.time_limit.value_or(1.0) > 0.0,
-                 "{} trees, time limit {}", options.trees, options.time_limit.value_or(0.0));
+namespace {
+
+Plan PlanTrees(const RrtPlannerOptions& options, const PlanRequest& request) {
   const Task task = TaskOf(options, request);
   if (!IsFree(task, {0.0, 0.0}, task.lead)) {
     return route::Refused(
@@ -378,6 +378,28 @@ Plan PlanWith(const RrtPlannerOptions& options, const PlanRequest& request) {
     plan.tree = std::move(best->way.tree);
   }
   return plan;
+}
+
+}  // namespace
+
+Plan PlanWith(const RrtPlannerOptions& options, const PlanRequest& request) {
+  if (Plan refused = route::CheckRoute(request); !refused.ok()) {
+    return refused;
+  }
+  TRACKBED_CHECK(options.trees > 0 && options.time_limit.value_or(1.0) > 0.0,
+                 "{} trees, time limit {}", options.trees, options.time_limit.value_or(0.0));
+  Plan plan = PlanTrees(options, request);
+  const bool too_near =
+      plan.status == PlanStatus::kTurnTooTight || plan.status == PlanStatus::kInfeasible;
+  if (!too_near || options.corners == Corners::kRefuse || request.start_speed == 0.0) {
+    return plan;
+  }
+  // A rolling car may need more room before its first corner than the trees leave.
+  RrtPlannerOptions longer = options;
+  longer.lead_in += 0.5 * request.start_speed * request.start_speed / request.speed.deceleration +
+                    request.vehicle.min_turning_radius();
+  Plan again = PlanTrees(longer, request);
+  return again.ok() ? again : plan;
 }
 
 }  // namespace trackbed

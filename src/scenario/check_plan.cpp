@@ -68,6 +68,19 @@ void CheckAvoider(Complaints& c) {
   }
 }
 
+/// Local planners join their paths to straight legs with straight wheels.
+void CheckNeutralSteering(Complaints& c) {
+  const auto& plan = c.scenario.plan;
+  const auto* fillets = plan ? std::get_if<FilletOptions>(&plan->global) : nullptr;
+  if (fillets == nullptr || fillets->neutral_steering == 0.0 || !(plan->avoid || plan->replan) ||
+      !c.CouldReadPlan({"neutral_steering"})) {
+    return;
+  }
+  c.Complain(c.KeyOfPlan("neutral_steering"),
+             fmt::format("{} goes on from straight wheels between turns; leave one out",
+                         plan->avoid ? "plan.avoid" : "plan.replan"));
+}
+
 double SafeDistanceOf(const PlannerOptions& planner) {
   return std::visit(
       [](const auto& options) {
@@ -234,6 +247,7 @@ void CheckMissionAndPlan(Complaints& c) {
   CheckCourse(c);
   CheckSmoothing(c);
   CheckAvoider(c);
+  CheckNeutralSteering(c);
   CheckReplan(c);
 }
 

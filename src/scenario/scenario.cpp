@@ -222,6 +222,11 @@ StartState StartOf(const Scenario& scenario) {
   }
   start.pose = {given.x.value_or(start.pose.x), given.y.value_or(start.pose.y),
                 given.yaw.value_or(start.pose.yaw)};
+  if (scenario.plan) {
+    if (const auto* fillets = std::get_if<FilletOptions>(&scenario.plan->global)) {
+      start.steering = fillets->neutral_steering;
+    }
+  }
   const Recording* recording = RecordingOf(scenario);
   const Signal& over_time = scenario.control.speed.over_time;
   if (recording != nullptr && !recording->speed.empty()) {

@@ -49,10 +49,11 @@ void Visit(Archive& a, StartSpec& start) {
            "speed at the start; else the recording's, that of control.speed.over_time, or the "
            "mission's"},
           start.speed, kSpeedRange);
-  a.Field({"steering", "rad",
-           "bicycle angle of wheels and actuator at the start; else 0, or what was recorded if it "
-           "is prescribed"},
-          start.steering, kSteering);
+  a.Field(
+      {"steering", "rad",
+       "bicycle angle of wheels and actuator at the start; else the plan's neutral_steering, or 0, "
+       "or what was recorded if it is prescribed"},
+      start.steering, kSteering);
 }
 
 template <typename Archive>
@@ -95,6 +96,12 @@ void Visit(Archive& a, DriveSpec& drive) {
           Need::kOptional, Range{.min = 1e-5, .max = 1.0});
   a.Field({"time_limit", "s", "simulated time after which a drive is given up"}, drive.time_limit,
           Need::kOptional, Range{.max = 1e5, .above = 0.0});
+  a.Field({"goal_tolerance", "",
+           "how near a car at rest must be to its goal, as a share of its length"},
+          drive.goal_tolerance, Need::kOptional, Range{.max = 10.0, .above = 0.0});
+  a.Field({"goal_heading_tolerance", "rad",
+           "largest heading error there, for missions with `headings`"},
+          drive.goal_heading_tolerance, Need::kOptional, Range{.max = 3.2, .above = 0.0});
 }
 
 template <typename Archive>

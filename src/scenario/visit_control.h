@@ -19,8 +19,9 @@ inline constexpr Key kAheadTime{"time", "s", "looks at least as far as the car d
 
 template <typename Archive>
 void Visit(Archive& a, PreviewOptions& options) {
-  a.Field({"distance", "m", "how far ahead of the rear axle the car aims"}, options.distance,
-          Need::kOptional, kAhead);
+  a.Field({"distance", "m",
+           "how far ahead of the rear axle the car aims, at least; else by car, speed and path"},
+          options.distance, kAhead);
   a.Field(kAheadTime, options.time, Need::kOptional, kNotNegative);
   static const EnumNames<PreviewLaw> laws{{PreviewLaw::kLinear, "linear"},
                                           {PreviewLaw::kExactArc, "exact_arc"}};
@@ -33,8 +34,10 @@ void Visit(Archive& a, PreviewOptions& options) {
 
 template <typename Archive>
 void Visit(Archive& a, PreviewIntegralOptions& options) {
-  a.Field({"distance", "m", "how far ahead of the rear axle the path is looked at, at least"},
-          options.distance, Need::kOptional, kAhead);
+  a.Field({"distance", "m",
+           "how far ahead of the rear axle the path is looked at, at least; else by car, speed and "
+           "path"},
+          options.distance, kAhead);
   a.Field(kAheadTime, options.time, Need::kOptional, kNotNegative);
   static const EnumNames<PreviewWeight> weights{{PreviewWeight::kUniform, "uniform"},
                                                 {PreviewWeight::kNear, "near"}};
@@ -47,38 +50,42 @@ void Visit(Archive& a, PreviewIntegralOptions& options) {
 
 template <typename Archive>
 void Visit(Archive& a, PurePursuitOptions& options) {
-  a.Field({"distance", "m", "how far ahead of the rear axle the car aims, at least"},
-          options.distance, Need::kOptional, kAhead);
+  a.Field({"distance", "m",
+           "how far ahead of the rear axle the car aims, at least; else by car, speed and path"},
+          options.distance, kAhead);
   a.Field(kAheadTime, options.time, Need::kOptional, kNotNegative);
 }
 
 template <typename Archive>
 void Visit(Archive& a, StanleyOptions& options) {
-  a.Field({"gain", "1/s", "at which the front axle's offset shrinks"}, options.gain,
-          Need::kOptional, kPositive);
-  a.Field({"softening", "m/s", "added to the speed, so that a slow car steers calmly"},
-          options.softening, Need::kOptional, kNotNegative);
+  a.Field({"gain", "1/s", "at which the front axle's offset shrinks; else by the steering rate"},
+          options.gain, kPositive);
+  a.Field({"softening", "m/s",
+           "added to the speed, so that a slow car steers calmly; else by the car's size"},
+          options.softening, kNotNegative);
 }
 
 inline constexpr Range kWeight{.min = 1e-6, .max = 1e6};
-inline constexpr Key kCrossTrackWeight{"cross_track", "1/m^2", "weight of the cross-track error"};
+inline constexpr Key kCrossTrackWeight{"cross_track", "1/m^2",
+                                       "weight of the cross-track error; else by the wheelbase"};
 inline constexpr Key kHeadingWeight{"heading", "1/rad^2", "weight of the heading error"};
-inline constexpr Key kRateWeight{"steering_rate", "s^2/rad^2", "weight of the steering rate"};
+inline constexpr Key kRateWeight{"steering_rate", "s^2/rad^2",
+                                 "weight of the steering rate; else by the car's own"};
 
 template <typename Archive>
 void Visit(Archive& a, LqrOptions& options) {
-  a.Field(kCrossTrackWeight, options.cross_track, Need::kOptional, kWeight);
+  a.Field(kCrossTrackWeight, options.cross_track, kWeight);
   a.Field(kHeadingWeight, options.heading, Need::kOptional, Range{.min = 0.0, .max = 1e6});
-  a.Field(kRateWeight, options.steering_rate, Need::kOptional, kWeight);
+  a.Field(kRateWeight, options.steering_rate, kWeight);
   a.Field({"preview", "s", "how far ahead the path's curvature is looked at"}, options.preview,
           Need::kOptional, Range{.min = 0.0, .max = 20.0});
 }
 
 template <typename Archive>
 void Visit(Archive& a, MpcOptions& options) {
-  a.Field(kCrossTrackWeight, options.cross_track, Need::kOptional, kWeight);
+  a.Field(kCrossTrackWeight, options.cross_track, kWeight);
   a.Field(kHeadingWeight, options.heading, Need::kOptional, Range{.min = 0.0, .max = 1e6});
-  a.Field(kRateWeight, options.steering_rate, Need::kOptional, kWeight);
+  a.Field(kRateWeight, options.steering_rate, kWeight);
   a.Field({"horizon", "", "how many steps are planned"}, options.horizon, Need::kOptional,
           Range{.min = 1, .max = MpcOptions::kLongestHorizon});
   a.Field({"step", "s", "of the horizon; at least the control period"}, options.step,
@@ -100,8 +107,9 @@ void Visit(Archive& a, OptimalSteeringOptions& options) {
   a.Field({"matching", "",
            "the wanted pose: that of the path where the car is, or where it should be by now"},
           options.matching, Need::kOptional, matchings);
-  a.Field({"horizon", "m", "how far ahead the wanted motion is predicted, at least"},
-          options.horizon, Need::kOptional, Range{.min = 0.1, .max = 1000.0});
+  a.Field({"horizon", "m",
+           "how far ahead the wanted motion is predicted, at least; else by car, speed and path"},
+          options.horizon, Range{.min = 0.1, .max = 1000.0});
   a.Field(kAheadTime, options.time, Need::kOptional, kNotNegative);
   a.Section({"search", "",
              "for the angle, at every update; evaluations 0: 60, or 600 of isres, "

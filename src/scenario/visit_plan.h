@@ -15,6 +15,7 @@ struct PlanLayers {
   std::optional<PlannerOptions>& global;
   std::optional<AvoiderOptions>& avoid;
   std::optional<ReplanOptions>& replan;
+  InfeasiblePolicy& infeasible;
 };
 
 inline constexpr Key kPlan{"plan", "", "how the path is made; without it there is none to follow"};
@@ -22,11 +23,22 @@ inline constexpr Key kAvoid{"avoid", "", "what leads the path around obstacles t
 inline constexpr Key kReplan{"replan", "", "how to plan again while driving"};
 
 template <typename Archive>
+void VisitInfeasible(Archive& a, InfeasiblePolicy& policy) {
+  static const EnumNames<InfeasiblePolicy> policies{{InfeasiblePolicy::kSlowDown, "slow_down"},
+                                                    {InfeasiblePolicy::kRefuse, "refuse"},
+                                                    {InfeasiblePolicy::kAllow, "allow"}};
+  a.Field({"infeasible", "",
+           "what becomes of a plan that asks for more steering, grip or braking than the car has"},
+          policy, Need::kOptional, policies);
+}
+
+template <typename Archive>
 void Visit(Archive& a, PlanLayers& layers) {
   a.Method({"global", "", "the planner of the whole path"}, layers.global, Planners(),
            Need::kRequired, [](auto&) {});
   a.Method(kAvoid, layers.avoid, Avoiders(), Need::kOptional, [](auto&) {});
   a.Section(kReplan, layers.replan);
+  VisitInfeasible(a, layers.infeasible);
 }
 
 /// `plan: {method: …}` is short for `plan: {global: {method: …}}`.
@@ -34,14 +46,16 @@ inline void VisitPlan(YamlReader& a, std::optional<PlanSpec>& plan) {
   std::optional<PlannerOptions> global;
   std::optional<AvoiderOptions> avoid;
   std::optional<ReplanOptions> replan;
+  InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
   if (a.HasOneOf(kPlan.name, {"global", "avoid", "replan"})) {
-    PlanLayers layers{global, avoid, replan};
+    PlanLayers layers{global, avoid, replan, infeasible};
     a.Section(kPlan, layers);
   } else {
-    a.Method(kPlan, global, Planners(), Need::kOptional, [](auto&) {});
+    a.Method(kPlan, global, Planners(), Need::kOptional,
+             [&](YamlReader& inner) { VisitInfeasible(inner, infeasible); });
   }
   if (global) {
-    plan = {*global, avoid, replan};
+    plan = {*global, avoid, replan, infeasible};
   }
 }
 
@@ -51,10 +65,11 @@ inline void VisitPlan(YamlWriter& a, std::optional<PlanSpec>& plan) {
   }
   std::optional<PlannerOptions> global = plan->global;
   if (plan->avoid || plan->replan) {
-    PlanLayers layers{global, plan->avoid, plan->replan};
+    PlanLayers layers{global, plan->avoid, plan->replan, plan->infeasible};
     a.Section(kPlan, layers);
   } else {
-    a.Method(kPlan, global, Planners(), Need::kOptional, [](auto&) {});
+    a.Method(kPlan, global, Planners(), Need::kOptional,
+             [&](YamlWriter& inner) { VisitInfeasible(inner, plan->infeasible); });
   }
 }
 
@@ -62,12 +77,14 @@ inline void VisitPlan(KeyLister& a, std::optional<PlanSpec>&) {
   std::optional<PlannerOptions> global;
   std::optional<AvoiderOptions> avoid;
   std::optional<ReplanOptions> replan = ReplanOptions{};
+  InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
   a.Method(kPlan, global, Planners(), Need::kOptional, [&](KeyLister& inner) {
     inner.Add(
         {"global", "", "the keys of this section, when `avoid` or `replan` stands beside them"},
         "section", Need::kOptional, "", "");
     inner.Method(kAvoid, avoid, Avoiders(), Need::kOptional, [](auto&) {});
     inner.Section(kReplan, replan);
+    VisitInfeasible(inner, infeasible);
   });
 }
 

@@ -49,6 +49,10 @@ void Visit(Archive& a, FilletOptions& options) {
            "what a radius must leave: room to turn the wheels (C.40), half the shorter leg (C.34), "
            "or nothing"},
           options.constraint, Need::kOptional, constraints);
+  a.Field({"neutral_steering", "rad",
+           "where the wheels stand between turns, start from and return to, positive to the left; "
+           "unless it is 0 a kinematic car leaves its straight legs"},
+          options.neutral_steering, Need::kOptional, kSteering);
   a.Field({"max_radius", "m", "upper bound of the search"}, options.max_radius, Need::kOptional,
           kPositive);
   static const EnumNames<WithoutRoom> without_room{{WithoutRoom::kSlowDown, "slow_down"},

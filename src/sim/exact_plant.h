@@ -41,6 +41,8 @@ class ExactPlant final : public Plant {
 
   [[nodiscard]] VehicleState Observe() const override { return car_.FullState(); }
 
+  [[nodiscard]] Pose2 pose() const override { return car_.FullState().pose; }
+
   [[nodiscard]] std::vector<double> Configuration() const override {
     const VehicleState state = car_.FullState();
     return model_.FlatConfiguration(state.pose, state.steering, spin_);

@@ -32,6 +32,10 @@ MujocoPlant::MujocoPlant(const PlantSetup& setup)
   for (std::size_t w = 0; w < tyres.size(); ++w) {
     tyre_friction_[w] = model_->geom_friction[3 * tyres[w]];
   }
+  for (int geom = 0; geom < model_->ngeom; ++geom) {
+    const char* name = mj_id2name(model_.get(), mjOBJ_GEOM, geom);
+    is_obstacle_.push_back(name != nullptr && std::string_view(name).starts_with("obstacle_"));
+  }
   const StartState& start = setup.start;
   const Ground& ground = car_.scene().ground;
   const auto qpos = car_.StandingPosition(start.pose, start.steering, {}, ground);
@@ -215,19 +219,21 @@ VehicleState MujocoPlant::Observe() const {
   state.steering_actuator = wheels.actuator;
   state.steering = wheels.steering;
   state.wheels = wheels.forces;
-  state.obstacle_force = ObstacleForce();
+  state.obstacle_force = obstacle_force();
   return state;
 }
 
-double MujocoPlant::ObstacleForce() const {
+Pose2 MujocoPlant::pose() const {
+  const mjtNum* position = ChassisPosition();
+  return {position[0], position[1], yaw_};
+}
+
+double MujocoPlant::obstacle_force() const {
   double sum = 0.0;
   for (int i = 0; i < data_->ncon; ++i) {
     const mjContact& contact = data_->contact[i];
-    const auto is_obstacle = [&](int geom) {
-      const char* name = mj_id2name(model_.get(), mjOBJ_GEOM, geom);
-      return name != nullptr && std::string_view(name).starts_with("obstacle_");
-    };
-    if (is_obstacle(contact.geom1) || is_obstacle(contact.geom2)) {
+    if (is_obstacle_[static_cast<std::size_t>(contact.geom1)] ||
+        is_obstacle_[static_cast<std::size_t>(contact.geom2)]) {
       std::array<mjtNum, 6> force{};
       mj_contactForce(model_.get(), data_.get(), i, force.data());
       sum += force[0];

@@ -25,6 +25,8 @@ class MujocoPlant : public Plant {
   void Shift(double left) final;
   void Push(double force) final { push_ = force; }
   [[nodiscard]] VehicleState Observe() const final;
+  [[nodiscard]] Pose2 pose() const final;
+  [[nodiscard]] double obstacle_force() const final;
   [[nodiscard]] std::vector<double> Configuration() const final;
   [[nodiscard]] bool diverged() const final;
 
@@ -85,7 +87,6 @@ class MujocoPlant : public Plant {
   [[nodiscard]] Eigen::Vector3d AirSpeed() const;
   void PushByAir();
   void PushAside();
-  [[nodiscard]] double ObstacleForce() const;
 
   const CarModel& car_;
   const World& world_;
@@ -93,6 +94,7 @@ class MujocoPlant : public Plant {
   std::unique_ptr<mjData, DataDeleter> data_;
   RoadContact ground_;
   std::vector<Slider> sliders_;
+  std::vector<bool> is_obstacle_;          // geom by geom
   std::array<double, 4> tyre_friction_{};  // of the contacts, on a road of factor 1
   double yaw_ = 0.0;                       // unwrapped [rad]
   double distance_ = 0.0;                  // [m]

@@ -152,7 +152,9 @@ void PrintTo(const RunResult& run, std::ostream* out) {
     *out << fmt::format("{}{} {} at {:.4g} s", &metrics == &run.metrics.front() ? "" : ", ",
                         metrics.plant, ToString(metrics.status), metrics.time);
   }
-  *out << (run.verdict.passed ? "; met its expectations" : "; failed its expectations");
+  *out << (!run.verdict.judged  ? "; its scenario expects nothing"
+           : run.verdict.passed ? "; met its expectations"
+                                : "; failed its expectations");
 }
 
 testing::Matcher<const RunResult&> TracksWithin(double limit) {
@@ -225,8 +227,10 @@ testing::Matcher<const RunResult&> ReachesGoal(double distance) {
 }
 
 testing::Matcher<const RunResult&> MeetsItsExpectations() {
-  return RunMatcher("meets its scenario's expectations",
-                    [](const RunResult& run) { return run.verdict.failures; });
+  return RunMatcher("meets its scenario's expectations", [](const RunResult& run) {
+    return run.verdict.judged ? run.verdict.failures
+                              : std::vector<std::string>{"its scenario expects nothing"};
+  });
 }
 
 }  // namespace trackbed

@@ -18,7 +18,7 @@ struct Target {
 };
 
 std::vector<Target> TargetsOf(const std::vector<TurnSteering>& turns,
-                              const std::vector<double>& slopes) {
+                              const std::vector<double>& slopes, double neutral) {
   std::vector<Target> targets;
   for (std::size_t k = 0; k < turns.size(); ++k) {
     const TurnSteering& turn = turns[k];
@@ -27,7 +27,7 @@ std::vector<Target> TargetsOf(const std::vector<TurnSteering>& turns,
     targets.push_back({turn.start, turn.steering, slopes[k]});
     // The turn that started last has the say: it also ends an earlier one.
     if (k + 1 == turns.size() || turn.end < turns[k + 1].start) {
-      targets.push_back({turn.end, 0.0, slopes[k]});
+      targets.push_back({turn.end, neutral, slopes[k]});
     }
   }
   return targets;
@@ -35,15 +35,19 @@ std::vector<Target> TargetsOf(const std::vector<TurnSteering>& turns,
 
 }  // namespace
 
-SteeringSchedule::SteeringSchedule(const std::vector<TurnSteering>& turns, double slope)
-    : SteeringSchedule(turns, std::vector<double>(turns.size(), slope)) {}
+SteeringSchedule::SteeringSchedule(const std::vector<TurnSteering>& turns, double slope,
+                                   double neutral)
+    : SteeringSchedule(turns, std::vector<double>(turns.size(), slope), neutral) {}
 
 SteeringSchedule::SteeringSchedule(const std::vector<TurnSteering>& turns,
-                                   const std::vector<double>& slopes) {
+                                   const std::vector<double>& slopes, double neutral) {
   TRACKBED_CHECK(slopes.size() == turns.size(), "{} slopes for {} turns", slopes.size(),
                  turns.size());
-  const std::vector<Target> targets = TargetsOf(turns, slopes);
-  double steering = 0.0;
+  if (turns.empty() && neutral != 0.0) {
+    knots_.push_back({0.0, neutral});
+  }
+  const std::vector<Target> targets = TargetsOf(turns, slopes, neutral);
+  double steering = neutral;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const auto& [begin, target, slope] = targets[i];
     TRACKBED_CHECK(slope > 0.0, "slope {}", slope);
@@ -101,6 +105,16 @@ double SteeringSchedule::At(double distance) const {
   return std::lerp(a.steering, b.steering, (distance - a.distance) / (b.distance - a.distance));
 }
 
+SteeringSchedule SteeringSchedule::From(double distance) const {
+  SteeringSchedule rest = Constant(At(distance));
+  for (const Knot& knot : knots_) {
+    if (knot.distance > distance) {
+      rest.knots_.push_back({knot.distance - distance, knot.steering});
+    }
+  }
+  return rest;
+}
+
 double SteeringDistance(const VehicleParams& params, double steering, double speed) {
   return speed * std::abs(steering) / params.steering_rate;
 }
@@ -143,8 +157,9 @@ std::vector<KinematicState> RollOut(const VehicleParams& params, const Kinematic
                                     const SteeringSchedule& schedule,
                                     const std::vector<double>& distances, double step,
                                     ReferencePoint reference) {
-  TRACKBED_CHECK(start.speed > 0.0 && step > 0.0, "speed {}, step {}", start.speed, step);
-  KinematicCar car(params, reference, start);
+  TRACKBED_CHECK(start.speed != 0.0 && step > 0.0, "speed {}, step {}", start.speed, step);
+  const int direction = start.speed > 0.0 ? 1 : -1;
+  KinematicState state = start;
   const std::vector<SteeringSchedule::Knot>& knots = schedule.knots();
   auto knot = knots.begin();
   double done = 0.0;
@@ -157,10 +172,19 @@ std::vector<KinematicState> RollOut(const VehicleParams& params, const Kinematic
       }
       const double next =
           std::min({done + step, distance, knot != knots.end() ? knot->distance : distance});
-      car.Step({.steering = schedule.At(next)}, (next - done) / start.speed);
+      // Where a car gets does not depend on its speed. At this one its actuator turns all the way.
+      const double from = schedule.At(done);
+      const double to = schedule.At(next);
+      const double time = from == to ? next - done : std::abs(to - from) / params.steering_rate;
+      state.steering = from;
+      state.speed = direction * (next - done) / time;
+      KinematicCar car(params, reference, state);
+      car.Step({.steering = to, .gear = direction}, time);
+      state = car.state();
       done = next;
     }
-    states.push_back(car.state());
+    states.push_back(state);
+    states.back().speed = start.speed;
   }
   return states;
 }

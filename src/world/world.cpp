@@ -1,16 +1,22 @@
 #include "trackbed/world/world.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include "trackbed/core/error.h"
 
 namespace trackbed {
 
 double RoadFactor(const World& world, const Vec2& point_W) {
-  const auto& patches = world.friction_patches;
+  return RoadFactor(world.friction, world.friction_patches, point_W);
+}
+
+double RoadFactor(double friction, const std::vector<FrictionPatch>& patches, const Vec2& point_W) {
   const auto on_top =
       std::find_if(patches.rbegin(), patches.rend(),
                    [&](const FrictionPatch& patch) { return Contains(patch.area, point_W); });
-  return on_top == patches.rend() ? world.friction : on_top->friction;
+  return on_top == patches.rend() ? friction : on_top->friction;
 }
 
 double GroundHeight(const World& world, const Vec2& point_W) {
@@ -47,11 +53,69 @@ std::optional<double> Clearance(const World& world, const VehicleParams& vehicle
     return std::nullopt;
   }
   const OrientedBox outline = OutlineAt(vehicle, pose);
+  const Vec2 middle = outline.centre.position();
+  const double radius = 0.5 * std::hypot(outline.length, outline.width);
   double nearest = std::numeric_limits<double>::infinity();
   for (const Obstacle& obstacle : world.obstacles) {
-    nearest = std::min(nearest, Distance(outline, FootprintAt(obstacle, time)));
+    const OrientedBox box = FootprintAt(obstacle, time);
+    // Circles around both tell of most boxes that they are not the nearest.
+    const double circles = nearest + radius + 0.5 * std::hypot(box.length, box.width);
+    if ((box.centre.position() - middle).squaredNorm() < circles * circles) {
+      nearest = std::min(nearest, Distance(outline, box));
+    }
   }
   return nearest;
+}
+
+namespace {
+
+/// How far a point of the outline can move against an obstacle between two samples [m].
+double MostMoved(const World& world, const VehicleParams& vehicle, const ClearanceSample& from,
+                 const ClearanceSample& to) {
+  const double reach = std::hypot(
+      std::max(vehicle.length - vehicle.rear_overhang, vehicle.rear_overhang), 0.5 * vehicle.width);
+  double fastest = 0.0;
+  for (const Obstacle& obstacle : world.obstacles) {
+    fastest = std::max(fastest, obstacle.velocity.norm());
+  }
+  return (to.pose.position() - from.pose.position()).norm() +
+         reach * std::abs(to.pose.yaw - from.pose.yaw) + fastest * (to.time - from.time);
+}
+
+/// Halves the way between two samples, over which the clearance changes by at most `moved`, until
+/// it cannot fall below the best one by more than matters.
+void Approach(const World& world, const VehicleParams& vehicle, const ClearanceSample& from,
+              const ClearanceSample& to, double moved, ClosestApproach& best) {
+  constexpr double kTolerance = 5e-3;  // [m]
+  constexpr double kShare = 1e-2;
+  constexpr double kDepth = 1e-3;  // [m]
+  const double least = 0.5 * (from.clearance + to.clearance - moved);
+  const double near = best.clearance - std::max(kTolerance, kShare * best.clearance);
+  // Below the tolerance it matters whether they touch.
+  if (best.clearance == 0.0 || moved < kDepth || (least > 0.0 && least >= near)) {
+    return;
+  }
+  ClearanceSample middle{
+      .pose = {std::lerp(from.pose.x, to.pose.x, 0.5), std::lerp(from.pose.y, to.pose.y, 0.5),
+               std::lerp(from.pose.yaw, to.pose.yaw, 0.5)},
+      .time = std::lerp(from.time, to.time, 0.5)};
+  middle.clearance = *Clearance(world, vehicle, middle.pose, middle.time);
+  if (middle.clearance < best.clearance) {
+    best = {middle.clearance, middle.time};
+  }
+  Approach(world, vehicle, from, middle, 0.5 * moved, best);
+  Approach(world, vehicle, middle, to, 0.5 * moved, best);
+}
+
+}  // namespace
+
+ClosestApproach ApproachBetween(const World& world, const VehicleParams& vehicle,
+                                const ClearanceSample& from, const ClearanceSample& to) {
+  TRACKBED_CHECK(!world.obstacles.empty(), "no obstacles");
+  ClosestApproach best = from.clearance <= to.clearance ? ClosestApproach{from.clearance, from.time}
+                                                        : ClosestApproach{to.clearance, to.time};
+  Approach(world, vehicle, from, to, MostMoved(world, vehicle, from, to), best);
+  return best;
 }
 
 }  // namespace trackbed

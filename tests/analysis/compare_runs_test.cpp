@@ -115,7 +115,7 @@ TEST(CompareRun, FailsDrivesThatDoNotEndAsExpected) {
 TEST(CompareRun, FailsWithoutAPlan) {
   RunResult run;
   run.plan.status = PlanStatus::kUTurn;
-  run.verdict = {false, {"no plan"}, {}};
+  run.verdict = {.passed = false, .failures = {"no plan"}};
   const RunComparison result = CompareRun(run, {});
   EXPECT_FALSE(result.verdict.passed);
   EXPECT_THAT(result.verdict.failures, ElementsAre("no plan"));

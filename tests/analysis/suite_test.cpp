@@ -76,7 +76,8 @@ TEST(RunSuite, TellsInTheOrderOfTheFilesForAnyNumberOfJobs) {
     files.push_back(folder.Write(
         name + ".yaml", fmt::format("schema: 1\nname: {}\nmission: {{duration: {}, speed: 3}}\n"
                                     "control: {{method: constant_steering, steering: 0.1}}\n"
-                                    "drive: {{plants: [kinematic]}}\n",
+                                    "drive: {{plants: [kinematic]}}\n"
+                                    "expect: {{metrics: [{{metric: time, min: 1}}]}}\n",
                                     name, i == 0 ? 500 : 1)));
   }
   for (const int jobs : {1, 4}) {

@@ -249,7 +249,14 @@ class DriveCheck {
     const double beyond = tolerances_.goal_position * record_.car.length;
     std::vector<Driven> plans = PlansOf(record_.plan, drive_.changes, beyond);
     const double told = drive_.metrics["cross_track"]["max"].get<double>();
-    const Furthest logged = FurthestFrom(plans, rows_);
+    // What an obstacle pushes aside is not steered: errors count up to the contact that is told of.
+    // That there was one is checked above.
+    std::vector<TimedPose> counted = rows_;
+    if (drive_.metrics.value("collision", false) && drive_.metrics.contains("clearance_min_t")) {
+      const double contact = drive_.metrics["clearance_min_t"].get<double>();
+      std::erase_if(counted, [&](const TimedPose& row) { return row.t > contact; });
+    }
+    const Furthest logged = FurthestFrom(plans, counted);
     // The polyline lies within its sagittas beside the plan.
     const double tolerance = logged.sagitta + 1e-6;
     if (logged.distance > told + tolerance) {

@@ -19,13 +19,13 @@ struct Tolerances {
   /// A car has arrived that stands within this share of its length from the goal ...
   double goal_position = 0.1;
   /// ... and within this of the heading that the mission asks for there [rad].
-  double goal_heading = 0.1;
+  double goal_heading = 0.2;
   double at_rest = 0.02;  ///< [m/s]; twice what the program calls standing
   /// Plans are numbers, not measurements: they begin where the car is but for rounding.
   double plan_position = 1e-6;  ///< [m]
   double plan_heading = 1e-6;   ///< [rad]
   double plan_speed = 1e-6;     ///< [m/s]
-  double plan_steering = 1e-4;  ///< [rad]; 0.005 m beside the path after 10 m at most
+  double plan_steering = 1e-3;  ///< [rad]; 0.02 m beside the path after 10 m at most
   /// An overlap of outlines that counts [m]. Between steps poses are interpolated linearly, which
   /// is off by v^2 kappa dt^2/8, 0.14 mm at 15 m/s, 0.2 /m and 5 ms, and SweptGap looks every
   /// millimetre.

@@ -279,7 +279,7 @@ TEST(Checker, FindsAPlanThatTurnsHarderThanTyresHold) {
   const auto arc = [](double) { return 0.1; };
   EXPECT_THAT(KindsOfPlan(record, BentPlan(9.0, arc)), IsEmpty());
   EXPECT_THAT(KindsOfPlan(record, BentPlan(10.0, arc)), ElementsAre("plan_lateral"));
-  EXPECT_THAT(KindsOfPlan(record, BentPlan(1.0, [](double) { return 0.195; })),
+  EXPECT_THAT(KindsOfPlan(record, BentPlan(1.0, [](double) { return 0.1935; })),
               ElementsAre("plan_steering_angle"));
 }
 

@@ -18,18 +18,24 @@ const std::vector<std::string> kPlanColumns{
 /// A plan as plan.csv has it, after the time from which it is driven if that is given.
 void AddPlan(Table& table, const trackbed::Plan& plan, std::optional<double> from) {
   const trackbed::Reference& reference = plan.reference;
-  for (const trackbed::PathPoint& point : reference.path.Sample(0.1)) {
-    std::vector<double> row{point.s,
-                            point.pose.x,
-                            point.pose.y,
-                            point.pose.yaw,
-                            point.curvature,
-                            point.direction * reference.speed.SpeedAt(point.s),
-                            static_cast<double>(point.direction)};
-    if (from) {
-      row.insert(row.begin(), *from);
+  for (const trackbed::Stations& leg : trackbed::LegsOf(reference.path)) {
+    const trackbed::Reference part = trackbed::Excerpt(reference, leg);
+    for (const trackbed::PathPoint& point : part.path.Sample(0.1)) {
+      if (point.s == 0.0 && leg.from > 0.0) {
+        continue;  // the end of the leg before
+      }
+      std::vector<double> row{leg.from + point.s,
+                              point.pose.x,
+                              point.pose.y,
+                              point.pose.yaw,
+                              point.curvature,
+                              point.direction * part.speed.SpeedAt(point.s),
+                              static_cast<double>(point.direction)};
+      if (from) {
+        row.insert(row.begin(), *from);
+      }
+      table.AddRow(row);
     }
-    table.AddRow(row);
   }
 }
 

@@ -384,7 +384,7 @@ TEST(Program, ListsWhatThereIs) {
        {"fillet", "preview", "mujoco", "single_track", "chase", "prius", "three_turns"}) {
     EXPECT_THAT(everything.output, HasSubstr(std::string("\n  ") + name + " "));
   }
-  EXPECT_THAT(Trackbed(folder, "list controllers").output, HasSubstr("distance: 2.5"));
+  EXPECT_THAT(Trackbed(folder, "list controllers").output, HasSubstr("time: 0, law: exact_arc"));
   EXPECT_EQ(Trackbed(folder, "list controller").output,
             "cannot list 'controller'; did you mean 'controllers'?\n");
 }

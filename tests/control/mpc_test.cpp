@@ -52,9 +52,11 @@ TEST(Mpc, IsTheRegulatorWhereNoLimitIsInTheWay) {
     state.lateral_speed = random.Uniform(-0.1, 0.1);
     state.yaw_rate = random.Uniform(-0.1, 0.1);
     const double mpc =
-        Steer(MpcOptions{.horizon = 20, .step = period}, car, reference, state, station, period);
+        Steer(MpcOptions{.cross_track = 1.0, .steering_rate = 1.0, .horizon = 20, .step = period},
+              car, reference, state, station, period);
     const double lqr =
-        Steer(LqrOptions{.preview = 20 * period}, car, reference, state, station, period);
+        Steer(LqrOptions{.cross_track = 1.0, .steering_rate = 1.0, .preview = 20 * period}, car,
+              reference, state, station, period);
     EXPECT_NEAR(mpc, lqr, Tolerance(1e-9));
   }
 }

@@ -322,7 +322,7 @@ TEST(OptimalSteering, OnThePathSteersItsCurvature) {
   // Where the curvature stays what it is over the horizon, and wheels that are there already.
   for (const double s : {5.0, 16.5, 22.0, 26.5, 40.0, 55.0}) {
     const double wanted = std::atan(2.7 * path.At(s).curvature);
-    const auto controller = MakeSteeringController(OptimalSteeringOptions{});
+    const auto controller = MakeSteeringController(OptimalSteeringOptions{.horizon = 2.0});
     EXPECT_EQ(Steer(*controller, path, path.At(s).pose, s, {.steering = wanted}), wanted) << s;
     EXPECT_THAT(controller->Values(), testing::ElementsAre(0.0, 0.0, 0.0, 0.0, 0.0)) << s;
   }

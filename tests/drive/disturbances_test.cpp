@@ -44,7 +44,7 @@ std::string Route(const std::string& plant) {
 std::string Straight(const std::string& plant, const std::string& start = "x: 0") {
   return fmt::format(
       "mission: {{speed: 3, waypoints: [[0, 0], [30, 0], [60, 0]], start: {{{}}}}}\n"
-      "plan: {{method: fillet}}\ndrive: {{plants: [{}]}}\n",
+      "plan: {{method: fillet, infeasible: allow}}\ndrive: {{plants: [{}]}}\n",
       start, plant);
 }
 
@@ -128,7 +128,10 @@ TEST(SteeringDeadBand, IsTakenOffWhatTheWheelsDo) {
 TEST(Wheelbase, IsWhatTheControllerTakesItFor) {
   // Pursuit's circle through the point ahead: tan(delta) = L 2 sin(u)/R, with the same u at first.
   const auto first = [](const std::string& disturb) {
-    return Drive(Straight("kinematic", "yaw: 0.1") + disturb).rows.front().command.steering;
+    return Drive(Straight("kinematic", "yaw: 0.1") + "control: {method: preview, distance: 2.5}\n" +
+                 disturb)
+        .rows.front()
+        .command.steering;
   };
   const double own = first("");
   const double wrong = first("disturb: {wheelbase: 1.2}\n");
@@ -214,7 +217,8 @@ TEST(Noise, HasItsStatistics) {
 }
 
 TEST(Noise, IsSeenByTheControllerAndIsNotTheTruth) {
-  const RunLog log = Drive(Straight("kinematic") + kNoise);
+  const RunLog log =
+      Drive(Straight("kinematic") + "control: {method: preview, distance: 2.5}\n" + kNoise);
   EXPECT_EQ(log.status, DriveStatus::kArrived);
   std::vector<double> commands;
   for (const LogRow& row : log.rows) {

@@ -583,9 +583,11 @@ TEST(PlanFillets, RandomRoutesKeepTheIdentitiesOrSayWhy) {
       const double q = std::min((route[w] - route[w - 1]).norm(), (route[w + 1] - route[w]).norm());
       const bool steering_room = options.constraint == RadiusConstraint::kSteeringRoom &&
                                  turn.note.find("under C.34") == std::string::npos;
+      // At the lowest speed half a ramp on the leg is enough.
+      const double ramps = turn.note.find("half a ramp") == std::string::npos ? 1.0 : 0.5;
       const auto need = [&](double r) {
         return r / std::tan(turn.interior_angle / 2.0) +
-               (steering_room ? turn.speed * std::atan(2.7 / r) * 17.6 / 2.65 : 0.0);
+               (steering_room ? ramps * turn.speed * std::atan(2.7 / r) * 17.6 / 2.65 : 0.0);
       };
       EXPECT_LE(turn.speed, kSpeed);
       EXPECT_TRUE(turn.speed == kSpeed || turn.note != "") << "slower without a reason";
@@ -759,16 +761,25 @@ TEST(PlanFillets, SlowsDownForATurnWithoutRoomAndNoOther) {
   EXPECT_LT(slower->low, slower->high);
 }
 
-TEST(PlanFillets, TakesATurnUnderHalfLegWhenSlowingDownDoesNotHelp) {
-  // Half of 10.5 m leaves 0.15 m beside K = 5.1 m: less than the 9.7 m/(3 m/s) of a full ramp at
-  // 0.5 m/s by far.
-  const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 10.5}};
-  const FilletPlan plan = PlanFillets(SeedCar(), route, kSpeed, {});
-  ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
-  EXPECT_EQ(plan.turns[0].speed, kSpeed);
-  EXPECT_NEAR(plan.turns[0].radius, 5.25, Tolerance(kRounding));
-  EXPECT_EQ(plan.turns[0].active, ActiveConstraint::kHalfLeg);
-  EXPECT_THAT(plan.turns[0].note, HasSubstr("nor at 0.5 m/s; under C.34 instead"));
+TEST(PlanFillets, TakesNoTurnFasterBecauseItsLegIsShorter) {
+  // A right angle and full lock need K = 5.1 m and S = 3.234 s v: the speed falls with the leg to
+  // 0.5 m/s where half of it is 5.1 + 1.617 m, at 13.434 m. With half a ramp on the leg that speed
+  // is kept down to 2 (5.1 + 0.8085) = 11.817 m; below there is no plan.
+  const auto plan = [](double leg) {
+    return PlanFillets(SeedCar(), {{0, 0}, {60, 0}, {60, leg}}, kSpeed, {});
+  };
+  EXPECT_GT(plan(13.5).turns.at(0).speed, 0.5);
+  double slowest = kSpeed;
+  for (double leg = 40.0; leg > 11.83; leg -= 0.1) {
+    const FilletPlan found = plan(leg);
+    ASSERT_EQ(found.status, PlanStatus::kOk) << leg << ": " << found.reason;
+    EXPECT_LE(found.turns[0].speed, slowest + Tolerance(1e-9)) << leg;
+    EXPECT_GE(found.turns[0].speed, 0.5) << leg;
+    slowest = found.turns[0].speed;
+  }
+  EXPECT_EQ(slowest, 0.5);
+  EXPECT_THAT(plan(13.4).turns.at(0).note, HasSubstr("taken at 0.5 m/s with half a ramp"));
+  EXPECT_EQ(plan(11.8).status, PlanStatus::kNoRoomForSteering);
 }
 
 TEST(PlanFillets, KeepsItsSpeedUnderHalfLegWhenAskedTo) {

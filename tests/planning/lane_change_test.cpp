@@ -82,6 +82,7 @@ TEST(LaneChangePlan, LeadsThroughTheMiddlesOnACurveWithoutJumps) {
       request.vehicle = Car();
       request.start = start;
       request.start_speed = 12.0;
+      request.infeasible = InfeasiblePolicy::kAllow;  // for its shape alone
       request.speed = {12.0, 1.0, 1.5};
       const Plan plan = MakePlan(
           request,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "tests/planning/frenet_scenes.h"
 #include "tests/tolerance.h"
@@ -199,6 +200,94 @@ TEST(Replan, BrakesAsHardAsItMustWhereNoMotionIsLeft) {
       << next.plan.blocked;
 }
 
+/// Distance from the front to the place of the obstacle, less what is to be kept of it.
+double RoomBefore(const Scene& scene, double ahead) {
+  // Half a metre before the encounter, which is a centimetre inside the safe distance.
+  return ahead - scene.options.settings.safe_distance + 0.01 - 0.5;
+}
+
+TEST(Replan, BrakesNoHarderThanTheObstacleNeeds) {
+  for (const double ahead : {1.5, 2.0, 2.6}) {
+    Scene scene;
+    scene.Block(ahead, 20.0);
+    scene.request.max_deceleration = 8.0;
+    const Replanned next = scene.Go();
+    ASSERT_EQ(next.kind, ReplanKind::kStop);
+    // The encounter is found to 0.1 ms, that is 0.3 mm.
+    const double room = RoomBefore(scene, ahead);
+    EXPECT_NEAR(next.plan.reference.path.length(), room, Tolerance(5e-4));
+    EXPECT_NEAR(next.plan.reference.speed.AccelerationAt(0.0), -std::max(2.0, 4.5 / room),
+                Tolerance(0.02));
+  }
+}
+
+TEST(Replan, BrakesAtTheCarsLimitWhereThatIsNotEnough) {
+  Scene scene;
+  scene.Block(1.0, 20.0);
+  scene.request.max_deceleration = 8.0;
+  const Replanned next = scene.Go();
+  ASSERT_EQ(next.kind, ReplanKind::kStop);
+  EXPECT_NEAR(next.plan.reference.path.length(), 4.5 / 8.0, Tolerance(1e-9));
+  // On ice that is less than what is comfortable elsewhere.
+  scene.request.max_deceleration = 1.0;
+  const Replanned on_ice = scene.Go();
+  EXPECT_NEAR(on_ice.plan.reference.path.length(), 4.5, Tolerance(1e-9));
+  EXPECT_NEAR(on_ice.plan.reference.speed.AccelerationAt(0.0), -1.0, Tolerance(1e-9));
+}
+
+TEST(Replan, BrakesForWhatComesAsHardAsThatTakes) {
+  Scene scene;
+  scene.request.max_deceleration = 8.0;
+  scene.Block(2.0, 2.0);
+  // It crosses from the right: at its own speed the car would meet it, stopped it would not.
+  scene.request.obstacles[0].box.centre.y = -4.0;
+  scene.request.obstacles[0].velocity = {0.0, 3.0};
+  scene.options.settings.road = {1.0, 1.0};
+  const Replanned next = scene.Go();
+  if (next.kind == ReplanKind::kStop) {
+    EXPECT_FALSE(FirstEncounter(SeedCar(), next.plan.reference, 0.0, scene.request.obstacles,
+                                scene.options.settings.safe_distance, 12.0));
+    EXPECT_GE(next.plan.reference.speed.AccelerationAt(0.0), -8.0 - 1e-9);
+  }
+}
+
+TEST(Replan, AsksForNoMoreThanTheLimitBeyondThePlansEnd) {
+  // 0.4 m before the goal, pushed to 3 m/s: what is left of the path is too short to stop on.
+  Scene scene;
+  scene.request.strayed = true;
+  scene.driving.station = 149.6;
+  scene.driving.route_station = 149.6;
+  scene.request.car = {.pose = {149.6, 0.0, 0.0}, .speed = 3.0};
+  scene.request.max_deceleration = 6.0;
+  scene.request.obstacles.push_back(
+      BoxAt(scene.driving.route.reference.path, 149.6 + kFront + 1.7, 0.0, 1.0, 20.0));
+  const Replanned next = scene.Go();
+  ASSERT_EQ(next.kind, ReplanKind::kStop);
+  EXPECT_NEAR(next.plan.reference.path.length(), 0.75, Tolerance(1e-9));
+}
+
+TEST(Replan, BrakesFromBehindTheStartOfThePlan) {
+  // An impact has thrown the car back behind where its plan begins.
+  for (const double speed : {0.0, 1.0, 3.0}) {
+    for (const double behind : {0.05, 0.4, 1.5}) {
+      Scene scene;
+      scene.driving.station = -behind;
+      scene.driving.route_station = -behind;
+      scene.request.strayed = true;
+      scene.request.car = {.pose = {-behind, 0.0, 0.0}, .speed = speed};
+      scene.request.max_deceleration = 8.0;
+      scene.request.obstacles.push_back(
+          BoxAt(scene.driving.route.reference.path, -behind + kFront + 1.1, 0.0, 1.0, 20.0));
+      const Replanned next = scene.Go();
+      ASSERT_EQ(next.kind, ReplanKind::kStop) << speed << " m/s, " << behind << " m";
+      const Path& path = next.plan.reference.path;
+      EXPECT_NEAR(path.At(0.0).pose.x, -behind, Tolerance(1e-12));
+      EXPECT_NEAR(path.At(path.length()).pose.x, -behind + path.length(), Tolerance(1e-12));
+      EXPECT_NEAR(path.length(), 0.5 * speed * speed / 8.0, Tolerance(1e-9));
+    }
+  }
+}
+
 TEST(Replan, TakesADetourWhereNoMotionLeadsPast) {
   Scene scene;
   scene.Block(25.0, 12.0);
@@ -260,6 +349,70 @@ TEST(Replan, TriesAgainWhenItWasStuck) {
   ASSERT_EQ(next.kind, ReplanKind::kRoute);
   EXPECT_EQ(next.plan.reference.speed.SpeedAt(0.0), 0.0);
   EXPECT_GT(next.plan.reference.speed.SpeedAt(20.0), 2.9);
+}
+
+/// A car anywhere about its plan, before its start and beyond its end too, as impacts leave it.
+Scene RandomScene(std::mt19937& random) {
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  Scene scene;
+  scene.driving.on_route = between(0.0, 1.0) < 0.5;
+  scene.driving.station = between(0.0, 1.0) < 0.5 ? between(-2.0, 2.0) : between(20.0, 151.0);
+  scene.driving.route_station = scene.driving.station;
+  scene.request.strayed = between(0.0, 1.0) < 0.7;
+  scene.request.car = {.pose = {scene.driving.station, between(-2.0, 2.0), between(-0.6, 0.6)},
+                       .curvature = between(-0.15, 0.15),
+                       .speed = between(0.0, 1.0) < 0.3 ? 0.0 : between(0.0, 5.0)};
+  scene.request.max_deceleration = between(0.0, 1.0) < 0.2 ? 0.0 : between(1.0, 9.0);
+  const int boxes = 1 + static_cast<int>(between(0.0, 3.0));
+  for (int i = 0; i < boxes; ++i) {
+    scene.request.obstacles.push_back(
+        BoxAt(scene.driving.route.reference.path, scene.driving.station + between(-3.0, 20.0),
+              between(-3.0, 3.0), between(0.3, 4.0), between(0.3, 15.0)));
+    if (between(0.0, 1.0) < 0.3) {
+      scene.request.obstacles.back().velocity = {between(-3.0, 3.0), between(-2.0, 2.0)};
+    }
+  }
+  if (between(0.0, 1.0) < 0.3) {
+    scene.driving.plan.blocked = "stopped before";
+  }
+  return scene;
+}
+
+TEST(Replan, AnswersWhereverTheCarIs) {
+  std::mt19937 random(7);
+  int stops = 0;
+  for (int i = 0; i < 300; ++i) {
+    SCOPED_TRACE(i);
+    Scene scene = RandomScene(random);
+    if (i % 3 == 1) {
+      scene.options.along = LatticeOptions{};
+    }
+    if (i % 10 == 2) {
+      HybridAStarOptions planner;
+      planner.reverse = false;
+      scene.options.detour = planner;
+    }
+    Replanned next;
+    ASSERT_NO_THROW(next = scene.Go());
+    if (next.kind != ReplanKind::kStop) {
+      continue;
+    }
+    ++stops;
+    const SpeedProfile& speed = next.plan.reference.speed;
+    const double hardest = std::max(scene.request.max_deceleration, kSpeed.deceleration);
+    EXPECT_EQ(speed.knots().back().speed, 0.0);
+    for (const SpeedProfile::Knot& knot : speed.knots()) {
+      // The numbers of a profile are a few operations on numbers below 200.
+      EXPECT_GE(speed.AccelerationAt(knot.s), -hardest - Tolerance(1e-9));
+    }
+    // It can be planned from there again.
+    scene.Drive(next, next.plan.reference.path.length());
+    scene.request.car.speed = 0.0;
+    EXPECT_NO_THROW(scene.Go());
+  }
+  EXPECT_GT(stops, 20);
 }
 
 TEST(Replan, IsTheSameEveryTime) {

@@ -29,8 +29,8 @@ world:
   obstacles:
     - {box: {x: 5, y: 12, yaw: 0.3, length: 3, width: 1.5}, velocity: {x: 0.5, y: 0.25}}
 plan: {method: fillet}
-control: {method: preview}
-expect: {reach_goal: 0.5}
+control: {method: preview, distance: 2.5}
+expect: {reach_goal: 0.5, max_cross_track: 2.5}
 """
 
 STUDY = """schema: 1

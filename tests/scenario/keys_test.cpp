@@ -44,7 +44,7 @@ TEST(ScenarioKeys, TellTypeUnitDefaultAndWhatIsAllowed) {
   EXPECT_EQ(KeyOf("drive", "timestep").fallback, "0.002");
   EXPECT_EQ(KeyOf("render", "size").fallback, "[1280, 720]");
   EXPECT_EQ(KeyOf("", "control").fallback, "{method: preview}");
-  EXPECT_EQ(KeyOf("control", "distance", "preview").fallback, "2.5");
+  EXPECT_EQ(KeyOf("control", "distance", "preview").fallback, "");
   EXPECT_EQ(KeyOf("plan", "constraint", "fillet").allowed, "steering_room, half_leg, none");
   EXPECT_EQ(KeyOf("plan", "time_limit", "rrt").unit, "s");
   EXPECT_EQ(KeyOf("plan", "time_limit", "rrt").allowed, "above 0");

@@ -64,6 +64,24 @@ TEST(SteeringSchedule, ShortTurnStaysBelowItsTarget) {
   EXPECT_EQ(schedule.At(20.0), 0.0);
 }
 
+TEST(SteeringSchedule, TurnsStartFromTheNeutralAngleAndReturnToIt) {
+  const double neutral = 0.02;
+  const SteeringSchedule schedule({{10.0, 30.0, 0.1}, {60.0, 80.0, -0.1}}, kSlope, neutral);
+  const double left = 0.08 / kSlope;
+  const double right = 0.12 / kSlope;
+  EXPECT_EQ(schedule.At(0.0), neutral);
+  EXPECT_EQ(schedule.At(10.0), neutral);
+  EXPECT_NEAR(schedule.At(10.0 + 0.5 * left), 0.06, Tolerance(kRounding));
+  EXPECT_NEAR(schedule.At(10.0 + left), 0.1, Tolerance(kRounding));
+  EXPECT_NEAR(schedule.At(30.0 + 0.5 * left), 0.06, Tolerance(kRounding));
+  EXPECT_NEAR(schedule.At(30.0 + left), neutral, Tolerance(kRounding));
+  EXPECT_NEAR(schedule.At(60.0), neutral, Tolerance(kRounding));
+  EXPECT_NEAR(schedule.At(60.0 + right), -0.1, Tolerance(kRounding));
+  EXPECT_NEAR(schedule.At(80.0 + right), neutral, Tolerance(kRounding));
+  EXPECT_NEAR(schedule.At(200.0), neutral, Tolerance(kRounding));
+  EXPECT_EQ(SteeringSchedule({}, kSlope, neutral).At(5.0), neutral);
+}
+
 TEST(SteeringSchedule, TurnTakesOverFromAReturn) {
   // An S-bend with touching tangents: the second turn starts where the first one returns.
   const SteeringSchedule schedule({{10.0, 30.0, 0.1}, {30.0, 50.0, -0.1}}, kSlope);

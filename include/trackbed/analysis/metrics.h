@@ -13,8 +13,11 @@
 
 namespace trackbed {
 
-/// How well a drive kept to its path. Errors are taken at the control periods.
+/// How well a drive kept to its path, up to its first contact with an obstacle. Errors are taken at
+/// the control periods.
 struct TrackingMetrics {
+  double corridor = 0.0;           ///< largest cross-track error unless asked otherwise: the
+                                   ///< car's width [m]; 0: not known, none
   double cross_track_rms = 0.0;    ///< [m]
   double cross_track_max = 0.0;    ///< largest magnitude [m]
   double cross_track_max_s = 0.0;  ///< where [m]
@@ -33,7 +36,7 @@ struct ClearanceMetrics {
   double min = 0.0;        ///< of the outline to the nearest obstacle [m]
   double min_s = 0.0;      ///< where [m]
   double min_t = 0.0;      ///< when [s]
-  bool collision = false;  ///< the outlines overlapped
+  bool collision = false;  ///< the car touched an obstacle, in whatever physics step
   double force_max = 0.0;  ///< largest contact force with obstacles [N]
   double force_max_s = 0.0;
   double force_max_t = 0.0;
@@ -60,9 +63,10 @@ struct PlantMetrics {
   /// Of the measured angle, mean over any 0.1 s, or one control period where that is longer
   /// [rad/s].
   double steering_rate_max = 0.0;
-  double steering_rate_max_s = 0.0;          ///< where that 0.1 s ended [m]
-  double steering_rate_max_t = 0.0;          ///< when [s]
-  double steering_rate_rms = 0.0;            ///< of its means over the control periods [rad/s]
+  double steering_rate_max_s = 0.0;  ///< where that 0.1 s ended [m]
+  double steering_rate_max_t = 0.0;  ///< when [s]
+  double steering_rate_limit = 0.0;  ///< of the car [rad/s]; 0: none, as for prescribed angles
+  double steering_rate_rms = 0.0;    ///< of its means over the control periods [rad/s]
   double steering_saturated_fraction = 0.0;  ///< of the periods: actuator did not reach the command
   /// Of the yaw rate to v tan(delta)/L, what the kinematic model makes of the measured speed and
   /// steering: least squares over the drive, so that turns count and straights do not. 1 / (1 + K
@@ -81,7 +85,8 @@ struct PlantMetrics {
 
 /// Did the run do what its scenario expects?
 struct Verdict {
-  bool passed = true;
+  bool judged = true;                 ///< something was asked of it
+  bool passed = true;                 ///< it was, and nothing failed
   std::vector<std::string> failures;  ///< expected, actual, where and when; one line each
   std::vector<std::string> notes;     ///< what to know of a run beside whether it passed
 };
@@ -90,9 +95,15 @@ struct Verdict {
 PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& vehicle,
                      double control_period, StationSource source);
 
-/// A drive that did not arrive fails whatever the scenario expects, unless it expects of its
-/// metrics another `status`, or a collision. Notes tell of a manoeuvre in which the steering did
-/// not reach its command for more than 2 % of the time.
+/// Asks what the scenario expects, and unless that says otherwise of every plant:
+///   * that it arrives; another `status` among the metrics or `collision: true` replaces that,
+///   * that it touches no obstacle,
+///   * on a path, that it stays within one car width of it (`max_cross_track` replaces that),
+///   * that its wheels turned no faster than its actuator can, but for what their compliance adds
+///     (3 %): faster ones mean that the timestep is too long for the car.
+/// A run without a path, obstacles and expectations has been asked nothing: it is not judged, and
+/// has not passed. Notes tell of a manoeuvre in which the steering did not reach its command for
+/// more than 2 % of the time.
 Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plants,
               const std::vector<PlantComparison>& comparisons);
 

@@ -14,6 +14,7 @@ namespace trackbed {
 enum class CaseStatus {
   kPassed,
   kFailed,         ///< it ran, and not as its scenario expects
+  kNotJudged,      ///< it ran; its scenario asks nothing that could be judged
   kBadInput,       ///< the scenario, its car or its surroundings are wrong: nothing was driven
   kInternalError,  ///< a bug in Trackbed
   kInterrupted,    ///< the caller stopped it, or it was not begun

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 namespace trackbed {
 
@@ -32,10 +33,10 @@ class SteeringController;
 /// Cost: about 55 us with 100 periods of preview on the path, some 0.5 ms metres beside it; no heap
 /// memory.
 struct LqrOptions {
-  double cross_track = 1.0;    ///< [1/m^2], > 0
-  double heading = 1.0;        ///< [1/rad^2], >= 0
-  double steering_rate = 1.0;  ///< [s^2/rad^2], > 0
-  double preview = 2.0;        ///< how far ahead the path's curvature is looked at [s], >= 0
+  std::optional<double> cross_track;    ///< [1/m^2], > 0; none: (2.7 m/L)^2 per m^2
+  double heading = 1.0;                 ///< [1/rad^2], >= 0
+  std::optional<double> steering_rate;  ///< [s^2/rad^2], > 0; none: (0.1506 rad/s over omega)^2
+  double preview = 2.0;  ///< how far ahead the path's curvature is looked at [s], >= 0
 };
 
 std::unique_ptr<SteeringController> MakeLqr(const LqrOptions& options);

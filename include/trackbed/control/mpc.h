@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 namespace trackbed {
 
@@ -27,11 +28,11 @@ class SteeringController;
 struct MpcOptions {
   static constexpr int kLongestHorizon = 40;
 
-  double cross_track = 1.0;    ///< [1/m^2], > 0
-  double heading = 1.0;        ///< [1/rad^2], >= 0
-  double steering_rate = 1.0;  ///< [s^2/rad^2], > 0
-  int horizon = 20;            ///< N, 1 to kLongestHorizon
-  double step = 0.1;           ///< [s], > 0; the control period if that is longer
+  std::optional<double> cross_track;    ///< [1/m^2], > 0; none: as LqrOptions
+  double heading = 1.0;                 ///< [1/rad^2], >= 0
+  std::optional<double> steering_rate;  ///< [s^2/rad^2], > 0; none: as LqrOptions
+  int horizon = 20;                     ///< N, 1 to kLongestHorizon
+  double step = 0.1;                    ///< [s], > 0; the control period if that is longer
 };
 
 std::unique_ptr<SteeringController> MakeMpc(const MpcOptions& options);

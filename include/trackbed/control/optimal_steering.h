@@ -48,10 +48,11 @@ double CostOf(const Deviation& deviation, const DeviationWeights& weights);
 /// same numbers at every update.
 struct OptimalSteeringOptions {
   Matching matching = Matching::kArcLength;
-  /// Shortest S [m], > 0; of the primary: with kTime the car's is S v/v_0. With kArcLength never
-  /// shorter than 1.5 cbrt(e L v/omega) for a car e beside its path, as for PreviewOptions.
-  double horizon = 2.0;
-  double time = 0.6;  ///< S is at least time |v|, with kTime time v_0 [s], >= 0
+  /// Shortest S [m], > 0; none: the distance of PreviewOptions; of the primary: with kTime the
+  /// car's is S v/v_0. With kArcLength never shorter than 1.5 cbrt(e L v/omega) for a car e beside
+  /// its path, as for PreviewOptions.
+  std::optional<double> horizon;
+  double time = 0.0;  ///< S is at least time |v|, with kTime time v_0 [s], >= 0
   SearchOptions search{.method = SearchMethod::kNelderMead, .population = 20, .tolerance = 1e-6};
   DeviationWeights weights;
   double deviation_limit = 0.01;       ///< epsilon, on the norm: up to it the plan's curvature is

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 namespace trackbed {
 
@@ -16,9 +17,11 @@ enum class PreviewWeight {
 /// the car over the whole previewed way nearest to the path, with a driver's delay.
 ///
 /// Symbols: T = R/|v| the preview time, R = max(distance, time |v|), and never shorter than a car
-/// off its path needs to swing back (PreviewOptions); eta time ahead in [0, T];
-/// f(eta) where the path is, y_0(eta) where the car comes with straight wheels, A(eta) how far one
-/// unit of tan(delta) moves it, all across the direction of motion [m]; W(eta) the weight.
+/// off its path needs to swing back (PreviewOptions). Unless `distance` is given it is that of
+/// PreviewOptions, with `delay` as a part of the response time, times sqrt(g): g = 5/3 (5/2 with
+/// kNear) is by how much more than a single point this law answers to an offset. eta time ahead in
+/// [0, T]; f(eta) where the path is, y_0(eta) where the car comes with straight wheels, A(eta) how
+/// far one unit of tan(delta) moves it, all across the direction of motion [m]; W(eta) the weight.
 ///   tan(delta) = int (f - y_0) A W d(eta) / int A^2 W d(eta)
 /// A car without tyre coefficients is kinematic: y_0 = 0, A = (v eta)^2/(2 L); one with them is the
 /// linear single-track car with its present lateral speed and yaw rate. f(eta) is taken at the
@@ -32,8 +35,8 @@ enum class PreviewWeight {
 ///
 /// Reverse paths are previewed backwards, kinematically.
 struct PreviewIntegralOptions {
-  double distance = 4.0;  ///< shortest R [m], > 0
-  double time = 0.8;      ///< [s], >= 0
+  std::optional<double> distance;  ///< shortest R [m], > 0; none: by the law above
+  double time = 0.0;               ///< [s], >= 0
   PreviewWeight weight = PreviewWeight::kUniform;
   double delay = 0.0;  ///< tau [s], >= 0
 };

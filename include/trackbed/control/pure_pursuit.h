@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 namespace trackbed {
 
@@ -10,16 +11,17 @@ class SteeringController;
 /// point at the distance l = max(distance, time |v|), delta = atan(2 L sin(u)/l) with u the angle
 /// from the direction of motion to that point.
 ///
-/// On a circle it steers atan(L/R) exactly. A fixed distance is a fixed fraction of the car's
-/// response in space, so at higher speeds it has to grow: with the wheels' rate omega limited, a
-/// car at speed v needs l of about 1.5 cbrt(e L v/omega) to return from an offset e without
-/// swinging out. PreviewOptions lengthens its distance for that; this law does not.
+/// On a circle it steers atan(L/R) exactly. With the wheels' rate omega limited, a car at speed v
+/// needs l of about 1.5 cbrt(e L v/omega) to return from an offset e without swinging out.
+/// PreviewOptions lengthens its distance for the car's offset; this law does not. Unless `distance`
+/// is given, l is the distance of PreviewOptions, and long enough for an offset of an eighth of the
+/// wheelbase: 3/4 L cbrt(v/(L omega)).
 ///
 /// Reverse paths: the point lies behind, the same circle. Beyond its end the path goes on along its
 /// tangent. Knows no slip: a car that understeers runs outside of its circle.
 struct PurePursuitOptions {
-  double distance = 4.0;  ///< shortest l [m], > 0
-  double time = 0.8;      ///< [s], >= 0
+  std::optional<double> distance;  ///< shortest l [m], > 0; none: by the law above
+  double time = 0.0;               ///< l is at least time |v| [s], >= 0
 };
 
 std::unique_ptr<SteeringController> MakePurePursuit(const PurePursuitOptions& options);

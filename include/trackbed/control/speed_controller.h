@@ -23,10 +23,12 @@ struct SpeedControlOptions {
 
 /// Wanted acceleration [m/s^2] of a car at station `s` with `speed` (>= 0, along the path) that
 /// follows `profile`: the profile's own acceleration at the middle of the coming `period`, plus
-/// gain times the speed error, within [-2 deceleration, acceleration]. After the end of a profile
-/// that ends at rest it brakes.
+/// gain times the speed error, within [-2 deceleration, acceleration]. A profile that brakes more
+/// than 1.1 times as hard as `deceleration` means it: there it may be 1.25 times the profile's own
+/// deceleration, but no more than `max_deceleration` [m/s^2] of the car on its road (0: not known).
+/// After the end of a profile that ends at rest it brakes as that did, comfortably or harder.
 double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& profile, double s,
-                    double speed, double period);
+                    double speed, double period, double max_deceleration = 0.0);
 
 /// Wanted acceleration [m/s^2] from `time` [s] on where the options say what the speed does over
 /// time: the braking once it has begun, else along `over_time` (SpeedAlong). Nothing limits it but

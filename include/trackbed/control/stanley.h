@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 namespace trackbed {
 
@@ -19,7 +20,9 @@ class SteeringController;
 /// axle is off the way it takes when the rear axle is on its path. Without slip and with k_s = 0 it
 /// shrinks as exp(-k t) when it is small, and at no more than |v| when it is large. Backwards the
 /// rear axle leads but does not steer: e swings with the damping ratio sqrt((k_s + |v|)/(k L))/2,
-/// 0.6 at 3 m/s and 0.4 at 1 m/s for a wheelbase of 2.7 m.
+/// 0.6 at 3 m/s and 0.4 at 1 m/s for the Prius.
+///
+/// The defaults, with omega the steering rate [rad/s], are 1/s and 1 m/s for the Prius.
 ///
 /// Does not look ahead, so that it meets a step of curvature late by the time that the wheels take
 /// to turn, and has no damping of its own: at speeds where the car's yaw lags (above some 10 m/s
@@ -27,8 +30,8 @@ class SteeringController;
 /// slowly: the Prius at 3 m/s comes back from 1.5 m beside its path, and from 4 m swings out for
 /// good.
 struct StanleyOptions {
-  double gain = 1.0;       ///< k [1/s], > 0
-  double softening = 1.0;  ///< k_s [m/s], >= 0
+  std::optional<double> gain;       ///< k [1/s], > 0; none: 6.64 omega
+  std::optional<double> softening;  ///< k_s [m/s], >= 0; none: 2.46 L omega
 };
 
 std::unique_ptr<SteeringController> MakeStanley(const StanleyOptions& options);

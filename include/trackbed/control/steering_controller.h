@@ -68,20 +68,30 @@ enum class PreviewLaw {
 /// motion to OP. Beyond its end the path goes on along its tangent. A car further than R from the
 /// path heads for the point R ahead of its nearest one.
 ///
-/// The distance trades corners against robustness, since the wheels turn at a limited rate: the
-/// Prius at 3 m/s on route A cuts corners by 0.023, 0.056, 0.120 m with R = 2, 3, 4 m. A fixed
-/// distance that short cannot bring a car back from beside its path: the wheels are always late,
-/// and it swings out for good (0.2 m off with R = 2 m). So R is never shorter than 1.5 cbrt(e L
-/// v/omega) for a car e off its path, which leaves a car that is on its path alone and returns one
-/// that is metres off. At higher speeds the car's own response takes longer in space; `time` lets R
-/// grow with the speed.
+/// The distance trades corners against robustness: a car cuts them by R^2/(8 r), and its wheels
+/// turn at a limited rate. Unless `distance` is given, R follows from the car, its speed and the
+/// path:
+///   R = max(3/4 L,  3 v T,  0.65 S + v T)
+///   T [s]  response time: control period + steering lag + m v/(C_f + C_r), the tyres' part 0 for a
+///          car without tyre coefficients
+///   S [m]  the ramp: how far the car rolls while its wheels turn by more than the path gives them
+///          room for, the largest v abs(delta(s_2) - delta(s_1))/omega - (s_2 - s_1) of any two
+///          stations s_1 < s_2 within R, with delta = atan(L kappa) of the path
+/// with L wheelbase [m], v speed [m/s], omega steering rate [rad/s], C_f, C_r cornering stiffness
+/// of the axles [N/rad], m mass [kg]. A car and its path of another size, at the same v/(L omega)
+/// and v T/L, are driven with the same relative error. Derivation and sources:
+/// docs/algorithms/control.md.
+///
+/// A preview that a path asks for cannot bring a car back from beside it: the wheels are always
+/// late, and it swings out for good. So R is never shorter than 1.5 cbrt(e L v/omega) for a car e
+/// off its path, which leaves a car that is on its path alone and returns one that is metres off.
 struct PreviewOptions {
-  double distance = 2.5;  ///< shortest R [m]
-  double time = 0.0;      ///< R is at least time |v| [s]
+  std::optional<double> distance;  ///< shortest R [m], > 0; none: by the law above
+  double time = 0.0;               ///< R is at least time |v| [s]
   PreviewLaw law = PreviewLaw::kExactArc;
   /// With the tyres' slip: u from where the rear axle really moves, and the steering that leads a
-  /// car that understeers round the circle. Asks for a distance of half a second at 20 m/s, where
-  /// 0.3 s swing out for good.
+  /// car that understeers round the circle. A given distance has to be half a second at 20 m/s,
+  /// where 0.3 s swing out for good.
   bool slip = false;
 };
 

@@ -13,27 +13,32 @@ namespace trackbed {
 
 /// How a drive ended.
 enum class DriveStatus {
-  kArrived,      ///< at rest at the end of the path, or the mission's duration is over
-  kStopped,      ///< at rest before the end of the path, and staying there
+  kArrived,      ///< at rest at the goal, within drive.goal_tolerance; without a path: the
+                 ///< mission's duration is over
+  kStopped,      ///< at rest elsewhere, and staying there
   kBlocked,      ///< at rest before an obstacle that no way was found around
   kPartial,      ///< at rest at the end of a plan that leads only part of the way (Plan::partial)
   kTimeLimit,    ///< drive.time_limit is over
   kDiverged,     ///< the physics failed (MuJoCo warned); the log ends before
-  kCollided,     ///< the outline overlapped an obstacle; the log goes on for a second
+  kCollided,     ///< the car touched an obstacle; the log goes on for a second
   kInterrupted,  ///< the caller asked to stop
 };
 
 /// "arrived", "stopped", …: the spelling of metrics.json.
 const char* ToString(DriveStatus status);
 
-/// One control period: the state at its start and the command given then.
+/// One control period: the state at its start and the command given then. Clearance and
+/// `state.obstacle_force` are the extremes of the period that ended here, over every physics step.
 struct LogRow {
   VehicleState state;
   Command command;
-  std::optional<Projection> tracking;  ///< none without a path
-  std::optional<double> clearance;     ///< of the outline [m]; none without obstacles
-  std::optional<Pose2> measured;       ///< what the controller saw; none without noise
-  std::vector<double> controller;      ///< what it tells of its last answer: RunLog's columns
+  /// Distance and heading error against the path as it is, without extensions (but for a car that
+  /// stops a little beyond its end); none without a path.
+  std::optional<Projection> tracking;
+  /// Smallest, of the outline [m], 0 when it touched; none without obstacles.
+  std::optional<double> clearance;
+  std::optional<Pose2> measured;   ///< what the controller saw; none without noise
+  std::vector<double> controller;  ///< what it tells of its last answer: RunLog's columns
 };
 
 /// A new plan that was taken up while driving.
@@ -47,6 +52,7 @@ struct PlanChange {
 struct RunLog {
   std::string plant;
   DriveStatus status = DriveStatus::kArrived;
+  std::optional<double> contact_time;           ///< first contact with an obstacle [s]; none: never
   std::vector<std::string> controller_columns;  ///< SteeringController::Columns
   std::vector<LogRow> rows;                     ///< stations go on over changes of plan
   std::vector<PlanChange> changes;

@@ -103,9 +103,10 @@ class Path {
   double length_ = 0.0;
 };
 
-/// The stretches of a path that are driven in one direction each, one after the other; between them
-/// are its cusps, where a car stops and changes gear. One of no length for a path of no length.
-std::vector<Stations> LegsOf(const Path& path);
+/// The stretches of a path that are driven in one go each, one after the other; between them are
+/// its cusps, where a car stops and changes gear, and the `stops` [m], where it stops as well. One
+/// of no length for a path of no length. Stops at the path's ends or beyond are none.
+std::vector<Stations> LegsOf(const Path& path, const std::vector<double>& stops = {});
 
 /// A point that a curve passes through.
 struct CurvePoint {

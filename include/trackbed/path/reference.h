@@ -59,9 +59,10 @@ struct SpeedCap {
 SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& limits,
                        const std::vector<SpeedCap>& caps = {});
 
-/// The same for a path that may have cusps: stops at each of them, too.
+/// The same for a path that may have cusps: stops at each of them, and at `stops` [m], too.
 SpeedProfile StopAtCusps(const Path& path, double start_speed, const SpeedLimits& limits,
-                         const std::vector<SpeedCap>& caps = {});
+                         const std::vector<SpeedCap>& caps = {},
+                         const std::vector<double>& stops = {});
 
 /// What a controller follows: where, and how fast.
 struct Reference {

@@ -26,6 +26,10 @@ struct CornerLimits {
   double speed = 3.0;          ///< v, at most [m/s]
   double min_speed = 0.5;      ///< no corner is taken more slowly [m/s]
   double max_curvature = 0.2;  ///< [1/m]
+  /// Of a car that rolls at the first point: what it needs to slow down for the first corner stays
+  /// straight. 0: it stands there [m/s].
+  double start_speed = 0.0;
+  double deceleration = 1.0;  ///< with which it does [m/s^2], > 0
 };
 
 /// A rounded corner.
@@ -54,7 +58,8 @@ RoundCorner CornerAt(const VehicleParams& vehicle, double heading_change, double
                      double max_curvature);
 
 /// Rounds a polyline of at least two points, none the same as the one before. A corner may use half
-/// of each of its legs, at the ends of the polyline all of it. It is taken as fast as that allows;
+/// of each of its legs, at the ends of the polyline all of it, but for what a rolling car needs to
+/// slow down for it. It is taken as fast as that allows;
 /// one at which the outline is too near to a box, more slowly, which leads nearer to the corner.
 /// Guarantees when ok: the path starts at the first point along the first leg and ends at the last,
 /// continuous in curvature; no curvature above the limit; the steering rate kept at the caps; the

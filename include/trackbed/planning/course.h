@@ -35,14 +35,12 @@ std::vector<Segment> CourseSegments(const CourseOptions& options);
 /// The sharpest curvature of a segment that is linear in the distance [1/m].
 double SharpestCurvature(const Segment& segment);
 
-/// The steering over the distance that leads a kinematic car at `speed` [m/s] along the segments:
-/// atan(L kappa). A step of curvature is driven as a ramp at the car's steering rate with its
-/// middle on the step, steeper only where the pieces beside it leave no room for that.
+/// The steering over the distance that leads a kinematic car along the segments: atan(L kappa).
+/// Steps of curvature are driven as the ramps of RampsOfSteps (curvature_steps.h) for a car that
+/// goes at `speed` [m/s], more slowly within `caps`. Where the car stands, at changes of direction
+/// and at `stops`, the step lies in the last micrometre before.
 SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<Segment>& segments,
-                                double speed);
-
-/// The same for a car whose speed changes on the way.
-SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<Segment>& segments,
-                                const SpeedProfile& profile);
+                                double speed, const std::vector<SpeedCap>& caps = {},
+                                const std::vector<double>& stops = {});
 
 }  // namespace trackbed

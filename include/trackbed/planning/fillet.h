@@ -23,7 +23,9 @@
 ///   r    radius of the rear axle's arc [m]
 ///   K    tangent length r/tan(phi/2) [m], from the waypoint to either end of the arc (C.11)
 ///   q_S  the shorter one of the two legs [m]
-///   S_delta = v atan(L/r)/omega_delta: rolled while the wheels turn to the arc's angle [m]
+///   d_0  neutral steering: where the wheels stand between turns [rad]
+///   S_delta = v |delta - d_0|/omega_delta: rolled while the wheels turn to the arc's angle,
+///        delta = sgn(h) atan(L/r) [m]
 ///   D_{2k-1}, D_2k  distances at which the wheels start into and out of turn k [m]
 ///   D_end  distance at which the car stops [m]
 namespace trackbed {
@@ -37,9 +39,11 @@ enum class RadiusConstraint {
 
 /// What to do about a turn for which C.40 has no radius at the mission's speed.
 enum class WithoutRoom {
-  kSlowDown,  ///< take it as fast as C.40 allows, or under C.34 if that is below `min_speed`
-  kHalfLeg,   ///< take it under C.34: the wheels turn on the arc of the neighbours
-  kRefuse,    ///< no plan
+  /// Take it as fast as C.40 allows. Below `min_speed`: at that, if half a ramp, which is what lies
+  /// on the leg, fits into half of it besides the arc's tangent; else refuse.
+  kSlowDown,
+  kHalfLeg,  ///< take it under C.34: the wheels turn on the arc of the neighbours
+  kRefuse,   ///< no plan
 };
 
 /// By what the radii are chosen.
@@ -70,9 +74,13 @@ struct FilletOptions {
   /// [m], for every turn; none: chosen by the objective.
   std::optional<double> radius;
   RadiusConstraint constraint = RadiusConstraint::kSteeringRoom;
+  /// d_0 [rad], positive to the left: from here the wheels turn into a turn, and to here they
+  /// return. It is an angle of the road wheels like delta, which stays that of the arc: a kinematic
+  /// car leaves its straight legs on a circle of radius L/tan(d_0) unless it is 0.
+  double neutral_steering = 0.0;
   double max_radius = 154.0;  ///< upper bound of the search [m]; the seed's, one degree of steering
   WithoutRoom without_room = WithoutRoom::kSlowDown;
-  double min_speed = 0.5;  ///< below this no turn is slowed down [m/s]
+  double min_speed = 0.5;  ///< no turn is taken more slowly [m/s]
   RadiusObjective objective = RadiusObjective::kLargest;
   SearchOptions search;               ///< of every objective but kLargest
   bool resimulate_each_turn = false;  ///< kLiteral, kTurnLocal: a first drive before every turn
@@ -121,8 +129,9 @@ struct FilletTurn {
   Vec2 arc_end{0.0, 0.0};            ///< H_{i+1} (C.15)
   double arc_start_s = 0.0;          ///< station of H_i [m]
   double arc_length = 0.0;           ///< r |h| [m]
+  double neutral = 0.0;              ///< d_0: of the wheels before and after it [rad]
   double steering = 0.0;             ///< signed delta of the arc [rad]
-  double ramp_time = 0.0;            ///< |delta|/omega_delta [s]
+  double ramp_time = 0.0;            ///< |delta - d_0|/omega_delta [s]
   double ramp_distance = 0.0;        ///< S_delta [m]
   double steer_start = 0.0;          ///< D_{2k-1}: half a ramp before H_i unless optimised [m]
   double steer_return = 0.0;         ///< D_{2k}: half a ramp before H_{i+1} unless optimised [m]
@@ -147,11 +156,12 @@ struct RadiusInterval {
   double high = 0.0;
 };
 
-/// Radii in [r_min, r_max] with g(r) = r/tan(phi/2) + v/omega_delta atan(L/r) - q_S/2 <= 0 (C.40),
-/// or none. g is convex, so they are one interval; its ends are found to the last few bits.
+/// Radii in [r_min, r_max] with g(r) = r/tan(phi/2) + v/omega_delta |atan(L/r) - n| - q_S/2 <= 0
+/// (C.40), or none; `neutral` is n = sgn(h) d_0 [rad], positive toward the turn. g falls and then
+/// rises, so they are one interval; its ends are found to the last few bits.
 std::optional<RadiusInterval> SteeringRoomRadii(const VehicleParams& vehicle, double speed,
                                                 double interior_angle, double shorter_leg,
-                                                RadiusInterval bounds);
+                                                RadiusInterval bounds, double neutral = 0.0);
 
 /// A closed interval of speeds [m/s].
 struct SpeedInterval {
@@ -162,7 +172,7 @@ struct SpeedInterval {
 /// The highest of `speeds` at which C.40 leaves a radius within `bounds`, or none.
 std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double interior_angle,
                                         double shorter_leg, RadiusInterval bounds,
-                                        SpeedInterval speeds);
+                                        SpeedInterval speeds, double neutral = 0.0);
 
 /// Radii in `bounds` with r/tan(phi/2) <= q_S/2 (C.34), or none.
 std::optional<RadiusInterval> HalfLegRadii(double interior_angle, double shorter_leg,

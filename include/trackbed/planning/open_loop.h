@@ -16,10 +16,11 @@ struct OpenLoopDrive {
   double deviation_max = 0.0;  ///< largest distance from the planned path [m]
 };
 
-/// Drives `schedule` at constant `speed` [m/s] from the start of `path` over `stop_distance` [m],
-/// the reference point on the path, and holds it against the path every 0.5 m and against its end.
+/// Drives `schedule` from the start of `path` over `stop_distance` [m], the reference point on the
+/// path, and compares it with the path every 0.5 m and with its end. It changes direction where the
+/// path does. The wheels follow the schedule, which holds if the plan's speeds let them.
 OpenLoopDrive DriveOpenLoop(const VehicleParams& vehicle, const Path& path,
-                            const SteeringSchedule& schedule, double stop_distance, double speed,
+                            const SteeringSchedule& schedule, double stop_distance,
                             ReferencePoint reference = ReferencePoint::kRearAxle);
 
 /// As plan.json has it.

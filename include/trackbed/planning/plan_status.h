@@ -18,6 +18,7 @@ enum class PlanStatus {
   kNoPath,             ///< there is none, or none of the kind that is looked for
   kBudgetUsedUp,       ///< the search ended before it was there
   kCollides,           ///< what could be driven comes too near to an obstacle
+  kInfeasible,         ///< it asks more of the car than it can do; see feasibility.h
 };
 
 /// "ok", "too_few_waypoints", …: the spelling of plan.json.

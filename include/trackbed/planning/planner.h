@@ -19,10 +19,18 @@
 #include "trackbed/planning/turn_prediction.h"
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/steering_schedule.h"
+#include "trackbed/world/road.h"
 #include "trackbed/world/wind.h"
 
 /// One interface and one table for everything that plans.
 namespace trackbed {
+
+/// What becomes of a plan that asks more of the car than it can do; see feasibility.h.
+enum class InfeasiblePolicy {
+  kSlowDown,  ///< driven more slowly where that helps, else refused
+  kRefuse,    ///< no plan
+  kAllow,     ///< driven as it is, to see what happens
+};
 
 /// What is to be reached, by whatever method. Planners keep no state and have no clock of their
 /// own: the same values give the same plan. Only a planner with a time limit looks at the caller's
@@ -36,11 +44,15 @@ struct PlanRequest {
   Wind wind{};                           ///< as it blows when the drive begins
   Pose2 start;                           ///< where the car is
   double start_speed = 0.0;              ///< [m/s]
+  double start_steering = 0.0;           ///< of wheels and actuator there [rad]
   SpeedLimits speed;                     ///< the mission's speed and how to change it
   std::uint64_t seed = 0;                ///< of every random choice
   /// The time now [s], from any beginning; asked by planners with a time limit alone. Empty: time
   /// limits are not kept.
   std::function<double()> clock{};
+  double friction = 1.0;                          ///< of the road, a factor on the tyres' own
+  std::vector<FrictionPatch> friction_patches{};  ///< where it is another
+  InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
 };
 
 /// What a planner gives back. With any status but kOk there is a reason and no path.
@@ -51,16 +63,19 @@ struct Plan {
   SteeringSchedule schedule;    ///< for the open loop, over the distance driven
   SpeedProfile schedule_speed;  ///< likewise: ends where the open loop is to stop
   std::vector<SpeedCap> caps;   ///< stretches of the path that it takes more slowly
+  std::vector<double> stops;    ///< where it stops on the way, besides its cusps, to turn the
+                                ///< wheels on the spot [m]
   Pose2 goal;  ///< where the mission ends: the path too, unless it is blocked or partial
   /// Why the path ends before the goal, for people; empty when it does not.
   std::string blocked;
   /// Why the path leads only part of the way, for people, when a search for more of it was ended;
   /// empty when it leads to the goal. Whatever plans again on the way leads no further either.
   std::string partial;
-  std::vector<Gate> gates;        ///< that it leads through
-  std::vector<LoneTurn> turns;    ///< whose cost to an open-loop drive can be told
-  nlohmann::json diagnostics;     ///< the method's own findings, as in plan.json
-  std::vector<RrtStarNode> tree;  ///< of every RRT or RRT* that was used, one after the other
+  std::vector<Gate> gates;         ///< that it leads through
+  std::vector<LoneTurn> turns;     ///< whose cost to an open-loop drive can be told
+  std::vector<std::string> notes;  ///< what to know of it, for people: that it was slowed down
+  nlohmann::json diagnostics;      ///< the method's own findings, as in plan.json
+  std::vector<RrtStarNode> tree;   ///< of every RRT or RRT* that was used, one after the other
 
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }
 };
@@ -159,8 +174,9 @@ std::size_t FewestWaypoints(const PlannerOptions& options);
 /// after on the way.
 std::vector<Pose2> StopsOf(const PlanRequest& request);
 
-/// Plans with the planner that `options` belong to. Never throws for a mission that cannot be
-/// planned; InternalError for one that the caller should have refused (a non-finite number).
+/// Plans with the planner that `options` belong to, and makes the plan feasible (feasibility.h).
+/// Never throws for a mission that cannot be planned; InternalError for one that the caller should
+/// have refused (a non-finite number).
 Plan MakePlan(const PlanRequest& request, const PlannerOptions& options);
 
 }  // namespace trackbed

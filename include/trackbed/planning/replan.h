@@ -38,9 +38,12 @@ struct ReplanRequest {
   VehicleParams vehicle;
   SpeedLimits speed;
   Wind wind;
-  double time = 0.0;                 ///< [s]
-  MotionState car;                   ///< as it is: pose, curvature of its steering, speed
-  bool strayed = false;              ///< the car is far from the plan: start from where it is
+  double time = 0.0;     ///< [s]
+  MotionState car;       ///< as it is: pose, curvature of its steering, speed
+  bool strayed = false;  ///< the car is far from the plan: start from where it is
+  /// The hardest braking that tyres, brakes and the road ahead allow [m/s^2]; 0: no harder than
+  /// the speed limits say.
+  double max_deceleration = 0.0;
   std::vector<MovingBox> obstacles;  ///< known so far, where they are now
   std::uint64_t seed = 0;
 };
@@ -70,7 +73,7 @@ struct Encounter {
 };
 
 /// Looks every 0.1 s along the plan's own speeds from `station` on, for a car that keeps `offset`
-/// [m] left of it.
+/// [m] left of it, and halves that time down to 0.1 ms for the moment when it began.
 std::optional<Encounter> FirstEncounter(const VehicleParams& vehicle, const Reference& reference,
                                         double station, const std::vector<MovingBox>& obstacles,
                                         double distance, double look_ahead, double offset = 0.0);
@@ -88,6 +91,12 @@ bool MayClear(const VehicleParams& vehicle, const Path& path, double station,
 /// Keeps a route or a motion to the goal that is clear; else, in this order, the rest of the route
 /// if the car is back on it and it is clear, a motion that leads on, a detour that the comparator
 /// prefers, a motion that comes to rest or goes on for now, what is driven if it is clear, braking.
+///
+/// Braking, before what stands: at the speed limits' deceleration to rest half a metre before the
+/// encounter if that is in time; else at once and evenly, as hard as that takes; else at
+/// `max_deceleration`. What moves may come nearer: at once, with the mildest deceleration, in
+/// eighths of the way from the limits' to the hardest, that keeps clear of it; else the hardest.
+/// `max_deceleration` is never exceeded, even where the comfortable deceleration is above it.
 ///
 /// Guarantees: the steering planned at the start of a new plan is that of the old one beside the
 /// car, or the car's own if it has strayed. Looks ahead no less than it takes to stop from the

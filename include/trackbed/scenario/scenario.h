@@ -51,6 +51,8 @@ struct PlanSpec {
   PlannerOptions global = FilletOptions{};
   std::optional<AvoiderOptions> avoid;  ///< leads it around obstacles; none: it is not led around
   std::optional<ReplanOptions> replan;  ///< plans again on the way; none: it does not
+  /// What becomes of a plan that asks more of the car than it can do.
+  InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
 };
 
 struct ControlSpec {
@@ -65,6 +67,9 @@ struct DriveSpec {
   double control_period = 0.02;      ///< a whole number of timesteps [s]
   double state_period = 1.0 / 60.0;  ///< between configurations logged for the film [s]
   double time_limit = 600.0;         ///< simulated [s]
+  /// A car at rest as near as this to the goal has arrived, as a share of its length.
+  double goal_tolerance = 0.1;
+  double goal_heading_tolerance = 0.2;  ///< likewise [rad]; where the mission gives headings
 };
 
 /// A bound on any number of a plant's entry in metrics.json.

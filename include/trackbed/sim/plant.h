@@ -40,6 +40,10 @@ class Plant {
   /// that led here.
   [[nodiscard]] virtual VehicleState Observe() const = 0;
 
+  /// Two numbers of Observe() alone, for what looks at every physics step.
+  [[nodiscard]] virtual Pose2 pose() const = 0;
+  [[nodiscard]] virtual double obstacle_force() const { return 0.0; }
+
   /// The configuration now, as CarModel::configuration_columns names it.
   [[nodiscard]] virtual std::vector<double> Configuration() const = 0;
 

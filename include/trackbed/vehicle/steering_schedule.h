@@ -8,11 +8,12 @@
 /// Steering over distance for a car whose wheels turn at a limited rate (seed 000 F.1, section 4.3
 /// of the dissertation's listing, with corrected distances).
 ///
-/// Symbols: D distance driven by the rear axle [m]; S_delta = v |delta|/omega_delta the distance
-/// rolled while the wheels turn from 0 to delta.
+/// Symbols: D distance driven by the rear axle [m]; d_0 neutral angle of the wheels, where they
+/// stand before, between and after turns [rad]; S_delta = v |delta - d_0|/omega_delta the distance
+/// rolled while the wheels turn from d_0 to delta.
 namespace trackbed {
 
-/// One turn: the wheels start toward `steering` at `start` and back toward straight at `end`.
+/// One turn: the wheels start toward `steering` at `start` and back toward neutral at `end`.
 struct TurnSteering {
   double start = 0.0;     ///< D [m], >= 0
   double end = 0.0;       ///< D [m], > start
@@ -34,9 +35,10 @@ class SteeringSchedule {
   SteeringSchedule() = default;
 
   /// Turns in the order of their starts; `slope` = omega_delta/v [rad/m] > 0, one for all turns or
-  /// one for each. InternalError when they are out of order.
-  SteeringSchedule(const std::vector<TurnSteering>& turns, double slope);
-  SteeringSchedule(const std::vector<TurnSteering>& turns, const std::vector<double>& slopes);
+  /// one for each; `neutral` is d_0. InternalError when they are out of order.
+  SteeringSchedule(const std::vector<TurnSteering>& turns, double slope, double neutral = 0.0);
+  SteeringSchedule(const std::vector<TurnSteering>& turns, const std::vector<double>& slopes,
+                   double neutral = 0.0);
 
   /// Through the knots, which lie at least one, in rising order of distance. InternalError
   /// otherwise.
@@ -49,6 +51,9 @@ class SteeringSchedule {
   [[nodiscard]] double At(double distance) const;
 
   [[nodiscard]] const std::vector<Knot>& knots() const { return knots_; }
+
+  /// What is left of it beyond `distance` [m], which becomes D = 0.
+  [[nodiscard]] SteeringSchedule From(double distance) const;
 
  private:
   std::vector<Knot> knots_;
@@ -69,9 +74,11 @@ Pose2 RampPose(const VehicleParams& params, double steering, double speed);
 /// fit into the arc: (v/(L omega)) (-2 ln cos delta - delta tan delta).
 double TurnHeadingDefect(const VehicleParams& params, double steering, double speed);
 
-/// Where an open-loop drive gets: the kinematic car from `start` at constant `speed` over
-/// `distance`, its wheels following the schedule exactly. `start` and the result are states of the
-/// reference point. Fourth order in `step` [m], split at the schedule's knots.
+/// Where an open-loop drive gets: the kinematic car from `start` over `distance` [m], its wheels
+/// following the schedule exactly, as they do at any speed at which they turn no faster than they
+/// can. A start speed < 0 means backwards. `start` and the result are states of the reference
+/// point. Fourth order in `step` [m], split at the schedule's knots. InternalError for a start
+/// speed of 0.
 KinematicState RollOut(const VehicleParams& params, const KinematicState& start,
                        const SteeringSchedule& schedule, double distance, double step,
                        ReferencePoint reference = ReferencePoint::kRearAxle);

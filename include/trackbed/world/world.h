@@ -35,6 +35,9 @@ struct World {
 /// list that contains it, else `friction`. Cost O(patches).
 double RoadFactor(const World& world, const Vec2& point_W);
 
+/// The same of its parts.
+double RoadFactor(double friction, const std::vector<FrictionPatch>& patches, const Vec2& point_W);
+
 /// Of the world's ground and wind; see road.h and wind.h.
 double GroundHeight(const World& world, const Vec2& point_W);
 Eigen::Vector3d GroundNormal(const World& world, const Vec2& point_W);
@@ -54,5 +57,27 @@ bool IsKnown(const Obstacle& obstacle, double time, const OrientedBox& outline);
 /// obstacles. Cost O(obstacles).
 std::optional<double> Clearance(const World& world, const VehicleParams& vehicle, const Pose2& pose,
                                 double time);
+
+/// A car at one moment, and how far it was from the nearest obstacle.
+struct ClearanceSample {
+  Pose2 pose;
+  double time = 0.0;       ///< [s]
+  double clearance = 0.0;  ///< Clearance() there [m]
+};
+
+/// The smallest clearance between two moments, and when.
+struct ClosestApproach {
+  double clearance = 0.0;  ///< [m]; 0 in a collision
+  double time = 0.0;       ///< [s]
+};
+
+/// How near the outline comes to an obstacle while the car moves from one sample to the next, which
+/// it does on a straight line and turning evenly: far less than a turn apart. Obstacles move too.
+///
+/// Guarantees: no contact deeper than 1 mm is missed; the clearance is at most 5 mm, or a hundredth
+/// of it, above the smallest one. Cost: none when the samples are further from every obstacle than
+/// anything moves in between, else some Clearance() calls. InternalError without obstacles.
+ClosestApproach ApproachBetween(const World& world, const VehicleParams& vehicle,
+                                const ClearanceSample& from, const ClearanceSample& to);
 
 }  // namespace trackbed

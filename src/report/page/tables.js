@@ -6,6 +6,7 @@ function badge(parent, good, text) {
 
 function verdictOf(run) {
   if (!run.complete) return { good: false, text: 'interrupted' };
+  if (run.verdict.passed === null) return { good: true, text: 'not judged' };
   return run.verdict.passed ? { good: true, text: 'passed' } : { good: false, text: 'failed' };
 }
 

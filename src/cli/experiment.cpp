@@ -1,0 +1,277 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/cli/verbs.h"
+#include "trackbed/control/optimal_steering.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+#include "trackbed/core/spelling.h"
+#include "trackbed/core/text_table.h"
+#include "trackbed/sim/car_model.h"
+
+namespace trackbed::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kOptimalSteering = "optimal_steering";
+constexpr double kDegree = kPi / 180.0;
+
+/// The defaults are the paper's experiment.
+struct ExperimentOptions {
+  std::string name;
+  std::string vehicle = "prius";
+  double steering = 10.0;                          // of the primary [deg]
+  double primary_speed = 3.0;                      // [m/s]
+  double max_steering = 27.0;                      // [deg]
+  std::vector<double> speeds{2.5, 2.0, 1.5, 1.0};  // of the car [m/s]
+  std::vector<std::string> searches;               // none: all
+  int evaluations = 0;
+  std::uint64_t seed = 1;
+  std::string out;
+  bool quiet = false;
+};
+
+/// What the paper prints of its second stage, whose primary steers 10 deg at 3 m/s: a genetic
+/// algorithm's angles, which lie within 2.3 % of the primary's.
+std::optional<double> Published(const ExperimentOptions& options, double speed) {
+  struct Row {
+    double speed;    // [m/s]
+    double degrees;  // [deg]
+  };
+  constexpr Row kPaper[] = {{2.5, 9.77}, {2.0, 9.94}, {1.5, 9.97}, {1.0, 10.03}};
+  if (options.steering == 10.0 && options.primary_speed == 3.0) {
+    for (const Row& row : kPaper) {
+      if (row.speed == speed) {
+        return row.degrees;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+constexpr double kPublishedScatter = 2.3;  // [%]
+
+struct Match {
+  double speed;  // [m/s]
+  Matching matching;
+  const SearchEntry* search;
+  double steering;  // [deg]
+  double cost;
+  int evaluations;
+};
+
+const char* Name(Matching matching) {
+  return matching == Matching::kTime ? "time" : "arc_length";
+}
+
+std::vector<const SearchEntry*> ChosenSearches(const std::vector<std::string>& chosen) {
+  std::vector<std::string> names;
+  for (const SearchEntry& entry : Searches()) {
+    names.emplace_back(entry.name);
+  }
+  std::vector<const SearchEntry*> entries;
+  for (const std::string& name : chosen.empty() ? names : chosen) {
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at == names.end()) {
+      throw InputError(
+          Problem{.message = "--searches: unknown search " + UnknownName(name, names)});
+    }
+    entries.push_back(&Searches()[static_cast<std::size_t>(at - names.begin())]);
+  }
+  return entries;
+}
+
+/// Of every speed, matched by time and by arc length, with every search: in this order.
+std::vector<Match> MatchAll(const VehicleParams& vehicle, const ExperimentOptions& options,
+                            const std::vector<const SearchEntry*>& searches) {
+  std::vector<Match> matches;
+  for (const double speed : options.speeds) {
+    for (const Matching matching : {Matching::kTime, Matching::kArcLength}) {
+      const CircleExperiment experiment{.primary_steering = options.steering * kDegree,
+                                        .primary_speed = options.primary_speed,
+                                        .speed = speed,
+                                        .max_steering = options.max_steering * kDegree,
+                                        .matching = matching};
+      for (const SearchEntry* search : searches) {
+        const SteeringMatch match = MatchSteering(
+            vehicle, experiment, {.method = search->method, .evaluations = options.evaluations},
+            options.seed);
+        matches.push_back(
+            {speed, matching, search, match.steering / kDegree, match.cost, match.evaluations});
+      }
+    }
+  }
+  return matches;
+}
+
+/// Off the primary's angle [%].
+double Scatter(const ExperimentOptions& options, const Match& match) {
+  return 100.0 * (match.steering / options.steering - 1.0);
+}
+
+std::string PublishedText(const ExperimentOptions& options, const Match& match,
+                          const char* absent) {
+  const auto published =
+      match.matching == Matching::kArcLength ? Published(options, match.speed) : std::nullopt;
+  return published ? ShortestText(*published) : absent;
+}
+
+std::string ToCsv(const ExperimentOptions& options, const std::vector<Match>& matches) {
+  TextTable table({"speed_mps", "matching", "search", "steering_deg", "off_primary_percent", "cost",
+                   "evaluations", "published_deg"});
+  for (const Match& match : matches) {
+    table.AddRow({ShortestText(match.speed), Name(match.matching), match.search->name,
+                  ShortestText(match.steering), ShortestText(Scatter(options, match)),
+                  ShortestText(match.cost), fmt::format("{}", match.evaluations),
+                  PublishedText(options, match, "")});
+  }
+  return table.ToCsv();
+}
+
+/// Whether all angles of a search that are matched by arc length are as near to the primary's as
+/// the published ones.
+bool StaysWithin(const ExperimentOptions& options, const SearchEntry& search,
+                 const std::vector<Match>& matches) {
+  return std::all_of(matches.begin(), matches.end(), [&](const Match& match) {
+    return match.search != &search || match.matching != Matching::kArcLength ||
+           std::abs(Scatter(options, match)) <= kPublishedScatter;
+  });
+}
+
+void Print(const ExperimentOptions& options, const std::string& car,
+           const std::vector<const SearchEntry*>& searches, const std::vector<Match>& matches) {
+  fmt::print(
+      "{}: the constant angle [deg] that brings {} where one lap at {} deg and {} m/s ends\n",
+      kOptimalSteering, car, ShortestText(options.steering), ShortestText(options.primary_speed));
+  std::string line = fmt::format("  {:>5} {:<10}", "[m/s]", "matched by");
+  for (const SearchEntry* search : searches) {
+    line += fmt::format(" {:>11}", search->name);
+  }
+  fmt::print("{} {:>9}\n", line, "published");
+  for (std::size_t i = 0; i < matches.size(); i += searches.size()) {
+    line = fmt::format("  {:>5} {:<10}", ShortestText(matches[i].speed), Name(matches[i].matching));
+    for (std::size_t j = i; j < i + searches.size(); ++j) {
+      line += fmt::format(" {:>11.3f}", matches[j].steering);
+    }
+    fmt::print("{} {:>9}\n", line, PublishedText(options, matches[i], "-"));
+  }
+  for (const bool within : {true, false}) {
+    std::vector<const char*> names;
+    for (const SearchEntry* search : searches) {
+      if (StaysWithin(options, *search, matches) == within) {
+        names.push_back(search->name);
+      }
+    }
+    if (!names.empty()) {
+      fmt::print("  matched by arc length, {} {} % of the primary's angle: {}\n",
+                 within ? "always within" : "not always within", kPublishedScatter,
+                 fmt::join(names, ", "));
+    }
+  }
+}
+
+/// CLI::Range lets NaN pass.
+CLI::Validator Between(double low, double high) {
+  return {[low, high](std::string& text) {
+            double value = 0.0;
+            const bool good =
+                CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+            return good ? "" : fmt::format("{} is not a number from {} to {}", text, low, high);
+          },
+          ""};
+}
+
+int Experiment(const ExperimentOptions& options) {
+  if (options.name != kOptimalSteering) {
+    throw InputError(
+        Problem{.message = "unknown experiment " + UnknownName(options.name, {kOptimalSteering})});
+  }
+  const double steering = std::abs(options.steering);
+  if (!(steering > 0.0 && steering <= options.max_steering)) {
+    throw InputError(
+        Problem{.message = fmt::format("--steering-deg: {} must not be 0, nor beyond the {} of "
+                                       "--max-steering-deg",
+                                       ShortestText(options.steering),
+                                       ShortestText(options.max_steering))});
+  }
+  const std::vector<const SearchEntry*> searches = ChosenSearches(options.searches);
+  const fs::path file = FindModel(options.vehicle, "");
+  const CarModel car(ComposeScene(file, {}), file.string());
+  if (!options.out.empty()) {
+    MakeFolder((fs::path(".") / options.out).parent_path());  // before the work, not after it
+  }
+  const std::vector<Match> matches = MatchAll(car.params(), options, searches);
+  if (!options.out.empty()) {
+    WriteFileAtomically(options.out, ToCsv(options, matches));
+  }
+  if (!options.quiet) {
+    Print(options, car.params().name, searches, matches);
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void AddExperiment(CLI::App& command, int& exit_code) {
+  const auto options = std::make_shared<ExperimentOptions>();
+  command
+      .add_option("name", options->name,
+                  "optimal_steering: a car at another speed than the wanted one, the angle found "
+                  "by search")
+      ->required()
+      ->type_name("NAME");
+  command.add_option("--vehicle", options->vehicle, "A model by name, or the path of an MJCF file")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command
+      .add_option("--steering-deg", options->steering,
+                  "Of the wanted motion, the primary [deg], positive to the left")
+      ->type_name("DEG")
+      ->capture_default_str();
+  command.add_option("--primary-speed", options->primary_speed, "Of the wanted motion [m/s]")
+      ->check(Between(0.1, 100.0))
+      ->type_name("V")
+      ->capture_default_str();
+  command
+      .add_option("--max-steering-deg", options->max_steering, "Bound of the search, either way")
+      ->check(Between(0.1, 80.0))
+      ->type_name("DEG")
+      ->capture_default_str();
+  command
+      .add_option("--speeds", options->speeds,
+                  "Of the car, the secondary [m/s] (default: 2.5,2,1.5,1)")
+      ->delimiter(',')
+      ->check(Between(0.01, 100.0))
+      ->type_name("V,...");
+  command
+      .add_option("--searches", options->searches,
+                  "Of 'trackbed list optimizers' (default: all of them)")
+      ->delimiter(',')
+      ->type_name("NAME,...");
+  command
+      .add_option("--evaluations", options->evaluations,
+                  "Of a search at most; 0: each method's own number")
+      ->check(CLI::Range(0, 100000000).description(""))
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_option("--seed", options->seed, "Of searches that draw random numbers")
+      ->type_name("N")
+      ->capture_default_str();
+  command
+      .add_option("-o,--out", options->out, "Write the table as CSV, too, a row for each search")
+      ->type_name("FILE");
+  command.add_flag("-q,--quiet", options->quiet, "Print errors only");
+  command.callback([options, &exit_code] { exit_code = Experiment(*options); });
+}
+
+}  // namespace trackbed::cli

@@ -1,0 +1,151 @@
+#include "src/control/preview_distance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/control/tracking.h"
+
+namespace trackbed {
+namespace {
+
+constexpr double kWheelbases = 0.75;  ///< shortest R over L
+constexpr double kResponses = 3.0;    ///< R over v T
+constexpr double kRampShare = 0.65;   ///< R over S
+/// Each station looked at is this much further than the one before. A step is taken for as near as
+/// the nearer one of the two stations that it lies between.
+constexpr double kSpread = 1.3;
+
+/// The ramp S [m] over a stretch of stations that grows at either end.
+class RampScan {
+ public:
+  explicit RampScan(double turned)
+      : min_minus_(turned), max_minus_(turned), min_plus_(turned), max_plus_(turned) {}
+
+  /// `turned` = v delta/omega [m] at `s` [m] from the car, beyond a gap in which a step may lie.
+  void Extend(double turned, double s, double gap) {
+    if (s > 0.0) {
+      ramp_ = std::max({ramp_, turned - s - min_minus_ + gap, max_plus_ - turned - s + gap});
+    } else {
+      ramp_ = std::max({ramp_, max_minus_ - turned + s + gap, turned + s - min_plus_ + gap});
+    }
+    min_minus_ = std::min(min_minus_, turned - s);
+    max_minus_ = std::max(max_minus_, turned - s);
+    min_plus_ = std::min(min_plus_, turned + s);
+    max_plus_ = std::max(max_plus_, turned + s);
+  }
+
+  [[nodiscard]] double ramp() const { return ramp_; }
+
+ private:
+  double ramp_ = 0.0;
+  // Of turned - s and turned + s, over all stations.
+  double min_minus_;
+  double max_minus_;
+  double min_plus_;
+  double max_plus_;
+};
+
+/// 0.65 S + v T, at least `shortest`, for ramps that are driven at `speed`; `response` = v T [m].
+double RampPreview(const ControlInput& input, double speed, double response, double shortest) {
+  const Path& path = input.reference.path;
+  const VehicleParams& vehicle = input.vehicle;
+  const double way = speed / vehicle.steering_rate;  // [m/rad]
+  const auto turned = [&](const PathPoint& point) {
+    return way * std::clamp(SteeringForCurvature(vehicle, point.curvature), -vehicle.steering_limit,
+                            vehicle.steering_limit);
+  };
+  const double longest = kRampShare * way * 2.0 * vehicle.steering_limit + response;
+  const PathPoint here = path.At(input.station);
+  RampScan scan(turned(here));
+  double preview = shortest;
+  bool ahead = true;
+  bool behind = true;
+  double near = 0.0;
+  for (double far = 0.5 * shortest; near < longest && (ahead || behind); far *= kSpread) {
+    for (const double side : {1.0, -1.0}) {
+      bool& goes_on = side > 0.0 ? ahead : behind;
+      if (!goes_on) {
+        continue;
+      }
+      const double end = side > 0.0 ? path.length() : 0.0;
+      const double left = side * (end - input.station);
+      goes_on = far < left;
+      const double s = std::min(far, left);
+      if (s <= near) {
+        continue;
+      }
+      const PathPoint point = path.At(goes_on ? input.station + side * s : end);
+      if (point.direction != here.direction) {
+        goes_on = false;  // at a cusp the wheels turn while the car stands
+        continue;
+      }
+      scan.Extend(turned(point), side * s, s - near);
+    }
+    const double distance = kRampShare * scan.ramp() + response;
+    if (distance >= near) {
+      preview = std::max(preview, distance);
+    }
+    near = far;
+  }
+  return preview;
+}
+
+/// The lowest speed [m/s] that is planned no further than `distance` from the car, which goes at
+/// `speed`: steps of curvature are slowed down for, and it is there that they are met. The plan's
+/// coming to rest is no reason to look at the car's feet.
+double SlowestWithin(const ControlInput& input, double speed, double distance) {
+  constexpr int kLooks = 6;
+  constexpr double kLeast = 0.25;  // of the speed
+  const SpeedProfile& profile = input.reference.speed;
+  double slowest = speed;
+  for (int i = -kLooks; i <= kLooks && !profile.knots().empty(); ++i) {
+    const double s = input.station + distance * static_cast<double>(i) / kLooks;
+    if (s >= 0.0) {
+      slowest = std::min(slowest, std::max(profile.SpeedAt(s), kLeast * speed));
+    }
+  }
+  return slowest;
+}
+
+}  // namespace
+
+double ResponseTime(const VehicleParams& vehicle, double speed, double period) {
+  const double tyres =
+      HasTyres(vehicle) ? vehicle.mass * std::abs(speed) /
+                              (vehicle.cornering_stiffness_front + vehicle.cornering_stiffness_rear)
+                        : 0.0;
+  return period + vehicle.steering_lag + tyres;
+}
+
+double PreviewDistance(const ControlInput& input, double delay) {
+  const double speed = std::abs(input.state.speed);
+  const double response = speed * (ResponseTime(input.vehicle, speed, input.period) + delay);
+  // With differential drive the wheelbase is a name for the track.
+  const double size = input.vehicle.kind == VehicleKind::kDifferential
+                          ? std::max(input.vehicle.wheelbase, input.vehicle.length)
+                          : input.vehicle.wheelbase;
+  const double shortest = std::max(kWheelbases * size, kResponses * response);
+  const double far = RampPreview(input, speed, response, shortest);
+  const double slower = SlowestWithin(input, speed, far);
+  return slower < speed ? RampPreview(input, slower, response, shortest) : far;
+}
+
+double ReturnDistance(const VehicleParams& vehicle, double speed, double offset) {
+  // Found by trial on offsets of 0.2 to 4 m with previews of 2 to 4 m: all return to the path with
+  // it; with 1 some swing on for ever, with 2 they return more slowly.
+  constexpr double kShare = 1.5;
+  // Slower, the angle of the wheels limits the car, not their rate.
+  constexpr double kSlowest = 1.25;
+  const double slowest = kSlowest * vehicle.wheelbase * vehicle.steering_rate;
+  const double curvature_rate =
+      vehicle.steering_rate / (vehicle.wheelbase * std::max(std::abs(speed), slowest));
+  return kShare * std::cbrt(std::abs(offset) / curvature_rate);
+}
+
+double ReturnDistance(const ControlInput& input) {
+  const Vec2 foot = input.reference.path.At(input.station).pose.position();
+  const double offset = (input.state.pose.position() - foot).norm();
+  return ReturnDistance(input.vehicle, input.state.speed, offset);
+}
+
+}  // namespace trackbed

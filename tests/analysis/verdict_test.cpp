@@ -1,0 +1,164 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/tolerance.h"
+#include "trackbed/analysis/run.h"
+
+// What is called arrived or passed: whole runs in which something goes wrong that used to be
+// missed.
+namespace trackbed {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+RunResult Drive(const std::string& yaml) {
+  return RunMission(ParseScenario("schema: 1\nname: verdict\n" + yaml, "verdict",
+                                  TRACKBED_SOURCE_DIR "/tests/data/models"));
+}
+
+TEST(Verdict, FailsACarThatPassesThroughAThinWallBetweenTwoRows) {
+  // 10 m/s and a second between the rows: the wall of 0.2 m is within no row's outline.
+  const RunResult run = Drive(
+      "mission: {speed: 10, waypoints: [[0, 0], [100, 0], [200, 0]]}\n"
+      "world: {obstacles: [{box: {x: 65, y: 0, length: 0.2, width: 3, height: 1}}]}\n"
+      "plan: {method: fillet}\ndrive: {plants: [kinematic, mujoco], control_period: 1.0}\n");
+  EXPECT_FALSE(run.verdict.passed);
+  for (std::size_t i = 0; i < run.logs.size(); ++i) {
+    SCOPED_TRACE(run.logs[i].plant);
+    EXPECT_EQ(run.logs[i].status, DriveStatus::kCollided);
+    EXPECT_EQ(run.metrics[i].clearance->min, 0.0);
+    // The front is there at (64.9 - front)/10; MuJoCo's car may be a little slower.
+    const LogRow& first = run.logs[i].rows.front();
+    EXPECT_EQ(first.state.pose.x, 0.0);
+    EXPECT_NEAR(*run.logs[i].contact_time, 6.13, 0.15);
+  }
+  // The contact's force is not missed either.
+  EXPECT_GT(run.metrics[1].clearance->force_max, 1000.0);
+}
+
+TEST(Verdict, FailsACarThatAFastBoxPassesThrough) {
+  // The box of 0.5 m moves 2.8 m between two rows.
+  const RunResult run = Drive(
+      "mission: {speed: 3, waypoints: [[0, 0], [50, 0], [100, 0]]}\n"
+      "world: {obstacles: [{box: {x: 43.4, y: -390.5, length: 0.5, width: 0.5}, velocity: {y: "
+      "28}}]}\n"
+      "plan: {method: fillet}\ndrive: {plants: [kinematic], control_period: 0.1}\n");
+  EXPECT_EQ(run.logs[0].status, DriveStatus::kCollided);
+  EXPECT_NEAR(*run.logs[0].contact_time, 390.5 / 28.0, 0.1);
+  EXPECT_FALSE(run.verdict.passed);
+}
+
+TEST(Verdict, MeasuresTheDistanceFromThePathBehindItsStart) {
+  const RunResult run = Drive(
+      "mission: {speed: 3, waypoints: [[0, 0], [30, 0], [60, 0]], start: {x: -20}}\n"
+      "plan: {method: fillet, infeasible: allow}\ndrive: {plants: [kinematic]}\n");
+  ASSERT_TRUE(run.plan.ok()) << run.plan.reason;
+  EXPECT_NEAR(run.metrics[0].tracking->cross_track_max, 20.0, Tolerance(1e-9));
+  EXPECT_EQ(run.logs[0].rows.front().tracking->s, 0.0);
+  EXPECT_FALSE(run.verdict.passed);
+  EXPECT_THAT(run.verdict.failures, Contains(HasSubstr("left its path")));
+}
+
+TEST(Verdict, HoldsASmallCarToItsOwnSize) {
+  // Steered a tenth as far as it should be, it stands metres beside its goal of 2 m.
+  const std::string mission =
+      "vehicle: {model: small_car.xml}\nmission: {speed: 1, waypoints: [[0, 0], [2, 0], [2, 2]]}\n"
+      "plan: {method: fillet}\ndrive: {plants: [kinematic]}\n";
+  const RunResult lost =
+      Drive(mission + "control: {method: schedule}\ndisturb: {steering: {factor: 0.1}}\n");
+  EXPECT_EQ(lost.logs[0].status, DriveStatus::kStopped);
+  EXPECT_FALSE(lost.verdict.passed);
+  const RunResult well = Drive(mission);
+  EXPECT_EQ(well.logs[0].status, DriveStatus::kArrived);
+  EXPECT_TRUE(well.verdict.passed);
+}
+
+TEST(Verdict, ArrivesWithinAShareOfTheCarsLength) {
+  // The open loop of these turns ends off its goal; how far off is arrived is the scenario's to
+  // say.
+  const auto status = [](double tolerance) {
+    return Drive(
+        fmt::format("mission: {{speed: 3, waypoints: [[0, 0], [40, 0], [40, 40]]}}\n"
+                    "plan: {{method: fillet}}\ncontrol: {{method: schedule}}\n"
+                    "drive: {{plants: [kinematic], goal_tolerance: {}}}\n",
+                    tolerance));
+  };
+  const RunResult run = status(1.0);
+  const double length = LoadCar(run.scenario).params().length;
+  const double share = run.metrics[0].tracking->goal_distance / length;
+  EXPECT_GT(share, 1e-4);
+  EXPECT_EQ(status(1.01 * share).logs[0].status, DriveStatus::kArrived);
+  EXPECT_EQ(status(0.99 * share).logs[0].status, DriveStatus::kStopped);
+}
+
+TEST(Verdict, AsksForTheHeadingWhereTheMissionGivesOne) {
+  const auto run = [](double tolerance) {
+    return Drive(
+        fmt::format("mission: {{speed: 3, waypoints: [[0, 0], [25, 15]], headings: [0, "
+                    "1.5]}}\nplan: {{method: dubins}}\n"
+                    "drive: {{plants: [kinematic], goal_heading_tolerance: {}}}\n",
+                    tolerance));
+  };
+  const double error = std::abs(run(1.0).metrics[0].tracking->goal_heading_error);
+  EXPECT_GT(error, 1e-6);
+  EXPECT_EQ(run(1.01 * error).logs[0].status, DriveStatus::kArrived);
+  EXPECT_EQ(run(0.99 * error).logs[0].status, DriveStatus::kStopped);
+}
+
+TEST(Verdict, IsNotPassedWhereNothingWasAsked) {
+  const std::string drive =
+      "mission: {speed: 3, duration: 1}\ncontrol: {method: constant_steering, steering: 0}\n"
+      "drive: {plants: [kinematic]}\n";
+  const RunResult run = Drive(drive);
+  EXPECT_FALSE(run.verdict.judged);
+  EXPECT_FALSE(run.verdict.passed);
+  EXPECT_TRUE(ToJson(run.verdict)["passed"].is_null());
+  EXPECT_TRUE(Drive(drive + "expect: {metrics: [{metric: time, max: 2}]}\n").verdict.passed);
+}
+
+TEST(Verdict, FailsWheelsThatTurnFasterThanTheirActuator) {
+  // 20 ms are too long for the contacts of this car: its wheels swing.
+  const RunResult run = Drive(
+      "mission: {speed: 3, waypoints: [[0, 0], [40, 0], [40, 40]]}\nplan: {method: fillet}\n"
+      "drive: {plants: [mujoco], timestep: 0.02, control_period: 0.1}\n");
+  EXPECT_GT(run.metrics[0].steering_rate_max, 1.1 * run.metrics[0].steering_rate_limit);
+  EXPECT_THAT(run.verdict.failures, Contains(HasSubstr("drive.timestep is too long")));
+}
+
+TEST(Verdict, TellsOfAPlanThatWasSlowedDown) {
+  const RunResult run = Drive(
+      "mission: {speed: 4}\nplan: {method: lane_change, standard: iso_3888_2}\n"
+      "drive: {plants: [kinematic]}\n");
+  EXPECT_TRUE(run.verdict.passed);
+  EXPECT_THAT(run.verdict.notes, Contains(HasSubstr("the plan is slowed down")));
+  // At the car's rate, and the plan's own: nothing is left over for the wheels to catch up.
+  EXPECT_LE(run.metrics[0].steering_rate_max, run.metrics[0].steering_rate_limit * (1.0 + 1e-6));
+}
+
+TEST(Verdict, RollingStartsOnBendsAreOnTheirPath) {
+  // Every one of these began on a bend, with the car rolling and its wheels straight.
+  for (const char* mission : {"waypoints: [[0, 0], [25, 15]], headings: [0, 1.5]",
+                              "waypoints: [[0, 0], [20, -15]], headings: [0, -2.5]",
+                              "waypoints: [[0, 0], [-10, 20]], headings: [0.5, 3]",
+                              "waypoints: [[0, 0], [5, 12]], headings: [-0.3, 1]"}) {
+    for (const char* planner : {"dubins", "reeds_shepp", "hybrid_astar"}) {
+      SCOPED_TRACE(std::string(planner) + " " + mission);
+      const RunResult run =
+          Drive(fmt::format("mission: {{speed: 3, {}}}\nplan: {{method: {}}}\n"
+                            "drive: {{plants: [kinematic], time_limit: 150}}\n",
+                            mission, planner));
+      if (run.plan.ok()) {
+        EXPECT_LE(run.metrics[0].tracking->cross_track_max, 0.6);
+      } else {
+        EXPECT_FALSE(run.verdict.passed);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trackbed

@@ -1,0 +1,173 @@
+#include "src/control/preview_distance.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/control/loop.h"
+#include "tests/tolerance.h"
+
+namespace trackbed {
+namespace {
+
+constexpr double kPeriod = 0.02;     // [s]
+constexpr double kRounding = 1e-12;  // of a distance of metres, in a few operations
+
+double Distance(const VehicleParams& vehicle, const Path& path, double station, double speed,
+                double delay = 0.0) {
+  const Reference reference{path, {}};
+  VehicleState state;
+  state.pose = path.At(station).pose;
+  state.speed = speed;
+  return PreviewDistance({.vehicle = vehicle,
+                          .reference = reference,
+                          .schedule = {},
+                          .state = state,
+                          .station = station,
+                          .period = kPeriod},
+                         delay);
+}
+
+/// S of a step between two curvatures.
+double Ramp(const VehicleParams& car, double before, double after, double speed) {
+  return speed * std::abs(std::atan(car.wheelbase * after) - std::atan(car.wheelbase * before)) /
+         car.steering_rate;
+}
+
+TEST(PreviewDistance, OnAStraightIsThreeQuartersOfTheWheelbaseOrThreeResponses) {
+  const Path straight({}, {{200.0, 0.0, 1}});
+  EXPECT_NEAR(Distance(SeedCar(), straight, 50.0, 3.0), 0.75 * 2.7, Tolerance(kRounding));
+  // Fast, without tyres: 3 v T with T = 0.02 s.
+  EXPECT_NEAR(Distance(SeedCar(), straight, 50.0, 60.0), 3.0 * 60.0 * 0.02, Tolerance(kRounding));
+  // T = 0.02 + 0.01 + 1317 * 20/(90000 + 110000) = 0.1617 s.
+  const VehicleParams car = SeedCarWithTyres();
+  EXPECT_NEAR(ResponseTime(car, 20.0, kPeriod), 0.1617, Tolerance(kRounding));
+  EXPECT_NEAR(Distance(car, straight, 50.0, 20.0), 3.0 * 20.0 * 0.1617, Tolerance(kRounding));
+  EXPECT_NEAR(Distance(car, straight, 50.0, 20.0, 0.2), 3.0 * 20.0 * 0.3617, Tolerance(kRounding));
+  EXPECT_EQ(Distance(car, Path({}, {{200.0, 0.0, -1}}), 50.0, -20.0),
+            Distance(car, straight, 50.0, 20.0));
+}
+
+TEST(PreviewDistance, ReachesAStepOfCurvatureAsFarAsTheRampAsks) {
+  const VehicleParams car = SeedCar();
+  for (const double curvature : {0.05, -0.12}) {
+    for (const int direction : {1, -1}) {
+      const Path path({}, {{50.0, 0.0, direction}, {50.0, curvature, direction}});
+      const double speed = 5.0 * direction;
+      const double wanted = 0.65 * Ramp(car, 0.0, curvature, 5.0) + 5.0 * kPeriod;
+      ASSERT_GT(wanted, 1.1 * 0.75 * car.wheelbase);
+      SCOPED_TRACE(fmt::format("curvature {}, direction {}", curvature, direction));
+      // Within R of the step on either side; a step counts as up to a share of 0.3 nearer.
+      for (const double share : {-0.99, -0.5, -0.1, 0.0, 0.1, 0.5, 0.99}) {
+        EXPECT_NEAR(Distance(car, path, 50.0 + share * wanted, speed), wanted, Tolerance(kRounding))
+            << share;
+      }
+      for (const double share : {-1.31, 1.31}) {
+        EXPECT_NEAR(Distance(car, path, 50.0 + share * wanted, speed), 0.75 * car.wheelbase,
+                    Tolerance(kRounding))
+            << share;
+      }
+    }
+  }
+}
+
+TEST(PreviewDistance, AddsStepsThatTheWheelsHaveNotTheTimeFor) {
+  // From left to right over a straight that takes `gap` off the ramp from one lock to the other.
+  // The stations looked at lie up to 0.3 of their distance apart, which is how much of the gap
+  // counts.
+  const VehicleParams car = SeedCar();
+  const double speed = 5.0;
+  const double one = Ramp(car, 0.0, 0.1, speed);
+  const double gap = 2.0;
+  const Path path({}, {{50.0, 0.1, 1}, {gap, 0.0, 1}, {50.0, -0.1, 1}});
+  const double distance = Distance(car, path, 51.0, speed);
+  EXPECT_GE(distance, 0.65 * (2.0 * one - gap) + speed * kPeriod - Tolerance(kRounding));
+  EXPECT_LE(distance, 0.65 * 2.0 * one + speed * kPeriod + Tolerance(kRounding));
+}
+
+TEST(PreviewDistance, IsShortWhereTheWheelsCanFollow) {
+  // Curvature ramps that ask for 0.8 of the steering rate or less: S = 0.
+  const VehicleParams car = SeedCar();
+  const double speed = 5.0;
+  const double sharpness = 0.8 * car.steering_rate / (car.wheelbase * speed);
+  const double length = 0.1 / sharpness;
+  const Path path({}, {{.length = 30.0},
+                       {.length = length, .sharpness = sharpness},
+                       {.length = 30.0, .curvature = 0.1},
+                       {.length = 2.0 * length, .curvature = 0.1, .sharpness = -sharpness},
+                       {.length = 30.0, .curvature = -0.1}});
+  for (double s = 0.0; s < path.length(); s += 0.37) {
+    EXPECT_NEAR(Distance(car, path, s, speed), 0.75 * car.wheelbase, Tolerance(kRounding)) << s;
+  }
+}
+
+TEST(PreviewDistance, LooksNeitherBeyondTheEndsNorOverACusp) {
+  // Beyond its ends a path is straight, and at a cusp the wheels turn while the car stands.
+  const VehicleParams car = SeedCar();
+  const Path arc({}, {{20.0, 0.1, 1}});
+  const Path cusp({}, {{20.0, 0.1, 1}, {20.0, -0.1, -1}});
+  for (const double s : {0.0, 0.5, 10.0, 19.9, 20.0}) {
+    EXPECT_NEAR(Distance(car, arc, s, 5.0), 0.75 * car.wheelbase, Tolerance(kRounding)) << s;
+  }
+  for (const double s : {19.5, 20.5}) {
+    EXPECT_NEAR(Distance(car, cusp, s, 5.0), 0.75 * car.wheelbase, Tolerance(kRounding)) << s;
+  }
+}
+
+/// Largest cross-track error [m] on a turn by `heading` of radius `radius` between straights.
+double ErrorOnTurn(const ControllerOptions& options, const VehicleParams& car, double radius,
+                   double heading, double speed, double period = kPeriod) {
+  const double straight = 3.0 * radius;
+  LoopSetup setup;
+  setup.vehicle = car;
+  setup.path =
+      Path({}, {{straight, 0.0, 1}, {radius * heading, 1.0 / radius, 1}, {2.0 * straight, 0.0, 1}});
+  setup.speed = speed;
+  setup.period = period;
+  setup.duration = 0.9 * setup.path.length() / speed;
+  return LargestOffset(Loop(options, setup));
+}
+
+/// A tenth of the car, with wheels that turn four times as fast.
+VehicleParams TenthOfACar() {
+  VehicleParams car = SeedCar();
+  car.wheelbase *= 0.1;
+  car.cg_to_rear *= 0.1;
+  car.steering_rate *= 4.0;
+  return car;
+}
+
+TEST(PreviewDistance, ErrorsScaleWithTheCar) {
+  // Lengths by 1/10, times by 1/4: the same v/(L omega), and so the same motion.
+  for (const ControllerOptions& options :
+       {ControllerOptions(PreviewOptions{}), ControllerOptions(PreviewIntegralOptions{}),
+        ControllerOptions(PurePursuitOptions{}), ControllerOptions(StanleyOptions{})}) {
+    SCOPED_TRACE(ControllerFor(options).name);
+    const double large = ErrorOnTurn(options, SeedCar(), 20.0, 1.6, 2.0);
+    const double small = ErrorOnTurn(options, TenthOfACar(), 2.0, 1.6, 0.8, 0.25 * kPeriod);
+    EXPECT_GT(large, 0.01);
+    // The point ahead is found to 1e-13 of the station, and the loop is stable.
+    EXPECT_NEAR(small, 0.1 * large, Tolerance(1e-9));
+  }
+}
+
+TEST(PreviewDistance, KeepsATenthOfACarOnItsCorner) {
+  // A right angle on 1.7 m at 0.8 m/s, as in tests/data/small_three_turns.yaml. The ramp, S =
+  // 0.21 m, leads off by S^2/(24 r) = 1.1 mm; R = 0.2 m cuts in by up to R^2/(8 r) = 3 mm.
+  EXPECT_LT(ErrorOnTurn(PreviewOptions{}, TenthOfACar(), 1.7, 1.57, 0.8), 0.005);
+  EXPECT_GT(ErrorOnTurn(PreviewOptions{.distance = 2.5}, TenthOfACar(), 1.7, 1.57, 0.8), 0.1);
+}
+
+TEST(PreviewDistance, KeepsTheCarInASharpSlowTurn) {
+  // 170 degrees near full lock at 1 m/s: the ramp, S = 3.3 m, leads off by S^2/(24 r) = 0.09 m.
+  EXPECT_LT(ErrorOnTurn(PreviewOptions{}, SeedCar(), 5.2, 2.97, 1.0), 0.15);
+  // Twice as fast the ramp itself leads off by 0.35 m. A fixed 2.5 m swings out.
+  const double fast = ErrorOnTurn(PreviewOptions{}, SeedCar(), 5.2, 2.97, 2.0);
+  EXPECT_LT(fast, 2.0 * 0.35);
+  EXPECT_GT(ErrorOnTurn(PreviewOptions{.distance = 2.5}, SeedCar(), 5.2, 2.97, 2.0), 1.4 * fast);
+}
+
+}  // namespace
+}  // namespace trackbed

@@ -1,0 +1,43 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/tolerance.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/drive/drive.h"
+
+// plan.neutral_steering, driven open loop.
+namespace trackbed {
+namespace {
+
+TEST(NeutralSteering, CarDrivesWhatItsPlanPredicts) {
+  const Scenario scenario = ParseScenario(
+      "schema: 1\nname: neutral\n"
+      "mission: {speed: 3, waypoints: [[0, 0], [40, 0], [40, 40], [80, 40]]}\n"
+      "plan: {method: fillet, neutral_steering: 0.02, infeasible: allow}\n"
+      "control: {method: schedule}\n"
+      "drive: {plants: [kinematic], timestep: 0.001}\n",
+      "test.yaml", ".");
+  EXPECT_EQ(StartOf(scenario).steering, 0.02);
+  const CarModel car = LoadCar(scenario);
+  const Plan plan = PlanMission(scenario, car.unladen());
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const RunLog log = DrivePlant(scenario, car, plan, "kinematic");
+  const LogRow& first = log.rows.front();
+  const LogRow& last = log.rows.back();
+  EXPECT_EQ(first.state.steering, 0.02);
+
+  // The prediction is of the distance D_end at constant speed; the car comes to rest within a
+  // control period's crawl of it, 1 mm, and its ramps are steps of 3 mm: 1e-3 m each over the
+  // ramps.
+  const auto& predicted = plan.diagnostics.at("open_loop");
+  const Pose2 goal = plan.reference.path.At(plan.reference.path.length()).pose;
+  const double distance = (last.state.pose.position() - goal.position()).norm();
+  EXPECT_GT(distance, 5.0);  // the legs are driven on a bend
+  EXPECT_NEAR(distance, predicted.at("goal_distance_m").get<double>(), Tolerance(3e-3));
+  EXPECT_NEAR(AngleDifference(last.state.pose.yaw, goal.yaw),
+              predicted.at("goal_heading_error_rad").get<double>(), Tolerance(1e-3));
+}
+
+}  // namespace
+}  // namespace trackbed
