@@ -202,6 +202,10 @@ class DetourSearch {
     const Path& route = request_.route.reference.path;
     const Pose2 from = driven.At(leave).pose;
     const Pose2 to = route.At(back).pose;
+    if ((to.position() - from.position()).norm() < kLead) {
+      why = "it would leave the way where it comes back to it";
+      return std::nullopt;
+    }
     const double speed = std::min(request_.station_speed, request_.speed.speed);
     PlanRequest request{.vehicle = request_.vehicle,
                         .waypoints = {from.position()},
@@ -242,7 +246,7 @@ class DetourSearch {
     const Path& route = request_.route.reference.path;
     const double lead = leave - request_.station;
     const double beyond = lead + way.reference.path.length();
-    std::vector<Segment> segments = driven.Cut({request_.station, leave});
+    std::vector<Segment> segments = SegmentsBetween(driven, {request_.station, leave});
     Append(segments, way.reference.path.segments());
     Append(segments, route.Cut({back, route.length()}));
     Plan plan;

@@ -42,6 +42,15 @@ std::vector<LoneTurn> Moved(const std::vector<LoneTurn>& turns, Stations within,
   return moved;
 }
 
+std::vector<Segment> SegmentsBetween(const Path& path, Stations within) {
+  std::vector<Segment> segments{{.length = std::min(0.0, within.to) - within.from}};
+  Append(segments, path.Cut(within));
+  segments.push_back({.length = within.to - std::max(within.from, path.length())});
+  constexpr double kNegligible = 1e-9;  // [m]
+  std::erase_if(segments, [](const Segment& piece) { return piece.length < kNegligible; });
+  return segments;
+}
+
 Plan RestOf(const Plan& plan, double station, double start_speed, const SpeedLimits& speed) {
   Plan rest = plan;
   const Path& path = plan.reference.path;

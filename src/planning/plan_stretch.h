@@ -17,6 +17,11 @@ std::vector<SpeedCap> Moved(const std::vector<SpeedCap>& caps, Stations within, 
 /// The turns that lie within as far as they are looked at, from the first ramp to their middle.
 std::vector<LoneTurn> Moved(const std::vector<LoneTurn>& turns, Stations within, double shift);
 
+/// The segments between two stations, the straight continuations before the start and beyond the
+/// end included: a car that was thrown off the ends of its path has a way to go on. None where
+/// nothing is left.
+std::vector<Segment> SegmentsBetween(const Path& path, Stations within);
+
 template <typename T>
 void Append(std::vector<T>& list, const std::vector<T>& more) {
   list.insert(list.end(), more.begin(), more.end());

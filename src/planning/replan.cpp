@@ -343,7 +343,9 @@ class Replanning {
       to = std::max(path.length(), from + shortest);
     }
     Plan plan;
-    plan.reference.path = Stretch(path, from, to);
+    plan.reference.path =
+        Path(path.At(from).pose,
+             to - from < kNoWay ? std::vector<Segment>{} : SegmentsBetween(path, {from, to}));
     const Path& own = plan.reference.path;
     // Caps are for a car that drives on; hard braking obeys them anyway or cannot.
     plan.caps =
@@ -358,20 +360,6 @@ class Replanning {
                               SteeringForCurvature(request_.vehicle, path.At(from).curvature));
     plan.schedule_speed = plan.reference.speed;
     return plan;
-  }
-
-  /// The path between two stations, straight on before its start and beyond its end; of no length
-  /// where it would be too short.
-  [[nodiscard]] static Path Stretch(const Path& path, double from, double to) {
-    std::vector<Segment> segments;
-    if (to - from >= kNoWay) {
-      segments.push_back({.length = std::min(0.0, to) - from});
-      Append(segments, path.Cut({from, to}));
-      segments.push_back({.length = to - std::max(from, path.length())});
-      constexpr double kNegligible = 1e-9;  // [m]
-      std::erase_if(segments, [](const Segment& piece) { return piece.length < kNegligible; });
-    }
-    return {path.At(from).pose, std::move(segments)};
   }
 
   const ReplanRequest& request_;

@@ -16,6 +16,7 @@ namespace {
 struct Outcome {
   double clearance = 0.0;     ///< least [m]
   double deceleration = 0.0;  ///< hardest that was asked for [m/s^2]
+  double planned = 0.0;       ///< hardest that was planned [m/s^2]
   DriveStatus status = DriveStatus::kArrived;
 };
 
@@ -38,6 +39,12 @@ Outcome Drive(const std::string& plant, double speed, double range, double place
   for (const LogRow& row : log.rows) {
     outcome.clearance = std::min(outcome.clearance, row.clearance.value_or(1e9));
     outcome.deceleration = std::max(outcome.deceleration, -row.command.acceleration);
+  }
+  for (const PlanChange& change : log.changes) {
+    const SpeedProfile& profile = change.plan.reference.speed;
+    for (const SpeedProfile::Knot& knot : profile.knots()) {
+      outcome.planned = std::max(outcome.planned, -profile.AccelerationAt(knot.s));
+    }
   }
   return outcome;
 }
@@ -89,6 +96,10 @@ TEST(EmergencyBraking, IsGentlerOnASlipperyRoad) {
     EXPECT_NE(outcome.status, DriveStatus::kCollided) << plant;
     EXPECT_LE(outcome.deceleration, limit + Tolerance(1e-9)) << plant;
   }
+  // Seen too late, the wall is hit; no more than the road can give is planned all the same.
+  const Outcome late = Drive("kinematic", 10.0, 9.0, 80.0, "friction: 0.4, ");
+  EXPECT_EQ(late.status, DriveStatus::kCollided);
+  EXPECT_NEAR(late.planned, limit, Tolerance(1e-6));
 }
 
 }  // namespace

@@ -183,5 +183,33 @@ TEST(PlanDetour, RefusesPlannersThatCannot) {
   EXPECT_THROW(PlanDetour(Blocked(), Forwards(), {.attempts = 0}), InternalError);
 }
 
+TEST(PlanDetour, NeedsAWayBetweenItsEnds) {
+  // Past the box, half a metre before the goal: it would leave at the goal, and come back there.
+  DetourRequest request = Blocked();
+  request.obstacles = {{{108.0, 1.0, 0.0}, 4.0, 9.0}};
+  request.station = 119.5;
+  request.station_speed = 0.0;
+  const Detour detour = PlanDetour(request, Forwards(), {});
+  EXPECT_FALSE(detour.route);
+  EXPECT_EQ(detour.why, "it would leave the way where it comes back to it");
+}
+
+TEST(PlanDetour, LeadsOnFromBehindTheStartOfThePlan) {
+  // An impact has thrown the car back: the plan goes straight on before its start.
+  DetourRequest request = Blocked();
+  const Path rest({20.0, 0.0, 0.0}, {{100.0, 0.0}});
+  request.driven.reference = {rest, StopAtEnd(100.0, 0.0, kSpeed)};
+  request.station = -1.5;
+  request.station_speed = 0.0;
+  const Detour detour = PlanDetour(request, Forwards(), {});
+  ASSERT_TRUE(detour.route) << detour.why;
+  const Path& path = detour.route->reference.path;
+  EXPECT_NEAR(path.At(0.0).pose.x, 18.5, Tolerance(1e-9));
+  // Joined without a gap, it ends at the goal; the planner's curves end there to 1e-6 m.
+  const Pose2 end = path.At(path.length()).pose;
+  EXPECT_NEAR(end.x, 120.0, Tolerance(1e-5));
+  EXPECT_NEAR(end.y, 0.0, Tolerance(1e-5));
+}
+
 }  // namespace
 }  // namespace trackbed
