@@ -312,9 +312,8 @@ class Replanning {
   /// The deceleration that comes to rest within `room` from `speed`, no less than the comfortable
   /// one and no more than the hardest.
   [[nodiscard]] double BrakingWithin(double room, double speed) const {
-    return 2.0 * ComfortableBraking() * room >= speed * speed
-               ? ComfortableBraking()
-               : std::min(HardestBraking(), 0.5 * speed * speed / std::max(room, kNoWay));
+    const double needed = 0.5 * speed * speed / std::max(room, kNoWay);
+    return std::min(std::max(needed, ComfortableBraking()), HardestBraking());
   }
 
   /// The mildest braking that keeps clear of everything known, what moves too; else the hardest.
