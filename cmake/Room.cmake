@@ -35,6 +35,10 @@ function(trackbed_room name)
     PUBLIC ${ARG_ROOMS} ${ARG_LIBRARIES}
     PRIVATE $<BUILD_INTERFACE:trackbed_compiler> ${ARG_PRIVATE_LIBRARIES})
 
+  if(planning IN_LIST above OR name STREQUAL planning)
+    trackbed_precompile(trackbed_${name})
+  endif()
+
   file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/include
        ${PROJECT_SOURCE_DIR}/include/trackbed/${name}/*.h)
   set(lonely "")
