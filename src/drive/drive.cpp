@@ -6,12 +6,13 @@
 #include <deque>
 
 #include "src/drive/collision_watch.h"
+#include "src/drive/configuration_log.h"
 #include "src/drive/disturber.h"
 #include "src/drive/legs.h"
 #include "src/drive/lookout.h"
 #include "src/drive/path_tracking.h"
+#include "src/drive/scheduled_steering.h"
 #include "trackbed/core/error.h"
-#include "trackbed/planning/avoidance.h"
 
 namespace trackbed {
 namespace {
@@ -20,59 +21,6 @@ namespace {
 constexpr double kAtRest = 0.01;
 /// How long a collision is followed before the drive ends [s].
 constexpr double kAfterCollision = 1.0;
-/// Logs configurations at the first physics step at or after every multiple of the period.
-class ConfigurationLog {
- public:
-  ConfigurationLog(const CarModel& car, const World& world, double period)
-      : period_(period), table_(Columns(car)) {
-    for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
-      const Obstacle& obstacle = world.obstacles[i];
-      if (obstacle.moves()) {
-        moving_.emplace_back(Find(fmt::format("obstacle_{}_x_m", i)), obstacle.velocity.x());
-        moving_.emplace_back(Find(fmt::format("obstacle_{}_y_m", i)), obstacle.velocity.y());
-      }
-    }
-  }
-
-  void Record(const Plant& plant, double time) {
-    // Half a microsecond: times are sums of timesteps and may fall short of the multiple by
-    // rounding.
-    if (time + 5e-7 < period_ * static_cast<double>(next_)) {
-      return;
-    }
-    std::vector<double> row{time};
-    const std::vector<double> configuration = plant.Configuration();
-    row.insert(row.end(), configuration.begin(), configuration.end());
-    for (const auto& [column, speed] : moving_) {
-      row[column] = speed * time;  // whatever the plant knows of it
-    }
-    table_.AddRow(row);
-    next_ = static_cast<long>(std::floor((time + 5e-7) / period_)) + 1;
-  }
-
-  Table Take() { return std::move(table_); }
-
- private:
-  static std::vector<std::string> Columns(const CarModel& car) {
-    std::vector<std::string> columns{"t_s"};
-    const std::vector<std::string> configuration = car.configuration_columns();
-    columns.insert(columns.end(), configuration.begin(), configuration.end());
-    return columns;
-  }
-
-  [[nodiscard]] std::size_t Find(const std::string& column) const {
-    const auto& columns = table_.columns();
-    const auto found = std::find(columns.begin(), columns.end(), column);
-    TRACKBED_CHECK(found != columns.end(), "configurations have no column '{}'", column);
-    return static_cast<std::size_t>(found - columns.begin());
-  }
-
-  double period_;
-  long next_ = 0;
-  Table table_;
-  std::vector<std::pair<std::size_t, double>> moving_;  // column and speed [m/s] of obstacles
-};
-
 /// Calls back when another hundredth is done.
 class Progress {
  public:
@@ -137,73 +85,6 @@ double WantedAcceleration(const SpeedControlOptions& options, SteeringController
 }
 
 }  // namespace
-
-CarModel LoadCar(const Scenario& scenario) {
-  const auto file = FindModel(scenario.vehicle.model, scenario.folder);
-  CarModel car(ComposeScene(file, {.timestep = scenario.drive.timestep,
-                                   .steering_rate = scenario.vehicle.steering_rate}),
-               file.string());
-  if (scenario.disturb.payload) {
-    car = {WithPayload(car, *scenario.disturb.payload), file.string()};
-  }
-  if (scenario.world.obstacles.empty() && IsFlat(scenario.world.ground)) {
-    return car;
-  }
-  return {WithWorld(car.scene(), car.params(), scenario.world), file.string()};
-}
-
-Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
-  const StartState start = StartOf(scenario);
-  if (!scenario.plan) {
-    Plan plan;
-    plan.reference.speed = SpeedProfile({{0.0, SpeedOf(scenario)}});
-    plan.schedule_speed = plan.reference.speed;
-    return plan;
-  }
-  std::vector<OrientedBox> known;
-  for (const Obstacle& obstacle : scenario.world.obstacles) {
-    // What moves will be elsewhere: whoever plans again on the way reckons with that.
-    const bool for_later = obstacle.moves() && scenario.plan->replan;
-    if (!for_later && IsKnown(obstacle, 0.0, OutlineAt(vehicle, start.pose))) {
-      known.push_back(obstacle.footprint);
-    }
-  }
-  const auto begin = std::chrono::steady_clock::now();
-  const PlanRequest request{
-      .vehicle = vehicle,
-      .waypoints = scenario.mission.waypoints,
-      .headings = scenario.mission.headings,
-      .obstacles = known,
-      .wind = scenario.world.wind,
-      .start = start.pose,
-      .start_speed = start.speed,
-      .start_steering = start.steering,
-      .speed = SpeedLimitsOf(scenario),
-      .seed = scenario.seed,
-      .clock =
-          [begin] {
-            return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-          },
-      .friction = scenario.world.friction,
-      .friction_patches = scenario.world.friction_patches,
-      .infeasible = scenario.plan->infeasible};
-  Plan plan = MakePlan(request, scenario.plan->global);
-  if (!plan.ok() || !scenario.plan->avoid) {
-    return plan;
-  }
-  std::erase_if(known, [&](const OrientedBox& box) {
-    return !IsForAvoider(*scenario.plan, vehicle, plan.reference.path, 0.0, box);
-  });
-  return PlanAround({.vehicle = vehicle,
-                     .plan = plan,
-                     .speed = SpeedLimitsOf(scenario),
-                     .obstacles = known,
-                     .station = 0.0,
-                     .station_speed = start.speed,
-                     .car = {},
-                     .seed = scenario.seed},
-                    *scenario.plan->avoid);
-}
 
 RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& plan,
                   const std::string& plant_name, const DriveHooks& hooks) {
@@ -353,38 +234,39 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
       }
     }
     command.steering = Steer(*controller, input, hooks);
-    const double hardest =
-        MaxDeceleration(believed, RoadFactor(scenario.world, state.pose.position()));
-    const double wanted = disturber.Slow(
-        WantedAcceleration(scenario.control.speed, *controller, input, speed, hardest), state,
-        row.tracking ? row.tracking->s : state.distance);
-    command.acceleration = command.gear * (stood ? -scenario.control.speed.deceleration : wanted);
+    const auto accelerate = [&](const ControlInput& at) {
+      const double hardest =
+          MaxDeceleration(believed, RoadFactor(scenario.world, state.pose.position()));
+      const double wanted = disturber.Slow(
+          WantedAcceleration(scenario.control.speed, *controller, at, speed, hardest), at.state,
+          row.tracking ? row.tracking->s : at.state.distance);
+      return command.gear * (stood ? -scenario.control.speed.deceleration : wanted);
+    };
+    command.acceleration = accelerate(input);
     row.command = command;
     row.controller = controller->Values();
     log.rows.push_back(row);
 
-    // Drive. Prescribed wheels reach the wanted angle at the end of the period, on a ramp; those of
-    // a schedule are where it says at every step, since it is a function of the distance.
+    // Drive. Prescribed wheels reach the wanted angle at the end of the period, on a ramp. What a
+    // schedule says is a function of the distance, and is followed at every step.
     for (int step = 0; step < steps_per_period && !plant->diverged(); ++step) {
       Command now = command;
-      if (drive.steering == SteeringInput::kPrescribed) {
+      if (by_schedule) {
+        ControlInput at = input;
+        at.period = drive.timestep;
+        if (step > 0) {
+          at.state = plant->Observe();
+          at.state.time = state.time + step * drive.timestep;
+          at.station = at.state.distance - driven.distance;
+        }
+        now.acceleration = accelerate(at);
+        now.steering = ScheduledSteering(
+            driven.plan.schedule,
+            {at.station, std::abs(at.state.speed), command.gear * now.acceleration}, drive.timestep,
+            drive.steering == SteeringInput::kPrescribed ? 0.0 : believed.steering_rate);
+      } else if (drive.steering == SteeringInput::kPrescribed) {
         now.steering =
             std::lerp(asked, command.steering, static_cast<double>(step + 1) / steps_per_period);
-      } else if (by_schedule) {
-        const auto scheduled = [&](double time) {
-          return driven.plan.schedule.At(s + time * std::abs(state.speed) +
-                                         0.5 * time * time * command.gear * command.acceleration);
-        };
-        // An actuator turns at its full rate, then waits for the next step: on a slower ramp it is
-        // early, on average by half the time it waits. Before a ramp of full rate nothing is left
-        // to be made up.
-        const double end = (step + 1) * drive.timestep;
-        const auto wait = [&](double from) {
-          const double turned = std::abs(scheduled(from + drive.timestep) - scheduled(from));
-          return std::max(0.0, drive.timestep - turned / believed.steering_rate);
-        };
-        const double waits = std::min(wait(end - drive.timestep), wait(end));
-        now.steering = scheduled(end - 0.5 * waits);
       }
       now.steering = disturber.Steer(now.steering);
       disturber.Kick(tick * steps_per_period + step, *plant);

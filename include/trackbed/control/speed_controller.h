@@ -22,11 +22,14 @@ struct SpeedControlOptions {
 };
 
 /// Wanted acceleration [m/s^2] of a car at station `s` with `speed` (>= 0, along the path) that
-/// follows `profile`: the profile's own acceleration at the middle of the coming `period`, plus
-/// gain times the speed error, within [-2 deceleration, acceleration]. A profile that brakes more
-/// than 1.1 times as hard as `deceleration` means it: there it may be 1.25 times the profile's own
-/// deceleration, but no more than `max_deceleration` [m/s^2] of the car on its road (0: not known).
-/// After the end of a profile that ends at rest it brakes as that did, comfortably or harder.
+/// follows `profile`: the mean acceleration that has the profile's speed at the end of the coming
+/// `period`, plus gain times the speed error, within [-2 deceleration, acceleration]. In the period
+/// in which a profile comes to rest, it is the profile's own acceleration.
+///
+/// Where a profile brakes more than 1.1 times as hard as `deceleration`, the lower bound is 1.25
+/// times the profile's own deceleration, at most `max_deceleration` [m/s^2] of the car on its road
+/// (0: not known). Past the end of a profile that ends at rest, the car brakes as hard as the
+/// profile last did, at least comfortably.
 double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& profile, double s,
                     double speed, double period, double max_deceleration = 0.0);
 
