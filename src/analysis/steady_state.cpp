@@ -9,7 +9,6 @@
 namespace trackbed {
 namespace {
 
-constexpr double kGravity = 9.81;          // [m/s^2]
 constexpr double kSlow = 1.0;              // below it L psi'/v is of no use [m/s]
 constexpr double kYawAcceleration = 0.05;  // of what is quasi-steady [rad/s^2]
 constexpr double kWindow = 0.5;            // over which it is taken [s]

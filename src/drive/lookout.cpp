@@ -162,9 +162,8 @@ bool Lookout::IsUrgent(const VehicleState& state, const Plan& plan, const Projec
 }
 
 double Lookout::HardestBraking(const Path& path, double station, double speed) const {
-  constexpr double kSpacing = 1.0;   // [m]
-  constexpr double kGravity = 9.81;  // [m/s^2]
-  constexpr double kLeast = 0.1;     // [m/s^2]
+  constexpr double kSpacing = 1.0;  // [m]
+  constexpr double kLeast = 0.1;    // [m/s^2]
   double hardest = MaxDeceleration(vehicle_, 1.0);
   // What is slippery makes it look further.
   for (double ahead = 0.0; hardest > kLeast && 2.0 * hardest * ahead <= speed * speed;
@@ -178,7 +177,7 @@ double Lookout::HardestBraking(const Path& path, double station, double speed) c
     // What a bend takes of the tyres, at the speed that is left there, leaves the rest of the
     // ellipse: a third at least, for a car that is too fast for the bend slides anyway.
     const double across = (speed * speed - 2.0 * hardest * ahead) * std::abs(at.curvature);
-    const double most = road * kGravity * vehicle_.friction_lateral;
+    const double most = MaxLateralAcceleration(vehicle_, road);
     const double rest =
         most > 0.0 ? std::sqrt(std::max(0.1, 1.0 - std::pow(across / most, 2))) : 1.0;
     const Eigen::Vector3d normal = GroundNormal(scenario_.world, at.pose.position());

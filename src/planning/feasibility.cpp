@@ -13,7 +13,6 @@
 namespace trackbed {
 namespace {
 
-constexpr double kGravity = 9.81;       // [m/s^2]
 constexpr double kRounding = 1e-6;      // of a limit
 constexpr double kSpacing = 0.1;        // between the stations that are looked at [m]
 constexpr double kSlowest = 0.1;        // no plan is slowed down below this [m/s]
@@ -23,6 +22,9 @@ constexpr double kSameSteering = 1e-3;  // [rad]
 
 /// The road's factor for a car at a station: the least under its axles.
 double RoadAt(const PlanRequest& request, const Path& path, double s) {
+  if (request.friction_patches.empty()) {
+    return request.friction;
+  }
   const Pose2 pose = path.At(s).pose;
   const auto factor = [&](const Vec2& point) {
     return RoadFactor(request.friction, request.friction_patches, point);
@@ -33,8 +35,8 @@ double RoadAt(const PlanRequest& request, const Path& path, double s) {
 /// Keeps the worst of one kind.
 class Worst {
  public:
-  Worst(std::string what, std::string unit, bool by_speed = true)
-      : excess_{.what = std::move(what), .unit = std::move(unit), .by_speed = by_speed} {}
+  Worst(std::string what, std::string unit, Remedy remedy)
+      : excess_{.what = std::move(what), .unit = std::move(unit), .remedy = remedy} {}
 
   /// A limit of 0 is not known.
   void Take(double asked, double limit, double station) {
@@ -70,10 +72,52 @@ void ForEachRamp(const SteeringSchedule& schedule, const Call& call) {
   }
 }
 
-/// |d delta/ds| [rad/m] of a path where its curvature is continuous: L |kappa'|/(1 + (L kappa)^2).
-double SteeringSlope(const VehicleParams& vehicle, const PathPoint& point) {
-  const double tangent = vehicle.wheelbase * point.curvature;
-  return vehicle.wheelbase * std::abs(point.sharpness) / (1.0 + tangent * tangent);
+/// A short piece of a path, and the most it asks of the steering.
+struct Piece {
+  Stations stations;
+  double curvature = 0.0;  ///< largest |kappa| [1/m]
+  double slope = 0.0;      ///< largest |d delta/ds| [rad/m] where the curvature is continuous
+};
+
+/// |d delta/ds| [rad/m]: L |kappa'|/(1 + (L kappa)^2).
+double SteeringSlope(const VehicleParams& vehicle, double curvature, double sharpness) {
+  const double tangent = vehicle.wheelbase * curvature;
+  return vehicle.wheelbase * std::abs(sharpness) / (1.0 + tangent * tangent);
+}
+
+/// Every segment in equal pieces, so that none is passed over, however short.
+std::vector<Piece> PiecesOf(const Path& path, const VehicleParams& vehicle) {
+  std::vector<Piece> pieces;
+  double start = 0.0;
+  for (const Segment& segment : path.segments()) {
+    const auto count = static_cast<int>(std::ceil(segment.length / kSpacing));
+    for (int i = 0; i < count; ++i) {
+      const double from = segment.length * i / count;
+      const double to = segment.length * (i + 1) / count;
+      Piece piece{{start + from, start + to}};
+      const auto take = [&](double d) {
+        const double curvature = segment.CurvatureAt(d);
+        piece.curvature = std::max(piece.curvature, std::abs(curvature));
+        piece.slope = std::max(
+            piece.slope,
+            SteeringSlope(vehicle, curvature, segment.sharpness + d * segment.sharpness_rate));
+      };
+      take(from);
+      take(to);
+      const double vertex = -segment.sharpness / segment.sharpness_rate;
+      if (vertex > from && vertex < to) {
+        take(vertex);
+      }
+      pieces.push_back(piece);
+    }
+    start += segment.length;
+  }
+  return pieces;
+}
+
+/// The road's factor over a piece.
+double RoadOver(const PlanRequest& request, const Path& path, const Stations& piece) {
+  return std::min(RoadAt(request, path, piece.from), RoadAt(request, path, piece.to));
 }
 
 /// Where the car stands on the way, the wheels may turn on the spot.
@@ -86,15 +130,15 @@ bool EndsAtStop(const std::vector<Stations>& legs, double s) {
 
 void CheckStart(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
   const PathPoint first = plan.reference.path.At(0.0);
-  Worst place("gap between the car and the start of the path", "m", false);
+  Worst place("gap between the car and the start of the path", "m", Remedy::kNone);
   place.Take((first.pose.position() - request.start.position()).norm(), kSamePlace, 0.0);
   place.AddTo(found);
-  Worst heading("turn of the path's first heading from the car's", "rad", false);
+  Worst heading("turn of the path's first heading from the car's", "rad", Remedy::kNone);
   heading.Take(std::abs(AngleDifference(first.pose.yaw, request.start.yaw)), kSameHeading, 0.0);
   heading.AddTo(found);
   if (request.start_speed > 0.0) {
     const double steering = SteeringForCurvature(request.vehicle, first.curvature);
-    Worst wheels("step of the steering at the start of a rolling car", "rad", false);
+    Worst wheels("step of the steering at the start of a rolling car", "rad", Remedy::kNone);
     wheels.Take(std::abs(steering - request.start_steering), kSameSteering, 0.0);
     wheels.AddTo(found);
   }
@@ -102,20 +146,20 @@ void CheckStart(const Plan& plan, const PlanRequest& request, std::vector<Excess
 
 void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
   const VehicleParams& vehicle = request.vehicle;
-  Worst steering("steering angle", "rad", false);
-  Worst lateral("lateral acceleration", "m/s^2");
-  Worst speed("speed", "m/s");
-  Worst rate("steering rate along the path", "rad/s");
-  for (const PathPoint& point : plan.reference.path.Sample(kSpacing)) {
-    const double v = plan.reference.speed.SpeedAt(point.s);
-    rate.Take(v * SteeringSlope(vehicle, point), vehicle.steering_rate, point.s);
-    steering.Take(std::abs(SteeringForCurvature(vehicle, point.curvature)), vehicle.steering_limit,
-                  point.s);
-    lateral.Take(
-        v * v * std::abs(point.curvature),
-        vehicle.friction_lateral * kGravity * RoadAt(request, plan.reference.path, point.s),
-        point.s);
-    speed.Take(v, vehicle.top_speed, point.s);
+  Worst steering("steering angle", "rad", Remedy::kNone);
+  Worst lateral("lateral acceleration", "m/s^2", Remedy::kLowerSpeed);
+  Worst speed("speed", "m/s", Remedy::kLowerSpeed);
+  Worst rate("steering rate along the path", "rad/s", Remedy::kLowerSpeed);
+  const Path& path = plan.reference.path;
+  for (const Piece& piece : PiecesOf(path, vehicle)) {
+    const double s = piece.stations.from;
+    const double v =
+        std::max(plan.reference.speed.SpeedAt(s), plan.reference.speed.SpeedAt(piece.stations.to));
+    rate.Take(v * piece.slope, vehicle.steering_rate, s);
+    steering.Take(SteeringForCurvature(vehicle, piece.curvature), vehicle.steering_limit, s);
+    lateral.Take(v * v * piece.curvature,
+                 MaxLateralAcceleration(vehicle, RoadOver(request, path, piece.stations)), s);
+    speed.Take(v, vehicle.top_speed, s);
   }
   steering.AddTo(found);
   lateral.AddTo(found);
@@ -124,7 +168,7 @@ void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>
 }
 
 void CheckSteeringRate(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
-  Worst rate("steering rate", "rad/s");
+  Worst rate("steering rate", "rad/s", Remedy::kLowerSpeed);
   const std::vector<Stations> legs = LegsOf(plan.reference.path, plan.stops);
   ForEachRamp(plan.schedule, [&](double from, double to, double slope) {
     if (EndsAtStop(legs, to)) {
@@ -144,8 +188,8 @@ void CheckSteeringRate(const Plan& plan, const PlanRequest& request, std::vector
 void CheckAcceleration(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
   const VehicleParams& vehicle = request.vehicle;
   constexpr double kController = 2.0;  // see SpeedControl
-  Worst braking("deceleration", "m/s^2");
-  Worst driving("acceleration", "m/s^2");
+  Worst braking("deceleration", "m/s^2", Remedy::kGentlerBraking);
+  Worst driving("acceleration", "m/s^2", Remedy::kGentlerDriving);
   const std::vector<SpeedProfile::Knot>& knots = plan.reference.speed.knots();
   for (std::size_t i = 1; i < knots.size(); ++i) {
     const SpeedProfile::Knot& a = knots[i - 1];
@@ -170,41 +214,29 @@ std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
   const VehicleParams& vehicle = request.vehicle;
   const Path& path = plan.reference.path;
   std::vector<SpeedCap> caps;
-  const std::vector<PathPoint> points = path.Sample(kSpacing);
-  const double length = path.length();
-  if (vehicle.top_speed > 0.0 && vehicle.top_speed < request.speed.speed) {
-    caps.push_back({0.0, length, vehicle.top_speed});
+  const double wanted = request.speed.speed;
+  if (vehicle.top_speed > 0.0 && vehicle.top_speed < wanted) {
+    caps.push_back({0.0, path.length(), vehicle.top_speed});
   }
-  if (vehicle.friction_lateral > 0.0) {
-    const auto add = [&](double from, double to, double speed) {
-      if (!caps.empty() && caps.back().speed == speed && caps.back().to == from) {
-        caps.back().to = to;  // an arc is one
-      } else if (speed < request.speed.speed) {
-        caps.push_back({from, to, speed});
-      }
-    };
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      const double curvature =
-          std::max(std::abs(points[i - 1].curvature), std::abs(points[i].curvature));
-      const double road =
-          std::min(RoadAt(request, path, points[i - 1].s), RoadAt(request, path, points[i].s));
-      add(points[i - 1].s, points[i].s,
-          curvature == 0.0 ? std::numeric_limits<double>::infinity()
-                           : std::sqrt(vehicle.friction_lateral * kGravity * road / curvature));
+  const auto add = [&](const Stations& piece, double speed) {
+    if (!caps.empty() && caps.back().speed == speed && caps.back().to == piece.from) {
+      caps.back().to = piece.to;  // an arc is one
+    } else if (speed < wanted * (1.0 - kRounding)) {
+      caps.push_back({piece.from, piece.to, speed});
     }
-  }
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const double slope =
-        std::max(SteeringSlope(vehicle, points[i - 1]), SteeringSlope(vehicle, points[i]));
-    const double speed = vehicle.steering_rate / slope;
-    if (speed < request.speed.speed * (1.0 - kRounding)) {
-      caps.push_back({points[i - 1].s, points[i].s, speed});
+  };
+  for (const Piece& piece : PiecesOf(path, vehicle)) {
+    double speed = vehicle.steering_rate / piece.slope;
+    if (vehicle.friction_lateral > 0.0) {
+      const double road = RoadOver(request, path, piece.stations);
+      speed = std::min(speed, std::sqrt(MaxLateralAcceleration(vehicle, road) / piece.curvature));
     }
+    add(piece.stations, speed);  // infinite on a straight
   }
   const std::vector<Stations> legs = LegsOf(path, plan.stops);
   ForEachRamp(plan.schedule, [&](double from, double to, double slope) {
     const double speed = vehicle.steering_rate / slope;
-    if (speed < request.speed.speed * (1.0 - kRounding) && !EndsAtStop(legs, to)) {
+    if (speed < wanted * (1.0 - kRounding) && !EndsAtStop(legs, to)) {
       caps.push_back({from, to, speed});
     }
   });
@@ -231,14 +263,30 @@ Plan Refuse(const std::vector<Excess>& excesses, const Plan& plan) {
 SpeedLimits Gentler(const SpeedLimits& limits, const std::vector<Excess>& excesses) {
   SpeedLimits gentler = limits;
   for (const Excess& excess : excesses) {
-    const double share = 0.999 * excess.limit / excess.asked;
-    if (excess.what == "deceleration") {
-      gentler.deceleration = std::min(gentler.deceleration, share * excess.asked);
-    } else if (excess.what == "acceleration") {
-      gentler.acceleration = std::min(gentler.acceleration, share * excess.asked);
+    const double below = 0.999 * excess.limit;
+    if (excess.remedy == Remedy::kGentlerBraking) {
+      gentler.deceleration = std::min(gentler.deceleration, below);
+    } else if (excess.remedy == Remedy::kGentlerDriving) {
+      gentler.acceleration = std::min(gentler.acceleration, below);
     }
   }
   return gentler;
+}
+
+/// What was done to a plan: "slowed down to 2.1 m/s where needed".
+std::string Mended(const SpeedLimits& before, const SpeedLimits& after, double slowest) {
+  std::vector<std::string> texts;
+  if (slowest < before.speed) {
+    texts.push_back(fmt::format("slowed down to {:.3g} m/s where needed", slowest));
+  }
+  if (after.deceleration < before.deceleration) {
+    texts.push_back(fmt::format("made to brake at no more than {:.3g} m/s^2", after.deceleration));
+  }
+  if (after.acceleration < before.acceleration) {
+    texts.push_back(
+        fmt::format("made to speed up at no more than {:.3g} m/s^2", after.acceleration));
+  }
+  return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 }  // namespace
@@ -275,8 +323,9 @@ Plan MakeFeasible(Plan plan, const PlanRequest& request) {
   if (first.empty()) {
     return plan;
   }
-  const bool hopeless = std::any_of(first.begin(), first.end(),
-                                    [](const Excess& excess) { return !excess.by_speed; });
+  const bool hopeless = std::any_of(first.begin(), first.end(), [](const Excess& excess) {
+    return excess.remedy == Remedy::kNone;
+  });
   if (request.infeasible == InfeasiblePolicy::kAllow) {
     plan.notes.push_back("driven although it has " + Listed(first));
     return plan;
@@ -306,8 +355,9 @@ Plan MakeFeasible(Plan plan, const PlanRequest& request) {
   if (!left.empty()) {
     return Refuse(left, plan);
   }
-  slower.notes.push_back(fmt::format("slowed down, to {:.3g} m/s at least: at {:.3g} m/s it has {}",
-                                     slowest, request.speed.speed, Listed(first)));
+  slower.notes.push_back(fmt::format("{}: at {:.3g} m/s the plan has {}",
+                                     Mended(request.speed, limits, slowest), request.speed.speed,
+                                     Listed(first)));
   return slower;
 }
 

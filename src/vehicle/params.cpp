@@ -10,7 +10,6 @@ double VehicleParams::min_turning_radius() const {
 }
 
 double AccelerationLimit::At(double friction) const {
-  constexpr double kGravity = 9.81;  // [m/s^2]
   double largest = by_force;
   for (const AxleGrip& axle : axles) {
     const double pushed = axle.force - friction * axle.transfer;
@@ -29,6 +28,10 @@ double MaxDeceleration(const VehicleParams& params, double road) {
 double MaxAcceleration(const VehicleParams& params, double road) {
   return params.driving.axles.empty() ? params.max_acceleration * std::min(1.0, road)
                                       : params.driving.At(road * params.friction_longitudinal);
+}
+
+double MaxLateralAcceleration(const VehicleParams& params, double road) {
+  return params.friction_lateral * kGravity * road;
 }
 
 double SteeringForCurvature(const VehicleParams& params, double curvature) {

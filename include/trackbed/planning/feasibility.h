@@ -23,6 +23,14 @@
 ///   * v is at most the car's top speed.
 namespace trackbed {
 
+/// What would bring a plan back within a limit.
+enum class Remedy {
+  kNone,            ///< nothing: its path does not suit the car
+  kLowerSpeed,      ///< less speed on the same path
+  kGentlerBraking,  ///< a smaller deceleration
+  kGentlerDriving,  ///< a smaller acceleration
+};
+
 /// Something that a plan asks beyond what the car can do.
 struct Excess {
   std::string what;      ///< "steering rate"
@@ -30,7 +38,7 @@ struct Excess {
   double limit = 0.0;    ///< [unit]
   std::string unit;      ///< "rad/s"
   double station = 0.0;  ///< where [m]
-  bool by_speed = true;  ///< a slower car would ask for less
+  Remedy remedy = Remedy::kNone;
 };
 
 /// Everything that the plan asks too much of, one entry for each quantity, at its worst place.

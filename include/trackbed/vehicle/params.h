@@ -5,6 +5,8 @@
 
 namespace trackbed {
 
+inline constexpr double kGravity = 9.81;  ///< [m/s^2]
+
 enum class VehicleKind {
   kSteered,       ///< a car: two axles, steered front wheels
   kDifferential,  ///< turns by the speeds of its two driven wheels, which share one axle
@@ -93,6 +95,9 @@ double MaxDeceleration(const VehicleParams& params, double road);
 
 /// Likewise the largest acceleration.
 double MaxAcceleration(const VehicleParams& params, double road);
+
+/// Likewise the largest lateral acceleration, mu_y g times `road`.
+double MaxLateralAcceleration(const VehicleParams& params, double road);
 
 /// The constant steering angle [rad] on which the rear axle of a kinematic car runs on `curvature`
 /// [1/m]: delta = atan(L kappa).
