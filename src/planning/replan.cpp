@@ -106,6 +106,11 @@ class Replanning {
     if (along.kind == AlongKind::kOn || along.kind == AlongKind::kFollow) {
       return Follow(along);
     }
+    // Another start has other candidates: what is driven may lead past what none of them do.
+    const bool is_free = !encounter && !request_.strayed;
+    if (is_free && !stuck) {
+      return Keep();
+    }
     if (options_.detour) {
       Detour detour = FindDetour();
       Tell(detour);
@@ -115,6 +120,9 @@ class Replanning {
         detour.route->diagnostics["replan"] = told_;
         return {ReplanKind::kRoute, std::move(*detour.route)};
       }
+    }
+    if (is_free && (!along.ok() || along.points.back().distance <= LeftToDrive())) {
+      return Keep();
     }
     if (along.ok()) {
       return Follow(along);
@@ -137,9 +145,8 @@ class Replanning {
   /// What a car that drives on at its own speed, not at the planned one, gets too near to.
   [[nodiscard]] std::optional<Encounter> AheadOfTheCar() const {
     const double speed = request_.car.speed;
-    const double ahead = driving_.plan.reference.path.length() - driving_.station;
-    const Plan plan =
-        StopAfter(std::max(ahead, 0.0) + 0.5 * speed * speed / ComfortableBraking(), speed, true);
+    const Plan plan = StopAfter(
+        std::max(LeftToDrive(), 0.0) + 0.5 * speed * speed / ComfortableBraking(), speed, true);
     std::optional<Encounter> encounter = EncounterOf(plan.reference, 0.0);
     if (encounter) {
       encounter->station += driving_.station;
@@ -147,9 +154,12 @@ class Replanning {
     return encounter;
   }
 
-  [[nodiscard]] bool NearlyThere() const {
-    return driving_.plan.reference.path.length() - driving_.station < kLastMetres;
+  /// Of the plan that is driven [m].
+  [[nodiscard]] double LeftToDrive() const {
+    return driving_.plan.reference.path.length() - driving_.station;
   }
+
+  [[nodiscard]] bool NearlyThere() const { return LeftToDrive() < kLastMetres; }
 
   /// The planned motion beside the car, or the car's own.
   [[nodiscard]] MotionState Start() const {
@@ -286,7 +296,7 @@ class Replanning {
     const bool comfortable = braking <= ComfortableBraking();
     // What stands leaves time to come near; what moves may be gone or come nearer.
     const double way = Stands(obstacle) && comfortable ? std::max(shortest, room) : shortest;
-    if (way < kNoWay && driving_.plan.reference.path.length() - driving_.station < kNoWay) {
+    if (way < kNoWay && LeftToDrive() < kNoWay) {
       return Keep();  // it ends here anyway
     }
     Plan plan = StopAfter(way, speed, comfortable);
