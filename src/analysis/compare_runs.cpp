@@ -162,6 +162,23 @@ std::vector<Candidates> AcrossTwo(const FinishedRun& first, const FinishedRun& s
   return pairs;
 }
 
+/// The plants that only one of two runs drove.
+void NoteLeftOut(const FinishedRun& first, const FinishedRun& second, Verdict& verdict) {
+  for (const auto& [run, other] : {std::pair(&first, &second), std::pair(&second, &first)}) {
+    std::vector<std::string> alone;
+    const std::vector<std::string> others = other->Plants();
+    for (const std::string& plant : run->Plants()) {
+      if (std::find(others.begin(), others.end(), plant) == others.end()) {
+        alone.push_back(plant);
+      }
+    }
+    if (!alone.empty()) {
+      verdict.notes.push_back(fmt::format("not compared: {}, which only {} drove",
+                                          fmt::join(alone, ", "), run->folder.string()));
+    }
+  }
+}
+
 void RefuseTwice(const std::vector<std::string>& plants) {
   for (auto plant = plants.begin(); plant != plants.end(); ++plant) {
     if (std::find(plants.begin(), plant, *plant) != plant) {
@@ -300,6 +317,9 @@ RunComparison CompareFolders(const std::vector<fs::path>& folders,
   RunComparison result{.runs = folders};
   if (runs.size() == 2) {
     NoteOtherPlan(runs[0].folder, runs[1].folder, result.verdict);
+    if (plants.empty()) {
+      NoteLeftOut(runs[0], runs[1], result.verdict);
+    }
   }
   for (const auto& [first, second, expected] : candidates) {
     const DifferenceBounds bounds = tolerances.value_or(expected);

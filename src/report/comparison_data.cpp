@@ -83,6 +83,26 @@ void TakeNamesakes(const std::vector<std::vector<FinishedDrive>>& drives,
   }
 }
 
+/// What of the runs has no namesake in the first, and what of the first has none in another.
+ordered_json LeftOut(const std::vector<fs::path>& runs,
+                     const std::vector<std::vector<FinishedDrive>>& drives) {
+  ordered_json left_out = ordered_json::array();
+  const auto take = [&](std::size_t run, std::size_t other) {
+    for (const FinishedDrive& drive : drives[run]) {
+      if (std::none_of(drives[other].begin(), drives[other].end(),
+                       [&](const FinishedDrive& o) { return o.trace.name == drive.trace.name; })) {
+        left_out.push_back(fmt::format("not compared: {} of {}, which {} did not drive",
+                                       drive.trace.name, runs[run].string(), runs[other].string()));
+      }
+    }
+  };
+  for (std::size_t run = 1; run < drives.size(); ++run) {
+    take(0, run);
+    take(run, 0);
+  }
+  return left_out;
+}
+
 /// The logs may be others than those that were compared.
 void RefuseIfChanged(const Pair& pair, const PlantComparison& now) {
   constexpr double kSame = 1e-6;  // [m], [rad], [rad/s]: of rounding on another machine
@@ -189,13 +209,16 @@ ordered_json ComparisonData(const std::vector<fs::path>& runs,
   if (!pairs.empty() || runs.size() > 1) {
     std::transform(runs.begin(), runs.end(), std::back_inserter(drives), ReadRunFolder);
   }
+  ordered_json left_out = ordered_json::array();
   if (!judged) {
     TakeNamesakes(drives, pairs);
+    left_out = LeftOut(runs, drives);
   }
-  if (pairs.empty() && verdicts.empty()) {
+  if (pairs.empty() && verdicts.empty() && left_out.empty()) {
     return {};
   }
-  ordered_json data{{"verdicts", verdicts}, {"pairs", ordered_json::array()}};
+  ordered_json data{
+      {"verdicts", verdicts}, {"left_out", left_out}, {"pairs", ordered_json::array()}};
   for (const Pair& pair : pairs) {
     const auto trace_of = [&](const Drive& drive) -> const Trace& {
       const auto found =

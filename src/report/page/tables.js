@@ -45,6 +45,8 @@ function drawHead() {
     else badge(line, passed, passed ? 'passed' : 'failed');
     drawReasons(verdict, failures, notes);
   }
+  const { left_out: leftOut = [] } = data.comparison || {};
+  if (leftOut.length) drawReasons(header.append('div').attr('class', 'verdict'), [], leftOut);
   for (const run of runs) {
     const { failures, notes } = run.verdict;
     if (runs.length === 1 && !failures.length && !notes.length) continue;
