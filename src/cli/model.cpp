@@ -1,10 +1,13 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 
 #include "src/cli/verbs.h"
+#include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/sim/car_model.h"
+#include "trackbed/sim/linkage.h"
 
 namespace trackbed::cli {
 namespace {
@@ -73,12 +76,25 @@ void Print(const CarModel& car, const std::string& file) {
   }
 }
 
+void PrintLinkage(const CarModel& car) {
+  const LinkagePolynomials fit = FitLinkage(car.params());
+  fmt::print("<!-- Ackermann's linkage within {:.2g} rad, up to {:.4g} rad -->\n", fit.error,
+             car.params().steering_limit);
+  for (const auto& [side, coefficients] : {std::pair("fl", fit.left), std::pair("fr", fit.right)}) {
+    fmt::print(
+        "<joint name=\"ackermann_{0}\" joint1=\"steer_{0}\" joint2=\"rack\" "
+        "polycoef=\"{1:.6g}\"/>\n",
+        side, fmt::join(coefficients, " "));
+  }
+}
+
 }  // namespace
 
 void AddModel(CLI::App& command, int& exit_code) {
   struct Options {
     std::string name;
     std::string save;
+    bool linkage = false;
   };
   const auto options = std::make_shared<Options>();
   command.add_option("name", options->name, "A model by name, or the path of an MJCF file")
@@ -89,10 +105,18 @@ void AddModel(CLI::App& command, int& exit_code) {
                   "Write the composed MJCF, to open in MuJoCo's viewer, with the files it needs "
                   "beside it")
       ->type_name("FILE");
+  command.add_flag("--linkage", options->linkage,
+                   "Print the joint couplings that fit the car's steering linkage, for its file");
   command.callback([options, &exit_code] {
     const auto file = FindModel(options->name, "");
     const CarModel car(ComposeScene(file, {}), file.string());
-    if (options->save.empty()) {
+    if (options->linkage && car.params().kind != VehicleKind::kSteered) {
+      throw InputError(
+          Problem{.file = "--linkage", .message = options->name + " has no steered front wheels"});
+    }
+    if (options->linkage) {
+      PrintLinkage(car);
+    } else if (options->save.empty()) {
       Print(car, file.string());
     } else {
       WriteScene(car.scene(), options->save);
