@@ -113,7 +113,7 @@ struct Recording {
   std::vector<NewPlan> new_plans;            ///< of the car alone, in the order of time
   std::vector<CurvatureProfile> curvatures;  ///< of both, where their files have it
   std::vector<Point> cones;                  ///< of the gates that the plan leads through
-  TyreLaw tyre = TyreLaw::kContact;          ///< of the plant `mujoco`
+  TyreLaw tyre = TyreLaw::kAuto;             ///< of the plant `mujoco`
   Scales scales;                             ///< of this recording, or common with others
 
   [[nodiscard]] double begin() const { return plants.front().begin(); }

@@ -42,7 +42,11 @@ bool HasMagicFormula(const Recording& recording) {
   if (plant.ends_with("magic_formula") || plant.ends_with("contact")) {
     return plant.ends_with("magic_formula");
   }
-  return recording.tyre == TyreLaw::kMagicFormula;
+  const bool has_coefficients =
+      mj_name2id(recording.model.get(), mjOBJ_NUMERIC, "p_ky1") >= 0 ||
+      mj_name2id(recording.model.get(), mjOBJ_NUMERIC, "p_ky1_front") >= 0;
+  return recording.tyre == TyreLaw::kMagicFormula ||
+         (recording.tyre == TyreLaw::kAuto && has_coefficients);
 }
 
 }  // namespace

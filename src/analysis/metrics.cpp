@@ -5,12 +5,16 @@
 #include <limits>
 
 #include "src/analysis/metric_expectations.h"
+#include "src/analysis/peaks.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
 
 namespace trackbed {
 namespace {
+
+/// Over which accelerations and rates are averaged [s].
+constexpr double kWindow = 0.1;
 
 TrackingMetrics MeasureTracking(const RunLog& log, const Pose2& goal, double corridor) {
   TrackingMetrics metrics{.corridor = corridor};
@@ -45,11 +49,6 @@ TrackingMetrics MeasureTracking(const RunLog& log, const Pose2& goal, double cor
   return metrics;
 }
 
-/// Where a row is along the way: the path's station, or the distance driven.
-double StationOf(const LogRow& row) {
-  return row.tracking ? row.tracking->s : row.state.distance;
-}
-
 ClearanceMetrics MeasureClearance(const RunLog& log) {
   ClearanceMetrics metrics;
   metrics.min = std::numeric_limits<double>::infinity();
@@ -70,24 +69,6 @@ ClearanceMetrics MeasureClearance(const RunLog& log) {
     metrics.min_t = *log.contact_time;  // between two rows
   }
   return metrics;
-}
-
-/// Largest |change| of the measured steering over any 0.1 s, per second.
-void MeasureSteeringRate(const RunLog& log, double control_period, PlantMetrics& metrics) {
-  const auto window = static_cast<std::size_t>(std::max(1.0, std::round(0.1 / control_period)));
-  const double duration = static_cast<double>(window) * control_period;
-  for (std::size_t i = window; i < log.rows.size(); ++i) {
-    if (log.contact_time && log.rows[i].state.time > *log.contact_time) {
-      break;  // an obstacle may turn the wheels
-    }
-    const double change = log.rows[i].state.steering - log.rows[i - window].state.steering;
-    const double rate = std::abs(change) / duration;
-    if (rate > metrics.steering_rate_max) {
-      metrics.steering_rate_max = rate;
-      metrics.steering_rate_max_s = StationOf(log.rows[i]);
-      metrics.steering_rate_max_t = log.rows[i].state.time;
-    }
-  }
 }
 
 /// Root mean square of the measured steering's mean rate in each control period.
@@ -194,9 +175,24 @@ std::string WhyNotAtGoal(const PlantMetrics& metrics) {
 /// The measured wheels may swing past their actuator by this share of its rate.
 constexpr double kWheelCompliance = 0.03;
 
+/// Wheels whose angle is prescribed turn beyond what the car can, which is to be known.
+void NotePrescribedSteering(const PlantMetrics& metrics, Verdict& verdict) {
+  const auto note = [&](const char* what, double was, double limit, const char* unit) {
+    if (limit > 0.0 && was > (1.0 + kWheelCompliance) * limit) {
+      verdict.notes.push_back(fmt::format(
+          "{}: the prescribed steering {} {:.4g} {}, beyond the car's limit of {:.4g} {}",
+          metrics.plant, what, was, unit, limit, unit));
+    }
+  };
+  note("reached an angle of", metrics.steering_max, metrics.steering_limit, "rad");
+  note("turned at", metrics.steering_rate_max, metrics.steering_rate_limit, "rad/s");
+}
+
 void JudgeSteeringRate(const PlantMetrics& metrics, Verdict& verdict) {
   const double limit = metrics.steering_rate_limit;
-  if (limit > 0.0 && metrics.steering_rate_max > (1.0 + kWheelCompliance) * limit) {
+  if (metrics.steering_is_prescribed) {
+    NotePrescribedSteering(metrics, verdict);
+  } else if (limit > 0.0 && metrics.steering_rate_max > (1.0 + kWheelCompliance) * limit) {
     verdict.failures.push_back(fmt::format(
         "{}: the wheels turned at {:.4g} rad/s, and the car's actuator at {:.4g} rad/s at most, at "
         "s = {:.4g} m, t = {:.4g} s; drive.timestep is too long for this car",
@@ -302,16 +298,11 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
   metrics.distance = log.rows.back().state.distance;
   metrics.time = log.rows.back().state.time;
   metrics.end_s = StationOf(log.rows.back());
-  for (const LogRow& row : log.rows) {
-    const double acceleration = std::abs(row.state.lateral_acceleration);
-    if (acceleration > metrics.lateral_acceleration_max) {
-      metrics.lateral_acceleration_max = acceleration;
-      metrics.lateral_acceleration_max_s = StationOf(row);
-      metrics.lateral_acceleration_max_t = row.state.time;
-    }
-  }
-  MeasureSteeringRate(log, control_period, metrics);
+  const auto window = static_cast<std::size_t>(std::max(1.0, std::round(kWindow / control_period)));
+  MeasureLateralAcceleration(log, window, metrics);
+  MeasureSteering(log, window, metrics);
   metrics.steering_rate_limit = vehicle.steering_rate;
+  metrics.steering_limit = vehicle.steering_limit;
   metrics.steering_rate_rms = SteeringRateRms(log, control_period);
   metrics.steering_saturated_fraction = SaturatedFraction(log);
   metrics.yaw_rate_ratio = YawRateRatio(log, vehicle.wheelbase);
@@ -399,6 +390,7 @@ nlohmann::ordered_json ToJson(const PlantMetrics& metrics) {
   json["lateral_acceleration_max"] = metrics.lateral_acceleration_max;
   json["lateral_acceleration_max_s"] = metrics.lateral_acceleration_max_s;
   json["lateral_acceleration_max_t"] = metrics.lateral_acceleration_max_t;
+  json["steering_max"] = metrics.steering_max;
   json["steering_rate_max"] = metrics.steering_rate_max;
   json["steering_rate_max_s"] = metrics.steering_rate_max_s;
   json["steering_rate_max_t"] = metrics.steering_rate_max_t;

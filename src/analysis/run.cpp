@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <system_error>
 
 #include "trackbed/analysis/mcap.h"
@@ -154,6 +155,39 @@ void RemoveEarlierRun(const fs::path& folder) {
   }
 }
 
+/// Share of the rows in which a loaded tyre slides.
+double SlidingShare(const RunLog& log) {
+  constexpr double kSlip = 0.1;     // of the speed, along or across
+  constexpr double kAtLeast = 1.0;  // [m/s]; below, slip is that of rounding
+  const auto slides = [&](const LogRow& row) {
+    return std::abs(row.state.speed) > kAtLeast && row.state.wheels &&
+           std::any_of(
+               row.state.wheels->begin(), row.state.wheels->end(), [&](const WheelState& wheel) {
+                 return wheel.normal_force > 0.0 &&
+                        (std::abs(wheel.slip_ratio) > kSlip || std::abs(wheel.slip_angle) > kSlip);
+               });
+  };
+  return static_cast<double>(std::count_if(log.rows.begin(), log.rows.end(), slides)) /
+         static_cast<double>(log.rows.size());
+}
+
+/// MuJoCo's cone of friction lifts what slides on it: the loads of such a drive are not a tyre's.
+void NoteSlidingContacts(RunResult& result, const CarModel& car) {
+  constexpr double kNoticed = 0.01;
+  for (const RunLog& log : result.logs) {
+    const bool contact = log.plant == "mujoco:contact" ||
+                         (log.plant == "mujoco" &&
+                          TyreLawOf(car, result.scenario.vehicle.tyre) == TyreLaw::kContact);
+    const double share = contact ? SlidingShare(log) : 0.0;
+    if (share > kNoticed) {
+      result.verdict.notes.push_back(fmt::format(
+          "{}: its tyres slid on bare contacts for {:.0f} % of the time, which makes them bounce: "
+          "forces and accelerations there are not those of a tyre (tyre: magic_formula has them)",
+          log.plant, 100.0 * share));
+    }
+  }
+}
+
 }  // namespace
 
 ordered_json Versions() {
@@ -194,9 +228,8 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
     result.metrics.push_back(Measure(result.logs.back(), result.plan, car.params(),
                                      scenario.drive.control_period,
                                      ControllerFor(scenario.control.steering).station));
-    if (scenario.drive.steering == SteeringInput::kPrescribed) {
-      result.metrics.back().steering_rate_limit = 0.0;
-    }
+    result.metrics.back().steering_is_prescribed =
+        scenario.drive.steering == SteeringInput::kPrescribed;
     if (scenario.manoeuvre) {
       result.metrics.back().manoeuvre =
           EvaluateManoeuvre(*scenario.manoeuvre, result.logs.back(), result.plan, car.params());
@@ -224,6 +257,7 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
   if (const auto& rate = scenario.vehicle.steering_rate) {
     result.verdict.notes.push_back(fmt::format("steering rate set to {:.4g} rad/s", *rate));
   }
+  NoteSlidingContacts(result, car);
   return result;
 }
 

@@ -26,8 +26,9 @@
 /// 0.65 S + v T: where the curvature steps, wheels at their limited rate need the distance S and
 /// turn best half before and half behind the step. A point that comes upon it later than S/2
 /// before cannot have them begin in time: they are late for good, and the car swings out. 0.65
-/// leaves room for what is not known of the car. A step is met within about kappa S^2/24, the
-/// deviation of the ramp itself, a ramp of curvature which the wheels can follow has S = 0.
+/// leaves a margin for what is unknown about the car. The car passes a step of curvature kappa
+/// within about kappa S^2/24, which is how far a ramp of length S deviates from the step. Where the
+/// wheels can follow the path's curvature, S = 0.
 namespace trackbed {
 
 /// Slower cars are taken for as fast as this where something is divided by the speed [m/s].

@@ -48,25 +48,40 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
   }
   // A car that stands a hair behind the start leaves like one that stands at it.
   const double from = profile.knots().empty() ? s : std::max(s, profile.knots().front().s);
+  // A car that rolls back is to follow the profile from where it is, not back along it.
+  const double ahead = std::max(speed, 0.0);
   // The middle of the period, but not beyond the end: there is no acceleration to be had there.
-  double middle = from + 0.5 * speed * period;
+  double middle = from + 0.5 * ahead * period;
   if (stops) {
     middle = std::min(middle, 0.5 * (from + end));
   }
-  const bool ends = stops && from + speed * period >= end;
+  const bool ends = stops && from + ahead * period >= end;
   const double at_middle = profile.AccelerationAt(middle);
   const double feed_forward =
-      ends ? at_middle : MeanAcceleration(profile, from, speed, period, at_middle);
+      ends ? at_middle : MeanAcceleration(profile, from, ahead, period, at_middle);
   const double error = profile.SpeedAt(s) - speed;
   const double hard = on_purpose(-feed_forward) ? std::min(-kCatchUp * feed_forward, limit) : 0.0;
   return std::clamp(feed_forward + options.gain * error,
                     -std::max(2.0 * options.deceleration, hard), options.acceleration);
 }
 
+namespace {
+
+bool HasBegun(const Braking& braking, double time) {
+  constexpr double kSameTime = 1e-9;  // [s]
+  return time >= braking.at - kSameTime;
+}
+
+}  // namespace
+
+bool Coasts(const SpeedControlOptions& options, double time) {
+  return options.braking && options.braking->deceleration == 0.0 &&
+         HasBegun(*options.braking, time);
+}
+
 std::optional<double> TimedSpeedControl(const SpeedControlOptions& options, double time,
                                         double speed, double period) {
-  constexpr double kSameTime = 1e-9;  // [s]
-  if (options.braking && time >= options.braking->at - kSameTime) {
+  if (options.braking && HasBegun(*options.braking, time)) {
     return -options.braking->deceleration;
   }
   if (!options.over_time.empty()) {

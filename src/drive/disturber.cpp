@@ -30,19 +30,19 @@ std::optional<Pose2> Disturber::Measure(const Pose2& pose) {
                pose.yaw + noise.heading * yaw};
 }
 
-double Disturber::Slow(double acceleration, const VehicleState& state, double station) {
+double Disturber::Slow(double acceleration, double speed, double time, double station) {
   const auto& loss = scenario_.disturb.speed_loss;
   if (!loss) {
     return acceleration;
   }
   constexpr double kSameTime = 1e-9;  // [s]
   slowed_ = slowed_ || (loss->station ? station >= *loss->station
-                                      : state.time >= loss->from.value_or(0.0) - kSameTime);
+                                      : time >= loss->from.value_or(0.0) - kSameTime);
   if (!slowed_) {
     return acceleration;
   }
   const SpeedControlOptions& options = scenario_.control.speed;
-  const double toward = options.gain * (loss->speed - std::abs(state.speed));
+  const double toward = options.gain * (loss->speed - speed);
   return std::min(acceleration, std::max(toward, -2.0 * options.deceleration));
 }
 

@@ -20,8 +20,9 @@ class Disturber {
   /// What is measured of a pose in this control period; none without noise.
   std::optional<Pose2> Measure(const Pose2& pose);
 
-  /// The acceleration [m/s^2] that is left of a wanted one, for a car at `station` of the log.
-  double Slow(double acceleration, const VehicleState& state, double station);
+  /// The acceleration [m/s^2] that is left of a wanted one, along the gear, for a car with `speed`
+  /// [m/s] along the gear at `station` of the log.
+  double Slow(double acceleration, double speed, double time, double station);
 
   /// The steering angle [rad] that reaches the actuator in the coming physics step.
   double Steer(double wanted) { return steering_.Pass(wanted); }

@@ -55,6 +55,12 @@ bool IsAtGoal(const Scenario& scenario, double tolerance, const Pose2& pose, con
           std::abs(AngleDifference(pose.yaw, goal.yaw)) <= scenario.drive.goal_heading_tolerance);
 }
 
+/// Beyond any slope that a car stands on, and any lean that it comes back from.
+bool HasRolledOver(const VehicleState& state) {
+  constexpr double kUpright = 0.5;  // cosine of the angle from the vertical
+  return std::cos(state.roll) * std::cos(state.pitch) < kUpright;
+}
+
 bool AtRest(const VehicleState& state, const Command& command) {
   return std::abs(state.speed) < kAtRest && command.acceleration * command.gear <= 0.0;
 }
@@ -71,11 +77,12 @@ double Steer(SteeringController& controller, const ControlInput& input, const Dr
   return steering;
 }
 
-/// What is set over time goes first, then what the controller wants, then the plan's profile.
+/// What is set over time goes first, then what the controller wants, then the plan's profile. A car
+/// that rolls back has a negative speed along its gear.
 double WantedAcceleration(const SpeedControlOptions& options, SteeringController& controller,
-                          const ControlInput& input, const SpeedProfile& profile,
+                          const ControlInput& input, int gear, const SpeedProfile& profile,
                           double max_deceleration) {
-  const double speed = std::abs(input.state.speed);
+  const double speed = gear * input.state.speed;
   std::optional<double> own = TimedSpeedControl(options, input.state.time, speed, input.period);
   if (!own) {
     own = controller.Accelerate(input);
@@ -197,6 +204,11 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
       log.status = DriveStatus::kDiverged;
       break;
     }
+    if (HasRolledOver(state)) {
+      log.rows.push_back(row);
+      log.status = DriveStatus::kRolledOver;
+      break;
+    }
     const bool time_over = state.time >= end_time - 0.5 * drive.timestep;
     const bool interrupted = hooks.interrupted && hooks.interrupted();
     const bool stays = at_rest && !stood && !lookout.Waits();
@@ -238,11 +250,13 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
       const double hardest =
           MaxDeceleration(believed, RoadFactor(scenario.world, state.pose.position()));
       const double wanted = disturber.Slow(
-          WantedAcceleration(scenario.control.speed, *controller, at, speed, hardest), at.state,
+          WantedAcceleration(scenario.control.speed, *controller, at, command.gear, speed, hardest),
+          command.gear * at.state.speed, at.state.time,
           row.tracking ? row.tracking->s : at.state.distance);
       return command.gear * (stood ? -scenario.control.speed.deceleration : wanted);
     };
     command.acceleration = accelerate(input);
+    command.coast = Coasts(scenario.control.speed, state.time);
     row.command = command;
     row.controller = controller->Values();
     log.rows.push_back(row);

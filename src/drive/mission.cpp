@@ -1,10 +1,37 @@
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
 
 #include "src/drive/lookout.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/avoidance.h"
+#include "trackbed/planning/clear_way.h"
 
 namespace trackbed {
+namespace {
+
+/// Tells of turns that are driven slower than the mission, unless the plan does already.
+void NoteSlowTurns(Plan& plan, double speed) {
+  const auto slowest =
+      std::min_element(plan.caps.begin(), plan.caps.end(),
+                       [](const SpeedCap& a, const SpeedCap& b) { return a.speed < b.speed; });
+  constexpr double kNoticed = 0.99;  // of the speed
+  if (plan.notes.empty() && slowest != plan.caps.end() && slowest->speed < kNoticed * speed) {
+    plan.notes.push_back(fmt::format("slowed down to {:.3g} m/s in a turn at s = {:.4g} m",
+                                     slowest->speed, slowest->from));
+  }
+}
+
+/// Tells of what stands on the path of a planner that does not look for obstacles.
+void NoteObstacle(Plan& plan, const VehicleParams& vehicle, const std::vector<OrientedBox>& known) {
+  const ClearWay touching(vehicle, known, 0.0);
+  if (const std::optional<double> s = touching.FirstBlocked(plan.reference.path)) {
+    plan.notes.push_back(fmt::format("led into an obstacle at s = {:.4g} m", *s));
+  }
+}
+
+}  // namespace
 
 CarModel LoadCar(const Scenario& scenario) {
   const auto file = FindModel(scenario.vehicle.model, scenario.folder);
@@ -56,7 +83,14 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
       .friction_patches = scenario.world.friction_patches,
       .infeasible = scenario.plan->infeasible};
   Plan plan = MakePlan(request, scenario.plan->global);
-  if (!plan.ok() || !scenario.plan->avoid) {
+  if (!plan.ok()) {
+    return plan;
+  }
+  NoteSlowTurns(plan, request.speed.speed);
+  if (!scenario.plan->avoid) {
+    if (!scenario.plan->replan) {
+      NoteObstacle(plan, vehicle, known);
+    }
     return plan;
   }
   std::erase_if(known, [&](const OrientedBox& box) {

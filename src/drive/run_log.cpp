@@ -20,6 +20,8 @@ const char* ToString(DriveStatus status) {
       return "time_limit";
     case DriveStatus::kDiverged:
       return "diverged";
+    case DriveStatus::kRolledOver:
+      return "rolled_over";
     case DriveStatus::kCollided:
       return "collided";
     case DriveStatus::kInterrupted:

@@ -29,7 +29,8 @@ PlanStatus StatusOf(GridStatus status) {
   return PlanStatus::kNoPath;
 }
 
-/// What must be free besides for all of a cell to be, and the way from its middle to the next [m].
+/// Half a cell's diagonal [m]: obstacles are inflated by it as well, so that every point of a free
+/// cell, and of the line to the next one's center, has the inflation's distance from them.
 double OverACell(const AStarOptions& options) {
   return 0.5 * std::sqrt(2.0) * options.cell;
 }
@@ -48,7 +49,7 @@ std::vector<Vec2> PointsOf(const OccupancyGrid& grid, const GridPath& way, const
   return points;
 }
 
-/// A* from the last of some points on to all waypoints but the first.
+/// A plan along `points`, then by A* from the last of them to each waypoint after the first.
 Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const OccupancyGrid& grid,
               double inflation, std::vector<Vec2> points) {
   const bool round = options.corners == Corners::kRound;

@@ -30,10 +30,14 @@ template <typename Archive>
 void Visit(Archive& a, VehicleSpec& vehicle) {
   a.Field({"model", "", "a name under models/, or a path relative to this file"}, vehicle.model,
           Need::kOptional);
-  static const EnumNames<TyreLaw> laws{{TyreLaw::kContact, "contact"},
+  static const EnumNames<TyreLaw> laws{{TyreLaw::kAuto, "auto"},
+                                       {TyreLaw::kContact, "contact"},
                                        {TyreLaw::kMagicFormula, "magic_formula"}};
-  a.Field({"tyre", "", "what holds the plant mujoco to the road"}, vehicle.tyre, Need::kOptional,
-          laws);
+  a.Field(
+      {"tyre", "",
+       "what holds the plant mujoco to the road; auto: the Magic Formula for cars that have tyre "
+       "coefficients, else their contacts"},
+      vehicle.tyre, Need::kOptional, laws);
   a.Field({"steering_rate", "rad/s", "of the road wheels, instead of the car's own"},
           vehicle.steering_rate, Range{.max = 10.0, .above = 0.0});
 }

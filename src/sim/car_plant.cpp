@@ -14,9 +14,10 @@ class CarPlant final : public MujocoPlant {
   explicit CarPlant(const PlantSetup& setup)
       : MujocoPlant(setup), prescribed_(setup.steering == SteeringInput::kPrescribed) {
     const CarParts& parts = car().parts();
-    if (setup.tyre == TyreLaw::kMagicFormula) {
+    if (TyreLawOf(car(), setup.tyre) == TyreLaw::kMagicFormula) {
       tyres_.emplace(car(), model());
     }
+    linked_ = FindLinkage();
     const auto rolling = RollingSpeeds(car().params(), setup.start.speed, setup.start.steering);
     for (std::size_t w = 0; w < kWheels.size(); ++w) {
       bearing_friction_[w] = model().dof_frictionloss[parts.spin_dof[w]];
@@ -24,6 +25,9 @@ class CarPlant final : public MujocoPlant {
     }
     data().act[parts.steer_state] = setup.start.steering;
     Begin();
+    if (tyres_) {
+      tyres_->Stand(RoadLoads(car(), model(), data()));
+    }
   }
 
  private:
@@ -33,6 +37,7 @@ class CarPlant final : public MujocoPlant {
     } else {
       Steer(command.steering);
     }
+    Link();
     Propel(command);
     loads_ = RoadLoads(car(), model(), data());  // of the last solve
   }
@@ -46,6 +51,8 @@ class CarPlant final : public MujocoPlant {
   void Finish(const Command& command) override {
     if (prescribed_) {
       PrescribeAngle(command.steering);
+    } else if (linked_) {
+      FollowRack();
     }
   }
 
@@ -58,15 +65,21 @@ class CarPlant final : public MujocoPlant {
   }
 
   void Steer(double wanted);
+  [[nodiscard]] std::optional<std::array<int, 2>> FindLinkage();
+  void Link();
+  void FollowRack();
   void Propel(const Command& command);
   void Brake(double torque, bool hold);
   [[nodiscard]] double DriveLimit() const;
   [[nodiscard]] double Resistance(int gear) const;
+  [[nodiscard]] double Grade() const;
   void PrescribeVelocity(double steering);
   void PrescribeAngle(double steering);
   [[nodiscard]] std::array<WheelState, 4> ContactWheels() const;
 
   bool prescribed_;                           // steering
+  bool hold_ = false;                         // stands on its brakes
+  std::optional<std::array<int, 2>> linked_;  // equalities of the wheels to the rack, fl and fr
   std::optional<MagicFormulaTyres> tyres_;    // none: contacts hold the wheels
   std::array<double, 4> loads_{};             // [N]
   std::array<double, 4> bearing_friction_{};  // [N m]
@@ -80,6 +93,59 @@ void CarPlant::Steer(double wanted) {
       std::clamp(rate, -params.steering_rate, params.steering_rate);
 }
 
+/// The equality constraints that couple the front wheels to the rack; none where something else
+/// does.
+std::optional<std::array<int, 2>> CarPlant::FindLinkage() {
+  const auto follows_rack = [&](int joint_dof) {
+    for (int i = 0; i < model().neq; ++i) {
+      if (model().eq_type[i] == mjEQ_JOINT &&
+          model().jnt_dofadr[model().eq_obj1id[i]] == joint_dof && model().eq_obj2id[i] >= 0 &&
+          model().jnt_dofadr[model().eq_obj2id[i]] == car().parts().rack_dof) {
+        return i;
+      }
+    }
+    return -1;
+  };
+  const std::array<int, 2> found{follows_rack(car().parts().steer_dof[0]),
+                                 follows_rack(car().parts().steer_dof[1])};
+  return found[0] < 0 || found[1] < 0 ? std::nullopt : std::optional(found);
+}
+
+/// Couples the wheels to the rack as Ackermann's linkage does about where it stands. The file's
+/// polynomial is an approximation: what it is off, the front tyres would push against each other.
+void CarPlant::Link() {
+  if (!linked_) {
+    return;
+  }
+  const CarParts& parts = car().parts();
+  const double rack = data().qpos[parts.rack_qpos];
+  const FrontAngles at = AckermannAngles(car().params(), rack);
+  const FrontAngles slope = AckermannSlopes(car().params(), rack);
+  const auto set = [&](std::size_t wheel, double angle, double per_rack) {
+    const int equality = (*linked_)[wheel];
+    mjtNum* coefficients = model().eq_data + mjNEQDATA * equality;
+    std::fill_n(coefficients, 5, 0.0);
+    coefficients[0] = angle - model().qpos0[parts.steer_qpos[wheel]] -
+                      per_rack * (rack - model().qpos0[parts.rack_qpos]);
+    coefficients[1] = per_rack;
+  };
+  set(0, at.left, slope.left);
+  set(1, at.right, slope.right);
+}
+
+/// The constraints are a little soft; the linkage is not.
+void CarPlant::FollowRack() {
+  const CarParts& parts = car().parts();
+  const double rack = data().qpos[parts.rack_qpos];
+  const double rate = data().qvel[parts.rack_dof];
+  const FrontAngles at = AckermannAngles(car().params(), rack);
+  const FrontAngles slope = AckermannSlopes(car().params(), rack);
+  data().qpos[parts.steer_qpos[0]] = at.left;
+  data().qpos[parts.steer_qpos[1]] = at.right;
+  data().qvel[parts.steer_dof[0]] = slope.left * rate;
+  data().qvel[parts.steer_dof[1]] = slope.right * rate;
+}
+
 void CarPlant::Propel(const Command& command) {
   const CarParts& parts = car().parts();
   const double radius = car().params().wheel_radius;
@@ -87,13 +153,23 @@ void CarPlant::Propel(const Command& command) {
   for (const double inertia : parts.spin_inertia) {
     rolling_mass += inertia / (radius * radius);
   }
-  const double along_gear = command.acceleration * command.gear;
-  const bool hold = along_gear <= 0.0 && Speed() * command.gear < kStandstill;
+  const double along_gear = command.coast ? 0.0 : command.acceleration * command.gear;
+  const double resistance = Resistance(command.gear);
+  // A car that is to stand, or whose motor is too weak for the slope, is held by its brakes until
+  // it can drive on.
+  const bool drives_on = along_gear > 0.0 && DriveLimit() > resistance;
+  const bool stands = Speed() * command.gear < kStandstill;
+  hold_ = !drives_on && (hold_ || stands);
+  if (command.coast && !hold_) {
+    data().ctrl[parts.drive_actuator] = 0.0;
+    Brake(0.0, false);
+    return;
+  }
   // What motor or brakes have to do beyond what slows the car anyway, as a torque at the wheels.
-  const double torque = along_gear * rolling_mass * radius + Resistance(command.gear);
-  const bool drive = torque > 0.0 && !hold;
+  const double torque = along_gear * rolling_mass * radius + resistance;
+  const bool drive = torque > 0.0 && !hold_;
   data().ctrl[parts.drive_actuator] = drive ? command.gear * std::min(torque, DriveLimit()) : 0.0;
-  Brake(drive ? 0.0 : -torque, hold);
+  Brake(drive ? 0.0 : -torque, hold_);
 }
 
 /// Largest drive torque at the speed now [N m].
@@ -114,13 +190,29 @@ void CarPlant::Brake(double torque, bool hold) {
   }
 }
 
-/// What bearings, rolling tyres and air take from a drive torque along the gear [N m].
+/// What bearings, rolling tyres, air and slope take from a drive torque along the gear [N m].
 double CarPlant::Resistance(int gear) const {
   double dry = tyres_ ? tyres_->RollingMoment() : 0.0;
   for (const double friction : bearing_friction_) {
     dry += friction;
   }
-  return dry + gear * Drag() * car().params().wheel_radius;
+  const double climb = car().unladen().mass * std::abs(model().opt.gravity[2]) * Grade();
+  return dry + gear * (Drag() + climb) * car().params().wheel_radius;
+}
+
+/// dz/dx of the car's centre of gravity: the slopes under its axles, by what each carries.
+double CarPlant::Grade() const {
+  const Ground& ground = car().scene().ground;
+  if (IsFlat(ground)) {
+    return 0.0;
+  }
+  const VehicleParams& params = car().params();
+  const Pose2 at = pose();
+  const Vec2 ahead = Direction(at.yaw);
+  const double front = GroundSlope(ground, ToWorld(at, {params.wheelbase, 0.0})).dot(ahead);
+  const double rear = GroundSlope(ground, at.position()).dot(ahead);
+  const double rise = std::lerp(rear, front, params.cg_to_rear / params.wheelbase);
+  return rise / std::hypot(1.0, rise);
 }
 
 /// The wheels move to `steering` during the coming step, whatever forces say.

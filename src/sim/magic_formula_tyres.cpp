@@ -1,11 +1,13 @@
 #include "src/sim/magic_formula_tyres.h"
 
+#include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "src/sim/car_parts.h"
+#include "trackbed/core/error.h"
 
 namespace trackbed {
 namespace {
@@ -38,6 +40,11 @@ double Damping(double omega, double timestep) {
   return (step < 1.0 ? 2.0 - step : 1.0 / step) / omega;
 }
 
+/// omega [rad/s] at which a wheel's spin swings on its tyre at a load: R sqrt(C_kappa/(sigma I)).
+double SpinFrequency(const MagicFormula& tyre, double load, double radius, double inertia) {
+  return radius * std::sqrt(SlipStiffness(tyre, load) / (tyre.relaxation_length * inertia));
+}
+
 /// Slip beyond which a tyre slides all over; 3 mu F_z/C, as in the brush model.
 double SlidingSlip(double friction, double load, double stiffness) {
   return 3.0 * friction * load / stiffness;
@@ -50,6 +57,7 @@ MagicFormulaTyres::MagicFormulaTyres(const CarModel& car, mjModel& model)
   const CarTyres& tyres = TyresOf(car, "tyre: magic_formula");
   const VehicleParams& params = car.params();
   const double weight = params.mass * gravity_;
+  CheckTimestep(car, weight);
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     const int geom = car.parts().tyre[w];
     model.geom_condim[geom] = 1;
@@ -73,6 +81,27 @@ MagicFormulaTyres::MagicFormulaTyres(const CarModel& car, mjModel& model)
   }
 }
 
+/// Damping keeps a wheel's spin on its tyre stable up to omega dt = sqrt(2), with all that an axle
+/// carries on one of its wheels.
+void MagicFormulaTyres::CheckTimestep(const CarModel& car, double weight) const {
+  const VehicleParams& params = car.params();
+  double fastest = 0.0;  // [rad/s]
+  for (std::size_t w = 0; w < kWheels.size(); ++w) {
+    const double arm = AxleOf(w) == 0 ? params.cg_to_rear : params.cg_to_front();
+    fastest = std::max(
+        fastest, SpinFrequency(car.parts().tyres->axle[AxleOf(w)], weight * arm / params.wheelbase,
+                               params.wheel_radius, car.parts().spin_inertia[w]));
+  }
+  const double longest = std::sqrt(2.0) / fastest;
+  if (timestep_ > longest) {
+    throw InputError(Problem{
+        .key = "drive.timestep",
+        .message = fmt::format("{:.4g} s is too long for the tyres of {}: their wheels' spin would "
+                               "not be stable; at most {:.4g} s",
+                               timestep_, car.file(), longest)});
+  }
+}
+
 double MagicFormulaTyres::Travel(const mjData& data, std::size_t w) const {
   const CarParts& parts = car_.parts();
   const Eigen::Map<const Eigen::Vector3d> hub(data.xpos + 3 * parts.wheel[w]);
@@ -80,6 +109,13 @@ double MagicFormulaTyres::Travel(const mjData& data, std::size_t w) const {
   const mjtNum* rotation = data.xmat + 9 * parts.chassis;
   const Eigen::Vector3d up(rotation[2], rotation[5], rotation[8]);
   return up.dot(hub - chassis) - parts.hub_height[w];
+}
+
+void MagicFormulaTyres::Stand(const std::array<double, 4>& loads) {
+  for (std::size_t w = 0; w < kWheels.size(); ++w) {
+    slips_[w] = {};
+    states_[w] = {.normal_force = loads[w]};
+  }
 }
 
 void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
@@ -104,7 +140,7 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
     const double sigma = tyre.relaxation_length;
     const double c_kappa = SlipStiffness(tyre, load);
     const double c_alpha = CorneringStiffness(tyre, load);
-    const double spin_omega = radius * std::sqrt(c_kappa / (sigma * car_.parts().spin_inertia[w]));
+    const double spin_omega = SpinFrequency(tyre, load, radius, car_.parts().spin_inertia[w]);
     const double side_omega = std::sqrt(c_alpha * gravity_ / (sigma * load));
     // Where the slip follows faster than the damping wants, the damping must not run ahead of it.
     const double tau_x = speed * Damping(spin_omega, timestep_) > sigma

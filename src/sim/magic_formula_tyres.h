@@ -17,7 +17,8 @@ namespace trackbed {
 class MagicFormulaTyres {
  public:
   /// Makes the wheels' contacts of `model` frictionless, with the car's vertical tyre stiffness.
-  /// InputError as TyresOf when the car has no tyre coefficients.
+  /// InputError as TyresOf when the car has no tyre coefficients, and when its timestep is too long
+  /// for them.
   MagicFormulaTyres(const CarModel& car, mjModel_& model);
 
   /// The forces for the step that begins now, added to what is applied to the joints in `data`;
@@ -26,6 +27,9 @@ class MagicFormulaTyres {
   void Apply(const mjModel_& model, mjData_& data, const std::array<double, 4>& loads,
              const std::array<double, 4>& road);
 
+  /// Before the first step: tyres without slip under `loads`.
+  void Stand(const std::array<double, 4>& loads);
+
   /// What Apply found last.
   [[nodiscard]] const std::array<WheelState, 4>& wheels() const { return states_; }
 
@@ -33,6 +37,8 @@ class MagicFormulaTyres {
   [[nodiscard]] double RollingMoment() const;
 
  private:
+  void CheckTimestep(const CarModel& car, double weight) const;
+
   /// How far the wheel is up from where it stands at rest [m].
   [[nodiscard]] double Travel(const mjData_& data, std::size_t wheel) const;
 

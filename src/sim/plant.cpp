@@ -33,6 +33,15 @@ const std::vector<PlantEntry>& Plants() {
   return table;
 }
 
+TyreLaw TyreLawOf(const CarModel& car, TyreLaw tyre) {
+  if (tyre != TyreLaw::kAuto) {
+    return tyre;
+  }
+  const bool has_coefficients =
+      car.params().kind == VehicleKind::kSteered && car.parts().tyres.has_value();
+  return has_coefficients ? TyreLaw::kMagicFormula : TyreLaw::kContact;
+}
+
 std::unique_ptr<Plant> MakePlant(const std::string& name, const PlantSetup& setup) {
   std::vector<std::string> names;
   for (const PlantEntry& entry : Plants()) {

@@ -31,9 +31,13 @@ class WheelPairPlant final : public MujocoPlant {
     const double timestep = model().opt.timestep;
     ratio_ = MoveSteering({params.steering_limit, params.steering_rate}, ratio_, command.steering)
                  .At(timestep);
-    const double along_gear = command.acceleration * command.gear;
+    const double along_gear = command.coast ? 0.0 : command.acceleration * command.gear;
     const double speed = command.gear * Speed();
     const bool hold = along_gear <= 0.0 && speed < kStandstill;
+    if (command.coast && !hold) {
+      Coast();
+      return;
+    }
     wanted_speed_ = hold ? 0.0 : command.gear * NextSpeed(command.gear, along_gear, speed);
     const auto speeds = RollingSpeeds(params, wanted_speed_, ratio_);
     for (std::size_t w = 0; w < speeds.size(); ++w) {
@@ -46,6 +50,17 @@ class WheelPairPlant final : public MujocoPlant {
       data().ctrl[parts.actuator[w]] = wanted + integral_[w];
       model().dof_frictionloss[parts.spin_dof[w]] =
           bearing_friction_[w] + (hold ? parts.brake_torque : 0.0);
+    }
+  }
+
+  /// Servos that want the speed there is give no torque.
+  void Coast() {
+    const WheelPairParts& parts = car().wheel_pair();
+    wanted_speed_ = Speed();
+    integral_.fill(0.0);
+    for (std::size_t w = 0; w < parts.spin_dof.size(); ++w) {
+      data().ctrl[parts.actuator[w]] = data().qvel[parts.spin_dof[w]];
+      model().dof_frictionloss[parts.spin_dof[w]] = bearing_friction_[w];
     }
   }
 

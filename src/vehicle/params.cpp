@@ -50,6 +50,17 @@ FrontAngles AckermannAngles(const VehicleParams& params, double steering) {
   return {std::atan2(sine, cosine - k * sine), std::atan2(sine, cosine + k * sine)};
 }
 
+FrontAngles AckermannSlopes(const VehicleParams& params, double steering) {
+  const double k = params.track_front / (2.0 * params.wheelbase);
+  const double sine = std::sin(steering);
+  const double cosine = std::cos(steering);
+  const auto slope = [&](double side) {
+    const double across = cosine - side * k * sine;
+    return 1.0 / (sine * sine + across * across);
+  };
+  return {slope(1.0), slope(-1.0)};
+}
+
 double BicycleAngle(const VehicleParams& params, const FrontAngles& front) {
   const double k = params.track_front / (2.0 * params.wheelbase);
   const auto seen_from = [k](double angle, double side) {

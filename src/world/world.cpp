@@ -82,8 +82,8 @@ double MostMoved(const World& world, const VehicleParams& vehicle, const Clearan
          reach * std::abs(to.pose.yaw - from.pose.yaw) + fastest * (to.time - from.time);
 }
 
-/// Halves the way between two samples, over which the clearance changes by at most `moved`, until
-/// it cannot fall below the best one by more than matters.
+/// Bisects the motion between two samples, over which the clearance changes by at most `moved` [m],
+/// until it cannot be smaller than the best one by more than a tolerance.
 void Approach(const World& world, const VehicleParams& vehicle, const ClearanceSample& from,
               const ClearanceSample& to, double moved, ClosestApproach& best) {
   constexpr double kTolerance = 5e-3;  // [m]

@@ -213,7 +213,8 @@ TEST(Measure, SaysWhereAndWhenTheLargestValuesWere) {
     LogRow row;
     row.state.time = 0.02 * i;
     row.state.distance = 0.06 * i;
-    row.state.lateral_acceleration = i == 150 ? -2.0 : 1.0;
+    // A tenth of a second from row 150 to 155, and a single row that is larger.
+    row.state.lateral_acceleration = i >= 150 && i < 156 ? -2.0 : i == 50 ? -6.0 : 1.0;
     row.state.steering = 0.002 * std::clamp(i - 200, 0, 5);  // 0.01 rad in the 0.1 s up to 4.1 s
     row.clearance = 1.0;
     row.state.obstacle_force = i == 50 ? 7.0 : 0.0;
@@ -223,8 +224,8 @@ TEST(Measure, SaysWhereAndWhenTheLargestValuesWere) {
   vehicle.wheelbase = 2.5;
   const PlantMetrics metrics = Measure(log, Plan{}, vehicle, 0.02, StationSource::kProjection);
   EXPECT_EQ(metrics.lateral_acceleration_max, 2.0);
-  EXPECT_DOUBLE_EQ(metrics.lateral_acceleration_max_s, 9.0);
-  EXPECT_DOUBLE_EQ(metrics.lateral_acceleration_max_t, 3.0);
+  EXPECT_DOUBLE_EQ(metrics.lateral_acceleration_max_s, 0.06 * 152);
+  EXPECT_DOUBLE_EQ(metrics.lateral_acceleration_max_t, 0.02 * 152);
   EXPECT_NEAR(metrics.steering_rate_max, 0.1, Tolerance(1e-12));
   EXPECT_DOUBLE_EQ(metrics.steering_rate_max_s, 12.3);
   EXPECT_DOUBLE_EQ(metrics.steering_rate_max_t, 4.1);

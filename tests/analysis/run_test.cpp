@@ -76,9 +76,10 @@ TEST_P(Routes, AreRelatedToTheOpenLoopAsTheSeedsSay) {
   }
 }
 
-TEST(OpenLoop, MujocoStaysNearTheKinematicCar) {
+TEST(OpenLoop, MujocoStaysNearTheKinematicCarOnContacts) {
   for (const char* route : {"three_turns", "winding"}) {
-    const RunResult result = RunMission(Load(route, {"control={method: schedule}", "expect={}"}));
+    const RunResult result = RunMission(
+        Load(route, {"control={method: schedule}", "expect={}", "vehicle.tyre=contact"}));
     // The physical servo lags by 10-15 ms, 4 cm of road at either end of each ramp, which mostly
     // cancels; a heading left over by a milliradian is 8 cm after 80 m.
     EXPECT_NEAR(Of(result, "mujoco").tracking->goal_distance,
@@ -87,8 +88,8 @@ TEST(OpenLoop, MujocoStaysNearTheKinematicCar) {
   }
 }
 
-TEST(SteeringCircle, HasTheKinematicRadiusOnBothPlants) {
-  const RunResult result = RunMission(Load("steering_circle"));
+TEST(SteeringCircle, HasTheKinematicRadiusOnContacts) {
+  const RunResult result = RunMission(Load("steering_circle", {"vehicle.tyre=contact"}));
   EXPECT_TRUE(result.verdict.passed) << testing::PrintToString(result.verdict.failures);
   const double radius = 2.7 / std::tan(kPi / 18.0);  // 15.3125 m
   for (const RunLog& log : result.logs) {

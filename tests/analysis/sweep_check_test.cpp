@@ -196,7 +196,7 @@ list:
   - {disturb.payload: {mass: 300}}
   - {world.friction: 0.05, mission.start.speed: 0.5}
   - {world.wind.x: -30}
-  - {vehicle.tyre: magic_formula}
+  - {vehicle.tyre: contact}
   - {vehicle.model: bmw320i}
   - {drive.plants: [kinematic]}
   - {drive.plants: ["mujoco:magic_formula"]}
@@ -283,7 +283,7 @@ outputs:
 TEST(PreviewDistance, TooFarAheadCutsTheCorners) {
   Study study =
       ReadStudy(std::string(TRACKBED_SOURCE_DIR) + "/scenarios/studies/preview_distance.yaml",
-                {"drive.timestep=0.004"});
+                {"drive.timestep=0.004", "vehicle.tyre=contact"});
   // Every third of its nine distances: 1, 2.5 and 5 m.
   std::vector<Setting>& distances = study.vary.at(0);
   distances = {distances.at(0), distances.at(3), distances.at(6)};

@@ -48,9 +48,9 @@ TEST(Turns, SayWhereAndWhenTheyWereMeasured) {
   }
 }
 
-TEST(Turns, OnMujocoLagByTheServo) {
-  const RunResult run =
-      RunMission(Load("three_turns", {"control.method=schedule", "drive.plants=[mujoco]"}));
+TEST(Turns, OnContactsLagByTheServo) {
+  const RunResult run = RunMission(
+      Load("three_turns", {"control.method=schedule", "drive.plants=['mujoco:contact']"}));
   ASSERT_EQ(run.metrics[0].turns.size(), 3U);
   for (const TurnMetrics& turn : run.metrics[0].turns) {
     // Contacts slip by a velocity that is proportional to the force: 0.1 % of a heading of pi/4.
@@ -71,7 +71,7 @@ void PrintTo(const Ramp& ramp, std::ostream* out) {
 
 class HeadingDeficit : public ::testing::TestWithParam<Ramp> {};
 
-TEST_P(HeadingDeficit, OfAStepOnMujocoIsTheClosedForm) {
+TEST_P(HeadingDeficit, OfAStepOnContactsIsTheClosedForm) {
   const Ramp& ramp = GetParam();
   const TempFolder folder;
   // The Prius with another steering rate.
@@ -87,12 +87,13 @@ TEST_P(HeadingDeficit, OfAStepOnMujocoIsTheClosedForm) {
       ParseScenario(fmt::format("schema: 1\nname: step\nvehicle: {{model: ./car.xml}}\n"
                                 "mission: {{speed: {}, duration: 8}}\n"
                                 "control: {{method: constant_steering, steering: {}}}\n"
-                                "drive: {{plants: [mujoco]}}\n",
+                                "drive: {{plants: ['mujoco:contact']}}\n",
                                 ramp.speed, delta),
                     "step.yaml", folder.path());
   const CarModel car = LoadCar(scenario);
   ASSERT_NEAR(car.params().steering_rate, rate, 1e-12);
-  const RunLog log = DrivePlant(scenario, car, PlanMission(scenario, car.params()), "mujoco");
+  const RunLog log =
+      DrivePlant(scenario, car, PlanMission(scenario, car.params()), "mujoco:contact");
   // A step of the curvature against the ramp: what is missing once the wheels are there, five lags
   // after the ramp.
   const double ramp_time = delta / rate;

@@ -165,5 +165,14 @@ TEST(TimedSpeedControl, FollowsASpeedThatTheLimitsWouldCut) {
   }
 }
 
+TEST(SpeedControl, DrivesOnACarThatRollsBack) {
+  // The profile leaves s = 0 at 1 m/s^2, and is at sqrt(0.008) m/s after 4 mm. A car that rolls
+  // back there lacks that and its own speed; following the profile backwards it would brake.
+  const SpeedProfile profile = StopAtEnd(100.0, 0.0, kLimits);
+  EXPECT_GE(SpeedControl(kOptions, profile, 0.004, -0.02, kPeriod),
+            2.0 * (std::sqrt(0.008) + 0.02));
+  EXPECT_GE(SpeedControl(kOptions, profile, -0.004, -0.02, kPeriod), 0.9);
+}
+
 }  // namespace
 }  // namespace trackbed

@@ -53,8 +53,10 @@ TEST_P(Cusps, AreDrivenGearByGear) {
   double station = 0.0;
   for (const LogRow& row : log.rows) {
     largest = std::max(largest, std::abs(row.tracking->cross_track));
-    // Never against the gear; MuJoCo's car rocks on its tyres by millimetres a second.
-    EXPECT_GE(row.state.speed * row.command.gear, -0.02) << "at " << row.state.time;
+    // Never against the gear, but for what the tyres' deflection gives back when the brakes let go:
+    // stopped at a = 1.5 m/s^2 it is sigma a/(p_kx1 g), and swings at sqrt(p_kx1 g/sigma), so that
+    // the car moves at a sqrt(sigma/(p_kx1 g)) = 0.06 m/s for a tenth of a second.
+    EXPECT_GE(row.state.speed * row.command.gear, -0.06) << "at " << row.state.time;
     const bool moves = std::abs(row.state.speed) > 0.1;
     const PathPoint at = plan.reference.path.At(row.tracking->s);
     const bool near_a_cusp = std::any_of(legs.begin(), legs.end(), [&](const Stations& leg) {

@@ -89,6 +89,7 @@ class TyreForcesTest : public FilmSceneTest {
 
 TEST_F(TyreForcesTest, LieInsideWhatTheContactsFrictionAllows) {
   EXPECT_TRUE(ForcesAt(1.0).empty());  // the log has none
+  SetScenario("schema: 1\nname: c\nvehicle: {tyre: contact}\nmission: {speed: 3, duration: 1}\n");
   SetForces(4000.0, 1200.0, -2400.0);
   const std::vector<WheelForce> forces = ForcesAt(1.0);
   ASSERT_EQ(forces.size(), 4U);

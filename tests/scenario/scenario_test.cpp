@@ -35,7 +35,7 @@ TEST(ReadScenario, FillsInDefaults) {
   const Scenario scenario = Parse(kSmall);
   EXPECT_EQ(scenario.name, "small");
   EXPECT_EQ(scenario.vehicle.model, "prius");
-  EXPECT_EQ(scenario.vehicle.tyre, TyreLaw::kContact);
+  EXPECT_EQ(scenario.vehicle.tyre, TyreLaw::kAuto);
   EXPECT_EQ(scenario.mission.waypoints[1], Vec2(40, 2));
   ASSERT_TRUE(scenario.plan.has_value());
   EXPECT_STREQ(PlannerName(scenario.plan->global), "fillet");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <tuple>
 
 #include "tests/sim/cars.h"
 #include "tests/tolerance.h"
@@ -14,9 +15,18 @@
 namespace trackbed {
 namespace {
 
-std::filesystem::path Reference(const std::string& name) {
-  return std::filesystem::path(TRACKBED_SOURCE_DIR) / "tests/data/commonroad" / (name + ".csv");
+/// Recordings of the model as it is published, or with one centre of gravity throughout; see the
+/// README of either.
+enum class Kind { kPublished, kConsistent };
+
+std::filesystem::path Reference(Kind kind, const std::string& name) {
+  const std::filesystem::path folder =
+      std::filesystem::path(TRACKBED_SOURCE_DIR) / "tests/data/commonroad";
+  return (kind == Kind::kPublished ? folder : folder / "consistent") / (name + ".csv");
 }
+
+/// The reference has no aerodynamics; the car's file has, assumed ones.
+const Numerics kStillAir{{"drag_area", 0.0}, {"side_area", 0.0}};
 
 /// A column over time, linear between rows.
 class Signal {
@@ -57,15 +67,17 @@ struct Deviation {
   double yaw = 0.0;                   ///< largest heading [rad]
 };
 
-Deviation Compare(const std::string& name, double timestep) {
-  const Table table = ReadCsv(Reference(name));
+/// Up to `until` [s] for the lateral acceleration, which the reference's tyres make chatter later.
+Deviation Compare(Kind kind, const std::string& name, const Numerics& numerics,
+                  double timestep = 0.002, double until = 3.5) {
+  const Table table = ReadCsv(Reference(kind, name));
   const Signal steering(table, "delta_rad");
   const Signal speed(table, "vx_mps");
   const Signal yaw_rate(table, "yaw_rate_radps");
   const Signal acceleration(table, "ay_mps2");
   const Signal x(table, "x_m");
   const Signal y(table, "y_m");
-  const CarModel car = CarWith("bmw320i", {}, timestep);
+  const CarModel car = CarWith("bmw320i", numerics, timestep);
   const double to_cg = car.params().cg_to_rear;
   const World world;
   const auto plant =
@@ -75,6 +87,7 @@ Deviation Compare(const std::string& name, double timestep) {
                                          .steering = SteeringInput::kPrescribed});
   Deviation sums;
   double count = 0.0;
+  double acceleration_count = 0.0;
   double driven = 0.0;
   Vec2 last(0.0, 0.0);
   const VehicleState end = Drive(
@@ -90,53 +103,77 @@ Deviation Compare(const std::string& name, double timestep) {
         last = there;
         const Vec2 here = ToWorld(s.pose, {to_cg, 0.0});
         sums.yaw_rate += std::pow(s.yaw_rate - yaw_rate(t), 2);
-        sums.lateral_acceleration += std::pow(s.lateral_acceleration - acceleration(t), 2);
+        if (t <= until) {
+          sums.lateral_acceleration += std::pow(s.lateral_acceleration - acceleration(t), 2);
+          acceleration_count += 1.0;
+        }
         sums.speed += std::pow(s.speed - speed(t), 2);
         sums.path = std::max(sums.path, (here - there).norm());
         sums.yaw = std::max(sums.yaw, std::abs(s.pose.yaw));
         count += 1.0;
       });
-  return {
-      .yaw_rate = std::sqrt(sums.yaw_rate / count) / yaw_rate.peak(),
-      .lateral_acceleration = std::sqrt(sums.lateral_acceleration / count) / acceleration.peak(),
-      .path = sums.path / driven,
-      .speed = std::sqrt(sums.speed / count) / speed(0.0),
-      .distance = std::abs(end.distance - driven) / driven,
-      .yaw = sums.yaw};
+  return {.yaw_rate = std::sqrt(sums.yaw_rate / count) / yaw_rate.peak(),
+          .lateral_acceleration =
+              std::sqrt(sums.lateral_acceleration / acceleration_count) / acceleration.peak(),
+          .path = sums.path / driven,
+          .speed = std::sqrt(sums.speed / count) / speed(0.0),
+          .distance = std::abs(end.distance - driven) / driven,
+          .yaw = sums.yaw};
 }
 
-TEST(CommonRoad, SteeringManoeuvres) {
+class CommonRoad : public testing::TestWithParam<std::tuple<Kind, bool>> {
+ protected:
+  static Kind kind() { return std::get<0>(GetParam()); }
+  static Numerics numerics() { return std::get<1>(GetParam()) ? Numerics{} : kStillAir; }
+};
+
+std::string NameOf(const testing::TestParamInfo<std::tuple<Kind, bool>>& given) {
+  const std::string kind =
+      std::get<0>(given.param) == Kind::kPublished ? "Published" : "Consistent";
+  return kind + (std::get<1>(given.param) ? "WithAerodynamics" : "");
+}
+
+INSTANTIATE_TEST_SUITE_P(References, CommonRoad,
+                         testing::Combine(testing::Values(Kind::kPublished, Kind::kConsistent),
+                                          testing::Bool()),
+                         NameOf);
+
+TEST_P(CommonRoad, SteeringManoeuvres) {
   for (const char* name : {"step_steer_bmw320i_20mps", "lane_change_bmw320i_15mps"}) {
-    const Deviation found = Compare(name, 0.002);
+    const Deviation found = Compare(kind(), name, numerics());
     EXPECT_LE(found.yaw_rate, Tolerance(0.03)) << name;
-    EXPECT_LE(found.lateral_acceleration, Tolerance(0.05)) << name;
+    // The reference's tyres slip by the lateral speed of its sprung mass's center of gravity,
+    // rolling included, in place of their axles' own. With the axles' own its acceleration is
+    // another by 3.7 % in the step and 6.5 % in the lane change.
+    const bool is_step = std::string(name).starts_with("step");
+    EXPECT_LE(found.lateral_acceleration, Tolerance(is_step ? 0.05 : 0.07)) << name;
     EXPECT_LE(found.path, Tolerance(0.02)) << name;
   }
 }
 
-TEST(CommonRoad, StraightBraking) {
-  const Deviation found = Compare("brake_straight_bmw320i_20mps", 0.002);
+TEST_P(CommonRoad, StraightBraking) {
+  const Deviation found = Compare(kind(), "brake_straight_bmw320i_20mps", numerics());
   EXPECT_LE(found.speed, Tolerance(0.01));
   EXPECT_LE(found.distance, Tolerance(0.01));
   EXPECT_LE(found.yaw, Tolerance(0.002));
 }
 
-TEST(CommonRoad, TheSameAtEveryTimestep) {
-  const Deviation fine = Compare("step_steer_bmw320i_20mps", 0.001);
-  const Deviation coarse = Compare("step_steer_bmw320i_20mps", 0.004);
+TEST_P(CommonRoad, TheSameAtEveryTimestep) {
+  const Deviation fine = Compare(kind(), "step_steer_bmw320i_20mps", numerics(), 0.001);
+  const Deviation coarse = Compare(kind(), "step_steer_bmw320i_20mps", numerics(), 0.004);
   EXPECT_NEAR(fine.yaw_rate, coarse.yaw_rate, Tolerance(0.005));
   EXPECT_NEAR(fine.lateral_acceleration, coarse.lateral_acceleration, Tolerance(0.005));
   EXPECT_NEAR(fine.path, coarse.path, Tolerance(0.005));
 }
 
-TEST(CommonRoad, SteadyTurns) {
-  const Table table = ReadCsv(Reference("steady_state_bmw320i"));
+TEST_P(CommonRoad, SteadyTurns) {
+  const Table table = ReadCsv(Reference(kind(), "steady_state_bmw320i"));
   const auto speeds = table.Column("v_mps");
   const auto angles = table.Column("delta_rad");
   const auto yaw_rates = table.Column("yaw_rate_radps");
   const auto accelerations = table.Column("ay_mps2");
   const auto lateral_speeds = table.Column("vy_mps");
-  const CarModel car = CarWith("bmw320i", {});
+  const CarModel car = CarWith("bmw320i", numerics());
   const World world;
   for (std::size_t i = 0; i < table.rows(); ++i) {
     const auto plant = MakePlant("mujoco:magic_formula", {.car = car,
@@ -154,12 +191,22 @@ TEST(CommonRoad, SteadyTurns) {
         },
         [](double, const VehicleState&) {});
     ASSERT_NEAR(state.speed, speeds[i], 1e-3 * speeds[i]);
+    // The published model carries its weight 15.6 mm behind the point that it turns about, which is
+    // an understeer gradient of 1.13e-4 rad s^2/m (1.24e-4 at 2.5 m/s^2), and K v^2/L of the yaw
+    // rate. The assumed aerodynamics push the car's rear aside and load its tyres: 3 % at 25 m/s.
+    const double v_squared = speeds[i] * speeds[i];
+    const bool is_published = kind() == Kind::kPublished;
+    const double published = is_published ? 1.3e-4 * v_squared / car.params().wheelbase : 0.0;
+    const double air = std::get<1>(GetParam()) ? 5e-5 * v_squared : 0.0;
     EXPECT_NEAR(state.yaw_rate / yaw_rates[i], 1.0,
-                Tolerance(accelerations[i] <= 4.0 ? 0.03 : 0.06))
+                Tolerance((accelerations[i] <= 4.0 ? 0.01 : 0.02) + published + air))
         << speeds[i] << " m/s, " << angles[i] << " rad";
     // The sign of the camber decides on this: with the other one 15 m/s and 0.08 rad are off by
-    // half. 0.01 m/s is 7 % of what the reference has there.
-    EXPECT_NEAR(state.lateral_speed, lateral_speeds[i], Tolerance(0.01));
+    // half, 0.07 m/s. The set's shifts by that sign, which this car is without, turn the rear
+    // tyres' slip by p_hy1 + p_vy1/p_ky1 = 0.00097 rad; the published axle loads, 1.3 % off, the
+    // 0.023 rad of slip at 4.9 m/s^2 by 0.0003 rad.
+    EXPECT_NEAR(state.lateral_speed, lateral_speeds[i],
+                Tolerance((is_published ? 0.00127 : 0.00097) * speeds[i] + 0.003));
   }
 }
 

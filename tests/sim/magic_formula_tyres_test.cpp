@@ -116,9 +116,14 @@ TEST(MagicFormulaTyres, LoadTransferAndRollAreThoseOfStatics) {
       [](double t, const VehicleState& s) { return HoldSpeed(15.0, StepSteer(t, 0.03), s); },
       kNoLook);
   const VehicleParams& params = car.params();
-  const double moment =
-      params.mass * car.parts().cg_height *
-      (state.lateral_acceleration + kGravity * std::sin(state.roll));  // about the ground
+  // What turns the spinning wheels' angular momentum rolls the car outward as well.
+  double spin = 0.0;  // [kg m^2/s]
+  for (const double inertia : car.parts().spin_inertia) {
+    spin += inertia * state.speed / params.wheel_radius;
+  }
+  const double moment = params.mass * car.parts().cg_height *
+                            (state.lateral_acceleration + kGravity * std::sin(state.roll)) +
+                        spin * state.yaw_rate;  // about the ground
   double carried = 0.0;
   for (std::size_t w = 0; w < 4; ++w) {
     const double arm = 0.5 * (w < 2 ? params.track_front : params.track_rear);

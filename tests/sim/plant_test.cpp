@@ -259,7 +259,7 @@ TEST(MujocoPlant, RollsAndPitchesAsIso8855Says) {
 
 TEST(MujocoPlant, SlipperyRoadLimitsBraking) {
   const auto distance = [](double friction) {
-    const auto plant = MakePlant("mujoco", PriusAt({.speed = 10.0}, friction));
+    const auto plant = MakePlant("mujoco:contact", PriusAt({.speed = 10.0}, friction));
     for (int i = 0; i < 10000 && plant->Observe().speed > 0.01; ++i) {
       plant->Step({.acceleration = -12.0});
     }

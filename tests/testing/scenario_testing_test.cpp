@@ -53,10 +53,13 @@ TEST_P(Scenarios, DriveAsTheyExpectKinematicAgainstContactDynamics) {
   // which a controller holds to centimetres, and an open loop, ice or a collision to the stated
   // bound.
   if (!scenario.expect.between.empty()) {
-    const double bound = GetParam() == "steering_circle" ? 0.3
-                         : GetParam() == "ice_patch"     ? 1.0
-                                                         : 0.1;
-    EXPECT_THAT(run, StaysWithin("kinematic", "mujoco", bound));
+    const std::string name = GetParam();
+    const double bound = name == "steering_circle"        ? 1.2
+                         : name == "playback_lane_change" ? 1.0
+                         : name == "ice_patch"            ? 1.0
+                                                          : 0.1;
+    const std::string& second = scenario.expect.between[0].plants[1];
+    EXPECT_THAT(run, StaysWithin("kinematic", second, bound));
   }
   for (const PlantMetrics& metrics : run.metrics) {
     EXPECT_LE(metrics.steering_rate_max, 1.02 * 0.15056818181818182) << metrics.plant;
@@ -89,8 +92,9 @@ TEST(Slalom, IsTrackedWithinFifteenCentimetresOnBothPlants) {
 TEST(IcePatch, IsWhatTheCarSlidesOn) {
   EXPECT_THAT(RunScenario(File("ice_patch")),
               testing::Not(StaysWithin("kinematic", "mujoco", 0.3)));
+  // Understeer of 0.003 rad s^2/m at 2.5 m/s^2, of which the driver leaves 5 cm.
   EXPECT_THAT(RunScenario(File("ice_patch"), {"world.friction_patches=[]"}),
-              StaysWithin("kinematic", "mujoco", 0.03));
+              StaysWithin("kinematic", "mujoco", 0.05));
 }
 
 TEST(TracksWithin, SaysHowFarOffWhereAndWhen) {
@@ -183,12 +187,13 @@ TEST(Compare, HoldsPlantsAndRunsAgainstEachOther) {
   }
 }
 
-TEST(ThreeTurns, IsDrivenByMujocoAsTheKinematicModelSays) {
+TEST(ThreeTurns, IsDrivenOnContactsAsTheKinematicModelSays) {
   // The servo lags by 10 to 15 ms: at 0.15 rad/s the wheels by 2.3 mrad, and v/L = 1.1/s of that in
   // yaw rate. In turns of 16.8 m, 0.18 rad/s, the heading is then 2.7 mrad behind, which over the
   // 2.5 m of preview are 7 mm aside. Tyres slip by less at 0.5 m/s^2.
   EXPECT_THAT(
-      Compare(RunScenario(File("three_turns"), {"control.distance=2.5"}), "kinematic", "mujoco"),
+      Compare(RunScenario(File("three_turns"), {"control.distance=2.5", "vehicle.tyre=contact"}),
+              "kinematic", "mujoco"),
       PartsAtMost({.position_max = Tolerance(0.007),
                    .heading_max = Tolerance(0.0027),
                    .yaw_rate_max = Tolerance(0.0026),

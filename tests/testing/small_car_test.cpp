@@ -59,7 +59,8 @@ TEST(SmallCar, StandsStill) {
   scenario.plan.reset();
   scenario.control.steering = ConstantSteeringOptions{};
   scenario.mission.start.speed = 0.0;
-  scenario.mission.speed = 1e-6;  // slower than what counts as standing
+  scenario.mission.speed = 1.0;
+  scenario.control.speed.braking = Braking{.at = 0.0, .deceleration = 1.0};  // on its brakes
   scenario.mission.duration = 2.0;
   scenario.drive.plants = {"mujoco"};
   const RunResult run = RunScenario(scenario);

@@ -16,8 +16,8 @@ namespace trackbed {
 /// How well a drive kept to its path, up to its first contact with an obstacle. Errors are taken at
 /// the control periods.
 struct TrackingMetrics {
-  double corridor = 0.0;           ///< largest cross-track error unless asked otherwise: the
-                                   ///< car's width [m]; 0: not known, none
+  double corridor = 0.0;           ///< bound on the cross-track error unless a scenario sets
+                                   ///< one: the car's width [m]; 0: unknown, no bound
   double cross_track_rms = 0.0;    ///< [m]
   double cross_track_max = 0.0;    ///< largest magnitude [m]
   double cross_track_max_s = 0.0;  ///< where [m]
@@ -54,19 +54,24 @@ struct TurnMetrics {
 struct PlantMetrics {
   std::string plant;
   DriveStatus status = DriveStatus::kArrived;
-  double distance = 0.0;                    ///< driven [m]
-  double time = 0.0;                        ///< simulated [s]
-  double end_s = 0.0;                       ///< where it ended [m]
-  double lateral_acceleration_max = 0.0;    ///< largest magnitude, at the CG [m/s^2]
-  double lateral_acceleration_max_s = 0.0;  ///< where [m]
-  double lateral_acceleration_max_t = 0.0;  ///< when [s]
+  double distance = 0.0;  ///< driven [m]
+  double time = 0.0;      ///< simulated [s]
+  double end_s = 0.0;     ///< where it ended [m]
+  /// Largest magnitude of the centre of gravity's lateral acceleration, mean over any 0.1 s
+  /// [m/s^2]: over the rows of the log within it.
+  double lateral_acceleration_max = 0.0;
+  double lateral_acceleration_max_s = 0.0;  ///< where, the middle of that 0.1 s [m]
+  double lateral_acceleration_max_t = 0.0;  ///< when, likewise [s]
+  double steering_max = 0.0;                ///< largest magnitude of the measured angle [rad]
   /// Of the measured angle, mean over any 0.1 s, or one control period where that is longer
   /// [rad/s].
   double steering_rate_max = 0.0;
-  double steering_rate_max_s = 0.0;  ///< where that 0.1 s ended [m]
-  double steering_rate_max_t = 0.0;  ///< when [s]
-  double steering_rate_limit = 0.0;  ///< of the car [rad/s]; 0: none, as for prescribed angles
-  double steering_rate_rms = 0.0;    ///< of its means over the control periods [rad/s]
+  double steering_rate_max_s = 0.0;          ///< where that 0.1 s ended [m]
+  double steering_rate_max_t = 0.0;          ///< when [s]
+  double steering_rate_limit = 0.0;          ///< of the car [rad/s]; 0: not known
+  double steering_limit = 0.0;               ///< likewise, of the angle [rad]
+  bool steering_is_prescribed = false;       ///< and so not held to these limits
+  double steering_rate_rms = 0.0;            ///< of its means over the control periods [rad/s]
   double steering_saturated_fraction = 0.0;  ///< of the periods: actuator did not reach the command
   /// Of the yaw rate to v tan(delta)/L, what the kinematic model makes of the measured speed and
   /// steering: least squares over the drive, so that turns count and straights do not. 1 / (1 + K

@@ -35,7 +35,7 @@ enum class PreviewWeight {
 ///
 /// Reverse paths are previewed backwards, kinematically.
 struct PreviewIntegralOptions {
-  std::optional<double> distance;  ///< shortest R [m], > 0; none: by the law above
+  std::optional<double> distance;  ///< shortest R [m], > 0; default: the law above
   double time = 0.0;               ///< [s], >= 0
   PreviewWeight weight = PreviewWeight::kUniform;
   double delay = 0.0;  ///< tau [s], >= 0

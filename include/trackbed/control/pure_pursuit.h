@@ -20,7 +20,7 @@ class SteeringController;
 /// Reverse paths: the point lies behind, the same circle. Beyond its end the path goes on along its
 /// tangent. Knows no slip: a car that understeers runs outside of its circle.
 struct PurePursuitOptions {
-  std::optional<double> distance;  ///< shortest l [m], > 0; none: by the law above
+  std::optional<double> distance;  ///< shortest l [m], > 0; default: the law above
   double time = 0.0;               ///< l is at least time |v| [s], >= 0
 };
 

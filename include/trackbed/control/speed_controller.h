@@ -21,10 +21,11 @@ struct SpeedControlOptions {
   std::optional<Braking> braking;
 };
 
-/// Wanted acceleration [m/s^2] of a car at station `s` with `speed` (>= 0, along the path) that
-/// follows `profile`: the mean acceleration that has the profile's speed at the end of the coming
-/// `period`, plus gain times the speed error, within [-2 deceleration, acceleration]. In the period
-/// in which a profile comes to rest, it is the profile's own acceleration.
+/// Wanted acceleration [m/s^2] of a car at station `s` with `speed` (along the path; negative when
+/// it rolls back) that follows `profile`: the mean acceleration that has the profile's speed at the
+/// end of the coming `period`, plus gain times the speed error, within [-2 deceleration,
+/// acceleration]. In the period in which a profile comes to rest, it is the profile's own
+/// acceleration.
 ///
 /// Where a profile brakes more than 1.1 times as hard as `deceleration`, the lower bound is 1.25
 /// times the profile's own deceleration, at most `max_deceleration` [m/s^2] of the car on its road
@@ -38,6 +39,9 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
 /// the car. None where they do not say.
 std::optional<double> TimedSpeedControl(const SpeedControlOptions& options, double time,
                                         double speed, double period);
+
+/// Whether the car coasts at `time` [s]: its braking has begun, with a deceleration of 0.
+bool Coasts(const SpeedControlOptions& options, double time);
 
 /// Wanted acceleration [m/s^2] of a car with `speed` that follows a speed which goes from wanted(x)
 /// to wanted(x + ahead) within `period`: that change over the period, plus gain [1/s] times the

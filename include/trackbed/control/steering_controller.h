@@ -82,11 +82,11 @@ enum class PreviewLaw {
 /// and v T/L, are driven with the same relative error. Derivation and sources:
 /// docs/algorithms/control.md.
 ///
-/// A preview that a path asks for cannot bring a car back from beside it: the wheels are always
-/// late, and it swings out for good. So R is never shorter than 1.5 cbrt(e L v/omega) for a car e
-/// off its path, which leaves a car that is on its path alone and returns one that is metres off.
+/// That distance suits a car on its path. Back to the path from an offset e, it would ask for
+/// steering at more than the limited rate, and the car would oscillate about the path. So R is
+/// never shorter than 1.5 cbrt(e L v/omega), which is 0 for a car on its path.
 struct PreviewOptions {
-  std::optional<double> distance;  ///< shortest R [m], > 0; none: by the law above
+  std::optional<double> distance;  ///< shortest R [m], > 0; default: the law above
   double time = 0.0;               ///< R is at least time |v| [s]
   PreviewLaw law = PreviewLaw::kExactArc;
   /// With the tyres' slip: u from where the rear axle really moves, and the steering that leads a

@@ -21,6 +21,7 @@ enum class DriveStatus {
   kTimeLimit,    ///< drive.time_limit is over
   kDiverged,     ///< the physics failed (MuJoCo warned); the log ends before
   kCollided,     ///< the car touched an obstacle; the log goes on for a second
+  kRolledOver,   ///< the car leans by more than 60 degrees
   kInterrupted,  ///< the caller asked to stop
 };
 

@@ -21,8 +21,8 @@
 namespace trackbed {
 
 struct VehicleSpec {
-  std::string model = "prius";  ///< a name under models/, or a path relative to the scenario file
-  TyreLaw tyre = TyreLaw::kContact;     ///< of the plant `mujoco`
+  std::string model = "prius";    ///< a name under models/, or a path relative to the scenario file
+  TyreLaw tyre = TyreLaw::kAuto;  ///< of the plant `mujoco`
   std::optional<double> steering_rate;  ///< at the road wheels, instead of the car's [rad/s]
 };
 

@@ -54,6 +54,7 @@ class Plant {
 
 /// What holds the wheels of the MuJoCo plant to the road.
 enum class TyreLaw {
+  kAuto,          ///< the Magic Formula for cars whose file has its coefficients, else contacts
   kContact,       ///< MuJoCo's friction cone: no slip to speed of below the friction limit
   kMagicFormula,  ///< forces grow with slip (vehicle/magic_formula.h); contacts carry the load
                   ///< alone
@@ -70,9 +71,12 @@ struct PlantSetup {
   const CarModel& car;
   const World& world;
   StartState start;
-  TyreLaw tyre = TyreLaw::kContact;
+  TyreLaw tyre = TyreLaw::kAuto;
   SteeringInput steering = SteeringInput::kActuator;
 };
+
+/// What `tyre` means for a car: never kAuto.
+TyreLaw TyreLawOf(const CarModel& car, TyreLaw tyre);
 
 struct PlantEntry {
   const char* name;

@@ -116,6 +116,9 @@ struct FrontAngles {
 /// point at the same centre on the rear axle's line (cot outer - cot inner = track/L).
 FrontAngles AckermannAngles(const VehicleParams& params, double steering);
 
+/// How fast they turn with the bicycle angle: the derivatives of AckermannAngles [1].
+FrontAngles AckermannSlopes(const VehicleParams& params, double steering);
+
 /// The bicycle angle [rad] that two front wheels stand for: each wheel's own (the inverse of
 /// AckermannAngles), averaged. Unlike the mean of cotangents it stays well conditioned around zero,
 /// where a trace of toe would otherwise read as full lock.

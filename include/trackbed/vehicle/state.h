@@ -19,9 +19,9 @@ struct WheelState {
 };
 
 /// What every plant tells of its car, at one moment. Axes x forward, y left, z up; angles positive
-/// to the left (roll: right side down; pitch: nose down). Speeds and accelerations along x and y
-/// are those of points on the ground, turning with the car's yaw: what roll adds to them at the
-/// height of the centre of gravity is not in them.
+/// to the left (roll: right side down; pitch: nose down). Speeds along x and y are those of points
+/// on the ground, turning with the car's yaw; accelerations are those of the centre of gravity
+/// itself, at its height, along the same axes: rolling and pitching are in them.
 struct VehicleState {
   double time = 0.0;           ///< [s]
   Pose2 pose;                  ///< rear-axle centre on the ground, in the world; yaw is not wrapped
@@ -48,6 +48,9 @@ struct Command {
   int gear =
       1;  ///< +1: never rolls backwards, -1: never forwards. Slowing down ends in standstill,
           ///< held by the brakes until the acceleration points along the gear again
+  /// Neither motor nor brakes: the acceleration is what drag, rolling resistance and slope leave,
+  /// and `acceleration` is not looked at. Plants that know no such forces keep their speed.
+  bool coast = false;
 };
 
 }  // namespace trackbed

@@ -1,0 +1,46 @@
+#include "src/analysis/peaks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trackbed {
+
+void MeasureLateralAcceleration(const RunLog& log, std::size_t window, PlantMetrics& metrics) {
+  const std::size_t rows = std::min(window + 1, log.rows.size());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < log.rows.size(); ++i) {
+    sum += log.rows[i].state.lateral_acceleration;
+    if (i >= rows) {
+      sum -= log.rows[i - rows].state.lateral_acceleration;
+    }
+    const double mean = std::abs(sum) / static_cast<double>(rows);
+    if (i + 1 >= rows && mean > metrics.lateral_acceleration_max) {
+      const LogRow& middle = log.rows[i - rows / 2];
+      metrics.lateral_acceleration_max = mean;
+      metrics.lateral_acceleration_max_s = StationOf(middle);
+      metrics.lateral_acceleration_max_t = middle.state.time;
+    }
+  }
+}
+
+void MeasureSteering(const RunLog& log, std::size_t window, PlantMetrics& metrics) {
+  for (std::size_t i = 0; i < log.rows.size(); ++i) {
+    const VehicleState& state = log.rows[i].state;
+    if (log.contact_time && state.time > *log.contact_time) {
+      break;  // an obstacle may turn the wheels
+    }
+    metrics.steering_max = std::max(metrics.steering_max, std::abs(state.steering));
+    if (i < window) {
+      continue;
+    }
+    const VehicleState& before = log.rows[i - window].state;
+    const double rate = std::abs(state.steering - before.steering) / (state.time - before.time);
+    if (rate > metrics.steering_rate_max) {
+      metrics.steering_rate_max = rate;
+      metrics.steering_rate_max_s = StationOf(log.rows[i]);
+      metrics.steering_rate_max_t = state.time;
+    }
+  }
+}
+
+}  // namespace trackbed

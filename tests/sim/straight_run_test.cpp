@@ -1,0 +1,200 @@
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+
+#include "tests/tolerance.h"
+#include "trackbed/sim/plant.h"
+
+// What a car does whose wheels are not turned, and how its front wheels turn when they are.
+namespace trackbed {
+namespace {
+
+CarModel Car(const std::string& name, double timestep = 0.002) {
+  return {ComposeScene(FindModel(name, ""), {.timestep = timestep}), name};
+}
+
+class Straight
+    : public testing::TestWithParam<std::tuple<const char*, const char*, double, double, double>> {
+};
+
+INSTANTIATE_TEST_SUITE_P(Runs, Straight,
+                         testing::Combine(testing::Values("prius", "bmw320i"),
+                                          testing::Values("mujoco:magic_formula", "mujoco:contact"),
+                                          testing::Values(3.0, 20.0, 30.0),
+                                          testing::Values(0.0, 0.7),
+                                          testing::Values(0.001, 0.002, 0.004)));
+
+TEST_P(Straight, RunsDoNotLeaveTheirLine) {
+  const auto& [name, plant_name, speed, yaw, timestep] = GetParam();
+  const CarModel car = Car(name, timestep);
+  const World world;
+  const auto plant = MakePlant(
+      plant_name, {.car = car, .world = world, .start = {.pose = {0.0, 0.0, yaw}, .speed = speed}});
+  const auto steps = std::lround(60.0 / timestep);
+  double aside = 0.0;
+  for (long i = 0; i < steps; ++i) {
+    plant->Step({.acceleration = i % 10 == 0 ? speed - plant->Observe().speed : 0.0});
+    const Pose2 pose = plant->pose();
+    aside = std::max(aside, std::abs(ToLocal({0.0, 0.0, yaw}, pose.position()).y()));
+  }
+  ASSERT_FALSE(plant->diverged());
+  EXPECT_GT(plant->Observe().distance, 59.0 * speed);
+  // Left and right are mirror images: what is left is rounding, 1e-16 of 1800 m at each of 60 000
+  // steps, and the heading that it leaves, times the way.
+  EXPECT_LE(aside, Tolerance(1e-6));
+}
+
+class Linkage : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
+
+INSTANTIATE_TEST_SUITE_P(Cars, Linkage,
+                         testing::Combine(testing::Values("prius", "bmw320i"),
+                                          testing::Values("mujoco:magic_formula",
+                                                          "mujoco:contact")));
+
+TEST_P(Linkage, PointsBothWheelsAtOneCenter) {
+  const auto& [name, plant_name] = GetParam();
+  const CarModel car = Car(name);
+  const VehicleParams& params = car.params();
+  const World world;
+  const auto plant = MakePlant(plant_name, {.car = car, .world = world, .start = {.speed = 2.0}});
+  const std::vector<std::string> columns = car.configuration_columns();
+  const auto column = [&](const char* joint) {
+    return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), joint) -
+                                    columns.begin());
+  };
+  // From lock to lock and back to the middle, at the actuator's rate.
+  const double sweep = params.steering_limit / params.steering_rate;
+  double largest = 0.0;
+  for (double t = 0.0; t < 4.0 * sweep; t += 0.002) {
+    const double wanted = t < sweep ? 2.0 : t < 3.0 * sweep ? -2.0 : 0.0;
+    plant->Step({.steering = wanted, .acceleration = 2.0 - plant->Observe().speed});
+    const std::vector<double> at = plant->Configuration();
+    const FrontAngles exact = AckermannAngles(params, at[column("rack_rad")]);
+    ASSERT_NEAR(at[column("steer_fl_rad")], exact.left, Tolerance(1e-9)) << t;
+    ASSERT_NEAR(at[column("steer_fr_rad")], exact.right, Tolerance(1e-9)) << t;
+    largest = std::max(largest, std::abs(at[column("rack_rad")]));
+  }
+  EXPECT_NEAR(largest, params.steering_limit, Tolerance(0.005));
+}
+
+TEST(Linkage, LeavesFrontTyresAtPeaceOnContacts) {
+  // A turn at 3 m/s on 15 m: m v^2/r = 800 N in all, so that tyres which push against each other
+  // beyond what the turn needs show.
+  const CarModel car = Car("prius");
+  const World world;
+  const double steering = SteeringForCurvature(car.params(), 1.0 / 15.0);
+  const auto plant =
+      MakePlant("mujoco:contact",
+                {.car = car, .world = world, .start = {.speed = 3.0, .steering = steering}});
+  double fight = 0.0;  // of the lateral forces' difference, over the last second
+  for (int i = 0; i < 2000; ++i) {
+    plant->Step({.steering = steering, .acceleration = 3.0 - plant->Observe().speed});
+    if (i >= 1500) {
+      const auto wheels = *plant->Observe().wheels;
+      fight += (wheels[0].lateral_force - wheels[1].lateral_force) / 500.0;
+    }
+  }
+  // The outer tyre bears more of 800 N/2 by the load that the turn moves to it, 10 %; 120 N is
+  // three times that.
+  EXPECT_LE(std::abs(fight), Tolerance(120.0));
+}
+
+TEST(AckermannSlopes, AreTheAnglesDerivatives) {
+  const VehicleParams params = Car("prius").params();
+  constexpr double kStep = 1e-5;
+  for (double steering = -0.48; steering < 0.485; steering += 0.06) {
+    const FrontAngles slope = AckermannSlopes(params, steering);
+    const FrontAngles low = AckermannAngles(params, steering - kStep);
+    const FrontAngles high = AckermannAngles(params, steering + kStep);
+    // A central difference: h^2 f'''/6 with f''' of at most 10, and rounding of 1e-16/h.
+    EXPECT_NEAR(slope.left, 0.5 * (high.left - low.left) / kStep, Tolerance(2e-9));
+    EXPECT_NEAR(slope.right, 0.5 * (high.right - low.right) / kStep, Tolerance(2e-9));
+  }
+}
+
+class Coasting : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
+
+INSTANTIATE_TEST_SUITE_P(Cars, Coasting,
+                         testing::Combine(testing::Values("prius", "bmw320i"),
+                                          testing::Values("mujoco:magic_formula",
+                                                          "mujoco:contact")));
+
+TEST_P(Coasting, LosesSpeedToDragAndRollingResistance) {
+  const auto& [name, plant_name] = GetParam();
+  const CarModel car = Car(name);
+  const VehicleParams& params = car.params();
+  const CarParts& parts = car.parts();
+  const World world;
+  constexpr double kSpeed = 25.0;  // [m/s]
+  constexpr double kTime = 10.0;   // [s]
+  const auto plant =
+      MakePlant(plant_name, {.car = car, .world = world, .start = {.speed = kSpeed}});
+  for (int i = 0; i < 5000; ++i) {
+    plant->Step({.coast = true});
+  }
+  // m v' = -F - c v^2, so v = sqrt(F/c) tan(atan(v_0 sqrt(c/F)) - t sqrt(F c)/m).
+  double mass = params.mass;
+  double rolling = 0.0;
+  for (std::size_t w = 0; w < 4; ++w) {
+    mass += parts.spin_inertia[w] / std::pow(params.wheel_radius, 2);
+    rolling += car.get()->dof_frictionloss[parts.spin_dof[w]] / params.wheel_radius;
+    if (std::string(plant_name) == "mujoco:magic_formula") {
+      const double arm = w < 2 ? params.cg_to_rear : params.cg_to_front();
+      rolling += parts.tyres->axle[w / 2].rolling_resistance * 0.5 * params.mass * kGravity * arm /
+                 params.wheelbase;
+    }
+  }
+  const double drag = 0.5 * kAirDensity * parts.aerodynamics.drag_area;
+  const double scale = std::sqrt(rolling / drag);
+  const double expected =
+      scale * std::tan(std::atan(kSpeed / scale) - kTime * std::sqrt(rolling * drag) / mass);
+  const double lost = kSpeed - expected;
+  EXPECT_GT(lost, 0.3);
+  // Tyres settle into their slip and the body onto its springs within the first half second: two
+  // hundredths of what is lost.
+  EXPECT_NEAR(plant->Observe().speed, expected, Tolerance(0.02 * lost));
+}
+
+TEST(Acceleration, IsThatOfTheCenterOfGravityAtItsHeight) {
+  const CarModel car = Car("bmw320i");
+  const World world;
+  const auto plant =
+      MakePlant("mujoco:magic_formula", {.car = car, .world = world, .start = {.speed = 20.0}});
+  const auto center = [&] {
+    const std::vector<double> at = plant->Configuration();
+    const Eigen::Quaterniond turn(at[3], at[4], at[5], at[6]);
+    return Eigen::Vector3d(
+        Eigen::Vector3d(at[0], at[1], at[2]) +
+        turn.normalized() * Eigen::Vector3d(car.params().cg_to_rear, 0.0, car.parts().cg_height));
+  };
+  constexpr double kStep = 0.002;
+  Eigen::Vector3d before = center();
+  Eigen::Vector3d now = before;
+  double largest = 0.0;
+  for (int i = 0; i < 500; ++i) {
+    const Pose2 pose = plant->pose();
+    plant->Step({.steering = 0.05});
+    const Eigen::Vector3d next = center();
+    const VehicleState state = plant->Observe();
+    if (i > 50) {
+      const Vec2 acceleration = (next - 2.0 * now + before).head<2>() / (kStep * kStep);
+      const double lateral = LeftOf(Direction(pose.yaw)).dot(acceleration);
+      largest = std::max(largest, std::abs(lateral));
+      // The log's is of the step that led here; a second difference is of its middle, and the body
+      // turns by up to 0.5 rad/s 2 ms meanwhile: 1e-3 of 8 m/s^2, and as much of what changes over
+      // a step.
+      EXPECT_NEAR(state.lateral_acceleration, lateral, Tolerance(0.03)) << i;
+    }
+    before = now;
+    now = next;
+  }
+  EXPECT_GT(largest, 3.0);
+}
+
+}  // namespace
+}  // namespace trackbed
