@@ -82,7 +82,7 @@ do for [what = 1:2] {
       last_v = 1e9; last_e = 0
       plot sweep using (in_panel(tyre, real(mu)) ? column("mission.speed") : NaN):(1/column("plan.radius")) \
              :(what == 1 ? wrong(0) : off_path(0)) with points pt 5 ps 4.6 lc palette notitle, \
-           [1.7:35] 0.5*real(mu)*9.81/x**2 with lines lw 2 dt 3 lc rgb "#000000" title "0.5 µ g (Polack)", \
+           [1.7:35] 0.5*friction*real(mu)*9.81/x**2 with lines lw 2 dt 3 lc rgb "#000000" title "0.5 µ g (Polack)", \
            $taghia using 1:2 with lines lw 2 dt 2 lc rgb "#1b7837" title "3 m/s (Taghia)", \
            $werner using 1:2 with lines lw 2 dt 4 lc rgb "#762a83" title "4.5 m/s (Werner)", \
            sweep using (in_panel(tyre, real(mu)) ? passes(column("mission.speed"), what == 1 ? wrong(0) : off_path(0), low) : NaN) \
