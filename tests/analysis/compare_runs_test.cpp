@@ -311,5 +311,16 @@ TEST(WriteComparison, SaysNothingOfPassingWhereNothingWasJudged) {
   EXPECT_EQ(written(DifferenceBounds{.heading_max = 0.0})["verdict"]["passed"], true);
 }
 
+TEST(CompareFolders, NamesThePlantsThatOneRunAloneDrove) {
+  const TempFolder folder;
+  const fs::path both =
+      Line(folder, "both", 0.0, {{"kinematic", "arrived"}, {"mujoco", "arrived"}});
+  const fs::path one = Line(folder, "one", 0.0, {{"kinematic", "arrived"}});
+  EXPECT_THAT(CompareFolders({both, one}, {}, {}).verdict.notes,
+              testing::Contains("not compared: mujoco, which only " + both.string() + " drove"));
+  EXPECT_THAT(CompareFolders({both, one}, {"kinematic"}, {}).verdict.notes,
+              testing::Not(testing::Contains(testing::HasSubstr("not compared"))));
+}
+
 }  // namespace
 }  // namespace trackbed

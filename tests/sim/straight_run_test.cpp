@@ -18,19 +18,25 @@ CarModel Car(const std::string& name, double timestep = 0.002) {
   return {ComposeScene(FindModel(name, ""), {.timestep = timestep}), name};
 }
 
-class Straight
-    : public testing::TestWithParam<std::tuple<const char*, const char*, double, double, double>> {
+struct Run {
+  double speed;     // [m/s]
+  double yaw;       // [rad]
+  double timestep;  // [s]
 };
 
-INSTANTIATE_TEST_SUITE_P(Runs, Straight,
-                         testing::Combine(testing::Values("prius", "bmw320i"),
-                                          testing::Values("mujoco:magic_formula", "mujoco:contact"),
-                                          testing::Values(3.0, 20.0, 30.0),
-                                          testing::Values(0.0, 0.7),
-                                          testing::Values(0.001, 0.002, 0.004)));
+class Straight : public testing::TestWithParam<std::tuple<const char*, const char*, Run>> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    Runs, Straight,
+    testing::Combine(testing::Values("prius", "bmw320i"),
+                     testing::Values("mujoco:magic_formula", "mujoco:contact"),
+                     testing::Values(Run{3.0, 0.7, 0.002}, Run{20.0, 0.0, 0.002},
+                                     Run{20.0, 0.7, 0.001}, Run{20.0, 0.7, 0.004},
+                                     Run{30.0, 0.7, 0.002})));
 
 TEST_P(Straight, RunsDoNotLeaveTheirLine) {
-  const auto& [name, plant_name, speed, yaw, timestep] = GetParam();
+  const auto& [name, plant_name, run] = GetParam();
+  const auto& [speed, yaw, timestep] = run;
   const CarModel car = Car(name, timestep);
   const World world;
   const auto plant = MakePlant(
