@@ -85,7 +85,8 @@ double SteeringSlope(const VehicleParams& vehicle, double curvature, double shar
   return vehicle.wheelbase * std::abs(sharpness) / (1.0 + tangent * tangent);
 }
 
-/// Every segment in equal pieces, so that none is passed over, however short.
+/// Each segment divided into equal pieces of at most kSpacing, so that short segments are checked
+/// too.
 std::vector<Piece> PiecesOf(const Path& path, const VehicleParams& vehicle) {
   std::vector<Piece> pieces;
   double start = 0.0;

@@ -88,7 +88,7 @@ TEST_P(Linkage, PointsBothWheelsAtOneCenter) {
   EXPECT_NEAR(largest, params.steering_limit, Tolerance(0.005));
 }
 
-TEST(Linkage, LeavesFrontTyresAtPeaceOnContacts) {
+TEST(Linkage, SharesTheLateralForceBetweenTheFrontTyres) {
   // A turn at 3 m/s on 15 m: m v^2/r = 800 N in all, so that tyres which push against each other
   // beyond what the turn needs show.
   const CarModel car = Car("prius");
@@ -97,17 +97,17 @@ TEST(Linkage, LeavesFrontTyresAtPeaceOnContacts) {
   const auto plant =
       MakePlant("mujoco:contact",
                 {.car = car, .world = world, .start = {.speed = 3.0, .steering = steering}});
-  double fight = 0.0;  // of the lateral forces' difference, over the last second
+  double difference = 0.0;  // mean of the last second [N]
   for (int i = 0; i < 2000; ++i) {
     plant->Step({.steering = steering, .acceleration = 3.0 - plant->Observe().speed});
     if (i >= 1500) {
       const auto wheels = *plant->Observe().wheels;
-      fight += (wheels[0].lateral_force - wheels[1].lateral_force) / 500.0;
+      difference += (wheels[0].lateral_force - wheels[1].lateral_force) / 500.0;
     }
   }
   // The outer tyre bears more of 800 N/2 by the load that the turn moves to it, 10 %; 120 N is
   // three times that.
-  EXPECT_LE(std::abs(fight), Tolerance(120.0));
+  EXPECT_LE(std::abs(difference), Tolerance(120.0));
 }
 
 TEST(AckermannSlopes, AreTheAnglesDerivatives) {
