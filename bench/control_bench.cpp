@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "bench/in_turn.h"
+#include "trackbed/control/controllers.h"
+#include "trackbed/control/optimal_steering.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/drive/drive.h"
+#include "trackbed/planning/common/plan.h"
 
 // What one update of the steering costs, and what optimal_steering puts on top of NLopt.
 namespace trackbed::bench {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "tests/planning/frenet_scenes.h"
-#include "trackbed/planning/lattice.h"
+#include "trackbed/planning/frenet/lattice.h"
 
 // One cycle of planning in the Frenet frame: meant to take at most 1 ms for 525 candidates, and
 // 10 ms in the lattice.

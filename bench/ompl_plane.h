@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "trackbed/planning/rrt_star.h"
+#include "trackbed/planning/sampling/rrt_star.h"
 
 // The maps of tests/planning/maps.h for the planners of OMPL.
 namespace trackbed::bench {

@@ -16,10 +16,10 @@
 #include "tests/planning/maps.h"
 #include "tests/planning/poses.h"
 #include "tests/vehicle/seed_car.h"
-#include "trackbed/planning/astar.h"
-#include "trackbed/planning/dubins.h"
-#include "trackbed/planning/hybrid_astar.h"
-#include "trackbed/planning/reeds_shepp.h"
+#include "trackbed/planning/curves/dubins.h"
+#include "trackbed/planning/curves/reeds_shepp.h"
+#include "trackbed/planning/grid/astar.h"
+#include "trackbed/planning/grid/hybrid_astar.h"
 
 // Shortest curves against OMPL's, A* against a plain Dijkstra, and what hybrid A* takes.
 namespace trackbed::bench {

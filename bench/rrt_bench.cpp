@@ -15,7 +15,7 @@
 #include "bench/in_turn.h"
 #include "bench/ompl_plane.h"
 #include "tests/planning/maps.h"
-#include "trackbed/planning/rrt.h"
+#include "trackbed/planning/sampling/rrt.h"
 
 // Our RRT against that of OMPL: the same maps, edges, goal bias and test of an edge.
 namespace trackbed::bench {

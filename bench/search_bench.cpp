@@ -8,6 +8,7 @@
 #include "bench/in_turn.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/optimize/search.h"
+#include "trackbed/planning/fillet/fillet.h"
 
 // What the table of searches and the planner put on top of NLopt.
 namespace trackbed::bench {
@@ -138,7 +139,7 @@ void CompareSearch(benchmark::State& state, const Compared& compared) {
 void TimeRoute(benchmark::State& state, SearchMethod method, double limit) {
   Scenario scenario =
       ReadScenario(DataFolder() / "scenarios" / "three_turns.yaml", {"plan.objective=turn_local"});
-  std::get<FilletOptions>(scenario.plan->global).search.method = method;
+  scenario.plan->global.Get<FilletOptions>().search.method = method;
   const CarModel car = LoadCar(scenario);
   for ([[maybe_unused]] auto round : state) {
     benchmark::DoNotOptimize(PlanMission(scenario, car.params()).status);

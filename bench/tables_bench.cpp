@@ -6,8 +6,13 @@
 #include <string>
 
 #include "bench/in_turn.h"
+#include "trackbed/control/controllers.h"
+#include "trackbed/control/steering_controller.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/optimize/search.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/registry/planners.h"
 
 namespace trackbed::bench {
 namespace {

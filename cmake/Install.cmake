@@ -1,5 +1,5 @@
 # `cmake --install` puts in place: the program; the package `trackbed` for tests of one's own (every
-# room down to `testing`, as trackbed::ROOM); and the models and scenarios. Everything is found from
+# module up to `testing`, as trackbed::MODULE); and the models and scenarios. Everything is found from
 # where the package or the program lies, so that all of it can be moved together.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -8,11 +8,13 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/trackbed)
 set(data_folder ${CMAKE_INSTALL_DATADIR}/trackbed)
 
 set(installed trackbed_version)
-get_property(rooms GLOBAL PROPERTY TRACKBED_ROOMS)
-foreach(room IN LISTS rooms)
-  list(APPEND installed trackbed_${room})
-  install(DIRECTORY include/trackbed/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trackbed)
-  if(room STREQUAL "testing")
+get_property(modules GLOBAL PROPERTY TRACKBED_MODULES)
+foreach(module IN LISTS modules)
+  string(REPLACE "/" "_" name ${module})
+  list(APPEND installed trackbed_${name})
+  get_filename_component(folder trackbed/${module} DIRECTORY)
+  install(DIRECTORY include/trackbed/${module} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
+  if(module STREQUAL "testing")
     break()
   endif()
 endforeach()

@@ -2,7 +2,9 @@
 #include <cstdio>
 
 #include "trackbed/drive/drive.h"
-#include "trackbed/planning/curvature_steps.h"
+#include "trackbed/planning/common/course_schedule.h"
+#include "trackbed/planning/common/curvature_steps.h"
+#include "trackbed/planning/common/plan.h"
 
 using namespace trackbed;
 

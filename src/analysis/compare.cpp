@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "trackbed/control/steering_controller.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "trackbed/analysis/manoeuvre.h"
+#include "trackbed/planning/common/plan.h"
 
 /// The evaluations behind EvaluateManoeuvre: each fills in values, passed, missing, begin and end.
 namespace trackbed {

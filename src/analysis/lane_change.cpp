@@ -1,3 +1,5 @@
+#include "trackbed/planning/course/lane_change.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,6 +8,7 @@
 #include <vector>
 
 #include "src/analysis/evaluations.h"
+#include "trackbed/planning/common/plan.h"
 #include "trackbed/world/world.h"
 
 namespace trackbed {

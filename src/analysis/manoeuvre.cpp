@@ -7,6 +7,7 @@
 #include "src/analysis/evaluations.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/planning/common/plan.h"
 
 namespace trackbed {
 namespace {

@@ -9,6 +9,7 @@
 #include "src/analysis/json_leaves.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/text_table.h"
+#include "trackbed/planning/registry/planners.h"
 
 namespace trackbed {
 namespace {

@@ -6,9 +6,11 @@
 
 #include "src/analysis/metric_expectations.h"
 #include "src/analysis/peaks.h"
+#include "trackbed/control/steering_controller.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
+#include "trackbed/planning/common/plan.h"
 
 namespace trackbed {
 namespace {

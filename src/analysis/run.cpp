@@ -6,10 +6,12 @@
 #include <system_error>
 
 #include "trackbed/analysis/mcap.h"
+#include "trackbed/control/controllers.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/version.h"
 #include "trackbed/optimize/search.h"
+#include "trackbed/planning/common/plan.h"
 
 namespace trackbed {
 namespace {
@@ -59,9 +61,9 @@ Table ScheduleTable(const SteeringSchedule& schedule) {
 }
 
 /// The edges of the search trees.
-Table TreeTable(const std::vector<RrtStarNode>& tree) {
+Table TreeTable(const std::vector<TreeNode>& tree) {
   Table table({"x_m", "y_m", "parent_x_m", "parent_y_m", "cost_m"});
-  for (const RrtStarNode& node : tree) {
+  for (const TreeNode& node : tree) {
     const Vec2& parent = tree[node.parent].position;
     table.AddRow({node.position.x(), node.position.y(), parent.x(), parent.y(), node.cost});
   }
@@ -282,7 +284,7 @@ void WritePlan(const Plan& plan, const Scenario& scenario, const fs::path& folde
   if (!plan.ok()) {
     json["reason"] = plan.reason;
   }
-  json["method"] = PlannerName(scenario.plan->global);
+  json["method"] = PlannerFor(scenario.plan->global).name;
   json["seed"] = scenario.seed;
   if (plan.ok()) {
     const double length = plan.reference.path.length();

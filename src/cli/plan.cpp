@@ -1,3 +1,5 @@
+#include "trackbed/planning/common/plan.h"
+
 #include <fmt/format.h>
 
 #include <array>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/control/control_keys.h"
 #include "src/control/error_model.h"
 
 namespace trackbed {
@@ -40,8 +41,21 @@ class Lqr final : public SteeringController {
 
 }  // namespace
 
-std::unique_ptr<SteeringController> MakeLqr(const LqrOptions& options) {
-  return std::make_unique<Lqr>(options);
+ControllerEntry LqrController() {
+  return {.name = "lqr",
+          .summary = "linear-quadratic regulator with preview of the path's curvature",
+          .defaults = LqrOptions{},
+          .station = StationSource::kProjection,
+          .needs_plan = true,
+          .make = MakeBy<LqrOptions, Lqr>};
+}
+
+void Visit(KeyVisitor& keys, LqrOptions& options) {
+  keys.Field(kCrossTrackWeight, options.cross_track, kWeight);
+  keys.Field(kHeadingWeight, options.heading, Need::kOptional, Range{.min = 0.0, .max = 1e6});
+  keys.Field(kRateWeight, options.steering_rate, kWeight);
+  keys.Field({"preview", "s", "how far ahead the path's curvature is looked at"}, options.preview,
+             Need::kOptional, Range{.min = 0.0, .max = 20.0});
 }
 
 }  // namespace trackbed

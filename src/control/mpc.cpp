@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/control/control_keys.h"
 #include "src/control/error_model.h"
 #include "trackbed/optimize/quadratic_program.h"
 
@@ -75,8 +76,23 @@ class Mpc final : public SteeringController {
 
 }  // namespace
 
-std::unique_ptr<SteeringController> MakeMpc(const MpcOptions& options) {
-  return std::make_unique<Mpc>(options);
+ControllerEntry MpcController() {
+  return {.name = "mpc",
+          .summary = "the same cost within the car's steering angle and rate, predicted ahead",
+          .defaults = MpcOptions{},
+          .station = StationSource::kProjection,
+          .needs_plan = true,
+          .make = MakeBy<MpcOptions, Mpc>};
+}
+
+void Visit(KeyVisitor& keys, MpcOptions& options) {
+  keys.Field(kCrossTrackWeight, options.cross_track, kWeight);
+  keys.Field(kHeadingWeight, options.heading, Need::kOptional, Range{.min = 0.0, .max = 1e6});
+  keys.Field(kRateWeight, options.steering_rate, kWeight);
+  keys.Field({"horizon", "", "how many steps are planned"}, options.horizon, Need::kOptional,
+             Range{.min = 1, .max = MpcOptions::kLongestHorizon});
+  keys.Field({"step", "s", "of the horizon; at least the control period"}, options.step,
+             Need::kOptional, Range{.min = 1e-3, .max = 1.0});
 }
 
 }  // namespace trackbed

@@ -1,9 +1,9 @@
-#include "src/control/optimal_steering_controller.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "src/control/control_keys.h"
 #include "src/control/preview_distance.h"
+#include "trackbed/control/optimal_steering.h"
 #include "trackbed/core/angle.h"
 
 namespace trackbed {
@@ -97,8 +97,44 @@ class OptimalSteeringController final : public SteeringController {
 
 }  // namespace
 
-std::unique_ptr<SteeringController> MakeOptimalSteering(const OptimalSteeringOptions& options) {
-  return std::make_unique<OptimalSteeringController>(options);
+ControllerEntry OptimalSteering() {
+  return {.name = "optimal_steering",
+          .summary = "searches the angle that leads nearest to the path's pose ahead",
+          .defaults = OptimalSteeringOptions{},
+          .station = StationSource::kProjection,
+          .needs_plan = true,
+          .make = MakeBy<OptimalSteeringOptions, OptimalSteeringController>};
+}
+
+void Visit(KeyVisitor& keys, OptimalSteeringOptions& options) {
+  static const EnumNames<Matching> matchings{{Matching::kArcLength, "arc_length"},
+                                             {Matching::kTime, "time"}};
+  keys.Field({"matching", "",
+              "the wanted pose: that of the path where the car is, or where it should be by now"},
+             options.matching, Need::kOptional, matchings);
+  keys.Field(
+      {"horizon", "m",
+       "how far ahead the wanted motion is predicted, at least; else by car, speed and path"},
+      options.horizon, Range{.min = 0.1, .max = 1000.0});
+  keys.Field(kAheadTime, options.time, Need::kOptional, kNotNegative);
+  keys.Section({"search", "",
+                "for the angle, at every update; evaluations 0: 60, or 600 of isres, "
+                "esch and crs2"},
+               options.search);
+  keys.Section({"weights", "", "of the deviation"}, options.weights);
+  keys.Field({"deviation_limit", "",
+              "on the root of the weighted squares; up to it the plan's "
+              "curvature is steered"},
+             options.deviation_limit, Need::kOptional, kNotNegative);
+  keys.Field({"max_steering", "rad", "either way; else the car's"}, options.max_steering,
+             Range{.max = 1.5, .above = 0.0});
+}
+
+void Visit(KeyVisitor& keys, DeviationWeights& weights) {
+  keys.Field({"position", "1/m^2", "of the squared distance from the wanted position"},
+             weights.position, Need::kOptional, kNotNegative);
+  keys.Field({"heading", "1/rad^2", "of the squared heading error"}, weights.heading,
+             Need::kOptional, kNotNegative);
 }
 
 }  // namespace trackbed

@@ -7,6 +7,36 @@
 namespace trackbed {
 namespace {
 
+class PlaybackController final : public SteeringController {
+ public:
+  explicit PlaybackController(const PlaybackOptions& options) : options_(options) {
+    const Recording& recording = options.recording;
+    TRACKBED_CHECK(!recording.steering.empty() && recording.steering.Rises() &&
+                       recording.speed.Rises() && recording.acceleration.Rises(),
+                   "a recording without steering, or whose rows do not rise");
+    TRACKBED_CHECK(recording.speed.empty() || recording.acceleration.empty(),
+                   "a recording of both speed and acceleration");
+  }
+
+  double Steer(const ControlInput& input) override {
+    return PlaybackSteering(options_, Axis(input), input.state.speed, input.period);
+  }
+
+  std::optional<double> Accelerate(const ControlInput& input) override {
+    return PlaybackAcceleration(options_, Axis(input), input.state.speed, input.speed_gain,
+                                input.period);
+  }
+
+ private:
+  /// A change of plan does not wind the recording back: by distance it is the car's, not the
+  /// plan's.
+  [[nodiscard]] double Axis(const ControlInput& input) const {
+    return options_.by == PlaybackAxis::kTime ? input.state.time : input.state.distance;
+  }
+
+  PlaybackOptions options_;
+};
+
 /// How far the axis goes within the period.
 double Ahead(const PlaybackOptions& options, double speed, double period) {
   return options.by == PlaybackAxis::kTime ? period : std::abs(speed) * period;
@@ -29,6 +59,37 @@ std::optional<double> PlaybackAcceleration(const PlaybackOptions& options, doubl
     return recording.acceleration.Mean(x, x + ahead);
   }
   return std::nullopt;
+}
+
+void Visit(KeyVisitor& keys, RecordingColumns& columns) {
+  keys.Field({"time", "s", "when; else t_s"}, columns.time);
+  keys.Field({"distance", "m", "where; else s_m"}, columns.distance);
+  keys.Field({"steering", "rad", "the bicycle angle, positive to the left; else steering_rad"},
+             columns.steering);
+  keys.Field({"speed", "m/s", "the speed to follow; else speed_mps if there is one"},
+             columns.speed);
+  keys.Field({"acceleration", "m/s^2",
+              "the acceleration to follow instead; else acceleration_mps2 if there is one"},
+             columns.acceleration);
+}
+
+void Visit(KeyVisitor& keys, PlaybackOptions& options) {
+  keys.Field({"file", "", "the recording, a CSV file with a header; relative to this file"},
+             options.file, Need::kRequired);
+  static const EnumNames<PlaybackAxis> axes{{PlaybackAxis::kTime, "time"},
+                                            {PlaybackAxis::kDistance, "distance"}};
+  keys.Field({"by", "", "what its rows follow: the time, or the distance driven"}, options.by,
+             Need::kOptional, axes);
+  keys.Section({"columns", "", "the names of its columns"}, options.columns);
+}
+
+ControllerEntry Playback() {
+  return {.name = "playback",
+          .summary = "replays recorded steering and speed or acceleration",
+          .defaults = PlaybackOptions{},
+          .station = StationSource::kOdometer,
+          .needs_plan = false,
+          .make = MakeBy<PlaybackOptions, PlaybackController>};
 }
 
 }  // namespace trackbed

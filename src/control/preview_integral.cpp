@@ -7,8 +7,10 @@
 #include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
+#include "src/control/control_keys.h"
 #include "src/control/preview_distance.h"
 #include "src/control/tracking.h"
+#include "trackbed/control/preview.h"
 
 namespace trackbed {
 namespace {
@@ -107,8 +109,29 @@ class PreviewIntegral final : public SteeringController {
 
 }  // namespace
 
-std::unique_ptr<SteeringController> MakePreviewIntegral(const PreviewIntegralOptions& options) {
-  return std::make_unique<PreviewIntegral>(options);
+ControllerEntry PreviewIntegralController() {
+  return {.name = "preview_integral",
+          .summary = "the steering that, held, fits the previewed way best (MacAdam)",
+          .defaults = PreviewIntegralOptions{},
+          .station = StationSource::kProjection,
+          .needs_plan = true,
+          .make = MakeBy<PreviewIntegralOptions, PreviewIntegral>};
+}
+
+void Visit(KeyVisitor& keys, PreviewIntegralOptions& options) {
+  keys.Field(
+      {"distance", "m",
+       "how far ahead of the rear axle the path is looked at, at least; else by car, speed and "
+       "path"},
+      options.distance, kAhead);
+  keys.Field(kAheadTime, options.time, Need::kOptional, kNotNegative);
+  static const EnumNames<PreviewWeight> weights{{PreviewWeight::kUniform, "uniform"},
+                                                {PreviewWeight::kNear, "near"}};
+  keys.Field(
+      {"weight", "", "of the previewed way: all of it alike, or less and less toward its far end"},
+      options.weight, Need::kOptional, weights);
+  keys.Field({"delay", "s", "the driver's, before the wanted angle takes effect"}, options.delay,
+             Need::kOptional, Range{.min = 0.0, .max = 2.0});
 }
 
 }  // namespace trackbed

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/control/control_keys.h"
 #include "src/control/preview_distance.h"
+#include "trackbed/control/preview.h"
 
 namespace trackbed {
 namespace {
@@ -37,8 +39,20 @@ class PurePursuit final : public SteeringController {
 
 }  // namespace
 
-std::unique_ptr<SteeringController> MakePurePursuit(const PurePursuitOptions& options) {
-  return std::make_unique<PurePursuit>(options);
+ControllerEntry PurePursuitController() {
+  return {.name = "pure_pursuit",
+          .summary = "the circle through the path's point at a lookahead distance",
+          .defaults = PurePursuitOptions{},
+          .station = StationSource::kProjection,
+          .needs_plan = true,
+          .make = MakeBy<PurePursuitOptions, PurePursuit>};
+}
+
+void Visit(KeyVisitor& keys, PurePursuitOptions& options) {
+  keys.Field({"distance", "m",
+              "how far ahead of the rear axle the car aims, at least; else by car, speed and path"},
+             options.distance, kAhead);
+  keys.Field(kAheadTime, options.time, Need::kOptional, kNotNegative);
 }
 
 }  // namespace trackbed

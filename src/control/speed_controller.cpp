@@ -4,6 +4,11 @@
 #include <limits>
 
 namespace trackbed {
+namespace {
+
+constexpr Key kBegin{"at", "s", "when it begins"};
+
+}  // namespace
 
 namespace {
 
@@ -94,6 +99,28 @@ double SpeedAlong(const Signal& wanted, double x, double ahead, double gain, dou
                   double period) {
   const double now = wanted.At(x);
   return (wanted.At(x + ahead) - now) / period + gain * (now - speed);
+}
+
+void Visit(KeyVisitor& keys, Braking& braking) {
+  keys.Field(kBegin, braking.at, Need::kRequired, kNotNegative);
+  keys.Field({"deceleration", "m/s^2", "down to standstill; 0: the car coasts"},
+             braking.deceleration, Need::kRequired, kNotNegative);
+}
+
+void Visit(KeyVisitor& keys, SpeedControlOptions& options) {
+  keys.Field({"acceleration", "m/s^2", "largest wanted; also shapes the plan's speed"},
+             options.acceleration, Need::kOptional, kPositive);
+  keys.Field({"deceleration", "m/s^2",
+              "of the plan's speed; the controller brakes with up to twice as much"},
+             options.deceleration, Need::kOptional, kPositive);
+  keys.Field({"gain", "1/s", "wanted acceleration per speed error"}, options.gain, Need::kOptional,
+             kPositive);
+  static const PairShape knot{"a knot [t, v]", "knots [t, v]", kNotNegative, kSpeedRange};
+  keys.Field({"over_time", "s, m/s",
+              "the speed instead of the mission's, linear between knots and held after the last; "
+              "limited by the car alone"},
+             options.over_time.knots, Need::kOptional, knot);
+  keys.Section({"braking", "", "from a moment on, whatever else is asked"}, options.braking);
 }
 
 }  // namespace trackbed

@@ -38,8 +38,21 @@ class Stanley final : public SteeringController {
 
 }  // namespace
 
-std::unique_ptr<SteeringController> MakeStanley(const StanleyOptions& options) {
-  return std::make_unique<Stanley>(options);
+ControllerEntry StanleyController() {
+  return {.name = "stanley",
+          .summary = "heading error and the front axle's offset (Stanley)",
+          .defaults = StanleyOptions{},
+          .station = StationSource::kProjection,
+          .needs_plan = true,
+          .make = MakeBy<StanleyOptions, Stanley>};
+}
+
+void Visit(KeyVisitor& keys, StanleyOptions& options) {
+  keys.Field({"gain", "1/s", "at which the front axle's offset shrinks; else by the steering rate"},
+             options.gain, kPositive);
+  keys.Field({"softening", "m/s",
+              "added to the speed, so that a slow car steers calmly; else by the car's size"},
+             options.softening, kNotNegative);
 }
 
 }  // namespace trackbed

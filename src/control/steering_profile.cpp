@@ -8,6 +8,24 @@
 namespace trackbed {
 namespace {
 
+constexpr Range kFrequency{.max = 100.0, .above = 0.0};  // [Hz]
+constexpr Key kBegin{"at", "s", "when it begins"};
+constexpr Key kAmplitude{"amplitude", "rad", "of the sine; positive begins to the left"};
+
+/// Steers as a profile over time says.
+template <typename Options>
+class ProfileController final : public SteeringController {
+ public:
+  explicit ProfileController(const Options& options) : options_(options) {}
+
+  double Steer(const ControlInput& input) override {
+    return SteeringAt(options_, input.state.time + input.period);
+  }
+
+ private:
+  Options options_;
+};
+
 double Phase(const SweptSineOptions& options, double tau) {
   const double f0 = options.start_frequency;
   const double f1 = options.end_frequency;
@@ -62,6 +80,110 @@ double SteeringAt(const SweptSineOptions& options, double time) {
   const double tau = time - options.at;
   return tau > 0.0 && tau < options.duration ? options.amplitude * std::sin(Phase(options, tau))
                                              : 0.0;
+}
+
+void Visit(KeyVisitor& keys, ConstantSteeringOptions& options) {
+  keys.Field({"steering", "rad", "bicycle angle to hold, positive to the left"}, options.steering,
+             Need::kRequired, kSteering);
+}
+
+ControllerEntry ConstantSteering() {
+  return {.name = "constant_steering",
+          .summary = "holds one steering angle",
+          .defaults = ConstantSteeringOptions{},
+          .station = StationSource::kOdometer,
+          .needs_plan = false,
+          .make = MakeBy<ConstantSteeringOptions, ProfileController<ConstantSteeringOptions>>};
+}
+
+void Visit(KeyVisitor& keys, StepSteeringOptions& options) {
+  keys.Field({"amplitude", "rad", "where the wheels are turned to, positive to the left"},
+             options.amplitude, Need::kRequired, kSteering);
+  keys.Field({"rate", "rad/s", "at which they are; else as fast as the car can"}, options.rate,
+             kPositive);
+  keys.Field(kBegin, options.at, Need::kOptional, kNotNegative);
+}
+
+ControllerEntry StepSteering() {
+  return {.name = "step",
+          .summary = "turns the wheels once, at a rate, and holds them (ISO 7401)",
+          .defaults = StepSteeringOptions{},
+          .station = StationSource::kOdometer,
+          .needs_plan = false,
+          .make = MakeBy<StepSteeringOptions, ProfileController<StepSteeringOptions>>};
+}
+
+void Visit(KeyVisitor& keys, RampSteeringOptions& options) {
+  keys.Field({"end", "rad", "where the wheels are turned to, positive to the left"}, options.end,
+             Need::kRequired, kSteering);
+  keys.Field({"rate", "rad/s", "at which they are"}, options.rate, Need::kOptional, kPositive);
+  keys.Field(kBegin, options.at, Need::kOptional, kNotNegative);
+}
+
+ControllerEntry RampSteering() {
+  return {.name = "ramp",
+          .summary = "turns the wheels slowly to an angle (SAE J266, ISO 4138)",
+          .defaults = RampSteeringOptions{},
+          .station = StationSource::kOdometer,
+          .needs_plan = false,
+          .make = MakeBy<RampSteeringOptions, ProfileController<RampSteeringOptions>>};
+}
+
+void Visit(KeyVisitor& keys, SineSteeringOptions& options) {
+  keys.Field(kAmplitude, options.amplitude, Need::kRequired, kSteering);
+  keys.Field({"frequency", "Hz", "of the sine"}, options.frequency, Need::kOptional, kFrequency);
+  keys.Field({"cycles", "", "how many"}, options.cycles, Need::kOptional, kPositive);
+  keys.Field(kBegin, options.at, Need::kOptional, kNotNegative);
+}
+
+ControllerEntry SineSteering() {
+  return {.name = "sine",
+          .summary = "sine steering for a number of cycles",
+          .defaults = SineSteeringOptions{},
+          .station = StationSource::kOdometer,
+          .needs_plan = false,
+          .make = MakeBy<SineSteeringOptions, ProfileController<SineSteeringOptions>>};
+}
+
+void Visit(KeyVisitor& keys, SineWithDwellOptions& options) {
+  keys.Field(kAmplitude, options.amplitude, Need::kRequired, kSteering);
+  keys.Field({"frequency", "Hz", "of the sine"}, options.frequency, Need::kOptional, kFrequency);
+  keys.Field({"dwell", "s", "how long it stays at its second peak"}, options.dwell, Need::kOptional,
+             kNotNegative);
+  keys.Field(kBegin, options.at, Need::kOptional, kNotNegative);
+}
+
+ControllerEntry SineWithDwell() {
+  return {.name = "sine_with_dwell",
+          .summary = "one sine that stays at its second peak (ISO 19365)",
+          .defaults = SineWithDwellOptions{},
+          .station = StationSource::kOdometer,
+          .needs_plan = false,
+          .make = MakeBy<SineWithDwellOptions, ProfileController<SineWithDwellOptions>>};
+}
+
+void Visit(KeyVisitor& keys, SweptSineOptions& options) {
+  keys.Field(kAmplitude, options.amplitude, Need::kRequired, kSteering);
+  keys.Field({"start_frequency", "Hz", "with which it begins"}, options.start_frequency,
+             Need::kOptional, kFrequency);
+  keys.Field({"end_frequency", "Hz", "with which it ends"}, options.end_frequency, Need::kOptional,
+             kFrequency);
+  keys.Field({"duration", "s", "how long it lasts"}, options.duration, Need::kOptional, kPositive);
+  static const EnumNames<Sweep> sweeps{{Sweep::kLinear, "linear"},
+                                       {Sweep::kExponential, "exponential"}};
+  keys.Field({"sweep", "",
+              "how the frequency goes: as long at every frequency, or as long in every octave"},
+             options.sweep, Need::kOptional, sweeps);
+  keys.Field(kBegin, options.at, Need::kOptional, kNotNegative);
+}
+
+ControllerEntry SweptSine() {
+  return {.name = "swept_sine",
+          .summary = "sine steering from one frequency to another",
+          .defaults = SweptSineOptions{},
+          .station = StationSource::kOdometer,
+          .needs_plan = false,
+          .make = MakeBy<SweptSineOptions, ProfileController<SweptSineOptions>>};
 }
 
 }  // namespace trackbed

@@ -12,7 +12,11 @@
 #include "src/drive/lookout.h"
 #include "src/drive/path_tracking.h"
 #include "src/drive/scheduled_steering.h"
+#include "trackbed/control/controllers.h"
+#include "trackbed/control/schedule.h"
+#include "trackbed/control/steering_controller.h"
 #include "trackbed/core/error.h"
+#include "trackbed/planning/common/plan.h"
 
 namespace trackbed {
 namespace {
@@ -104,7 +108,7 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
       static_cast<int>(std::lround(drive.control_period / drive.timestep));
   const StationSource source = ControllerFor(scenario.control.steering).station;
   const double arrival = drive.goal_tolerance * car.params().length;  // [m]
-  const bool by_schedule = std::holds_alternative<ScheduleOptions>(scenario.control.steering);
+  const bool by_schedule = scenario.control.steering.Is<ScheduleOptions>();
 
   const VehicleParams believed = BelievedBy(scenario.disturb, car);
   const auto controller = MakeSteeringController(scenario.control.steering);

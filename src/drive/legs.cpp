@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "trackbed/planning/common/plan.h"
+
 namespace trackbed {
 
 std::deque<Plan> InLegs(const Plan& plan) {

@@ -4,7 +4,8 @@
 #include <deque>
 #include <limits>
 
-#include "trackbed/planning/planner.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/planner.h"
 
 /// Plans that stop on the way, to change direction or to turn the wheels, driven leg by leg.
 namespace trackbed {

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "trackbed/planning/avoidance.h"
+#include "trackbed/planning/avoidance/avoidance.h"
+#include "trackbed/planning/common/plan.h"
 #include "trackbed/world/world.h"
 
 namespace trackbed {

@@ -3,7 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "trackbed/planning/replan.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/replan/replan.h"
 #include "trackbed/scenario/scenario.h"
 #include "trackbed/vehicle/state.h"
 

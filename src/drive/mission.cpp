@@ -5,8 +5,10 @@
 
 #include "src/drive/lookout.h"
 #include "trackbed/drive/drive.h"
-#include "trackbed/planning/avoidance.h"
-#include "trackbed/planning/clear_way.h"
+#include "trackbed/planning/avoidance/avoidance.h"
+#include "trackbed/planning/common/clear_way.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/registry/planners.h"
 
 namespace trackbed {
 namespace {

@@ -392,4 +392,22 @@ SearchResult Search(const SearchProblem& problem, const SearchOptions& options,
   return evaluator.Take();
 }
 
+void Visit(KeyVisitor& keys, SearchOptions& options) {
+  static const EnumNames<SearchMethod> methods = [] {
+    EnumNames<SearchMethod> names;
+    for (const SearchEntry& entry : Searches()) {
+      names.emplace_back(entry.method, entry.name);
+    }
+    return names;
+  }();
+  keys.Field({"method", "", "the search; see 'trackbed list optimizers'"}, options.method,
+             Need::kOptional, methods);
+  keys.Field({"population", "", "of isres, esch and crs2"}, options.population, Need::kOptional,
+             Range{.min = 3, .max = 1e5});
+  keys.Field({"evaluations", "", "at most; 0: the method's own number"}, options.evaluations,
+             Need::kOptional, Range{.min = 0, .max = 1e8});
+  keys.Field({"tolerance", "", "on the variables, as a share of their bounds; 0: none"},
+             options.tolerance, Need::kOptional, Range{.min = 0.0, .max = 1.0});
+}
+
 }  // namespace trackbed

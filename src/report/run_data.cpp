@@ -12,7 +12,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/table.h"
-#include "trackbed/planning/plan_status.h"
+#include "trackbed/planning/common/plan_status.h"
 #include "trackbed/sim/car_model.h"
 #include "trackbed/sim/plant.h"
 

@@ -1,13 +1,19 @@
 #include <limits>
 
 #include "src/scenario/complaints.h"
+#include "trackbed/control/controllers.h"
+#include "trackbed/control/steering_controller.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/course/course.h"
+#include "trackbed/planning/fillet/fillet.h"
+#include "trackbed/planning/registry/planners.h"
+#include "trackbed/planning/sampling/rrt_planner.h"
 
 namespace trackbed {
 namespace {
 
 void CheckCourse(Complaints& c) {
-  const auto* course =
-      c.scenario.plan ? std::get_if<CourseOptions>(&c.scenario.plan->global) : nullptr;
+  const auto* course = c.scenario.plan ? c.scenario.plan->global.As<CourseOptions>() : nullptr;
   if (course == nullptr) {
     return;
   }
@@ -31,7 +37,7 @@ void CheckCourse(Complaints& c) {
 }
 
 void CheckSmoothing(Complaints& c, const PlannerOptions& planner, const std::string& key) {
-  const auto* rrt = std::get_if<RrtPlannerOptions>(&planner);
+  const auto* rrt = planner.As<RrtPlannerOptions>();
   if (rrt == nullptr) {
     return;
   }
@@ -64,14 +70,14 @@ void CheckAvoider(Complaints& c) {
     c.Complain("plan.avoid",
                fmt::format("a plan by {} may go backwards, which cannot be led around "
                            "anything on the way; leave one out",
-                           PlannerName(plan->global)));
+                           PlannerFor(plan->global).name));
   }
 }
 
 /// Local planners join their paths to straight legs with straight wheels.
 void CheckNeutralSteering(Complaints& c) {
   const auto& plan = c.scenario.plan;
-  const auto* fillets = plan ? std::get_if<FilletOptions>(&plan->global) : nullptr;
+  const auto* fillets = plan ? plan->global.As<FilletOptions>() : nullptr;
   if (fillets == nullptr || fillets->neutral_steering == 0.0 || !(plan->avoid || plan->replan) ||
       !c.CouldReadPlan({"neutral_steering"})) {
     return;
@@ -79,18 +85,6 @@ void CheckNeutralSteering(Complaints& c) {
   c.Complain(c.KeyOfPlan("neutral_steering"),
              fmt::format("{} goes on from straight wheels between turns; leave one out",
                          plan->avoid ? "plan.avoid" : "plan.replan"));
-}
-
-double SafeDistanceOf(const PlannerOptions& planner) {
-  return std::visit(
-      [](const auto& options) {
-        if constexpr (requires { options.safe_distance; }) {
-          return options.safe_distance;
-        } else {
-          return std::numeric_limits<double>::infinity();
-        }
-      },
-      planner);
 }
 
 void CheckNotEmpty(Complaints& c, const std::string& key, const std::vector<double>& values) {
@@ -104,7 +98,7 @@ void CheckNotEmpty(Complaints& c, const std::string& key, const std::vector<doub
 /// the route is none.
 void CheckDetourTrees(Complaints& c) {
   const auto& detour = c.scenario.plan->replan->detour;
-  const auto* rrt = detour ? std::get_if<RrtPlannerOptions>(&*detour) : nullptr;
+  const auto* rrt = detour ? detour->As<RrtPlannerOptions>() : nullptr;
   if (rrt == nullptr) {
     return;
   }
@@ -128,7 +122,7 @@ void CheckReplan(Complaints& c) {
     c.Complain("plan.replan",
                fmt::format("a plan by {} may go backwards; planning again on the way goes "
                            "forwards only: leave one out",
-                           PlannerName(plan->global)));
+                           PlannerFor(plan->global).name));
   }
   if (!c.CouldRead({"plan.replan.along", "plan.replan.along.method", "plan.replan.detour",
                     "plan.replan.detour.method"})) {
@@ -146,12 +140,12 @@ void CheckReplan(Complaints& c) {
   }
   if (replan.detour &&
       c.CouldRead({"plan.replan.safe_distance", "plan.replan.detour.safe_distance"})) {
-    const double own = SafeDistanceOf(*replan.detour);
-    if (own < replan.settings.safe_distance) {
+    const std::optional<double> own = SafeDistanceOf(*replan.detour);
+    if (own && *own < replan.settings.safe_distance) {
       c.Complain("plan.replan.detour.safe_distance",
                  fmt::format("{:.4g} m is less than plan.replan.safe_distance, {:.4g} m: every "
                              "detour would be blocked",
-                             own, replan.settings.safe_distance));
+                             *own, replan.settings.safe_distance));
     }
   }
   if (const auto* lists = replan.along ? std::get_if<FrenetOptions>(&*replan.along) : nullptr) {
@@ -178,7 +172,7 @@ void CheckHeadings(Complaints& c) {
   if (c.scenario.plan && !PlannerFor(c.scenario.plan->global).has_headings &&
       c.CouldReadPlan({"method"})) {
     c.Complain("mission.headings", fmt::format("a plan by {} does not look at them; leave them out",
-                                               PlannerName(c.scenario.plan->global)));
+                                               PlannerFor(c.scenario.plan->global).name));
   }
 }
 
@@ -189,17 +183,17 @@ void CheckWaypoints(Complaints& c) {
       c.Complain(fmt::format("mission.waypoints[{}]", i), "the same point as the one before it");
     }
   }
-  if (c.scenario.plan && FewestWaypoints(c.scenario.plan->global) == 0 && !waypoints.empty() &&
-      c.CouldReadPlan({"method"})) {
+  if (c.scenario.plan && PlannerFor(c.scenario.plan->global).min_waypoints == 0 &&
+      !waypoints.empty() && c.CouldReadPlan({"method"})) {
     c.Complain("mission.waypoints", fmt::format("a plan by {} has its own course; leave them out",
-                                                PlannerName(c.scenario.plan->global)));
+                                                PlannerFor(c.scenario.plan->global).name));
   }
   CheckHeadings(c);
-  if (c.scenario.plan && waypoints.size() < FewestWaypoints(c.scenario.plan->global)) {
+  if (c.scenario.plan && waypoints.size() < PlannerFor(c.scenario.plan->global).min_waypoints) {
     const std::string given = waypoints.empty() ? "none" : std::to_string(waypoints.size());
     c.Complain("mission.waypoints", fmt::format("{} given; a plan by {} needs at least {}", given,
-                                                PlannerName(c.scenario.plan->global),
-                                                FewestWaypoints(c.scenario.plan->global)));
+                                                PlannerFor(c.scenario.plan->global).name,
+                                                PlannerFor(c.scenario.plan->global).min_waypoints));
   }
 }
 
@@ -233,7 +227,7 @@ void CheckMission(Complaints& c) {
       c.CouldRead({"mission.duration", "control.file", "control.columns"})) {
     c.Complain("mission.duration", "missing; without a plan there is no goal to stop at");
   }
-  const auto* fillet = plan ? std::get_if<FilletOptions>(&plan->global) : nullptr;
+  const auto* fillet = plan ? plan->global.As<FilletOptions>() : nullptr;
   if (fillet != nullptr && c.CouldReadPlan({"radius", "constraint"}) && !fillet->radius &&
       fillet->constraint == RadiusConstraint::kNone) {
     c.Complain(c.KeyOfPlan("constraint"), "'none' needs a radius: nothing else would limit it");

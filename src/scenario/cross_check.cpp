@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "src/scenario/complaints.h"
+#include "trackbed/control/optimal_steering.h"
 #include "trackbed/core/angle.h"
+#include "trackbed/planning/course/lane_change.h"
 
 namespace trackbed {
 namespace {
@@ -38,7 +40,7 @@ void CheckSpeedOverTime(Complaints& c) {
 }
 
 void CheckOptimalSteering(Complaints& c) {
-  const auto* options = std::get_if<OptimalSteeringOptions>(&c.scenario.control.steering);
+  const auto* options = c.scenario.control.steering.As<OptimalSteeringOptions>();
   if (options != nullptr &&
       c.CouldRead({"control.method", "control.weights.position", "control.weights.heading"}) &&
       options->weights.position == 0.0 && options->weights.heading == 0.0) {
@@ -148,7 +150,7 @@ void CheckFit(Complaints& c, const Options& options) {
 
 void CheckManoeuvre(Complaints& c) {
   const auto& plan = c.scenario.plan;
-  const bool has_gates = plan && std::holds_alternative<LaneChangePlannerOptions>(plan->global);
+  const bool has_gates = plan && plan->global.Is<LaneChangePlannerOptions>();
   if (c.scenario.manoeuvre && std::holds_alternative<LaneChangeOptions>(*c.scenario.manoeuvre) &&
       !has_gates && c.CouldReadPlan({"method"})) {
     c.Complain("manoeuvre", "a lane change needs gates; plan: {method: lane_change} has them");

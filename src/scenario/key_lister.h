@@ -6,62 +6,64 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "src/scenario/yaml_field.h"
-#include "trackbed/geometry/pose.h"
+#include "trackbed/options/key_visitor.h"
 #include "trackbed/scenario/keys.h"
 
 namespace trackbed {
 
-/// The third archive beside YamlReader and YamlWriter: lists the keys that a struct's Visit names,
-/// with the struct's own values as the defaults.
-class KeyLister {
+/// Lists the keys that a struct's Visit declares, with the struct's own values as the defaults.
+class KeyLister final : public KeyVisitor {
  public:
   KeyLister(std::vector<KeySection>& sections, KeySection own)
       : sections_(sections), index_(sections.size()) {
     sections_.push_back(std::move(own));
   }
 
-  void Field(const Key& key, double& value, Need need, Range range = {}) {
+  [[nodiscard]] Mode mode() const override { return Mode::kList; }
+
+  using KeyVisitor::Field;
+  void Field(const Key& key, double& value, Need need, Range range = {}) override {
     Add(key, "number", need, fmt::format("{:.6g}", value), AllowedBy(range));
   }
-  void Field(const Key& key, std::optional<double>&, Range range = {}) {
+  void Field(const Key& key, std::optional<double>&, Range range = {}) override {
     Add(key, "number", Need::kOptional, "", AllowedBy(range));
   }
-  void Field(const Key& key, std::optional<bool>&) {
+  void Field(const Key& key, std::optional<bool>&) override {
     Add(key, "true or false", Need::kOptional, "", "");
   }
-  void Field(const Key& key, bool& value, Need need) {
+  void Field(const Key& key, bool& value, Need need) override {
     Add(key, "true or false", need, value ? "true" : "false", "");
   }
-  void Field(const Key& key, int& value, Need need, Range range = {}) {
+  void Field(const Key& key, int& value, Need need, Range range = {}) override {
     Add(key, "whole number", need, fmt::format("{}", value), AllowedBy(range));
   }
-  void Field(const Key& key, std::uint64_t& value, Need need) {
+  void Field(const Key& key, std::uint64_t& value, Need need) override {
     Add(key, "whole number", need, fmt::format("{}", value), AllowedBy({.min = 0.0}));
   }
-  void Field(const Key& key, std::string& value, Need need, const Names& allowed = {}) {
+  void Field(const Key& key, std::string& value, Need need, const Names& allowed = {}) override {
     Add(key, "name", need, value, Joined(allowed));
   }
-  void Field(const Key& key, std::optional<std::string>&) {
+  void Field(const Key& key, std::optional<std::string>&) override {
     Add(key, "name", Need::kOptional, "", "");
   }
-  void Identifier(const Key& key, std::string&) {
+  void Identifier(const Key& key, std::string&) override {
     Add(key, "name", Need::kRequired, "", "letters, digits, '_', '-', '.'");
   }
-  void Field(const Key& key, std::vector<std::string>& value, Need need, const Names& allowed) {
+  void Field(const Key& key, std::vector<std::string>& value, Need need,
+             const Names& allowed) override {
     Add(key, "list of names", need, value.empty() ? "" : fmt::format("[{}]", Joined(value)),
         Joined(allowed));
   }
-  void Field(const Key& key, std::vector<Vec2>&, Need need, const PairShape& shape = kPoint) {
+  void Field(const Key& key, std::vector<Vec2>&, Need need,
+             const PairShape& shape = kPoint) override {
     Add(key, fmt::format("list of {}", shape.many), need, "", "");
   }
-  void Field(const Key& key, std::vector<double>&, Need need, Range range = {}) {
+  void Field(const Key& key, std::vector<double>&, Need need, Range range = {}) override {
     Add(key, "list of numbers", need, "", AllowedBy(range));
   }
-  void Pair(const Key& key, int& first, int& second, Range range) {
+  void Pair(const Key& key, int& first, int& second, Range range) override {
     Add(key, "two whole numbers", Need::kOptional, fmt::format("[{}, {}]", first, second),
         AllowedBy(range));
   }
@@ -70,60 +72,44 @@ class KeyLister {
     Add(key, type, Need::kOptional, "", "");
   }
 
-  template <typename Enum>
-  void Field(const Key& key, Enum& value, Need need,
-             const EnumNames<Enum>& names) requires std::is_enum_v<Enum> {
-    std::string fallback;
-    Names allowed;
-    for (const auto& [candidate, spelling] : names) {
-      fallback = candidate == value ? spelling : fallback;
-      allowed.emplace_back(spelling);
-    }
-    Add(key, "name", need, fallback, Joined(allowed));
+  void Mention(const Key& key, const char* type) override {
+    Add(key, type, Need::kOptional, "", "");
   }
 
-  template <typename Struct>
-  void Section(const Key& key, Struct& value, Need need = Need::kOptional) {
+ protected:
+  bool VisitSection(const Key& key, Need need, bool, const Inside& inside) override {
     Add(key, "section", need, "", "");
     KeyLister inner(sections_, {Dotted(key), "", key.text, {}});
-    Visit(inner, value);
+    inside(inner);
+    return false;
   }
 
-  template <typename Struct>
-  void Section(const Key& key, std::optional<Struct>&) {
-    Struct value;
-    Section(key, value);
-  }
-
-  template <typename Struct>
-  void List(const Key& key, std::vector<Struct>&) {
+  void VisitList(const Key& key, std::size_t size, const std::function<void(std::size_t size)>&,
+                 const std::function<void(KeyVisitor& keys, std::size_t i)>& visit) override {
     Add(key, "list of sections", Need::kOptional, "", "");
     KeyLister inner(sections_, {Dotted(key) + "[N]", "", key.text, {}});
-    Struct element;
-    Visit(inner, element);
+    visit(inner, size);
   }
 
-  template <typename Variant, typename Table, typename Rest>
-  void Method(const Key& key, std::optional<Variant>& value, const Table& table, Need need,
-              const Rest& rest) {
-    std::string fallback;
+  void VisitMethod(const Key& key, Need need, const Methods& methods) override {
     Names names;
-    for (const auto& entry : table) {
-      const bool own = value && entry.defaults.index() == value->index();
-      fallback = own ? fmt::format("{{{}: {}}}", kMethod.name, entry.name) : fallback;
+    for (const Methods::Entry& entry : methods.entries) {
       names.emplace_back(entry.name);
     }
-    Add(key, "section", need, fallback, "");
+    Add(key, "section", need,
+        methods.selected ? fmt::format("{{{}: {}}}", kMethod.name, names[*methods.selected]) : "",
+        "");
     KeyLister inner(sections_, {Dotted(key), "", key.text, {}});
     inner.Add(kMethod, "name", Need::kRequired, "", Joined(names));
-    rest(inner);
-    for (const auto& entry : table) {
-      KeyLister own(sections_, {Dotted(key), entry.name, entry.summary, {}});
-      Variant defaults = entry.defaults;
-      std::visit([&](auto& options) { Visit(own, options); }, defaults);
+    methods.rest(inner);
+    for (std::size_t i = 0; i < methods.entries.size(); ++i) {
+      KeyLister own(sections_,
+                    {Dotted(key), methods.entries[i].name, methods.entries[i].summary, {}});
+      methods.visit_defaults(i, own);
     }
   }
 
+ private:
   /// A key that is described by what is written about it alone.
   void Add(const Key& key, std::string type, Need need, std::string fallback, std::string allowed) {
     const bool required = need == Need::kRequired;
@@ -132,7 +118,6 @@ class KeyLister {
                                       key.text, required});
   }
 
- private:
   static std::string Joined(const Names& names) {
     return fmt::format("{}", fmt::join(names, ", "));
   }

@@ -1,5 +1,6 @@
 #include "trackbed/scenario/keys.h"
 
+#include "src/scenario/key_lister.h"
 #include "src/scenario/study_visit.h"
 #include "src/scenario/visit.h"
 

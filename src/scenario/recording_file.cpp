@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "src/scenario/yaml_field.h"
+#include "trackbed/control/playback.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/table.h"
 
@@ -13,9 +13,9 @@ namespace trackbed {
 namespace {
 
 /// Turns the columns of an excerpt into signals, with every problem on the way.
-class Excerpt {
+class RecordingExcerpt {
  public:
-  Excerpt(const std::filesystem::path& file, CsvExcerpt excerpt, std::string axis)
+  RecordingExcerpt(const std::filesystem::path& file, CsvExcerpt excerpt, std::string axis)
       : file_(file.string()), excerpt_(std::move(excerpt)), axis_name_(std::move(axis)) {
     axis_ = excerpt_.table.Column(axis_name_);
     if (axis_.empty()) {
@@ -97,7 +97,7 @@ Recording ReadRecording(const std::filesystem::path& file, PlaybackAxis by,
   } else {
     optional = {speed, acceleration};
   }
-  Excerpt excerpt(file, ReadCsvExcerpt(file, needed, optional), axis);
+  RecordingExcerpt excerpt(file, ReadCsvExcerpt(file, needed, optional), axis);
   if (!optional.empty() && excerpt.Has(speed) && excerpt.Has(acceleration)) {
     throw InputError(
         Problem{.file = file.string(),

@@ -9,7 +9,13 @@
 #include "src/scenario/overrides.h"
 #include "src/scenario/visit.h"
 #include "src/scenario/yaml_file.h"
+#include "src/scenario/yaml_reader.h"
+#include "src/scenario/yaml_writer.h"
+#include "trackbed/control/playback.h"
+#include "trackbed/control/steering_controller.h"
 #include "trackbed/core/spelling.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/scenario/recording_file.h"
 
 namespace trackbed {
@@ -78,7 +84,7 @@ YAML::Node NodeAt(const YAML::Node& root, const std::string& key) {
 template <typename Complain>
 std::vector<Problem> ReadInputs(Scenario& scenario, const ReaderContext& context,
                                 const Complain& complain) {
-  auto* playback = std::get_if<PlaybackOptions>(&scenario.control.steering);
+  auto* playback = scenario.control.steering.As<PlaybackOptions>();
   if (playback == nullptr || !context.Read("control.file") || !context.Read("control.columns")) {
     return {};
   }
@@ -201,7 +207,7 @@ void CheckScenario(const Scenario& scenario) {
 }
 
 const Recording* RecordingOf(const Scenario& scenario) {
-  const auto* playback = std::get_if<PlaybackOptions>(&scenario.control.steering);
+  const auto* playback = scenario.control.steering.As<PlaybackOptions>();
   return playback != nullptr ? &playback->recording : nullptr;
 }
 
@@ -223,7 +229,7 @@ StartState StartOf(const Scenario& scenario) {
   start.pose = {given.x.value_or(start.pose.x), given.y.value_or(start.pose.y),
                 given.yaw.value_or(start.pose.yaw)};
   if (scenario.plan) {
-    if (const auto* fillets = std::get_if<FilletOptions>(&scenario.plan->global)) {
+    if (const auto* fillets = scenario.plan->global.As<FilletOptions>()) {
       start.steering = fillets->neutral_steering;
     }
   }
@@ -243,7 +249,7 @@ StartState StartOf(const Scenario& scenario) {
 }
 
 std::optional<double> DurationOf(const Scenario& scenario) {
-  const auto* playback = std::get_if<PlaybackOptions>(&scenario.control.steering);
+  const auto* playback = scenario.control.steering.As<PlaybackOptions>();
   if (scenario.mission.duration || scenario.plan || playback == nullptr ||
       playback->by != PlaybackAxis::kTime) {
     return scenario.mission.duration;
@@ -260,12 +266,12 @@ double SpeedOf(const Scenario& scenario) {
 
 namespace {
 
-template <typename Variant>
-std::string OneLine(Variant options) {
+template <typename Options>
+std::string OneLine(Options options) {
   YAML::Emitter out;
   out << YAML::Flow << YAML::BeginMap;
   YamlWriter writer(out);
-  std::visit([&](auto& own) { Visit(writer, own); }, options);
+  Visit(writer, options);
   out << YAML::EndMap;
   const std::string text = out.c_str();  // in braces
   return text.substr(1, text.size() - 2);
@@ -301,7 +307,7 @@ std::string ResolvedYaml(const Scenario& scenario) {
             .string();
   }
   resolved.mission.duration = DurationOf(scenario);
-  if (auto* playback = std::get_if<PlaybackOptions>(&resolved.control.steering);
+  if (auto* playback = resolved.control.steering.As<PlaybackOptions>();
       playback != nullptr && !playback->file.empty()) {
     playback->file = std::filesystem::weakly_canonical(
                          std::filesystem::absolute(scenario.folder / playback->file))

@@ -20,8 +20,7 @@ struct GridRange {
   GridScale scale = GridScale::kLinear;
 };
 
-template <typename Archive>
-void Visit(Archive& a, GridRange& range) {
+inline void Visit(KeyVisitor& a, GridRange& range) {
   a.Field({"from", "", "the first value"}, range.from, Need::kRequired);
   a.Field({"to", "", "the last value, above the first"}, range.to, Need::kRequired);
   a.Field({"steps", "", "how many values, both ends included"}, range.steps, Need::kRequired,
@@ -32,8 +31,7 @@ void Visit(Archive& a, GridRange& range) {
           Need::kOptional, scales);
 }
 
-template <typename Archive>
-void Visit(Archive& a, BisectSpec& bisect) {
+inline void Visit(KeyVisitor& a, BisectSpec& bisect) {
   a.Field({"key", "", "of a number, dotted"}, bisect.key, Need::kRequired);
   a.Field({"from", "", "a value that passes"}, bisect.from, Need::kRequired);
   a.Field({"to", "", "a value that fails, above the first"}, bisect.to, Need::kRequired);

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "src/scenario/key_lister.h"
-#include "src/scenario/visit_control.h"
+#include <algorithm>
+
 #include "src/scenario/visit_disturb.h"
 #include "src/scenario/visit_manoeuvre.h"
 #include "src/scenario/visit_plan.h"
 #include "src/scenario/visit_world.h"
-#include "src/scenario/yaml_reader.h"
-#include "src/scenario/yaml_writer.h"
+#include "trackbed/control/controllers.h"
+#include "trackbed/control/steering_controller.h"
 #include "trackbed/scenario/scenario.h"
 
 /// The keys of a scenario, each named once for reading, writing and listing alike.
@@ -26,8 +26,7 @@ inline Names PlantNames() {
   return names;
 }
 
-template <typename Archive>
-void Visit(Archive& a, VehicleSpec& vehicle) {
+inline void Visit(KeyVisitor& a, VehicleSpec& vehicle) {
   a.Field({"model", "", "a name under models/, or a path relative to this file"}, vehicle.model,
           Need::kOptional);
   static const EnumNames<TyreLaw> laws{{TyreLaw::kAuto, "auto"},
@@ -42,8 +41,7 @@ void Visit(Archive& a, VehicleSpec& vehicle) {
           vehicle.steering_rate, Range{.max = 10.0, .above = 0.0});
 }
 
-template <typename Archive>
-void Visit(Archive& a, StartSpec& start) {
+inline void Visit(KeyVisitor& a, StartSpec& start) {
   a.Field({"x", "m", "rear axle at the start; else the first waypoint's, or 0"}, start.x, kMap);
   a.Field({"y", "m", "likewise"}, start.y, kMap);
   a.Field({"yaw", "rad",
@@ -60,8 +58,7 @@ void Visit(Archive& a, StartSpec& start) {
       start.steering, kSteering);
 }
 
-template <typename Archive>
-void Visit(Archive& a, MissionSpec& mission) {
+inline void Visit(KeyVisitor& a, MissionSpec& mission) {
   std::optional<double> speed = mission.speed > 0.0 ? std::optional(mission.speed) : std::nullopt;
   a.Field({"speed", "m/s",
            "the speed to keep between start and goal; needed by a plan, and unless something else "
@@ -82,8 +79,7 @@ void Visit(Archive& a, MissionSpec& mission) {
   a.Section({"start", "", "where and how the car starts"}, mission.start);
 }
 
-template <typename Archive>
-void Visit(Archive& a, DriveSpec& drive) {
+inline void Visit(KeyVisitor& a, DriveSpec& drive) {
   a.Field({"plants", "", "what to drive the plan on, in this order"}, drive.plants, Need::kOptional,
           PlantNames());
   static const EnumNames<SteeringInput> inputs{{SteeringInput::kActuator, "actuator"},
@@ -108,8 +104,7 @@ void Visit(Archive& a, DriveSpec& drive) {
           drive.goal_heading_tolerance, Need::kOptional, Range{.max = 3.2, .above = 0.0});
 }
 
-template <typename Archive>
-void Visit(Archive& a, MetricExpectation& expect) {
+inline void Visit(KeyVisitor& a, MetricExpectation& expect) {
   a.Field({"metric", "", "path into the plant's entry of metrics.json: manoeuvre.margin"},
           expect.metric, Need::kRequired);
   a.Field({"min", "", "smallest value, in the metric's unit"}, expect.min);
@@ -117,8 +112,7 @@ void Visit(Archive& a, MetricExpectation& expect) {
   a.Field({"equals", "", "the very value: a number, a text, true or false"}, expect.equals);
 }
 
-template <typename Archive>
-void Visit(Archive& a, PlantExpectation& expect) {
+inline void Visit(KeyVisitor& a, PlantExpectation& expect) {
   a.Field({"reach_goal", "m", "largest distance to the goal at the end"}, expect.reach_goal,
           kNotNegative);
   a.Field({"max_cross_track", "m", "largest distance from the path"}, expect.max_cross_track,
@@ -133,8 +127,7 @@ void Visit(Archive& a, PlantExpectation& expect) {
   a.List({"metrics", "", "bounds on whatever else was measured"}, expect.metrics);
 }
 
-template <typename Archive>
-void Visit(Archive& a, BetweenExpectation& expect) {
+inline void Visit(KeyVisitor& a, BetweenExpectation& expect) {
   a.Field({"plants", "", "the two plants to compare"}, expect.plants, Need::kRequired,
           PlantNames());
   a.Field({"position_max", "m", "largest distance between them at equal station"},
@@ -148,37 +141,33 @@ void Visit(Archive& a, BetweenExpectation& expect) {
           expect.bounds.steering_max, kNotNegative);
 }
 
-inline void VisitPlants(YamlReader& a, Expectations& expect) {
+inline void VisitPlants(KeyVisitor& a, Expectations& expect) {
   for (const std::string& plant : PlantNames()) {
-    PlantExpectation own;
-    if (a.SectionIfThere(plant, own)) {
-      expect.plants.emplace_back(plant, own);
+    const Key key{plant.c_str(), "", "the bounds above, for this plant alone"};
+    if (a.mode() == KeyVisitor::Mode::kList) {
+      a.Mention(key, "section");
+      continue;
+    }
+    const auto given = std::find_if(expect.plants.begin(), expect.plants.end(),
+                                    [&](const auto& entry) { return entry.first == plant; });
+    std::optional<PlantExpectation> own;
+    if (given != expect.plants.end()) {
+      own = given->second;
+    }
+    a.Section(key, own);
+    if (own && given == expect.plants.end()) {
+      expect.plants.emplace_back(plant, *own);
     }
   }
 }
 
-inline void VisitPlants(YamlWriter& a, Expectations& expect) {
-  for (auto& [plant, own] : expect.plants) {
-    a.Section({plant.c_str(), "", ""}, own);
-  }
-}
-
-inline void VisitPlants(KeyLister& a, Expectations&) {
-  for (const std::string& plant : PlantNames()) {
-    a.Add({plant.c_str(), "", "the bounds above, for this plant alone"}, "section", Need::kOptional,
-          "", "");
-  }
-}
-
-template <typename Archive>
-void Visit(Archive& a, Expectations& expect) {
+inline void Visit(KeyVisitor& a, Expectations& expect) {
   Visit(a, expect.all);
   VisitPlants(a, expect);
   a.List({"between", "", "how far two plants may part"}, expect.between);
 }
 
-template <typename Archive>
-void Visit(Archive& a, RenderSpec& render) {
+inline void Visit(KeyVisitor& a, RenderSpec& render) {
   a.Field({"camera", "", "point of view; `trackbed list cameras` has them"}, render.camera,
           Need::kOptional);
   a.Pair({"size", "pixels", "width and height, even"}, render.width, render.height,
@@ -187,8 +176,7 @@ void Visit(Archive& a, RenderSpec& render) {
           Range{.min = 1.0, .max = 240.0});
 }
 
-template <typename Archive>
-void Visit(Archive& a, Scenario& scenario) {
+inline void Visit(KeyVisitor& a, Scenario& scenario) {
   int schema = 1;
   a.Field({"schema", "", "version of this format"}, schema, Need::kRequired,
           Range{.min = 1, .max = 1});
@@ -200,12 +188,12 @@ void Visit(Archive& a, Scenario& scenario) {
   VisitPlan(a, scenario.plan);
   std::optional<ControllerOptions> steering = scenario.control.steering;
   a.Method({"control", "", "what steers and what keeps the speed"}, steering, Controllers(),
-           Need::kOptional, [&](auto& inner) {
+           Need::kOptional, [&](KeyVisitor& inner) {
              inner.Section({"speed", "", "how the speed is kept"}, scenario.control.speed);
            });
   scenario.control.steering = *steering;
   a.Method({"manoeuvre", "", "the standard manoeuvre that the drive is evaluated as"},
-           scenario.manoeuvre, Manoeuvres(), Need::kOptional, [](auto&) {});
+           scenario.manoeuvre, Manoeuvres(), Need::kOptional);
   a.Section({"drive", "", "what is driven, and in which steps"}, scenario.drive);
   a.Section({"disturb", "", "what goes wrong on the drive; nothing unless it is asked for"},
             scenario.disturb);

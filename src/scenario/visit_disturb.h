@@ -1,8 +1,5 @@
 #pragma once
 
-#include "src/scenario/key_lister.h"
-#include "src/scenario/yaml_reader.h"
-#include "src/scenario/yaml_writer.h"
 #include "trackbed/scenario/disturbances.h"
 
 /// The keys of the section `disturb`.
@@ -11,16 +8,14 @@ namespace trackbed {
 inline constexpr Range kFactor{.min = 0.1, .max = 10.0};
 inline constexpr Range kOnCar{.min = -100.0, .max = 100.0};  // [m]
 
-template <typename Archive>
-void Visit(Archive& a, SpeedLoss& loss) {
+inline void Visit(KeyVisitor& a, SpeedLoss& loss) {
   a.Field({"from", "s", "from this moment on; else from the start"}, loss.from, kNotNegative);
   a.Field({"station", "m", "instead: from this station (`s_m`) on"}, loss.station, kNotNegative);
   a.Field({"speed", "m/s", "the car's largest from then on"}, loss.speed, Need::kRequired,
           kSpeedRange);
 }
 
-template <typename Archive>
-void Visit(Archive& a, SteeringFaults& faults) {
+inline void Visit(KeyVisitor& a, SteeringFaults& faults) {
   a.Field({"factor", "", "the angle that the road wheels get, over the wanted one"}, faults.factor,
           Need::kOptional, kFactor);
   a.Field({"delay", "s", "of the wanted angle on its way to the actuator"}, faults.delay,
@@ -29,16 +24,14 @@ void Visit(Archive& a, SteeringFaults& faults) {
           faults.dead_band, Need::kOptional, Range{.min = 0.0, .max = 1.5});
 }
 
-template <typename Archive>
-void Visit(Archive& a, MeasurementNoise& noise) {
+inline void Visit(KeyVisitor& a, MeasurementNoise& noise) {
   a.Field({"position", "m", "standard deviation of x and of y"}, noise.position, Need::kOptional,
           Range{.min = 0.0, .max = 100.0});
   a.Field({"heading", "rad", "standard deviation of the yaw"}, noise.heading, Need::kOptional,
           Range{.min = 0.0, .max = 3.0});
 }
 
-template <typename Archive>
-void Visit(Archive& a, Payload& payload) {
+inline void Visit(KeyVisitor& a, Payload& payload) {
   a.Field({"mass", "kg", "of the payload"}, payload.mass, Range{.max = 1e5, .above = 0.0});
   a.Field({"share", "", "instead: its mass over the car's own"}, payload.share,
           Range{.max = 10.0, .above = 0.0});
@@ -48,8 +41,7 @@ void Visit(Archive& a, Payload& payload) {
           payload.z, Range{.min = 0.0, .max = 100.0});
 }
 
-template <typename Archive>
-void Visit(Archive& a, Kick& kick) {
+inline void Visit(KeyVisitor& a, Kick& kick) {
   a.Field({"at", "s", "when it comes"}, kick.at, Need::kRequired, kNotNegative);
   a.Field({"displacement", "m", "the car is set aside by this at once, positive to its left"},
           kick.displacement, Range{.min = -10.0, .max = 10.0});
@@ -61,8 +53,7 @@ void Visit(Archive& a, Kick& kick) {
           Range{.max = 100.0, .above = 0.0});
 }
 
-template <typename Archive>
-void Visit(Archive& a, Disturbances& disturb) {
+inline void Visit(KeyVisitor& a, Disturbances& disturb) {
   a.Section({"speed_loss", "", "the car becomes slower than it is asked to be"},
             disturb.speed_loss);
   a.Field({"wheelbase", "", "what controllers take it for, over what it is"}, disturb.wheelbase,

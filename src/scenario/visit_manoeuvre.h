@@ -1,50 +1,43 @@
 #pragma once
 
-#include "src/scenario/yaml_field.h"
+#include "trackbed/options/key_visitor.h"
 #include "trackbed/scenario/manoeuvre.h"
 
 /// The keys of the manoeuvres.
 namespace trackbed {
 
 /// Of the manoeuvres that fit gradients.
-template <typename Archive, typename Options>
-void VisitGradients(Archive& a, Options& options) {
+template <typename Options>
+void VisitGradients(KeyVisitor& a, Options& options) {
   a.Field({"settle", "s", "samples count after it"}, options.settle, Need::kOptional, kNotNegative);
   a.Field({"fit_from", "m/s^2", "gradients are fitted from this lateral acceleration"},
           options.fit_from, Need::kOptional, kNotNegative);
   a.Field({"fit_to", "m/s^2", "up to this one"}, options.fit_to, Need::kOptional, kPositive);
 }
 
-template <typename Archive>
-void Visit(Archive& a, SteadyStateCircleOptions& options) {
+inline void Visit(KeyVisitor& a, SteadyStateCircleOptions& options) {
   VisitGradients(a, options);
 }
 
-template <typename Archive>
-void Visit(Archive& a, SlowlyIncreasingSteerOptions& options) {
+inline void Visit(KeyVisitor& a, SlowlyIncreasingSteerOptions& options) {
   VisitGradients(a, options);
 }
 
-template <typename Archive>
-void Visit(Archive& a, StepSteerOptions& options) {
+inline void Visit(KeyVisitor& a, StepSteerOptions& options) {
   a.Field({"steady", "s", "the steady state is the mean over the last so many seconds"},
           options.steady, Need::kOptional, kPositive);
 }
 
-template <typename Archive>
-void Visit(Archive&, SineWithDwellTestOptions&) {}
+inline void Visit(KeyVisitor&, SineWithDwellTestOptions&) {}
 
-template <typename Archive>
-void Visit(Archive&, LaneChangeOptions&) {}
+inline void Visit(KeyVisitor&, LaneChangeOptions&) {}
 
-template <typename Archive>
-void Visit(Archive& a, BrakingTestOptions& options) {
+inline void Visit(KeyVisitor& a, BrakingTestOptions& options) {
   a.Field({"to_speed", "m/s", "the braking distance ends here"}, options.to_speed, Need::kOptional,
           kNotNegative);
 }
 
-template <typename Archive>
-void Visit(Archive& a, DisturbanceOptions& options) {
+inline void Visit(KeyVisitor& a, DisturbanceOptions& options) {
   a.Field({"at", "s", "the course held then is what is departed from"}, options.at, Need::kOptional,
           kNotNegative);
   a.Field({"yaw_rate_bound", "rad/s", "below it for good, the car has recovered"},

@@ -1,10 +1,8 @@
 #pragma once
 
-#include "src/scenario/key_lister.h"
-#include "src/scenario/visit_planners.h"
-#include "src/scenario/visit_replan.h"
-#include "src/scenario/yaml_reader.h"
-#include "src/scenario/yaml_writer.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/registry/planners.h"
 #include "trackbed/scenario/scenario.h"
 
 /// The keys of `plan`.
@@ -22,8 +20,7 @@ inline constexpr Key kPlan{"plan", "", "how the path is made; without it there i
 inline constexpr Key kAvoid{"avoid", "", "what leads the path around obstacles that stand in it"};
 inline constexpr Key kReplan{"replan", "", "how to plan again while driving"};
 
-template <typename Archive>
-void VisitInfeasible(Archive& a, InfeasiblePolicy& policy) {
+inline void VisitInfeasible(KeyVisitor& a, InfeasiblePolicy& policy) {
   static const EnumNames<InfeasiblePolicy> policies{{InfeasiblePolicy::kSlowDown, "slow_down"},
                                                     {InfeasiblePolicy::kRefuse, "refuse"},
                                                     {InfeasiblePolicy::kAllow, "allow"}};
@@ -32,60 +29,46 @@ void VisitInfeasible(Archive& a, InfeasiblePolicy& policy) {
           policy, Need::kOptional, policies);
 }
 
-template <typename Archive>
-void Visit(Archive& a, PlanLayers& layers) {
+inline void Visit(KeyVisitor& a, PlanLayers& layers) {
   a.Method({"global", "", "the planner of the whole path"}, layers.global, Planners(),
-           Need::kRequired, [](auto&) {});
-  a.Method(kAvoid, layers.avoid, Avoiders(), Need::kOptional, [](auto&) {});
+           Need::kRequired);
+  a.Method(kAvoid, layers.avoid, Avoiders(), Need::kOptional);
   a.Section(kReplan, layers.replan);
   VisitInfeasible(a, layers.infeasible);
 }
 
 /// `plan: {method: …}` is short for `plan: {global: {method: …}}`.
-inline void VisitPlan(YamlReader& a, std::optional<PlanSpec>& plan) {
+inline void VisitPlan(KeyVisitor& a, std::optional<PlanSpec>& plan) {
+  using Mode = KeyVisitor::Mode;
+  if (a.mode() == Mode::kWrite && !plan) {
+    return;
+  }
+  const PlanSpec given = plan.value_or(PlanSpec{});
   std::optional<PlannerOptions> global;
-  std::optional<AvoiderOptions> avoid;
-  std::optional<ReplanOptions> replan;
-  InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
-  if (a.HasOneOf(kPlan.name, {"global", "avoid", "replan"})) {
+  if (plan) {
+    global = given.global;
+  }
+  std::optional<AvoiderOptions> avoid = given.avoid;
+  std::optional<ReplanOptions> replan = given.replan;
+  InfeasiblePolicy infeasible = given.infeasible;
+  if (avoid || replan || a.HasOneOf(kPlan.name, {"global", "avoid", "replan"})) {
     PlanLayers layers{global, avoid, replan, infeasible};
     a.Section(kPlan, layers);
   } else {
-    a.Method(kPlan, global, Planners(), Need::kOptional,
-             [&](YamlReader& inner) { VisitInfeasible(inner, infeasible); });
+    a.Method(kPlan, global, Planners(), Need::kOptional, [&](KeyVisitor& inner) {
+      if (inner.mode() == Mode::kList) {
+        inner.Mention(
+            {"global", "", "the keys of this section, when `avoid` or `replan` stands beside them"},
+            "section");
+        inner.Method(kAvoid, avoid, Avoiders(), Need::kOptional);
+        inner.Section(kReplan, replan);
+      }
+      VisitInfeasible(inner, infeasible);
+    });
   }
-  if (global) {
+  if (global && a.mode() == Mode::kRead) {
     plan = {*global, avoid, replan, infeasible};
   }
-}
-
-inline void VisitPlan(YamlWriter& a, std::optional<PlanSpec>& plan) {
-  if (!plan) {
-    return;
-  }
-  std::optional<PlannerOptions> global = plan->global;
-  if (plan->avoid || plan->replan) {
-    PlanLayers layers{global, plan->avoid, plan->replan, plan->infeasible};
-    a.Section(kPlan, layers);
-  } else {
-    a.Method(kPlan, global, Planners(), Need::kOptional,
-             [&](YamlWriter& inner) { VisitInfeasible(inner, plan->infeasible); });
-  }
-}
-
-inline void VisitPlan(KeyLister& a, std::optional<PlanSpec>&) {
-  std::optional<PlannerOptions> global;
-  std::optional<AvoiderOptions> avoid;
-  std::optional<ReplanOptions> replan = ReplanOptions{};
-  InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
-  a.Method(kPlan, global, Planners(), Need::kOptional, [&](KeyLister& inner) {
-    inner.Add(
-        {"global", "", "the keys of this section, when `avoid` or `replan` stands beside them"},
-        "section", Need::kOptional, "", "");
-    inner.Method(kAvoid, avoid, Avoiders(), Need::kOptional, [](auto&) {});
-    inner.Section(kReplan, replan);
-    VisitInfeasible(inner, infeasible);
-  });
 }
 
 }  // namespace trackbed

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <type_traits>
-
-#include "src/scenario/key_lister.h"
-#include "src/scenario/yaml_reader.h"
-#include "src/scenario/yaml_writer.h"
 #include "trackbed/world/world.h"
 
 /// The keys of the section `world`.
@@ -17,8 +12,7 @@ inline constexpr Range kWindSpeed{.min = -100.0, .max = 100.0};  // [m/s]
 
 inline constexpr Key kWorldSection{"world", "", "what the car drives in"};
 
-template <typename Archive>
-void Visit(Archive& a, OrientedBox& box) {
+inline void Visit(KeyVisitor& a, OrientedBox& box) {
   a.Field({"x", "m", "centre of the rectangle"}, box.centre.x, Need::kRequired, kMap);
   a.Field({"y", "m", "likewise"}, box.centre.y, Need::kRequired, kMap);
   a.Field({"yaw", "rad", "direction of its length"}, box.centre.yaw, Need::kOptional);
@@ -26,8 +20,7 @@ void Visit(Archive& a, OrientedBox& box) {
   a.Field({"width", "m", "along its own y axis"}, box.width, Need::kRequired, kSize);
 }
 
-template <typename Archive>
-void Visit(Archive& a, FrictionPatch& patch) {
+inline void Visit(KeyVisitor& a, FrictionPatch& patch) {
   Visit(a, patch.area);
   a.Field({"friction", "", "there, in place of the world's factor"}, patch.friction,
           Need::kRequired, kRoadFactor);
@@ -38,14 +31,12 @@ struct GradeKeys {
   Vec2& grade;
 };
 
-template <typename Archive>
-void Visit(Archive& a, GradeKeys& keys) {
+inline void Visit(KeyVisitor& a, GradeKeys& keys) {
   a.Field({"x", "", "rise over run eastward"}, keys.grade.x(), Need::kOptional, kRiseOverRun);
   a.Field({"y", "", "rise over run northward"}, keys.grade.y(), Need::kOptional, kRiseOverRun);
 }
 
-template <typename Archive>
-void Visit(Archive& a, Bump& bump) {
+inline void Visit(KeyVisitor& a, Bump& bump) {
   Visit(a, bump.area);
   a.Field({"height", "m", "of its top, midway along its length"}, bump.height, Need::kOptional,
           Range{.max = 100.0, .above = 0.0});
@@ -53,8 +44,7 @@ void Visit(Archive& a, Bump& bump) {
           bump.edge, Need::kOptional, kPositive);
 }
 
-template <typename Archive>
-void Visit(Archive& a, SideSlope& stretch) {
+inline void Visit(KeyVisitor& a, SideSlope& stretch) {
   Visit(a, stretch.area);
   a.Field({"slope", "", "rise over run to its left; negative: it rises to the right"},
           stretch.slope, Need::kRequired, kRiseOverRun);
@@ -63,8 +53,7 @@ void Visit(Archive& a, SideSlope& stretch) {
       stretch.run_in, Need::kOptional, kPositive);
 }
 
-template <typename Archive>
-void Visit(Archive& a, Ground& ground) {
+inline void Visit(KeyVisitor& a, Ground& ground) {
   GradeKeys grade{ground.grade};
   a.Section({"grade", "", "of the plane through the origin that is the ground"}, grade);
   a.List({"bumps", "", "humps on that plane"}, ground.bumps);
@@ -72,8 +61,7 @@ void Visit(Archive& a, Ground& ground) {
          ground.side_slopes);
 }
 
-template <typename Archive>
-void Visit(Archive& a, Gust& gust) {
+inline void Visit(KeyVisitor& a, Gust& gust) {
   a.Field({"x", "m/s", "at its strongest, eastward"}, gust.velocity.x(), Need::kOptional,
           kWindSpeed);
   a.Field({"y", "m/s", "likewise, northward"}, gust.velocity.y(), Need::kOptional, kWindSpeed);
@@ -87,16 +75,14 @@ void Visit(Archive& a, Gust& gust) {
   a.Section({"area", "", "where it blows, with sharp edges; else everywhere"}, gust.area);
 }
 
-template <typename Archive>
-void Visit(Archive& a, Wind& wind) {
+inline void Visit(KeyVisitor& a, Wind& wind) {
   a.Field({"x", "m/s", "eastward; where it blows to, not where it comes from"}, wind.velocity.x(),
           Need::kOptional, kWindSpeed);
   a.Field({"y", "m/s", "northward"}, wind.velocity.y(), Need::kOptional, kWindSpeed);
   a.List({"gusts", "", "wind on top of that, for a while or on a stretch"}, wind.gusts);
 }
 
-template <typename Archive>
-void Visit(Archive& a, World& world) {
+inline void Visit(KeyVisitor& a, World& world) {
   a.Field({"friction", "", "factor on the tyres' own friction coefficient"}, world.friction,
           Need::kOptional, kRoadFactor);
   a.List({"friction_patches", "", "where that factor is another; later ones lie on earlier ones"},
@@ -111,8 +97,7 @@ struct BoxKeys {
   Obstacle& obstacle;
 };
 
-template <typename Archive>
-void Visit(Archive& a, BoxKeys& keys) {
+inline void Visit(KeyVisitor& a, BoxKeys& keys) {
   Visit(a, keys.obstacle.footprint);
   a.Field({"height", "m", "above the ground"}, keys.obstacle.height, Need::kOptional, kSize);
 }
@@ -122,8 +107,7 @@ struct VelocityKeys {
   Vec2& velocity;
 };
 
-template <typename Archive>
-void Visit(Archive& a, VelocityKeys& keys) {
+inline void Visit(KeyVisitor& a, VelocityKeys& keys) {
   a.Field({"x", "m/s", "eastward"}, keys.velocity.x(), Need::kOptional, kWindSpeed);
   a.Field({"y", "m/s", "northward"}, keys.velocity.y(), Need::kOptional, kWindSpeed);
 }
@@ -133,31 +117,23 @@ struct KnownFromKeys {
   Obstacle& obstacle;
 };
 
-template <typename Archive>
-void Visit(Archive& a, KnownFromKeys& keys) {
+inline void Visit(KeyVisitor& a, KnownFromKeys& keys) {
   a.Field({"time", "s", "at this moment of the drive"}, keys.obstacle.known_from_time,
           kNotNegative);
   a.Field({"range", "m", "once the car's outline is this close to it"},
           keys.obstacle.known_from_range, kNotNegative);
 }
 
-template <typename Archive>
-void Visit(Archive& a, Obstacle& obstacle) {
+inline void Visit(KeyVisitor& a, Obstacle& obstacle) {
   BoxKeys keys{obstacle};
   a.Section({"box", "", "a box that stands on the ground"}, keys, Need::kRequired);
-  if constexpr (std::is_same_v<Archive, YamlWriter>) {
-    if (obstacle.moves()) {
-      VelocityKeys velocity{obstacle.velocity};
-      a.Section({"velocity", "", ""}, velocity);
-    }
-  } else {
+  const bool writes = a.mode() == KeyVisitor::Mode::kWrite;
+  if (!writes || obstacle.moves()) {
     VelocityKeys velocity{obstacle.velocity};
     a.Section({"velocity", "", "of the box, which does not turn; else it stands"}, velocity);
   }
-  if constexpr (std::is_same_v<Archive, YamlWriter>) {
-    if (!obstacle.known_from_time && !obstacle.known_from_range) {
-      return;  // an empty section would say no more
-    }
+  if (writes && !obstacle.known_from_time && !obstacle.known_from_range) {
+    return;  // an empty section would say no more
   }
   KnownFromKeys known{obstacle};
   a.Section({"known_from", "", "when planners learn of it; else from the start"}, known);

@@ -109,6 +109,62 @@ std::optional<YAML::Node> YamlReader::Take(const char* key, Need need) {
   return std::nullopt;
 }
 
+void YamlReader::ReadMap(const YAML::Node& node, const std::string& dotted, const Inside& inside) {
+  if (CheckMap(node, dotted)) {
+    YamlReader inner(context_, node, dotted);
+    inside(inner);
+    inner.Finish();
+  }
+}
+
+bool YamlReader::VisitSection(const Key& key, Need need, bool, const Inside& inside) {
+  const auto node = Take(key.name, need);
+  if (node) {
+    ReadMap(*node, Dotted(key.name), inside);
+  }
+  return node.has_value();
+}
+
+void YamlReader::VisitList(const Key& key, std::size_t,
+                           const std::function<void(std::size_t size)>& resize,
+                           const std::function<void(KeyVisitor& keys, std::size_t i)>& visit) {
+  const auto node = Take(key.name, Need::kOptional);
+  if (!node) {
+    return;
+  }
+  if (!node->IsSequence()) {
+    Complain(*node, Dotted(key.name), fmt::format("expected a list, found {}", Describe(*node)));
+    return;
+  }
+  resize(node->size());
+  for (std::size_t i = 0; i < node->size(); ++i) {
+    ReadMap((*node)[i], fmt::format("{}[{}]", Dotted(key.name), i),
+            [&](KeyVisitor& inner) { visit(inner, i); });
+  }
+}
+
+void YamlReader::VisitMethod(const Key& key, Need need, const Methods& methods) {
+  const auto node = Take(key.name, need);
+  if (!node || !CheckMap(*node, Dotted(key.name))) {
+    return;
+  }
+  YamlReader inner(context_, *node, Dotted(key.name));
+  Names names;
+  for (const Methods::Entry& entry : methods.entries) {
+    names.emplace_back(entry.name);
+  }
+  std::string method;
+  inner.Field(kMethod, method, Need::kRequired, names);
+  const auto found = std::find(names.begin(), names.end(), method);
+  if (found == names.end()) {
+    return;  // without a method there is no telling which keys are known
+  }
+  methods.select(static_cast<std::size_t>(found - names.begin()));
+  methods.visit_selected(inner);
+  methods.rest(inner);
+  inner.Finish();
+}
+
 bool YamlReader::HasOneOf(const char* key, const Names& inner) const {
   const YAML::Node section = static_cast<const YAML::Node&>(node_)[key];
   return section && section.IsMap() && !section[kMethod.name] &&

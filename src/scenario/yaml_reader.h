@@ -12,9 +12,8 @@
 #include <variant>
 #include <vector>
 
-#include "src/scenario/yaml_field.h"
 #include "trackbed/core/error.h"
-#include "trackbed/geometry/pose.h"
+#include "trackbed/options/key_visitor.h"
 
 namespace trackbed {
 
@@ -32,27 +31,32 @@ struct ReaderContext {
   [[nodiscard]] bool Read(std::string_view dotted) const;
 };
 
-/// Reads one YAML mapping into a struct. A struct names its keys once, in a `Visit(archive,
-/// struct)`; this archive reads them, YamlWriter writes them. Unknown and repeated keys are
-/// complained of when the reader goes out of use (Finish).
-class YamlReader {
+/// Reads one YAML mapping into a struct by the keys that its `Visit` declares (key_visitor.h).
+/// Finish adds the problems of unknown and repeated keys.
+class YamlReader final : public KeyVisitor {
  public:
   YamlReader(ReaderContext& context, YAML::Node node, std::string key);
 
-  void Field(const Key& key, double& value, Need need, Range range = {});
-  void Field(const Key& key, std::optional<double>& value, Range range = {});
-  void Field(const Key& key, std::optional<bool>& value);
-  void Field(const Key& key, bool& value, Need need);
-  void Field(const Key& key, int& value, Need need, Range range = {});
-  void Field(const Key& key, std::uint64_t& value, Need need);
-  void Field(const Key& key, std::string& value, Need need, const Names& allowed = {});
-  void Field(const Key& key, std::optional<std::string>& value);
-  /// A required name that can stand in a path: letters, digits, '_', '-', '.', none hidden.
-  void Identifier(const Key& key, std::string& value);
-  void Field(const Key& key, std::vector<std::string>& value, Need need, const Names& allowed);
-  void Field(const Key& key, std::vector<Vec2>& value, Need need, const PairShape& shape = kPoint);
-  void Field(const Key& key, std::vector<double>& value, Need need, Range range = {});
-  void Pair(const Key& key, int& first, int& second, Range range);
+  [[nodiscard]] Mode mode() const override { return Mode::kRead; }
+
+  using KeyVisitor::Field;
+  void Field(const Key& key, double& value, Need need, Range range = {}) override;
+  void Field(const Key& key, std::optional<double>& value, Range range = {}) override;
+  void Field(const Key& key, std::optional<bool>& value) override;
+  void Field(const Key& key, bool& value, Need need) override;
+  void Field(const Key& key, int& value, Need need, Range range = {}) override;
+  void Field(const Key& key, std::uint64_t& value, Need need) override;
+  void Field(const Key& key, std::string& value, Need need, const Names& allowed = {}) override;
+  void Field(const Key& key, std::optional<std::string>& value) override;
+  void Field(const Key& key, std::vector<std::string>& value, Need need,
+             const Names& allowed) override;
+  void Field(const Key& key, std::vector<Vec2>& value, Need need,
+             const PairShape& shape = kPoint) override;
+  void Field(const Key& key, std::vector<double>& value, Need need, Range range = {}) override;
+  void Identifier(const Key& key, std::string& value) override;
+  void Pair(const Key& key, int& first, int& second, Range range) override;
+  [[nodiscard]] bool HasOneOf(const char* key, const Names& inner) const override;
+
   /// A key whose value `read` makes sense of, told its dotted key.
   template <typename Read>
   void Custom(const Key& key, const char* type, const Read& read) {
@@ -64,113 +68,20 @@ class YamlReader {
     }
   }
 
-  template <typename Enum>
-  void Field(const Key& key, Enum& value, Need need,
-             const EnumNames<Enum>& names) requires std::is_enum_v<Enum> {
-    std::string name;
-    for (const auto& [candidate, spelling] : names) {
-      name = candidate == value ? spelling : name;
-    }
-    Names allowed;
-    for (const auto& entry : names) {
-      allowed.emplace_back(entry.second);
-    }
-    Field(key, name, need, allowed);
-    for (const auto& [candidate, spelling] : names) {
-      value = name == spelling ? candidate : value;
-    }
-  }
-
-  template <typename Struct>
-  void Section(const Key& key, Struct& value, Need need = Need::kOptional) {
-    if (const auto node = Take(key.name, need)) {
-      ReadMap(*node, Dotted(key.name), value);
-    }
-  }
-
-  /// One whose absence says something.
-  template <typename Struct>
-  void Section(const Key& key, std::optional<Struct>& value) {
-    if (const auto node = Take(key.name, Need::kOptional)) {
-      ReadMap(*node, Dotted(key.name), value.emplace());
-    }
-  }
-
-  template <typename Struct>
-  void List(const Key& key, std::vector<Struct>& values) {
-    const auto node = Take(key.name, Need::kOptional);
-    if (!node) {
-      return;
-    }
-    if (!node->IsSequence()) {
-      Complain(*node, Dotted(key.name), fmt::format("expected a list, found {}", Describe(*node)));
-      return;
-    }
-    values.clear();
-    for (std::size_t i = 0; i < node->size(); ++i) {
-      ReadMap((*node)[i], fmt::format("{}[{}]", Dotted(key.name), i), values.emplace_back());
-    }
-  }
-
-  /// A section whose key `method` says which alternative's keys it has.
-  template <typename Variant, typename Table, typename Rest>
-  void Method(const Key& key, std::optional<Variant>& value, const Table& table, Need need,
-              const Rest& rest) {
-    const auto node = Take(key.name, need);
-    if (!node) {
-      return;
-    }
-    if (!CheckMap(*node, Dotted(key.name))) {
-      return;
-    }
-    YamlReader inner(context_, *node, Dotted(key.name));
-    Names names;
-    for (const auto& entry : table) {
-      names.emplace_back(entry.name);
-    }
-    std::string method;
-    inner.Field(kMethod, method, Need::kRequired, names);
-    for (const auto& entry : table) {
-      if (method == entry.name) {
-        value = entry.defaults;
-        std::visit([&](auto& options) { Visit(inner, options); }, *value);
-        rest(inner);
-        inner.Finish();
-        return;
-      }
-    }
-    // Without a method there is no telling which keys are known: complain of the method alone.
-  }
-
-  /// Whether `key` is a section that has one of `inner` and no method of its own.
-  [[nodiscard]] bool HasOneOf(const char* key, const Names& inner) const;
-
-  /// Reads `key` only if it is there, as a section of its own.
-  template <typename Struct>
-  bool SectionIfThere(const std::string& key, Struct& value) {
-    const auto node = Take(key.c_str(), Need::kOptional);
-    if (node) {
-      ReadMap(*node, Dotted(key.c_str()), value);
-    }
-    return node.has_value();
-  }
-
   void Finish();
 
   /// "a section", "a list", "'word'", …
   static std::string Describe(const YAML::Node& node);
 
- private:
-  template <typename Struct>
-  void ReadMap(const YAML::Node& node, const std::string& dotted, Struct& value) {
-    if (!CheckMap(node, dotted)) {
-      return;
-    }
-    YamlReader inner(context_, node, dotted);
-    Visit(inner, value);
-    inner.Finish();
-  }
+ protected:
+  bool VisitSection(const Key& key, Need need, bool present, const Inside& inside) override;
+  void VisitList(const Key& key, std::size_t size,
+                 const std::function<void(std::size_t size)>& resize,
+                 const std::function<void(KeyVisitor& keys, std::size_t i)>& visit) override;
+  void VisitMethod(const Key& key, Need need, const Methods& methods) override;
 
+ private:
+  void ReadMap(const YAML::Node& node, const std::string& dotted, const Inside& inside);
   [[nodiscard]] std::string Dotted(const char* key) const;
   std::optional<YAML::Node> Take(const char* key, Need need);
   bool CheckMap(const YAML::Node& node, const std::string& dotted);

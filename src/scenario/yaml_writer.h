@@ -6,58 +6,62 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "src/scenario/yaml_field.h"
-#include "trackbed/geometry/pose.h"
+#include "trackbed/options/key_visitor.h"
 
 namespace trackbed {
 
-/// The counterpart of YamlReader: writes the keys that a struct's Visit names, numbers in the
+/// The counterpart of YamlReader: writes the keys that a struct's Visit declares, numbers in the
 /// shortest form that reads back to the same value. Optional values that are not there are left
 /// out.
-class YamlWriter {
+class YamlWriter final : public KeyVisitor {
  public:
   explicit YamlWriter(YAML::Emitter& out) : out_(out) {}
 
-  void Field(const Key& key, double& value, Need, Range = {}) {
+  [[nodiscard]] Mode mode() const override { return Mode::kWrite; }
+
+  using KeyVisitor::Field;
+
+  void Field(const Key& key, double& value, Need, Range = {}) override {
     out_ << YAML::Key << key.name << YAML::Value << fmt::format("{}", value);
   }
-  void Field(const Key& key, std::optional<double>& value, Range = {}) {
+  void Field(const Key& key, std::optional<double>& value, Range = {}) override {
     if (value) {
       Field(key, *value, Need::kOptional);
     }
   }
-  void Field(const Key& key, bool& value, Need) {
+  void Field(const Key& key, bool& value, Need) override {
     out_ << YAML::Key << key.name << YAML::Value << value;
   }
-  void Field(const Key& key, std::optional<bool>& value) {
+  void Field(const Key& key, std::optional<bool>& value) override {
     if (value) {
       out_ << YAML::Key << key.name << YAML::Value << *value;
     }
   }
-  void Field(const Key& key, int& value, Need, Range = {}) {
+  void Field(const Key& key, int& value, Need, Range = {}) override {
     out_ << YAML::Key << key.name << YAML::Value << value;
   }
-  void Field(const Key& key, std::uint64_t& value, Need) {
+  void Field(const Key& key, std::uint64_t& value, Need) override {
     out_ << YAML::Key << key.name << YAML::Value << value;
   }
-  void Field(const Key& key, std::string& value, Need, const Names& = {}) {
+  void Field(const Key& key, std::string& value, Need, const Names& = {}) override {
     if (!value.empty()) {
       out_ << YAML::Key << key.name << YAML::Value << value;
     }
   }
-  void Field(const Key& key, std::optional<std::string>& value) {
+  void Field(const Key& key, std::optional<std::string>& value) override {
     if (value) {
       Field(key, *value, Need::kOptional);
     }
   }
-  void Identifier(const Key& key, std::string& value) { Field(key, value, Need::kRequired); }
-  void Field(const Key& key, std::vector<std::string>& value, Need, const Names&) {
+  void Identifier(const Key& key, std::string& value) override {
+    Field(key, value, Need::kRequired);
+  }
+  void Field(const Key& key, std::vector<std::string>& value, Need, const Names&) override {
     out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << value;
   }
-  void Field(const Key& key, std::vector<Vec2>& value, Need, const PairShape& = kPoint) {
+  void Field(const Key& key, std::vector<Vec2>& value, Need, const PairShape& = kPoint) override {
     if (value.empty()) {
       return;
     }
@@ -68,7 +72,7 @@ class YamlWriter {
     }
     out_ << YAML::EndSeq;
   }
-  void Field(const Key& key, std::vector<double>& value, Need, Range = {}) {
+  void Field(const Key& key, std::vector<double>& value, Need, Range = {}) override {
     if (value.empty()) {
       return;
     }
@@ -78,63 +82,43 @@ class YamlWriter {
     }
     out_ << YAML::EndSeq;
   }
-  void Pair(const Key& key, int& first, int& second, Range) {
+  void Pair(const Key& key, int& first, int& second, Range) override {
     out_ << YAML::Key << key.name << YAML::Value << YAML::Flow << YAML::BeginSeq << first << second
          << YAML::EndSeq;
   }
 
-  template <typename Enum>
-  void Field(const Key& key, Enum& value, Need,
-             const EnumNames<Enum>& names) requires std::is_enum_v<Enum> {
-    for (const auto& [candidate, spelling] : names) {
-      if (candidate == value) {
-        out_ << YAML::Key << key.name << YAML::Value << spelling;
-      }
+ protected:
+  bool VisitSection(const Key& key, Need, bool present, const Inside& inside) override {
+    if (present) {
+      out_ << YAML::Key << key.name << YAML::Value << YAML::BeginMap;
+      inside(*this);
+      out_ << YAML::EndMap;
     }
+    return present;
   }
 
-  template <typename Struct>
-  void Section(const Key& key, Struct& value, Need = Need::kOptional) {
-    out_ << YAML::Key << key.name << YAML::Value << YAML::BeginMap;
-    Visit(*this, value);
-    out_ << YAML::EndMap;
-  }
-
-  template <typename Struct>
-  void Section(const Key& key, std::optional<Struct>& value) {
-    if (value) {
-      Section(key, *value);
-    }
-  }
-
-  template <typename Struct>
-  void List(const Key& key, std::vector<Struct>& values) {
-    if (values.empty()) {
+  void VisitList(const Key& key, std::size_t size, const std::function<void(std::size_t size)>&,
+                 const std::function<void(KeyVisitor& keys, std::size_t i)>& visit) override {
+    if (size == 0) {
       return;
     }
     out_ << YAML::Key << key.name << YAML::Value << YAML::BeginSeq;
-    for (Struct& value : values) {
+    for (std::size_t i = 0; i < size; ++i) {
       out_ << YAML::BeginMap;
-      Visit(*this, value);
+      visit(*this, i);
       out_ << YAML::EndMap;
     }
     out_ << YAML::EndSeq;
   }
 
-  template <typename Variant, typename Table, typename Rest>
-  void Method(const Key& key, std::optional<Variant>& value, const Table& table, Need,
-              const Rest& rest) {
-    if (!value) {
+  void VisitMethod(const Key& key, Need, const Methods& methods) override {
+    if (!methods.selected) {
       return;
     }
     out_ << YAML::Key << key.name << YAML::Value << YAML::BeginMap;
-    for (const auto& entry : table) {
-      if (entry.defaults.index() == value->index()) {
-        out_ << YAML::Key << kMethod.name << YAML::Value << entry.name;
-      }
-    }
-    std::visit([&](auto& options) { Visit(*this, options); }, *value);
-    rest(*this);
+    out_ << YAML::Key << kMethod.name << YAML::Value << methods.entries[*methods.selected].name;
+    methods.visit_selected(*this);
+    methods.rest(*this);
     out_ << YAML::EndMap;
   }
 

@@ -4,33 +4,48 @@
 
 #include "src/sim/plants.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/spelling.h"
+#include "trackbed/options/registry.h"
 
 namespace trackbed {
 
-const std::vector<PlantEntry>& Plants() {
-  static const std::vector<PlantEntry> table{
-      {"kinematic", "single-track kinematics behind the rate-limited steering",
-       [](const PlantSetup& setup) {
-         return MakeKinematicPlant(setup, ReferencePoint::kRearAxle);
-       }},
-      {"single_track", "linear single-track dynamics with the tyres' cornering stiffness",
-       MakeSingleTrackPlant},
-      {"mujoco", "the MJCF car in MuJoCo, with the scenario's tyre law", MakeMujocoPlant},
-      {"mujoco:contact", "the same, held by the friction of its contacts",
-       [](const PlantSetup& setup) {
-         PlantSetup own = setup;
-         own.tyre = TyreLaw::kContact;
-         return MakeMujocoPlant(own);
-       }},
-      {"mujoco:magic_formula", "the same, held by tyres whose forces grow with slip",
-       [](const PlantSetup& setup) {
-         PlantSetup own = setup;
-         own.tyre = TyreLaw::kMagicFormula;
-         return MakeMujocoPlant(own);
-       }},
-  };
+namespace {
+
+std::unique_ptr<Plant> MakeKinematic(const PlantSetup& setup) {
+  return MakeKinematicPlant(setup, ReferencePoint::kRearAxle);
+}
+
+template <TyreLaw law>
+std::unique_ptr<Plant> MakeMujocoWith(const PlantSetup& setup) {
+  PlantSetup own = setup;
+  own.tyre = law;
+  return MakeMujocoPlant(own);
+}
+
+/// One line for each plant.
+Registry<PlantEntry>& Table() {
+  static Registry<PlantEntry> table(
+      "plant",
+      {
+          {"kinematic", "single-track kinematics behind the rate-limited steering", MakeKinematic},
+          {"single_track", "linear single-track dynamics with the tyres' cornering stiffness",
+           MakeSingleTrackPlant},
+          {"mujoco", "the MJCF car in MuJoCo, with the scenario's tyre law", MakeMujocoPlant},
+          {"mujoco:contact", "the same, held by the friction of its contacts",
+           MakeMujocoWith<TyreLaw::kContact>},
+          {"mujoco:magic_formula", "the same, held by tyres whose forces grow with slip",
+           MakeMujocoWith<TyreLaw::kMagicFormula>},
+      });
   return table;
+}
+
+}  // namespace
+
+const std::vector<PlantEntry>& Plants() {
+  return Table().entries();
+}
+
+void RegisterPlant(PlantEntry entry) {
+  Table().Add(entry);
 }
 
 TyreLaw TyreLawOf(const CarModel& car, TyreLaw tyre) {
@@ -43,14 +58,7 @@ TyreLaw TyreLawOf(const CarModel& car, TyreLaw tyre) {
 }
 
 std::unique_ptr<Plant> MakePlant(const std::string& name, const PlantSetup& setup) {
-  std::vector<std::string> names;
-  for (const PlantEntry& entry : Plants()) {
-    if (entry.name == name) {
-      return entry.make(setup);
-    }
-    names.emplace_back(entry.name);
-  }
-  throw InputError(Problem{.message = "unknown plant " + UnknownName(name, names)});
+  return Table().Find(name).make(setup);
 }
 
 std::string PlantFileName(const std::string& name) {

@@ -9,6 +9,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/analysis/metrics.h"
 #include "trackbed/core/angle.h"
+#include "trackbed/planning/common/plan.h"
 
 // Every evaluation on logs whose answers are known in closed form.
 namespace trackbed {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/tolerance.h"
+#include "trackbed/control/steering_controller.h"
 
 namespace trackbed {
 namespace {

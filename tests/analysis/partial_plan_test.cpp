@@ -7,6 +7,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/analysis/run.h"
 #include "trackbed/core/file.h"
+#include "trackbed/planning/sampling/rrt_planner.h"
 
 // A plan that leads only part of the way is driven to its end, and said to be no arrival.
 namespace trackbed {

@@ -20,8 +20,11 @@
 #include "tests/audit/checker.h"
 #include "tests/audit/random_scenarios.h"
 #include "tests/audit/record_run.h"
+#include "trackbed/control/controllers.h"
+#include "trackbed/control/steering_controller.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/planning/registry/planners.h"
 
 namespace audit {
 namespace {
@@ -84,7 +87,7 @@ Outcome AuditOf(std::size_t index) {
 std::string Describe(std::size_t index, const Outcome& outcome) {
   const trackbed::Scenario& scenario = outcome.scenario;
   std::string text = fmt::format(
-      "scenario {}: {}{}{}, {}, {}, {}", index, trackbed::PlannerName(scenario.plan->global),
+      "scenario {}: {}{}{}, {}, {}, {}", index, trackbed::PlannerFor(scenario.plan->global).name,
       scenario.plan->avoid ? " + avoid" : "", scenario.plan->replan ? " + replan" : "",
       trackbed::ControllerFor(scenario.control.steering).name, scenario.drive.plants.front(),
       std::filesystem::path(scenario.vehicle.model).stem().string());
@@ -163,7 +166,7 @@ TEST(RandomScenarios, HaveEveryPlannerWithEveryControllerOnEveryPlant) {
   std::map<std::string, int> seen;
   for (std::size_t index = 0; index < Combinations(); ++index) {
     const trackbed::Scenario scenario = RandomScenario(index, 0);
-    ++seen[fmt::format("{} {} {}", trackbed::PlannerName(scenario.plan->global),
+    ++seen[fmt::format("{} {} {}", trackbed::PlannerFor(scenario.plan->global).name,
                        trackbed::ControllerFor(scenario.control.steering).name,
                        scenario.drive.plants.front())];
   }

@@ -7,6 +7,16 @@
 #include <cmath>
 #include <random>
 
+#include "trackbed/control/controllers.h"
+#include "trackbed/control/steering_controller.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/course/course.h"
+#include "trackbed/planning/course/lane_change.h"
+#include "trackbed/planning/grid/astar_planner.h"
+#include "trackbed/planning/grid/hybrid_astar.h"
+#include "trackbed/planning/registry/planners.h"
+#include "trackbed/planning/sampling/rrt_planner.h"
+
 namespace audit {
 namespace {
 
@@ -157,23 +167,23 @@ struct Generator {
     scenario.plan = PlanSpec{};
     scenario.plan->global = entry.defaults;
     PlannerOptions& global = scenario.plan->global;
-    if (auto* course = std::get_if<CourseOptions>(&global)) {
+    if (auto* course = global.As<CourseOptions>()) {
       Course(*course);
-    } else if (auto* lane_change = std::get_if<LaneChangePlannerOptions>(&global)) {
+    } else if (auto* lane_change = global.As<LaneChangePlannerOptions>()) {
       lane_change->standard = LaneChangeStandard::kIso3888_2;
       lane_change->lead_in = dice.Between(1.0, 10.0);
       lane_change->lead_out = 2.0;
-    } else if (auto* hybrid = std::get_if<HybridAStarOptions>(&global)) {
+    } else if (auto* hybrid = global.As<HybridAStarOptions>()) {
       hybrid->reverse = dice.Chance(0.5);
       hybrid->budget = 10000;
-    } else if (auto* rrt = std::get_if<RrtPlannerOptions>(&global)) {
+    } else if (auto* rrt = global.As<RrtPlannerOptions>()) {
       rrt->trees = 3;
       rrt->iterations = 3000;
-    } else if (auto* astar = std::get_if<AStarOptions>(&global)) {
+    } else if (auto* astar = global.As<AStarOptions>()) {
       astar->budget = 100000;
     }
-    if (entry.fewest_waypoints > 0) {
-      Route(entry.fewest_waypoints, entry.has_headings);
+    if (entry.min_waypoints > 0) {
+      Route(entry.min_waypoints, entry.has_headings);
     } else {
       scenario.mission.start.x = dice.Between(-20.0, 20.0);
       scenario.mission.start.yaw = dice.Between(-kPi, kPi);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/registry/planners.h"
 #include "trackbed/sim/car_model.h"
 
 namespace audit {

@@ -13,6 +13,11 @@
 #include "tests/control/loop.h"
 #include "tests/geometry/random.h"
 #include "tests/tolerance.h"
+#include "trackbed/control/controllers.h"
+#include "trackbed/control/mpc.h"
+#include "trackbed/control/optimal_steering.h"
+#include "trackbed/control/preview_integral.h"
+#include "trackbed/control/steering_controller.h"
 #include "trackbed/core/error.h"
 
 namespace {
@@ -195,7 +200,7 @@ TEST_P(EveryFollower, ComesBackFromMetresAway) {
   // Wheels that turn at omega swing back over e in some cbrt(e L v/omega), 7 m here; 200 m are many
   // of these.
   std::vector<ControllerOptions> all{GetParam().defaults};
-  if (std::holds_alternative<PreviewIntegralOptions>(GetParam().defaults)) {
+  if (GetParam().defaults.Is<PreviewIntegralOptions>()) {
     all.emplace_back(PreviewIntegralOptions{.weight = PreviewWeight::kNear});
   }
   for (const ControllerOptions& options : all) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tests/vehicle/seed_car.h"
+#include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/vehicle/kinematic_car.h"
 #include "trackbed/vehicle/single_track_car.h"

@@ -8,6 +8,9 @@
 #include "tests/control/loop.h"
 #include "tests/geometry/random.h"
 #include "tests/tolerance.h"
+#include "trackbed/control/controllers.h"
+#include "trackbed/control/lqr.h"
+#include "trackbed/control/steering_controller.h"
 
 namespace trackbed {
 namespace {

@@ -14,6 +14,7 @@
 #include "tests/geometry/random.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/seed_car.h"
+#include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"

@@ -4,6 +4,7 @@
 
 #include "tests/tolerance.h"
 #include "tests/vehicle/seed_car.h"
+#include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/error.h"
 #include "trackbed/vehicle/kinematic_car.h"

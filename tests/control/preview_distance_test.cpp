@@ -8,6 +8,12 @@
 
 #include "tests/control/loop.h"
 #include "tests/tolerance.h"
+#include "trackbed/control/controllers.h"
+#include "trackbed/control/preview.h"
+#include "trackbed/control/preview_integral.h"
+#include "trackbed/control/pure_pursuit.h"
+#include "trackbed/control/stanley.h"
+#include "trackbed/control/steering_controller.h"
 
 namespace trackbed {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "tests/control/loop.h"
 #include "tests/tolerance.h"
+#include "trackbed/control/controllers.h"
 
 namespace trackbed {
 namespace {

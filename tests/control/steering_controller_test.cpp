@@ -14,6 +14,10 @@
 #include "tests/tolerance.h"
 #include "tests/vehicle/seed_car.h"
 #include "tests/vehicle/wheel_pair.h"
+#include "trackbed/control/controllers.h"
+#include "trackbed/control/preview.h"
+#include "trackbed/control/schedule.h"
+#include "trackbed/control/steering_profile.h"
 #include "trackbed/core/angle.h"
 
 namespace trackbed {

@@ -8,6 +8,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/drive/drive.h"
+#include "trackbed/planning/common/plan.h"
 
 // Plans that change direction, driven: the car stops at each cusp, changes gear and goes on.
 namespace trackbed {

@@ -5,6 +5,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/drive/drive.h"
+#include "trackbed/planning/common/plan.h"
 
 // plan.neutral_steering, driven open loop.
 namespace trackbed {

@@ -8,6 +8,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/drive/drive.h"
+#include "trackbed/planning/common/plan.h"
 
 // What plan.json says of a plan's open loop is what the kinematic car then does.
 namespace trackbed {

@@ -111,7 +111,7 @@ TEST(Playback, BrakesAsHardAsWasRecordedOnMujocoToo) {
 
 TEST(Playback, ByDistanceTurnsTheWheelsWhereTheyWereTurned) {
   Scenario scenario = Replay(Wandering(95, 2.0), "kinematic", SteeringInput::kPrescribed);
-  auto& playback = std::get<PlaybackOptions>(scenario.control.steering);
+  auto& playback = scenario.control.steering.Get<PlaybackOptions>();
   playback.by = PlaybackAxis::kDistance;
   playback.recording.speed = {{{0.0, 0.3}}};  // 6 mm a period: 20 s for the way of 6 m
   scenario.mission.duration = 20.0;

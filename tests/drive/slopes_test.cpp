@@ -8,6 +8,7 @@
 
 #include "tests/tolerance.h"
 #include "trackbed/drive/drive.h"
+#include "trackbed/planning/common/plan.h"
 
 // Starts, stops and speeds on slopes.
 namespace trackbed {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "trackbed/core/angle.h"
-#include "trackbed/planning/frenet.h"
+#include "trackbed/planning/frenet/frenet.h"
 
 namespace trackbed {
 

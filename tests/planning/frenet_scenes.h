@@ -4,7 +4,7 @@
 
 #include "tests/geometry/random.h"
 #include "tests/vehicle/seed_car.h"
-#include "trackbed/planning/frenet.h"
+#include "trackbed/planning/frenet/frenet.h"
 
 namespace trackbed {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "trackbed/planning/rrt_star.h"
+#include "trackbed/planning/sampling/rrt_star.h"
 
 namespace trackbed {
 

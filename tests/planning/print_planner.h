@@ -2,7 +2,7 @@
 
 #include <ostream>
 
-#include "trackbed/planning/planner.h"
+#include "trackbed/planning/common/planner.h"
 
 namespace trackbed {
 

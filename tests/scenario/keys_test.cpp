@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
-#include "trackbed/planning/planner.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/registry/planners.h"
 #include "trackbed/scenario/manoeuvre.h"
 
 namespace trackbed {

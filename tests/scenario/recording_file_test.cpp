@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/temp_folder.h"
+#include "trackbed/control/playback.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {

@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/temp_folder.h"
+#include "trackbed/control/controllers.h"
+#include "trackbed/control/playback.h"
+#include "trackbed/control/steering_profile.h"
 #include "trackbed/core/error.h"
+#include "trackbed/planning/sampling/rrt_planner.h"
 #include "trackbed/scenario/recording_file.h"
 
 namespace trackbed {
@@ -38,7 +42,7 @@ TEST(ReadScenario, FillsInDefaults) {
   EXPECT_EQ(scenario.vehicle.tyre, TyreLaw::kAuto);
   EXPECT_EQ(scenario.mission.waypoints[1], Vec2(40, 2));
   ASSERT_TRUE(scenario.plan.has_value());
-  EXPECT_STREQ(PlannerName(scenario.plan->global), "fillet");
+  EXPECT_STREQ(PlannerFor(scenario.plan->global).name, "fillet");
   EXPECT_STREQ(ControllerFor(scenario.control.steering).name, "preview");
   EXPECT_EQ(scenario.drive.plants, (std::vector<std::string>{"kinematic", "mujoco"}));
   EXPECT_EQ(scenario.world.friction, 1.0);
@@ -242,11 +246,11 @@ TEST(ResolvedYaml, ReadsBackToItself) {
 
 TEST(ResolvedYaml, KeepsTheTimeLimitOfTrees) {
   const Scenario without = Parse(kSmall, {"plan={method: rrt}"});
-  EXPECT_FALSE(std::get<RrtPlannerOptions>(without.plan->global).time_limit.has_value());
-  EXPECT_FALSE(std::get<RrtPlannerOptions>(without.plan->global).partial.has_value());
+  EXPECT_FALSE(without.plan->global.Get<RrtPlannerOptions>().time_limit.has_value());
+  EXPECT_FALSE(without.plan->global.Get<RrtPlannerOptions>().partial.has_value());
   const std::string once =
       ResolvedYaml(Parse(kSmall, {"plan={method: rrt, time_limit: 0.25, partial: false}"}));
-  const auto trees = std::get<RrtPlannerOptions>(Parse(once).plan->global);
+  const auto trees = Parse(once).plan->global.Get<RrtPlannerOptions>();
   EXPECT_EQ(trees.time_limit, 0.25);
   EXPECT_EQ(trees.partial, false);
   EXPECT_EQ(once, ResolvedYaml(Parse(once)));

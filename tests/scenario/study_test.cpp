@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/temp_folder.h"
+#include "trackbed/control/preview.h"
 #include "trackbed/core/error.h"
 #include "trackbed/scenario/keys.h"
 
@@ -131,8 +132,8 @@ vary: {control.distance: [3, 4]}
   ASSERT_EQ(points.size(), 2U);
   EXPECT_EQ(points[1].scenario.mission.speed, 2.0);
   EXPECT_EQ(points[1].scenario.drive.plants, std::vector<std::string>{"kinematic"});
-  EXPECT_EQ(std::get<PreviewOptions>(points[0].scenario.control.steering).distance, 3.0);
-  EXPECT_EQ(std::get<PreviewOptions>(points[1].scenario.control.steering).distance, 4.0);
+  EXPECT_EQ(points[0].scenario.control.steering.Get<PreviewOptions>().distance, 3.0);
+  EXPECT_EQ(points[1].scenario.control.steering.Get<PreviewOptions>().distance, 4.0);
   EXPECT_EQ(Written({points[1].settings})[0], "control.distance=4");
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "trackbed/core/angle.h"
-#include "trackbed/planning/avoidance.h"
+#include "trackbed/planning/avoidance/avoidance.h"
 
 namespace trackbed {
 

@@ -8,6 +8,14 @@
 #include <tuple>
 
 #include "tests/tolerance.h"
+#include "trackbed/control/controllers.h"
+#include "trackbed/control/lqr.h"
+#include "trackbed/control/mpc.h"
+#include "trackbed/control/preview.h"
+#include "trackbed/control/preview_integral.h"
+#include "trackbed/control/pure_pursuit.h"
+#include "trackbed/control/steering_controller.h"
+#include "trackbed/planning/course/course.h"
 #include "trackbed/testing/scenario_testing.h"
 
 namespace trackbed {
@@ -21,7 +29,7 @@ std::filesystem::path Course(const std::string& name) {
 Scenario CourseAt(const std::string& name, const std::string& car, double speed) {
   Scenario scenario = ReadScenario(Course(name));
   const double share = (scenario.mission.speed * scenario.mission.speed) / (speed * speed);
-  for (CoursePiece& piece : std::get<CourseOptions>(scenario.plan->global).segments) {
+  for (CoursePiece& piece : scenario.plan->global.Get<CourseOptions>().segments) {
     for (std::optional<double>* curvature : {&piece.curvature, &piece.curvature_to}) {
       if (*curvature) {
         **curvature *= share;

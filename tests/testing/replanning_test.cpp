@@ -10,7 +10,12 @@
 #include <string>
 
 #include "tests/tolerance.h"
+#include "trackbed/control/controllers.h"
+#include "trackbed/control/steering_controller.h"
 #include "trackbed/drive/drive.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/registry/planners.h"
 #include "trackbed/testing/scenario_testing.h"
 
 namespace trackbed {
@@ -193,7 +198,7 @@ TEST(EveryPlanner, IsDrivenByEveryController) {
   base.expect = {};
   base.drive.plants = {"kinematic", "mujoco"};
   for (const PlannerEntry& planner : Planners()) {
-    if (planner.fewest_waypoints == 0) {
+    if (planner.min_waypoints == 0) {
       continue;  // courses and lane changes know no goal
     }
     base.plan = PlanSpec{.global = planner.defaults};

@@ -5,6 +5,8 @@
 #include <filesystem>
 
 #include "tests/tolerance.h"
+#include "trackbed/control/preview.h"
+#include "trackbed/control/steering_profile.h"
 #include "trackbed/testing/scenario_testing.h"
 
 /// A second car, a tenth of the first one's size: nothing but its own MJCF makes it drive.

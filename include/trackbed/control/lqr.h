@@ -1,11 +1,10 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 
-namespace trackbed {
+#include "trackbed/control/steering_controller.h"
 
-class SteeringController;
+namespace trackbed {
 
 /// The linear-quadratic regulator with preview: of all ways to steer from here on, the one with the
 /// least
@@ -38,7 +37,8 @@ struct LqrOptions {
   std::optional<double> steering_rate;  ///< [s^2/rad^2], > 0; none: (0.1506 rad/s over omega)^2
   double preview = 2.0;  ///< how far ahead the path's curvature is looked at [s], >= 0
 };
+void Visit(KeyVisitor& keys, LqrOptions& options);
 
-std::unique_ptr<SteeringController> MakeLqr(const LqrOptions& options);
+ControllerEntry LqrController();
 
 }  // namespace trackbed

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 
-namespace trackbed {
+#include "trackbed/control/steering_controller.h"
 
-class SteeringController;
+namespace trackbed {
 
 /// Linear model-predictive control: the cost of LqrOptions over the next `horizon` steps, with the
 /// infinite rest behind them by the Riccati matrix, within the car's steering limits:
@@ -34,7 +33,8 @@ struct MpcOptions {
   int horizon = 20;                     ///< N, 1 to kLongestHorizon
   double step = 0.1;                    ///< [s], > 0; the control period if that is longer
 };
+void Visit(KeyVisitor& keys, MpcOptions& options);
 
-std::unique_ptr<SteeringController> MakeMpc(const MpcOptions& options);
+ControllerEntry MpcController();
 
 }  // namespace trackbed

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "trackbed/control/steering_controller.h"
 #include "trackbed/geometry/pose.h"
 #include "trackbed/optimize/search.h"
 #include "trackbed/vehicle/kinematic_car.h"
@@ -30,6 +31,7 @@ struct DeviationWeights {
   double position = 1.0;  ///< [1/m^2], >= 0
   double heading = 1.0;   ///< [1/rad^2], >= 0; not both 0
 };
+void Visit(KeyVisitor& keys, DeviationWeights& weights);
 
 /// (9): where the car is, seen from the primary.
 struct Deviation {
@@ -59,6 +61,7 @@ struct OptimalSteeringOptions {
                                        ///< steered
   std::optional<double> max_steering;  ///< delta_max [rad], > 0; default and at most the car's
 };
+void Visit(KeyVisitor& keys, OptimalSteeringOptions& options);
 
 /// Evaluations of one update when none are given: 60 of a search that converges, 600 of one that
 /// draws random numbers.
@@ -122,5 +125,8 @@ struct CircleExperiment {
 /// The constant angle within +-delta_max that minimises (1) of the experiment, weights 1.
 SteeringMatch MatchSteering(const VehicleParams& vehicle, const CircleExperiment& experiment,
                             const SearchOptions& search, std::uint64_t seed);
+
+/// The controller `optimal_steering`.
+ControllerEntry OptimalSteering();
 
 }  // namespace trackbed

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "trackbed/control/signal.h"
+#include "trackbed/control/steering_controller.h"
 
 /// Recorded inputs, replayed on any plant.
 namespace trackbed {
@@ -31,6 +32,7 @@ struct RecordingColumns {
   std::optional<std::string> speed;
   std::optional<std::string> acceleration;
 };
+void Visit(KeyVisitor& keys, RecordingColumns& columns);
 
 /// A recording replayed, open loop, over the coming period (x the axis, T the period):
 ///   steering      the recorded angle where the period ends, at t + T or D + abs(v) T
@@ -45,6 +47,7 @@ struct PlaybackOptions {
   RecordingColumns columns;
   Recording recording;
 };
+void Visit(KeyVisitor& keys, PlaybackOptions& options);
 
 /// The angle [rad] that is wanted after `period` [s] of a car with `speed` [m/s] that is at `x`.
 double PlaybackSteering(const PlaybackOptions& options, double x, double speed, double period);
@@ -53,5 +56,8 @@ double PlaybackSteering(const PlaybackOptions& options, double x, double speed, 
 /// acceleration.
 std::optional<double> PlaybackAcceleration(const PlaybackOptions& options, double x, double speed,
                                            double gain, double period);
+
+/// The controller `playback`.
+ControllerEntry Playback();
 
 }  // namespace trackbed

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 
-namespace trackbed {
+#include "trackbed/control/steering_controller.h"
 
-class SteeringController;
+namespace trackbed {
 
 /// How much each part of the previewed way counts.
 enum class PreviewWeight {
@@ -40,7 +39,8 @@ struct PreviewIntegralOptions {
   PreviewWeight weight = PreviewWeight::kUniform;
   double delay = 0.0;  ///< tau [s], >= 0
 };
+void Visit(KeyVisitor& keys, PreviewIntegralOptions& options);
 
-std::unique_ptr<SteeringController> MakePreviewIntegral(const PreviewIntegralOptions& options);
+ControllerEntry PreviewIntegralController();
 
 }  // namespace trackbed

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 
-namespace trackbed {
+#include "trackbed/control/steering_controller.h"
 
-class SteeringController;
+namespace trackbed {
 
 /// Pure pursuit (Coulter 1992): the circle tangent to the rear axle's motion through the path's
 /// point at the distance l = max(distance, time |v|), delta = atan(2 L sin(u)/l) with u the angle
@@ -23,7 +22,8 @@ struct PurePursuitOptions {
   std::optional<double> distance;  ///< shortest l [m], > 0; default: the law above
   double time = 0.0;               ///< l is at least time |v| [s], >= 0
 };
+void Visit(KeyVisitor& keys, PurePursuitOptions& options);
 
-std::unique_ptr<SteeringController> MakePurePursuit(const PurePursuitOptions& options);
+ControllerEntry PurePursuitController();
 
 }  // namespace trackbed

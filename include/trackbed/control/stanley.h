@@ -1,11 +1,10 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 
-namespace trackbed {
+#include "trackbed/control/steering_controller.h"
 
-class SteeringController;
+namespace trackbed {
 
 /// The law of the car Stanley (Hoffmann, Tomlin, Montemerlo, Thrun, American Control Conference
 /// 2007) for a path of the rear axle.
@@ -33,7 +32,8 @@ struct StanleyOptions {
   std::optional<double> gain;       ///< k [1/s], > 0; none: 6.64 omega
   std::optional<double> softening;  ///< k_s [m/s], >= 0; none: 2.46 L omega
 };
+void Visit(KeyVisitor& keys, StanleyOptions& options);
 
-std::unique_ptr<SteeringController> MakeStanley(const StanleyOptions& options);
+ControllerEntry StanleyController();
 
 }  // namespace trackbed

@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include "trackbed/control/steering_controller.h"
+
 /// Steering over time: the open-loop manoeuvres of handling tests.
 ///
 /// Symbols: t time since the drive began [s]; t0 `at`, when the manoeuvre begins; tau = t - t0;
@@ -13,6 +15,7 @@ namespace trackbed {
 struct ConstantSteeringOptions {
   double steering = 0.0;  ///< [rad]
 };
+void Visit(KeyVisitor& keys, ConstantSteeringOptions& options);
 
 /// To A and staying there (ISO 7401, step input). With a rate r delta = A min(1, r tau/abs(A)),
 /// without one it jumps after t0, and the car's actuator is what limits it.
@@ -21,6 +24,7 @@ struct StepSteeringOptions {
   double at = 1.0;             ///< t0 [s]
   std::optional<double> rate;  ///< r [rad/s], > 0
 };
+void Visit(KeyVisitor& keys, StepSteeringOptions& options);
 
 /// Slowly increasing steer (SAE J266, ISO 4138): toward `end` at a steady rate r, staying there.
 struct RampSteeringOptions {
@@ -28,6 +32,7 @@ struct RampSteeringOptions {
   double rate = 0.01;  ///< r [rad/s], > 0
   double at = 1.0;     ///< t0 [s]
 };
+void Visit(KeyVisitor& keys, RampSteeringOptions& options);
 
 /// delta = A sin(2 pi f tau) for a number of cycles, then 0; half cycles end at 0 too.
 struct SineSteeringOptions {
@@ -36,6 +41,7 @@ struct SineSteeringOptions {
   double cycles = 1.0;     ///< > 0
   double at = 1.0;         ///< t0 [s]
 };
+void Visit(KeyVisitor& keys, SineSteeringOptions& options);
 
 /// ISO 19365: one sine that stays at its second peak, -A at tau = 3/(4 f), for the dwell, then
 /// returns to 0 at tau = 1/f + dwell.
@@ -45,6 +51,7 @@ struct SineWithDwellOptions {
   double dwell = 0.5;      ///< [s], >= 0
   double at = 1.0;         ///< t0 [s]
 };
+void Visit(KeyVisitor& keys, SineWithDwellOptions& options);
 
 /// How the frequency goes from f0 to f1 over the duration T.
 enum class Sweep {
@@ -63,6 +70,7 @@ struct SweptSineOptions {
   Sweep sweep = Sweep::kLinear;
   double at = 1.0;  ///< t0 [s]
 };
+void Visit(KeyVisitor& keys, SweptSineOptions& options);
 
 /// delta(t) [rad].
 double SteeringAt(const ConstantSteeringOptions& options, double time);
@@ -71,5 +79,13 @@ double SteeringAt(const RampSteeringOptions& options, double time);
 double SteeringAt(const SineSteeringOptions& options, double time);
 double SteeringAt(const SineWithDwellOptions& options, double time);
 double SteeringAt(const SweptSineOptions& options, double time);
+
+/// The controllers that steer by these profiles.
+ControllerEntry ConstantSteering();
+ControllerEntry StepSteering();
+ControllerEntry RampSteering();
+ControllerEntry SineSteering();
+ControllerEntry SineWithDwell();
+ControllerEntry SweptSine();
 
 }  // namespace trackbed

@@ -7,10 +7,12 @@
 #include <utility>
 #include <vector>
 
-/// Three kinds of failure, and who has to act on each:
+/// Four kinds of failure, and who has to act on each:
 ///  * InputError: what the user gave is wrong (a file, an option, a model). Exit code 2.
 ///  * RunError: the surroundings failed (a full disk, an unwritable folder, no encoder). Exit
 ///  code 2.
+///  * PreconditionError: a program that uses the library gave a function an argument that its
+///    documentation excludes.
 ///  * InternalError: a check of our own failed; a bug in Trackbed. Exit code 1.
 /// That a plan cannot be found or a drive ends early is no error but an outcome: see PlanStatus and
 /// DriveStatus.
@@ -46,6 +48,12 @@ class RunError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A caller's mistake: an argument that the function's documentation excludes.
+class PreconditionError : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
 /// A bug: a condition that the program's own logic guarantees did not hold.
 class InternalError : public std::logic_error {
  public:
@@ -62,4 +70,11 @@ class InternalError : public std::logic_error {
   do {                                                                                            \
     if (!(condition))                                                                             \
       ::trackbed::ThrowInternalError(__FILE__, __LINE__, #condition, ::fmt::format(__VA_ARGS__)); \
+  } while (false)
+
+/// Throws PreconditionError when `condition` is false. The rest is an fmt message.
+#define TRACKBED_REQUIRE(condition, ...)                               \
+  do {                                                                 \
+    if (!(condition))                                                  \
+      throw ::trackbed::PreconditionError(::fmt::format(__VA_ARGS__)); \
   } while (false)

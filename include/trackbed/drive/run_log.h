@@ -6,7 +6,7 @@
 
 #include "trackbed/core/table.h"
 #include "trackbed/path/path.h"
-#include "trackbed/planning/planner.h"
+#include "trackbed/planning/common/plan.h"
 #include "trackbed/vehicle/state.h"
 
 namespace trackbed {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "trackbed/options/key_visitor.h"
+
 /// The one table of searches: NLopt's evolutionary, global, simplex and gradient methods behind one
 /// interface.
 ///
@@ -49,6 +51,7 @@ struct SearchOptions {
                             ///< their evaluations whatever it is
   double feasible = 1e-9;   ///< a constraint up to this counts as kept
 };
+void Visit(KeyVisitor& keys, SearchOptions& options);
 
 enum class SearchStatus {
   kFound,       ///< a point that keeps bounds and constraints, with a finite objective

@@ -8,11 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "trackbed/control/playback.h"
+#include "trackbed/control/preview.h"
 #include "trackbed/control/speed_controller.h"
-#include "trackbed/control/steering_controller.h"
-#include "trackbed/planning/avoidance.h"
-#include "trackbed/planning/planner.h"
-#include "trackbed/planning/replan.h"
+#include "trackbed/planning/avoidance/avoidance.h"
+#include "trackbed/planning/registry/planners.h"
+#include "trackbed/planning/replan/replan.h"
 #include "trackbed/scenario/disturbances.h"
 #include "trackbed/scenario/manoeuvre.h"
 #include "trackbed/sim/plant.h"
@@ -48,7 +49,7 @@ struct MissionSpec {
 
 /// How the path is made.
 struct PlanSpec {
-  PlannerOptions global = FilletOptions{};
+  PlannerOptions global = Planners().front().defaults;
   std::optional<AvoiderOptions> avoid;  ///< leads it around obstacles; none: it is not led around
   std::optional<ReplanOptions> replan;  ///< plans again on the way; none: it does not
   /// What becomes of a plan that asks more of the car than it can do.

@@ -10,7 +10,7 @@
 #include "trackbed/vehicle/state.h"
 #include "trackbed/world/world.h"
 
-/// One interface and one table for everything that can be driven.
+/// The interface of everything that can be driven, and the registry of plants.
 namespace trackbed {
 
 /// Where and how a drive begins.
@@ -78,15 +78,17 @@ struct PlantSetup {
 /// What `tyre` means for a car: never kAuto.
 TyreLaw TyreLawOf(const CarModel& car, TyreLaw tyre);
 
+/// A plant in the registry.
 struct PlantEntry {
   const char* name;
-  const char* summary;
+  const char* summary;  ///< for people, on one line
   std::unique_ptr<Plant> (*make)(const PlantSetup& setup);
 };
 
-/// Every plant there is: `kinematic` (KinematicCar, rear-axle reference), `single_track`
-/// (SingleTrackCar) and `mujoco` (the MJCF car on its contacts, with the tyre law of the setup);
-/// `mujoco:contact` and `mujoco:magic_formula` have their own law whatever the setup's is.
+/// All plants, those of Trackbed first: `kinematic` (KinematicCar, rear-axle reference),
+/// `single_track` (SingleTrackCar) and `mujoco` (the MJCF car on its contacts, with the tyre law of
+/// the setup); `mujoco:contact` and `mujoco:magic_formula` have their own law whatever the setup's
+/// is.
 ///
 /// The first two obey the commanded acceleration exactly and know nothing of the world: no
 /// obstacles, friction, grades or wind. (A road's friction is no part of a tyre's stiffness, which
@@ -107,6 +109,11 @@ struct PlantEntry {
 /// measured steering angle is atan((v_R - v_L)/v) of the wheels' speeds; below 0.1 m/s what they
 /// are off counts with (v/0.1 m/s)^2 only, so that it is the actuator's at rest.
 const std::vector<PlantEntry>& Plants();
+
+/// Adds a plant of yours: its name can then be used in scenarios, and `trackbed list`, messages and
+/// reports know it. Call it at the start of main: references to entries become invalid, and it is
+/// not thread-safe. PreconditionError when the name is taken.
+void RegisterPlant(PlantEntry entry);
 
 /// InputError with the nearest spelling when there is no such plant.
 std::unique_ptr<Plant> MakePlant(const std::string& name, const PlantSetup& setup);

@@ -1,0 +1,72 @@
+# trackbed_module(PATH [SOURCE_DIR DIR] [MODULES module...] [LIBRARIES lib...] [PRIVATE_LIBRARIES lib...])
+#
+# One static library per module: public headers in include/trackbed/PATH, sources in src/PATH (or
+# DIR). PATH is `core`, or `planning/fillet` for a part of a larger module; its target is
+# trackbed_planning_fillet, trackbed::planning_fillet for others. MODULES must be declared already,
+# so that the order of the calls is the order of the modules, from the bottom up.
+#
+# A target sees the headers of the modules that it links, and no others: each module has an include
+# directory of its own in the build tree, with a link to its headers.
+# Each public header is compiled alone as well (trackbed_NAME_headers).
+include(GNUInstallDirs)
+set_property(GLOBAL PROPERTY TRACKBED_MODULES "")
+
+# Makes DIR/LINK point to the folder SOURCE.
+function(trackbed_link_folder dir link source)
+  get_filename_component(parent ${dir}/${link} DIRECTORY)
+  file(MAKE_DIRECTORY ${parent})
+  file(CREATE_LINK ${source} ${dir}/${link} SYMBOLIC)
+endfunction()
+
+function(trackbed_module path)
+  cmake_parse_arguments(ARG "" "SOURCE_DIR" "MODULES;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  if(NOT ARG_SOURCE_DIR)
+    set(ARG_SOURCE_DIR src/${path})
+  endif()
+  get_property(below GLOBAL PROPERTY TRACKBED_MODULES)
+  foreach(module IN LISTS ARG_MODULES)
+    if(NOT module IN_LIST below)
+      message(FATAL_ERROR "module '${path}' may only use modules below it, and '${module}' is not")
+    endif()
+  endforeach()
+  set_property(GLOBAL APPEND PROPERTY TRACKBED_MODULES ${path})
+  string(REPLACE "/" "_" name ${path})
+  list(TRANSFORM ARG_MODULES REPLACE "/" "_")
+  list(TRANSFORM ARG_MODULES PREPEND trackbed_)
+
+  set(public ${PROJECT_BINARY_DIR}/modules/${name}/public)
+  set(private ${PROJECT_BINARY_DIR}/modules/${name}/private)
+  trackbed_link_folder(${public} trackbed/${path} ${PROJECT_SOURCE_DIR}/include/trackbed/${path})
+  trackbed_link_folder(${private} ${ARG_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/${ARG_SOURCE_DIR})
+
+  file(GLOB sources CONFIGURE_DEPENDS ${ARG_SOURCE_DIR}/*.cpp)
+  add_library(trackbed_${name} STATIC ${sources})
+  add_library(trackbed::${name} ALIAS trackbed_${name})
+  target_include_directories(
+    trackbed_${name}
+    PUBLIC $<BUILD_INTERFACE:${public}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE ${private})
+  target_compile_features(trackbed_${name} PUBLIC cxx_std_20)
+  set_target_properties(trackbed_${name} PROPERTIES EXPORT_NAME ${name})
+  target_link_libraries(
+    trackbed_${name}
+    PUBLIC ${ARG_MODULES} ${ARG_LIBRARIES}
+    PRIVATE $<BUILD_INTERFACE:trackbed_compiler> ${ARG_PRIVATE_LIBRARIES})
+
+  if(planning/common IN_LIST below OR path STREQUAL planning/common)
+    trackbed_precompile(trackbed_${name})
+  endif()
+
+  file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/include
+       ${PROJECT_SOURCE_DIR}/include/trackbed/${path}/*.h)
+  set(alone "")
+  foreach(header IN LISTS headers)
+    set(file ${PROJECT_BINARY_DIR}/headers/${header}.cpp)
+    file(CONFIGURE OUTPUT ${file} CONTENT "#include \"${header}\"\n")
+    list(APPEND alone ${file})
+  endforeach()
+  if(alone)
+    add_library(trackbed_${name}_headers OBJECT ${alone})
+    target_link_libraries(trackbed_${name}_headers PRIVATE trackbed_${name} trackbed_compiler)
+  endif()
+endfunction()

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "trackbed/control/steering_controller.h"
+
+/// The registry of steering controllers.
+namespace trackbed {
+
+/// All steering controllers, those of Trackbed first.
+const std::vector<ControllerEntry>& Controllers();
+
+/// Adds a controller of yours: its name can then be used in scenarios, and `trackbed list`,
+/// messages and reports know it. Call it at the start of main: references to entries become
+/// invalid, and it is not thread-safe. PreconditionError when the name or the type of the options
+/// is taken.
+void RegisterController(ControllerEntry entry);
+
+/// The entry of the controller that `options` belong to. InternalError for options of none.
+const ControllerEntry& ControllerFor(const ControllerOptions& options);
+
+/// The controller that `options` select. Its Steer rejects a state with NaN or infinity:
+/// InternalError.
+std::unique_ptr<SteeringController> MakeSteeringController(const ControllerOptions& options);
+
+}  // namespace trackbed

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+
+#include "trackbed/control/steering_controller.h"
+#include "trackbed/path/path.h"
+
+namespace trackbed {
+
+/// How the preview controller turns the preview angle u into steering.
+enum class PreviewLaw {
+  kLinear,    ///< delta = (2 L/R) u: MacAdam's gain for a single point and the kinematic car
+  kExactArc,  ///< delta = atan(2 L sin(u)/R): the circle through the point; pure pursuit
+};
+
+/// MacAdam's preview with a single point (seed 004): the point P of the path at distance R from the
+/// rear-axle centre O, the first after the nearest one; u is the signed angle from the direction of
+/// motion to OP. Beyond its end the path goes on along its tangent. A car further than R from the
+/// path heads for the point R ahead of its nearest one.
+///
+/// The distance trades corners against robustness: a car cuts them by R^2/(8 r), and its wheels
+/// turn at a limited rate. Unless `distance` is given, R follows from the car, its speed and the
+/// path:
+///   R = max(3/4 L,  3 v T,  0.65 S + v T)
+///   T [s]  response time: control period + steering lag + m v/(C_f + C_r), the tyres' part 0 for a
+///          car without tyre coefficients
+///   S [m]  the ramp: how far the car rolls while its wheels turn by more than the path gives them
+///          room for, the largest v abs(delta(s_2) - delta(s_1))/omega - (s_2 - s_1) of any two
+///          stations s_1 < s_2 within R, with delta = atan(L kappa) of the path
+/// with L wheelbase [m], v speed [m/s], omega steering rate [rad/s], C_f, C_r cornering stiffness
+/// of the axles [N/rad], m mass [kg]. A car and its path of another size, at the same v/(L omega)
+/// and v T/L, are driven with the same relative error. Derivation and sources:
+/// docs/algorithms/control.md.
+///
+/// That distance suits a car on its path. Back to the path from an offset e, it would ask for
+/// steering at more than the limited rate, and the car would oscillate about the path. So R is
+/// never shorter than 1.5 cbrt(e L v/omega), which is 0 for a car on its path.
+struct PreviewOptions {
+  std::optional<double> distance;  ///< shortest R [m], > 0; default: the law above
+  double time = 0.0;               ///< R is at least time |v| [s]
+  PreviewLaw law = PreviewLaw::kExactArc;
+  /// With the tyres' slip: u from where the rear axle really moves, and the steering that leads a
+  /// car that understeers round the circle. A given distance has to be half a second at 20 m/s,
+  /// where 0.3 s swing out for good.
+  bool slip = false;
+};
+void Visit(KeyVisitor& keys, PreviewOptions& options);
+
+ControllerEntry PreviewController();
+
+/// The preview angle u [rad] of a car whose rear axle is at `pose`, looking `distance` [m] ahead
+/// along `path` from `station`; positive when the point lies to the left.
+double PreviewAngle(const Path& path, const Pose2& pose, double station, double distance);
+
+}  // namespace trackbed

@@ -1,0 +1,228 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "trackbed/geometry/pose.h"
+
+/// How a struct of options declares its keys, once for reading, writing and listing alike.
+///
+/// Beside the struct stands a function
+///
+///     void Visit(KeyVisitor& keys, MyOptions& options) {
+///       keys.Field({"distance", "m", "how far ahead the car aims"}, options.distance,
+///                  Need::kOptional, kPositive);
+///     }
+///
+/// found by argument-dependent lookup. The reader of YAML files, the writer of resolved scenarios
+/// and the lister of `trackbed docs` are visitors.
+namespace trackbed {
+
+/// A key, and what the docs say of it.
+struct Key {
+  const char* name;
+  const char* unit;  ///< "m/s"; empty for what is no quantity
+  const char* text;  ///< for people, on one line
+};
+
+/// The key that selects one of several methods, each with keys of its own.
+inline constexpr Key kMethod{"method", "", "which one; each has keys of its own"};
+
+enum class Need { kRequired, kOptional };
+
+/// Allowed values of a number. `above` is exclusive, the others are inclusive.
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  double above = -std::numeric_limits<double>::infinity();
+};
+
+inline constexpr Range kPositive{.above = 0.0};
+inline constexpr Range kNotNegative{.min = 0.0};
+
+inline constexpr Range kMap{.min = -1e5, .max = 1e5};          ///< [m]; beyond any route
+inline constexpr Range kSpeedRange{.min = 0.0, .max = 100.0};  ///< [m/s]
+inline constexpr Range kSteering{.min = -1.5, .max = 1.5};     ///< [rad]
+
+/// The pairs of numbers in a list: what one is called and what many are, and the allowed values.
+struct PairShape {
+  const char* one;
+  const char* many;
+  Range first;
+  Range second;
+};
+
+inline constexpr PairShape kPoint{"a point [x, y]", "points [x, y]", kMap, kMap};
+
+/// "above 0 and at most 10"; empty when everything is allowed.
+std::string AllowedBy(Range range);
+
+using Names = std::vector<std::string>;
+
+template <typename Enum>
+using EnumNames = std::vector<std::pair<Enum, const char*>>;
+
+class KeyVisitor {
+ public:
+  enum class Mode { kRead, kWrite, kList };
+  using Inside = std::function<void(KeyVisitor& keys)>;
+
+  virtual ~KeyVisitor() = default;
+
+  [[nodiscard]] virtual Mode mode() const = 0;
+
+  virtual void Field(const Key& key, double& value, Need need, Range range = {}) = 0;
+  virtual void Field(const Key& key, std::optional<double>& value, Range range = {}) = 0;
+  virtual void Field(const Key& key, std::optional<bool>& value) = 0;
+  virtual void Field(const Key& key, bool& value, Need need) = 0;
+  virtual void Field(const Key& key, int& value, Need need, Range range = {}) = 0;
+  virtual void Field(const Key& key, std::uint64_t& value, Need need) = 0;
+  virtual void Field(const Key& key, std::string& value, Need need, const Names& allowed = {}) = 0;
+  virtual void Field(const Key& key, std::optional<std::string>& value) = 0;
+  virtual void Field(const Key& key, std::vector<std::string>& value, Need need,
+                     const Names& allowed) = 0;
+  virtual void Field(const Key& key, std::vector<Vec2>& value, Need need,
+                     const PairShape& shape = kPoint) = 0;
+  virtual void Field(const Key& key, std::vector<double>& value, Need need, Range range = {}) = 0;
+  /// A required name that can stand in a path: letters, digits, '_', '-', '.', none hidden.
+  virtual void Identifier(const Key& key, std::string& value) = 0;
+  /// A list of two whole numbers.
+  virtual void Pair(const Key& key, int& first, int& second, Range range) = 0;
+
+  /// A name for each value of an enumeration.
+  template <typename Enum>
+  void Field(const Key& key, Enum& value, Need need,
+             const EnumNames<Enum>& names) requires std::is_enum_v<Enum>;
+
+  /// A section with the keys of a struct.
+  template <typename Struct>
+  void Section(const Key& key, Struct& value, Need need = Need::kOptional) {
+    VisitSection(key, need, true, [&](KeyVisitor& inner) { Visit(inner, value); });
+  }
+
+  /// One whose absence has a meaning.
+  template <typename Struct>
+  void Section(const Key& key, std::optional<Struct>& value);
+
+  /// A list of such sections.
+  template <typename Struct>
+  void List(const Key& key, std::vector<Struct>& values);
+
+  /// A section whose key `method` selects an entry of `table` by its `name`, and has the keys of
+  /// the options that this entry has as its `defaults`; `rest` are keys that it has whichever is
+  /// selected.
+  template <typename Options, typename Entry>
+  void Method(const Key& key, std::optional<Options>& value, const std::vector<Entry>& table,
+              Need need, const Inside& rest = {});
+
+  /// Lists a key whose meaning is described by its text alone; does nothing in other modes.
+  virtual void Mention(const Key&, const char* /*type*/) {}
+
+  /// In mode kRead: whether `key` is a section that has one of `inner` and no method of its own.
+  [[nodiscard]] virtual bool HasOneOf(const char* /*key*/, const Names& /*inner*/) const {
+    return false;
+  }
+
+ protected:
+  /// The methods that a section can select, without the types of their options.
+  struct Methods {
+    struct Entry {
+      const char* name;
+      const char* summary;
+    };
+    std::vector<Entry> entries;
+    std::optional<std::size_t> selected;
+    std::function<void(std::size_t entry)> select;  ///< with the entry's defaults
+    Inside visit_selected;
+    std::function<void(std::size_t entry, KeyVisitor& keys)> visit_defaults;
+    Inside rest;
+  };
+
+  /// Visits the keys inside if there is such a section: the writer asks `present`, the reader its
+  /// file. Returns whether there was one.
+  virtual bool VisitSection(const Key& key, Need need, bool present, const Inside& inside) = 0;
+  /// Resizes the list (the reader) and visits each element. The lister visits the one at `size`,
+  /// which stands for a new one.
+  virtual void VisitList(const Key& key, std::size_t size,
+                         const std::function<void(std::size_t size)>& resize,
+                         const std::function<void(KeyVisitor& keys, std::size_t i)>& visit) = 0;
+  virtual void VisitMethod(const Key& key, Need need, const Methods& methods) = 0;
+};
+
+/// The number at `key` among the keys that `visit` declares; none if there is no such key.
+std::optional<double> FindNumber(const std::string& key, const KeyVisitor::Inside& visit);
+
+/// Whether two options are of the same method, and their keys, for variants of options; types that
+/// hold the options of registered methods have functions of the same names (method_options.h).
+template <typename... Options>
+bool AreOfOneMethod(const std::variant<Options...>& a, const std::variant<Options...>& b) {
+  return a.index() == b.index();
+}
+template <typename... Options>
+void Visit(KeyVisitor& keys, std::variant<Options...>& options) {
+  std::visit([&](auto& own) { Visit(keys, own); }, options);
+}
+
+template <typename Enum>
+void KeyVisitor::Field(const Key& key, Enum& value, Need need,
+                       const EnumNames<Enum>& names) requires std::is_enum_v<Enum> {
+  std::string name;
+  Names allowed;
+  for (const auto& [candidate, spelling] : names) {
+    name = candidate == value ? spelling : name;
+    allowed.emplace_back(spelling);
+  }
+  Field(key, name, need, allowed);
+  for (const auto& [candidate, spelling] : names) {
+    value = name == spelling ? candidate : value;
+  }
+}
+
+template <typename Struct>
+void KeyVisitor::Section(const Key& key, std::optional<Struct>& value) {
+  Struct own = value.value_or(Struct{});
+  if (VisitSection(key, Need::kOptional, value.has_value(),
+                   [&](KeyVisitor& inner) { Visit(inner, own); })) {
+    value = std::move(own);
+  }
+}
+
+template <typename Struct>
+void KeyVisitor::List(const Key& key, std::vector<Struct>& values) {
+  VisitList(
+      key, values.size(), [&](std::size_t size) { values.assign(size, Struct{}); },
+      [&](KeyVisitor& inner, std::size_t i) {
+        Struct added;
+        Visit(inner, i < values.size() ? values[i] : added);
+      });
+}
+
+template <typename Options, typename Entry>
+void KeyVisitor::Method(const Key& key, std::optional<Options>& value,
+                        const std::vector<Entry>& table, Need need, const Inside& rest) {
+  Methods methods;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    methods.entries.push_back({table[i].name, table[i].summary});
+    if (value && AreOfOneMethod(table[i].defaults, *value)) {
+      methods.selected = i;
+    }
+  }
+  methods.select = [&](std::size_t i) { value = table[i].defaults; };
+  methods.visit_selected = [&](KeyVisitor& inner) { Visit(inner, *value); };
+  methods.visit_defaults = [&](std::size_t i, KeyVisitor& inner) {
+    Options defaults = table[i].defaults;
+    Visit(inner, defaults);
+  };
+  methods.rest = rest ? rest : [](KeyVisitor&) {};
+  VisitMethod(key, need, methods);
+}
+
+}  // namespace trackbed

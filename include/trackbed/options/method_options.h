@@ -1,0 +1,66 @@
+#pragma once
+
+#include <any>
+#include <type_traits>
+#include <typeinfo>
+#include <utility>
+
+#include "trackbed/core/error.h"
+#include "trackbed/options/key_visitor.h"
+
+namespace trackbed {
+
+/// The options of one of the methods of a kind, such as the planners: a value of any copyable
+/// struct that declares its keys (key_visitor.h). Which struct it is says which method is meant, so
+/// that methods can be added without a list of all types. `Kind` keeps the options of planners
+/// apart from those of controllers.
+template <typename Kind>
+class MethodOptions {
+ public:
+  template <typename Options>
+  requires(!std::is_same_v<std::decay_t<Options>, MethodOptions>)
+      MethodOptions(Options options)  // NOLINT(google-explicit-constructor): stands for its options
+      : value_(std::move(options)), visit_([](KeyVisitor& keys, std::any& value) {
+          Visit(keys, *std::any_cast<Options>(&value));
+        }) {}
+
+  template <typename Options>
+  [[nodiscard]] bool Is() const {
+    return value_.type() == typeid(Options);
+  }
+
+  /// The options, if they are of this type; else null.
+  template <typename Options>
+  [[nodiscard]] const Options* As() const {
+    return std::any_cast<Options>(&value_);
+  }
+  template <typename Options>
+  [[nodiscard]] Options* As() {
+    return std::any_cast<Options>(&value_);
+  }
+
+  /// The options, which must be of this type: InternalError.
+  template <typename Options>
+  [[nodiscard]] const Options& Get() const {
+    TRACKBED_CHECK(Is<Options>(), "options of another method: {}", value_.type().name());
+    return *As<Options>();
+  }
+  template <typename Options>
+  [[nodiscard]] Options& Get() {
+    TRACKBED_CHECK(Is<Options>(), "options of another method: {}", value_.type().name());
+    return *As<Options>();
+  }
+
+  friend bool AreOfOneMethod(const MethodOptions& a, const MethodOptions& b) {
+    return a.value_.type() == b.value_.type();
+  }
+  friend void Visit(KeyVisitor& keys, MethodOptions& options) {
+    options.visit_(keys, options.value_);
+  }
+
+ private:
+  std::any value_;
+  void (*visit_)(KeyVisitor& keys, std::any& value);
+};
+
+}  // namespace trackbed

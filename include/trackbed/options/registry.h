@@ -1,0 +1,66 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trackbed/core/error.h"
+#include "trackbed/core/spelling.h"
+
+namespace trackbed {
+
+/// The methods of one kind, such as the planners. `Entry` has a `name` and, if its methods have
+/// options, `defaults`.
+template <typename Entry>
+class Registry {
+ public:
+  /// `kind` is for messages: "planner".
+  Registry(const char* kind, std::vector<Entry> entries)
+      : kind_(kind), entries_(std::move(entries)) {}
+
+  [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+
+  /// PreconditionError when the name is empty or taken, or another entry has options of its type.
+  void Add(Entry entry) {
+    const std::string name = entry.name;
+    TRACKBED_REQUIRE(!name.empty(), "a {} without a name", kind_);
+    for (const Entry& other : entries_) {
+      TRACKBED_REQUIRE(name != other.name, "there is a {} of the name {} already", kind_, name);
+      if constexpr (requires { entry.defaults; }) {
+        TRACKBED_REQUIRE(!AreOfOneMethod(entry.defaults, other.defaults),
+                         "the {} {} has the options of {}; give it a type of its own", kind_, name,
+                         other.name);
+      }
+    }
+    entries_.push_back(std::move(entry));
+  }
+
+  /// InputError with the nearest spelling when there is no such entry.
+  [[nodiscard]] const Entry& Find(const std::string& name) const {
+    std::vector<std::string> names;
+    for (const Entry& entry : entries_) {
+      if (entry.name == name) {
+        return entry;
+      }
+      names.emplace_back(entry.name);
+    }
+    throw InputError(Problem{.message = "unknown " + (kind_ + (" " + UnknownName(name, names)))});
+  }
+
+  /// The entry that the options belong to. InternalError when there is none.
+  template <typename Options>
+  [[nodiscard]] const Entry& For(const Options& options) const {
+    const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+      return AreOfOneMethod(entry.defaults, options);
+    });
+    TRACKBED_CHECK(found != entries_.end(), "options of a {} that is not registered", kind_);
+    return *found;
+  }
+
+ private:
+  std::string kind_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace trackbed

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "trackbed/geometry/oriented_box.h"
+#include "trackbed/path/reference.h"
+#include "trackbed/planning/common/plan_status.h"
+#include "trackbed/planning/common/turn_prediction.h"
+#include "trackbed/vehicle/params.h"
+#include "trackbed/vehicle/steering_schedule.h"
+#include "trackbed/world/road.h"
+#include "trackbed/world/wind.h"
+
+/// What a planner is asked, and what it answers.
+namespace trackbed {
+
+/// A section of a course with cones on either side.
+struct Gate {
+  int section = 0;   ///< its number in the course
+  OrientedBox lane;  ///< its x axis along the course
+};
+
+/// A node of a search tree; the first one is the start, its own parent.
+struct TreeNode {
+  Vec2 position{0.0, 0.0};  ///< [m]
+  std::size_t parent = 0;   ///< index in the tree
+  double cost = 0.0;        ///< length of the path from the start along the tree [m]
+};
+
+/// What becomes of a plan that asks more of the car than it can do; see feasibility.h.
+enum class InfeasiblePolicy {
+  kSlowDown,  ///< driven more slowly where that helps, else refused
+  kRefuse,    ///< no plan
+  kAllow,     ///< driven as it is, to see what happens
+};
+
+/// What is to be reached, by whatever method. Planners keep no state and have no clock of their
+/// own: the same values give the same plan. Only a planner with a time limit looks at the caller's
+/// clock, and with one its plan depends on how fast the machine is.
+struct PlanRequest {
+  VehicleParams vehicle;
+  std::vector<Vec2> waypoints;  ///< [m]
+  /// Of the car at each waypoint [rad]; none: along the legs, see StopsOf.
+  std::vector<double> headings{};
+  std::vector<OrientedBox> obstacles{};  ///< that are known
+  Wind wind{};                           ///< as it blows when the drive begins
+  Pose2 start;                           ///< where the car is
+  double start_speed = 0.0;              ///< [m/s]
+  double start_steering = 0.0;           ///< of wheels and actuator there [rad]
+  SpeedLimits speed;                     ///< the mission's speed and how to change it
+  std::uint64_t seed = 0;                ///< of every random choice
+  /// The time now [s], from any beginning; asked by planners with a time limit alone. Empty: time
+  /// limits are not kept.
+  std::function<double()> clock{};
+  double friction = 1.0;                          ///< of the road, a factor on the tyres' own
+  std::vector<FrictionPatch> friction_patches{};  ///< where it is another
+  InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
+};
+
+/// What a planner gives back. With any status but kOk there is a reason and no path.
+struct Plan {
+  PlanStatus status = PlanStatus::kOk;
+  std::string reason;           ///< for people; empty when ok
+  Reference reference;          ///< for closed-loop controllers
+  SteeringSchedule schedule;    ///< for the open loop, over the distance driven
+  SpeedProfile schedule_speed;  ///< likewise: ends where the open loop is to stop
+  std::vector<SpeedCap> caps;   ///< stretches of the path that it takes more slowly
+  std::vector<double> stops;    ///< where it stops on the way, besides its cusps, to turn the
+                                ///< wheels on the spot [m]
+  Pose2 goal;  ///< where the mission ends: the path too, unless it is blocked or partial
+  /// Why the path ends before the goal, for people; empty when it does not.
+  std::string blocked;
+  /// Why the path leads only part of the way, for people, when a search for more of it was ended;
+  /// empty when it leads to the goal. Whatever plans again on the way leads no further either.
+  std::string partial;
+  std::vector<Gate> gates;         ///< that it leads through
+  std::vector<LoneTurn> turns;     ///< whose cost to an open-loop drive can be told
+  std::vector<std::string> notes;  ///< what to know of it, for people: that it was slowed down
+  nlohmann::json diagnostics;      ///< the method's own findings, as in plan.json
+  std::vector<TreeNode> tree;      ///< of every RRT or RRT* that was used, one after the other
+
+  [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }
+};
+
+}  // namespace trackbed

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trackbed/options/key_visitor.h"
+#include "trackbed/planning/common/clear_way.h"
+#include "trackbed/planning/common/corners.h"
+#include "trackbed/planning/common/lead_in.h"
+#include "trackbed/planning/common/plan.h"
+
+/// What the planners share that lead from stop to stop and keep clear of obstacles.
+namespace trackbed {
+
+/// Where a route leads through: the car's start, then every waypoint but the first, with its
+/// heading; without given ones along the last leg at the goal, and from the stop before to the stop
+/// after on the way.
+std::vector<Pose2> StopsOf(const PlanRequest& request);
+
+namespace route {
+
+/// A plan that is none, with its reason.
+Plan Refused(PlanStatus status, std::string reason);
+
+/// What is wrong with the route itself, if anything.
+Plan CheckRoute(const PlanRequest& request);
+
+/// Whether the car can turn on the radius that is asked for, if any.
+Plan CheckRadius(const VehicleParams& vehicle, const std::optional<double>& radius);
+
+/// Whether the car can stand at every stop.
+Plan CheckStops(const std::vector<Pose2>& stops, const ClearWay& clear);
+
+/// The radius to plan with [m]: the one asked for, or a tenth more than the car's smallest.
+double RadiusFor(const VehicleParams& vehicle, const std::optional<double>& radius);
+
+/// Whether segments that begin at `pose` are clear.
+bool IsFree(const ClearWay& clear, const Pose2& pose, const std::vector<Segment>& segments);
+
+/// Where a rolling car's curves begin: after it has slowed down for the first step of curvature.
+LeadIn LeadInForCurves(const PlanRequest& request, double radius, double min_speed);
+
+/// Fills in what follows from the path and the caps.
+void Complete(Plan& plan, const PlanRequest& request);
+
+/// Completes a plan along arcs and straights.
+Plan AlongSegments(Plan plan, const PlanRequest& request, std::vector<Segment> segments,
+                   double min_speed);
+
+/// Completes a plan along a polyline whose corners are to be rounded, or that is to have none.
+/// `plan` has the diagnostics of how it was found.
+Plan AlongPolyline(Plan plan, const PlanRequest& request, const std::vector<Vec2>& points,
+                   Corners corners, double safe_distance, double min_speed);
+
+/// Points as they stand in plan.json.
+nlohmann::json ToJson(const std::vector<Vec2>& points);
+
+// Keys that several of them have.
+
+inline constexpr Key kOutlineDistance{"safe_distance", "m", "of the car's outline from obstacles"};
+inline constexpr Key kGridCell{"cell", "m", "side of a cell"};
+inline constexpr Key kGridMargin{"margin", "m",
+                                 "around waypoints and obstacles, within which to look"};
+inline constexpr Range kCellSize{.min = 0.05, .max = 10.0};
+inline constexpr Key kCornerSpeed{"min_speed", "m/s", "no corner is taken more slowly"};
+
+/// Of planners whose paths consist of arcs and straights.
+void VisitCurves(KeyVisitor& keys, std::optional<double>& radius, double& safe_distance,
+                 double& min_speed);
+
+/// Of planners that round the corners of a polyline.
+void VisitCorners(KeyVisitor& keys, Corners& corners, double& safe_distance, double& corner_room);
+
+}  // namespace route
+}  // namespace trackbed

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "trackbed/geometry/oriented_box.h"
+#include "trackbed/path/path.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/vehicle/params.h"
+
+/// The double lane changes of ISO 3888: three gates, and a way through them.
+///
+/// Sections along the course, w the car's width without mirrors; sections 2 and 4 are free:
+///
+///   section       1             2     3             4     5
+///   ISO 3888-1    15 m          30    25 m          25    30 m          (2018, table 1; its
+///                 1.1 w + 0.25        1.2 w + 0.25        1.3 w + 0.25   sections 5 and 6, of 15 m
+///                                                                        each, as one)
+///   ISO 3888-2    12 m          13.5  11 m          12.5  12 m          (2011, table 1)
+///                 1.1 w + 0.25        w + 1               max(1.3 w + 0.25, 3)
+///
+/// Lane offsets: in part 1 the right edge of section 3 lies 3.5 m to the left of that of section 1;
+/// in part 2 it lies 1 m to the left of section 1's left edge. Sections 1 and 5 share their right
+/// edge. (All mirrored when the first change is to the right.)
+namespace trackbed {
+
+enum class LaneChangeStandard { kIso3888_1, kIso3888_2 };
+
+enum class Side { kLeft, kRight };
+
+struct LaneChangePlannerOptions {
+  LaneChangeStandard standard = LaneChangeStandard::kIso3888_1;
+  Side first = Side::kLeft;  ///< where section 3 lies
+  double lead_in = 30.0;     ///< from the start to section 1 [m], > 0
+  double lead_out = 20.0;    ///< straight on after section 5, before the car is stopped [m], > 0
+  /// The rear axle leaves the middle of a gate so far before its end, and is on the middle of the
+  /// next one so far after its beginning [m]: the longer the way across, the less it bends, and the
+  /// nearer the car comes to the cones.
+  double leave = 0.0;
+  double join = 0.0;
+};
+void Visit(KeyVisitor& keys, LaneChangePlannerOptions& options);
+
+/// The gates of a course that begins with section 1 at `start`, on the middle of its lane.
+std::vector<Gate> LaneChangeGates(LaneChangeStandard standard, Side first, double vehicle_width,
+                                  const Pose2& start);
+
+/// Where its cones stand [m]: five along either edge, from end to end, their inner sides on it.
+std::vector<Vec2> ConesOf(const Gate& gate);
+
+/// From `start` along the middles of the gates, in between by y = h (10 u^3 - 15 u^4 + 6 u^5): its
+/// curvature has no jumps, is 0 at both ends and at most 5.77 h/length^2 (in arcs of at most 0.1 m,
+/// so it goes in steps of less than 6 m h/length^3). Ends `lead_out` after the last gate plus
+/// `stop`.
+std::vector<Segment> LaneChangePath(const LaneChangePlannerOptions& options,
+                                    const std::vector<Gate>& gates, const Pose2& start,
+                                    double stop);
+
+/// The smallest distance [m] by which a corner of the car's outline was inside an edge while it was
+/// between a gate's ends; one per gate, negative outside, infinite for a gate that no corner
+/// reached. The car moves through the poses of its rear axle, straight in between.
+std::vector<double> GateMargins(const std::vector<Gate>& gates, const VehicleParams& vehicle,
+                                const std::vector<Pose2>& poses);
+
+/// The planner `lane_change`.
+PlannerEntry LaneChangePlanner();
+
+}  // namespace trackbed

@@ -1,0 +1,203 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trackbed/optimize/search.h"
+#include "trackbed/path/path.h"
+#include "trackbed/planning/common/open_loop.h"
+#include "trackbed/planning/common/plan_status.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/vehicle/params.h"
+#include "trackbed/vehicle/steering_schedule.h"
+
+/// The global planner's geometry: waypoints joined by straight legs whose corners are rounded by
+/// arcs (dissertation appendix C, equations C.1-C.19; Beard & McLain's fillet path), and the
+/// distances at which a car with rate-limited steering has to start turning its wheels (F.1).
+///
+/// Symbols, for the turn at waypoint w between the legs q_in and q_out (unit vectors):
+///   phi  interior angle between the legs [rad]: pi for straight on, 0 for a U-turn
+///   h    heading change [rad], pi - phi, signed: positive to the left
+///   r    radius of the rear axle's arc [m]
+///   K    tangent length r/tan(phi/2) [m], from the waypoint to either end of the arc (C.11)
+///   q_S  the shorter one of the two legs [m]
+///   d_0  neutral steering: where the wheels stand between turns [rad]
+///   S_delta = v |delta - d_0|/omega_delta: rolled while the wheels turn to the arc's angle,
+///        delta = sgn(h) atan(L/r) [m]
+///   D_{2k-1}, D_2k  distances at which the wheels start into and out of turn k [m]
+///   D_end  distance at which the car stops [m]
+namespace trackbed {
+
+/// What a radius has to satisfy.
+enum class RadiusConstraint {
+  kSteeringRoom,  ///< C.40: K <= q_S/2 - S_delta; the turn leaves the distance to turn the wheels
+  kHalfLeg,       ///< C.34: K <= q_S/2; turns do not overlap
+  kNone,          ///< only that the arcs fit on their legs; for given radii
+};
+
+/// What to do about a turn for which C.40 has no radius at the mission's speed.
+enum class WithoutRoom {
+  /// Take it as fast as C.40 allows. Below `min_speed`: at that, if half a ramp, which is what lies
+  /// on the leg, fits into half of it besides the arc's tangent; else refuse.
+  kSlowDown,
+  kHalfLeg,  ///< take it under C.34: the wheels turn on the arc of the neighbours
+  kRefuse,   ///< no plan
+};
+
+/// By what the radii are chosen.
+enum class RadiusObjective {
+  /// The largest that keeps the constraint. Closed form; no search.
+  kLargest,
+  /// The dissertation's two passes: a first drive on the smallest radii tells the time t and the
+  /// heading dpsi from the return of one turn to the return of the next; the search minimises
+  /// (psi'(r) t - dpsi)^2. That time holds the straight before the turn too, so the optimum of a
+  /// first turn always lies on the constraint.
+  kLiteral,
+  /// The same over the turn alone, from D_{2k-1} to D_2k: the radius that the rate-limited car
+  /// really drove.
+  kTurnLocal,
+  /// Radii, D_{2k-1}, D_2k and D_end together, for the driven car to stay with the planned path
+  /// at equal arc length and to end at the goal (C.20 in full).
+  kDriven,
+};
+
+/// J = position int(e_x^2 + e_y^2) ds + heading int(e_psi^2) ds + end |e(D_end)|^2.
+struct DrivenWeights {
+  double position = 1.0;  ///< w_xy [1/m^3], >= 0
+  double heading = 1.0;   ///< w_psi [1/m], >= 0
+  double end = 100.0;     ///< w_end [1/m^2], >= 0
+};
+void Visit(KeyVisitor& keys, DrivenWeights& weights);
+
+struct FilletOptions {
+  /// [m], for every turn; none: chosen by the objective.
+  std::optional<double> radius;
+  RadiusConstraint constraint = RadiusConstraint::kSteeringRoom;
+  /// d_0 [rad], positive to the left: from here the wheels turn into a turn, and to here they
+  /// return. It is an angle of the road wheels like delta, which stays that of the arc: a kinematic
+  /// car leaves its straight legs on a circle of radius L/tan(d_0) unless it is 0.
+  double neutral_steering = 0.0;
+  double max_radius = 154.0;  ///< upper bound of the search [m]; the seed's, one degree of steering
+  WithoutRoom without_room = WithoutRoom::kSlowDown;
+  double min_speed = 0.5;  ///< no turn is taken more slowly [m/s]
+  RadiusObjective objective = RadiusObjective::kLargest;
+  SearchOptions search;               ///< of every objective but kLargest
+  bool resimulate_each_turn = false;  ///< kLiteral, kTurnLocal: a first drive before every turn
+  /// The point of the car that drives along the path in first drives and verification.
+  ReferencePoint reference = ReferencePoint::kRearAxle;
+  DrivenWeights weights;  ///< of kDriven
+};
+void Visit(KeyVisitor& keys, FilletOptions& options);
+
+/// What kept a radius from being another one.
+enum class ActiveConstraint {
+  kGiven,         ///< FilletOptions::radius
+  kNone,          ///< the objective alone: an interior optimum
+  kMinRadius,     ///< the car's full lock
+  kMaxRadius,     ///< FilletOptions::max_radius
+  kHalfLeg,       ///< C.34
+  kSteeringRoom,  ///< C.40
+};
+
+/// "given", "none", …: the spelling of plan.json.
+const char* ToString(ActiveConstraint constraint);
+
+/// How the radius of one turn was found.
+struct TurnSearch {
+  double first_radius = 0.0;  ///< of the first drive [m]
+  double time = 0.0;          ///< t: over the window of the first drive [s]
+  double heading = 0.0;       ///< dpsi: turned in it [rad], signed
+  /// r*: where the objective is zero [m]; infinite for a car that did not turn in the window.
+  double free_radius = 0.0;
+  SearchResult result;  ///< x = {r [m]}
+};
+
+/// One corner of the route.
+struct FilletTurn {
+  int waypoint = 0;             ///< its index in the route
+  double heading_change = 0.0;  ///< h [rad]
+  double interior_angle = 0.0;  ///< phi [rad]
+  double shorter_leg = 0.0;     ///< q_S [m]
+  double radius = 0.0;          ///< r [m]
+  double speed = 0.0;           ///< v at which it is taken [m/s]
+  ActiveConstraint active = ActiveConstraint::kNone;
+  std::string note;                  ///< why not at the mission's speed or under C.40; else empty
+  std::optional<TurnSearch> search;  ///< kLiteral and kTurnLocal
+  double tangent_length = 0.0;       ///< K [m]
+  Vec2 centre{0.0, 0.0};             ///< C (C.19)
+  Vec2 arc_start{0.0, 0.0};          ///< H_i (C.14)
+  Vec2 arc_end{0.0, 0.0};            ///< H_{i+1} (C.15)
+  double arc_start_s = 0.0;          ///< station of H_i [m]
+  double arc_length = 0.0;           ///< r |h| [m]
+  double neutral = 0.0;              ///< d_0: of the wheels before and after it [rad]
+  double steering = 0.0;             ///< signed delta of the arc [rad]
+  double ramp_time = 0.0;            ///< |delta - d_0|/omega_delta [s]
+  double ramp_distance = 0.0;        ///< S_delta [m]
+  double steer_start = 0.0;          ///< D_{2k-1}: half a ramp before H_i unless optimised [m]
+  double steer_return = 0.0;         ///< D_{2k}: half a ramp before H_{i+1} unless optimised [m]
+  bool ramp_truncated = false;       ///< the wheels turn back before they have reached `steering`
+};
+
+struct FilletPlan {
+  PlanStatus status = PlanStatus::kOk;
+  int waypoint = -1;   ///< where it failed: index into the route
+  std::string reason;  ///< for people; empty when ok
+  std::vector<FilletTurn> turns;
+  Path path;
+  SteeringSchedule schedule;
+  double stop_distance = 0.0;          ///< D_end [m]; the path's length unless optimised
+  OpenLoopDrive verification;          ///< the final drive
+  std::optional<SearchResult> search;  ///< of kDriven
+};
+
+/// A closed interval of radii [m].
+struct RadiusInterval {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// Radii in [r_min, r_max] with g(r) = r/tan(phi/2) + v/omega_delta |atan(L/r) - n| - q_S/2 <= 0
+/// (C.40), or none; `neutral` is n = sgn(h) d_0 [rad], positive toward the turn. g falls and then
+/// rises, so they are one interval; its ends are found to the last few bits.
+std::optional<RadiusInterval> SteeringRoomRadii(const VehicleParams& vehicle, double speed,
+                                                double interior_angle, double shorter_leg,
+                                                RadiusInterval bounds, double neutral = 0.0);
+
+/// A closed interval of speeds [m/s].
+struct SpeedInterval {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// The highest of `speeds` at which C.40 leaves a radius within `bounds`, or none.
+std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double interior_angle,
+                                        double shorter_leg, RadiusInterval bounds,
+                                        SpeedInterval speeds, double neutral = 0.0);
+
+/// Radii in `bounds` with r/tan(phi/2) <= q_S/2 (C.34), or none.
+std::optional<RadiusInterval> HalfLegRadii(double interior_angle, double shorter_leg,
+                                           RadiusInterval bounds);
+
+inline constexpr std::size_t kFewestFilletWaypoints = 3;
+
+/// Plans a route of N >= 3 waypoints (collinear ones make no turn) for a car that keeps `speed`,
+/// but for the turns that are slowed down. `seed` is of the search's random numbers.
+///
+/// Guarantees: the path is continuous in position and heading to 1e-9, starts at the first waypoint
+/// along the first leg and ends at the last one; every radius keeps the constraint that its turn
+/// claims, to rounding (kLargest) or to 1e-9 m of the leg (searched). A mirrored or moved route
+/// gives the mirrored or moved plan, a searched one to the tolerance of its search. Does not make
+/// the steering continuous: at tangent points the curvature jumps, which is why the schedule starts
+/// half a ramp early. Does not look at obstacles. Heading changes below 1e-9 rad count as none.
+/// Cost: tens of microseconds for kLargest; with a search that of its evaluations, per turn about
+/// 0.2 us each plus NLopt's own, for kDriven some 20 us each.
+FilletPlan PlanFillets(const VehicleParams& vehicle, const std::vector<Vec2>& waypoints,
+                       double speed, const FilletOptions& options, std::uint64_t seed = 0);
+
+/// The planner `fillet`.
+PlannerEntry FilletPlanner();
+
+}  // namespace trackbed

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "trackbed/options/key_visitor.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/frenet/frenet.h"
+#include "trackbed/planning/frenet/lattice.h"
+
+/// The next stretch of the way along a route, in its Frenet frame: past what stands in the way if
+/// that can be, else behind it.
+///
+/// Symbols: those of planning/frenet.h; V wanted speed [m/s].
+namespace trackbed {
+
+/// Slower than this, an obstacle stands: nobody follows it, ways are looked for round it [m/s].
+inline constexpr double kStandsBelow = 0.3;
+
+/// How motions are found: PlanFrenet or PlanLattice. Their safe distance is not looked at: that of
+/// AlongSettings holds.
+using AlongOptions = std::variant<FrenetOptions, LatticeOptions>;
+
+struct AlongEntry {
+  const char* name;
+  const char* summary;
+  AlongOptions defaults;
+};
+
+/// Every way to find motions along a route.
+const std::vector<AlongEntry>& AlongMethods();
+
+struct AlongSettings {
+  double safe_distance = 0.3;  ///< of the car's outline from obstacles [m], >= 0
+  RoadWidths road;
+  double gap = 3.0;       ///< from bumper to bumper behind what is in the way, at rest [m]
+  double time_gap = 1.5;  ///< besides, behind what moves [s]
+  /// For how long the way must be clear, if the car goes on as its motion ends [s]: a method's own
+  /// horizon is made no shorter.
+  double look_ahead = 12.0;
+};
+
+/// The route as motions take it: with a curvature that changes no faster than the wheels can turn
+/// at the speeds it is driven at (path/rounded.h), and straight on beyond its end as far as motions
+/// may reach, `beyond` [m].
+struct RouteFrame {
+  Path path;
+  double goal = 0.0;  ///< station of the route's end [m]
+};
+
+/// Cost: 10 us a metre. InternalError for a route with cusps.
+RouteFrame FrameOf(const VehicleParams& vehicle, const Plan& route, const SpeedLimits& speed,
+                   double beyond);
+
+struct AlongRequest {
+  VehicleParams vehicle;
+  SpeedLimits speed;    ///< no faster, no harder
+  double wanted = 0.0;  ///< V, at most the limits' speed
+  FrenetState start;    ///< of the car against the frame
+  std::vector<MovingBox> obstacles;
+};
+
+enum class AlongKind {
+  kNone,      ///< nothing was found
+  kOn,        ///< on along the route, past what is in the way, or to its end
+  kFollow,    ///< behind something that moves
+  kApproach,  ///< on, but not past what stands ahead: the next time it may be kStop
+  kStop,      ///< to rest behind what stands ahead
+};
+
+/// "none", "on", "follow", "approach", "stop".
+const char* ToString(AlongKind kind);
+
+struct AlongPlan {
+  AlongKind kind = AlongKind::kNone;
+  FrenetPlan found;  ///< what the method says
+  /// The motion, and after it braking at its last offset until the car stands: the car never
+  /// depends on finding another one. Empty unless something was found.
+  std::vector<TrajectoryPoint> points;
+  bool to_goal = false;  ///< it ends at the end of the route
+
+  [[nodiscard]] bool ok() const { return kind != AlongKind::kNone; }
+};
+
+/// What is nearest ahead in the car's way along the path: an obstacle whose outline, seen from the
+/// path, comes closer to the car's lane on the path than the safe distance.
+struct Leader {
+  std::size_t obstacle = 0;  ///< of the request's
+  double rear = 0.0;         ///< station of its nearest point now [m]
+  double speed = 0.0;        ///< along the path [m/s]
+  double left = 0.0;         ///< offsets that it takes up [m]
+  double right = 0.0;
+};
+
+/// None when nothing is in the way up to the station `to`.
+std::optional<Leader> LeaderIn(const Path& path, const AlongRequest& request,
+                               const AlongSettings& settings, double to);
+
+/// In this order: to rest at the end of the route, if that is near; on at V, past what is in the
+/// way; behind what moves ahead; on more slowly, if that leads past; to rest behind what stands
+/// ahead; on for now, as fast as is clear. Passing at V goes first though the cost may rank an
+/// offset above a lower speed: slowing down before what stands leads nowhere.
+///
+/// Guarantees: those of PlanFrenet or PlanLattice for the motion. The braking after it keeps the
+/// limits but for the steering rate, and the safe distance too, every 0.1 s. Same input, same
+/// bytes. Does not change route or frame. Errors: InternalError without speed factors, for a wanted
+/// speed or gaps out of range, and those of the method. Cost: a few times that of the method.
+AlongPlan PlanAlong(const RouteFrame& frame, const AlongRequest& request,
+                    const AlongSettings& settings, const AlongOptions& options);
+
+}  // namespace trackbed

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trackbed/options/key_visitor.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/sampling/comparator.h"
+
+/// Another way to the goal, by any planner that keeps clear of obstacles itself: off the plan that
+/// is driven before what blocks it, and back on the route behind that.
+namespace trackbed {
+
+/// How one is chosen.
+struct DetourChoice {
+  int attempts = 4;          ///< of a random planner, with seeds of their own, >= 1
+  double wind_weight = 1.0;  ///< k_w, see WindScoring
+  ComparatorOptions comparator;
+};
+void Visit(KeyVisitor& keys, DetourChoice& choice);
+
+struct DetourRequest {
+  VehicleParams vehicle;
+  SpeedLimits speed;                   ///< of the mission
+  Plan driven;                         ///< the plan that is driven
+  double station = 0.0;                ///< of the car on it [m]
+  double station_speed = 0.0;          ///< there [m/s]
+  Plan route;                          ///< to the goal; the driven one, or what that leads along
+  double route_station = 0.0;          ///< of the car on it [m]
+  std::vector<OrientedBox> obstacles;  ///< that are known and stand
+  double safe_distance = 0.3;          ///< from them, that makes a way blocked [m]
+  Wind wind;
+  double time = 0.0;  ///< [s]
+  std::uint64_t seed = 0;
+};
+
+/// What came of it.
+struct Detour {
+  std::optional<Plan> route;  ///< from the car's station on, to the goal; none: stay
+  WayScore current;           ///< of the way as it is
+  WayScore best;              ///< of the best other one; its total is infinite if there is none
+  int tried = 0;              ///< times the planner was asked
+  std::string why;            ///< there is none, for people
+};
+
+/// Looks for a way only where something that stands blocks the route. Leaves the driven path where
+/// it is straight, as early as the car can, and comes back on straight stretches of the route
+/// behind the last of what blocks it or at its end. Of all that is found the comparator takes the
+/// best, and that only if it is better than going on as before.
+///
+/// Guarantees: the new route begins with the driven one, its curvature included, for as long as the
+/// steering needs to follow; keeps the planner's own distance from every obstacle beyond; is slow
+/// enough for its corners without braking harder than the limits. Errors: InternalError for a
+/// planner that does not keep clear or may go backwards. Cost: up to 18 plans
+/// an attempt; one attempt if that finds nothing.
+Detour PlanDetour(const DetourRequest& request, const PlannerOptions& planner,
+                  const DetourChoice& choice);
+
+/// The stretches of a path, from `station` on, on which the car is closer to an obstacle than
+/// `distance`; one after the other.
+std::vector<Stations> BlockedStretches(const VehicleParams& vehicle, const Path& path,
+                                       double station, const std::vector<OrientedBox>& obstacles,
+                                       double distance);
+
+}  // namespace trackbed

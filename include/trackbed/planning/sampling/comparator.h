@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "trackbed/planning/sampling/smoothing.h"
+
+/// Which of two ways to go on with (seed 002, "Comparator"): the shorter one, where a collision and
+/// the wind count in metres.
+namespace trackbed {
+
+struct ComparatorOptions {
+  double collision_penalty = 1000.0;  ///< [m], >= 0: added to a way that runs into something
+};
+
+/// What a way has left for a car.
+struct WayScore {
+  double length = 0.0;    ///< L: to the way's nearest point, and along it from there [m]
+  bool collides = false;  ///< what is left of it comes too close to an obstacle
+  double wind = 0.0;      ///< W of what is left of it [m]
+  double total = 0.0;     ///< L - W, and the penalty [m]
+};
+
+/// The score of a way for a car at `position`. The seed counts from the way's nearest corner, which
+/// may lie behind the car or far ahead; here it is the nearest point. `inflation` [m]: how close to
+/// an obstacle is too close. InternalError for a way without points.
+WayScore ScoreWay(const std::vector<Vec2>& way, const Vec2& position,
+                  const std::vector<OrientedBox>& obstacles, double inflation,
+                  const WindScoring& wind, const ComparatorOptions& options);
+
+/// Whether to leave the current way for another: if that is better; on ties it is kept.
+inline bool IsBetter(const WayScore& other, const WayScore& current) {
+  return other.total < current.total;
+}
+
+}  // namespace trackbed

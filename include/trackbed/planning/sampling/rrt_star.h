@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "trackbed/geometry/oriented_box.h"
+#include "trackbed/geometry/pose.h"
+#include "trackbed/planning/common/plan.h"
+
+/// RRT* (Karaman and Frazzoli 2011) for a point in the plane: a tree of straight edges that grows
+/// toward uniform samples, each new node joined to its cheapest neighbour and its neighbours
+/// re-joined through it where that is cheaper.
+namespace trackbed {
+
+/// Where to get, and what is in the way.
+struct RrtStarProblem {
+  Vec2 start{0.0, 0.0};  ///< [m]
+  Vec2 goal{0.0, 0.0};   ///< [m]
+  Vec2 low{0.0, 0.0};    ///< corner of the box that is sampled, smallest x and y [m]
+  Vec2 high{0.0, 0.0};   ///< the opposite one; start and goal lie within
+  std::vector<OrientedBox> obstacles;
+  double inflation = 0.0;  ///< the path keeps further than this from every obstacle [m], >= 0
+};
+
+struct RrtStarOptions {
+  int iterations = 2000;    ///< samples drawn, >= 0
+  double step = 0.0;        ///< from the nearest node toward a sample at most [m]; 0: a fifth of
+                            ///< the box's diagonal
+  double goal_bias = 0.05;  ///< share of samples at the goal until it is reached, 0 to 1
+  /// Asked after every iteration (may be empty): true ends the search with what there is.
+  std::function<bool()> stop;
+};
+
+enum class RrtStarStatus {
+  kFound,         ///< path and cost are those of the best way found
+  kNotReached,    ///< the budget was used up before the goal was reached
+  kStartBlocked,  ///< the start lies within the inflation of an obstacle
+  kGoalBlocked,   ///< the goal does
+};
+
+/// "found", "not_reached", …: the spelling of plan.json.
+const char* ToString(RrtStarStatus status);
+
+struct RrtStarResult {
+  RrtStarStatus status = RrtStarStatus::kNotReached;
+  std::vector<Vec2> path;  ///< start to goal; empty unless found
+  double cost = 0.0;       ///< its length [m]; infinite unless found
+  int iterations = 0;      ///< used
+  std::vector<TreeNode> nodes;
+
+  [[nodiscard]] bool ok() const { return status == RrtStarStatus::kFound; }
+};
+
+/// Guarantees: every edge of the tree stays further than the inflation from every obstacle, over
+/// its whole length and not only at its ends; the cost of every node is the length of its way; a
+/// run with more iterations begins as the one with fewer, so that its cost is never higher; the
+/// same problem, options and seed give the same tree. Neighbours of a new node are its
+/// 1.1 x 12 e ln n nearest, more than the 2^(d+1) e (1 + 1/d) ln n with which the k-nearest form
+/// tends to the optimum in d = 2 dimensions. Does not smooth, and knows neither headings nor
+/// curvature. Errors: InternalError for a start or goal outside the box or options out of range.
+/// Cost: O(log n) per neighbour and O(neighbours x obstacles) for the edges, about 50 us an
+/// iteration.
+RrtStarResult PlanRrtStar(const RrtStarProblem& problem, const RrtStarOptions& options,
+                          std::uint64_t seed);
+
+}  // namespace trackbed

@@ -1,0 +1,101 @@
+#include "trackbed/control/controllers.h"
+
+#include <cmath>
+
+#include "trackbed/control/lqr.h"
+#include "trackbed/control/mpc.h"
+#include "trackbed/control/optimal_steering.h"
+#include "trackbed/control/playback.h"
+#include "trackbed/control/preview.h"
+#include "trackbed/control/preview_integral.h"
+#include "trackbed/control/pure_pursuit.h"
+#include "trackbed/control/schedule.h"
+#include "trackbed/control/stanley.h"
+#include "trackbed/control/steering_profile.h"
+#include "trackbed/options/registry.h"
+
+namespace trackbed {
+namespace {
+
+/// One line for each controller.
+Registry<ControllerEntry>& Table() {
+  static Registry<ControllerEntry> table("controller", {
+                                                           ScheduleController(),
+                                                           PreviewController(),
+                                                           PreviewIntegralController(),
+                                                           OptimalSteering(),
+                                                           PurePursuitController(),
+                                                           StanleyController(),
+                                                           LqrController(),
+                                                           MpcController(),
+                                                           ConstantSteering(),
+                                                           StepSteering(),
+                                                           RampSteering(),
+                                                           SineSteering(),
+                                                           SineWithDwell(),
+                                                           SweptSine(),
+                                                           Playback(),
+                                                       });
+  return table;
+}
+
+/// Refuses what is no state before a controller makes an angle of it.
+class Guarded final : public SteeringController {
+ public:
+  explicit Guarded(std::unique_ptr<SteeringController> inner) : inner_(std::move(inner)) {}
+
+  double Steer(const ControlInput& input) override {
+    Check(input);
+    return inner_->Steer(input);
+  }
+
+  std::optional<double> Accelerate(const ControlInput& input) override {
+    Check(input);
+    return inner_->Accelerate(input);
+  }
+
+  [[nodiscard]] std::vector<std::string> Columns() const override { return inner_->Columns(); }
+
+  [[nodiscard]] std::vector<double> Values() const override { return inner_->Values(); }
+
+ private:
+  static void Check(const ControlInput& input) {
+    const VehicleState& state = input.state;
+    for (const double number :
+         {state.time, state.pose.x, state.pose.y, state.pose.yaw, state.speed, state.distance,
+          state.lateral_speed, state.yaw_rate, state.steering_actuator, state.steering,
+          input.station, input.plan_time, input.speed_gain}) {
+      TRACKBED_CHECK(
+          std::isfinite(number),
+          "the car's state at {} s is not finite: x {}, y {}, yaw {}, speed {}, distance "
+          "{}, lateral speed {}, yaw rate {}, steering {} and {}, station {}",
+          state.time, state.pose.x, state.pose.y, state.pose.yaw, state.speed, state.distance,
+          state.lateral_speed, state.yaw_rate, state.steering_actuator, state.steering,
+          input.station);
+    }
+    TRACKBED_CHECK(input.period > 0.0 && std::isfinite(input.period), "a control period of {} s",
+                   input.period);
+  }
+
+  std::unique_ptr<SteeringController> inner_;
+};
+
+}  // namespace
+
+const std::vector<ControllerEntry>& Controllers() {
+  return Table().entries();
+}
+
+void RegisterController(ControllerEntry entry) {
+  Table().Add(std::move(entry));
+}
+
+const ControllerEntry& ControllerFor(const ControllerOptions& options) {
+  return Table().For(options);
+}
+
+std::unique_ptr<SteeringController> MakeSteeringController(const ControllerOptions& options) {
+  return std::make_unique<Guarded>(ControllerFor(options).make(options));
+}
+
+}  // namespace trackbed

@@ -1,0 +1,105 @@
+#include "trackbed/control/preview.h"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+
+#include "src/control/control_keys.h"
+#include "src/control/preview_distance.h"
+#include "src/control/tracking.h"
+
+namespace trackbed {
+namespace {
+
+/// The angle from where the rear axle points to where it moves [rad], left positive; 0 at a crawl.
+double RearSlip(const ControlInput& input) {
+  const VehicleState& state = input.state;
+  const double across = state.lateral_speed - input.vehicle.cg_to_rear * state.yaw_rate;
+  return std::abs(state.speed) < kCrawl ? 0.0 : std::atan(across / state.speed);
+}
+
+class Preview final : public SteeringController {
+ public:
+  explicit Preview(const PreviewOptions& options) : options_(options) {}
+
+  double Steer(const ControlInput& input) override {
+    const double shortest = options_.distance ? *options_.distance : PreviewDistance(input);
+    const double distance =
+        std::max({shortest, options_.time * std::abs(input.state.speed), ReturnDistance(input)});
+    const int direction = input.reference.path.At(input.station).direction;
+    const double u = PreviewAngle(input.reference.path, input.state.pose, input.station, distance) -
+                     (options_.slip ? RearSlip(input) : 0.0);
+    // Backwards, wheels to the right turn the motion to the left.
+    const double bend =
+        direction * 2.0 / distance * (options_.law == PreviewLaw::kLinear ? u : std::sin(u));
+    return std::clamp(SteeringOn(input, bend, direction), -input.vehicle.steering_limit,
+                      input.vehicle.steering_limit);
+  }
+
+ private:
+  /// delta [rad] for a bend of `curvature`.
+  [[nodiscard]] double SteeringOn(const ControlInput& input, double curvature,
+                                  int direction) const {
+    if (options_.slip) {
+      const double speed = direction * std::abs(input.state.speed);
+      return SteadyTurnOn(input.vehicle, curvature, speed).steering;
+    }
+    return options_.law == PreviewLaw::kLinear ? input.vehicle.wheelbase * curvature
+                                               : SteeringForCurvature(input.vehicle, curvature);
+  }
+
+  PreviewOptions options_;
+};
+
+/// Station of the first point after `station` that is `distance` away from p.
+double PreviewStation(const Path& path, const Vec2& p, double station, double distance) {
+  const auto beyond = [&](double s) { return (path.At(s).pose.position() - p).norm() - distance; };
+  if (beyond(station) >= 0.0) {
+    return station + distance;
+  }
+  // The path cannot leave the circle sooner than a straight line would. An eighth of the distance
+  // finds the first crossing of any path that bends on radii above it.
+  const double stride = distance / 8.0;
+  double inside = station;
+  while (beyond(inside + stride) < 0.0) {
+    inside += stride;
+  }
+  std::uintmax_t iterations = 100;
+  const auto [low, high] = boost::math::tools::toms748_solve(
+      beyond, inside, inside + stride, boost::math::tools::eps_tolerance<double>(48), iterations);
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+double PreviewAngle(const Path& path, const Pose2& pose, double station, double distance) {
+  const double s = PreviewStation(path, pose.position(), station, distance);
+  // Backwards, the direction of motion is against the heading.
+  const Vec2 to_point = path.At(station).direction * ToLocal(pose, path.At(s).pose.position());
+  return std::atan2(to_point.y(), to_point.x());
+}
+
+void Visit(KeyVisitor& keys, PreviewOptions& options) {
+  keys.Field({"distance", "m",
+              "how far ahead of the rear axle the car aims, at least; else by car, speed and path"},
+             options.distance, kAhead);
+  keys.Field(kAheadTime, options.time, Need::kOptional, kNotNegative);
+  static const EnumNames<PreviewLaw> laws{{PreviewLaw::kLinear, "linear"},
+                                          {PreviewLaw::kExactArc, "exact_arc"}};
+  keys.Field({"law", "",
+              "from the angle to the point aimed at to steering: MacAdam's gain, or the circle "
+              "through the point"},
+             options.law, Need::kOptional, laws);
+  keys.Field({"slip", "", "whether to reckon with the tyres' slip"}, options.slip, Need::kOptional);
+}
+
+ControllerEntry PreviewController() {
+  return {.name = "preview",
+          .summary = "aims at the path's point at a preview distance (MacAdam, one point)",
+          .defaults = PreviewOptions{},
+          .station = StationSource::kProjection,
+          .needs_plan = true,
+          .make = MakeBy<PreviewOptions, Preview>};
+}
+
+}  // namespace trackbed

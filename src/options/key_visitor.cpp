@@ -1,0 +1,70 @@
+#include "trackbed/options/key_visitor.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+namespace trackbed {
+
+std::string AllowedBy(Range range) {
+  std::vector<std::string> parts;
+  if (std::isfinite(range.above)) {
+    parts.push_back(fmt::format("above {}", range.above));
+  }
+  if (std::isfinite(range.min)) {
+    parts.push_back(fmt::format("at least {}", range.min));
+  }
+  if (std::isfinite(range.max)) {
+    parts.push_back(fmt::format("at most {}", range.max));
+  }
+  return fmt::format("{}", fmt::join(parts, " and "));
+}
+
+namespace {
+
+class NumberFinder final : public KeyVisitor {
+ public:
+  explicit NumberFinder(const std::string& key) : key_(key) {}
+
+  [[nodiscard]] const std::optional<double>& found() const { return found_; }
+
+  [[nodiscard]] Mode mode() const override { return Mode::kList; }
+  void Field(const Key& key, double& value, Need, Range) override {
+    if (key.name == key_) {
+      found_ = value;
+    }
+  }
+  void Field(const Key&, std::optional<double>&, Range) override {}
+  void Field(const Key&, std::optional<bool>&) override {}
+  void Field(const Key&, bool&, Need) override {}
+  void Field(const Key&, int&, Need, Range) override {}
+  void Field(const Key&, std::uint64_t&, Need) override {}
+  void Field(const Key&, std::string&, Need, const Names&) override {}
+  void Field(const Key&, std::optional<std::string>&) override {}
+  void Field(const Key&, std::vector<std::string>&, Need, const Names&) override {}
+  void Field(const Key&, std::vector<Vec2>&, Need, const PairShape&) override {}
+  void Field(const Key&, std::vector<double>&, Need, Range) override {}
+  void Identifier(const Key&, std::string&) override {}
+  void Pair(const Key&, int&, int&, Range) override {}
+
+ protected:
+  bool VisitSection(const Key&, Need, bool, const Inside&) override { return false; }
+  void VisitList(const Key&, std::size_t, const std::function<void(std::size_t)>&,
+                 const std::function<void(KeyVisitor&, std::size_t)>&) override {}
+  void VisitMethod(const Key&, Need, const Methods&) override {}
+
+ private:
+  std::string key_;
+  std::optional<double> found_;
+};
+
+}  // namespace
+
+std::optional<double> FindNumber(const std::string& key, const KeyVisitor::Inside& visit) {
+  NumberFinder finder(key);
+  visit(finder);
+  return finder.found();
+}
+
+}  // namespace trackbed

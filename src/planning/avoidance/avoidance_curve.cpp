@@ -1,0 +1,433 @@
+#include "src/planning/avoidance/avoidance_curve.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "trackbed/core/error.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/world/world.h"
+
+namespace trackbed::avoidance {
+namespace {
+
+constexpr std::size_t kDegree = 7;
+constexpr double kCheckSpacing = 0.05;  // [m]
+/// What the search keeps beyond the limits, for what happens between its samples.
+constexpr double kClearanceMargin = 0.02;  // [m]
+constexpr double kLimitMargin = 0.99;
+/// After so many evaluations, a curve that still breaks a limit by more than half is given up.
+constexpr int kFirstLook = 200;
+constexpr double kHopeless = 0.5;
+/// A search that got stuck is helped on with linear models of all its functions.
+constexpr SearchOptions kRescue{
+    .method = SearchMethod::kCobyla, .evaluations = 300, .tolerance = 1e-5};
+/// Farther than this beyond what is wanted, the search need not know how far [m].
+constexpr double kFar = 3.0;
+
+/// The search's variables: what the end conditions leave free, in units of the distance between the
+/// ends, in the frame of the start.
+enum Variable : std::size_t {
+  kStartFirst,
+  kStartSecond,
+  kX3,
+  kY3,
+  kX4,
+  kY4,
+  kEndSecond,
+  kEndFirst
+};
+constexpr std::size_t kVariables = 8;
+using Variables = std::span<const double>;
+
+using Points = std::array<Vec2, kDegree + 1>;
+
+/// P_0 to P_7 in the mirror frame of the start, from the end conditions: P_1 on the tangent, and
+/// P_2 off it by what the curvature asks for, kappa = (6/7) h/|P_0 P_1|^2.
+class EndConditions {
+ public:
+  explicit EndConditions(const CurveProblem& problem)
+      : scale_((problem.end.pose.position() - problem.start.pose.position()).norm()),
+        start_curvature_(problem.mirror * problem.start.curvature),
+        end_curvature_(problem.mirror * problem.end.curvature),
+        end_(problem.Frame().In(problem.end.pose.position())),
+        forward_(Direction(problem.Frame().In(problem.end.pose.yaw))) {}
+
+  [[nodiscard]] double scale() const { return scale_; }
+
+  [[nodiscard]] Points PointsOf(Variables x) const {
+    constexpr double kOffset = static_cast<double>(kDegree) / (kDegree - 1.0);
+    const double a = scale_ * x[kStartFirst];
+    const double b = scale_ * x[kStartSecond];
+    const double c = scale_ * x[kEndSecond];
+    const double d = scale_ * x[kEndFirst];
+    const Vec2 last = end_ - d * forward_;
+    return {Vec2{0.0, 0.0},
+            Vec2{a, 0.0},
+            Vec2{a + b, kOffset * start_curvature_ * a * a},
+            scale_ * Vec2{x[kX3], x[kY3]},
+            scale_ * Vec2{x[kX4], x[kY4]},
+            last - c * forward_ + kOffset * end_curvature_ * d * d * LeftOf(forward_),
+            last,
+            end_};
+  }
+
+  [[nodiscard]] std::array<double, kVariables> VariablesOf(const Points& p) const {
+    return {p[1].x() / scale_,
+            (p[2] - p[1]).x() / scale_,
+            p[3].x() / scale_,
+            p[3].y() / scale_,
+            p[4].x() / scale_,
+            p[4].y() / scale_,
+            (p[6] - p[5]).dot(forward_) / scale_,
+            (p[7] - p[6]).dot(forward_) / scale_};
+  }
+
+ private:
+  double scale_;
+  double start_curvature_;
+  double end_curvature_;
+  Vec2 end_;
+  Vec2 forward_;
+};
+
+/// Where the line between two points on either side of the y axis crosses it.
+double CrossingY(const Vec2& a, const Vec2& b) {
+  return a.y() + (b.y() - a.y()) * a.x() / (a.x() - b.x());
+}
+
+/// Bernstein's polynomials of degree 7 and their first three derivatives at fixed parameters.
+struct Basis {
+  static constexpr Eigen::Index kSamples = 193;
+  using Matrix = Eigen::Matrix<double, kSamples, kDegree + 1>;
+  std::array<Matrix, 4> of_order;
+
+  Basis() {
+    for (std::size_t i = 0; i <= kDegree; ++i) {
+      std::vector<Vec2> unit(kDegree + 1, Vec2::Zero());
+      unit[i].x() = 1.0;
+      const BezierCurve curve(unit);
+      for (Eigen::Index k = 0; k < kSamples; ++k) {
+        const double u = static_cast<double>(k) / (kSamples - 1);
+        for (std::size_t order = 0; order < of_order.size(); ++order) {
+          of_order[order](k, static_cast<Eigen::Index>(i)) = curve.Derivative(u, order).x();
+        }
+      }
+    }
+  }
+};
+
+const Basis& TheBasis() {
+  static const Basis basis;
+  return basis;
+}
+
+/// The curve of a search's variables, looked at in the samples of the basis: objective and
+/// constraints of the repair.
+class Evaluation {
+ public:
+  /// Constraints are the worst of each stretch of sixteen samples: what changes smoothly with the
+  /// variables makes a better search than one worst of all.
+  static constexpr Eigen::Index kStretch = 16;
+  static constexpr std::size_t kStretches = (Basis::kSamples - 1) / kStretch;
+  static constexpr std::size_t kConstraints = 2 * kStretches + 4;
+
+  explicit Evaluation(const CurveProblem& problem)
+      : problem_(problem),
+        ends_(problem),
+        gate_(problem.Frame().In(problem.gate.frame.position())),
+        along_gate_(Direction(problem.Frame().In(problem.gate.frame.yaw))),
+        wanted_(problem.safe_distance + kClearanceMargin) {
+    const VehicleParams& vehicle = problem.vehicle;
+    for (const OrientedBox& box : problem.obstacles) {
+      obstacles_.push_back(
+          {problem.Frame().In(box),
+           0.5 * (std::hypot(box.length, box.width) + std::hypot(vehicle.length, vehicle.width))});
+    }
+  }
+
+  [[nodiscard]] const EndConditions& ends() const { return ends_; }
+
+  double Objective(Variables x) {
+    Evaluate(x);
+    return objective_;
+  }
+
+  void Constraints(Variables x, std::span<double> values) {
+    Evaluate(x);
+    std::copy(constraints_.begin(), constraints_.end(), values.begin());
+  }
+
+ private:
+  void Evaluate(Variables x) {
+    if (evaluated_ && std::equal(x.begin(), x.end(), x_.begin())) {
+      return;
+    }
+    std::copy(x.begin(), x.end(), x_.begin());
+    evaluated_ = true;
+    const Points points = ends_.PointsOf(x);
+    Eigen::Matrix<double, kDegree + 1, 2> control;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      control.row(static_cast<Eigen::Index>(i)) = points[i].transpose();
+    }
+    std::array<Eigen::Matrix<double, Basis::kSamples, 2>, 4> curve;
+    for (std::size_t order = 0; order < curve.size(); ++order) {
+      curve[order].noalias() = TheBasis().of_order[order] * control;
+    }
+
+    const VehicleParams& vehicle = problem_.vehicle;
+    double length = 0.0;
+    double variation = 0.0;
+    double last_speed = 0.0;
+    double steering = 0.0;
+    double acceleration = 0.0;
+    double slowest = std::numeric_limits<double>::infinity();
+    double on_side = std::numeric_limits<double>::infinity();  // where it crosses the gate
+    Vec2 last_at_gate{0.0, 0.0};
+    constraints_.fill(-1.0);
+    for (Eigen::Index k = 0; k < Basis::kSamples; ++k) {
+      const Vec2 first = curve[1].row(k);
+      const Vec2 second = curve[2].row(k);
+      const Vec2 third = curve[3].row(k);
+      const double parameter_speed = first.norm();
+      const double curvature = CurvatureOf(first, second);
+      const double sharpness = SharpnessOf(first, second, third);
+      // Trapezia over the samples; the same for every curve, so that rounding does not jump.
+      length += k == 0 ? 0.0 : 0.5 * (parameter_speed + last_speed) / (Basis::kSamples - 1);
+      last_speed = parameter_speed;
+      slowest = std::min(slowest, parameter_speed);
+      const Vec2 position = curve[0].row(k);
+      const Vec2 from_gate = position - gate_;
+      const Vec2 at_gate{along_gate_.dot(from_gate), Cross(along_gate_, from_gate)};
+      if (k > 0 && (at_gate.x() < 0.0) != (last_at_gate.x() < 0.0)) {
+        on_side = std::min(on_side,
+                           problem_.gate.side * problem_.mirror * CrossingY(last_at_gate, at_gate));
+      }
+      last_at_gate = at_gate;
+      const double weight = k == 0 || k == Basis::kSamples - 1 ? 0.5 : 1.0;
+      variation += weight * sharpness * sharpness * parameter_speed / (Basis::kSamples - 1);
+
+      const double speed = problem_.SpeedAt(length);
+      const double tangent = vehicle.wheelbase * curvature;
+      const double rate = vehicle.wheelbase * sharpness / (1.0 + tangent * tangent) * speed;
+      const auto stretch = static_cast<std::size_t>(
+          std::min<Eigen::Index>(k / kStretch, static_cast<Eigen::Index>(kStretches) - 1));
+      Raise(constraints_[stretch], std::abs(rate) / (kLimitMargin * problem_.steering_rate) - 1.0);
+      steering = std::max(steering, std::abs(std::atan(tangent)));
+      acceleration = std::max(acceleration, std::abs(curvature) * speed * speed);
+      const double nearest = NearestObstacle(position, first / parameter_speed);
+      Raise(constraints_[kStretches + stretch], (wanted_ - nearest) / (1.0 + wanted_));
+    }
+    constraints_[2 * kStretches] = steering / (kLimitMargin * vehicle.steering_limit) - 1.0;
+    constraints_[2 * kStretches + 1] =
+        acceleration / (kLimitMargin * problem_.lateral_acceleration) - 1.0;
+    // No cusps: everywhere at least a tenth of the mean speed of a straight curve.
+    const double scale = ends_.scale();
+    constraints_[2 * kStretches + 2] = 1.0 - slowest / (0.1 * scale);
+    constraints_[2 * kStretches + 3] = std::isfinite(on_side) ? -on_side / scale : 1.0;
+    objective_ = variation * scale * scale * scale;
+  }
+
+  /// The separation of the outline on a point of the curve from the nearest obstacle, or kFar more
+  /// than is wanted where the boxes' circles tell that it is at least that.
+  [[nodiscard]] double NearestObstacle(const Vec2& rear_axle, const Vec2& forward) const {
+    const VehicleParams& vehicle = problem_.vehicle;
+    const Vec2 middle = rear_axle + (0.5 * vehicle.length - vehicle.rear_overhang) * forward;
+    double nearest = wanted_ + kFar;
+    for (const Near& near : obstacles_) {
+      const double reach = nearest + near.radius;
+      if ((middle - near.box.centre.position()).squaredNorm() < reach * reach) {
+        const OrientedBox outline{{middle.x(), middle.y(), std::atan2(forward.y(), forward.x())},
+                                  vehicle.length,
+                                  vehicle.width};
+        nearest = std::min(nearest, Separation(outline, near.box));
+      }
+    }
+    return nearest;
+  }
+
+  static void Raise(double& constraint, double value) { constraint = std::max(constraint, value); }
+
+  const CurveProblem& problem_;
+  EndConditions ends_;
+  Vec2 gate_{0.0, 0.0};  // in the frame of the start
+  Vec2 along_gate_{1.0, 0.0};
+  double wanted_;  // clearance [m]
+  /// An obstacle in the frame of the start, and how far apart the middles of it and the car can be
+  /// while they touch.
+  struct Near {
+    OrientedBox box;
+    double radius;
+  };
+  std::vector<Near> obstacles_;
+  bool evaluated_ = false;
+  std::array<double, kVariables> x_{};
+  double objective_ = 0.0;
+  std::array<double, kConstraints> constraints_{};
+};
+
+BezierCurve InWorld(const CurveProblem& problem, const Points& points) {
+  std::vector<Vec2> control;
+  for (const Vec2& point : points) {
+    control.push_back(problem.Frame().Out(point));
+  }
+  return BezierCurve(control);
+}
+
+/// Points evenly along a polyline, both ends included.
+std::vector<Vec2> Evenly(const std::vector<Vec2>& polyline, std::size_t count) {
+  std::vector<double> along{0.0};
+  for (std::size_t i = 1; i < polyline.size(); ++i) {
+    along.push_back(along.back() + (polyline[i] - polyline[i - 1]).norm());
+  }
+  std::vector<Vec2> points;
+  std::size_t i = 1;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double s = along.back() * static_cast<double>(k) / static_cast<double>(count - 1);
+    while (i + 1 < along.size() && along[i] < s) {
+      ++i;
+    }
+    const double piece = along[i] - along[i - 1];
+    const double share = piece > 0.0 ? std::clamp((s - along[i - 1]) / piece, 0.0, 1.0) : 0.0;
+    points.emplace_back(polyline[i - 1] + share * (polyline[i] - polyline[i - 1]));
+  }
+  return points;
+}
+
+double LengthOf(const std::vector<Vec2>& polyline) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < polyline.size(); ++i) {
+    length += (polyline[i] - polyline[i - 1]).norm();
+  }
+  return length;
+}
+
+}  // namespace
+
+double CurveProblem::SpeedAt(double distance) const {
+  const double square = start_speed * start_speed - 2.0 * deceleration * distance;
+  return std::sqrt(std::max(square, speed * speed));
+}
+
+bool CurveCheck::Keeps(const CurveProblem& problem) const {
+  return clearance >= problem.safe_distance && steering <= problem.vehicle.steering_limit &&
+         steering_rate <= problem.steering_rate &&
+         lateral_acceleration <= problem.lateral_acceleration;
+}
+
+CurveCheck Check(const CurveProblem& problem, const BezierCurve& curve) {
+  const VehicleParams& vehicle = problem.vehicle;
+  CurveCheck check;
+  check.clearance = std::numeric_limits<double>::infinity();
+  const Path path(problem.start.pose,
+                  SegmentsThrough(curve.Points(kCheckSpacing, problem.start.pose.yaw)));
+  check.length = path.length();
+  for (const PathPoint& point : path.Sample(kCheckSpacing)) {
+    const double speed = problem.SpeedAt(point.s);
+    const double tangent = vehicle.wheelbase * point.curvature;
+    const double rate = vehicle.wheelbase * point.sharpness / (1.0 + tangent * tangent) * speed;
+    check.steering = std::max(check.steering, std::abs(std::atan(tangent)));
+    check.steering_rate = std::max(check.steering_rate, std::abs(rate));
+    check.lateral_acceleration =
+        std::max(check.lateral_acceleration, std::abs(point.curvature) * speed * speed);
+    for (const OrientedBox& obstacle : problem.obstacles) {
+      check.clearance =
+          std::min(check.clearance, Distance(OutlineAt(vehicle, point.pose), obstacle));
+    }
+  }
+  return check;
+}
+
+bool GoesThrough(const Gate& gate, const std::vector<Vec2>& polyline) {
+  int crossings = 0;
+  for (std::size_t i = 1; i < polyline.size(); ++i) {
+    const Vec2 a = ToLocal(gate.frame, polyline[i - 1]);
+    const Vec2 b = ToLocal(gate.frame, polyline[i]);
+    if ((a.x() < 0.0) != (b.x() < 0.0)) {
+      crossings += gate.side * CrossingY(a, b) > 0.0 ? 1 : 0;
+    }
+  }
+  return crossings % 2 == 1;
+}
+
+BezierCurve Fit(const CurveProblem& problem, const std::vector<Vec2>& polyline) {
+  TRACKBED_CHECK(polyline.size() >= 2, "{} points", polyline.size());
+  const EndConditions ends(problem);
+  const double seventh = LengthOf(polyline) / kDegree / ends.scale();
+  std::array<double, kVariables> x{seventh, seventh, 0.0, 0.0, 0.0, 0.0, seventh, seventh};
+  Points points = ends.PointsOf(x);
+  // The rest of the polyline, after what the known control points give, is for P_3 and P_4.
+  constexpr Eigen::Index kSamples = Basis::kSamples;
+  const auto& bernstein = TheBasis().of_order[0];
+  Eigen::Matrix<double, kSamples, 2> rest;
+  const std::vector<Vec2> samples = Evenly(polyline, kSamples);
+  for (Eigen::Index k = 0; k < kSamples; ++k) {
+    Vec2 known = Vec2::Zero();
+    for (const std::size_t i : {0U, 1U, 2U, 5U, 6U, 7U}) {
+      known += bernstein(k, static_cast<Eigen::Index>(i)) * points[i];
+    }
+    rest.row(k) = (problem.Frame().In(samples[static_cast<std::size_t>(k)]) - known).transpose();
+  }
+  const Eigen::Matrix<double, kSamples, 2> free = bernstein.middleCols<2>(3);
+  const Eigen::Matrix2d fitted = free.colPivHouseholderQr().solve(rest);
+  points[3] = fitted.row(0).transpose();
+  points[4] = fitted.row(1).transpose();
+  return InWorld(problem, points);
+}
+
+std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve& guess,
+                                  const SearchOptions& search, std::uint64_t seed) {
+  Evaluation evaluation(problem);
+  Points points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i] = problem.Frame().In(guess.control_points()[i]);
+  }
+  const std::array<double, kVariables> start = evaluation.ends().VariablesOf(points);
+  // End lengths from a fiftieth of the way to all of it; P_3 and P_4 anywhere near.
+  SearchProblem moved{
+      .lower = {0.02, 0.02, -1.0, -1.5, -1.0, -1.5, 0.02, 0.02},
+      .upper = {1.0, 1.0, 2.0, 1.5, 2.0, 1.5, 1.0, 1.0},
+      .start = {start.begin(), start.end()},
+      .objective = [&](Variables x) { return evaluation.Objective(x); },
+      .constraint_count = Evaluation::kConstraints,
+      .constraints = [&](Variables x,
+                         std::span<double> values) { evaluation.Constraints(x, values); }};
+  int evaluations = 0;
+  const auto again_from = [&](const std::vector<double>& x, const SearchOptions& options) {
+    if (!x.empty()) {
+      moved.start = x;
+    }
+    SearchResult found = Search(moved, options, seed);
+    evaluations += found.evaluations;
+    return found;
+  };
+  SearchOptions look = search;
+  look.evaluations = search.evaluations > 0 ? std::min(search.evaluations, kFirstLook) : kFirstLook;
+  SearchResult result = again_from({}, look);
+  if (!result.ok() && result.violation > kHopeless) {
+    return std::nullopt;
+  }
+  result = again_from(result.x, search);
+  if (!result.ok()) {
+    // What got stuck short of the limits may be led there by another method, and then go on.
+    result = again_from(result.x, kRescue);
+    if (result.ok()) {
+      const SearchResult better = again_from(result.x, search);
+      result = better.ok() ? better : result;
+    }
+  }
+  if (!result.ok()) {
+    return std::nullopt;
+  }
+  BezierCurve curve = InWorld(problem, evaluation.ends().PointsOf(result.x));
+  const CurveCheck check = Check(problem, curve);
+  if (!check.Keeps(problem)) {
+    return std::nullopt;
+  }
+  result.evaluations = evaluations;
+  return Repair{std::move(curve), check, result};
+}
+
+}  // namespace trackbed::avoidance

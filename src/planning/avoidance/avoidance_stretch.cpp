@@ -1,0 +1,394 @@
+#include "src/planning/avoidance/avoidance_stretch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/world/world.h"
+
+namespace trackbed::avoidance {
+namespace {
+
+/// Between the stations at which a curve may return to the path; twice that far behind a bend [m].
+constexpr double kReturnStep = 2.0;
+/// From one speed that is tried to the next.
+constexpr double kSlower = 0.6;
+/// A curve that keeps SD is not in conflict for what its path rounds off [m].
+constexpr double kTouch = 5e-4;
+
+double HalfDiagonal(const OrientedBox& box) {
+  return 0.5 * std::hypot(box.length, box.width);
+}
+
+std::vector<PathPoint> Looks(const Path& path, double from, double to) {
+  std::vector<PathPoint> points;
+  const double count = std::max(1.0, std::ceil((to - from) / kLook));
+  for (double i = 0.0; i <= count; i += 1.0) {
+    points.push_back(path.At(std::lerp(from, to, i / count)));
+  }
+  return points;
+}
+
+/// The bend in which a station lies: where its curvature keeps its sign, within a tenth.
+struct Bend {
+  double from = 0.0;       ///< [m]
+  double to = 0.0;         ///< [m]
+  double curvature = 0.0;  ///< of the largest magnitude, signed [1/m]
+};
+
+/// One side of an obstacle, and the way that RRT* found there.
+struct Way {
+  Ring ring = Ring::kInner;
+  RrtStarResult tree;
+};
+
+/// What a curve may ask of the car.
+struct Demand {
+  double speed = 0.0;  ///< [m/s]
+  double share = 1.0;  ///< of the steering rate
+};
+
+class StretchFinder {
+ public:
+  StretchFinder(const AvoidanceRequest& request, const BezierAvoidanceOptions& options,
+                const Plan& plan)
+      : request_(request), options_(options), plan_(plan) {}
+
+  [[nodiscard]] StretchSearch Find(const Conflict& conflict, double from) const {
+    const Bend bend = BendOf(conflict);
+    const std::vector<double> leaves = LeavesFor(conflict, bend, from);
+    const std::vector<double> backs = BacksFor(conflict, bend);
+    if (backs.empty()) {
+      return {std::nullopt, "the path ends beside it"};
+    }
+    const double full = request_.speed.speed;
+    const double beside = StationBeside(conflict);
+    const std::vector<Way> ways =
+        WaysFor(conflict, bend, ProblemFor(leaves.front(), backs.back(), {full, 1.0}, from));
+    int tried = 0;
+    for (const auto& [speed, share] : Demands()) {
+      for (const Way& way : ways) {
+        if (speed < full && way.tree.status == RrtStarStatus::kNotReached) {
+          continue;  // that no way was found has nothing to do with speed
+        }
+        for (const double leave : leaves) {
+          // Of the curve that leaves here, taken this fast.
+          const auto problem_to = [&, speed = speed, share = share](double back) {
+            CurveProblem problem = ProblemFor(leave, back, {speed, share}, from);
+            problem.gate = {SideFrame(conflict), SideOf(bend, way.ring)};
+            problem.mirror = SideOf(bend, Ring::kInner);
+            return problem;
+          };
+          std::optional<Stretch> stretch;
+          const auto attempt = [&](double back, const BezierCurve& guess) {
+            const CurveProblem problem = problem_to(back);
+            ++tried;
+            std::optional<Repair> repair =
+                RepairCurve(problem, guess, options_.search, request_.seed);
+            if (repair) {
+              stretch = Stretch{problem,  std::move(*repair), way.ring, leave, back,
+                                way.tree, conflict.obstacle,  beside,   0};
+            }
+            return repair.has_value();
+          };
+          for (auto back = backs.begin(); back != backs.end() && !stretch; ++back) {
+            const CurveProblem problem = problem_to(*back);
+            if (!attempt(*back, Fit(problem, Guide(way, conflict, bend, problem)))) {
+              continue;
+            }
+            // From a curve that can be driven the search gets further than from a guess.
+            for (auto earlier = back; earlier != backs.begin();) {
+              --earlier;
+              if (!attempt(*earlier, stretch->repair.curve)) {
+                break;
+              }
+            }
+          }
+          if (stretch) {
+            stretch->tried = tried;
+            return {stretch, ""};
+          }
+        }
+      }
+    }
+    const std::string why =
+        fmt::format("no curve passes it on {} at {:.3g} m/s or more ({} tried)",
+                    options_.ring == RingChoice::kAuto
+                        ? "either side"
+                        : fmt::format("the {} side", ToString(ways.front().ring)),
+                    std::min(full, options_.min_speed), tried);
+    return {std::nullopt, why};
+  }
+
+ private:
+  [[nodiscard]] const Path& path() const { return plan_.reference.path; }
+
+  /// The bend on which a conflict lies, or the conflict itself on a straight.
+  [[nodiscard]] Bend BendOf(const Conflict& conflict) const {
+    Bend bend{conflict.from, conflict.to, 0.0};
+    for (const PathPoint& point : Looks(path(), conflict.from, conflict.to)) {
+      if (std::abs(point.curvature) > std::abs(bend.curvature)) {
+        bend = {point.s, point.s, point.curvature};
+      }
+    }
+    if (bend.curvature == 0.0) {
+      return bend;
+    }
+    const auto bends_likewise = [&](double s) {
+      return path().At(s).curvature * bend.curvature > 0.1 * bend.curvature * bend.curvature;
+    };
+    while (bend.from - kLook >= 0.0 && bends_likewise(bend.from - kLook)) {
+      bend.from -= kLook;
+    }
+    while (bend.to + kLook <= path().length() && bends_likewise(bend.to + kLook)) {
+      bend.to += kLook;
+    }
+    return bend;
+  }
+
+  /// The distance in which the car can move sideways past the obstacle: a fifth-order shift by D
+  /// has its largest dkappa/ds, 60 D/l^3, at its ends, where the wheels have to turn fast enough.
+  [[nodiscard]] double ShiftLength(const OrientedBox& obstacle) const {
+    const double aside =
+        HalfDiagonal(obstacle) + options_.safe_distance + 0.5 * request_.vehicle.width;
+    const double sharpness = options_.steering_rate_share * request_.vehicle.steering_rate /
+                             (request_.vehicle.wheelbase * request_.speed.speed);
+    return std::cbrt(60.0 * aside / sharpness);
+  }
+
+  /// S: before and after the bend; on a straight, what moving aside takes.
+  [[nodiscard]] double LeadOf(const Bend& bend, const OrientedBox& obstacle) const {
+    const double delay = request_.speed.speed * options_.delay;
+    return bend.curvature != 0.0 ? 1.0 / std::abs(bend.curvature) + delay
+                                 : ShiftLength(obstacle) + delay;
+  }
+
+  /// Whether the wheels of an ideal drive stand as the path bends: not while they ramp.
+  [[nodiscard]] bool IsSettled(double s) const {
+    const double planned = SteeringForCurvature(request_.vehicle, path().At(s).curvature);
+    constexpr double kSettled = 1e-3;  // [rad]
+    return std::abs(plan_.schedule.At(s) - planned) < kSettled;
+  }
+
+  /// The settled station nearest to s between `from` and `to`, or s where there is none.
+  [[nodiscard]] double SettledNear(double s, double from, double to) const {
+    for (double away = 0.0; s - away >= from || s + away <= to; away += kLook) {
+      for (const double candidate : {s - away, s + away}) {
+        if (candidate >= from && candidate <= to && IsSettled(candidate)) {
+          return candidate;
+        }
+      }
+    }
+    return std::clamp(s, from, to);
+  }
+
+  /// The stations at which the car may leave the plan, the preferred one first.
+  [[nodiscard]] std::vector<double> LeavesFor(const Conflict& conflict, const Bend& bend,
+                                              double from) const {
+    std::vector<double> leaves;
+    const double lead = LeadOf(bend, conflict.obstacle);
+    for (const double share : {1.0, 1.5, 2.25}) {
+      const double wanted = bend.from - share * lead;
+      // The car leaves from where it is, however its wheels stand.
+      const double s = request_.car && wanted <= 0.0 ? 0.0
+                                                     : SettledNear(std::max(wanted, from), from,
+                                                                   std::max(from, conflict.from));
+      if (leaves.empty() || s < leaves.back() - kReturnStep) {
+        leaves.push_back(s);
+      }
+    }
+    return leaves;
+  }
+
+  /// The stations at which it may be back, the first one first.
+  [[nodiscard]] std::vector<double> BacksFor(const Conflict& conflict, const Bend& bend) const {
+    const double lead = LeadOf(bend, conflict.obstacle);
+    const double last = std::min(path().length(), std::max(bend.to, conflict.to) + 2.0 * lead);
+    std::vector<double> backs;
+    for (double s = conflict.to + kReturnStep; s < last;
+         s += s < bend.to + lead ? kReturnStep : 2.0 * kReturnStep) {
+      if (IsSettled(s)) {
+        backs.push_back(s);
+      }
+    }
+    if (last == path().length() && last > conflict.to) {
+      backs.push_back(last);
+    }
+    return backs;
+  }
+
+  [[nodiscard]] CurveProblem ProblemFor(double leave, double back, const Demand& demand,
+                                        double from) const {
+    const PathPoint start = path().At(leave);
+    const PathPoint end = path().At(back);
+    CurveProblem problem{.vehicle = request_.vehicle,
+                         .start = {start.pose, start.curvature},
+                         .end = {end.pose, end.curvature},
+                         .obstacles = request_.obstacles,
+                         .safe_distance = options_.safe_distance,
+                         .steering_rate = demand.share * request_.vehicle.steering_rate,
+                         .lateral_acceleration = options_.max_lateral_acceleration,
+                         .start_speed = plan_.reference.speed.SpeedAt(leave),
+                         .speed = demand.speed,
+                         .deceleration = request_.speed.deceleration};
+    // The car can begin to slow down on the way there.
+    const double before = plan_.reference.speed.SpeedAt(from);
+    const double square = before * before - 2.0 * request_.speed.deceleration * (leave - from);
+    problem.start_speed =
+        std::min(problem.start_speed, std::sqrt(std::max(square, demand.speed * demand.speed)));
+    if (request_.car && leave == 0.0) {
+      problem.start = {request_.car->pose,
+                       CurvatureForSteering(request_.vehicle, request_.car->steering)};
+    }
+    return problem;
+  }
+
+  /// Across the path at the obstacle, to the left if it passes the obstacle there.
+  [[nodiscard]] static double SideOf(const Bend& bend, Ring ring) {
+    const double inner = bend.curvature < 0.0 ? -1.0 : 1.0;
+    return ring == Ring::kInner ? inner : -inner;
+  }
+
+  /// The frame in which sides are told: at the obstacle, along the path beside it.
+  [[nodiscard]] Pose2 SideFrame(const Conflict& conflict) const {
+    return {conflict.obstacle.centre.x, conflict.obstacle.centre.y,
+            path().At(StationBeside(conflict)).pose.yaw};
+  }
+
+  /// From the most comfortable on: at the mission's speed, then slower down to the slowest allowed.
+  [[nodiscard]] std::vector<Demand> Demands() const {
+    const double most = options_.steering_rate_share;
+    std::vector<Demand> demands;
+    if (options_.comfortable_rate_share < most) {
+      demands.push_back({request_.speed.speed, options_.comfortable_rate_share});
+    }
+    for (double v = request_.speed.speed; v > options_.min_speed; v *= kSlower) {
+      demands.push_back({v, most});
+    }
+    demands.push_back({std::min(request_.speed.speed, options_.min_speed), most});
+    return demands;
+  }
+
+  /// The station at which the path runs beside the obstacle.
+  [[nodiscard]] double StationBeside(const Conflict& conflict) const {
+    const Pose2 at{conflict.obstacle.centre.x, conflict.obstacle.centre.y, 0.0};
+    return path().Project(at, {conflict.from, conflict.to + request_.vehicle.length}).s;
+  }
+
+  /// Where RRT* looks for a way from start to end.
+  [[nodiscard]] RrtStarProblem TreeProblem(const MirrorFrame& frame, const CurveProblem& problem,
+                                           const Conflict& conflict) const {
+    RrtStarProblem tree{.start = {0.0, 0.0},
+                        .goal = frame.In(problem.end.pose.position()),
+                        .inflation = options_.safe_distance + 0.5 * request_.vehicle.width};
+    for (const OrientedBox& obstacle : request_.obstacles) {
+      tree.obstacles.push_back(frame.In(obstacle));
+    }
+    const double around = HalfDiagonal(conflict.obstacle) + 2.0 * tree.inflation;
+    const Vec2 centre = frame.In(conflict.obstacle.centre.position());
+    const Vec2 margin = Vec2::Constant(tree.inflation);
+    tree.low = tree.start.cwiseMin(tree.goal).cwiseMin(centre - Vec2::Constant(around)) - margin;
+    tree.high = tree.start.cwiseMax(tree.goal).cwiseMax(centre + Vec2::Constant(around)) + margin;
+    return tree;
+  }
+
+  /// A wall from the obstacle outward closes one side of a gate.
+  [[nodiscard]] static OrientedBox WallOn(const Gate& gate, double length) {
+    constexpr double kThin = 1e-3;  // [m]
+    const Vec2 middle = ToWorld(gate.frame, {0.0, gate.side * 0.5 * length});
+    return {{middle.x(), middle.y(), gate.frame.yaw}, kThin, length};
+  }
+
+  /// The sides that may be tried, with the way that RRT* found on each; the shorter one first.
+  [[nodiscard]] std::vector<Way> WaysFor(const Conflict& conflict, const Bend& bend,
+                                         const CurveProblem& problem) const {
+    const Pose2 beside = SideFrame(conflict);
+    const MirrorFrame frame{problem.start.pose, SideOf(bend, Ring::kInner)};
+    const auto grow = [&](std::optional<Ring> only) {
+      RrtStarProblem tree = TreeProblem(frame, problem, conflict);
+      if (only) {
+        const Ring closed = *only == Ring::kInner ? Ring::kOuter : Ring::kInner;
+        const double length = (tree.high - tree.low).norm();
+        tree.obstacles.push_back(frame.In(WallOn({beside, SideOf(bend, closed)}, length)));
+      }
+      RrtStarResult result = PlanRrtStar(
+          tree, {.iterations = options_.rrt_iterations, .step = options_.rrt_step}, request_.seed);
+      for (Vec2& point : result.path) {
+        point = frame.Out(point);
+      }
+      for (TreeNode& node : result.nodes) {
+        node.position = frame.Out(node.position);
+      }
+      return result;
+    };
+    if (options_.ring != RingChoice::kAuto) {
+      const Ring ring = options_.ring == RingChoice::kInner ? Ring::kInner : Ring::kOuter;
+      return {{ring, grow(ring)}};
+    }
+    Way first{Ring::kInner, grow(std::nullopt)};
+    if (first.tree.ok()) {
+      const bool left = GoesThrough({beside, 1.0}, first.tree.path);
+      first.ring = (left ? 1.0 : -1.0) == SideOf(bend, Ring::kInner) ? Ring::kInner : Ring::kOuter;
+    }
+    const Ring other = first.ring == Ring::kInner ? Ring::kOuter : Ring::kInner;
+    return {first, {other, grow(other)}};
+  }
+
+  /// The way by which a curve is guessed: that of the tree up to where it comes closest to the end,
+  /// or, without one, over a point beside the obstacle.
+  [[nodiscard]] std::vector<Vec2> Guide(const Way& way, const Conflict& conflict, const Bend& bend,
+                                        const CurveProblem& problem) const {
+    const Vec2 end = problem.end.pose.position();
+    std::vector<Vec2> guide;
+    if (way.tree.ok()) {
+      const auto nearest = std::min_element(
+          way.tree.path.begin() + 1, way.tree.path.end(),
+          [&](const Vec2& a, const Vec2& b) { return (a - end).norm() < (b - end).norm(); });
+      guide.assign(way.tree.path.begin(), nearest);
+    } else {
+      const double aside =
+          HalfDiagonal(conflict.obstacle) + options_.safe_distance + request_.vehicle.width;
+      guide = {problem.start.pose.position(),
+               ToWorld(SideFrame(conflict), {0.0, SideOf(bend, way.ring) * aside})};
+    }
+    guide.push_back(end);
+    return guide;
+  }
+
+  const AvoidanceRequest& request_;
+  const BezierAvoidanceOptions& options_;
+  const Plan& plan_;
+};
+
+}  // namespace
+
+std::optional<Conflict> FirstConflict(const AvoidanceRequest& request,
+                                      const BezierAvoidanceOptions& options, const Path& path,
+                                      double from) {
+  std::optional<Conflict> conflict;
+  for (const PathPoint& point : Looks(path, from, path.length())) {
+    const OrientedBox outline = OutlineAt(request.vehicle, point.pose);
+    const auto in_the_way = std::find_if(
+        request.obstacles.begin(), request.obstacles.end(), [&](const OrientedBox& obstacle) {
+          return Separation(outline, obstacle) < options.safe_distance - kTouch;
+        });
+    if (in_the_way != request.obstacles.end()) {
+      if (!conflict) {
+        conflict = {point.s, point.s, *in_the_way};
+      }
+      conflict->to = point.s;
+    } else if (conflict) {
+      break;
+    }
+  }
+  return conflict;
+}
+
+StretchSearch FindStretch(const AvoidanceRequest& request, const BezierAvoidanceOptions& options,
+                          const Plan& plan, const Conflict& conflict, double from) {
+  return StretchFinder(request, options, plan).Find(conflict, from);
+}
+
+}  // namespace trackbed::avoidance

@@ -1,0 +1,344 @@
+#include "trackbed/planning/avoidance/turn_manoeuvre.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/uniform_01.hpp>
+#include <cmath>
+#include <limits>
+
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/world/world.h"
+
+namespace trackbed {
+namespace {
+
+constexpr double kGrid = 0.01;        // [rad]
+constexpr double kTestAhead = 2.0;    // [m]
+constexpr double kStep = 1.0;         // EPS [m]
+constexpr double kNeighbours = 10.0;  // r [m]
+constexpr std::size_t kIntervals = 500;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double Sign(const TurnManoeuvre& manoeuvre) {
+  return manoeuvre.side == TurnSide::kLeft ? 1.0 : -1.0;
+}
+
+/// The point of a circle around C. Both sides of the turn through the same numbers, so that they
+/// mirror each other to the last bit.
+Vec2 PointAt(const TurnManoeuvre& manoeuvre, double radius, double angle) {
+  return {manoeuvre.straight() + radius * std::sin(angle),
+          Sign(manoeuvre) * (manoeuvre.radius - radius * std::cos(angle))};
+}
+
+void CheckRanges(const TurnManoeuvre& m, const VehicleParams& vehicle) {
+  TRACKBED_CHECK(m.radius > 0.0 && std::isfinite(m.radius), "radius {}", m.radius);
+  TRACKBED_CHECK(m.speed > 0.0 && std::isfinite(m.speed), "speed {}", m.speed);
+  TRACKBED_CHECK(m.delay >= 0.0 && std::isfinite(m.delay), "delay {}", m.delay);
+  TRACKBED_CHECK(std::isfinite(m.turn_angle) && std::isfinite(m.reduction) &&
+                     std::abs(m.turn_angle - m.reduction) < 2.0 * kPi,
+                 "turn of {} less {}", m.turn_angle, m.reduction);
+  TRACKBED_CHECK(m.obstacle_sixth >= 1 && m.obstacle_sixth <= 5, "obstacle at sixth {}",
+                 m.obstacle_sixth);
+  TRACKBED_CHECK(
+      m.obstacle_length > 0.0 && std::isfinite(m.obstacle_length) && m.obstacle_width > 0.0 &&
+          std::isfinite(m.obstacle_width) && std::isfinite(m.obstacle_yaw),
+      "obstacle of {} by {}, yaw {}", m.obstacle_length, m.obstacle_width, m.obstacle_yaw);
+  TRACKBED_CHECK(m.safe_distance >= 0.0 && std::isfinite(m.safe_distance), "safe distance {}",
+                 m.safe_distance);
+  TRACKBED_CHECK(m.inner_width >= 0.0 && std::isfinite(m.inner_width) && m.outer_width >= 0.0 &&
+                     std::isfinite(m.outer_width),
+                 "free widths {} and {}", m.inner_width, m.outer_width);
+  TRACKBED_CHECK(vehicle.width > 0.0 && std::isfinite(vehicle.width), "width {}", vehicle.width);
+}
+
+/// SD + IS_k + w_a, twice [m].
+double Need(const TurnManoeuvre& manoeuvre, double vehicle_width) {
+  const double half_diagonal =
+      0.5 * std::hypot(manoeuvre.obstacle_width, manoeuvre.obstacle_length);
+  return 2.0 * manoeuvre.safe_distance + 2.0 * half_diagonal + 2.0 * vehicle_width;
+}
+
+/// sigma of the arc's points, from A to E.
+std::vector<double> ArcAngles(const TurnManoeuvre& manoeuvre) {
+  const double sweep = manoeuvre.turn_angle - manoeuvre.reduction;
+  std::vector<double> angles;
+  if (!(sweep > 0.0)) {
+    return angles;
+  }
+  // A range that whole steps fill up to rounding keeps its last point.
+  const double steps = sweep / kGrid;
+  if (manoeuvre.literal.grid) {
+    const double last = std::floor(steps * (1.0 + 1e-12));
+    for (double i = last; i >= 0.0; i -= 1.0) {
+      angles.push_back(0.5 * kPi - (manoeuvre.reduction + kGrid * i));
+    }
+  } else {
+    const double last = std::ceil(steps);
+    for (double i = 0.0; i <= last; i += 1.0) {
+      angles.push_back(sweep * (i / last));
+    }
+  }
+  return angles;
+}
+
+/// Whether two lines cross: the ends of either lie to the left of the other and not to its left.
+bool LinesCross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const auto left = [](const Vec2& p, const Vec2& q, const Vec2& r) {
+    return Cross(q - p, r - p) > 0.0;
+  };
+  return left(a, c, d) != left(b, c, d) && left(a, b, c) != left(a, b, d);
+}
+
+/// A line that lies within the box crosses no side, and counts as free (L13).
+bool CrossesNoSide(const Vec2& from, const Vec2& to, const OrientedBox& box) {
+  const std::array<Vec2, 4> corners = box.Corners();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (LinesCross(from, to, corners[i], corners[(i + 1) % corners.size()])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Index of the first node that is nearest to a point.
+std::size_t NearestNode(const std::vector<TreeNode>& nodes, const Vec2& point) {
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    if ((nodes[i].position - point).norm() < (nodes[nearest].position - point).norm()) {
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
+OrientedBox Outline(const VehicleParams& vehicle, const Pose2& pose, OutlineOn on) {
+  return on == OutlineOn::kRearAxle ? OutlineAt(vehicle, pose)
+                                    : OrientedBox{pose, vehicle.length, vehicle.width};
+}
+
+/// The corner of the obstacle that the listing measures to: the rear one toward the centre of the
+/// turn if the car passes there, else the front one on the other side.
+Vec2 TestCorner(const TurnManoeuvre& manoeuvre, const OrientedBox& obstacle) {
+  const double ring = manoeuvre.ring() == Ring::kInner ? 1.0 : -1.0;
+  return ToWorld(obstacle.centre,
+                 {-ring * 0.5 * obstacle.length, ring * Sign(manoeuvre) * 0.5 * obstacle.width});
+}
+
+}  // namespace
+
+const char* ToString(TurnStatus status) {
+  switch (status) {
+    case TurnStatus::kOk:
+      return "ok";
+    case TurnStatus::kNoTurn:
+      return "no_turn";
+    case TurnStatus::kNoSafePoint:
+      return "no_safe_point";
+  }
+  return "";
+}
+
+double SafeRadius(const TurnManoeuvre& manoeuvre, double vehicle_width, Ring ring) {
+  const double need = Need(manoeuvre, vehicle_width);
+  return ring == Ring::kInner ? manoeuvre.radius - need - manoeuvre.inner_width
+                              : 1.5 * (manoeuvre.radius + need + manoeuvre.outer_width);
+}
+
+TurnLayout LayOutTurn(const TurnManoeuvre& manoeuvre, const VehicleParams& vehicle) {
+  CheckRanges(manoeuvre, vehicle);
+  TurnLayout layout;
+  const std::vector<double> angles = ArcAngles(manoeuvre);
+  const double sixths = manoeuvre.obstacle_sixth / 6.0;
+  const double count = static_cast<double>(angles.size());
+  layout.obstacle_at =
+      static_cast<std::size_t>(manoeuvre.literal.grid ? std::round(count * sixths)
+                                                      : 1.0 + std::round((count - 1.0) * sixths));
+  if (angles.empty() || layout.obstacle_at == 0) {
+    layout.status = TurnStatus::kNoTurn;
+    layout.reason = fmt::format("a turn of {:.6g} rad less {:.6g} rad leaves no arc",
+                                manoeuvre.turn_angle, manoeuvre.reduction);
+    return layout;
+  }
+  layout.safe_radius = SafeRadius(manoeuvre, vehicle.width, manoeuvre.ring());
+  if (!(layout.safe_radius > 0.0)) {
+    layout.status = TurnStatus::kNoSafePoint;
+    layout.reason = fmt::format(
+        "passing inside takes {:.6g} m (safe distance, obstacle's diagonal and car's width, with "
+        "the {:.6g} m kept free), the turn's radius is {:.6g} m",
+        manoeuvre.radius - layout.safe_radius, manoeuvre.inner_width, manoeuvre.radius);
+    return layout;
+  }
+  for (const double angle : angles) {
+    layout.arc.push_back({angle, PointAt(manoeuvre, manoeuvre.radius, angle)});
+  }
+  double obstacle_angle = sixths * (manoeuvre.turn_angle - manoeuvre.reduction);
+  layout.safe_angle = obstacle_angle;
+  if (manoeuvre.literal.grid) {
+    // The listing turns the points around but not their angles: it counts these from the other end,
+    // which differs by the part of a step that the grid leaves over.
+    obstacle_angle = angles[layout.obstacle_at - 1];
+    layout.safe_angle = kGrid * static_cast<double>(layout.obstacle_at - 1);
+  }
+  const Vec2 centre = PointAt(manoeuvre, manoeuvre.radius, obstacle_angle);
+  const double turn_yaw = manoeuvre.obstacle_follows_turn ? Sign(manoeuvre) * obstacle_angle : 0.0;
+  layout.obstacle = {{centre.x(), centre.y(), turn_yaw + manoeuvre.obstacle_yaw},
+                     manoeuvre.obstacle_length,
+                     manoeuvre.obstacle_width};
+  layout.safe_point = PointAt(manoeuvre, layout.safe_radius, layout.safe_angle);
+  return layout;
+}
+
+std::array<Vec2, 8> ControlPoints(const TurnManoeuvre& manoeuvre, const TurnLayout& layout,
+                                  const VehicleParams& vehicle, double final_y) {
+  TRACKBED_CHECK(layout.ok(), "the layout failed: {}", layout.reason);
+  TRACKBED_CHECK(std::isfinite(final_y), "final y {}", final_y);
+  const double sign = Sign(manoeuvre);
+  const double straight = manoeuvre.straight();
+  const Vec2 arc_start = layout.arc.front().position;
+  const Vec2 arc_end = layout.arc.back().position;
+  std::array<Vec2, 8> points;
+  points[0] = Vec2::Zero();
+  points[2] =
+      manoeuvre.obstacle_sixth > 3 ? arc_start : Vec2{2.0 / 3.0 * arc_start.x(), arc_start.y()};
+  points[1] = {0.5 * points[2].x(), 0.0};
+  points[3] = {arc_start.x(), final_y};
+  points[4] = layout.safe_point;
+  const double end_angle = layout.arc.back().angle;
+  Vec2 exit{std::cos(end_angle), sign * std::sin(end_angle)};
+  points[5] = arc_end;
+  if (manoeuvre.literal.right_angle_rule && manoeuvre.reduction == 0.0) {
+    // Beside the safe point, on the outside beside the one that the inside would have.
+    const double radius = SafeRadius(manoeuvre, vehicle.width, Ring::kInner);
+    const double y = manoeuvre.ring() == Ring::kInner
+                         ? layout.safe_point.y()
+                         : PointAt(manoeuvre, radius, layout.safe_angle).y();
+    points[5] = {arc_end.x(), y};
+    exit = {0.0, sign};
+  }
+  points[6] = points[5] + 0.5 * straight * exit;
+  points[7] = points[5] + straight * exit;
+  if (manoeuvre.literal.right_shift && manoeuvre.side == TurnSide::kRight &&
+      !(manoeuvre.literal.right_angle_rule && manoeuvre.reduction == 0.0)) {
+    points[5].x() += std::cos(end_angle);
+  }
+  return points;
+}
+
+LiteralTree LiteralRrtStar(const TurnManoeuvre& manoeuvre, const TurnLayout& layout,
+                           std::uint64_t seed) {
+  TRACKBED_CHECK(layout.ok(), "the layout failed: {}", layout.reason);
+  boost::random::mt19937_64 random(seed);
+  const auto uniform = [&random] { return boost::random::uniform_01<double>()(random); };
+  const OrientedBox& obstacle = layout.obstacle;
+  const double x_max = obstacle.centre.x;
+  const double y_max = manoeuvre.ring() == Ring::kInner ? obstacle.centre.y : -obstacle.centre.y;
+  const int iterations = static_cast<int>(std::floor(0.5 * manoeuvre.straight()));
+
+  LiteralTree tree;
+  std::vector<TreeNode>& nodes = tree.nodes;
+  nodes.push_back({{0.0, 0.0}, 0, 0.0});
+  for (int i = 0; i < iterations; ++i) {
+    const double x = std::floor(uniform() * x_max);
+    const double y = std::floor(uniform() * y_max);
+    const Vec2 sample{x, y};
+    const std::size_t near = NearestNode(nodes, sample);
+    const Vec2 from = nodes[near].position;
+    if (!CrossesNoSide(from, sample, obstacle)) {
+      continue;
+    }
+    const double distance = (sample - from).norm();
+    const Vec2 position =
+        distance < kStep ? sample : Vec2(from + (sample - from) * (kStep / distance));
+    const double near_cost = nodes[near].cost + (position - from).norm();
+    std::size_t parent = near;
+    double cheapest = near_cost;
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+      const double length = (nodes[j].position - position).norm();
+      if (length <= kNeighbours && nodes[j].cost + length < cheapest &&
+          CrossesNoSide(nodes[j].position, position, obstacle)) {
+        parent = j;
+        cheapest = nodes[j].cost + length;
+      }
+    }
+    nodes.push_back({position, parent, near_cost});
+  }
+  tree.final_node = NearestNode(nodes, layout.safe_point);
+  tree.goal_distance = (nodes[tree.final_node].position - layout.safe_point).norm();
+  tree.final_y = nodes[tree.final_node].position.y();
+  return tree;
+}
+
+ManoeuvreDrive DriveManoeuvre(const TurnManoeuvre& manoeuvre, const TurnLayout& layout,
+                              const VehicleParams& vehicle, const BezierCurve& curve,
+                              OutlineOn outline_on) {
+  TRACKBED_CHECK(layout.ok(), "the layout failed: {}", layout.reason);
+  ManoeuvreDrive drive;
+  drive.clearance = kInfinity;
+  drive.samples.reserve(kIntervals + 1);
+  for (std::size_t i = 0; i <= kIntervals; ++i) {
+    const double u = static_cast<double>(i) / static_cast<double>(kIntervals);
+    const Vec2 position = curve.At(u);
+    const Vec2 tangent = curve.Derivative(u, 1);
+    ManoeuvreSample sample;
+    sample.u = u;
+    sample.pose = {position.x(), position.y(), std::atan2(tangent.y(), tangent.x())};
+    if (i > 0) {
+      sample.s = drive.samples.back().s + (position - drive.samples.back().pose.position()).norm();
+    }
+    sample.time = sample.s / manoeuvre.speed;
+    sample.curvature = curve.Curvature(u);
+    sample.steering = SteeringForCurvature(vehicle, sample.curvature);
+    // d atan(L K)/dt = v L K'/(1 + (L K)^2)
+    const double slope = vehicle.wheelbase * sample.curvature;
+    const double rate =
+        std::abs(manoeuvre.speed * vehicle.wheelbase * curve.Sharpness(u) / (1.0 + slope * slope));
+    // Not finite where there is no direction: further than any limit.
+    const double angle = std::abs(sample.steering);
+    drive.steering_max = std::max(drive.steering_max, std::isnan(angle) ? kInfinity : angle);
+    drive.steering_rate_max =
+        std::max(drive.steering_rate_max, std::isnan(rate) ? kInfinity : rate);
+    drive.clearance = std::min(
+        drive.clearance, Distance(Outline(vehicle, sample.pose, outline_on), layout.obstacle));
+    drive.samples.push_back(sample);
+  }
+  drive.length = drive.samples.back().s;
+  drive.duration = drive.length / manoeuvre.speed;
+
+  const double station = drive.length * (manoeuvre.obstacle_sixth / 6.0) - kTestAhead;
+  const auto reached =
+      std::find_if(drive.samples.begin() + 1, drive.samples.end(),
+                   [&](const ManoeuvreSample& sample) { return sample.s >= station; });
+  const std::size_t index = static_cast<std::size_t>(reached - drive.samples.begin());
+  drive.test_point = drive.samples[std::max<std::size_t>(index, 2) - 2].pose.position();
+  drive.test_corner = TestCorner(manoeuvre, layout.obstacle);
+  drive.test_distance = (drive.test_point - drive.test_corner).norm();
+
+  drive.test_passed = drive.test_distance >= manoeuvre.safe_distance + 0.5 * vehicle.width;
+  drive.keeps_clear = drive.clearance >= manoeuvre.safe_distance;
+  drive.steerable = drive.steering_max <= vehicle.steering_limit &&
+                    drive.steering_rate_max <= vehicle.steering_rate;
+  return drive;
+}
+
+Pose2 ManoeuvreFrame(const TurnManoeuvre& manoeuvre, const Pose2& X_WA) {
+  return Compose(X_WA, {-manoeuvre.straight(), 0.0, 0.0});
+}
+
+std::vector<Vec2> PointsToWorld(const Pose2& X_WM, const std::vector<Vec2>& points) {
+  std::vector<Vec2> out;
+  out.reserve(points.size());
+  for (const Vec2& point : points) {
+    out.push_back(ToWorld(X_WM, point));
+  }
+  return out;
+}
+
+OrientedBox BoxToWorld(const Pose2& X_WM, const OrientedBox& box) {
+  return {Compose(X_WM, box.centre), box.length, box.width};
+}
+
+}  // namespace trackbed

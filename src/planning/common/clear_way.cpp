@@ -1,0 +1,124 @@
+#include "trackbed/planning/common/clear_way.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/core/error.h"
+#include "trackbed/world/world.h"
+
+namespace trackbed {
+namespace {
+
+/// Side of a bin [m]: about a car.
+constexpr double kBin = 4.0;
+/// Shortest step along a path [m].
+constexpr double kStep = 0.02;
+
+double CircleAround(const OrientedBox& box) {
+  return 0.5 * std::hypot(box.length, box.width);
+}
+
+}  // namespace
+
+ClearWay::ClearWay(const VehicleParams& vehicle, std::vector<OrientedBox> boxes, double distance)
+    : vehicle_(vehicle),
+      boxes_(std::move(boxes)),
+      distance_(distance),
+      middle_(0.5 * vehicle.length - vehicle.rear_overhang),
+      radius_(0.5 * std::hypot(vehicle.length, vehicle.width)),
+      reach_(std::hypot(vehicle.length - vehicle.rear_overhang, 0.5 * vehicle.width)) {
+  TRACKBED_CHECK(distance >= 0.0, "distance {}", distance);
+  if (boxes_.empty()) {
+    return;
+  }
+  low_ = boxes_.front().centre.position();
+  Vec2 high = low_;
+  const auto reach_of = [&](std::size_t i) { return radii_[i] + radius_ + distance_ + kFarthest; };
+  for (const OrientedBox& box : boxes_) {
+    radii_.push_back(CircleAround(box));
+    const Vec2 reach = Vec2::Constant(reach_of(radii_.size() - 1));
+    low_ = low_.cwiseMin(box.centre.position() - reach);
+    high = high.cwiseMax(box.centre.position() + reach);
+  }
+  columns_ = static_cast<int>((high.x() - low_.x()) / kBin) + 1;
+  rows_ = static_cast<int>((high.y() - low_.y()) / kBin) + 1;
+  bins_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    const Vec2 centre = boxes_[i].centre.position();
+    const auto first = [&](int axis) {
+      return static_cast<int>((centre[axis] - reach_of(i) - low_[axis]) / kBin);
+    };
+    const auto last = [&](int axis) {
+      return static_cast<int>((centre[axis] + reach_of(i) - low_[axis]) / kBin);
+    };
+    for (int row = first(1); row <= std::min(last(1), rows_ - 1); ++row) {
+      for (int column = first(0); column <= std::min(last(0), columns_ - 1); ++column) {
+        bins_[static_cast<std::size_t>(row * columns_ + column)].push_back(static_cast<int>(i));
+      }
+    }
+  }
+}
+
+const std::vector<int>* ClearWay::Near(const Vec2& middle) const {
+  const Vec2 bin = (middle - low_) / kBin;
+  if (bin.x() < 0.0 || bin.y() < 0.0 || bin.x() >= columns_ || bin.y() >= rows_) {
+    return nullptr;
+  }
+  return &bins_[static_cast<std::size_t>(static_cast<int>(bin.y()) * columns_ +
+                                         static_cast<int>(bin.x()))];
+}
+
+double ClearWay::RoomAt(const Pose2& pose) const {
+  const Vec2 middle = pose.position() + middle_ * Direction(pose.yaw);
+  const std::vector<int>* near = Near(middle);
+  double room = kFarthest;
+  if (near == nullptr) {
+    return room;
+  }
+  const OrientedBox outline{{middle.x(), middle.y(), pose.yaw}, vehicle_.length, vehicle_.width};
+  for (const int i : *near) {
+    const OrientedBox& box = boxes_[static_cast<std::size_t>(i)];
+    const double circles = radii_[static_cast<std::size_t>(i)] + radius_ + distance_ + room;
+    if ((box.centre.position() - middle).squaredNorm() < circles * circles) {
+      room = std::min(room, Separation(outline, box) - distance_);
+    }
+  }
+  return room;
+}
+
+std::optional<double> ClearWay::FirstBlocked(const Path& path) const {
+  double sharpest = 0.0;
+  for (const Segment& segment : path.segments()) {
+    sharpest = std::max({sharpest, std::abs(segment.curvature),
+                         std::abs(segment.CurvatureAt(segment.length)),
+                         std::abs(segment.CurvatureAt(0.5 * segment.length))});
+  }
+  const double moved = 1.0 + sharpest * reach_;  // by the outline, per metre of path
+  for (double s = 0.0;;) {
+    const double room = RoomAt(path.At(s).pose);
+    if (room < 0.0) {
+      return s;
+    }
+    if (s == path.length()) {
+      return std::nullopt;
+    }
+    s = std::min(s + std::max(room / moved, kStep), path.length());
+  }
+}
+
+bool ClearWay::IsFree(const Pose2& start, const Segment& segment) const {
+  const double moved = 1.0 + std::abs(segment.curvature) * reach_;
+  for (double d = 0.0;;) {
+    const double along = segment.direction * d;
+    const double room = RoomAt(MoveOnArc(start, along, segment.curvature * along));
+    if (room < 0.0) {
+      return false;
+    }
+    if (d == segment.length) {
+      return true;
+    }
+    d = std::min(d + std::max(room / moved, kStep), segment.length);
+  }
+}
+
+}  // namespace trackbed

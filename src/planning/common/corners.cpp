@@ -1,0 +1,257 @@
+#include "trackbed/planning/common/corners.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+#include <optional>
+
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+/// Smaller changes of heading are none [rad].
+constexpr double kStraight = 1e-9;
+
+/// The curve's segments, turned to its side.
+std::vector<Segment> SegmentsOf(const RoundCorner& corner) {
+  const double side = std::copysign(1.0, corner.heading_change);
+  const double ramp = corner.curvature / corner.sharpness;
+  const double arc = std::abs(corner.heading_change) / corner.curvature - ramp;
+  std::vector<Segment> segments{
+      {.length = ramp, .curvature = 0.0, .direction = 1, .sharpness = side * corner.sharpness}};
+  if (arc > kStraight) {
+    segments.push_back({.length = arc, .curvature = side * corner.curvature});
+  }
+  segments.push_back({.length = ramp,
+                      .curvature = side * corner.curvature,
+                      .direction = 1,
+                      .sharpness = -side * corner.sharpness});
+  return segments;
+}
+
+/// The path, as far as its corners allow; fills in their stations.
+Path LayOut(const std::vector<Vec2>& polyline, std::vector<RoundCorner>& corners) {
+  std::vector<Segment> segments;
+  double station = 0.0;
+  const auto add = [&](const Segment& segment) {
+    segments.push_back(segment);
+    station += segment.length;
+  };
+  for (std::size_t i = 0; i + 1 < polyline.size(); ++i) {
+    const double before = i == 0 ? 0.0 : corners[i - 1].tangent_length;
+    const double after = i + 2 == polyline.size() ? 0.0 : corners[i].tangent_length;
+    const double straight = (polyline[i + 1] - polyline[i]).norm() - before - after;
+    if (straight > kStraight) {
+      add({.length = straight});
+    }
+    if (i + 2 < polyline.size()) {
+      RoundCorner& corner = corners[i];
+      corner.from = station;
+      if (corner.tangent_length > 0.0) {
+        for (const Segment& segment : SegmentsOf(corner)) {
+          add(segment);
+        }
+      }
+      corner.to = station;
+    }
+  }
+  const Vec2 leg = polyline[1] - polyline[0];
+  return {{polyline[0].x(), polyline[0].y(), std::atan2(leg.y(), leg.x())}, std::move(segments)};
+}
+
+/// The highest speed up to `highest` at which the leg before the first corner, `leg` [m] long,
+/// holds its tangent and the way to slow down to it; none if there is none.
+template <typename Tangent>
+std::optional<double> SpeedAfterBraking(const CornerLimits& limits, double highest, double leg,
+                                        const Tangent& tangent) {
+  const auto lacks = [&](double v) {
+    const double braking = std::max(0.0, limits.start_speed * limits.start_speed - v * v) /
+                           (2.0 * limits.deceleration);
+    return tangent(v) + braking - leg;
+  };
+  if (lacks(highest) <= 0.0) {
+    return highest;
+  }
+  // A slower corner is shorter, and the way to slow down longer: either may win.
+  constexpr int kSteps = 100;
+  for (int i = kSteps - 1; i >= 0; --i) {
+    const double v = std::lerp(limits.min_speed, highest, static_cast<double>(i) / kSteps);
+    if (lacks(v) <= 0.0) {
+      return v;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string PlaceOf(const RoundCorner& corner) {
+  return fmt::format("the corner of {:.3g} rad at ({:.4g}, {:.4g})", corner.heading_change,
+                     corner.at.x(), corner.at.y());
+}
+
+/// The corner nearest to a station, of those that are not yet as slow as they may be; or none.
+RoundCorner* CornerToSlow(std::vector<RoundCorner>& corners, double station, double min_speed) {
+  RoundCorner* nearest = nullptr;
+  const auto away = [&](const RoundCorner& corner) {
+    return std::max({corner.from - station, station - corner.to, 0.0});
+  };
+  for (RoundCorner& corner : corners) {
+    if (corner.tangent_length > 0.0 && (nearest == nullptr || away(corner) < away(*nearest))) {
+      nearest = &corner;
+    }
+  }
+  return nearest != nullptr && nearest->speed > min_speed ? nearest : nullptr;
+}
+
+}  // namespace
+
+RoundCorner CornerAt(const VehicleParams& vehicle, double heading_change, double speed,
+                     double max_curvature) {
+  const double h = std::abs(heading_change);
+  TRACKBED_CHECK(h > 0.0 && h < kPi && speed > 0.0, "a corner of {} rad at {} m/s", heading_change,
+                 speed);
+  RoundCorner corner;
+  corner.heading_change = heading_change;
+  corner.speed = speed;
+  corner.sharpness = vehicle.steering_rate / (vehicle.wheelbase * speed);
+  corner.curvature = std::min(std::sqrt(h * corner.sharpness), max_curvature);
+  // The middle of the curve lies on the corner's bisector.
+  std::vector<Segment> half = SegmentsOf(corner);
+  const bool has_arc = half.size() == 3;
+  half.pop_back();
+  if (has_arc) {
+    half.back().length *= 0.5;
+  }
+  const Path path({}, std::move(half));
+  const Vec2 middle = path.At(path.length()).pose.position();
+  corner.tangent_length = middle.x() + std::abs(middle.y()) * std::tan(0.5 * h);
+  return corner;
+}
+
+RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2>& polyline,
+                            const CornerLimits& limits, const ClearWay& clear) {
+  TRACKBED_CHECK(polyline.size() >= 2, "{} points", polyline.size());
+  RoundedCorners result;
+  const auto refuse = [&](PlanStatus status, const std::string& reason) {
+    result = {};
+    result.status = status;
+    result.reason = reason;
+    return result;
+  };
+  const auto at_speed = [&](const RoundCorner& corner, double speed) {
+    RoundCorner slower = CornerAt(vehicle, corner.heading_change, speed, limits.max_curvature);
+    slower.at = corner.at;
+    return slower;
+  };
+  for (std::size_t i = 1; i + 1 < polyline.size(); ++i) {
+    const Vec2 in = polyline[i] - polyline[i - 1];
+    const Vec2 out = polyline[i + 1] - polyline[i];
+    RoundCorner corner;
+    corner.at = polyline[i];
+    corner.speed = limits.speed;
+    corner.heading_change = std::atan2(Cross(in, out), in.dot(out));
+    if (std::abs(corner.heading_change) < kStraight) {
+      result.corners.push_back(corner);
+      continue;
+    }
+    if (std::abs(corner.heading_change) > kPi - kStraight) {
+      return refuse(PlanStatus::kUTurn, PlaceOf(corner) + " turns back on itself");
+    }
+    const double room_out = out.norm() * (i + 2 == polyline.size() ? 1.0 : 0.5);
+    const double room_in = in.norm() * (i == 1 ? 1.0 : 0.5);
+    const auto lacks = [&](double speed) {
+      return at_speed(corner, speed).tangent_length - std::min(room_in, room_out);
+    };
+    if (lacks(limits.min_speed) > 0.0) {
+      return refuse(
+          PlanStatus::kTurnTooTight,
+          fmt::format("{} needs {:.3g} m of its legs even at {:.3g} m/s; there are {:.3g}",
+                      PlaceOf(corner), at_speed(corner, limits.min_speed).tangent_length,
+                      limits.min_speed, std::min(room_in, room_out)));
+    }
+    double speed = limits.speed;
+    if (lacks(speed) > 0.0) {
+      constexpr double kClose = 1e-6;  // [m/s]
+      speed = boost::math::tools::bisect(lacks, limits.min_speed, speed, [](double a, double b) {
+                return b - a < kClose;
+              }).first;
+    }
+    if (i == 1) {
+      const auto slowed = SpeedAfterBraking(
+          limits, speed, room_in, [&](double v) { return at_speed(corner, v).tangent_length; });
+      if (!slowed) {
+        return refuse(PlanStatus::kTurnTooTight,
+                      fmt::format("{} is too near for a car that rolls at {:.3g} m/s to slow down "
+                                  "for it at {:.3g} m/s^2",
+                                  PlaceOf(corner), limits.start_speed, limits.deceleration));
+      }
+      speed = *slowed;
+    }
+    result.corners.push_back(at_speed(corner, speed));
+  }
+  for (;;) {
+    result.path = LayOut(polyline, result.corners);
+    const std::optional<double> blocked = clear.FirstBlocked(result.path);
+    if (!blocked) {
+      break;
+    }
+    RoundCorner* corner = CornerToSlow(result.corners, *blocked, limits.min_speed);
+    if (corner == nullptr) {
+      const Vec2 at = result.path.At(*blocked).pose.position();
+      return refuse(
+          PlanStatus::kCollides,
+          fmt::format("rounded, the path comes too near to an obstacle at ({:.4g}, {:.4g})", at.x(),
+                      at.y()));
+    }
+    constexpr double kSlower = 0.8;
+    *corner = at_speed(*corner, std::max(kSlower * corner->speed, limits.min_speed));
+  }
+  for (const RoundCorner& corner : result.corners) {
+    if (corner.speed < limits.speed) {
+      result.caps.push_back({corner.from, corner.to, corner.speed});
+    }
+  }
+  return result;
+}
+
+namespace {
+
+/// Leaves out the points that are straight on, or that `sees` sees past.
+template <typename Sees>
+std::vector<Vec2> Without(const std::vector<Vec2>& polyline, const Sees& sees) {
+  if (polyline.size() < 3) {
+    return polyline;
+  }
+  std::vector<Vec2> kept{polyline.front()};
+  for (std::size_t i = 1; i + 1 < polyline.size(); ++i) {
+    const Vec2 in = polyline[i] - kept.back();
+    const Vec2 out = polyline[i + 1] - polyline[i];
+    constexpr double kRounding = 1e-12;
+    const bool straight_on =
+        std::abs(Cross(in, out)) <= kRounding * in.norm() * out.norm() && in.dot(out) > 0.0;
+    if (!straight_on && !sees(kept.back(), polyline[i + 1])) {
+      kept.push_back(polyline[i]);
+    }
+  }
+  kept.push_back(polyline.back());
+  return kept;
+}
+
+}  // namespace
+
+std::vector<Vec2> WithoutStraightOn(const std::vector<Vec2>& polyline) {
+  return Without(polyline, [](const Vec2&, const Vec2&) { return false; });
+}
+
+std::vector<Vec2> Shortcut(const std::vector<Vec2>& polyline, const std::vector<OrientedBox>& boxes,
+                           double inflation) {
+  return Without(polyline, [&](const Vec2& from, const Vec2& to) {
+    return std::all_of(boxes.begin(), boxes.end(),
+                       [&](const OrientedBox& box) { return Distance(from, to, box) > inflation; });
+  });
+}
+
+}  // namespace trackbed

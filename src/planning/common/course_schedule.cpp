@@ -1,0 +1,63 @@
+#include "trackbed/planning/common/course_schedule.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/planning/common/curvature_steps.h"
+
+namespace trackbed {
+
+double SharpestCurvature(const Segment& segment) {
+  const double end = segment.CurvatureAt(segment.length);
+  return std::abs(end) > std::abs(segment.curvature) ? end : segment.curvature;
+}
+
+SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<Segment>& segments,
+                                double speed, const std::vector<SpeedCap>& caps,
+                                const std::vector<double>& stops) {
+  // A schedule over the distance needs some where the wheels turn on the spot [m].
+  constexpr double kLeast = 1e-6;
+  constexpr double kSpacing = 0.5;  // [m]; atan bends by less than 1e-5 rad within
+  const auto steering = [&](double curvature) { return SteeringForCurvature(vehicle, curvature); };
+  const std::vector<SteeringRamp> ramps = RampsOfSteps(vehicle, segments, speed, caps, stops);
+  auto ramp = ramps.begin();
+  std::vector<SteeringSchedule::Knot> knots;
+  double begin = 0.0;
+  double taken = 0.0;  // of the piece by the ramp at its beginning
+  bool is_joined = false;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const Segment& segment = segments[i];
+    const double end = begin + segment.length;
+    double from = taken;
+    double to = segment.length;
+    taken = 0.0;
+    bool joins = false;
+    if (i + 1 < segments.size() &&
+        steering(segments[i + 1].curvature) != steering(segment.CurvatureAt(segment.length))) {
+      joins = true;
+      if (ramp != ramps.end() && ramp->joint == end) {
+        to = ramp->from - begin;
+        taken = ramp->to - end;
+        ++ramp;
+      } else {
+        to = segment.length - std::min(kLeast, 0.5 * segment.length);
+      }
+    }
+    // Ramps may meet in the middle of a piece, up to rounding.
+    from = std::min(from, to);
+    const double parts = segment.sharpness == 0.0 && segment.sharpness_rate == 0.0
+                             ? 1.0
+                             : std::ceil(std::max(to - from, kLeast) / kSpacing);
+    for (double k = is_joined || i == 0 ? 0.0 : 1.0; k <= parts; k += 1.0) {
+      const double d = std::lerp(from, to, k / parts);
+      if (knots.empty() || begin + d > knots.back().distance) {
+        knots.push_back({begin + d, steering(segment.CurvatureAt(d))});
+      }
+    }
+    begin = end;
+    is_joined = joins;
+  }
+  return SteeringSchedule::Through(std::move(knots));
+}
+
+}  // namespace trackbed

@@ -1,0 +1,101 @@
+#include "trackbed/planning/common/curvature_steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trackbed {
+namespace {
+
+/// A joint between two pieces of path at which the wheels have to turn.
+struct Step {
+  double joint;     // [m]
+  double before;    // curvature [1/m]
+  double after;     // likewise
+  double steering;  // by which they turn [rad]
+  double room;      // for the ramp: the shorter piece beside it [m]
+  bool cusp;        // the direction changes
+};
+
+std::vector<Step> StepsOf(const VehicleParams& vehicle, const std::vector<Segment>& segments) {
+  std::vector<Step> steps;
+  double joint = 0.0;
+  for (std::size_t i = 0; i + 1 < segments.size(); ++i) {
+    const Segment& a = segments[i];
+    const Segment& b = segments[i + 1];
+    joint += a.length;
+    const double before = a.CurvatureAt(a.length);
+    const double steering = std::abs(SteeringForCurvature(vehicle, b.curvature) -
+                                     SteeringForCurvature(vehicle, before));
+    if (steering > 0.0) {
+      steps.push_back({joint, before, b.curvature, steering, std::min(a.length, b.length),
+                       a.direction != b.direction});
+    }
+  }
+  return steps;
+}
+
+/// The speed at which a ramp fills the room, half of it on either side of the joint.
+double RoomSpeed(const VehicleParams& vehicle, const Step& step) {
+  return vehicle.steering_rate * step.room / step.steering;
+}
+
+bool IsOneOf(const std::vector<double>& stations, double s) {
+  constexpr double kSame = 1e-9;  // [m]
+  return std::any_of(stations.begin(), stations.end(),
+                     [&](double station) { return std::abs(station - s) < kSame; });
+}
+
+}  // namespace
+
+double StepSpeed(const VehicleParams& vehicle, double curvature_before, double curvature_after) {
+  const double steering = std::abs(SteeringForCurvature(vehicle, curvature_after) -
+                                   SteeringForCurvature(vehicle, curvature_before));
+  const double step = std::abs(curvature_after - curvature_before);
+  return steering == 0.0
+             ? std::numeric_limits<double>::infinity()
+             : vehicle.steering_rate * std::sqrt(24.0 * kStepDeviation / step) / steering;
+}
+
+std::vector<SteeringRamp> RampsOfSteps(const VehicleParams& vehicle,
+                                       const std::vector<Segment>& segments, double speed,
+                                       const std::vector<SpeedCap>& caps,
+                                       const std::vector<double>& stops) {
+  std::vector<SteeringRamp> ramps;
+  for (const Step& step : StepsOf(vehicle, segments)) {
+    if (step.cusp || IsOneOf(stops, step.joint)) {
+      continue;
+    }
+    double at = std::min(speed, RoomSpeed(vehicle, step));
+    for (const SpeedCap& cap : caps) {
+      if (cap.from <= step.joint && step.joint <= cap.to) {
+        at = std::min(at, cap.speed);
+      }
+    }
+    const double half = 0.5 * at * step.steering / vehicle.steering_rate;
+    ramps.push_back({step.joint, step.joint - half, step.joint + half, at, step.steering});
+  }
+  return ramps;
+}
+
+StepSpeeds PlanSteps(const VehicleParams& vehicle, const std::vector<Segment>& segments,
+                     double min_speed) {
+  StepSpeeds speeds;
+  for (const Step& step : StepsOf(vehicle, segments)) {
+    const double room = RoomSpeed(vehicle, step);
+    if (step.cusp) {
+      continue;
+    }
+    if (room < min_speed) {
+      speeds.stops.push_back(step.joint);
+      continue;
+    }
+    const double speed =
+        std::min(std::max(StepSpeed(vehicle, step.before, step.after), min_speed), room);
+    const double half = 0.5 * speed * step.steering / vehicle.steering_rate;
+    speeds.caps.push_back({step.joint - half, step.joint + half, speed});
+  }
+  return speeds;
+}
+
+}  // namespace trackbed

@@ -1,0 +1,70 @@
+#include "trackbed/planning/common/plan_stretch.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace trackbed {
+
+std::vector<SteeringSchedule::Knot> Moved(const SteeringSchedule& schedule, Stations within,
+                                          double shift) {
+  // A knot at the cut itself is that of what is put there.
+  constexpr double kAtTheCut = 1e-9;  // [m]
+  std::vector<SteeringSchedule::Knot> knots;
+  for (const SteeringSchedule::Knot& knot : schedule.knots()) {
+    if (knot.distance > within.from + kAtTheCut && knot.distance < within.to - kAtTheCut) {
+      knots.push_back({knot.distance + shift, knot.steering});
+    }
+  }
+  return knots;
+}
+
+std::vector<SpeedCap> Moved(const std::vector<SpeedCap>& caps, Stations within, double shift) {
+  std::vector<SpeedCap> moved;
+  for (const SpeedCap& cap : caps) {
+    const double from = std::max(cap.from, within.from);
+    const double to = std::min(cap.to, within.to);
+    if (to > from) {
+      moved.push_back({from + shift, to + shift, cap.speed});
+    }
+  }
+  return moved;
+}
+
+std::vector<LoneTurn> Moved(const std::vector<LoneTurn>& turns, Stations within, double shift) {
+  std::vector<LoneTurn> moved;
+  for (LoneTurn turn : turns) {
+    if (turn.from >= within.from && turn.middle <= within.to) {
+      turn.from += shift;
+      turn.middle += shift;
+      moved.push_back(turn);
+    }
+  }
+  return moved;
+}
+
+std::vector<Segment> SegmentsBetween(const Path& path, Stations within) {
+  std::vector<Segment> segments{{.length = std::min(0.0, within.to) - within.from}};
+  Append(segments, path.Cut(within));
+  segments.push_back({.length = within.to - std::max(within.from, path.length())});
+  constexpr double kNegligible = 1e-9;  // [m]
+  std::erase_if(segments, [](const Segment& piece) { return piece.length < kNegligible; });
+  return segments;
+}
+
+Plan RestOf(const Plan& plan, double station, double start_speed, const SpeedLimits& speed) {
+  Plan rest = plan;
+  const Path& path = plan.reference.path;
+  const Stations ahead{station, path.length()};
+  std::vector<SteeringSchedule::Knot> knots{{0.0, plan.schedule.At(station)}};
+  Append(knots, Moved(plan.schedule, {station, std::numeric_limits<double>::infinity()}, -station));
+  const double open_loop_end = plan.schedule_speed.knots().back().s - station;
+  rest.reference.path = Path(path.At(station).pose, path.Cut(ahead));
+  rest.schedule = SteeringSchedule::Through(std::move(knots));
+  rest.caps = Moved(plan.caps, ahead, -station);
+  rest.turns = Moved(plan.turns, ahead, -station);
+  rest.reference.speed = StopAtEnd(rest.reference.path.length(), start_speed, speed, rest.caps);
+  rest.schedule_speed = StopAtEnd(open_loop_end, start_speed, speed, rest.caps);
+  return rest;
+}
+
+}  // namespace trackbed

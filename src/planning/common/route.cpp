@@ -1,0 +1,198 @@
+#include "trackbed/planning/common/route.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/planning/common/course_schedule.h"
+#include "trackbed/planning/common/curvature_steps.h"
+#include "trackbed/planning/common/feasibility.h"
+
+namespace trackbed {
+namespace {
+
+constexpr Key kCurveRadius{"radius", "m", "of the arcs; else a tenth more than the car's smallest"};
+constexpr Key kStepSpeed{"min_speed", "m/s", "no step of curvature is taken more slowly"};
+
+std::string FirstCorner(const std::vector<Vec2>& points) {
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const Vec2 in = points[i] - points[i - 1];
+    const Vec2 out = points[i + 1] - points[i];
+    const double turn = std::atan2(Cross(in, out), in.dot(out));
+    if (std::abs(turn) > 1e-6) {
+      return fmt::format("the heading jumps by {:.3g} rad at ({:.4g}, {:.4g}); no car drives that",
+                         turn, points[i].x(), points[i].y());
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+namespace route {
+
+Plan Refused(PlanStatus status, std::string reason) {
+  Plan plan;
+  plan.status = status;
+  plan.reason = std::move(reason);
+  return plan;
+}
+
+Plan CheckRoute(const PlanRequest& request) {
+  if (request.waypoints.size() < 2) {
+    return Refused(
+        PlanStatus::kTooFewWaypoints,
+        fmt::format("{} waypoints; a start and a goal are needed", request.waypoints.size()));
+  }
+  for (std::size_t i = 1; i < request.waypoints.size(); ++i) {
+    if (request.waypoints[i] == request.waypoints[i - 1]) {
+      return Refused(PlanStatus::kDuplicateWaypoints,
+                     fmt::format("waypoint {} is the one before it", i));
+    }
+  }
+  if (request.waypoints[1] == request.start.position()) {
+    return Refused(PlanStatus::kDuplicateWaypoints, "the car stands at waypoint 1");
+  }
+  return {};
+}
+
+void Complete(Plan& plan, const PlanRequest& request) {
+  const Path& path = plan.reference.path;
+  SetSpeeds(plan, request.start_speed, request.speed);
+  plan.schedule =
+      CourseSchedule(request.vehicle, path.segments(), request.speed.speed, plan.caps, plan.stops);
+  plan.goal = path.At(path.length()).pose;
+  plan.diagnostics["turns"] = nlohmann::json::array();
+  plan.diagnostics["changes_of_direction"] = LegsOf(path).size() - 1;
+}
+
+Plan AlongPolyline(Plan plan, const PlanRequest& request, const std::vector<Vec2>& points,
+                   Corners corners, double safe_distance, double min_speed) {
+  if (corners == Corners::kRefuse) {
+    if (const std::string corner = FirstCorner(points); !corner.empty()) {
+      return Refused(PlanStatus::kTurnTooTight, corner);
+    }
+  }
+  RoundedCorners rounded =
+      RoundCorners(request.vehicle, points,
+                   {.speed = request.speed.speed,
+                    .min_speed = std::min(min_speed, request.speed.speed),
+                    .max_curvature = 1.0 / request.vehicle.min_turning_radius(),
+                    .start_speed = request.start_speed,
+                    .deceleration = request.speed.deceleration},
+                   ClearWay(request.vehicle, request.obstacles, safe_distance));
+  if (rounded.status != PlanStatus::kOk) {
+    return Refused(rounded.status, rounded.reason);
+  }
+  plan.diagnostics["corners"] = nlohmann::json::array();
+  for (const RoundCorner& corner : rounded.corners) {
+    plan.diagnostics["corners"].push_back({{"at_m", {corner.at.x(), corner.at.y()}},
+                                           {"heading_change_rad", corner.heading_change},
+                                           {"speed_mps", corner.speed},
+                                           {"curvature_radpm", corner.curvature},
+                                           {"tangent_length_m", corner.tangent_length},
+                                           {"from_s_m", corner.from},
+                                           {"to_s_m", corner.to}});
+  }
+  plan.reference.path = std::move(rounded.path);
+  plan.caps = std::move(rounded.caps);
+  Complete(plan, request);
+  return plan;
+}
+
+nlohmann::json ToJson(const std::vector<Vec2>& points) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Vec2& point : points) {
+    list.push_back({point.x(), point.y()});
+  }
+  return list;
+}
+
+Plan CheckRadius(const VehicleParams& vehicle, const std::optional<double>& radius) {
+  if (radius && *radius < vehicle.min_turning_radius()) {
+    return Refused(PlanStatus::kTurnTooTight,
+                   fmt::format("a radius of {:.4g} m; the car turns on {:.4g} m or more", *radius,
+                               vehicle.min_turning_radius()));
+  }
+  return {};
+}
+
+double RadiusFor(const VehicleParams& vehicle, const std::optional<double>& radius) {
+  return radius.value_or(1.1 * vehicle.min_turning_radius());
+}
+
+Plan CheckStops(const std::vector<Pose2>& stops, const ClearWay& clear) {
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    if (!clear.IsFree(stops[i])) {
+      const std::string place = fmt::format("({:.4g}, {:.4g})", stops[i].x, stops[i].y);
+      return i == 0
+                 ? Refused(PlanStatus::kStartBlocked,
+                           "the car stands too near to an obstacle at " + place)
+                 : Refused(PlanStatus::kGoalBlocked,
+                           fmt::format("an obstacle is too near to waypoint {} at {}", i, place));
+    }
+  }
+  return {};
+}
+
+Plan AlongSegments(Plan plan, const PlanRequest& request, std::vector<Segment> segments,
+                   double min_speed) {
+  StepSpeeds steps = PlanSteps(request.vehicle, segments, min_speed);
+  plan.caps = std::move(steps.caps);
+  plan.stops = std::move(steps.stops);
+  plan.reference.path = Path(request.start, std::move(segments));
+  Complete(plan, request);
+  if (!plan.stops.empty()) {
+    plan.diagnostics["stops_m"] = plan.stops;
+  }
+  return plan;
+}
+
+bool IsFree(const ClearWay& clear, const Pose2& pose, const std::vector<Segment>& segments) {
+  return !clear.FirstBlocked(Path(pose, segments));
+}
+
+LeadIn LeadInForCurves(const PlanRequest& request, double radius, double min_speed) {
+  const double curvature = 1.0 / radius;
+  const double speed = std::max(StepSpeed(request.vehicle, 0.0, curvature), min_speed);
+  return LeadInOf(request, std::min(speed, request.start_speed),
+                  0.5 * SteeringDistance(request.vehicle,
+                                         SteeringForCurvature(request.vehicle, curvature), speed));
+}
+
+void VisitCurves(KeyVisitor& keys, std::optional<double>& radius, double& safe_distance,
+                 double& min_speed) {
+  keys.Field(kCurveRadius, radius, kPositive);
+  keys.Field(kOutlineDistance, safe_distance, Need::kOptional, kNotNegative);
+  keys.Field(kStepSpeed, min_speed, Need::kOptional, kPositive);
+}
+
+void VisitCorners(KeyVisitor& keys, Corners& corners, double& safe_distance, double& corner_room) {
+  static const EnumNames<Corners> names{{Corners::kRound, "round"}, {Corners::kRefuse, "refuse"}};
+  keys.Field(
+      {"corners", "",
+       "what becomes of corners: rounded by clothoids and arcs that the wheels can follow, or "
+       "no plan"},
+      corners, Need::kOptional, names);
+  keys.Field(kOutlineDistance, safe_distance, Need::kOptional, kNotNegative);
+  keys.Field({"corner_room", "m", "that the search keeps besides, for rounded corners"},
+             corner_room, Need::kOptional, kNotNegative);
+}
+
+}  // namespace route
+
+std::vector<Pose2> StopsOf(const PlanRequest& request) {
+  const std::vector<Vec2>& points = request.waypoints;
+  std::vector<Pose2> stops{request.start};
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Vec2 before = stops.back().position();
+    const Vec2 along = points[std::min(i + 1, points.size() - 1)] - before;
+    stops.push_back(
+        {points[i].x(), points[i].y(),
+         request.headings.empty() ? std::atan2(along.y(), along.x()) : request.headings[i]});
+  }
+  return stops;
+}
+
+}  // namespace trackbed

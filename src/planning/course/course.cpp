@@ -1,0 +1,100 @@
+#include "trackbed/planning/course/course.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "trackbed/core/error.h"
+#include "trackbed/planning/common/course_schedule.h"
+
+namespace trackbed {
+
+std::vector<Segment> CourseSegments(const CourseOptions& options) {
+  TRACKBED_CHECK(!options.segments.empty(), "a course without segments");
+  std::vector<Segment> segments;
+  double end = 0.0;
+  for (const CoursePiece& piece : options.segments) {
+    TRACKBED_CHECK(piece.length > 0.0, "a piece of {} m", piece.length);
+    TRACKBED_CHECK(piece.curvature.has_value() != piece.curvature_to.has_value() &&
+                       !(piece.curvature && piece.curvature_from),
+                   "a piece of {} m is neither constant nor a ramp", piece.length);
+    const double from = piece.curvature.value_or(piece.curvature_from.value_or(end));
+    end = piece.curvature_to.value_or(from);
+    segments.push_back({.length = piece.length,
+                        .curvature = from,
+                        .direction = 1,
+                        .sharpness = (end - from) / piece.length});
+  }
+  return segments;
+}
+
+namespace {
+
+Plan PlanWith(const CourseOptions& options, const PlanRequest& request) {
+  const std::vector<Segment> segments = CourseSegments(options);
+  Plan plan;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const double sharpest = SharpestCurvature(segments[i]);
+    const double steering = std::abs(SteeringForCurvature(request.vehicle, sharpest));
+    if (steering > request.vehicle.steering_limit) {
+      plan.status = PlanStatus::kTurnTooTight;
+      plan.reason = fmt::format(
+          "segments[{}] has a curvature of {:.4g} 1/m, which takes {:.3f} rad of steering; the car "
+          "can steer {:.3f} rad",
+          i, sharpest, steering, request.vehicle.steering_limit);
+      plan.diagnostics["segment"] = i;
+      return plan;
+    }
+  }
+  plan.reference.path = Path(request.start, segments);
+  const Path& path = plan.reference.path;
+  plan.reference.speed = StopAtEnd(path.length(), request.start_speed, request.speed);
+  plan.schedule = CourseSchedule(request.vehicle, segments, request.speed.speed);
+  plan.schedule_speed = plan.reference.speed;
+  plan.goal = path.At(path.length()).pose;
+
+  nlohmann::json& out = plan.diagnostics;
+  out["turns"] = nlohmann::json::array();
+  out["segments"] = nlohmann::json::array();
+  double start = 0.0;
+  for (const Segment& segment : segments) {
+    const double speed = request.speed.speed;
+    out["segments"].push_back(
+        {{"start_s_m", start},
+         {"length_m", segment.length},
+         {"curvature_from_radpm", segment.curvature},
+         {"curvature_to_radpm", segment.CurvatureAt(segment.length)},
+         {"lateral_acceleration_mps2", SharpestCurvature(segment) * speed * speed}});
+    start += segment.length;
+  }
+  return plan;
+}
+
+}  // namespace
+
+void Visit(KeyVisitor& keys, CoursePiece& piece) {
+  static constexpr Range kCurvature{.min = -10.0, .max = 10.0};  // [1/m]
+  keys.Field({"length", "m", "along the course"}, piece.length, Need::kRequired,
+             Range{.max = 1e6, .above = 0.0});
+  keys.Field({"curvature", "1/m", "of a straight (0) or an arc, positive to the left"},
+             piece.curvature, kCurvature);
+  keys.Field({"curvature_from", "1/m", "where a ramp begins; else where the piece before it ends"},
+             piece.curvature_from, kCurvature);
+  keys.Field({"curvature_to", "1/m", "where a ramp ends"}, piece.curvature_to, kCurvature);
+}
+
+void Visit(KeyVisitor& keys, CourseOptions& options) {
+  keys.List({"segments", "", "of the course from the car's start on, at least one"},
+            options.segments);
+}
+
+PlannerEntry CoursePlanner() {
+  return {.name = "course",
+          .summary = "straights, arcs and curvature ramps, piece by piece as given",
+          .defaults = CourseOptions{},
+          .plan = PlanBy<CourseOptions, PlanWith>};
+}
+
+}  // namespace trackbed

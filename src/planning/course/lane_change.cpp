@@ -1,0 +1,237 @@
+#include "trackbed/planning/course/lane_change.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "trackbed/core/error.h"
+#include "trackbed/path/bezier.h"
+#include "trackbed/world/world.h"
+
+namespace trackbed {
+namespace {
+
+/// Lengths of the five sections, widths of the three gates, and the middles of the second and third
+/// gate from that of the first.
+struct Course {
+  std::array<double, 5> lengths;
+  std::array<double, 3> widths;
+  std::array<double, 3> offsets;
+};
+
+Course CourseOf(LaneChangeStandard standard, double width) {
+  const double first = 1.1 * width + 0.25;
+  if (standard == LaneChangeStandard::kIso3888_1) {
+    const double second = 1.2 * width + 0.25;
+    const double third = 1.3 * width + 0.25;
+    return {{15.0, 30.0, 25.0, 25.0, 30.0},
+            {first, second, third},
+            {0.0, 3.5 + 0.5 * (second - first), 0.5 * (third - first)}};
+  }
+  const double second = width + 1.0;
+  const double third = std::max(1.3 * width + 0.25, 3.0);
+  return {{12.0, 13.5, 11.0, 12.5, 12.0},
+          {first, second, third},
+          {0.0, 0.5 * first + 1.0 + 0.5 * second, 0.5 * (third - first)}};
+}
+
+void AddStraight(double length, std::vector<Segment>& path) {
+  if (length > 0.0) {
+    path.push_back({length, 0.0});
+  }
+}
+
+/// From a straight line to one `offset` to its left over `length`.
+void AddChange(double length, double offset, std::vector<Segment>& path) {
+  constexpr double kSpacing = 0.1;  // [m]
+  std::vector<Vec2> control;
+  for (int i = 0; i <= 5; ++i) {
+    control.emplace_back(length * i / 5.0, i < 3 ? 0.0 : offset);
+  }
+  const auto segments = SegmentsThrough(BezierCurve(control).Points(kSpacing, 0.0));
+  path.insert(path.end(), segments.begin(), segments.end());
+}
+
+}  // namespace
+
+std::vector<Gate> LaneChangeGates(LaneChangeStandard standard, Side first, double vehicle_width,
+                                  const Pose2& start) {
+  const Course course = CourseOf(standard, vehicle_width);
+  const double side = first == Side::kLeft ? 1.0 : -1.0;
+  std::vector<Gate> gates;
+  double x = 0.0;
+  for (std::size_t section = 0; section < 5; ++section) {
+    const double length = course.lengths[section];
+    if (section % 2 == 0) {
+      const std::size_t gate = section / 2;
+      const Vec2 centre = ToWorld(start, Vec2(x + 0.5 * length, side * course.offsets[gate]));
+      gates.push_back({static_cast<int>(section) + 1,
+                       {{centre.x(), centre.y(), start.yaw}, length, course.widths[gate]}});
+    }
+    x += length;
+  }
+  return gates;
+}
+
+std::vector<Vec2> ConesOf(const Gate& gate) {
+  constexpr int kPairs = 5;
+  constexpr double kRadius = 0.15;  // [m]
+  const OrientedBox& lane = gate.lane;
+  std::vector<Vec2> cones;
+  for (int i = 0; i < kPairs; ++i) {
+    const double x = lane.length * (static_cast<double>(i) / (kPairs - 1) - 0.5);
+    const double y = 0.5 * lane.width + kRadius;
+    cones.push_back(ToWorld(lane.centre, Vec2(x, y)));
+    cones.push_back(ToWorld(lane.centre, Vec2(x, -y)));
+  }
+  return cones;
+}
+
+std::vector<Segment> LaneChangePath(const LaneChangePlannerOptions& options,
+                                    const std::vector<Gate>& gates, const Pose2& start,
+                                    double stop) {
+  std::vector<Segment> path;
+  double x = 0.0;
+  double y = 0.0;
+  for (std::size_t i = 0; i < gates.size(); ++i) {
+    const OrientedBox& lane = gates[i].lane;
+    const Vec2 middle = ToLocal(start, lane.centre.position());
+    const double begin = middle.x() - 0.5 * lane.length;
+    const double end = middle.x() + 0.5 * lane.length;
+    if (i > 0) {
+      const double joined = begin + options.join;
+      TRACKBED_CHECK(joined > x, "gate {} is joined before the one before it is left", i);
+      AddChange(joined - x, middle.y() - y, path);
+      x = joined;
+      y = middle.y();
+    }
+    const double left = i + 1 < gates.size() ? end - options.leave : end + options.lead_out + stop;
+    AddStraight(left - x, path);
+    x = std::max(x, left);
+  }
+  return path;
+}
+
+std::vector<double> GateMargins(const std::vector<Gate>& gates, const VehicleParams& vehicle,
+                                const std::vector<Pose2>& poses) {
+  std::vector<double> margins(gates.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t g = 0; g < gates.size(); ++g) {
+    const OrientedBox& lane = gates[g].lane;
+    const auto take = [&](const Vec2& corner) {
+      margins[g] = std::min(margins[g], 0.5 * lane.width - std::abs(corner.y()));
+    };
+    std::array<Vec2, 4> before{};
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const std::array<Vec2, 4> corners = OutlineAt(vehicle, poses[i]).Corners();
+      for (std::size_t c = 0; c < corners.size(); ++c) {
+        const Vec2 corner = ToLocal(lane.centre, corners[c]);
+        if (std::abs(corner.x()) <= 0.5 * lane.length) {
+          take(corner);
+        }
+        // The cones at either end may stand between two poses.
+        for (const double end : {-0.5 * lane.length, 0.5 * lane.length}) {
+          if (i > 0 && (before[c].x() - end) * (corner.x() - end) < 0.0) {
+            take(before[c] +
+                 (end - before[c].x()) / (corner.x() - before[c].x()) * (corner - before[c]));
+          }
+        }
+        before[c] = corner;
+      }
+    }
+  }
+  return margins;
+}
+
+namespace {
+
+using nlohmann::json;
+
+json Point(const Vec2& p) {
+  return json::array({p.x(), p.y()});
+}
+
+Plan PlanWith(const LaneChangePlannerOptions& options, const PlanRequest& request) {
+  const Pose2& start = request.start;
+  const Vec2 first = ToWorld(start, Vec2(options.lead_in, 0.0));
+  Plan plan;
+  plan.gates = LaneChangeGates(options.standard, options.first, request.vehicle.width,
+                               {first.x(), first.y(), start.yaw});
+  const double speed = request.speed.speed;
+  const double stop = 0.5 * speed * speed / request.speed.deceleration;
+  const std::vector<Segment> segments = LaneChangePath(options, plan.gates, start, stop);
+  for (const Segment& segment : segments) {
+    const double steering = std::abs(SteeringForCurvature(request.vehicle, segment.curvature));
+    if (steering > request.vehicle.steering_limit) {
+      plan.gates.clear();
+      plan.status = PlanStatus::kTurnTooTight;
+      plan.reason = fmt::format(
+          "between the gates the car would have to steer {:.3f} rad; it can steer {:.3f} rad",
+          steering, request.vehicle.steering_limit);
+      return plan;
+    }
+  }
+  plan.reference.path = Path(start, segments);
+  const Path& path = plan.reference.path;
+  plan.reference.speed = StopAtEnd(path.length(), request.start_speed, request.speed);
+  plan.schedule_speed = plan.reference.speed;
+  plan.goal = path.At(path.length()).pose;
+
+  constexpr double kSpacing = 0.5;  // [m]
+  std::vector<SteeringSchedule::Knot> knots;
+  std::vector<Pose2> poses;
+  for (const PathPoint& point : path.Sample(kSpacing)) {
+    knots.push_back({point.s, SteeringForCurvature(request.vehicle, point.curvature)});
+    poses.push_back(point.pose);
+  }
+  plan.schedule = SteeringSchedule::Through(std::move(knots));
+
+  json& out = plan.diagnostics;
+  out["turns"] = json::array();
+  out["gates"] = json::array();
+  const std::vector<double> margins = GateMargins(plan.gates, request.vehicle, poses);
+  for (std::size_t i = 0; i < plan.gates.size(); ++i) {
+    const OrientedBox& lane = plan.gates[i].lane;
+    json cones = json::array();
+    for (const Vec2& cone : ConesOf(plan.gates[i])) {
+      cones.push_back(Point(cone));
+    }
+    out["gates"].push_back({{"section", plan.gates[i].section},
+                            {"cones_m", cones},
+                            {"length_m", lane.length},
+                            {"width_m", lane.width},
+                            {"planned_margin_m", margins[i]}});
+  }
+  return plan;
+}
+
+}  // namespace
+
+void Visit(KeyVisitor& keys, LaneChangePlannerOptions& options) {
+  static const EnumNames<LaneChangeStandard> standards{
+      {LaneChangeStandard::kIso3888_1, "iso_3888_1"},
+      {LaneChangeStandard::kIso3888_2, "iso_3888_2"}};
+  keys.Field({"standard", "", "whose gates"}, options.standard, Need::kOptional, standards);
+  static const EnumNames<Side> sides{{Side::kLeft, "left"}, {Side::kRight, "right"}};
+  keys.Field({"first", "", "to which side the first change is"}, options.first, Need::kOptional,
+             sides);
+  keys.Field({"lead_in", "m", "from the start to the first gate"}, options.lead_in, Need::kOptional,
+             kPositive);
+  keys.Field({"lead_out", "m", "straight on after the last gate, before stopping"},
+             options.lead_out, Need::kOptional, kPositive);
+  keys.Field({"leave", "m", "the rear axle leaves a gate's middle so far before its end"},
+             options.leave, Need::kOptional, Range{.min = -5.0, .max = 5.0});
+  keys.Field({"join", "m", "and is on the next one's so far after its beginning"}, options.join,
+             Need::kOptional, Range{.min = -5.0, .max = 5.0});
+}
+
+PlannerEntry LaneChangePlanner() {
+  return {.name = "lane_change",
+          .summary = "through the gates of a double lane change (ISO 3888)",
+          .defaults = LaneChangePlannerOptions{},
+          .plan = PlanBy<LaneChangePlannerOptions, PlanWith>};
+}
+
+}  // namespace trackbed

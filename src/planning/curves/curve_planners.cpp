@@ -1,0 +1,168 @@
+#include "trackbed/planning/curves/curve_planners.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "trackbed/planning/common/curvature_steps.h"
+#include "trackbed/planning/common/route.h"
+#include "trackbed/planning/curves/dubins.h"
+#include "trackbed/planning/curves/reeds_shepp.h"
+
+namespace trackbed {
+namespace {
+
+using route::CheckRadius;
+using route::CheckRoute;
+using route::CheckStops;
+using route::IsFree;
+using route::LeadInForCurves;
+using route::RadiusFor;
+using route::Refused;
+
+/// One way from a pose to a stop, and where it begins.
+struct FoundCurve {
+  std::vector<Segment> segments;
+  ShortestCurve curve;
+  std::ptrdiff_t shorter_ones_blocked = 0;
+  double cost = 0.0;  // [m]
+};
+
+/// The shortest of `words` that is free and begins as it may, a stop counting as so many metres.
+template <typename MayBegin>
+std::optional<FoundCurve> FirstFree(const PlanRequest& request, const ClearWay& clear,
+                                    const Pose2& from, const std::vector<ShortestCurve>& words,
+                                    double min_speed, const MayBegin& may_begin) {
+  constexpr double kStop = 5.0;  // [m]; as changes of direction cost hybrid A*
+  std::vector<FoundCurve> candidates;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    std::vector<Segment> own = SegmentsOf(words[i]);
+    if (may_begin(own)) {
+      const auto stops =
+          static_cast<double>(PlanSteps(request.vehicle, own, min_speed).stops.size());
+      candidates.push_back({std::move(own), words[i], static_cast<std::ptrdiff_t>(i),
+                            words[i].length + kStop * stops});
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const FoundCurve& a, const FoundCurve& b) { return a.cost < b.cost; });
+  const auto free =
+      std::find_if(candidates.begin(), candidates.end(),
+                   [&](const FoundCurve& curve) { return IsFree(clear, from, curve.segments); });
+  return free == candidates.end() ? std::nullopt : std::optional(std::move(*free));
+}
+
+/// Plans from stop to stop by the first of `words` that is free.
+template <typename Options, typename Words>
+Plan PlanCurves(const Options& options, const PlanRequest& request, const Words& words) {
+  for (Plan refused : {CheckRoute(request), CheckRadius(request.vehicle, options.radius)}) {
+    if (!refused.ok()) {
+      return refused;
+    }
+  }
+  const double radius = RadiusFor(request.vehicle, options.radius);
+  const ClearWay clear(request.vehicle, request.obstacles, options.safe_distance);
+  const std::vector<Pose2> stops = StopsOf(request);
+  if (Plan refused = CheckStops(stops, clear); !refused.ok()) {
+    return refused;
+  }
+  Plan plan;
+  plan.diagnostics["curves"] = nlohmann::json::array();
+  std::vector<Segment> segments;
+  const auto any = [](const std::vector<Segment>&) { return true; };
+  for (std::size_t i = 1; i < stops.size(); ++i) {
+    const bool rolls = i == 1 && request.start_speed > 0.0;
+    std::vector<ShortestCurve> all = words(stops[i - 1], stops[i], radius);
+    std::optional<FoundCurve> found;
+    if (rolls) {
+      // At once, if the wheels stand right for it, or after a lead-in; whichever is shorter.
+      const double bend = CurvatureForSteering(request.vehicle, request.start_steering);
+      found = FirstFree(request, clear, stops[0], all, options.min_speed, [&](const auto& own) {
+        constexpr double kSame = 1e-6;  // [1/m]
+        return !own.empty() && own.front().direction > 0 &&
+               std::abs(own.front().curvature - bend) < kSame;
+      });
+      const LeadIn lead = LeadInForCurves(request, radius, options.min_speed);
+      const auto forwards = [](const std::vector<Segment>& own) {
+        return own.empty() || own.front().direction > 0;
+      };
+      std::optional<FoundCurve> later;
+      if (IsFree(clear, stops[0], lead.segments)) {
+        later = FirstFree(request, clear, lead.end, words(lead.end, stops[1], radius),
+                          options.min_speed, forwards);
+      }
+      if (later && (!found || lead.length + later->cost < found->cost)) {
+        later->segments.insert(later->segments.begin(), lead.segments.begin(), lead.segments.end());
+        found = std::move(later);
+      }
+    } else {
+      found = FirstFree(request, clear, stops[i - 1], all, options.min_speed, any);
+    }
+    if (!found) {
+      return Refused(
+          PlanStatus::kNoPath,
+          fmt::format("none of the {} curves to waypoint {} is free of obstacles{}", all.size(), i,
+                      rolls ? " and begins as the car rolls; a car at rest "
+                              "(mission.start.speed: 0) has more"
+                            : ""));
+    }
+    segments.insert(segments.end(), found->segments.begin(), found->segments.end());
+    plan.diagnostics["curves"].push_back({{"word", WordOf(found->curve)},
+                                          {"length_m", found->curve.length},
+                                          {"radius_m", radius},
+                                          {"shorter_ones_blocked", found->shorter_ones_blocked}});
+  }
+  return route::AlongSegments(std::move(plan), request, std::move(segments), options.min_speed);
+}
+
+Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
+  return PlanCurves(options, request, DubinsWords);
+}
+
+Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
+  // Every word to a pose may begin backwards, which a car that rolls cannot; Dubins' do not.
+  return PlanCurves(options, request, [](const Pose2& from, const Pose2& to, double radius) {
+    std::vector<ShortestCurve> words = ReedsSheppWords(from, to, radius);
+    const std::vector<ShortestCurve> forwards = DubinsWords(from, to, radius);
+    words.insert(words.end(), forwards.begin(), forwards.end());
+    std::stable_sort(
+        words.begin(), words.end(),
+        [](const ShortestCurve& a, const ShortestCurve& b) { return a.length < b.length; });
+    return words;
+  });
+}
+
+}  // namespace
+
+void Visit(KeyVisitor& keys, DubinsOptions& options) {
+  route::VisitCurves(keys, options.radius, options.safe_distance, options.min_speed);
+}
+
+void Visit(KeyVisitor& keys, ReedsSheppOptions& options) {
+  route::VisitCurves(keys, options.radius, options.safe_distance, options.min_speed);
+}
+
+PlannerEntry DubinsPlanner() {
+  return {.name = "dubins",
+          .summary = "the shortest curve through the waypoints with headings, forwards",
+          .defaults = DubinsOptions{},
+          .plan = PlanBy<DubinsOptions, PlanWith>,
+          .min_waypoints = 2,
+          .keeps_clear = true,
+          .has_headings = true};
+}
+
+PlannerEntry ReedsSheppPlanner() {
+  return {.name = "reeds_shepp",
+          .summary = "the shortest curve through the waypoints with headings, either way",
+          .defaults = ReedsSheppOptions{},
+          .plan = PlanBy<ReedsSheppOptions, PlanWith>,
+          .min_waypoints = 2,
+          .keeps_clear = true,
+          .has_headings = true,
+          .goes_backwards = true};
+}
+
+}  // namespace trackbed

@@ -1,0 +1,298 @@
+#include "trackbed/planning/curves/reeds_shepp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/planning/curves/curve_goal.h"
+#include "trackbed/core/angle.h"
+
+namespace trackbed {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::infinity();
+constexpr double kRight = 0.5 * kPi;  // a right angle
+/// By how much a sweep may have the wrong sign: rounding.
+constexpr double kRounding = 1e-12;
+
+/// The angle in [-pi, pi] of one that is less than a few turns away.
+double Near(double angle) {
+  return angle - 2.0 * kPi * std::nearbyint(angle * (0.5 / kPi));
+}
+
+/// The same for an angle that must not be negative, but for rounding: pi instead of -pi.
+double NotNegative(double angle) {
+  const double near = Near(angle);
+  return near < kRounding - kPi ? near + 2.0 * kPi : near;
+}
+
+/// And for one that must not be positive.
+double NotPositive(double angle) {
+  return -NotNegative(-angle);
+}
+
+/// The root of what rounding may have made negative.
+double Root(double square) {
+  return std::sqrt(std::max(square, 0.0));
+}
+
+/// The sweeps of a word of three to five pieces: those that its family leaves open. `sum` is of
+/// their sizes, with those of the others; kNone when there is no such word.
+struct Sweeps {
+  double t = 0.0;
+  double u = 0.0;
+  double v = 0.0;
+  double sum = kNone;
+};
+
+Sweeps With(double t, double u, double v, double others = 0.0) {
+  return {t, u, v, std::abs(t) + std::abs(u) + std::abs(v) + others};
+}
+
+// Each of the following is an equation of section 8 of Reeds and Shepp, for the word whose first
+// arc is to the left and forwards. What is farther than `limit` anyway need not be finished.
+
+/// From the centre of the first arc to that of a last one to the left, or to the right.
+Vec2 ToLeftCentre(const CurveGoal& goal) {
+  return {goal.x - goal.sin, goal.y - 1.0 + goal.cos};
+}
+Vec2 ToRightCentre(const CurveGoal& goal) {
+  return {goal.x + goal.sin, goal.y - 1.0 - goal.cos};
+}
+
+/// 8.1: L+S+L+.
+Sweeps LSL(const CurveGoal& goal, double limit) {
+  const Vec2 d = ToLeftCentre(goal);
+  const double u = d.norm();
+  if (u >= limit || d.y() < -kRounding) {
+    return {};  // turned to the right
+  }
+  const double t = NotNegative(std::atan2(d.y(), d.x()));
+  const double v = NotNegative(goal.yaw - t);
+  return v >= -kRounding ? With(t, u, v) : Sweeps{};
+}
+
+/// 8.2: L+S+R+.
+Sweeps LSR(const CurveGoal& goal, double limit) {
+  const Vec2 d = ToRightCentre(goal);
+  const double square = d.squaredNorm() - 4.0;
+  if (square < -kRounding || square >= limit * limit) {
+    return {};
+  }
+  const double u = Root(square);
+  const double t = NotNegative(std::atan2(d.y() * u + 2.0 * d.x(), d.x() * u - 2.0 * d.y()));
+  const double v = NotNegative(t - goal.yaw);
+  return t >= -kRounding && v >= -kRounding ? With(t, u, v) : Sweeps{};
+}
+
+/// 8.3 and 8.4: L+R-L, whose last arc may go either way.
+Sweeps LRL(const CurveGoal& goal, double /*limit*/) {
+  const Vec2 d = ToLeftCentre(goal);
+  const double square = d.squaredNorm();
+  if (square > 16.0 + kRounding) {
+    return {};
+  }
+  const double u = -2.0 * std::asin(std::min(0.25 * std::sqrt(square), 1.0));
+  const double t = NotNegative(std::atan2(d.y(), d.x()) + 0.5 * u + kPi);
+  return t >= -kRounding ? With(t, u, Near(goal.yaw - t + u)) : Sweeps{};
+}
+
+/// The outer arcs of four, of which the inner ones sweep u and v.
+template <typename Last>
+Sweeps OuterOfFour(const Vec2& d, double u, double v, double yaw, const Last& last) {
+  const double delta = Near(u - v);
+  const double a = std::sin(u) - std::sin(delta);
+  const double b = std::cos(u) - std::cos(delta) - 1.0;
+  const double turned = std::atan2(d.y() * a - d.x() * b, d.x() * a + d.y() * b);
+  const double sign = 2.0 * (std::cos(delta) - std::cos(v) - std::cos(u)) + 3.0;
+  const double tau = NotNegative(sign < 0.0 ? turned + kPi : turned);
+  return With(tau, u, last(tau - u + v - yaw), std::abs(v));
+}
+
+/// 8.7: L+R+L-R-, whose inner arcs sweep u and -u.
+Sweeps LRLR(const CurveGoal& goal, double /*limit*/) {
+  const Vec2 d = ToRightCentre(goal);
+  const double square = d.squaredNorm();
+  if (square > 4.0 + kRounding) {
+    return {};
+  }
+  const double u = std::acos(std::min(0.25 * (2.0 + std::sqrt(square)), 1.0));
+  const Sweeps sweeps = OuterOfFour(d, u, -u, goal.yaw, NotPositive);
+  return sweeps.t >= -kRounding && sweeps.v <= kRounding ? sweeps : Sweeps{};
+}
+
+/// 8.8: L+R-L-R+, whose inner arcs both sweep u.
+Sweeps LRLRInner(const CurveGoal& goal, double /*limit*/) {
+  const Vec2 d = ToRightCentre(goal);
+  const double rho = (20.0 - d.squaredNorm()) / 16.0;
+  if (rho < 0.0 || rho > 1.0 + kRounding) {
+    return {};
+  }
+  const double u = -std::acos(std::min(rho, 1.0));
+  const Sweeps sweeps = OuterOfFour(d, u, u, goal.yaw, NotNegative);
+  return sweeps.t >= -kRounding && sweeps.v >= -kRounding ? sweeps : Sweeps{};
+}
+
+/// 8.9: L+R-S-L-, whose second arc is a right angle.
+Sweeps LRSL(const CurveGoal& goal, double limit) {
+  const Vec2 d = ToLeftCentre(goal);
+  const double square = d.squaredNorm() - 4.0;
+  const double r = Root(square);
+  const double u = 2.0 - r;
+  if (square < -kRounding || u > kRounding || kRight - u >= limit) {
+    return {};
+  }
+  // The direction of d, and the angle of (-2, r) to it, at once.
+  const double t = NotNegative(std::atan2(d.x() * r - 2.0 * d.y(), -2.0 * d.x() - d.y() * r));
+  const double v = NotPositive(goal.yaw - kRight - t);
+  const bool fits = t >= -kRounding && v <= kRounding;
+  return fits ? With(t, u, v, kRight) : Sweeps{};
+}
+
+/// 8.10: L+R-S-R-, likewise.
+Sweeps LRSR(const CurveGoal& goal, double limit) {
+  const Vec2 d = ToRightCentre(goal);
+  const double u = 2.0 - d.norm();
+  if (u > kRounding || kRight - u >= limit || d.x() < -kRounding) {
+    return {};
+  }
+  const double t = NotNegative(std::atan2(d.x(), -d.y()));
+  const double v = NotPositive(t + kRight - goal.yaw);
+  return v <= kRounding ? With(t, u, v, kRight) : Sweeps{};
+}
+
+/// 8.11: L+R-S-L-R+, whose second and fourth arcs are right angles.
+Sweeps LRSLR(const CurveGoal& goal, double limit) {
+  const Vec2 d = ToRightCentre(goal);
+  const double square = d.squaredNorm() - 4.0;
+  const double u = 4.0 - Root(square);
+  if (u > kRounding || 2.0 * kRight - u >= limit) {
+    return {};
+  }
+  const double t =
+      NotNegative(std::atan2((4.0 - u) * d.x() - 2.0 * d.y(), -2.0 * d.x() + (u - 4.0) * d.y()));
+  const double v = NotNegative(t - goal.yaw);
+  return t >= -kRounding && v >= -kRounding ? With(t, u, v, 2.0 * kRight) : Sweeps{};
+}
+
+/// What a piece's sweep is in terms of what its family leaves open.
+enum class Part : signed char { kT, kU, kMinusU, kV, kMinusRight };
+
+struct Family {
+  Sweeps (*solve)(const CurveGoal&, double limit);
+  int count;
+  std::array<Bend, 5> bends;
+  std::array<Part, 5> parts;
+  bool from_its_end;  ///< whether the word read from its end is another one
+};
+
+constexpr Bend kL = Bend::kLeft;
+constexpr Bend kS = Bend::kNone;
+constexpr Bend kR = Bend::kRight;
+
+constexpr std::array<Family, 8> kFamilies{{
+    {LSL, 3, {kL, kS, kL}, {Part::kT, Part::kU, Part::kV}, false},
+    {LSR, 3, {kL, kS, kR}, {Part::kT, Part::kU, Part::kV}, false},
+    {LRL, 3, {kL, kR, kL}, {Part::kT, Part::kU, Part::kV}, true},
+    {LRLR, 4, {kL, kR, kL, kR}, {Part::kT, Part::kU, Part::kMinusU, Part::kV}, false},
+    {LRLRInner, 4, {kL, kR, kL, kR}, {Part::kT, Part::kU, Part::kU, Part::kV}, false},
+    {LRSL, 4, {kL, kR, kS, kL}, {Part::kT, Part::kMinusRight, Part::kU, Part::kV}, true},
+    {LRSR, 4, {kL, kR, kS, kR}, {Part::kT, Part::kMinusRight, Part::kU, Part::kV}, true},
+    {LRSLR,
+     5,
+     {kL, kR, kS, kL, kR},
+     {Part::kT, Part::kMinusRight, Part::kU, Part::kMinusRight, Part::kV},
+     false},
+}};
+
+/// One of the words of a family.
+struct Word {
+  const Family* family = nullptr;
+  bool mirrored = false;
+  bool reversed = false;
+  bool from_its_end = false;
+  Sweeps sweeps;
+};
+
+double SweepOf(Part part, const Sweeps& sweeps) {
+  switch (part) {
+    case Part::kT:
+      return sweeps.t;
+    case Part::kU:
+      return sweeps.u;
+    case Part::kMinusU:
+      return -sweeps.u;
+    case Part::kV:
+      return sweeps.v;
+    case Part::kMinusRight:
+      return -kRight;
+  }
+  return 0.0;
+}
+
+ShortestCurve CurveOf(const Word& word, double radius) {
+  ShortestCurve curve{.radius = radius,
+                      .pieces = {},
+                      .count = word.family->count,
+                      .length = radius * word.sweeps.sum};
+  const auto count = static_cast<std::size_t>(curve.count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const int bend = static_cast<int>(word.family->bends[i]);
+    const double sweep = SweepOf(word.family->parts[i], word.sweeps);
+    curve.pieces[word.from_its_end ? count - 1 - i : i] = {
+        static_cast<Bend>(word.mirrored ? -bend : bend), word.reversed ? -sweep : sweep};
+  }
+  return curve;
+}
+
+/// Calls `take` with every word that is shorter than what `limit` says by then.
+template <typename Limit, typename Take>
+void ForEachWord(const CurveGoal& goal, const Limit& limit, const Take& take) {
+  const std::array<CurveGoal, 4> seen{goal, goal.Reversed(), goal.Mirrored(),
+                                      goal.Mirrored().Reversed()};
+  const std::array<CurveGoal, 4> from_end{seen[0].FromItsEnd(), seen[1].FromItsEnd(),
+                                          seen[2].FromItsEnd(), seen[3].FromItsEnd()};
+  for (const Family& family : kFamilies) {
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      for (const bool from_its_end : {false, true}) {
+        if (from_its_end && !family.from_its_end) {
+          continue;
+        }
+        const Sweeps sweeps = family.solve(from_its_end ? from_end[i] : seen[i], limit());
+        if (sweeps.sum < limit()) {
+          take(Word{&family, i >= 2, i % 2 == 1, from_its_end, sweeps});
+        }
+      }
+    }
+  }
+}
+
+Word ShortestWord(const CurveGoal& goal) {
+  Word best;
+  ForEachWord(
+      goal, [&] { return best.sweeps.sum; }, [&](const Word& word) { best = word; });
+  return best;
+}
+
+}  // namespace
+
+ShortestCurve ReedsShepp(const Pose2& from, const Pose2& to, double radius) {
+  return CurveOf(ShortestWord(CurveGoal(from, to, radius)), radius);
+}
+
+double ReedsSheppLength(const Pose2& from, const Pose2& to, double radius) {
+  return radius * ShortestWord(CurveGoal(from, to, radius)).sweeps.sum;
+}
+
+std::vector<ShortestCurve> ReedsSheppWords(const Pose2& from, const Pose2& to, double radius) {
+  std::vector<ShortestCurve> words;
+  ForEachWord(
+      CurveGoal(from, to, radius), [] { return kNone; },
+      [&](const Word& word) { words.push_back(CurveOf(word, radius)); });
+  std::stable_sort(words.begin(), words.end(), [](const ShortestCurve& a, const ShortestCurve& b) {
+    return a.length < b.length;
+  });
+  return words;
+}
+
+}  // namespace trackbed

@@ -1,0 +1,52 @@
+#include "trackbed/planning/curves/shortest_curve.h"
+
+#include <cmath>
+
+namespace trackbed {
+namespace {
+
+/// A piece this short (of r) is none: it comes from the rounding of an angle that is zero.
+constexpr double kNothing = 1e-12;
+
+bool IsThere(const CurvePiece& piece) {
+  return std::abs(piece.sweep) > kNothing;
+}
+
+}  // namespace
+
+std::string WordOf(const ShortestCurve& curve) {
+  std::string word;
+  for (int i = 0; i < curve.count; ++i) {
+    const CurvePiece& piece = curve.pieces[static_cast<std::size_t>(i)];
+    if (IsThere(piece)) {
+      word += piece.bend == Bend::kLeft ? 'L' : piece.bend == Bend::kRight ? 'R' : 'S';
+      word += piece.sweep > 0.0 ? '+' : '-';
+    }
+  }
+  return word;
+}
+
+std::vector<Segment> SegmentsOf(const ShortestCurve& curve) {
+  std::vector<Segment> segments;
+  for (int i = 0; i < curve.count; ++i) {
+    const CurvePiece& piece = curve.pieces[static_cast<std::size_t>(i)];
+    if (IsThere(piece)) {
+      segments.push_back({.length = std::abs(piece.sweep) * curve.radius,
+                          .curvature = static_cast<double>(piece.bend) / curve.radius,
+                          .direction = piece.sweep > 0.0 ? 1 : -1});
+    }
+  }
+  return segments;
+}
+
+Pose2 EndOf(const Pose2& start, const ShortestCurve& curve) {
+  Pose2 pose = start;
+  for (int i = 0; i < curve.count; ++i) {
+    const CurvePiece& piece = curve.pieces[static_cast<std::size_t>(i)];
+    pose =
+        MoveOnArc(pose, piece.sweep * curve.radius, piece.sweep * static_cast<double>(piece.bend));
+  }
+  return pose;
+}
+
+}  // namespace trackbed

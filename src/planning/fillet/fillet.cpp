@@ -1,0 +1,93 @@
+#include "trackbed/planning/fillet/fillet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/planning/fillet/fillet_layout.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+using fillet::RadiusLimits;
+using fillet::Refusal;
+using fillet::Route;
+
+FilletPlan PlanRoute(const VehicleParams& vehicle, const Route& route, double speed,
+                     const FilletOptions& options, std::uint64_t seed) {
+  std::vector<FilletTurn> turns = fillet::CornersOf(route);
+  std::vector<RadiusLimits> limits;
+  for (FilletTurn& turn : turns) {
+    limits.push_back(fillet::LimitRadius(vehicle, speed, options, turn));
+    turn.radius = limits.back().radii.high;
+  }
+  const bool two_passes = options.objective == RadiusObjective::kLiteral ||
+                          options.objective == RadiusObjective::kTurnLocal;
+  if (two_passes && !options.radius) {
+    fillet::SearchTurns(vehicle, route, speed, options, seed, limits, turns);
+  }
+  FilletPlan plan = fillet::LayOut(vehicle, route, std::move(turns));
+  plan.schedule = plan.turns.empty() ? SteeringSchedule({}, {}, options.neutral_steering)
+                                     : fillet::ScheduleOf(vehicle, plan.turns);
+  if (options.objective == RadiusObjective::kDriven && !plan.turns.empty()) {
+    plan = fillet::SearchDriven(vehicle, route, options, seed, limits, plan);
+  }
+  for (std::size_t k = 0; k < plan.turns.size(); ++k) {
+    plan.turns[k].active = fillet::ActiveAt(limits[k], plan.turns[k].radius);
+  }
+  return plan;
+}
+
+}  // namespace
+
+const char* ToString(ActiveConstraint constraint) {
+  switch (constraint) {
+    case ActiveConstraint::kGiven:
+      return "given";
+    case ActiveConstraint::kNone:
+      return "none";
+    case ActiveConstraint::kMinRadius:
+      return "min_radius";
+    case ActiveConstraint::kMaxRadius:
+      return "max_radius";
+    case ActiveConstraint::kHalfLeg:
+      return "half_leg";
+    case ActiveConstraint::kSteeringRoom:
+      return "steering_room";
+  }
+  throw InternalError("no such constraint");
+}
+
+FilletPlan PlanFillets(const VehicleParams& vehicle, const std::vector<Vec2>& waypoints,
+                       double speed, const FilletOptions& options, std::uint64_t seed) {
+  TRACKBED_CHECK(speed > 0.0 && vehicle.steering_rate > 0.0, "speed {}, steering rate {}", speed,
+                 vehicle.steering_rate);
+  TRACKBED_CHECK(options.radius || options.constraint != RadiusConstraint::kNone,
+                 "without a radius or a constraint there is no largest radius");
+  TRACKBED_CHECK(!options.radius || std::isfinite(*options.radius), "radius {}", *options.radius);
+  TRACKBED_CHECK(options.min_speed > 0.0, "min_speed {}", options.min_speed);
+  FilletPlan plan;
+  try {
+    if (std::abs(options.neutral_steering) > vehicle.steering_limit) {
+      throw Refusal{PlanStatus::kTurnTooTight, -1,
+                    fmt::format("between turns the wheels would stand at {:.4g} rad; the car can "
+                                "steer {:.4g} rad",
+                                options.neutral_steering, vehicle.steering_limit)};
+    }
+    const Route route = fillet::RouteOf(waypoints);
+    plan = PlanRoute(vehicle, route, speed, options, seed);
+    plan.verification =
+        DriveOpenLoop(vehicle, plan.path, plan.schedule, plan.stop_distance, options.reference);
+  } catch (const Refusal& refusal) {
+    plan = {};
+    plan.status = refusal.status;
+    plan.waypoint = refusal.waypoint;
+    plan.reason = refusal.reason;
+  }
+  return plan;
+}
+
+}  // namespace trackbed

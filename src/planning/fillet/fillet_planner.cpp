@@ -1,0 +1,219 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "src/planning/fillet/fillet_layout.h"
+#include "trackbed/planning/fillet/fillet.h"
+
+namespace trackbed {
+namespace {
+
+using nlohmann::json;
+
+json Point(const Vec2& p) {
+  return json::array({p.x(), p.y()});
+}
+
+/// A search whose every `stride`-th variable is a radius.
+json ToJson(const SearchOptions& options, const SearchResult& result, std::size_t stride) {
+  json out{{"method", SearchFor(options.method).name},
+           {"status", ToString(result.status)},
+           {"evaluations", result.evaluations},
+           {"objective", result.value},
+           {"history", json::array()}};
+  for (const SearchProgress& progress : result.history) {
+    json radii = json::array();
+    for (std::size_t i = 0; i + stride <= progress.x.size(); i += stride) {
+      radii.push_back(progress.x[i]);
+    }
+    out["history"].push_back({{"evaluations", progress.evaluations},
+                              {"objective", progress.value},
+                              {"radius_m", radii}});
+  }
+  return out;
+}
+
+json ToJson(const FilletOptions& options, const TurnSearch& search) {
+  json out = ToJson(options.search, search.result, 1);
+  out["first_radius_m"] = search.first_radius;
+  out["window_time_s"] = search.time;
+  out["window_heading_rad"] = search.heading;
+  // JSON knows no infinity: a car that did not turn in its window has no such radius.
+  out["free_radius_m"] =
+      std::isfinite(search.free_radius) ? json(search.free_radius) : json(nullptr);
+  return out;
+}
+
+json ToJson(const FilletOptions& options, const FilletTurn& turn) {
+  json out{{"waypoint", turn.waypoint},
+           {"heading_change_rad", turn.heading_change},
+           {"interior_angle_rad", turn.interior_angle},
+           {"radius_m", turn.radius},
+           {"speed_mps", turn.speed},
+           {"active_constraint", ToString(turn.active)},
+           {"centre_m", Point(turn.centre)},
+           {"arc_start_m", Point(turn.arc_start)},
+           {"arc_end_m", Point(turn.arc_end)},
+           {"arc_start_s_m", turn.arc_start_s},
+           {"arc_length_m", turn.arc_length},
+           {"tangent_length_m", turn.tangent_length},
+           {"steering_rad", turn.steering},
+           {"ramp_time_s", turn.ramp_time},
+           {"ramp_distance_m", turn.ramp_distance},
+           {"steer_start_m", turn.steer_start},
+           {"steer_return_m", turn.steer_return},
+           {"ramp_truncated", turn.ramp_truncated}};
+  if (!turn.note.empty()) {
+    out["note"] = turn.note;
+  }
+  if (turn.search) {
+    out["search"] = ToJson(options, *turn.search);
+  }
+  return out;
+}
+
+/// Where the wheels of a turn are straight again.
+double ReturnEnd(const FilletTurn& turn) {
+  return turn.steer_return + turn.ramp_distance;
+}
+
+std::vector<LoneTurn> LoneTurnsOf(const FilletPlan& plan) {
+  std::vector<LoneTurn> lone;
+  double straight_from = 0.0;
+  for (const FilletTurn& turn : plan.turns) {
+    const bool alone = turn.steer_start >= straight_from && turn.neutral == 0.0;
+    straight_from = ReturnEnd(turn);
+    const double middle = turn.arc_start_s + 0.5 * turn.arc_length;
+    if (alone && !turn.ramp_truncated && turn.steer_start + turn.ramp_distance <= middle) {
+      lone.push_back({turn.waypoint, turn.steer_start, middle, turn.steering, turn.speed});
+    }
+  }
+  return lone;
+}
+
+/// A turn is slow from where its wheels begin to turn to where they are straight again.
+std::vector<SpeedCap> CapsOf(const FilletPlan& plan, double speed) {
+  std::vector<SpeedCap> caps;
+  for (const FilletTurn& turn : plan.turns) {
+    if (turn.speed < speed) {
+      caps.push_back({turn.steer_start, ReturnEnd(turn), turn.speed});
+    }
+  }
+  return caps;
+}
+
+Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
+  const FilletPlan fillets =
+      PlanFillets(request.vehicle, request.waypoints, request.speed.speed, options, request.seed);
+  Plan plan;
+  plan.status = fillets.status;
+  plan.reason = fillets.reason;
+  if (!plan.ok()) {
+    plan.diagnostics["waypoint"] = fillets.waypoint;
+    return plan;
+  }
+  plan.reference.path = fillets.path;
+  plan.schedule = fillets.schedule;
+  plan.turns = LoneTurnsOf(fillets);
+  plan.caps = CapsOf(fillets, request.speed.speed);
+  plan.goal = fillets.path.At(fillets.path.length()).pose;
+  plan.reference.speed =
+      StopAtEnd(fillets.path.length(), request.start_speed, request.speed, plan.caps);
+  plan.schedule_speed =
+      StopAtEnd(fillets.stop_distance, request.start_speed, request.speed, plan.caps);
+
+  json& out = plan.diagnostics;
+  if (options.neutral_steering != 0.0) {
+    out["neutral_steering_rad"] = options.neutral_steering;
+    out["neutral_curvature_radpm"] =
+        CurvatureForSteering(request.vehicle, options.neutral_steering);
+  }
+  out["turns"] = json::array();
+  for (const FilletTurn& turn : fillets.turns) {
+    out["turns"].push_back(ToJson(options, turn));
+  }
+  for (const LoneTurn& turn : plan.turns) {
+    const TurnError error = PredictTurn(request.vehicle, fillets.path, turn, 0.0);
+    for (json& entry : out["turns"]) {
+      if (entry["waypoint"] == turn.waypoint) {
+        entry["predicted"] = {{"heading_deficit_rad", error.heading_deficit},
+                              {"lateral_offset_m", error.lateral_offset}};
+      }
+    }
+  }
+  out["stop_distance_m"] = fillets.stop_distance;
+  out["open_loop"] = ToJson(fillets.verification);
+  if (fillets.search) {
+    out["search"] = ToJson(options.search, *fillets.search, fillet::kDrivenVariables);
+  }
+  return plan;
+}
+
+}  // namespace
+
+void Visit(KeyVisitor& keys, DrivenWeights& weights) {
+  keys.Field({"position", "1/m^3", "of the squared distance from the path, over its length"},
+             weights.position, Need::kOptional, kNotNegative);
+  keys.Field({"heading", "1/m", "of the squared heading error, over its length"}, weights.heading,
+             Need::kOptional, kNotNegative);
+  keys.Field({"end", "1/m^2", "of the squared distance from the goal at the end"}, weights.end,
+             Need::kOptional, kNotNegative);
+}
+
+void Visit(KeyVisitor& keys, FilletOptions& options) {
+  keys.Field({"radius", "m", "of every turn; else the largest that the constraint allows"},
+             options.radius, kPositive);
+  static const EnumNames<RadiusConstraint> constraints{
+      {RadiusConstraint::kSteeringRoom, "steering_room"},
+      {RadiusConstraint::kHalfLeg, "half_leg"},
+      {RadiusConstraint::kNone, "none"}};
+  keys.Field(
+      {"constraint", "",
+       "what a radius must leave: room to turn the wheels (C.40), half the shorter leg (C.34), "
+       "or nothing"},
+      options.constraint, Need::kOptional, constraints);
+  keys.Field(
+      {"neutral_steering", "rad",
+       "where the wheels stand between turns, start from and return to, positive to the left; "
+       "unless it is 0 a kinematic car leaves its straight legs"},
+      options.neutral_steering, Need::kOptional, kSteering);
+  keys.Field({"max_radius", "m", "upper bound of the search"}, options.max_radius, Need::kOptional,
+             kPositive);
+  static const EnumNames<WithoutRoom> without_room{{WithoutRoom::kSlowDown, "slow_down"},
+                                                   {WithoutRoom::kHalfLeg, "half_leg"},
+                                                   {WithoutRoom::kRefuse, "refuse"}};
+  keys.Field({"without_room", "", "what becomes of a turn for which C.40 has no radius"},
+             options.without_room, Need::kOptional, without_room);
+  keys.Field({"min_speed", "m/s", "no turn is slowed down below this"}, options.min_speed,
+             Need::kOptional, kPositive);
+  static const EnumNames<RadiusObjective> objectives{{RadiusObjective::kLargest, "largest"},
+                                                     {RadiusObjective::kLiteral, "literal"},
+                                                     {RadiusObjective::kTurnLocal, "turn_local"},
+                                                     {RadiusObjective::kDriven, "driven"}};
+  keys.Field(
+      {"objective", "",
+       "by what radii are chosen: the largest, the dissertation's window over the route, over "
+       "the turn, or the driven car's error"},
+      options.objective, Need::kOptional, objectives);
+  keys.Section({"search", "", "how it is minimised; not for 'largest'"}, options.search);
+  keys.Field({"resimulate_each_turn", "", "a first drive before every turn, not one for all"},
+             options.resimulate_each_turn, Need::kOptional);
+  static const EnumNames<ReferencePoint> references{
+      {ReferencePoint::kRearAxle, "rear_axle"},
+      {ReferencePoint::kCentreOfGravity, "centre_of_gravity"}};
+  keys.Field({"reference", "", "the point of the car that first drives follow"}, options.reference,
+             Need::kOptional, references);
+  keys.Section({"weights", "", "of the objective 'driven'"}, options.weights);
+}
+
+PlannerEntry FilletPlanner() {
+  return {
+      .name = "fillet",
+      .summary = "straight legs and arcs of the largest radius the steering rate allows (C.1-C.40)",
+      .defaults = FilletOptions{},
+      .plan = PlanBy<FilletOptions, PlanWith>,
+      .min_waypoints = kFewestFilletWaypoints};
+}
+
+}  // namespace trackbed

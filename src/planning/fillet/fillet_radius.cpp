@@ -1,0 +1,213 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+
+#include "src/planning/fillet/fillet_layout.h"
+#include "trackbed/core/angle.h"
+
+namespace trackbed {
+namespace {
+
+/// Relative room for rounding, so that a radius that lies exactly on a limit is not refused.
+constexpr double kRounding = 1e-12;
+
+/// A root of f between a and b, where it changes sign, on the side where f <= 0.
+template <typename Function>
+double Root(const Function& f, double a, double b) {
+  std::uintmax_t iterations = 200;
+  const auto [low, high] = boost::math::tools::toms748_solve(
+      f, a, b, boost::math::tools::eps_tolerance<double>(52), iterations);
+  return f(high) <= 0.0 ? high : low;
+}
+
+/// g(r) of C.40 [m].
+double SteeringRoom(const VehicleParams& vehicle, double speed, double interior_angle,
+                    double shorter_leg, double neutral, double radius) {
+  const double travel = std::abs(std::atan(vehicle.wheelbase / radius) - neutral);
+  return radius / std::tan(interior_angle / 2.0) + speed / vehicle.steering_rate * travel -
+         0.5 * shorter_leg;
+}
+
+/// The radius with the smallest g: g falls up to there and rises from there.
+double RoomiestRadius(const VehicleParams& vehicle, double speed, double interior_angle,
+                      double neutral, RadiusInterval bounds) {
+  const double L = vehicle.wheelbase;
+  const double squared = speed / vehicle.steering_rate * L * std::tan(interior_angle / 2.0) - L * L;
+  double roomiest = std::sqrt(std::max(0.0, squared));
+  if (neutral > 0.0) {
+    // Beyond the circle of d_0 the wheels travel the further the larger the radius is.
+    roomiest = std::min(roomiest, L / std::tan(neutral));
+  }
+  return std::clamp(roomiest, bounds.low, bounds.high);
+}
+
+}  // namespace
+
+std::optional<RadiusInterval> HalfLegRadii(double interior_angle, double shorter_leg,
+                                           RadiusInterval bounds) {
+  const double largest = 0.5 * shorter_leg * std::tan(interior_angle / 2.0);
+  if (largest < bounds.low * (1.0 - kRounding)) {
+    return std::nullopt;
+  }
+  return RadiusInterval{bounds.low, std::clamp(largest, bounds.low, bounds.high)};
+}
+
+std::optional<RadiusInterval> SteeringRoomRadii(const VehicleParams& vehicle, double speed,
+                                                double interior_angle, double shorter_leg,
+                                                RadiusInterval bounds, double neutral) {
+  const auto g = [&](double r) {
+    return SteeringRoom(vehicle, speed, interior_angle, shorter_leg, neutral, r);
+  };
+  const double lowest = RoomiestRadius(vehicle, speed, interior_angle, neutral, bounds);
+  if (g(lowest) > kRounding * shorter_leg) {
+    return std::nullopt;
+  }
+  if (g(lowest) > 0.0) {
+    return RadiusInterval{lowest, lowest};
+  }
+  return RadiusInterval{g(bounds.low) <= 0.0 ? bounds.low : Root(g, bounds.low, lowest),
+                        g(bounds.high) <= 0.0 ? bounds.high : Root(g, lowest, bounds.high)};
+}
+
+std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double interior_angle,
+                                        double shorter_leg, RadiusInterval bounds,
+                                        SpeedInterval speeds, double neutral) {
+  // The smallest g rises with the speed.
+  const auto least = [&](double speed) {
+    const double r = RoomiestRadius(vehicle, speed, interior_angle, neutral, bounds);
+    return SteeringRoom(vehicle, speed, interior_angle, shorter_leg, neutral, r);
+  };
+  if (least(speeds.high) <= 0.0) {
+    return speeds.high;
+  }
+  if (least(speeds.low) > 0.0) {
+    return std::nullopt;
+  }
+  return Root(least, speeds.low, speeds.high);
+}
+
+namespace fillet {
+namespace {
+
+/// n of SteeringRoomRadii.
+double NeutralTowardTurn(const FilletTurn& turn) {
+  return turn.heading_change < 0.0 ? -turn.neutral : turn.neutral;
+}
+
+}  // namespace
+
+RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const FilletOptions& options,
+                         FilletTurn& turn) {
+  const double r_min = vehicle.min_turning_radius();
+  // The model's limit is an angle: its radius comes back with rounding, which must not refuse it.
+  const double tolerance = 1e-9 * r_min;
+  const auto refuse = [&](PlanStatus status, const std::string& why) {
+    return Refusal{status, turn.waypoint,
+                   fmt::format("turn of {:.4g} deg at waypoint {}: {}",
+                               turn.heading_change * 180.0 / kPi, turn.waypoint, why)};
+  };
+  if (options.radius && *options.radius < r_min - tolerance) {
+    throw refuse(PlanStatus::kTurnTooTight,
+                 fmt::format("the given radius of {:.4g} m is below the car's smallest, {:.4g} m",
+                             *options.radius, r_min));
+  }
+  if (!options.radius && options.max_radius < r_min - tolerance) {
+    throw refuse(PlanStatus::kTurnTooTight,
+                 fmt::format("the largest radius allowed, {:.4g} m, is below the car's smallest, "
+                             "{:.4g} m",
+                             options.max_radius, r_min));
+  }
+  turn.speed = speed;
+  turn.neutral = options.neutral_steering;
+  const RadiusInterval bounds = options.radius
+                                    ? RadiusInterval{*options.radius, *options.radius}
+                                    : RadiusInterval{r_min, std::max(r_min, options.max_radius)};
+  if (options.radius && options.constraint == RadiusConstraint::kNone) {
+    return {bounds, ActiveConstraint::kGiven, ActiveConstraint::kGiven, options.constraint};
+  }
+  const auto half_leg = HalfLegRadii(turn.interior_angle, turn.shorter_leg, bounds);
+  if (!half_leg) {
+    throw refuse(PlanStatus::kTurnTooTight,
+                 fmt::format("a radius of {:.4g} m needs {:.4g} m of each leg, and half of the "
+                             "shorter one is {:.4g} m",
+                             bounds.low, bounds.low / std::tan(turn.interior_angle / 2.0),
+                             turn.shorter_leg / 2.0));
+  }
+  RadiusLimits limits{*half_leg, ActiveConstraint::kMinRadius, ActiveConstraint::kHalfLeg,
+                      RadiusConstraint::kHalfLeg};
+  if (options.constraint == RadiusConstraint::kSteeringRoom) {
+    const auto room_at = [&](double v) {
+      return SteeringRoomRadii(vehicle, v, turn.interior_angle, turn.shorter_leg, bounds,
+                               NeutralTowardTurn(turn));
+    };
+    auto room = room_at(speed);
+    if (!room) {
+      const std::string why = fmt::format(
+          "at {:.4g} m/s no radius from {:.4g} to {:.4g} m leaves the distance to turn the wheels "
+          "within half of the shorter leg, {:.4g} m (C.40)",
+          speed, bounds.low, bounds.high, turn.shorter_leg / 2.0);
+      if (options.without_room == WithoutRoom::kRefuse) {
+        throw refuse(PlanStatus::kNoRoomForSteering, why);
+      }
+      const bool slow_down =
+          options.without_room == WithoutRoom::kSlowDown && options.min_speed < speed;
+      const auto slower =
+          slow_down ? SteeringRoomSpeed(vehicle, turn.interior_angle, turn.shorter_leg, bounds,
+                                        {options.min_speed, speed}, NeutralTowardTurn(turn))
+                    : std::nullopt;
+      if (slower) {
+        turn.speed = *slower;
+        turn.note = fmt::format("{}; taken at {:.4g} m/s", why, *slower);
+        room = room_at(*slower);
+      } else if (options.without_room == WithoutRoom::kSlowDown) {
+        // C.40 keeps a whole ramp on the leg, of which half lies on the arc.
+        const double v = std::min(options.min_speed, speed);
+        room = SteeringRoomRadii(vehicle, 0.5 * v, turn.interior_angle, turn.shorter_leg, bounds);
+        if (!room) {
+          throw refuse(PlanStatus::kNoRoomForSteering,
+                       fmt::format("{}, and at {:.4g} m/s its ramps would overlap those of its "
+                                   "neighbours",
+                                   why, v));
+        }
+        turn.speed = v;
+        turn.note = fmt::format("{}; taken at {:.4g} m/s with half a ramp on the leg", why, v);
+      } else {
+        turn.note = why + "; under C.34 instead";
+      }
+    }
+    if (room) {
+      limits = {
+          *room,
+          room->low > bounds.low ? ActiveConstraint::kSteeringRoom : ActiveConstraint::kMinRadius,
+          ActiveConstraint::kSteeringRoom, RadiusConstraint::kSteeringRoom};
+    }
+  }
+  if (options.radius) {
+    limits.radii = bounds;
+    limits.at_low = limits.at_high = ActiveConstraint::kGiven;
+  } else if (limits.radii.high >= bounds.high) {
+    limits.at_high = ActiveConstraint::kMaxRadius;
+  }
+  return limits;
+}
+
+ActiveConstraint ActiveAt(const RadiusLimits& limits, double radius) {
+  constexpr double kReached = 1e-3;
+  if (radius >= limits.radii.high * (1.0 - kReached)) {
+    return limits.at_high;
+  }
+  return radius <= limits.radii.low * (1.0 + kReached) ? limits.at_low : ActiveConstraint::kNone;
+}
+
+double ConstraintAt(const VehicleParams& vehicle, RadiusConstraint constraint,
+                    const FilletTurn& turn, double radius) {
+  return constraint == RadiusConstraint::kSteeringRoom
+             ? SteeringRoom(vehicle, turn.speed, turn.interior_angle, turn.shorter_leg,
+                            NeutralTowardTurn(turn), radius)
+             : radius / std::tan(turn.interior_angle / 2.0) - 0.5 * turn.shorter_leg;
+}
+
+}  // namespace fillet
+}  // namespace trackbed

@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/planning/fillet/fillet_layout.h"
+
+namespace trackbed::fillet {
+namespace {
+
+/// Step of the roll-outs on ramps [m]; their error is of fourth order, 1e-9 rad at 0.1 m.
+constexpr double kStep = 0.1;
+
+/// A car that turned by less in its window did not turn [rad]: the rest is rounding.
+constexpr double kNoHeading = 1e-9;
+
+/// What the first drive says of one turn: from where to where, and how far the car turned.
+struct Window {
+  double distance;
+  double heading;
+};
+
+/// Yaw [rad] of the rate-limited car at the events D_1, D_2, … of a plan, driven at `speed`.
+std::vector<double> YawsAtEvents(const VehicleParams& vehicle, const FilletPlan& plan, double speed,
+                                 ReferencePoint reference) {
+  // A first turn so near the start that its wheels begin to turn before it: the car comes rolling.
+  const double lead = plan.turns.empty() ? 0.0 : std::max(0.0, -plan.turns.front().steer_start);
+  std::vector<FilletTurn> turns = plan.turns;
+  std::vector<double> distances;
+  for (FilletTurn& turn : turns) {
+    turn.speed = speed;
+    turn.steer_start += lead;
+    turn.steer_return += lead;
+    distances.push_back(turn.steer_start);
+    distances.push_back(turn.steer_return);
+  }
+  const SteeringSchedule schedule = ScheduleOf(vehicle, turns);
+  // An event may lie before the return of the turn before it: look at each on its own.
+  std::vector<double> rising = distances;
+  std::sort(rising.begin(), rising.end());
+  const KinematicState start{.pose = {0.0, 0.0, 0.0}, .speed = speed, .steering = schedule.At(0.0)};
+  const auto states = RollOut(vehicle, start, schedule, rising, kStep, reference);
+  std::vector<double> yaws;
+  for (const double distance : distances) {
+    const auto at = std::lower_bound(rising.begin(), rising.end(), distance) - rising.begin();
+    yaws.push_back(states[static_cast<std::size_t>(at)].pose.yaw);
+  }
+  return yaws;
+}
+
+/// Per turn, what its objective looks at.
+std::vector<Window> FirstDrive(const VehicleParams& vehicle, const Route& route, double speed,
+                               const FilletOptions& options, std::vector<FilletTurn> turns) {
+  for (FilletTurn& turn : turns) {
+    turn.speed = speed;
+  }
+  const FilletPlan plan = LayOut(vehicle, route, std::move(turns));
+  const std::vector<double> yaws = YawsAtEvents(vehicle, plan, speed, options.reference);
+  std::vector<Window> windows;
+  for (std::size_t k = 0; k < plan.turns.size(); ++k) {
+    const double end = plan.turns[k].steer_return;
+    double begin = plan.turns[k].steer_start;
+    double yaw = yaws[2 * k];
+    if (options.objective == RadiusObjective::kLiteral) {
+      begin = k == 0 ? 0.0 : plan.turns[k - 1].steer_return;
+      yaw = k == 0 ? 0.0 : yaws[2 * k - 1];
+    }
+    windows.push_back({end - begin, yaws[2 * k + 1] - yaw});
+  }
+  return windows;
+}
+
+TurnSearch SearchTurn(const VehicleParams& vehicle, double speed, const FilletOptions& options,
+                      std::uint64_t seed, const Window& window, const RadiusLimits& limits,
+                      const FilletTurn& turn) {
+  const double l_g =
+      options.reference == ReferencePoint::kCentreOfGravity ? vehicle.cg_to_rear : 0.0;
+  TurnSearch search;
+  search.first_radius = turn.radius;
+  search.time = window.distance / speed;
+  search.heading = window.heading;
+  const double along = window.distance / std::abs(window.heading);
+  search.free_radius = std::abs(window.heading) < kNoHeading
+                           ? std::numeric_limits<double>::infinity()
+                           : std::sqrt(std::max(0.0, along * along - l_g * l_g));
+  const double sign = std::copysign(1.0, turn.heading_change);
+  SearchProblem problem;
+  problem.lower = {vehicle.min_turning_radius()};
+  problem.upper = {std::max(problem.lower[0], options.max_radius)};
+  // For the downhill methods; the first drive's radius lies on the bound, where a simplex is flat.
+  problem.start = {0.5 * (limits.radii.low + limits.radii.high)};
+  problem.objective = [&](std::span<const double> r) {
+    const double yaw_rate = sign * speed / std::hypot(r[0], l_g);  // C.25
+    const double miss = yaw_rate * search.time - search.heading;
+    return miss * miss;
+  };
+  problem.constraint_count = 1;
+  problem.constraints = [&](std::span<const double> r, std::span<double> values) {
+    values[0] = ConstraintAt(vehicle, limits.constraint, turn, r[0]);
+  };
+  search.result = Search(problem, options.search, seed);
+  if (!search.result.ok()) {
+    // The feasible set is too narrow for this search to hit; its ends are known in closed form.
+    problem.lower = {limits.radii.low};
+    problem.upper = {limits.radii.high};
+    search.result = Search(problem, options.search, seed);
+  }
+  return search;
+}
+
+}  // namespace
+
+void SearchTurns(const VehicleParams& vehicle, const Route& route, double speed,
+                 const FilletOptions& options, std::uint64_t seed,
+                 const std::vector<RadiusLimits>& limits, std::vector<FilletTurn>& turns) {
+  for (FilletTurn& turn : turns) {
+    turn.radius = vehicle.min_turning_radius();
+  }
+  std::vector<Window> windows = FirstDrive(vehicle, route, speed, options, turns);
+  for (std::size_t k = 0; k < turns.size(); ++k) {
+    if (options.resimulate_each_turn && k > 0) {
+      windows = FirstDrive(vehicle, route, speed, options, turns);
+    }
+    FilletTurn& turn = turns[k];
+    if (turn.speed < speed) {
+      turn.radius = limits[k].radii.high;  // slowed down until a single radius was left
+      continue;
+    }
+    TurnSearch search = SearchTurn(vehicle, speed, options, seed, windows[k], limits[k], turn);
+    if (!search.result.ok()) {
+      throw Refusal{PlanStatus::kSearchFailed, turn.waypoint,
+                    fmt::format("turn at waypoint {}: {} found no radius in {} evaluations ({})",
+                                turn.waypoint, SearchFor(options.search.method).name,
+                                search.result.evaluations, ToString(search.result.status))};
+    }
+    turn.radius = search.result.x[0];
+    turn.search = std::move(search);
+  }
+}
+
+}  // namespace trackbed::fillet

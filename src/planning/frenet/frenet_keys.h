@@ -1,0 +1,15 @@
+#pragma once
+
+#include "trackbed/planning/frenet/frenet.h"
+
+/// Keys that the searches for motions along a path have in common.
+namespace trackbed {
+
+inline constexpr Key kEndOffsets{"end_offsets", "m", "from the route, that are tried"};
+inline constexpr Key kSpeedFactors{"speed_factors", "", "of the wanted speed, that are tried"};
+inline constexpr Range kOffsetRange{.min = -100.0, .max = 100.0};
+inline constexpr Range kFactorRange{.min = 0.0, .max = 1.0};
+
+void VisitLimits(KeyVisitor& keys, FrenetLimits& limits);
+
+}  // namespace trackbed

@@ -1,0 +1,204 @@
+#include "trackbed/planning/grid/astar_planner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/planning/common/feasibility.h"
+#include "trackbed/planning/common/route.h"
+#include "trackbed/planning/grid/astar.h"
+
+namespace trackbed {
+namespace {
+
+using route::CheckRoute;
+using route::Refused;
+
+PlanStatus StatusOf(GridStatus status) {
+  switch (status) {
+    case GridStatus::kFound:
+      return PlanStatus::kOk;
+    case GridStatus::kStartOccupied:
+      return PlanStatus::kStartBlocked;
+    case GridStatus::kGoalOccupied:
+      return PlanStatus::kGoalBlocked;
+    case GridStatus::kUnreachable:
+      return PlanStatus::kNoPath;
+    case GridStatus::kBudgetUsedUp:
+      return PlanStatus::kBudgetUsedUp;
+  }
+  return PlanStatus::kNoPath;
+}
+
+/// Half a cell's diagonal [m]: obstacles are inflated by it as well, so that every point of a free
+/// cell, and of the line to the next one's center, has the inflation's distance from them.
+double OverACell(const AStarOptions& options) {
+  return 0.5 * std::sqrt(2.0) * options.cell;
+}
+
+/// The middles of the cells, with the stops themselves at the ends.
+std::vector<Vec2> PointsOf(const OccupancyGrid& grid, const GridPath& way, const Vec2& goal) {
+  std::vector<Vec2> points;
+  for (const std::size_t cell : way.cells) {
+    points.push_back(grid.MiddleOf(cell));
+  }
+  if ((points.back() - goal).norm() > 1e-9 * grid.cell) {
+    points.push_back(goal);
+  } else {
+    points.back() = goal;
+  }
+  return points;
+}
+
+/// A plan along `points`, then by A* from the last of them to each waypoint after the first.
+Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const OccupancyGrid& grid,
+              double inflation, std::vector<Vec2> points) {
+  const bool round = options.corners == Corners::kRound;
+  Plan plan;
+  plan.diagnostics["legs"] = nlohmann::json::array();
+  for (std::size_t i = 1; i < request.waypoints.size(); ++i) {
+    const Vec2 goal = request.waypoints[i];
+    const int from = grid.CellAt(points.back());
+    const int to = grid.CellAt(goal);
+    const GridPath way = SearchGrid(grid, static_cast<std::size_t>(from),
+                                    static_cast<std::size_t>(to), options.budget);
+    if (!way.ok()) {
+      return Refused(StatusOf(way.status),
+                     fmt::format("from waypoint {} to {}: {}, after {} cells of {:.3g} m; "
+                                 "obstacles are inflated by {:.3g} m",
+                                 i - 1, i, ToString(way.status), way.expansions, options.cell,
+                                 inflation + OverACell(options)));
+    }
+    std::vector<Vec2> leg = PointsOf(grid, way, goal);
+    leg.front() = points.back();
+    plan.diagnostics["legs"].push_back({{"cost_m", way.cost * options.cell},
+                                        {"expansions", way.expansions},
+                                        {"cells", grid.size()},
+                                        {"path_m", route::ToJson(WithoutStraightOn(leg))}});
+    if (round) {
+      leg = Shortcut(leg, request.obstacles, inflation);
+    }
+    points.insert(points.end(), leg.begin() + 1, leg.end());
+  }
+  if (!round) {
+    points = WithoutStraightOn(points);
+  }
+  return route::AlongPolyline(std::move(plan), request, points, options.corners,
+                              options.safe_distance, options.min_speed);
+}
+
+/// The first points of polylines that begin as the car stands, beside the start itself: straight on
+/// for a while, then on or to either side, which a goal behind the car needs. Nearest first.
+std::vector<std::vector<Vec2>> WaysOut(const PlanRequest& request) {
+  const double radius = request.vehicle.min_turning_radius();
+  const double braking =
+      0.5 * request.start_speed * request.start_speed / request.speed.deceleration;
+  const Vec2 ahead = Direction(request.start.yaw);
+  const Vec2 from = request.start.position();
+  std::vector<std::vector<Vec2>> ways;
+  for (const double radii : {0.5, 1.0, 2.0}) {
+    ways.push_back({from, from + (braking + radii * radius) * ahead});
+  }
+  for (const double radii : {1.5, 2.5}) {
+    for (const double side : {1.0, -1.0}) {
+      // A quarter turn; and half a turn, by two of them.
+      const Vec2 corner = from + (braking + radii * radius) * ahead;
+      const Vec2 beside = corner + 2.0 * side * radii * radius * LeftOf(ahead);
+      ways.push_back({from, corner, beside});
+      ways.push_back({from, corner, beside, beside - 2.0 * radii * radius * ahead});
+    }
+  }
+  return ways;
+}
+
+bool IsFree(const std::vector<Vec2>& points, const std::vector<OrientedBox>& boxes,
+            double inflation) {
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (std::any_of(boxes.begin(), boxes.end(), [&](const OrientedBox& box) {
+          return Distance(points[i - 1], points[i], box) <= inflation;
+        })) {
+      return false;
+    }
+  }
+  return true;
+}
+
+Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
+  if (Plan refused = CheckRoute(request); !refused.ok()) {
+    return refused;
+  }
+  const double inflation = 0.5 * request.vehicle.width + options.safe_distance +
+                           (options.corners == Corners::kRound ? options.corner_room : 0.0);
+  std::vector<Vec2> stops = request.waypoints;
+  stops.front() = request.start.position();
+  const std::vector<std::vector<Vec2>> ways_out = WaysOut(request);
+  for (const std::vector<Vec2>& way : ways_out) {
+    stops.push_back(way.back());
+  }
+  const GridArea area = AreaAround(request.start, stops, request.obstacles, options.margin);
+  if (CellsIn(area, options.cell) > kMostCells) {
+    return Refused(PlanStatus::kBudgetUsedUp,
+                   fmt::format("{:.3g} cells of {:.3g} m; at most {:.3g} are searched",
+                               CellsIn(area, options.cell), options.cell, kMostCells));
+  }
+  const OccupancyGrid grid = RasterOf(request.start, area, options.cell, request.obstacles,
+                                      inflation + OverACell(options));
+  Plan direct = PlanGrid(options, request, grid, inflation, {request.start.position()});
+  const std::vector<Excess> excesses =
+      direct.ok() ? ExcessesOf(direct, request) : std::vector<Excess>{};
+  // What slowing down mends is not a matter of how the path begins.
+  const bool begins_right = std::all_of(excesses.begin(), excesses.end(), [](const Excess& excess) {
+    return excess.remedy != Remedy::kNone;
+  });
+  if ((direct.ok() && begins_right) || options.corners == Corners::kRefuse) {
+    return direct;
+  }
+  for (const std::vector<Vec2>& way : ways_out) {
+    if (!IsFree(way, request.obstacles, inflation)) {
+      continue;
+    }
+    Plan plan = PlanGrid(options, request, grid, inflation, way);
+    if (plan.ok() && MakeFeasible(plan, request).ok()) {
+      return plan;
+    }
+  }
+  if (!direct.ok()) {
+    return direct;
+  }
+  return Refused(
+      PlanStatus::kTurnTooTight,
+      fmt::format(
+          "the path has {}, and none was found that begins at the car's heading "
+          "of {:.3g} rad{}",
+          ToString(*std::find_if(excesses.begin(), excesses.end(),
+                                 [](const Excess& e) { return e.remedy == Remedy::kNone; })),
+          request.start.yaw,
+          request.start_speed > 0.0
+              ? fmt::format(" and leaves room to slow down from {:.3g} m/s", request.start_speed)
+              : ""));
+}
+
+}  // namespace
+
+void Visit(KeyVisitor& keys, AStarOptions& options) {
+  route::VisitCorners(keys, options.corners, options.safe_distance, options.corner_room);
+  keys.Field(route::kGridCell, options.cell, Need::kOptional, route::kCellSize);
+  keys.Field(route::kGridMargin, options.margin, Need::kOptional, kNotNegative);
+  keys.Field(route::kCornerSpeed, options.min_speed, Need::kOptional, kPositive);
+  keys.Field({"budget", "", "cells to look at for each leg, at most"}, options.budget,
+             Need::kOptional, Range{.min = 0, .max = 1e9});
+}
+
+PlannerEntry AStarPlanner() {
+  return {.name = "astar",
+          .summary = "around obstacles on a grid, corners rounded or refused (seed 004, variant 1)",
+          .defaults = AStarOptions{},
+          .plan = PlanBy<AStarOptions, PlanWith>,
+          .min_waypoints = 2,
+          .keeps_clear = true,
+          .searches = true,
+          .has_ties = true};
+}
+
+}  // namespace trackbed

@@ -1,0 +1,310 @@
+#include "trackbed/planning/grid/hybrid_astar.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <queue>
+#include <unordered_map>
+
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/planning/common/clear_way.h"
+#include "trackbed/planning/curves/dubins.h"
+#include "trackbed/planning/curves/reeds_shepp.h"
+#include "trackbed/planning/grid/astar.h"
+
+namespace trackbed {
+namespace {
+
+/// Most by which a way between eight neighbours is longer than the straight: 1/cos(pi/8).
+constexpr double kOctileOverStraight = 1.0823922002923940;
+
+/// A pose that was come to.
+struct Node {
+  Pose2 pose;
+  double cost = 0.0;
+  int parent = -1;
+  Segment step;         ///< that led here; of the start, none
+  int last_curve = -1;  ///< of the goal: which of the curves leads there
+};
+
+struct Open {
+  double estimate;
+  int node;
+
+  /// The cheaper first, of equal ones the later.
+  bool operator<(const Open& other) const {
+    return estimate != other.estimate ? estimate > other.estimate : node < other.node;
+  }
+};
+
+class HybridAStar {
+ public:
+  HybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
+              const HybridAStarOptions& options)
+      : options_(options),
+        problem_(problem),
+        radius_(options.radius.value_or(1.1 * vehicle.min_turning_radius())),
+        clear_(vehicle, problem.obstacles, options.safe_distance),
+        grid_(GridOf(vehicle)) {}
+
+  HybridAStarResult Run() {
+    HybridAStarResult result;
+    if (grid_.size() == 0) {
+      return Fail(result, PlanStatus::kBudgetUsedUp,
+                  fmt::format("more than {:.3g} cells of {:.3g} m", kMostCells, options_.cell));
+    }
+    result.cells = static_cast<int>(grid_.size());
+    if (!clear_.IsFree(problem_.start)) {
+      return Fail(result, PlanStatus::kStartBlocked, "the car stands too near to an obstacle");
+    }
+    if (!clear_.IsFree(problem_.goal)) {
+      return Fail(result, PlanStatus::kGoalBlocked, "an obstacle is too near to the goal");
+    }
+    const int goal_cell = grid_.CellAt(problem_.goal.position());
+    distances_ = DistancesTo(grid_, static_cast<std::size_t>(goal_cell));
+    if (!std::isfinite(LeftOnGrid(problem_.start))) {
+      return Fail(result, PlanStatus::kNoPath, "obstacles enclose the start or the goal");
+    }
+    nodes_.push_back({.pose = problem_.start});
+    open_.push({options_.weight * Left(problem_.start), 0});
+    while (!open_.empty()) {
+      const int index = open_.top().node;
+      const Node node = nodes_[static_cast<std::size_t>(index)];
+      if (node.last_curve >= 0) {
+        return Found(result, index);
+      }
+      open_.pop();
+      if (node.parent >= 0 && best_.at(KeyOf(node)) < node.cost) {
+        continue;  // a cheaper way to this cell has been found since
+      }
+      if (result.expansions >= options_.budget) {
+        return BudgetUsedUp(result);
+      }
+      ++result.expansions;
+      Expand(index, node, result.expansions);
+    }
+    return Fail(result, PlanStatus::kNoPath, "no way for the car leads there");
+  }
+
+ private:
+  static HybridAStarResult Fail(HybridAStarResult& result, PlanStatus status,
+                                const std::string& reason) {
+    result.status = status;
+    result.reason = reason;
+    return result;
+  }
+
+  /// Occupied are cells that the rear axle's centre surely cannot be in: nearer to an obstacle than
+  /// the outline's nearest side, all over the cell. Empty for an area of too many.
+  [[nodiscard]] OccupancyGrid GridOf(const VehicleParams& vehicle) const {
+    const GridArea area =
+        AreaAround(problem_.start, {problem_.start.position(), problem_.goal.position()},
+                   problem_.obstacles, options_.margin);
+    if (CellsIn(area, options_.cell) > kMostCells) {
+      return {};
+    }
+    const double nearest_side = std::min(
+        {0.5 * vehicle.width, vehicle.rear_overhang, vehicle.length - vehicle.rear_overhang});
+    const double inflation =
+        nearest_side + options_.safe_distance - 0.5 * std::sqrt(2.0) * options_.cell;
+    return RasterOf(problem_.start, area, options_.cell, problem_.obstacles,
+                    std::max(inflation, 0.0));
+  }
+
+  /// What is left on the grid [m].
+  [[nodiscard]] double LeftOnGrid(const Pose2& pose) const {
+    const int cell = grid_.CellAt(pose.position());
+    if (cell < 0) {
+      return std::numeric_limits<double>::infinity();
+    }
+    // From anywhere in a cell to anywhere in another is up to a diagonal less.
+    const double steps = distances_[static_cast<std::size_t>(cell)] / kOctileOverStraight;
+    return options_.cell * std::max(steps - std::sqrt(2.0), 0.0);
+  }
+
+  [[nodiscard]] double Left(const Pose2& pose) const {
+    const double curve = options_.reverse ? ReedsSheppLength(pose, problem_.goal, radius_)
+                                          : Dubins(pose, problem_.goal, radius_).length;
+    return std::max(LeftOnGrid(pose), curve);
+  }
+
+  /// The cell of position, heading and direction.
+  [[nodiscard]] std::int64_t KeyOf(const Node& node) const {
+    const std::int64_t cell = grid_.CellAt(node.pose.position());
+    const double turn = WrapAngle(node.pose.yaw - problem_.start.yaw) / (2.0 * kPi);
+    std::int64_t heading = std::llround(turn * options_.headings);
+    heading = (heading + options_.headings) % options_.headings;
+    return (cell * options_.headings + heading) * 2 + (node.step.direction > 0 ? 1 : 0);
+  }
+
+  /// What a segment costs after another.
+  [[nodiscard]] double CostOf(const Segment& before, const Segment& segment) const {
+    double cost = segment.length * (segment.direction > 0 ? 1.0 : options_.reverse_cost);
+    if (before.length > 0.0) {
+      cost += before.direction != segment.direction ? options_.switch_cost : 0.0;
+      cost += options_.steering_cost * radius_ * std::abs(segment.curvature - before.curvature);
+    }
+    return cost;
+  }
+
+  [[nodiscard]] bool MustGoForwards(const Node& node) const {
+    return problem_.rolls && node.parent < 0;
+  }
+
+  void Expand(int index, const Node& node, int expansions) {
+    // The nearer to the goal the oftener: every radius to go leaves out one more try.
+    const double left = Left(node.pose);
+    if (expansions % (1 + static_cast<int>(left / radius_)) == 0 || expansions == 1) {
+      TryToEnd(index, node);
+    }
+    const double length = 1.5 * options_.cell;  // more than a cell's diagonal
+    for (const int direction : {1, -1}) {
+      if (direction < 0 && (!options_.reverse || MustGoForwards(node))) {
+        continue;
+      }
+      for (const double bend : {0.0, 0.5, -0.5, 1.0, -1.0}) {
+        const Segment step{.length = length, .curvature = bend / radius_, .direction = direction};
+        const double along = direction * length;
+        Node child{.pose = MoveOnArc(node.pose, along, step.curvature * along),
+                   .cost = node.cost + CostOf(node.step, step),
+                   .parent = index,
+                   .step = step};
+        if (!std::isfinite(LeftOnGrid(child.pose))) {
+          continue;
+        }
+        const auto [best, is_new] = best_.try_emplace(KeyOf(child), child.cost);
+        if ((!is_new && best->second <= child.cost) || !clear_.IsFree(node.pose, step)) {
+          if (is_new) {
+            best_.erase(best);
+          }
+          continue;
+        }
+        best->second = child.cost;
+        Push(child, child.cost + options_.weight * Left(child.pose));
+      }
+    }
+  }
+
+  void Push(const Node& node, double estimate) {
+    open_.push({estimate, static_cast<int>(nodes_.size())});
+    nodes_.push_back(node);
+  }
+
+  /// A curve from here to the goal, if a free one is among the cheapest few.
+  void TryToEnd(int index, const Node& node) {
+    constexpr std::size_t kTries = 4;
+    struct Curve {
+      double cost;
+      std::vector<Segment> segments;
+    };
+    std::vector<Curve> curves;
+    for (const ShortestCurve& word : options_.reverse
+                                         ? ReedsSheppWords(node.pose, problem_.goal, radius_)
+                                         : DubinsWords(node.pose, problem_.goal, radius_)) {
+      Curve curve{node.cost, SegmentsOf(word)};
+      const Segment* before = &node.step;
+      for (const Segment& segment : curve.segments) {
+        curve.cost += CostOf(*before, segment);
+        before = &segment;
+      }
+      const bool backwards = !curve.segments.empty() && curve.segments.front().direction < 0;
+      if (curve.cost < best_end_ && !(backwards && MustGoForwards(node))) {
+        curves.push_back(std::move(curve));
+      }
+    }
+    std::stable_sort(curves.begin(), curves.end(),
+                     [](const Curve& a, const Curve& b) { return a.cost < b.cost; });
+    curves.resize(std::min(curves.size(), kTries));
+    for (Curve& curve : curves) {
+      if (IsFree(node.pose, curve.segments)) {
+        best_end_ = curve.cost;
+        Push({.pose = problem_.goal,
+              .cost = curve.cost,
+              .parent = index,
+              .step = {},
+              .last_curve = static_cast<int>(last_curves_.size())},
+             curve.cost);
+        last_curves_.push_back(std::move(curve.segments));
+        return;
+      }
+    }
+  }
+
+  [[nodiscard]] bool IsFree(Pose2 pose, const std::vector<Segment>& segments) const {
+    for (const Segment& segment : segments) {
+      if (!clear_.IsFree(pose, segment)) {
+        return false;
+      }
+      const double along = segment.direction * segment.length;
+      pose = MoveOnArc(pose, along, segment.curvature * along);
+    }
+    return true;
+  }
+
+  HybridAStarResult Found(HybridAStarResult& result, int index) const {
+    std::vector<Segment> backwards;
+    const Node& goal = nodes_[static_cast<std::size_t>(index)];
+    const auto& last = last_curves_[static_cast<std::size_t>(goal.last_curve)];
+    std::copy(last.rbegin(), last.rend(), std::back_inserter(backwards));
+    for (int i = goal.parent; nodes_[static_cast<std::size_t>(i)].parent >= 0;) {
+      const Node& node = nodes_[static_cast<std::size_t>(i)];
+      backwards.push_back(node.step);
+      i = node.parent;
+    }
+    for (auto step = backwards.rbegin(); step != backwards.rend(); ++step) {
+      Segment* before = result.segments.empty() ? nullptr : &result.segments.back();
+      if (before != nullptr && before->curvature == step->curvature &&
+          before->direction == step->direction) {
+        before->length += step->length;
+      } else {
+        result.segments.push_back(*step);
+      }
+    }
+    result.status = PlanStatus::kOk;
+    result.cost = goal.cost;
+    return result;
+  }
+
+  /// The best that leads to the goal by now, if anything does.
+  HybridAStarResult BudgetUsedUp(HybridAStarResult& result) const {
+    for (std::size_t i = nodes_.size(); i-- > 0;) {
+      if (nodes_[i].last_curve >= 0) {
+        return Found(result, static_cast<int>(i));  // the last one found is the cheapest
+      }
+    }
+    return Fail(result, PlanStatus::kBudgetUsedUp,
+                fmt::format("no way found in {} expansions", result.expansions));
+  }
+
+  const HybridAStarOptions& options_;
+  const HybridAStarProblem& problem_;
+  double radius_;
+  ClearWay clear_;
+  OccupancyGrid grid_;
+  std::vector<double> distances_;  // on the grid, to the goal
+  std::vector<Node> nodes_;
+  std::priority_queue<Open> open_;
+  std::unordered_map<std::int64_t, double> best_;  // cost of the cheapest node of a cell
+  double best_end_ = std::numeric_limits<double>::infinity();
+  std::vector<std::vector<Segment>> last_curves_;
+};
+
+}  // namespace
+
+HybridAStarResult SearchHybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
+                                    const HybridAStarOptions& options) {
+  TRACKBED_CHECK(options.cell > 0.0 && options.headings >= 8 && options.margin >= 0.0 &&
+                     options.budget >= 0 && options.radius.value_or(1.0) > 0.0 &&
+                     options.weight >= 1.0 && options.reverse_cost >= 1.0 &&
+                     options.switch_cost >= 0.0 && options.steering_cost >= 0.0,
+                 "cells of {} m and {} headings, margin {}, budget {}, costs {}, {}, {}",
+                 options.cell, options.headings, options.margin, options.budget,
+                 options.reverse_cost, options.switch_cost, options.steering_cost);
+  return HybridAStar(vehicle, problem, options).Run();
+}
+
+}  // namespace trackbed

@@ -1,0 +1,95 @@
+#include "trackbed/planning/registry/planners.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "trackbed/core/error.h"
+#include "trackbed/options/registry.h"
+#include "trackbed/planning/common/feasibility.h"
+#include "trackbed/planning/common/open_loop.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/course/course.h"
+#include "trackbed/planning/course/lane_change.h"
+#include "trackbed/planning/curves/curve_planners.h"
+#include "trackbed/planning/fillet/fillet.h"
+#include "trackbed/planning/grid/astar_planner.h"
+#include "trackbed/planning/grid/hybrid_astar.h"
+#include "trackbed/planning/sampling/rrt_planner.h"
+
+namespace trackbed {
+namespace {
+
+/// One line for each planner.
+Registry<PlannerEntry>& Table() {
+  static Registry<PlannerEntry> table("planner", {
+                                                     FilletPlanner(),
+                                                     LaneChangePlanner(),
+                                                     CoursePlanner(),
+                                                     DubinsPlanner(),
+                                                     ReedsSheppPlanner(),
+                                                     AStarPlanner(),
+                                                     HybridAStarPlanner(),
+                                                     RrtPlanner(),
+                                                 });
+  return table;
+}
+
+}  // namespace
+
+const std::vector<PlannerEntry>& Planners() {
+  return Table().entries();
+}
+
+void RegisterPlanner(PlannerEntry entry) {
+  Table().Add(std::move(entry));
+}
+
+const PlannerEntry& PlannerFor(const PlannerOptions& options) {
+  return Table().For(options);
+}
+
+bool MayGoBackwards(const PlannerOptions& options) {
+  const PlannerEntry& entry = PlannerFor(options);
+  return entry.may_go_backwards != nullptr ? entry.may_go_backwards(options) : entry.goes_backwards;
+}
+
+bool MayBePartial(const PlannerOptions& options) {
+  const PlannerEntry& entry = PlannerFor(options);
+  return entry.may_be_partial != nullptr && entry.may_be_partial(options);
+}
+
+std::optional<double> SafeDistanceOf(const PlannerOptions& options) {
+  PlannerOptions own = options;
+  return FindNumber("safe_distance", [&](KeyVisitor& keys) { Visit(keys, own); });
+}
+
+Plan MakePlan(const PlanRequest& request, const PlannerOptions& options) {
+  const SpeedLimits& speed = request.speed;
+  TRACKBED_CHECK(std::isfinite(request.start_speed) && std::isfinite(speed.speed) &&
+                     std::isfinite(request.start_steering) && std::isfinite(speed.acceleration) &&
+                     std::isfinite(speed.deceleration) && speed.speed > 0.0 &&
+                     speed.acceleration > 0.0 && speed.deceleration > 0.0,
+                 "start speed {}, speed {}, acceleration {}, deceleration {}", request.start_speed,
+                 speed.speed, speed.acceleration, speed.deceleration);
+  const Pose2& start = request.start;
+  TRACKBED_CHECK(std::isfinite(start.x) && std::isfinite(start.y) && std::isfinite(start.yaw),
+                 "start at {}, {}, {}", start.x, start.y, start.yaw);
+  for (const Vec2& point : request.waypoints) {
+    TRACKBED_CHECK(point.allFinite(), "waypoint {}, {}", point.x(), point.y());
+  }
+  TRACKBED_CHECK(request.headings.empty() || request.headings.size() == request.waypoints.size(),
+                 "{} headings for {} waypoints", request.headings.size(), request.waypoints.size());
+  for (const double heading : request.headings) {
+    TRACKBED_CHECK(std::isfinite(heading), "heading {}", heading);
+  }
+  Plan plan = PlannerFor(options).plan(request, options);
+  plan = MakeFeasible(std::move(plan), request);
+  if (plan.ok() && !plan.diagnostics.contains("open_loop")) {
+    plan.diagnostics["open_loop"] = ToJson(DriveOpenLoop(
+        request.vehicle, plan.reference.path, plan.schedule, plan.schedule_speed.knots().back().s));
+  }
+  return plan;
+}
+
+}  // namespace trackbed

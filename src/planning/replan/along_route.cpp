@@ -1,0 +1,301 @@
+#include "trackbed/planning/replan/along_route.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "trackbed/core/error.h"
+#include "trackbed/path/rounded.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/world/world.h"
+
+namespace trackbed {
+namespace {
+
+/// A motion that is slower at its end comes to rest there [m/s].
+constexpr double kAtRest = 0.01;
+/// A car comes smoothly to rest over this share of speed times duration, or less.
+constexpr double kStopShare = 0.55;
+
+double Front(const VehicleParams& vehicle) {
+  return vehicle.length - vehicle.rear_overhang;
+}
+
+/// The method's options as the settings want them, with some of its speeds only.
+FrenetOptions Adapted(FrenetOptions options, const AlongSettings& settings,
+                      const std::vector<double>& factors) {
+  options.limits.safe_distance = settings.safe_distance;
+  options.horizon = std::max(options.horizon, settings.look_ahead);
+  options.speed_factors = factors;
+  return options;
+}
+
+LatticeOptions Adapted(LatticeOptions options, const AlongSettings& settings,
+                       const std::vector<double>& factors) {
+  options.limits.safe_distance = settings.safe_distance;
+  options.speed_factors = factors;
+  return options;
+}
+
+FrenetPlan Find(const Path& path, const FrenetRequest& request, const FrenetOptions& options) {
+  return PlanFrenet(path, request, options);
+}
+
+FrenetPlan Find(const Path& path, const FrenetRequest& request, const LatticeOptions& options) {
+  return PlanLattice(path, request, options);
+}
+
+/// How far from the end of the route its motions can stop there.
+double StopReach(const FrenetOptions& options, double speed) {
+  const auto longest = std::max_element(options.end_times.begin(), options.end_times.end());
+  return longest == options.end_times.end() ? 0.0 : kStopShare * speed * *longest;
+}
+
+double StopReach(const LatticeOptions& options, double) {
+  return options.layers * options.spacing;
+}
+
+const FrenetLimits& LimitsOf(const AlongOptions& options) {
+  return std::visit([](const auto& own) -> const FrenetLimits& { return own.limits; }, options);
+}
+
+const std::vector<double>& SpeedFactors(const AlongOptions& options) {
+  return std::visit(
+      [](const auto& own) -> const auto& { return own.speed_factors; }, options);
+}
+
+class AlongRoute {
+ public:
+  AlongRoute(const RouteFrame& frame, const AlongRequest& request, const AlongSettings& settings,
+             const AlongOptions& options)
+      : frame_(frame), request_(request), settings_(settings), options_(options) {}
+
+  AlongPlan Plan() {
+    const double speed = std::max(request_.wanted, request_.start.s_rate);
+    const double reach =
+        std::visit([&](const auto& own) { return StopReach(own, speed); }, options_);
+    if (frame_.goal - request_.start.s <= reach && Try(StopAt{frame_.goal})) {
+      AlongPlan plan = Taken(AlongKind::kOn);
+      plan.to_goal = true;
+      return plan;
+    }
+    // Farther than motions reach: to see what they lead up to.
+    const auto leader = LeaderIn(
+        frame_.path, request_, settings_,
+        request_.start.s + Front(request_.vehicle) + std::max(reach, speed * settings_.look_ahead));
+    const std::vector<double>& all = SpeedFactors(options_);
+    std::vector<double> falling = all;
+    std::sort(falling.rbegin(), falling.rend());
+    std::optional<AlongPlan> for_now;
+    const auto on = [&](const std::vector<double>& factors) {
+      if (!Try(KeepSpeed{request_.wanted}, factors)) {
+        return false;
+      }
+      if (!leader || LeadsPast(*leader)) {
+        return true;
+      }
+      if (!for_now) {
+        for_now = Taken(AlongKind::kApproach);
+      }
+      return false;
+    };
+    if (on({falling.front()})) {
+      return Taken(AlongKind::kOn);
+    }
+    if (leader && leader->speed >= kStandsBelow &&
+        Try(FollowLeader{leader->rear, std::min(leader->speed, request_.wanted), settings_.gap,
+                         settings_.time_gap})) {
+      return Taken(AlongKind::kFollow);
+    }
+    if (on(all)) {
+      return Taken(AlongKind::kOn);
+    }
+    for (auto factor = falling.begin() + 1; leader && factor != falling.end(); ++factor) {
+      if (on({*factor})) {
+        return Taken(AlongKind::kOn);
+      }
+    }
+    if (leader && leader->speed < kStandsBelow &&
+        Try(StopAt{leader->rear - Front(request_.vehicle) - settings_.gap})) {
+      return Taken(AlongKind::kStop);
+    }
+    return for_now ? *for_now : AlongPlan{.kind = AlongKind::kNone, .found = found_};
+  }
+
+ private:
+  /// Whether there is a motion, and braking after it that is clear.
+  bool Try(const FrenetGoal& goal, const std::vector<double>& factors = {1.0}) {
+    const FrenetRequest request{.vehicle = request_.vehicle,
+                                .speed = request_.speed,
+                                .road = settings_.road,
+                                .start = request_.start,
+                                .goal = goal,
+                                .obstacles = request_.obstacles};
+    found_ = std::visit(
+        [&](const auto& own) {
+          return Find(frame_.path, request, Adapted(own, settings_, factors));
+        },
+        options_);
+    if (!found_.ok()) {
+      return false;
+    }
+    const FrenetState end = found_.motion.At(found_.motion.duration());
+    if (std::holds_alternative<StopAt>(goal) && end.s_rate > kAtRest) {
+      return false;  // the lattice does not reach so far
+    }
+    points_ = WithBraking(end);
+    return BrakingIsClear();
+  }
+
+  [[nodiscard]] std::vector<TrajectoryPoint> WithBraking(const FrenetState& end) const {
+    FrenetMotion motion = found_.motion;
+    if (end.s_rate > 0.0) {
+      // At rest after time end.s_rate/a.
+      const double braking = request_.speed.deceleration;
+      motion.pieces.push_back({end.s_rate / braking,
+                               Polynomial{{end.s, end.s_rate, -0.5 * braking}}, Polynomial{{end.d}},
+                               true});
+    }
+    const FrenetLimits& limits = LimitsOf(options_);
+    auto points = SampleMotion(frame_.path, motion, limits.time_step, limits.spacing);
+    // Where the frame does not reach so far, the motion alone.
+    return points ? std::move(*points) : found_.points;
+  }
+
+  [[nodiscard]] bool BrakingIsClear() const {
+    constexpr double kTouch = 1e-2;  // [m], what motions may fall short by between their samples
+    const double began = found_.motion.duration();
+    // A start that is nearer than the safe distance may stay as near.
+    const OrientedBox outline = OutlineAt(request_.vehicle, points_.front().motion.pose);
+    std::vector<double> margins;
+    for (const MovingBox& obstacle : request_.obstacles) {
+      margins.push_back(std::min(settings_.safe_distance, Separation(outline, obstacle.box)) -
+                        kTouch);
+    }
+    return std::all_of(points_.begin(), points_.end(), [&](const TrajectoryPoint& point) {
+      if (point.t <= began) {
+        return true;
+      }
+      const OrientedBox there = OutlineAt(request_.vehicle, point.motion.pose);
+      for (std::size_t i = 0; i < margins.size(); ++i) {
+        if (Separation(there, request_.obstacles[i].At(point.t)) < margins[i]) {
+          return false;
+        }
+      }
+      return true;
+    });
+  }
+
+  /// Whether the motion's last offset is beside the obstacle's, or its end beyond.
+  [[nodiscard]] bool LeadsPast(const Leader& leader) const {
+    const FrenetState end = found_.motion.At(found_.motion.duration());
+    const double room = 0.5 * request_.vehicle.width + settings_.safe_distance;
+    return end.d - room >= leader.left || end.d + room <= leader.right ||
+           end.s - request_.vehicle.rear_overhang >
+               leader.rear + leader.speed * found_.motion.duration();
+  }
+
+  [[nodiscard]] AlongPlan Taken(AlongKind kind) const {
+    return {.kind = kind, .found = found_, .points = points_};
+  }
+
+  const RouteFrame& frame_;
+  const AlongRequest& request_;
+  const AlongSettings& settings_;
+  const AlongOptions& options_;
+  FrenetPlan found_;                     // by the last try
+  std::vector<TrajectoryPoint> points_;  // of that, and of the braking after it
+};
+
+}  // namespace
+
+const std::vector<AlongEntry>& AlongMethods() {
+  static const std::vector<AlongEntry> table{
+      {"frenet", "one polynomial motion of the least cost in the route's Frenet frame",
+       FrenetOptions{}},
+      {"lattice", "the cheapest way through a lattice of such motions", LatticeOptions{}},
+  };
+  return table;
+}
+
+const char* ToString(AlongKind kind) {
+  switch (kind) {
+    case AlongKind::kNone:
+      return "none";
+    case AlongKind::kOn:
+      return "on";
+    case AlongKind::kFollow:
+      return "follow";
+    case AlongKind::kApproach:
+      return "approach";
+    case AlongKind::kStop:
+      return "stop";
+  }
+  return "none";
+}
+
+RouteFrame FrameOf(const VehicleParams& vehicle, const Plan& route, const SpeedLimits& speed,
+                   double beyond) {
+  const Path& path = route.reference.path;
+  // The wheels need the longest way for the step of curvature from straight on to a bend.
+  constexpr double kLook = 0.5;  // [m]
+  double window = 0.1;           // [m]
+  for (const PathPoint& point : path.Sample(kLook)) {
+    double v = speed.speed;
+    for (const SpeedCap& cap : route.caps) {
+      if (cap.from <= point.s && point.s <= cap.to) {
+        v = std::min(v, cap.speed);
+      }
+    }
+    const double steering = std::abs(SteeringForCurvature(vehicle, point.curvature));
+    window = std::max(window, v * steering / vehicle.steering_rate);
+  }
+  std::vector<Segment> segments = path.segments();
+  segments.push_back({.length = beyond});
+  RouteFrame frame{Rounded(Path(path.At(0.0).pose, std::move(segments)), window), 0.0};
+  const double length = frame.path.length();
+  frame.goal =
+      frame.path.Project(path.At(path.length()).pose, {length - beyond - window, length}).s;
+  return frame;
+}
+
+std::optional<Leader> LeaderIn(const Path& path, const AlongRequest& request,
+                               const AlongSettings& settings, double to) {
+  const double front = Front(request.vehicle);
+  const double room = 0.5 * request.vehicle.width + settings.safe_distance;
+  const Stations within{request.start.s, to};
+  std::optional<Leader> nearest;
+  for (std::size_t i = 0; i < request.obstacles.size(); ++i) {
+    const OrientedBox& box = request.obstacles[i].box;
+    Leader leader{.obstacle = i,
+                  .rear = std::numeric_limits<double>::infinity(),
+                  .left = -std::numeric_limits<double>::infinity(),
+                  .right = std::numeric_limits<double>::infinity()};
+    for (const Vec2& corner : box.Corners()) {
+      const Projection at = path.Project({corner.x(), corner.y(), 0.0}, within);
+      leader.rear = std::min(leader.rear, at.s);
+      leader.left = std::max(leader.left, at.cross_track);
+      leader.right = std::min(leader.right, at.cross_track);
+    }
+    const bool in_lane = leader.right < room && leader.left > -room;
+    const bool ahead = leader.rear > request.start.s + front && leader.rear < to;
+    if (in_lane && ahead && (!nearest || leader.rear < nearest->rear)) {
+      leader.speed = request.obstacles[i].velocity.dot(Direction(path.At(leader.rear).pose.yaw));
+      nearest = leader;
+    }
+  }
+  return nearest;
+}
+
+AlongPlan PlanAlong(const RouteFrame& frame, const AlongRequest& request,
+                    const AlongSettings& settings, const AlongOptions& options) {
+  TRACKBED_CHECK(request.wanted >= 0.0 && request.wanted <= request.speed.speed &&
+                     settings.gap >= 0.0 && settings.time_gap >= 0.0,
+                 "speed {} of {}, gaps {} and {}", request.wanted, request.speed.speed,
+                 settings.gap, settings.time_gap);
+  TRACKBED_CHECK(!SpeedFactors(options).empty(), "no speed factors");
+  return AlongRoute(frame, request, settings, options).Plan();
+}
+
+}  // namespace trackbed

@@ -1,0 +1,477 @@
+#include "trackbed/planning/replan/replan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/planning/common/course_schedule.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/plan_stretch.h"
+#include "trackbed/planning/registry/planners.h"
+#include "trackbed/world/world.h"
+
+namespace trackbed {
+namespace {
+
+using nlohmann::json;
+
+/// Slower than this a car is at rest [m/s].
+constexpr double kAtRest = 0.01;
+/// A plan that ends at the goal is kept for its last metres, unless something comes in the way.
+constexpr double kLastMetres = 1.0;
+/// As near as this to the route, a car is back on it.
+constexpr double kBackOffset = 0.02;     // [m]
+constexpr double kBackHeading = 0.005;   // [rad]
+constexpr double kBackSteering = 0.002;  // [rad]
+/// No path is shorter than this, unless it has no length [m].
+constexpr double kNoWay = 1e-3;
+/// Room that is left before an obstacle when the car has to brake for it [m].
+constexpr double kBrakeRoom = 0.5;
+
+bool Stands(const MovingBox& box) {
+  return box.velocity.norm() < kStandsBelow;
+}
+
+std::string Place(const OrientedBox& box) {
+  return fmt::format("({:.4g}, {:.4g})", box.centre.x, box.centre.y);
+}
+
+/// A plan that follows a motion.
+Plan ToPlan(const VehicleParams& vehicle, const std::vector<TrajectoryPoint>& points,
+            const Pose2& goal) {
+  Plan plan;
+  plan.reference = ToReference(points);
+  plan.schedule_speed = plan.reference.speed;
+  plan.goal = goal;
+  std::vector<SteeringSchedule::Knot> knots;
+  for (const TrajectoryPoint& point : points) {
+    if (knots.empty() || point.distance > knots.back().distance + 1e-6) {
+      knots.push_back({point.distance, SteeringForCurvature(vehicle, point.motion.curvature)});
+    }
+  }
+  plan.schedule = SteeringSchedule::Through(std::move(knots));
+  return plan;
+}
+
+json ToJson(const AlongPlan& along) {
+  json out{{"kind", ToString(along.kind)},
+           {"status", ToString(along.found.status)},
+           {"candidates", along.found.candidates},
+           {"checked", along.found.checked},
+           {"rejected", along.found.rejected.ToString()}};
+  if (along.ok()) {
+    const FrenetState end = along.found.motion.At(along.found.motion.duration());
+    out["cost"] = along.found.cost;
+    out["duration_s"] = along.found.motion.duration();
+    out["end_offset_m"] = end.d;
+    out["end_speed_mps"] = end.s_rate;
+  }
+  return out;
+}
+
+json ToJson(const WayScore& score) {
+  return {{"length_m", score.length},
+          {"wind_m", score.wind},
+          {"collides", score.collides},
+          {"total_m", score.total}};
+}
+
+class Replanning {
+ public:
+  Replanning(const ReplanRequest& request, const Driving& driving, const ReplanOptions& options)
+      : request_(request), driving_(driving), options_(options) {}
+
+  Replanned Run() {
+    auto encounter = EncounterOf(driving_.plan.reference, driving_.station);
+    if (request_.strayed && !encounter) {
+      // Beside the plan as far as the car is.
+      const Pose2 beside = driving_.plan.reference.path.At(driving_.station).pose;
+      encounter = EncounterOf(driving_.plan.reference, driving_.station,
+                              ToLocal(beside, request_.car.pose.position()).y());
+    }
+    const bool stuck = !driving_.plan.blocked.empty();
+    if (!encounter && !stuck && !request_.strayed && (driving_.on_route || NearlyThere())) {
+      return Keep();
+    }
+    AlongPlan along;
+    if (options_.along) {
+      along = Along();
+    }
+    // Behind a leader the route is clear only up to where it is too near.
+    if (!driving_.on_route && (!options_.along || along.kind == AlongKind::kOn)) {
+      if (auto back = BackOnRoute()) {
+        return std::move(*back);
+      }
+    }
+    if (along.kind == AlongKind::kOn || along.kind == AlongKind::kFollow) {
+      return Follow(along);
+    }
+    // Another start has other candidates: what is driven may lead past what none of them do.
+    const bool is_free = !encounter && !request_.strayed;
+    if (is_free && !stuck) {
+      return Keep();
+    }
+    if (options_.detour) {
+      Detour detour = FindDetour();
+      Tell(detour);
+      // Detours know only what stands.
+      if (detour.route && !EncounterOf(detour.route->reference, 0.0)) {
+        told_["kind"] = "detour";
+        detour.route->diagnostics["replan"] = told_;
+        return {ReplanKind::kRoute, std::move(*detour.route)};
+      }
+    }
+    if (is_free && (!along.ok() || along.points.back().distance <= LeftToDrive())) {
+      return Keep();
+    }
+    if (along.ok()) {
+      return Follow(along);
+    }
+    if (!encounter && request_.strayed) {
+      encounter = AheadOfTheCar();
+    }
+    return encounter ? Brake(*encounter) : Keep();
+  }
+
+ private:
+  [[nodiscard]] Replanned Keep() const { return {ReplanKind::kKeep, driving_.plan}; }
+
+  [[nodiscard]] std::optional<Encounter> EncounterOf(const Reference& reference, double station,
+                                                     double offset = 0.0) const {
+    return FirstEncounter(request_.vehicle, reference, station, request_.obstacles,
+                          options_.settings.safe_distance, options_.settings.look_ahead, offset);
+  }
+
+  /// What a car that drives on at its own speed, not at the planned one, gets too near to.
+  [[nodiscard]] std::optional<Encounter> AheadOfTheCar() const {
+    const double speed = request_.car.speed;
+    const Plan plan = StopAfter(
+        std::max(LeftToDrive(), 0.0) + 0.5 * speed * speed / ComfortableBraking(), speed, true);
+    std::optional<Encounter> encounter = EncounterOf(plan.reference, 0.0);
+    if (encounter) {
+      encounter->station += driving_.station;
+    }
+    return encounter;
+  }
+
+  /// Of the plan that is driven [m].
+  [[nodiscard]] double LeftToDrive() const {
+    return driving_.plan.reference.path.length() - driving_.station;
+  }
+
+  [[nodiscard]] bool NearlyThere() const { return LeftToDrive() < kLastMetres; }
+
+  /// The planned motion beside the car, or the car's own.
+  [[nodiscard]] MotionState Start() const {
+    if (request_.strayed) {
+      return request_.car;
+    }
+    const Reference& reference = driving_.plan.reference;
+    const PathPoint at = reference.path.At(driving_.station);
+    MotionState start{.pose = at.pose,
+                      .curvature = at.curvature,
+                      .speed = reference.speed.SpeedAt(driving_.station),
+                      .acceleration = reference.speed.AccelerationAt(driving_.station)};
+    if (request_.car.speed < kAtRest && start.speed < 10.0 * kAtRest) {
+      start.speed = 0.0;
+      start.acceleration = 0.0;
+    }
+    return start;
+  }
+
+  /// The rest of the route, if the motion has come back to it.
+  [[nodiscard]] std::optional<Replanned> BackOnRoute() const {
+    const MotionState start = Start();
+    const Path& path = driving_.route.reference.path;
+    constexpr double kSearch = 5.0;  // [m]
+    const Projection at = path.Project(
+        start.pose, {driving_.route_station - kSearch, driving_.route_station + kSearch});
+    const double steering = SteeringForCurvature(request_.vehicle, start.curvature);
+    const double on_route = SteeringForCurvature(request_.vehicle, path.At(at.s).curvature);
+    if (at.s < 0.0 || at.s > path.length() || std::abs(at.cross_track) > kBackOffset ||
+        std::abs(at.heading_error) > kBackHeading ||
+        std::abs(steering - on_route) > kBackSteering) {
+      return std::nullopt;
+    }
+    Plan rest = RestOf(driving_.route, at.s, start.speed, request_.speed);
+    if (EncounterOf(rest.reference, 0.0)) {
+      return std::nullopt;
+    }
+    rest.diagnostics["replan"] = {{"kind", "back_on_route"}};
+    return Replanned{ReplanKind::kRoute, std::move(rest)};
+  }
+
+  /// The mission's speed, or that of what lies ahead: a slow turn, and the way to slow down to it.
+  [[nodiscard]] double WantedSpeed(double speed) const {
+    constexpr double kSooner = 2.0;  // [s]
+    double wanted = request_.speed.speed;
+    for (const SpeedCap& cap : driving_.route.caps) {
+      const double down = std::max(
+          0.0, (speed * speed - cap.speed * cap.speed) / (2.0 * request_.speed.deceleration));
+      const double reach = driving_.route_station + kSooner * speed + down;
+      if (cap.from <= reach && driving_.route_station <= cap.to) {
+        wanted = std::min(wanted, cap.speed);
+      }
+    }
+    return wanted;
+  }
+
+  [[nodiscard]] AlongPlan Along() const {
+    const MotionState start = Start();
+    constexpr double kSearch = 10.0;  // [m]
+    const auto frenet =
+        ToFrenet(driving_.frame.path, start,
+                 {driving_.route_station - kSearch, driving_.route_station + kSearch});
+    if (!frenet) {
+      return {};
+    }
+    return PlanAlong(driving_.frame,
+                     {.vehicle = request_.vehicle,
+                      .speed = request_.speed,
+                      .wanted = WantedSpeed(start.speed),
+                      .start = *frenet,
+                      .obstacles = request_.obstacles},
+                     options_.settings, *options_.along);
+  }
+
+  Replanned Follow(const AlongPlan& along) {
+    Plan plan = ToPlan(request_.vehicle, along.points, driving_.route.goal);
+    told_["along"] = ToJson(along);
+    told_["kind"] = "motion";
+    plan.diagnostics["replan"] = told_;
+    if (along.kind == AlongKind::kStop) {
+      plan.blocked = "stops behind what stands in the way: no motion leads past it";
+    } else if (!along.to_goal) {
+      plan.blocked = "stops where no way on was found";
+    }
+    return {ReplanKind::kMotion, std::move(plan)};
+  }
+
+  [[nodiscard]] Detour FindDetour() const {
+    DetourRequest request{.vehicle = request_.vehicle,
+                          .speed = request_.speed,
+                          .driven = driving_.plan,
+                          .station = driving_.station,
+                          .station_speed = Start().speed,
+                          .route = driving_.route,
+                          .route_station = driving_.route_station,
+                          .obstacles = {},
+                          .safe_distance = options_.settings.safe_distance,
+                          .wind = request_.wind,
+                          .time = request_.time,
+                          .seed = request_.seed};
+    for (const MovingBox& obstacle : request_.obstacles) {
+      if (Stands(obstacle)) {
+        request.obstacles.push_back(obstacle.box);
+      }
+    }
+    return PlanDetour(request, *options_.detour, options_.comparator.value_or(DetourChoice{}));
+  }
+
+  void Tell(const Detour& detour) {
+    json& out = told_["detour"];
+    out = {{"planner", PlannerFor(*options_.detour).name},
+           {"tried", detour.tried},
+           {"current", ToJson(detour.current)}};
+    if (std::isfinite(detour.best.total)) {
+      out["best"] = ToJson(detour.best);
+    }
+    if (detour.route) {
+      for (const char* key : {"leave_s_m", "return_s_m"}) {
+        out[key] = detour.route->diagnostics[key];
+      }
+    } else {
+      out["why"] = detour.why;
+    }
+  }
+
+  /// Along the plan that is driven, to rest before the place of the encounter: comfortably if that
+  /// is in time, else as hard as it takes, else as hard as the car can.
+  Replanned Brake(const Encounter& encounter) {
+    const MovingBox& obstacle = request_.obstacles[encounter.obstacle];
+    const double speed = std::max(Start().speed, request_.car.speed);
+    const double room = encounter.station - driving_.station - kBrakeRoom;
+    const double braking = Stands(obstacle) ? BrakingWithin(room, speed) : BrakingFor(speed);
+    const double shortest = speed * speed / (2.0 * braking);
+    const bool comfortable = braking <= ComfortableBraking();
+    // What stands leaves time to come near; what moves may be gone or come nearer.
+    const double way = Stands(obstacle) && comfortable ? std::max(shortest, room) : shortest;
+    if (way < kNoWay && LeftToDrive() < kNoWay) {
+      return Keep();  // it ends here anyway
+    }
+    Plan plan = StopAfter(way, speed, comfortable);
+    plan.goal = driving_.route.goal;
+    plan.blocked =
+        fmt::format("stops before the obstacle at {}: no way leads past it", Place(obstacle.box));
+    told_["kind"] = "brake";
+    told_["deceleration_mps2"] = braking;
+    plan.diagnostics["replan"] = told_;
+    return {ReplanKind::kStop, std::move(plan)};
+  }
+
+  /// Hard braking is never more than this; on ice, the comfortable one neither [m/s^2].
+  [[nodiscard]] double HardestBraking() const {
+    return request_.max_deceleration > 0.0 ? request_.max_deceleration
+                                           : request_.speed.deceleration;
+  }
+
+  [[nodiscard]] double ComfortableBraking() const {
+    return std::min(request_.speed.deceleration, HardestBraking());
+  }
+
+  /// The deceleration that comes to rest within `room` from `speed`, no less than the comfortable
+  /// one and no more than the hardest.
+  [[nodiscard]] double BrakingWithin(double room, double speed) const {
+    const double needed = 0.5 * speed * speed / std::max(room, kNoWay);
+    return std::min(std::max(needed, ComfortableBraking()), HardestBraking());
+  }
+
+  /// The mildest braking that keeps clear of everything known, what moves too; else the hardest.
+  [[nodiscard]] double BrakingFor(double speed) const {
+    const double hardest = HardestBraking();
+    constexpr int kSteps = 8;
+    for (int i = 0; i < kSteps; ++i) {
+      const double braking =
+          std::lerp(ComfortableBraking(), hardest, static_cast<double>(i) / kSteps);
+      const Plan plan = StopAfter(0.5 * speed * speed / braking, speed, i == 0);
+      if (!EncounterOf(plan.reference, 0.0)) {
+        return braking;
+      }
+    }
+    return hardest;
+  }
+
+  /// From `speed` beside the car to rest after `way` along the driven plan; or, comfortably, at its
+  /// end if that is nearer.
+  [[nodiscard]] Plan StopAfter(double way, double speed, bool comfortable) const {
+    const Path& path = driving_.plan.reference.path;
+    const double from = driving_.station;
+    const double shortest = 0.5 * speed * speed / ComfortableBraking();
+    double to = from + way;
+    if (comfortable && to > path.length()) {
+      to = std::max(path.length(), from + shortest);
+    }
+    Plan plan;
+    plan.reference.path =
+        Path(path.At(from).pose,
+             to - from < kNoWay ? std::vector<Segment>{} : SegmentsBetween(path, {from, to}));
+    const Path& own = plan.reference.path;
+    // Caps are for a car that drives on; hard braking obeys them anyway or cannot.
+    plan.caps =
+        comfortable ? Moved(driving_.plan.caps, {from, to}, -from) : std::vector<SpeedCap>{};
+    SpeedLimits limits = request_.speed;
+    limits.deceleration = ComfortableBraking();
+    plan.reference.speed = StopAtEnd(own.length(), speed, limits, plan.caps);
+    plan.schedule = own.length() > 0.0
+                        ? CourseSchedule(request_.vehicle, own.segments(),
+                                         std::max(request_.speed.speed, speed), plan.caps)
+                        : SteeringSchedule::Constant(
+                              SteeringForCurvature(request_.vehicle, path.At(from).curvature));
+    plan.schedule_speed = plan.reference.speed;
+    return plan;
+  }
+
+  const ReplanRequest& request_;
+  const Driving& driving_;
+  const ReplanOptions& options_;
+  json told_ = json::object();
+};
+
+}  // namespace
+
+const char* ToString(ReplanKind kind) {
+  switch (kind) {
+    case ReplanKind::kKeep:
+      return "keep";
+    case ReplanKind::kMotion:
+      return "motion";
+    case ReplanKind::kRoute:
+      return "route";
+    case ReplanKind::kStop:
+      return "stop";
+  }
+  return "keep";
+}
+
+std::optional<Encounter> FirstEncounter(const VehicleParams& vehicle, const Reference& reference,
+                                        double station, const std::vector<MovingBox>& obstacles,
+                                        double distance, double look_ahead, double offset) {
+  constexpr double kStep = 0.1;    // [s]
+  constexpr double kTouch = 1e-2;  // [m], what planners may fall short by between their samples
+  // From the station on: times before it may be infinite, if the profile comes to rest there.
+  const SpeedProfile ahead =
+      Excerpt(reference.speed, {station, std::max(station, reference.path.length())});
+  const auto station_at = [&](double time) { return station + ahead.StationAt(time); };
+  const auto too_near = [&](double time, const MovingBox& obstacle) {
+    const OrientedBox outline =
+        OutlineAt(vehicle, Compose(reference.path.At(station_at(time)).pose, {0.0, offset, 0.0}));
+    return Separation(outline, obstacle.At(time)) < distance - kTouch;
+  };
+  const auto steps = static_cast<int>(std::ceil(look_ahead / kStep));
+  for (int i = 0; i <= steps; ++i) {
+    const double time = i * kStep;
+    for (std::size_t j = 0; j < obstacles.size(); ++j) {
+      if (too_near(time, obstacles[j])) {
+        // A tenth of a second is 1.5 m at 15 m/s: where between the looks it began.
+        double clear = i == 0 ? time : time - kStep;
+        double near = time;
+        for (int halving = 0; halving < 10 && i > 0; ++halving) {
+          const double middle = 0.5 * (clear + near);
+          (too_near(middle, obstacles[j]) ? near : clear) = middle;
+        }
+        return Encounter{near, station_at(near), j};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+bool StandsInTurn(const VehicleParams& vehicle, const Path& path, double station,
+                  const OrientedBox& obstacle, double distance) {
+  constexpr double kBent = 1e-3;  // [1/m]
+  const std::vector<Stations> stretches =
+      BlockedStretches(vehicle, path, station, {obstacle}, distance);
+  return std::any_of(stretches.begin(), stretches.end(), [&](const Stations& stretch) {
+    const std::vector<Segment> within = path.Cut(stretch);
+    return std::any_of(within.begin(), within.end(), [&](const Segment& segment) {
+      return std::abs(segment.curvature) > kBent ||
+             std::abs(segment.CurvatureAt(segment.length)) > kBent;
+    });
+  });
+}
+
+Replanned Replan(const ReplanRequest& request, const Driving& driving,
+                 const ReplanOptions& options) {
+  TRACKBED_CHECK((options.along || options.detour) && driving.plan.ok() && driving.route.ok(),
+                 "nothing to plan with, or no plan to begin with");
+  ReplanOptions own = options;
+  own.settings.look_ahead = std::max(
+      own.settings.look_ahead, request.speed.speed / request.speed.deceleration + 2.0 * own.period);
+  return Replanning(request, driving, own).Run();
+}
+
+bool MayClear(const VehicleParams& vehicle, const Path& path, double station,
+              const std::vector<MovingBox>& obstacles, double distance) {
+  constexpr double kAhead = 30.0;   // [m]
+  constexpr double kWithin = 60.0;  // [s]
+  constexpr double kStep = 0.5;     // [m] and [s]
+  for (const MovingBox& obstacle : obstacles) {
+    if (obstacle.velocity == Vec2::Zero()) {
+      continue;
+    }
+    for (double s = station; s <= std::min(station + kAhead, path.length()); s += kStep) {
+      const OrientedBox outline = OutlineAt(vehicle, path.At(s).pose);
+      for (double time = 0.0; time <= kWithin; time += kStep) {
+        if (Separation(outline, obstacle.At(time)) < distance) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace trackbed

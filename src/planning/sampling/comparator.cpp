@@ -1,0 +1,58 @@
+#include "trackbed/planning/sampling/comparator.h"
+
+#include <algorithm>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+/// What is left of a way for a car at `position`, from its nearest point on.
+std::vector<Vec2> Rest(const std::vector<Vec2>& way, const Vec2& position) {
+  std::size_t next = way.size();
+  Vec2 nearest = way.back();
+  double distance = (position - nearest).norm();
+  // The later of two points that are as near: a way is not driven twice.
+  for (std::size_t i = way.size() - 1; i > 0; --i) {
+    const Vec2 along = way[i] - way[i - 1];
+    const double square = along.squaredNorm();
+    const double share =
+        square > 0.0 ? std::clamp((position - way[i - 1]).dot(along) / square, 0.0, 1.0) : 0.0;
+    const Vec2 foot = way[i - 1] + share * along;
+    if ((position - foot).norm() < distance) {
+      distance = (position - foot).norm();
+      nearest = foot;
+      next = i;
+    }
+  }
+  std::vector<Vec2> rest{nearest};
+  rest.insert(rest.end(), way.begin() + static_cast<std::ptrdiff_t>(next), way.end());
+  return rest;
+}
+
+}  // namespace
+
+WayScore ScoreWay(const std::vector<Vec2>& way, const Vec2& position,
+                  const std::vector<OrientedBox>& obstacles, double inflation,
+                  const WindScoring& wind, const ComparatorOptions& options) {
+  TRACKBED_CHECK(!way.empty() && options.collision_penalty >= 0.0 && inflation >= 0.0,
+                 "a way of {} points, penalty {}, inflation {}", way.size(),
+                 options.collision_penalty, inflation);
+  const std::vector<Vec2> rest = Rest(way, position);
+  WayScore score;
+  score.length = (position - rest.front()).norm();
+  for (std::size_t i = 1; i < rest.size(); ++i) {
+    score.length += (rest[i] - rest[i - 1]).norm();
+  }
+  for (std::size_t i = 0; i < rest.size() && !score.collides; ++i) {
+    const Vec2& from = rest[i == 0 ? 0 : i - 1];
+    score.collides = std::any_of(obstacles.begin(), obstacles.end(), [&](const OrientedBox& box) {
+      return Distance(from, rest[i], box) <= inflation;
+    });
+  }
+  score.wind = WindScore(rest, wind);
+  score.total = score.length - score.wind + (score.collides ? options.collision_penalty : 0.0);
+  return score;
+}
+
+}  // namespace trackbed

@@ -1,0 +1,102 @@
+#include "src/planning/sampling/few_corners.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trackbed {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Of a corner that the car cannot drive [m].
+constexpr double kTooTight = 1e6;
+
+bool IsFree(const FewCornersProblem& problem, const Vec2& from, const Vec2& to) {
+  return std::all_of(
+      problem.obstacles.begin(), problem.obstacles.end(),
+      [&](const OrientedBox& box) { return Distance(from, to, box) > problem.inflation; });
+}
+
+/// What the corner at `at` costs. `all_in`, `all_out`: the whole of a leg may be used for it.
+double CornerCost(const FewCornersProblem& problem, const Vec2& from, const Vec2& at,
+                  const Vec2& to, bool all_in, bool all_out) {
+  const Vec2 in = at - from;
+  const Vec2 out = to - at;
+  const double room =
+      std::min(in.norm() * (all_in ? 1.0 : 0.5), out.norm() * (all_out ? 1.0 : 0.5));
+  const double turn = std::abs(std::atan2(Cross(in, out), in.dot(out)));
+  return problem.tangent(turn) > room ? kTooTight : 0.0;
+}
+
+/// The cheapest way whose last line leads from one point to another.
+struct Line {
+  double cost = kInfinity;
+  std::size_t before = 0;  ///< where the line before it begins
+};
+
+}  // namespace
+
+std::vector<Vec2> WithFewCorners(const std::vector<Vec2>& way, const FewCornersProblem& problem) {
+  const std::size_t n = way.size();
+  const bool windy = problem.wind.weight != 0.0 && !IsCalm(problem.wind.wind);
+  std::vector<Line> lines(n * n);
+  for (std::size_t i = 1; i < n; ++i) {
+    const bool ends = problem.last_leg && i + 1 == n;
+    for (std::size_t k = 0; k < i; ++k) {
+      if (k + 1 < i && !IsFree(problem, way[k], way[i])) {
+        continue;
+      }
+      Line best;
+      if (k == 0) {
+        best.cost = problem.before ? CornerCost(problem, *problem.before, way[0], way[i],
+                                                problem.first_leg, ends)
+                                   : 0.0;
+      }
+      for (std::size_t j = 0; j < k; ++j) {
+        const double so_far = lines[j * n + k].cost;
+        if (so_far < best.cost) {
+          const bool begins = problem.first_leg && !problem.before && j == 0;
+          const double cost = so_far + CornerCost(problem, way[j], way[k], way[i], begins, ends);
+          if (cost < best.cost) {
+            best = {cost, j};
+          }
+        }
+      }
+      best.cost += problem.corner_cost + (way[i] - way[k]).norm();
+      if (windy) {
+        best.cost -= WindScore(InPieces({way[k], way[i]}), problem.wind);
+      }
+      lines[k * n + i] = best;
+    }
+  }
+  std::size_t to = n - 1;
+  std::size_t from = 0;
+  for (std::size_t k = 0; k < to; ++k) {
+    from = lines[k * n + to].cost < lines[from * n + to].cost ? k : from;
+  }
+  std::vector<Vec2> few{way[to]};
+  while (to != 0) {
+    few.push_back(way[from]);
+    const std::size_t before = lines[from * n + to].before;
+    to = from;
+    from = before;
+  }
+  std::reverse(few.begin(), few.end());
+  return few;
+}
+
+std::vector<Vec2> InPieces(const std::vector<Vec2>& way) {
+  constexpr double kPiece = 1.0;  // [m]
+  std::vector<Vec2> pieces{way.front()};
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const Vec2 along = way[i] - way[i - 1];
+    const double count = std::max(std::ceil(along.norm() / kPiece), 1.0);
+    for (double k = 1.0; k < count; k += 1.0) {
+      pieces.emplace_back(way[i - 1] + along * (k / count));
+    }
+    pieces.push_back(way[i]);
+  }
+  return pieces;
+}
+
+}  // namespace trackbed

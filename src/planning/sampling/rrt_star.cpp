@@ -1,0 +1,238 @@
+#include "trackbed/planning/sampling/rrt_star.h"
+
+#include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/uniform_01.hpp>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+namespace index = boost::geometry::index;
+using Point = boost::geometry::model::d2::point_xy<double>;
+using Entry = std::pair<Point, std::size_t>;
+
+// A tenth more than 2^(d+1) e (1 + 1/d) in d = 2 dimensions.
+constexpr double kNeighbours = 1.1 * 12.0 * 2.718281828459045;
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+class Tree {
+ public:
+  Tree(const RrtStarProblem& problem, const RrtStarOptions& options, std::uint64_t seed)
+      : problem_(problem), options_(options), random_(seed) {
+    Add(problem.start, 0, 0.0);
+  }
+
+  RrtStarResult Grow() {
+    RrtStarResult result;
+    result.cost = std::numeric_limits<double>::infinity();
+    if (!IsFree(problem_.start, problem_.start)) {
+      result.status = RrtStarStatus::kStartBlocked;
+    } else if (!IsFree(problem_.goal, problem_.goal)) {
+      result.status = RrtStarStatus::kGoalBlocked;
+    } else {
+      while (result.iterations < options_.iterations) {
+        ++result.iterations;
+        Iterate();
+        if (options_.stop && options_.stop()) {
+          break;
+        }
+      }
+    }
+    if (goal_ != kNone) {
+      result.status = RrtStarStatus::kFound;
+      result.cost = nodes_[goal_].cost;
+      for (std::size_t node = goal_; node != 0; node = nodes_[node].parent) {
+        result.path.push_back(nodes_[node].position);
+      }
+      result.path.push_back(problem_.start);
+      std::reverse(result.path.begin(), result.path.end());
+    }
+    result.nodes = std::move(nodes_);
+    return result;
+  }
+
+ private:
+  struct Neighbour {
+    std::size_t node;
+    double distance;
+    double cost;  // of the new node by way of this one
+  };
+
+  double Uniform() { return boost::random::uniform_01<double>()(random_); }
+
+  [[nodiscard]] bool IsFree(const Vec2& from, const Vec2& to) const {
+    return std::all_of(problem_.obstacles.begin(), problem_.obstacles.end(),
+                       [&](const OrientedBox& obstacle) {
+                         return Distance(from, to, obstacle) > problem_.inflation;
+                       });
+  }
+
+  Vec2 Sample() {
+    // Three numbers each time, so that reaching the goal shifts nothing.
+    const double bias = Uniform();
+    const double x = Uniform();
+    const double y = Uniform();
+    if (goal_ == kNone && bias < options_.goal_bias) {
+      return problem_.goal;
+    }
+    return {std::lerp(problem_.low.x(), problem_.high.x(), x),
+            std::lerp(problem_.low.y(), problem_.high.y(), y)};
+  }
+
+  /// The nearest nodes, in no order.
+  void Nearest(const Vec2& p, std::size_t count) {
+    near_.clear();
+    index_.query(index::nearest(Point(p.x(), p.y()), static_cast<unsigned>(count)),
+                 std::back_inserter(near_));
+  }
+
+  void Iterate() {
+    const Vec2 sample = Sample();
+    Nearest(sample, 1);
+    const std::size_t from = near_.front().second;
+    const Vec2 nearest = nodes_[from].position;
+    const Vec2 offset = sample - nearest;
+    const double distance = offset.norm();
+    if (distance == 0.0) {
+      if (goal_ == kNone && sample == problem_.goal) {
+        goal_ = from;  // the start is the goal
+      }
+      return;
+    }
+    const bool reaches = distance <= options_.step;
+    const Vec2 position = reaches ? sample : Vec2(nearest + offset * (options_.step / distance));
+    if (!IsFree(nearest, position)) {
+      return;
+    }
+    const std::size_t node = Join(position, from);
+    if (goal_ == kNone) {
+      if (reaches && sample == problem_.goal) {
+        goal_ = node;
+      } else if ((position - problem_.goal).norm() <= options_.step &&
+                 IsFree(position, problem_.goal)) {
+        goal_ = Join(problem_.goal, node);
+      }
+    }
+  }
+
+  /// Adds a node by way of its cheapest neighbour and leads its neighbours through it. The edge
+  /// to `reached_from` is known to be free.
+  std::size_t Join(const Vec2& position, std::size_t reached_from) {
+    const double count = static_cast<double>(nodes_.size());
+    const double nearest = std::ceil(kNeighbours * std::log(count + 1.0));
+    Nearest(position, static_cast<std::size_t>(nearest));
+    neighbours_.clear();
+    const auto consider = [&](std::size_t node) {
+      const double distance = (nodes_[node].position - position).norm();
+      neighbours_.push_back({node, distance, nodes_[node].cost + distance});
+    };
+    for (const Entry& entry : near_) {
+      if (entry.second != reached_from) {
+        consider(entry.second);
+      }
+    }
+    consider(reached_from);
+    // Cheapest first: the first free edge is the best one, and few have to be looked at.
+    std::sort(neighbours_.begin(), neighbours_.end(), [](const Neighbour& a, const Neighbour& b) {
+      return a.cost < b.cost || (a.cost == b.cost && a.node < b.node);
+    });
+    const Neighbour& parent =
+        *std::find_if(neighbours_.begin(), neighbours_.end(), [&](const Neighbour& other) {
+          return other.node == reached_from || IsFree(nodes_[other.node].position, position);
+        });
+    const std::size_t node = Add(position, parent.node, parent.cost);
+    for (const Neighbour& other : neighbours_) {
+      const double cost = nodes_[node].cost + other.distance;
+      if (cost < nodes_[other.node].cost && IsFree(position, nodes_[other.node].position)) {
+        Rejoin(other.node, node, cost);
+      }
+    }
+    return node;
+  }
+
+  std::size_t Add(const Vec2& position, std::size_t parent, double cost) {
+    const std::size_t node = nodes_.size();
+    nodes_.push_back({position, parent, cost});
+    children_.emplace_back();
+    if (node != parent) {
+      children_[parent].push_back(node);
+    }
+    index_.insert({Point(position.x(), position.y()), node});
+    return node;
+  }
+
+  void Rejoin(std::size_t node, std::size_t parent, double cost) {
+    std::vector<std::size_t>& siblings = children_[nodes_[node].parent];
+    siblings.erase(std::find(siblings.begin(), siblings.end(), node));
+    children_[parent].push_back(node);
+    nodes_[node].parent = parent;
+    nodes_[node].cost = cost;
+    // All that hangs on it became cheaper too.
+    std::vector<std::size_t> open{node};
+    while (!open.empty()) {
+      const std::size_t at = open.back();
+      open.pop_back();
+      for (const std::size_t child : children_[at]) {
+        nodes_[child].cost =
+            nodes_[at].cost + (nodes_[child].position - nodes_[at].position).norm();
+        open.push_back(child);
+      }
+    }
+  }
+
+  const RrtStarProblem& problem_;
+  const RrtStarOptions& options_;
+  boost::random::mt19937_64 random_;
+  std::vector<TreeNode> nodes_;
+  std::vector<std::vector<std::size_t>> children_;
+  index::rtree<Entry, index::linear<16>> index_;
+  std::size_t goal_ = kNone;
+  std::vector<Entry> near_;            // of the last query
+  std::vector<Neighbour> neighbours_;  // of the node that is being joined
+};
+
+bool IsWithin(const RrtStarProblem& problem, const Vec2& p) {
+  return (p.array() >= problem.low.array()).all() && (p.array() <= problem.high.array()).all();
+}
+
+}  // namespace
+
+const char* ToString(RrtStarStatus status) {
+  switch (status) {
+    case RrtStarStatus::kFound:
+      return "found";
+    case RrtStarStatus::kNotReached:
+      return "not_reached";
+    case RrtStarStatus::kStartBlocked:
+      return "start_blocked";
+    case RrtStarStatus::kGoalBlocked:
+      return "goal_blocked";
+  }
+  return "unknown";
+}
+
+RrtStarResult PlanRrtStar(const RrtStarProblem& problem, const RrtStarOptions& options,
+                          std::uint64_t seed) {
+  TRACKBED_CHECK(IsWithin(problem, problem.start) && IsWithin(problem, problem.goal),
+                 "start ({}, {}) or goal ({}, {}) outside the box", problem.start.x(),
+                 problem.start.y(), problem.goal.x(), problem.goal.y());
+  TRACKBED_CHECK(options.iterations >= 0 && options.step >= 0.0 && options.goal_bias >= 0.0 &&
+                     options.goal_bias <= 1.0 && problem.inflation >= 0.0,
+                 "iterations {}, step {}, goal bias {}, inflation {}", options.iterations,
+                 options.step, options.goal_bias, problem.inflation);
+  RrtStarOptions filled = options;
+  if (options.step == 0.0) {
+    filled.step = 0.2 * (problem.high - problem.low).norm();
+  }
+  return Tree(problem, filled, seed).Grow();
+}
+
+}  // namespace trackbed

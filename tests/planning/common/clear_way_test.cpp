@@ -1,0 +1,72 @@
+#include "trackbed/planning/common/clear_way.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/planning/poses.h"
+#include "tests/tolerance.h"
+#include "tests/vehicle/seed_car.h"
+#include "trackbed/world/world.h"
+
+namespace trackbed {
+namespace {
+
+std::vector<OrientedBox> RandomBoxes(Random& random, int count, double reach) {
+  std::vector<OrientedBox> boxes;
+  for (int i = 0; i < count; ++i) {
+    boxes.push_back(
+        {RandomPose(random, reach), random.Uniform(0.3, 6.0), random.Uniform(0.3, 6.0)});
+  }
+  return boxes;
+}
+
+TEST(ClearWay, TellsTheRoomOfEveryPose) {
+  Random random(1);
+  const std::vector<OrientedBox> boxes = RandomBoxes(random, 30, 60.0);
+  const ClearWay clear(SeedCar(), boxes, 0.4);
+  for (int i = 0; i < 5000; ++i) {
+    const Pose2 pose = RandomPose(random, 80.0);
+    double nearest = ClearWay::kFarthest;
+    for (const OrientedBox& box : boxes) {
+      nearest = std::min(nearest, Separation(OutlineAt(SeedCar(), pose), box) - 0.4);
+    }
+    ASSERT_NEAR(clear.RoomAt(pose), nearest, Tolerance(1e-12));
+  }
+}
+
+TEST(ClearWay, FindsTheFirstPlaceThatIsTooNear) {
+  Random random(2);
+  int blocked_ones = 0;
+  for (int i = 0; i < 200; ++i) {
+    const ClearWay clear(SeedCar(), RandomBoxes(random, 6, 25.0), 0.2);
+    const Path path(RandomPose(random, 10.0), {{.length = random.Uniform(1.0, 20.0),
+                                                .curvature = random.Uniform(-0.19, 0.19),
+                                                .direction = i % 2 == 0 ? 1 : -1},
+                                               {.length = 10.0}});
+    const std::optional<double> blocked = clear.FirstBlocked(path);
+    blocked_ones += blocked ? 1 : 0;
+    // Half a step of 2 cm, times what the farthest corner moves per metre: 1 + 0.2 3.7 = 1.75.
+    const double missed = 0.01 * 1.75;
+    const double end = blocked ? *blocked - 0.02 : path.length();
+    for (double s = 0.0; s < end; s += 0.005) {
+      ASSERT_GE(clear.RoomAt(path.At(s).pose), -Tolerance(missed)) << s << " of " << end;
+    }
+    if (blocked) {
+      EXPECT_LT(clear.RoomAt(path.At(*blocked).pose), 0.0);
+    }
+    const Segment& first = path.segments().front();
+    EXPECT_EQ(clear.IsFree(path.At(0.0).pose, first), !blocked || *blocked > first.length);
+  }
+  EXPECT_GT(blocked_ones, 50);
+  EXPECT_LT(blocked_ones, 190);
+}
+
+TEST(ClearWay, IsFreeWithoutBoxes) {
+  const ClearWay clear(SeedCar(), {}, 0.5);
+  EXPECT_EQ(clear.RoomAt({}), ClearWay::kFarthest);
+  EXPECT_FALSE(clear.FirstBlocked(Path({}, {{.length = 100.0}})));
+}
+
+}  // namespace
+}  // namespace trackbed

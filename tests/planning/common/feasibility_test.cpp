@@ -1,0 +1,194 @@
+#include "trackbed/planning/common/feasibility.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/tolerance.h"
+#include "tests/vehicle/seed_car.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/course/course.h"
+#include "trackbed/planning/fillet/fillet.h"
+#include "trackbed/planning/registry/planners.h"
+
+namespace trackbed {
+namespace {
+
+/// With the limits of a car on tyres of friction 0.9.
+VehicleParams Car() {
+  VehicleParams car = SeedCar();
+  car.friction_lateral = 0.9;
+  car.friction_longitudinal = 0.9;
+  car.max_deceleration = 0.9 * 9.81;
+  car.max_acceleration = 4.0;
+  car.top_speed = 50.0;
+  return car;
+}
+
+PlanRequest Request(double speed, const std::vector<Vec2>& waypoints) {
+  const Vec2 leg = waypoints.size() > 1 ? Vec2(waypoints[1] - waypoints[0]) : Vec2(1.0, 0.0);
+  return {.vehicle = Car(),
+          .waypoints = waypoints,
+          .start = {waypoints[0].x(), waypoints[0].y(), std::atan2(leg.y(), leg.x())},
+          .start_speed = speed,
+          .speed = {.speed = speed, .acceleration = 1.0, .deceleration = 1.5}};
+}
+
+/// A course, as given.
+Plan Course(const PlanRequest& request, const std::vector<CoursePiece>& pieces) {
+  return MakePlan(request, CourseOptions{.segments = pieces});
+}
+
+std::vector<std::string> Kinds(const Plan& plan, const PlanRequest& request) {
+  std::vector<std::string> kinds;
+  for (const Excess& excess : ExcessesOf(plan, request)) {
+    kinds.push_back(excess.what);
+  }
+  return kinds;
+}
+
+TEST(Feasibility, SlowsACurveDownToWhatTheTyresHold) {
+  // v^2/r = mu g: 0.9 * 9.81 * 20 m gives 13.29 m/s. It is reached by a ramp long enough for the
+  // wheels at any speed.
+  PlanRequest request = Request(18.0, {{0.0, 0.0}});
+  const std::vector<CoursePiece> pieces{{.length = 200.0, .curvature = 0.0},
+                                        {.length = 60.0, .curvature_to = 0.05},
+                                        {.length = 30.0, .curvature = 0.05},
+                                        {.length = 60.0, .curvature_to = 0.0},
+                                        {.length = 200.0, .curvature = 0.0}};
+  const Plan plan = Course(request, pieces);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_EQ(plan.notes.size(), 1U);
+  const double limit = std::sqrt(0.9 * 9.81 * 20.0);
+  EXPECT_NEAR(plan.reference.speed.SpeedAt(275.0), limit, Tolerance(1e-9));
+  EXPECT_TRUE(ExcessesOf(plan, request).empty());
+  // On half the friction, by 1/sqrt(2).
+  request.friction = 0.5;
+  const Plan wet = Course(request, pieces);
+  ASSERT_TRUE(wet.ok()) << wet.reason;
+  EXPECT_NEAR(wet.reference.speed.SpeedAt(275.0), limit * std::sqrt(0.5), Tolerance(1e-9));
+}
+
+TEST(Feasibility, RefusesOrAllowsAsTheScenarioSays) {
+  PlanRequest request = Request(18.0, {{0.0, 0.0}});
+  const std::vector<CoursePiece> pieces{{.length = 200.0, .curvature = 0.0},
+                                        {.length = 60.0, .curvature_to = 0.05},
+                                        {.length = 200.0, .curvature = 0.05}};
+  request.infeasible = InfeasiblePolicy::kRefuse;
+  const Plan refused = Course(request, pieces);
+  EXPECT_EQ(refused.status, PlanStatus::kInfeasible);
+  // 18^2/20 = 16.2 m/s^2 of 0.9 * 9.81 = 8.83.
+  EXPECT_NE(refused.reason.find("lateral acceleration of 16.2 m/s^2"), std::string::npos)
+      << refused.reason;
+  EXPECT_NE(refused.reason.find("(limit 8.83 m/s^2)"), std::string::npos) << refused.reason;
+  request.infeasible = InfeasiblePolicy::kAllow;
+  const Plan allowed = Course(request, pieces);
+  ASSERT_TRUE(allowed.ok());
+  ASSERT_EQ(allowed.notes.size(), 1U);
+  EXPECT_EQ(allowed.notes[0].find("driven although it has a lateral acceleration"), 0U)
+      << allowed.notes[0];
+}
+
+TEST(Feasibility, SlowsDownWhereTheWheelsTurnTooSlowly) {
+  // atan(2.7 * 0.1) = 0.2637 rad within 2 m: 0.1506/(0.2637/2) = 1.14 m/s where the slope is that
+  // of a chord; atan bends by less than 3 % of it.
+  const PlanRequest request = Request(4.0, {{0.0, 0.0}});
+  const Plan plan = Course(request, {{.length = 20.0, .curvature = 0.0},
+                                     {.length = 2.0, .curvature_to = 0.1},
+                                     {.length = 20.0, .curvature = 0.1}});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_NEAR(plan.reference.speed.SpeedAt(21.0),
+              request.vehicle.steering_rate * 2.0 / std::atan(0.27), 0.03 * 1.14);
+  EXPECT_TRUE(ExcessesOf(plan, request).empty());
+}
+
+TEST(Feasibility, RefusesAStartOnABendForACarThatRolls) {
+  PlanRequest request = Request(3.0, {{0.0, 0.0}});
+  const std::vector<CoursePiece> bend{{.length = 20.0, .curvature = 0.1}};
+  EXPECT_EQ(Course(request, bend).status, PlanStatus::kInfeasible);
+  request.start_steering = std::atan(0.27);  // its wheels stand right
+  EXPECT_TRUE(Course(request, bend).ok());
+  request.start_steering = 0.0;
+  request.start_speed = 0.0;  // it turns them before it leaves
+  EXPECT_TRUE(Course(request, bend).ok());
+}
+
+TEST(Feasibility, RefusesAPathThatBeginsElsewhere) {
+  PlanRequest request = Request(3.0, {{0.0, 0.0}, {40.0, 0.0}, {40.0, 40.0}});
+  request.start.x = -20.0;
+  const Plan plan = MakePlan(request, FilletOptions{});
+  EXPECT_EQ(plan.status, PlanStatus::kInfeasible);
+  EXPECT_NE(plan.reason.find("a gap between the car and the start of the path of 20 m"),
+            std::string::npos)
+      << plan.reason;
+}
+
+TEST(Feasibility, RefusesToBrakeHarderThanTheSpeedControlDoes) {
+  // From 8 m/s to rest within 10 m: 3.2 m/s^2, and the speed control gives 2 * 1.5.
+  PlanRequest request = Request(8.0, {{0.0, 0.0}});
+  const Plan plan = Course(request, {{.length = 10.0, .curvature = 0.0}});
+  EXPECT_EQ(plan.status, PlanStatus::kInfeasible);
+  EXPECT_NE(plan.reason.find("deceleration of 3.2 m/s^2"), std::string::npos) << plan.reason;
+  EXPECT_TRUE(Course(request, {{.length = 11.0, .curvature = 0.0}}).ok());
+}
+
+TEST(Feasibility, BrakesGentlyOnIce) {
+  PlanRequest request = Request(5.0, {{0.0, 0.0}});
+  request.friction = 0.1;  // 0.883 m/s^2
+  const Plan plan = Course(request, {{.length = 60.0, .curvature = 0.0}});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const auto& knots = plan.reference.speed.knots();
+  for (std::size_t i = 1; i < knots.size(); ++i) {
+    const double change =
+        (knots[i].speed * knots[i].speed - knots[i - 1].speed * knots[i - 1].speed) /
+        (2.0 * (knots[i].s - knots[i - 1].s));
+    EXPECT_GE(change, -0.9 * 9.81 * 0.1);
+  }
+}
+
+/// Random missions of every planner that leads through waypoints: a plan that is ok begins where
+/// and as the car is, whatever its heading, speed and wheels.
+TEST(Feasibility, EveryPlanThatIsOkBeginsAsTheCarDoes) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  int planned = 0;
+  for (const PlannerEntry& planner : Planners()) {
+    if (planner.min_waypoints == 0) {
+      continue;
+    }
+    for (int i = 0; i < 25; ++i) {
+      PlanRequest request = Request(1.0 + 3.0 * std::abs(unit(random)),
+                                    {{0.0, 0.0},
+                                     {20.0 + 15.0 * unit(random), 20.0 * unit(random)},
+                                     {45.0 + 10.0 * unit(random), 30.0 * unit(random)}});
+      request.start.yaw += i % 2 == 0 ? 0.0 : kPi * unit(random);
+      request.start_speed = i % 3 == 0 ? 0.0 : request.speed.speed;
+      request.start_steering = i % 5 == 0 ? 0.2 * unit(random) : 0.0;
+      if (planner.has_headings) {
+        request.headings = {request.start.yaw, kPi * unit(random), kPi * unit(random)};
+      }
+      const Plan plan = MakePlan(request, planner.defaults);
+      if (!plan.ok()) {
+        EXPECT_FALSE(plan.reason.empty());
+        continue;
+      }
+      ++planned;
+      SCOPED_TRACE(std::string(planner.name) + " " + std::to_string(i));
+      const PathPoint first = plan.reference.path.At(0.0);
+      EXPECT_LE((first.pose.position() - request.start.position()).norm(), 1e-3);
+      EXPECT_LE(std::abs(AngleDifference(first.pose.yaw, request.start.yaw)), 1e-3);
+      EXPECT_NEAR(plan.reference.speed.SpeedAt(0.0), request.start_speed, Tolerance(1e-9));
+      if (request.start_speed > 0.0) {
+        EXPECT_NEAR(std::atan(2.7 * first.curvature), request.start_steering, 0.01);
+      }
+      EXPECT_TRUE(Kinds(plan, request).empty()) << Kinds(plan, request).front();
+    }
+  }
+  EXPECT_GT(planned, 60);  // and not all are refused
+}
+
+}  // namespace
+}  // namespace trackbed

@@ -1,0 +1,143 @@
+#include "trackbed/planning/course/lane_change.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/tolerance.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/registry/planners.h"
+
+namespace trackbed {
+namespace {
+
+constexpr double kRounding = 1e-9;
+
+VehicleParams Car() {
+  VehicleParams car;
+  car.wheelbase = 2.5;
+  car.length = 4.5;
+  car.width = 1.6;
+  car.rear_overhang = 1.0;
+  car.steering_limit = 0.6;
+  car.steering_rate = 0.4;
+  return car;
+}
+
+TEST(LaneChangeGates, AreThoseOfPart1) {
+  const auto gates = LaneChangeGates(LaneChangeStandard::kIso3888_1, Side::kLeft, 1.6, {});
+  ASSERT_EQ(gates.size(), 3U);
+  // 1.1, 1.2 and 1.3 of 1.6 m, and 0.25 m.
+  const std::vector<double> widths{2.01, 2.17, 2.33};
+  const std::vector<double> begins{0.0, 45.0, 95.0};
+  const std::vector<double> lengths{15.0, 25.0, 30.0};
+  const std::vector<double> right_edges{0.0, 3.5, 0.0};  // from that of section 1
+  for (std::size_t i = 0; i < 3; ++i) {
+    const OrientedBox& lane = gates[i].lane;
+    EXPECT_EQ(gates[i].section, static_cast<int>(2 * i + 1));
+    EXPECT_NEAR(lane.width, widths[i], Tolerance(kRounding));
+    EXPECT_NEAR(lane.length, lengths[i], Tolerance(kRounding));
+    EXPECT_NEAR(lane.centre.x - 0.5 * lane.length, begins[i], Tolerance(kRounding));
+    EXPECT_NEAR(lane.centre.y - 0.5 * lane.width, right_edges[i] - 0.5 * 2.01,
+                Tolerance(kRounding));
+  }
+}
+
+TEST(LaneChangeGates, AreThoseOfPart2Mirrored) {
+  const Pose2 start{3.0, 4.0, 0.5};
+  const auto gates = LaneChangeGates(LaneChangeStandard::kIso3888_2, Side::kRight, 1.6, start);
+  const std::vector<double> widths{2.01, 2.6, 3.0};
+  const std::vector<double> begins{0.0, 25.5, 49.0};
+  const std::vector<double> lengths{12.0, 11.0, 12.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const OrientedBox& lane = gates[i].lane;
+    const Vec2 middle = ToLocal(start, lane.centre.position());
+    EXPECT_EQ(lane.centre.yaw, 0.5);
+    EXPECT_NEAR(lane.width, widths[i], Tolerance(kRounding));
+    EXPECT_NEAR(lane.length, lengths[i], Tolerance(kRounding));
+    EXPECT_NEAR(middle.x() - 0.5 * lane.length, begins[i], Tolerance(kRounding));
+    // Section 3 a metre right of section 1's right edge; 1 and 5 share their left one.
+    const double left = middle.y() + 0.5 * lane.width;
+    EXPECT_NEAR(left, i == 1 ? -0.5 * 2.01 - 1.0 : 0.5 * 2.01, Tolerance(kRounding));
+  }
+}
+
+TEST(LaneChangeGates, HaveConesOutsideTheirEdges) {
+  const Gate gate{3, {{10.0, 2.0, 0.5 * kPi}, 12.0, 3.0}};
+  const std::vector<Vec2> cones = ConesOf(gate);
+  ASSERT_EQ(cones.size(), 10U);
+  // Along y from -4 to 8, 1.5 m and half a cone to either side.
+  EXPECT_NEAR(cones[0].x(), 10.0 - 1.65, Tolerance(kRounding));
+  EXPECT_NEAR(cones[0].y(), -4.0, Tolerance(kRounding));
+  EXPECT_NEAR(cones[9].x(), 10.0 + 1.65, Tolerance(kRounding));
+  EXPECT_NEAR(cones[9].y(), 8.0, Tolerance(kRounding));
+}
+
+TEST(LaneChangePlan, LeadsThroughTheMiddlesOnACurveWithoutJumps) {
+  const Pose2 start{3.0, 4.0, 0.5};
+  for (const LaneChangeStandard standard :
+       {LaneChangeStandard::kIso3888_1, LaneChangeStandard::kIso3888_2}) {
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      PlanRequest request;
+      request.vehicle = Car();
+      request.start = start;
+      request.start_speed = 12.0;
+      request.infeasible = InfeasiblePolicy::kAllow;  // for its shape alone
+      request.speed = {12.0, 1.0, 1.5};
+      const Plan plan = MakePlan(
+          request,
+          LaneChangePlannerOptions{.standard = standard, .first = side, .leave = 1.0, .join = 2.0});
+      ASSERT_TRUE(plan.ok());
+      ASSERT_EQ(plan.gates.size(), 3U);
+      const Path& path = plan.reference.path;
+      double last = 0.0;
+      for (const Gate& gate : plan.gates) {
+        const Vec2 centre = gate.lane.centre.position();
+        const Projection at = path.Project({centre.x(), centre.y(), start.yaw});
+        // SegmentsThrough: below 1e-6 m over such bends.
+        EXPECT_NEAR(at.cross_track, 0.0, Tolerance(1e-5));
+        EXPECT_NEAR(at.heading_error, 0.0, Tolerance(1e-6));
+        EXPECT_GT(at.s, last);
+        last = at.s;
+      }
+      // The first change: 30 + 3 m or 13.5 + 3 m long.
+      const bool part_1 = standard == LaneChangeStandard::kIso3888_1;
+      const double length = part_1 ? 33.0 : 16.5;
+      const double offset = std::abs(ToLocal(start, plan.gates[1].lane.centre.position()).y());
+      double most = 0.0;
+      for (double s = 0.0; s < 75.0; s += 0.01) {
+        most = std::max(most, std::abs(path.At(s).curvature));
+      }
+      const double bound = 10.0 / std::sqrt(3.0) * offset / (length * length);
+      EXPECT_LE(most, bound);
+      EXPECT_GE(most, 0.6 * bound);  // less than the graph's second derivative where it is steep
+      // Arcs of at most 0.1 m; dkappa/ds is at most 60 h/length^3, at the ends. The second change
+      // is the shorter one, and goes back by no more.
+      const double steepest = 60.0 * offset / std::pow(part_1 ? 28.0 : 15.5, 3);
+      double curvature = 0.0;
+      for (const Segment& segment : path.segments()) {
+        EXPECT_LE(std::abs(segment.curvature - curvature), 0.1 * steepest);
+        EXPECT_TRUE(segment.curvature == 0.0 || segment.length < 0.1) << segment.length;
+        curvature = segment.curvature;
+      }
+      // 12 m/s at 1.5 m/s^2.
+      EXPECT_NEAR(plan.reference.speed.SpeedAt(path.length() - 48.0), 12.0, Tolerance(1e-6));
+      EXPECT_EQ(plan.reference.speed.SpeedAt(path.length()), 0.0);
+      EXPECT_EQ(plan.diagnostics["gates"].size(), 3U);
+    }
+  }
+}
+
+TEST(GateMargins, SeeConesThatStandBetweenPoses) {
+  const std::vector<Gate> gates{{1, {{0.0, 0.0, 0.0}, 0.5, 3.0}}};
+  // A gate shorter than the way between two poses; the car drifts to the left: 0.1 m each 1 m.
+  const std::vector<Pose2> poses{
+      {-6.0, 0.0, 0.0}, {-3.0, 0.3, 0.0}, {0.0, 0.6, 0.0}, {3.0, 0.9, 0.0}};
+  // The rear left corner, 1 m behind, leaves last: at x = 0.25 the car is at 1.25 m, 0.725 m left.
+  EXPECT_NEAR(GateMargins(gates, Car(), poses)[0], 1.5 - 0.8 - 0.725, Tolerance(kRounding));
+  EXPECT_TRUE(std::isinf(GateMargins(gates, Car(), {{20.0, 0.0, 0.0}})[0]));
+}
+
+}  // namespace
+}  // namespace trackbed

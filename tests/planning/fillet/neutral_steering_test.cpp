@@ -1,0 +1,204 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/geometry/random.h"
+#include "tests/planning/routes.h"
+#include "tests/tolerance.h"
+#include "tests/vehicle/seed_car.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/fillet/fillet.h"
+#include "trackbed/planning/registry/planners.h"
+
+// Fillets for a car whose wheels stand at d_0 between its turns.
+namespace trackbed {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kSpeed = 3.0;
+constexpr double kRate = 2.65 / 17.6;  // [rad/s]
+constexpr double kWheelbase = 2.7;     // [m]
+
+// Distances up to 200 m pass through some ten operations, each rounding by 200 * 2^-53 = 2.2e-14.
+constexpr double kRounding = 1e-12;
+
+FilletOptions Neutral(double steering) {
+  FilletOptions options;
+  options.neutral_steering = steering;
+  return options;
+}
+
+PlanRequest Request(const std::vector<Vec2>& waypoints) {
+  PlanRequest request;
+  request.vehicle = SeedCar();
+  request.waypoints = waypoints;
+  request.start_speed = kSpeed;
+  request.speed = {.speed = kSpeed, .acceleration = 1.0, .deceleration = 1.5};
+  return request;
+}
+
+TEST(NeutralSteering, RampsTakeTheTravelFromItAndBack) {
+  for (const double neutral : {0.02, -0.02}) {
+    const FilletPlan plan = PlanFillets(SeedCar(), RouteA(), kSpeed, Neutral(neutral));
+    ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
+    ASSERT_EQ(plan.turns.size(), 3U);
+    EXPECT_EQ(plan.schedule.At(0.0), neutral);
+    for (const FilletTurn& turn : plan.turns) {
+      const double side = turn.heading_change > 0.0 ? 1.0 : -1.0;
+      const double steering = side * std::atan(kWheelbase / turn.radius);
+      const double time = std::abs(steering - neutral) / kRate;
+      EXPECT_NEAR(turn.steering, steering, Tolerance(kRounding));
+      EXPECT_NEAR(turn.ramp_time, time, Tolerance(kRounding));
+      // Centred on the tangent point: so far before it as after it.
+      EXPECT_NEAR(turn.steer_start, turn.arc_start_s - 0.5 * kSpeed * time, Tolerance(kRounding));
+      EXPECT_NEAR(plan.schedule.At(turn.steer_start), neutral, Tolerance(kRounding));
+      EXPECT_NEAR(plan.schedule.At(turn.arc_start_s), 0.5 * (steering + neutral),
+                  Tolerance(kRounding));
+      EXPECT_NEAR(plan.schedule.At(turn.steer_return), steering, Tolerance(kRounding));
+      EXPECT_NEAR(plan.schedule.At(turn.steer_return + kSpeed * time), neutral,
+                  Tolerance(kRounding));
+    }
+  }
+}
+
+TEST(NeutralSteering, LeavesTheRoomThatItsOwnRampsNeed) {
+  // Legs of 40 m, all turns alike but for their side: C.40 with |delta - d_0| is 20 m = K + S.
+  const FilletPlan plan = PlanFillets(SeedCar(), RouteA(), kSpeed, Neutral(0.02));
+  ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
+  for (const FilletTurn& turn : plan.turns) {
+    EXPECT_EQ(turn.active, ActiveConstraint::kSteeringRoom);
+    EXPECT_NEAR(turn.tangent_length + turn.ramp_distance, 20.0, Tolerance(kRounding));
+  }
+  // A turn away from where the wheels stand has the longer ramp, and so the smaller radius.
+  EXPECT_LT(plan.turns[1].radius, plan.turns[0].radius);
+}
+
+TEST(NeutralSteering, RadiiAgreeWithADenseScan) {
+  Random random(20240607);
+  int intervals = 0;
+  int beyond = 0;  // intervals that reach past the circle of d_0
+  for (int i = 0; i < 400; ++i) {
+    const double angle = Radians(random.Uniform(20.0, 178.0));
+    const double leg = random.Uniform(3.0, 60.0);
+    const double speed = random.Uniform(0.5, 5.0);
+    const double neutral = random.Uniform(-0.3, 0.3);
+    SCOPED_TRACE(
+        fmt::format("case {}: phi = {}, q = {}, v = {}, d_0 = {}", i, angle, leg, speed, neutral));
+    const RadiusInterval bounds{5.1, 154.0};
+    const auto g = [&](double r) {
+      return r / std::tan(angle / 2.0) +
+             speed * std::abs(std::atan(kWheelbase / r) - neutral) / kRate - leg / 2.0;
+    };
+    const auto radii = SteeringRoomRadii(SeedCar(), speed, angle, leg, bounds, neutral);
+    constexpr int kPoints = 4000;
+    for (int j = 0; j <= kPoints; ++j) {
+      const double r = bounds.low * std::pow(bounds.high / bounds.low, j / double{kPoints});
+      // Both sides of g are below 1000 m: within 1e-11 of zero rounding decides.
+      if (radii && r >= radii->low && r <= radii->high) {
+        ASSERT_LE(g(r), 1e-11) << "r = " << r;
+      } else {
+        ASSERT_GE(g(r), -1e-11) << "r = " << r;
+      }
+    }
+    if (radii) {
+      ++intervals;
+      beyond += neutral > 0.0 && radii->high > kWheelbase / std::tan(neutral) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(intervals, 100);
+  EXPECT_LT(intervals, 350);
+  EXPECT_GT(beyond, 10);
+}
+
+TEST(NeutralSteering, MirroredRouteAndAngleGiveTheMirroredPlan) {
+  std::vector<Vec2> mirrored = RouteB();
+  for (Vec2& w : mirrored) {
+    w.y() = -w.y();
+  }
+  const FilletPlan a = PlanFillets(SeedCar(), RouteB(), kSpeed, Neutral(0.03));
+  const FilletPlan b = PlanFillets(SeedCar(), mirrored, kSpeed, Neutral(-0.03));
+  ASSERT_EQ(a.status, PlanStatus::kOk) << a.reason;
+  ASSERT_EQ(b.status, PlanStatus::kOk) << b.reason;
+  for (std::size_t k = 0; k < a.turns.size(); ++k) {
+    EXPECT_NEAR(a.turns[k].radius, b.turns[k].radius, Tolerance(kRounding));
+    EXPECT_NEAR(a.turns[k].steer_start, b.turns[k].steer_start, Tolerance(kRounding));
+  }
+  EXPECT_NEAR(a.verification.goal_heading, -b.verification.goal_heading, Tolerance(kRounding));
+  EXPECT_NEAR(a.verification.deviation_max, b.verification.deviation_max, Tolerance(kRounding));
+}
+
+TEST(NeutralSteering, PredictionOfAStraightRouteIsTheCircleThatTheWheelsDrive) {
+  const std::vector<Vec2> straight{{0, 0}, {20, 0}, {40, 0}};
+  const FilletPlan plan = PlanFillets(SeedCar(), straight, kSpeed, Neutral(0.05));
+  ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
+  const double curvature = std::tan(0.05) / kWheelbase;
+  const double yaw = 40.0 * curvature;
+  const Vec2 end(std::sin(yaw) / curvature, (1.0 - std::cos(yaw)) / curvature);
+  // On constant steering the roll-out is Simpson's rule in steps of 0.5 m: its position's error is
+  // (0.5 kappa)^4/2880 of the 40 m, 1e-10 m.
+  EXPECT_NEAR(plan.verification.goal_distance, (end - straight.back()).norm(), Tolerance(1e-9));
+  EXPECT_NEAR(plan.verification.goal_heading, yaw, Tolerance(kRounding));
+}
+
+TEST(NeutralSteering, PredictedHeadingIsTheIntegralOverRampsAndHolds) {
+  // psi = int tan(delta)/L ds: kappa_0 off the turn, (ln cos d_0 - ln cos delta)/(L m) on a ramp of
+  // the slope m, the arc's curvature on the hold.
+  const std::vector<Vec2> route{{0, 0}, {40, 0}, {40, 40}};
+  for (const double neutral : {0.01, -0.03}) {
+    const FilletPlan plan = PlanFillets(SeedCar(), route, kSpeed, Neutral(neutral));
+    ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
+    const double delta = std::atan(kWheelbase / plan.turns[0].radius);
+    const double slope = kRate / kSpeed;
+    const double ramp = (delta - neutral) / slope;
+    const double on_ramp =
+        (std::log(std::cos(neutral)) - std::log(std::cos(delta))) / (kWheelbase * slope);
+    const double arc = plan.turns[0].radius * kPi / 2.0;
+    const double yaw = 2.0 * on_ramp + (arc - ramp) / plan.turns[0].radius +
+                       (plan.path.length() - arc - ramp) * std::tan(neutral) / kWheelbase;
+    // Fourth order: h^4 |psi'''''| S/2880 < 1e-6 rad for h = 0.5 m.
+    EXPECT_NEAR(plan.verification.goal_heading, yaw - kPi / 2.0, Tolerance(1e-6)) << neutral;
+  }
+}
+
+TEST(NeutralSteering, FindingsTellIt) {
+  const Plan plan = MakePlan(Request(RouteA()), Neutral(0.02));
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_EQ(plan.diagnostics.at("neutral_steering_rad"), 0.02);
+  EXPECT_EQ(plan.diagnostics.at("neutral_curvature_radpm"), CurvatureForSteering(SeedCar(), 0.02));
+  // 0.02 rad over the 17 m before the first turn alone are 0.12 rad and more than a metre.
+  EXPECT_GT(plan.diagnostics.at("open_loop").at("deviation_max_m"), 1.0);
+  // What a turn must cost is reckoned from straight wheels.
+  EXPECT_TRUE(plan.turns.empty());
+  EXPECT_FALSE(plan.diagnostics.at("turns").at(0).contains("predicted"));
+
+  const Plan straight = MakePlan(Request(RouteA()), FilletOptions{});
+  EXPECT_FALSE(straight.diagnostics.contains("neutral_steering_rad"));
+}
+
+TEST(NeutralSteering, BeyondTheCarsLimitThereIsNoPlan) {
+  const FilletPlan plan = PlanFillets(SeedCar(), RouteA(), kSpeed, Neutral(-0.5));
+  EXPECT_EQ(plan.status, PlanStatus::kTurnTooTight);
+  EXPECT_THAT(plan.reason, HasSubstr("between turns the wheels would stand at -0.5 rad; the car "
+                                     "can steer 0.4869 rad"));
+}
+
+TEST(NeutralSteering, EveryObjectivePlansWithIt) {
+  for (const RadiusObjective objective : {RadiusObjective::kLargest, RadiusObjective::kLiteral,
+                                          RadiusObjective::kTurnLocal, RadiusObjective::kDriven}) {
+    FilletOptions options = Neutral(0.002);
+    options.objective = objective;
+    options.search.method = SearchMethod::kDirect;
+    const FilletPlan plan = PlanFillets(SeedCar(), RouteB(), kSpeed, options);
+    ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
+    EXPECT_EQ(plan.schedule.At(0.0), 0.002);
+    EXPECT_EQ(plan.schedule.knots().back().steering, 0.002);
+  }
+}
+
+}  // namespace
+}  // namespace trackbed

@@ -1,0 +1,331 @@
+
+#include "trackbed/planning/common/planner.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/planning/print_planner.h"
+#include "tests/planning/routes.h"
+#include "tests/tolerance.h"
+#include "tests/vehicle/seed_car.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/course/course.h"
+#include "trackbed/planning/fillet/fillet.h"
+#include "trackbed/planning/registry/planners.h"
+
+namespace trackbed {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAre;
+
+PlanRequest Request(std::vector<Vec2> waypoints) {
+  PlanRequest request;
+  request.vehicle = SeedCar();
+  request.waypoints = std::move(waypoints);
+  const Vec2 leg = request.waypoints[1] - request.waypoints[0];
+  request.start = {request.waypoints[0].x(), request.waypoints[0].y(),
+                   std::atan2(leg.y(), leg.x())};
+  request.start_speed = 0.0;
+  request.speed = {.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
+  return request;
+}
+
+// --- What every planner of the table owes its caller ---------------------------------------------
+
+/// The defaults, and a course for the one that cannot do without.
+PlannerOptions OptionsOf(const PlannerEntry& entry) {
+  PlannerOptions options = entry.defaults;
+  if (auto* course = options.As<CourseOptions>()) {
+    course->segments = {{.length = 10.0, .curvature = 0.0},
+                        {.length = 5.0, .curvature_to = 0.05},
+                        {.length = 12.0, .curvature = 0.05},
+                        {.length = 8.0, .curvature = -0.1}};
+  }
+  return options;
+}
+
+class EveryPlanner : public ::testing::TestWithParam<PlannerEntry> {};
+
+TEST_P(EveryPlanner, IsNamedByItsOptions) {
+  EXPECT_STREQ(PlannerFor(GetParam().defaults).name, GetParam().name);
+  EXPECT_FALSE(std::string(GetParam().summary).empty());
+}
+
+TEST_P(EveryPlanner, NeedsItsFewestWaypointsAndNoMore) {
+  const std::size_t fewest = FewestWaypoints(GetParam().defaults);
+  EXPECT_EQ(fewest, GetParam().min_waypoints);
+  std::vector<Vec2> route = RouteA();
+  ASSERT_GE(route.size(), fewest);
+  route.resize(fewest);
+  PlanRequest request = Request(RouteA());
+  request.waypoints = route;
+  EXPECT_TRUE(MakePlan(request, OptionsOf(GetParam())).ok());
+  if (fewest > 0) {
+    request.waypoints.pop_back();
+    EXPECT_EQ(MakePlan(request, OptionsOf(GetParam())).status, PlanStatus::kTooFewWaypoints);
+  }
+}
+
+TEST_P(EveryPlanner, StartsWhereTheCarIsAndEndsAtGoal) {
+  const Plan plan = MakePlan(Request(RouteA()), OptionsOf(GetParam()));
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_EQ(plan.reason, "");
+  const Path& path = plan.reference.path;
+  // The planners' promise of 1e-9 m.
+  EXPECT_NEAR((path.At(0.0).pose.position() - RouteA().front()).norm(), 0.0, Tolerance(1e-9));
+  const Vec2 end = path.At(path.length()).pose.position();
+  EXPECT_NEAR((end - plan.goal.position()).norm(), 0.0, Tolerance(1e-9));
+  if (GetParam().min_waypoints > 0) {
+    EXPECT_NEAR((end - RouteA().back()).norm(), 0.0, Tolerance(1e-9));
+  }
+}
+
+TEST_P(EveryPlanner, StaysWithinTheCarsSteering) {
+  const Plan plan = MakePlan(Request(RouteA()), OptionsOf(GetParam()));
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  for (const Segment& segment : plan.reference.path.segments()) {
+    for (const double d : {0.0, segment.length}) {
+      EXPECT_LE(std::abs(SteeringForCurvature(SeedCar(), segment.CurvatureAt(d))),
+                SeedCar().steering_limit + Tolerance(1e-12));
+    }
+    EXPECT_TRUE(segment.direction > 0 || GetParam().goes_backwards);
+  }
+  for (const SteeringSchedule::Knot& knot : plan.schedule.knots()) {
+    EXPECT_LE(std::abs(knot.steering), SeedCar().steering_limit);
+  }
+}
+
+TEST_P(EveryPlanner, StopsAtTheEndOfItsPath) {
+  PlanRequest request = Request(RouteA());
+  request.start_speed = 1.25;
+  const Plan plan = MakePlan(request, OptionsOf(GetParam()));
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const auto& knots = plan.reference.speed.knots();
+  ASSERT_GE(knots.size(), 2U);
+  EXPECT_EQ(knots.front().s, 0.0);
+  EXPECT_EQ(knots.front().speed, 1.25);
+  EXPECT_EQ(knots.back().s, plan.reference.path.length());
+  EXPECT_EQ(knots.back().speed, 0.0);
+  for (const SpeedProfile::Knot& knot : knots) {
+    EXPECT_LE(knot.speed, request.speed.speed);
+  }
+}
+
+TEST_P(EveryPlanner, IsAFunctionOfItsRequest) {
+  const Plan a = MakePlan(Request(RouteB()), OptionsOf(GetParam()));
+  const Plan b = MakePlan(Request(RouteB()), OptionsOf(GetParam()));
+  EXPECT_EQ(a.diagnostics, b.diagnostics);
+  EXPECT_EQ(a.reference.path.segments(), b.reference.path.segments());
+  EXPECT_EQ(a.caps.size(), b.caps.size());
+}
+
+TEST_P(EveryPlanner, IsAsLongAsItsSteps) {
+  for (const std::vector<Vec2>& route : {RouteA(), RouteB()}) {
+    const Plan plan = MakePlan(Request(route), OptionsOf(GetParam()));
+    ASSERT_TRUE(plan.ok()) << plan.reason;
+    const Path& path = plan.reference.path;
+    constexpr double kStep = 0.01;  // [m]
+    const auto steps = static_cast<int>(std::ceil(path.length() / kStep));
+    const double step = path.length() / steps;
+    double length = 0.0;
+    for (int i = 1; i <= steps; ++i) {
+      const PathPoint a = path.At(step * (i - 1));
+      const PathPoint b = path.At(step * i);
+      length += (b.pose.position() - a.pose.position()).norm();
+      // Where a step leads along the heading, one with a cusp in it aside.
+      const double turn = std::abs(AngleDifference(b.pose.yaw, a.pose.yaw));
+      ASSERT_LE(turn, step / SeedCar().min_turning_radius() + Tolerance(1e-9)) << "at " << b.s;
+    }
+    // A chord of an arc is short of it by kappa^2 step^3/24: 1.6e-7 of a length of 160 m or less;
+    // a cusp folds one step.
+    const double cusps = static_cast<double>(LegsOf(path).size() - 1);
+    EXPECT_NEAR(length, path.length(), Tolerance(1.6e-7 * 160.0) + cusps * step);
+  }
+}
+
+TEST_P(EveryPlanner, PlansWithEverySeed) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    PlanRequest request = Request(RouteB());
+    request.seed = seed;
+    const Plan plan = MakePlan(request, OptionsOf(GetParam()));
+    ASSERT_TRUE(plan.ok()) << plan.reason;
+    const Path& path = plan.reference.path;
+    EXPECT_NEAR((path.At(path.length()).pose.position() - plan.goal.position()).norm(), 0.0,
+                Tolerance(1e-9));
+    if (!GetParam().is_random) {
+      request.seed = 0;
+      EXPECT_EQ(MakePlan(request, OptionsOf(GetParam())).reference.path.segments(),
+                path.segments());
+    }
+  }
+}
+
+TEST_P(EveryPlanner, IsMovedWithItsMission) {
+  const Pose2 by{-200.0, 77.0, 2.1};
+  PlanRequest moved = Request(RouteB());
+  for (Vec2& waypoint : moved.waypoints) {
+    waypoint = ToWorld(by, waypoint);
+  }
+  moved.start = Compose(by, moved.start);
+  const Plan here = MakePlan(Request(RouteB()), OptionsOf(GetParam()));
+  const Plan there = MakePlan(moved, OptionsOf(GetParam()));
+  ASSERT_TRUE(here.ok() && there.ok()) << there.reason;
+  const Path& path = here.reference.path;
+  // Rounding of coordinates of some 250 m, carried through a search.
+  ASSERT_NEAR(there.reference.path.length(), path.length(), Tolerance(1e-6));
+  for (double s = 0.0; s < path.length(); s += 1.0) {
+    const Vec2 expected = ToWorld(by, path.At(s).pose.position());
+    ASSERT_NEAR((there.reference.path.At(s).pose.position() - expected).norm(), 0.0,
+                Tolerance(1e-6));
+    ASSERT_NEAR(there.reference.speed.SpeedAt(s), here.reference.speed.SpeedAt(s), Tolerance(1e-4));
+  }
+}
+
+TEST_P(EveryPlanner, IsNeverFasterThanTheMissionAndEndsAtRest) {
+  for (const double speed : {0.7, 2.0, 5.0}) {
+    PlanRequest request = Request(RouteA());
+    request.speed.speed = speed;
+    const Plan plan = MakePlan(request, OptionsOf(GetParam()));
+    ASSERT_TRUE(plan.ok()) << plan.reason;
+    const double length = plan.reference.path.length();
+    for (double s = 0.0; s <= length; s += 0.1) {
+      ASSERT_LE(plan.reference.speed.SpeedAt(s), speed + Tolerance(1e-12));
+      ASSERT_GE(plan.reference.speed.SpeedAt(s), 0.0);
+    }
+    EXPECT_EQ(plan.reference.speed.SpeedAt(length), 0.0);
+  }
+}
+
+TEST_P(EveryPlanner, RefusesWithAReasonAndNoPath) {
+  PlanRequest request = Request(RouteA());
+  if (GetParam().has_headings) {
+    request.obstacles.push_back({{40.0, 40.0, 0.0}, 1.0, 1.0});  // where it is to go through
+  } else {
+    request.vehicle.steering_limit = 1e-3;  // a car that needs 2.7 km to turn
+  }
+  const Plan plan = MakePlan(request, OptionsOf(GetParam()));
+  EXPECT_FALSE(plan.ok());
+  EXPECT_NE(plan.reason, "");
+  EXPECT_EQ(plan.reference.path.length(), 0.0);
+  EXPECT_TRUE(plan.reference.speed.knots().empty());
+  EXPECT_TRUE(plan.schedule.knots().empty());
+}
+
+TEST_P(EveryPlanner, ThrowsForNumbersThatAreNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {nan, infinity}) {
+    SCOPED_TRACE(bad);
+    PlanRequest waypoint = Request(RouteA());
+    waypoint.waypoints[2].y() = bad;
+    EXPECT_THROW(MakePlan(waypoint, OptionsOf(GetParam())), InternalError);
+    PlanRequest start = Request(RouteA());
+    start.start.yaw = bad;
+    EXPECT_THROW(MakePlan(start, OptionsOf(GetParam())), InternalError) << "start";
+    PlanRequest start_speed = Request(RouteA());
+    start_speed.start_speed = bad;
+    EXPECT_THROW(MakePlan(start_speed, OptionsOf(GetParam())), InternalError) << "start speed";
+    PlanRequest speed = Request(RouteA());
+    speed.speed.speed = bad;
+    EXPECT_THROW(MakePlan(speed, OptionsOf(GetParam())), InternalError) << "speed";
+    PlanRequest acceleration = Request(RouteA());
+    acceleration.speed.acceleration = bad;
+    EXPECT_THROW(MakePlan(acceleration, OptionsOf(GetParam())), InternalError) << "acceleration";
+    PlanRequest deceleration = Request(RouteA());
+    deceleration.speed.deceleration = bad;
+    EXPECT_THROW(MakePlan(deceleration, OptionsOf(GetParam())), InternalError) << "deceleration";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, EveryPlanner, ::testing::ValuesIn(Planners()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(Planners, NamesAndAlternativesAreUnique) {
+  std::set<std::string> names;
+  std::set<std::size_t> alternatives;
+  for (const PlannerEntry& entry : Planners()) {
+    names.insert(entry.name);
+    alternatives.insert(entry.defaults.index());
+  }
+  EXPECT_EQ(names.size(), Planners().size());
+  EXPECT_EQ(alternatives.size(), Planners().size());
+  EXPECT_EQ(alternatives.size(), std::variant_size_v<PlannerOptions>);
+}
+
+// --- The fillet planner
+// ---------------------------------------------------------------------------
+
+TEST(FilletPlanner, FindingsAreThoseOfTheFillets) {
+  const FilletPlan fillets = PlanFillets(SeedCar(), RouteB(), 3.0, {});
+  const Plan plan = MakePlan(Request(RouteB()), FilletOptions{});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const auto& turns = plan.diagnostics.at("turns");
+  ASSERT_EQ(turns.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& json = turns[k];
+    const FilletTurn& turn = fillets.turns[k];
+    EXPECT_EQ(json.at("waypoint"), turn.waypoint);
+    EXPECT_EQ(json.at("heading_change_rad"), turn.heading_change);
+    EXPECT_EQ(json.at("interior_angle_rad"), turn.interior_angle);
+    EXPECT_EQ(json.at("radius_m"), turn.radius);
+    EXPECT_EQ(json.at("centre_m"), nlohmann::json::array({turn.centre.x(), turn.centre.y()}));
+    EXPECT_EQ(json.at("arc_start_m"),
+              nlohmann::json::array({turn.arc_start.x(), turn.arc_start.y()}));
+    EXPECT_EQ(json.at("arc_end_m"), nlohmann::json::array({turn.arc_end.x(), turn.arc_end.y()}));
+    EXPECT_EQ(json.at("arc_start_s_m"), turn.arc_start_s);
+    EXPECT_EQ(json.at("arc_length_m"), turn.arc_length);
+    EXPECT_EQ(json.at("tangent_length_m"), turn.tangent_length);
+    EXPECT_EQ(json.at("steering_rad"), turn.steering);
+    EXPECT_EQ(json.at("ramp_time_s"), turn.ramp_time);
+    EXPECT_EQ(json.at("ramp_distance_m"), turn.ramp_distance);
+    EXPECT_EQ(json.at("steer_start_m"), turn.steer_start);
+    EXPECT_EQ(json.at("steer_return_m"), turn.steer_return);
+    EXPECT_EQ(json.at("ramp_truncated"), turn.ramp_truncated);
+    std::set<std::string> keys;
+    for (const auto& [key, value] : json.items()) {
+      keys.insert(key);
+    }
+    EXPECT_THAT(keys, UnorderedElementsAre("waypoint", "heading_change_rad", "interior_angle_rad",
+                                           "radius_m", "speed_mps", "active_constraint",
+                                           "predicted", "centre_m", "arc_start_m", "arc_end_m",
+                                           "arc_start_s_m", "arc_length_m", "tangent_length_m",
+                                           "steering_rad", "ramp_time_s", "ramp_distance_m",
+                                           "steer_start_m", "steer_return_m", "ramp_truncated"));
+  }
+}
+
+TEST(FilletPlanner, SaysWhatHoldsTheRadius) {
+  const auto active = [](const std::vector<Vec2>& route, const FilletOptions& options) {
+    const Plan plan = MakePlan(Request(route), options);
+    return plan.ok() ? plan.diagnostics["turns"][0]["active_constraint"].get<std::string>()
+                     : plan.reason;
+  };
+  EXPECT_EQ(active(RouteA(), {}), "steering_room");
+  EXPECT_EQ(active(RouteA(), {.radius = std::nullopt, .constraint = RadiusConstraint::kHalfLeg}),
+            "half_leg");
+  EXPECT_EQ(active(RouteA(), {.radius = 10.0, .constraint = RadiusConstraint::kNone}), "given");
+  FilletOptions capped;
+  capped.max_radius = 12.0;
+  EXPECT_EQ(active(RouteA(), capped), "max_radius");
+}
+
+TEST(FilletPlanner, NamesTheWaypointOfARefusal) {
+  FilletOptions options;
+  options.without_room = WithoutRoom::kRefuse;
+  const Plan plan = MakePlan(Request({{0, 0}, {60, 0}, {60, 60}, {88, 60}}), options);
+  EXPECT_EQ(plan.status, PlanStatus::kNoRoomForSteering);
+  EXPECT_EQ(plan.diagnostics.at("waypoint"), 2);
+  EXPECT_THAT(plan.reason, HasSubstr("waypoint 2"));
+}
+
+}  // namespace
+}  // namespace trackbed

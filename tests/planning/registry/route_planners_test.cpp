@@ -1,0 +1,397 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/planning/poses.h"
+#include "tests/planning/print_planner.h"
+#include "tests/tolerance.h"
+#include "tests/vehicle/seed_car.h"
+#include "trackbed/core/error.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/common/route.h"
+#include "trackbed/planning/curves/curve_planners.h"
+#include "trackbed/planning/grid/astar_planner.h"
+#include "trackbed/planning/grid/hybrid_astar.h"
+#include "trackbed/planning/registry/planners.h"
+#include "trackbed/world/world.h"
+
+// What every planner that keeps clear of obstacles owes its caller, beyond planner_test.cpp.
+namespace trackbed {
+namespace {
+
+constexpr double kSafe = 0.3;  // of all defaults [m]
+
+std::vector<PlannerEntry> Planning() {
+  std::vector<PlannerEntry> entries;
+  std::copy_if(Planners().begin(), Planners().end(), std::back_inserter(entries),
+               [](const PlannerEntry& entry) { return entry.keeps_clear; });
+  return entries;
+}
+
+PlanRequest Between(const Pose2& start, const Pose2& goal, std::vector<OrientedBox> obstacles) {
+  PlanRequest request;
+  request.vehicle = SeedCar();
+  request.waypoints = {start.position(), goal.position()};
+  request.headings = {start.yaw, goal.yaw};
+  request.obstacles = std::move(obstacles);
+  request.start = start;
+  request.speed = {.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
+  return request;
+}
+
+/// Boxes on both sides of the way.
+PlanRequest Aisle() {
+  return Between({0.0, 0.0, 0.0}, {40.0, 6.0, 0.3},
+                 {{{20.0, 9.0, 0.2}, 4.0, 4.0}, {{22.0, -4.0, -0.4}, 5.0, 3.0}});
+}
+
+/// And one in the middle of it, a little to the right.
+PlanRequest Blocked() {
+  PlanRequest request = Aisle();
+  request.obstacles.push_back({{19.0, 1.5, 0.7}, 2.0, 2.0});
+  request.obstacles[0].centre.y = 16.0;
+  request.obstacles[1].centre.y = -12.0;
+  return request;
+}
+
+void SetBudget(PlannerOptions& options, int budget) {
+  std::visit(
+      [&](auto& own) {
+        if constexpr (requires { own.budget; }) {
+          own.budget = budget;
+        } else if constexpr (requires { own.iterations; }) {
+          own.iterations = budget;
+        }
+      },
+      options);
+}
+
+class EveryRoutePlanner : public ::testing::TestWithParam<PlannerEntry> {
+ protected:
+  [[nodiscard]] static Plan Make(const PlanRequest& request) {
+    return MakePlan(request, GetParam().defaults);
+  }
+};
+
+/// Every pose, by the exact distance of boxes alone: a sample each 2 cm, of which the farthest
+/// corner moves by 1 + 3.7/5.1 times as much.
+void ExpectClear(const PlanRequest& request, const Plan& plan) {
+  const Path& path = plan.reference.path;
+  for (double s = 0.0; s <= path.length(); s += 0.02) {
+    const OrientedBox outline = OutlineAt(request.vehicle, path.At(s).pose);
+    for (const OrientedBox& box : request.obstacles) {
+      ASSERT_GE(Separation(outline, box), kSafe - Tolerance(0.018)) << "at " << s;
+    }
+  }
+}
+
+TEST_P(EveryRoutePlanner, MeetsStartAndGoal) {
+  const PlanRequest request = Aisle();
+  const Plan plan = Make(request);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const Path& path = plan.reference.path;
+  const Pose2 first = path.At(0.0).pose;
+  const Pose2 last = path.At(path.length()).pose;
+  const Pose2 goal{40.0, 6.0, 0.3};
+  if (GetParam().has_headings) {
+    EXPECT_EQ(first, request.start);
+    EXPECT_LE(Apart(last, goal), Tolerance(1e-9));
+  }
+  EXPECT_LE((first.position() - request.start.position()).norm(), Tolerance(1e-9));
+  EXPECT_LE((last.position() - goal.position()).norm(), Tolerance(1e-9));
+  EXPECT_LE(Apart(plan.goal, last), Tolerance(1e-12));
+}
+
+TEST_P(EveryRoutePlanner, KeepsClear) {
+  for (const PlanRequest& request : {Aisle(), Blocked()}) {
+    const Plan plan = Make(request);
+    if (GetParam().searches) {
+      ASSERT_TRUE(plan.ok()) << plan.reason;
+    }
+    if (plan.ok()) {
+      ExpectClear(request, plan);
+    } else {
+      EXPECT_EQ(plan.status, PlanStatus::kNoPath);
+    }
+  }
+}
+
+TEST_P(EveryRoutePlanner, KeepsTheCarsRadius) {
+  const Plan plan = Make(Aisle());
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const double most = 1.0 / SeedCar().min_turning_radius();
+  for (const PathPoint& point : plan.reference.path.Sample(0.05)) {
+    EXPECT_LE(std::abs(point.curvature), most + Tolerance(1e-12));
+  }
+}
+
+TEST_P(EveryRoutePlanner, IsSlowerWhereTheWheelsCannotFollow) {
+  const Plan plan = Make(Aisle());
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  for (const SpeedCap& cap : plan.caps) {
+    const double middle = std::min(0.5 * (cap.from + cap.to), plan.reference.path.length());
+    EXPECT_LE(plan.reference.speed.SpeedAt(middle), cap.speed + Tolerance(1e-9));
+    EXPECT_GE(cap.speed, 0.3 - Tolerance(1e-12));
+  }
+}
+
+TEST_P(EveryRoutePlanner, SaysWhenTheStartIsBlocked) {
+  PlanRequest request = Aisle();
+  request.obstacles.push_back({{1.0, 0.0, 0.0}, 1.0, 1.0});
+  const Plan plan = Make(request);
+  EXPECT_EQ(plan.status, PlanStatus::kStartBlocked);
+  EXPECT_NE(plan.reason, "");
+  EXPECT_EQ(plan.reference.path.length(), 0.0);
+}
+
+TEST_P(EveryRoutePlanner, SaysWhenTheGoalIsBlocked) {
+  PlanRequest request = Aisle();
+  request.obstacles.push_back({{40.5, 6.0, 0.0}, 1.0, 1.0});
+  const Plan plan = Make(request);
+  EXPECT_EQ(plan.status, PlanStatus::kGoalBlocked);
+  EXPECT_NE(plan.reason, "");
+  EXPECT_EQ(plan.reference.path.length(), 0.0);
+}
+
+TEST_P(EveryRoutePlanner, SaysWhenTheGoalCannotBeReached) {
+  PlanRequest request = Aisle();
+  for (const auto& [x, y, length, width] : {std::tuple{40.0, -4.0, 21.0, 1.0},
+                                            {40.0, 16.0, 21.0, 1.0},
+                                            {30.0, 6.0, 1.0, 21.0},
+                                            {50.0, 6.0, 1.0, 21.0}}) {
+    request.obstacles.push_back({{x, y, 0.0}, length, width});
+  }
+  const Plan plan = Make(request);
+  // Samples alone never tell that there is no way.
+  EXPECT_EQ(plan.status, GetParam().is_random ? PlanStatus::kBudgetUsedUp : PlanStatus::kNoPath);
+  EXPECT_NE(plan.reason, "");
+  EXPECT_EQ(plan.reference.path.length(), 0.0);
+}
+
+TEST_P(EveryRoutePlanner, SaysWhenItsBudgetIsUsedUp) {
+  PlannerOptions options = GetParam().defaults;
+  SetBudget(options, 0);
+  const Plan plan = MakePlan(Aisle(), options);
+  EXPECT_EQ(plan.status, GetParam().searches ? PlanStatus::kBudgetUsedUp : PlanStatus::kOk);
+  EXPECT_EQ(plan.reason.empty(), plan.ok());
+  if (GetParam().searches) {
+    PlanRequest far = Aisle();
+    far.waypoints.back() = {1e6, 1e6};
+    EXPECT_EQ(Make(far).status, PlanStatus::kBudgetUsedUp);
+  }
+}
+
+TEST_P(EveryRoutePlanner, IsTheSameEveryTime) {
+  const Plan a = Make(Blocked());
+  const Plan b = Make(Blocked());
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.diagnostics.dump(), b.diagnostics.dump());
+  EXPECT_EQ(a.reference.path.segments(), b.reference.path.segments());
+}
+
+TEST_P(EveryRoutePlanner, PlansWithEverySeed) {
+  PlanRequest request = Blocked();
+  const Plan first = Make(request);
+  bool another = false;
+  for (request.seed = 1; request.seed <= 5; ++request.seed) {
+    const Plan plan = Make(request);
+    ASSERT_EQ(plan.status, first.status) << plan.reason;
+    if (plan.ok()) {
+      ExpectClear(request, plan);
+    }
+    another = another || plan.reference.path.segments() != first.reference.path.segments();
+  }
+  EXPECT_EQ(another, GetParam().is_random);
+}
+
+TEST_P(EveryRoutePlanner, IsNotMovedByWindThatBlowsAlikeEverywhere) {
+  // It counts the same on all ways from the start to the goal.
+  PlanRequest request = Blocked();
+  const Plan calm = Make(request);
+  request.wind.velocity = {4.0, -7.0};
+  const Plan windy = Make(request);
+  EXPECT_EQ(windy.status, calm.status);
+  EXPECT_EQ(windy.reference.path.segments(), calm.reference.path.segments());
+}
+
+TEST_P(EveryRoutePlanner, LeadsThroughEveryWaypoint) {
+  PlanRequest request = Aisle();
+  request.waypoints = {{0.0, 0.0}, {20.0, 1.0}, {40.0, 6.0}, {55.0, 20.0}};
+  request.headings = {0.0, 0.1, 0.4, 0.9};
+  const Plan plan = Make(request);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const Path& path = plan.reference.path;
+  for (const Vec2& waypoint : request.waypoints) {
+    // A rounded corner passes it on the inside, by less than an arc, T tan(h/4): 5.3 m at 0.51 rad.
+    const double away = std::abs(path.Project({waypoint.x(), waypoint.y(), 0.0}).cross_track);
+    EXPECT_LE(away, GetParam().has_headings ? Tolerance(1e-6) : 0.68);
+  }
+}
+
+/// The request as seen by someone who stands elsewhere.
+PlanRequest Moved(const PlanRequest& request, const Pose2& by) {
+  PlanRequest moved = request;
+  for (std::size_t i = 0; i < moved.waypoints.size(); ++i) {
+    moved.waypoints[i] = ToWorld(by, moved.waypoints[i]);
+    moved.headings[i] += by.yaw;
+  }
+  for (OrientedBox& box : moved.obstacles) {
+    box.centre = Compose(by, box.centre);
+  }
+  moved.start = Compose(by, moved.start);
+  moved.wind.velocity = ToWorld({0.0, 0.0, by.yaw}, moved.wind.velocity);
+  for (Gust& gust : moved.wind.gusts) {
+    gust.velocity = ToWorld({0.0, 0.0, by.yaw}, gust.velocity);
+    gust.area->centre = Compose(by, gust.area->centre);
+  }
+  return moved;
+}
+
+TEST_P(EveryRoutePlanner, MovesWithTheWorld) {
+  const Pose2 by{123.0, -45.0, 0.9};
+  PlanRequest windy = Blocked();
+  windy.wind.gusts = {{.velocity = {9.0, 3.0},
+                       .shape = GustShape::kStep,
+                       .area = OrientedBox{{20.0, 8.0, 0.2}, 30.0, 9.0}}};
+  for (const PlanRequest& request : {Aisle(), Blocked(), windy}) {
+    const Plan here = Make(request);
+    const Plan there = Make(Moved(request, by));
+    ASSERT_EQ(here.status, there.status) << there.reason;
+    const Path& path = here.reference.path;
+    ASSERT_NEAR(there.reference.path.length(), path.length(), Tolerance(1e-6));
+    for (double s = 0.0; s < path.length(); s += 1.0) {
+      // Rounding of coordinates of some 150 m, carried through the search's arcs.
+      EXPECT_LE(Apart(Compose(by, path.At(s).pose), there.reference.path.At(s).pose),
+                Tolerance(1e-6));
+    }
+  }
+}
+
+TEST_P(EveryRoutePlanner, MirrorsWithTheWorld) {
+  for (const PlanRequest& request : {Aisle(), Blocked()}) {
+    PlanRequest mirrored = request;
+    for (std::size_t i = 0; i < mirrored.waypoints.size(); ++i) {
+      mirrored.waypoints[i].y() *= -1.0;
+      mirrored.headings[i] *= -1.0;
+    }
+    for (OrientedBox& box : mirrored.obstacles) {
+      box.centre = Mirror(box.centre);
+    }
+    const Plan left = Make(request);
+    const Plan right = Make(mirrored);
+    ASSERT_EQ(left.status, right.status);
+    if (GetParam().is_random) {
+      ExpectClear(mirrored, right);  // samples are not mirrored
+      continue;
+    }
+    if (GetParam().has_ties) {
+      ASSERT_TRUE(left.ok());
+      EXPECT_NEAR(left.diagnostics["legs"][0]["cost_m"].get<double>(),
+                  right.diagnostics["legs"][0]["cost_m"].get<double>(), Tolerance(1e-9));
+      continue;
+    }
+    const Path& path = left.reference.path;
+    ASSERT_NEAR(right.reference.path.length(), path.length(), Tolerance(1e-6));
+    for (double s = 0.0; s < path.length(); s += 1.0) {
+      EXPECT_LE(Apart(Mirror(path.At(s).pose), right.reference.path.At(s).pose), Tolerance(1e-6));
+    }
+  }
+}
+
+TEST_P(EveryRoutePlanner, BeginsForwardsWhenItRolls) {
+  PlanRequest request = Between({0.0, 0.0, 0.0}, {-12.0, 2.0, 0.2}, {});
+  if (!GetParam().goes_backwards) {
+    GTEST_SKIP() << "it does not";
+  }
+  const Plan back = Make(request);
+  ASSERT_TRUE(back.ok()) << back.reason;
+  EXPECT_EQ(back.reference.path.segments().front().direction, -1);
+  // A car that rolls forwards cannot begin like that.
+  request.start_speed = 2.0;
+  const Plan plan = Make(request);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_EQ(plan.reference.path.segments().front().direction, 1);
+}
+
+TEST_P(EveryRoutePlanner, StopsWhereItChangesDirection) {
+  if (!GetParam().goes_backwards) {
+    GTEST_SKIP() << "it does not";
+  }
+  const Plan plan = Make(Between({0.0, 0.0, 0.0}, {0.0, 6.0, 3.0}, {}));
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const std::vector<Stations> legs = LegsOf(plan.reference.path);
+  ASSERT_GT(legs.size(), 1U);
+  EXPECT_EQ(plan.diagnostics["changes_of_direction"], legs.size() - 1);
+  for (const Stations& leg : legs) {
+    EXPECT_EQ(plan.reference.speed.SpeedAt(leg.to), 0.0);
+    EXPECT_GT(plan.reference.speed.SpeedAt(0.5 * (leg.from + leg.to)), 0.0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, EveryRoutePlanner, ::testing::ValuesIn(Planning()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// --- What is each one's own ----------------------------------------------------------------------
+
+TEST(CurvePlanners, TakeAnotherWordWhereTheShortestIsBlocked) {
+  PlanRequest request = Between({0.0, 0.0, 0.0}, {0.0, 24.0, kPi}, {});
+  const Plan open = MakePlan(request, DubinsOptions{});
+  ASSERT_TRUE(open.ok());
+  const PathPoint middle = open.reference.path.At(0.5 * open.reference.path.length());
+  request.obstacles = {{middle.pose, 1.0, 1.0}};
+  const Plan other = MakePlan(request, DubinsOptions{});
+  ASSERT_TRUE(other.ok()) << other.reason;
+  EXPECT_GT(other.diagnostics["curves"][0]["shorter_ones_blocked"], 0);
+  EXPECT_GT(other.reference.path.length(), open.reference.path.length());
+  ExpectClear(request, other);
+}
+
+TEST(CurvePlanners, RefuseRadiiThatTheCarCannotTurnOn) {
+  EXPECT_EQ(MakePlan(Aisle(), DubinsOptions{.radius = 5.0}).status, PlanStatus::kTurnTooTight);
+  EXPECT_EQ(MakePlan(Aisle(), ReedsSheppOptions{.radius = 5.0}).status, PlanStatus::kTurnTooTight);
+  EXPECT_EQ(MakePlan(Aisle(), HybridAStarOptions{.radius = 5.0}).status, PlanStatus::kTurnTooTight);
+}
+
+TEST(StopsOf, TakesHeadingsFromTheLegsIfThereAreNone) {
+  PlanRequest request = Between({0.0, 0.0, 0.1}, {10.0, 0.0, 0.0}, {});
+  request.waypoints = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}};
+  request.headings = {};
+  const std::vector<Pose2> stops = StopsOf(request);
+  ASSERT_EQ(stops.size(), 3U);
+  EXPECT_EQ(stops[0], request.start);
+  EXPECT_NEAR(stops[1].yaw, 0.25 * kPi, Tolerance(1e-12));  // from the start to the goal
+  EXPECT_NEAR(stops[2].yaw, 0.5 * kPi, Tolerance(1e-12));
+  request.headings = {7.0, 1.0, 2.0};
+  EXPECT_EQ(StopsOf(request)[0].yaw, 0.1);  // where the car stands
+  EXPECT_EQ(StopsOf(request)[1].yaw, 1.0);
+  request.headings.pop_back();
+  EXPECT_THROW(MakePlan(request, DubinsOptions{}), InternalError);
+}
+
+TEST(AStarPlanner, RefusesCornersWhenAsked) {
+  const Plan plan = MakePlan(Blocked(), AStarOptions{.corners = Corners::kRefuse});
+  EXPECT_EQ(plan.status, PlanStatus::kTurnTooTight);
+  // A step of the grid turns by 45 degrees.
+  EXPECT_NE(plan.reason.find("jumps by"), std::string::npos) << plan.reason;
+  EXPECT_NE(plan.reason.find("0.785"), std::string::npos) << plan.reason;
+  const Plan straight =
+      MakePlan(Between({}, {30.0, 0.0, 0.0}, {}), AStarOptions{.corners = Corners::kRefuse});
+  EXPECT_TRUE(straight.ok()) << straight.reason;
+}
+
+TEST(AStarPlanner, TellsItsCorners) {
+  const Plan plan = MakePlan(Blocked(), AStarOptions{});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  ASSERT_FALSE(plan.diagnostics["corners"].empty());
+  for (const auto& corner : plan.diagnostics["corners"]) {
+    EXPECT_GT(corner["tangent_length_m"], 0.0);
+    EXPECT_LE(corner["speed_mps"], 3.0);
+  }
+}
+
+}  // namespace
+}  // namespace trackbed

@@ -1,0 +1,303 @@
+#include "trackbed/planning/replan/along_route.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/planning/drivable.h"
+#include "tests/planning/frenet_scenes.h"
+#include "tests/tolerance.h"
+#include "trackbed/core/error.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/fillet/fillet.h"
+
+namespace trackbed {
+namespace {
+
+constexpr double kBeyond = 80.0;  // [m]
+
+Plan PlanOn(const Path& path, double speed) {
+  Plan plan;
+  plan.reference = {path, SpeedProfile({{0.0, speed}})};
+  plan.schedule_speed = plan.reference.speed;
+  plan.goal = path.At(path.length()).pose;
+  return plan;
+}
+
+/// A car on a straight route of 200 m, 40 m from its start.
+struct Scene {
+  RouteFrame frame = FrameOf(SeedCar(), PlanOn(StraightRoad(), 3.0), {3.0, 2.0, 3.0}, kBeyond);
+  AlongRequest request{
+      .vehicle = SeedCar(), .speed = {3.0, 2.0, 3.0}, .wanted = 3.0, .start = {}, .obstacles = {}};
+  AlongSettings settings;
+
+  Scene() {
+    request.start.s = 40.0;
+    request.start.s_rate = 3.0;
+  }
+};
+
+double Front() {
+  return SeedCar().length - SeedCar().rear_overhang;
+}
+
+class EveryAlongMethod : public testing::TestWithParam<AlongEntry> {};
+INSTANTIATE_TEST_SUITE_P(Planning, EveryAlongMethod, testing::ValuesIn(AlongMethods()),
+                         [](const auto& of) { return std::string(of.param.name); });
+
+/// It ends at rest, with stations and times that rise and the limits kept.
+void ExpectEndsAtRest(const Scene& scene, const AlongPlan& plan) {
+  ASSERT_FALSE(plan.points.empty());
+  EXPECT_NEAR(plan.points.back().motion.speed, 0.0, Tolerance(1e-9));
+  EXPECT_EQ(plan.points.front().frenet.s, scene.request.start.s);
+  for (std::size_t i = 1; i < plan.points.size(); ++i) {
+    const TrajectoryPoint& point = plan.points[i];
+    EXPECT_GT(point.t, plan.points[i - 1].t);
+    EXPECT_GE(point.distance, plan.points[i - 1].distance);
+    // 5 % above the limit as the motions' own tolerance is; braking keeps the limit itself.
+    EXPECT_LE(point.motion.speed, 1.05 * scene.request.speed.speed + 1e-9);
+    EXPECT_GE(point.motion.acceleration, -scene.request.speed.deceleration * 1.05);
+  }
+}
+
+TEST_P(EveryAlongMethod, GoesOnAtItsSpeedWhereNothingIsInTheWay) {
+  const Scene scene;
+  const AlongPlan plan = PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults);
+  ASSERT_EQ(plan.kind, AlongKind::kOn) << plan.found.reason;
+  EXPECT_FALSE(plan.to_goal);
+  const FrenetState end = plan.found.motion.At(plan.found.motion.duration());
+  EXPECT_NEAR(end.s_rate, 3.0, Tolerance(1e-9));
+  EXPECT_NEAR(end.d, 0.0, Tolerance(1e-9));
+  ExpectEndsAtRest(scene, plan);
+  // Then braking: v^2/(2 a) = 1.5 m.
+  EXPECT_NEAR(plan.points.back().frenet.s - end.s, 1.5, Tolerance(1e-9));
+}
+
+TEST_P(EveryAlongMethod, LeadsPastWhatStandsInAWideRoad) {
+  Scene scene;
+  scene.settings.road = {6.0, 6.0};
+  scene.request.obstacles = {BoxAt(scene.frame.path, 66.0, 0.0)};
+  const AlongPlan plan = PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults);
+  ASSERT_EQ(plan.kind, AlongKind::kOn) << plan.found.reason;
+  ExpectEndsAtRest(scene, plan);
+  FrenetLimits limits = std::visit([](const auto& own) { return own.limits; }, GetParam().defaults);
+  limits.safe_distance = scene.settings.safe_distance;
+  ExpectDrivable(scene.frame.path,
+                 {.vehicle = scene.request.vehicle,
+                  .speed = scene.request.speed,
+                  .road = scene.settings.road,
+                  .start = scene.request.start,
+                  .goal = KeepSpeed{3.0},
+                  .obstacles = scene.request.obstacles},
+                 limits, plan.found);
+}
+
+TEST_P(EveryAlongMethod, StopsItsGapBehindWhatStandsInANarrowRoad) {
+  Scene scene;
+  scene.settings.road = {1.5, 1.5};
+  scene.settings.gap = 2.0;
+  // 12.5 m to where it stops: half of speed times 8 s.
+  const double stop = scene.request.start.s + 12.5;
+  scene.request.obstacles = {BoxAt(scene.frame.path, stop + Front() + 2.0 + 1.0, 0.0)};
+  const AlongPlan plan = PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults);
+  ASSERT_EQ(plan.kind, AlongKind::kStop) << plan.found.reason;
+  ExpectEndsAtRest(scene, plan);
+  // At the station itself, or at one of the offsets before it.
+  EXPECT_LE(plan.points.back().frenet.s, stop + Tolerance(1e-6));
+  EXPECT_GE(plan.points.back().frenet.s, stop - 4.0);
+}
+
+TEST_P(EveryAlongMethod, ApproachesWhatStandsTooFarAwayToStopThere) {
+  Scene scene;
+  scene.settings.road = {1.5, 1.5};
+  scene.request.wanted = 3.0;
+  scene.request.obstacles = {BoxAt(scene.frame.path, 40.0 + 20.0 + Front(), 0.0)};
+  // Motions that take 4 s or less do not stop 16 m ahead, nor do layers of which the last is 8 m
+  // ahead; and there is no slow way on.
+  AlongOptions options = GetParam().defaults;
+  if (auto* frenet = std::get_if<FrenetOptions>(&options)) {
+    frenet->end_times = {2.0, 3.0, 4.0};
+  } else {
+    std::get<LatticeOptions>(options).layers = 2;
+    std::get<LatticeOptions>(options).spacing = 4.0;
+  }
+  const AlongPlan plan = PlanAlong(scene.frame, scene.request, scene.settings, options);
+  EXPECT_EQ(plan.kind, AlongKind::kApproach) << plan.found.reason;
+  ExpectEndsAtRest(scene, plan);
+  // Clear even if it is the last one that is found.
+  const double front = plan.points.back().frenet.s + Front();
+  EXPECT_LT(front + scene.settings.safe_distance, 40.0 + 20.0 + Front() - 1.0);
+}
+
+TEST_P(EveryAlongMethod, NeverLeadsToWhereItCannotStop) {
+  // Fast towards a wall, from all distances: what is found ends at rest before it, or nothing is.
+  Scene scene;
+  scene.settings.road = {1.5, 1.5};
+  scene.request.speed = {15.0, 2.0, 3.0};
+  scene.request.wanted = 15.0;
+  scene.request.start.s_rate = 15.0;
+  int found = 0;
+  for (double ahead = 20.0; ahead < 120.0; ahead += 5.0) {
+    scene.request.obstacles = {BoxAt(scene.frame.path, 40.0 + Front() + ahead + 1.0, 0.0)};
+    const AlongPlan plan =
+        PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults);
+    if (plan.ok()) {
+      ++found;
+      EXPECT_LE(plan.points.back().frenet.s + scene.settings.safe_distance, 40.0 + ahead + 0.01);
+      EXPECT_NEAR(plan.points.back().motion.speed, 0.0, Tolerance(1e-9));
+    }
+  }
+  EXPECT_GE(found, 10);
+}
+
+TEST_P(EveryAlongMethod, FollowsWhatMovesSlowlyInANarrowRoad) {
+  Scene scene;
+  scene.settings.road = {1.5, 1.5};
+  scene.settings.gap = 2.0;
+  scene.settings.time_gap = 1.0;
+  scene.request.obstacles = {BoxAt(scene.frame.path, 52.0, 0.0)};
+  scene.request.obstacles[0].velocity = {1.5, 0.0};
+  const AlongPlan plan = PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults);
+  ASSERT_EQ(plan.kind, AlongKind::kFollow) << plan.found.reason;
+  ExpectEndsAtRest(scene, plan);
+  const double duration = plan.found.motion.duration();
+  const FrenetState end = plan.found.motion.At(duration);
+  if (std::holds_alternative<FrenetOptions>(GetParam().defaults)) {
+    EXPECT_NEAR(end.s_rate, 1.5, Tolerance(1e-9));
+    // Behind its rear end by gap and time gap, or by one of the offsets more.
+    const double wanted = 51.0 + 1.5 * (duration - 1.0) - Front() - 2.0;
+    EXPECT_LE(end.s, wanted + Tolerance(1e-9));
+    EXPECT_GE(end.s, wanted - 4.0 - Tolerance(1e-9));
+  }
+}
+
+TEST_P(EveryAlongMethod, StopsAtTheEndOfTheRoute) {
+  Scene scene;
+  scene.request.start.s = scene.frame.goal - 12.0;
+  const AlongPlan plan = PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults);
+  ASSERT_EQ(plan.kind, AlongKind::kOn) << plan.found.reason;
+  EXPECT_TRUE(plan.to_goal);
+  // The station offsets end before the goal; none is cheaper than the goal itself.
+  EXPECT_NEAR(plan.points.back().frenet.s, scene.frame.goal, Tolerance(1e-6));
+  EXPECT_NEAR(plan.points.back().motion.speed, 0.0, Tolerance(1e-9));
+}
+
+TEST_P(EveryAlongMethod, GivesNothingWhereItTouches) {
+  Scene scene;
+  scene.request.obstacles = {BoxAt(scene.frame.path, 41.0, 0.0)};
+  const AlongPlan plan = PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults);
+  EXPECT_EQ(plan.kind, AlongKind::kNone);
+  EXPECT_FALSE(plan.ok());
+  EXPECT_EQ(plan.found.status, PlanStatus::kStartBlocked);
+  EXPECT_TRUE(plan.points.empty());
+}
+
+TEST_P(EveryAlongMethod, IsTheSameEveryTime) {
+  Scene scene;
+  scene.request.obstacles = {BoxAt(scene.frame.path, 66.0, 0.4)};
+  const AlongPlan first =
+      PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults);
+  EXPECT_EQ(first.points,
+            PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults).points);
+}
+
+TEST(PlanAlong, RefusesWhatMakesNoSense) {
+  Scene scene;
+  scene.request.wanted = 4.0;
+  EXPECT_THROW(PlanAlong(scene.frame, scene.request, scene.settings, FrenetOptions{}),
+               InternalError);
+}
+
+TEST_P(EveryAlongMethod, RefusesToTryNoSpeed) {
+  const Scene scene;
+  AlongOptions options = GetParam().defaults;
+  std::visit([](auto& own) { own.speed_factors.clear(); }, options);
+  EXPECT_THROW(PlanAlong(scene.frame, scene.request, scene.settings, options), InternalError);
+}
+
+// --- the leader
+
+TEST(LeaderIn, IsTheNearestInTheLane) {
+  const Path path = StraightRoad();
+  AlongRequest request{.vehicle = SeedCar(), .speed = {3.0, 2.0, 3.0}, .wanted = 3.0};
+  request.start.s = 20.0;
+  const AlongSettings settings{.safe_distance = 0.5};
+  const double room = 0.5 * SeedCar().width + 0.5;
+  // 1.5 m wide: beside the lane from 0.75 + room on.
+  request.obstacles = {BoxAt(path, 60.0, 0.0), BoxAt(path, 40.0, 0.75 + room + 0.01),
+                       BoxAt(path, 10.0, 0.0), BoxAt(path, 50.0, -(0.75 + room - 0.01))};
+  request.obstacles[3].velocity = {2.0, 5.0};
+  const auto leader = LeaderIn(path, request, settings, 200.0);
+  ASSERT_TRUE(leader);
+  EXPECT_EQ(leader->obstacle, 3U);
+  EXPECT_NEAR(leader->rear, 49.0, Tolerance(1e-12));
+  EXPECT_NEAR(leader->speed, 2.0, Tolerance(1e-12));
+  EXPECT_NEAR(leader->left, -(room - 0.01), Tolerance(1e-12));
+  EXPECT_NEAR(leader->right, -(room - 0.01) - 1.5, Tolerance(1e-12));
+  // Not so far ahead.
+  EXPECT_FALSE(LeaderIn(path, request, settings, 48.0));
+}
+
+// --- the frame
+
+TEST(FrameOf, OfAStraightRouteIsTheRouteAndGoesOn) {
+  const Scene scene;
+  EXPECT_NEAR(scene.frame.goal, 200.0, Tolerance(1e-9));
+  EXPECT_NEAR(scene.frame.path.length(), 200.0 + kBeyond, Tolerance(1e-9));
+  EXPECT_EQ(scene.frame.path.At(137.0).pose.y, 0.0);
+}
+
+TEST(FrameOf, OfArcsAsksNoMoreOfTheWheelsThanTheyCan) {
+  // A quarter turn of 12 m radius between straights: kappa 1/12, steering atan(2.7/12).
+  const double speed = 2.0;
+  const Path path({0.0, 0.0, 0.0}, {{60.0, 0.0}, {6.0 * M_PI, 1.0 / 12.0}, {60.0, 0.0}});
+  const SpeedLimits limits{speed, 2.0, 3.0};
+  const RouteFrame frame = FrameOf(SeedCar(), PlanOn(path, speed), limits, kBeyond);
+  const double steering = SteeringForCurvature(SeedCar(), 1.0 / 12.0);
+  const double window = speed * steering / SeedCar().steering_rate;
+  double before = 0.0;
+  constexpr double kStep = 0.2;  // [m]: the joints of its segments are 0.1 m apart
+  for (double s = kStep; s < frame.goal; s += kStep) {
+    const double now = SteeringForCurvature(SeedCar(), frame.path.At(s).curvature);
+    // The curvature rises evenly over the window; the steering, its arctangent, fastest at 0: by
+    // tan(delta)/delta = 1.017 more. A hundredth for the arc, which gets tighter by (k w)^2/24.
+    const double rate = (now - before) / kStep * speed;
+    EXPECT_LE(std::abs(rate), 1.03 * SeedCar().steering_rate) << s;
+    before = now;
+  }
+  // Within window^2/24 of the largest curvature, 0.12 m.
+  const double deviation = window * window / 24.0 / 12.0 * 1.1;
+  for (double s = 0.0; s < frame.goal; s += 0.5) {
+    EXPECT_LE(std::abs(path.Project(frame.path.At(s).pose).cross_track), deviation);
+  }
+  const Vec2 end = path.At(path.length()).pose.position();
+  EXPECT_LE((frame.path.At(frame.goal).pose.position() - end).norm(), deviation);
+}
+
+TEST(FrameOf, IsSharperWhereTheRouteIsSlow) {
+  const Path path({0.0, 0.0, 0.0}, {{60.0, 0.0}, {8.0 * M_PI, 1.0 / 8.0}, {60.0, 0.0}});
+  Plan plan = PlanOn(path, 6.0);
+  // Between a tenth and nine tenths of the bend's curvature: eight tenths of the window.
+  const auto ramp = [&] {
+    const RouteFrame frame = FrameOf(SeedCar(), plan, {6.0, 2.0, 3.0}, kBeyond);
+    const auto reaches = [&](double curvature) {
+      double s = 0.0;
+      while (frame.path.At(s).curvature < curvature) {
+        s += 0.01;
+      }
+      return s;
+    };
+    return reaches(0.9 / 8.0) - reaches(0.1 / 8.0);
+  };
+  const double turning = SteeringForCurvature(SeedCar(), 1.0 / 8.0) / SeedCar().steering_rate;
+  // The arc's own curvature grows by (k w)^2/24 = 0.11 at 6 m/s and 0.11^2, so that nine tenths
+  // come sooner.
+  EXPECT_NEAR(ramp(), 0.8 * 6.0 * turning, Tolerance(0.1221 * 6.0 * turning));
+  plan.caps = {{50.0, 95.0, 2.0}};
+  EXPECT_NEAR(ramp(), 0.8 * 2.0 * turning, Tolerance(0.0123 * 2.0 * turning + 0.1));
+}
+
+}  // namespace
+}  // namespace trackbed

@@ -1,0 +1,89 @@
+#include "trackbed/planning/sampling/comparator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/tolerance.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+/// Two ways from (0, 0) to (10, 0), over (5, height).
+std::vector<Vec2> Over(double height) {
+  return {{0.0, 0.0}, {5.0, height}, {10.0, 0.0}};
+}
+
+WayScore Score(const std::vector<Vec2>& way, const Vec2& position,
+               const std::vector<OrientedBox>& obstacles = {}, const WindScoring& wind = {},
+               const ComparatorOptions& options = {}) {
+  return ScoreWay(way, position, obstacles, 0.5, wind, options);
+}
+
+TEST(Comparator, CountsWhatIsLeft) {
+  EXPECT_NEAR(Score(Over(0.0), {0.0, 0.0}).length, 10.0, Tolerance(1e-12));
+  EXPECT_NEAR(Score(Over(0.0), {4.0, 3.0}).length, 3.0 + 6.0, Tolerance(1e-12));
+  EXPECT_NEAR(Score(Over(0.0), {12.0, 0.0}).length, 2.0, Tolerance(1e-12));
+  EXPECT_NEAR(Score(Over(0.0), {-1.0, 0.0}).length, 11.0, Tolerance(1e-12));
+  // At a corner it is the seed's own count, from the nearest node.
+  EXPECT_NEAR(Score(Over(12.0), {5.0, 12.0}).length, 13.0, Tolerance(1e-12));
+}
+
+TEST(Comparator, TakesTheShorterWay) {
+  EXPECT_TRUE(IsBetter(Score(Over(1.0), {0, 0}), Score(Over(2.0), {0, 0})));
+  EXPECT_FALSE(IsBetter(Score(Over(2.0), {0, 0}), Score(Over(1.0), {0, 0})));
+}
+
+TEST(Comparator, KeepsTheCurrentWayOnATie) {
+  EXPECT_FALSE(IsBetter(Score(Over(1.0), {0, 0}), Score(Over(-1.0), {0, 0})));
+  EXPECT_FALSE(IsBetter(Score(Over(-1.0), {0, 0}), Score(Over(1.0), {0, 0})));
+}
+
+TEST(Comparator, APenaltyTurnsTheChoice) {
+  const std::vector<OrientedBox> boxes{{{5.0, 0.5, 0.0}, 1.0, 1.0}};
+  const WayScore through = Score(Over(0.0), {0, 0}, boxes);
+  const WayScore around = Score(Over(4.0), {0, 0}, boxes);
+  EXPECT_TRUE(through.collides);
+  EXPECT_FALSE(around.collides);
+  EXPECT_TRUE(IsBetter(around, through));
+  EXPECT_NEAR(through.total, through.length + 1000.0, Tolerance(1e-9));
+  // Without one the shorter way is taken, box or not.
+  EXPECT_TRUE(IsBetter(Score(Over(0.0), {0, 0}, boxes, {}, {.collision_penalty = 0.0}), around));
+  // What is behind the car does not count.
+  EXPECT_FALSE(Score(Over(0.0), {7.0, 0.0}, boxes).collides);
+}
+
+TEST(Comparator, UniformWindDoesNotMatter) {
+  const WindScoring wind{.wind = {.velocity = {-2.0, 1.0}}, .speed = 3.0};
+  const WayScore low = Score(Over(1.0), {0, 0}, {}, wind);
+  const WayScore high = Score(Over(3.0), {0, 0}, {}, wind);
+  EXPECT_NEAR(low.wind, high.wind, Tolerance(1e-12));
+  EXPECT_TRUE(IsBetter(low, high));
+}
+
+TEST(Comparator, LayersOfWindTurnTheChoice) {
+  // Tailwind above, headwind below, both 1 m/s at V = 3 m/s: it counts a third of the length.
+  const OrientedBox above{{5.0, 5.0, 0.0}, 20.0, 10.0};
+  const OrientedBox below{{5.0, -5.0, 0.0}, 20.0, 10.0};
+  const auto layer = [](const OrientedBox& area, double speed) {
+    return Gust{.velocity = {speed, 0.0}, .shape = GustShape::kStep, .area = area};
+  };
+  const WindScoring wind{.wind = {.gusts = {layer(above, 1.0), layer(below, -1.0)}}, .speed = 3.0};
+  const std::vector<Vec2> shorter = Over(-1.0);
+  const std::vector<Vec2> longer = Over(2.0);
+  EXPECT_TRUE(IsBetter(Score(shorter, {0, 0}), Score(longer, {0, 0})));
+  EXPECT_TRUE(IsBetter(Score(longer, {0, 0}, {}, wind), Score(shorter, {0, 0}, {}, wind)));
+  WindScoring ignored = wind;
+  ignored.weight = 0.0;
+  EXPECT_TRUE(IsBetter(Score(shorter, {0, 0}, {}, ignored), Score(longer, {0, 0}, {}, ignored)));
+}
+
+TEST(Comparator, OfAWayOfOnePointTheWayThereIsLeft) {
+  EXPECT_NEAR(Score({{3.0, 4.0}}, {0.0, 0.0}).length, 5.0, Tolerance(1e-12));
+  EXPECT_TRUE(Score({{3.0, 4.0}}, {0.0, 0.0}, {{{3.0, 4.0, 0.0}, 1.0, 1.0}}).collides);
+  EXPECT_THROW(Score({}, {0.0, 0.0}), InternalError);
+}
+
+}  // namespace
+}  // namespace trackbed

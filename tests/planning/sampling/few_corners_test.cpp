@@ -1,0 +1,152 @@
+#include "src/planning/sampling/few_corners.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/geometry/random.h"
+#include "tests/tolerance.h"
+
+namespace trackbed {
+namespace {
+
+/// As long as the turn is sharp: any law that grows will do.
+double Tangent(double turn) {
+  return 3.0 * turn;
+}
+
+struct Case {
+  std::vector<Vec2> way;
+  std::vector<OrientedBox> obstacles;
+  WindScoring wind;
+  double corner_cost = 0.0;
+  std::optional<Vec2> before;
+  bool first_leg = true;
+  bool last_leg = true;
+
+  [[nodiscard]] FewCornersProblem problem() const {
+    return {.before = before,
+            .first_leg = first_leg,
+            .last_leg = last_leg,
+            .obstacles = obstacles,
+            .inflation = 0.5,
+            .wind = wind,
+            .corner_cost = corner_cost,
+            .tangent = Tangent};
+  }
+};
+
+/// A way round boxes, as a tree finds one: some of its lines may touch boxes, which is its own
+/// care.
+Case RandomCase(Random& random) {
+  Case one;
+  const int points = 3 + random.Below(6);
+  for (int i = 0; i < points; ++i) {
+    one.way.emplace_back(4.0 * i, random.Uniform(-4.0, 4.0));
+  }
+  for (int i = 0; i < 3; ++i) {
+    one.obstacles.push_back(
+        {{random.Uniform(0.0, 30.0), random.Uniform(-4.0, 4.0), random.Uniform(-3.0, 3.0)},
+         random.Uniform(0.5, 3.0),
+         1.0});
+  }
+  one.corner_cost = random.Uniform(0.0, 4.0);
+  if (random.Below(2) == 0) {
+    one.wind = {.wind = {.gusts = {{.velocity = {2.0, 1.0},
+                                    .shape = GustShape::kStep,
+                                    .area = OrientedBox{{15.0, 3.0, 0.0}, 12.0, 6.0}}}},
+                .speed = 3.0};
+  }
+  if (random.Below(2) == 0) {
+    one.before = Vec2(-random.Uniform(1.0, 6.0), 0.0);
+  }
+  one.first_leg = random.Below(2) == 0;
+  one.last_leg = random.Below(2) == 0;
+  return one;
+}
+
+/// Sums up a way from the page; a corner without room counts a million metres.
+double CostOf(const Case& one, const std::vector<Vec2>& few) {
+  double cost = -WindScore(InPieces(few), one.wind);
+  std::vector<Vec2> all = few;
+  if (one.before) {
+    all.insert(all.begin(), *one.before);
+  }
+  for (std::size_t i = 1; i < few.size(); ++i) {
+    cost += one.corner_cost + (few[i] - few[i - 1]).norm();
+  }
+  for (std::size_t i = 1; i + 1 < all.size(); ++i) {
+    const Vec2 in = all[i] - all[i - 1];
+    const Vec2 out = all[i + 1] - all[i];
+    const bool all_in = i == 1 && one.first_leg;
+    const bool all_out = i + 2 == all.size() && one.last_leg;
+    const double turn = std::acos(std::clamp(in.normalized().dot(out.normalized()), -1.0, 1.0));
+    const double room =
+        std::min((all_in ? 1.0 : 0.5) * in.norm(), (all_out ? 1.0 : 0.5) * out.norm());
+    cost += Tangent(turn) > room ? 1e6 : 0.0;
+  }
+  return cost;
+}
+
+/// Every choice of points, one after the other.
+double CheapestOf(const Case& one) {
+  double cheapest = std::numeric_limits<double>::infinity();
+  const std::size_t inner = one.way.size() - 2;
+  for (std::size_t choice = 0; choice < (std::size_t{1} << inner); ++choice) {
+    std::vector<Vec2> few{one.way.front()};
+    std::size_t last = 0;
+    bool free = true;
+    for (std::size_t i = 1; i < one.way.size(); ++i) {
+      if (i <= inner && (choice >> (i - 1) & 1U) == 0) {
+        continue;
+      }
+      if (last + 1 < i) {
+        for (const OrientedBox& box : one.obstacles) {
+          free = free && Distance(few.back(), one.way[i], box) > 0.5;
+        }
+      }
+      few.push_back(one.way[i]);
+      last = i;
+    }
+    if (free) {
+      cheapest = std::min(cheapest, CostOf(one, few));
+    }
+  }
+  return cheapest;
+}
+
+TEST(FewCorners, AreTheCheapestOfAllChoices) {
+  Random random(11);
+  int fewer = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Case one = RandomCase(random);
+    const std::vector<Vec2> few = WithFewCorners(one.way, one.problem());
+    ASSERT_EQ(few.front(), one.way.front());
+    ASSERT_EQ(few.back(), one.way.back());
+    // Sums of up to 1e7 m, in another order.
+    ASSERT_NEAR(CostOf(one, few), CheapestOf(one), Tolerance(1e-7)) << "case " << i;
+    fewer += few.size() < one.way.size() ? 1 : 0;
+  }
+  EXPECT_GT(fewer, 300);
+}
+
+TEST(FewCorners, OfAStraightWayAreNone) {
+  const Case one{.way = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {9, 0}}, .corner_cost = 1.0};
+  EXPECT_EQ(WithFewCorners(one.way, one.problem()), (std::vector<Vec2>{{0, 0}, {9, 0}}));
+  const Case two{.way = {{0, 0}, {1, 5}}};
+  EXPECT_EQ(WithFewCorners(two.way, two.problem()), two.way);
+}
+
+TEST(InPieces, AreShortAndTheSameWay) {
+  const std::vector<Vec2> way{{0.0, 0.0}, {2.5, 0.0}, {2.5, 0.5}};
+  const std::vector<Vec2> pieces = InPieces(way);
+  ASSERT_EQ(pieces.size(), 5U);
+  EXPECT_NEAR(pieces[1].x(), 2.5 / 3.0, Tolerance(1e-12));
+  EXPECT_EQ(pieces[3], way[1]);
+  EXPECT_EQ(pieces[4], way[2]);
+}
+
+}  // namespace
+}  // namespace trackbed

@@ -1,0 +1,308 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "tests/tolerance.h"
+#include "tests/vehicle/seed_car.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/registry/planners.h"
+#include "trackbed/planning/replan/detour.h"
+#include "trackbed/planning/sampling/rrt_planner.h"
+#include "trackbed/world/world.h"
+
+// Plans by RRT that lead only part of the way: as far as the trees came within their samples or
+// their time.
+namespace trackbed {
+namespace {
+
+using ::testing::HasSubstr;
+
+PlanRequest To(std::vector<Vec2> waypoints, std::vector<OrientedBox> obstacles = {}) {
+  PlanRequest request;
+  request.vehicle = SeedCar();
+  request.waypoints = {{0.0, 0.0}};
+  request.waypoints.insert(request.waypoints.end(), waypoints.begin(), waypoints.end());
+  request.obstacles = std::move(obstacles);
+  request.speed = {.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
+  return request;
+}
+
+/// Right across everything that is sampled; its near side is at x = 29.5 m.
+PlanRequest BeforeAWall() {
+  return To({{50.0, 0.0}}, {{{30.0, 0.0, 0.0}, 1.0, 200.0}});
+}
+
+Vec2 EndOf(const Plan& plan) {
+  return plan.reference.path.At(plan.reference.path.length()).pose.position();
+}
+
+/// The node of a tree that is nearest to a point, of the nodes from `first` on.
+std::size_t NearestNode(const std::vector<TreeNode>& tree, const Vec2& point,
+                        std::size_t first = 0) {
+  std::size_t nearest = first;
+  for (std::size_t i = first; i < tree.size(); ++i) {
+    if ((tree[i].position - point).norm() < (tree[nearest].position - point).norm()) {
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
+/// How many nodes before `node` on its way from the root a point is; none if it is not on it.
+std::optional<int> NodesBefore(const std::vector<TreeNode>& tree, std::size_t node,
+                               const Vec2& point) {
+  for (int before = 0;; ++before) {
+    if ((tree[node].position - point).norm() < Tolerance(1e-9)) {
+      return before;
+    }
+    if (tree[node].parent == node) {
+      return std::nullopt;
+    }
+    node = tree[node].parent;
+  }
+}
+
+/// By the exact distance of boxes alone, every 2 cm, of which the outline's farthest corner moves
+/// by 1 + 3.7/5.1 times as much.
+void ExpectClear(const PlanRequest& request, const Plan& plan) {
+  const Path& path = plan.reference.path;
+  for (double s = 0.0; s < path.length() + 0.02; s += 0.02) {
+    const OrientedBox outline =
+        OutlineAt(request.vehicle, path.At(std::min(s, path.length())).pose);
+    for (const OrientedBox& box : request.obstacles) {
+      ASSERT_GE(Separation(outline, box), 0.3 - Tolerance(0.018)) << "at " << s;
+    }
+  }
+}
+
+TEST(PartialPlan, EndsAtTheNodeNearestToTheGoal) {
+  int at_the_nearest = 0;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    PlanRequest request = To({{60.0, 5.0}});
+    request.seed = seed;
+    const Plan plan =
+        MakePlan(request, RrtPlannerOptions{.trees = 1, .iterations = 40, .partial = true});
+    ASSERT_TRUE(plan.ok()) << plan.reason;
+    if (plan.partial.empty()) {
+      EXPECT_EQ(plan.diagnostics.count("partial"), 0U);
+      continue;
+    }
+    const Vec2 goal = request.waypoints.back();
+    const std::size_t nearest = NearestNode(plan.tree, goal);
+    const auto before = NodesBefore(plan.tree, nearest, EndOf(plan));
+    ASSERT_TRUE(before) << seed;
+    at_the_nearest += *before == 0 ? 1 : 0;
+    EXPECT_NEAR(plan.diagnostics["left_m"], (EndOf(plan) - goal).norm(), Tolerance(1e-9));
+    EXPECT_EQ(plan.reference.speed.SpeedAt(plan.reference.path.length()), 0.0);
+  }
+  // Not where the way there has a corner that is too sharp for the car.
+  EXPECT_GE(at_the_nearest, 20);
+}
+
+TEST(PartialPlan, SaysHowFarItLeads) {
+  const PlanRequest request = BeforeAWall();
+  const Plan plan =
+      MakePlan(request, RrtPlannerOptions{.trees = 3, .iterations = 500, .partial = true});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_THAT(plan.partial,
+              HasSubstr("m from waypoint 1, the nearest that 3 trees of 500 samples"));
+  EXPECT_TRUE(plan.blocked.empty());
+  EXPECT_EQ(plan.diagnostics["partial"], true);
+  EXPECT_EQ(plan.diagnostics["partial_reason"], plan.partial);
+  EXPECT_EQ(plan.diagnostics["next_waypoint"], 1);
+  EXPECT_EQ(plan.diagnostics["legs"].at(0)["status"], "iterations");
+  // The mission's goal is what it was.
+  EXPECT_EQ(plan.goal, (Pose2{50.0, 0.0, 0.0}));
+}
+
+TEST(PartialPlan, KeepsClearOfWhatStoppedTheTree) {
+  // Nodes come to within 2.16 m of the wall, where the car's front, 3.625 m ahead, would be in it.
+  PlanRequest request = BeforeAWall();
+  for (request.seed = 0; request.seed < 10; ++request.seed) {
+    const Plan plan =
+        MakePlan(request, RrtPlannerOptions{.trees = 3, .iterations = 1000, .partial = true});
+    ASSERT_TRUE(plan.ok()) << plan.reason;
+    ExpectClear(request, plan);
+    const std::size_t nearest = NearestNode(plan.tree, request.waypoints.back());
+    EXPECT_TRUE(NodesBefore(plan.tree, nearest, EndOf(plan)));
+    EXPECT_LE(EndOf(plan).x(), plan.tree[nearest].position.x());
+    EXPECT_GT(EndOf(plan).x(), 20.0);
+  }
+}
+
+TEST(PartialPlan, IsOfTheTreeThatLeadsNearest) {
+  double left = std::numeric_limits<double>::infinity();
+  double of_one = 0.0;
+  for (int trees = 1; trees <= 8; ++trees) {
+    const Plan plan = MakePlan(
+        BeforeAWall(), RrtPlannerOptions{.trees = trees, .iterations = 25, .partial = true});
+    ASSERT_TRUE(plan.ok()) << plan.reason;
+    const double own = plan.diagnostics["left_m"];
+    const auto& each = plan.diagnostics["trees"];
+    ASSERT_EQ(each.size(), static_cast<std::size_t>(trees));
+    for (const auto& tree : each) {
+      EXPECT_LE(own, tree.value("left_m", own));
+    }
+    EXPECT_EQ(each.at(plan.diagnostics["chosen"].get<std::size_t>())["left_m"], own);
+    // The first of eight trees are those of fewer.
+    EXPECT_LE(own, left);
+    left = own;
+    of_one = trees == 1 ? own : of_one;
+  }
+  EXPECT_LT(left, of_one);
+}
+
+TEST(PartialPlan, LeadsThroughTheWaypointsThatAreReached) {
+  PlanRequest request =
+      To({{20.0, 8.0}, {50.0, 8.0}, {50.0, 30.0}}, {{{38.0, 0.0, 0.0}, 1.0, 200.0}});
+  const Plan plan =
+      MakePlan(request, RrtPlannerOptions{.trees = 4, .iterations = 2000, .partial = true});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_EQ(plan.diagnostics["next_waypoint"], 2);
+  EXPECT_THAT(plan.partial, HasSubstr("m from waypoint 2"));
+  ExpectClear(request, plan);
+  const auto& legs = plan.diagnostics["legs"];
+  ASSERT_EQ(legs.size(), 2U);
+  EXPECT_EQ(legs[0]["status"], "reached");
+  const std::size_t nearest =
+      NearestNode(plan.tree, request.waypoints[2], legs[0]["nodes"].get<std::size_t>());
+  EXPECT_TRUE(NodesBefore(plan.tree, nearest, EndOf(plan)));
+  EXPECT_NEAR(plan.diagnostics["left_m"], (EndOf(plan) - request.waypoints[2]).norm(),
+              Tolerance(1e-9));
+  // Its corner there is rounded: by no more than the car's radius allows it to cut off.
+  EXPECT_LT(
+      (plan.reference.path.At(plan.reference.path.Project({20.0, 8.0, 0.0}).s).pose.position() -
+       Vec2(20.0, 8.0))
+          .norm(),
+      3.0);
+  EXPECT_EQ(plan.goal.position(), Vec2(50.0, 30.0));
+}
+
+TEST(PartialPlan, IsNotTakenUnlessAskedFor) {
+  const RrtPlannerOptions options{.trees = 2, .iterations = 200};
+  EXPECT_EQ(MakePlan(BeforeAWall(), options).status, PlanStatus::kBudgetUsedUp);
+  RrtPlannerOptions never = options;
+  never.partial = false;
+  never.time_limit = 1.0;
+  EXPECT_FALSE(MayBePartial(never));
+  EXPECT_EQ(MakePlan(BeforeAWall(), never).status, PlanStatus::kBudgetUsedUp);
+  RrtPlannerOptions limited = options;
+  limited.time_limit = 1.0;
+  EXPECT_TRUE(MayBePartial(limited));
+  EXPECT_FALSE(MakePlan(BeforeAWall(), limited).partial.empty());
+}
+
+TEST(PartialPlan, IsNoneWhereTheGoalIsReached) {
+  const PlanRequest request = To({{50.0, 0.0}}, {{{25.0, 0.0, 0.0}, 6.0, 6.0}});
+  const Plan plan = MakePlan(request, RrtPlannerOptions{.partial = true});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_EQ(plan.partial, "");
+  EXPECT_EQ(plan.reference.path.segments(),
+            MakePlan(request, RrtPlannerOptions{}).reference.path.segments());
+}
+
+TEST(PartialPlan, IsNoneTowardABlockedWaypoint) {
+  const PlanRequest request = To({{50.0, 0.0}}, {{{50.0, 1.0, 0.0}, 2.0, 2.0}});
+  EXPECT_EQ(MakePlan(request, RrtPlannerOptions{.partial = true}).status, PlanStatus::kGoalBlocked);
+}
+
+TEST(PartialPlan, IsNoneWhereTheCarWouldStayWhereItIs) {
+  const Plan plan =
+      MakePlan(BeforeAWall(),
+               RrtPlannerOptions{.lead_in = 0.0, .trees = 2, .iterations = 0, .partial = true});
+  EXPECT_EQ(plan.status, PlanStatus::kBudgetUsedUp);
+  EXPECT_THAT(plan.reason, HasSubstr("ends 50 m from waypoint 1"));
+}
+
+TEST(PartialPlan, OfSamplesAloneIsTheSameEveryTime) {
+  const RrtPlannerOptions options{.trees = 4, .iterations = 300, .partial = true};
+  const Plan first = MakePlan(BeforeAWall(), options);
+  const Plan second = MakePlan(BeforeAWall(), options);
+  ASSERT_FALSE(first.partial.empty()) << first.reason;
+  EXPECT_EQ(first.reference.path.segments(), second.reference.path.segments());
+  EXPECT_EQ(first.partial, second.partial);
+  EXPECT_EQ(first.diagnostics, second.diagnostics);
+}
+
+/// A clock that goes on by `step` whenever it is read.
+std::function<double()> Clock(double step) {
+  return [time = 0.0, step]() mutable { return time += step; };
+}
+
+TEST(TimeLimit, EndsTheTreeAndLeadsToItsNearestNode) {
+  PlanRequest request = BeforeAWall();
+  request.clock = Clock(1.0 / 1024.0);
+  const Plan limited = MakePlan(request, RrtPlannerOptions{.time_limit = 64.0 / 1024.0});
+  ASSERT_TRUE(limited.ok()) << limited.reason;
+  EXPECT_THAT(limited.partial, HasSubstr("the nearest that 1 tree in 0.0625 s"));
+  // Read once at the start, then before every iteration: that after 63 is told that time is over.
+  const auto& leg = limited.diagnostics["legs"].at(0);
+  EXPECT_EQ(leg["status"], "stopped");
+  EXPECT_EQ(leg["iterations"], 63);
+  // So many samples give the same plan.
+  const Plan counted =
+      MakePlan(request, RrtPlannerOptions{.trees = 1, .iterations = 63, .partial = true});
+  EXPECT_EQ(limited.reference.path.segments(), counted.reference.path.segments());
+}
+
+TEST(TimeLimit, KeepsTheWayThatWasFoundBefore) {
+  PlanRequest request = To({{50.0, 0.0}}, {{{25.0, 0.0, 0.0}, 6.0, 6.0}});
+  const Plan one = MakePlan(request, RrtPlannerOptions{.trees = 1});
+  ASSERT_TRUE(one.ok()) << one.reason;
+  // Enough for the first tree, none for the second.
+  const double samples = one.diagnostics["legs"].at(0)["iterations"];
+  request.clock = Clock(1.0);
+  const Plan limited = MakePlan(request, RrtPlannerOptions{.time_limit = samples + 2.0});
+  ASSERT_TRUE(limited.ok()) << limited.reason;
+  EXPECT_EQ(limited.partial, "");
+  EXPECT_EQ(limited.diagnostics["trees"].size(), 2U);
+  EXPECT_EQ(limited.diagnostics["chosen"], 0);
+  EXPECT_EQ(limited.reference.path.segments(), one.reference.path.segments());
+}
+
+TEST(TimeLimit, WithoutPartialPlansIsAReasonToRefuse) {
+  PlanRequest request = BeforeAWall();
+  request.clock = Clock(0.01);
+  const Plan plan = MakePlan(request, RrtPlannerOptions{.time_limit = 0.5, .partial = false});
+  EXPECT_EQ(plan.status, PlanStatus::kBudgetUsedUp);
+  EXPECT_THAT(plan.reason, HasSubstr("not reached by 1 tree in 0.5 s"));
+}
+
+TEST(TimeLimit, IsKeptByTheCallersClockAlone) {
+  // Less than any tree takes: without a clock, or with one that stands, it changes nothing.
+  PlanRequest request = To({{50.0, 0.0}}, {{{25.0, 0.0, 0.0}, 6.0, 6.0}});
+  const Plan without = MakePlan(request, RrtPlannerOptions{});
+  const RrtPlannerOptions limited{.time_limit = 1e-9};
+  EXPECT_EQ(MakePlan(request, limited).reference.path.segments(),
+            without.reference.path.segments());
+  request.clock = Clock(0.0);
+  EXPECT_EQ(MakePlan(request, limited).reference.path.segments(),
+            without.reference.path.segments());
+}
+
+TEST(PartialPlan, IsNoDetour) {
+  const SpeedLimits speed{3.0, 1.0, 2.0};
+  DetourRequest request{.vehicle = SeedCar(), .speed = speed};
+  const Path path({0.0, 0.0, 0.0}, {{120.0, 0.0}});
+  request.route.reference = {path, StopAtEnd(120.0, 3.0, speed)};
+  request.route.schedule_speed = request.route.reference.speed;
+  request.route.goal = {120.0, 0.0, 0.0};
+  request.driven = request.route;
+  request.station = 20.0;
+  request.route_station = 20.0;
+  request.station_speed = 3.0;
+  // Across the way and all around.
+  request.obstacles = {{{60.0, 0.0, 0.0}, 1.0, 200.0}};
+  const Detour detour = PlanDetour(
+      request, RrtPlannerOptions{.trees = 1, .iterations = 500, .partial = true}, {.attempts = 1});
+  EXPECT_FALSE(detour.route);
+  EXPECT_NE(detour.why, "");
+}
+
+}  // namespace
+}  // namespace trackbed

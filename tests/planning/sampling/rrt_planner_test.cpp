@@ -1,0 +1,241 @@
+#include "trackbed/planning/sampling/rrt_planner.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "tests/geometry/random.h"
+#include "tests/tolerance.h"
+#include "tests/vehicle/seed_car.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/registry/planners.h"
+#include "trackbed/world/world.h"
+
+// What is the RRT planner's own; what every planner owes its caller is in route_planners_test.cpp.
+namespace trackbed {
+namespace {
+
+using ::testing::HasSubstr;
+
+PlanRequest Across(std::vector<OrientedBox> obstacles) {
+  PlanRequest request;
+  request.vehicle = SeedCar();
+  request.waypoints = {{0.0, 0.0}, {50.0, 0.0}};
+  request.obstacles = std::move(obstacles);
+  request.speed = {.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
+  return request;
+}
+
+/// As wide to the left as to the right.
+PlanRequest BoxInTheMiddle() {
+  return Across({{{25.0, 0.0, 0.0}, 6.0, 6.0}});
+}
+
+/// Wind with the car on one side of the way and against it on the other, of 9 m/s: at 3 m/s that
+/// counts three times the length.
+Wind Layers(double left) {
+  const auto layer = [](double y, double speed) {
+    return Gust{.velocity = {speed, 0.0},
+                .shape = GustShape::kStep,
+                .area = OrientedBox{{25.0, y, 0.0}, 80.0, 20.0}};
+  };
+  return {.gusts = {layer(10.0, 9.0 * left), layer(-10.0, -9.0 * left)}};
+}
+
+double SideAt(const Plan& plan, double share) {
+  return plan.reference.path.At(share * plan.reference.path.length()).pose.y;
+}
+
+TEST(RrtPlanner, GoesRoundOnTheSideOfTheTailwind) {
+  PlanRequest request = BoxInTheMiddle();
+  for (const double left : {1.0, -1.0}) {
+    request.wind = Layers(left);
+    const Plan plan = MakePlan(request, RrtPlannerOptions{});
+    ASSERT_TRUE(plan.ok()) << plan.reason;
+    EXPECT_GT(left * SideAt(plan, 0.5), 3.0);
+    const auto& chosen =
+        plan.diagnostics["trees"].at(plan.diagnostics["chosen"].get<std::size_t>());
+    EXPECT_GT(chosen["wind_m"], 0.0);
+  }
+}
+
+TEST(RrtPlanner, DoesNotLookAtWindOfNoWeight) {
+  PlanRequest request = BoxInTheMiddle();
+  const Plan calm = MakePlan(request, RrtPlannerOptions{});
+  request.wind = Layers(1.0);
+  const Plan ignored = MakePlan(request, RrtPlannerOptions{.wind_weight = 0.0});
+  EXPECT_EQ(ignored.reference.path.segments(), calm.reference.path.segments());
+  EXPECT_NE(MakePlan(request, RrtPlannerOptions{}).reference.path.segments(),
+            calm.reference.path.segments());
+}
+
+TEST(RrtPlanner, TakesTheBestOfItsTrees) {
+  PlanRequest request = BoxInTheMiddle();
+  request.wind = Layers(0.2);
+  for (request.seed = 1; request.seed <= 5; ++request.seed) {
+    const Plan plan = MakePlan(request, RrtPlannerOptions{.trees = 6});
+    ASSERT_TRUE(plan.ok()) << plan.reason;
+    const auto& trees = plan.diagnostics["trees"];
+    ASSERT_EQ(trees.size(), 6U);
+    const auto& chosen = trees.at(plan.diagnostics["chosen"].get<std::size_t>());
+    EXPECT_EQ(chosen["status"], "ok");
+    for (const auto& tree : trees) {
+      if (tree["status"] == "ok") {
+        EXPECT_LE(chosen["total_m"], tree["total_m"]);
+      }
+      EXPECT_NEAR(tree["total_m"].get<double>(),
+                  tree["length_m"].get<double>() - tree["wind_m"].get<double>(), Tolerance(1e-9));
+    }
+  }
+}
+
+TEST(RrtPlanner, BeginsStraightOn) {
+  PlanRequest request = BoxInTheMiddle();
+  request.start.yaw = 0.4;
+  const Plan plan = MakePlan(request, RrtPlannerOptions{});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_NEAR(AngleDifference(plan.reference.path.At(0.0).pose.yaw, 0.4), 0.0, Tolerance(1e-9));
+  // Without a lead-in it would begin along its first leg, whichever way the car stands.
+  const Plan without = MakePlan(request, RrtPlannerOptions{.lead_in = 0.0});
+  EXPECT_FALSE(without.ok());
+  EXPECT_NE(without.reason.find("turn of the path's first heading"), std::string::npos)
+      << without.reason;
+  // No further than half way.
+  request.obstacles.clear();
+  request.start.yaw = 0.0;
+  request.waypoints.back() = {6.0, 0.0};
+  const Plan near = MakePlan(request, RrtPlannerOptions{.lead_in = 20.0});
+  ASSERT_TRUE(near.ok()) << near.reason;
+  EXPECT_NEAR(near.reference.path.length(), 6.0, Tolerance(1e-9));
+}
+
+TEST(RrtPlanner, RefusesCornersWhenAsked) {
+  const Plan plan = MakePlan(BoxInTheMiddle(), RrtPlannerOptions{.corners = Corners::kRefuse});
+  EXPECT_EQ(plan.status, PlanStatus::kTurnTooTight);
+  EXPECT_THAT(plan.reason, HasSubstr("jumps by"));
+  EXPECT_TRUE(MakePlan(Across({}), RrtPlannerOptions{.corners = Corners::kRefuse}).ok());
+}
+
+TEST(RrtPlanner, GivesItsTree) {
+  PlanRequest request = BoxInTheMiddle();
+  request.start = {3.0, -2.0, 0.3};
+  request.waypoints = {{3.0, -2.0}, {40.0, 14.0}, {70.0, 14.0}};
+  const Plan plan = MakePlan(request, RrtPlannerOptions{});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const auto& legs = plan.diagnostics["legs"];
+  ASSERT_EQ(legs.size(), 2U);
+  ASSERT_EQ(plan.tree.size(),
+            legs[0]["nodes"].get<std::size_t>() + legs[1]["nodes"].get<std::size_t>());
+  const double inflation = 0.5 * SeedCar().width + 0.3 + 1.0;
+  for (std::size_t i = 0; i < plan.tree.size(); ++i) {
+    const TreeNode& node = plan.tree[i];
+    const TreeNode& parent = plan.tree.at(node.parent);
+    EXPECT_LE(node.parent, i);
+    EXPECT_LE((node.position - parent.position).norm(), 2.0 + Tolerance(1e-9));
+    EXPECT_NEAR(node.cost, parent.cost + (node.position - parent.position).norm(), Tolerance(1e-9));
+    EXPECT_GE(Distance(parent.position, node.position, request.obstacles[0]),
+              inflation - Tolerance(1e-9));
+  }
+  for (const auto& leg : legs) {
+    EXPECT_EQ(leg["status"], "reached");
+    EXPECT_GE(leg["path_m"].size(), 2U);
+    EXPECT_EQ(leg["path_m"].size(), leg["smooth_m"].size());
+    EXPECT_EQ(leg["path_m"].back(), leg["smooth_m"].back());
+  }
+}
+
+TEST(RrtPlanner, TellsHowFarItCame) {
+  // A wall right across everything that is sampled.
+  PlanRequest request = Across({{{30.0, 0.0, 0.0}, 1.0, 200.0}});
+  const Plan plan = MakePlan(request, RrtPlannerOptions{.trees = 2, .iterations = 2000});
+  EXPECT_EQ(plan.status, PlanStatus::kBudgetUsedUp);
+  EXPECT_THAT(plan.reason, HasSubstr("2 trees of 2000 samples"));
+  const auto& leg = plan.diagnostics["legs"].at(0);
+  EXPECT_EQ(leg["status"], "iterations");
+  EXPECT_EQ(leg["iterations"], 2000);
+  // The wall is 29.5 m off, and 2.16 m are kept from it.
+  const double reached = leg["path_m"].back()[0];
+  EXPECT_GT(reached, 25.0);
+  EXPECT_LE(reached, 29.5 - 2.16);
+  EXPECT_TRUE(plan.tree.empty());
+}
+
+TEST(RrtPlanner, TellsOfTheTreeThatCameNearest) {
+  // Behind the wall nothing is reached; the first of eight trees are those of fewer.
+  const PlanRequest request = Across({{{30.0, 0.0, 0.0}, 1.0, 200.0}});
+  std::vector<double> left;
+  for (int trees = 1; trees <= 8; ++trees) {
+    const Plan plan = MakePlan(request, RrtPlannerOptions{.trees = trees, .iterations = 25});
+    ASSERT_EQ(plan.status, PlanStatus::kBudgetUsedUp);
+    const auto& nearest = plan.diagnostics["legs"].at(0)["path_m"].back();
+    left.push_back((Vec2(nearest[0], nearest[1]) - Vec2(request.waypoints.back())).norm());
+  }
+  EXPECT_TRUE(std::is_sorted(left.rbegin(), left.rend()));
+  EXPECT_LT(left.back(), left.front());
+}
+
+TEST(RrtPlanner, SaysWhenTheFirstMetresAreBlocked) {
+  const Plan plan = MakePlan(Across({{{7.0, 0.0, 0.0}, 2.0, 1.0}}), RrtPlannerOptions{});
+  EXPECT_EQ(plan.status, PlanStatus::kStartBlocked);
+  EXPECT_THAT(plan.reason, HasSubstr("straight on"));
+}
+
+TEST(RrtPlanner, IsClearOrSaysWhyNotInRandomFields) {
+  Random random(7);
+  int planned = 0;
+  for (int field = 0; field < 40; ++field) {
+    PlanRequest request = Across({});
+    for (int i = 0; i < 7; ++i) {
+      request.obstacles.push_back(
+          {{random.Uniform(10.0, 42.0), random.Uniform(-15.0, 15.0), random.Uniform(-kPi, kPi)},
+           random.Uniform(1.0, 6.0),
+           random.Uniform(1.0, 3.0)});
+    }
+    request.seed = static_cast<std::uint64_t>(field);
+    const Plan plan = MakePlan(request, RrtPlannerOptions{});
+    EXPECT_EQ(plan.reason.empty(), plan.ok());
+    if (!plan.ok()) {
+      EXPECT_EQ(plan.reference.path.length(), 0.0);
+      continue;
+    }
+    ++planned;
+    const Path& path = plan.reference.path;
+    for (double s = 0.0; s <= path.length(); s += 0.05) {
+      const PathPoint point = path.At(s);
+      ASSERT_LE(std::abs(point.curvature), 1.0 / SeedCar().min_turning_radius() + 1e-12);
+      for (const OrientedBox& box : request.obstacles) {
+        // Between its own checks the outline's farthest corner may come 1.8 cm nearer.
+        ASSERT_GE(Separation(OutlineAt(SeedCar(), point.pose), box), 0.3 - Tolerance(0.018));
+      }
+    }
+  }
+  EXPECT_GE(planned, 34);
+}
+
+TEST(RrtPlanner, RefusesOptionsThatMakeNoSense) {
+  EXPECT_THROW(MakePlan(Across({}), RrtPlannerOptions{.trees = 0}), InternalError);
+  EXPECT_THROW(
+      MakePlan(Across({}), RrtPlannerOptions{.data_weight = 0.5, .smoothness_weight = 0.25}),
+      InternalError);
+}
+
+TEST(RoutePlanners, RefuseARouteThatBeginsWhereTheCarStands) {
+  PlanRequest request = Across({});
+  request.waypoints = {{-5.0, 0.0}, {0.0, 0.0}, {20.0, 0.0}};
+  for (const PlannerEntry& entry : Planners()) {
+    if (entry.keeps_clear) {
+      EXPECT_EQ(MakePlan(request, entry.defaults).status, PlanStatus::kDuplicateWaypoints)
+          << entry.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trackbed
