@@ -67,7 +67,7 @@ void Visit(Archive& a, FilletOptions& options) {
                                                      {RadiusObjective::kTurnLocal, "turn_local"},
                                                      {RadiusObjective::kDriven, "driven"}};
   a.Field({"objective", "",
-           "by what radii are chosen: the largest, the dissertation's window over the route, over "
+           "by what radii are chosen: the largest, the yaw rate over a window of the route, over "
            "the turn, or the driven car's error"},
           options.objective, Need::kOptional, objectives);
   a.Section({"search", "", "how it is minimised; not for 'largest'"}, options.search);

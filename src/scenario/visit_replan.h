@@ -21,8 +21,9 @@ void Visit(Archive& a, FrenetWeights& weights) {
   a.Field({"k_lat", "", "of all that is lateral"}, weights.k_lat, Need::kOptional, kNotNegative);
   a.Field({"k_lon", "", "of all that is along the path"}, weights.k_lon, Need::kOptional,
           kNotNegative);
-  a.Field({"derivative_order", "", "of the integrals: 3 is jerk, 2 acceleration as in the slides"},
-          weights.derivative_order, Need::kOptional, Range{.min = 2, .max = 3});
+  a.Field(
+      {"derivative_order", "", "of the integrals: 3 is jerk (Werling et al. 2010), 2 acceleration"},
+      weights.derivative_order, Need::kOptional, Range{.min = 2, .max = 3});
 }
 
 template <typename Archive>

@@ -58,9 +58,9 @@ TEST_P(Routes, PreviewTracksThemOnEveryPlant) {
   }
 }
 
-TEST_P(Routes, AreRelatedToTheOpenLoopAsTheSeedsSay) {
-  // Section 4.9 of the seeds: C.40, rear reference, wheels following the schedule exactly, stopped
-  // after the plan's length: 0.1285 m from A's end and 0.0104 m from B's.
+TEST_P(Routes, StopWhereTheSchedulePredicts) {
+  // Computed apart from this program: C.40, rear reference, wheels following the schedule exactly,
+  // stopped after the plan's length: 0.1285 m from A's end and 0.0104 m from B's.
   const bool is_a = std::string(GetParam()) == "three_turns";
   const double converged = is_a ? 0.1285 : 0.0104;
   for (const double period : {0.001, 0.002, 0.004, 0.01, 0.02}) {

@@ -15,7 +15,7 @@ namespace trackbed {
 namespace {
 
 constexpr SpeedLimits kSpeed{3.0, 1.0, 2.0};
-constexpr double kFront = 4.45 - 0.825;  // of the seed car, ahead of its rear axle [m]
+constexpr double kFront = 4.45 - 0.825;  // of the reference car, ahead of its rear axle [m]
 
 Plan StraightPlan(double length, double start_speed) {
   Plan plan;

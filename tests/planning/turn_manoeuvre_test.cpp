@@ -203,7 +203,7 @@ TEST(LayOutTurn, ObstacleIsAlongTheAxesOrTheTurn) {
   }
 }
 
-// --- Safe point: section 5.3 -------------------------------------------------------------------
+// --- Safe point --------------------------------------------------------------------------------
 
 TEST(SafeRadius, IsAsPrinted) {
   TurnManoeuvre manoeuvre;
@@ -233,7 +233,7 @@ TEST(LayOutTurn, SafePointIsAsPrinted) {
 }
 
 /// The listing's branches, with its parentheses mended. It has theta_m + 3 pi/2 - dec in the last
-/// one; with -theta_m in its place, as the specification's table has it, the point would be at
+/// one; with -theta_m in its place, as a first reading had it, the point would be at
 /// sigma = theta_m + dec, and no mirror of the left one.
 Vec2 SafePointByBranches(const TurnManoeuvre& m, double r_k, double theta_m) {
   const bool inner = m.inner_width >= m.outer_width;
@@ -348,7 +348,7 @@ TEST(LayOutTurn, NumbersOutOfRangeAreBugs) {
   refused([&](TurnManoeuvre& m) { m.outer_width = nan; });
 }
 
-// --- Control points: section 5.5 ---------------------------------------------------------------
+// --- Control points ----------------------------------------------------------------------------
 
 /// The listing's branches.
 Points PointsByBranches(const TurnManoeuvre& m, const TurnLayout& layout, double final_y) {
@@ -360,7 +360,6 @@ Points PointsByBranches(const TurnManoeuvre& m, const TurnLayout& layout, double
   const Vec2 first = layout.arc.front().position;
   const Vec2 last = layout.arc.back().position;
   const Vec2 goal = layout.safe_point;
-  // Section 5.4.
   const double theta_m = dec + 0.01 * (static_cast<double>(layout.obstacle_at) - 1.0);
   const double r_k_1 = m.radius - 2.0 * m.safe_distance -
                        std::hypot(m.obstacle_width, m.obstacle_length) - 2.0 * 1.725 -
@@ -539,7 +538,7 @@ TEST(ControlPoints, NothingJumpsWhenTheReductionVanishes) {
   }
 }
 
-// --- The curve: section 5.7 --------------------------------------------------------------------
+// --- The curve ---------------------------------------------------------------------------------
 
 TEST(TurnManoeuvre, CurveIsTheListingsOwnCheck) {
   const Points p = PointsOf(Literal(TurnSide::kLeft, Ring::kInner), 3.0);
@@ -597,9 +596,9 @@ TEST(DriveManoeuvre, DefaultDetailsAreAsPrinted) {
   ExpectPoint(drive.samples.back().pose.position(), {47.893709, 36.750135}, Printed(6));
 }
 
-// --- The drive: sections 5.8 to 5.10 -----------------------------------------------------------
+// --- The drive ---------------------------------------------------------------------------------
 
-/// The largest rate between neighbours of sig1, as the printed numbers have it.
+/// The largest rate between neighbours of the steering signal, as the printed numbers have it.
 double LargestQuotient(const ManoeuvreDrive& drive) {
   double largest = 0.0;
   for (std::size_t i = 1; i < drive.samples.size(); ++i) {
@@ -848,7 +847,7 @@ TEST(DriveManoeuvre, DrivingThroughTheObstacleLeavesNoClearance) {
   EXPECT_FALSE(drive.keeps_clear);
 }
 
-// --- The search of section 5.6 -----------------------------------------------------------------
+// --- The listing's search ----------------------------------------------------------------------
 
 TEST(LiteralRrtStar, SpreadIsAsPrinted) {
   struct Row {

@@ -25,7 +25,7 @@ double Custom(const CarModel& car, const char* name) {
   return m->numeric_data[m->numeric_adr[mj_name2id(m, mjOBJ_NUMERIC, name)]];
 }
 
-TEST(Prius, HasTheSeedsParameters) {
+TEST(Prius, HasThePublishedParameters) {
   const CarModel car = Prius();
   const VehicleParams& params = car.params();
   EXPECT_EQ(params.name, "prius");

@@ -159,7 +159,7 @@ TEST_P(PaperSpeeds, MatchedByArcLengthTheCarStaysOnTheCircle) {
       RunScenario(File("paper_circle"), {fmt::format("disturb.speed_loss.speed={}", GetParam())});
   EXPECT_THAT(run, MeetsItsExpectations());
   for (const RunLog& log : run.logs) {
-    // The paper's own +-2.3 %; tyres and body roll of MuJoCo's car included.
+    // The +-2.3 % of Skackauskas et al. 2017; tyres and body roll of MuJoCo's car included.
     EXPECT_NEAR(MeanSteering(log), kPi / 18.0, Tolerance(0.023 * kPi / 18.0)) << log.plant;
   }
 }

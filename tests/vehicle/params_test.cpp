@@ -22,7 +22,7 @@ double Cot(double angle) {
 }
 
 TEST(SteeringForCurvature, HasThePrintedTable) {
-  // Section 2 of the seeds' specification: delta = atan(L/r), printed to 1e-6 rad and 1e-4 deg.
+  // delta = atan(L/r), printed to 1e-6 rad and 1e-4 deg.
   struct Row {
     double radius, steering, degrees;
   };

@@ -17,7 +17,7 @@
 namespace trackbed {
 namespace {
 
-/// The seeds' car on tyres that make it understeer, as most cars do.
+/// The reference car on tyres that make it understeer, as most cars do.
 VehicleParams TyredCar(double front = 70e3, double rear = 110e3) {
   VehicleParams car = SeedCar();
   car.yaw_inertia = 2300.0;

@@ -18,7 +18,7 @@
 ///   a = s_tt (1 - kappa_r d)/cos Dtheta + s_t^2/cos Dtheta
 ///       [(1 - kappa_r d) tan Dtheta (kappa (1 - kappa_r d)/cos Dtheta - kappa_r)
 ///        - (kappa_r' d + kappa_r d')]
-/// (Werling, Ziegler, Kammel and Thrun 2010). In d(s) they hold at standstill too; by time,
+/// (Werling et al. 2010). In d(s) they hold at standstill too; by time,
 /// d_t = d' s_t and d_tt = d'' s_t^2 + d' s_tt.
 namespace trackbed {
 

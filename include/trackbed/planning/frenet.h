@@ -14,9 +14,9 @@
 #include "trackbed/planning/plan_status.h"
 #include "trackbed/vehicle/params.h"
 
-/// Optimal motions in the Frenet frame of a reference path (Werling, Ziegler, Kammel and Thrun
-/// 2010; variant 2 of the slides): polynomials to many ends, ranked by their cost; the first one
-/// that the car can drive is taken.
+/// Optimal motions in the Frenet frame of a reference path (Werling et al. 2010; the weights
+/// are named as in the Frenet lecture): polynomials to many ends, ranked by their cost; the first
+/// one that the car can drive is taken.
 ///
 /// Symbols: those of path/frenet_frame.h; T duration [s]; S_1, V_1 wanted station [m] and speed
 /// [m/s] at the end.
@@ -35,7 +35,7 @@ struct FrenetWeights {
   double k_st = 0.1;   ///< of time [1/s]
   double k_lat = 1.0;  ///< of C_d
   double k_lon = 1.0;  ///< of C_s
-  /// Of the integrals: 3 is jerk; 2 is acceleration, as the slides print it.
+  /// Of the integrals: 3 is jerk; 2 is acceleration, as the Frenet lecture has it.
   int derivative_order = 3;
 };
 

@@ -10,7 +10,7 @@
 #include "trackbed/planning/plan_status.h"
 #include "trackbed/vehicle/params.h"
 
-/// Hybrid A* (Dolgov, Thrun, Montemerlo and Diebel 2008): a search over poses that a car can drive
+/// Hybrid A* (Dolgov et al. 2008): a search over poses that a car can drive
 /// through, forwards and backwards. Poses are continuous; of those that fall into one cell of
 /// position and heading, come to in one direction, only the cheapest is kept.
 ///

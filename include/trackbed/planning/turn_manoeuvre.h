@@ -13,7 +13,7 @@
 #include "trackbed/vehicle/params.h"
 
 /// The local planner's geometry: one Bezier curve of degree seven past an obstacle that stands in a
-/// turn (dissertation appendix F, listing F.2).
+/// turn (Skackauskas, dissertation, listing F.2; below, "the listing").
 ///
 /// Manoeuvre frame M: origin where the manoeuvre starts, x along the heading there, y to the left.
 /// The turn's arc begins the distance S ahead.
@@ -60,8 +60,8 @@ struct TurnManoeuvre {
   double obstacle_yaw = 0.0;           ///< in M [rad]; 0 is the listing's
   bool obstacle_follows_turn = false;  ///< its yaw counts from the turn's heading where it stands
   double safe_distance = 1.5;          ///< SD [m], >= 0
-  double inner_width = 1.0;            ///< vidinis_ziedas: free toward the centre [m], >= 0
-  double outer_width = 0.0;            ///< isorinis_ziedas: free on the other side [m], >= 0
+  double inner_width = 1.0;            ///< free toward the centre [m], >= 0
+  double outer_width = 0.0;            ///< free on the other side [m], >= 0
   LiteralTurn literal;
 
   /// The side with more room; the inner one if there is the same on both.
@@ -156,14 +156,14 @@ struct ManoeuvreSample {
 
 /// What driving along a curve comes to. Largest and smallest values are those of the samples.
 struct ManoeuvreDrive {
-  std::vector<ManoeuvreSample> samples;  ///< (time, steering) are the listing's sig1
+  std::vector<ManoeuvreSample> samples;  ///< (time, steering) are the listing's steering signal
   double length = 0.0;                   ///< ARC_L: of all chords [m]
   double duration = 0.0;                 ///< length/v_a [s]
   double steering_max = 0.0;             ///< largest |delta| [rad]
   double steering_rate_max = 0.0;        ///< largest |d delta/dt| [rad/s]
   Vec2 test_point{0.0, 0.0};             ///< beside the obstacle, by the listing's rule
   Vec2 test_corner{0.0, 0.0};            ///< the corner of the obstacle that it is held against
-  double test_distance = 0.0;            ///< Salyga_2: between the two [m]
+  double test_distance = 0.0;            ///< the listing's safety check: between the two [m]
   double clearance = 0.0;                ///< smallest distance from outline to obstacle [m]; 0 for
                                          ///< a collision
 

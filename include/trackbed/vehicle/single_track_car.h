@@ -4,8 +4,8 @@
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/state.h"
 
-/// The linear dynamic single-track car (Riekert and Schunck 1940; Mitschke and Wallentowitz,
-/// Dynamik der Kraftfahrzeuge) behind a rate-limited steering actuator, speed prescribed.
+/// The linear dynamic single-track car (Riekert and Schunck 1940; Mitschke and Wallentowitz
+/// 2014) behind a rate-limited steering actuator, speed prescribed.
 ///
 /// Symbols (ISO 8855): u speed along the car's x axis [m/s], signed, the same at every point of
 /// that axis; v lateral speed at the centre of gravity [m/s]; r yaw rate [rad/s]; delta steering;
