@@ -185,7 +185,7 @@ class AroundObstacles {
     entry["search"] = {{"method", SearchFor(options_.search.method).name},
                        {"evaluations", stretch.repair.search.evaluations},
                        {"objective", stretch.repair.search.value}};
-    // The check of listing F.2, for comparison: a single point of the path, two metres before
+    // The check of listing F.2, for comparison: a single point of the path, two meters before
     // it is beside the obstacle, against a corner; ours is the nearest one.
     const double share = (stretch.beside - stretch.leave) / (stretch.back - stretch.leave);
     const double beside = stretch.repair.check.length * share;

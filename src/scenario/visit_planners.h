@@ -70,7 +70,7 @@ void Visit(Archive& a, FilletOptions& options) {
            "by what radii are chosen: the largest, the yaw rate over a window of the route, over "
            "the turn, or the driven car's error"},
           options.objective, Need::kOptional, objectives);
-  a.Section({"search", "", "how it is minimised; not for 'largest'"}, options.search);
+  a.Section({"search", "", "how it is minimized; not for 'largest'"}, options.search);
   a.Field({"resimulate_each_turn", "", "a first drive before every turn, not one for all"},
           options.resimulate_each_turn, Need::kOptional);
   static const EnumNames<ReferencePoint> references{
@@ -173,7 +173,7 @@ template <typename Archive>
 void Visit(Archive& a, HybridAStarOptions& options) {
   VisitCurves(a, options.radius, options.safe_distance, options.min_speed);
   a.Field({"reverse", "", "whether it may go backwards"}, options.reverse, Need::kOptional);
-  a.Field({"reverse_cost", "", "of a metre backwards, in metres"}, options.reverse_cost,
+  a.Field({"reverse_cost", "", "of a meter backwards, in meters"}, options.reverse_cost,
           Need::kOptional, Range{.min = 1.0, .max = 1e3});
   a.Field({"switch_cost", "m", "of a change of direction"}, options.switch_cost, Need::kOptional,
           kNotNegative);
@@ -218,7 +218,7 @@ void Visit(Archive& a, RrtPlannerOptions& options) {
   a.Field({"data_weight", "", "alpha of the smoothing: keeps points where they are"},
           options.data_weight, Need::kOptional, Range{.min = 0.0, .max = 1.0});
   a.Field({"smoothness_weight", "",
-           "beta of the smoothing: draws points between their neighbours; data_weight + 2 "
+           "beta of the smoothing: draws points between their neighbors; data_weight + 2 "
            "smoothness_weight is above 0 and below 1"},
           options.smoothness_weight, Need::kOptional, Range{.min = 0.0, .max = 0.5});
   a.Field({"corner_cost", "m", "of a corner, as so much way: fewer corners, with longer legs"},
@@ -236,7 +236,7 @@ void Visit(Archive& a, BezierAvoidanceOptions& options) {
   static const EnumNames<RingChoice> rings{
       {RingChoice::kAuto, "auto"}, {RingChoice::kInner, "inner"}, {RingChoice::kOuter, "outer"}};
   a.Field({"ring", "",
-           "on which side to pass: toward the turn's centre (left on a straight), away from it, or "
+           "on which side to pass: toward the turn's center (left on a straight), away from it, or "
            "as RRT* finds it shorter"},
           options.ring, Need::kOptional, rings);
   a.Field({"min_speed", "m/s", "no slower than this to get past"}, options.min_speed,

@@ -118,7 +118,7 @@ void Visit(Archive& a, DetourChoice& choice) {
           Need::kOptional, Range{.min = 1, .max = 1000});
   a.Field({"collision_penalty", "m", "for a way that is blocked"},
           choice.comparator.collision_penalty, Need::kOptional, kNotNegative);
-  a.Field({"wind_weight", "", "of the wind along the way, in metres for metres"},
+  a.Field({"wind_weight", "", "of the wind along the way, in meters for meters"},
           choice.wind_weight, Need::kOptional, kNotNegative);
 }
 

@@ -133,7 +133,7 @@ TEST(Run, TurnedStartGivesTheTurnedRun) {
     }
     // Kinematic: rounding of 140 m of route (1e-14 each of 23 000 steps). MuJoCo: the contact
     // solver stops at 1e-10 of its scale, differently for each direction, and the closed loop keeps
-    // the micrometres that makes from growing.
+    // the micrometers that makes from growing.
     EXPECT_LE(apart, a.logs[i].plant == "kinematic" ? Tolerance(1e-9) : Tolerance(1e-4));
     EXPECT_LE(yaw_apart, a.logs[i].plant == "kinematic" ? Tolerance(1e-9) : Tolerance(1e-4));
   }

@@ -125,7 +125,7 @@ TEST_P(SecondPass, MissesTheGoalAsPrinted) {
   options.reference = c.reference;
   const FilletPlan plan = PlanFillets(SeedCar(), c.route, kSpeed, options);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
-  // The verification's step of 0.5 m on ramps errs by a micrometre.
+  // The verification's step of 0.5 m on ramps errs by a micrometer.
   EXPECT_NEAR(plan.verification.goal_distance, c.error, Tolerance(Printed(c.decimals) + 1e-6));
 }
 

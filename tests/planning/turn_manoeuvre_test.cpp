@@ -510,7 +510,7 @@ TEST(TurnManoeuvre, RightTurnMirrorsTheLeftToTheLastBit) {
 }
 
 TEST(ControlPoints, NothingJumpsWhenTheReductionVanishes) {
-  // A reduction of 1e-9 turns the exit, whose far end lies r_1 + S < 43 m from the arc's centre.
+  // A reduction of 1e-9 turns the exit, whose far end lies r_1 + S < 43 m from the arc's center.
   constexpr double kSmall = 1e-9;
   for (const Ring ring : {Ring::kInner, Ring::kOuter}) {
     TurnManoeuvre none = Literal(TurnSide::kLeft, ring, 0.0);
@@ -598,7 +598,7 @@ TEST(DriveManoeuvre, DefaultDetailsAreAsPrinted) {
 
 // --- The drive ---------------------------------------------------------------------------------
 
-/// The largest rate between neighbours of the steering signal, as the printed numbers have it.
+/// The largest rate between neighbors of the steering signal, as the printed numbers have it.
 double LargestQuotient(const ManoeuvreDrive& drive) {
   double largest = 0.0;
   for (std::size_t i = 1; i < drive.samples.size(); ++i) {
@@ -892,7 +892,7 @@ TEST(LiteralRrtStar, SpreadIsAsPrinted) {
     expect_quantile(0.95, row.high);
     // The smallest of 2000 draws; 200 000 reach 20.55 and 41.83.
     EXPECT_GE(nearest, row.nearest - Tolerance(Printed(1)));
-    // Eleven steps of a metre are too few for any of them.
+    // Eleven steps of a meter are too few for any of them.
     EXPECT_GE(nearest, layout.safe_point.norm() - 11.0 - Tolerance(kRounding));
   }
 }

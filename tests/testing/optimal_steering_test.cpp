@@ -91,9 +91,9 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, OptimallySteeredAgainst,
                          });
 
 TEST_P(OptimallySteeredAgainst, StaysNearItsPathWhereThePlansSteeringAloneDoesNot) {
-  // MuJoCo's car on its contacts. A tenth of a metre is what a lane of a car park leaves; five
+  // MuJoCo's car on its contacts. A tenth of a meter is what a lane of a car park leaves; five
   // times is what makes closing the loop worth it, where leaving it open costs a quarter of a
-  // metre.
+  // meter.
   const auto drive = [](const char* method) {
     const auto& [course, disturbance] = GetParam();
     std::vector<std::string> keys = disturbance.keys;

@@ -124,7 +124,7 @@ TEST(KinematicCar, CentreOfGravityRunsOnItsOwnRadius) {
   for (const auto& [radius, outer] : table) {
     SCOPED_TRACE(radius);
     const double steering = SteeringForCurvature(SeedCar(), 1.0 / radius);
-    // The rear axle starts at the origin, so the circle's centre is (0, r).
+    // The rear axle starts at the origin, so the circle's center is (0, r).
     KinematicCar car = CarAt({.speed = kSpeed, .steering = steering});
     car.Step({.steering = steering}, 2.7);
     const Vec2 centre{0.0, radius};

@@ -64,7 +64,7 @@ enum class PreviewLaw {
 };
 
 /// MacAdam's preview (MacAdam 1981) with a single point: the point P of the path at distance R from
-/// the rear-axle centre O, the first after the nearest one; u is the signed angle from the
+/// the rear-axle center O, the first after the nearest one; u is the signed angle from the
 /// direction of motion to OP. Beyond its end the path goes on along its tangent. A car further than
 /// R from the path heads for the point R ahead of its nearest one.
 ///
@@ -95,7 +95,7 @@ struct PreviewOptions {
   bool slip = false;
 };
 
-/// With the manoeuvres of steering_profile.h and recorded inputs, which need no plan.
+/// With the maneuvers of steering_profile.h and recorded inputs, which need no plan.
 using ControllerOptions =
     std::variant<ScheduleOptions, PreviewOptions, ConstantSteeringOptions, StepSteeringOptions,
                  RampSteeringOptions, SineSteeringOptions, SineWithDwellOptions, SweptSineOptions,

@@ -40,7 +40,7 @@ struct FrenetState {
   bool operator==(const FrenetState&) const = default;
 };
 
-/// A car in the world: its rear-axle centre.
+/// A car in the world: its rear-axle center.
 struct MotionState {
   Pose2 pose;
   double curvature = 0.0;     ///< kappa, of its steering [1/m]
@@ -51,7 +51,7 @@ struct MotionState {
 };
 
 /// The car seen from the nearest point of the path within the stations. None where there is no
-/// frame: the car is at or beyond the path's centre of curvature (1 - kappa_r d <= 0), looks across
+/// frame: the car is at or beyond the path's center of curvature (1 - kappa_r d <= 0), looks across
 /// or back (|Dtheta| >= 90 degrees), or the path is driven backwards there. Cost: a projection.
 std::optional<FrenetState> ToFrenet(const Path& path, const MotionState& motion,
                                     Stations within = {});

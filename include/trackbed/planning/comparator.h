@@ -5,7 +5,7 @@
 #include "trackbed/planning/smoothing.h"
 
 /// Which of two ways to go on with ("Comparator" of the wind-aware RRT): the shorter one, where a
-/// collision and the wind count in metres.
+/// collision and the wind count in meters.
 namespace trackbed {
 
 struct ComparatorOptions {

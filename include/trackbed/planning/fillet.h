@@ -43,7 +43,7 @@ enum class WithoutRoom {
   /// Take it as fast as C.40 allows. Below `min_speed`: at that, if half a ramp, which is what lies
   /// on the leg, fits into half of it besides the arc's tangent; else refuse.
   kSlowDown,
-  kHalfLeg,  ///< take it under C.34: the wheels turn on the arc of the neighbours
+  kHalfLeg,  ///< take it under C.34: the wheels turn on the arc of the neighbors
   kRefuse,   ///< no plan
 };
 
@@ -53,7 +53,7 @@ enum class RadiusObjective {
   kLargest,
   /// The two passes of Skackauskas, dissertation, listing F.1: a first drive on the smallest radii
   /// tells the time t and the heading dpsi from the return of one turn to the return of the next;
-  /// the search minimises (psi'(r) t - dpsi)^2. That time holds the straight before the turn too,
+  /// the search minimizes (psi'(r) t - dpsi)^2. That time holds the straight before the turn too,
   /// so the optimum of a first turn always lies on the constraint.
   kLiteral,
   /// The same over the turn alone, from D_{2k-1} to D_2k: the radius that the rate-limited car
@@ -134,8 +134,8 @@ struct FilletTurn {
   double steering = 0.0;             ///< signed delta of the arc [rad]
   double ramp_time = 0.0;            ///< |delta - d_0|/omega_delta [s]
   double ramp_distance = 0.0;        ///< S_delta [m]
-  double steer_start = 0.0;          ///< D_{2k-1}: half a ramp before H_i unless optimised [m]
-  double steer_return = 0.0;         ///< D_{2k}: half a ramp before H_{i+1} unless optimised [m]
+  double steer_start = 0.0;          ///< D_{2k-1}: half a ramp before H_i unless optimized [m]
+  double steer_return = 0.0;         ///< D_{2k}: half a ramp before H_{i+1} unless optimized [m]
   bool ramp_truncated = false;       ///< the wheels turn back before they have reached `steering`
 };
 
@@ -146,7 +146,7 @@ struct FilletPlan {
   std::vector<FilletTurn> turns;
   Path path;
   SteeringSchedule schedule;
-  double stop_distance = 0.0;          ///< D_end [m]; the path's length unless optimised
+  double stop_distance = 0.0;          ///< D_end [m]; the path's length unless optimized
   OpenLoopDrive verification;          ///< the final drive
   std::optional<SearchResult> search;  ///< of kDriven
 };

@@ -191,7 +191,7 @@ struct FrenetPlan {
 /// The cheapest candidate that can be driven.
 ///
 /// Guarantees: the points keep every limit; between them, `spacing` apart, the clearance can be
-/// less by half of what car and obstacle move towards each other from point to point. checked =
+/// less by half of what car and obstacle move toward each other from point to point. checked =
 /// passed + rejected.total(). Same input, same bytes. Beyond the end of the motion only collisions
 /// are looked for, every `time_step`, up to the horizon. Errors: InternalError for options out of
 /// range or a start that is not finite. Cost: 0.3 ms for 525 candidates, 1 ms when

@@ -9,7 +9,7 @@
 /// Symbols: psi yaw [rad], delta steering [rad], v speed [m/s], L wheelbase, l_g rear axle to CG,
 /// beta = atan(l_g tan(delta)/L) side-slip angle at the CG [rad].
 ///   rear axle:          x' = v cos psi          psi' = v tan(delta)/L
-///   centre of gravity:  x' = v cos(psi + beta)  psi' = v cos(beta) tan(delta)/L
+///   center of gravity:  x' = v cos(psi + beta)  psi' = v cos(beta) tan(delta)/L
 namespace trackbed {
 
 struct MotionPiece;

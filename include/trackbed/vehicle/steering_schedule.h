@@ -70,8 +70,8 @@ double RampHeading(const VehicleParams& params, double steering, double speed);
 /// by quadrature of the heading above.
 Pose2 RampPose(const VehicleParams& params, double steering, double speed);
 
-/// Heading that a turn misses [rad, <= 0] when both its ramps are centred on the tangent points and
-/// fit into the arc: (v/(L omega)) (-2 ln cos delta - delta tan delta).
+/// Heading that a turn misses [rad, <= 0] when both its ramps are centered on the tangent points
+/// and fit into the arc: (v/(L omega)) (-2 ln cos delta - delta tan delta).
 double TurnHeadingDefect(const VehicleParams& params, double steering, double speed);
 
 /// Where an open-loop drive gets: the kinematic car from `start` over `distance` [m], its wheels
