@@ -6,8 +6,8 @@
 
 #include "trackbed/planning/occupancy_grid.h"
 
-/// A* (Hart et al. 1968) on a grid with eight neighbors, the baseline of the other
-/// planners: it ignores that a car has a heading and a turning circle.
+/// A* (Hart et al. 1968) on a grid with eight neighbors, the baseline of the other planners: it
+/// ignores that a car has a heading and a turning circle.
 ///
 /// Symbols: g(n) cost of the best way known to cell n, h(n) octile distance from n to the goal,
 /// both in cells: 1 straight, sqrt(2) across. A step across needs both cells beside it to be free.

@@ -14,9 +14,9 @@
 #include "trackbed/planning/plan_status.h"
 #include "trackbed/vehicle/params.h"
 
-/// Optimal motions in the Frenet frame of a reference path (Werling et al. 2010; the weights
-/// are named as in the Frenet lecture): polynomials to many ends, ranked by their cost; the first
-/// one that the car can drive is taken.
+/// Optimal motions in the Frenet frame of a reference path (Werling et al. 2010; the weights are
+/// named as in the Frenet lecture): polynomials to many ends, ranked by their cost; the first one
+/// that the car can drive is taken.
 ///
 /// Symbols: those of path/frenet_frame.h; T duration [s]; S_1, V_1 wanted station [m] and speed
 /// [m/s] at the end.

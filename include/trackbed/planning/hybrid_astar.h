@@ -10,9 +10,9 @@
 #include "trackbed/planning/plan_status.h"
 #include "trackbed/vehicle/params.h"
 
-/// Hybrid A* (Dolgov et al. 2008): a search over poses that a car can drive
-/// through, forwards and backwards. Poses are continuous; of those that fall into one cell of
-/// position and heading, come to in one direction, only the cheapest is kept.
+/// Hybrid A* (Dolgov et al. 2008): a search over poses that a car can drive through, forwards and
+/// backwards. Poses are continuous; of those that fall into one cell of position and heading, come
+/// to in one direction, only the cheapest is kept.
 ///
 /// Symbols: r radius of the sharpest arcs [m]; a step is an arc of curvature 0, +-1/(2r) or +-1/r.
 /// The cost of a way is its length [m], that of stretches backwards times `reverse_cost`, plus

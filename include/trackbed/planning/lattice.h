@@ -4,9 +4,9 @@
 
 #include "trackbed/planning/frenet.h"
 
-/// Motions along a reference path through a lattice of stations, offsets and speeds (the
-/// Frenet lecture's third variant): the edges are motions of planning/frenet.h, the cheapest way
-/// is found by dynamic programming.
+/// Motions along a reference path through a lattice of stations, offsets and speeds (the Frenet
+/// lecture's third variant): the edges are motions of planning/frenet.h, the cheapest way is found
+/// by dynamic programming.
 ///
 /// A node is a station s_j = s_0 + j spacing, an offset d_k and a speed v_m, passed along the path
 /// without acceleration (d' = d'' = s_tt = 0). An edge leads from a node, or the start, to one of
