@@ -27,7 +27,7 @@ if(TRACKBED_SANITIZE)
     INTERFACE -fsanitize=address,undefined
               -fno-sanitize-recover=all
               -fno-omit-frame-pointer
-              # GCC 12 takes instrumented std::regex for uninitialised.
+              # GCC 12 takes instrumented std::regex for uninitialized.
               -Wno-maybe-uninitialized)
   target_link_options(trackbed_compiler INTERFACE -fsanitize=address,undefined)
 endif()

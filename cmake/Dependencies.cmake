@@ -27,7 +27,7 @@ if(ompl_FOUND)
   target_include_directories(ompl::ompl INTERFACE ${OMPL_INCLUDE_DIR})
 endif()
 
-# JavaScript that the reports carry with them, and its licences.
+# JavaScript that the reports carry with them, and its licenses.
 macro(trackbed_find_script variable package file)
   find_file(${variable} ${file} PATHS ${ARGN} NO_DEFAULT_PATH)
   if(NOT ${variable})

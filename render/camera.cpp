@@ -79,7 +79,7 @@ CameraPose Side(const CameraSubject& subject, double time, double aspect) {
 }
 
 CameraPose Top(const CameraSubject& subject, double time, double aspect) {
-  // A long lens from high up: upright things hardly lean away from the centre.
+  // A long lens from high up: upright things hardly lean away from the center.
   constexpr double kViewAngle = 20.0 * kPi / 180.0;
   constexpr double kMargin = 5.0;         // [m] around the route
   constexpr double kFollowHeight = 34.0;  // [m] of ground from bottom to top

@@ -29,7 +29,7 @@ class CameraSubject {
  public:
   explicit CameraSubject(const Recording& recording);
 
-  /// The car's rear-axle centre as driven [m].
+  /// The car's rear-axle center as driven [m].
   [[nodiscard]] Point Position(double time) const { return car_.Position(time); }
   /// Position and heading averaged over about a second around `time`.
   [[nodiscard]] Point SmoothPosition(double time) const;

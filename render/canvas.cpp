@@ -117,7 +117,7 @@ void Canvas::Fill(const Rectangle& rectangle, double radius, Color color, double
           }
         }
       }
-      // Signed distance of the pixel's centre from the rounded outline: one pixel of fading.
+      // Signed distance of the pixel's center from the rounded outline: one pixel of fading.
       const double across = std::abs(x + 0.5 - center_x) - 0.5 * rectangle.width + radius;
       const double down = std::abs(y + 0.5 - center_y) - 0.5 * rectangle.height + radius;
       const double outside =

@@ -8,11 +8,11 @@
 
 namespace trackbed::render {
 
-/// What a colour in the picture stands for.
+/// What a color in the picture stands for.
 struct LegendEntry {
   Color color;
   std::string text;
-  std::vector<Color> ramp{};  ///< in place of the colour, from left to right
+  std::vector<Color> ramp{};  ///< in place of the color, from left to right
 };
 
 /// What is the same in every picture of a film.

@@ -29,8 +29,8 @@ void CheckSide(std::vector<Problem>& problems, const char* key, int value, int m
     problems.push_back(
         {.file = "",
          .key = key,
-         .message = fmt::format(
-             "{} px; must be even, because the film stores colour for 2x2 pixels", value)});
+         .message = fmt::format("{} px; must be even, because the film stores color for 2x2 pixels",
+                                value)});
   }
 }
 

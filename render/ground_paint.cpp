@@ -85,7 +85,7 @@ class Tiler {
 
  private:
   void Add(const OrientedBox& box, const Tile& like, double above) {
-    // Through the middles of its sides: neighbours meet there.
+    // Through the middles of its sides: neighbors meet there.
     std::array<Eigen::Vector3d, 4> sides;
     const std::array<Vec2, 4> ways{{{1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}}};
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();

@@ -25,7 +25,7 @@ struct Tile {
 /// and what grips more than usual brownish.
 Color PatchColor(double friction);
 
-/// How that colour comes out on asphalt.
+/// How that color comes out on asphalt.
 Color PatchColorOnRoad(double friction);
 
 /// The world's friction patches, each cut into so many tiles that the ground bends and twists by no

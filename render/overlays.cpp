@@ -11,7 +11,7 @@ const std::vector<Overlay>& OverlayTable() {
   static const std::vector<Overlay> table{
       {"plan", "the planned path, and each new one", &Overlays::plan},
       {"trail", "where the cars have been", &Overlays::trail},
-      {"error", "the car's trail in the colour of its distance from the path", &Overlays::error},
+      {"error", "the car's trail in the color of its distance from the path", &Overlays::error},
       {"ghosts", "the other plants as translucent cars", &Overlays::ghosts},
       {"wind", "arrows of the wind over the ground, and the outline of where a gust blows",
        &Overlays::wind},

@@ -96,7 +96,7 @@ std::vector<LegendEntry> LegendOf(const Recording& recording, const Overlays& ov
   }
   std::sort(factors.begin(), factors.end());
   factors.erase(std::unique(factors.begin(), factors.end()), factors.end());
-  constexpr std::size_t kMostFactors = 3;  // their colours could hardly be told apart
+  constexpr std::size_t kMostFactors = 3;  // their colors could hardly be told apart
   for (std::size_t i = 0; i < std::min(factors.size(), kMostFactors); ++i) {
     legend.push_back({PatchColorOnRoad(factors[i]), fmt::format("friction x{:.3g}", factors[i])});
   }

@@ -20,7 +20,7 @@ namespace trackbed::render {
 
 struct Quality;
 
-/// What the colours of a film of `recording` with these overlays stand for.
+/// What the colors of a film of `recording` with these overlays stand for.
 std::vector<LegendEntry> LegendOf(const Recording& recording, const Overlays& overlays);
 
 /// Makes the pictures of a film: the recorded worlds, what is drawn over them, and the captions.

@@ -75,7 +75,7 @@ class PlantRecording {
   /// Puts the car of `data` where it was at `time` [s]; bodies' places are up to date after.
   void Pose(double time, const mjModel& model, mjData& data) const;
 
-  /// Rear-axle centre, heading [rad] (not wrapped, from the rotation of the x axis).
+  /// Rear-axle center, heading [rad] (not wrapped, from the rotation of the x axis).
   [[nodiscard]] Point Position(double time) const;
   [[nodiscard]] const std::vector<double>& headings() const { return headings_; }
   [[nodiscard]] double Heading(double time) const;

@@ -76,7 +76,7 @@ void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const Ribbo
   if (length < 1e-6 || scene.ngeom >= scene.maxgeom) {
     return;
   }
-  // Neighbours overlap at two heights: lamps that cast shadows light both of two faces at one
+  // Neighbors overlap at two heights: lamps that cast shadows light both of two faces at one
   // place.
   constexpr double kStagger = 0.0005;
   // Pieces meet at up to about 15 degrees: tan(15 / 2) of half the width closes the outer corner.

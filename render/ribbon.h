@@ -15,7 +15,7 @@ namespace trackbed::render {
 struct RibbonStyle {
   Color color;
   double width = 0.2;  ///< [m]
-  /// Above the ground [m]; one per ribbon, a millimetre or more apart, or they flicker.
+  /// Above the ground [m]; one per ribbon, a millimeter or more apart, or they flicker.
   double height = 0.01;
 };
 

@@ -6,10 +6,10 @@ namespace trackbed::render {
 
 struct Recording;
 
-/// What the last colour and the ends of the axes in a film stand for.
+/// What the last color and the ends of the axes in a film stand for.
 struct Scales {
   double end = 0;  ///< of the drive [s]
-  /// Distance from the path of the ribbon's last colour [m]: the largest of the drive, rounded up
+  /// Distance from the path of the ribbon's last color [m]: the largest of the drive, rounded up
   /// to 1, 2 or 5 times a power of ten, and at least 0.05 m. 0 when the car follows no path or its
   /// log does not say how far from it it is.
   double error = 0;

@@ -45,7 +45,7 @@ std::vector<GustLine> GustLines(const Recording& recording) {
   return lines;
 }
 
-/// A point each where the line bends and where its colour changes.
+/// A point each where the line bends and where its color changes.
 std::vector<Trail> TrailsOf(const Recording& recording, const Overlays& overlays) {
   std::vector<Trail> trails;
   for (std::size_t car = 0; car < recording.plants.size(); ++car) {
@@ -105,7 +105,7 @@ constexpr double kPlanHeight = 0.008;
 // is what was not driven.
 constexpr double kGivenUpWidth = 0.24;
 constexpr Color kAsphalt{0.60F, 0.62F, 0.60F};
-constexpr float kGivenUpShare = 0.35F;  // of its own colour
+constexpr float kGivenUpShare = 0.35F;  // of its own color
 // A plan that was driven for less than this leaves nothing behind: planning again twice a second
 // would fill the road with fans of lines [s].
 constexpr double kBrief = 1.0;

@@ -15,7 +15,7 @@
 
 namespace trackbed::render {
 
-/// The colours of a film: of the planned path, of one taken up on the way, and of each car's trail
+/// The colors of a film: of the planned path, of one taken up on the way, and of each car's trail
 /// (the main car's first).
 constexpr Color kPlanColor{1.00F, 1.00F, 0.97F};
 constexpr Color kNewPlanColor{1.00F, 0.84F, 0.05F};  // as temporary markings overrule white ones

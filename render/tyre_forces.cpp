@@ -70,7 +70,7 @@ TyreForces::TyreForces(const Recording& recording) : recording_(recording) {
     }
     const double weight = model.body_subtreemass[model.body_rootid[wheels_.front().body]] *
                           std::abs(model.opt.gravity[2]);
-    constexpr double kRadius = 0.72;  // [m]; half a car's track, so that neighbours just touch
+    constexpr double kRadius = 0.72;  // [m]; half a car's track, so that neighbors just touch
     metres_per_newton_ =
         kRadius * static_cast<double>(wheels_.size()) / (std::max(friction, 0.1) * weight);
   }

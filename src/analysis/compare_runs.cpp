@@ -201,7 +201,7 @@ Trace PathIn(const Table& plan) {
   return trace;
 }
 
-/// What another build may round differently, of metres, radians and metres per second: less than
+/// What another build may round differently, of meters, radians and meters per second: less than
 /// anyone looks at.
 constexpr double kRounding = 1e-6;
 

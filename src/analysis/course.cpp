@@ -61,7 +61,7 @@ struct Departure {
 void Evaluate(const BrakingTestOptions& options, const ManoeuvreInput& input,
               ManoeuvreMetrics& metrics) {
   constexpr double kBraking = 0.5;      // more than keeping a speed asks for [m/s^2]
-  constexpr double kStandstill = 0.05;  // [m/s]; from there it is a millimetre
+  constexpr double kStandstill = 0.05;  // [m/s]; from there it is a millimeter
   const auto& rows = input.log.rows;
   std::size_t onset = 0;
   while (onset < rows.size() && rows[onset].command.acceleration > -kBraking) {

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr const char* kOptimalSteering = "optimal_steering";
 constexpr double kDegree = kPi / 180.0;
 
-/// The defaults are the paper's experiment.
+/// The defaults are the experiment of Skackauskas et al. 2017.
 struct ExperimentOptions {
   std::string name;
   std::string vehicle = "prius";
@@ -41,7 +41,7 @@ struct ExperimentOptions {
   bool quiet = false;
 };
 
-/// What the paper prints of its second stage, whose primary steers 10 deg at 3 m/s: a genetic
+/// The second stage of Skackauskas et al. 2017, whose primary steers 10 deg at 3 m/s: a genetic
 /// algorithm's angles, which lie within 2.3 % of the primary's.
 std::optional<double> Published(const ExperimentOptions& options, double speed) {
   struct Row {

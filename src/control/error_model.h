@@ -11,12 +11,12 @@ namespace trackbed {
 /// rate: what LQR and MPC reckon with.
 ///
 /// State x: e [m], psi [rad], delta where the actuator stands, delta_w the road wheels behind it
-/// (tau: the car's steering lag) and, for a car with tyres, v and r at the centre of gravity. With
-/// Rajamani's (e, e', psi, psi') it has in common that e' = u psi + v - l_r r and psi' = r - u
-/// kappa; e is the rear axle's.
+/// (tau: the car's steering lag) and, for a car with tyres, v and r at the center of gravity. As
+/// in the (e, e', psi, psi') of Rajamani 2012, ch. 2, e' = u psi + v - l_r r and psi' = r - u
+/// kappa; here e is the rear axle's.
 ///   x' = A x + B w + D kappa + C c
 /// w = delta' the steering rate, kappa the path's curvature, and c = tan(delta_0) - delta_0 of the
-/// steady turn: the wheels act with their tangent, which is linearised there with slope 1. Thus a
+/// steady turn: the wheels act with their tangent, which is linearized there with slope 1. Thus a
 /// car on its path in a steady turn stays on it, however tight that is.
 struct ErrorModel {
   static constexpr int kMost = 6;
@@ -53,7 +53,7 @@ class CommandedAngle {
   std::optional<double> last_;
 };
 
-/// What LQR and MPC minimise: the sum over all steps of
+/// What LQR and MPC minimize: the sum over all steps of
 ///   cross_track e^2 + heading (psi - psi_0)^2 + rate w^2.
 struct ErrorWeights {
   double cross_track = 1.0;    ///< [1/m^2], > 0
@@ -80,7 +80,7 @@ struct Regulator {
   double input_cost = 0.0;  ///< R + b^T P b
 };
 
-/// P from the discrete Riccati equation, by doubling (Chu, Fan, Lin, Wang 2004), to rounding.
+/// P from the discrete Riccati equation, by doubling (Chu et al. 2004), to rounding.
 Regulator RegulatorOf(const ErrorModel& model, const ErrorWeights& weights);
 
 /// Diagonal of the cost of x.

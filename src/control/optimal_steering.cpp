@@ -28,7 +28,7 @@ Deviation Difference(const Pose2& actual, const Pose2& wanted) {
   return {actual.x - wanted.x, actual.y - wanted.y, actual.yaw - wanted.yaw};
 }
 
-/// The variable that minimises its cost, in place of the steering.
+/// The variable that minimizes its cost, in place of the steering.
 template <typename Cost>
 SteeringMatch Minimise(const Cost& cost, const Range& range, const SearchOptions& search,
                        std::uint64_t seed) {

@@ -18,10 +18,9 @@
 ///
 /// 3 v T: behind a first-order lag T the characteristic polynomial of a kinematic car beside a
 /// straight is T s^3 + s^2 + (2 v/R) s + 2 v^2/R^2, stable for R > v T (Routh), with a damping
-/// ratio of 0.37 at 3 v T and of 1/2 at 4 v T. Heredia and Ollero, Advanced Robotics 21 (2007),
-/// for pure delays; that the distance grows with the speed is common use (Snider,
-/// CMU-RI-TR-09-08, 2009). m v/(C_f + C_r) is the time constant with which tyres build up the
-/// lateral motion.
+/// ratio of 0.37 at 3 v T and of 1/2 at 4 v T. Heredia and Ollero 2007 for pure
+/// delays; that the distance grows with the speed is common use (Snider 2009). m v/(C_f + C_r) is
+/// the time constant with which tyres build up the lateral motion.
 ///
 /// 0.65 S + v T: where the curvature steps, wheels at their limited rate need the distance S and
 /// turn best half before and half behind the step. A point that comes upon it later than S/2
@@ -44,7 +43,7 @@ double PreviewDistance(const ControlInput& input, double delay = 0.0);
 
 /// The shortest preview [m] that the steering rate can act on, for a car at `speed` that is
 /// `offset` [m] beside its path: on wheels that turn at their full rate the curvature changes by
-/// c = omega/(L v) per metre, and swinging back over an offset e takes a way in proportion to
+/// c = omega/(L v) per meter, and swinging back over an offset e takes a way in proportion to
 /// cbrt(e/c). At no less than the speed 5/4 L omega.
 double ReturnDistance(const VehicleParams& vehicle, double speed, double offset);
 

@@ -33,7 +33,7 @@ Eigen::Matrix<double, 2, 3> LateralRates(const VehicleParams& vehicle, double sp
 struct SteadyTurn {
   double steering = 0.0;       ///< delta_0 [rad]: tan(delta_0) = kappa (L + K u |u|)
   double heading_error = 0.0;  ///< psi_0 [rad]: the rear axle's slip, the other way round
-  double lateral_speed = 0.0;  ///< v at the centre of gravity [m/s]
+  double lateral_speed = 0.0;  ///< v at the center of gravity [m/s]
   double yaw_rate = 0.0;       ///< r = u kappa [rad/s]
 };
 

@@ -16,7 +16,7 @@ using Rows = QuadraticProgram::Rows;
 using Bounds = QuadraticProgram::Bounds;
 using ConstVectorMap = Eigen::Map<const Eigen::VectorXd>;
 
-/// minimise |y|^2/2 + linear^T y  subject to  rows y <= bounds
+/// minimize |y|^2/2 + linear^T y  subject to  rows y <= bounds
 struct LeastDistance {
   Vector linear;
   Rows rows;

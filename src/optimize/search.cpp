@@ -20,7 +20,7 @@ constexpr double kBeyond = 1e100;
 enum class Handling {
   kNative,  ///< it takes them itself
   kRanked,  ///< it only compares points: every infeasible one ranks below every feasible one
-  kHidden,  ///< it guesses the value of points that have none from their neighbours
+  kHidden,  ///< it guesses the value of points that have none from their neighbors
 };
 
 Handling HandlingOf(nlopt::algorithm algorithm) {

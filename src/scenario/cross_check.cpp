@@ -44,7 +44,7 @@ void CheckOptimalSteering(Complaints& c) {
   if (options != nullptr &&
       c.CouldRead({"control.method", "control.weights.position", "control.weights.heading"}) &&
       options->weights.position == 0.0 && options->weights.heading == 0.0) {
-    c.Complain("control.weights", "position and heading are both 0: nothing is left to minimise");
+    c.Complain("control.weights", "position and heading are both 0: nothing is left to minimize");
   }
 }
 

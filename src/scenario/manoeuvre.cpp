@@ -28,7 +28,7 @@ const char* ManoeuvreName(const ManoeuvreOptions& options) {
       return entry.name;
     }
   }
-  throw InternalError("options of a manoeuvre that is not in the table");
+  throw InternalError("options of a maneuver that is not in the table");
 }
 
 }  // namespace trackbed

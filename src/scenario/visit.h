@@ -192,7 +192,7 @@ inline void Visit(KeyVisitor& a, Scenario& scenario) {
              inner.Section({"speed", "", "how the speed is kept"}, scenario.control.speed);
            });
   scenario.control.steering = *steering;
-  a.Method({"manoeuvre", "", "the standard manoeuvre that the drive is evaluated as"},
+  a.Method({"manoeuvre", "", "the standard maneuver that the drive is evaluated as"},
            scenario.manoeuvre, Manoeuvres(), Need::kOptional);
   a.Section({"drive", "", "what is driven, and in which steps"}, scenario.drive);
   a.Section({"disturb", "", "what goes wrong on the drive; nothing unless it is asked for"},

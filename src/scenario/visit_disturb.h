@@ -37,7 +37,7 @@ inline void Visit(KeyVisitor& a, Payload& payload) {
           Range{.max = 10.0, .above = 0.0});
   a.Field({"x", "m", "where it lies, ahead of the rear axle"}, payload.x, Need::kOptional, kOnCar);
   a.Field({"y", "m", "likewise, to the left"}, payload.y, Need::kOptional, kOnCar);
-  a.Field({"z", "m", "likewise, above the ground; else as high as the car's centre of gravity"},
+  a.Field({"z", "m", "likewise, above the ground; else as high as the car's center of gravity"},
           payload.z, Range{.min = 0.0, .max = 100.0});
 }
 
@@ -46,7 +46,7 @@ inline void Visit(KeyVisitor& a, Kick& kick) {
   a.Field({"displacement", "m", "the car is set aside by this at once, positive to its left"},
           kick.displacement, Range{.min = -10.0, .max = 10.0});
   a.Field({"impulse", "N s",
-           "instead: of a force at its centre of gravity, positive to its left; "
+           "instead: of a force at its center of gravity, positive to its left; "
            "the kinematic car feels none"},
           kick.impulse, Range{.min = -1e6, .max = 1e6});
   a.Field({"duration", "s", "of that force; else 0.1"}, kick.duration,

@@ -3,10 +3,10 @@
 #include "trackbed/options/key_visitor.h"
 #include "trackbed/scenario/manoeuvre.h"
 
-/// The keys of the manoeuvres.
+/// The keys of the maneuvers.
 namespace trackbed {
 
-/// Of the manoeuvres that fit gradients.
+/// Of the maneuvers that fit gradients.
 template <typename Options>
 void VisitGradients(KeyVisitor& a, Options& options) {
   a.Field({"settle", "s", "samples count after it"}, options.settle, Need::kOptional, kNotNegative);

@@ -13,7 +13,7 @@ inline constexpr Range kWindSpeed{.min = -100.0, .max = 100.0};  // [m/s]
 inline constexpr Key kWorldSection{"world", "", "what the car drives in"};
 
 inline void Visit(KeyVisitor& a, OrientedBox& box) {
-  a.Field({"x", "m", "centre of the rectangle"}, box.centre.x, Need::kRequired, kMap);
+  a.Field({"x", "m", "center of the rectangle"}, box.centre.x, Need::kRequired, kMap);
   a.Field({"y", "m", "likewise"}, box.centre.y, Need::kRequired, kMap);
   a.Field({"yaw", "rad", "direction of its length"}, box.centre.yaw, Need::kOptional);
   a.Field({"length", "m", "along its own x axis"}, box.length, Need::kRequired, kSize);

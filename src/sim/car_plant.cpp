@@ -200,7 +200,7 @@ double CarPlant::Resistance(int gear) const {
   return dry + gear * (Drag() + climb) * car().params().wheel_radius;
 }
 
-/// dz/dx of the car's centre of gravity: the slopes under its axles, by what each carries.
+/// dz/dx of the car's center of gravity: the slopes under its axles, by what each carries.
 double CarPlant::Grade() const {
   const Ground& ground = car().scene().ground;
   if (IsFlat(ground)) {

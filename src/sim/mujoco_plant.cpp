@@ -193,7 +193,7 @@ VehicleState MujocoPlant::Observe() const {
   const mjtNum* qacc = data_->qacc + car_.chassis().chassis_dof;
   const Vector3d a_W = Vec(qacc);
   const Vector3d alpha_W = R_WV * Vec(qacc + 3);
-  // Speeds on the ground, as the pose is; accelerations at the height of the centre of gravity.
+  // Speeds on the ground, as the pose is; accelerations at the height of the center of gravity.
   const Vector3d v_cg_W = v_W + w_W.cross(R_WV * Vector3d(params.cg_to_rear, 0.0, 0.0));
   const Vector3d to_cg_W = R_WV * Vector3d(params.cg_to_rear, 0.0, car_.chassis().cg_height);
   const Vector3d a_cg_W = a_W + alpha_W.cross(to_cg_W) + w_W.cross(w_W.cross(to_cg_W));

@@ -116,7 +116,7 @@ void PartsReader::ReadOutline(int site) {
   const mjtNum* middle = m_.site_pos + 3 * site;
   const mjtNum* turn = m_.site_quat + 4 * site;
   if (std::abs(middle[1]) > kExact || !(std::abs(turn[0]) > 1.0 - kExact)) {
-    Complain("outline", "must be centred on y = 0 and not turned");
+    Complain("outline", "must be centered on y = 0 and not turned");
   }
   params_.length = 2.0 * half[0];
   params_.width = 2.0 * half[1];

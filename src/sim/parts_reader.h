@@ -40,7 +40,7 @@ class PartsReader {
   [[nodiscard]] double Place(int body, std::size_t axis) const;
   [[nodiscard]] static std::string Text(const mjtNum* v);
 
-  /// Place in the state, mass, inertia and centre of gravity of what hangs on the free joint.
+  /// Place in the state, mass, inertia and center of gravity of what hangs on the free joint.
   void ReadChassis(int free_joint);
   /// That the chassis' origin lies under the two wheels of `axle`, whom messages call `wheels`.
   void CheckOrigin(const char* axle, const char* wheels, int left, int right);

@@ -43,7 +43,7 @@ class Settling {
   /// False when that has not happened in 30 s.
   bool Run() {
     constexpr double kLongest = 30.0;  // [s]
-    // With springs of 1 Hz and more, a car this slow is less than a micrometre from where it stays.
+    // With springs of 1 Hz and more, a car this slow is less than a micrometer from where it stays.
     constexpr double kStands = 1e-6;  // [m/s], [rad/s]
     constexpr double kLookEvery = 0.5;
     // It also passes its highest and lowest point slowly: it must be slow all the time.

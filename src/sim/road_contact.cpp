@@ -15,7 +15,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// A gap this small is none [m]. MuJoCo forgets a contact that opens by a micrometre, as over a
+/// A gap this small is none [m]. MuJoCo forgets a contact that opens by a micrometer, as over a
 /// crest they do, and a tyre pressed by its spring then falls back on the ground like a hammer.
 constexpr double kTouching = 5e-4;
 /// What it is taken for then [m]: a contact, but for rounding without depth.

@@ -20,7 +20,7 @@ std::array<std::string, 3> NamesOf(const MagicFormulaField& field) {
   return {name, name + "_front", name + "_rear"};
 }
 
-/// A coefficient that nobody reads is a misspelt or an unsupported one.
+/// A coefficient that nobody reads is a misspelled or an unsupported one.
 void CheckNames(const Numerics& numerics) {
   std::vector<std::string> known;
   for (const MagicFormulaField& field : MagicFormulaFields()) {

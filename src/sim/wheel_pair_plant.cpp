@@ -10,7 +10,7 @@ namespace trackbed {
 namespace {
 
 /// Two wheels on speed servos with an integral part. Without that, a turn would come out too wide:
-/// what holds the centre of gravity on it, m l_g v psi', is a moment that the motors must give.
+/// what holds the center of gravity on it, m l_g v psi', is a moment that the motors must give.
 class WheelPairPlant final : public MujocoPlant {
  public:
   explicit WheelPairPlant(const PlantSetup& setup)

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kLongestStep = 0.002;  // [s]
 
-/// Radau IIA with three stages: Hairer and Wanner, Solving Ordinary Differential Equations II,
-/// IV.5. Its last stage is the end of the step.
+/// Radau IIA with three stages (Hairer and Wanner 1996, IV.5). Its last stage is the end of the
+/// step.
 struct Radau {
   Eigen::Vector3d node;
   Eigen::Matrix3d weight;

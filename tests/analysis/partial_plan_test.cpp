@@ -41,7 +41,7 @@ TEST(PartialPlan, IsDrivenToItsEndAndNotPassed) {
     EXPECT_EQ(metrics.blocked, "");
     EXPECT_EQ(metrics.plan_changes, 0);
     EXPECT_FALSE(metrics.clearance->collision);
-    // At rest at the end of its path: a plan's last metre takes the car there to centimetres.
+    // At rest at the end of its path: a plan's last meter takes the car there to centimeters.
     const Vec2 stands = run.logs[i].rows.back().state.pose.position();
     EXPECT_LE((stands - end).norm(), 0.2);
     // And that far from the mission's own goal.

@@ -58,9 +58,9 @@ TEST_P(Routes, PreviewTracksThemOnEveryPlant) {
   }
 }
 
-TEST_P(Routes, AreRelatedToTheOpenLoopAsTheSeedsSay) {
-  // Section 4.9 of the seeds: C.40, rear reference, wheels following the schedule exactly, stopped
-  // after the plan's length: 0.1285 m from A's end and 0.0104 m from B's.
+TEST_P(Routes, StopWhereTheSchedulePredicts) {
+  // Computed apart from this program: C.40, rear reference, wheels following the schedule exactly,
+  // stopped after the plan's length: 0.1285 m from A's end and 0.0104 m from B's.
   const bool is_a = std::string(GetParam()) == "three_turns";
   const double converged = is_a ? 0.1285 : 0.0104;
   for (const double period : {0.001, 0.002, 0.004, 0.01, 0.02}) {
@@ -133,7 +133,7 @@ TEST(Run, TurnedStartGivesTheTurnedRun) {
     }
     // Kinematic: rounding of 140 m of route (1e-14 each of 23 000 steps). MuJoCo: the contact
     // solver stops at 1e-10 of its scale, differently for each direction, and the closed loop keeps
-    // the micrometres that makes from growing.
+    // the micrometers that makes from growing.
     EXPECT_LE(apart, a.logs[i].plant == "kinematic" ? Tolerance(1e-9) : Tolerance(1e-4));
     EXPECT_LE(yaw_apart, a.logs[i].plant == "kinematic" ? Tolerance(1e-9) : Tolerance(1e-4));
   }

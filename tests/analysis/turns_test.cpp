@@ -42,7 +42,7 @@ TEST(Turns, SayWhereAndWhenTheyWereMeasured) {
   ASSERT_EQ(turns.size(), planned.size());
   for (std::size_t i = 0; i < turns.size(); ++i) {
     EXPECT_EQ(turns[i].s, planned[i].middle);
-    // At 3 m/s, from the first row on. The car runs up to a centimetre off its path, on the inside
+    // At 3 m/s, from the first row on. The car runs up to a centimeter off its path, on the inside
     // of a bend of 16.8 m: shorter by 0.1 %.
     EXPECT_NEAR(turns[i].t, planned[i].middle / 3.0, Tolerance(1e-3 * turns[i].t));
   }

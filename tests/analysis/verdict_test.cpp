@@ -65,7 +65,7 @@ TEST(Verdict, MeasuresTheDistanceFromThePathBehindItsStart) {
 }
 
 TEST(Verdict, HoldsASmallCarToItsOwnSize) {
-  // Steered a tenth as far as it should be, it stands metres beside its goal of 2 m.
+  // Steered a tenth as far as it should be, it stands meters beside its goal of 2 m.
   const std::string mission =
       "vehicle: {model: small_car.xml}\nmission: {speed: 1, waypoints: [[0, 0], [2, 0], [2, 2]]}\n"
       "plan: {method: fillet}\ndrive: {plants: [kinematic]}\n";

@@ -22,7 +22,7 @@ struct Driven {
   TimedPose end;
 };
 
-/// A plan as a polyline that goes on straight for `beyond` metres.
+/// A plan as a polyline that goes on straight for `beyond` meters.
 Driven DrivenFrom(const Table& table, double time, double beyond) {
   const auto x = table.Column("x_m"), y = table.Column("y_m"), yaw = table.Column("yaw_rad"),
              s = table.Column("s_m"), curvature = table.Column("curvature_radpm"),

@@ -28,7 +28,7 @@ struct Tolerances {
   double plan_steering = 1e-3;  ///< [rad]; 0.02 m beside the path after 10 m at most
   /// An overlap of outlines that counts [m]. Between steps poses are interpolated linearly, which
   /// is off by v^2 kappa dt^2/8, 0.14 mm at 15 m/s, 0.2 /m and 5 ms, and SweptGap looks every
-  /// millimetre.
+  /// millimeter.
   double contact = 1e-3;
   /// Shares by which a plan may exceed a limit: its columns are sampled every 0.1 m, so that means
   /// over such a piece stand for values.

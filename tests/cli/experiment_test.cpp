@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(Experiment, OptimalSteeringGivesThePapersTable) {
+TEST(Experiment, OptimalSteeringGivesThePublishedTable) {
   const TempFolder folder;
   const Outcome outcome =
       Trackbed(folder, "experiment optimal_steering --searches isres,direct --out table.csv");
@@ -24,8 +24,8 @@ TEST(Experiment, OptimalSteeringGivesThePapersTable) {
               HasSubstr("matched by arc length, always within 2.3 % of the primary's "
                         "angle: isres, direct\n"));
 
-  // First stage: the exact minimum of the paper's formulation, solved apart from this program for
-  // L = 2.7 m, l_g = 1.4 m. Second stage, as printed.
+  // First stage: the exact minimum of Skackauskas et al. 2017, eqs. (1)-(2), solved apart from this
+  // program for L = 2.7 m, l_g = 1.4 m. Second stage, as printed.
   const std::map<std::string, double> by_time{
       {"2.5", 11.969}, {"2", 14.890}, {"1.5", 19.655}, {"1", 27.000}};
   const std::map<std::string, std::string> published{
@@ -39,11 +39,11 @@ TEST(Experiment, OptimalSteeringGivesThePapersTable) {
     SCOPED_TRACE(row[0] + " m/s by " + row[1] + ", " + row[2]);
     const double steering = std::stod(row[3]);
     if (row[1] == "time") {
-      // The specification's own figures are rounded to a thousandth and asked for to 0.02.
+      // Those figures are rounded to a thousandth; the searches are asked for 0.02.
       EXPECT_NEAR(steering, by_time.at(row[0]), Tolerance(0.02));
       EXPECT_EQ(row[7], "");
     } else {
-      // A converged search is within 0.05 of 10; the paper's angles scatter round it by 2.3 %.
+      // A converged search is within 0.05 of 10; the published angles scatter round it by 2.3 %.
       EXPECT_NEAR(steering, 10.0, Tolerance(0.05));
       EXPECT_EQ(row[7], published.at(row[0]));
       EXPECT_LE(std::abs(std::stod(row[7]) - 10.0), 0.23 + 1e-9);

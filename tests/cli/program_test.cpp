@@ -50,7 +50,7 @@ TEST(Program, RunsAScenario) {
   EXPECT_THAT(outcome.output, StartsWith("winding: passed, in out/winding\n"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/winding/kinematic.csv"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/winding/mujoco.csv"));
-  // No progress bar, no colour: the output is a pipe.
+  // No progress bar, no color: the output is a pipe.
   EXPECT_EQ(outcome.output.find('\r'), std::string::npos);
   EXPECT_EQ(
       Trackbed(folder, "run -q --plant kinematic --set 'expect={}' -o x " + ScenarioFile("winding"))

@@ -30,7 +30,7 @@ TEST(Sweep, WritesATableAndWhereItComesFrom) {
   folder.Write("study.yaml", StudyText(kDistances));
   const Outcome outcome = Trackbed(folder, "sweep study.yaml");
   EXPECT_EQ(outcome.code, 0) << outcome.output;
-  // Ten metres ahead cuts the corners; that a run fails is a result, not an error.
+  // Ten meters ahead cuts the corners; that a run fails is a result, not an error.
   EXPECT_EQ(outcome.output, "study: 3 rows from 3 runs, 2 passed, in out/study/sweep.csv\n");
   const std::string csv = ReadFile(folder.path() / "out/study/sweep.csv");
   EXPECT_THAT(csv, testing::MatchesRegex(
@@ -96,7 +96,7 @@ TEST(Sweep, FindsTheHighestValueThatPasses) {
   const Outcome outcome = Trackbed(folder, "sweep study.yaml");
   EXPECT_EQ(outcome.code, 0) << outcome.output;
   const std::string csv = ReadFile(folder.path() / "out/study/sweep.csv");
-  // Eight metres are halved five times before they are no longer than 0.3 m; and the two ends.
+  // Eight meters are halved five times before they are no longer than 0.3 m; and the two ends.
   std::smatch found;
   ASSERT_TRUE(std::regex_match(csv, found,
                                std::regex("control\\.distance,status,runs\n([0-9.]+),found,7\n")))

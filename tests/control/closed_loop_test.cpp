@@ -107,7 +107,7 @@ class EveryFollower : public testing::TestWithParam<ControllerEntry> {};
 INSTANTIATE_TEST_SUITE_P(Table, EveryFollower, testing::ValuesIn(Followers()), NameOf);
 
 // Sines and cosines of paths and poses within 200 m round at 1e-14 m/m; laws divide by a tenth of a
-// metre at the least, and MPC's program is solved to 1e-9 rad/s over 0.02 s.
+// meter at the least, and MPC's program is solved to 1e-9 rad/s over 0.02 s.
 constexpr double kRounding = 1e-9;
 
 TEST_P(EveryFollower, MirroredWorldMirrorsTheSteering) {
@@ -213,7 +213,7 @@ TEST_P(EveryFollower, ComesBackFromMetresAway) {
         setup.start = {0.0, offset, 0.0};
         setup.duration = 66.0;
         const std::vector<LoopRow> rows = Loop(options, setup);
-        // Turning in, the rear axle slips outward by some hundredths of a millimetre.
+        // Turning in, the rear axle slips outward by some hundredths of a millimeter.
         EXPECT_LT(LargestOffset(rows), std::abs(offset) + 1e-4);
         EXPECT_LT(LargestOffset(rows, rows.size() * 2 / 3), 0.01 * std::abs(offset));
       }

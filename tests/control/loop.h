@@ -12,7 +12,7 @@
 
 namespace trackbed {
 
-/// The seeds' car on tyres: a Prius's, understeering by 0.002 rad per m/s^2.
+/// The reference car on tyres: a Prius's, understeering by 0.002 rad per m/s^2.
 inline VehicleParams SeedCarWithTyres() {
   VehicleParams car = SeedCar();
   car.yaw_inertia = 2200.0;

@@ -23,7 +23,7 @@ Path Ramps(double curvature) {
 
 TEST(Lqr, SettlesOnACircleWithoutErrorAtAnySpeed) {
   // Understeer is in its feed-forward: the linear single-track car is its model. What is left is
-  // that the wheels' tangent and the path's bend are linearised: squares of angles below 0.1 rad
+  // that the wheels' tangent and the path's bend are linearized: squares of angles below 0.1 rad
   // times the offsets, which go to zero together.
   for (const double speed : {3.0, 10.0, 20.0}) {
     SCOPED_TRACE(speed);

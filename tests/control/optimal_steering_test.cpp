@@ -90,11 +90,11 @@ TEST(PredictPose, IsWhereTheKinematicCarGets) {
   }
 }
 
-// --- The paper's experiment ----------------------------------------------------------------------
+// --- The experiment of Skackauskas et al. 2017 ---------------------------------------------------
 
 struct PaperRow {
   double speed;      ///< [m/s]
-  double by_time;    ///< F1 of section 7.2 [degrees]
+  double by_time;    ///< exact minimum of eqs. (1)-(2) at equal time [degrees]
   double published;  ///< [degrees]
 };
 constexpr PaperRow kPaper[] = {
@@ -119,9 +119,9 @@ INSTANTIATE_TEST_SUITE_P(Table, GlobalSearches,
                                          SearchMethod::kCrs2, SearchMethod::kDirect),
                          [](const auto& test) { return SearchFor(test.param).name; });
 
-TEST_P(GlobalSearches, ByTimeReproduceThePapersFirstStage) {
+TEST_P(GlobalSearches, ByTimeReproduceThePublishedFirstStage) {
   for (const PaperRow& row : kPaper) {
-    // Printed to half a thousandth; the seeds ask for 0.02. Esch does not quite reach a bound.
+    // Printed to half a thousandth; asked for is 0.02. Esch does not quite reach a bound.
     const double tolerance = GetParam() == SearchMethod::kEsch ? 0.05 : 0.02;
     EXPECT_NEAR(MatchedDegrees(row.speed, Matching::kTime, GetParam()), row.by_time,
                 Tolerance(tolerance))

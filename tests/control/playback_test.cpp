@@ -26,7 +26,7 @@ TEST(Playback, SteersToWhereThePeriodEnds) {
   EXPECT_NEAR(PlaybackSteering(time, 0.4, 7.0, 0.1), 0.05, Tolerance(kRounding));
   EXPECT_NEAR(PlaybackSteering(time, 0.95, 7.0, 0.1), 0.09, Tolerance(kRounding));
   EXPECT_EQ(PlaybackSteering(time, 2.5, 7.0, 0.1), -0.1);
-  // 5 m/s for 0.1 s is half a metre on, whichever way the car rolls.
+  // 5 m/s for 0.1 s is half a meter on, whichever way the car rolls.
   const PlaybackOptions distance = Replay(PlaybackAxis::kDistance, {kSteering, {}, {}});
   EXPECT_NEAR(PlaybackSteering(distance, 0.25, 5.0, 0.1), 0.075, Tolerance(kRounding));
   EXPECT_NEAR(PlaybackSteering(distance, 0.25, -5.0, 0.1), 0.075, Tolerance(kRounding));
@@ -44,7 +44,7 @@ TEST(Playback, FollowsTheSpeedWithFeedForwardAndGain) {
   EXPECT_NEAR(*PlaybackAcceleration(time, 0.5, 10.5, 2.0, 0.1), 3.0, Tolerance(kRounding));
   // Across the knot at 1 s: up by 0.1 m/s, down by 0.25.
   EXPECT_NEAR(*PlaybackAcceleration(time, 0.95, 11.9, 2.0, 0.1), -1.5, Tolerance(kRounding));
-  // Over the distance at 10 m/s: a metre in 0.1 s.
+  // Over the distance at 10 m/s: a meter in 0.1 s.
   const PlaybackOptions distance = Replay(PlaybackAxis::kDistance, {kSteering, kSpeed, {}});
   EXPECT_NEAR(*PlaybackAcceleration(distance, 0.0, 10.0, 2.0, 0.1), 20.0, Tolerance(kRounding));
 }

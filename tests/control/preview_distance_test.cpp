@@ -19,7 +19,7 @@ namespace trackbed {
 namespace {
 
 constexpr double kPeriod = 0.02;     // [s]
-constexpr double kRounding = 1e-12;  // of a distance of metres, in a few operations
+constexpr double kRounding = 1e-12;  // of a distance of meters, in a few operations
 
 double Distance(const VehicleParams& vehicle, const Path& path, double station, double speed,
                 double delay = 0.0) {

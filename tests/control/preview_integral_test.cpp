@@ -37,7 +37,7 @@ At Beside(const Path& path, const Pose2& pose, double speed = 3.0) {
 }
 
 TEST(PreviewIntegral, ConstantCurvatureGivesTheKinematicAngle) {
-  // Section 8: delta = L kappa; with its tangent and the chord exactly.
+  // delta = L kappa; with its tangent and the chord exactly.
   for (const PreviewWeight weight : {PreviewWeight::kUniform, PreviewWeight::kNear}) {
     for (const double curvature : {0.0, 0.01, -0.05, 0.15}) {
       SCOPED_TRACE(curvature);

@@ -30,7 +30,7 @@ TEST(PurePursuit, SteersTheCircleThroughThePoint) {
   const Path straight({}, {{100.0, 0.0, 1}});
   EXPECT_NEAR(Steer({.distance = 4.0, .time = 0.0}, straight, {0.0, 1.0, 0.0}, 3.0),
               -std::atan(2.7 / 8.0), Tolerance(1e-11));
-  // On a circle of 20 m: atan(L/R) (section 8), whatever the lookahead.
+  // On a circle of 20 m: atan(L/R), whatever the lookahead.
   const Path circle({}, {{100.0, 0.05, 1}});
   for (const double distance : {1.0, 4.0, 15.0}) {
     EXPECT_NEAR(Steer({.distance = distance, .time = 0.0}, circle, {}, 3.0), 0.134189,

@@ -161,7 +161,7 @@ TEST(PreviewAngle, AimsAtTheFirstCrossing) {
 // --- Preview controller --------------------------------------------------------------------------
 
 TEST(PreviewController, ExactArcSteersTheCircle) {
-  // Section 8: Rc = 20, R = 4: atan(L/Rc) = 0.134189, the linear gain 0.135226.
+  // Rc = 20, R = 4: atan(L/Rc) = 0.134189, the linear gain 0.135226.
   const PreviewOptions exact{.distance = 4.0, .law = PreviewLaw::kExactArc};
   const PreviewOptions linear{.distance = 4.0, .law = PreviewLaw::kLinear};
   EXPECT_NEAR(Steer(exact, Circle(20.0), {}, 0.0), 0.134189, Tolerance(0.5e-6));
@@ -189,7 +189,7 @@ TEST(PreviewController, ReversePathsSteerTheSameCircle) {
 }
 
 TEST(PreviewController, WithSlipSteersTheSteadyTurn) {
-  // Section 8 takes u from the velocity. A car with tyres on its circle: the rear axle moves along
+  // The angle u counts from the velocity. A car with tyres on its circle: the rear axle moves along
   // it, the car heads inward by its slip, and the angle is that of the understeering car,
   // tan(delta) = kappa (L + K v^2).
   const VehicleParams car = SeedCarWithTyres();

@@ -144,7 +144,7 @@ TEST(SpeedLoss, HoldsTheCarBackAndThePlanGoesOn) {
     const RunLog log = Drive(Straight(plant) + "disturb: {speed_loss: {from: 5, speed: 1}}\n");
     EXPECT_NEAR(At(log, 5.0).state.speed, 3.0, Tolerance(0.01)) << plant;
     // 3 m/s^2 down to a speed error of 1.5 m/s; then e^(-2 t), which is 1e-8 after 9 s. MuJoCo's
-    // bearings and air are made up for to a millimetre per second.
+    // bearings and air are made up for to a millimeter per second.
     EXPECT_NEAR(At(log, 15.0).state.speed, 1.0, Tolerance(2e-3)) << plant;
     EXPECT_NEAR(At(log, 40.0).state.speed, 1.0, Tolerance(2e-3)) << plant;
     EXPECT_EQ(log.status, DriveStatus::kArrived) << plant;  // stops as the plan does
@@ -170,7 +170,7 @@ TEST(SpeedLoss, BeginsAtItsStation) {
 struct Statistics {
   double mean = 0.0;
   double deviation = 0.0;
-  double correlation = 0.0;  ///< of neighbours
+  double correlation = 0.0;  ///< of neighbors
 };
 
 Statistics Of(const std::vector<double>& values) {

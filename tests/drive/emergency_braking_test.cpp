@@ -20,7 +20,7 @@ struct Outcome {
   DriveStatus status = DriveStatus::kArrived;
 };
 
-/// At `speed` towards a wall across the way that is seen `range` ahead.
+/// At `speed` toward a wall across the way that is seen `range` ahead.
 Outcome Drive(const std::string& plant, double speed, double range, double place,
               const std::string& more = "") {
   const Scenario scenario = ParseScenario(

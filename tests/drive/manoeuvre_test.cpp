@@ -8,7 +8,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/drive/drive.h"
 
-// Manoeuvres over time, driven: what was asked of steering and speed is what the car does.
+// Maneuvers over time, driven: what was asked of steering and speed is what the car does.
 namespace trackbed {
 namespace {
 

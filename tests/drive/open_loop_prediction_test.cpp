@@ -14,7 +14,7 @@
 namespace trackbed {
 namespace {
 
-/// A millimetre, over routes of some hundred metres. The drive follows the schedule and the speed
+/// A millimeter, over routes of some hundred meters. The drive follows the schedule and the speed
 /// profile at every physics step of 2 ms, so that the control period, 20 ms by default, leaves
 /// nothing: where braking at a ends within a step T, at speed v, the car is up to a T^2/8 ahead of
 /// its profile and its actuator lags by omega a T^2/(8 v) over the ramp: 1e-7 rad at omega = 0.15

@@ -134,7 +134,7 @@ TEST(Distance, AgreesWithSampledOutlines) {
         random.Uniform(0.5, 5.0),
         random.Uniform(0.5, 5.0)};
     const double exact = Distance(a, b);
-    // Seen from the other box: rounding of coordinates of tens of metres.
+    // Seen from the other box: rounding of coordinates of tens of meters.
     EXPECT_NEAR(exact, Distance(b, a), Tolerance(1e-13));
     if (exact > 0.0) {
       ++apart;

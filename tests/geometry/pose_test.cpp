@@ -103,7 +103,7 @@ TEST(MoveOnArc, SlipTurnsTheDirectionOfMotion) {
   for (int i = 0; i < 100; ++i) {
     const double W = random.Uniform(0.01, 1.0);
     const double beta = random.Uniform(-0.5, 0.5);
-    // Section 2 with v = 1, t = 6.
+    // With v = 1, t = 6.
     ExpectPose(MoveOnArc({}, 6.0, W * 6.0, beta),
                {(std::sin(W * 6.0 + beta) - std::sin(beta)) / W,
                 -(std::cos(W * 6.0 + beta) - std::cos(beta)) / W, W * 6.0},

@@ -12,7 +12,7 @@
 namespace trackbed {
 namespace {
 
-/// Of two variables: minimise (x - a)^2/2 + (y - b)^2/2 below x + y = sum.
+/// Of two variables: minimize (x - a)^2/2 + (y - b)^2/2 below x + y = sum.
 QuadraticProgram Plane(double a, double b, double sum) {
   QuadraticProgram program;
   program.hessian.setIdentity(2, 2);

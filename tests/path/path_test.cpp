@@ -441,7 +441,7 @@ TEST(QuadraticSegment, IsCheckedLikeAnyOther) {
 }
 
 TEST(QuadraticSegment, ProjectFindsTheNearestOfAllPoints) {
-  // None of these poses lies so near to a centre of curvature that another point would do.
+  // None of these poses lies so near to a center of curvature that another point would do.
   Random random(55);
   for (int i = 0; i < 100; ++i) {
     std::vector<Segment> segments;
@@ -479,7 +479,7 @@ TEST(QuadraticSegment, ProjectFindsTheNearestOfAllPoints) {
 }
 
 TEST(QuadraticSegment, ProjectOfACarBesideItIsItsStation) {
-  // As long as the car is nearer to the path than its centre of curvature, 1/0.3 m.
+  // As long as the car is nearer to the path than its center of curvature, 1/0.3 m.
   Random random(56);
   for (int i = 0; i < 300; ++i) {
     const Path path({3.0, 1.0, 0.4}, {RandomSegment(random)});

@@ -47,7 +47,7 @@ inline std::vector<Map> Maps() {
                            {{31.5, 15.0, -1.1}, 2.0, 3.0},
                            {{31.0, 25.0, 0.6}, 2.0, 2.0},
                            {{35.0, 10.0, 0.0}, 2.0, 2.0}})},
-      // 2.5 m between the walls: 0.775 m for the car's centre. Smaller than the others: to get
+      // 2.5 m between the walls: 0.775 m for the car's center. Smaller than the others: to get
       // through takes samples in there, whose share falls with the area.
       {"passage",
        {{4.0, 4.0},

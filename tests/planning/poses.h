@@ -36,7 +36,7 @@ inline Pose2 TurnedRound(const Pose2& pose) {
   return {pose.x, pose.y, pose.yaw + kPi};
 }
 
-/// How far two poses are apart, a radian counting as a metre.
+/// How far two poses are apart, a radian counting as a meter.
 inline double Apart(const Pose2& a, const Pose2& b) {
   return (a.position() - b.position()).norm() + std::abs(AngleDifference(a.yaw, b.yaw));
 }

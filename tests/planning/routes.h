@@ -25,7 +25,7 @@ inline double Printed(int decimals) {
   return half * (1.0 + 1e-6);
 }
 
-/// The seeds' specification, section 4.6.
+/// The two routes of the global planner's tests.
 inline std::vector<Vec2> RouteA() {
   return {{0, 0}, {40, 0}, {40, 40}, {80, 40}, {80, 80}};
 }

@@ -296,7 +296,7 @@ TEST_F(Film, LeavesNothingWhenProgressThrows) {
 TEST_F(Film, RefusesOptionsOutOfRangeAllAtOnce) {
   options_ = {.width = 641, .height = 10, .fps = 0.0, .camera = "chase"};
   EXPECT_EQ(InputMessage(),
-            "width: 641 px; must be even, because the film stores colour for 2x2 pixels\n"
+            "width: 641 px; must be even, because the film stores color for 2x2 pixels\n"
             "height: 10 px; allowed are 64 to 4320\n"
             "fps: 0; allowed are 1 to 240");
 }

@@ -91,8 +91,8 @@ world:
     const double share = 3.0 * off / static_cast<double>(image.rgb.size());
     RecordProperty("mean_difference", fmt::format("{}", mean));
     RecordProperty("share_off", fmt::format("{}", share));
-    // Mesa's other rasteriser (GALLIUM_DRIVER=softpipe) draws these pictures with a mean difference
-    // of 0.14 and 3 of the 129 600 pixels off: rounding of colours, and points on edges. Twice the
+    // Mesa's other rasterizer (GALLIUM_DRIVER=softpipe) draws these pictures with a mean difference
+    // of 0.14 and 3 of the 129 600 pixels off: rounding of colors, and points on edges. Twice the
     // one, and five times the other, is what another version or processor may do.
     const bool right = same_size && mean <= 0.28 && share <= 15.0 / 129600.0;
     if (!right) {

@@ -103,7 +103,7 @@ TEST_F(GroundFilm, DownASteepHillTheSkyIsDrawn) {
   SetWorld("world: {ground: {grade: {x: -0.5, y: 0}}}\n");
   const Image image = Picture("chase", 0.0);
   // The hill's horizon is 26.6 degrees down, and the camera's upper edge 18 + 26.6 - 20 = 24.6: 2
-  // degrees of 40 at the top of the picture are sky, which is blue where the asphalt is grey.
+  // degrees of 40 at the top of the picture are sky, which is blue where the asphalt is gray.
   const std::uint8_t* rgb = image.Pixel(kWidth / 2, 1);
   EXPECT_GT(rgb[2], rgb[0] + 8);
 }
@@ -120,7 +120,7 @@ TEST_F(GroundFilm, PatchesAreWhereTheyAreAndIceIsBlue) {
   for (const double x : {8.0, 10.0, 12.0}) {
     const std::array<int, 3> ice = At(image, x, 1.5);
     const std::array<int, 3> wet = At(image, x, -1.5);
-    // Ice is (0.66, 0.87, 1.00), with an opacity of 0.70 over grey: blue over red by 0.24, 61 of
+    // Ice is (0.66, 0.87, 1.00), with an opacity of 0.70 over gray: blue over red by 0.24, 61 of
     // 255. Wet asphalt is darker by 0.58 * (0.62 - 0.27) = 0.20 or more in red: 51.
     EXPECT_GT(ice[2], ice[0] + 40) << x;
     EXPECT_LT(wet[0], At(bare, x, -1.5)[0] - 35) << x;

@@ -292,7 +292,7 @@ TEST_F(StripTest, ShowsWhatIsPlannedAndWhatWasSteeredUntilNow) {
   EXPECT_GT(asked[2], asked[0] + 100);
   const std::array<int, 3> done = Brightest(image, column(0.5), middle + 3, last);
   EXPECT_GT(done[0], done[2] + 100);
-  // Not yet: no colour.
+  // Not yet: no color.
   const std::array<int, 3> later = Brightest(image, column(1.7), middle + 3, last);
   EXPECT_LT(later[0], 30);
   // Nothing planned, then a curve to the left, paler where it is still ahead.

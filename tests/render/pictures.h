@@ -83,7 +83,7 @@ class FilmSceneTest : public testing::Test {
   std::optional<CameraPose> pose_;
 };
 
-// Light on flat paint: the lamps of the Prius add up to 0.96 of its colour or more; the asphalt
+// Light on flat paint: the lamps of the Prius add up to 0.96 of its color or more; the asphalt
 // between its lines is at most 0.67. A threshold of 225 / 255 = 0.88 lies well between.
 inline constexpr int kWhite = 225;
 

@@ -31,7 +31,7 @@ TEST_F(RecordingTest, PosesTheCarBetweenRows) {
   const int chassis = mj_name2id(recording.model.get(), mjOBJ_BODY, "chassis");
   const mjtNum* place = data->xpos + 3 * chassis;
   const mjtNum* axes = data->xmat + 9 * chassis;
-  // Positions are linear in time, so only rounding is left. The normalised mean of two rotations
+  // Positions are linear in time, so only rounding is left. The normalized mean of two rotations
   // about one axis is the rotation half way between, exactly.
   EXPECT_NEAR(place[0], 3.0 * time, Tolerance(1e-12));
   EXPECT_NEAR(place[1], -2.0 * time, Tolerance(1e-12));

@@ -11,7 +11,7 @@
 
 namespace trackbed {
 
-/// Where a car of a made-up run is: rear-axle centre [m] and heading [rad].
+/// Where a car of a made-up run is: rear-axle center [m] and heading [rad].
 struct CarPlace {
   double x = 0;
   double y = 0;

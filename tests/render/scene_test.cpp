@@ -140,8 +140,8 @@ TEST_F(FilmSceneTest, TheSideCameraHasTheCarInTheMiddle) {
 
 /// What paint a point of the road shows.
 ///
-/// Asphalt is grey up to 0.67 of 255 = 171, with channels within 10 of each other. A plan that was
-/// given up has 0.35 of its own colour, over asphalt of 0.60: white ones are at least 0.96 * (0.60
+/// Asphalt is gray up to 0.67 of 255 = 171, with channels within 10 of each other. A plan that was
+/// given up has 0.35 of its own color, over asphalt of 0.60: white ones are at least 0.96 * (0.60
 /// + 0.35 * 0.40) = 181. Yellow, (1.00, 0.84, 0.05), has 0.96 * 0.95 = 232 more red than blue, and
 /// 81 when given up: the thresholds are half way, between 81 and 232 and between 10 and 81.
 std::string PaintAt(const std::array<int, 3>& rgb) {
@@ -264,7 +264,7 @@ TEST_F(FilmSceneTest, TheGhostTintsTheGroundUnderItAndNothingElse) {
     return CarPlace{3.0 * time, 2.5, 0.0};
   });
   const Image with_ghost = Picture("chase", 0.0);
-  // The middle of the ghost's left side, half up the door. What shines through is grey; the tint
+  // The middle of the ghost's left side, half up the door. What shines through is gray; the tint
   // (0.10, 0.75, 0.95) at an opacity of 0.39 takes 0.39 * (0.6 - 0.1) = 0.19 of the red away and
   // leaves blue over red by at least 0.39 * 0.85 * 0.7 = 0.23: 59 of 255. Half of that will do.
   const std::array<int, 3> ghost = At(with_ghost, 1.4, 2.5, 0.6);

@@ -311,7 +311,7 @@ class Reports(unittest.TestCase):
             )
 
         def colours():
-            """How many pixels of the chart are of each plant's colour."""
+            """How many pixels of the chart are of each plant's color."""
             return self.run_in_page(
                 "const canvas = document.querySelectorAll('[data-quantity=speed] canvas')[0];"
                 "const copy = new OffscreenCanvas(canvas.width, canvas.height)"
@@ -507,7 +507,7 @@ class Reports(unittest.TestCase):
             metrics = json.loads((self.root / run / "metrics.json").read_text())
             exact = metrics["plants"][plant]["cross_track"]["max"]
             self.assertAlmostEqual(one, exact, delta=max(5e-5, 5e-3 * exact))
-        # One colour each, the same in the legend, on the map and beside the readings.
+        # One color each, the same in the legend, on the map and beside the readings.
         colours = self.run_in_page(
             "const of = s => Array.from(document.querySelectorAll(s)).map(e => getComputedStyle(e).color);"
             "return [of('.legend button .dot'), of('.car'), of('.track'),"

@@ -13,7 +13,7 @@ TEST(NameOfMetric, SaysWhatPeopleSay) {
   EXPECT_FALSE(NameOfMetric("cross_track.rms").headline);
   EXPECT_EQ(NameOfMetric("turns[1].heading_deficit").label, "Turn 2: heading deficit");
   EXPECT_EQ(NameOfMetric("turns[1].heading_deficit").unit, "rad");
-  // Manoeuvres have numbers of their own.
+  // Maneuvers have numbers of their own.
   EXPECT_EQ(NameOfMetric("manoeuvre.margin").label, "manoeuvre.margin");
   EXPECT_EQ(NameOfMetric("manoeuvre.margin").unit, "");
 }

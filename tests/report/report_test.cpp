@@ -93,7 +93,7 @@ TEST(ReportData, HoldsTheLogsOfTheRun) {
   }
   const Table plan = ReadCsv(run / "plan.csv");
   ASSERT_EQ(data["plan"]["line"]["x"].size(), plan.rows());
-  // The corner is at 20, 20: six digits are a tenth of a millimetre.
+  // The corner is at 20, 20: six digits are a tenth of a millimeter.
   EXPECT_NEAR(data["plan"]["line"]["y"].back().get<double>(), plan.Column("y_m").back(), 1e-4);
   EXPECT_EQ(data["world"]["obstacles"].dump(),
             R"([{"x":5.0,"y":9.0,"yaw":0.5,"length":3.0,"width":1.0,"vx":1.0,"vy":0.0}])");

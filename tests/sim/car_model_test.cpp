@@ -25,12 +25,12 @@ double Custom(const CarModel& car, const char* name) {
   return m->numeric_data[m->numeric_adr[mj_name2id(m, mjOBJ_NUMERIC, name)]];
 }
 
-TEST(Prius, HasTheSeedsParameters) {
+TEST(Prius, HasThePublishedParameters) {
   const CarModel car = Prius();
   const VehicleParams& params = car.params();
   EXPECT_EQ(params.name, "prius");
   EXPECT_EQ(params.wheelbase, 2.7);
-  // Masses are chosen by hand to 13 digits; a tenth of a millimetre is far below what they mean.
+  // Masses are chosen by hand to 13 digits; a tenth of a millimeter is far below what they mean.
   EXPECT_NEAR(params.cg_to_rear, 1.4, Tolerance(1e-4));
   EXPECT_NEAR(params.cg_to_front(), 1.3, Tolerance(1e-4));
   EXPECT_NEAR(params.mass, 1317.0, Tolerance(1e-9));
@@ -122,7 +122,7 @@ TEST(CarModel, RollingSpeedsAreRigidBodyMotion) {
   const double speed = 3.0;
   const double yaw_rate = speed * std::tan(steering) / p.wheelbase;
   const auto speeds = RollingSpeeds(p, speed, steering);
-  // Every wheel moves about the same centre at its distance from it.
+  // Every wheel moves about the same center at its distance from it.
   const double radius = p.wheelbase / std::tan(steering);
   const double half = 0.5 * p.track_front;
   EXPECT_NEAR(speeds[0], yaw_rate * std::hypot(radius - half, p.wheelbase), Tolerance(1e-12));

@@ -15,7 +15,7 @@
 namespace trackbed {
 namespace {
 
-/// Recordings of the model as it is published, or with one centre of gravity throughout; see the
+/// Recordings of the model as it is published, or with one center of gravity throughout; see the
 /// README of either.
 enum class Kind { kPublished, kConsistent };
 

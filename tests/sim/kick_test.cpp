@@ -62,7 +62,7 @@ TEST(Push, GivesMujocosCarTheMomentum) {
   // 400 N s. The road takes 1e-5 g of 0.1 s; the air, at 0.3 m/s across, 0.3 N of 4000 at most
   // (1/2 1.225 5 0.3 5.07 = 4.7 N at the end, half of it on average): 0.06 %.
   EXPECT_NEAR(state.lateral_speed, 400.0 / 1317.0, Tolerance(3e-4));
-  // At the centre of gravity: no moments but the air's, 0.28 m 2.3 N 0.1 s / 2157 kg m^2.
+  // At the center of gravity: no moments but the air's, 0.28 m 2.3 N 0.1 s / 2157 kg m^2.
   EXPECT_NEAR(state.yaw_rate, 0.0, Tolerance(1e-4));
   EXPECT_NEAR(state.roll, 0.0, Tolerance(1e-3));
   plant->Step({});

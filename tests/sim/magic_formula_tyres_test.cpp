@@ -130,7 +130,7 @@ TEST(MagicFormulaTyres, LoadTransferAndRollAreThoseOfStatics) {
     carried += (w % 2 == 0 ? -1.0 : 1.0) * arm * (*state.wheels)[w].normal_force;
   }
   EXPECT_NEAR(carried / moment, 1.0, Tolerance(0.05));
-  // Springs and bars of the car's file, in series with its tyres; roll centres on the ground.
+  // Springs and bars of the car's file, in series with its tyres; roll centers on the ground.
   const double track_f = params.track_front * params.track_front;
   const double track_r = params.track_rear * params.track_rear;
   const double springs =

@@ -85,9 +85,9 @@ TEST(Payload, LoadsTheWheelsAsStaticsSays) {
   const VehicleParams& p = own.params();
   const double weight = (p.mass + m) * kGravity;
   const double height = own.parts().cg_height;
-  // The car is less than a micrometre per second away from rest, of some 10/s: 1e-5 m/s^2.
+  // The car is less than a micrometer per second away from rest, of some 10/s: 1e-5 m/s^2.
   EXPECT_NEAR(load(0) + load(1) + load(2) + load(3), weight, Tolerance(0.05));
-  // Nose up is a negative pitch: the centre of gravity moves back from over the hubs, under which
+  // Nose up is a negative pitch: the center of gravity moves back from over the hubs, under which
   // the wheels touch. It also comes down to them by 2 cm with the springs, which changes that shift
   // of 2 mm by a tenth: 1 N of 11 N.
   const double front = p.mass * kGravity * p.cg_to_rear / p.wheelbase +
@@ -140,7 +140,7 @@ TEST_P(LadenCar, StandsStillFromTheStart) {
   ASSERT_FALSE(plant->diverged());
   const std::vector<double> end = plant->Configuration();
   for (std::size_t i = 0; i < start.size(); ++i) {
-    // Tyres of the other law give by other amounts: by less than a tenth of a millimetre of a car
+    // Tyres of the other law give by other amounts: by less than a tenth of a millimeter of a car
     // of full size, since both stand under their load as the file has them.
     EXPECT_NEAR(end[i], start[i], Tolerance(3e-4 * car.params().wheel_radius))
         << car.configuration_columns()[i];

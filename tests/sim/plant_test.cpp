@@ -158,7 +158,7 @@ TEST_P(EveryPlant, BrakesToRestAndStaysThere) {
     plant->Step({.acceleration = 0.0});
   }
   const VehicleState later = plant->Observe();
-  // Ten seconds on: a parked car does not creep. A tenth of a millimetre is the springs' last
+  // Ten seconds on: a parked car does not creep. A tenth of a millimeter is the springs' last
   // swing.
   EXPECT_NEAR(later.pose.x, stopped.pose.x, Tolerance(1e-4));
   EXPECT_NEAR(later.pose.y, stopped.pose.y, Tolerance(1e-4));

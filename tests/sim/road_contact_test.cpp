@@ -215,7 +215,7 @@ TEST(RoadContact, ASideSlopeRollsTheCar) {
     moment += load * (w < 2 ? 0.7525 : 0.74) * (w % 2 == 0 ? 1.0 : -1.0);
   }
   EXPECT_NEAR(sum, weight * std::cos(angle), Tolerance(0.001 * weight));
-  // The springs let the centre of gravity, 0.55 m up, lean and sink a little further: 5 degrees at
+  // The springs let the center of gravity, 0.55 m up, lean and sink a little further: 5 degrees at
   // 1 g, 0.4 at this, of 0.55 m: 4 mm to the right, 1 % of the moment's arm times m g.
   const double expected = -weight * std::sin(angle) * 0.55;
   EXPECT_NEAR(moment, expected, Tolerance(0.004 * weight));

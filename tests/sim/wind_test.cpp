@@ -24,7 +24,7 @@ const CarModel& Prius() {
 }
 
 /// What all tyres together hold the car with, in its own axes, and about the z axis through the
-/// rear-axle centre. The wheels point straight ahead.
+/// rear-axle center. The wheels point straight ahead.
 struct Held {
   double forward = 0.0;  // [N]
   double left = 0.0;     // [N]
@@ -80,7 +80,7 @@ TEST_P(OnBothTyres, AStandingCarIsPushedByHalfRhoVSquaredWhereItsPressureIs) {
   // a hundredth, by which weight and load have a part along its axes.
   EXPECT_NEAR(mean.forward, -along, Tolerance(10.0));
   EXPECT_NEAR(mean.left, -across, Tolerance(10.0));
-  // Its lever is the centre of pressure's, 1.68 m ahead of the rear axle: 1646 N m.
+  // Its lever is the center of pressure's, 1.68 m ahead of the rear axle: 1646 N m.
   EXPECT_NEAR(mean.yaw, -1.68 * across, Tolerance(0.015 * 1.68 * across));
 }
 
@@ -137,7 +137,7 @@ TEST_P(OnBothTyres, AGustOnAStretchPushesTheCarThereAndNotBefore) {
   // m/s^2 of 1317 kg but for what the tyres hold against it already: most of it, bare contacts.
   EXPECT_GT(acceleration, 0.25);
   EXPECT_LT(acceleration, 1.5);
-  // Pushed ahead of its centre of gravity, the nose turns away from the wind.
+  // Pushed ahead of its center of gravity, the nose turns away from the wind.
   EXPECT_GT(yaw_rate, 1e-3);
 }
 

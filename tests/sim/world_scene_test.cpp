@@ -49,7 +49,7 @@ TEST(WithGround, AGradeIsThePlaneItself) {
   mj_kinematics(&m, d.get());
   const mjtNum* R = d->geom_xmat + 9 * plane;
   const Eigen::Vector3d normal = GroundNormal(ground, {});
-  // Numbers of a model are written to 17 digits and normalised once.
+  // Numbers of a model are written to 17 digits and normalized once.
   EXPECT_NEAR((Eigen::Vector3d(R[2], R[5], R[8]) - normal).norm(), 0.0, Tolerance(1e-12));
   EXPECT_NEAR(Eigen::Vector3d(d->geom_xpos + 3 * plane).norm(), 0.0, Tolerance(1e-12));
 }
@@ -90,7 +90,7 @@ TEST(WithGround, AHeightFieldIsTheClosedFormAtItsSamples) {
   }
 }
 
-/// Height of the centre of a ball of radius `r` that lies on the ground above `p`, by search: too
+/// Height of the center of a ball of radius `r` that lies on the ground above `p`, by search: too
 /// low by step^2/(4 r) at most.
 double BallHeight(const Ground& ground, const Vec2& p, double r, double step) {
   double highest = -1e9;
@@ -157,7 +157,7 @@ TEST(WithWorld, ObstaclesStandOnTheGround) {
   EXPECT_NEAR(R[3], 1.0, Tolerance(1e-12));
 }
 
-/// The distances of the tyres' centres from the plane of a grade.
+/// The distances of the tyres' centers from the plane of a grade.
 std::array<double, 4> TyreDistances(const CarModel& car, const mjData& d, const Ground& ground) {
   std::array<double, 4> distances{};
   for (std::size_t w = 0; w < 4; ++w) {

@@ -10,7 +10,7 @@
 
 namespace trackbed {
 
-/// An obstacle in a turn, as the dissertation varies them.
+/// An obstacle in a turn, varied as in Skackauskas, dissertation, listing F.2.
 struct ObstacleCase {
   RingChoice ring;   ///< on which side to pass: kInner or kOuter
   double side;       ///< of the turn: 1 to the left, -1 to the right

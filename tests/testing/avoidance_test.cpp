@@ -44,7 +44,7 @@ TEST_P(DrivenRoundObstacle, KeepsToThePlanAndClearOnBothPlants) {
   ASSERT_EQ(run.logs.size(), 2U);
   EXPECT_THAT(run, ReachesGoal(0.5));
   // The path's curvature changes at up to 0.9 of the steering rate; a preview over 2.5 m cuts it
-  // by some centimetres (0.034 m seen), and the plan is 1.5 m clear.
+  // by some centimeters (0.034 m seen), and the plan is 1.5 m clear.
   EXPECT_THAT(run, TracksWithin(0.15));
   EXPECT_THAT(run, KeepsClearOf(1.4));
   EXPECT_THAT(run, StaysWithin("kinematic", "mujoco", 0.05));

@@ -5,7 +5,7 @@
 
 #include "trackbed/testing/scenario_testing.h"
 
-// The standard manoeuvres on the BMW, as docs/manoeuvres.md shows them.
+// The standard maneuvers on the BMW, as docs/manoeuvres.md shows them.
 namespace trackbed {
 namespace {
 

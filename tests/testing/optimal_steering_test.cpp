@@ -91,9 +91,9 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, OptimallySteeredAgainst,
                          });
 
 TEST_P(OptimallySteeredAgainst, StaysNearItsPathWhereThePlansSteeringAloneDoesNot) {
-  // MuJoCo's car on its contacts. A tenth of a metre is what a lane of a car park leaves; five
+  // MuJoCo's car on its contacts. A tenth of a meter is what a lane of a car park leaves; five
   // times is what makes closing the loop worth it, where leaving it open costs a quarter of a
-  // metre.
+  // meter.
   const auto drive = [](const char* method) {
     const auto& [course, disturbance] = GetParam();
     std::vector<std::string> keys = disturbance.keys;
@@ -159,7 +159,7 @@ TEST_P(PaperSpeeds, MatchedByArcLengthTheCarStaysOnTheCircle) {
       RunScenario(File("paper_circle"), {fmt::format("disturb.speed_loss.speed={}", GetParam())});
   EXPECT_THAT(run, MeetsItsExpectations());
   for (const RunLog& log : run.logs) {
-    // The paper's own +-2.3 %; tyres and body roll of MuJoCo's car included.
+    // The +-2.3 % of Skackauskas et al. 2017; tyres and body roll of MuJoCo's car included.
     EXPECT_NEAR(MeanSteering(log), kPi / 18.0, Tolerance(0.023 * kPi / 18.0)) << log.plant;
   }
 }

@@ -125,7 +125,7 @@ TEST(FollowAndStop, KeepsItsGaps) {
     const double front = row.state.pose.x + vehicle.length - vehicle.rear_overhang;
     EXPECT_NEAR(row.state.speed, 7.0, 0.05);
     // Motions that are planned anew before their end come there ever more slowly; K_st makes
-    // up for less than the station offset of half a metre.
+    // up for less than the station offset of half a meter.
     EXPECT_NEAR(rear - front, 4.0 + 1.5 * 7.0, 0.5);
   }
 }

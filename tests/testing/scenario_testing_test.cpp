@@ -50,7 +50,7 @@ TEST_P(Scenarios, DriveAsTheyExpectKinematicAgainstContactDynamics) {
   const RunResult run = RunScenario(scenario);
   EXPECT_THAT(run, MeetsItsExpectations());
   // Where the two drive the same plan at 3 m/s they part by the servo's lag and the tyres' slip,
-  // which a controller holds to centimetres, and an open loop, ice or a collision to the stated
+  // which a controller holds to centimeters, and an open loop, ice or a collision to the stated
   // bound.
   if (!scenario.expect.between.empty()) {
     const std::string name = GetParam();
@@ -255,7 +255,7 @@ TEST(HitTheBox, IsFeltByTheContactDynamics) {
   for (const PlantMetrics& metrics : run.metrics) {
     ASSERT_TRUE(metrics.clearance.has_value());
     EXPECT_TRUE(metrics.clearance->collision);
-    // 1317 kg from 3 m/s to rest within the centimetres that a stiff contact gives: many times the
+    // 1317 kg from 3 m/s to rest within the centimeters that a stiff contact gives: many times the
     // car's weight; the kinematic car feels nothing.
     EXPECT_EQ(metrics.clearance->force_max > 13000.0, metrics.plant == "mujoco");
   }

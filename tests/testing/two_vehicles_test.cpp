@@ -57,7 +57,7 @@ TEST(Skid, FeelsTheObstacleThatItHits) {
   for (const PlantMetrics& metrics : run.metrics) {
     ASSERT_TRUE(metrics.clearance.has_value());
     EXPECT_TRUE(metrics.clearance->collision);
-    // 80 kg from 3 m/s within centimetres: many times its weight.
+    // 80 kg from 3 m/s within centimeters: many times its weight.
     EXPECT_EQ(metrics.clearance->force_max > 1500.0, metrics.plant == "mujoco");
   }
 }

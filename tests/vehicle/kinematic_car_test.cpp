@@ -98,8 +98,9 @@ TEST(KinematicCar, WithDifferentialDriveChangesItsRatioAtTheLimitedRate) {
 // --- Constant steering: exact
 // ---------------------------------------------------------------------
 
-TEST(KinematicCar, YawRateIsThatOfTheSeeds) {
-  // Section 2: psi' = v/sqrt(r^2 + l_g^2) for the CG (C.25), printed to 1e-6; v/r for the rear.
+TEST(KinematicCar, YawRateIsSpeedOverRadius) {
+  // psi' = v/sqrt(r^2 + l_g^2) for the CG (Skackauskas, dissertation, eq. (C.25)), printed to 1e-6;
+  // v/r for the rear.
   const std::vector<std::pair<double, double>> table{
       {5.1, 0.567251}, {10.0, 0.297103}, {20.0, 0.149634}, {50.0, 0.059976}, {154.0, 0.019480}};
   for (const auto& [radius, rate] : table) {
@@ -123,7 +124,7 @@ TEST(KinematicCar, CentreOfGravityRunsOnItsOwnRadius) {
   for (const auto& [radius, outer] : table) {
     SCOPED_TRACE(radius);
     const double steering = SteeringForCurvature(SeedCar(), 1.0 / radius);
-    // The rear axle starts at the origin, so the circle's centre is (0, r).
+    // The rear axle starts at the origin, so the circle's center is (0, r).
     KinematicCar car = CarAt({.speed = kSpeed, .steering = steering});
     car.Step({.steering = steering}, 2.7);
     const Vec2 centre{0.0, radius};
@@ -133,7 +134,7 @@ TEST(KinematicCar, CentreOfGravityRunsOnItsOwnRadius) {
   }
 }
 
-/// Section 2: the exact solution from (0, 0, 0) at constant steering.
+/// The exact solution from (0, 0, 0) at constant steering.
 Pose2 ExactCircle(ReferencePoint reference, double steering, double speed, double time) {
   const double slip = reference == kCg ? std::atan(1.4 * std::tan(steering) / 2.7) : 0.0;
   const double W = speed * std::cos(slip) * std::tan(steering) / 2.7;
@@ -209,7 +210,7 @@ TEST(KinematicCar, BothReferencePointsAreOneCar) {
 // --- Moving steering
 // -------------------------------------------------------------------------------
 
-TEST(KinematicCar, FullLockTakesAsLongAsTheSeedsSay) {
+TEST(KinematicCar, FullLockTakesLimitOverRate) {
   KinematicCar car = CarAt({.speed = kSpeed});
   car.Step({.steering = 1.0}, 3.2337 - Tolerance(0.5e-4));
   EXPECT_LT(car.state().steering, SeedCar().steering_limit);

@@ -22,7 +22,7 @@ double Cot(double angle) {
 }
 
 TEST(SteeringForCurvature, HasThePrintedTable) {
-  // Section 2 of the seeds' specification: delta = atan(L/r), printed to 1e-6 rad and 1e-4 deg.
+  // delta = atan(L/r), printed to 1e-6 rad and 1e-4 deg.
   struct Row {
     double radius, steering, degrees;
   };
@@ -77,7 +77,7 @@ TEST(AckermannAngles, KeepTheCotangentRelation) {
 }
 
 TEST(AckermannAngles, WheelsPointAtOneCentre) {
-  // Each wheel is square to the line from the turning centre (0, L cot delta) to its hub.
+  // Each wheel is square to the line from the turning center (0, L cot delta) to its hub.
   const VehicleParams car = SeedCar();
   for (const double steering : {-0.48, -0.1, 0.02, 0.25, 0.4868}) {
     SCOPED_TRACE(steering);
@@ -85,7 +85,7 @@ TEST(AckermannAngles, WheelsPointAtOneCentre) {
     const FrontAngles front = AckermannAngles(car, steering);
     for (const auto& [angle, y] : {std::pair{front.left, 0.5 * car.track_front},
                                    std::pair{front.right, -0.5 * car.track_front}}) {
-      // Metres times a unit vector; the centre is up to 135 m away.
+      // Meters times a unit vector; the center is up to 135 m away.
       EXPECT_NEAR(car.wheelbase * std::cos(angle) + (y - centre) * std::sin(angle), 0.0,
                   Tolerance(135.0 * kRounding));
     }

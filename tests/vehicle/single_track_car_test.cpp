@@ -17,7 +17,7 @@
 namespace trackbed {
 namespace {
 
-/// The seeds' car on tyres that make it understeer, as most cars do.
+/// The reference car on tyres that make it understeer, as most cars do.
 VehicleParams TyredCar(double front = 70e3, double rear = 110e3) {
   VehicleParams car = SeedCar();
   car.yaw_inertia = 2300.0;
@@ -232,7 +232,7 @@ TEST(SingleTrackCar, CutOfTimeDoesNotMatter) {
 TEST(SingleTrackCar, SlowCarIsTheKinematicOne) {
   // 50 m on a circle: the radius R is larger by dR = R K u^2/L, 3.7e-4 of it at 0.5 m/s, so the end
   // of the arc, R (sin(s/R), 1 - cos(s/R)), moves by its derivative: 20 mm at 0.5 m/s, a quarter of
-  // that at half the speed. The rest is the rear tyres' slip, 0.45 of that per metre of chord and
+  // that at half the speed. The rest is the rear tyres' slip, 0.45 of that per meter of chord and
   // radius: within 5 % here.
   const VehicleParams car = TyredCar();
   const double steering = 0.3;

@@ -17,9 +17,9 @@ SteeringLimits Limits() {
 // Two roundings of numbers below 4.
 constexpr double kRounding = 1e-15;
 
-TEST(MoveSteering, ReachesFullLockAsTheSeedsSay) {
+TEST(MoveSteering, ReachesFullLockAfterLimitOverRate) {
   const SteeringMove move = MoveSteering(Limits(), 0.0, Limits().angle);
-  EXPECT_NEAR(move.ramp_time, 3.2337, Tolerance(0.5e-4));  // section 1, t_full
+  EXPECT_NEAR(move.ramp_time, 3.2337, Tolerance(0.5e-4));  // limit/rate
   EXPECT_EQ(move.end, Limits().angle);
   EXPECT_EQ(move.At(4.0), Limits().angle);
 }

@@ -106,7 +106,7 @@ TEST(SteeringSchedule, LatestTurnEndsAnEarlierOne) {
   EXPECT_NEAR(schedule.At(45.0), -0.2, Tolerance(kRounding));  // not returned at 40
 }
 
-/// The state machine of section 4.3, moved in small steps: what the schedule stands for.
+/// The state machine of listing F.1, moved in small steps: what the schedule stands for.
 double StateMachine(const std::vector<TurnSteering>& turns, double slope, double distance,
                     int steps) {
   double steering = 0.0;
@@ -178,7 +178,7 @@ TEST(SteeringDistance, HasThePrintedTable) {
 }
 
 TEST(SteeringDistance, FitsIntoTheArcFromThePrintedRadiusOn) {
-  // Section 4.3: the ramp fits into the arc for r >= these; the sign changes within the last digit.
+  // The ramp fits into the arc for r >= these; the sign changes within the last digit.
   // The page rounds the last one, 4.84045, up to 4.841.
   const std::vector<std::pair<double, double>> table{
       {30.0, 10.018}, {45.0, 8.132}, {60.0, 7.002}, {90.0, 5.652}, {120.0, 4.840}};
@@ -194,7 +194,7 @@ TEST(SteeringDistance, FitsIntoTheArcFromThePrintedRadiusOn) {
 }
 
 TEST(TurnHeadingDefect, HasThePrintedValues) {
-  // Section 4.3. The formula holds for any angle; at 5.1 m it needs an arc of more than 109 deg.
+  // The formula holds for any angle; at 5.1 m it needs an arc of more than 109 deg.
   struct Row {
     double radius, degrees, tolerance;
   };
@@ -253,7 +253,7 @@ TEST(RollOut, MissesTheArcsHeadingByTheDefect) {
 }
 
 TEST(RollOut, TruncatedTurnTurnsSeventyDegrees) {
-  // Section 4.6: 90 deg at 5.1 m peaks at 0.4021 rad and turns the rear axle by 70.2771 deg.
+  // 90 deg at 5.1 m peaks at 0.4021 rad and turns the rear axle by 70.2771 deg.
   const double arc = 5.1 * kPi / 2.0;
   const SteeringSchedule schedule({{5.0, 5.0 + arc, SeedCar().steering_limit}}, kSlope);
   const KinematicState peak = RollOut(SeedCar(), Start(), schedule, 5.0 + arc, 0.05);

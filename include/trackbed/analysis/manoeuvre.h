@@ -11,10 +11,10 @@
 #include "trackbed/scenario/manoeuvre.h"
 #include "trackbed/vehicle/params.h"
 
-/// What a standard manoeuvre reads off a drive (docs/manoeuvres.md names every number).
+/// What a standard maneuver reads off a drive (docs/manoeuvres.md names every number).
 ///
 /// Symbols: delta steering of the road wheels [rad], psi' yaw rate [rad/s], a_y lateral
-/// acceleration [m/s^2] and beta side-slip angle [rad] at the centre of gravity, v speed [m/s], L
+/// acceleration [m/s^2] and beta side-slip angle [rad] at the center of gravity, v speed [m/s], L
 /// wheelbase [m]. Signs as in docs/conventions.md; where a number is to say the same of left and
 /// right turns, it is mirrored to the left.
 ///
@@ -35,7 +35,7 @@
 /// and is complete when it is back at zero; the peak yaw rate is that after its reversal.
 ///   yaw_rate_ratio_1_00, yaw_rate_ratio_1_75  psi' so long [s] after completion over the peak;
 ///   at most 0.35 and 0.20 to pass
-///   lateral_displacement  of the centre of gravity 1.07 s after the beginning [m]; at least 1.83
+///   lateral_displacement  of the center of gravity 1.07 s after the beginning [m]; at least 1.83
 /// lane_change (ISO 3888): the four corners of the outline between the edges of each gate.
 ///   margin  smallest distance of a corner inside an edge [m], negative outside; margin_gate the
 ///   section's number; margin_1, margin_3, margin_5; entry_speed, speed_loss [m/s]
@@ -57,7 +57,7 @@ struct ManoeuvreMetrics {
   /// Of the control periods in between: the actuator did not reach the command.
   double steering_saturated_fraction = 0.0;
   std::vector<std::pair<std::string, double>> values;  ///< by name; SI units
-  /// Where the standard has limits; false of every manoeuvre in which the car turns over.
+  /// Where the standard has limits; false of every maneuver in which the car turns over.
   std::optional<bool> passed;
   std::string missing;  ///< what went wrong or could not be measured; else empty
 
@@ -66,7 +66,7 @@ struct ManoeuvreMetrics {
 };
 
 /// Evaluates a drive. `plan` holds the gates of a lane change. A drive that does not hold the
-/// manoeuvre (too short, never steered) gives fewer numbers and says why. Never throws for a log
+/// maneuver (too short, never steered) gives fewer numbers and says why. Never throws for a log
 /// with rows. Cost O(rows).
 ManoeuvreMetrics EvaluateManoeuvre(const ManoeuvreOptions& options, const RunLog& log,
                                    const Plan& plan, const VehicleParams& vehicle);

@@ -57,7 +57,7 @@ struct PlantMetrics {
   double distance = 0.0;  ///< driven [m]
   double time = 0.0;      ///< simulated [s]
   double end_s = 0.0;     ///< where it ended [m]
-  /// Largest magnitude of the centre of gravity's lateral acceleration, mean over any 0.1 s
+  /// Largest magnitude of the center of gravity's lateral acceleration, mean over any 0.1 s
   /// [m/s^2]: over the rows of the log within it.
   double lateral_acceleration_max = 0.0;
   double lateral_acceleration_max_s = 0.0;  ///< where, the middle of that 0.1 s [m]
@@ -107,7 +107,7 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
 ///   * that its wheels turned no faster than its actuator can, but for what their compliance adds
 ///     (3 %): faster ones mean that the timestep is too long for the car.
 /// A run without a path, obstacles and expectations has been asked nothing: it is not judged, and
-/// has not passed. Notes tell of a manoeuvre in which the steering did not reach its command for
+/// has not passed. Notes tell of a maneuver in which the steering did not reach its command for
 /// more than 2 % of the time.
 Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plants,
               const std::vector<PlantComparison>& comparisons);

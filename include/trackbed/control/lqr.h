@@ -29,7 +29,7 @@ namespace trackbed {
 /// off its path is steered more calmly the further it is off, with a larger weight of the rate, so
 /// that its slow wheels can follow, and approaches the path at 0.6 rad at most. Reverse paths are
 /// the same model with u < 0.
-/// Cost: about 55 us with 100 periods of preview on the path, some 0.5 ms metres beside it; no heap
+/// Cost: about 55 us with 100 periods of preview on the path, some 0.5 ms meters beside it; no heap
 /// memory.
 struct LqrOptions {
   std::optional<double> cross_track;    ///< [1/m^2], > 0; none: (2.7 m/L)^2 per m^2

@@ -8,7 +8,7 @@ namespace trackbed {
 
 /// Linear model-predictive control: the cost of LqrOptions over the next `horizon` steps, with the
 /// infinite rest behind them by the Riccati matrix, within the car's steering limits:
-///   minimise  sum_{k<N} (cross_track e_k^2 + heading (psi_k - psi_0)^2 + steering_rate w_k^2)
+///   minimize  sum_{k<N} (cross_track e_k^2 + heading (psi_k - psi_0)^2 + steering_rate w_k^2)
 ///             + z_N' P z_N
 ///   subject to  abs(w_k) <= omega,  abs(delta_k) <= delta_max  for every step
 ///

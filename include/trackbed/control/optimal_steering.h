@@ -9,10 +9,10 @@
 #include "trackbed/vehicle/kinematic_car.h"
 #include "trackbed/vehicle/params.h"
 
-/// Steering found by a search at every control step (Skackauskas, Mejeras, Sokolovskij; seed 003).
+/// Steering found by a search at every control step (Skackauskas et al. 2017).
 /// A primary model moves as wanted; the car, the secondary one, is disturbed. While the car's
 /// deviation (9) from the primary exceeds a limit, now or after the horizon if the plan's curvature
-/// were steered, the angle is steered that minimises
+/// were steered, the angle is steered that minimizes
 ///   (1)  F = (x_i - x_i0)^2 + (y_i - y_i0)^2 + (psi_i - psi_i0)^2,  (2)  |delta| <= delta_max
 /// over a prediction of both.
 ///
@@ -22,8 +22,8 @@ namespace trackbed {
 
 /// Which of the primary's poses the car's is compared with.
 enum class Matching {
-  kArcLength,  ///< that at the car's own station, S metres further when predicted
-  kTime,       ///< that at the same time, however far behind the car is: the paper's first stage
+  kArcLength,  ///< that at the car's own station, S meters further when predicted
+  kTime,       ///< that at the same time, however far behind the car is: the published first stage
 };
 
 /// w of the weighted (1): w_position (x_e^2 + y_e^2) + w_heading psi_e^2.
@@ -110,9 +110,10 @@ double TurnShare(const VehicleParams& vehicle, const SteeringProblem& problem, d
 SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem& problem,
                              const DeviationWeights& weights, const SearchOptions& search);
 
-/// The paper's experiment: the primary drives one lap on a constant angle, the car another constant
-/// angle at another speed; both begin in one pose with their wheels turned. Compared are the ends:
-/// with kTime after the lap's time, with kArcLength where the primary had come as far as the car.
+/// The experiment of Skackauskas et al. 2017: the primary drives one lap on a constant angle, the
+/// car another constant angle at another speed; both begin in one pose with their wheels turned.
+/// Compared are the ends: with kTime after the lap's time, with kArcLength where the primary had
+/// come as far as the car.
 struct CircleExperiment {
   double primary_steering = 0.0;  ///< [rad], not 0
   double primary_speed = 0.0;     ///< v_0 of the reference point [m/s], > 0
@@ -122,7 +123,7 @@ struct CircleExperiment {
   ReferencePoint reference = ReferencePoint::kCentreOfGravity;
 };
 
-/// The constant angle within +-delta_max that minimises (1) of the experiment, weights 1.
+/// The constant angle within +-delta_max that minimizes (1) of the experiment, weights 1.
 SteeringMatch MatchSteering(const VehicleParams& vehicle, const CircleExperiment& experiment,
                             const SearchOptions& search, std::uint64_t seed);
 

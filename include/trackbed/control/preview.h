@@ -13,10 +13,10 @@ enum class PreviewLaw {
   kExactArc,  ///< delta = atan(2 L sin(u)/R): the circle through the point; pure pursuit
 };
 
-/// MacAdam's preview with a single point (seed 004): the point P of the path at distance R from the
-/// rear-axle centre O, the first after the nearest one; u is the signed angle from the direction of
-/// motion to OP. Beyond its end the path goes on along its tangent. A car further than R from the
-/// path heads for the point R ahead of its nearest one.
+/// MacAdam's preview (MacAdam 1981) with a single point: the point P of the path at distance R from
+/// the rear-axle center O, the first after the nearest one; u is the signed angle from the
+/// direction of motion to OP. Beyond its end the path goes on along its tangent. A car further than
+/// R from the path heads for the point R ahead of its nearest one.
 ///
 /// The distance trades corners against robustness: a car cuts them by R^2/(8 r), and its wheels
 /// turn at a limited rate. Unless `distance` is given, R follows from the car, its speed and the

@@ -12,8 +12,8 @@ enum class PreviewWeight {
   kNear,     ///< W = 1 - eta/T: falls to nothing at the preview's end
 };
 
-/// MacAdam's optimal preview control (IEEE Trans. SMC 11, 1981): the steering which, held, brings
-/// the car over the whole previewed way nearest to the path, with a driver's delay.
+/// MacAdam's optimal preview control (MacAdam 1981): the steering which, held, brings the car over
+/// the whole previewed way nearest to the path, with a driver's delay.
 ///
 /// Symbols: T = R/|v| the preview time, R = max(distance, time |v|), and never shorter than a car
 /// off its path needs to swing back (PreviewOptions). Unless `distance` is given it is that of

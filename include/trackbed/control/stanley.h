@@ -6,8 +6,7 @@
 
 namespace trackbed {
 
-/// The law of the car Stanley (Hoffmann, Tomlin, Montemerlo, Thrun, American Control Conference
-/// 2007) for a path of the rear axle.
+/// The law of the car Stanley (Hoffmann et al. 2007) for a path of the rear axle.
 ///
 /// Symbols: e, psi cross-track and heading error of the rear axle [m, rad]; v speed; kappa the
 /// path's curvature at the car; delta_0(kappa), psi_0(kappa) steering and heading error of the

@@ -4,11 +4,11 @@
 
 #include "trackbed/control/steering_controller.h"
 
-/// Steering over time: the open-loop manoeuvres of handling tests.
+/// Steering over time: the open-loop maneuvers of handling tests.
 ///
-/// Symbols: t time since the drive began [s]; t0 `at`, when the manoeuvre begins; tau = t - t0;
+/// Symbols: t time since the drive began [s]; t0 `at`, when the maneuver begins; tau = t - t0;
 /// A `amplitude`; f frequency [Hz]; delta the wanted bicycle angle [rad], positive to the left, 0
-/// before t0. A negative amplitude mirrors the manoeuvre.
+/// before t0. A negative amplitude mirrors the maneuver.
 namespace trackbed {
 
 /// One angle from the start of the drive on.

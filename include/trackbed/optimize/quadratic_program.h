@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 /// Convex quadratic programs of a few dozen variables, for controllers:
-///   minimise x^T H x/2 + f^T x  subject to  G x <= h
+///   minimize x^T H x/2 + f^T x  subject to  G x <= h
 namespace trackbed {
 
 /// Sizes are bounded so that solving takes no heap memory but NLopt's.

@@ -11,7 +11,7 @@
 /// The one table of searches: NLopt's evolutionary, global, simplex and gradient methods behind one
 /// interface.
 ///
-///   minimise f(x)  subject to  c_j(x) <= 0  and  lower <= x <= upper
+///   minimize f(x)  subject to  c_j(x) <= 0  and  lower <= x <= upper
 namespace trackbed {
 
 /// What is searched. `objective` and `constraints` are pure functions of x; a value that is not

@@ -8,7 +8,7 @@
 namespace trackbed {
 
 /// A Bezier curve P(u) = sum C(n,i) (1-u)^(n-i) u^i P_i over u in [0, 1], of degree n = number of
-/// control points - 1. The dissertation's local path has degree 7 (section 5.7 of its listing F.2).
+/// control points - 1. The local path of Skackauskas, dissertation, listing F.2 has degree 7.
 ///
 /// Evaluation and derivatives are exact to rounding (Bernstein form, no differences). Curvature is
 /// positive to the left, and not finite where the curve has no direction (P'(u) = 0).

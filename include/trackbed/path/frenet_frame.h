@@ -18,7 +18,7 @@
 ///   a = s_tt (1 - kappa_r d)/cos Dtheta + s_t^2/cos Dtheta
 ///       [(1 - kappa_r d) tan Dtheta (kappa (1 - kappa_r d)/cos Dtheta - kappa_r)
 ///        - (kappa_r' d + kappa_r d')]
-/// (Werling, Ziegler, Kammel and Thrun 2010). In d(s) they hold at standstill too; by time,
+/// (Werling et al. 2010). In d(s) they hold at standstill too; by time,
 /// d_t = d' s_t and d_tt = d'' s_t^2 + d' s_tt.
 namespace trackbed {
 
@@ -40,7 +40,7 @@ struct FrenetState {
   bool operator==(const FrenetState&) const = default;
 };
 
-/// A car in the world: its rear-axle centre.
+/// A car in the world: its rear-axle center.
 struct MotionState {
   Pose2 pose;
   double curvature = 0.0;     ///< kappa, of its steering [1/m]
@@ -51,7 +51,7 @@ struct MotionState {
 };
 
 /// The car seen from the nearest point of the path within the stations. None where there is no
-/// frame: the car is at or beyond the path's centre of curvature (1 - kappa_r d <= 0), looks across
+/// frame: the car is at or beyond the path's center of curvature (1 - kappa_r d <= 0), looks across
 /// or back (|Dtheta| >= 90 degrees), or the path is driven backwards there. Cost: a projection.
 std::optional<FrenetState> ToFrenet(const Path& path, const MotionState& motion,
                                     Stations within = {});

@@ -5,7 +5,7 @@
 
 #include "trackbed/geometry/pose.h"
 
-/// A path that a car is to drive: poses of its rear-axle centre over arc length.
+/// A path that a car is to drive: poses of its rear-axle center over arc length.
 ///
 /// Symbols: s station, the distance along the path [m], growing in the direction of motion;
 /// yaw heading of the car [rad]; kappa = tan(steering)/wheelbase curvature [1/m], positive to the
@@ -34,7 +34,7 @@ struct Segment {
 /// What a path is at one station.
 struct PathPoint {
   double s = 0.0;          ///< [m]
-  Pose2 pose;              ///< rear-axle centre, heading of the car
+  Pose2 pose;              ///< rear-axle center, heading of the car
   double curvature = 0.0;  ///< [1/m]
   int direction = 1;
   double sharpness = 0.0;  ///< dkappa/ds [1/m^2]
@@ -79,7 +79,7 @@ class Path {
 
   /// The nearest point to `pose` among the stations of `within`, which may reach beyond the ends.
   /// Exact for lines and arcs, to 1e-9 m along the path for other segments; only from within a
-  /// tenth of the radius of their centres of curvature, from where much of them is about equally
+  /// tenth of the radius of their centers of curvature, from where much of them is about equally
   /// far, may it be another point than the very nearest. Searching near the last known station
   /// keeps a car from jumping to a later crossing or over a cusp. Of equally near points the one
   /// with the smallest station. Cost O(segments within the stations). InternalError when `within`
@@ -115,7 +115,7 @@ struct CurvePoint {
   double curvature = 0.0;  ///< [1/m]
 };
 
-/// Segments that follow a smooth curve forwards: one between each two neighbours, with the curve's
+/// Segments that follow a smooth curve forwards: one between each two neighbors, with the curve's
 /// own heading and curvature at both. With points h apart and k the largest third derivative of the
 /// curvature, headings in between are off by at most h^4 k/384, and the end by h^4 k/720 times the
 /// length: about 1e-7 m over the bends of a car, 0.1 m apart. InternalError unless the distances

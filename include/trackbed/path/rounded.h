@@ -13,7 +13,7 @@ namespace trackbed {
 /// but for half a window beside a bend; arcs get tighter by (k window)^2/24 of their curvature, the
 /// path shorter by as much of theirs. Stations are its own, about those of the path. Errors:
 /// InternalError unless the window is positive and the path is driven forwards and longer than 0.
-/// Cost: about 10 us a metre.
+/// Cost: about 10 us a meter.
 Path Rounded(const Path& path, double window);
 
 }  // namespace trackbed

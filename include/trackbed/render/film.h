@@ -64,7 +64,7 @@ void CheckFilmName(const std::filesystem::path& output);
 /// the first plant whose name begins with "mujoco", else the first by name; every other plant is a
 /// translucent ghost. With `plants`, each of them has a picture of its own, without ghosts. Shown
 /// are the recorded world with its friction patches, and the `overlays`. From the moment when the
-/// car takes up a new plan, that one is shown in a colour of its own and those before it faint and
+/// car takes up a new plan, that one is shown in a color of its own and those before it faint and
 /// narrow; new plans of the ghosts are not shown. Frame k is the run at `from` + k / fps, states in
 /// between interpolated linearly; the last frame is the last one not after `to`, or after the end
 /// of the longest recording; a plant that ends before stays where it stopped.

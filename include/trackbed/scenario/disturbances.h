@@ -30,7 +30,7 @@ struct MeasurementNoise {
 struct Kick {
   double at = 0.0;                     ///< [s]
   std::optional<double> displacement;  ///< at once [m]; this or
-  std::optional<double> impulse;       ///< at the centre of gravity [N s]
+  std::optional<double> impulse;       ///< at the center of gravity [N s]
   std::optional<double> duration;      ///< of the impulse's constant force [s]; none: kKickDuration
 };
 

@@ -3,8 +3,8 @@
 #include <variant>
 #include <vector>
 
-/// The standard manoeuvres of vehicle dynamics: how a run is evaluated. What is steered and braked
-/// is the controller's; a manoeuvre says what is read off the drive.
+/// The standard maneuvers of vehicle dynamics: how a run is evaluated. What is steered and braked
+/// is the controller's; a maneuver says what is read off the drive.
 namespace trackbed {
 
 /// ISO 4138: steady-state circular driving test. Samples count after `settle`, where the yaw rate
@@ -45,7 +45,7 @@ struct DisturbanceOptions {
   double yaw_rate_bound = 0.02;  ///< below it for good, the car has recovered [rad/s], > 0
 };
 
-/// Which alternative it holds says which manoeuvre is meant.
+/// Which alternative it holds says which maneuver is meant.
 using ManoeuvreOptions = std::variant<SteadyStateCircleOptions, SlowlyIncreasingSteerOptions,
                                       StepSteerOptions, SineWithDwellTestOptions, LaneChangeOptions,
                                       BrakingTestOptions, DisturbanceOptions>;
@@ -56,10 +56,10 @@ struct ManoeuvreEntry {
   ManoeuvreOptions defaults;
 };
 
-/// Every manoeuvre there is.
+/// Every maneuver there is.
 const std::vector<ManoeuvreEntry>& Manoeuvres();
 
-/// The name of the manoeuvre that `options` belong to.
+/// The name of the maneuver that `options` belong to.
 const char* ManoeuvreName(const ManoeuvreOptions& options);
 
 }  // namespace trackbed

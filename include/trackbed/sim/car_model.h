@@ -24,7 +24,7 @@ inline constexpr std::array<const char*, 4> kWheels{"fl", "fr", "rl", "rr"};
 /// What a car's file says of its tyres.
 struct CarTyres {
   std::array<MagicFormula, 2> axle;     ///< front, rear
-  std::array<double, 2> camber_gain{};  ///< front, rear: of the left wheel, to the left, per metre
+  std::array<double, 2> camber_gain{};  ///< front, rear: of the left wheel, to the left, per meter
                                         ///< of spring travel up [rad/m]; mirrored on the right
   double vertical_stiffness = 0.0;      ///< [N/m]; 0: as stiff as the contact is
   double vertical_damping = 0.0;        ///< [N s/m]
@@ -68,7 +68,7 @@ struct CarParts : ChassisParts {
   double brake_torque_front = 0.0;       ///< largest, per wheel [N m]
   double brake_torque_rear = 0.0;        ///< largest, per wheel [N m]
   std::array<double, 4> spin_inertia{};  ///< [kg m^2]
-  std::array<double, 4> hub_height{};    ///< of the wheel centres at rest, in the car's frame [m]
+  std::array<double, 4> hub_height{};    ///< of the wheel centers at rest, in the car's frame [m]
   std::optional<CarTyres> tyres;         ///< none when the file has no coefficients
 };
 
@@ -124,7 +124,7 @@ class CarModel {
   /// A configuration out of a full qpos.
   [[nodiscard]] std::vector<double> ConfigurationOf(std::span<const double> qpos) const;
 
-  /// qpos of the car standing on `ground`, its rear-axle centre at `pose` as seen from above, its
+  /// qpos of the car standing on `ground`, its rear-axle center at `pose` as seen from above, its
   /// wheels at `steering` (bicycle angle) and turned by `spin` [rad], one for each of wheels() or
   /// none. Its frame V lies on the plane that fits the heights under the four wheels best, moved up
   /// until no wheel is in the ground; a payload's weight on the springs moves it from there. With

@@ -13,7 +13,7 @@ struct Payload {
   std::optional<double> share;  ///< of the car's own mass, > 0
   double x = 0.0;               ///< [m]; 0: over the rear axle
   double y = 0.0;               ///< [m]
-  std::optional<double> z;      ///< [m]; none: as high as the car's own centre of gravity
+  std::optional<double> z;      ///< [m]; none: as high as the car's own center of gravity
 };
 
 /// Puts the payload into the car: a body `payload` fixed to `chassis`, and a keyframe `laden`, how

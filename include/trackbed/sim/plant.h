@@ -15,7 +15,7 @@ namespace trackbed {
 
 /// Where and how a drive begins.
 struct StartState {
-  Pose2 pose;             ///< rear-axle centre
+  Pose2 pose;             ///< rear-axle center
   double speed = 0.0;     ///< [m/s]
   double steering = 0.0;  ///< bicycle angle, wheels and actuator alike [rad]
 };
@@ -32,7 +32,7 @@ class Plant {
   /// that is there.
   virtual void Shift(double left) = 0;
 
-  /// A horizontal force to the left [N] that acts on its centre of gravity during the next step
+  /// A horizontal force to the left [N] that acts on its center of gravity during the next step
   /// alone. Cars that know no forces do not feel it.
   virtual void Push(double force) = 0;
 
@@ -122,7 +122,7 @@ std::unique_ptr<Plant> MakePlant(const std::string& name, const PlantSetup& setu
 std::string PlantFileName(const std::string& name);
 
 /// The kinematic plant with the reference point of your choice: with kCentreOfGravity,
-/// `start.speed` and the commanded acceleration are those of the centre of gravity.
+/// `start.speed` and the commanded acceleration are those of the center of gravity.
 std::unique_ptr<Plant> MakeKinematicPlant(const PlantSetup& setup, ReferencePoint reference);
 
 }  // namespace trackbed

@@ -3,13 +3,13 @@
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/state.h"
 
-/// The kinematic single-track car (Rajamani; seed equations (4)-(7), C.21) behind a rate-limited
-/// steering actuator.
+/// The kinematic single-track car (Rajamani 2012, ch. 2; Skackauskas et al. 2017, eqs. (4)-(7))
+/// behind a rate-limited steering actuator.
 ///
 /// Symbols: psi yaw [rad], delta steering [rad], v speed [m/s], L wheelbase, l_g rear axle to CG,
 /// beta = atan(l_g tan(delta)/L) side-slip angle at the CG [rad].
 ///   rear axle:          x' = v cos psi          psi' = v tan(delta)/L
-///   centre of gravity:  x' = v cos(psi + beta)  psi' = v cos(beta) tan(delta)/L
+///   center of gravity:  x' = v cos(psi + beta)  psi' = v cos(beta) tan(delta)/L
 namespace trackbed {
 
 struct MotionPiece;

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-/// The Magic Formula tyre: forces in the contact patch from slip (Pacejka, Tire and Vehicle
-/// Dynamics; the PAC2002 subset that CommonRoad's multi-body model uses, with load sensitivity).
+/// The Magic Formula tyre: forces in the contact patch from slip (Pacejka 2012; the PAC2002 subset
+/// that CommonRoad's multi-body model uses (Althoff et al. 2017), with load sensitivity).
 ///
 /// Axes of the wheel at the ground: x where it points, y to its left, z up. Symbols:
 ///   F_z    load [N]

@@ -20,7 +20,7 @@ enum class VehicleKind {
 struct AxleGrip {
   double weight = 0.0;    ///< share of the weight at rest [1]
   double force = 0.0;     ///< >= 0 [1]
-  double transfer = 0.0;  ///< of load; +- height of the centre of gravity over the wheelbase [1]
+  double transfer = 0.0;  ///< of load; +- height of the center of gravity over the wheelbase [1]
 };
 
 /// How hard a vehicle can brake, or accelerate, straight ahead on a flat road.
@@ -37,7 +37,7 @@ struct AccelerationLimit {
 /// What planners and controllers know of a vehicle. Read from its compiled MJCF
 /// (sim/car_model.h), never written down a second time; tests may fill it by hand.
 ///
-/// Vehicle frame V: origin on the ground under the centre of the rear axle, or of the axle of the
+/// Vehicle frame V: origin on the ground under the center of the rear axle, or of the axle of the
 /// driven wheels; x forward, y left, z up.
 ///
 /// Steering angles are those of the bicycle model's front wheel at the middle of the front axle.
@@ -50,12 +50,12 @@ struct VehicleParams {
   std::string name;
   VehicleKind kind = VehicleKind::kSteered;
   double wheelbase = 0.0;     ///< L [m]; b with differential drive
-  double cg_to_rear = 0.0;    ///< l_g: centre of gravity to rear axle, along x [m]
+  double cg_to_rear = 0.0;    ///< l_g: center of gravity to rear axle, along x [m]
   double track_front = 0.0;   ///< [m]; 0 with differential drive
   double track_rear = 0.0;    ///< [m]
   double wheel_radius = 0.0;  ///< [m]
   double mass = 0.0;          ///< [kg]
-  double yaw_inertia = 0.0;   ///< of the whole car about its centre of gravity [kg m^2]
+  double yaw_inertia = 0.0;   ///< of the whole car about its center of gravity [kg m^2]
   /// Of an axle at its static load, both tyres together [N/rad]; 0 without tyre coefficients.
   double cornering_stiffness_front = 0.0;
   double cornering_stiffness_rear = 0.0;
@@ -83,9 +83,9 @@ struct VehicleParams {
   /// drive that of both wheels at the largest speed that leaves their servos room.
   double top_speed = 0.0;
 
-  /// l_f: centre of gravity to front axle, along x [m]. Of cars only.
+  /// l_f: center of gravity to front axle, along x [m]. Of cars only.
   [[nodiscard]] double cg_to_front() const { return wheelbase - cg_to_rear; }
-  /// Of the rear-axle centre at full lock [m].
+  /// Of the rear-axle center at full lock [m].
   [[nodiscard]] double min_turning_radius() const;
 };
 
@@ -113,7 +113,7 @@ struct FrontAngles {
 };
 
 /// The Ackermann angles of the front wheels for a bicycle angle: both wheels and the bicycle's
-/// point at the same centre on the rear axle's line (cot outer - cot inner = track/L).
+/// point at the same center on the rear axle's line (cot outer - cot inner = track/L).
 FrontAngles AckermannAngles(const VehicleParams& params, double steering);
 
 /// How fast they turn with the bicycle angle: the derivatives of AckermannAngles [1].

@@ -4,12 +4,12 @@
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/state.h"
 
-/// The linear dynamic single-track car (Riekert and Schunck 1940; Mitschke and Wallentowitz,
-/// Dynamik der Kraftfahrzeuge) behind a rate-limited steering actuator, speed prescribed.
+/// The linear dynamic single-track car (Riekert and Schunck 1940; Mitschke and Wallentowitz
+/// 2014) behind a rate-limited steering actuator, speed prescribed.
 ///
 /// Symbols (ISO 8855): u speed along the car's x axis [m/s], signed, the same at every point of
-/// that axis; v lateral speed at the centre of gravity [m/s]; r yaw rate [rad/s]; delta steering;
-/// m mass; I yaw inertia; l_f, l_r centre of gravity to the axles; L = l_f + l_r; C_f, C_r the
+/// that axis; v lateral speed at the center of gravity [m/s]; r yaw rate [rad/s]; delta steering;
+/// m mass; I yaw inertia; l_f, l_r center of gravity to the axles; L = l_f + l_r; C_f, C_r the
 /// axles' cornering stiffness [N/rad]; F_f, F_r their lateral forces [N], left positive.
 ///   m (v' + u r) = F_f + F_r         F_f = C_f (u tan(delta) - v - l_f r)/|u|
 ///   I r' = l_f F_f - l_r F_r         F_r = -C_r (v - l_r r)/|u|
@@ -55,7 +55,7 @@ class SingleTrackCar {
   /// Sets the car aside by `left` [m], to its left, at once.
   void Shift(double left);
 
-  /// A blow to the left [N s] at the centre of gravity. A car at rest, which has no lateral speed,
+  /// A blow to the left [N s] at the center of gravity. A car at rest, which has no lateral speed,
   /// does not feel it.
   void Push(double impulse);
 

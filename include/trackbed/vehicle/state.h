@@ -20,20 +20,20 @@ struct WheelState {
 
 /// What every plant tells of its car, at one moment. Axes x forward, y left, z up; angles positive
 /// to the left (roll: right side down; pitch: nose down). Speeds along x and y are those of points
-/// on the ground, turning with the car's yaw; accelerations are those of the centre of gravity
+/// on the ground, turning with the car's yaw; accelerations are those of the center of gravity
 /// itself, at its height, along the same axes: rolling and pitching are in them.
 struct VehicleState {
   double time = 0.0;           ///< [s]
-  Pose2 pose;                  ///< rear-axle centre on the ground, in the world; yaw is not wrapped
-  double speed = 0.0;          ///< of the rear-axle centre along x [m/s], negative backwards
+  Pose2 pose;                  ///< rear-axle center on the ground, in the world; yaw is not wrapped
+  double speed = 0.0;          ///< of the rear-axle center along x [m/s], negative backwards
   double distance = 0.0;       ///< odometer: integral of |speed| [m]
-  double lateral_speed = 0.0;  ///< below the centre of gravity, along y [m/s]
+  double lateral_speed = 0.0;  ///< below the center of gravity, along y [m/s]
   double yaw_rate = 0.0;       ///< [rad/s]
   double roll = 0.0;           ///< [rad]
   double pitch = 0.0;          ///< [rad]
-  double longitudinal_acceleration = 0.0;  ///< of the centre of gravity, free of gravity [m/s^2]
-  double lateral_acceleration = 0.0;       ///< of the centre of gravity, free of gravity [m/s^2]
-  double sideslip = 0.0;                   ///< at the centre of gravity [rad]
+  double longitudinal_acceleration = 0.0;  ///< of the center of gravity, free of gravity [m/s^2]
+  double lateral_acceleration = 0.0;       ///< of the center of gravity, free of gravity [m/s^2]
+  double sideslip = 0.0;                   ///< at the center of gravity [rad]
   double steering_actuator = 0.0;          ///< where the rate-limited actuator stands [rad]
   /// Bicycle angle measured at the front wheels, or from the speeds of two driven wheels [rad].
   double steering = 0.0;

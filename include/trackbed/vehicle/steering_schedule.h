@@ -5,8 +5,8 @@
 #include "trackbed/vehicle/kinematic_car.h"
 #include "trackbed/vehicle/params.h"
 
-/// Steering over distance for a car whose wheels turn at a limited rate (seed 000 F.1, section 4.3
-/// of the dissertation's listing, with corrected distances).
+/// Steering over distance for a car whose wheels turn at a limited rate (Skackauskas,
+/// dissertation, listing F.1, with corrected distances).
 ///
 /// Symbols: D distance driven by the rear axle [m]; d_0 neutral angle of the wheels, where they
 /// stand before, between and after turns [rad]; S_delta = v |delta - d_0|/omega_delta the distance
@@ -70,8 +70,8 @@ double RampHeading(const VehicleParams& params, double steering, double speed);
 /// by quadrature of the heading above.
 Pose2 RampPose(const VehicleParams& params, double steering, double speed);
 
-/// Heading that a turn misses [rad, <= 0] when both its ramps are centred on the tangent points and
-/// fit into the arc: (v/(L omega)) (-2 ln cos delta - delta tan delta).
+/// Heading that a turn misses [rad, <= 0] when both its ramps are centered on the tangent points
+/// and fit into the arc: (v/(L omega)) (-2 ln cos delta - delta tan delta).
 double TurnHeadingDefect(const VehicleParams& params, double steering, double speed);
 
 /// Where an open-loop drive gets: the kinematic car from `start` over `distance` [m], its wheels

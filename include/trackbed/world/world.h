@@ -43,7 +43,7 @@ double GroundHeight(const World& world, const Vec2& point_W);
 Eigen::Vector3d GroundNormal(const World& world, const Vec2& point_W);
 Vec2 WindAt(const World& world, const Vec2& point_W, double time);
 
-/// The car's outline on the ground when its rear-axle centre is at `pose`.
+/// The car's outline on the ground when its rear-axle center is at `pose`.
 OrientedBox OutlineAt(const VehicleParams& vehicle, const Pose2& pose);
 
 /// Where an obstacle is at `time` [s].

@@ -187,7 +187,7 @@ class AroundObstacles {
     entry["search"] = {{"method", SearchFor(options_.search.method).name},
                        {"evaluations", stretch.repair.search.evaluations},
                        {"objective", stretch.repair.search.value}};
-    // The listing's check, for comparison (Salyga_2): a single point of the path, two metres before
+    // The check of listing F.2, for comparison: a single point of the path, two meters before
     // it is beside the obstacle, against a corner; ours is the nearest one.
     const double share = (stretch.beside - stretch.leave) / (stretch.back - stretch.leave);
     const double beside = stretch.repair.check.length * share;
@@ -199,7 +199,7 @@ class AroundObstacles {
     entry["one_point_check"] = {
         {"distance_m", corner},
         {"passed", corner >= options_.safe_distance + 0.5 * request_.vehicle.width}};
-    // Driven open loop by the curve's own steering, from its own start (sig1).
+    // Driven open loop by the curve's own steering, from its own start.
     const PathPoint start = path().At(leave);
     const PathPoint end = path().At(back);
     const std::vector<SteeringSchedule::Knot> own =
@@ -286,7 +286,7 @@ void Visit(KeyVisitor& keys, BezierAvoidanceOptions& options) {
       {RingChoice::kAuto, "auto"}, {RingChoice::kInner, "inner"}, {RingChoice::kOuter, "outer"}};
   keys.Field(
       {"ring", "",
-       "on which side to pass: toward the turn's centre (left on a straight), away from it, or "
+       "on which side to pass: toward the turn's center (left on a straight), away from it, or "
        "as RRT* finds it shorter"},
       options.ring, Need::kOptional, rings);
   keys.Field({"min_speed", "m/s", "no slower than this to get past"}, options.min_speed,

@@ -120,7 +120,7 @@ OrientedBox Outline(const VehicleParams& vehicle, const Pose2& pose, OutlineOn o
                                     : OrientedBox{pose, vehicle.length, vehicle.width};
 }
 
-/// The corner of the obstacle that the listing measures to: the rear one toward the centre of the
+/// The corner of the obstacle that the listing measures to: the rear one toward the center of the
 /// turn if the car passes there, else the front one on the other side.
 Vec2 TestCorner(const TurnManoeuvre& manoeuvre, const OrientedBox& obstacle) {
   const double ring = manoeuvre.ring() == Ring::kInner ? 1.0 : -1.0;

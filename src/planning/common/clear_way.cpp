@@ -93,7 +93,7 @@ std::optional<double> ClearWay::FirstBlocked(const Path& path) const {
                          std::abs(segment.CurvatureAt(segment.length)),
                          std::abs(segment.CurvatureAt(0.5 * segment.length))});
   }
-  const double moved = 1.0 + sharpest * reach_;  // by the outline, per metre of path
+  const double moved = 1.0 + sharpest * reach_;  // by the outline, per meter of path
   for (double s = 0.0;;) {
     const double room = RoomAt(path.At(s).pose);
     if (room < 0.0) {

@@ -30,7 +30,7 @@ struct FoundCurve {
   double cost = 0.0;  // [m]
 };
 
-/// The shortest of `words` that is free and begins as it may, a stop counting as so many metres.
+/// The shortest of `words` that is free and begins as it may, a stop counting as so many meters.
 template <typename MayBegin>
 std::optional<FoundCurve> FirstFree(const PlanRequest& request, const ClearWay& clear,
                                     const Pose2& from, const std::vector<ShortestCurve>& words,

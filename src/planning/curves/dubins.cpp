@@ -31,7 +31,7 @@ struct Sweeps {
 };
 
 /// Finds words that begin with a left arc, and are shorter than `limit`; else their sum is kNone.
-/// The centre of the first arc is at (0, 1), that of a last left arc at (x - sin, y + cos), of a
+/// The center of the first arc is at (0, 1), that of a last left arc at (x - sin, y + cos), of a
 /// right one at (x + sin, y - cos).
 Sweeps LeftStraightLeft(const CurveGoal& goal, double limit) {
   const double dx = goal.x - goal.sin;
@@ -55,7 +55,7 @@ Sweeps LeftStraightRight(const CurveGoal& goal, double limit) {
   if (straight >= limit) {
     return {.middle = kNone};
   }
-  // The direction of the centres' line, and the angle atan(2/straight) to it, at once.
+  // The direction of the line of the centers, and the angle atan(2/straight) to it, at once.
   const double first = Positive(std::atan2(dy * straight + 2.0 * dx, dx * straight - 2.0 * dy));
   return {first, straight, Positive(first - goal.yaw)};
 }
@@ -67,7 +67,8 @@ Sweeps LeftRightLeft(const CurveGoal& goal, double limit) {
   if (square > 16.0 + kRounding || limit <= kPi) {
     return {.middle = kNone};  // too far apart for a circle that touches both
   }
-  // The centre of the middle arc lies `tilt` to the left of the centres' line, seen from the first.
+  // The center of the middle arc lies `tilt` to the left of the line of the centers, seen from the
+  // first.
   const double tilt = std::acos(std::min(0.25 * std::sqrt(square), 1.0));
   const double middle = kPi + 2.0 * tilt;
   const double first = Positive(std::atan2(dy, dx) + 0.5 * kPi + tilt);

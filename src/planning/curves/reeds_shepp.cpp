@@ -49,10 +49,10 @@ Sweeps With(double t, double u, double v, double others = 0.0) {
   return {t, u, v, std::abs(t) + std::abs(u) + std::abs(v) + others};
 }
 
-// Each of the following is an equation of section 8 of Reeds and Shepp, for the word whose first
+// Each of the following is an equation of Reeds and Shepp 1990, section 8, for the word whose first
 // arc is to the left and forwards. What is farther than `limit` anyway need not be finished.
 
-/// From the centre of the first arc to that of a last one to the left, or to the right.
+/// From the center of the first arc to that of a last one to the left, or to the right.
 Vec2 ToLeftCentre(const CurveGoal& goal) {
   return {goal.x - goal.sin, goal.y - 1.0 + goal.cos};
 }

@@ -11,7 +11,7 @@ namespace trackbed::fillet {
 namespace {
 
 /// Between the stations at which the driven car is compared with its path [m]; also the step of
-/// the roll-out. Ramps are metres long, so the integrals' own error is a thousandth.
+/// the roll-out. Ramps are meters long, so the integrals' own error is a thousandth.
 constexpr double kSpacing = 0.5;
 
 class DrivenProblem {

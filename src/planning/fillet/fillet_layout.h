@@ -52,7 +52,7 @@ ActiveConstraint ActiveAt(const RadiusLimits& limits, double radius);
 double ConstraintAt(const VehicleParams& vehicle, RadiusConstraint constraint,
                     const FilletTurn& turn, double radius);
 
-/// The plan of turns whose radii and speeds are known: arcs, path, and steering centred on the
+/// The plan of turns whose radii and speeds are known: arcs, path, and steering centered on the
 /// tangent points. Without the schedule, whose order is checked last.
 FilletPlan LayOut(const VehicleParams& vehicle, const Route& route, std::vector<FilletTurn> turns);
 

@@ -193,10 +193,10 @@ void Visit(KeyVisitor& keys, FilletOptions& options) {
                                                      {RadiusObjective::kDriven, "driven"}};
   keys.Field(
       {"objective", "",
-       "by what radii are chosen: the largest, the dissertation's window over the route, over "
+       "by what radii are chosen: the largest, the yaw rate over a window of the route, over "
        "the turn, or the driven car's error"},
       options.objective, Need::kOptional, objectives);
-  keys.Section({"search", "", "how it is minimised; not for 'largest'"}, options.search);
+  keys.Section({"search", "", "how it is minimized; not for 'largest'"}, options.search);
   keys.Field({"resimulate_each_turn", "", "a first drive before every turn, not one for all"},
              options.resimulate_each_turn, Need::kOptional);
   static const EnumNames<ReferencePoint> references{

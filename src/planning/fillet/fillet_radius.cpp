@@ -168,7 +168,7 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
         if (!room) {
           throw refuse(PlanStatus::kNoRoomForSteering,
                        fmt::format("{}, and at {:.4g} m/s its ramps would overlap those of its "
-                                   "neighbours",
+                                   "neighbors",
                                    why, v));
         }
         turn.speed = v;

@@ -270,7 +270,7 @@ void Visit(KeyVisitor& keys, FrenetWeights& weights) {
   keys.Field({"k_lon", "", "of all that is along the path"}, weights.k_lon, Need::kOptional,
              kNotNegative);
   keys.Field(
-      {"derivative_order", "", "of the integrals: 3 is jerk, 2 acceleration as in the slides"},
+      {"derivative_order", "", "of the integrals: 3 is jerk (Werling et al. 2010), 2 acceleration"},
       weights.derivative_order, Need::kOptional, Range{.min = 2, .max = 3});
 }
 

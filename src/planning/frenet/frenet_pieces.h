@@ -10,7 +10,7 @@ namespace trackbed {
 LineMotion AlongOf(const FrenetState& state);
 
 /// Adds to s(t) of a piece the lateral motion over the station, from `start` to rest at `offset`.
-/// Over a few centimetres the offset goes on as it was going instead. False where s does not grow.
+/// Over a few centimeters the offset goes on as it was going instead. False where s does not grow.
 bool AddOverStation(const FrenetState& start, double offset, FrenetPiece& piece);
 
 /// Adds to s(t) of a piece the lateral motion over time.

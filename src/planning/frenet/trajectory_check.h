@@ -8,7 +8,7 @@
 
 namespace trackbed {
 
-/// A path looked up by the thousand: points every quarter metre, and a series around each, as if
+/// A path looked up by the thousand: points every quarter meter, and a series around each, as if
 /// the curvature went on evenly. Good to 1e-8 m within clothoids; near joints good enough for a
 /// first look.
 class PathTable {
@@ -82,7 +82,7 @@ class TrajectoryCheck {
   struct Obstacle {
     MovingBox box;
     double margin;  // keep more than this
-    double reach;   // centres further apart than this are clear
+    double reach;   // centers further apart than this are clear
   };
   std::vector<Obstacle> obstacles_;
 };

@@ -142,7 +142,7 @@ std::size_t PocketOf(const OccupancyGrid& grid, std::size_t cell, std::size_t ot
   return reached.size();
 }
 
-/// Notes every neighbour to which the way through `cell`, at `cost`, is the best one known, and
+/// Notes every neighbor to which the way through `cell`, at `cost`, is the best one known, and
 /// calls `take` with it, the step's number and the cost.
 template <typename Take>
 void ForEachBetter(Costs& costs, int cell, double cost, const Take& take) {

@@ -192,7 +192,7 @@ void Visit(KeyVisitor& keys, AStarOptions& options) {
 
 PlannerEntry AStarPlanner() {
   return {.name = "astar",
-          .summary = "around obstacles on a grid, corners rounded or refused (seed 004, variant 1)",
+          .summary = "around obstacles on a grid, corners rounded or refused (Hart et al. 1968)",
           .defaults = AStarOptions{},
           .plan = PlanBy<AStarOptions, PlanWith>,
           .min_waypoints = 2,

@@ -19,7 +19,7 @@
 namespace trackbed {
 namespace {
 
-/// Most by which a way between eight neighbours is longer than the straight: 1/cos(pi/8).
+/// Most by which a way between eight neighbors is longer than the straight: 1/cos(pi/8).
 constexpr double kOctileOverStraight = 1.0823922002923940;
 
 /// A pose that was come to.
@@ -98,7 +98,7 @@ class HybridAStar {
     return result;
   }
 
-  /// Occupied are cells that the rear axle's centre surely cannot be in: nearer to an obstacle than
+  /// Occupied are cells that the rear axle's center surely cannot be in: nearer to an obstacle than
   /// the outline's nearest side, all over the cell. Empty for an area of too many.
   [[nodiscard]] OccupancyGrid GridOf(const VehicleParams& vehicle) const {
     const GridArea area =

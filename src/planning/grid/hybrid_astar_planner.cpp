@@ -66,7 +66,7 @@ bool MayReverse(const PlannerOptions& options) {
 void Visit(KeyVisitor& keys, HybridAStarOptions& options) {
   route::VisitCurves(keys, options.radius, options.safe_distance, options.min_speed);
   keys.Field({"reverse", "", "whether it may go backwards"}, options.reverse, Need::kOptional);
-  keys.Field({"reverse_cost", "", "of a metre backwards, in metres"}, options.reverse_cost,
+  keys.Field({"reverse_cost", "", "of a meter backwards, in meters"}, options.reverse_cost,
              Need::kOptional, Range{.min = 1.0, .max = 1e3});
   keys.Field({"switch_cost", "m", "of a change of direction"}, options.switch_cost, Need::kOptional,
              kNotNegative);

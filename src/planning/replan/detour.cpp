@@ -162,7 +162,7 @@ class DetourSearch {
                          path.Cut({request_.route_station, path.length()})));
   }
 
-  /// A way from the car on. Its centre line keeps as far from what does not block it as the
+  /// A way from the car on. Its center line keeps as far from what does not block it as the
   /// outline's sides do.
   [[nodiscard]] WayScore Score(const std::vector<Vec2>& way) const {
     const VehicleParams& car = request_.vehicle;

@@ -20,7 +20,7 @@ using nlohmann::json;
 
 /// Slower than this a car is at rest [m/s].
 constexpr double kAtRest = 0.01;
-/// A plan that ends at the goal is kept for its last metres, unless something comes in the way.
+/// A plan that ends at the goal is kept for its last meters, unless something comes in the way.
 constexpr double kLastMetres = 1.0;
 /// As near as this to the route, a car is back on it.
 constexpr double kBackOffset = 0.02;     // [m]

@@ -47,7 +47,7 @@ void Visit(KeyVisitor& keys, DetourChoice& choice) {
              Need::kOptional, Range{.min = 1, .max = 1000});
   keys.Field({"collision_penalty", "m", "for a way that is blocked"},
              choice.comparator.collision_penalty, Need::kOptional, kNotNegative);
-  keys.Field({"wind_weight", "", "of the wind along the way, in metres for metres"},
+  keys.Field({"wind_weight", "", "of the wind along the way, in meters for meters"},
              choice.wind_weight, Need::kOptional, kNotNegative);
 }
 

@@ -436,7 +436,7 @@ void Visit(KeyVisitor& keys, RrtPlannerOptions& options) {
   keys.Field({"data_weight", "", "alpha of the smoothing: keeps points where they are"},
              options.data_weight, Need::kOptional, Range{.min = 0.0, .max = 1.0});
   keys.Field({"smoothness_weight", "",
-              "beta of the smoothing: draws points between their neighbours; data_weight + 2 "
+              "beta of the smoothing: draws points between their neighbors; data_weight + 2 "
               "smoothness_weight is above 0 and below 1"},
              options.smoothness_weight, Need::kOptional, Range{.min = 0.0, .max = 0.5});
   keys.Field({"corner_cost", "m", "of a corner, as so much way: fewer corners, with longer legs"},
@@ -447,7 +447,7 @@ void Visit(KeyVisitor& keys, RrtPlannerOptions& options) {
 
 PlannerEntry RrtPlanner() {
   return {.name = "rrt",
-          .summary = "around obstacles along random trees, smoothed in the wind (seed 002)",
+          .summary = "around obstacles along random trees (LaValle 1998), smoothed in the wind",
           .defaults = RrtPlannerOptions{},
           .plan = PlanBy<RrtPlannerOptions, PlanWith>,
           .min_waypoints = 2,

@@ -123,7 +123,7 @@ class Tree {
     }
   }
 
-  /// Adds a node by way of its cheapest neighbour and leads its neighbours through it. The edge
+  /// Adds a node by way of its cheapest neighbor and leads its neighbors through it. The edge
   /// to `reached_from` is known to be free.
   std::size_t Join(const Vec2& position, std::size_t reached_from) {
     const double count = static_cast<double>(nodes_.size());

@@ -40,7 +40,7 @@ function section(id, title) {
   return made;
 }
 
-/** Every drive of every run: what has a colour. The film's colours, where they can be had. */
+/** Every drive of every run: what has a color. The film's colors, where they can be had. */
 const tracks = runs.flatMap((run, r) => run.plants.map((plant) => ({
   run: r,
   plant: plant.name,
@@ -119,7 +119,7 @@ function setTime(time, from) {
 window.matchMedia('(prefers-color-scheme: dark)')
   .addEventListener('change', () => bus.call('scheme'));
 
-/** A colour of the style sheet, as a canvas needs it. */
+/** A color of the style sheet, as a canvas needs it. */
 function colourOf(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }

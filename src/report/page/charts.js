@@ -14,7 +14,7 @@ function fixed(number, digits) {
 /**
  * The charts of `list`, which `key` tells from others, over `axis`: {values, unit, at, timeOf}, the
  * places of the rows, and which place belongs to a moment and which moment to a place. A chart has
- * {name, title, unit, note, lines, readouts}, a line {label, colour, tracks, values, pattern, width},
+ * {name, title, unit, note, lines, readouts}, a line {label, color, tracks, values, pattern, width},
  * a readout {label, tracks, sign, text}, which is drawn and told at a moment.
  */
 function drawCharts(list, key, axis, charts) {

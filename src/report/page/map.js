@@ -1,4 +1,4 @@
-// The way seen from above: equal scales, in metres; x to the right, y up.
+// The way seen from above: equal scales, in meters; x to the right, y up.
 
 function extentOfMap() {
   const xs = [];

@@ -52,7 +52,7 @@ function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf
   const second = varied.find((p) => p.index !== first);
   const over = choice('Over', 'over', list, first);
   const colour = list.length > 1
-    ? choice('Colours by', 'colours', [[-1, 'nothing'], ...list], second ? second.index : -1) : () => -1;
+    ? choice('Colors by', 'colours', [[-1, 'nothing'], ...list], second ? second.index : -1) : () => -1;
   const legend = choices.append('div').attr('class', 'legend');
   const plots = parent.append('div').attr('class', 'plots');
   const tooltip = d3.select('body').append('div').attr('class', 'tooltip panel').attr('hidden', '');
@@ -83,7 +83,7 @@ function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf
     const by = parameters.find((p) => p.index === colour() && p !== x);
     const kinds = by ? Array.from(new Set(rows.map((row) => row.cells[by.index]))) : [null];
     if (by && isNumber(by)) kinds.sort(d3.ascending);
-    // A few values have colours of their own, many a scale of them.
+    // A few values have colors of their own, many a scale of them.
     const colours = kinds.map((kind, i) => (kinds.length <= 8 || !isNumber(by)
       ? `var(--track-${i % 8})` : d3.interpolateViridis(0.9 * i / (kinds.length - 1))));
     const cssOf = (row) => colours[by ? kinds.indexOf(row.cells[by.index]) : 0];

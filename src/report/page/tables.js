@@ -228,6 +228,6 @@ function drawScenarios() {
 function drawFoot() {
   const footer = root.append('footer');
   const details = footer.append('details');
-  details.append('summary').text('Made by Trackbed, with d3 and dygraphs: their licences');
+  details.append('summary').text('Made by Trackbed, with d3 and dygraphs: their licenses');
   details.append('pre').text(document.getElementById('licences').textContent);
 }

@@ -68,7 +68,7 @@ double ClearanceOf(const Path& path, const std::vector<OrientedBox>& obstacles,
 /// full lock, 0.025 m x 3.7/5.1, times the angle of its way to the obstacle's side; next to a
 /// minimum that angle is zero, and the loss quadratic: 0.025^2 x (1/5.1 + 1/3.7)/2.
 constexpr double kBetweenSamples = 2e-4;  // [m]
-/// A plan's own stretches count as clear when they miss SD by half a millimetre.
+/// A plan's own stretches count as clear when they miss SD by half a millimeter.
 constexpr double kTouch = 5e-4 + kBetweenSamples;
 
 /// One turn of radius r between two straights, and what stands in it.
@@ -182,7 +182,7 @@ TEST_P(ObstacleInTurn, IsPassedSafelyOnTheSideAskedFor) {
   ExpectSafe(plan, global, {obstacle}, options);
   EXPECT_TRUE(plan.caps.empty()) << "there is room to pass at full speed";
 
-  // Beside the obstacle the path runs nearer to the turn's centre, or farther from it, than the
+  // Beside the obstacle the path runs nearer to the turn's center, or farther from it, than the
   // obstacle does.
   const Vec2 centre{course.before, c.side * course.radius};
   const Path& path = plan.reference.path;
@@ -255,7 +255,7 @@ std::vector<OrientedBox> WithWall(const Course& course, double share, double tow
 TEST(PlanAround, TakesTheOnlyRingThatIsFree) {
   const Course course;
   const Plan global = course.Global();
-  // To the left is the turn's centre.
+  // To the left is the turn's center.
   const Plan outer = Around(global, WithWall(course, 0.5, 1.0));
   ASSERT_EQ(outer.blocked, "");
   EXPECT_EQ(outer.diagnostics["avoid"][0]["ring"], "outer");

@@ -204,7 +204,7 @@ TEST(LayOutTurn, ObstacleIsAlongTheAxesOrTheTurn) {
   }
 }
 
-// --- Safe point: section 5.3 -------------------------------------------------------------------
+// --- Safe point --------------------------------------------------------------------------------
 
 TEST(SafeRadius, IsAsPrinted) {
   TurnManoeuvre manoeuvre;
@@ -234,7 +234,7 @@ TEST(LayOutTurn, SafePointIsAsPrinted) {
 }
 
 /// The listing's branches, with its parentheses mended. It has theta_m + 3 pi/2 - dec in the last
-/// one; with -theta_m in its place, as the specification's table has it, the point would be at
+/// one; with -theta_m in its place, as a first reading had it, the point would be at
 /// sigma = theta_m + dec, and no mirror of the left one.
 Vec2 SafePointByBranches(const TurnManoeuvre& m, double r_k, double theta_m) {
   const bool inner = m.inner_width >= m.outer_width;
@@ -349,7 +349,7 @@ TEST(LayOutTurn, NumbersOutOfRangeAreBugs) {
   refused([&](TurnManoeuvre& m) { m.outer_width = nan; });
 }
 
-// --- Control points: section 5.5 ---------------------------------------------------------------
+// --- Control points ----------------------------------------------------------------------------
 
 /// The listing's branches.
 Points PointsByBranches(const TurnManoeuvre& m, const TurnLayout& layout, double final_y) {
@@ -361,7 +361,6 @@ Points PointsByBranches(const TurnManoeuvre& m, const TurnLayout& layout, double
   const Vec2 first = layout.arc.front().position;
   const Vec2 last = layout.arc.back().position;
   const Vec2 goal = layout.safe_point;
-  // Section 5.4.
   const double theta_m = dec + 0.01 * (static_cast<double>(layout.obstacle_at) - 1.0);
   const double r_k_1 = m.radius - 2.0 * m.safe_distance -
                        std::hypot(m.obstacle_width, m.obstacle_length) - 2.0 * 1.725 -
@@ -512,7 +511,7 @@ TEST(TurnManoeuvre, RightTurnMirrorsTheLeftToTheLastBit) {
 }
 
 TEST(ControlPoints, NothingJumpsWhenTheReductionVanishes) {
-  // A reduction of 1e-9 turns the exit, whose far end lies r_1 + S < 43 m from the arc's centre.
+  // A reduction of 1e-9 turns the exit, whose far end lies r_1 + S < 43 m from the arc's center.
   constexpr double kSmall = 1e-9;
   for (const Ring ring : {Ring::kInner, Ring::kOuter}) {
     TurnManoeuvre none = Literal(TurnSide::kLeft, ring, 0.0);
@@ -540,7 +539,7 @@ TEST(ControlPoints, NothingJumpsWhenTheReductionVanishes) {
   }
 }
 
-// --- The curve: section 5.7 --------------------------------------------------------------------
+// --- The curve ---------------------------------------------------------------------------------
 
 TEST(TurnManoeuvre, CurveIsTheListingsOwnCheck) {
   const Points p = PointsOf(Literal(TurnSide::kLeft, Ring::kInner), 3.0);
@@ -598,9 +597,9 @@ TEST(DriveManoeuvre, DefaultDetailsAreAsPrinted) {
   ExpectPoint(drive.samples.back().pose.position(), {47.893709, 36.750135}, Printed(6));
 }
 
-// --- The drive: sections 5.8 to 5.10 -----------------------------------------------------------
+// --- The drive ---------------------------------------------------------------------------------
 
-/// The largest rate between neighbours of sig1, as the printed numbers have it.
+/// The largest rate between neighbors of the steering signal, as the printed numbers have it.
 double LargestQuotient(const ManoeuvreDrive& drive) {
   double largest = 0.0;
   for (std::size_t i = 1; i < drive.samples.size(); ++i) {
@@ -849,7 +848,7 @@ TEST(DriveManoeuvre, DrivingThroughTheObstacleLeavesNoClearance) {
   EXPECT_FALSE(drive.keeps_clear);
 }
 
-// --- The search of section 5.6 -----------------------------------------------------------------
+// --- The listing's search ----------------------------------------------------------------------
 
 TEST(LiteralRrtStar, SpreadIsAsPrinted) {
   struct Row {
@@ -894,7 +893,7 @@ TEST(LiteralRrtStar, SpreadIsAsPrinted) {
     expect_quantile(0.95, row.high);
     // The smallest of 2000 draws; 200 000 reach 20.55 and 41.83.
     EXPECT_GE(nearest, row.nearest - Tolerance(Printed(1)));
-    // Eleven steps of a metre are too few for any of them.
+    // Eleven steps of a meter are too few for any of them.
     EXPECT_GE(nearest, layout.safe_point.norm() - 11.0 - Tolerance(kRounding));
   }
 }

@@ -46,7 +46,7 @@ TEST(ClearWay, FindsTheFirstPlaceThatIsTooNear) {
                                                {.length = 10.0}});
     const std::optional<double> blocked = clear.FirstBlocked(path);
     blocked_ones += blocked ? 1 : 0;
-    // Half a step of 2 cm, times what the farthest corner moves per metre: 1 + 0.2 3.7 = 1.75.
+    // Half a step of 2 cm, times what the farthest corner moves per meter: 1 + 0.2 3.7 = 1.75.
     const double missed = 0.01 * 1.75;
     const double end = blocked ? *blocked - 0.02 : path.length();
     for (double s = 0.0; s < end; s += 0.005) {

@@ -53,7 +53,7 @@ TEST(PlanSteps, CapsLieAboutTheStepsAndNotAtCusps) {
 }
 
 TEST(PlanSteps, KeepRampsApartAndStopWhereTheyWouldOverlap) {
-  // Half a metre between two steps: the wheels turn by the first before the second is due, at
+  // Half a meter between two steps: the wheels turn by the first before the second is due, at
   // 0.5 m omega/atan(0.27) = 0.285 m/s.
   const std::vector<Segment> segments{
       {.length = 20.0}, {.length = 0.5, .curvature = 0.1}, {.length = 20.0}};

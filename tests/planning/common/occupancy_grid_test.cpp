@@ -36,7 +36,7 @@ TEST(OccupancyGrid, HasACellInTheMiddleOfItsFrame) {
   const OccupancyGrid grid = RasterOf(frame, {{-3.3, -1.2}, {4.1, 2.6}}, 0.5, {}, 0.0);
   const int cell = grid.CellAt(frame.position());
   ASSERT_GE(cell, 0);
-  // Rounding of coordinates of a few metres.
+  // Rounding of coordinates of a few meters.
   EXPECT_NEAR((grid.MiddleOf(static_cast<std::size_t>(cell)) - frame.position()).norm(), 0.0,
               Tolerance(1e-14));
   EXPECT_EQ(grid.columns, 7 + 9 + 1);

@@ -57,7 +57,7 @@ TEST(LaneChangeGates, AreThoseOfPart2Mirrored) {
     EXPECT_NEAR(lane.width, widths[i], Tolerance(kRounding));
     EXPECT_NEAR(lane.length, lengths[i], Tolerance(kRounding));
     EXPECT_NEAR(middle.x() - 0.5 * lane.length, begins[i], Tolerance(kRounding));
-    // Section 3 a metre right of section 1's right edge; 1 and 5 share their left one.
+    // Section 3 a meter right of section 1's right edge; 1 and 5 share their left one.
     const double left = middle.y() + 0.5 * lane.width;
     EXPECT_NEAR(left, i == 1 ? -0.5 * 2.01 - 1.0 : 0.5 * 2.01, Tolerance(kRounding));
   }

@@ -39,7 +39,7 @@ TEST(ReedsShepp, ReachesEveryPoseByEveryWord) {
       ASSERT_NEAR(sum, word.length, Tolerance(1e-9));
     }
   }
-  // All of the paper's 48 are the shortest somewhere (its last two are the rarest).
+  // All 48 words of Reeds and Shepp 1990 are the shortest somewhere (its last two are the rarest).
   EXPECT_EQ(shortest.size(), 48U);
 }
 

@@ -14,7 +14,7 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/fillet/fillet.h"
 
-// The radius searches of the global planner: dissertation listing F.1, specification 4.5 to 4.9.
+// The radius searches of the global planner (Skackauskas, dissertation, listing F.1).
 namespace trackbed {
 namespace {
 
@@ -31,12 +31,12 @@ FilletOptions Options(RadiusObjective objective, SearchMethod method = SearchMet
   return options;
 }
 
-/// The acceptance of specification 4.7.
+/// The accuracy that is asked of a search.
 double Accepted(double radius) {
   return std::max(0.01, 1e-3 * radius);
 }
 
-// --- Section 4.8: what the objectives want -------------------------------------------------------
+// --- What the objectives want --------------------------------------------------------------------
 
 struct FreeRadiusCase {
   const char* name;
@@ -100,7 +100,7 @@ TEST(FreeRadius, IsWhereTheObjectiveVanishes) {
   }
 }
 
-// --- Section 4.9: the second pass ----------------------------------------------------------------
+// --- The second pass -----------------------------------------------------------------------------
 
 struct EndCase {
   const char* name;
@@ -125,7 +125,7 @@ TEST_P(SecondPass, MissesTheGoalAsPrinted) {
   options.reference = c.reference;
   const FilletPlan plan = PlanFillets(SeedCar(), c.route, kSpeed, options);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
-  // The verification's step of 0.5 m on ramps errs by a micrometre.
+  // The verification's step of 0.5 m on ramps errs by a micrometer.
   EXPECT_NEAR(plan.verification.goal_distance, c.error, Tolerance(Printed(c.decimals) + 1e-6));
 }
 
@@ -149,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return std::string(test.param.name); });
 
 TEST(SecondPass, LiteralOptimumOfAFirstTurnIsNeverInterior) {
-  // Section 4.8: 1500 random routes of two legs, 12-80 m, heading changes of 10-150 deg.
+  // 1500 random routes of two legs, 12-80 m, heading changes of 10-150 deg.
   Random random(1500);
   int planned = 0;
   for (int i = 0; i < 1500; ++i) {
@@ -170,9 +170,9 @@ TEST(SecondPass, LiteralOptimumOfAFirstTurnIsNeverInterior) {
 }
 
 TEST(SecondPass, LiteralOptimumOfALaterTurnMayBeInterior) {
-  // Section 4.8's counterexample: legs of 40 m, +100 deg and then +20 deg. The window of the second
-  // turn holds the return of the first. The specification's 44.57 m is of a sampled window: 4 ms of
-  // its 11.6 s are the 0.015 m between it and the converged value.
+  // A counterexample: legs of 40 m, +100 deg and then +20 deg. The window of the second
+  // turn holds the return of the first. An independent computation gave 44.57 m with a sampled
+  // window: 4 ms of its 11.6 s are the 0.015 m between it and the converged value.
   const Vec2 second = Vec2{40, 0} + 40.0 * Direction(Radians(100.0));
   const std::vector<Vec2> route{{0, 0}, {40, 0}, second, second + 40.0 * Direction(Radians(120.0))};
   FilletOptions options = Options(kLiteral);

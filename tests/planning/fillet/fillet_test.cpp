@@ -90,7 +90,7 @@ TEST(PlanFillets, LeftTurnIsPositive) {
   EXPECT_GT(plan.schedule.At(plan.turns[0].steer_return), 0.0);
 }
 
-// --- Section 4.6: pass 1, r = 5.1 m ------------------------------------------------------------
+// --- Pass 1, r = 5.1 m --------------------------------------------------------------------------
 
 TEST(PlanFillets, RouteAPassOneHasPrintedGeometry) {
   const FilletPlan plan = PlanGiven(RouteA(), 5.1);
@@ -159,7 +159,7 @@ TEST(PlanFillets, RouteBPassOneHasPrintedDistances) {
   EXPECT_NEAR(plan.path.length(), 149.5833, Tolerance(Printed(4)));
 }
 
-// --- Section 4.9: pass 2 -----------------------------------------------------------------------
+// --- Pass 2 -------------------------------------------------------------------------------------
 
 TEST(PlanFillets, RouteAUnderHalfLegHasPrintedTurns) {
   const FilletPlan plan = PlanWith(RouteA(), RadiusConstraint::kHalfLeg);
@@ -205,7 +205,7 @@ TEST(PlanFillets, RouteBUnderHalfLegHasPrintedTurns) {
     ExpectPoint(turn.arc_start, starts[k], Printed(4));
     ExpectPoint(turn.arc_end, ends[k], Printed(4));
   }
-  // The corrected distances: the literal D_3 would be 46.6160, with the ramp of turn 1 (defect G7).
+  // The corrected distances: the literal D_3 would be 46.6160, with the ramp of turn 1.
   ExpectEvents(plan, {14.4576, 43.5882, 46.3616, 79.4671, 81.4069, 117.2350});
   EXPECT_NEAR(plan.path.length(), 142.7856, Tolerance(Printed(4)));
 }
@@ -237,7 +237,7 @@ TEST(PlanFillets, MaxRadiusCapsGentleTurns) {
   }
 }
 
-// --- The constraints by themselves (section 3) --------------------------------------------------
+// --- The constraints by themselves --------------------------------------------------------------
 
 TEST(SteeringRoomRadii, HasPrintedIntervals) {
   struct Case {
@@ -332,7 +332,7 @@ TEST(SteeringRoomRadii, AgreesWithADenseScan) {
 }
 
 TEST(HalfLegRadii, HasPrintedShortestLegs) {
-  // Section 3: the shortest leg on which 5.1 m fits, 2 * 5.1/tan(phi/2).
+  // The shortest leg on which 5.1 m fits, 2 * 5.1/tan(phi/2).
   const std::vector<std::pair<double, double>> table{
       {30.0, 2.733}, {60.0, 5.889}, {90.0, 10.2}, {120.0, 17.667}, {150.0, 38.067}};
   for (const auto& [change, leg] : table) {
@@ -356,7 +356,7 @@ TEST(HalfLegRadii, EndsAtTheUpperBound) {
 // --- Laws ---------------------------------------------------------------------------------------
 
 TEST(PlanFillets, ShiftedStartChangesNoDistance) {
-  // Defect G1: the seed takes y(1) for x(1), which shows only away from the diagonal.
+  // Listing F.1 takes y(1) for x(1), which shows only away from the diagonal.
   const std::vector<Vec2> offsets{{13.25, 0.0}, {0.0, -7.5}, {13.25, -7.5}, {-100.0, 250.0}};
   for (const auto& route : {RouteA(), RouteB()}) {
     const FilletPlan plan = PlanWith(route, RadiusConstraint::kHalfLeg);
@@ -478,7 +478,7 @@ void ExpectFilletIdentities(const std::vector<Vec2>& route, const FilletPlan& pl
     const auto i = static_cast<std::size_t>(turn.waypoint);
     const Vec2 in = (route[i] - route[i - 1]).normalized();
     const Vec2 out = (route[i + 1] - route[i]).normalized();
-    // C.9 in the seed's form; the arc cosine loses half the digits near a straight line.
+    // C.9 as it is printed; the arc cosine loses half the digits near a straight line.
     EXPECT_NEAR(turn.interior_angle, std::acos(std::clamp(-in.dot(out), -1.0, 1.0)),
                 Tolerance(1e-7));
     EXPECT_EQ(turn.heading_change > 0.0, Cross(in, out) > 0.0);
@@ -727,7 +727,7 @@ TEST(PlanFillets, RefusesRightTurnWithItsSign) {
 }
 
 TEST(PlanFillets, RefusesLegsWithoutSteeringRoom) {
-  // Section 3: 90 deg and 28 m is empty; 60 m before it is not.
+  // 90 deg and 28 m is empty; 60 m before it is not.
   FilletOptions options;
   options.without_room = WithoutRoom::kRefuse;
   const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 60}, {88, 60}};
@@ -801,12 +801,12 @@ TEST(PlanFillets, SlowerCarFindsSteeringRoom) {
 
 // --- The listing's own distances -----------------------------------------------------------------
 
-/// The distances as the listing has them, with its defects: every event after the first turn
-/// carries the first turn's ramp instead of its own (G7).
+/// The distances as listing F.1 has them, with its defects: every event after the first turn
+/// carries the first turn's ramp instead of its own.
 struct LiteralEvents {
   std::vector<double> start;         ///< D_{2k-1} [m]
   std::vector<double> end;           ///< D_2k [m]
-  std::vector<double> return_until;  ///< sal_2k: where the window of the return closes [m]
+  std::vector<double> return_until;  ///< where the window of the return closes [m]
   double route_end = 0.0;            ///< D_0 [m]; half a ramp of the first turn before the goal
 };
 
@@ -823,7 +823,7 @@ LiteralEvents LiteralEventsOf(const FilletPlan& plan) {
 }
 
 TEST(LiteralEvents, AreAsPrinted) {
-  // Section 4.6 and 4.9: D_1 to D_6 and D_0_1, with the ramp of turn 1 in all of them (G7).
+  // D_1 to D_6 and D_0_1 of listing F.1 run in Octave, with the ramp of turn 1 in all of them.
   struct Case {
     FilletPlan plan;
     std::vector<double> events;
@@ -852,7 +852,7 @@ TEST(LiteralEvents, AreAsPrinted) {
       EXPECT_NEAR(literal.start[k], c.events[2 * k], Tolerance(Printed(4))) << "D_" << 2 * k + 1;
       EXPECT_NEAR(literal.end[k], c.events[2 * k + 1], Tolerance(Printed(4))) << "D_" << 2 * k + 2;
       if (!c.until.empty()) {
-        EXPECT_NEAR(literal.return_until[k], c.until[k], Tolerance(Printed(4))) << "sal " << k;
+        EXPECT_NEAR(literal.return_until[k], c.until[k], Tolerance(Printed(4))) << "window " << k;
       }
     }
     EXPECT_NEAR(literal.route_end, c.end, Tolerance(Printed(4)));
@@ -914,7 +914,7 @@ constexpr ReferencePoint kCg = ReferencePoint::kCentreOfGravity;
 constexpr double kStep = 0.1;  // [m]
 
 TEST(OpenLoop, PassOneStopsShortOfFullLock) {
-  // 8.0111 m at omega/v reach 0.4021 rad, not 0.4869 (section 4.6).
+  // 8.0111 m at omega/v reach 0.4021 rad, not 0.4869.
   const FilletPlan plan = PlanGiven(RouteA(), 5.1);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   double peak = 0.0;

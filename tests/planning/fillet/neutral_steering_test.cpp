@@ -54,7 +54,7 @@ TEST(NeutralSteering, RampsTakeTheTravelFromItAndBack) {
       const double time = std::abs(steering - neutral) / kRate;
       EXPECT_NEAR(turn.steering, steering, Tolerance(kRounding));
       EXPECT_NEAR(turn.ramp_time, time, Tolerance(kRounding));
-      // Centred on the tangent point: so far before it as after it.
+      // Centered on the tangent point: so far before it as after it.
       EXPECT_NEAR(turn.steer_start, turn.arc_start_s - 0.5 * kSpeed * time, Tolerance(kRounding));
       EXPECT_NEAR(plan.schedule.At(turn.steer_start), neutral, Tolerance(kRounding));
       EXPECT_NEAR(plan.schedule.At(turn.arc_start_s), 0.5 * (steering + neutral),
@@ -170,7 +170,7 @@ TEST(NeutralSteering, FindingsTellIt) {
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_EQ(plan.diagnostics.at("neutral_steering_rad"), 0.02);
   EXPECT_EQ(plan.diagnostics.at("neutral_curvature_radpm"), CurvatureForSteering(SeedCar(), 0.02));
-  // 0.02 rad over the 17 m before the first turn alone are 0.12 rad and more than a metre.
+  // 0.02 rad over the 17 m before the first turn alone are 0.12 rad and more than a meter.
   EXPECT_GT(plan.diagnostics.at("open_loop").at("deviation_max_m"), 1.0);
   // What a turn must cost is reckoned from straight wheels.
   EXPECT_TRUE(plan.turns.empty());

@@ -349,7 +349,7 @@ TEST(Frenet, SaysWhyItRejects) {
     EXPECT_TRUE(PlanFrenet(road, narrow, aside).ok());
   }
   {
-    // 2 m aside within 4 m: 5.77 times 2/16 per metre.
+    // 2 m aside within 4 m: 5.77 times 2/16 per meter.
     FrenetOptions tight = options;
     tight.end_offsets = {2.0};
     tight.limits.time_step = 1.0;

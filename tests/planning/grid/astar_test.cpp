@@ -191,7 +191,7 @@ TEST(AStar, SaysWhyThereIsNoWay) {
   EXPECT_THROW(SearchGrid(walled, 15, 0), InternalError);
 }
 
-// --- Its two drawbacks, as seed 004 states them --------------------------------------------------
+// --- Its two drawbacks: it ignores the car's limits, and it is not stable ------------------------
 
 TEST(AStar, JumpsInHeadingByAnEighthOfATurn) {
   const OccupancyGrid grid = Drawn({"..........",  //

@@ -29,7 +29,7 @@ void ExpectGood(const HybridAStarProblem& problem, const HybridAStarOptions& opt
   for (const Segment& segment : result.segments) {
     EXPECT_LE(std::abs(segment.curvature), 1.0 / radius + Tolerance(1e-12));
   }
-  // The farthest corner moves by up to 1 + 3.7/5.6 per metre: 1.7 cm in a step's half.
+  // The farthest corner moves by up to 1 + 3.7/5.6 per meter: 1.7 cm in a step's half.
   const double missed = Tolerance(0.017);
   for (double s = 0.0; s <= path.length(); s += 0.02) {
     const OrientedBox outline = OutlineAt(SeedCar(), path.At(s).pose);

@@ -132,7 +132,7 @@ TEST_P(EveryAlongMethod, ApproachesWhatStandsTooFarAwayToStopThere) {
 }
 
 TEST_P(EveryAlongMethod, NeverLeadsToWhereItCannotStop) {
-  // Fast towards a wall, from all distances: what is found ends at rest before it, or nothing is.
+  // Fast toward a wall, from all distances: what is found ends at rest before it, or nothing is.
   Scene scene;
   scene.settings.road = {1.5, 1.5};
   scene.request.speed = {15.0, 2.0, 3.0};

@@ -190,7 +190,7 @@ TEST(PlanDetour, RefusesPlannersThatCannot) {
 }
 
 TEST(PlanDetour, NeedsAWayBetweenItsEnds) {
-  // Past the box, half a metre before the goal: it would leave at the goal, and come back there.
+  // Past the box, half a meter before the goal: it would leave at the goal, and come back there.
   DetourRequest request = Blocked();
   request.obstacles = {{{108.0, 1.0, 0.0}, 4.0, 9.0}};
   request.station = 119.5;

@@ -17,7 +17,7 @@ namespace trackbed {
 namespace {
 
 constexpr SpeedLimits kSpeed{3.0, 1.0, 2.0};
-constexpr double kFront = 4.45 - 0.825;  // of the seed car, ahead of its rear axle [m]
+constexpr double kFront = 4.45 - 0.825;  // of the reference car, ahead of its rear axle [m]
 
 Plan StraightPlan(double length, double start_speed) {
   Plan plan;
@@ -73,7 +73,7 @@ TEST(FirstEncounter, WithWhatStandsIsWhenTheFrontGetsNear) {
   const auto met = FirstEncounter(SeedCar(), reference, 30.0, boxes, 0.5, 12.0);
   ASSERT_TRUE(met);
   EXPECT_EQ(met->obstacle, 1U);
-  // Looked at every 0.1 s, that is 0.3 m; a centimetre too near is near enough.
+  // Looked at every 0.1 s, that is 0.3 m; a centimeter too near is near enough.
   const double station = 59.0 - kFront - 0.5;
   EXPECT_GE(met->station, station);
   EXPECT_LE(met->station, station + 0.31);
@@ -204,7 +204,7 @@ TEST(Replan, BrakesAsHardAsItMustWhereNoMotionIsLeft) {
 
 /// Distance from the front to the place of the obstacle, less what is to be kept of it.
 double RoomBefore(const Scene& scene, double ahead) {
-  // Half a metre before the encounter, which is a centimetre inside the safe distance.
+  // Half a meter before the encounter, which is a centimeter inside the safe distance.
   return ahead - scene.options.settings.safe_distance + 0.01 - 0.5;
 }
 

@@ -26,7 +26,7 @@ TEST(Comparator, CountsWhatIsLeft) {
   EXPECT_NEAR(Score(Over(0.0), {4.0, 3.0}).length, 3.0 + 6.0, Tolerance(1e-12));
   EXPECT_NEAR(Score(Over(0.0), {12.0, 0.0}).length, 2.0, Tolerance(1e-12));
   EXPECT_NEAR(Score(Over(0.0), {-1.0, 0.0}).length, 11.0, Tolerance(1e-12));
-  // At a corner it is the seed's own count, from the nearest node.
+  // At a corner it is the count of the wind-aware RRT, from the nearest node.
   EXPECT_NEAR(Score(Over(12.0), {5.0, 12.0}).length, 13.0, Tolerance(1e-12));
 }
 

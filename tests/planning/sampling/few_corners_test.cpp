@@ -67,7 +67,7 @@ Case RandomCase(Random& random) {
   return one;
 }
 
-/// Sums up a way from the page; a corner without room counts a million metres.
+/// Sums up a way from the page; a corner without room counts a million meters.
 double CostOf(const Case& one, const std::vector<Vec2>& few) {
   double cost = -WindScore(InPieces(few), one.wind);
   std::vector<Vec2> all = few;

@@ -321,7 +321,7 @@ TEST(RrtStar, StartThatIsTheGoalIsAWayOfNoLength) {
 }
 
 TEST(RrtStar, StepBoundsTheFirstEdges) {
-  // Before there are neighbours to choose from every edge is an extension.
+  // Before there are neighbors to choose from every edge is an extension.
   RrtStarOptions options = Budget(2000);
   options.step = 0.5;
   const RrtStarResult result = PlanRrtStar(Nothing(), options, 1);

@@ -23,7 +23,7 @@ RrtProblem Walled() {
           .inflation = 1.0};
 }
 
-/// Whether points every centimetre of an edge keep further than the inflation from all obstacles.
+/// Whether points every centimeter of an edge keep further than the inflation from all obstacles.
 bool IsFreeDensely(const Vec2& from, const Vec2& to, const RrtProblem& problem) {
   const int steps = 1 + static_cast<int>((to - from).norm() / 0.01);
   for (int i = 0; i <= steps; ++i) {

@@ -53,7 +53,7 @@ TEST(Smoothing, SolvesItsLinearSystem) {
   }
 }
 
-TEST(Smoothing, TakesSixteenSweepsForTheStairsOfTheSeed) {
+TEST(Smoothing, TakesSixteenSweepsForStairs) {
   const SmoothingResult result = SmoothPath(Stairs(), {}, 0.0, {}, {});
   EXPECT_TRUE(result.converged);
   EXPECT_EQ(result.sweeps, 16);

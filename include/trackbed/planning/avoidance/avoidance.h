@@ -11,9 +11,9 @@
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/vehicle/params.h"
 
-/// The local planner (dissertation, listing F.2): leads a plan around obstacles that stand in its
-/// way. RRT* finds on which side to pass, a Bezier curve of degree 7 leads past, and a search moves
-/// its control points until it can be driven safely.
+/// The local planner (Skackauskas, dissertation, listing F.2): leads a plan around obstacles that
+/// stand in its way. RRT* finds on which side to pass, a Bezier curve of degree 7 leads past, and a
+/// search moves its control points until it can be driven safely.
 ///
 /// Symbols: SD safe distance, from the car's outline to an obstacle [m]; t_d system delay [s];
 /// S = r + v t_d the distance before and after a turn of radius r within which the car leaves its

@@ -13,18 +13,18 @@
 #include "trackbed/vehicle/params.h"
 
 /// The local planner's geometry: one Bezier curve of degree seven past an obstacle that stands in a
-/// turn (dissertation appendix F, listing F.2).
+/// turn (Skackauskas, dissertation, listing F.2; below, "the listing").
 ///
-/// Manoeuvre frame M: origin where the manoeuvre starts, x along the heading there, y to the left.
+/// Maneuver frame M: origin where the maneuver starts, x along the heading there, y to the left.
 /// The turn's arc begins the distance S ahead.
 ///   r_1    radius of the turn [m];  sg = +1 for a left turn, -1 for a right one
 ///   S      = r_1 + v_a t_d: straight before the arc, and after it [m]
-///   C      = (S, sg r_1): centre of the arc;  A, E its first and last point
+///   C      = (S, sg r_1): center of the arc;  A, E its first and last point
 ///   sigma  angle swept from A [rad], >= 0: the arc is C + r_1 (sin sigma, -sg cos sigma)
 ///   r_k    distance from C to the safe point, the control point beside the obstacle [m]
 namespace trackbed {
 
-/// The side of the obstacle to pass on: toward the centre of the turn, or away from it.
+/// The side of the obstacle to pass on: toward the center of the turn, or away from it.
 enum class Ring { kInner, kOuter };
 
 enum class TurnSide { kLeft, kRight };
@@ -37,7 +37,7 @@ struct LiteralTurn {
   /// point lies up to 0.01 rad before the obstacle. Swept angles are pi/2 less the listing's, so
   /// that only a theta_turn of pi/2 starts at A. Off: from end to end, the obstacle exact.
   bool grid = false;
-  /// P_5 of a right turn is shifted along x by cos(pi/2 - theta_turn_dec) metres (L9).
+  /// P_5 of a right turn is shifted along x by cos(pi/2 - theta_turn_dec) meters (L9).
   bool right_shift = false;
   /// P_5 to P_7 have rules of their own where theta_turn_dec is 0 exactly (L18). Off: the rule of
   /// all other angles.
@@ -60,8 +60,8 @@ struct TurnManoeuvre {
   double obstacle_yaw = 0.0;           ///< in M [rad]; 0 is the listing's
   bool obstacle_follows_turn = false;  ///< its yaw counts from the turn's heading where it stands
   double safe_distance = 1.5;          ///< SD [m], >= 0
-  double inner_width = 1.0;            ///< vidinis_ziedas: free toward the centre [m], >= 0
-  double outer_width = 0.0;            ///< isorinis_ziedas: free on the other side [m], >= 0
+  double inner_width = 1.0;            ///< free toward the center [m], >= 0
+  double outer_width = 0.0;            ///< free on the other side [m], >= 0
   LiteralTurn literal;
 
   /// The side with more room; the inner one if there is the same on both.
@@ -72,7 +72,7 @@ struct TurnManoeuvre {
   [[nodiscard]] double straight() const { return radius + speed * delay; }
 };
 
-/// How laying out a manoeuvre ended.
+/// How laying out a maneuver ended.
 enum class TurnStatus {
   kOk,
   kNoTurn,       ///< the reduction leaves nothing of the turn, or too little for its grid
@@ -130,7 +130,7 @@ struct LiteralTree {
 };
 
 /// The listing's search as it stands, defects and all (L5-L13): floor(S/2) samples, rounded down to
-/// whole metres, in the box between the start and the obstacle's centre (below the start, where the
+/// whole meters, in the box between the start and the obstacle's center (below the start, where the
 /// other ring is taken); steps of 1 m; free if the whole line to the sample crosses no side of the
 /// obstacle; the cheapest parent within 10 m; nothing rewired. It does not look at the car's width,
 /// never reaches its goal (that lies outside the box, and beyond its steps) and serves as a
@@ -140,7 +140,7 @@ LiteralTree LiteralRrtStar(const TurnManoeuvre& manoeuvre, const TurnLayout& lay
 
 /// Which point of the car drives along the curve, its x axis along the tangent.
 enum class OutlineOn {
-  kRearAxle,  ///< the rear-axle centre, as everywhere else
+  kRearAxle,  ///< the rear-axle center, as everywhere else
   kCentre,    ///< the middle of the outline, as in the listing
 };
 
@@ -156,14 +156,14 @@ struct ManoeuvreSample {
 
 /// What driving along a curve comes to. Largest and smallest values are those of the samples.
 struct ManoeuvreDrive {
-  std::vector<ManoeuvreSample> samples;  ///< (time, steering) are the listing's sig1
+  std::vector<ManoeuvreSample> samples;  ///< (time, steering) are the listing's steering signal
   double length = 0.0;                   ///< ARC_L: of all chords [m]
   double duration = 0.0;                 ///< length/v_a [s]
   double steering_max = 0.0;             ///< largest |delta| [rad]
   double steering_rate_max = 0.0;        ///< largest |d delta/dt| [rad/s]
   Vec2 test_point{0.0, 0.0};             ///< beside the obstacle, by the listing's rule
   Vec2 test_corner{0.0, 0.0};            ///< the corner of the obstacle that it is held against
-  double test_distance = 0.0;            ///< Salyga_2: between the two [m]
+  double test_distance = 0.0;            ///< the listing's safety check: between the two [m]
   double clearance = 0.0;                ///< smallest distance from outline to obstacle [m]; 0 for
                                          ///< a collision
 

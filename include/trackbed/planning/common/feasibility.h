@@ -42,7 +42,7 @@ struct Excess {
 };
 
 /// Everything that the plan asks too much of, one entry for each quantity, at its worst place.
-/// Limits that the vehicle's parameters do not know (0) are not checked. Cost: 5 us a metre.
+/// Limits that the vehicle's parameters do not know (0) are not checked. Cost: 5 us a meter.
 std::vector<Excess> ExcessesOf(const Plan& plan, const PlanRequest& request);
 
 /// The plan as the request wants it where it asks too much: slowed down there, refused

@@ -4,7 +4,7 @@
 
 #include "trackbed/planning/common/planner.h"
 
-/// The first metres of a plan for a car that rolls.
+/// The first meters of a plan for a car that rolls.
 namespace trackbed {
 
 /// A way that a rolling car can drive whatever its wheels' angle is: straight on, once they are

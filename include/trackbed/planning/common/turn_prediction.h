@@ -29,7 +29,8 @@ TurnError ErrorInTurn(const Path& path, const LoneTurn& turn, const Pose2& X_W_f
 
 /// That error of the rate-limited kinematic car, exactly: a ramp from `from` on, then the arc. With
 /// S = v delta/omega and the wheels `lag` seconds behind their actuator, the heading deficit is
-/// kappa S/2 - (v/(L omega)) (-ln cos delta) + kappa v lag for a ramp centred on the tangent point.
+/// kappa S/2 - (v/(L omega)) (-ln cos delta) + kappa v lag for a ramp centered on the tangent
+/// point.
 TurnError PredictTurn(const VehicleParams& vehicle, const Path& path, const LoneTurn& turn,
                       double lag);
 

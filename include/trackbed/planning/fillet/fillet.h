@@ -15,8 +15,9 @@
 #include "trackbed/vehicle/steering_schedule.h"
 
 /// The global planner's geometry: waypoints joined by straight legs whose corners are rounded by
-/// arcs (dissertation appendix C, equations C.1-C.19; Beard & McLain's fillet path), and the
-/// distances at which a car with rate-limited steering has to start turning its wheels (F.1).
+/// arcs (Skackauskas, dissertation, eqs. (C.1)-(C.19); the fillet path of Beard and McLain 2012),
+/// and the distances at which a car with rate-limited steering has to start turning its wheels
+/// (listing F.1).
 ///
 /// Symbols, for the turn at waypoint w between the legs q_in and q_out (unit vectors):
 ///   phi  interior angle between the legs [rad]: pi for straight on, 0 for a U-turn
@@ -43,7 +44,7 @@ enum class WithoutRoom {
   /// Take it as fast as C.40 allows. Below `min_speed`: at that, if half a ramp, which is what lies
   /// on the leg, fits into half of it besides the arc's tangent; else refuse.
   kSlowDown,
-  kHalfLeg,  ///< take it under C.34: the wheels turn on the arc of the neighbours
+  kHalfLeg,  ///< take it under C.34: the wheels turn on the arc of the neighbors
   kRefuse,   ///< no plan
 };
 
@@ -51,10 +52,10 @@ enum class WithoutRoom {
 enum class RadiusObjective {
   /// The largest that keeps the constraint. Closed form; no search.
   kLargest,
-  /// The dissertation's two passes: a first drive on the smallest radii tells the time t and the
-  /// heading dpsi from the return of one turn to the return of the next; the search minimises
-  /// (psi'(r) t - dpsi)^2. That time holds the straight before the turn too, so the optimum of a
-  /// first turn always lies on the constraint.
+  /// The two passes of Skackauskas, dissertation, listing F.1: a first drive on the smallest radii
+  /// tells the time t and the heading dpsi from the return of one turn to the return of the next;
+  /// the search minimizes (psi'(r) t - dpsi)^2. That time holds the straight before the turn too,
+  /// so the optimum of a first turn always lies on the constraint.
   kLiteral,
   /// The same over the turn alone, from D_{2k-1} to D_2k: the radius that the rate-limited car
   /// really drove.
@@ -80,7 +81,7 @@ struct FilletOptions {
   /// return. It is an angle of the road wheels like delta, which stays that of the arc: a kinematic
   /// car leaves its straight legs on a circle of radius L/tan(d_0) unless it is 0.
   double neutral_steering = 0.0;
-  double max_radius = 154.0;  ///< upper bound of the search [m]; the seed's, one degree of steering
+  double max_radius = 154.0;  ///< upper bound of the search [m]; listing F.1's, one degree
   WithoutRoom without_room = WithoutRoom::kSlowDown;
   double min_speed = 0.5;  ///< no turn is taken more slowly [m/s]
   RadiusObjective objective = RadiusObjective::kLargest;
@@ -136,8 +137,8 @@ struct FilletTurn {
   double steering = 0.0;             ///< signed delta of the arc [rad]
   double ramp_time = 0.0;            ///< |delta - d_0|/omega_delta [s]
   double ramp_distance = 0.0;        ///< S_delta [m]
-  double steer_start = 0.0;          ///< D_{2k-1}: half a ramp before H_i unless optimised [m]
-  double steer_return = 0.0;         ///< D_{2k}: half a ramp before H_{i+1} unless optimised [m]
+  double steer_start = 0.0;          ///< D_{2k-1}: half a ramp before H_i unless optimized [m]
+  double steer_return = 0.0;         ///< D_{2k}: half a ramp before H_{i+1} unless optimized [m]
   bool ramp_truncated = false;       ///< the wheels turn back before they have reached `steering`
 };
 
@@ -148,7 +149,7 @@ struct FilletPlan {
   std::vector<FilletTurn> turns;
   Path path;
   SteeringSchedule schedule;
-  double stop_distance = 0.0;          ///< D_end [m]; the path's length unless optimised
+  double stop_distance = 0.0;          ///< D_end [m]; the path's length unless optimized
   OpenLoopDrive verification;          ///< the final drive
   std::optional<SearchResult> search;  ///< of kDriven
 };

@@ -15,8 +15,8 @@
 #include "trackbed/planning/frenet/frenet_motion.h"
 #include "trackbed/vehicle/params.h"
 
-/// Optimal motions in the Frenet frame of a reference path (Werling, Ziegler, Kammel and Thrun
-/// 2010; variant 2 of the slides): polynomials to many ends, ranked by their cost; the first one
+/// Optimal motions in the Frenet frame of a reference path (Werling et al. 2010; the weights are
+/// named as in the Frenet lecture): polynomials to many ends, ranked by their cost; the first one
 /// that the car can drive is taken.
 ///
 /// Symbols: those of path/frenet_frame.h; T duration [s]; S_1, V_1 wanted station [m] and speed
@@ -36,7 +36,7 @@ struct FrenetWeights {
   double k_st = 0.1;   ///< of time [1/s]
   double k_lat = 1.0;  ///< of C_d
   double k_lon = 1.0;  ///< of C_s
-  /// Of the integrals: 3 is jerk; 2 is acceleration, as the slides print it.
+  /// Of the integrals: 3 is jerk; 2 is acceleration, as the Frenet lecture has it.
   int derivative_order = 3;
 };
 void Visit(KeyVisitor& keys, FrenetWeights& weights);
@@ -194,7 +194,7 @@ struct FrenetPlan {
 /// The cheapest candidate that can be driven.
 ///
 /// Guarantees: the points keep every limit; between them, `spacing` apart, the clearance can be
-/// less by half of what car and obstacle move towards each other from point to point. checked =
+/// less by half of what car and obstacle move toward each other from point to point. checked =
 /// passed + rejected.total(). Same input, same bytes. Beyond the end of the motion only collisions
 /// are looked for, every `time_step`, up to the horizon. Errors: InternalError for options out of
 /// range or a start that is not finite. Cost: 0.3 ms for 525 candidates, 1 ms when

@@ -55,7 +55,7 @@ std::optional<std::vector<TrajectoryPoint>> SampleMotion(const Path& path,
 
 /// What a controller follows: a path through the points, with their headings and curvatures, and
 /// the speed over its stations. Between points 0.1 m apart the path stays within 1e-5 m and 1e-5
-/// rad of a motion over a path with smooth curvature. Points closer than a millimetre to the one
+/// rad of a motion over a path with smooth curvature. Points closer than a millimeter to the one
 /// before (a car that starts or stops) are left out. A car that does not move at all gets a path of
 /// length 0. InternalError without points.
 Reference ToReference(const std::vector<TrajectoryPoint>& points);

@@ -5,9 +5,9 @@
 #include "trackbed/options/key_visitor.h"
 #include "trackbed/planning/frenet/frenet.h"
 
-/// Motions along a reference path through a lattice of stations, offsets and speeds (variant 3 of
-/// the slides: "variant 2 + graph"): the edges are motions of planning/frenet.h, the cheapest way
-/// is found by dynamic programming.
+/// Motions along a reference path through a lattice of stations, offsets and speeds (the Frenet
+/// lecture's third variant): the edges are motions of planning/frenet.h, the cheapest way is found
+/// by dynamic programming.
 ///
 /// A node is a station s_j = s_0 + j spacing, an offset d_k and a speed v_m, passed along the path
 /// without acceleration (d' = d'' = s_tt = 0). An edge leads from a node, or the start, to one of

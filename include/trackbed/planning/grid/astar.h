@@ -6,15 +6,15 @@
 
 #include "trackbed/planning/common/occupancy_grid.h"
 
-/// A* (Hart, Nilsson and Raphael 1968) on a grid with eight neighbours, the honest baseline of
-/// seed 004: it ignores that a car has a heading and a turning circle.
+/// A* (Hart et al. 1968) on a grid with eight neighbors, the baseline of the other planners: it
+/// ignores that a car has a heading and a turning circle.
 ///
 /// Symbols: g(n) cost of the best way known to cell n, h(n) octile distance from n to the goal,
 /// both in cells: 1 straight, sqrt(2) across. A step across needs both cells beside it to be free.
 namespace trackbed {
 
 /// max(|dx|, |dy|) + (sqrt(2) - 1) min(|dx|, |dy|): the cost of a way without obstacles. Never
-/// above the true cost (admissible), and h(m) <= c(m, n) + h(n) for neighbours (consistent).
+/// above the true cost (admissible), and h(m) <= c(m, n) + h(n) for neighbors (consistent).
 double OctileDistance(int dx, int dy);
 
 enum class GridStatus {
@@ -32,7 +32,7 @@ struct GridPath {
   GridStatus status = GridStatus::kUnreachable;
   std::vector<std::size_t> cells;  ///< start to goal, each beside the next; empty unless found
   double cost = std::numeric_limits<double>::infinity();  ///< [cells]
-  long expansions = 0;                                    ///< cells whose neighbours were looked at
+  long expansions = 0;                                    ///< cells whose neighbors were looked at
 
   [[nodiscard]] bool ok() const { return status == GridStatus::kFound; }
 };

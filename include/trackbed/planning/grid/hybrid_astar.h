@@ -11,23 +11,23 @@
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/vehicle/params.h"
 
-/// Hybrid A* (Dolgov, Thrun, Montemerlo and Diebel 2008): a search over poses that a car can drive
-/// through, forwards and backwards. Poses are continuous; of those that fall into one cell of
-/// position and heading, come to in one direction, only the cheapest is kept.
+/// Hybrid A* (Dolgov et al. 2008): a search over poses that a car can drive through, forwards and
+/// backwards. Poses are continuous; of those that fall into one cell of position and heading, come
+/// to in one direction, only the cheapest is kept.
 ///
 /// Symbols: r radius of the sharpest arcs [m]; a step is an arc of curvature 0, +-1/(2r) or +-1/r.
 /// The cost of a way is its length [m], that of stretches backwards times `reverse_cost`, plus
 /// `switch_cost` for every change of direction, plus `steering_cost` times the change of curvature
 /// over 1/r at every joint. What is left to the goal is estimated by the greater of the shortest
 /// Reeds-Shepp curve and the length of the way on a grid around the obstacles, over 1.0824, the
-/// most by which steps between eight neighbours lengthen a straight.
+/// most by which steps between eight neighbors lengthen a straight.
 namespace trackbed {
 
 struct HybridAStarOptions {
   std::optional<double> radius;  ///< r [m]; none: a tenth more than the car's smallest
   double safe_distance = 0.3;    ///< of the outline from obstacles [m], >= 0
   bool reverse = true;           ///< whether it may go backwards
-  double reverse_cost = 2.0;     ///< of a metre backwards, >= 1
+  double reverse_cost = 2.0;     ///< of a meter backwards, >= 1
   double switch_cost = 5.0;      ///< of a change of direction [m], >= 0
   double steering_cost = 2.0;    ///< of a step of curvature of 1/r [m], >= 0
   double weight = 2.0;           ///< of what is left, >= 1: above 1 it looks at less, and what it

@@ -50,7 +50,7 @@ struct RouteFrame {
   double goal = 0.0;  ///< station of the route's end [m]
 };
 
-/// Cost: 10 us a metre. InternalError for a route with cusps.
+/// Cost: 10 us a meter. InternalError for a route with cusps.
 RouteFrame FrameOf(const VehicleParams& vehicle, const Plan& route, const SpeedLimits& speed,
                    double beyond);
 

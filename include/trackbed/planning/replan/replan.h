@@ -94,7 +94,7 @@ bool MayClear(const VehicleParams& vehicle, const Path& path, double station,
 /// if the car is back on it and it is clear, a motion that leads on, a detour that the comparator
 /// prefers, a motion that comes to rest or goes on for now, what is driven if it is clear, braking.
 ///
-/// Braking, before what stands: at the speed limits' deceleration to rest half a metre before the
+/// Braking, before what stands: at the speed limits' deceleration to rest half a meter before the
 /// encounter if that is in time; else at once and evenly, as hard as that takes; else at
 /// `max_deceleration`. What moves may come nearer: at once, with the mildest deceleration, in
 /// eighths of the way from the limits' to the hardest, that keeps clear of it; else the hardest.

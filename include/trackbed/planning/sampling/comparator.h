@@ -4,8 +4,8 @@
 
 #include "trackbed/planning/sampling/smoothing.h"
 
-/// Which of two ways to go on with (seed 002, "Comparator"): the shorter one, where a collision and
-/// the wind count in metres.
+/// Which of two ways to go on with ("Comparator" of the wind-aware RRT): the shorter one, where a
+/// collision and the wind count in meters.
 namespace trackbed {
 
 struct ComparatorOptions {
@@ -20,9 +20,9 @@ struct WayScore {
   double total = 0.0;     ///< L - W, and the penalty [m]
 };
 
-/// The score of a way for a car at `position`. The seed counts from the way's nearest corner, which
-/// may lie behind the car or far ahead; here it is the nearest point. `inflation` [m]: how close to
-/// an obstacle is too close. InternalError for a way without points.
+/// The score of a way for a car at `position`. That listing counts from the way's nearest corner,
+/// which may lie behind the car or far ahead; here it is the nearest point. `inflation` [m]: how
+/// close to an obstacle is too close. InternalError for a way without points.
 WayScore ScoreWay(const std::vector<Vec2>& way, const Vec2& position,
                   const std::vector<OrientedBox>& obstacles, double inflation,
                   const WindScoring& wind, const ComparatorOptions& options);

@@ -7,8 +7,9 @@
 #include "trackbed/geometry/oriented_box.h"
 #include "trackbed/geometry/pose.h"
 
-/// RRT for a point in the plane (seed 002): a tree of straight edges that grows toward random
-/// points until it reaches the goal, or its budget is used up; then what it got nearest with.
+/// RRT for a point in the plane (LaValle 1998; listing "RRT Path Planner" of the wind-aware RRT): a
+/// tree of straight edges that grows toward random points until it reaches the goal, or its budget
+/// is used up; then what it got nearest with.
 namespace trackbed {
 
 /// Where to get, and what is in the way.
@@ -25,7 +26,7 @@ struct RrtOptions {
   int iterations = 5000;         ///< samples drawn at most, >= 0
   double expand_distance = 2.0;  ///< from the nearest node toward a sample at most; and how near
                                  ///< the goal is tried from [m], > 0
-  double goal_bias = 0.05;       ///< share of samples at the goal, 0 to 1; the seed has none
+  double goal_bias = 0.05;       ///< share of samples at the goal, 0 to 1; wind-aware RRT: 0
   /// Asked before every iteration (may be empty): true ends the search, such as at a time limit.
   /// Planners read no clock themselves.
   std::function<bool()> stop;

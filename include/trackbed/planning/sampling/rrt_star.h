@@ -10,7 +10,7 @@
 #include "trackbed/planning/common/plan.h"
 
 /// RRT* (Karaman and Frazzoli 2011) for a point in the plane: a tree of straight edges that grows
-/// toward uniform samples, each new node joined to its cheapest neighbour and its neighbours
+/// toward uniform samples, each new node joined to its cheapest neighbor and its neighbors
 /// re-joined through it where that is cheaper.
 namespace trackbed {
 
@@ -56,11 +56,11 @@ struct RrtStarResult {
 /// Guarantees: every edge of the tree stays further than the inflation from every obstacle, over
 /// its whole length and not only at its ends; the cost of every node is the length of its way; a
 /// run with more iterations begins as the one with fewer, so that its cost is never higher; the
-/// same problem, options and seed give the same tree. Neighbours of a new node are its
+/// same problem, options and seed give the same tree. Neighbors of a new node are its
 /// 1.1 x 12 e ln n nearest, more than the 2^(d+1) e (1 + 1/d) ln n with which the k-nearest form
 /// tends to the optimum in d = 2 dimensions. Does not smooth, and knows neither headings nor
 /// curvature. Errors: InternalError for a start or goal outside the box or options out of range.
-/// Cost: O(log n) per neighbour and O(neighbours x obstacles) for the edges, about 50 us an
+/// Cost: O(log n) per neighbor and O(neighbors x obstacles) for the edges, about 50 us an
 /// iteration.
 RrtStarResult PlanRrtStar(const RrtStarProblem& problem, const RrtStarOptions& options,
                           std::uint64_t seed);

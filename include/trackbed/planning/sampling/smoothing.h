@@ -6,9 +6,9 @@
 #include "trackbed/geometry/pose.h"
 #include "trackbed/world/wind.h"
 
-/// Smoothing of a way with corners (seed 002, "Smoothing"): each inner point is drawn toward where
-/// it was and toward the middle of its neighbours, as long as nothing stands in the way and the
-/// wind does not get worse.
+/// Smoothing of a way with corners ("Smoothing" of the wind-aware RRT; Thrun 2012): each inner
+/// point is drawn toward where it was and toward the middle of its neighbors, as long as nothing
+/// stands in the way and the wind does not get worse.
 ///
 /// Symbols: x_i given points, y_i smoothed ones, both ends fixed; alpha weight of the data, beta
 /// weight of smoothness; w wind [m/s]; V speed through the air [m/s].
