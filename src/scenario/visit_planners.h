@@ -227,12 +227,18 @@ void Visit(Archive& a, RrtPlannerOptions& options) {
           options.wind_weight, Need::kOptional, kNotNegative);
 }
 
-template <typename Archive>
-void Visit(Archive& a, BezierAvoidanceOptions& options) {
+/// What every method of `plan.avoid` has.
+template <typename Archive, typename Options>
+void VisitAvoider(Archive& a, Options& options) {
   a.Field({"safe_distance", "m", "of the car's outline from obstacles"}, options.safe_distance,
           Need::kOptional, kNotNegative);
   a.Field({"delay", "s", "from learning of an obstacle to the new plan"}, options.delay,
           Need::kOptional, kNotNegative);
+}
+
+template <typename Archive>
+void Visit(Archive& a, BezierAvoidanceOptions& options) {
+  VisitAvoider(a, options);
   static const EnumNames<RingChoice> rings{
       {RingChoice::kAuto, "auto"}, {RingChoice::kInner, "inner"}, {RingChoice::kOuter, "outer"}};
   a.Field({"ring", "",
@@ -252,6 +258,26 @@ void Visit(Archive& a, BezierAvoidanceOptions& options) {
   a.Field({"rrt_step", "m", "from a node toward a sample at most"}, options.rrt_step,
           Need::kOptional, kPositive);
   a.Section({"search", "", "how the curve's control points are moved"}, options.search);
+}
+
+template <typename Archive>
+void Visit(Archive& a, ListingAvoidanceOptions& options) {
+  VisitAvoider(a, options);
+  a.Field({"inner_width", "m",
+           "free toward the turn's centre; the curve leads past on the wider side, this one of two "
+           "alike"},
+          options.inner_width, Need::kOptional, kNotNegative);
+  a.Field({"outer_width", "m", "free on the other side"}, options.outer_width, Need::kOptional,
+          kNotNegative);
+  a.Field({"grid", "", "the arc in steps of 0.01 rad, as printed; else exact"},
+          options.literal.grid, Need::kOptional);
+  a.Field({"right_shift", "",
+           "P_5 of a right turn shifted, as printed; else right turns are mirrored left ones"},
+          options.literal.right_shift, Need::kOptional);
+  a.Field({"right_angle_rule", "",
+           "P_5 to P_7 of a turn of 90 degrees by rules of their own, as printed; else by that of "
+           "all other angles"},
+          options.literal.right_angle_rule, Need::kOptional);
 }
 
 }  // namespace trackbed
