@@ -102,3 +102,41 @@ plot safe with lines lw 1.5 dt 2 lc rgb "#d62728" title "SD", \
      outer . "/kinematic.csv" using "s_m":"clearance_m" with lines lw 2 lc rgb "#1f77b4" title "kinematic car", \
      outer . "/mujoco.csv" using "s_m":"clearance_m" with lines lw 2 dt 2 lc rgb "#2ca02c" title "MuJoCo car"
 unset multiplot
+
+# The study listing.yaml: `cases` has the method (0 and 1: bezier, 2 and 3: listing, inner and outer), the number of the
+# case, and of both plants the smaller clearance [m] and the larger steering rate [rad/s].
+set terminal pngcairo size 1000,760 font "sans,13" background "white"
+set output images . "/local_planner_listing.png"
+unset arrow
+set xrange [-0.7:19.7]
+set multiplot layout 2,1 margins 0.095,0.98,0.135,0.925 spacing 0.03
+of(method, value) = (column(1) == method ? value : NaN)
+do for [k = 1:3] {
+  set arrow k from 5*k - 0.5, graph 0 to 5*k - 0.5, graph 1 nohead dt 3 lc rgb "#606060"
+}
+set xlabel ""
+set ylabel "least clearance [m]"
+set xtics ("" 0)
+set for [k = 0:19] xtics add ("" k)
+set yrange [0:7]
+set ytics 1
+set key at screen 0.98, screen 0.995 right top maxrows 2 samplen 2
+plot safe with lines lw 1.5 dt 2 lc rgb "#d62728" title "limit", \
+     cases using (of(2, $2)):3 with points pt 5 ps 1.2 lc rgb "#1f77b4" title "listing, inner", \
+     cases using (of(3, $2)):3 with points pt 7 ps 1.2 lc rgb "#1f77b4" title "listing, outer", \
+     cases using (of(0, $2)):3 with points pt 4 ps 1.4 lw 1.8 lc rgb "#ff7f0e" title "bezier, inner", \
+     cases using (of(1, $2)):3 with points pt 6 ps 1.4 lw 1.8 lc rgb "#ff7f0e" title "bezier, outer"
+unset key
+set ylabel "largest steering rate [rad/s]"
+set for [k = 0:19] xtics add (sprintf("%d", k % 5 + 1) k)
+set yrange [0:0.17]
+set ytics 0.05
+set xlabel "sixth of the arc at which the obstacle stands" offset 0,-1.2
+set for [k = 0:3] label k + 1 sprintf("%s, %s°", k < 2 ? "left" : "right", k % 2 == 0 ? "90" : "75") \
+  at 5*k + 2, graph -0.155 center
+plot limit with lines lw 1.5 dt 2 lc rgb "#d62728", \
+     cases using (of(2, $2)):4 with points pt 5 ps 1.2 lc rgb "#1f77b4", \
+     cases using (of(3, $2)):4 with points pt 7 ps 1.2 lc rgb "#1f77b4", \
+     cases using (of(0, $2)):4 with points pt 4 ps 1.4 lw 1.8 lc rgb "#ff7f0e", \
+     cases using (of(1, $2)):4 with points pt 6 ps 1.4 lw 1.8 lc rgb "#ff7f0e"
+unset multiplot

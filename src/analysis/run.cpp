@@ -12,6 +12,7 @@
 #include "trackbed/core/version.h"
 #include "trackbed/optimize/search.h"
 #include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/registry/planners.h"
 
 namespace trackbed {
 namespace {

@@ -142,11 +142,6 @@ Pose2 RampPose(const VehicleParams& params, double steering, double speed) {
           heading(distance)};
 }
 
-double TurnHeadingDefect(const VehicleParams& params, double steering, double speed) {
-  const double scale = speed / (params.wheelbase * params.steering_rate);
-  return scale * (-2.0 * std::log(std::cos(steering)) - steering * std::tan(steering));
-}
-
 KinematicState RollOut(const VehicleParams& params, const KinematicState& start,
                        const SteeringSchedule& schedule, double distance, double step,
                        ReferencePoint reference) {

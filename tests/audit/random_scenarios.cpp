@@ -197,7 +197,13 @@ struct Generator {
       return;
     }
     if (dice.Chance(0.15)) {
-      plan.avoid = Avoiders()[dice.Below(Avoiders().size())].defaults;
+      std::vector<AvoiderOptions> avoiders;  // the others may be driven into what they know of
+      for (const AvoiderEntry& entry : Avoiders()) {
+        if (entry.keeps_clear) {
+          avoiders.push_back(entry.defaults);
+        }
+      }
+      plan.avoid = avoiders[dice.Below(avoiders.size())];
     }
     if (dice.Chance(0.25)) {
       ReplanOptions replan;

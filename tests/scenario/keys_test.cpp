@@ -52,6 +52,8 @@ TEST(ScenarioKeys, TellTypeUnitDefaultAndWhatIsAllowed) {
   EXPECT_EQ(KeyOf("plan", "time_limit", "rrt").allowed, "above 0");
   EXPECT_EQ(KeyOf("plan", "time_limit", "rrt").fallback, "");
   EXPECT_EQ(KeyOf("plan", "partial", "rrt").type, "true or false");
+  EXPECT_EQ(KeyOf("plan.avoid", "inner_width", "listing").unit, "m");
+  EXPECT_EQ(KeyOf("plan.avoid", "grid", "listing").fallback, "true");
   EXPECT_EQ(KeyOf("world.obstacles[N].box", "length").unit, "m");
   EXPECT_TRUE(KeyOf("world.obstacles[N].box", "length").required);
   EXPECT_EQ(KeyOf("world.wind.gusts[N]", "shape").fallback, "one_minus_cosine");

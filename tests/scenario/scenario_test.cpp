@@ -10,6 +10,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/planning/sampling/rrt_planner.h"
 #include "trackbed/scenario/recording_file.h"
+#include "trackbed/planning/registry/planners.h"
 
 namespace trackbed {
 namespace {

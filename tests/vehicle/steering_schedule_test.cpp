@@ -193,6 +193,13 @@ TEST(SteeringDistance, FitsIntoTheArcFromThePrintedRadiusOn) {
   }
 }
 
+/// Heading that a turn misses [rad, <= 0] when both its ramps are centred on the tangent points and
+/// fit into the arc: (v/(L omega)) (-2 ln cos delta - delta tan delta).
+double TurnHeadingDefect(const VehicleParams& params, double steering, double speed) {
+  const double scale = speed / (params.wheelbase * params.steering_rate);
+  return scale * (-2.0 * std::log(std::cos(steering)) - steering * std::tan(steering));
+}
+
 TEST(TurnHeadingDefect, HasThePrintedValues) {
   // The formula holds for any angle; at 5.1 m it needs an arc of more than 109 deg.
   struct Row {

@@ -70,10 +70,6 @@ double RampHeading(const VehicleParams& params, double steering, double speed);
 /// by quadrature of the heading above.
 Pose2 RampPose(const VehicleParams& params, double steering, double speed);
 
-/// Heading that a turn misses [rad, <= 0] when both its ramps are centered on the tangent points
-/// and fit into the arc: (v/(L omega)) (-2 ln cos delta - delta tan delta).
-double TurnHeadingDefect(const VehicleParams& params, double steering, double speed);
-
 /// Where an open-loop drive gets: the kinematic car from `start` over `distance` [m], its wheels
 /// following the schedule exactly, as they do at any speed at which they turn no faster than they
 /// can. A start speed < 0 means backwards. `start` and the result are states of the reference

@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
+#include "src/planning/avoidance/avoidance_listing.h"
 #include "src/planning/avoidance/avoidance_stretch.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
-#include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/open_loop.h"
+#include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/plan_stretch.h"
 #include "trackbed/world/world.h"
 
@@ -22,21 +24,39 @@ using avoidance::Conflict;
 using avoidance::CurveCheck;
 using avoidance::FirstConflict;
 using avoidance::kLook;
+using avoidance::Replacement;
+using avoidance::ReplacementSearch;
 using avoidance::Stretch;
 using avoidance::StretchSearch;
 using nlohmann::json;
 
 /// Of the curve's pieces of path [m].
 constexpr double kCurveSpacing = 0.1;
+/// Within which the steering is as before and behind a curve whose curvature is another [m].
+constexpr double kStep = 1e-6;
+
+/// Whether the curvature of the plan is another than that of a curve that joins it.
+bool Jumps(const PathPoint& plan, const CurvePoint& curve) {
+  constexpr double kRounding = 1e-9;  // [1/m]
+  return std::abs(plan.curvature - curve.curvature) > kRounding;
+}
 
 json Point(const Vec2& p) {
   return json::array({p.x(), p.y()});
 }
 
+/// A method's curve past an obstacle, which the plan can be left for at `from` or later.
+using FindCurve =
+    std::function<ReplacementSearch(const Plan& plan, const Conflict& conflict, double from)>;
+
+/// Replaces stretch by stretch what comes nearer than SD to an obstacle.
 class AroundObstacles {
  public:
-  AroundObstacles(const AvoidanceRequest& request, const BezierAvoidanceOptions& options)
-      : request_(request), options_(options), plan_(request.plan) {}
+  AroundObstacles(const AvoidanceRequest& request, double safe_distance, FindCurve find)
+      : request_(request),
+        safe_distance_(safe_distance),
+        find_(std::move(find)),
+        plan_(request.plan) {}
 
   Plan Run() {
     double from = request_.station;
@@ -47,20 +67,20 @@ class AroundObstacles {
     plan_.blocked.clear();
     for (std::size_t round = 0;; ++round) {
       const std::optional<Conflict> conflict =
-          FirstConflict(request_, options_, plan_.reference.path, from);
+          FirstConflict(request_, safe_distance_, plan_.reference.path, from);
       if (!conflict) {
         break;
       }
       // Each round leaves one obstacle behind, unless the curves around two meet each other's.
-      StretchSearch found{std::nullopt, "the curves around others lead back to it"};
+      ReplacementSearch found{std::nullopt, "the curves around others lead back to it"};
       if (round < 2 * request_.obstacles.size()) {
-        found = FindStretch(request_, options_, plan_, *conflict, from);
+        found = find_(plan_, *conflict, from);
       }
-      if (!found.stretch) {
+      if (!found.replacement) {
         StopBefore(*conflict, from, found.why);
         break;
       }
-      from = Replace(*found.stretch);
+      from = Replace(*found.replacement, conflict->obstacle);
     }
     if (plan_.diagnostics.contains("avoid") || !plan_.blocked.empty()) {
       TellOpenLoop();
@@ -85,32 +105,40 @@ class AroundObstacles {
   }
 
   /// Puts the curve in place of the plan between its stations; where it is back on the old path.
-  double Replace(const Stretch& stretch) {
+  double Replace(const Replacement& replacement, const OrientedBox& obstacle) {
     const Path old = path();
-    const double leave = stretch.leave;
-    const auto points = stretch.repair.curve.Points(kCurveSpacing, stretch.problem.start.pose.yaw);
+    const double leave = replacement.stations.from;
+    const auto points = replacement.curve.Points(kCurveSpacing, replacement.start.yaw);
     const double back = leave + points.back().s;
-    const double shift = back - stretch.back;  // of what follows
+    const double shift = back - replacement.stations.to;  // of what follows
     const Stations before{0.0, leave};
-    const Stations after{stretch.back, std::numeric_limits<double>::infinity()};
+    const Stations after{replacement.stations.to, std::numeric_limits<double>::infinity()};
 
     std::vector<Segment> segments = old.Cut(before);
     Append(segments, SegmentsThrough(points));
     Append(segments, old.Cut(after));
     // A curve from the car starts where the car is, not where it should be.
-    const Pose2 start = leave > 0.0 ? old.At(0.0).pose : stretch.problem.start.pose;
+    const Pose2 start = leave > 0.0 ? old.At(0.0).pose : replacement.start;
     plan_.reference.path = Path(start, std::move(segments));
 
-    std::vector<SteeringSchedule::Knot> knots = Moved(plan_.schedule, {-1.0, leave}, 0.0);
+    const double step_in = leave > kStep && Jumps(old.At(leave), points.front()) ? kStep : 0.0;
+    const double step_out = Jumps(old.At(after.from), points.back()) ? kStep : 0.0;
+    std::vector<SteeringSchedule::Knot> knots = Moved(plan_.schedule, {-1.0, leave - step_in}, 0.0);
+    if (step_in > 0.0) {
+      knots.push_back({leave - step_in, plan_.schedule.At(leave)});
+    }
     for (const CurvePoint& point : points) {
       knots.push_back({leave + point.s, SteeringForCurvature(request_.vehicle, point.curvature)});
     }
-    Append(knots, Moved(plan_.schedule, after, shift));
+    if (step_out > 0.0) {
+      knots.push_back({back + step_out, plan_.schedule.At(after.from)});
+    }
+    Append(knots, Moved(plan_.schedule, {after.from + step_out, after.to}, shift));
     plan_.schedule = SteeringSchedule::Through(std::move(knots));
 
     std::vector<SpeedCap> caps = Moved(plan_.caps, before, 0.0);
-    if (stretch.problem.speed < request_.speed.speed) {
-      caps.push_back({leave, back, stretch.problem.speed});
+    if (replacement.speed < request_.speed.speed) {
+      caps.push_back({leave, back, replacement.speed});
     }
     Append(caps, Moved(plan_.caps, after, shift));
     plan_.caps = caps;
@@ -120,8 +148,8 @@ class AroundObstacles {
     plan_.turns = turns;
 
     SetSpeed(plan_.reference.speed.SpeedAt(0.0), plan_.schedule_speed.knots().back().s + shift);
-    MoveTurns({leave, stretch.back}, shift);
-    Tell(stretch, leave, back);
+    MoveTurns(replacement.stations, shift);
+    Tell(replacement, obstacle, {leave, back});
     return back;
   }
 
@@ -152,64 +180,39 @@ class AroundObstacles {
         ToJson(DriveOpenLoop(request_.vehicle, path(), plan_.schedule, stop));
   }
 
-  void Tell(const Stretch& stretch, double leave, double back) {
-    const CurveCheck& check = stretch.repair.check;
-    const Vec2 obstacle = stretch.obstacle.centre.position();
-    json entry{{"method", "bezier"},
-               {"obstacle_m", Point(obstacle)},
-               {"ring", ToString(stretch.ring)},
-               {"leave_s_m", leave},
-               {"return_s_m", back},
-               {"speed_mps", stretch.problem.speed},
-               {"length_m", check.length},
-               {"clearance_m", check.clearance},
-               {"steering_max_rad", check.steering},
-               {"steering_rate_max_radps", check.steering_rate},
-               {"lateral_acceleration_max_mps2", check.lateral_acceleration},
-               {"curves_tried", stretch.tried}};
-    for (const Vec2& point : stretch.repair.curve.control_points()) {
+  void Tell(const Replacement& replacement, const OrientedBox& obstacle, const Stations& curve) {
+    const CurveCheck& check = replacement.check;
+    json entry = replacement.diagnostics(plan_, curve);
+    entry["obstacle_m"] = Point(obstacle.centre.position());
+    entry["ring"] = ToString(replacement.ring);
+    entry["leave_s_m"] = curve.from;
+    entry["return_s_m"] = curve.to;
+    entry["speed_mps"] = replacement.speed;
+    entry["length_m"] = check.length;
+    entry["clearance_m"] = check.clearance;
+    entry["steering_max_rad"] = check.steering;
+    entry["steering_rate_max_radps"] = check.steering_rate;
+    entry["lateral_acceleration_max_mps2"] = check.lateral_acceleration;
+    for (const Vec2& point : replacement.curve.control_points()) {
       entry["control_points_m"].push_back(Point(point));
     }
-    entry["rrt_star"] = {{"status", ToString(stretch.tree.status)},
-                         {"iterations", stretch.tree.iterations},
-                         {"nodes", stretch.tree.nodes.size()}};
-    if (stretch.tree.ok()) {
-      entry["rrt_star"]["cost_m"] = stretch.tree.cost;
-      for (const Vec2& point : stretch.tree.path) {
-        entry["rrt_star"]["path_m"].push_back(Point(point));
-      }
-    }
     const std::size_t first = plan_.tree.size();
-    for (TreeNode node : stretch.tree.nodes) {
+    for (TreeNode node : replacement.tree) {
       node.parent += first;
       plan_.tree.push_back(node);
     }
-    entry["search"] = {{"method", SearchFor(options_.search.method).name},
-                       {"evaluations", stretch.repair.search.evaluations},
-                       {"objective", stretch.repair.search.value}};
-    // The check of listing F.2, for comparison: a single point of the path, two meters before
-    // it is beside the obstacle, against a corner; ours is the nearest one.
-    const double share = (stretch.beside - stretch.leave) / (stretch.back - stretch.leave);
-    const double beside = stretch.repair.check.length * share;
-    const Vec2 point = path().At(leave + std::max(beside - 2.0, 0.0)).pose.position();
-    double corner = std::numeric_limits<double>::infinity();
-    for (const Vec2& p : stretch.obstacle.Corners()) {
-      corner = std::min(corner, (p - point).norm());
-    }
-    entry["one_point_check"] = {
-        {"distance_m", corner},
-        {"passed", corner >= options_.safe_distance + 0.5 * request_.vehicle.width}};
-    // Driven open loop by the curve's own steering, from its own start.
-    const PathPoint start = path().At(leave);
-    const PathPoint end = path().At(back);
+    plan_.notes.insert(plan_.notes.end(), replacement.notes.begin(), replacement.notes.end());
+    // Driven open loop by the curve's own steering, from its own start (sig1).
+    const PathPoint start = path().At(curve.from);
+    const PathPoint end = path().At(curve.to);
     const std::vector<SteeringSchedule::Knot> own =
-        Moved(plan_.schedule, {leave - 1e-6, back + 1e-6}, -leave);
+        Moved(plan_.schedule, {curve.from - 1e-6, curve.to + 1e-6}, -curve.from);
     const KinematicState driven =
         RollOut(request_.vehicle,
                 {.pose = start.pose,
-                 .speed = stretch.problem.speed,
+                 .speed = replacement.speed,
                  .steering = SteeringForCurvature(request_.vehicle, start.curvature)},
-                SteeringSchedule::Through(own), back - leave, kCurveSpacing);
+                SteeringSchedule::Through(own), curve.to - curve.from, kCurveSpacing);
     entry["open_loop"] = {
         {"end_distance_m", (driven.pose.position() - end.pose.position()).norm()},
         {"end_heading_error_rad", AngleDifference(driven.pose.yaw, end.pose.yaw)}};
@@ -234,9 +237,42 @@ class AroundObstacles {
   }
 
   const AvoidanceRequest& request_;
-  const BezierAvoidanceOptions& options_;
+  double safe_distance_;  ///< SD [m]
+  FindCurve find_;
   Plan plan_;
 };
+
+/// What `bezier` says of a stretch besides what all methods say.
+json Findings(const Stretch& stretch, const AvoidanceRequest& request,
+              const BezierAvoidanceOptions& options, const Plan& plan, const Stations& curve) {
+  json entry{{"method", "bezier"}, {"curves_tried", stretch.tried}};
+  entry["rrt_star"] = {{"status", ToString(stretch.tree.status)},
+                       {"iterations", stretch.tree.iterations},
+                       {"nodes", stretch.tree.nodes.size()}};
+  if (stretch.tree.ok()) {
+    entry["rrt_star"]["cost_m"] = stretch.tree.cost;
+    for (const Vec2& point : stretch.tree.path) {
+      entry["rrt_star"]["path_m"].push_back(Point(point));
+    }
+  }
+  entry["search"] = {{"method", SearchFor(options.search.method).name},
+                     {"evaluations", stretch.repair.search.evaluations},
+                     {"objective", stretch.repair.search.value}};
+  // The listing's check, for comparison (Salyga_2): a single point of the path, two metres before
+  // it is beside the obstacle, against a corner; ours is the nearest one.
+  const double share = (stretch.beside - stretch.leave) / (stretch.back - stretch.leave);
+  const double beside = stretch.repair.check.length * share;
+  const Vec2 point =
+      plan.reference.path.At(curve.from + std::max(beside - 2.0, 0.0)).pose.position();
+  double corner = std::numeric_limits<double>::infinity();
+  for (const Vec2& p : stretch.obstacle.Corners()) {
+    corner = std::min(corner, (p - point).norm());
+  }
+  entry["one_point_check"] = {
+      {"distance_m", corner},
+      {"passed", corner >= options.safe_distance + 0.5 * request.vehicle.width}};
+  return entry;
+}
 
 Plan PlanAroundWith(const BezierAvoidanceOptions& options, const AvoidanceRequest& request) {
   TRACKBED_CHECK(options.safe_distance >= 0.0 && options.delay >= 0.0 && options.min_speed > 0.0 &&
@@ -245,7 +281,39 @@ Plan PlanAroundWith(const BezierAvoidanceOptions& options, const AvoidanceReques
                  "safe distance {}, delay {}, minimum speed {}, lateral acceleration {}, share {}",
                  options.safe_distance, options.delay, options.min_speed,
                  options.max_lateral_acceleration, options.steering_rate_share);
-  return AroundObstacles(request, options).Run();
+  const auto find = [&](const Plan& plan, const Conflict& conflict, double from) {
+    StretchSearch found = FindStretch(request, options, plan, conflict, from);
+    if (!found.stretch) {
+      return ReplacementSearch{std::nullopt, std::move(found.why)};
+    }
+    const Stretch stretch = *std::move(found.stretch);
+    return ReplacementSearch{
+        Replacement{.stations = {stretch.leave, stretch.back},
+                    .start = stretch.problem.start.pose,
+                    .curve = stretch.repair.curve,
+                    .check = stretch.repair.check,
+                    .speed = stretch.problem.speed,
+                    .ring = stretch.ring,
+                    .tree = stretch.tree.nodes,
+                    .notes = {},
+                    .diagnostics =
+                        [=, &request, &options](const Plan& around, const Stations& curve) {
+                          return Findings(stretch, request, options, around, curve);
+                        }},
+        ""};
+  };
+  return AroundObstacles(request, options.safe_distance, find).Run();
+}
+
+Plan PlanAroundWith(const ListingAvoidanceOptions& options, const AvoidanceRequest& request) {
+  TRACKBED_CHECK(options.safe_distance >= 0.0 && options.delay >= 0.0 &&
+                     options.inner_width >= 0.0 && options.outer_width >= 0.0,
+                 "safe distance {}, delay {}, free widths {} and {}", options.safe_distance,
+                 options.delay, options.inner_width, options.outer_width);
+  const auto find = [&](const Plan& plan, const Conflict& conflict, double from) {
+    return avoidance::FindListingCurve(request, options, plan, conflict, from);
+  };
+  return AroundObstacles(request, options.safe_distance, find).Run();
 }
 
 }  // namespace
@@ -257,7 +325,9 @@ const char* ToString(Ring ring) {
 const std::vector<AvoiderEntry>& Avoiders() {
   static const std::vector<AvoiderEntry> table{
       {"bezier", "RRT* and a degree-7 Bezier curve, repaired until it can be driven (F.2)",
-       BezierAvoidanceOptions{}},
+       BezierAvoidanceOptions{}, true},
+      {"listing", "the curve of F.2 as printed, unchecked: to compare with",
+       ListingAvoidanceOptions{}, false},
   };
   return table;
 }
@@ -277,11 +347,21 @@ Plan PlanAround(const AvoidanceRequest& request, const AvoiderOptions& options) 
   return std::visit([&](const auto& own) { return PlanAroundWith(own, request); }, options);
 }
 
-void Visit(KeyVisitor& keys, BezierAvoidanceOptions& options) {
+namespace {
+
+/// What every method of `plan.avoid` has.
+template <typename Options>
+void VisitAvoider(KeyVisitor& keys, Options& options) {
   keys.Field({"safe_distance", "m", "of the car's outline from obstacles"}, options.safe_distance,
              Need::kOptional, kNotNegative);
   keys.Field({"delay", "s", "from learning of an obstacle to the new plan"}, options.delay,
              Need::kOptional, kNotNegative);
+}
+
+}  // namespace
+
+void Visit(KeyVisitor& keys, BezierAvoidanceOptions& options) {
+  VisitAvoider(keys, options);
   static const EnumNames<RingChoice> rings{
       {RingChoice::kAuto, "auto"}, {RingChoice::kInner, "inner"}, {RingChoice::kOuter, "outer"}};
   keys.Field(
@@ -302,6 +382,25 @@ void Visit(KeyVisitor& keys, BezierAvoidanceOptions& options) {
   keys.Field({"rrt_step", "m", "from a node toward a sample at most"}, options.rrt_step,
              Need::kOptional, kPositive);
   keys.Section({"search", "", "how the curve's control points are moved"}, options.search);
+}
+
+void Visit(KeyVisitor& keys, ListingAvoidanceOptions& options) {
+  VisitAvoider(keys, options);
+  keys.Field({"inner_width", "m",
+              "free toward the turn's center; the curve leads past on the wider side, this one of "
+              "two alike"},
+             options.inner_width, Need::kOptional, kNotNegative);
+  keys.Field({"outer_width", "m", "free on the other side"}, options.outer_width, Need::kOptional,
+             kNotNegative);
+  keys.Field({"grid", "", "the arc in steps of 0.01 rad, as printed; else exact"},
+             options.literal.grid, Need::kOptional);
+  keys.Field({"right_shift", "",
+              "P_5 of a right turn shifted, as printed; else right turns are mirrored left ones"},
+             options.literal.right_shift, Need::kOptional);
+  keys.Field({"right_angle_rule", "",
+              "P_5 to P_7 of a turn of 90 degrees by rules of their own, as printed; else by that "
+              "of all other angles"},
+             options.literal.right_angle_rule, Need::kOptional);
 }
 
 }  // namespace trackbed

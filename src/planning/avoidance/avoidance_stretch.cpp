@@ -64,7 +64,7 @@ class StretchFinder {
       return {std::nullopt, "the path ends beside it"};
     }
     const double full = request_.speed.speed;
-    const double beside = StationBeside(conflict);
+    const double beside = StationBeside(path(), request_.vehicle, conflict);
     const std::vector<Way> ways =
         WaysFor(conflict, bend, ProblemFor(leaves.front(), backs.back(), {full, 1.0}, from));
     int tried = 0;
@@ -254,7 +254,7 @@ class StretchFinder {
   /// The frame in which sides are told: at the obstacle, along the path beside it.
   [[nodiscard]] Pose2 SideFrame(const Conflict& conflict) const {
     return {conflict.obstacle.centre.x, conflict.obstacle.centre.y,
-            path().At(StationBeside(conflict)).pose.yaw};
+            path().At(StationBeside(path(), request_.vehicle, conflict)).pose.yaw};
   }
 
   /// From the most comfortable on: at the mission's speed, then slower down to the slowest allowed.
@@ -269,12 +269,6 @@ class StretchFinder {
     }
     demands.push_back({std::min(request_.speed.speed, options_.min_speed), most});
     return demands;
-  }
-
-  /// The station at which the path runs beside the obstacle.
-  [[nodiscard]] double StationBeside(const Conflict& conflict) const {
-    const Pose2 at{conflict.obstacle.centre.x, conflict.obstacle.centre.y, 0.0};
-    return path().Project(at, {conflict.from, conflict.to + request_.vehicle.length}).s;
   }
 
   /// Where RRT* looks for a way from start to end.
@@ -364,15 +358,14 @@ class StretchFinder {
 
 }  // namespace
 
-std::optional<Conflict> FirstConflict(const AvoidanceRequest& request,
-                                      const BezierAvoidanceOptions& options, const Path& path,
-                                      double from) {
+std::optional<Conflict> FirstConflict(const AvoidanceRequest& request, double safe_distance,
+                                      const Path& path, double from) {
   std::optional<Conflict> conflict;
   for (const PathPoint& point : Looks(path, from, path.length())) {
     const OrientedBox outline = OutlineAt(request.vehicle, point.pose);
     const auto in_the_way = std::find_if(
         request.obstacles.begin(), request.obstacles.end(), [&](const OrientedBox& obstacle) {
-          return Separation(outline, obstacle) < options.safe_distance - kTouch;
+          return Separation(outline, obstacle) < safe_distance - kTouch;
         });
     if (in_the_way != request.obstacles.end()) {
       if (!conflict) {
@@ -384,6 +377,11 @@ std::optional<Conflict> FirstConflict(const AvoidanceRequest& request,
     }
   }
   return conflict;
+}
+
+double StationBeside(const Path& path, const VehicleParams& vehicle, const Conflict& conflict) {
+  const Pose2 at{conflict.obstacle.centre.x, conflict.obstacle.centre.y, 0.0};
+  return path.Project(at, {conflict.from, conflict.to + vehicle.length}).s;
 }
 
 StretchSearch FindStretch(const AvoidanceRequest& request, const BezierAvoidanceOptions& options,

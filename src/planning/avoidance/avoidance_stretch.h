@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -20,10 +22,31 @@ struct Conflict {
   OrientedBox obstacle;
 };
 
-/// The first one beyond `from` on which an obstacle is closer than SD.
-std::optional<Conflict> FirstConflict(const AvoidanceRequest& request,
-                                      const BezierAvoidanceOptions& options, const Path& path,
-                                      double from);
+/// The first one beyond `from` on which an obstacle is closer than `safe_distance` [m].
+std::optional<Conflict> FirstConflict(const AvoidanceRequest& request, double safe_distance,
+                                      const Path& path, double from);
+
+/// The station at which the path runs beside the obstacle.
+double StationBeside(const Path& path, const VehicleParams& vehicle, const Conflict& conflict);
+
+/// A curve in place of the plan between two of its stations, whatever method it is from.
+struct Replacement {
+  Stations stations;  ///< of the plan
+  Pose2 start;        ///< of the curve
+  BezierCurve curve;
+  CurveCheck check;
+  double speed = 0.0;  ///< at most, on the curve [m/s]
+  Ring ring = Ring::kInner;
+  std::vector<TreeNode> tree;  ///< that was searched for it
+  std::vector<std::string> notes;
+  /// The method's own findings, given the new plan and the curve's stations on it.
+  std::function<nlohmann::json(const Plan& plan, const Stations& curve)> diagnostics;
+};
+
+struct ReplacementSearch {
+  std::optional<Replacement> replacement;
+  std::string why;  ///< there is none, for people
+};
 
 /// A curve that can be driven in place of the plan between two stations.
 struct Stretch {

@@ -43,10 +43,9 @@ void CheckRanges(const TurnManoeuvre& m, const VehicleParams& vehicle) {
                  "turn of {} less {}", m.turn_angle, m.reduction);
   TRACKBED_CHECK(m.obstacle_sixth >= 1 && m.obstacle_sixth <= 5, "obstacle at sixth {}",
                  m.obstacle_sixth);
-  TRACKBED_CHECK(
-      m.obstacle_length > 0.0 && std::isfinite(m.obstacle_length) && m.obstacle_width > 0.0 &&
-          std::isfinite(m.obstacle_width) && std::isfinite(m.obstacle_yaw),
-      "obstacle of {} by {}, yaw {}", m.obstacle_length, m.obstacle_width, m.obstacle_yaw);
+  TRACKBED_CHECK(m.obstacle_length > 0.0 && std::isfinite(m.obstacle_length) &&
+                     m.obstacle_width > 0.0 && std::isfinite(m.obstacle_width),
+                 "obstacle of {} by {}", m.obstacle_length, m.obstacle_width);
   TRACKBED_CHECK(m.safe_distance >= 0.0 && std::isfinite(m.safe_distance), "safe distance {}",
                  m.safe_distance);
   TRACKBED_CHECK(m.inner_width >= 0.0 && std::isfinite(m.inner_width) && m.outer_width >= 0.0 &&
@@ -115,11 +114,6 @@ std::size_t NearestNode(const std::vector<TreeNode>& nodes, const Vec2& point) {
   return nearest;
 }
 
-OrientedBox Outline(const VehicleParams& vehicle, const Pose2& pose, OutlineOn on) {
-  return on == OutlineOn::kRearAxle ? OutlineAt(vehicle, pose)
-                                    : OrientedBox{pose, vehicle.length, vehicle.width};
-}
-
 /// The corner of the obstacle that the listing measures to: the rear one toward the center of the
 /// turn if the car passes there, else the front one on the other side.
 Vec2 TestCorner(const TurnManoeuvre& manoeuvre, const OrientedBox& obstacle) {
@@ -129,18 +123,6 @@ Vec2 TestCorner(const TurnManoeuvre& manoeuvre, const OrientedBox& obstacle) {
 }
 
 }  // namespace
-
-const char* ToString(TurnStatus status) {
-  switch (status) {
-    case TurnStatus::kOk:
-      return "ok";
-    case TurnStatus::kNoTurn:
-      return "no_turn";
-    case TurnStatus::kNoSafePoint:
-      return "no_safe_point";
-  }
-  return "";
-}
 
 double SafeRadius(const TurnManoeuvre& manoeuvre, double vehicle_width, Ring ring) {
   const double need = Need(manoeuvre, vehicle_width);
@@ -184,10 +166,8 @@ TurnLayout LayOutTurn(const TurnManoeuvre& manoeuvre, const VehicleParams& vehic
     layout.safe_angle = kGrid * static_cast<double>(layout.obstacle_at - 1);
   }
   const Vec2 centre = PointAt(manoeuvre, manoeuvre.radius, obstacle_angle);
-  const double turn_yaw = manoeuvre.obstacle_follows_turn ? Sign(manoeuvre) * obstacle_angle : 0.0;
-  layout.obstacle = {{centre.x(), centre.y(), turn_yaw + manoeuvre.obstacle_yaw},
-                     manoeuvre.obstacle_length,
-                     manoeuvre.obstacle_width};
+  layout.obstacle = {
+      {centre.x(), centre.y(), 0.0}, manoeuvre.obstacle_length, manoeuvre.obstacle_width};
   layout.safe_point = PointAt(manoeuvre, layout.safe_radius, layout.safe_angle);
   return layout;
 }
@@ -273,8 +253,7 @@ LiteralTree LiteralRrtStar(const TurnManoeuvre& manoeuvre, const TurnLayout& lay
 }
 
 ManoeuvreDrive DriveManoeuvre(const TurnManoeuvre& manoeuvre, const TurnLayout& layout,
-                              const VehicleParams& vehicle, const BezierCurve& curve,
-                              OutlineOn outline_on) {
+                              const VehicleParams& vehicle, const BezierCurve& curve) {
   TRACKBED_CHECK(layout.ok(), "the layout failed: {}", layout.reason);
   ManoeuvreDrive drive;
   drive.clearance = kInfinity;
@@ -301,8 +280,8 @@ ManoeuvreDrive DriveManoeuvre(const TurnManoeuvre& manoeuvre, const TurnLayout& 
     drive.steering_max = std::max(drive.steering_max, std::isnan(angle) ? kInfinity : angle);
     drive.steering_rate_max =
         std::max(drive.steering_rate_max, std::isnan(rate) ? kInfinity : rate);
-    drive.clearance = std::min(
-        drive.clearance, Distance(Outline(vehicle, sample.pose, outline_on), layout.obstacle));
+    drive.clearance =
+        std::min(drive.clearance, Distance(OutlineAt(vehicle, sample.pose), layout.obstacle));
     drive.samples.push_back(sample);
   }
   drive.length = drive.samples.back().s;
@@ -326,19 +305,6 @@ ManoeuvreDrive DriveManoeuvre(const TurnManoeuvre& manoeuvre, const TurnLayout& 
 
 Pose2 ManoeuvreFrame(const TurnManoeuvre& manoeuvre, const Pose2& X_WA) {
   return Compose(X_WA, {-manoeuvre.straight(), 0.0, 0.0});
-}
-
-std::vector<Vec2> PointsToWorld(const Pose2& X_WM, const std::vector<Vec2>& points) {
-  std::vector<Vec2> out;
-  out.reserve(points.size());
-  for (const Vec2& point : points) {
-    out.push_back(ToWorld(X_WM, point));
-  }
-  return out;
-}
-
-OrientedBox BoxToWorld(const Pose2& X_WM, const OrientedBox& box) {
-  return {Compose(X_WM, box.centre), box.length, box.width};
 }
 
 }  // namespace trackbed

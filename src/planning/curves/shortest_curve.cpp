@@ -39,14 +39,4 @@ std::vector<Segment> SegmentsOf(const ShortestCurve& curve) {
   return segments;
 }
 
-Pose2 EndOf(const Pose2& start, const ShortestCurve& curve) {
-  Pose2 pose = start;
-  for (int i = 0; i < curve.count; ++i) {
-    const CurvePiece& piece = curve.pieces[static_cast<std::size_t>(i)];
-    pose =
-        MoveOnArc(pose, piece.sweep * curve.radius, piece.sweep * static_cast<double>(piece.bend));
-  }
-  return pose;
-}
-
 }  // namespace trackbed

@@ -4,116 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/geometries/polygon.hpp>
 #include <cmath>
 #include <limits>
 
 #include "tests/geometry/random.h"
-#include "tests/planning/routes.h"
+#include "tests/planning/obstacle_turns.h"
 #include "tests/support/obstacle_cases.h"
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
-#include "trackbed/core/angle.h"
 #include "trackbed/planning/common/plan.h"
-#include "trackbed/planning/fillet/fillet.h"
-#include "trackbed/planning/registry/planners.h"
-#include "trackbed/world/world.h"
 
 namespace trackbed {
 namespace {
-
-constexpr double kSpeed = 3.0;     // [m/s]
-constexpr double kDistance = 1.5;  // SD [m]
-const SpeedLimits kLimits{kSpeed, 1.0, 1.0};
-
-/// Clearance by another library than the planner's: rings of corners, Boost.Geometry's distance.
-double ByBoost(const OrientedBox& a, const OrientedBox& b) {
-  using Point = boost::geometry::model::d2::point_xy<double>;
-  using Polygon = boost::geometry::model::polygon<Point, false, true>;
-  const auto polygon_of = [](const OrientedBox& box) {
-    Polygon polygon;
-    for (const Vec2& corner : box.Corners()) {
-      polygon.outer().emplace_back(corner.x(), corner.y());
-    }
-    polygon.outer().push_back(polygon.outer().front());
-    return polygon;
-  };
-  return boost::geometry::distance(polygon_of(a), polygon_of(b));
-}
-
-/// The car on the path at a station; its outline is laid out anew from the car's numbers.
-OrientedBox OutlineOn(const Path& path, double s, const VehicleParams& car) {
-  const Pose2 rear = path.At(s).pose;
-  const double ahead = 0.5 * car.length - car.rear_overhang;
-  return {{rear.x + ahead * std::cos(rear.yaw), rear.y + ahead * std::sin(rear.yaw), rear.yaw},
-          car.length,
-          car.width};
-}
-
-double ClearanceOf(const Path& path, const std::vector<OrientedBox>& obstacles,
-                   const VehicleParams& car, Stations within) {
-  double clearance = std::numeric_limits<double>::infinity();
-  for (double s = std::max(within.from, 0.0); s <= std::min(within.to, path.length()); s += 0.02) {
-    for (const OrientedBox& obstacle : obstacles) {
-      clearance = std::min(clearance, ByBoost(OutlineOn(path, s, car), obstacle));
-    }
-  }
-  return clearance;
-}
-
-/// Where the planner's own samples lie 0.05 m apart, the outline between them comes closer by at
-/// most what a corner 3.7 m from the rear axle moves in half of that while the heading turns at
-/// full lock, 0.025 m x 3.7/5.1, times the angle of its way to the obstacle's side; next to a
-/// minimum that angle is zero, and the loss quadratic: 0.025^2 x (1/5.1 + 1/3.7)/2.
-constexpr double kBetweenSamples = 2e-4;  // [m]
-/// A plan's own stretches count as clear when they miss SD by half a millimeter.
-constexpr double kTouch = 5e-4 + kBetweenSamples;
-
-/// One turn of radius r between two straights, and what stands in it.
-struct Course {
-  double radius = 20.0;
-  double before = 42.7;  ///< straight, from the start to the arc [m]
-  double turn = 0.5 * kPi;
-  double after = 42.7;
-
-  [[nodiscard]] std::vector<Vec2> Waypoints() const {
-    const double tangent = radius * std::tan(0.5 * std::abs(turn));
-    const Vec2 corner{before + tangent, 0.0};
-    return {{0.0, 0.0}, corner, corner + (after + tangent) * Direction(turn)};
-  }
-
-  [[nodiscard]] Plan Global() const {
-    FilletOptions options;
-    options.radius = radius;
-    options.constraint = RadiusConstraint::kNone;
-    return MakePlan({.vehicle = SeedCar(),
-                     .waypoints = Waypoints(),
-                     .start_speed = kSpeed,
-                     .speed = kLimits,
-                     .seed = 0},
-                    options);
-  }
-
-  /// Of the arc, at a share of it.
-  [[nodiscard]] Pose2 OnArc(double share) const {
-    return Global().reference.path.At(before + share * radius * std::abs(turn)).pose;
-  }
-};
-
-Plan Around(const Plan& plan, const std::vector<OrientedBox>& obstacles,
-            const BezierAvoidanceOptions& options = {}) {
-  return PlanAround({.vehicle = SeedCar(),
-                     .plan = plan,
-                     .speed = kLimits,
-                     .obstacles = obstacles,
-                     .station = 0.0,
-                     .station_speed = kSpeed,
-                     .car = {},
-                     .seed = 1},
-                    options);
-}
 
 /// The rate at which an ideal drive of the path turns its wheels, from differences of the angle
 /// over stretches of 0.1 m, in the mean over each of which the rate cannot be larger than within.
@@ -197,31 +98,6 @@ TEST_P(ObstacleInTurn, IsPassedSafelyOnTheSideAskedFor) {
     }
   }
   EXPECT_EQ(c.ring == RingChoice::kInner, beside < course.radius) << beside;
-}
-
-TEST(PlanAround, LeavesAPlanThatNothingStandsInTheWayOf) {
-  const Plan global = Course{}.Global();
-  // The car is 1.725 m wide: its side is 1.5 m from a box whose side is 2.3625 m off the path.
-  const OrientedBox beside{{20.0, 3.3626, 0.0}, 2.0, 2.0};
-  const Plan plan = Around(global, {beside});
-  EXPECT_EQ(plan.reference.path.segments(), global.reference.path.segments());
-  EXPECT_FALSE(plan.diagnostics.contains("avoid"));
-  const OrientedBox nearer{{20.0, 3.36, 0.0}, 2.0, 2.0};
-  EXPECT_TRUE(Around(global, {nearer}).diagnostics.contains("avoid"));
-}
-
-TEST(PlanAround, LeavesTheWayToTheCurveAsItWas) {
-  const Course course;
-  const Plan global = course.Global();
-  const Pose2 at = course.OnArc(0.5);
-  const Plan plan = Around(global, {{{at.x, at.y, 0.0}, 2.0, 2.0}});
-  const double leave = plan.diagnostics["avoid"][0]["leave_s_m"].get<double>();
-  // S = r + v t_d before the arc, from 42.7 m on.
-  EXPECT_NEAR(leave, 42.7 - 22.7, Tolerance(0.1));
-  for (double s = 0.0; s < leave; s += 0.5) {
-    EXPECT_EQ(plan.reference.path.At(s).pose, global.reference.path.At(s).pose);
-    EXPECT_EQ(plan.schedule.At(s), global.schedule.At(s));
-  }
 }
 
 TEST(PlanAround, AMirroredRouteGetsTheMirroredPlan) {
@@ -357,29 +233,6 @@ TEST(PlanAround, SlowsDownWhereTheWheelsWouldTurnTooSlowly) {
   }
 }
 
-TEST(PlanAround, TheScheduleDrivesTheCurveOpenLoop) {
-  const Course course;
-  const Plan global = course.Global();
-  const Pose2 at = course.OnArc(0.5);
-  const Plan plan = Around(global, {{{at.x, at.y, 0.0}, 2.0, 2.0}});
-  const Path& path = plan.reference.path;
-  const nlohmann::json& stretch = plan.diagnostics["avoid"][0];
-  const double leave = stretch["leave_s_m"].get<double>();
-  const double back = stretch["return_s_m"].get<double>();
-  // The schedule has the curve's own angle every 0.1 m or less, and is straight in between.
-  for (double s = leave; s < back; s += 0.37) {
-    EXPECT_NEAR(plan.schedule.At(s), SteeringForCurvature(SeedCar(), path.At(s).curvature),
-                Tolerance(1e-4));
-  }
-  const KinematicState end =
-      RollOut(SeedCar(), {.pose = path.At(0.0).pose, .speed = kSpeed}, plan.schedule, back, 0.05);
-  // Between two knots the wheels turn at their full rate and then rest: they lead the schedule by
-  // at most a knot, 0.1 m, which moves the path by no more than (0.1 m x heading changed) = 0.16 m;
-  // what is lost going one way comes back going the other.
-  EXPECT_NEAR((end.pose.position() - path.At(back).pose.position()).norm(), 0.0, Tolerance(0.05));
-  EXPECT_LE(stretch["open_loop"]["end_distance_m"].get<double>(), 0.05);
-}
-
 /// 500 random turns in ten batches: a safe plan or a reason, never an unsafe one called good.
 class RandomObstacles : public testing::TestWithParam<int> {};
 
@@ -427,12 +280,6 @@ TEST_P(RandomObstacles, ArePassedSafelyOrStoppedBefore) {
   }
   // Most turns leave room: what is too close to the start or the end is the exception.
   EXPECT_GE(passed, 40);
-}
-
-TEST(Avoiders, AreNamedOnceAndHaveOptionsOfTheirOwn) {
-  ASSERT_EQ(Avoiders().size(), std::variant_size_v<AvoiderOptions>);
-  EXPECT_STREQ(Avoiders()[0].name, "bezier");
-  EXPECT_EQ(Avoiders()[0].defaults.index(), 0U);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "tests/planning/poses.h"
+#include "tests/planning/shortest_curves.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"

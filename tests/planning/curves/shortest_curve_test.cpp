@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/planning/poses.h"
+#include "tests/planning/shortest_curves.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 

@@ -11,9 +11,11 @@
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/vehicle/params.h"
 
-/// The local planner (Skackauskas, dissertation, listing F.2): leads a plan around obstacles that
-/// stand in its way. RRT* finds on which side to pass, a Bezier curve of degree 7 leads past, and a
-/// search moves its control points until it can be driven safely.
+/// The local planners: they lead a plan around obstacles that stand in its way. In `bezier`, RRT*
+/// finds on which side to pass, a Bezier curve of degree 7 leads past, and a search moves its
+/// control points until it can be driven safely. `listing` is what that is based on
+/// (Skackauskas, dissertation, listing F.2), as printed: a curve that nothing checks, to compare
+/// with.
 ///
 /// Symbols: SD safe distance, from the car's outline to an obstacle [m]; t_d system delay [s];
 /// S = r + v t_d the distance before and after a turn of radius r within which the car leaves its
@@ -44,13 +46,28 @@ struct BezierAvoidanceOptions {
 };
 void Visit(KeyVisitor& keys, BezierAvoidanceOptions& options);
 
+/// The turn of the plan in which an obstacle stands is taken as the listing's problem
+/// (turn_manoeuvre.h): its arc and the straights before and after it, the mission's speed, the box
+/// along the axes of the manoeuvre's frame and on the nearest sixth of the arc. Where there is no
+/// such turn the plan ends before the obstacle. The curve is driven as it is, however near it comes
+/// and whatever it asks of the steering, also where `plan.infeasible` refuses other plans.
+struct ListingAvoidanceOptions {
+  double safe_distance = 1.5;          ///< SD [m], >= 0
+  double delay = 0.9;                  ///< t_d [s], >= 0: until then the old plan is driven
+  double inner_width = 1.0;            ///< free toward the turn's centre [m], >= 0
+  double outer_width = 0.0;            ///< free on the other side [m], >= 0; the wider one is taken
+  LiteralTurn literal = kLiteralTurn;  ///< what is followed to the letter
+};
+void Visit(KeyVisitor& keys, ListingAvoidanceOptions& options);
+
 /// The options of one way to avoid obstacles.
-using AvoiderOptions = std::variant<BezierAvoidanceOptions>;
+using AvoiderOptions = std::variant<BezierAvoidanceOptions, ListingAvoidanceOptions>;
 
 struct AvoiderEntry {
   const char* name;
   const char* summary;
   AvoiderOptions defaults;
+  bool keeps_clear = false;  ///< its curves keep SD and the limits of the steering
 };
 
 /// Every local planner there is.
@@ -80,16 +97,18 @@ bool IsInTheWay(const VehicleParams& vehicle, const Path& path, double station,
 
 /// The plan that avoids the obstacles. What it passes is told in its diagnostics under "avoid", one
 /// entry for each stretch that was replaced; a plan that nothing stands in the way of comes back as
-/// it was. Where neither side can be passed even at `min_speed`, the plan ends before the obstacle
-/// and says why (Plan::blocked).
+/// it was. Where an obstacle cannot be passed, by `bezier` not even at `min_speed`, the plan ends
+/// before it and says why (Plan::blocked).
 ///
-/// Guarantees: every replaced stretch keeps the outline at least SD from every known obstacle
-/// (sampled every 0.05 m), the steering within the car's limit, its rate at the planned speed
-/// within the given share, and joins the rest with continuous position, heading and curvature: at
-/// its start those of the plan, or the car's pose and actual steering. Without a car, the plan up
-/// to where it is left is unchanged. Does not look at obstacles beyond SD from the plan, nor move
-/// them. Errors: InternalError for options out of range. Cost: 0.1 to 0.3 s a stretch, some
-/// seconds where nothing can be found.
+/// Guarantees: position and heading are continuous. Without a car, the plan up to where it is left
+/// is unchanged. Every stretch that `bezier` replaced keeps the outline at least SD from every
+/// known obstacle (sampled every 0.05 m), the steering within the car's limit, its rate at the
+/// planned speed within the given share, and has the curvature of the rest at its ends: at its
+/// start that of the plan, or of the car's actual steering. `listing` guarantees none of this; a
+/// note of the plan says how near its curve comes and what it asks beyond the steering's limits.
+/// Does not look at obstacles beyond SD from the plan, nor move them. Errors: InternalError for
+/// options out of range. Cost of `bezier`: 0.1 to 0.3 s a stretch, some seconds where nothing can
+/// be found; of `listing` a millisecond.
 Plan PlanAround(const AvoidanceRequest& request, const AvoiderOptions& options);
 
 }  // namespace trackbed

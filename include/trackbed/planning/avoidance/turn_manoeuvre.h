@@ -54,14 +54,12 @@ struct TurnManoeuvre {
   double reduction = 0.2617993877991494;   ///< theta_turn_dec [rad]: the heading changes by
                                            ///< theta_turn - theta_turn_dec
   TurnSide side = TurnSide::kLeft;
-  int obstacle_sixth = 3;              ///< n: how many sixths of the arc lie before it, 1 to 5
-  double obstacle_length = 2.0;        ///< L_k: along its own x [m], > 0
-  double obstacle_width = 2.0;         ///< w_k: along its own y [m], > 0
-  double obstacle_yaw = 0.0;           ///< in M [rad]; 0 is the listing's
-  bool obstacle_follows_turn = false;  ///< its yaw counts from the turn's heading where it stands
-  double safe_distance = 1.5;          ///< SD [m], >= 0
-  double inner_width = 1.0;            ///< free toward the center [m], >= 0
-  double outer_width = 0.0;            ///< free on the other side [m], >= 0
+  int obstacle_sixth = 3;        ///< n: how many sixths of the arc lie before it, 1 to 5
+  double obstacle_length = 2.0;  ///< L_k: along the x axis of M [m], > 0
+  double obstacle_width = 2.0;   ///< w_k: along its y axis [m], > 0
+  double safe_distance = 1.5;    ///< SD [m], >= 0
+  double inner_width = 1.0;      ///< free toward the center [m], >= 0
+  double outer_width = 0.0;      ///< free on the other side [m], >= 0
   LiteralTurn literal;
 
   /// The side with more room; the inner one if there is the same on both.
@@ -79,9 +77,6 @@ enum class TurnStatus {
   kNoSafePoint,  ///< r_k <= 0: the turn is too tight to pass the obstacle on the inside
 };
 
-/// "ok", "no_turn", "no_safe_point".
-const char* ToString(TurnStatus status);
-
 /// A point of the turn's arc.
 struct ArcPoint {
   double angle = 0.0;  ///< sigma [rad]
@@ -95,10 +90,10 @@ struct TurnLayout {
   std::string reason;           ///< for people; empty when ok
   std::vector<ArcPoint> arc;    ///< from A to E; V_L points, at most 0.01 rad apart
   std::size_t obstacle_at = 0;  ///< Padetis_k, as an index from 1: the arc's point nearest to it
-  OrientedBox obstacle;
-  double safe_radius = 0.0;   ///< r_k [m]
-  double safe_angle = 0.0;    ///< sigma of the safe point [rad]
-  Vec2 safe_point{0.0, 0.0};  ///< q_goal: C + r_k (sin sigma, -sg cos sigma)
+  OrientedBox obstacle;         ///< along the axes of M
+  double safe_radius = 0.0;     ///< r_k [m]
+  double safe_angle = 0.0;      ///< sigma of the safe point [rad]
+  Vec2 safe_point{0.0, 0.0};    ///< q_goal: C + r_k (sin sigma, -sg cos sigma)
 
   [[nodiscard]] bool ok() const { return status == TurnStatus::kOk; }
 };
@@ -138,16 +133,10 @@ struct LiteralTree {
 LiteralTree LiteralRrtStar(const TurnManoeuvre& manoeuvre, const TurnLayout& layout,
                            std::uint64_t seed);
 
-/// Which point of the car drives along the curve, its x axis along the tangent.
-enum class OutlineOn {
-  kRearAxle,  ///< the rear-axle center, as everywhere else
-  kCentre,    ///< the middle of the outline, as in the listing
-};
-
 /// The curve at one of the parameters u = 0, 0.002, ..., 1.
 struct ManoeuvreSample {
   double u = 0.0;
-  Pose2 pose;              ///< on the curve, x along the tangent
+  Pose2 pose;              ///< of the rear axle: on the curve, x along the tangent
   double s = 0.0;          ///< along the chords [m]
   double time = 0.0;       ///< s/v_a [s]
   double curvature = 0.0;  ///< K [1/m], positive to the left
@@ -179,20 +168,9 @@ struct ManoeuvreDrive {
 /// the way between the curve's ends, not about how the wheels get to the angle that it starts with.
 /// A curve that has no direction at a sample is not steerable.
 ManoeuvreDrive DriveManoeuvre(const TurnManoeuvre& manoeuvre, const TurnLayout& layout,
-                              const VehicleParams& vehicle, const BezierCurve& curve,
-                              OutlineOn outline_on = OutlineOn::kRearAxle);
-
-/// S_sum: the station of a sample on a path on which the curve starts at `station_offset` [m] (6 in
-/// the listing).
-inline double StationOf(const ManoeuvreSample& sample, double station_offset) {
-  return sample.s + station_offset;
-}
+                              const VehicleParams& vehicle, const BezierCurve& curve);
 
 /// X_WM, for a turn whose arc begins at X_WA: S back along the heading there.
 Pose2 ManoeuvreFrame(const TurnManoeuvre& manoeuvre, const Pose2& X_WA);
-
-/// Points and boxes of M, in the world.
-std::vector<Vec2> PointsToWorld(const Pose2& X_WM, const std::vector<Vec2>& points);
-OrientedBox BoxToWorld(const Pose2& X_WM, const OrientedBox& box);
 
 }  // namespace trackbed

@@ -20,7 +20,8 @@ struct CurvePiece {
   double sweep = 0.0;  ///< length/r, negative backwards
 };
 
-/// Up to five pieces, one after the other: a word such as "LSR", or "L+R-L-".
+/// Up to five pieces, one after the other: a word such as "LSR", or "L+R-L-". It leads to within
+/// 1e-9 m of the pose that it was asked for, for distances up to 1e3 r.
 struct ShortestCurve {
   double radius = 1.0;  ///< r [m]
   std::array<CurvePiece, 5> pieces{};
@@ -33,9 +34,5 @@ std::string WordOf(const ShortestCurve& curve);
 
 /// Its pieces as segments of a path; those below 1e-12 r are left out.
 std::vector<Segment> SegmentsOf(const ShortestCurve& curve);
-
-/// Where the curve leads from `start`: within 1e-9 m of the pose that it was asked for, for
-/// distances up to 1e3 r.
-Pose2 EndOf(const Pose2& start, const ShortestCurve& curve);
 
 }  // namespace trackbed

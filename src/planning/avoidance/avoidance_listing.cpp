@@ -1,0 +1,184 @@
+#include "src/planning/avoidance/avoidance_listing.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "trackbed/core/angle.h"
+#include "trackbed/planning/avoidance/turn_manoeuvre.h"
+#include "trackbed/planning/common/plan.h"
+
+namespace trackbed::avoidance {
+namespace {
+
+using nlohmann::json;
+
+/// Of stations that are sums of lengths [m], and of angles that are lengths over radii [rad].
+constexpr double kRounding = 1e-9;
+
+/// An arc of the plan with the straights on either side of it.
+struct Turn {
+  Stations arc;            ///< [m]
+  double curvature = 0.0;  ///< signed [1/m]
+  Stations straights;      ///< from the first one's start to the second one's end [m]
+
+  [[nodiscard]] double sweep() const { return std::abs(curvature) * (arc.to - arc.from); }
+};
+
+/// The arc on which a station lies; none on a straight or where the curvature changes.
+std::optional<Turn> TurnAt(const Path& path, double s) {
+  const std::vector<Segment>& segments = path.segments();
+  const auto is_straight = [](const Segment& segment) {
+    return segment == Segment{segment.length};
+  };
+  double start = 0.0;
+  std::size_t i = 0;
+  while (i < segments.size() && start + segments[i].length < s) {
+    start += segments[i].length;
+    ++i;
+  }
+  if (i == segments.size() || is_straight(segments[i]) || segments[i].sharpness != 0.0 ||
+      segments[i].sharpness_rate != 0.0) {
+    return std::nullopt;
+  }
+  Turn turn{.arc = {start, start + segments[i].length}, .curvature = segments[i].curvature};
+  turn.straights = turn.arc;
+  for (std::size_t k = i; k > 0 && is_straight(segments[k - 1]); --k) {
+    turn.straights.from -= segments[k - 1].length;
+  }
+  for (std::size_t k = i + 1; k < segments.size() && is_straight(segments[k]); ++k) {
+    turn.straights.to += segments[k].length;
+  }
+  return turn;
+}
+
+/// The listing's problem. Its arc counts from a right angle, whatever the turn's is.
+TurnManoeuvre ProblemFor(const AvoidanceRequest& request, const ListingAvoidanceOptions& options,
+                         const Turn& turn, const OrientedBox& obstacle, double beside) {
+  TurnManoeuvre problem;
+  problem.radius = 1.0 / std::abs(turn.curvature);
+  problem.speed = request.speed.speed;
+  problem.delay = options.delay;
+  problem.turn_angle = 0.5 * kPi;
+  problem.reduction = problem.turn_angle - turn.sweep();
+  if (std::abs(problem.reduction) < kRounding) {
+    problem.reduction = 0.0;  // a right angle has rules of its own
+  }
+  problem.side = turn.curvature > 0.0 ? TurnSide::kLeft : TurnSide::kRight;
+  const double share = (beside - turn.arc.from) / (turn.arc.to - turn.arc.from);
+  problem.obstacle_sixth = std::clamp(static_cast<int>(std::lround(6.0 * share)), 1, 5);
+  problem.obstacle_length = obstacle.length;
+  problem.obstacle_width = obstacle.width;
+  problem.safe_distance = options.safe_distance;
+  problem.inner_width = options.inner_width;
+  problem.outer_width = options.outer_width;
+  problem.literal = options.literal;
+  return problem;
+}
+
+/// What the curve breaks, for people; none when it can be driven safely.
+std::vector<std::string> NotesOn(const CurveCheck& check, const VehicleParams& vehicle,
+                                 double safe_distance, const OrientedBox& obstacle) {
+  std::vector<std::string> broken;
+  const auto add = [&](const char* what, double value, const char* bound, double limit,
+                       const char* unit) {
+    broken.push_back(
+        fmt::format("a {} of {:.3g} {} ({} {:.3g} {})", what, value, unit, bound, limit, unit));
+  };
+  if (check.clearance < safe_distance) {
+    add("clearance", check.clearance, "safe distance", safe_distance, "m");
+  }
+  if (check.steering > vehicle.steering_limit) {
+    add("steering angle", check.steering, "limit", vehicle.steering_limit, "rad");
+  }
+  if (check.steering_rate > vehicle.steering_rate) {
+    add("steering rate", check.steering_rate, "limit", vehicle.steering_rate, "rad/s");
+  }
+  if (broken.empty()) {
+    return {};
+  }
+  return {fmt::format("driven although its curve past the obstacle at ({:.4g}, {:.4g}) has {}",
+                      obstacle.centre.x, obstacle.centre.y, fmt::join(broken, "; "))};
+}
+
+/// The listing's own findings.
+json Findings(const TurnManoeuvre& problem, const TurnLayout& layout, const LiteralTree& tree,
+              const VehicleParams& vehicle, const std::array<Vec2, 8>& points) {
+  const ManoeuvreDrive drive =
+      DriveManoeuvre(problem, layout, vehicle, BezierCurve({points.begin(), points.end()}));
+  return {
+      {"method", "listing"},
+      {"obstacle_sixth", problem.obstacle_sixth},
+      {"rrt_star",
+       {{"nodes", tree.nodes.size()},
+        {"goal_distance_m", tree.goal_distance},
+        {"final_y_m", tree.final_y}}},
+      {"one_point_check", {{"distance_m", drive.test_distance}, {"passed", drive.test_passed}}}};
+}
+
+}  // namespace
+
+ReplacementSearch FindListingCurve(const AvoidanceRequest& request,
+                                   const ListingAvoidanceOptions& options, const Plan& plan,
+                                   const Conflict& conflict, double from) {
+  const VehicleParams& vehicle = request.vehicle;
+  const Path& path = plan.reference.path;
+  const double beside = StationBeside(path, vehicle, conflict);
+  const std::optional<Turn> turn = TurnAt(path, beside);
+  if (!turn || turn->sweep() >= 2.0 * kPi) {
+    return {std::nullopt, "the listing knows obstacles in turns of constant radius alone"};
+  }
+  const TurnManoeuvre problem = ProblemFor(request, options, *turn, conflict.obstacle, beside);
+  const TurnLayout layout = LayOutTurn(problem, vehicle);
+  if (!layout.ok()) {
+    return {std::nullopt, layout.reason};
+  }
+  const LiteralTree tree = LiteralRrtStar(problem, layout, request.seed);
+  const std::array<Vec2, 8> points = ControlPoints(problem, layout, vehicle, tree.final_y);
+  // P_6 and P_7 lie on the tangent at the arc's end.
+  const Vec2 exit = (points[7] - points[6]).normalized();
+  const double before = problem.straight();
+  const double after = exit.dot(points[7] - layout.arc.back().position);
+  const double room_before = turn->arc.from - std::max(turn->straights.from, from);
+  const double room_after = turn->straights.to - turn->arc.to;
+  if (before > room_before + kRounding || after > room_after + kRounding) {
+    return {std::nullopt,
+            fmt::format("the listing takes {:.4g} m of straight before the turn and {:.4g} m after "
+                        "it; there are {:.4g} m and {:.4g} m",
+                        before, after, std::max(room_before, 0.0), room_after)};
+  }
+
+  const Pose2 X_WM = ManoeuvreFrame(problem, path.At(turn->arc.from).pose);
+  std::vector<Vec2> control;
+  for (const Vec2& point : points) {
+    control.push_back(ToWorld(X_WM, point));
+  }
+  std::vector<TreeNode> nodes = tree.nodes;
+  for (TreeNode& node : nodes) {
+    node.position = ToWorld(X_WM, node.position);
+  }
+  const BezierCurve curve(control);
+  const CurveCheck check = Check({.vehicle = vehicle,
+                                  .start = {X_WM, 0.0},
+                                  .obstacles = request.obstacles,
+                                  .start_speed = problem.speed,
+                                  .speed = problem.speed},
+                                 curve);
+  return {Replacement{.stations = {std::max(turn->arc.from - before, from),
+                                   std::min(turn->arc.to + after, path.length())},
+                      .start = X_WM,
+                      .curve = curve,
+                      .check = check,
+                      .speed = problem.speed,
+                      .ring = problem.ring(),
+                      .tree = nodes,
+                      .notes = NotesOn(check, vehicle, options.safe_distance, conflict.obstacle),
+                      .diagnostics = [own = Findings(problem, layout, tree, vehicle, points)](
+                                         const Plan&, const Stations&) { return own; }},
+          ""};
+}
+
+}  // namespace trackbed::avoidance

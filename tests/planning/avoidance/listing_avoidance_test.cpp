@@ -1,0 +1,256 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "tests/geometry/random.h"
+#include "tests/planning/obstacle_turns.h"
+#include "tests/planning/routes.h"
+#include "tests/support/obstacle_cases.h"
+#include "tests/tolerance.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/planning/avoidance/turn_manoeuvre.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/fillet/fillet.h"
+#include "trackbed/planning/registry/planners.h"
+
+/// The local planner `listing`: the plan's turn is the listing's problem, its curve the plan.
+namespace trackbed {
+namespace {
+
+using testing::HasSubstr;
+
+ListingAvoidanceOptions OptionsFor(RingChoice ring) {
+  ListingAvoidanceOptions options;
+  options.inner_width = ring == RingChoice::kInner ? 1.0 : 0.0;
+  options.outer_width = ring == RingChoice::kInner ? 0.0 : 1.0;
+  return options;
+}
+
+std::vector<Vec2> ControlPointsOf(const nlohmann::json& stretch) {
+  std::vector<Vec2> points;
+  for (const nlohmann::json& point : stretch["control_points_m"]) {
+    points.emplace_back(point[0].get<double>(), point[1].get<double>());
+  }
+  return points;
+}
+
+OrientedBox BoxAt(const Pose2& pose) {
+  return {{pose.x, pose.y, 0.0}, 2.0, 2.0};
+}
+
+class ListedObstacle : public testing::TestWithParam<ObstacleCase> {};
+
+INSTANTIATE_TEST_SUITE_P(Cases, ListedObstacle, testing::ValuesIn(AllObstacleCases()), NameOf);
+
+TEST_P(ListedObstacle, IsPassedOnTheCurveOfTheListing) {
+  const ObstacleCase& c = GetParam();
+  const Course course{.turn = c.side * (0.5 * kPi - c.reduction)};
+  const OrientedBox box = BoxAt(course.OnArc(c.sixth / 6.0));
+  const ListingAvoidanceOptions options = OptionsFor(c.ring);
+  const Plan plan = Around(course.Global(), {box}, options);
+  ASSERT_EQ(plan.blocked, "");
+
+  TurnManoeuvre problem;  // its defaults are the course's
+  problem.reduction = c.reduction;
+  problem.side = c.side > 0.0 ? TurnSide::kLeft : TurnSide::kRight;
+  problem.obstacle_sixth = c.sixth;
+  problem.inner_width = options.inner_width;
+  problem.outer_width = options.outer_width;
+  problem.literal = kLiteralTurn;
+  const TurnLayout layout = LayOutTurn(problem, SeedCar());
+  const LiteralTree tree = LiteralRrtStar(problem, layout, 1);
+  const auto expected = ControlPoints(problem, layout, SeedCar(), tree.final_y);
+
+  ASSERT_EQ(plan.diagnostics["avoid"].size(), 1U);
+  const nlohmann::json& stretch = plan.diagnostics["avoid"][0];
+  const std::vector<Vec2> points = ControlPointsOf(stretch);
+  ASSERT_EQ(points.size(), 8U);
+  for (std::size_t k = 0; k < 8; ++k) {
+    // M begins S = 22.7 m before the arc, 20 m from the start. Sums of lengths up to 100 m.
+    EXPECT_NEAR(points[k].x(), 20.0 + expected[k].x(), Tolerance(1e-9)) << k;
+    EXPECT_NEAR(points[k].y(), expected[k].y(), Tolerance(1e-9)) << k;
+  }
+  EXPECT_NEAR(stretch["leave_s_m"].get<double>(), 20.0, Tolerance(1e-9));
+  EXPECT_EQ(stretch["ring"], c.ring == RingChoice::kInner ? "inner" : "outer");
+  EXPECT_EQ(stretch["obstacle_sixth"], c.sixth);
+  EXPECT_EQ(stretch["rrt_star"]["final_y_m"], tree.final_y);
+  ASSERT_EQ(plan.tree.size(), tree.nodes.size());
+  EXPECT_NEAR(plan.tree.back().position.x(), 20.0 + tree.nodes.back().position.x(),
+              Tolerance(1e-9));
+}
+
+TEST(Listing, PassesOnThePrintedPoints) {
+  // Section 5.10, with the height of P_3 that this seed's tree gives it. P_0 is at (20, 0).
+  const Course course{.turn = 75.0 * kPi / 180.0};
+  const Plan plan = Around(course.Global(), {BoxAt(course.OnArc(0.5))}, ListingAvoidanceOptions{});
+  const nlohmann::json& stretch = plan.diagnostics["avoid"][0];
+  const std::vector<Vec2> points = ControlPointsOf(stretch);
+  const double final_y = stretch["rrt_star"]["final_y_m"].get<double>();
+  const std::array<Vec2, 8> printed{Vec2{0.0, 0.0},         Vec2{7.6266, 0.0},
+                                    Vec2{15.2533, 0.0008},  Vec2{22.8799, final_y},
+                                    Vec2{28.5834, 12.2608}, Vec2{42.0185, 14.8236},
+                                    Vec2{44.9561, 25.7869}, Vec2{47.8937, 36.7501}};
+  for (std::size_t k = 0; k < 8; ++k) {
+    EXPECT_NEAR(points[k].x(), 20.0 + printed[k].x(), Tolerance(Printed(4))) << k;
+    EXPECT_NEAR(points[k].y(), printed[k].y(), Tolerance(Printed(4))) << k;
+  }
+}
+
+TEST(Listing, IsDrivenHoweverNearItComes) {
+  // Section 5.10: 0.6 to 1.5 m on the outside, 4 m and more on the inside, of 1.5 m.
+  const Course course{.turn = 75.0 * kPi / 180.0};
+  const OrientedBox box = BoxAt(course.OnArc(0.5));
+  const Plan outer = Around(course.Global(), {box}, OptionsFor(RingChoice::kOuter));
+  const nlohmann::json& stretch = outer.diagnostics["avoid"][0];
+  EXPECT_LT(stretch["clearance_m"].get<double>(), 1.5);
+  EXPECT_EQ(stretch["one_point_check"]["passed"], true);
+  ASSERT_EQ(outer.notes.size(), 1U);
+  EXPECT_THAT(outer.notes[0],
+              testing::MatchesRegex("driven although its curve past the obstacle at \\(54\\.88, "
+                                    "4\\.133\\) has a clearance of [01]\\.[0-9]* m \\(safe "
+                                    "distance 1\\.5 m\\)"));
+  const Plan inner = Around(course.Global(), {box}, OptionsFor(RingChoice::kInner));
+  EXPECT_GT(inner.diagnostics["avoid"][0]["clearance_m"].get<double>(), 4.0);
+  EXPECT_TRUE(inner.notes.empty());
+}
+
+TEST(Listing, TellsWhatTheSteeringCannotDo) {
+  const Course course;
+  AvoidanceRequest request{.vehicle = SeedCar(),
+                           .plan = course.Global(),
+                           .speed = kLimits,
+                           .obstacles = {BoxAt(course.OnArc(0.5))},
+                           .station = 0.0,
+                           .station_speed = kSpeed,
+                           .car = {},
+                           .seed = 1};
+  request.vehicle.steering_rate = 0.01;
+  request.vehicle.steering_limit = 0.1;
+  const Plan plan = PlanAround(request, ListingAvoidanceOptions{});
+  ASSERT_EQ(plan.notes.size(), 1U);
+  EXPECT_THAT(plan.notes[0], testing::AllOf(HasSubstr(" has a steering angle of 0.1"),
+                                            HasSubstr(" rad (limit 0.1 rad); a steering rate of "),
+                                            HasSubstr(" rad/s (limit 0.01 rad/s)")));
+}
+
+TEST(Listing, TakesTheNearestSixth) {
+  const Course course;
+  const auto sixth_at = [&](double share) {
+    const Plan plan =
+        Around(course.Global(), {BoxAt(course.OnArc(share))}, ListingAvoidanceOptions{});
+    return plan.diagnostics["avoid"][0]["obstacle_sixth"].get<int>();
+  };
+  EXPECT_EQ(sixth_at(0.01), 1);
+  EXPECT_EQ(sixth_at(0.24), 1);  // 1.44 sixths
+  EXPECT_EQ(sixth_at(0.26), 2);  // 1.56 sixths
+  EXPECT_EQ(sixth_at(0.99), 5);
+}
+
+TEST(Listing, SteersStraightAgainBehindACurveThatEndsBent) {
+  // P_5 of a right turn lies beside the tangent on which P_6 and P_7 are: the curve ends with a
+  // curvature of (6/7) h/(S/2)^2, where h = cos(1.2) sin(1.2) is how far beside.
+  const Course course{.turn = -1.2};
+  const Plan plan = Around(course.Global(), {BoxAt(course.OnArc(0.5))}, ListingAvoidanceOptions{});
+  const double back = plan.diagnostics["avoid"][0]["return_s_m"].get<double>();
+  const double curvature = 6.0 / 7.0 * std::cos(1.2) * std::sin(1.2) / std::pow(0.5 * 22.7, 2);
+  EXPECT_NEAR(std::abs(plan.schedule.At(back)), SteeringForCurvature(SeedCar(), curvature),
+              Tolerance(1e-9));
+  EXPECT_EQ(plan.schedule.At(back + 1e-3), 0.0);
+  EXPECT_EQ(plan.reference.path.At(back + 1e-3).curvature, 0.0);
+}
+
+TEST(Listing, MendedTurnsMirrorEachOther) {
+  const Course left{.turn = 1.2};
+  const Course right{.turn = -1.2};
+  ListingAvoidanceOptions options = OptionsFor(RingChoice::kOuter);
+  const auto points_of = [&](const Course& course) {
+    return ControlPointsOf(
+        Around(course.Global(), {BoxAt(course.OnArc(0.5))}, options).diagnostics["avoid"][0]);
+  };
+  // P_5 of the right turn is shifted along x by the cosine of its angle (L9).
+  EXPECT_NEAR(points_of(right)[5].x() - points_of(left)[5].x(), std::cos(1.2), Tolerance(1e-9));
+  options.literal = {};
+  for (std::size_t k = 0; k < 8; ++k) {
+    if (k != 3) {  // rounding down to whole metres has no mirror image
+      EXPECT_NEAR(points_of(right)[k].x(), points_of(left)[k].x(), Tolerance(1e-9)) << k;
+      EXPECT_NEAR(points_of(right)[k].y(), -points_of(left)[k].y(), Tolerance(1e-9)) << k;
+    }
+  }
+}
+
+/// Why the listing has no curve there.
+std::string WhyBlocked(const Course& course, const OrientedBox& box,
+                       const ListingAvoidanceOptions& options = {}) {
+  const Plan plan = Around(course.Global(), {box}, options);
+  EXPECT_FALSE(plan.diagnostics.contains("avoid"));
+  EXPECT_EQ(plan.diagnostics["blocked"], plan.blocked);
+  EXPECT_EQ(plan.reference.speed.SpeedAt(plan.reference.path.length()), 0.0);
+  return plan.blocked;
+}
+
+TEST(Listing, StopsBeforeWhatItHasNoCurveFor) {
+  EXPECT_EQ(WhyBlocked({}, {{20.0, 0.0, 0.0}, 2.0, 2.0}),
+            "stops before the obstacle at (20, 0): the listing knows obstacles in turns of "
+            "constant radius alone");
+  const Course tight{.radius = 10.0};
+  EXPECT_THAT(WhyBlocked(tight, BoxAt(tight.OnArc(0.5))),
+              HasSubstr("): passing inside takes 10.2784 m (safe distance, obstacle's diagonal and "
+                        "car's width, with the 1 m kept free), the turn's radius is 10 m"));
+}
+
+TEST(Listing, NeedsStraightsBeforeAndAfterTheTurn) {
+  const Course early{.before = 22.0};
+  EXPECT_THAT(WhyBlocked(early, BoxAt(early.OnArc(0.5))),
+              HasSubstr("): the listing takes 22.7 m of straight before the turn and 15.79 m after "
+                        "it; there are 22 m and 42.7 m"));
+  const Course late{.turn = -1.2, .after = 20.0};
+  EXPECT_THAT(WhyBlocked(late, BoxAt(late.OnArc(0.5))),
+              HasSubstr("): the listing takes 22.7 m of straight before the turn and 22.7 m after "
+                        "it; there are 42.7 m and 20 m"));
+  // No more than it takes is enough.
+  const Course enough{.before = 22.7, .turn = -1.2, .after = 22.7};
+  EXPECT_EQ(Around(enough.Global(), {BoxAt(enough.OnArc(0.5))}, ListingAvoidanceOptions{}).blocked,
+            "");
+}
+
+TEST(Listing, TurnsWithItsRoute) {
+  // The same problem, moved and turned: the same curve in the frame of the manoeuvre.
+  const Course course;
+  const OrientedBox box = BoxAt(course.OnArc(0.6));
+  const Pose2 X_WN{-30.0, 12.0, 2.1};
+  std::vector<Vec2> waypoints = course.Waypoints();
+  for (Vec2& point : waypoints) {
+    point = ToWorld(X_WN, point);
+  }
+  FilletOptions fillets;
+  fillets.radius = course.radius;
+  fillets.constraint = RadiusConstraint::kNone;
+  const Plan global = MakePlan({.vehicle = SeedCar(),
+                                .waypoints = waypoints,
+                                .start = X_WN,
+                                .start_speed = kSpeed,
+                                .speed = kLimits},
+                               fillets);
+  ASSERT_TRUE(global.ok()) << global.reason;
+  const OrientedBox moved{Compose(X_WN, box.centre), box.length, box.width};
+  const auto points = ControlPointsOf(
+      Around(course.Global(), {box}, ListingAvoidanceOptions{}).diagnostics["avoid"][0]);
+  const Plan plan = Around(global, {moved}, ListingAvoidanceOptions{});
+  const auto elsewhere = ControlPointsOf(plan.diagnostics["avoid"][0]);
+  for (std::size_t k = 0; k < 8; ++k) {
+    EXPECT_LE((elsewhere[k] - ToWorld(X_WN, points[k])).norm(), Tolerance(1e-9)) << k;
+  }
+}
+
+TEST(Listing, RefusesOptionsOutOfRange) {
+  ListingAvoidanceOptions options;
+  options.outer_width = -1.0;
+  EXPECT_THROW(Around(Course{}.Global(), {}, options), InternalError);
+}
+
+}  // namespace
+}  // namespace trackbed

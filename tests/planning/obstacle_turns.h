@@ -1,0 +1,112 @@
+#pragma once
+
+#include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/polygon.hpp>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "tests/vehicle/seed_car.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/planning/avoidance/avoidance.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/fillet/fillet.h"
+#include "trackbed/planning/registry/planners.h"
+
+/// Obstacles in a turn of the seed car's plan, for the tests of the local planners.
+namespace trackbed {
+
+inline constexpr double kSpeed = 3.0;     // [m/s]
+inline constexpr double kDistance = 1.5;  // SD [m]
+inline const SpeedLimits kLimits{kSpeed, 1.0, 1.0};
+
+/// Clearance by another library than the planner's: rings of corners, Boost.Geometry's distance.
+inline double ByBoost(const OrientedBox& a, const OrientedBox& b) {
+  using Point = boost::geometry::model::d2::point_xy<double>;
+  using Polygon = boost::geometry::model::polygon<Point, false, true>;
+  const auto polygon_of = [](const OrientedBox& box) {
+    Polygon polygon;
+    for (const Vec2& corner : box.Corners()) {
+      polygon.outer().emplace_back(corner.x(), corner.y());
+    }
+    polygon.outer().push_back(polygon.outer().front());
+    return polygon;
+  };
+  return boost::geometry::distance(polygon_of(a), polygon_of(b));
+}
+
+/// The car on the path at a station; its outline is laid out anew from the car's numbers.
+inline OrientedBox OutlineOn(const Path& path, double s, const VehicleParams& car) {
+  const Pose2 rear = path.At(s).pose;
+  const double ahead = 0.5 * car.length - car.rear_overhang;
+  return {{rear.x + ahead * std::cos(rear.yaw), rear.y + ahead * std::sin(rear.yaw), rear.yaw},
+          car.length,
+          car.width};
+}
+
+inline double ClearanceOf(const Path& path, const std::vector<OrientedBox>& obstacles,
+                          const VehicleParams& car, Stations within) {
+  double clearance = std::numeric_limits<double>::infinity();
+  for (double s = std::max(within.from, 0.0); s <= std::min(within.to, path.length()); s += 0.02) {
+    for (const OrientedBox& obstacle : obstacles) {
+      clearance = std::min(clearance, ByBoost(OutlineOn(path, s, car), obstacle));
+    }
+  }
+  return clearance;
+}
+
+/// Where the planner's own samples lie 0.05 m apart, the outline between them comes closer by at
+/// most what a corner 3.7 m from the rear axle moves in half of that while the heading turns at
+/// full lock, 0.025 m x 3.7/5.1, times the angle of its way to the obstacle's side; next to a
+/// minimum that angle is zero, and the loss quadratic: 0.025^2 x (1/5.1 + 1/3.7)/2.
+inline constexpr double kBetweenSamples = 2e-4;  // [m]
+/// A plan's own stretches count as clear when they miss SD by half a millimetre.
+inline constexpr double kTouch = 5e-4 + kBetweenSamples;
+
+/// One turn of radius r between two straights, and what stands in it.
+struct Course {
+  double radius = 20.0;
+  double before = 42.7;  ///< straight, from the start to the arc [m]
+  double turn = 0.5 * kPi;
+  double after = 42.7;
+
+  [[nodiscard]] std::vector<Vec2> Waypoints() const {
+    const double tangent = radius * std::tan(0.5 * std::abs(turn));
+    const Vec2 corner{before + tangent, 0.0};
+    return {{0.0, 0.0}, corner, corner + (after + tangent) * Direction(turn)};
+  }
+
+  [[nodiscard]] Plan Global() const {
+    FilletOptions options;
+    options.radius = radius;
+    options.constraint = RadiusConstraint::kNone;
+    return MakePlan({.vehicle = SeedCar(),
+                     .waypoints = Waypoints(),
+                     .start_speed = kSpeed,
+                     .speed = kLimits,
+                     .seed = 0},
+                    options);
+  }
+
+  /// Of the arc, at a share of it.
+  [[nodiscard]] Pose2 OnArc(double share) const {
+    return Global().reference.path.At(before + share * radius * std::abs(turn)).pose;
+  }
+};
+
+inline Plan Around(const Plan& plan, const std::vector<OrientedBox>& obstacles,
+                   const AvoiderOptions& options = {}) {
+  return PlanAround({.vehicle = SeedCar(),
+                     .plan = plan,
+                     .speed = kLimits,
+                     .obstacles = obstacles,
+                     .station = 0.0,
+                     .station_speed = kSpeed,
+                     .car = {},
+                     .seed = 1},
+                    options);
+}
+
+}  // namespace trackbed

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "trackbed/geometry/pose.h"
+#include "trackbed/planning/curves/shortest_curve.h"
+
+namespace trackbed {
+
+/// Where a curve leads from `start`, by its pieces' own arcs.
+inline Pose2 EndOf(const Pose2& start, const ShortestCurve& curve) {
+  Pose2 pose = start;
+  for (int i = 0; i < curve.count; ++i) {
+    const CurvePiece& piece = curve.pieces[static_cast<std::size_t>(i)];
+    pose =
+        MoveOnArc(pose, piece.sweep * curve.radius, piece.sweep * static_cast<double>(piece.bend));
+  }
+  return pose;
+}
+
+}  // namespace trackbed
