@@ -1,18 +1,21 @@
 #include <cmath>
-#include <cstdio>
 
-#include "trackbed/drive/drive.h"
-#include "trackbed/planning/common/course_schedule.h"
-#include "trackbed/planning/common/curvature_steps.h"
-#include "trackbed/planning/common/plan.h"
+#include <trackbed/planning/common/course_schedule.h>
+#include <trackbed/planning/common/curvature_steps.h>
+#include <trackbed/planning/common/planner.h>
 
 using namespace trackbed;
 
 /// Straight on, an S to the lane on the left, straight on.
 struct SidestepOptions {
-  double offset = 3.5;  ///< [m]
-  double radius = 15.0;
+  double offset = 3.5;   ///< to the left [m], > 0
+  double radius = 15.0;  ///< of both arcs [m], > 0
 };
+
+void Visit(KeyVisitor& keys, SidestepOptions& options) {
+  keys.Field({"offset", "m", "to the left"}, options.offset, Need::kOptional, kPositive);
+  keys.Field({"radius", "m", "of both arcs"}, options.radius, Need::kOptional, kPositive);
+}
 
 Plan PlanWith(const SidestepOptions& options, const PlanRequest& request) {
   Plan plan;
@@ -37,19 +40,9 @@ Plan PlanWith(const SidestepOptions& options, const PlanRequest& request) {
   return plan;
 }
 
-/// Drives it in place of the plan of a scenario, whose path is given.
-int main(int /*argc*/, char** argv) {
-  const Scenario scenario = ReadScenario(argv[1]);
-  const CarModel car = LoadCar(scenario);
-  PlanRequest request{.vehicle = car.params(), .waypoints = {}, .start = StartOf(scenario).pose};
-  request.speed = {.speed = scenario.mission.speed, .acceleration = 1.0, .deceleration = 1.5};
-  const Plan plan = PlanWith(SidestepOptions{}, request);
-  bool arrived = plan.ok();
-  for (const char* plant : {"kinematic", "mujoco"}) {
-    const RunLog log = DrivePlant(scenario, car, plan, plant);
-    const Vec2 missed = log.rows.back().state.pose.position() - plan.goal.position();
-    std::printf("%s: %s, %.3f m from the goal\n", plant, ToString(log.status), missed.norm());
-    arrived = arrived && log.status == DriveStatus::kArrived && missed.norm() < 0.2;
-  }
-  return arrived ? 0 : 1;
+PlannerEntry Sidestep() {
+  return {.name = "sidestep",
+          .summary = "an S to the lane on the left",
+          .defaults = SidestepOptions{},
+          .plan = PlanBy<SidestepOptions, PlanWith>};
 }
