@@ -220,10 +220,13 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
     DriveHooks drive_hooks = hooks.drive ? hooks.drive(plant) : DriveHooks{};
     DriveTiming timing{.plant = plant};
     double steering = 0.0;
-    drive_hooks.steered = [&](double seconds) {
+    drive_hooks.steered = [&, callers = drive_hooks.steered](double seconds) {
       ++timing.updates;
       steering += seconds;
       timing.update_max = std::max(timing.update_max, seconds);
+      if (callers) {
+        callers(seconds);
+      }
     };
     const Stopwatch driving;
     result.logs.push_back(DrivePlant(scenario, car, result.plan, plant, drive_hooks));

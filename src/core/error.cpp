@@ -35,6 +35,10 @@ std::string Problem::ToString() const {
 InputError::InputError(std::vector<Problem> problems)
     : std::runtime_error(Join(problems)), problems_(std::move(problems)) {}
 
+void ThrowPreconditionError(const std::string& message) {
+  throw PreconditionError(message);
+}
+
 void ThrowInternalError(const char* file, int line, const char* condition,
                         const std::string& message) {
   throw InternalError(fmt::format("{}:{}: {} ({} does not hold)",

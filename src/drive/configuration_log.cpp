@@ -2,35 +2,35 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-
-#include "trackbed/core/error.h"
 
 namespace trackbed {
 namespace {
 
-std::vector<std::string> Columns(const CarModel& car) {
+std::vector<std::string> WithTime(const std::vector<std::string>& configuration) {
   std::vector<std::string> columns{"t_s"};
-  const std::vector<std::string> configuration = car.configuration_columns();
   columns.insert(columns.end(), configuration.begin(), configuration.end());
   return columns;
 }
 
 }  // namespace
 
-ConfigurationLog::ConfigurationLog(const CarModel& car, const World& world, double period)
-    : period_(period), table_(Columns(car)) {
+ConfigurationLog::ConfigurationLog(const std::vector<std::string>& columns, const World& world,
+                                   double period)
+    : period_(period), table_(WithTime(columns)) {
   for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
     const Obstacle& obstacle = world.obstacles[i];
     if (obstacle.moves()) {
-      moving_.emplace_back(Find(fmt::format("obstacle_{}_x_m", i)), obstacle.velocity.x());
-      moving_.emplace_back(Find(fmt::format("obstacle_{}_y_m", i)), obstacle.velocity.y());
+      AddMoving(fmt::format("obstacle_{}_x_m", i), obstacle.velocity.x());
+      AddMoving(fmt::format("obstacle_{}_y_m", i), obstacle.velocity.y());
     }
   }
 }
 
 void ConfigurationLog::Record(const Plant& plant, double time) {
+  if (table_.columns().size() == 1) {
+    return;
+  }
   // Half a microsecond: times are sums of timesteps and may fall short of the multiple by rounding.
   if (time + 5e-7 < period_ * static_cast<double>(next_)) {
     return;
@@ -39,17 +39,16 @@ void ConfigurationLog::Record(const Plant& plant, double time) {
   const std::vector<double> configuration = plant.Configuration();
   row.insert(row.end(), configuration.begin(), configuration.end());
   for (const auto& [column, speed] : moving_) {
-    row[column] = speed * time;  // whatever the plant knows of it
+    row[column] = speed * time;
   }
   table_.AddRow(row);
   next_ = static_cast<long>(std::floor((time + 5e-7) / period_)) + 1;
 }
 
-std::size_t ConfigurationLog::Find(const std::string& column) const {
-  const auto& columns = table_.columns();
-  const auto found = std::find(columns.begin(), columns.end(), column);
-  TRACKBED_CHECK(found != columns.end(), "configurations have no column '{}'", column);
-  return static_cast<std::size_t>(found - columns.begin());
+void ConfigurationLog::AddMoving(const std::string& column, double speed) {
+  if (const int found = table_.Find(column); found >= 0) {
+    moving_.emplace_back(static_cast<std::size_t>(found), speed);
+  }
 }
 
 }  // namespace trackbed

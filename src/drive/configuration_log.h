@@ -1,24 +1,28 @@
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "trackbed/core/table.h"
 #include "trackbed/sim/plant.h"
+#include "trackbed/world/world.h"
 
 namespace trackbed {
 
 /// Logs configurations at the first physics step at or after every multiple of a period.
 class ConfigurationLog {
  public:
-  ConfigurationLog(const CarModel& car, const World& world, double period);
+  /// `columns` name the numbers of the plant's configurations; without any, nothing is logged.
+  /// Those that name moving obstacles of the world tell where these are, whatever the plant knows.
+  ConfigurationLog(const std::vector<std::string>& columns, const World& world, double period);
 
   void Record(const Plant& plant, double time);
 
   Table Take() { return std::move(table_); }
 
  private:
-  [[nodiscard]] std::size_t Find(const std::string& column) const;
+  void AddMoving(const std::string& column, double speed);
 
   double period_;
   long next_ = 0;

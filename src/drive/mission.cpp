@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "src/drive/lookout.h"
+#include "src/drive/replanning_monitor.h"
+#include "src/drive/scenario_parts.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/avoidance/avoidance.h"
 #include "trackbed/planning/common/clear_way.h"
@@ -96,7 +97,7 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
     return plan;
   }
   std::erase_if(known, [&](const OrientedBox& box) {
-    return !IsForAvoider(*scenario.plan, vehicle, plan.reference.path, 0.0, box);
+    return !IsForAvoider(ReplanningConfigOf(scenario), vehicle, plan.reference.path, 0.0, box);
   });
   return PlanAround({.vehicle = vehicle,
                      .plan = plan,

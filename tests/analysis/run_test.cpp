@@ -304,6 +304,22 @@ TEST(Run, KeepsTheLogWhenInterrupted) {
   EXPECT_THAT(ReadFile(folder.path() / "metrics.json"), testing::HasSubstr("\"complete\": false"));
 }
 
+TEST(Run, CallsTheCallersHooksAsWellAsItsOwn) {
+  int updates = 0;
+  double longest = 0.0;
+  const RunResult result = RunMission(Load("three_turns", {"drive.plants=[kinematic]"}),
+                                      {.drive = [&](const std::string&) {
+                                        return DriveHooks{.steered = [&](double seconds) {
+                                          ++updates;
+                                          longest = std::max(longest, seconds);
+                                        }};
+                                      }});
+  ASSERT_EQ(result.timing.size(), 1U);
+  EXPECT_GT(updates, 100);
+  EXPECT_EQ(updates, result.timing[0].updates);
+  EXPECT_EQ(longest, result.timing[0].update_max);
+}
+
 TEST(Verdict, SaysWhatWasExpectedAndWhatWasWhereAndWhen) {
   const RunResult result = RunMission(
       Load("three_turns", {"drive.plants=[kinematic]", "control={method: preview, distance: 5}",

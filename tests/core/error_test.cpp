@@ -43,6 +43,20 @@ TEST(InputError, OfOneProblemIsOneLine) {
   EXPECT_STREQ(InputError(Problem{.message = "one"}).what(), "one");
 }
 
+TEST(Require, PassesWhatHolds) {
+  EXPECT_NO_THROW(TRACKBED_REQUIRE(1 + 1 == 2, "sum {}", 2));
+}
+
+TEST(Require, SaysWhatIsWrongAndNothingElse) {
+  const int three = 3;
+  try {
+    TRACKBED_REQUIRE(three < 2, "three is {}; must be below {}", three, 2);
+    FAIL() << "did not throw";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "three is 3; must be below 2");  // it is no bug of Trackbed
+  }
+}
+
 TEST(Check, PassesWhatHolds) {
   EXPECT_NO_THROW(TRACKBED_CHECK(1 + 1 == 2, "sum {}", 2));
 }

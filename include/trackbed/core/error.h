@@ -11,8 +11,8 @@
 ///  * InputError: what the user gave is wrong (a file, an option, a model). Exit code 2.
 ///  * RunError: the surroundings failed (a full disk, an unwritable folder, no encoder). Exit
 ///  code 2.
-///  * PreconditionError: a program that uses the library gave a function an argument that its
-///    documentation excludes.
+///  * PreconditionError: a program called a function of the library with an argument that the
+///  function does not take; a bug in the calling program.
 ///  * InternalError: a check of our own failed; a bug in Trackbed. Exit code 1.
 /// That a plan cannot be found or a drive ends early is no error but an outcome: see PlanStatus and
 /// DriveStatus.
@@ -48,7 +48,7 @@ class RunError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A caller's mistake: an argument that the function's documentation excludes.
+/// A bad argument: `what()` names the function, the argument, its value and what is allowed.
 class PreconditionError : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
@@ -60,21 +60,24 @@ class InternalError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
+[[noreturn]] void ThrowPreconditionError(const std::string& message);
+
 [[noreturn]] void ThrowInternalError(const char* file, int line, const char* condition,
                                      const std::string& message);
 
 }  // namespace trackbed
+
+/// Throws PreconditionError when `condition`, which concerns an argument of the caller's, is false.
+/// The rest is an fmt message.
+#define TRACKBED_REQUIRE(condition, ...)                              \
+  do {                                                                \
+    if (!(condition))                                                 \
+      ::trackbed::ThrowPreconditionError(::fmt::format(__VA_ARGS__)); \
+  } while (false)
 
 /// Throws InternalError when `condition` is false, in every build type. The rest is an fmt message.
 #define TRACKBED_CHECK(condition, ...)                                                            \
   do {                                                                                            \
     if (!(condition))                                                                             \
       ::trackbed::ThrowInternalError(__FILE__, __LINE__, #condition, ::fmt::format(__VA_ARGS__)); \
-  } while (false)
-
-/// Throws PreconditionError when `condition` is false. The rest is an fmt message.
-#define TRACKBED_REQUIRE(condition, ...)                               \
-  do {                                                                 \
-    if (!(condition))                                                  \
-      throw ::trackbed::PreconditionError(::fmt::format(__VA_ARGS__)); \
   } while (false)

@@ -7,6 +7,9 @@
 
 namespace trackbed {
 
+/// Slower than this, a vehicle counts as at rest [m/s].
+inline constexpr double kAtRestSpeed = 0.01;
+
 /// One wheel of a car with tyres. Tyre axes as in ISO 8855: x where the wheel points, y to its
 /// left.
 struct WheelState {

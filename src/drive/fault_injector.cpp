@@ -1,4 +1,4 @@
-#include "src/drive/disturber.h"
+#include "src/drive/fault_injector.h"
 
 #include <algorithm>
 #include <boost/random/normal_distribution.hpp>
@@ -6,19 +6,19 @@
 
 namespace trackbed {
 
-VehicleParams BelievedBy(const Disturbances& disturbances, const CarModel& car) {
-  VehicleParams vehicle = car.unladen();
+VehicleParams NominalVehicle(const Disturbances& disturbances, VehicleParams vehicle) {
   vehicle.wheelbase *= disturbances.wheelbase;
   return vehicle;
 }
 
-Disturber::Disturber(const Scenario& scenario)
-    : scenario_(scenario),
-      steering_(scenario.disturb.steering, scenario.drive.timestep, StartOf(scenario).steering),
-      random_(scenario.seed) {}
+FaultInjector::FaultInjector(const Disturbances& disturbances, const Options& options)
+    : disturbances_(disturbances),
+      options_(options),
+      steering_(disturbances.steering, options.timestep, options.start_steering),
+      random_(options.seed) {}
 
-std::optional<Pose2> Disturber::Measure(const Pose2& pose) {
-  const MeasurementNoise& noise = scenario_.disturb.noise;
+std::optional<Pose2> FaultInjector::Measure(const Pose2& pose) {
+  const MeasurementNoise& noise = disturbances_.noise;
   if (noise.position == 0.0 && noise.heading == 0.0) {
     return std::nullopt;
   }
@@ -30,26 +30,25 @@ std::optional<Pose2> Disturber::Measure(const Pose2& pose) {
                pose.yaw + noise.heading * yaw};
 }
 
-double Disturber::Slow(double acceleration, double speed, double time, double station) {
-  const auto& loss = scenario_.disturb.speed_loss;
+double FaultInjector::LimitSpeed(double acceleration, double speed, double time, double station) {
+  const auto& loss = disturbances_.speed_loss;
   if (!loss) {
     return acceleration;
   }
   constexpr double kSameTime = 1e-9;  // [s]
-  slowed_ = slowed_ || (loss->station ? station >= *loss->station
-                                      : time >= loss->from.value_or(0.0) - kSameTime);
-  if (!slowed_) {
+  speed_lost_ = speed_lost_ || (loss->station ? station >= *loss->station
+                                              : time >= loss->from.value_or(0.0) - kSameTime);
+  if (!speed_lost_) {
     return acceleration;
   }
-  const SpeedControlOptions& options = scenario_.control.speed;
-  const double toward = options.gain * (loss->speed - speed);
-  return std::min(acceleration, std::max(toward, -2.0 * options.deceleration));
+  const double toward = options_.speed.gain * (loss->speed - speed);
+  return std::min(acceleration, std::max(toward, -2.0 * options_.speed.deceleration));
 }
 
-void Disturber::Kick(long step, Plant& plant) const {
-  const double timestep = scenario_.drive.timestep;
+void FaultInjector::Kick(long step, Plant& plant) const {
+  const double timestep = options_.timestep;
   double force = 0.0;
-  for (const trackbed::Kick& kick : scenario_.disturb.kicks) {
+  for (const trackbed::Kick& kick : disturbances_.kicks) {
     const long first = std::lround(kick.at / timestep);
     if (kick.displacement && step == first) {
       plant.Shift(*kick.displacement);

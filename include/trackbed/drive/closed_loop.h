@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trackbed/control/speed_controller.h"
+#include "trackbed/control/steering_controller.h"
+#include "trackbed/drive/run_log.h"
+#include "trackbed/path/reference.h"
+#include "trackbed/planning/avoidance/avoidance.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/replan/replan.h"
+#include "trackbed/scenario/disturbances.h"
+#include "trackbed/sim/plant.h"
+#include "trackbed/vehicle/params.h"
+#include "trackbed/world/world.h"
+
+/// The closed loop of any plant, any steering controller and any plan.
+namespace trackbed {
+
+/// How a caller follows a run and ends it early. Each may be empty.
+struct DriveHooks {
+  std::function<void(double fraction)> progress{};  ///< called at most 100 times, with 0 to 1
+  std::function<bool()> interrupted{};              ///< asked once per control period
+  /// Called after each update of the steering with the wall-clock time that it took [s].
+  std::function<void(double seconds)> steered{};
+};
+
+/// New plans during a run. Without either, obstacles do not change the plan.
+struct ReplanningConfig {
+  std::optional<AvoiderOptions> avoid{};  ///< the local planner that leads around obstacles
+  std::optional<ReplanOptions> replan{};  ///< periodic replanning along the route
+  SpeedLimits limits{};                   ///< of the mission; all > 0
+};
+
+/// Everything about a run but its plant, its controller and its plan. Only `vehicle` has to be set.
+/// Values: nothing is referred to, but what the hooks refer to themselves.
+struct LoopConfig {
+  VehicleParams vehicle{};  ///< that the plant moves; wheelbase, length and width > 0
+  /// What planners and controllers take the vehicle for, such as the one without its payload. None:
+  /// `vehicle`. For the controller, `disturbances.wheelbase` scales its wheelbase as well.
+  std::optional<VehicleParams> nominal_vehicle{};
+  /// Obstacles for clearance, collisions and replanning, friction for the hardest braking. The
+  /// plant was made with the same world.
+  World world{};
+
+  double timestep = 0.002;           ///< by which Plant::Step advances [s], > 0
+  double control_period = 0.02;      ///< a whole number of timesteps [s]
+  double state_period = 1.0 / 60.0;  ///< between logged configurations [s], > 0
+  double time_limit = 600.0;         ///< simulated [s], > 0
+  std::optional<double> duration{};  ///< ends the run [s], > 0; for plans without a path
+
+  /// A vehicle at rest this near Plan::goal has arrived; a fraction of its length, >= 0.
+  double goal_tolerance = 0.1;
+  /// And this near the goal's heading [rad], >= 0. None: the heading does not matter.
+  std::optional<double> goal_heading_tolerance{};
+
+  StationSource station_source = StationSource::kProjection;
+  /// The plan's steering schedule reaches the actuator, at every timestep; the controller's answers
+  /// are only logged. Needs StationSource::kOdometer.
+  bool follow_schedule = false;
+  /// That the plant was made with. With kPrescribed, the wheels reach the wanted angle on a ramp
+  /// over the control period.
+  SteeringInput steering_input = SteeringInput::kActuator;
+  SpeedControlOptions speed{};
+
+  /// Faults injected into the loop. `payload` and `recovered_within` are not used here: the payload
+  /// is the plant's, the recovery is measured afterwards.
+  Disturbances disturbances{};
+  std::uint64_t seed = 0;  ///< of the measurement noise, and of what is planned on the way
+  std::optional<ReplanningConfig> replanning{};
+
+  /// Names of the numbers of Plant::Configuration, as CarModel::configuration_columns. Empty:
+  /// configurations are not logged.
+  std::vector<std::string> configuration_columns{};
+  DriveHooks hooks{};
+};
+
+/// Runs `controller` and the speed control on `plant` along `plan`. Once per control period:
+/// observe; project onto the path; take up a new plan, or the next forward or reverse segment, if
+/// one is due; end the run if it is over; steer and set the acceleration; log; step the plant.
+///
+/// `plant` stands at the start, has not been stepped, and has the timestep, world and steering
+/// input that `config` says. Its start speed and its actuator's angle are those of the run; its
+/// odometer may begin anywhere. The log's times count from 0, and RunLog::plant is left empty.
+/// A plan without a path (length 0) is driven by its speeds alone, until the duration or the time
+/// limit. SteeringController::Accelerate goes before the plan's speeds, and
+/// SpeedControlOptions::over_time and ::braking go before both.
+///
+/// A plan that changes direction is driven segment by segment: at rest at the end of one the wheels
+/// turn to where the next one needs them, then the gear changes. A run along a path ends at rest,
+/// unless a segment or a new plan is still to come; see DriveStatus for every other end.
+///
+/// Guarantees: the same plant, controller, plan, configuration and build give the same log, bit for
+/// bit. Arguments but plant and controller are not changed. Exceptions of plant, controller and
+/// hooks pass through.
+/// Does not: check that the plan suits the vehicle (feasibility.h), nor that the plant moves as the
+/// vehicle's parameters say.
+/// Errors: PreconditionError for a plan that is not ok, or a value of the configuration out of the
+/// range that is given with it; it names the value and what is allowed. The plant is then
+/// unchanged.
+/// Cost: that of plant and controller, and 10 us and 0.5 kB of log a control period.
+RunLog SimulateClosedLoop(Plant& plant, SteeringController& controller, const Plan& plan,
+                          const LoopConfig& config);
+
+}  // namespace trackbed

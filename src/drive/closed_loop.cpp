@@ -1,0 +1,306 @@
+#include "trackbed/drive/closed_loop.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "src/drive/fault_injector.h"
+#include "src/drive/loop_preconditions.h"
+#include "src/drive/recorder.h"
+#include "src/drive/replanning_monitor.h"
+#include "src/drive/scheduled_steering.h"
+#include "src/drive/segment_sequencer.h"
+#include "src/drive/termination.h"
+
+namespace trackbed {
+namespace {
+
+/// Calls back when another hundredth is done.
+class Progress {
+ public:
+  explicit Progress(const std::function<void(double)>& callback) : callback_(callback) {}
+
+  void Report(double fraction) {
+    const int hundredths = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * 100.0);
+    if (callback_ && hundredths > last_) {
+      last_ = hundredths;
+      callback_(hundredths / 100.0);
+    }
+  }
+
+ private:
+  const std::function<void(double)>& callback_;
+  int last_ = 0;
+};
+
+/// One run; what it refers to must outlive it.
+class ClosedLoop {
+ public:
+  ClosedLoop(Plant& plant, SteeringController& controller, const Plan& plan,
+             const LoopConfig& config);
+
+  RunLog Run();
+
+ private:
+  /// The state at the beginning of a control period.
+  [[nodiscard]] VehicleState Observe(long tick) const;
+
+  /// Takes up a new plan or the next segment if one is due. Where the car is on it; none without a
+  /// path.
+  std::optional<Projection> FollowPlan(const VehicleState& state, bool at_rest);
+
+  /// How the run ended, if it is over.
+  std::optional<DriveStatus> Ending(const VehicleState& state, bool at_rest);
+
+  /// Sets the command for the coming period, and logs it in `row`. What the controller was told.
+  ControlInput Control(const VehicleState& state, LogRow& row);
+  double Steer(const ControlInput& input);
+  /// The wanted acceleration along x [m/s^2] over `input.period`, in the control period of `row`.
+  double Accelerate(const ControlInput& input, const LogRow& row);
+  /// What is set over time goes first, then what the controller wants, then the plan's profile.
+  double WantedAcceleration(const ControlInput& input, const Vec2& position);
+
+  /// Steps the plant through the control period of `row`.
+  void StepPlant(long tick, const ControlInput& input, const LogRow& row);
+  [[nodiscard]] Command CommandAt(int step, const ControlInput& input, const LogRow& row);
+  /// What a schedule says is a function of the distance, and is followed at every step.
+  [[nodiscard]] Command ScheduledCommand(int step, const ControlInput& input, const LogRow& row);
+
+  void ReportProgress(const VehicleState& state);
+
+  Plant& plant_;
+  SteeringController& controller_;
+  const LoopConfig& config_;
+  VehicleState start_;
+  VehicleParams controlled_;  // the vehicle as the controller takes it to be
+  int steps_;                 // of the plant in a control period
+  SegmentSequencer sequencer_;
+  std::optional<ReplanningMonitor> monitor_;
+  FaultInjector faults_;
+  Recorder recorder_;
+  Termination termination_;
+  Progress progress_;
+  Command command_;         // the last one
+  double steering_before_;  // the angle [rad] at which a prescribed steering begins its ramp
+};
+
+ClosedLoop::ClosedLoop(Plant& plant, SteeringController& controller, const Plan& plan,
+                       const LoopConfig& config)
+    : plant_(plant),
+      controller_(controller),
+      config_(config),
+      start_(plant.Observe()),
+      controlled_(
+          NominalVehicle(config.disturbances, config.nominal_vehicle.value_or(config.vehicle))),
+      steps_(static_cast<int>(std::lround(config.control_period / config.timestep))),
+      sequencer_(plan, start_,
+                 {.station_source = config.station_source,
+                  .vehicle = config.vehicle,
+                  .control_period = config.control_period,
+                  .goal_tolerance = config.goal_tolerance * config.vehicle.length}),
+      faults_(config.disturbances, {.timestep = config.timestep,
+                                    .start_steering = start_.steering_actuator,
+                                    .speed = config.speed,
+                                    .seed = config.seed}),
+      recorder_(config, controller.Columns()),
+      termination_(config, plan),
+      progress_(config.hooks.progress),
+      steering_before_(start_.steering_actuator / config.disturbances.steering.factor) {
+  if (config.replanning) {
+    monitor_.emplace(
+        ReplanningMonitor::Options{.replanning = *config.replanning,
+                                   .vehicle = config.nominal_vehicle.value_or(config.vehicle),
+                                   .world = config.world,
+                                   .seed = config.seed},
+        plan);
+  }
+  command_.gear = sequencer_.has_path() ? GearOf(sequencer_.plan()) : 1;
+}
+
+RunLog ClosedLoop::Run() {
+  recorder_.Sample(plant_, 0.0);
+  for (long tick = 0;; ++tick) {
+    const VehicleState state = Observe(tick);
+    LogRow row = recorder_.BeginRow(state, command_, controller_.Values());
+    row.measured = faults_.Measure(state.pose);
+    const bool at_rest =
+        tick > 0 && !sequencer_.stationary_steer().InProgress() && IsAtRest(state, command_);
+    row.tracking = FollowPlan(state, at_rest);
+    if (const std::optional<DriveStatus> status = Ending(state, at_rest)) {
+      if (*status != DriveStatus::kDiverged) {
+        recorder_.AddRow(row);  // with the command that led here
+      }
+      progress_.Report(1.0);
+      return recorder_.Finish(*status);
+    }
+    const ControlInput input = Control(state, row);
+    recorder_.AddRow(row);
+    StepPlant(tick, input, row);
+    ReportProgress(state);
+  }
+}
+
+VehicleState ClosedLoop::Observe(long tick) const {
+  VehicleState state = plant_.Observe();
+  // To the nanosecond: 11.7, not 11.700000000000001.
+  state.time = std::round(static_cast<double>(tick) * config_.control_period * 1e9) / 1e9;
+  return state;
+}
+
+std::optional<Projection> ClosedLoop::FollowPlan(const VehicleState& state, bool at_rest) {
+  std::optional<Projection> tracking = sequencer_.Project(state);
+  if (!tracking) {
+    return std::nullopt;
+  }
+  if (monitor_) {
+    const Projection at{sequencer_.station(), tracking->cross_track, tracking->heading_error};
+    if (std::optional<Plan> next = monitor_->Update(state, sequencer_.plan(), at)) {
+      sequencer_.Replace(std::move(*next), state);
+      recorder_.AddPlanChange({state.time, sequencer_.offset(), sequencer_.plan()});
+      tracking = sequencer_.Project(state);
+    }
+  }
+  if (at_rest && sequencer_.Advance(state)) {
+    tracking = sequencer_.Project(state);
+  }
+  sequencer_.stationary_steer().Update(state.steering_actuator);
+  if (!sequencer_.stationary_steer().InProgress()) {
+    command_.gear = GearOf(sequencer_.plan());
+  }
+  return tracking;
+}
+
+std::optional<DriveStatus> ClosedLoop::Ending(const VehicleState& state, bool at_rest) {
+  const bool steers = sequencer_.stationary_steer().InProgress();
+  const bool waits = monitor_ && monitor_->IsWaiting();
+  return termination_.Update(
+      {.state = state,
+       .segment = sequencer_.plan(),
+       .is_last_segment = sequencer_.is_last(),
+       .diverged = plant_.diverged(),
+       .interrupted = config_.hooks.interrupted && config_.hooks.interrupted(),
+       .at_rest = at_rest,
+       .will_go_on = steers || waits,
+       .contact_time = recorder_.contact_time()});
+}
+
+ControlInput ClosedLoop::Control(const VehicleState& state, LogRow& row) {
+  const Plan& plan = sequencer_.plan();
+  ControlInput input{.vehicle = controlled_,
+                     .reference = plan.reference,
+                     .schedule = plan.schedule,
+                     .state = state,
+                     .station = sequencer_.StationFor(state),
+                     .period = config_.control_period,
+                     .plan_time = state.time - sequencer_.start_time(),
+                     .speed_gain = config_.speed.gain};
+  if (row.measured) {
+    input.state.pose = *row.measured;
+    if (sequencer_.has_path() && config_.station_source == StationSource::kProjection) {
+      input.station = sequencer_.StationNear(*row.measured);
+    }
+  }
+  command_.steering = Steer(input);
+  command_.acceleration = Accelerate(input, row);
+  command_.coast = Coasts(config_.speed, state.time);
+  row.command = command_;
+  row.controller = controller_.Values();
+  return input;
+}
+
+double ClosedLoop::Steer(const ControlInput& input) {
+  if (!config_.hooks.steered) {
+    return controller_.Steer(input);
+  }
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const double steering = controller_.Steer(input);
+  config_.hooks.steered(std::chrono::duration<double>(Clock::now() - start).count());
+  return steering;
+}
+
+double ClosedLoop::Accelerate(const ControlInput& input, const LogRow& row) {
+  const double station = row.tracking ? row.tracking->s : input.state.distance;
+  const double left =
+      faults_.LimitSpeed(WantedAcceleration(input, row.state.pose.position()),
+                         command_.gear * input.state.speed, input.state.time, station);
+  const bool steers = sequencer_.stationary_steer().InProgress();
+  return command_.gear * (steers ? -config_.speed.deceleration : left);
+}
+
+double ClosedLoop::WantedAcceleration(const ControlInput& input, const Vec2& position) {
+  const double speed = command_.gear * input.state.speed;  // negative when the car rolls back
+  std::optional<double> own =
+      TimedSpeedControl(config_.speed, input.state.time, speed, input.period);
+  if (!own) {
+    own = controller_.Accelerate(input);
+  }
+  if (own) {
+    return *own;
+  }
+  const double hardest = MaxDeceleration(controlled_, RoadFactor(config_.world, position));
+  return SpeedControl(config_.speed, sequencer_.speed(), input.station, speed, input.period,
+                      hardest);
+}
+
+void ClosedLoop::StepPlant(long tick, const ControlInput& input, const LogRow& row) {
+  for (int step = 0; step < steps_ && !plant_.diverged(); ++step) {
+    Command now = CommandAt(step, input, row);
+    now.steering = faults_.Steer(now.steering);
+    faults_.Kick(tick * steps_ + step, plant_);
+    plant_.Step(now);
+    if (!plant_.diverged()) {
+      recorder_.Sample(plant_, row.state.time + (step + 1) * config_.timestep);
+    }
+  }
+  steering_before_ = command_.steering;
+}
+
+Command ClosedLoop::CommandAt(int step, const ControlInput& input, const LogRow& row) {
+  if (config_.follow_schedule) {
+    return ScheduledCommand(step, input, row);
+  }
+  Command now = command_;
+  if (config_.steering_input == SteeringInput::kPrescribed) {
+    // The wanted angle is that at the end of the period.
+    now.steering =
+        std::lerp(steering_before_, command_.steering, static_cast<double>(step + 1) / steps_);
+  }
+  return now;
+}
+
+Command ClosedLoop::ScheduledCommand(int step, const ControlInput& input, const LogRow& row) {
+  ControlInput at = input;
+  at.period = config_.timestep;
+  if (step > 0) {
+    at.state = plant_.Observe();
+    at.state.time = row.state.time + step * config_.timestep;
+    at.station = sequencer_.StationFor(at.state);
+  }
+  Command now = command_;
+  now.acceleration = Accelerate(at, row);
+  const bool prescribed = config_.steering_input == SteeringInput::kPrescribed;
+  now.steering =
+      ScheduledSteering(sequencer_.plan().schedule,
+                        {at.station, std::abs(at.state.speed), command_.gear * now.acceleration},
+                        config_.timestep, prescribed ? 0.0 : controlled_.steering_rate);
+  return now;
+}
+
+void ClosedLoop::ReportProgress(const VehicleState& state) {
+  const double offset = sequencer_.offset();
+  progress_.Report(sequencer_.has_path() ? (offset + sequencer_.StationFor(state)) /
+                                               (offset + sequencer_.plan().reference.path.length())
+                                         : state.time / termination_.end_time());
+}
+
+}  // namespace
+
+RunLog SimulateClosedLoop(Plant& plant, SteeringController& controller, const Plan& plan,
+                          const LoopConfig& config) {
+  CheckLoopArguments(plant, plan, config);
+  return ClosedLoop(plant, controller, plan, config).Run();
+}
+
+}  // namespace trackbed

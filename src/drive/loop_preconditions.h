@@ -1,0 +1,10 @@
+#pragma once
+
+#include "trackbed/drive/closed_loop.h"
+
+namespace trackbed {
+
+/// PreconditionError for the first argument of SimulateClosedLoop that it does not take.
+void CheckLoopArguments(const Plant& plant, const Plan& plan, const LoopConfig& config);
+
+}  // namespace trackbed

@@ -1,0 +1,43 @@
+#include "src/drive/recorder.h"
+
+#include <utility>
+
+namespace trackbed {
+
+Recorder::Recorder(const LoopConfig& config, std::vector<std::string> controller_columns)
+    : log_{.plant = {},
+           .status = DriveStatus::kArrived,
+           .contact_time = {},
+           .controller_columns = std::move(controller_columns),
+           .rows = {},
+           .changes = {},
+           .configurations = Table({"t_s"})},
+      configurations_(config.configuration_columns, config.world, config.state_period),
+      collisions_(config.world, config.vehicle) {}
+
+void Recorder::Sample(const Plant& plant, double time) {
+  configurations_.Record(plant, time);
+  collisions_.Update(plant, time);
+}
+
+LogRow Recorder::BeginRow(const VehicleState& state, const Command& command,
+                          std::vector<double> controller_values) {
+  const CollisionWatch::Period seen = collisions_.Take();
+  LogRow row{.state = state,
+             .command = command,
+             .tracking = {},
+             .clearance = seen.clearance,
+             .measured = {},
+             .controller = std::move(controller_values)};
+  row.state.obstacle_force = seen.force;
+  return row;
+}
+
+RunLog Recorder::Finish(DriveStatus status) {
+  log_.status = status;
+  log_.contact_time = contact_time();
+  log_.configurations = configurations_.Take();
+  return std::move(log_);
+}
+
+}  // namespace trackbed

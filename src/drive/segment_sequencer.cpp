@@ -1,0 +1,111 @@
+#include "src/drive/segment_sequencer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "src/drive/path_tracking.h"
+
+namespace trackbed {
+
+std::deque<Plan> SegmentsOf(const Plan& plan) {
+  const std::vector<Stations> stretches = LegsOf(plan.reference.path, plan.stops);
+  if (stretches.size() == 1) {
+    return {plan};
+  }
+  std::deque<Plan> segments;
+  for (const Stations& stretch : stretches) {
+    Plan& own = segments.emplace_back(plan);
+    own.stops.clear();
+    own.reference = Excerpt(plan.reference, stretch);
+    own.schedule_speed = Excerpt(plan.schedule_speed, stretch);
+    own.schedule = plan.schedule.From(stretch.from);
+  }
+  return segments;
+}
+
+int GearOf(const Plan& plan) {
+  return plan.reference.path.At(0.0).direction;
+}
+
+void StationarySteer::Begin() {
+  in_progress_ = true;
+  before_ = std::numeric_limits<double>::infinity();
+}
+
+void StationarySteer::Update(double steering) {
+  constexpr double kResting = 1e-4;  // [rad] in a control period
+  in_progress_ = in_progress_ && !(std::abs(steering - before_) < kResting);
+  before_ = steering;
+}
+
+SegmentSequencer::SegmentSequencer(const Plan& plan, const VehicleState& start,
+                                   const Options& options)
+    : options_(options),
+      has_path_(plan.reference.path.length() > 0.0),
+      remaining_(SegmentsOf(plan)),
+      plan_(std::move(remaining_.front())),
+      start_distance_(start.distance) {
+  remaining_.pop_front();
+  if (has_path_ && start.speed == 0.0 && plan_.reference.path.At(0.0).curvature != 0.0) {
+    stationary_steer_.Begin();
+  }
+}
+
+const SpeedProfile& SegmentSequencer::speed() const {
+  return options_.station_source == StationSource::kOdometer ? plan_.schedule_speed
+                                                             : plan_.reference.speed;
+}
+
+double SegmentSequencer::StationFor(const VehicleState& state) const {
+  return options_.station_source == StationSource::kOdometer ? state.distance - start_distance_
+                                                             : station_;
+}
+
+std::optional<Projection> SegmentSequencer::Project(const VehicleState& state) {
+  if (!has_path_) {
+    return std::nullopt;
+  }
+  const Path& path = plan_.reference.path;
+  const double moved = std::abs(state.speed) * options_.control_period;
+  const Projection extended =
+      path.Project(state.pose, StationsAround(options_.vehicle, station_, moved));
+  station_ = extended.s;
+  Projection at =
+      DistanceFromPath(path, extended, state.pose, is_last() ? options_.goal_tolerance : 0.0);
+  at.s += offset_;
+  return at;
+}
+
+double SegmentSequencer::StationNear(const Pose2& pose) const {
+  return plan_.reference.path.Project(pose, StationsAround(options_.vehicle, station_, 0.0)).s;
+}
+
+void SegmentSequencer::Replace(Plan plan, const VehicleState& state) {
+  remaining_.clear();
+  Begin(std::move(plan), offset_ + station_, state);
+}
+
+bool SegmentSequencer::Advance(const VehicleState& state) {
+  const double length = plan_.reference.path.length();
+  const double reach = std::min(options_.goal_tolerance, 0.5 * length);
+  if (is_last() || StationFor(state) < length - reach) {
+    return false;
+  }
+  Plan next = std::move(remaining_.front());
+  remaining_.pop_front();
+  Begin(std::move(next), offset_ + length, state);
+  stationary_steer_.Begin();
+  return true;
+}
+
+void SegmentSequencer::Begin(Plan plan, double offset, const VehicleState& state) {
+  plan_ = std::move(plan);
+  offset_ = offset;
+  start_distance_ = state.distance;
+  start_time_ = state.time;
+  station_ = 0.0;
+}
+
+}  // namespace trackbed

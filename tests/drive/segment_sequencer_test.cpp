@@ -1,0 +1,176 @@
+#include "src/drive/segment_sequencer.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/drive/unicycle.h"
+#include "tests/tolerance.h"
+
+namespace trackbed {
+namespace {
+
+/// 10 m forwards, 6 m back, 3 m forwards, straight along x.
+Plan BackAndForth() {
+  return PlanAlong({{.length = 10.0}, {.length = 6.0, .direction = -1}, {.length = 3.0}}, 0.0);
+}
+
+SegmentSequencer::Options Options(StationSource source = StationSource::kProjection) {
+  return {.station_source = source,
+          .vehicle = UnicycleParams(),
+          .control_period = 0.02,
+          .goal_tolerance = 0.4};
+}
+
+VehicleState StateAt(double x, double distance, double time = 0.0, double steering = 0.0) {
+  VehicleState state;
+  state.pose = {x, 0.0, 0.0};
+  state.distance = distance;
+  state.time = time;
+  state.steering_actuator = steering;
+  return state;
+}
+
+TEST(Segments, AreCutAtCuspsWithTheirSpeedsAndSchedule) {
+  Plan plan = BackAndForth();
+  plan.schedule = SteeringSchedule::Through({{0.0, 0.0}, {16.0, 0.16}, {19.0, 0.16}});
+  const std::deque<Plan> segments = SegmentsOf(plan);
+  ASSERT_EQ(segments.size(), 3U);
+  const double lengths[] = {10.0, 6.0, 3.0};
+  const double starts[] = {0.0, 10.0, 16.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Plan& own = segments[i];
+    EXPECT_NEAR(own.reference.path.length(), lengths[i], Tolerance(1e-12));
+    EXPECT_EQ(GearOf(own), i == 1 ? -1 : 1);
+    EXPECT_EQ(own.reference.speed.SpeedAt(lengths[i]), 0.0);
+    EXPECT_NEAR(own.reference.speed.SpeedAt(1.0), plan.reference.speed.SpeedAt(starts[i] + 1.0),
+                Tolerance(1e-12));
+    // 0.01 rad a metre.
+    EXPECT_NEAR(own.schedule.At(1.0), plan.schedule.At(starts[i] + 1.0), Tolerance(1e-12));
+    EXPECT_EQ(own.goal.x, plan.goal.x);
+  }
+}
+
+TEST(Segments, OfAPlanWithoutCuspsAreThePlan) {
+  const std::deque<Plan> segments = SegmentsOf(PlanAlong({{.length = 10.0}}, 0.0));
+  ASSERT_EQ(segments.size(), 1U);
+  EXPECT_EQ(segments[0].reference.path.length(), 10.0);
+}
+
+TEST(Segments, AreCutAtStopsToo) {
+  Plan plan = PlanAlong({{.length = 10.0}}, 0.0);
+  plan.stops = {4.0};
+  const std::deque<Plan> segments = SegmentsOf(plan);
+  ASSERT_EQ(segments.size(), 2U);
+  EXPECT_NEAR(segments[0].reference.path.length(), 4.0, Tolerance(1e-12));
+  EXPECT_TRUE(segments[1].stops.empty());
+}
+
+TEST(StationarySteer, IsOverWhenTheWheelsRest) {
+  StationarySteer steer;
+  steer.Update(0.0);
+  EXPECT_FALSE(steer.InProgress());  // never begun
+  steer.Begin();
+  EXPECT_TRUE(steer.InProgress());
+  steer.Update(0.0);  // it takes two to tell that nothing moves
+  EXPECT_TRUE(steer.InProgress());
+  steer.Update(0.003);
+  EXPECT_TRUE(steer.InProgress());
+  steer.Update(0.00309);  // less than 1e-4 rad
+  EXPECT_FALSE(steer.InProgress());
+  steer.Update(0.1);
+  EXPECT_FALSE(steer.InProgress());
+}
+
+TEST(SegmentSequencer, CountsStationsOnOverSegments) {
+  SegmentSequencer sequencer(BackAndForth(), StateAt(0.0, 0.0), Options());
+  EXPECT_FALSE(sequencer.stationary_steer().InProgress());  // it starts straight on
+  // The wheelbase leaves 0.75 x 2 m to look within: the car moves on metre by metre.
+  for (double x = 1.0; x < 9.5; x += 1.0) {
+    EXPECT_NEAR(sequencer.Project(StateAt(x, x))->s, x, Tolerance(1e-12));
+    EXPECT_FALSE(sequencer.Advance(StateAt(x, x))) << x;
+  }
+  sequencer.Project(StateAt(9.59, 9.59));
+  EXPECT_FALSE(sequencer.Advance(StateAt(9.59, 9.59)));  // 0.41 m before the end
+  sequencer.Project(StateAt(9.61, 9.61));
+  EXPECT_TRUE(sequencer.Advance(StateAt(9.61, 9.61, 5.0)));
+  EXPECT_TRUE(sequencer.stationary_steer().InProgress());
+  EXPECT_EQ(GearOf(sequencer.plan()), -1);
+  EXPECT_EQ(sequencer.start_time(), 5.0);
+  EXPECT_NEAR(sequencer.offset(), 10.0, Tolerance(1e-12));
+  EXPECT_FALSE(sequencer.is_last());
+  // On the way back x = 9 is station 1 of the segment, 11 of the log.
+  EXPECT_NEAR(sequencer.Project(StateAt(9.0, 10.2))->s, 11.0, Tolerance(1e-12));
+  EXPECT_NEAR(sequencer.station(), 1.0, Tolerance(1e-12));
+}
+
+TEST(SegmentSequencer, EndsAfterItsLastSegment) {
+  SegmentSequencer sequencer(PlanAlong({{.length = 10.0}}, 0.0), StateAt(0.0, 0.0), Options());
+  for (double x = 0.0; x <= 10.0; x += 1.0) {
+    sequencer.Project(StateAt(x, x));
+  }
+  EXPECT_TRUE(sequencer.is_last());
+  EXPECT_FALSE(sequencer.Advance(StateAt(10.0, 10.0)));
+}
+
+TEST(SegmentSequencer, ReachesHalfOfAShortSegmentAtLeast) {
+  // 0.4 m of tolerance would skip a segment of 0.3 m: half of it has to be driven.
+  SegmentSequencer sequencer(PlanAlong({{.length = 0.3}, {.length = 5.0, .direction = -1}}, 0.0),
+                             StateAt(0.0, 0.0), Options());
+  sequencer.Project(StateAt(0.14, 0.14));
+  EXPECT_FALSE(sequencer.Advance(StateAt(0.14, 0.14)));
+  sequencer.Project(StateAt(0.16, 0.16));
+  EXPECT_TRUE(sequencer.Advance(StateAt(0.16, 0.16)));
+}
+
+TEST(SegmentSequencer, CountsTheOdometerFromWhereverItBegins) {
+  SegmentSequencer sequencer(BackAndForth(), StateAt(0.0, 100.0),
+                             Options(StationSource::kOdometer));
+  EXPECT_EQ(sequencer.StationFor(StateAt(3.0, 104.0)), 4.0);  // not 3, where the car is
+  EXPECT_TRUE(sequencer.Advance(StateAt(9.0, 109.7)));
+  EXPECT_NEAR(sequencer.StationFor(StateAt(9.0, 110.7)), 1.0, Tolerance(1e-12));
+}
+
+TEST(SegmentSequencer, FollowsTheSpeedsOfItsStationSource) {
+  Plan plan = PlanAlong({{.length = 10.0}}, 0.0);
+  plan.schedule_speed = SpeedProfile({{0.0, 1.25}});
+  const SegmentSequencer closed(plan, StateAt(0.0, 0.0), Options());
+  const SegmentSequencer open(plan, StateAt(0.0, 0.0), Options(StationSource::kOdometer));
+  EXPECT_EQ(open.speed().SpeedAt(5.0), 1.25);
+  EXPECT_NE(closed.speed().SpeedAt(5.0), 1.25);
+}
+
+TEST(SegmentSequencer, ReplacesWhatIsLeft) {
+  SegmentSequencer sequencer(BackAndForth(), StateAt(0.0, 0.0), Options());
+  sequencer.Project(StateAt(1.25, 1.25));
+  Plan next = PlanAlong({{.length = 7.0}}, 0.0);
+  next.reference.path = Path({1.25, 0.0, 0.0}, {{.length = 7.0}});
+  sequencer.Replace(next, StateAt(1.25, 1.25, 2.0));
+  EXPECT_TRUE(sequencer.is_last());
+  EXPECT_EQ(sequencer.start_time(), 2.0);
+  EXPECT_NEAR(sequencer.offset(), 1.25, Tolerance(1e-12));
+  EXPECT_NEAR(sequencer.Project(StateAt(2.0, 2.0))->s, 2.0, Tolerance(1e-12));
+  EXPECT_NEAR(sequencer.station(), 0.75, Tolerance(1e-12));
+}
+
+TEST(SegmentSequencer, SteersBeforeAStartOnABendFromRestAlone) {
+  const std::vector<Segment> bend{{.length = 10.0, .curvature = 0.1}};
+  VehicleState rolling = StateAt(0.0, 0.0);
+  rolling.speed = 1.0;
+  const auto steers = [&](const std::vector<Segment>& segments, const VehicleState& start) {
+    return SegmentSequencer(PlanAlong(segments, start.speed), start, Options())
+        .stationary_steer()
+        .InProgress();
+  };
+  EXPECT_TRUE(steers(bend, StateAt(0.0, 0.0)));
+  EXPECT_FALSE(steers(bend, rolling));
+  EXPECT_FALSE(steers({{.length = 10.0}}, StateAt(0.0, 0.0)));
+}
+
+TEST(SegmentSequencer, HasNoProjectionWithoutAPath) {
+  SegmentSequencer sequencer(PlanAtSpeed(3.0), StateAt(0.0, 0.0), Options());
+  EXPECT_FALSE(sequencer.has_path());
+  EXPECT_FALSE(sequencer.Project(StateAt(2.0, 2.0)));
+  EXPECT_FALSE(sequencer.stationary_steer().InProgress());
+}
+
+}  // namespace
+}  // namespace trackbed

@@ -1,0 +1,188 @@
+#include "src/drive/termination.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/drive/unicycle.h"
+
+namespace trackbed {
+namespace {
+
+/// A vehicle 4 m long: 0.4 m count as arrived at the goal at (10, 0).
+LoopConfig Config() {
+  return {.vehicle = UnicycleParams()};
+}
+
+class TerminationTest : public ::testing::Test {
+ protected:
+  TerminationTest() {
+    state_.pose = {10.0, 0.0, 0.0};
+    state_.time = 5.0;
+  }
+
+  std::optional<DriveStatus> Ask(Termination& termination) {
+    return termination.Update({.state = state_,
+                               .segment = plan_,
+                               .is_last_segment = is_last_segment_,
+                               .diverged = diverged_,
+                               .interrupted = interrupted_,
+                               .at_rest = at_rest_,
+                               .will_go_on = will_go_on_,
+                               .contact_time = contact_time_});
+  }
+
+  std::optional<DriveStatus> Ask() {
+    Termination termination(config_, plan_);
+    return Ask(termination);
+  }
+
+  LoopConfig config_ = Config();
+  Plan plan_ = PlanAlong({{.length = 10.0}}, 0.0);
+  VehicleState state_;
+  bool is_last_segment_ = true;
+  bool diverged_ = false;
+  bool interrupted_ = false;
+  bool at_rest_ = true;
+  bool will_go_on_ = false;
+  std::optional<double> contact_time_;
+};
+
+TEST(IsAtRest, IsSlowAndNotAskedToMove) {
+  VehicleState state;
+  Command command;
+  EXPECT_TRUE(IsAtRest(state, command));
+  state.speed = 0.0101;
+  EXPECT_FALSE(IsAtRest(state, command));
+  state.speed = -0.0101;
+  EXPECT_FALSE(IsAtRest(state, command));
+  state.speed = -0.0099;
+  for (const int gear : {1, -1}) {
+    command.gear = gear;
+    command.acceleration = 0.1 * gear;  // along the gear: it is about to leave
+    EXPECT_FALSE(IsAtRest(state, command)) << gear;
+    command.acceleration = -0.1 * gear;
+    EXPECT_TRUE(IsAtRest(state, command)) << gear;
+  }
+}
+
+TEST_F(TerminationTest, ArrivesAtRestNearTheGoal) {
+  EXPECT_EQ(Ask(), DriveStatus::kArrived);
+  state_.pose.x = 9.61;
+  EXPECT_EQ(Ask(), DriveStatus::kArrived);
+  state_.pose.x = 9.59;
+  EXPECT_EQ(Ask(), DriveStatus::kStopped);
+  state_.pose = {10.0, -0.41, 0.0};
+  EXPECT_EQ(Ask(), DriveStatus::kStopped);
+}
+
+TEST_F(TerminationTest, GoesOnWhileTheCarMovesOrIsToMove) {
+  at_rest_ = false;
+  EXPECT_EQ(Ask(), std::nullopt);
+  at_rest_ = true;
+  will_go_on_ = true;
+  EXPECT_EQ(Ask(), std::nullopt);
+}
+
+TEST_F(TerminationTest, AsksForTheHeadingWhereItMatters) {
+  state_.pose.yaw = 1.0;
+  EXPECT_EQ(Ask(), DriveStatus::kArrived);
+  config_.goal_heading_tolerance = 0.2;
+  EXPECT_EQ(Ask(), DriveStatus::kStopped);
+  for (const double turns : {0.0, 1.0, -2.0}) {
+    for (const double side : {1.0, -1.0}) {
+      state_.pose.yaw = 2.0 * std::numbers::pi * turns + side * 0.19;
+      EXPECT_EQ(Ask(), DriveStatus::kArrived) << state_.pose.yaw;
+      state_.pose.yaw = 2.0 * std::numbers::pi * turns + side * 0.21;
+      EXPECT_EQ(Ask(), DriveStatus::kStopped) << state_.pose.yaw;
+    }
+  }
+}
+
+TEST_F(TerminationTest, DoesNotArriveBeforeTheLastSegment) {
+  is_last_segment_ = false;
+  EXPECT_EQ(Ask(), DriveStatus::kStopped);
+}
+
+TEST_F(TerminationTest, TellsBlockedAndPartialPlans) {
+  plan_.partial = "ends 3 m from waypoint 1";
+  EXPECT_EQ(Ask(), DriveStatus::kPartial);
+  state_.pose.x = 5.0;  // at rest before the end of the partial path
+  EXPECT_EQ(Ask(), DriveStatus::kStopped);
+  plan_.blocked = "stops before the obstacle";
+  EXPECT_EQ(Ask(), DriveStatus::kBlocked);
+}
+
+TEST_F(TerminationTest, EndsAtTheTimeLimitToHalfATimestep) {
+  at_rest_ = false;
+  config_.time_limit = 8.0;
+  state_.time = 7.998;
+  EXPECT_EQ(Ask(), std::nullopt);
+  state_.time = 7.9991;
+  EXPECT_EQ(Ask(), DriveStatus::kTimeLimit);
+  config_.duration = 6.0;  // along a path, its end is no arrival
+  state_.time = 6.0;
+  EXPECT_EQ(Ask(), DriveStatus::kTimeLimit);
+}
+
+TEST_F(TerminationTest, ArrivesAfterTheDurationWithoutAPath) {
+  plan_ = PlanAtSpeed(3.0);
+  config_.duration = 6.0;
+  EXPECT_EQ(Ask(), std::nullopt);  // at rest, and staying there, for all that is known
+  state_.time = 6.0;
+  EXPECT_EQ(Ask(), DriveStatus::kArrived);
+  config_.time_limit = 5.5;
+  EXPECT_EQ(Ask(), DriveStatus::kStopped);
+  at_rest_ = false;
+  EXPECT_EQ(Ask(), DriveStatus::kTimeLimit);
+}
+
+TEST_F(TerminationTest, FollowsACollisionForASecond) {
+  at_rest_ = false;
+  Termination termination(config_, plan_);
+  EXPECT_EQ(Ask(termination), std::nullopt);
+  EXPECT_EQ(termination.end_time(), 600.0);
+  contact_time_ = 4.5;
+  EXPECT_EQ(Ask(termination), std::nullopt);
+  EXPECT_EQ(termination.end_time(), 5.5);
+  state_.time = 5.5;
+  EXPECT_EQ(Ask(termination), DriveStatus::kCollided);
+}
+
+TEST_F(TerminationTest, IsACollisionEvenAtRestAtTheGoal) {
+  contact_time_ = 4.5;
+  EXPECT_EQ(Ask(), DriveStatus::kCollided);
+}
+
+TEST_F(TerminationTest, EndsRolledOverBeyondSixtyDegrees) {
+  at_rest_ = false;
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  for (const double side : {1.0, -1.0}) {
+    state_.roll = side * 59.0 * kDegree;
+    EXPECT_EQ(Ask(), std::nullopt);
+    state_.roll = side * 61.0 * kDegree;
+    EXPECT_EQ(Ask(), DriveStatus::kRolledOver);
+    state_.roll = 0.0;
+    state_.pitch = side * 61.0 * kDegree;
+    EXPECT_EQ(Ask(), DriveStatus::kRolledOver);
+    state_.pitch = 0.0;
+  }
+  state_.roll = state_.pitch = 46.0 * kDegree;  // cos^2(46 deg) = 0.483
+  EXPECT_EQ(Ask(), DriveStatus::kRolledOver);
+}
+
+TEST_F(TerminationTest, TellsTheWorstFirst) {
+  plan_.blocked = "stops before the obstacle";
+  EXPECT_EQ(Ask(), DriveStatus::kBlocked);
+  contact_time_ = 4.5;
+  EXPECT_EQ(Ask(), DriveStatus::kCollided);
+  interrupted_ = true;
+  EXPECT_EQ(Ask(), DriveStatus::kInterrupted);
+  state_.roll = 3.0;
+  EXPECT_EQ(Ask(), DriveStatus::kRolledOver);
+  diverged_ = true;
+  EXPECT_EQ(Ask(), DriveStatus::kDiverged);
+}
+
+}  // namespace
+}  // namespace trackbed
