@@ -3,15 +3,6 @@ include_guard()
 include(LibraryDependencies)
 
 find_package(CLI11 2 REQUIRED)
-find_package(PNG REQUIRED)
-find_package(PkgConfig REQUIRED)
-
-pkg_check_modules(osmesa REQUIRED IMPORTED_TARGET osmesa)
-add_library(osmesa::osmesa ALIAS PkgConfig::osmesa)
-if(TRACKBED_VIDEO)
-  pkg_check_modules(ffmpeg REQUIRED IMPORTED_TARGET libavformat libavcodec libswscale libavutil)
-  add_library(ffmpeg::ffmpeg ALIAS PkgConfig::ffmpeg)
-endif()
 
 # A peer: benchmarks need it, tests compare with it where it is.
 if(TRACKBED_BENCH)

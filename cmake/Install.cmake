@@ -1,6 +1,6 @@
-# `cmake --install` puts in place: the program; the package `trackbed` for tests of one's own (every
-# room down to `testing`, as trackbed::ROOM); and the models and scenarios. Everything is found from
-# where the package or the program lies, so that all of it can be moved together.
+# `cmake --install` puts in place: the program; the package `trackbed` (every module as
+# trackbed::NAME); and the models and scenarios. Everything is
+# found from where the package or the program lies, so that all of it can be moved together.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -12,9 +12,6 @@ get_property(rooms GLOBAL PROPERTY TRACKBED_ROOMS)
 foreach(room IN LISTS rooms)
   list(APPEND installed trackbed_${room})
   install(DIRECTORY include/trackbed/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trackbed)
-  if(room STREQUAL "testing")
-    break()
-  endif()
 endforeach()
 set_target_properties(trackbed_version PROPERTIES EXPORT_NAME version)
 install(TARGETS ${installed} trackbed EXPORT trackbedTargets)
