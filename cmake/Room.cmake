@@ -2,9 +2,10 @@
 #
 # One static library per room: public headers in include/trackbed/NAME, sources in src/NAME (or DIR).
 # ROOMS must be declared already, so the order of the calls is the order of the house.
-# Each public header is compiled alone as well (trackbed_NAME_headers).
+# The target header_checks, which is no part of `all`, compiles each public header alone.
 include(GNUInstallDirs)
 set_property(GLOBAL PROPERTY TRACKBED_ROOMS "")
+add_custom_target(header_checks)
 
 function(trackbed_room name)
   cmake_parse_arguments(ARG "" "SOURCE_DIR" "ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
@@ -41,14 +42,18 @@ function(trackbed_room name)
 
   file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/include
        ${PROJECT_SOURCE_DIR}/include/trackbed/${name}/*.h)
-  set(lonely "")
+  set(header_checks "")
   foreach(header IN LISTS headers)
     set(file ${PROJECT_BINARY_DIR}/headers/${header}.cpp)
     file(CONFIGURE OUTPUT ${file} CONTENT "#include \"${header}\"\n")
-    list(APPEND lonely ${file})
+    list(APPEND header_checks ${file})
   endforeach()
-  if(lonely)
-    add_library(trackbed_${name}_headers OBJECT ${lonely})
-    target_link_libraries(trackbed_${name}_headers PRIVATE trackbed_${name} trackbed_compiler)
+  if(header_checks)
+    set(checks trackbed_${name}_header_checks)
+    add_library(${checks} OBJECT EXCLUDE_FROM_ALL ${header_checks})
+    target_link_libraries(${checks} PRIVATE trackbed_${name} trackbed_compiler)
+    # Whether they compile is all that is asked.
+    target_compile_options(${checks} PRIVATE -O0)
+    add_dependencies(header_checks ${checks})
   endif()
 endfunction()
