@@ -1,14 +1,16 @@
-# trackbed_room(NAME [SOURCE_DIR DIR] [ROOMS room...] [LIBRARIES lib...] [PRIVATE_LIBRARIES lib...])
+# trackbed_room(NAME [SOURCE_DIR DIR] [KIND NUMERICS|JSON|LIGHT] [ROOMS room...] [LIBRARIES lib...]
+#               [PRIVATE_LIBRARIES lib...])
 #
 # One static library per room: public headers in include/trackbed/NAME, sources in src/NAME (or DIR).
 # ROOMS must be declared already, so the order of the calls is the order of the house.
+# KIND is explained in PrecompiledHeaders.cmake; NUMERICS unless it is given.
 # The target header_checks, which is no part of `all`, compiles each public header alone.
 include(GNUInstallDirs)
 set_property(GLOBAL PROPERTY TRACKBED_ROOMS "")
 add_custom_target(header_checks)
 
 function(trackbed_room name)
-  cmake_parse_arguments(ARG "" "SOURCE_DIR" "ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "SOURCE_DIR;KIND" "ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   if(NOT ARG_SOURCE_DIR)
     set(ARG_SOURCE_DIR src/${name})
   endif()
@@ -36,9 +38,10 @@ function(trackbed_room name)
     PUBLIC ${ARG_ROOMS} ${ARG_LIBRARIES}
     PRIVATE $<BUILD_INTERFACE:trackbed_compiler> ${ARG_PRIVATE_LIBRARIES})
 
-  if(planning IN_LIST above OR name STREQUAL planning)
-    trackbed_precompile(trackbed_${name})
+  if(NOT ARG_KIND)
+    set(ARG_KIND NUMERICS)
   endif()
+  trackbed_precompile(trackbed_${name} ${ARG_KIND})
 
   file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/include
        ${PROJECT_SOURCE_DIR}/include/trackbed/${name}/*.h)
