@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
