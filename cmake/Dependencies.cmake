@@ -1,8 +1,15 @@
-# Everything comes from Debian (scripts/packages.txt); nothing is downloaded.
+# Everything comes from Debian (scripts/packages/); nothing is downloaded.
 include_guard()
 include(LibraryDependencies)
 
 find_package(CLI11 2 REQUIRED)
+
+# The testing room is a library of GoogleTest matchers; without GoogleTest there is none.
+if(TRACKBED_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+else()
+  find_package(GTest QUIET)
+endif()
 
 # A peer: benchmarks need it, tests compare with it where it is.
 if(TRACKBED_BENCH)

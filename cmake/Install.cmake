@@ -1,5 +1,5 @@
 # `cmake --install` puts in place: the program; the package `trackbed` (every module as
-# trackbed::NAME); and the models and scenarios. Everything is
+# trackbed::NAME; `testing` where there is GoogleTest); and the models and scenarios. Everything is
 # found from where the package or the program lies, so that all of it can be moved together.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)

@@ -7,7 +7,6 @@ find_package(nlohmann_json 3.11 REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(tinyxml2 REQUIRED)
 find_package(NLopt REQUIRED)
-find_package(GTest REQUIRED)  # the testing room is a library of matchers, not only our own tests
 find_package(Threads REQUIRED)
 find_package(PNG REQUIRED)
 find_package(PkgConfig REQUIRED)
