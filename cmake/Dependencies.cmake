@@ -1,16 +1,14 @@
-# Everything comes from Debian (scripts/packages.txt); nothing is downloaded.
+# Everything comes from Debian (scripts/packages/); nothing is downloaded.
 include_guard()
 include(LibraryDependencies)
 
 find_package(CLI11 2 REQUIRED)
-find_package(PNG REQUIRED)
-find_package(PkgConfig REQUIRED)
 
-pkg_check_modules(osmesa REQUIRED IMPORTED_TARGET osmesa)
-add_library(osmesa::osmesa ALIAS PkgConfig::osmesa)
-if(TRACKBED_VIDEO)
-  pkg_check_modules(ffmpeg REQUIRED IMPORTED_TARGET libavformat libavcodec libswscale libavutil)
-  add_library(ffmpeg::ffmpeg ALIAS PkgConfig::ffmpeg)
+# The testing room is a library of GoogleTest matchers; without GoogleTest there is none.
+if(TRACKBED_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+else()
+  find_package(GTest QUIET)
 endif()
 
 # A peer: benchmarks need it, tests compare with it where it is.

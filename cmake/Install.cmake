@@ -1,6 +1,6 @@
-# `cmake --install` puts in place: the program; the package `trackbed` for tests of one's own (every
-# module up to `testing`, as trackbed::MODULE); and the models and scenarios. Everything is found from
-# where the package or the program lies, so that all of it can be moved together.
+# `cmake --install` puts in place: the program; the package `trackbed` (every module as
+# trackbed::NAME; `testing` where there is GoogleTest); and the models and scenarios. Everything is
+# found from where the package or the program lies, so that all of it can be moved together.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -14,9 +14,6 @@ foreach(module IN LISTS modules)
   list(APPEND installed trackbed_${name})
   get_filename_component(folder trackbed/${module} DIRECTORY)
   install(DIRECTORY include/trackbed/${module} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
-  if(module STREQUAL "testing")
-    break()
-  endif()
 endforeach()
 set_target_properties(trackbed_version PROPERTIES EXPORT_NAME version)
 install(TARGETS ${installed} trackbed EXPORT trackbedTargets)

@@ -1,5 +1,5 @@
-# What the rooms down to `testing` are made of: for Trackbed's own build, and for projects that link
-# the installed package.
+# What Trackbed's libraries are made of: for its own build, and for projects that link the installed
+# package. TRACKBED_VIDEO says whether render links FFmpeg.
 find_package(fmt REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(Boost 1.74 REQUIRED)
@@ -7,8 +7,17 @@ find_package(nlohmann_json 3.11 REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(tinyxml2 REQUIRED)
 find_package(NLopt REQUIRED)
-find_package(GTest REQUIRED)  # the testing room is a library of matchers, not only our own tests
 find_package(Threads REQUIRED)
+find_package(PNG REQUIRED)
+find_package(PkgConfig REQUIRED)
+if(NOT TARGET osmesa::osmesa)
+  pkg_check_modules(osmesa REQUIRED IMPORTED_TARGET osmesa)
+  add_library(osmesa::osmesa ALIAS PkgConfig::osmesa)
+endif()
+if(TRACKBED_VIDEO AND NOT TARGET ffmpeg::ffmpeg)
+  pkg_check_modules(ffmpeg REQUIRED IMPORTED_TARGET libavformat libavcodec libswscale libavutil)
+  add_library(ffmpeg::ffmpeg ALIAS PkgConfig::ffmpeg)
+endif()
 
 find_package(mujoco REQUIRED CONFIG)
 # Debian's 2.2.2 exports an include directory of libqhull, which it only needs to be built itself.

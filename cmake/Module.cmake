@@ -1,4 +1,5 @@
-# trackbed_module(PATH [SOURCE_DIR DIR] [MODULES module...] [LIBRARIES lib...] [PRIVATE_LIBRARIES lib...])
+# trackbed_module(PATH [SOURCE_DIR DIR] [KIND NUMERICS|JSON|LIGHT] [MODULES module...]
+#                 [LIBRARIES lib...] [PRIVATE_LIBRARIES lib...])
 #
 # One static library per module: public headers in include/trackbed/PATH, sources in src/PATH (or
 # DIR). PATH is `core`, or `planning/fillet` for a part of a larger module; its target is
@@ -7,9 +8,11 @@
 #
 # A target sees the headers of the modules that it links, and no others: each module has an include
 # directory of its own in the build tree, with a link to its headers.
-# Each public header is compiled alone as well (trackbed_NAME_headers).
+# KIND is explained in PrecompiledHeaders.cmake; NUMERICS unless it is given.
+# The target header_checks, which is no part of `all`, compiles each public header alone.
 include(GNUInstallDirs)
 set_property(GLOBAL PROPERTY TRACKBED_MODULES "")
+add_custom_target(header_checks)
 
 # Makes DIR/LINK point to the folder SOURCE.
 function(trackbed_link_folder dir link source)
@@ -19,7 +22,7 @@ function(trackbed_link_folder dir link source)
 endfunction()
 
 function(trackbed_module path)
-  cmake_parse_arguments(ARG "" "SOURCE_DIR" "MODULES;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "SOURCE_DIR;KIND" "MODULES;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   if(NOT ARG_SOURCE_DIR)
     set(ARG_SOURCE_DIR src/${path})
   endif()
@@ -53,20 +56,25 @@ function(trackbed_module path)
     PUBLIC ${ARG_MODULES} ${ARG_LIBRARIES}
     PRIVATE $<BUILD_INTERFACE:trackbed_compiler> ${ARG_PRIVATE_LIBRARIES})
 
-  if(planning/common IN_LIST below OR path STREQUAL planning/common)
-    trackbed_precompile(trackbed_${name})
+  if(NOT ARG_KIND)
+    set(ARG_KIND NUMERICS)
   endif()
+  trackbed_precompile(trackbed_${name} ${ARG_KIND})
 
   file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/include
        ${PROJECT_SOURCE_DIR}/include/trackbed/${path}/*.h)
-  set(alone "")
+  set(header_checks "")
   foreach(header IN LISTS headers)
     set(file ${PROJECT_BINARY_DIR}/headers/${header}.cpp)
     file(CONFIGURE OUTPUT ${file} CONTENT "#include \"${header}\"\n")
-    list(APPEND alone ${file})
+    list(APPEND header_checks ${file})
   endforeach()
-  if(alone)
-    add_library(trackbed_${name}_headers OBJECT ${alone})
-    target_link_libraries(trackbed_${name}_headers PRIVATE trackbed_${name} trackbed_compiler)
+  if(header_checks)
+    set(checks trackbed_${name}_header_checks)
+    add_library(${checks} OBJECT EXCLUDE_FROM_ALL ${header_checks})
+    target_link_libraries(${checks} PRIVATE trackbed_${name} trackbed_compiler)
+    # Whether they compile is all that is asked.
+    target_compile_options(${checks} PRIVATE -O0)
+    add_dependencies(header_checks ${checks})
   endif()
 endfunction()

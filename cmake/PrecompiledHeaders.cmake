@@ -1,39 +1,48 @@
-# trackbed_precompile(TARGET [TESTS])
+# trackbed_precompile(TARGET KIND)
 #
-# Parses once what most sources spend half their compile time on: standard containers, fmt, JSON and
-# Eigen; with TESTS, GoogleTest too. One precompiled header for all targets of a kind. Public
-# headers are still compiled alone, without it (trackbed_NAME_headers).
+# Parses once what most sources spend half their compile time on: standard containers, fmt and Eigen.
+# KIND also says what the target is compiled for:
+#   NUMERICS  standard containers, fmt, Eigen
+#   JSON      JSON as well: every file of the target pays 0.7 s for the parser in it
+#   LIGHT     as JSON, at -O1: targets that read, write and judge, where a third of the compile time
+#             went into optimizing code that takes no time
+#   TESTS     as LIGHT, with GoogleTest
+# One precompiled header for all targets of a kind; GCC takes the optimization level from it. Public
+# headers are still compiled alone, without it (header_checks).
 option(TRACKBED_PRECOMPILED_HEADERS "Precompile the headers that most sources include" ON)
 
-set(common_headers <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional> <string>
-                   <variant> <vector> <fmt/format.h> <nlohmann/json.hpp> <Eigen/Core>)
+set(light $<$<CONFIG:Release>:-O1>)
 
-function(trackbed_precompiled_header target)
-  cmake_parse_arguments(ARG "" "" "HEADERS;LIBRARIES" ${ARGN})
+function(trackbed_precompiled_header kind)
+  cmake_parse_arguments(ARG "" "" "HEADERS;LIBRARIES;OPTIONS" ${ARGN})
+  string(TOLOWER trackbed_${kind}_pch target)
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled/${target}.cpp CONTENT "")
-  add_library(${target} OBJECT ${PROJECT_BINARY_DIR}/precompiled/${target}.cpp)
-  target_link_libraries(${target} PRIVATE trackbed_compiler ${ARG_LIBRARIES})
-  target_precompile_headers(${target} PRIVATE ${ARG_HEADERS})
+  add_library(${target} OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/precompiled/${target}.cpp)
+  target_link_libraries(${target} PRIVATE trackbed_compiler fmt::fmt Eigen3::Eigen ${ARG_LIBRARIES})
+  target_compile_options(${target} PRIVATE ${ARG_OPTIONS})
+  target_precompile_headers(
+    ${target} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional>
+    <string> <variant> <vector> <fmt/format.h> <Eigen/Core> ${ARG_HEADERS})
 endfunction()
 
 if(TRACKBED_PRECOMPILED_HEADERS)
-  set(libraries fmt::fmt nlohmann_json::nlohmann_json Eigen3::Eigen)
-  trackbed_precompiled_header(trackbed_pch HEADERS ${common_headers} LIBRARIES ${libraries})
+  set(json HEADERS <nlohmann/json.hpp> LIBRARIES nlohmann_json::nlohmann_json)
+  trackbed_precompiled_header(NUMERICS)
+  trackbed_precompiled_header(JSON ${json})
+  trackbed_precompiled_header(LIGHT ${json} OPTIONS ${light})
   if(TRACKBED_BUILD_TESTS)
     trackbed_precompiled_header(
-      trackbed_tests_pch HEADERS ${common_headers} <gmock/gmock.h> <gtest/gtest.h>
-      LIBRARIES ${libraries} GTest::gmock)
+      TESTS HEADERS <nlohmann/json.hpp> <gmock/gmock.h> <gtest/gtest.h>
+      LIBRARIES nlohmann_json::nlohmann_json GTest::gmock OPTIONS ${light})
   endif()
 endif()
 
-function(trackbed_precompile target)
-  cmake_parse_arguments(ARG "TESTS" "" "" ${ARGN})
-  if(NOT TRACKBED_PRECOMPILED_HEADERS)
-    return()
+function(trackbed_precompile target kind)
+  if(kind MATCHES "LIGHT|TESTS")
+    target_compile_options(${target} PRIVATE ${light})
   endif()
-  if(ARG_TESTS)
-    target_precompile_headers(${target} REUSE_FROM trackbed_tests_pch)
-  else()
-    target_precompile_headers(${target} REUSE_FROM trackbed_pch)
+  if(TRACKBED_PRECOMPILED_HEADERS)
+    string(TOLOWER trackbed_${kind}_pch header)
+    target_precompile_headers(${target} REUSE_FROM ${header})
   endif()
 endfunction()

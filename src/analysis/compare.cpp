@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/angle.h"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "src/analysis/evaluations.h"
 #include "trackbed/core/angle.h"

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <nlohmann/json.hpp>
+
 #include "src/analysis/json_leaves.h"
 #include "src/analysis/metric_expectations.h"
 #include "trackbed/analysis/sweep.h"

@@ -10,19 +10,20 @@
 
 namespace trackbed::cli {
 
-void AddCheck(CLI::App& command, int& exit_code) {
+void AddCheck(const Command& command) {
   struct Options {
     std::vector<std::string> paths;
     ScenarioOptions scenario;
   };
   const auto options = std::make_shared<Options>();
   command
-      .add_option("files", options->paths,
-                  "Scenario or study files, or folders with them at any depth")
-      ->required()
-      ->type_name("FILE...");
+      .AddPositional("files", options->paths,
+                     "Scenario or study files, or folders with them at any depth")
+      .Required()
+      .TypeName("FILE...");
   options->scenario.AddTo(command);
-  command.callback([options, &exit_code] {
+  command.OnRun([options] {
+    int exit_code = kOk;
     for (const auto& file : ScenarioFiles(options->paths, FolderContent::kScenariosAndStudies)) {
       try {
         RefuseFolder(file);
@@ -39,6 +40,7 @@ void AddCheck(CLI::App& command, int& exit_code) {
         exit_code = kBadInput;
       }
     }
+    return exit_code;
   });
 }
 

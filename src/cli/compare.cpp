@@ -132,35 +132,35 @@ int Compare(const CompareOptions& options) {
 
 }  // namespace
 
-void AddCompare(CLI::App& command, int& exit_code) {
+void AddCompare(const Command& command) {
   const auto options = std::make_shared<CompareOptions>();
   command
-      .add_option("files", options->files, "Scenario files, or one or two folders of finished runs")
-      ->required()
-      ->type_name("FILE...");
+      .AddPositional("files", options->files,
+                     "Scenario files, or one or two folders of finished runs")
+      .Required()
+      .TypeName("FILE...");
   command
-      .add_option("--plants", options->scenario.plants,
-                  "Compare these plants (default: the scenario's; those of the run, or that both "
-                  "runs have); of two runs A,B: A of the first with B of the second")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("A,B...");
+      .AddOption("--plants", options->scenario.plants,
+                 "Compare these plants (default: the scenario's; those of the run, or that both "
+                 "runs have); of two runs A,B: A of the first with B of the second")
+      .Delimiter(',')
+      .OneWord()
+      .TypeName("A,B...");
   command
-      .add_option(
-          "--tolerance", options->tolerances,
-          "Largest differences that pass, of position [m], heading [rad], yaw_rate "
-          "[rad/s], steering [rad] (default: what the scenario, or that of the one finished "
-          "run, expects between the plants; of two runs none)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("NAME=VALUE,...");
+      .AddOption("--tolerance", options->tolerances,
+                 "Largest differences that pass, of position [m], heading [rad], yaw_rate "
+                 "[rad/s], steering [rad] (default: what the scenario, or that of the one finished "
+                 "run, expects between the plants; of two runs none)")
+      .Delimiter(',')
+      .OneWord()
+      .TypeName("NAME=VALUE,...");
   command
-      .add_option("-o,--out", options->out,
-                  "Folder to write to (default: out/compare/<scenario>, for finished runs "
-                  "out/compare); of several scenarios: parent of one folder each")
-      ->type_name("DIR");
+      .AddOption("-o,--out", options->out,
+                 "Folder to write to (default: out/compare/<scenario>, for finished runs "
+                 "out/compare); of several scenarios: parent of one folder each")
+      .TypeName("DIR");
   options->scenario.AddKeysTo(command);
-  command.callback([options, &exit_code] { exit_code = Compare(*options); });
+  command.OnRun([options] { return Compare(*options); });
 }
 
 }  // namespace trackbed::cli

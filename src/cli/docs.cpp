@@ -50,33 +50,22 @@ std::string Sentence(std::string text) {
   return text + ".";
 }
 
-/// Those that --help shows.
-std::vector<const CLI::App*> Verbs(const CLI::App& program) {
-  return program.get_subcommands([](const CLI::App* verb) { return !verb->get_group().empty(); });
-}
-
-std::string VerbTable(const CLI::App& program) {
+std::string VerbTable(const std::vector<CommandInfo>& verbs) {
   std::string table = "| verb | does |\n|---|---|\n";
-  for (const CLI::App* verb : Verbs(program)) {
-    table += fmt::format("| {} | {} |\n", Code(verb->get_name()), Cell(verb->get_description()));
+  for (const CommandInfo& verb : verbs) {
+    table += fmt::format("| {} | {} |\n", Code(verb.name), Cell(verb.summary));
   }
   return table;
 }
 
-std::string OptionTable(const CLI::App& verb) {
+/// Without --help, which every verb has; the page says so once.
+std::string OptionTable(const CommandInfo& verb) {
   std::string table = "| argument | means |\n|---|---|\n";
-  for (const CLI::Option* option : verb.get_options()) {
-    if (option == verb.get_help_ptr()) {
-      continue;  // every verb's; the page says so once
-    }
-    const std::string type = option->get_type_name();
-    const std::string name = option->get_positional() ? type : option->get_name(false, true);
-    const bool with_value = !option->get_positional() && option->get_items_expected_max() > 0;
-    const std::string fallback = option->get_default_str();
-    table +=
-        fmt::format("| {}{} | {}{}{} |\n", Code(name + (with_value ? " " + type : "")),
-                    option->get_required() ? ", required" : "", Cell(option->get_description()),
-                    fallback.empty() ? "" : "; default ", Code(fallback));
+  for (const OptionInfo& option : verb.options) {
+    table += fmt::format("| {}{} | {}{}{} |\n",
+                         Code(option.name + (option.value.empty() ? "" : " " + option.value)),
+                         option.required ? ", required" : "", Cell(option.text),
+                         option.fallback.empty() ? "" : "; default ", Code(option.fallback));
   }
   return table;
 }
@@ -103,10 +92,10 @@ std::string KeyTables(const std::vector<KeySection>& sections) {
   return text;
 }
 
-std::vector<Block> Blocks(const CLI::App& program) {
-  std::vector<Block> blocks{{"verbs", VerbTable(program)}};
-  for (const CLI::App* verb : Verbs(program)) {
-    blocks.push_back({"options of " + verb->get_name(), OptionTable(*verb)});
+std::vector<Block> Blocks(const std::vector<CommandInfo>& verbs) {
+  std::vector<Block> blocks{{"verbs", VerbTable(verbs)}};
+  for (const CommandInfo& verb : verbs) {
+    blocks.push_back({"options of " + verb.name, OptionTable(verb)});
   }
   blocks.push_back({"scenario keys", KeyTables(ScenarioKeys())});
   blocks.push_back({"study keys", KeyTables(StudyKeys())});
@@ -159,15 +148,15 @@ std::string Filled(const std::string& file, const std::string& page, std::vector
 
 }  // namespace
 
-void AddDocs(CLI::App& command, int& exit_code) {
-  command.group("");  // for those who work on Trackbed; not in --help
+void AddDocs(const Command& command) {
+  command.Hide();  // for those who work on Trackbed; not in --help
   const auto page = std::make_shared<std::string>();
-  command.add_option("page", *page, "Markdown file to bring up to date")
-      ->required()
-      ->type_name("FILE");
-  command.callback([page, &command, &exit_code] {
-    WriteFileAtomically(*page, Filled(*page, ReadFile(*page), Blocks(*command.get_parent())));
-    exit_code = kOk;
+  command.AddPositional("page", *page, "Markdown file to bring up to date")
+      .Required()
+      .TypeName("FILE");
+  command.OnRun([page, command] {
+    WriteFileAtomically(*page, Filled(*page, ReadFile(*page), Blocks(command.VisibleVerbs())));
+    return kOk;
   });
 }
 

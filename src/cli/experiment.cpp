@@ -180,17 +180,6 @@ void Print(const ExperimentOptions& options, const std::string& car,
   }
 }
 
-/// CLI::Range lets NaN pass.
-CLI::Validator Between(double low, double high) {
-  return {[low, high](std::string& text) {
-            double value = 0.0;
-            const bool good =
-                CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
-            return good ? "" : fmt::format("{} is not a number from {} to {}", text, low, high);
-          },
-          ""};
-}
-
 int Experiment(const ExperimentOptions& options) {
   if (options.name != kOptimalSteering) {
     throw InputError(
@@ -222,56 +211,55 @@ int Experiment(const ExperimentOptions& options) {
 
 }  // namespace
 
-void AddExperiment(CLI::App& command, int& exit_code) {
+void AddExperiment(const Command& command) {
   const auto options = std::make_shared<ExperimentOptions>();
   command
-      .add_option("name", options->name,
-                  "optimal_steering: a car at another speed than the wanted one, the angle found "
-                  "by search")
-      ->required()
-      ->type_name("NAME");
-  command.add_option("--vehicle", options->vehicle, "A model by name, or the path of an MJCF file")
-      ->type_name("NAME")
-      ->capture_default_str();
+      .AddPositional(
+          "name", options->name,
+          "optimal_steering: a car at another speed than the wanted one, the angle found "
+          "by search")
+      .Required()
+      .TypeName("NAME");
+  command.AddOption("--vehicle", options->vehicle, "A model by name, or the path of an MJCF file")
+      .TypeName("NAME")
+      .ShowDefault();
   command
-      .add_option("--steering-deg", options->steering,
-                  "Of the wanted motion, the primary [deg], positive to the left")
-      ->type_name("DEG")
-      ->capture_default_str();
-  command.add_option("--primary-speed", options->primary_speed, "Of the wanted motion [m/s]")
-      ->check(Between(0.1, 100.0))
-      ->type_name("V")
-      ->capture_default_str();
+      .AddOption("--steering-deg", options->steering,
+                 "Of the wanted motion, the primary [deg], positive to the left")
+      .TypeName("DEG")
+      .ShowDefault();
+  command.AddOption("--primary-speed", options->primary_speed, "Of the wanted motion [m/s]")
+      .Range(0.1, 100.0)
+      .TypeName("V")
+      .ShowDefault();
+  command.AddOption("--max-steering-deg", options->max_steering, "Bound of the search, either way")
+      .Range(0.1, 80.0)
+      .TypeName("DEG")
+      .ShowDefault();
   command
-      .add_option("--max-steering-deg", options->max_steering, "Bound of the search, either way")
-      ->check(Between(0.1, 80.0))
-      ->type_name("DEG")
-      ->capture_default_str();
+      .AddOption("--speeds", options->speeds,
+                 "Of the car, the secondary [m/s] (default: 2.5,2,1.5,1)")
+      .Delimiter(',')
+      .Range(0.01, 100.0)
+      .TypeName("V,...");
   command
-      .add_option("--speeds", options->speeds,
-                  "Of the car, the secondary [m/s] (default: 2.5,2,1.5,1)")
-      ->delimiter(',')
-      ->check(Between(0.01, 100.0))
-      ->type_name("V,...");
+      .AddOption("--searches", options->searches,
+                 "Of 'trackbed list optimizers' (default: all of them)")
+      .Delimiter(',')
+      .TypeName("NAME,...");
   command
-      .add_option("--searches", options->searches,
-                  "Of 'trackbed list optimizers' (default: all of them)")
-      ->delimiter(',')
-      ->type_name("NAME,...");
-  command
-      .add_option("--evaluations", options->evaluations,
-                  "Of a search at most; 0: each method's own number")
-      ->check(CLI::Range(0, 100000000).description(""))
-      ->type_name("N")
-      ->capture_default_str();
-  command.add_option("--seed", options->seed, "Of searches that draw random numbers")
-      ->type_name("N")
-      ->capture_default_str();
-  command
-      .add_option("-o,--out", options->out, "Write the table as CSV, too, a row for each search")
-      ->type_name("FILE");
-  command.add_flag("-q,--quiet", options->quiet, "Print errors only");
-  command.callback([options, &exit_code] { exit_code = Experiment(*options); });
+      .AddOption("--evaluations", options->evaluations,
+                 "Of a search at most; 0: each method's own number")
+      .Range(0, 100000000)
+      .TypeName("N")
+      .ShowDefault();
+  command.AddOption("--seed", options->seed, "Of searches that draw random numbers")
+      .TypeName("N")
+      .ShowDefault();
+  command.AddOption("-o,--out", options->out, "Write the table as CSV, too, a row for each search")
+      .TypeName("FILE");
+  command.AddFlag("-q,--quiet", options->quiet, "Print errors only");
+  command.OnRun([options] { return Experiment(*options); });
 }
 
 }  // namespace trackbed::cli

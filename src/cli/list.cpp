@@ -115,14 +115,15 @@ void Print(const Kind& kind) {
 
 }  // namespace
 
-void AddList(CLI::App& command, int& exit_code) {
+void AddList(const Command& command) {
   const auto what = std::make_shared<std::string>();
   std::string kinds;
   for (const Kind& kind : Kinds()) {
-    kinds += (kinds.empty() ? "" : "|") + std::string(kind.name);
+    kinds += kinds.empty() ? "" : "|";
+    kinds += kind.name;
   }
-  command.add_option("kind", *what, "What to list (default: everything)")->type_name(kinds);
-  command.callback([what, &exit_code] {
+  command.AddPositional("kind", *what, "What to list (default: everything)").TypeName(kinds);
+  command.OnRun([what] {
     std::vector<std::string> names;
     bool found = false;
     for (const Kind& kind : Kinds()) {
@@ -135,7 +136,7 @@ void AddList(CLI::App& command, int& exit_code) {
     if (!found) {
       throw InputError(Problem{.message = "cannot list " + UnknownName(*what, names)});
     }
-    exit_code = kOk;
+    return kOk;
   });
 }
 

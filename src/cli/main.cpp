@@ -1,3 +1,5 @@
+#include "trackbed/cli/main.h"
+
 #include <fmt/format.h>
 
 #include <csignal>
@@ -54,17 +56,12 @@ std::string VersionText() {
 }
 
 int Run(int argc, char** argv) {
-  CLI::App app(
-      "A physics-engine vehicle testbed: plans are driven under contact dynamics, measured "
-      "against the kinematic model, and filmed off-screen.",
-      "trackbed");
-  app.set_version_flag("--version", VersionText);
-  app.set_help_flag("-h,--help", "Print this help");
-  app.require_subcommand(0, 1);
-  app.failure_message(CLI::FailureMessage::simple);
-  int exit_code = kOk;
+  CommandLine line("trackbed",
+                   "A physics-engine vehicle testbed: plans are driven under contact dynamics, "
+                   "measured against the kinematic model, and filmed off-screen.",
+                   VersionText);
   for (const Verb& verb : kVerbs) {
-    verb.add(*app.add_subcommand(verb.name, verb.summary), exit_code);
+    verb.add(line.AddVerb(verb.name, verb.summary));
   }
   // A word that is no verb would otherwise be called an unexpected argument.
   if (argc > 1 && argv[1][0] != '-') {
@@ -78,23 +75,15 @@ int Run(int argc, char** argv) {
       throw InputError(Problem{.message = "unknown verb " + UnknownName(argv[1], names)});
     }
   }
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kOk : kBadInput;
-  }
-  if (app.get_subcommands().empty()) {
-    fmt::print("{}", app.help());
-    return kBadInput;
-  }
-  return exit_code;
+  return line.Parse(argc, argv, kBadInput);
 }
 
 }  // namespace
 }  // namespace trackbed::cli
 
-int main(int argc, char** argv) {
-  using namespace trackbed;
+namespace trackbed {
+
+int Main(int argc, char** argv) {
   // The first Ctrl-C ends the drive and keeps its log; a second one ends the program.
   struct sigaction action {};
   action.sa_handler = [](int) { cli::interrupted = true; };
@@ -131,3 +120,5 @@ int main(int argc, char** argv) {
   }
   return code;
 }
+
+}  // namespace trackbed

@@ -90,24 +90,24 @@ void PrintLinkage(const CarModel& car) {
 
 }  // namespace
 
-void AddModel(CLI::App& command, int& exit_code) {
+void AddModel(const Command& command) {
   struct Options {
     std::string name;
     std::string save;
     bool linkage = false;
   };
   const auto options = std::make_shared<Options>();
-  command.add_option("name", options->name, "A model by name, or the path of an MJCF file")
-      ->required()
-      ->type_name("NAME");
+  command.AddPositional("name", options->name, "A model by name, or the path of an MJCF file")
+      .Required()
+      .TypeName("NAME");
   command
-      .add_option("--save", options->save,
-                  "Write the composed MJCF, to open in MuJoCo's viewer, with the files it needs "
-                  "beside it")
-      ->type_name("FILE");
-  command.add_flag("--linkage", options->linkage,
-                   "Print the joint couplings that fit the car's steering linkage, for its file");
-  command.callback([options, &exit_code] {
+      .AddOption("--save", options->save,
+                 "Write the composed MJCF, to open in MuJoCo's viewer, with the files it needs "
+                 "beside it")
+      .TypeName("FILE");
+  command.AddFlag("--linkage", options->linkage,
+                  "Print the joint couplings that fit the car's steering linkage, for its file");
+  command.OnRun([options] {
     const auto file = FindModel(options->name, "");
     const CarModel car(ComposeScene(file, {}), file.string());
     if (options->linkage && car.params().kind != VehicleKind::kSteered) {
@@ -121,7 +121,7 @@ void AddModel(CLI::App& command, int& exit_code) {
     } else {
       WriteScene(car.scene(), options->save);
     }
-    exit_code = kOk;
+    return kOk;
   });
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -150,13 +151,13 @@ int PlanOne(const PlanOptions& options) {
 
 }  // namespace
 
-void AddPlan(CLI::App& command, int& exit_code) {
+void AddPlan(const Command& command) {
   const auto options = std::make_shared<PlanOptions>();
-  command.add_option("file", options->file, "Scenario file")->required()->type_name("FILE");
-  command.add_option("-o,--out", options->out, "Folder to write to (default: out/<scenario>)")
-      ->type_name("DIR");
+  command.AddPositional("file", options->file, "Scenario file").Required().TypeName("FILE");
+  command.AddOption("-o,--out", options->out, "Folder to write to (default: out/<scenario>)")
+      .TypeName("DIR");
   options->scenario.AddTo(command);
-  command.callback([options, &exit_code] { exit_code = PlanOne(*options); });
+  command.OnRun([options] { return PlanOne(*options); });
 }
 
 }  // namespace trackbed::cli

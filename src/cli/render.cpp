@@ -106,56 +106,55 @@ void FilmRun(const fs::path& folder, const fs::path& output, const FilmOptions& 
   });
 }
 
-void AddRender(CLI::App& command, int& exit_code) {
+void AddRender(const Command& command) {
   const auto options = std::make_shared<RenderOptions>();
-  command.add_option("run", options->folder, "Folder of a finished run")
-      ->required()
-      ->type_name("RUNDIR");
-  command.add_option("--size", options->size, "Pixels (default: the scenario's render.size)")
-      ->type_name("1280x720");
+  command.AddPositional("run", options->folder, "Folder of a finished run")
+      .Required()
+      .TypeName("RUNDIR");
+  command.AddOption("--size", options->size, "Pixels (default: the scenario's render.size)")
+      .TypeName("1280x720");
+  command.AddOption("--fps", options->fps, "Frames per second (default: the scenario's render.fps)")
+      .TypeName("N");
   command
-      .add_option("--fps", options->fps, "Frames per second (default: the scenario's render.fps)")
-      ->type_name("N");
+      .AddOption("--camera", options->camera,
+                 "Point of view (default: the scenario's render.camera): " + Listed(Cameras()))
+      .TypeName("NAME");
+  command.AddOption("--inset", options->inset, "Another camera, for a small picture in the picture")
+      .TypeName("NAME");
   command
-      .add_option("--camera", options->camera,
-                  "Point of view (default: the scenario's render.camera): " + Listed(Cameras()))
-      ->type_name("NAME");
+      .AddOption("--plants", options->plants,
+                 "These plants of the run side by side, each alone (default: one picture, the car "
+                 "and the others as its ghosts)")
+      .Delimiter(',')
+      .TypeName("NAME,...");
   command
-      .add_option("--inset", options->inset, "Another camera, for a small picture in the picture")
-      ->type_name("NAME");
-  command
-      .add_option("--plants", options->plants,
-                  "These plants of the run side by side, each alone (default: one picture, the car "
-                  "and the others as its ghosts)")
-      ->delimiter(',')
-      ->type_name("NAME,...");
-  command
-      .add_option(
+      .AddOption(
           "--overlays", options->overlays,
           "What to draw over the world, or none (default: everything): " + Listed(Overlays()))
-      ->delimiter(',')
-      ->type_name("NAME,...");
+      .Delimiter(',')
+      .TypeName("NAME,...");
   command
-      .add_option("--quality", options->quality,
-                  "draft, or film: smooth edges and cast shadows, 4 times slower")
-      ->type_name("draft|film")
-      ->capture_default_str();
-  auto* from = command.add_option("--from", options->from, "Begin there in the run's time [s]");
-  auto* to = command.add_option("--to", options->to, "End there [s]");
+      .AddOption("--quality", options->quality,
+                 "draft, or film: smooth edges and cast shadows, 4 times slower")
+      .TypeName("draft|film")
+      .ShowDefault();
+  const Option from =
+      command.AddOption("--from", options->from, "Begin there in the run's time [s]");
+  const Option to = command.AddOption("--to", options->to, "End there [s]");
+  command.AddOption("--at", options->at, "Make one picture of the run there [s], FILE.png, no film")
+      .Excludes(from)
+      .Excludes(to)
+      .TypeName("S");
+  from.TypeName("S");
+  to.TypeName("S");
   command
-      .add_option("--at", options->at, "Make one picture of the run there [s], FILE.png, no film")
-      ->excludes(from, to)
-      ->type_name("S");
-  from->type_name("S");
-  to->type_name("S");
-  command
-      .add_option(
+      .AddOption(
           "-o,--out", options->out,
           "A video FILE.mp4, an animated picture FILE.webp or FILE.apng, or frames: DIR/F.png "
           "writes DIR/F_00000.png, ... (default: video.mp4, or picture.png, in the run folder)")
-      ->type_name("FILE");
-  command.add_flag("-q,--quiet", options->quiet, "Print errors only");
-  command.callback([options, &exit_code] { exit_code = RenderOne(*options); });
+      .TypeName("FILE");
+  command.AddFlag("-q,--quiet", options->quiet, "Print errors only");
+  command.OnRun([options] { return RenderOne(*options); });
 }
 
 }  // namespace trackbed::cli

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ReportOptions {
-  std::vector<fs::path> paths;
+  std::vector<std::string> paths;
   std::string out;
   std::string film = "embedded";
   bool quiet = false;
@@ -38,13 +38,14 @@ FilmPlace PlaceOf(const std::string& film) {
 int Report(const ReportOptions& options) {
   const FilmPlace film = PlaceOf(options.film);
   constexpr const char* kName = "report.html";
-  const fs::path& first = options.paths.front();
+  const std::vector<fs::path> paths(options.paths.begin(), options.paths.end());
+  const fs::path& first = paths.front();
   // Of several runs the page is no part of one of them.
-  const fs::path folder = options.paths.size() > 1  ? fs::path()
+  const fs::path folder = paths.size() > 1          ? fs::path()
                           : fs::is_directory(first) ? first
                                                     : first.parent_path();
   const fs::path file = options.out.empty() ? folder / kName : fs::path(options.out);
-  WriteReport(options.paths, file, film);
+  WriteReport(paths, file, film);
   if (!options.quiet) {
     fmt::print("{}\n", file.string());
   }
@@ -53,25 +54,26 @@ int Report(const ReportOptions& options) {
 
 }  // namespace
 
-void AddReport(CLI::App& command, int& exit_code) {
+void AddReport(const Command& command) {
   const auto options = std::make_shared<ReportOptions>();
   command
-      .add_option("folder", options->paths,
-                  "Folders of finished runs, compared if there are several; or the folder of one "
-                  "comparison; or the folder or the .csv file of one study")
-      ->required()
-      ->type_name("DIR...");
+      .AddPositional(
+          "folder", options->paths,
+          "Folders of finished runs, compared if there are several; or the folder of one "
+          "comparison; or the folder or the .csv file of one study")
+      .Required()
+      .TypeName("DIR...");
   command
-      .add_option("-o,--out", options->out,
-                  "The page to write (default: report.html in the folder; of several, here)")
-      ->type_name("FILE");
+      .AddOption("-o,--out", options->out,
+                 "The page to write (default: report.html in the folder; of several, here)")
+      .TypeName("FILE");
   command
-      .add_option("--film", options->film,
-                  "Where the page has a run's video.mp4 from: embedded, in the page; beside, the "
-                  "file where it lies; or none")
-      ->type_name("embedded|beside|none");
-  command.add_flag("-q,--quiet", options->quiet, "Print errors only");
-  command.callback([options, &exit_code] { exit_code = Report(*options); });
+      .AddOption("--film", options->film,
+                 "Where the page has a run's video.mp4 from: embedded, in the page; beside, the "
+                 "file where it lies; or none")
+      .TypeName("embedded|beside|none");
+  command.AddFlag("-q,--quiet", options->quiet, "Print errors only");
+  command.OnRun([options] { return Report(*options); });
 }
 
 }  // namespace trackbed::cli

@@ -98,22 +98,22 @@ int RunOne(const ScenarioRun& run, const RunOptions& options) {
 
 }  // namespace
 
-void AddRun(CLI::App& command, int& exit_code) {
+void AddRun(const Command& command) {
   const auto options = std::make_shared<RunOptions>();
-  command.add_option("files", options->files, "Scenario files")->required()->type_name("FILE...");
+  command.AddPositional("files", options->files, "Scenario files").Required().TypeName("FILE...");
   command
-      .add_option("-o,--out", options->out,
-                  "Folder of the run (default: out/<scenario>); of several files: parent of one "
-                  "folder each")
-      ->type_name("DIR");
+      .AddOption("-o,--out", options->out,
+                 "Folder of the run (default: out/<scenario>); of several files: parent of one "
+                 "folder each")
+      .TypeName("DIR");
   options->scenario.AddTo(command);
-  command.add_flag("--video", options->video, "Film the run: video.mp4 in its folder");
-  command.add_flag(
+  command.AddFlag("--video", options->video, "Film the run: video.mp4 in its folder");
+  command.AddFlag(
       "--report", options->report,
       "Make the page of the run, too, with its film if there is one: report.html in its folder");
-  command.add_flag("--mcap", options->mcap,
-                   "Log for Foxglove and others, too: run.mcap in its folder");
-  command.callback([options, &exit_code] {
+  command.AddFlag("--mcap", options->mcap,
+                  "Log for Foxglove and others, too: run.mcap in its folder");
+  command.OnRun([options] {
     const std::vector<ScenarioRun> runs =
         ReadScenarioRuns(options->files, options->scenario, options->out, "out");
     for (const ScenarioRun& run : runs) {
@@ -121,7 +121,7 @@ void AddRun(CLI::App& command, int& exit_code) {
         CheckFilmName(run.folder / kVideoName);
       }
     }
-    exit_code = ForEachRun(runs, [&](const ScenarioRun& run) { return RunOne(run, *options); });
+    return ForEachRun(runs, [&](const ScenarioRun& run) { return RunOne(run, *options); });
   });
 }
 

@@ -60,17 +60,17 @@ void AddFilesIn(const fs::path& folder, FolderContent content, std::vector<fs::p
 
 }  // namespace
 
-void ScenarioOptions::AddTo(CLI::App& command) {
-  command.add_option("--plant", plants, "Drive these plants instead of the scenario's")
-      ->type_name("NAME...");
+void ScenarioOptions::AddTo(const Command& command) {
+  command.AddOption("--plant", plants, "Drive these plants instead of the scenario's")
+      .TypeName("NAME...");
   AddKeysTo(command);
 }
 
-void ScenarioOptions::AddKeysTo(CLI::App& command) {
-  command.add_option("--set", overrides, "Replace keys of the scenario, such as mission.speed=2")
-      ->type_name("KEY=VALUE...");
-  command.add_option("--seed", seed, "Replace the scenario's seed")->type_name("N");
-  command.add_flag("-q,--quiet", quiet, "Print errors only");
+void ScenarioOptions::AddKeysTo(const Command& command) {
+  command.AddOption("--set", overrides, "Replace keys of the scenario, such as mission.speed=2")
+      .TypeName("KEY=VALUE...");
+  command.AddOption("--seed", seed, "Replace the scenario's seed").TypeName("N");
+  command.AddFlag("-q,--quiet", quiet, "Print errors only");
 }
 
 std::vector<Override> ScenarioOptions::Overrides() const {

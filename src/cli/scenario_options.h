@@ -1,10 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "src/cli/command.h"
 #include "trackbed/scenario/scenario.h"
 #include "trackbed/scenario/study.h"
 
@@ -18,10 +18,10 @@ struct ScenarioOptions {
   bool quiet = false;
 
   /// Adds --plant, --set, --seed and --quiet.
-  void AddTo(CLI::App& command);
+  void AddTo(const Command& command);
 
   /// Adds --set, --seed and --quiet, for verbs that ask for plants in their own way.
-  void AddKeysTo(CLI::App& command);
+  void AddKeysTo(const Command& command);
 
   /// The scenario as these options change it. InputError as ReadScenario.
   [[nodiscard]] Scenario Read(const std::filesystem::path& file) const;

@@ -55,18 +55,18 @@ int Sweep(const SweepVerbOptions& options) {
 
 }  // namespace
 
-void AddSweep(CLI::App& command, int& exit_code) {
+void AddSweep(const Command& command) {
   const auto options = std::make_shared<SweepVerbOptions>();
-  command.add_option("study", options->file, "Study file")->required()->type_name("STUDY");
+  command.AddPositional("study", options->file, "Study file").Required().TypeName("STUDY");
   command
-      .add_option("-j,--jobs", options->jobs,
-                  "Runs at the same time (default: as many as the machine has threads)")
-      ->check(CLI::Range(1, 1000).description(""))
-      ->type_name("N");
-  command.add_option("-o,--out", options->out, "Folder to write to (default: out/<study>)")
-      ->type_name("DIR");
+      .AddOption("-j,--jobs", options->jobs,
+                 "Runs at the same time (default: as many as the machine has threads)")
+      .Range(1, 1000)
+      .TypeName("N");
+  command.AddOption("-o,--out", options->out, "Folder to write to (default: out/<study>)")
+      .TypeName("DIR");
   options->scenario.AddTo(command);
-  command.callback([options, &exit_code] { exit_code = Sweep(*options); });
+  command.OnRun([options] { return Sweep(*options); });
 }
 
 }  // namespace trackbed::cli

@@ -93,20 +93,21 @@ int Test(const TestOptions& options) {
 
 }  // namespace
 
-void AddTest(CLI::App& command, int& exit_code) {
+void AddTest(const Command& command) {
   const auto options = std::make_shared<TestOptions>();
-  command.add_option("paths", options->paths, "Scenario files, or folders with them at any depth")
-      ->required()
-      ->type_name("PATH...");
-  command.add_option("--junit", options->junit, "Write the outcome as JUnit XML as well")
-      ->type_name("FILE");
   command
-      .add_option("-j,--jobs", options->jobs,
-                  "Scenarios at the same time (default: as many as the machine has threads)")
-      ->check(CLI::Range(1, 1000).description(""))
-      ->type_name("N");
+      .AddPositional("paths", options->paths, "Scenario files, or folders with them at any depth")
+      .Required()
+      .TypeName("PATH...");
+  command.AddOption("--junit", options->junit, "Write the outcome as JUnit XML as well")
+      .TypeName("FILE");
+  command
+      .AddOption("-j,--jobs", options->jobs,
+                 "Scenarios at the same time (default: as many as the machine has threads)")
+      .Range(1, 1000)
+      .TypeName("N");
   options->scenario.AddTo(command);
-  command.callback([options, &exit_code] { exit_code = Test(*options); });
+  command.OnRun([options] { return Test(*options); });
 }
 
 }  // namespace trackbed::cli

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <atomic>
+
+#include "src/cli/command.h"
 
 namespace trackbed::cli {
 
@@ -17,21 +18,20 @@ enum ExitCode {
 /// Set by Ctrl-C; drives ask for it once per control period.
 extern std::atomic<bool> interrupted;
 
-/// A verb adds its options to `command` and sets what is to be done as its callback, which stores
-/// the exit code in `exit_code`.
-using AddVerb = void (*)(CLI::App& command, int& exit_code);
+/// A verb adds its options to `command` and sets what it does.
+using AddVerb = void (*)(const Command& command);
 
-void AddRun(CLI::App& command, int& exit_code);
-void AddPlan(CLI::App& command, int& exit_code);
-void AddRender(CLI::App& command, int& exit_code);
-void AddCheck(CLI::App& command, int& exit_code);
-void AddCompare(CLI::App& command, int& exit_code);
-void AddTest(CLI::App& command, int& exit_code);
-void AddSweep(CLI::App& command, int& exit_code);
-void AddReport(CLI::App& command, int& exit_code);
-void AddExperiment(CLI::App& command, int& exit_code);
-void AddList(CLI::App& command, int& exit_code);
-void AddModel(CLI::App& command, int& exit_code);
-void AddDocs(CLI::App& command, int& exit_code);
+void AddRun(const Command& command);
+void AddPlan(const Command& command);
+void AddRender(const Command& command);
+void AddCheck(const Command& command);
+void AddCompare(const Command& command);
+void AddTest(const Command& command);
+void AddSweep(const Command& command);
+void AddReport(const Command& command);
+void AddExperiment(const Command& command);
+void AddList(const Command& command);
+void AddModel(const Command& command);
+void AddDocs(const Command& command);
 
 }  // namespace trackbed::cli

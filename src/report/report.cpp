@@ -6,6 +6,7 @@
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
 #include <cctype>
+#include <nlohmann/json.hpp>
 
 #include "src/report/comparison_data.h"
 #include "src/report/page_text.h"

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"

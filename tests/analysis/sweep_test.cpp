@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <nlohmann/json.hpp>
 
 #include "tests/analysis/studies.h"
 #include "tests/support/temp_folder.h"

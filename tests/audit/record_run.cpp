@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/registry/planners.h"

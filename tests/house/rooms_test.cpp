@@ -19,14 +19,13 @@ const fs::path kRoot = TRACKBED_SOURCE_DIR;
 std::vector<std::string> Rooms() {
   std::ifstream file(kRoot / "CMakeLists.txt");
   std::vector<std::string> rooms;
-  const std::regex declaration(R"(^trackbed_room\((\w+))");
+  const std::regex declaration(R"(^\s*trackbed_room\((\w+))");
   for (std::string line; std::getline(file, line);) {
     std::smatch match;
     if (std::regex_search(line, match, declaration)) {
       rooms.push_back(match[1]);
     }
   }
-  rooms.emplace_back("cli");
   return rooms;
 }
 
@@ -149,11 +148,6 @@ std::vector<std::string> LinksOfTheBuild() {
         links.push_back(room + " --> " + word);
       }
     }
-  }
-  const std::string cli = TextOf(kRoot / "src/cli/CMakeLists.txt");
-  const std::regex library(R"(trackbed::(\w+))");
-  for (std::sregex_iterator it(cli.begin(), cli.end(), library), end; it != end; ++it) {
-    links.push_back("cli --> " + (*it)[1].str());
   }
   return links;
 }

@@ -26,6 +26,8 @@ using Lines = std::vector<std::string>;
 /// What of the page is not done here, and why.
 const std::map<std::string, std::string> kDoneBefore = {
     {"scripts/demo", "installs packages, builds and films: the build under test is what it leaves"},
+    {"scripts/setup testing",
+     "installs GoogleTest and builds trackbed::testing, as this build has"},
     {"cmake --install build/release --prefix $HOME/trackbed",
      "Package.IsInstalledAndMoved has done it; $HOME/trackbed leads to what it left"},
 };

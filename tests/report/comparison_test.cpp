@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/report/run_folders.h"
 #include "trackbed/analysis/compare_runs.h"
 #include "trackbed/core/error.h"

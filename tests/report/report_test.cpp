@@ -5,6 +5,7 @@
 
 #include <boost/archive/iterators/binary_from_base64.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
+#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "tests/report/run_folders.h"

@@ -1,0 +1,139 @@
+#include "src/cli/command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <utility>
+
+namespace trackbed::cli {
+
+Option Option::Required() const {
+  option_->required();
+  return *this;
+}
+
+Option Option::TypeName(const std::string& name) const {
+  option_->type_name(name);
+  return *this;
+}
+
+Option Option::Delimiter(char separator) const {
+  option_->delimiter(separator);
+  return *this;
+}
+
+Option Option::OneWord() const {
+  option_->allow_extra_args(false);
+  return *this;
+}
+
+Option Option::ShowDefault() const {
+  option_->capture_default_str();
+  return *this;
+}
+
+Option Option::Excludes(const Option& other) const {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+Option Option::Range(int low, int high) const {
+  option_->check(CLI::Range(low, high).description(""));
+  return *this;
+}
+
+Option Option::Range(double low, double high) const {
+  // CLI::Range lets NaN pass.
+  option_->check(CLI::Validator(
+      [low, high](std::string& text) {
+        double value = 0.0;
+        const bool good = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+        return good ? "" : fmt::format("{} is not a number from {} to {}", text, low, high);
+      },
+      ""));
+  return *this;
+}
+
+Option Command::AddPositional(const std::string& name, OptionTarget target,
+                              const std::string& text) const {
+  return AddOption(name, target, text);
+}
+
+Option Command::AddOption(const std::string& names, OptionTarget target,
+                          const std::string& text) const {
+  return Option(std::visit(
+      [&](auto variable) { return app_->add_option(names, variable.get(), text); }, target));
+}
+
+void Command::AddFlag(const std::string& names, bool& target, const std::string& text) const {
+  app_->add_flag(names, target, text);
+}
+
+void Command::Hide() const {
+  app_->group("");
+}
+
+void Command::OnRun(std::function<int()> run) const {
+  app_->callback([run = std::move(run), code = exit_code_] { *code = run(); });
+}
+
+namespace {
+
+OptionInfo Info(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const bool positional = option.get_positional();
+  return {.name = positional ? type : option.get_name(false, true),
+          .value = !positional && option.get_items_expected_max() > 0 ? type : "",
+          .text = option.get_description(),
+          .fallback = option.get_default_str(),
+          .required = option.get_required()};
+}
+
+}  // namespace
+
+std::vector<CommandInfo> Command::VisibleVerbs() const {
+  std::vector<CommandInfo> verbs;
+  for (const CLI::App* verb :
+       std::as_const(*app_->get_parent()).get_subcommands([](const CLI::App* app) {
+         return !app->get_group().empty();
+       })) {
+    CommandInfo info{verb->get_name(), verb->get_description(), {}};
+    for (const CLI::Option* option : verb->get_options()) {
+      if (option != verb->get_help_ptr()) {
+        info.options.push_back(Info(*option));
+      }
+    }
+    verbs.push_back(std::move(info));
+  }
+  return verbs;
+}
+
+CommandLine::CommandLine(const std::string& name, const std::string& summary,
+                         std::function<std::string()> version)
+    : app_(std::make_unique<CLI::App>(summary, name)) {
+  app_->set_version_flag("--version", std::move(version));
+  app_->set_help_flag("-h,--help", "Print this help");
+  app_->require_subcommand(0, 1);
+  app_->failure_message(CLI::FailureMessage::simple);
+}
+
+CommandLine::~CommandLine() = default;
+
+Command CommandLine::AddVerb(const std::string& name, const std::string& summary) {
+  return {app_->add_subcommand(name, summary), &exit_code_};
+}
+
+int CommandLine::Parse(int argc, char** argv, int bad_usage) {
+  try {
+    app_->parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app_->exit(error) == 0 ? 0 : bad_usage;
+  }
+  if (app_->get_subcommands().empty()) {
+    fmt::print("{}", app_->help());
+    return bad_usage;
+  }
+  return exit_code_;
+}
+
+}  // namespace trackbed::cli
