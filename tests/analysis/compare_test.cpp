@@ -7,6 +7,7 @@
 
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
+#include "trackbed/analysis/verdict.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"

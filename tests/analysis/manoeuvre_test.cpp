@@ -8,6 +8,7 @@
 
 #include "tests/tolerance.h"
 #include "trackbed/analysis/metrics.h"
+#include "trackbed/analysis/verdict.h"
 #include "trackbed/core/angle.h"
 
 // Every evaluation on logs whose answers are known in closed form.

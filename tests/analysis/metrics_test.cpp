@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/tolerance.h"
+#include "trackbed/analysis/verdict.h"
 
 namespace trackbed {
 namespace {
