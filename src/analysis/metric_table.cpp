@@ -1,5 +1,7 @@
 #include "src/analysis/metric_table.h"
 
+#include "src/analysis/sideslip.h"
+
 // The place where a metric is registered: one entry each.
 namespace trackbed {
 namespace {
@@ -117,6 +119,7 @@ std::vector<MetricEntry> OwnMetrics() {
       {"steering_saturated_fraction", "Share of time at the steering rate's limit", "",
        Of(&P::steering_saturated_fraction)},
       {"yaw_rate_ratio", "Yaw rate over the kinematic car's", "", YawRateRatio},
+      Located({"sideslip_max", "Largest side-slip angle", "rad", {}, LargestSideslip}),
   };
 }
 
