@@ -5,13 +5,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "trackbed/control/steering_controller.h"
+#include "src/analysis/metric_table.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
-#include "trackbed/core/text_table.h"
 #include "trackbed/sim/plant.h"
+#include "trackbed/control/steering_controller.h"
 
 namespace trackbed {
 namespace {
@@ -111,13 +111,6 @@ Difference Summarise(const std::vector<Apart>& rows, const Of& of) {
   return difference;
 }
 
-nlohmann::ordered_json ToJson(const Difference& difference) {
-  return {{"rms", difference.rms},
-          {"max", difference.max},
-          {"max_s", difference.max_s},
-          {"max_t", difference.max_t}};
-}
-
 void AddRow(Trace& trace, double station, double time, const Pose2& pose, double yaw_rate,
             double steering) {
   if (trace.station.empty() || station > trace.station.back()) {
@@ -175,6 +168,21 @@ Trace ReadTrace(const fs::path& file, const std::string& name) {
   return trace;
 }
 
+const std::vector<ComparedQuantity>& ComparedQuantities() {
+  using C = PlantComparison;
+  using B = DifferenceBounds;
+  static const std::vector<ComparedQuantity> quantities{
+      {"position", "position", "m", "Largest distance", "Distance, rms", &C::position,
+       &B::position_max},
+      {"heading", "heading", "rad", "Largest difference of heading", "Difference of heading, rms",
+       &C::heading, &B::heading_max},
+      {"yaw_rate", "yaw rate", "rad/s", "Largest difference of yaw rate",
+       "Difference of yaw rate, rms", &C::yaw_rate, &B::yaw_rate_max},
+      {"steering", "steering", "rad", "Largest difference of steering",
+       "Difference of steering, rms", &C::steering, &B::steering_max}};
+  return quantities;
+}
+
 PlantComparison CompareTraces(const Trace& first, const Trace& second) {
   PlantComparison comparison{.first = first.name, .second = second.name};
   const std::vector<Apart> rows = ApartAtRows(first, second);
@@ -202,34 +210,6 @@ Table DifferencesOverArcLength(const Trace& first, const Trace& second) {
                   row.position.norm(), row.yaw, row.yaw_rate, row.steering});
   }
   return table;
-}
-
-std::vector<std::string> Exceeded(const DifferenceBounds& bounds,
-                                  const PlantComparison& comparison) {
-  const std::string names = comparison.first + " and " + comparison.second;
-  if (!comparison.comparable()) {
-    return {names + ": expected to be compared, but they have no stretch in common"};
-  }
-  struct Bound {
-    const char* what;
-    const char* unit;
-    std::optional<double> limit;
-    const Difference& actual;
-  };
-  std::vector<std::string> failures;
-  for (const Bound& bound : {Bound{"position", "m", bounds.position_max, comparison.position},
-                             Bound{"heading", "rad", bounds.heading_max, comparison.heading},
-                             Bound{"yaw rate", "rad/s", bounds.yaw_rate_max, comparison.yaw_rate},
-                             Bound{"steering", "rad", bounds.steering_max, comparison.steering}}) {
-    if (bound.limit && !(bound.actual.max <= *bound.limit)) {
-      const auto [limit, actual] = TextsApart(*bound.limit, bound.actual.max);
-      failures.push_back(fmt::format(
-          "{}: {} difference expected at most {} {}, was {} {} at s = {:.4g} m, t = {:.4g} s",
-          names, bound.what, limit, bound.unit, actual, bound.unit, bound.actual.max_s,
-          bound.actual.max_t));
-    }
-  }
-  return failures;
 }
 
 std::vector<FinishedDrive> ReadRunFolder(const fs::path& folder) {
@@ -266,14 +246,47 @@ std::vector<FinishedDrive> ReadRunFolder(const fs::path& folder) {
   return drives;
 }
 
+std::vector<Metric> ListMetrics(const PlantComparison& comparison) {
+  std::vector<Metric> all{{"from_s", comparison.from_s, {}}, {"to_s", comparison.to_s, {}}};
+  for (const ComparedQuantity& quantity : ComparedQuantities()) {
+    const Difference& difference = comparison.*quantity.difference;
+    const std::string key = quantity.key;
+    all.push_back({key + ".rms", difference.rms, {}});
+    all.push_back({key + ".max",
+                   difference.max,
+                   {.span = MetricSpan::kPoint, .s = difference.max_s, .t = difference.max_t}});
+    all.push_back({key + ".max_s", difference.max_s, {}});
+    all.push_back({key + ".max_t", difference.max_t, {}});
+  }
+  return all;
+}
+
+std::optional<MetricInfo> DescribeComparisonMetric(std::string_view path) {
+  const std::size_t dot = path.find('.');
+  const std::string_view what = dot == std::string_view::npos ? "" : path.substr(dot + 1);
+  for (const ComparedQuantity& quantity : ComparedQuantities()) {
+    if (path.substr(0, dot) != quantity.key) {
+      continue;
+    }
+    const bool headline = quantity.difference == &PlantComparison::position;
+    return what == "max"   ? std::optional(MetricInfo{quantity.max_label, quantity.unit, headline})
+           : what == "rms" ? std::optional(MetricInfo{quantity.rms_label, quantity.unit})
+           : what == "max_s" ? std::optional(MetricInfo{"… at station", "m"})
+           : what == "max_t" ? std::optional(MetricInfo{"… at", "s"})
+                             : std::nullopt;
+  }
+  return path == "from_s"     ? std::optional(MetricInfo{"Compared from station", "m"})
+         : path == "to_s"     ? std::optional(MetricInfo{"… to station", "m"})
+         : path == "compared" ? std::optional(MetricInfo{"Compared", ""})
+                              : std::nullopt;
+}
+
 nlohmann::ordered_json ToJson(const PlantComparison& comparison) {
-  return {{"plants", {comparison.first, comparison.second}},
-          {"from_s", comparison.from_s},
-          {"to_s", comparison.to_s},
-          {"position", ToJson(comparison.position)},
-          {"heading", ToJson(comparison.heading)},
-          {"yaw_rate", ToJson(comparison.yaw_rate)},
-          {"steering", ToJson(comparison.steering)}};
+  nlohmann::ordered_json json{{"plants", {comparison.first, comparison.second}}};
+  for (const Metric& metric : ListMetrics(comparison)) {
+    PutMetric(metric, json);
+  }
+  return json;
 }
 
 }  // namespace trackbed

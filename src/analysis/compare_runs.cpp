@@ -48,10 +48,9 @@ DifferenceBounds BoundsBetween(const Expectations& expect, const std::string& a,
   for (const BetweenExpectation& between : expect.between) {
     if (std::is_permutation(between.plants.begin(), between.plants.end(),
                             std::vector{a, b}.begin())) {
-      Tighten(bounds.position_max, between.bounds.position_max);
-      Tighten(bounds.heading_max, between.bounds.heading_max);
-      Tighten(bounds.yaw_rate_max, between.bounds.yaw_rate_max);
-      Tighten(bounds.steering_max, between.bounds.steering_max);
+      for (const ComparedQuantity& quantity : ComparedQuantities()) {
+        Tighten(bounds.*quantity.bound, between.bounds.*quantity.bound);
+      }
     }
   }
   return bounds;
@@ -61,11 +60,12 @@ ComparedPair Pair(const Trace& first, const Trace& second, const DifferenceBound
   return {CompareTraces(first, second), bounds, DifferencesOverArcLength(first, second)};
 }
 
-/// Adds what the pair does not keep to the verdict.
+/// Adds the checks of the pair to the verdict.
 void Judge(const ComparedPair& pair, Verdict& verdict) {
   if (pair.bounds.any() || !pair.comparison.comparable()) {
-    const std::vector<std::string> failures = Exceeded(pair.bounds, pair.comparison);
-    verdict.failures.insert(verdict.failures.end(), failures.begin(), failures.end());
+    for (Check& check : CheckBounds(pair.bounds, pair.comparison)) {
+      AddCheck(std::move(check), verdict);
+    }
   }
   verdict.passed = verdict.failures.empty();
 }
@@ -254,15 +254,11 @@ void NoteOtherPlan(const fs::path& first, const fs::path& second, Verdict& verdi
 
 ordered_json ToJson(const DifferenceBounds& bounds) {
   ordered_json json = ordered_json::object();
-  const auto add = [&](const char* key, const std::optional<double>& limit) {
-    if (limit) {
-      json[key] = *limit;
+  for (const ComparedQuantity& quantity : ComparedQuantities()) {
+    if (const std::optional<double>& limit = bounds.*quantity.bound) {
+      json[std::string(quantity.key) + "_max"] = *limit;
     }
-  };
-  add("position_max", bounds.position_max);
-  add("heading_max", bounds.heading_max);
-  add("yaw_rate_max", bounds.yaw_rate_max);
-  add("steering_max", bounds.steering_max);
+  }
   return json;
 }
 
@@ -324,10 +320,18 @@ RunComparison CompareFolders(const std::vector<fs::path>& folders,
   }
   for (const auto& [first, second, expected] : candidates) {
     const DifferenceBounds bounds = tolerances.value_or(expected);
-    if (first.status != second.status) {
-      const std::string ends = fmt::format("{} ended as {}, {} as {}", first.trace.name,
-                                           first.status, second.trace.name, second.status);
-      (bounds.any() ? result.verdict.failures : result.verdict.notes).push_back(ends);
+    Check ends{.plant = first.trace.name,
+               .other = second.trace.name,
+               .metric = "status",
+               .relation = Relation::kEquals,
+               .bound = first.status,
+               .value = second.status,
+               .met = first.status == second.status,
+               .reason = CheckReason::kSameEnd};
+    if (bounds.any()) {
+      AddCheck(std::move(ends), result.verdict);
+    } else if (!ends.met) {
+      result.verdict.notes.push_back(FailureMessage(ends));
     }
     result.pairs.push_back(Pair(first.trace, second.trace, bounds));
     Judge(result.pairs.back(), result.verdict);
@@ -350,18 +354,21 @@ DifferenceBounds ParseTolerances(const std::vector<std::string>& texts) {
         number < 0.0) {
       BadTolerance(fmt::format("{}: expected a number of at least 0, found '{}'", name, value));
     }
-    std::optional<double>* bound = name == "position"   ? &bounds.position_max
-                                   : name == "heading"  ? &bounds.heading_max
-                                   : name == "yaw_rate" ? &bounds.yaw_rate_max
-                                   : name == "steering" ? &bounds.steering_max
-                                                        : nullptr;
-    if (bound == nullptr) {
-      BadTolerance("unknown " + UnknownName(name, {"position", "heading", "yaw_rate", "steering"}));
+    const std::vector<ComparedQuantity>& known = ComparedQuantities();
+    const auto quantity =
+        std::find_if(known.begin(), known.end(), [&](const auto& own) { return own.key == name; });
+    if (quantity == known.end()) {
+      std::vector<std::string> names;
+      for (const ComparedQuantity& own : known) {
+        names.emplace_back(own.key);
+      }
+      BadTolerance("unknown " + UnknownName(name, names));
     }
-    if (*bound) {
+    std::optional<double>& bound = bounds.*quantity->bound;
+    if (bound) {
       BadTolerance(name + ": given twice");
     }
-    *bound = number;
+    bound = number;
   }
   return bounds;
 }

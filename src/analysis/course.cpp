@@ -58,6 +58,15 @@ struct Departure {
 
 }  // namespace
 
+std::vector<ManoeuvreMetric> MetricsOf(const BrakingTestOptions& /*options*/) {
+  return {{"initial_speed", "initial speed", "m/s"},
+          {"distance", "braking distance", "m", true},
+          {"mean_fully_developed_deceleration", "mean fully developed deceleration", "m/s^2"},
+          {"yaw_rate_max", "largest yaw rate", "rad/s"},
+          {"heading_deviation_max", "largest heading deviation", "rad"},
+          {"lateral_deviation_max", "largest lateral deviation", "m"}};
+}
+
 void Evaluate(const BrakingTestOptions& options, const ManoeuvreInput& input,
               ManoeuvreMetrics& metrics) {
   constexpr double kBraking = 0.5;      // more than keeping a speed asks for [m/s^2]
@@ -104,6 +113,13 @@ void Evaluate(const BrakingTestOptions& options, const ManoeuvreInput& input,
   metrics.values.emplace_back("yaw_rate_max", yaw_rate);
   metrics.values.emplace_back("heading_deviation_max", departure.heading);
   metrics.values.emplace_back("lateral_deviation_max", departure.lateral);
+}
+
+std::vector<ManoeuvreMetric> MetricsOf(const DisturbanceOptions& /*options*/) {
+  return {{"lateral_deviation_max", "largest lateral deviation", "m"},
+          {"heading_deviation_max", "largest heading deviation", "rad"},
+          {"yaw_rate_deviation_max", "largest yaw rate deviation", "rad/s"},
+          {"recovery_time", "recovery time of the yaw rate", "s", true}};
 }
 
 void Evaluate(const DisturbanceOptions& options, const ManoeuvreInput& input,

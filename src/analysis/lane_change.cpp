@@ -13,6 +13,16 @@
 
 namespace trackbed {
 
+std::vector<ManoeuvreMetric> MetricsOf(const LaneChangeOptions& /*options*/) {
+  return {{"margin", "smallest margin to a gate", "m", true},
+          {"margin_gate", "section of the smallest margin", ""},
+          {"margin_1", "margin in section 1", "m"},
+          {"margin_3", "margin in section 3", "m"},
+          {"margin_5", "margin in section 5", "m"},
+          {"entry_speed", "entry speed", "m/s", true},
+          {"speed_loss", "loss of speed", "m/s"}};
+}
+
 void Evaluate(const LaneChangeOptions&, const ManoeuvreInput& input, ManoeuvreMetrics& metrics) {
   const std::vector<Gate>& gates = input.plan.gates;
   if (gates.empty()) {

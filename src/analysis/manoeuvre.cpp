@@ -28,59 +28,20 @@ double SaturatedFraction(const RunLog& log, double begin, double end) {
   return periods > 0.0 ? saturated / periods : 0.0;
 }
 
-const std::vector<std::string>& Names(const SteadyStateCircleOptions&) {
-  static const std::vector<std::string> names{
-      "lateral_acceleration_max", "understeer_gradient", "characteristic_speed",
-      "critical_speed",           "yaw_rate_gain",       "roll_gradient",
-      "sideslip_gradient"};
-  return names;
+/// What every evaluation says beside its own values.
+const std::vector<ManoeuvreMetric>& CommonMetrics() {
+  static const std::vector<ManoeuvreMetric> metrics{
+      {"method", "method", ""},
+      {"passed", "passed", "", true},
+      {"begin", "evaluated from", "s"},
+      {"end", "evaluated until", "s"},
+      {"steering_saturated_fraction", "share of time at the steering rate's limit", ""},
+      {"missing", "not measured", ""}};
+  return metrics;
 }
-const std::vector<std::string>& Names(const SlowlyIncreasingSteerOptions&) {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all = Names(SteadyStateCircleOptions{});
-    all.emplace_back("steering_at_0_3_g");
-    return all;
-  }();
-  return names;
-}
-const std::vector<std::string>& Names(const StepSteerOptions&) {
-  static const std::vector<std::string> names{"speed",
-                                              "yaw_rate_steady",
-                                              "yaw_rate_response_time",
-                                              "yaw_rate_peak_time",
-                                              "yaw_rate_overshoot",
-                                              "yaw_rate_gain",
-                                              "lateral_acceleration_steady",
-                                              "lateral_acceleration_response_time",
-                                              "lateral_acceleration_peak_time",
-                                              "lateral_acceleration_overshoot",
-                                              "sideslip_steady",
-                                              "tb"};
-  return names;
-}
-const std::vector<std::string>& Names(const SineWithDwellTestOptions&) {
-  static const std::vector<std::string> names{"speed", "lateral_displacement", "yaw_rate_peak",
-                                              "yaw_rate_ratio_1_00", "yaw_rate_ratio_1_75"};
-  return names;
-}
-const std::vector<std::string>& Names(const LaneChangeOptions&) {
-  static const std::vector<std::string> names{"margin",   "margin_gate", "margin_1",  "margin_3",
-                                              "margin_5", "entry_speed", "speed_loss"};
-  return names;
-}
-const std::vector<std::string>& Names(const BrakingTestOptions&) {
-  static const std::vector<std::string> names{"initial_speed",
-                                              "distance",
-                                              "mean_fully_developed_deceleration",
-                                              "yaw_rate_max",
-                                              "heading_deviation_max",
-                                              "lateral_deviation_max"};
-  return names;
-}
-const std::vector<std::string>& Names(const DisturbanceOptions&) {
-  static const std::vector<std::string> names{"lateral_deviation_max", "heading_deviation_max",
-                                              "yaw_rate_deviation_max", "recovery_time"};
-  return names;
+
+std::vector<ManoeuvreMetric> OwnMetricsOf(const ManoeuvreOptions& options) {
+  return std::visit([](const auto& own) { return MetricsOf(own); }, options);
 }
 
 /// Whatever else was measured, a car on its side has failed.
@@ -129,27 +90,49 @@ ManoeuvreMetrics EveryMetricOf(const ManoeuvreOptions& options) {
   metrics.method = ManoeuvreName(options);
   metrics.passed = false;
   metrics.missing = "why";
-  for (const std::string& name : std::visit([](const auto& own) { return Names(own); }, options)) {
-    metrics.values.emplace_back(name, 0.0);
+  for (const ManoeuvreMetric& own : OwnMetricsOf(options)) {
+    metrics.values.emplace_back(own.name, 0.0);
   }
   return metrics;
 }
 
-nlohmann::ordered_json ToJson(const ManoeuvreMetrics& metrics) {
-  nlohmann::ordered_json json{{"method", metrics.method}};
+std::vector<Metric> ListMetrics(const ManoeuvreMetrics& metrics) {
+  std::vector<Metric> all;
+  const auto add = [&](const std::string& name, MetricValue value) {
+    all.push_back({name,
+                   std::move(value),
+                   {.span = MetricSpan::kInterval, .t = metrics.end, .from_t = metrics.begin}});
+  };
+  add("method", metrics.method);
   if (metrics.passed) {
-    json["passed"] = *metrics.passed;
+    add("passed", *metrics.passed);
   }
   for (const auto& [name, value] : metrics.values) {
-    json[name] = value;
+    add(name, value);
   }
-  json["begin"] = metrics.begin;
-  json["end"] = metrics.end;
-  json["steering_saturated_fraction"] = metrics.steering_saturated_fraction;
+  add("begin", metrics.begin);
+  add("end", metrics.end);
+  add("steering_saturated_fraction", metrics.steering_saturated_fraction);
   if (!metrics.missing.empty()) {
-    json["missing"] = metrics.missing;
+    add("missing", metrics.missing);
   }
-  return json;
+  return all;
+}
+
+std::optional<MetricInfo> DescribeManoeuvreMetric(std::string_view name) {
+  const auto find = [&](const std::vector<ManoeuvreMetric>& metrics) -> std::optional<MetricInfo> {
+    for (const ManoeuvreMetric& metric : metrics) {
+      if (name == metric.name) {
+        return MetricInfo{metric.label, metric.unit, metric.headline};
+      }
+    }
+    return std::nullopt;
+  };
+  std::optional<MetricInfo> info = find(CommonMetrics());
+  for (const ManoeuvreEntry& manoeuvre : Manoeuvres()) {
+    info = info ? info : find(OwnMetricsOf(manoeuvre.defaults));
+  }
+  return info;
 }
 
 }  // namespace trackbed

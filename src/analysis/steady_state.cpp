@@ -134,6 +134,22 @@ void EvaluateGradients(const std::vector<Sample>& samples, double from, double t
 
 }  // namespace
 
+std::vector<ManoeuvreMetric> MetricsOf(const SteadyStateCircleOptions& /*options*/) {
+  return {{"lateral_acceleration_max", "largest quasi-steady lateral acceleration", "m/s^2"},
+          {"understeer_gradient", "understeer gradient", "rad s^2/m", true},
+          {"characteristic_speed", "characteristic speed", "m/s"},
+          {"critical_speed", "critical speed", "m/s"},
+          {"yaw_rate_gain", "yaw rate gain", "1/s"},
+          {"roll_gradient", "roll gradient", "rad s^2/m"},
+          {"sideslip_gradient", "side-slip gradient", "rad s^2/m"}};
+}
+
+std::vector<ManoeuvreMetric> MetricsOf(const SlowlyIncreasingSteerOptions& /*options*/) {
+  std::vector<ManoeuvreMetric> all = MetricsOf(SteadyStateCircleOptions{});
+  all.push_back({"steering_at_0_3_g", "steering angle at 0.3 g", "rad"});
+  return all;
+}
+
 void Evaluate(const SteadyStateCircleOptions& options, const ManoeuvreInput& input,
               ManoeuvreMetrics& metrics) {
   EvaluateGradients(QuasiSteady(input.log, options.settle), options.fit_from, options.fit_to,

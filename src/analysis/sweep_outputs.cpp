@@ -1,49 +1,36 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <nlohmann/json.hpp>
-
-#include "src/analysis/json_leaves.h"
-#include "src/analysis/metric_expectations.h"
+#include "src/analysis/metric_table.h"
 #include "trackbed/analysis/sweep.h"
 
 namespace trackbed {
-namespace {
-
-using nlohmann::ordered_json;
-
-std::string TextOf(const ordered_json& value) {
-  if (value.is_number_float()) {
-    return ShortestText(value.get<double>());
-  }
-  return value.is_string() ? value.get<std::string>() : value.dump();
-}
-
-}  // namespace
 
 Outputs OutputsOf(const RunResult& result) {
-  ordered_json json;
-  json["metrics"] = MetricsJson(result)["plants"];
-  if (result.metrics.size() == 1) {
-    const ordered_json only = json["metrics"].front();
-    json["metrics"]["*"] = only;
-  }
-  for (const PlantComparison& comparison : result.comparisons) {
-    ordered_json& between = json["between"][comparison.first][comparison.second];
-    between = ToJson(comparison);
-    between.erase("plants");
-  }
-  json["verdict"] = {{"passed", ToJson(result.verdict)["passed"]},
-                     {"failures", fmt::format("{}", fmt::join(result.verdict.failures, "; "))}};
-  if (result.scenario.plan) {
-    json["plan"]["status"] = ToString(result.plan.status);
-    if (result.plan.ok()) {
-      json["plan"]["length_m"] = result.plan.reference.path.length();
+  Outputs outputs;
+  for (const PlantMetrics& plant : result.metrics) {
+    for (const Metric& metric : ListMetrics(plant)) {
+      const std::string value = ToText(metric.value);
+      outputs[fmt::format("metrics.{}.{}", plant.plant, metric.path)] = value;
+      if (result.metrics.size() == 1) {
+        outputs["metrics.*." + metric.path] = value;
+      }
     }
   }
-  Outputs outputs;
-  for (const auto& [path, value] : LeavesOf(json)) {
-    outputs[path] = TextOf(value);
+  for (const PlantComparison& comparison : result.comparisons) {
+    for (const Metric& metric : ListMetrics(comparison)) {
+      outputs[fmt::format("between.{}.{}.{}", comparison.first, comparison.second, metric.path)] =
+          ToText(metric.value);
+    }
+  }
+  const Verdict& verdict = result.verdict;
+  outputs["verdict.passed"] = ToText(verdict.judged ? MetricValue(verdict.passed) : MetricValue());
+  outputs["verdict.failures"] = fmt::format("{}", fmt::join(verdict.failures, "; "));
+  if (result.scenario.plan) {
+    outputs["plan.status"] = ToString(result.plan.status);
+    if (result.plan.ok()) {
+      outputs["plan.length_m"] = ToText(result.plan.reference.path.length());
+    }
   }
   return outputs;
 }

@@ -89,6 +89,21 @@ double EvaluateResponse(const RunLog& log, const Step& step, double steady_time,
 
 }  // namespace
 
+std::vector<ManoeuvreMetric> MetricsOf(const StepSteerOptions& /*options*/) {
+  return {{"speed", "speed at the beginning", "m/s"},
+          {"yaw_rate_steady", "steady yaw rate", "rad/s"},
+          {"yaw_rate_response_time", "response time of the yaw rate", "s", true},
+          {"yaw_rate_peak_time", "peak time of the yaw rate", "s"},
+          {"yaw_rate_overshoot", "overshoot of the yaw rate", ""},
+          {"yaw_rate_gain", "yaw rate gain", "1/s"},
+          {"lateral_acceleration_steady", "steady lateral acceleration", "m/s^2"},
+          {"lateral_acceleration_response_time", "response time of the lateral acceleration", "s"},
+          {"lateral_acceleration_peak_time", "peak time of the lateral acceleration", "s"},
+          {"lateral_acceleration_overshoot", "overshoot of the lateral acceleration", ""},
+          {"sideslip_steady", "steady side-slip angle", "rad"},
+          {"tb", "TB value", "s rad"}};
+}
+
 void Evaluate(const StepSteerOptions& options, const ManoeuvreInput& input,
               ManoeuvreMetrics& metrics) {
   const RunLog& log = input.log;
@@ -109,6 +124,14 @@ void Evaluate(const StepSteerOptions& options, const ManoeuvreInput& input,
       MeanAtEnd(log, options.steady, sideslip_of) - sideslip_of(log.rows[step->row]);
   metrics.values.emplace_back("sideslip_steady", sideslip);
   metrics.values.emplace_back("tb", *metrics.Find("yaw_rate_peak_time") * std::abs(sideslip));
+}
+
+std::vector<ManoeuvreMetric> MetricsOf(const SineWithDwellTestOptions& /*options*/) {
+  return {{"speed", "speed at the beginning", "m/s"},
+          {"lateral_displacement", "lateral displacement", "m", true},
+          {"yaw_rate_peak", "peak yaw rate", "rad/s"},
+          {"yaw_rate_ratio_1_00", "yaw rate ratio after 1.00 s", "", true},
+          {"yaw_rate_ratio_1_75", "yaw rate ratio after 1.75 s", "", true}};
 }
 
 void Evaluate(const SineWithDwellTestOptions&, const ManoeuvreInput& input,

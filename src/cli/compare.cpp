@@ -50,10 +50,9 @@ void Print(const std::string& name, const RunComparison& result, const fs::path&
       continue;  // the verdict says so
     }
     fmt::print("  {} - {}, from {:.4g} m to {:.4g} m\n", c.first, c.second, c.from_s, c.to_s);
-    PrintRow("position", "m", c.position, pair.bounds.position_max);
-    PrintRow("heading", "rad", c.heading, pair.bounds.heading_max);
-    PrintRow("yaw rate", "rad/s", c.yaw_rate, pair.bounds.yaw_rate_max);
-    PrintRow("steering", "rad", c.steering, pair.bounds.steering_max);
+    for (const ComparedQuantity& quantity : ComparedQuantities()) {
+      PrintRow(quantity.name, quantity.unit, c.*quantity.difference, pair.bounds.*quantity.bound);
+    }
   }
   for (const auto& lines : {result.verdict.failures, result.verdict.notes}) {
     for (const std::string& line : lines) {

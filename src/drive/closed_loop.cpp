@@ -13,6 +13,9 @@
 #include "src/drive/segment_sequencer.h"
 #include "src/drive/termination.h"
 
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/control/steering_controller.h"
+
 namespace trackbed {
 namespace {
 

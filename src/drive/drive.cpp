@@ -3,6 +3,7 @@
 #include "src/drive/scenario_parts.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/schedule.h"
+#include "trackbed/planning/common/plan.h"
 
 namespace trackbed {
 

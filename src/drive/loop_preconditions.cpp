@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "trackbed/core/error.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/control/steering_controller.h"
 
 namespace trackbed {
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "trackbed/drive/closed_loop.h"
+#include "trackbed/planning/common/plan.h"
 
 namespace trackbed {
 

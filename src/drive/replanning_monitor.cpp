@@ -6,6 +6,7 @@
 
 #include "trackbed/planning/avoidance/avoidance.h"
 #include "trackbed/world/world.h"
+#include "trackbed/planning/common/plan.h"
 
 namespace trackbed {
 namespace {

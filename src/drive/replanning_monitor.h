@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "trackbed/drive/closed_loop.h"
+#include "trackbed/planning/common/plan.h"
 
 namespace trackbed {
 

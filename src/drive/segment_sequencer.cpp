@@ -7,6 +7,9 @@
 
 #include "src/drive/path_tracking.h"
 
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/control/steering_controller.h"
+
 namespace trackbed {
 
 std::deque<Plan> SegmentsOf(const Plan& plan) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "trackbed/core/angle.h"
+#include "trackbed/planning/common/plan.h"
 
 namespace trackbed {
 namespace {

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "trackbed/drive/closed_loop.h"
+#include "trackbed/planning/common/plan.h"
 
 /// When a run is over, and how it ended.
 namespace trackbed {

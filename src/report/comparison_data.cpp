@@ -56,6 +56,7 @@ void TakeJudged(const fs::path& folder, const std::vector<fs::path>& runs, std::
       pairs.push_back({drive(0, at), drive(1, at + last), file, pair});
     }
     verdicts.push_back(json.at("verdict"));
+    verdicts.back().erase("checks");
     if (runs.size() > 1 && last == 0) {
       verdicts.back()["run"] = at;
     }
@@ -106,13 +107,9 @@ ordered_json LeftOut(const std::vector<fs::path>& runs,
 /// The logs may be others than those that were compared.
 void RefuseIfChanged(const Pair& pair, const PlantComparison& now) {
   constexpr double kSame = 1e-6;  // [m], [rad], [rad/s]: of rounding on another machine
-  const std::vector<std::pair<const char*, const Difference&>> quantities{
-      {"position", now.position},
-      {"heading", now.heading},
-      {"yaw_rate", now.yaw_rate},
-      {"steering", now.steering}};
-  for (const auto& [name, difference] : quantities) {
-    if (!(std::abs(pair.outcome.at(name).at("max").get<double>() - difference.max) <= kSame)) {
+  for (const ComparedQuantity& quantity : ComparedQuantities()) {
+    const double then = pair.outcome.at(quantity.key).at("max").get<double>();
+    if (!(std::abs(then - (now.*quantity.difference).max) <= kSame)) {
       Unfit(pair.file, "not of the logs that the runs have now");
     }
   }

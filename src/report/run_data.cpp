@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "src/report/expectations.h"
+#include "src/report/checks.h"
 #include "src/report/json_file.h"
 #include "src/report/names.h"
 #include "src/report/numbers.h"
@@ -13,6 +13,7 @@
 #include "trackbed/core/file.h"
 #include "trackbed/core/table.h"
 #include "trackbed/planning/common/plan_status.h"
+#include "trackbed/scenario/scenario.h"
 #include "trackbed/sim/car_model.h"
 #include "trackbed/sim/plant.h"
 
@@ -183,7 +184,8 @@ ordered_json RunData(const fs::path& folder, const std::string& name, std::size_
     for (const char* key : {"scenario", "complete", "seed", "versions", "verdict"}) {
       run[key] = metrics.at(key);
     }
-    run["expectations"] = ExpectationRows(ReadExpectations(scenario), metrics);
+    run["verdict"].erase("checks");
+    run["expectations"] = CheckRows(metrics.at("verdict"));
     run["car"] = CarOf(folder / "model.xml");
     run["world"] = WorldOf(ReadWorld(scenario));
     if (fs::exists(folder / "plan.json") || fs::exists(folder / "plan.csv")) {

@@ -6,27 +6,28 @@
 #include <functional>
 #include <ostream>
 
+#include "trackbed/analysis/verdict.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {
 namespace {
 
 /// What keeps a run from matching, one line each; none when it matches.
-using Check = std::function<std::vector<std::string>(const RunResult&)>;
+using Failures = std::function<std::vector<std::string>(const RunResult&)>;
 
 class RunMatcher {
  public:
   using is_gtest_matcher = void;
 
-  RunMatcher(std::string description, Check check)
-      : description_(std::move(description)), check_(std::move(check)) {}
+  RunMatcher(std::string description, Failures failures)
+      : description_(std::move(description)), failures_(std::move(failures)) {}
 
   bool MatchAndExplain(const RunResult& run, std::ostream* out) const {
     std::vector<std::string> failures;
     if (!run.plan.ok()) {
       failures.push_back(fmt::format("there is no plan: {}", run.plan.reason));
     } else {
-      failures = check_(run);
+      failures = failures_(run);
     }
     if (out != nullptr) {
       for (std::size_t i = 0; i < failures.size(); ++i) {
@@ -41,11 +42,11 @@ class RunMatcher {
 
  private:
   std::string description_;
-  Check check_;
+  Failures failures_;
 };
 
 /// The failures of a check that every plant must pass; `check` returns an empty text when it does.
-Check ForEveryPlant(std::function<std::string(const PlantMetrics&)> check) {
+Failures ForEveryPlant(std::function<std::string(const PlantMetrics&)> check) {
   return [check = std::move(check)](const RunResult& run) {
     std::vector<std::string> failures;
     for (const PlantMetrics& metrics : run.metrics) {
@@ -58,6 +59,16 @@ Check ForEveryPlant(std::function<std::string(const PlantMetrics&)> check) {
     }
     return failures;
   };
+}
+
+/// Why a number of a plant does not keep its bound, or an empty text; `format` is given the number,
+/// the station and the time.
+std::string FailureOf(const PlantMetrics& plant, const char* metric, Relation relation,
+                      double bound, const char* format) {
+  const Check check = CheckMetric(plant, metric, relation, bound);
+  return check.met ? ""
+                   : fmt::format(fmt::runtime(format), std::get<double>(check.value), check.at.s,
+                                 check.at.t);
 }
 
 class PartsAtMostMatcher {
@@ -80,15 +91,11 @@ class PartsAtMostMatcher {
  private:
   [[nodiscard]] std::string Bounds() const {
     std::vector<std::string> all;
-    const auto add = [&](const std::optional<double>& limit, const char* unit, const char* what) {
-      if (limit) {
-        all.push_back(fmt::format("{} {} in {}", *limit, unit, what));
+    for (const ComparedQuantity& quantity : ComparedQuantities()) {
+      if (const std::optional<double>& limit = bounds_.*quantity.bound) {
+        all.push_back(fmt::format("{} {} in {}", *limit, quantity.unit, quantity.name));
       }
-    };
-    add(bounds_.position_max, "m", "position");
-    add(bounds_.heading_max, "rad", "heading");
-    add(bounds_.yaw_rate_max, "rad/s", "yaw rate");
-    add(bounds_.steering_max, "rad", "steering");
+    }
     return fmt::format("{}", fmt::join(all, ", "));
   }
 
@@ -163,35 +170,29 @@ testing::Matcher<const RunResult&> TracksWithin(double limit) {
                       if (!metrics.tracking) {
                         return "has no path to track";
                       }
-                      const TrackingMetrics& tracking = *metrics.tracking;
-                      return tracking.cross_track_max <= limit
-                                 ? ""
-                                 : fmt::format("was {:.4g} m off at s = {:.4g} m, t = {:.4g} s",
-                                               tracking.cross_track_max, tracking.cross_track_max_s,
-                                               tracking.cross_track_max_t);
+                      return FailureOf(metrics, "cross_track.max", Relation::kAtMost, limit,
+                                       "was {:.4g} m off at s = {:.4g} m, t = {:.4g} s");
                     }));
 }
 
 testing::Matcher<const RunResult&> StaysWithin(const std::string& first, const std::string& second,
                                                double limit) {
-  return RunMatcher(
-      fmt::format("keeps {} and {} within {} m of each other", first, second, limit),
-      [=](const RunResult& run) -> std::vector<std::string> {
-        for (const PlantComparison& c : run.comparisons) {
-          if ((c.first == first && c.second == second) ||
-              (c.first == second && c.second == first)) {
-            if (!c.comparable()) {
-              return {"they have no stretch in common"};
-            }
-            if (c.position.max <= limit) {
-              return {};
-            }
-            return {fmt::format("they were {:.4g} m apart at s = {:.4g} m, t = {:.4g} s",
-                                c.position.max, c.position.max_s, c.position.max_t)};
-          }
-        }
-        return {fmt::format("the run did not drive both {} and {}", first, second)};
-      });
+  return RunMatcher(fmt::format("keeps {} and {} within {} m of each other", first, second, limit),
+                    [=](const RunResult& run) -> std::vector<std::string> {
+                      for (const PlantComparison& c : run.comparisons) {
+                        if ((c.first == first && c.second == second) ||
+                            (c.first == second && c.second == first)) {
+                          const Check check = CheckBounds({.position_max = limit}, c).front();
+                          return check.met ? std::vector<std::string>{}
+                                 : check.reason == CheckReason::kComparable
+                                     ? std::vector{check.detail}
+                                     : std::vector{fmt::format(
+                                           "they were {:.4g} m apart at s = {:.4g} m, t = {:.4g} s",
+                                           std::get<double>(check.value), check.at.s, check.at.t)};
+                        }
+                      }
+                      return {fmt::format("the run did not drive both {} and {}", first, second)};
+                    });
 }
 
 testing::Matcher<const RunResult&> KeepsClearOf(double distance) {
@@ -200,11 +201,8 @@ testing::Matcher<const RunResult&> KeepsClearOf(double distance) {
                       if (!metrics.clearance) {
                         return "has no obstacles to keep clear of";
                       }
-                      const ClearanceMetrics& clearance = *metrics.clearance;
-                      return clearance.min >= distance
-                                 ? ""
-                                 : fmt::format("was {:.4g} m away at s = {:.4g} m, t = {:.4g} s",
-                                               clearance.min, clearance.min_s, clearance.min_t);
+                      return FailureOf(metrics, "clearance_min", Relation::kAtLeast, distance,
+                                       "was {:.4g} m away at s = {:.4g} m, t = {:.4g} s");
                     }));
 }
 
@@ -214,15 +212,13 @@ testing::Matcher<const RunResult&> ReachesGoal(double distance) {
                       if (!metrics.tracking) {
                         return "has no goal";
                       }
-                      if (metrics.status != DriveStatus::kArrived) {
+                      if (!CheckMetric(metrics, "status", Relation::kEquals, "arrived").met) {
                         return fmt::format("ended as {} {:.4g} m from it, t = {:.4g} s",
                                            ToString(metrics.status),
                                            metrics.tracking->goal_distance, metrics.time);
                       }
-                      return metrics.tracking->goal_distance <= distance
-                                 ? ""
-                                 : fmt::format("stopped {:.4g} m from it, t = {:.4g} s",
-                                               metrics.tracking->goal_distance, metrics.time);
+                      return FailureOf(metrics, "goal_distance", Relation::kAtMost, distance,
+                                       "stopped {0:.4g} m from it, t = {2:.4g} s");
                     }));
 }
 

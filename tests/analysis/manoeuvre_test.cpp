@@ -8,6 +8,7 @@
 
 #include "tests/tolerance.h"
 #include "trackbed/analysis/metrics.h"
+#include "trackbed/analysis/verdict.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/common/plan.h"
 

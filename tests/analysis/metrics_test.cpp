@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/tolerance.h"
+#include "trackbed/analysis/verdict.h"
 #include "trackbed/control/steering_controller.h"
 
 namespace trackbed {
@@ -234,6 +235,27 @@ TEST(Measure, SaysWhereAndWhenTheLargestValuesWere) {
   EXPECT_EQ(metrics.clearance->force_max, 7.0);
   EXPECT_DOUBLE_EQ(metrics.clearance->force_max_s, 3.0);
   EXPECT_DOUBLE_EQ(metrics.clearance->force_max_t, 1.0);
+}
+
+TEST(SideslipMax, IsTheLargestOfTheMovingCarBeforeAContact) {
+  RunLog log{.plant = "made_up", .configurations = Table({"t_s"})};
+  for (int i = 0; i <= 400; ++i) {
+    LogRow row;
+    row.state.time = 0.02 * i;
+    row.state.distance = 0.06 * i;
+    row.state.speed = i < 10 ? 0.5 : 3.0;
+    // Larger ones while it creeps, and after the contact at 7 s.
+    row.state.sideslip = i < 10 ? 0.5 : i == 200 ? -0.25 : i > 350 ? 0.75 : 0.125;
+    log.rows.push_back(row);
+  }
+  log.contact_time = 7.0;
+  VehicleParams vehicle;
+  vehicle.wheelbase = 2.5;
+  const nlohmann::ordered_json json =
+      ToJson(Measure(log, Plan{}, vehicle, 0.02, StationSource::kProjection));
+  EXPECT_EQ(json["sideslip_max"], 0.25);
+  EXPECT_DOUBLE_EQ(json["sideslip_max_s"].get<double>(), 12.0);
+  EXPECT_DOUBLE_EQ(json["sideslip_max_t"].get<double>(), 4.0);
 }
 
 }  // namespace

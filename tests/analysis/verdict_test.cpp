@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -137,6 +138,68 @@ TEST(Verdict, FailsWheelsThatTurnFasterThanTheirActuator) {
                           "car's limit of 0.25 rad",
                           "mujoco: the prescribed steering turned at 0.11 rad/s, beyond the car's "
                           "limit of 0.1 rad/s"));
+}
+
+std::vector<std::string> Told(const Verdict& verdict) {
+  std::vector<std::string> told;
+  const nlohmann::ordered_json json = ToJson(verdict);
+  for (const auto& check : json["checks"]) {
+    told.push_back(check.dump());
+  }
+  return told;
+}
+
+TEST(Verdict, ListsEveryCheckWithBoundAndValueWhereAndWhen) {
+  PlantMetrics metrics{.plant = "mujoco",
+                       .time = 8.0,
+                       .end_s = 20.0,
+                       .steering_rate_max = 0.09,
+                       .steering_rate_max_s = 3.0,
+                       .steering_rate_max_t = 1.0,
+                       .steering_rate_limit = 0.25};
+  metrics.tracking = TrackingMetrics{.corridor = 2.0,
+                                     .cross_track_rms = 0.25,
+                                     .cross_track_max = 2.5,
+                                     .cross_track_max_s = 6.0,
+                                     .cross_track_max_t = 2.0};
+  metrics.clearance = ClearanceMetrics{.min = 0.5, .min_s = 7.0, .min_t = 2.5};
+  Expectations expect;
+  expect.all.rms_cross_track = 0.5;
+  expect.all.metrics = {{.metric = "manoeuvre.margin", .min = 0.0, .max = 1.0}};
+  expect.between = {{{"mujoco", "kinematic"}, {.heading_max = 0.25}}};
+  const PlantComparison between{.first = "kinematic",
+                                .second = "mujoco",
+                                .to_s = 20.0,
+                                .heading = {.rms = 0.1, .max = 0.125, .max_s = 12.0, .max_t = 4.0}};
+  const Verdict verdict = Judge(expect, {metrics}, {between});
+  EXPECT_THAT(
+      Told(verdict),
+      ElementsAre(
+          R"({"plant":"mujoco","metric":"status","relation":"equals","bound":"arrived",)"
+          R"("value":"arrived","station":20.0,"time":8.0,"met":true})",
+          R"({"plant":"mujoco","metric":"collision","relation":"equals","bound":false,)"
+          R"("value":false,"station":7.0,"time":2.5,"met":true})",
+          R"({"plant":"mujoco","metric":"steering_rate_max","relation":"at_most","bound":0.2575,)"
+          R"("value":0.09,"station":3.0,"time":1.0,"met":true})",
+          R"({"plant":"mujoco","metric":"cross_track.max","relation":"at_most","bound":2.0,)"
+          R"("value":2.5,"station":6.0,"time":2.0,"met":false})",
+          R"({"plant":"mujoco","metric":"manoeuvre.margin","relation":"at_least","bound":0.0,)"
+          R"("value":null,"station":null,"time":null,"met":false})",
+          R"({"plant":"mujoco","metric":"cross_track.rms","relation":"at_most","bound":0.5,)"
+          R"("value":0.25,"station":null,"time":null,"met":true})",
+          R"({"plant":"kinematic – mujoco","metric":"heading.max","relation":"at_most",)"
+          R"("bound":0.25,"value":0.125,"station":12.0,"time":4.0,"met":true})"));
+  EXPECT_EQ(verdict.failures.size(), 2U);
+}
+
+TEST(Verdict, SaysOnceThatACarHitAnObstacle) {
+  PlantMetrics metrics{.plant = "mujoco", .status = DriveStatus::kCollided};
+  metrics.clearance = ClearanceMetrics{.collision = true};
+  const Verdict verdict = Judge({}, {metrics}, {});
+  EXPECT_EQ(std::count_if(verdict.checks.begin(), verdict.checks.end(),
+                          [](const Check& check) { return !check.met; }),
+            2);
+  EXPECT_THAT(verdict.failures, ElementsAre(HasSubstr("ended as collided")));
 }
 
 TEST(Verdict, PassesACoarseTimestepOnContacts) {

@@ -4,6 +4,7 @@
 
 #include "tests/drive/unicycle.h"
 #include "trackbed/drive/drive.h"
+#include "trackbed/planning/common/plan.h"
 
 namespace trackbed {
 namespace {

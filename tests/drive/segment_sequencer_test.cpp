@@ -5,6 +5,9 @@
 #include "tests/drive/unicycle.h"
 #include "tests/tolerance.h"
 
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/control/steering_controller.h"
+
 namespace trackbed {
 namespace {
 

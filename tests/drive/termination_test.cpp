@@ -6,6 +6,8 @@
 
 #include "tests/drive/unicycle.h"
 
+#include "trackbed/planning/common/plan.h"
+
 namespace trackbed {
 namespace {
 

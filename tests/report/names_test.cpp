@@ -13,9 +13,11 @@ TEST(NameOfMetric, SaysWhatPeopleSay) {
   EXPECT_FALSE(NameOfMetric("cross_track.rms").headline);
   EXPECT_EQ(NameOfMetric("turns[1].heading_deficit").label, "Turn 2: heading deficit");
   EXPECT_EQ(NameOfMetric("turns[1].heading_deficit").unit, "rad");
-  // Maneuvers have numbers of their own.
-  EXPECT_EQ(NameOfMetric("manoeuvre.margin").label, "manoeuvre.margin");
-  EXPECT_EQ(NameOfMetric("manoeuvre.margin").unit, "");
+  EXPECT_EQ(NameOfMetric("manoeuvre.margin").label, "Maneuver: smallest margin to a gate");
+  EXPECT_EQ(NameOfMetric("manoeuvre.margin").unit, "m");
+  EXPECT_EQ(NameOfMetric("manoeuvre.understeer_gradient").unit, "rad s²/m");
+  // What another program registered is its own label.
+  EXPECT_EQ(NameOfMetric("other.metric").label, "other.metric");
 }
 
 TEST(NameOfOutput, SaysOfWhichPlant) {

@@ -163,9 +163,36 @@ TEST(ReportData, FindsUnmetWhatTheVerdictFinds) {
                  "mujoco: Collision = true", "mujoco: Distance to the goal ≤ 1e-09",
                  "mujoco: Distance driven ≤ 2", "mujoco: Plans taken up on the way = 1",
                  "mujoco: distanze ≥ 1", "kinematic – mujoco: Largest distance ≤ 1e-09"));
-  // Every bound is there, and that the car arrives where nothing else is asked of its end: 6 of
-  // each plant, that of one, 6 more of the other, 2 of both.
-  EXPECT_EQ(data["expectations"].size(), 21U);
+  // Every bound is there, that the car arrives where nothing else is asked of its end, and that the
+  // wheels turn no faster than their actuator: 6 and 1 of each plant, the arrival of one, 6 more of
+  // the other, 2 of both.
+  EXPECT_EQ(data["expectations"].size(), 23U);
+  EXPECT_FALSE(data["verdict"].contains("checks"));
+}
+
+TEST(ReportData, OpensARunWithoutChecks) {
+  const TempFolder folder;
+  const fs::path run = DriveCorner(folder, "run", "drive: {plants: [kinematic]}\n");
+  ordered_json metrics = ordered_json::parse(ReadFile(run / "metrics.json"));
+  metrics["verdict"].erase("checks");
+  metrics["verdict"]["failures"] = {"kinematic: as it was"};
+  WriteFileAtomically(run / "metrics.json", metrics.dump());
+  const ordered_json data = ReportData({run})["runs"][0];
+  EXPECT_TRUE(data["expectations"].empty());
+  EXPECT_EQ(data["verdict"]["failures"][0], "kinematic: as it was");
+}
+
+TEST(ReportData, TakesChecksAsTheyAre) {
+  const TempFolder folder;
+  const fs::path run = DriveCorner(folder, "run", "drive: {plants: [kinematic]}\n");
+  ordered_json metrics = ordered_json::parse(ReadFile(run / "metrics.json"));
+  metrics["verdict"]["checks"] = ordered_json::parse(
+      R"([{"plant": "kinematic", "metric": "lateral_acceleration_max", "relation": "at_most",
+           "bound": 0.155087500001, "value": 0.12345678, "station": 1, "time": 2, "met": false}])");
+  WriteFileAtomically(run / "metrics.json", metrics.dump());
+  EXPECT_EQ(ReportData({run})["runs"][0]["expectations"].dump(),
+            R"([{"of":"kinematic","what":"Largest lateral acceleration over 0.1 s","unit":"m/s²",)"
+            R"("asked":"≤ 0.1550875","found":0.123457,"met":false}])");
 }
 
 TEST(ReportData, ShowsAMissionWithoutAPlan) {

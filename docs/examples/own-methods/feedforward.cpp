@@ -3,6 +3,8 @@
 #include <trackbed/control/steering_controller.h>
 #include <trackbed/core/angle.h>
 
+#include "trackbed/control/steering_controller.h"
+
 using namespace trackbed;
 
 /// The path's curvature, corrected by the cross-track and heading errors of the rear axle.

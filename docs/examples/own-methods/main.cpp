@@ -2,6 +2,11 @@
 #include <trackbed/control/controllers.h>
 #include <trackbed/planning/registry/planners.h>
 
+#include "trackbed/planning/registry/planners.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/control/controllers.h"
+#include "trackbed/control/steering_controller.h"
+
 trackbed::PlannerEntry Sidestep();        // sidestep.cpp
 trackbed::ControllerEntry Feedforward();  // feedforward.cpp
 

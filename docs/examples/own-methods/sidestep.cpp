@@ -4,6 +4,10 @@
 #include <trackbed/planning/common/curvature_steps.h>
 #include <trackbed/planning/common/planner.h>
 
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/course_schedule.h"
+
 using namespace trackbed;
 
 /// Straight on, an S to the lane on the left, straight on.

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,21 @@ struct PlantComparison {
   [[nodiscard]] bool comparable() const { return to_s > from_s; }
 };
 
+/// One of the quantities that two drives are compared in: what compare.json, tolerances, messages
+/// and reports know of it.
+struct ComparedQuantity {
+  const char* key;   ///< of metrics.json and of tolerances: "yaw_rate"
+  const char* name;  ///< in messages: "yaw rate"
+  const char* unit;
+  const char* max_label;  ///< of the largest difference on a report
+  const char* rms_label;
+  Difference PlantComparison::*difference;
+  std::optional<double> DifferenceBounds::*bound;  ///< its key in a scenario is KEY_max
+};
+
+/// Position, heading, yaw rate, steering.
+const std::vector<ComparedQuantity>& ComparedQuantities();
+
 /// Compares two drives, both taken as linear between their rows.
 ///
 /// Guarantees: exact for drives that are, at any spacing of the rows, equal or not; the largest
@@ -77,11 +93,6 @@ PlantComparison ComparePlants(const RunLog& first, const RunLog& second);
 /// `s_m`, `first_t_s`, `second_t_s`, `x_m`, `y_m`, `position_m` (unsigned), `yaw_rad`,
 /// `yaw_rate_radps`, `steering_rad`.
 Table DifferencesOverArcLength(const Trace& first, const Trace& second);
-
-/// One line for each bound that a comparison does not keep: what was expected, what was, where and
-/// when. Drives with nothing in common keep no bound.
-std::vector<std::string> Exceeded(const DifferenceBounds& bounds,
-                                  const PlantComparison& comparison);
 
 /// A drive of a finished run, as its folder tells of it.
 struct FinishedDrive {

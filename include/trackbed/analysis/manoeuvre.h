@@ -1,12 +1,12 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "trackbed/analysis/metric_value.h"
 #include "trackbed/drive/run_log.h"
 #include "trackbed/scenario/manoeuvre.h"
 #include "trackbed/vehicle/params.h"
@@ -74,6 +74,10 @@ ManoeuvreMetrics EvaluateManoeuvre(const ManoeuvreOptions& options, const RunLog
 /// All that an evaluation can hold, with every value at zero.
 ManoeuvreMetrics EveryMetricOf(const ManoeuvreOptions& options);
 
-nlohmann::ordered_json ToJson(const ManoeuvreMetrics& metrics);
+/// Every value of the section `manoeuvre` of metrics.json, by its name in there, in its order.
+std::vector<Metric> ListMetrics(const ManoeuvreMetrics& metrics);
+
+/// What a name in there is called, whatever the manoeuvre; nothing for an unknown one.
+std::optional<MetricInfo> DescribeManoeuvreMetric(std::string_view name);
 
 }  // namespace trackbed

@@ -3,10 +3,11 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "trackbed/analysis/compare.h"
 #include "trackbed/analysis/manoeuvre.h"
+#include "trackbed/analysis/metric_value.h"
 #include "trackbed/analysis/recovery.h"
 #include "trackbed/drive/run_log.h"
 #include "trackbed/scenario/scenario.h"
@@ -86,37 +87,19 @@ struct PlantMetrics {
   std::string partial;                        ///< why it led only part of the way; else empty
   std::optional<ManoeuvreMetrics> manoeuvre;  ///< none when the drive is not evaluated as one
   std::vector<TurnMetrics> turns;             ///< of the turns that stand alone and were driven
+  /// Of the metrics that are measured on the log (MetricEntry::measure), by path.
+  std::vector<std::pair<std::string, MetricReading>> measured;
 };
 
-/// Did the run do what its scenario expects?
-struct Verdict {
-  bool judged = true;                 ///< something was asked of it
-  bool passed = true;                 ///< it was, and nothing failed
-  std::vector<std::string> failures;  ///< expected, actual, where and when; one line each
-  std::vector<std::string> notes;     ///< what to know of a run beside whether it passed
-};
-
-/// Turns are measured at the stations that the controller went by (`source`), between rows.
+/// Measures a run, by every metric of Metrics(). Turns are measured at the stations that the
+/// controller went by (`source`), between rows.
 PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& vehicle,
                      double control_period, StationSource source);
-
-/// Asks what the scenario expects, and unless that says otherwise of every plant:
-///   * that it arrives; another `status` among the metrics or `collision: true` replaces that,
-///   * that it touches no obstacle,
-///   * on a path, that it stays within one car width of it (`max_cross_track` replaces that),
-///   * that its wheels turned no faster than its actuator can, but for what their compliance adds
-///     (3 %): faster ones mean that the timestep is too long for the car.
-/// A run without a path, obstacles and expectations has been asked nothing: it is not judged, and
-/// has not passed. Notes tell of a maneuver in which the steering did not reach its command for
-/// more than 2 % of the time.
-Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plants,
-              const std::vector<PlantComparison>& comparisons);
 
 /// The paths of everything that a plant's entry in metrics.json can have in a run of the scenario:
 /// "cross_track.max", "turns[0].lateral_offset", in the order of the file.
 std::vector<std::string> PossibleMetrics(const Scenario& scenario);
 
 nlohmann::ordered_json ToJson(const PlantMetrics& metrics);
-nlohmann::ordered_json ToJson(const Verdict& verdict);
 
 }  // namespace trackbed

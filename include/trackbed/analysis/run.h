@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trackbed/analysis/metrics.h"
+#include "trackbed/analysis/verdict.h"
 #include "trackbed/drive/drive.h"
 
 namespace trackbed {

@@ -1,0 +1,282 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "trackbed/analysis/metric_registry.h"
+#include "trackbed/analysis/verdict.h"
+#include "trackbed/core/spelling.h"
+#include "trackbed/core/text_table.h"
+
+// Single checks, and what is said of one that is not met.
+namespace trackbed {
+namespace {
+
+using nlohmann::ordered_json;
+
+const Metric* Find(const std::vector<Metric>& metrics, const std::string& path) {
+  const auto found = std::find_if(metrics.begin(), metrics.end(),
+                                  [&](const Metric& metric) { return metric.path == path; });
+  return found == metrics.end() ? nullptr : &*found;
+}
+
+/// Why a metric that a run can have is not there.
+std::string WhyMissing(const std::string& path, const std::vector<Metric>& metrics,
+                       const PlantMetrics& plant) {
+  if (path.starts_with("turns[")) {
+    return fmt::format("{} expected, but the drive has {} turns that stand alone", path,
+                       plant.turns.size());
+  }
+  if (path.starts_with("manoeuvre.") && plant.manoeuvre && !plant.manoeuvre->missing.empty()) {
+    return fmt::format("{} expected, but not measured: {}", path, plant.manoeuvre->missing);
+  }
+  std::vector<std::string> paths;
+  for (const Metric& metric : metrics) {
+    // One turn shows what there is of all.
+    if (!metric.path.starts_with("turns[") || metric.path.starts_with("turns[0]")) {
+      paths.push_back(metric.path);
+    }
+  }
+  return "no metric " + UnknownName(path, paths);
+}
+
+std::optional<double> NumberIn(const MetricValue& value) {
+  if (const int* number = std::get_if<int>(&value)) {
+    return *number;
+  }
+  const double* number = std::get_if<double>(&value);
+  return number != nullptr ? std::optional(*number) : std::nullopt;
+}
+
+/// What a text of a scenario means where it is no name: "true", "3".
+ordered_json ParsedBound(const MetricValue& bound) {
+  const auto* text = std::get_if<std::string>(&bound);
+  const ordered_json parsed =
+      text == nullptr ? ToJson(bound) : ordered_json::parse(*text, nullptr, false);
+  return parsed.is_discarded() ? ordered_json(*text) : parsed;
+}
+
+bool IsMet(const MetricValue& value, Relation relation, const MetricValue& bound) {
+  if (relation == Relation::kEquals) {
+    return std::holds_alternative<std::string>(value) ? value == bound
+                                                      : ToJson(value) == ParsedBound(bound);
+  }
+  const std::optional<double> actual = NumberIn(value);
+  const std::optional<double> limit = NumberIn(bound);
+  return actual && limit && (relation == Relation::kAtMost ? *actual <= *limit : *actual >= *limit);
+}
+
+std::string Where(const MetricPlace& at) {
+  switch (at.span) {
+    case MetricSpan::kRun:
+      return fmt::format(" over the drive to s = {:.4g} m, t = {:.4g} s", at.s, at.t);
+    case MetricSpan::kEnd:
+      return fmt::format(" at the end, s = {:.4g} m, t = {:.4g} s", at.s, at.t);
+    case MetricSpan::kPoint:
+      return fmt::format(" at s = {:.4g} m, t = {:.4g} s", at.s, at.t);
+    case MetricSpan::kSince:
+      return fmt::format(" from t = {:.4g} s on", at.from_t);
+    case MetricSpan::kInterval:
+      return fmt::format(" between t = {:.4g} s and {:.4g} s", at.from_t, at.t);
+  }
+  return "";
+}
+
+/// Bound and value with as many digits as tell them apart.
+std::pair<std::string, std::string> NumbersApart(const Check& check) {
+  return TextsApart(NumberIn(check.bound).value_or(0.0), NumberIn(check.value).value_or(0.0));
+}
+
+std::string UnequalMessage(const Check& check) {
+  const std::string expected = ToText(check.bound);
+  if (NumberIn(check.value)) {
+    const std::string unit = check.unit.empty() ? "" : " " + check.unit;
+    return fmt::format("{} expected to be {}{}, was {}{}{}", check.name, expected, unit,
+                       ToJson(check.value).dump(), unit, Where(check.at));
+  }
+  return fmt::format("{} expected to be {}, was {}{}", check.name, expected, ToText(check.value),
+                     Where(check.at));
+}
+
+std::string ExpectedMessage(const Check& check) {
+  if (!check.detail.empty()) {
+    return check.detail;
+  }
+  if (check.relation == Relation::kEquals) {
+    return UnequalMessage(check);
+  }
+  const std::string where = Where(check.at);
+  if (std::holds_alternative<std::monostate>(check.value) && check.at.span == MetricSpan::kSince) {
+    return fmt::format(
+        "{} expected to be a number, but the car had not recovered{} at the end, s = {:.4g} m, t = "
+        "{:.4g} s",
+        check.name, where, check.at.s, check.at.t);
+  }
+  if (!NumberIn(check.value)) {
+    return fmt::format("{} expected to be a number, was {}", check.name,
+                       ToJson(check.value).dump());
+  }
+  const auto [expected, was] = NumbersApart(check);
+  const std::string unit = check.unit.empty() ? "" : " " + check.unit;
+  return fmt::format("{} expected at {} {}{}, was {}{}{}", check.name,
+                     check.relation == Relation::kAtMost ? "most" : "least", expected, unit, was,
+                     unit, where);
+}
+
+std::string CorridorMessage(const Check& check) {
+  const auto [expected, was] = NumbersApart(check);
+  return fmt::format(
+      "left its path: cross-track maximum {} m, more than the car's width of {} m,{} "
+      "(expect.max_cross_track sets another bound)",
+      was, expected, Where(check.at));
+}
+
+std::string CollisionMessage(const Check& check) {
+  return check.value == MetricValue(true)
+             ? "expected no collision, but hit an obstacle" + Where(check.at)
+             : fmt::format("expected a collision, but stayed {} m clear{}", check.detail,
+                           Where(check.at));
+}
+
+}  // namespace
+
+const char* ToString(Relation relation) {
+  switch (relation) {
+    case Relation::kAtMost:
+      return "at_most";
+    case Relation::kAtLeast:
+      return "at_least";
+    case Relation::kEquals:
+      return "equals";
+  }
+  return "";
+}
+
+Check CheckMetric(const PlantMetrics& plant, const std::string& path, Relation relation,
+                  const MetricValue& bound) {
+  const std::vector<Metric> metrics = ListMetrics(plant);
+  const std::optional<MetricInfo> info = DescribeMetric(path);
+  Check check{.plant = plant.plant,
+              .metric = path,
+              .relation = relation,
+              .bound = bound,
+              .name = path,
+              .unit = info ? info->unit : ""};
+  if (const Metric* found = Find(metrics, path)) {
+    check.value = found->value;
+    check.at = found->at;
+    check.met = IsMet(found->value, relation, bound);
+  } else {
+    check.detail = WhyMissing(path, metrics, plant);
+  }
+  return check;
+}
+
+std::vector<Check> CheckBounds(const DifferenceBounds& bounds, const PlantComparison& comparison) {
+  if (!comparison.comparable()) {
+    return {{.plant = comparison.first,
+             .other = comparison.second,
+             .metric = "compared",
+             .relation = Relation::kEquals,
+             .bound = "true",
+             .value = false,
+             .reason = CheckReason::kComparable,
+             .detail = "they have no stretch in common"}};
+  }
+  std::vector<Check> checks;
+  for (const ComparedQuantity& quantity : ComparedQuantities()) {
+    if (const std::optional<double>& bound = bounds.*quantity.bound) {
+      const Difference& difference = comparison.*quantity.difference;
+      checks.push_back(
+          {.plant = comparison.first,
+           .other = comparison.second,
+           .metric = std::string(quantity.key) + ".max",
+           .relation = Relation::kAtMost,
+           .bound = *bound,
+           .value = difference.max,
+           .at = {.span = MetricSpan::kPoint, .s = difference.max_s, .t = difference.max_t},
+           .met = IsMet(difference.max, Relation::kAtMost, *bound),
+           .name = std::string(quantity.name) + " difference",
+           .unit = quantity.unit});
+    }
+  }
+  return checks;
+}
+
+std::string FailureMessage(const Check& check) {
+  const auto message = [&]() -> std::string {
+    switch (check.reason) {
+      case CheckReason::kExpected:
+        return ExpectedMessage(check);
+      case CheckReason::kArrival:
+        return fmt::format("expected to arrive, ended as {} at s = {:.4g} m, t = {:.4g} s{}",
+                           ToText(check.value), check.at.s, check.at.t, check.detail);
+      case CheckReason::kNoContact:
+        return "";  // kArrival says that the run ended as collided
+      case CheckReason::kCorridor:
+        return CorridorMessage(check);
+      case CheckReason::kSteeringRate:
+        return fmt::format(
+            "the wheels turned at {:.4g} rad/s, and the car's actuator at {} rad/s at most,{}; "
+            "drive.timestep is too long for this car",
+            NumberIn(check.value).value_or(0.0), check.detail, Where(check.at));
+      case CheckReason::kCollision:
+        return CollisionMessage(check);
+      case CheckReason::kComparable:
+        return "expected to be compared, but " + check.detail;
+      case CheckReason::kSameEnd:
+        return fmt::format("{} ended as {}, {} as {}", check.plant, ToText(check.bound),
+                           check.other, ToText(check.value));
+    }
+    return "";
+  }();
+  if (message.empty() || check.reason == CheckReason::kSameEnd) {
+    return message;
+  }
+  return fmt::format("{}{}: {}", check.plant, check.other.empty() ? "" : " and " + check.other,
+                     message);
+}
+
+std::vector<std::string> Exceeded(const DifferenceBounds& bounds,
+                                  const PlantComparison& comparison) {
+  std::vector<std::string> messages;
+  for (const Check& check : CheckBounds(bounds, comparison)) {
+    if (!check.met) {
+      messages.push_back(FailureMessage(check));
+    }
+  }
+  return messages;
+}
+
+void AddCheck(Check check, Verdict& verdict) {
+  if (!check.met) {
+    if (std::string message = FailureMessage(check); !message.empty()) {
+      verdict.failures.push_back(std::move(message));
+    }
+  }
+  verdict.checks.push_back(std::move(check));
+}
+
+ordered_json ToJson(const Verdict& verdict) {
+  ordered_json json{
+      {"passed", verdict.judged ? ordered_json(verdict.passed) : ordered_json(nullptr)},
+      {"failures", verdict.failures},
+      {"notes", verdict.notes},
+      {"checks", ordered_json::array()}};
+  for (const Check& check : verdict.checks) {
+    const bool placed = check.at.span == MetricSpan::kPoint || check.at.span == MetricSpan::kEnd;
+    json["checks"].push_back(
+        {{"plant",
+          check.other.empty() ? check.plant : fmt::format("{} – {}", check.plant, check.other)},
+         {"metric", check.metric},
+         {"relation", ToString(check.relation)},
+         {"bound", ParsedBound(check.bound)},
+         {"value", ToJson(check.value)},
+         {"station", placed ? ordered_json(check.at.s) : ordered_json(nullptr)},
+         {"time", placed ? ordered_json(check.at.t) : ordered_json(nullptr)},
+         {"met", check.met}});
+  }
+  return json;
+}
+
+}  // namespace trackbed

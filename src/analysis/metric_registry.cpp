@@ -1,0 +1,256 @@
+#include "trackbed/analysis/metric_registry.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "src/analysis/metric_table.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/text_table.h"
+#include "trackbed/planning/registry/planners.h"
+
+namespace trackbed {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* kManoeuvre = "manoeuvre";
+constexpr const char* kTurns = "turns";
+
+/// The only list that changes after the program began: RegisterMetric adds to it.
+std::vector<MetricEntry>& Registry() {
+  static std::vector<MetricEntry> entries = OwnMetrics();
+  return entries;
+}
+
+std::optional<MetricReading> ReadingOf(const MetricEntry& entry, const PlantMetrics& metrics) {
+  if (entry.read) {
+    return entry.read(metrics);
+  }
+  const auto found = std::find_if(metrics.measured.begin(), metrics.measured.end(),
+                                  [&](const auto& own) { return own.first == entry.path; });
+  return found == metrics.measured.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// The paths that an entry takes up in metrics.json.
+std::vector<std::string> PathsOf(const MetricEntry& entry) {
+  return entry.located ? std::vector{entry.path, entry.path + "_s", entry.path + "_t"}
+                       : std::vector{entry.path};
+}
+
+bool IsPath(std::string_view path) {
+  bool begins = true;  // a word
+  for (const char c : path) {
+    const bool letter = c >= 'a' && c <= 'z';
+    const bool inside = (c >= '0' && c <= '9') || c == '_' || c == '.';
+    if (!letter && (begins || !inside)) {
+      return false;
+    }
+    begins = c == '.';
+  }
+  return !begins;
+}
+
+/// Whether two paths cannot both stand in one file: equal, or one a section that the other is in.
+bool Conflict(const std::string& a, const std::string& b) {
+  return a == b || a.starts_with(b + ".") || b.starts_with(a + ".");
+}
+
+void CheckEntry(const MetricEntry& entry) {
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(Problem{.message = fmt::format("metric '{}': {}", entry.path, why)});
+  };
+  if (!IsPath(entry.path)) {
+    refuse("expected words of a-z, 0-9 and '_' that begin with a letter, joined by '.'");
+  }
+  if (entry.label.empty()) {
+    refuse("it needs a label");
+  }
+  if (static_cast<bool>(entry.read) == static_cast<bool>(entry.measure)) {
+    refuse("it needs either a function that measures it or one that reads it");
+  }
+  std::vector<std::string> taken{kManoeuvre, kTurns};
+  for (const MetricEntry& other : Metrics()) {
+    const std::vector<std::string> paths = PathsOf(other);
+    taken.insert(taken.end(), paths.begin(), paths.end());
+  }
+  for (const std::string& path : PathsOf(entry)) {
+    for (const std::string& other : taken) {
+      if (Conflict(path, other)) {
+        refuse(fmt::format("there is '{}' already", other));
+      }
+    }
+  }
+}
+
+/// The rest of a path in a section, "lateral_offset" of "turns[1].lateral_offset"; sets `index`.
+std::optional<std::string_view> InTurn(std::string_view path, int& index) {
+  const std::string begin = fmt::format("{}[", kTurns);
+  const std::size_t close = path.find("].");
+  if (!path.starts_with(begin) || close == std::string_view::npos ||
+      std::from_chars(path.data() + begin.size(), path.data() + close, index).ec != std::errc{}) {
+    return std::nullopt;
+  }
+  return path.substr(close + 2);
+}
+
+std::optional<MetricInfo> DescribeTurnMetric(std::string_view key, int index) {
+  for (const TurnMetricEntry& entry : TurnMetricTable()) {
+    if (key == entry.key) {
+      return MetricInfo{fmt::format("Turn {}: {}", index + 1, entry.label), entry.unit};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+ordered_json ToJson(const MetricValue& value) {
+  return std::visit(
+      [](const auto& own) -> ordered_json {
+        if constexpr (std::is_same_v<std::decay_t<decltype(own)>, std::monostate>) {
+          return nullptr;
+        } else {
+          return own;
+        }
+      },
+      value);
+}
+
+std::string ToText(const MetricValue& value) {
+  if (const auto* number = std::get_if<double>(&value)) {
+    return ShortestText(*number);
+  }
+  const auto* text = std::get_if<std::string>(&value);
+  return text != nullptr ? *text : ToJson(value).dump();
+}
+
+const std::vector<MetricEntry>& Metrics() {
+  return Registry();
+}
+
+void RegisterMetric(MetricEntry entry) {
+  CheckEntry(entry);
+  Registry().push_back(std::move(entry));
+}
+
+std::vector<Metric> ListMetrics(const PlantMetrics& metrics) {
+  std::vector<Metric> all;
+  const auto add = [&](std::string path, MetricValue value, MetricPlace at) {
+    if (at.span != MetricSpan::kPoint && at.span != MetricSpan::kInterval) {
+      at.s = metrics.end_s;
+      at.t = metrics.time;
+    }
+    all.push_back({std::move(path), std::move(value), at});
+  };
+  for (const MetricEntry& entry : Metrics()) {
+    const std::optional<MetricReading> reading = ReadingOf(entry, metrics);
+    if (!reading) {
+      continue;
+    }
+    add(entry.path, reading->value, reading->at);
+    if (entry.located) {
+      add(entry.path + "_s", reading->at.s, {});
+      add(entry.path + "_t", reading->at.t, {});
+    }
+  }
+  if (metrics.manoeuvre) {
+    for (const Metric& own : ListMetrics(*metrics.manoeuvre)) {
+      add(fmt::format("{}.{}", kManoeuvre, own.path), own.value, own.at);
+    }
+  }
+  for (std::size_t i = 0; i < metrics.turns.size(); ++i) {
+    const TurnMetrics& turn = metrics.turns[i];
+    for (const TurnMetricEntry& entry : TurnMetricTable()) {
+      add(fmt::format("{}[{}].{}", kTurns, i, entry.key), entry.read(turn),
+          {.span = MetricSpan::kPoint, .s = turn.s, .t = turn.t});
+    }
+  }
+  return all;
+}
+
+std::optional<MetricInfo> DescribeMetric(std::string_view path) {
+  int turn = 0;
+  if (const auto key = InTurn(path, turn)) {
+    return DescribeTurnMetric(*key, turn);
+  }
+  if (const std::string section = fmt::format("{}.", kManoeuvre); path.starts_with(section)) {
+    std::optional<MetricInfo> info = DescribeManoeuvreMetric(path.substr(section.size()));
+    if (info) {
+      info->label = "Maneuver: " + info->label;
+    }
+    return info;
+  }
+  for (const MetricEntry& entry : Metrics()) {
+    if (path == entry.path) {
+      return MetricInfo{entry.label, entry.unit, entry.headline};
+    }
+    if (entry.located && path == entry.path + "_s") {
+      return MetricInfo{"… at station", "m"};
+    }
+    if (entry.located && path == entry.path + "_t") {
+      return MetricInfo{"… at", "s"};
+    }
+  }
+  return std::nullopt;
+}
+
+void PutMetric(const Metric& metric, ordered_json& json) {
+  std::string pointer = "/";
+  for (const char c : metric.path) {
+    if (c != ']') {
+      pointer += c == '.' || c == '[' ? '/' : c;
+    }
+  }
+  json[ordered_json::json_pointer(pointer)] = ToJson(metric.value);
+}
+
+ordered_json ToJson(const PlantMetrics& metrics) {
+  ordered_json json;
+  for (const Metric& metric : ListMetrics(metrics)) {
+    PutMetric(metric, json);
+  }
+  return json;
+}
+
+PlantMetrics EveryMetricOf(const Scenario& scenario, const std::string& plant) {
+  PlantMetrics metrics;
+  metrics.plant = plant;
+  metrics.yaw_rate_ratio = 1.0;
+  if (scenario.plan) {
+    metrics.tracking.emplace();
+    constexpr double kAnyTime = std::numeric_limits<double>::infinity();
+    if (DisturbedUntil(scenario.disturb, scenario.world.wind, kAnyTime)) {
+      metrics.recovery.emplace();
+    }
+    metrics.blocked = scenario.plan->avoid ? "why" : "";
+    metrics.partial = MayBePartial(scenario.plan->global) ? "why" : "";
+    // At most one turn at every waypoint between the first and the last.
+    metrics.turns.resize(std::max<std::size_t>(scenario.mission.waypoints.size(), 2) - 2);
+  }
+  if (!scenario.world.obstacles.empty()) {
+    metrics.clearance.emplace();
+  }
+  if (scenario.manoeuvre) {
+    metrics.manoeuvre = EveryMetricOf(*scenario.manoeuvre);
+  }
+  for (const MetricEntry& entry : Metrics()) {
+    if (entry.measure) {
+      metrics.measured.emplace_back(entry.path, MetricReading{0.0, {}});
+    }
+  }
+  return metrics;
+}
+
+std::vector<std::string> PossibleMetrics(const Scenario& scenario) {
+  std::vector<std::string> paths;
+  for (const Metric& metric : ListMetrics(EveryMetricOf(scenario, ""))) {
+    paths.push_back(metric.path);
+  }
+  return paths;
+}
+
+}  // namespace trackbed

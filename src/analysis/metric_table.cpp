@@ -1,0 +1,141 @@
+#include "src/analysis/metric_table.h"
+
+#include "src/analysis/sideslip.h"
+
+// The place where a metric is registered: one entry each.
+namespace trackbed {
+namespace {
+
+using Reading = std::optional<MetricReading>;
+using Read = std::function<Reading(const PlantMetrics&)>;
+
+// The part of the metrics that a member belongs to; none where the run has no such part.
+const PlantMetrics* PartOf(const PlantMetrics& metrics, const PlantMetrics* /*which*/) {
+  return &metrics;
+}
+const TrackingMetrics* PartOf(const PlantMetrics& metrics, const TrackingMetrics* /*which*/) {
+  return metrics.tracking ? &*metrics.tracking : nullptr;
+}
+const ClearanceMetrics* PartOf(const PlantMetrics& metrics, const ClearanceMetrics* /*which*/) {
+  return metrics.clearance ? &*metrics.clearance : nullptr;
+}
+
+/// `value` of the whole run, or of its end.
+template <typename Part, typename T>
+Read Of(T Part::*value, MetricSpan span = MetricSpan::kRun) {
+  return [=](const PlantMetrics& metrics) -> Reading {
+    const Part* part = PartOf(metrics, static_cast<const Part*>(nullptr));
+    return part == nullptr ? Reading() : MetricReading{part->*value, {.span = span}};
+  };
+}
+
+/// `value` of the moment at station `s` and time `t`.
+template <typename Part, typename T>
+Read At(T Part::*value, double Part::*s, double Part::*t) {
+  return [=](const PlantMetrics& metrics) -> Reading {
+    const Part* part = PartOf(metrics, static_cast<const Part*>(nullptr));
+    return part == nullptr
+               ? Reading()
+               : MetricReading{part->*value,
+                               {.span = MetricSpan::kPoint, .s = part->*s, .t = part->*t}};
+  };
+}
+
+Reading Status(const PlantMetrics& metrics) {
+  return MetricReading{std::string(ToString(metrics.status)), {.span = MetricSpan::kEnd}};
+}
+
+Read TextUnlessEmpty(std::string PlantMetrics::*text) {
+  return [=](const PlantMetrics& metrics) {
+    return (metrics.*text).empty() ? Reading() : MetricReading{metrics.*text, {}};
+  };
+}
+
+Reading RecoveryTime(const PlantMetrics& metrics) {
+  if (!metrics.recovery) {
+    return std::nullopt;
+  }
+  MetricReading reading{.value = {},
+                        .at = {.span = MetricSpan::kSince, .from_t = metrics.recovery->from}};
+  if (metrics.recovery->time) {
+    reading.value = *metrics.recovery->time;
+  }
+  return reading;
+}
+
+Reading YawRateRatio(const PlantMetrics& metrics) {
+  return metrics.yaw_rate_ratio ? Reading({*metrics.yaw_rate_ratio, {}}) : Reading();
+}
+
+MetricEntry Headline(MetricEntry entry) {
+  entry.headline = true;
+  return entry;
+}
+
+/// Its moment stands in metrics.json, too.
+MetricEntry Located(MetricEntry entry) {
+  entry.located = true;
+  return entry;
+}
+
+}  // namespace
+
+std::vector<MetricEntry> OwnMetrics() {
+  using P = PlantMetrics;
+  using T = TrackingMetrics;
+  using C = ClearanceMetrics;
+  constexpr MetricSpan kEnd = MetricSpan::kEnd;
+  return {
+      {"status", "Ended as", "", Status},
+      {"distance", "Distance driven", "m", Of(&P::distance, kEnd)},
+      Headline({"time", "Time", "s", Of(&P::time, kEnd)}),
+      {"cross_track.rms", "Cross-track error, rms", "m", Of(&T::cross_track_rms)},
+      Headline(Located({"cross_track.max", "Largest cross-track error", "m",
+                        At(&T::cross_track_max, &T::cross_track_max_s, &T::cross_track_max_t)})),
+      {"cross_track.final", "Cross-track error at the end", "m", Of(&T::cross_track_final, kEnd)},
+      {"heading_error.rms", "Heading error, rms", "rad", Of(&T::heading_error_rms)},
+      Headline(
+          Located({"heading_error.max", "Largest heading error", "rad",
+                   At(&T::heading_error_max, &T::heading_error_max_s, &T::heading_error_max_t)})),
+      Headline({"goal_distance", "Distance to the goal", "m", Of(&T::goal_distance, kEnd)}),
+      {"goal_heading_error", "Heading error at the goal", "rad", Of(&T::goal_heading_error, kEnd)},
+      Headline(
+          Located({"clearance_min", "Smallest clearance", "m", At(&C::min, &C::min_s, &C::min_t)})),
+      {"collision", "Collision", "", At(&C::collision, &C::min_s, &C::min_t)},
+      {"obstacle_force_max", "Largest force with an obstacle", "N",
+       At(&C::force_max, &C::force_max_s, &C::force_max_t)},
+      {"recovery_time", "Recovered after", "s", RecoveryTime},
+      {"plan_changes", "Plans taken up on the way", "", Of(&P::plan_changes)},
+      {"blocked", "Blocked", "", TextUnlessEmpty(&P::blocked)},
+      {"partial", "Part of the way only", "", TextUnlessEmpty(&P::partial)},
+      Headline(
+          Located({"lateral_acceleration_max", "Largest lateral acceleration over 0.1 s", "m/s^2",
+                   At(&P::lateral_acceleration_max, &P::lateral_acceleration_max_s,
+                      &P::lateral_acceleration_max_t)})),
+      {"steering_max", "Largest steering angle", "rad", Of(&P::steering_max)},
+      Located({"steering_rate_max", "Largest steering rate over 0.1 s", "rad/s",
+               At(&P::steering_rate_max, &P::steering_rate_max_s, &P::steering_rate_max_t)}),
+      {"steering_rate_rms", "Steering rate, rms", "rad/s", Of(&P::steering_rate_rms)},
+      {"steering_saturated_fraction", "Share of time at the steering rate's limit", "",
+       Of(&P::steering_saturated_fraction)},
+      {"yaw_rate_ratio", "Yaw rate over the kinematic car's", "", YawRateRatio},
+      Located({"sideslip_max", "Largest side-slip angle", "rad", {}, LargestSideslip}),
+  };
+}
+
+const std::vector<TurnMetricEntry>& TurnMetricTable() {
+  using T = const TurnMetrics&;
+  static const std::vector<TurnMetricEntry> table{
+      {"waypoint", "waypoint", "", [](T turn) -> MetricValue { return turn.waypoint; }},
+      {"heading_deficit_predicted", "heading deficit, predicted", "rad",
+       [](T turn) -> MetricValue { return turn.predicted.heading_deficit; }},
+      {"heading_deficit", "heading deficit", "rad",
+       [](T turn) -> MetricValue { return turn.measured.heading_deficit; }},
+      {"lateral_offset_predicted", "lateral offset, predicted", "m",
+       [](T turn) -> MetricValue { return turn.predicted.lateral_offset; }},
+      {"lateral_offset", "lateral offset", "m",
+       [](T turn) -> MetricValue { return turn.measured.lateral_offset; }}};
+  return table;
+}
+
+}  // namespace trackbed

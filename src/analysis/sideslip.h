@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cmath>
+
+#include "src/analysis/peaks.h"
+#include "trackbed/analysis/metric_registry.h"
+
+namespace trackbed {
+
+/// The largest magnitude of the side-slip angle at the centre of gravity [rad], up to the first
+/// contact with an obstacle. Only above 1 m/s: below, the body's sway on its suspension is much of
+/// the motion. 0 for a car that was never so fast.
+inline std::optional<MetricReading> LargestSideslip(const MetricInput& input) {
+  constexpr double kSlow = 1.0;  // [m/s]
+  double largest = 0.0;
+  MetricPlace at{.span = MetricSpan::kPoint};
+  for (const LogRow& row : input.log.rows) {
+    if (input.log.contact_time && row.state.time > *input.log.contact_time) {
+      break;
+    }
+    const double sideslip = std::abs(row.state.sideslip);
+    if (std::hypot(row.state.speed, row.state.lateral_speed) >= kSlow && sideslip > largest) {
+      largest = sideslip;
+      at.s = StationOf(row);
+      at.t = row.state.time;
+    }
+  }
+  return MetricReading{largest, at};
+}
+
+}  // namespace trackbed

@@ -1,0 +1,249 @@
+#include "trackbed/analysis/verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace trackbed {
+namespace {
+
+/// The measured wheels may swing past their actuator by this share of its rate.
+constexpr double kWheelCompliance = 0.03;
+
+bool HasExpectationOf(std::string_view metric, const PlantExpectation& expect) {
+  return std::any_of(expect.metrics.begin(), expect.metrics.end(),
+                     [&](const MetricExpectation& own) { return own.metric == metric; });
+}
+
+bool AsksAnything(const PlantExpectation& expect) {
+  return expect.reach_goal || expect.max_cross_track || expect.rms_cross_track ||
+         expect.max_heading_error || expect.min_clearance || expect.collision ||
+         !expect.metrics.empty();
+}
+
+bool AsksAnything(const Expectations& expect) {
+  return AsksAnything(expect.all) || !expect.between.empty() ||
+         std::any_of(expect.plants.begin(), expect.plants.end(),
+                     [](const auto& own) { return AsksAnything(own.second); });
+}
+
+/// Why a plan ended before the goal, as an addition to what is said of its drive.
+std::string WhyNotAtGoal(const PlantMetrics& metrics) {
+  return !metrics.blocked.empty()   ? fmt::format(" (it {})", metrics.blocked)
+         : !metrics.partial.empty() ? fmt::format(" (the plan {})", metrics.partial)
+                                    : "";
+}
+
+/// What a scenario says of one plant: of all of them, and then of that one.
+class Expected {
+ public:
+  Expected(const Expectations& expect, const std::string& plant) {
+    parts_.push_back(&expect.all);
+    for (const auto& [name, own] : expect.plants) {
+      if (name == plant) {
+        parts_.push_back(&own);
+      }
+    }
+  }
+
+  [[nodiscard]] const std::vector<const PlantExpectation*>& parts() const { return parts_; }
+
+  [[nodiscard]] bool HasStatus() const {
+    return std::any_of(parts_.begin(), parts_.end(), [](const PlantExpectation* part) {
+      return HasExpectationOf("status", *part);
+    });
+  }
+
+  /// Whether the car is to hit an obstacle.
+  [[nodiscard]] std::optional<bool> Collision() const {
+    std::optional<bool> collision;
+    for (const PlantExpectation* part : parts_) {
+      collision = part->collision ? part->collision : collision;
+    }
+    return collision;
+  }
+
+  [[nodiscard]] bool HasCrossTrack() const {
+    return std::any_of(parts_.begin(), parts_.end(), [](const PlantExpectation* part) {
+      return part->max_cross_track.has_value();
+    });
+  }
+
+ private:
+  std::vector<const PlantExpectation*> parts_;
+};
+
+/// That the run arrives, or ends in the collision that is expected. Whether the scenario says
+/// otherwise.
+bool JudgeEnd(const Expected& expected, const PlantMetrics& metrics, Verdict& verdict) {
+  if (expected.HasStatus()) {
+    return true;
+  }
+  const bool collides =
+      expected.Collision().value_or(false) && metrics.status == DriveStatus::kCollided;
+  Check arrival = CheckMetric(metrics, "status", Relation::kEquals,
+                              ToString(collides ? DriveStatus::kCollided : DriveStatus::kArrived));
+  arrival.reason = CheckReason::kArrival;
+  arrival.detail = WhyNotAtGoal(metrics);
+  AddCheck(arrival, verdict);
+  if (metrics.clearance && !expected.Collision()) {
+    Check contact = CheckMetric(metrics, "collision", Relation::kEquals, "false");
+    contact.reason = CheckReason::kNoContact;
+    AddCheck(contact, verdict);
+  }
+  return arrival.met;
+}
+
+/// Wheels whose angle is prescribed turn beyond what the car can, which is to be known.
+void NotePrescribedSteering(const PlantMetrics& metrics, Verdict& verdict) {
+  const auto note = [&](const char* what, double was, double limit, const char* unit) {
+    if (limit > 0.0 && was > (1.0 + kWheelCompliance) * limit) {
+      verdict.notes.push_back(fmt::format(
+          "{}: the prescribed steering {} {:.4g} {}, beyond the car's limit of {:.4g} {}",
+          metrics.plant, what, was, unit, limit, unit));
+    }
+  };
+  note("reached an angle of", metrics.steering_max, metrics.steering_limit, "rad");
+  note("turned at", metrics.steering_rate_max, metrics.steering_rate_limit, "rad/s");
+}
+
+void JudgeSteeringRate(const PlantMetrics& metrics, Verdict& verdict) {
+  if (metrics.steering_is_prescribed) {
+    NotePrescribedSteering(metrics, verdict);
+  } else if (metrics.steering_rate_limit > 0.0) {
+    Check check = CheckMetric(metrics, "steering_rate_max", Relation::kAtMost,
+                              (1.0 + kWheelCompliance) * metrics.steering_rate_limit);
+    check.reason = CheckReason::kSteeringRate;
+    check.detail = fmt::format("{:.4g}", metrics.steering_rate_limit);
+    AddCheck(check, verdict);
+  }
+}
+
+void JudgeCorridor(const PlantMetrics& metrics, Verdict& verdict) {
+  if (metrics.tracking->corridor > 0.0) {
+    Check check =
+        CheckMetric(metrics, "cross_track.max", Relation::kAtMost, metrics.tracking->corridor);
+    check.reason = CheckReason::kCorridor;
+    AddCheck(check, verdict);
+  }
+}
+
+void NoteLimitedSteering(const PlantMetrics& metrics, Verdict& verdict) {
+  constexpr double kNoticed = 0.02;
+  if (metrics.manoeuvre && metrics.manoeuvre->steering_saturated_fraction > kNoticed) {
+    verdict.notes.push_back(fmt::format("{}: steering limited ({:.0f} % of the time)",
+                                        metrics.plant,
+                                        100.0 * metrics.manoeuvre->steering_saturated_fraction));
+  }
+}
+
+void JudgeMetric(const MetricExpectation& expect, const PlantMetrics& metrics, Verdict& verdict) {
+  bool is_number = true;
+  const auto check = [&](Relation relation, const MetricValue& bound) {
+    if (is_number) {
+      Check own = CheckMetric(metrics, expect.metric, relation, bound);
+      // One that is missing or no number is told of once, whatever its bounds are.
+      const bool found = own.detail.empty();
+      const bool number =
+          std::holds_alternative<int>(own.value) || std::holds_alternative<double>(own.value);
+      is_number = number || (found && relation == Relation::kEquals);
+      AddCheck(std::move(own), verdict);
+    }
+  };
+  if (expect.equals) {
+    check(Relation::kEquals, *expect.equals);
+  }
+  if (expect.min) {
+    check(Relation::kAtLeast, *expect.min);
+  }
+  if (expect.max) {
+    check(Relation::kAtMost, *expect.max);
+  }
+}
+
+void JudgePlant(const PlantExpectation& expect, const PlantMetrics& metrics, Verdict& verdict) {
+  const auto check = [&](const std::optional<double>& bound, Relation relation, const char* metric,
+                         const char* name) {
+    if (bound) {
+      Check own = CheckMetric(metrics, metric, relation, *bound);
+      own.name = name;
+      AddCheck(std::move(own), verdict);
+    }
+  };
+  if (metrics.clearance) {
+    check(expect.min_clearance, Relation::kAtLeast, "clearance_min", "clearance");
+    if (expect.collision) {
+      Check own = CheckMetric(metrics, "collision", Relation::kEquals,
+                              *expect.collision ? "true" : "false");
+      own.reason = CheckReason::kCollision;
+      own.detail = fmt::format("{:.4g}", metrics.clearance->min);
+      AddCheck(std::move(own), verdict);
+    }
+  }
+  for (const MetricExpectation& metric : expect.metrics) {
+    JudgeMetric(metric, metrics, verdict);
+  }
+  if (metrics.tracking) {
+    constexpr Relation kAtMost = Relation::kAtMost;
+    check(expect.reach_goal, kAtMost, "goal_distance", "distance to the goal");
+    check(expect.max_cross_track, kAtMost, "cross_track.max", "cross-track maximum");
+    check(expect.rms_cross_track, kAtMost, "cross_track.rms", "cross-track rms");
+    check(expect.max_heading_error, kAtMost, "heading_error.max", "heading error maximum");
+  }
+}
+
+void JudgeBetween(const BetweenExpectation& between,
+                  const std::vector<PlantComparison>& comparisons, Verdict& verdict) {
+  const std::string& first = between.plants[0];
+  const std::string& second = between.plants[1];
+  const auto found =
+      std::find_if(comparisons.begin(), comparisons.end(), [&](const PlantComparison& c) {
+        return (c.first == first && c.second == second) || (c.first == second && c.second == first);
+      });
+  if (found == comparisons.end()) {
+    AddCheck({.plant = first,
+              .other = second,
+              .metric = "compared",
+              .relation = Relation::kEquals,
+              .bound = "true",
+              .value = false,
+              .reason = CheckReason::kComparable,
+              .detail = "were not both driven"},
+             verdict);
+    return;
+  }
+  for (Check& check : CheckBounds(between.bounds, *found)) {
+    AddCheck(std::move(check), verdict);
+  }
+}
+
+}  // namespace
+
+Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plants,
+              const std::vector<PlantComparison>& comparisons) {
+  Verdict verdict;
+  verdict.judged = AsksAnything(expect);
+  for (const PlantMetrics& metrics : plants) {
+    verdict.judged = verdict.judged || metrics.tracking || metrics.clearance;
+    const Expected expected(expect, metrics.plant);
+    if (JudgeEnd(expected, metrics, verdict) && !metrics.partial.empty()) {
+      verdict.notes.push_back(fmt::format("{}: the plan {}", metrics.plant, metrics.partial));
+    }
+    JudgeSteeringRate(metrics, verdict);
+    if (metrics.tracking && !expected.HasCrossTrack()) {
+      JudgeCorridor(metrics, verdict);
+    }
+    NoteLimitedSteering(metrics, verdict);
+    for (const PlantExpectation* part : expected.parts()) {
+      JudgePlant(*part, metrics, verdict);
+    }
+  }
+  for (const BetweenExpectation& between : expect.between) {
+    JudgeBetween(between, comparisons, verdict);
+  }
+  verdict.judged = verdict.judged || !verdict.failures.empty();
+  verdict.passed = verdict.judged && verdict.failures.empty();
+  return verdict;
+}
+
+}  // namespace trackbed

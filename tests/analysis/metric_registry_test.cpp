@@ -1,0 +1,144 @@
+#include "trackbed/analysis/metric_registry.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "trackbed/analysis/sweep.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+/// Everything that a run can have.
+PlantMetrics All() {
+  PlantMetrics metrics;
+  metrics.plant = "mujoco";
+  metrics.time = 8.0;
+  metrics.end_s = 20.0;
+  metrics.tracking.emplace();
+  metrics.clearance.emplace();
+  metrics.recovery.emplace();
+  metrics.yaw_rate_ratio = 1.0;
+  metrics.blocked = "waits";
+  metrics.partial = "ends early";
+  metrics.turns.resize(2);
+  return metrics;
+}
+
+TEST(Metrics, EveryOneHasALabelAndAPathOfItsOwn) {
+  std::set<std::string> paths;
+  for (const Metric& metric : ListMetrics(All())) {
+    SCOPED_TRACE(metric.path);
+    EXPECT_TRUE(paths.insert(metric.path).second);
+    ASSERT_TRUE(DescribeMetric(metric.path).has_value());
+    EXPECT_FALSE(DescribeMetric(metric.path)->label.empty());
+  }
+  for (const MetricEntry& entry : Metrics()) {
+    EXPECT_TRUE(paths.contains(entry.path) || entry.measure) << entry.path;
+  }
+  EXPECT_FALSE(DescribeMetric("cros_track.max").has_value());
+}
+
+TEST(Metrics, EveryOneOfAManoeuvreHasALabelAndPhysicalUnit) {
+  for (const ManoeuvreEntry& manoeuvre : Manoeuvres()) {
+    ManoeuvreMetrics metrics = EveryMetricOf(manoeuvre.defaults);
+    for (const Metric& metric : ListMetrics(metrics)) {
+      SCOPED_TRACE(std::string(manoeuvre.name) + " " + metric.path);
+      EXPECT_TRUE(DescribeManoeuvreMetric(metric.path).has_value());
+    }
+  }
+  EXPECT_EQ(DescribeMetric("manoeuvre.understeer_gradient")->unit, "rad s^2/m");
+  EXPECT_EQ(DescribeMetric("manoeuvre.distance")->label, "Maneuver: braking distance");
+  EXPECT_EQ(DescribeMetric("turns[1].lateral_offset")->label, "Turn 2: lateral offset");
+}
+
+TEST(Metrics, EveryOneOfAComparisonHasALabel) {
+  for (const Metric& metric : ListMetrics(PlantComparison{})) {
+    EXPECT_TRUE(DescribeComparisonMetric(metric.path).has_value()) << metric.path;
+  }
+  EXPECT_EQ(DescribeComparisonMetric("yaw_rate.max")->unit, "rad/s");
+}
+
+TEST(Metrics, StandInTheFileByTheirPath) {
+  PlantMetrics metrics = All();
+  metrics.tracking->cross_track_max = 0.5;
+  metrics.turns[1].waypoint = 3;
+  const nlohmann::ordered_json json = ToJson(metrics);
+  EXPECT_EQ(json["cross_track"]["max"], 0.5);
+  EXPECT_EQ(json["turns"][1]["waypoint"], 3);
+  EXPECT_TRUE(json["recovery_time"].is_null());
+  EXPECT_EQ(json.begin().key(), "status");
+}
+
+/// Half of the distance driven, where that was half.
+std::optional<MetricReading> HalfWay(const MetricInput& input) {
+  return MetricReading{0.5 * input.log.rows.back().state.distance,
+                       {.span = MetricSpan::kPoint, .s = 1.5, .t = 0.5}};
+}
+
+std::string Refused(MetricEntry entry) {
+  const std::size_t before = Metrics().size();
+  try {
+    RegisterMetric(std::move(entry));
+  } catch (const InputError& error) {
+    EXPECT_EQ(Metrics().size(), before);
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(RegisterMetric, RefusesWhatIsTakenOrMalformed) {
+  EXPECT_EQ(Refused({.path = "cross_track.max", .label = "A", .measure = HalfWay}),
+            "metric 'cross_track.max': there is 'cross_track.max' already");
+  for (const char* taken :
+       {"cross_track", "status.text", "clearance_min_s", "turns", "manoeuvre.x"}) {
+    EXPECT_THAT(Refused({.path = taken, .label = "A", .measure = HalfWay}), HasSubstr("already"))
+        << taken;
+  }
+  // Its station would stand where the clearance has its own.
+  EXPECT_THAT(
+      Refused({.path = "cross_track.max", .label = "A", .measure = HalfWay, .located = true}),
+      HasSubstr("already"));
+  for (const char* malformed : {"", "Max", "a..b", "a.", "1a", "a[0]", "a b"}) {
+    EXPECT_THAT(Refused({.path = malformed, .label = "A", .measure = HalfWay}),
+                HasSubstr("expected words of a-z"))
+        << malformed;
+  }
+  EXPECT_THAT(Refused({.path = "own", .measure = HalfWay}), HasSubstr("needs a label"));
+  EXPECT_THAT(Refused({.path = "own", .label = "A"}), HasSubstr("either a function"));
+}
+
+TEST(RegisterMetric, MakesAMetricLikeAnyOther) {
+  RegisterMetric({.path = "test_half_way",
+                  .label = "Half way",
+                  .unit = "m",
+                  .measure = HalfWay,
+                  .located = true});
+  const std::string yaml =
+      "schema: 1\nname: own\nmission: {speed: 3, duration: 1}\n"
+      "control: {method: constant_steering, steering: 0}\ndrive: {plants: [kinematic]}\n"
+      "expect: {metrics: [{metric: test_half_way, max: 1}]}\n";
+  const Scenario scenario = ParseScenario(yaml, "own.yaml", ".");
+  EXPECT_THAT(PossibleMetrics(scenario), Contains("test_half_way_s"));
+  EXPECT_THAT(PossibleOutputs(scenario), Contains("metrics.*.test_half_way"));
+  const RunResult run = RunMission(scenario);
+  // 1 s at 3 m/s.
+  EXPECT_EQ(run.verdict.failures,
+            std::vector<std::string>{"kinematic: test_half_way expected at most 1 m, was 1.5 m at "
+                                     "s = 1.5 m, t = 0.5 s"});
+  const nlohmann::ordered_json plant = MetricsJson(run)["plants"]["kinematic"];
+  EXPECT_EQ(plant["test_half_way_t"], 0.5);
+  EXPECT_EQ(OutputsOf(run).at("metrics.kinematic.test_half_way_s"), "1.5");
+  EXPECT_EQ(DescribeMetric("test_half_way")->label, "Half way");
+  EXPECT_THAT(Refused({.path = "test_half_way", .label = "A", .measure = HalfWay}),
+              HasSubstr("there is 'test_half_way' already"));
+}
+
+}  // namespace
+}  // namespace trackbed
