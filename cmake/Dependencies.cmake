@@ -4,7 +4,7 @@ include(LibraryDependencies)
 
 find_package(CLI11 2 REQUIRED)
 
-# The testing room is a library of GoogleTest matchers; without GoogleTest there is none.
+# The module testing is a library of GoogleTest matchers; without GoogleTest there is none.
 if(TRACKBED_BUILD_TESTS)
   find_package(GTest REQUIRED)
 else()
@@ -33,7 +33,7 @@ macro(trackbed_find_script variable package file)
   endif()
 endmacro()
 trackbed_find_script(D3_SCRIPT node-d3 d3.min.js /usr/share/nodejs/d3/dist)
-trackbed_find_script(D3_LICENCE node-d3 copyright /usr/share/doc/node-d3)
+trackbed_find_script(D3_LICENSE node-d3 copyright /usr/share/doc/node-d3)
 trackbed_find_script(DYGRAPHS_SCRIPT libjs-dygraphs dygraph.min.js /usr/share/javascript/dygraphs)
 trackbed_find_script(DYGRAPHS_STYLE libjs-dygraphs dygraph.min.css /usr/share/javascript/dygraphs)
-trackbed_find_script(DYGRAPHS_LICENCE libjs-dygraphs copyright /usr/share/doc/libjs-dygraphs)
+trackbed_find_script(DYGRAPHS_LICENSE libjs-dygraphs copyright /usr/share/doc/libjs-dygraphs)

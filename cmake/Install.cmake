@@ -1,21 +1,46 @@
-# `cmake --install` puts in place: the program; the package `trackbed` (every module as
-# trackbed::NAME; `testing` where there is GoogleTest); and the models and scenarios. Everything is
-# found from where the package or the program lies, so that all of it can be moved together.
+# `cmake --install` installs the program; the package `trackbed`; and the models and scenarios.
+# Everything is found from where the package or the program is, so that all of it can be moved.
+#
+#   trackbed::trackbed   the library: all modules but testing
+#   trackbed::MODULE     one module, such as trackbed::drive or trackbed::planning_fillet
+#   trackbed::testing    matchers for tests, with find_package(trackbed COMPONENTS testing): only
+#                        this component needs GoogleTest
+#   trackbed::cli        the program
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/trackbed)
 set(data_folder ${CMAKE_INSTALL_DATADIR}/trackbed)
 
-set(installed trackbed_version)
+# One header and one target for everything.
+add_library(trackbed_library INTERFACE)
+add_library(trackbed::library ALIAS trackbed_library)
+trackbed_link_folder(${PROJECT_BINARY_DIR}/modules/library trackbed/trackbed.h
+                     ${PROJECT_SOURCE_DIR}/include/trackbed/trackbed.h)
+target_include_directories(
+  trackbed_library INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/modules/library>
+                             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+
+set(installed trackbed_version trackbed_library)
 get_property(modules GLOBAL PROPERTY TRACKBED_MODULES)
 foreach(module IN LISTS modules)
   string(REPLACE "/" "_" name ${module})
-  list(APPEND installed trackbed_${name})
   get_filename_component(folder trackbed/${module} DIRECTORY)
   install(DIRECTORY include/trackbed/${module} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
+  if(module STREQUAL "testing")
+    install(TARGETS trackbed_testing EXPORT trackbedTestingTargets)
+    install(EXPORT trackbedTestingTargets NAMESPACE trackbed:: DESTINATION ${package_folder})
+  else()
+    list(APPEND installed trackbed_${name})
+    target_link_libraries(trackbed_library INTERFACE trackbed_${name})
+  endif()
 endforeach()
+install(FILES include/trackbed/trackbed.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trackbed)
+install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 set_target_properties(trackbed_version PROPERTIES EXPORT_NAME version)
+set_target_properties(trackbed_library PROPERTIES EXPORT_NAME trackbed)
+set_target_properties(trackbed_cli PROPERTIES EXPORT_NAME cli_library)
+set_target_properties(trackbed PROPERTIES EXPORT_NAME cli)
 install(TARGETS ${installed} trackbed EXPORT trackbedTargets)
 install(EXPORT trackbedTargets NAMESPACE trackbed:: DESTINATION ${package_folder})
 # Without scenarios/validation, which replays the tests' recordings.

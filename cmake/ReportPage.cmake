@@ -6,12 +6,12 @@ file(GLOB page_parts CONFIGURE_DEPENDS ${page_folder}/*)
 add_custom_command(
   OUTPUT ${page_text}
   COMMAND
-    ${CMAKE_COMMAND} -DPAGE=${page_folder} -DD3_SCRIPT=${D3_SCRIPT} -DD3_LICENCE=${D3_LICENCE}
+    ${CMAKE_COMMAND} -DPAGE=${page_folder} -DD3_SCRIPT=${D3_SCRIPT} -DD3_LICENSE=${D3_LICENSE}
     -DDYGRAPHS_SCRIPT=${DYGRAPHS_SCRIPT} -DDYGRAPHS_STYLE=${DYGRAPHS_STYLE}
-    -DDYGRAPHS_LICENCE=${DYGRAPHS_LICENCE} -DOUTPUT=${page_text} -P
+    -DDYGRAPHS_LICENSE=${DYGRAPHS_LICENSE} -DOUTPUT=${page_text} -P
     ${PROJECT_SOURCE_DIR}/cmake/report_page.cmake
-  DEPENDS ${page_parts} ${D3_SCRIPT} ${D3_LICENCE} ${DYGRAPHS_SCRIPT} ${DYGRAPHS_STYLE}
-          ${DYGRAPHS_LICENCE} ${PROJECT_SOURCE_DIR}/cmake/report_page.cmake
+  DEPENDS ${page_parts} ${D3_SCRIPT} ${D3_LICENSE} ${DYGRAPHS_SCRIPT} ${DYGRAPHS_STYLE}
+          ${DYGRAPHS_LICENSE} ${PROJECT_SOURCE_DIR}/cmake/report_page.cmake
   COMMENT "Putting the page of the reports together"
   VERBATIM)
 target_sources(trackbed_report PRIVATE ${page_text})

@@ -20,10 +20,10 @@ file(READ ${DYGRAPHS_STYLE} library_style)
 file(READ ${PAGE}/page.css style)
 put(style "<style>\n${library_style}\n${style}</style>")
 
-file(READ ${D3_LICENCE} d3_licence)
-file(READ ${DYGRAPHS_LICENCE} dygraphs_licence)
-put(licences
-    "<script type=\"text/plain\" id=\"licences\">d3\n\n${d3_licence}\n\ndygraphs\n\n${dygraphs_licence}</script>"
+file(READ ${D3_LICENSE} d3_license)
+file(READ ${DYGRAPHS_LICENSE} dygraphs_license)
+put(licenses
+    "<script type=\"text/plain\" id=\"licenses\">d3\n\n${d3_license}\n\ndygraphs\n\n${dygraphs_license}</script>"
 )
 
 file(READ ${D3_SCRIPT} d3)

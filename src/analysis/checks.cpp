@@ -72,7 +72,7 @@ std::string Where(const MetricPlace& at) {
       return fmt::format(" over the drive to s = {:.4g} m, t = {:.4g} s", at.s, at.t);
     case MetricSpan::kEnd:
       return fmt::format(" at the end, s = {:.4g} m, t = {:.4g} s", at.s, at.t);
-    case MetricSpan::kPoint:
+    case MetricSpan::kMoment:
       return fmt::format(" at s = {:.4g} m, t = {:.4g} s", at.s, at.t);
     case MetricSpan::kSince:
       return fmt::format(" from t = {:.4g} s on", at.from_t);
@@ -194,7 +194,7 @@ std::vector<Check> CheckBounds(const DifferenceBounds& bounds, const PlantCompar
            .relation = Relation::kAtMost,
            .bound = *bound,
            .value = difference.max,
-           .at = {.span = MetricSpan::kPoint, .s = difference.max_s, .t = difference.max_t},
+           .at = {.span = MetricSpan::kMoment, .s = difference.max_s, .t = difference.max_t},
            .met = IsMet(difference.max, Relation::kAtMost, *bound),
            .name = std::string(quantity.name) + " difference",
            .unit = quantity.unit});
@@ -264,7 +264,7 @@ ordered_json ToJson(const Verdict& verdict) {
       {"notes", verdict.notes},
       {"checks", ordered_json::array()}};
   for (const Check& check : verdict.checks) {
-    const bool placed = check.at.span == MetricSpan::kPoint || check.at.span == MetricSpan::kEnd;
+    const bool placed = check.at.span == MetricSpan::kMoment || check.at.span == MetricSpan::kEnd;
     json["checks"].push_back(
         {{"plant",
           check.other.empty() ? check.plant : fmt::format("{} – {}", check.plant, check.other)},

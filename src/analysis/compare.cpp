@@ -254,7 +254,7 @@ std::vector<Metric> ListMetrics(const PlantComparison& comparison) {
     all.push_back({key + ".rms", difference.rms, {}});
     all.push_back({key + ".max",
                    difference.max,
-                   {.span = MetricSpan::kPoint, .s = difference.max_s, .t = difference.max_t}});
+                   {.span = MetricSpan::kMoment, .s = difference.max_s, .t = difference.max_t}});
     all.push_back({key + ".max_s", difference.max_s, {}});
     all.push_back({key + ".max_t", difference.max_t, {}});
   }

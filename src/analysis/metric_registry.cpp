@@ -140,7 +140,7 @@ void RegisterMetric(MetricEntry entry) {
 std::vector<Metric> ListMetrics(const PlantMetrics& metrics) {
   std::vector<Metric> all;
   const auto add = [&](std::string path, MetricValue value, MetricPlace at) {
-    if (at.span != MetricSpan::kPoint && at.span != MetricSpan::kInterval) {
+    if (at.span != MetricSpan::kMoment && at.span != MetricSpan::kInterval) {
       at.s = metrics.end_s;
       at.t = metrics.time;
     }
@@ -166,7 +166,7 @@ std::vector<Metric> ListMetrics(const PlantMetrics& metrics) {
     const TurnMetrics& turn = metrics.turns[i];
     for (const TurnMetricEntry& entry : TurnMetricTable()) {
       add(fmt::format("{}[{}].{}", kTurns, i, entry.key), entry.read(turn),
-          {.span = MetricSpan::kPoint, .s = turn.s, .t = turn.t});
+          {.span = MetricSpan::kMoment, .s = turn.s, .t = turn.t});
     }
   }
   return all;

@@ -37,7 +37,7 @@ Read At(T Part::*value, double Part::*s, double Part::*t) {
     return part == nullptr
                ? Reading()
                : MetricReading{part->*value,
-                               {.span = MetricSpan::kPoint, .s = part->*s, .t = part->*t}};
+                               {.span = MetricSpan::kMoment, .s = part->*s, .t = part->*t}};
   };
 }
 

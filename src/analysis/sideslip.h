@@ -13,7 +13,7 @@ namespace trackbed {
 inline std::optional<MetricReading> LargestSideslip(const MetricInput& input) {
   constexpr double kSlow = 1.0;  // [m/s]
   double largest = 0.0;
-  MetricPlace at{.span = MetricSpan::kPoint};
+  MetricPlace at{.span = MetricSpan::kMoment};
   for (const LogRow& row : input.log.rows) {
     if (input.log.contact_time && row.state.time > *input.log.contact_time) {
       break;

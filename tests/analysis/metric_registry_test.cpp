@@ -79,7 +79,7 @@ TEST(Metrics, StandInTheFileByTheirPath) {
 /// Half of the distance driven, where that was half.
 std::optional<MetricReading> HalfWay(const MetricInput& input) {
   return MetricReading{0.5 * input.log.rows.back().state.distance,
-                       {.span = MetricSpan::kPoint, .s = 1.5, .t = 0.5}};
+                       {.span = MetricSpan::kMoment, .s = 1.5, .t = 0.5}};
 }
 
 std::string Refused(MetricEntry entry) {

@@ -1,7 +1,7 @@
-#include <cmath>
-
 #include <trackbed/control/steering_controller.h>
 #include <trackbed/core/angle.h>
+
+#include <cmath>
 
 #include "trackbed/control/steering_controller.h"
 

@@ -1,12 +1,12 @@
-#include <cmath>
-
 #include <trackbed/planning/common/course_schedule.h>
 #include <trackbed/planning/common/curvature_steps.h>
 #include <trackbed/planning/common/planner.h>
 
-#include "trackbed/planning/common/planner.h"
-#include "trackbed/planning/common/plan.h"
+#include <cmath>
+
 #include "trackbed/planning/common/course_schedule.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/planner.h"
 
 using namespace trackbed;
 

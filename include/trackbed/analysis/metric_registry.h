@@ -31,7 +31,7 @@ struct MetricEntry {
   std::function<std::optional<MetricReading>(const PlantMetrics&)> read = {};
   std::function<std::optional<MetricReading>(const MetricInput&)> measure = {};
   bool headline = false;  ///< shown first in a report
-  /// The value is of one moment (MetricSpan::kPoint), which metrics.json has as PATH_s [m] and
+  /// The value is of one moment (MetricSpan::kMoment), which metrics.json has as PATH_s [m] and
   /// PATH_t [s].
   bool located = false;
 };

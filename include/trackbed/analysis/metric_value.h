@@ -15,7 +15,7 @@ using MetricValue = std::variant<std::monostate, bool, int, double, std::string>
 enum class MetricSpan {
   kRun,       ///< all of it
   kEnd,       ///< its end
-  kPoint,     ///< one moment, such as that of a largest value
+  kMoment,    ///< one moment, such as that of a largest value
   kSince,     ///< from `from_t` on
   kInterval,  ///< from `from_t` to `t`
 };

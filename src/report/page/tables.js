@@ -229,5 +229,5 @@ function drawFoot() {
   const footer = root.append('footer');
   const details = footer.append('details');
   details.append('summary').text('Made by Trackbed, with d3 and dygraphs: their licenses');
-  details.append('pre').text(document.getElementById('licences').textContent);
+  details.append('pre').text(document.getElementById('licenses').textContent);
 }

@@ -1,0 +1,20 @@
+#pragma once
+
+/// Everything that running a scenario takes, in one include:
+///
+///     const trackbed::Scenario scenario = trackbed::ReadScenario("corner.yaml");
+///     const trackbed::CarModel car = trackbed::LoadCar(scenario);
+///     const trackbed::Plan plan = trackbed::PlanMission(scenario, car.params());
+///     const trackbed::RunLog log = trackbed::DrivePlant(scenario, car, plan, "mujoco");
+///
+/// SimulateClosedLoop runs plants and controllers of your own; RunMission measures and judges a
+/// run as the program does; Main is the program. Modules have further headers.
+
+#include "trackbed/analysis/run.h"                // IWYU pragma: export
+#include "trackbed/cli/main.h"                    // IWYU pragma: export
+#include "trackbed/control/controllers.h"         // IWYU pragma: export
+#include "trackbed/drive/closed_loop.h"           // IWYU pragma: export
+#include "trackbed/drive/drive.h"                 // IWYU pragma: export
+#include "trackbed/planning/registry/planners.h"  // IWYU pragma: export
+#include "trackbed/scenario/scenario.h"           // IWYU pragma: export
+#include "trackbed/sim/plant.h"                   // IWYU pragma: export

@@ -1,0 +1,172 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = TRACKBED_SOURCE_DIR;
+
+std::string TextOf(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+struct Module {
+  std::string path;               // "planning/fillet"
+  std::vector<std::string> uses;  // modules, likewise
+
+  /// Its target without the prefix: "planning_fillet".
+  [[nodiscard]] std::string name() const {
+    std::string name = path;
+    std::replace(name.begin(), name.end(), '/', '_');
+    return name;
+  }
+
+  [[nodiscard]] std::vector<fs::path> folders() const {
+    return {kRoot / "include" / "trackbed" / path,
+            path == "render" ? kRoot / "render" : kRoot / "src" / path};
+  }
+};
+
+/// The modules as CMakeLists.txt declares them, from the bottom up.
+std::vector<Module> Modules() {
+  std::vector<Module> modules;
+  const std::string build = TextOf(kRoot / "CMakeLists.txt");
+  const std::regex declaration(R"(\btrackbed_module\(([^)]*)\))");
+  for (std::sregex_iterator it(build.begin(), build.end(), declaration), end; it != end; ++it) {
+    std::istringstream words((*it)[1]);
+    Module module;
+    words >> module.path;
+    std::string keyword;
+    for (std::string word; words >> word;) {
+      if (std::regex_match(word, std::regex("[A-Z_]+"))) {
+        keyword = word;
+      } else if (keyword == "MODULES") {
+        module.uses.push_back(word);
+      }
+    }
+    modules.push_back(std::move(module));
+  }
+  return modules;
+}
+
+struct Include {
+  fs::path file;
+  std::string name;
+};
+
+std::vector<Include> IncludesOf(const Module& module) {
+  std::vector<Include> includes;
+  const std::regex line_pattern(R"re(^\s*#include\s+[<"]([^>"]+)[>"])re");
+  for (const fs::path& folder : module.folders()) {
+    if (!fs::exists(folder)) {
+      continue;
+    }
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") {
+        continue;
+      }
+      std::ifstream file(entry.path());
+      for (std::string line; std::getline(file, line);) {
+        std::smatch match;
+        if (std::regex_search(line, match, line_pattern)) {
+          includes.push_back({entry.path(), match[1]});
+        }
+      }
+    }
+  }
+  return includes;
+}
+
+// That a module includes only what it links is a rule that the compiler checks: it sees no other
+// headers (cmake/Module.cmake). MuJoCo's are installed where every target sees them.
+TEST(Modules, OnlySimAndRenderIncludeMujoco) {
+  std::size_t seen = 0;
+  for (const Module& module : Modules()) {
+    for (const Include& include : IncludesOf(module)) {
+      if (include.name.starts_with("mujoco/")) {
+        ++seen;
+        EXPECT_TRUE(module.path == "sim" || module.path == "render") << include.file;
+        EXPECT_EQ(include.file.string().find("/include/"), std::string::npos)
+            << include.file << ": a public header must not need MuJoCo's";
+      }
+    }
+  }
+  EXPECT_GT(seen, 5U);  // the scan saw the sources at all
+}
+
+TEST(Modules, EveryPublicHeaderHasASourceOfTheSameName) {
+  for (const Module& module : Modules()) {
+    const auto folders = module.folders();
+    if (!fs::exists(folders[0])) {
+      continue;
+    }
+    for (const auto& entry : fs::directory_iterator(folders[0])) {
+      // Folders are modules of their own; what has templates or plain values needs no code, and the
+      // version is written by the build.
+      static const std::vector<std::string> kNoCode{"state",   "version", "registry",
+                                                    "planner", "plan",    "method_options"};
+      const std::string name = entry.path().stem().string();
+      if (entry.is_directory() ||
+          std::find(kNoCode.begin(), kNoCode.end(), name) != kNoCode.end()) {
+        continue;
+      }
+      EXPECT_TRUE(fs::exists(folders[1] / (name + ".cpp"))) << entry.path();
+    }
+  }
+}
+
+TEST(Modules, AreDrawnAsTheBuildLinksThem) {
+  const std::string page = TextOf(kRoot / "docs/architecture.md");
+  const std::size_t begin = page.find("flowchart TD", page.find("## Modules"));
+  ASSERT_NE(begin, std::string::npos) << "docs/architecture.md has no diagram of the modules";
+  std::istringstream diagram(page.substr(begin, page.find("```", begin) - begin));
+  std::vector<std::string> drawn;
+  std::string line;
+  std::getline(diagram, line);
+  while (diagram >> std::ws && std::getline(diagram, line)) {
+    drawn.push_back(line);
+  }
+  std::vector<std::string> links;
+  for (const Module& module : Modules()) {
+    for (const std::string& used : module.uses) {
+      links.push_back(module.name() + " --> " + Module{used, {}}.name());
+    }
+    EXPECT_NE(page.find("| `" + module.path), std::string::npos)
+        << module.path << " is not in the table of modules";
+  }
+  EXPECT_THAT(drawn, testing::UnorderedElementsAreArray(links));
+}
+
+// The examples that pages show are those that the tests build (tests/package).
+TEST(Pages, ShowTheirExamplesAsTheyAreBuilt) {
+  struct Shown {
+    const char* page;
+    std::vector<const char*> files;
+  };
+  const std::vector<Shown> all{
+      {"add-a-planner.md", {"own-methods/main.cpp", "own-methods/sidestep.cpp"}},
+      {"add-a-controller.md", {"own-methods/main.cpp", "own-methods/feedforward.cpp"}},
+      {"add-a-plant.md", {"own-plant/own_plant.cpp"}}};
+  for (const Shown& shown : all) {
+    const std::string page = TextOf(kRoot / "docs/how-to" / shown.page);
+    for (const char* file : shown.files) {
+      const std::string example = TextOf(kRoot / "docs/examples" / file);
+      ASSERT_FALSE(example.empty()) << file;
+      EXPECT_NE(page.find("```cpp\n" + example + "```\n"), std::string::npos)
+          << shown.page << " does not show " << file;
+    }
+  }
+}
+
+}  // namespace
