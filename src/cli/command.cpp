@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <utility>
 
 namespace trackbed::cli {
@@ -108,6 +109,23 @@ std::vector<CommandInfo> Command::VisibleVerbs() const {
   return verbs;
 }
 
+namespace {
+
+/// "missing FILE", for the first required option that was not given.
+std::optional<std::string> Missing(const CLI::App& program) {
+  for (const CLI::App* verb : program.get_subcommands()) {
+    for (const CLI::Option* option : verb->get_options()) {
+      if (option->get_required() && option->count() == 0) {
+        std::string name = option->get_type_name();
+        return "missing " + name.substr(0, name.find('.'));
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 CommandLine::CommandLine(const std::string& name, const std::string& summary,
                          std::function<std::string()> version)
     : app_(std::make_unique<CLI::App>(summary, name)) {
@@ -126,6 +144,10 @@ Command CommandLine::AddVerb(const std::string& name, const std::string& summary
 int CommandLine::Parse(int argc, char** argv, int bad_usage) {
   try {
     app_->parse(argc, argv);
+  } catch (const CLI::RequiredError& error) {
+    fmt::print(stderr, "{}\nRun with --help for more information.\n",
+               Missing(*app_).value_or(error.what()));
+    return bad_usage;
   } catch (const CLI::ParseError& error) {
     return app_->exit(error) == 0 ? 0 : bad_usage;
   }

@@ -225,20 +225,23 @@ void AddExperiment(const Command& command) {
       .ShowDefault();
   command
       .AddOption("--steering-deg", options->steering,
-                 "Of the wanted motion, the primary [deg], positive to the left")
+                 "Steering angle of the reference motion (primary) [deg], positive to the left")
       .TypeName("DEG")
       .ShowDefault();
-  command.AddOption("--primary-speed", options->primary_speed, "Of the wanted motion [m/s]")
+  command
+      .AddOption("--primary-speed", options->primary_speed, "Speed of the reference motion [m/s]")
       .Range(0.1, 100.0)
       .TypeName("V")
       .ShowDefault();
-  command.AddOption("--max-steering-deg", options->max_steering, "Bound of the search, either way")
+  command
+      .AddOption("--max-steering-deg", options->max_steering,
+                 "Largest steering angle of the search [deg]")
       .Range(0.1, 80.0)
       .TypeName("DEG")
       .ShowDefault();
   command
       .AddOption("--speeds", options->speeds,
-                 "Of the car, the secondary [m/s] (default: 2.5,2,1.5,1)")
+                 "Speeds of the car that follows it (secondary) [m/s] (default: 2.5,2,1.5,1)")
       .Delimiter(',')
       .Range(0.01, 100.0)
       .TypeName("V,...");
@@ -253,11 +256,10 @@ void AddExperiment(const Command& command) {
       .Range(0, 100000000)
       .TypeName("N")
       .ShowDefault();
-  command.AddOption("--seed", options->seed, "Of searches that draw random numbers")
+  command.AddOption("--seed", options->seed, "Seed of randomized searches")
       .TypeName("N")
       .ShowDefault();
-  command.AddOption("-o,--out", options->out, "Write the table as CSV, too, a row for each search")
-      .TypeName("FILE");
+  command.AddOption("-o,--out", options->out, "Also write the table as CSV").TypeName("FILE");
   command.AddFlag("-q,--quiet", options->quiet, "Print errors only");
   command.OnRun([options] { return Experiment(*options); });
 }

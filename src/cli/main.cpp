@@ -28,25 +28,22 @@ struct Verb {
 };
 
 const std::vector<Verb> kVerbs{
-    {"run", "Plan, drive and measure scenarios; write a folder for each", AddRun},
-    {"plan", "Plan only: write the path, its steering, and how they were found", AddPlan},
-    {"render", "Make the film of a finished run from its folder", AddRender},
-    {"compare",
-     "Hold the drives of one plan on several plants, or two finished runs, against each other",
-     AddCompare},
-    {"test", "Run scenarios and judge them by what they expect, one line each", AddTest},
-    {"check", "Read and validate scenarios and studies without driving them", AddCheck},
-    {"sweep", "Run a study: one scenario with many values of its keys, made into one table",
+    {"run", "Plan, simulate and measure scenarios; write a run folder for each", AddRun},
+    {"plan", "Plan only: write the path, its steering schedule and the planner's diagnostics",
+     AddPlan},
+    {"render", "Render the video of a finished run from its folder", AddRender},
+    {"compare", "Compare plants on one plan, or two finished runs", AddCompare},
+    {"test", "Run scenarios and check their expectations, one line each", AddTest},
+    {"check", "Validate scenarios and studies without running them", AddCheck},
+    {"sweep", "Run a study: one scenario over many parameter values, collected in one table",
      AddSweep},
-    {"report", "Make one HTML page of finished runs, or of a study", AddReport},
-    {"experiment", "Repeat a published experiment of the methods, and print its table",
-     AddExperiment},
+    {"report", "Write one HTML page about finished runs or a study", AddReport},
+    {"experiment", "Repeat a published experiment and print its table", AddExperiment},
     {"list",
-     "What there is: planners, controllers, manoeuvres, plants, optimizers, cameras, overlays, "
-     "models, "
-     "scenarios",
+     "List available planners, controllers, manoeuvres, plants, optimizers, cameras, overlays, "
+     "models or scenarios",
      AddList},
-    {"model", "What a car is, or its composed MJCF", AddModel},
+    {"model", "Print the parameters of a vehicle model, or write its composed MJCF", AddModel},
     {"docs", "Bring the tables of docs/cli.md up to date with this program", AddDocs},
 };
 

@@ -105,8 +105,9 @@ void AddModel(const Command& command) {
                  "Write the composed MJCF, to open in MuJoCo's viewer, with the files it needs "
                  "beside it")
       .TypeName("FILE");
-  command.AddFlag("--linkage", options->linkage,
-                  "Print the joint couplings that fit the car's steering linkage, for its file");
+  command.AddFlag(
+      "--linkage", options->linkage,
+      "Print joint couplings fitted to the steering linkage, to paste into the model file");
   command.OnRun([options] {
     const auto file = FindModel(options->name, "");
     const CarModel car(ComposeScene(file, {}), file.string());

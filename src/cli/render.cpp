@@ -119,7 +119,7 @@ void AddRender(const Command& command) {
       .AddOption("--camera", options->camera,
                  "Point of view (default: the scenario's render.camera): " + Listed(Cameras()))
       .TypeName("NAME");
-  command.AddOption("--inset", options->inset, "Another camera, for a small picture in the picture")
+  command.AddOption("--inset", options->inset, "Another camera, shown as an inset")
       .TypeName("NAME");
   command
       .AddOption("--plants", options->plants,
@@ -138,10 +138,10 @@ void AddRender(const Command& command) {
                  "draft, or film: smooth edges and cast shadows, 4 times slower")
       .TypeName("draft|film")
       .ShowDefault();
-  const Option from =
-      command.AddOption("--from", options->from, "Begin there in the run's time [s]");
-  const Option to = command.AddOption("--to", options->to, "End there [s]");
-  command.AddOption("--at", options->at, "Make one picture of the run there [s], FILE.png, no film")
+  const Option from = command.AddOption("--from", options->from, "Start time [s]");
+  const Option to = command.AddOption("--to", options->to, "End time [s]");
+  command
+      .AddOption("--at", options->at, "Save the frame at S seconds as FILE.png instead of a video")
       .Excludes(from)
       .Excludes(to)
       .TypeName("S");

@@ -107,12 +107,10 @@ void AddRun(const Command& command) {
                  "folder each")
       .TypeName("DIR");
   options->scenario.AddTo(command);
-  command.AddFlag("--video", options->video, "Film the run: video.mp4 in its folder");
-  command.AddFlag(
-      "--report", options->report,
-      "Make the page of the run, too, with its film if there is one: report.html in its folder");
-  command.AddFlag("--mcap", options->mcap,
-                  "Log for Foxglove and others, too: run.mcap in its folder");
+  command.AddFlag("--video", options->video, "Also render video.mp4 in the run folder");
+  command.AddFlag("--report", options->report,
+                  "Also write report.html in the run folder, with the video if there is one");
+  command.AddFlag("--mcap", options->mcap, "Also write run.mcap (Foxglove) in the run folder");
   command.OnRun([options] {
     const std::vector<ScenarioRun> runs =
         ReadScenarioRuns(options->files, options->scenario, options->out, "out");

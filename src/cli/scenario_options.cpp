@@ -61,15 +61,15 @@ void AddFilesIn(const fs::path& folder, FolderContent content, std::vector<fs::p
 }  // namespace
 
 void ScenarioOptions::AddTo(const Command& command) {
-  command.AddOption("--plant", plants, "Drive these plants instead of the scenario's")
+  command.AddOption("--plant", plants, "Run these plants instead of the scenario's")
       .TypeName("NAME...");
   AddKeysTo(command);
 }
 
 void ScenarioOptions::AddKeysTo(const Command& command) {
-  command.AddOption("--set", overrides, "Replace keys of the scenario, such as mission.speed=2")
+  command.AddOption("--set", overrides, "Override keys of the scenario, such as mission.speed=2")
       .TypeName("KEY=VALUE...");
-  command.AddOption("--seed", seed, "Replace the scenario's seed").TypeName("N");
+  command.AddOption("--seed", seed, "Override the scenario's seed").TypeName("N");
   command.AddFlag("-q,--quiet", quiet, "Print errors only");
 }
 

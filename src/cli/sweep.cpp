@@ -59,8 +59,7 @@ void AddSweep(const Command& command) {
   const auto options = std::make_shared<SweepVerbOptions>();
   command.AddPositional("study", options->file, "Study file").Required().TypeName("STUDY");
   command
-      .AddOption("-j,--jobs", options->jobs,
-                 "Runs at the same time (default: as many as the machine has threads)")
+      .AddOption("-j,--jobs", options->jobs, "Runs in parallel (default: one per hardware thread)")
       .Range(1, 1000)
       .TypeName("N");
   command.AddOption("-o,--out", options->out, "Folder to write to (default: out/<study>)")

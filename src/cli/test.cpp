@@ -99,11 +99,11 @@ void AddTest(const Command& command) {
       .AddPositional("paths", options->paths, "Scenario files, or folders with them at any depth")
       .Required()
       .TypeName("PATH...");
-  command.AddOption("--junit", options->junit, "Write the outcome as JUnit XML as well")
+  command.AddOption("--junit", options->junit, "Also write the results as JUnit XML")
       .TypeName("FILE");
   command
       .AddOption("-j,--jobs", options->jobs,
-                 "Scenarios at the same time (default: as many as the machine has threads)")
+                 "Scenarios to run in parallel (default: one per hardware thread)")
       .Range(1, 1000)
       .TypeName("N");
   options->scenario.AddTo(command);

@@ -8,10 +8,10 @@
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
 #include "trackbed/analysis/verdict.h"
+#include "trackbed/control/steering_controller.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
-#include "trackbed/control/steering_controller.h"
 
 namespace trackbed {
 namespace {

@@ -97,7 +97,7 @@ TEST(Report, RefusesWhatIsNoRun) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "empty/report.html"));
   outcome = Trackbed(folder, "report");
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.output, testing::StartsWith("folder is required\n"));
+  EXPECT_THAT(outcome.output, testing::StartsWith("missing DIR\n"));
   const auto told = [&](const std::string& film) {
     const Outcome refused = Trackbed(folder, "report empty --film " + film);
     EXPECT_EQ(refused.code, 2);

@@ -20,6 +20,7 @@
 #include "trackbed/planning/course/course.h"
 #include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/registry/planners.h"
+#include "trackbed/planning/curves/curve_planners.h"
 
 namespace trackbed {
 namespace {
@@ -61,8 +62,7 @@ TEST_P(EveryPlanner, IsNamedByItsOptions) {
 }
 
 TEST_P(EveryPlanner, NeedsItsFewestWaypointsAndNoMore) {
-  const std::size_t fewest = FewestWaypoints(GetParam().defaults);
-  EXPECT_EQ(fewest, GetParam().min_waypoints);
+  const std::size_t fewest = GetParam().min_waypoints;
   std::vector<Vec2> route = RouteA();
   ASSERT_GE(route.size(), fewest);
   route.resize(fewest);
@@ -249,16 +249,20 @@ TEST_P(EveryPlanner, ThrowsForNumbersThatAreNone) {
 INSTANTIATE_TEST_SUITE_P(Table, EveryPlanner, ::testing::ValuesIn(Planners()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-TEST(Planners, NamesAndAlternativesAreUnique) {
-  std::set<std::string> names;
-  std::set<std::size_t> alternatives;
-  for (const PlannerEntry& entry : Planners()) {
-    names.insert(entry.name);
-    alternatives.insert(entry.defaults.index());
+TEST(Planners, HaveNamesAndOptionsOfTheirOwn) {
+  const std::vector<PlannerEntry>& all = Planners();
+  ASSERT_GE(all.size(), 8U);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_STRNE(all[i].name, all[j].name);
+      EXPECT_FALSE(AreOfOneMethod(all[i].defaults, all[j].defaults)) << all[i].name;
+    }
   }
-  EXPECT_EQ(names.size(), Planners().size());
-  EXPECT_EQ(alternatives.size(), Planners().size());
-  EXPECT_EQ(alternatives.size(), std::variant_size_v<PlannerOptions>);
+}
+
+TEST(Planners, KeepTheDistanceThatTheirOptionsName) {
+  EXPECT_EQ(SafeDistanceOf(DubinsOptions{.safe_distance = 0.7}), 0.7);
+  EXPECT_FALSE(SafeDistanceOf(CourseOptions{}).has_value());
 }
 
 // --- The fillet planner

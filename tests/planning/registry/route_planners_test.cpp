@@ -18,6 +18,7 @@
 #include "trackbed/planning/grid/hybrid_astar.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/world/world.h"
+#include "trackbed/planning/sampling/rrt_planner.h"
 
 // What every planner that keeps clear of obstacles owes its caller, beyond planner_test.cpp.
 namespace trackbed {
@@ -59,15 +60,13 @@ PlanRequest Blocked() {
 }
 
 void SetBudget(PlannerOptions& options, int budget) {
-  std::visit(
-      [&](auto& own) {
-        if constexpr (requires { own.budget; }) {
-          own.budget = budget;
-        } else if constexpr (requires { own.iterations; }) {
-          own.iterations = budget;
-        }
-      },
-      options);
+  if (auto* astar = options.As<AStarOptions>()) {
+    astar->budget = budget;
+  } else if (auto* hybrid = options.As<HybridAStarOptions>()) {
+    hybrid->budget = budget;
+  } else if (auto* rrt = options.As<RrtPlannerOptions>()) {
+    rrt->iterations = budget;
+  }
 }
 
 class EveryRoutePlanner : public ::testing::TestWithParam<PlannerEntry> {
