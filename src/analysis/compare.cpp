@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "src/analysis/metric_table.h"
+#include "trackbed/control/steering_controller.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/sim/plant.h"
-#include "trackbed/control/steering_controller.h"
 
 namespace trackbed {
 namespace {

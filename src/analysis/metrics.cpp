@@ -7,10 +7,10 @@
 #include "src/analysis/peaks.h"
 #include "trackbed/analysis/compare.h"
 #include "trackbed/analysis/metric_registry.h"
+#include "trackbed/control/steering_controller.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
-#include "trackbed/control/steering_controller.h"
 
 namespace trackbed {
 namespace {

@@ -12,9 +12,8 @@
 #include "src/drive/scheduled_steering.h"
 #include "src/drive/segment_sequencer.h"
 #include "src/drive/termination.h"
-
-#include "trackbed/planning/common/plan.h"
 #include "trackbed/control/steering_controller.h"
+#include "trackbed/planning/common/plan.h"
 
 namespace trackbed {
 namespace {

@@ -20,23 +20,22 @@ ReplanningConfig ReplanningConfigOf(const Scenario& scenario) {
 
 LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car) {
   const DriveSpec& drive = scenario.drive;
-  LoopConfig config{
-      .vehicle = car.params(),
-      .nominal_vehicle = car.unladen(),
-      .world = scenario.world,
-      .timestep = drive.timestep,
-      .control_period = drive.control_period,
-      .state_period = drive.state_period,
-      .time_limit = drive.time_limit,
-      .duration = DurationOf(scenario),
-      .goal_tolerance = drive.goal_tolerance,
-      .station_source = ControllerFor(scenario.control.steering).station,
-      .follow_schedule = scenario.control.steering.Is<ScheduleOptions>(),
-      .steering_input = drive.steering,
-      .speed = scenario.control.speed,
-      .disturbances = scenario.disturb,
-      .seed = scenario.seed,
-      .configuration_columns = car.configuration_columns()};
+  LoopConfig config{.vehicle = car.params(),
+                    .nominal_vehicle = car.unladen(),
+                    .world = scenario.world,
+                    .timestep = drive.timestep,
+                    .control_period = drive.control_period,
+                    .state_period = drive.state_period,
+                    .time_limit = drive.time_limit,
+                    .duration = DurationOf(scenario),
+                    .goal_tolerance = drive.goal_tolerance,
+                    .station_source = ControllerFor(scenario.control.steering).station,
+                    .follow_schedule = scenario.control.steering.Is<ScheduleOptions>(),
+                    .steering_input = drive.steering,
+                    .speed = scenario.control.speed,
+                    .disturbances = scenario.disturb,
+                    .seed = scenario.seed,
+                    .configuration_columns = car.configuration_columns()};
   if (!scenario.mission.headings.empty()) {
     config.goal_heading_tolerance = drive.goal_heading_tolerance;
   }

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "trackbed/control/steering_controller.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
-#include "trackbed/control/steering_controller.h"
 
 namespace trackbed {
 namespace {

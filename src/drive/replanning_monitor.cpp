@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "trackbed/planning/avoidance/avoidance.h"
-#include "trackbed/world/world.h"
 #include "trackbed/planning/common/plan.h"
+#include "trackbed/world/world.h"
 
 namespace trackbed {
 namespace {

@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "src/drive/path_tracking.h"
-
-#include "trackbed/planning/common/plan.h"
 #include "trackbed/control/steering_controller.h"
+#include "trackbed/planning/common/plan.h"
 
 namespace trackbed {
 

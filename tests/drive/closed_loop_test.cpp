@@ -12,11 +12,11 @@
 
 #include "tests/drive/unicycle.h"
 #include "tests/tolerance.h"
+#include "trackbed/control/controllers.h"
+#include "trackbed/control/steering_controller.h"
 #include "trackbed/core/error.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/common/plan.h"
-#include "trackbed/control/controllers.h"
-#include "trackbed/control/steering_controller.h"
 
 // A plant and a controller of the user's own, in the loop.
 namespace trackbed {

@@ -4,9 +4,8 @@
 
 #include "tests/drive/unicycle.h"
 #include "tests/tolerance.h"
-
-#include "trackbed/planning/common/plan.h"
 #include "trackbed/control/steering_controller.h"
+#include "trackbed/planning/common/plan.h"
 
 namespace trackbed {
 namespace {

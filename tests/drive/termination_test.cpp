@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "tests/drive/unicycle.h"
-
 #include "trackbed/planning/common/plan.h"
 
 namespace trackbed {

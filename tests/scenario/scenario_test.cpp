@@ -8,9 +8,9 @@
 #include "trackbed/control/playback.h"
 #include "trackbed/control/steering_profile.h"
 #include "trackbed/core/error.h"
+#include "trackbed/planning/registry/planners.h"
 #include "trackbed/planning/sampling/rrt_planner.h"
 #include "trackbed/scenario/recording_file.h"
-#include "trackbed/planning/registry/planners.h"
 
 namespace trackbed {
 namespace {

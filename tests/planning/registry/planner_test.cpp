@@ -18,9 +18,9 @@
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/course/course.h"
+#include "trackbed/planning/curves/curve_planners.h"
 #include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/registry/planners.h"
-#include "trackbed/planning/curves/curve_planners.h"
 
 namespace trackbed {
 namespace {

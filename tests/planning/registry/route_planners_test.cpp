@@ -17,8 +17,8 @@
 #include "trackbed/planning/grid/astar_planner.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
 #include "trackbed/planning/registry/planners.h"
-#include "trackbed/world/world.h"
 #include "trackbed/planning/sampling/rrt_planner.h"
+#include "trackbed/world/world.h"
 
 // What every planner that keeps clear of obstacles owes its caller, beyond planner_test.cpp.
 namespace trackbed {
