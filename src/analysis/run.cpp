@@ -75,7 +75,11 @@ Table TreeTable(const std::vector<TreeNode>& tree) {
 /// The convergence histories of plan.json as rows: best radii after each generation.
 Table ConvergenceTable(const nlohmann::json& diagnostics) {
   Table table({"waypoint", "evaluations", "objective", "radius_m"});
-  const nlohmann::json& turns = diagnostics["turns"];
+  const auto found = diagnostics.find("turns");
+  if (found == diagnostics.end()) {
+    return table;  // a planner without turns
+  }
+  const nlohmann::json& turns = *found;
   for (std::size_t k = 0; k < turns.size(); ++k) {
     const double waypoint = turns[k]["waypoint"].get<double>();
     // A search of its own, or the joint one.

@@ -240,19 +240,19 @@ TEST(Tutorial, EndsAsItsPageSays) {
   const std::filesystem::path run = newcomer.corner() / "out/corner";
   const std::filesystem::path kinematic = run / "kinematic.csv";
   const std::filesystem::path tyres = run / "mujoco-magic_formula.csv";
-  EXPECT_THAT(text, testing::HasSubstr(fmt::format("the wheels take {:.2f} s from straight ahead",
+  EXPECT_THAT(text, testing::HasSubstr(fmt::format("the wheels need {:.2f} s from straight ahead",
                                                    NumberIn(run / "plan.json", "ramp_time_s"))));
   EXPECT_THAT(
       text,
       testing::HasSubstr(fmt::format(
-          "at 5 s the wheels stand at {:.3f} and {:.3f} rad, and the cars turn at "
+          "at 5 s the wheels are at {:.3f} and {:.3f} rad, and the yaw rates are "
           "{:.3f} and {:.3f} rad/s",
           AtFiveSeconds(kinematic, "steering_rad"), AtFiveSeconds(tyres, "steering_rad"),
           AtFiveSeconds(kinematic, "yaw_rate_radps"), AtFiveSeconds(tyres, "yaw_rate_radps"))));
   EXPECT_THAT(
       text,
       testing::HasSubstr(fmt::format(
-          "this car turns {:.2f} times as fast",
+          "this car's yaw rate is {:.2f} times what the kinematic model predicts",
           NumberIn(newcomer.corner() / "out/longer_preview/metrics.json", "yaw_rate_ratio"))));
 }
 

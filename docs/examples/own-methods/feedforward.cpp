@@ -1,18 +1,22 @@
 #include <trackbed/control/steering_controller.h>
 #include <trackbed/core/angle.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "trackbed/control/steering_controller.h"
 
 using namespace trackbed;
 
-/// The path's curvature, corrected by the cross-track and heading errors of the rear axle.
+/// The path's mean curvature over the distance in which the wheels turn, corrected by the
+/// cross-track and heading errors of the rear axle.
 struct FeedforwardOptions {
-  double distance = 4.0;  ///< over which both errors die out [m], > 0
+  double time = 2.0;      ///< of the mean [s], > 0
+  double distance = 6.0;  ///< over which errors die out [m], > 0
 };
 
 void Visit(KeyVisitor& keys, FeedforwardOptions& options) {
+  keys.Field({"time", "s", "of the mean curvature"}, options.time, Need::kOptional, kPositive);
   keys.Field({"distance", "m", "over which errors die out"}, options.distance, Need::kOptional,
              kPositive);
 }
@@ -21,16 +25,20 @@ class FeedforwardController final : public SteeringController {
  public:
   explicit FeedforwardController(const FeedforwardOptions& options) : options_(options) {}
 
-  // kappa = kappa_path - 2 psi/d - e/d^2: the errors of a slow car decay as exp(-s/d), critically
-  // damped.
+  // kappa = kappa_mean - 2 psi/d - e/d^2: errors decay as exp(-s/d), critically damped.
   double Steer(const ControlInput& input) override {
-    const double ahead = std::abs(input.state.speed) * input.period;
-    const PathPoint foot = input.reference.path.At(input.station);
-    const double e = ToLocal(foot.pose, input.state.pose.position()).y();
-    const double psi = AngleDifference(input.state.pose.yaw, foot.pose.yaw);
+    const Path& path = input.reference.path;
+    const double speed = std::max(std::abs(input.state.speed), 0.1);
+    const double middle = input.station + speed * input.period;
+    const double half = 0.5 * speed * options_.time;
+    const double mean =
+        AngleDifference(path.At(middle + half).pose.yaw, path.At(middle - half).pose.yaw) /
+        (2.0 * half);
+    const Pose2 foot = path.At(input.station).pose;
+    const double e = ToLocal(foot, input.state.pose.position()).y();
+    const double psi = AngleDifference(input.state.pose.yaw, foot.yaw);
     const double d = options_.distance;
-    const double curvature = input.reference.path.At(input.station + ahead).curvature;
-    return SteeringForCurvature(input.vehicle, curvature - 2.0 * psi / d - e / (d * d));
+    return SteeringForCurvature(input.vehicle, mean - 2.0 * psi / d - e / (d * d));
   }
 
  private:

@@ -94,7 +94,9 @@ class AroundObstacles {
   /// What lies ahead of the car, in stations from there.
   void StartAtCar() {
     plan_ = RestOf(plan_, request_.station, request_.station_speed, request_.speed);
-    plan_.diagnostics.erase("avoid");  // told of stations that no longer count
+    if (plan_.diagnostics.contains("avoid")) {
+      plan_.diagnostics.erase("avoid");  // of stations that no longer count
+    }
     plan_.tree.clear();
     MoveTurns({-1.0, -1.0}, -request_.station);
   }
