@@ -15,7 +15,7 @@
 #include "bench/in_turn.h"
 #include "tests/planning/maps.h"
 #include "tests/planning/poses.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/planning/curves/dubins.h"
 #include "trackbed/planning/curves/reeds_shepp.h"
 #include "trackbed/planning/grid/astar.h"
@@ -172,7 +172,7 @@ void TimeHybridAStar(benchmark::State& state, const HybridAStarProblem& problem,
                      const HybridAStarOptions& options) {
   HybridAStarResult result;
   for ([[maybe_unused]] auto round : state) {
-    result = SearchHybridAStar(SeedCar(), problem, options);
+    result = SearchHybridAStar(ReferenceCar(), problem, options);
     if (!result.ok()) {
       state.SkipWithError(result.reason.c_str());
       break;

@@ -36,8 +36,8 @@ double Bend(const Ground& ground, const Vec2& a, const Vec2& b) {
 }
 
 OrientedBox Part(const OrientedBox& box, double x, double y, double length, double width) {
-  const Vec2 centre = ToWorld(box.centre, {x, y});
-  return {{centre.x(), centre.y(), box.centre.yaw}, length, width};
+  const Vec2 center = ToWorld(box.center, {x, y});
+  return {{center.x(), center.y(), box.center.yaw}, length, width};
 }
 
 class Tiler {
@@ -53,7 +53,7 @@ class Tiler {
       return;
     }
     const auto at = [&](double x, double y) {
-      return ToWorld(box.centre, {0.5 * x * box.length, 0.5 * y * box.width});
+      return ToWorld(box.center, {0.5 * x * box.length, 0.5 * y * box.width});
     };
     double along = 0.0;
     double across = 0.0;
@@ -91,7 +91,7 @@ class Tiler {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < sides.size(); ++i) {
       const Vec2 p =
-          ToWorld(box.centre, {0.5 * ways[i].x() * box.length, 0.5 * ways[i].y() * box.width});
+          ToWorld(box.center, {0.5 * ways[i].x() * box.length, 0.5 * ways[i].y() * box.width});
       sides[i] = {p.x(), p.y(), GroundHeight(ground_, p)};
       middle += 0.25 * sides[i];
     }
@@ -101,7 +101,7 @@ class Tiler {
     tile.rotation.col(0) = length.normalized();
     tile.rotation.col(2) = length.cross(width).normalized();
     tile.rotation.col(1) = tile.rotation.col(2).cross(tile.rotation.col(0));
-    tile.centre = middle + above * tile.rotation.col(2);
+    tile.center = middle + above * tile.rotation.col(2);
     tile.half_length = 0.5 * length.norm();
     tile.half_width = 0.5 * width.norm();
     tiles_.push_back(tile);
@@ -158,7 +158,7 @@ void AddTile(mjvScene& scene, const Tile& tile) {
   const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor> rotation = tile.rotation;
   const std::array<float, 4> rgba{tile.color.r, tile.color.g, tile.color.b, tile.alpha};
   mjvGeom& geom = scene.geoms[scene.ngeom];
-  mjv_initGeom(&geom, mjGEOM_PLANE, size.data(), tile.centre.data(), rotation.data(), rgba.data());
+  mjv_initGeom(&geom, mjGEOM_PLANE, size.data(), tile.center.data(), rotation.data(), rgba.data());
   geom.specular = 0.0F;
   geom.category = mjCAT_DECOR;
   ++scene.ngeom;

@@ -13,7 +13,7 @@ namespace trackbed::render {
 
 /// A translucent rectangle.
 struct Tile {
-  Eigen::Vector3d centre;
+  Eigen::Vector3d center;
   Eigen::Matrix3d rotation;  ///< R_WT; its z axis along the ground's normal
   double half_length = 0.0;  ///< [m]
   double half_width = 0.0;   ///< [m]

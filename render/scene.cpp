@@ -55,8 +55,8 @@ std::vector<Trail> TrailsOf(const Recording& recording, const Overlays& overlays
       driven.push_back(recording.OnGround(plant.Position(time)));
     }
     std::vector<std::size_t> kept = Thin(driven, kLineTolerance, kMostPieces);
-    const bool coloured = car == 0 && overlays.error && recording.scales.error > 0.0;
-    const std::vector<double> shares = coloured ? ErrorShares(recording) : std::vector<double>();
+    const bool colored = car == 0 && overlays.error && recording.scales.error > 0.0;
+    const std::vector<double> shares = colored ? ErrorShares(recording) : std::vector<double>();
     for (std::size_t i = 1; i < shares.size(); ++i) {
       if (shares[i] != shares[i - 1]) {
         kept.push_back(i);
@@ -237,7 +237,7 @@ void FilmScene::AddPatches(const CameraPose& camera) {
   const Vec2 around(camera.target_x, camera.target_y);
   for (const Tile& tile : patches_) {
     const double reach = kPaintRange + tile.half_length + tile.half_width;
-    if ((tile.centre.head<2>() - around).norm() < reach) {
+    if ((tile.center.head<2>() - around).norm() < reach) {
       AddTile(scene_.get(), tile);
     }
   }

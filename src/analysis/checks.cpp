@@ -84,7 +84,7 @@ std::string Where(const MetricPlace& at) {
 
 /// Bound and value with as many digits as tell them apart.
 std::pair<std::string, std::string> NumbersApart(const Check& check) {
-  return TextsApart(NumberIn(check.bound).value_or(0.0), NumberIn(check.value).value_or(0.0));
+  return FormatDistinct(NumberIn(check.bound).value_or(0.0), NumberIn(check.value).value_or(0.0));
 }
 
 std::string UnequalMessage(const Check& check) {

@@ -33,14 +33,14 @@ void Evaluate(const LaneChangeOptions&, const ManoeuvreInput& input, ManoeuvreMe
   const auto foremost = [&](const LogRow& row, const Gate& gate) {
     double x = -std::numeric_limits<double>::infinity();
     for (const Vec2& corner : OutlineAt(input.vehicle, row.state.pose).Corners()) {
-      x = std::max(x, ToLocal(gate.lane.centre, corner).x());
+      x = std::max(x, ToLocal(gate.lane.center, corner).x());
     }
     return x;
   };
   const auto hindmost = [&](const LogRow& row, const Gate& gate) {
     double x = std::numeric_limits<double>::infinity();
     for (const Vec2& corner : OutlineAt(input.vehicle, row.state.pose).Corners()) {
-      x = std::min(x, ToLocal(gate.lane.centre, corner).x());
+      x = std::min(x, ToLocal(gate.lane.center, corner).x());
     }
     return x;
   };

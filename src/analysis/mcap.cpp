@@ -30,23 +30,22 @@ const json kTime = Object({{"sec", {{"type", "integer"}}}, {"nsec", {{"type", "i
 const json kVector = Object({{"x", kNumber}, {"y", kNumber}, {"z", kNumber}});
 const json kQuaternion = Object({{"x", kNumber}, {"y", kNumber}, {"z", kNumber}, {"w", kNumber}});
 const json kPose = Object({{"position", kVector}, {"orientation", kQuaternion}});
-const json kColour = Object({{"r", kNumber}, {"g", kNumber}, {"b", kNumber}, {"a", kNumber}});
+const json kColor = Object({{"r", kNumber}, {"g", kNumber}, {"b", kNumber}, {"a", kNumber}});
 const json kTransform = Object({{"timestamp", kTime},
                                 {"parent_frame_id", kText},
                                 {"child_frame_id", kText},
                                 {"translation", kVector},
                                 {"rotation", kQuaternion}});
 const json kPoses = Object({{"timestamp", kTime}, {"frame_id", kText}, {"poses", ListOf(kPose)}});
-const json kScene =
-    Object({{"entities",
-             ListOf(Object(
-                 {{"timestamp", kTime},
-                  {"frame_id", kText},
-                  {"id", kText},
-                  {"lifetime", kTime},
-                  {"frame_locked", {{"type", "boolean"}}},
-                  {"cubes",
-                   ListOf(Object({{"pose", kPose}, {"size", kVector}, {"color", kColour}}))}}))}});
+const json kScene = Object(
+    {{"entities",
+      ListOf(Object(
+          {{"timestamp", kTime},
+           {"frame_id", kText},
+           {"id", kText},
+           {"lifetime", kTime},
+           {"frame_locked", {{"type", "boolean"}}},
+           {"cubes", ListOf(Object({{"pose", kPose}, {"size", kVector}, {"color", kColor}}))}}))}});
 
 json Time(double time) {
   const auto nanoseconds = std::llround(time * 1e9);
@@ -63,16 +62,16 @@ json Pose(const Pose2& pose, double z) {
 }
 
 json Cube(const OrientedBox& box, double height, const std::string& id, const std::string& frame,
-          double time, const json& colour) {
+          double time, const json& color) {
   return {{"timestamp", Time(time)},
           {"frame_id", frame},
           {"id", id},
           {"lifetime", Time(0.0)},  // until it is replaced
           {"frame_locked", true},
           {"cubes",
-           {{{"pose", Pose(box.centre, 0.5 * height)},
+           {{{"pose", Pose(box.center, 0.5 * height)},
              {"size", {{"x", box.length}, {"y", box.width}, {"z", height}}},
-             {"color", colour}}}}};
+             {"color", color}}}}};
 }
 
 json Obstacles(const World& world, double time) {

@@ -119,7 +119,7 @@ std::vector<TurnMetrics> MeasureTurns(const RunLog& log, const Plan& plan,
   // Beyond a change of plan, stations are those of another path.
   const double until =
       log.changes.empty() ? std::numeric_limits<double>::infinity() : log.changes.front().station;
-  for (const LoneTurn& turn : plan.turns) {
+  for (const IsolatedTurn& turn : plan.turns) {
     if (trace.station.size() > 2 && turn.middle <= until && trace.station.front() <= turn.from &&
         turn.middle <= trace.station.back()) {
       const Path& path = plan.reference.path;

@@ -7,7 +7,7 @@
 
 namespace trackbed {
 
-/// The largest magnitude of the side-slip angle at the centre of gravity [rad], up to the first
+/// The largest magnitude of the side-slip angle at the center of gravity [rad], up to the first
 /// contact with an obstacle. Only above 1 m/s: below, the body's sway on its suspension is much of
 /// the motion. 0 for a car that was never so fast.
 inline std::optional<MetricReading> LargestSideslip(const MetricInput& input) {

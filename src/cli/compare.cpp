@@ -28,7 +28,7 @@ void PrintRow(const char* what, const char* unit, const Difference& difference,
   std::string max = fmt::format("{:.3g}", difference.max);
   std::string limit = tolerance ? fmt::format("; at most {:.4g}", *tolerance) : "";
   if (tolerance && !(difference.max <= *tolerance)) {
-    const auto [expected, actual] = TextsApart(*tolerance, difference.max);
+    const auto [expected, actual] = FormatDistinct(*tolerance, difference.max);
     max = actual;
     limit = "; at most " + expected + ": EXCEEDED";
   }

@@ -68,7 +68,7 @@ const std::vector<Kind>& Kinds() {
          for (std::size_t i = 0; i < lines.size(); ++i) {
            AddDefaults(OptionDefaults(Planners()[i].defaults), lines[i]);
          }
-         for (const AvoiderEntry& avoider : Avoiders()) {
+         for (const AvoiderEntry& avoider : LocalPlanners()) {
            Line line{avoider.name, std::string(avoider.summary) + " (plan.avoid)"};
            AddDefaults(OptionDefaults(avoider.defaults), line);
            lines.push_back(line);

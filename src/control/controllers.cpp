@@ -40,9 +40,10 @@ Registry<ControllerEntry>& Table() {
 }
 
 /// Refuses what is no state before a controller makes an angle of it.
-class Guarded final : public SteeringController {
+class ValidatingController final : public SteeringController {
  public:
-  explicit Guarded(std::unique_ptr<SteeringController> inner) : inner_(std::move(inner)) {}
+  explicit ValidatingController(std::unique_ptr<SteeringController> inner)
+      : inner_(std::move(inner)) {}
 
   double Steer(const ControlInput& input) override {
     Check(input);
@@ -95,7 +96,7 @@ const ControllerEntry& ControllerFor(const ControllerOptions& options) {
 }
 
 std::unique_ptr<SteeringController> MakeSteeringController(const ControllerOptions& options) {
-  return std::make_unique<Guarded>(ControllerFor(options).make(options));
+  return std::make_unique<ValidatingController>(ControllerFor(options).make(options));
 }
 
 }  // namespace trackbed

@@ -127,8 +127,8 @@ Regulator RegulatorOf(const ErrorModel& model, const ErrorWeights& weights) {
   Matrix a = model.a;
   Matrix g = model.b * model.b.transpose() / weights.steering_rate;
   Matrix h = StateCost(model, weights).asDiagonal();
-  constexpr int kMostDoublings = 40;
-  for (int i = 0; i < kMostDoublings; ++i) {
+  constexpr int kMaxDoublings = 40;
+  for (int i = 0; i < kMaxDoublings; ++i) {
     const Matrix inverse = (identity + g * h).partialPivLu().inverse();
     const Matrix step = a.transpose() * h * inverse * a;
     g += (a * inverse * g * a.transpose()).eval();
@@ -172,8 +172,8 @@ Vector Ahead::Next() {
 Regulator ScheduledRegulator(const ErrorModel& model, double steering_rate, ErrorWeights& weights,
                              Vector& z) {
   constexpr double kApproach = 0.6;  // [rad]
-  constexpr double kMostRates = 2.0;
-  constexpr int kMostRaises = 30;
+  constexpr double kMaxRates = 2.0;
+  constexpr int kMaxRaises = 30;
   for (int i = 0;; ++i) {
     const Regulator regulator = RegulatorOf(model, weights);
     const double per_offset = std::abs(regulator.gain[kOffset]);
@@ -182,7 +182,7 @@ Regulator ScheduledRegulator(const ErrorModel& model, double steering_rate, Erro
     const double offset = std::clamp(z[kOffset], -most, most);
     const double rate =
         std::max(per_offset * std::abs(offset), per_heading * std::abs(z[kHeading]));
-    if (rate <= kMostRates * steering_rate || i == kMostRaises) {
+    if (rate <= kMaxRates * steering_rate || i == kMaxRaises) {
       z[kOffset] = offset;
       return regulator;
     }

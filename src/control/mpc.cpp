@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-static_assert(MpcOptions::kLongestHorizon <= QuadraticProgram::kMostVariables);
+static_assert(MpcOptions::kLongestHorizon <= QuadraticProgram::kMaxVariables);
 
 /// z of a step as a linear function of all rates: free + reach w.
 struct Prediction {

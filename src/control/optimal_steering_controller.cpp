@@ -116,7 +116,7 @@ void Visit(KeyVisitor& keys, OptimalSteeringOptions& options) {
       {"horizon", "m",
        "how far ahead the wanted motion is predicted, at least; else by car, speed and path"},
       options.horizon, Range{.min = 0.1, .max = 1000.0});
-  keys.Field(kAheadTime, options.time, Need::kOptional, kNotNegative);
+  keys.Field(kAheadTime, options.time, Need::kOptional, kNonNegative);
   keys.Section({"search", "",
                 "for the angle, at every update; evaluations 0: 60, or 600 of isres, "
                 "esch and crs2"},
@@ -125,16 +125,16 @@ void Visit(KeyVisitor& keys, OptimalSteeringOptions& options) {
   keys.Field({"deviation_limit", "",
               "on the root of the weighted squares; up to it the plan's "
               "curvature is steered"},
-             options.deviation_limit, Need::kOptional, kNotNegative);
+             options.deviation_limit, Need::kOptional, kNonNegative);
   keys.Field({"max_steering", "rad", "either way; else the car's"}, options.max_steering,
              Range{.max = 1.5, .above = 0.0});
 }
 
 void Visit(KeyVisitor& keys, DeviationWeights& weights) {
   keys.Field({"position", "1/m^2", "of the squared distance from the wanted position"},
-             weights.position, Need::kOptional, kNotNegative);
+             weights.position, Need::kOptional, kNonNegative);
   keys.Field({"heading", "1/rad^2", "of the squared heading error"}, weights.heading,
-             Need::kOptional, kNotNegative);
+             Need::kOptional, kNonNegative);
 }
 
 }  // namespace trackbed

@@ -11,8 +11,9 @@ class PlaybackController final : public SteeringController {
  public:
   explicit PlaybackController(const PlaybackOptions& options) : options_(options) {
     const Recording& recording = options.recording;
-    TRACKBED_CHECK(!recording.steering.empty() && recording.steering.Rises() &&
-                       recording.speed.Rises() && recording.acceleration.Rises(),
+    TRACKBED_CHECK(!recording.steering.empty() && recording.steering.IsStrictlyIncreasing() &&
+                       recording.speed.IsStrictlyIncreasing() &&
+                       recording.acceleration.IsStrictlyIncreasing(),
                    "a recording without steering, or whose rows do not rise");
     TRACKBED_CHECK(recording.speed.empty() || recording.acceleration.empty(),
                    "a recording of both speed and acceleration");

@@ -83,7 +83,7 @@ void Visit(KeyVisitor& keys, PreviewOptions& options) {
   keys.Field({"distance", "m",
               "how far ahead of the rear axle the car aims, at least; else by car, speed and path"},
              options.distance, kAhead);
-  keys.Field(kAheadTime, options.time, Need::kOptional, kNotNegative);
+  keys.Field(kAheadTime, options.time, Need::kOptional, kNonNegative);
   static const EnumNames<PreviewLaw> laws{{PreviewLaw::kLinear, "linear"},
                                           {PreviewLaw::kExactArc, "exact_arc"}};
   keys.Field({"law", "",

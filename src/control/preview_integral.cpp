@@ -124,7 +124,7 @@ void Visit(KeyVisitor& keys, PreviewIntegralOptions& options) {
        "how far ahead of the rear axle the path is looked at, at least; else by car, speed and "
        "path"},
       options.distance, kAhead);
-  keys.Field(kAheadTime, options.time, Need::kOptional, kNotNegative);
+  keys.Field(kAheadTime, options.time, Need::kOptional, kNonNegative);
   static const EnumNames<PreviewWeight> weights{{PreviewWeight::kUniform, "uniform"},
                                                 {PreviewWeight::kNear, "near"}};
   keys.Field(

@@ -52,7 +52,7 @@ void Visit(KeyVisitor& keys, PurePursuitOptions& options) {
   keys.Field({"distance", "m",
               "how far ahead of the rear axle the car aims, at least; else by car, speed and path"},
              options.distance, kAhead);
-  keys.Field(kAheadTime, options.time, Need::kOptional, kNotNegative);
+  keys.Field(kAheadTime, options.time, Need::kOptional, kNonNegative);
 }
 
 }  // namespace trackbed

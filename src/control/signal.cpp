@@ -48,7 +48,7 @@ double Signal::Mean(double from, double to) const {
   return area / (to - from);
 }
 
-bool Signal::Rises() const {
+bool Signal::IsStrictlyIncreasing() const {
   for (std::size_t i = 0; i < knots.size(); ++i) {
     if (!knots[i].allFinite() || (i > 0 && knots[i].x() <= knots[i - 1].x())) {
       return false;

@@ -102,9 +102,9 @@ double SpeedAlong(const Signal& wanted, double x, double ahead, double gain, dou
 }
 
 void Visit(KeyVisitor& keys, Braking& braking) {
-  keys.Field(kBegin, braking.at, Need::kRequired, kNotNegative);
+  keys.Field(kBegin, braking.at, Need::kRequired, kNonNegative);
   keys.Field({"deceleration", "m/s^2", "down to standstill; 0: the car coasts"},
-             braking.deceleration, Need::kRequired, kNotNegative);
+             braking.deceleration, Need::kRequired, kNonNegative);
 }
 
 void Visit(KeyVisitor& keys, SpeedControlOptions& options) {
@@ -115,7 +115,7 @@ void Visit(KeyVisitor& keys, SpeedControlOptions& options) {
              options.deceleration, Need::kOptional, kPositive);
   keys.Field({"gain", "1/s", "wanted acceleration per speed error"}, options.gain, Need::kOptional,
              kPositive);
-  static const PairShape knot{"a knot [t, v]", "knots [t, v]", kNotNegative, kSpeedRange};
+  static const PairShape knot{"a knot [t, v]", "knots [t, v]", kNonNegative, kSpeedRange};
   keys.Field({"over_time", "s, m/s",
               "the speed instead of the mission's, linear between knots and held after the last; "
               "limited by the car alone"},

@@ -52,7 +52,7 @@ void Visit(KeyVisitor& keys, StanleyOptions& options) {
              options.gain, kPositive);
   keys.Field({"softening", "m/s",
               "added to the speed, so that a slow car steers calmly; else by the car's size"},
-             options.softening, kNotNegative);
+             options.softening, kNonNegative);
 }
 
 }  // namespace trackbed

@@ -101,7 +101,7 @@ void Visit(KeyVisitor& keys, StepSteeringOptions& options) {
              options.amplitude, Need::kRequired, kSteering);
   keys.Field({"rate", "rad/s", "at which they are; else as fast as the car can"}, options.rate,
              kPositive);
-  keys.Field(kBegin, options.at, Need::kOptional, kNotNegative);
+  keys.Field(kBegin, options.at, Need::kOptional, kNonNegative);
 }
 
 ControllerEntry StepSteering() {
@@ -117,7 +117,7 @@ void Visit(KeyVisitor& keys, RampSteeringOptions& options) {
   keys.Field({"end", "rad", "where the wheels are turned to, positive to the left"}, options.end,
              Need::kRequired, kSteering);
   keys.Field({"rate", "rad/s", "at which they are"}, options.rate, Need::kOptional, kPositive);
-  keys.Field(kBegin, options.at, Need::kOptional, kNotNegative);
+  keys.Field(kBegin, options.at, Need::kOptional, kNonNegative);
 }
 
 ControllerEntry RampSteering() {
@@ -133,7 +133,7 @@ void Visit(KeyVisitor& keys, SineSteeringOptions& options) {
   keys.Field(kAmplitude, options.amplitude, Need::kRequired, kSteering);
   keys.Field({"frequency", "Hz", "of the sine"}, options.frequency, Need::kOptional, kFrequency);
   keys.Field({"cycles", "", "how many"}, options.cycles, Need::kOptional, kPositive);
-  keys.Field(kBegin, options.at, Need::kOptional, kNotNegative);
+  keys.Field(kBegin, options.at, Need::kOptional, kNonNegative);
 }
 
 ControllerEntry SineSteering() {
@@ -149,8 +149,8 @@ void Visit(KeyVisitor& keys, SineWithDwellOptions& options) {
   keys.Field(kAmplitude, options.amplitude, Need::kRequired, kSteering);
   keys.Field({"frequency", "Hz", "of the sine"}, options.frequency, Need::kOptional, kFrequency);
   keys.Field({"dwell", "s", "how long it stays at its second peak"}, options.dwell, Need::kOptional,
-             kNotNegative);
-  keys.Field(kBegin, options.at, Need::kOptional, kNotNegative);
+             kNonNegative);
+  keys.Field(kBegin, options.at, Need::kOptional, kNonNegative);
 }
 
 ControllerEntry SineWithDwell() {
@@ -174,7 +174,7 @@ void Visit(KeyVisitor& keys, SweptSineOptions& options) {
   keys.Field({"sweep", "",
               "how the frequency goes: as long at every frequency, or as long in every octave"},
              options.sweep, Need::kOptional, sweeps);
-  keys.Field(kBegin, options.at, Need::kOptional, kNotNegative);
+  keys.Field(kBegin, options.at, Need::kOptional, kNonNegative);
 }
 
 ControllerEntry SweptSine() {

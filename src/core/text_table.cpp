@@ -82,7 +82,7 @@ std::string ShortestText(double number) {
   return fmt::format("{}", number + 0.0);  // `+ 0.0` turns a negative zero into zero
 }
 
-std::pair<std::string, std::string> TextsApart(double first, double second) {
+std::pair<std::string, std::string> FormatDistinct(double first, double second) {
   std::pair<std::string, std::string> texts;
   constexpr int kAllDigits = 17;  // of a double: no two share them
   for (int digits = 4; digits <= kAllDigits; ++digits) {

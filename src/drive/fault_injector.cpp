@@ -51,7 +51,7 @@ void FaultInjector::Kick(long step, Plant& plant) const {
   for (const trackbed::Kick& kick : disturbances_.kicks) {
     const long first = std::lround(kick.at / timestep);
     if (kick.displacement && step == first) {
-      plant.Shift(*kick.displacement);
+      plant.ApplyLateralOffset(*kick.displacement);
     }
     const double duration = kick.duration.value_or(kKickDuration);
     const long steps = std::max(1L, std::lround(duration / timestep));
@@ -60,7 +60,7 @@ void FaultInjector::Kick(long step, Plant& plant) const {
     }
   }
   if (force != 0.0) {
-    plant.Push(force);
+    plant.ApplyLateralForce(force);
   }
 }
 

@@ -61,7 +61,7 @@ void CheckDisturbances(const Disturbances& disturbances) {
   CheckPositive("LoopConfig::disturbances.wheelbase", disturbances.wheelbase);
   CheckPositive("LoopConfig::disturbances.steering.factor", disturbances.steering.factor);
   CheckNonNegative("LoopConfig::disturbances.steering.delay", disturbances.steering.delay);
-  CheckNonNegative("LoopConfig::disturbances.steering.dead_band", disturbances.steering.dead_band);
+  CheckNonNegative("LoopConfig::disturbances.steering.backlash", disturbances.steering.backlash);
   CheckNonNegative("LoopConfig::disturbances.noise.position", disturbances.noise.position);
   CheckNonNegative("LoopConfig::disturbances.noise.heading", disturbances.noise.heading);
 }

@@ -7,7 +7,7 @@
 #include "src/drive/scenario_parts.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/avoidance/avoidance.h"
-#include "trackbed/planning/common/clear_way.h"
+#include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/registry/planners.h"
 
@@ -28,7 +28,7 @@ void NoteSlowTurns(Plan& plan, double speed) {
 
 /// Tells of what stands on the path of a planner that does not look for obstacles.
 void NoteObstacle(Plan& plan, const VehicleParams& vehicle, const std::vector<OrientedBox>& known) {
-  const ClearWay touching(vehicle, known, 0.0);
+  const CollisionChecker touching(vehicle, known, 0.0);
   if (const std::optional<double> s = touching.FirstBlocked(plan.reference.path)) {
     plan.notes.push_back(fmt::format("led into an obstacle at s = {:.4g} m", *s));
   }

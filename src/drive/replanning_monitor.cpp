@@ -154,7 +154,7 @@ bool ReplanningMonitor::IsUrgent(const VehicleState& state, const Plan& plan,
   const double stop = speed * options.period +
                       0.5 * speed * speed / options_.replanning.limits.deceleration +
                       options_.vehicle.length;
-  const auto encounter = FirstEncounter(
+  const auto encounter = PredictConflict(
       options_.vehicle, plan.reference, at.s, KnownObstacles(state, plan.reference.path, at.s),
       options.settings.safe_distance, options.settings.look_ahead, at.cross_track);
   return encounter && encounter->station - at.s < stop;
@@ -231,8 +231,8 @@ std::optional<Plan> ReplanningMonitor::ReplanIfDue(const VehicleState& state, co
   const bool moves =
       next.kind != ReplanKind::kKeep && next.plan.reference.path.length() > kNegligible;
   gave_up_ = std::abs(state.speed) < kAtRestSpeed && !moves &&
-             !MayClear(options_.vehicle, driving_.route.reference.path, driving_.route_station,
-                       request.obstacles, options.settings.safe_distance);
+             !MightClear(options_.vehicle, driving_.route.reference.path, driving_.route_station,
+                         request.obstacles, options.settings.safe_distance);
   if (next.kind == ReplanKind::kKeep) {
     return std::nullopt;
   }

@@ -26,26 +26,26 @@ double SquareToPoint(const HalfSizes& half, const Vec2& p) {
 std::array<Vec2, 4> OrientedBox::Corners() const {
   const double x = 0.5 * length;
   const double y = 0.5 * width;
-  return {ToWorld(centre, {x, y}), ToWorld(centre, {-x, y}), ToWorld(centre, {-x, -y}),
-          ToWorld(centre, {x, -y})};
+  return {ToWorld(center, {x, y}), ToWorld(center, {-x, y}), ToWorld(center, {-x, -y}),
+          ToWorld(center, {x, -y})};
 }
 
 OrientedBox MovingBox::At(double time) const {
   OrientedBox moved = box;
-  moved.centre.x += velocity.x() * time;
-  moved.centre.y += velocity.y() * time;
+  moved.center.x += velocity.x() * time;
+  moved.center.y += velocity.y() * time;
   return moved;
 }
 
 bool Contains(const OrientedBox& box, const Vec2& point) {
-  return SquareToPoint(HalfSizes(box), ToLocal(box.centre, point)) == 0.0;
+  return SquareToPoint(HalfSizes(box), ToLocal(box.center, point)) == 0.0;
 }
 
 double Separation(const OrientedBox& a, const OrientedBox& b) {
   const HalfSizes half_a(a);
   const HalfSizes half_b(b);
-  const Vec2 b_in_a = ToLocal(a.centre, b.centre.position());
-  const double turn = b.centre.yaw - a.centre.yaw;
+  const Vec2 b_in_a = ToLocal(a.center, b.center.position());
+  const double turn = b.center.yaw - a.center.yaw;
   const double c = std::cos(turn);
   const double s = std::sin(turn);
   const Vec2 a_in_b{-c * b_in_a.x() - s * b_in_a.y(), s * b_in_a.x() - c * b_in_a.y()};
@@ -83,8 +83,8 @@ double Distance(const OrientedBox& a, const OrientedBox& b) {
 
 double Distance(const Vec2& from, const Vec2& to, const OrientedBox& box) {
   const HalfSizes half(box);
-  const Vec2 p = ToLocal(box.centre, from);
-  const Vec2 q = ToLocal(box.centre, to);
+  const Vec2 p = ToLocal(box.center, from);
+  const Vec2 q = ToLocal(box.center, to);
   const Vec2 middle = 0.5 * (p + q);
   const Vec2 along = 0.5 * (q - p);
   // They meet unless the box's axes or the line's own normal separate them.

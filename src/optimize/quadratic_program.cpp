@@ -50,8 +50,8 @@ Vector SolveBySlsqp(LeastDistance& problem, const Vector& start, double toleranc
       Constraints, &problem,
       std::vector<double>(static_cast<std::size_t>(problem.bounds.size()), 0.1 * tolerance));
   search.set_xtol_abs(0.1 * tolerance);
-  constexpr int kMostEvaluations = 100;
-  search.set_maxeval(kMostEvaluations);
+  constexpr int kMaxEvaluations = 100;
+  search.set_maxeval(kMaxEvaluations);
   std::vector<double> y(start.data(), start.data() + start.size());
   try {
     double value = 0.0;
@@ -90,7 +90,7 @@ QuadraticSolution Solve(const QuadraticProgram& program, double tolerance) {
   LeastDistance problem;
   problem.linear = cholesky.matrixL().solve(program.linear);
   Vector y = -problem.linear;
-  std::array<bool, QuadraticProgram::kMostConstraints> taken{};
+  std::array<bool, QuadraticProgram::kMaxConstraints> taken{};
   QuadraticSolution best;
   for (;;) {
     const Bounds excess = program.constraints * solution.x - program.bounds;

@@ -111,9 +111,9 @@ ordered_json PlantOf(const fs::path& folder, const std::string& plant, std::size
 }
 
 ordered_json BoxOf(const OrientedBox& box) {
-  return {{"x", Rounded(box.centre.x)},
-          {"y", Rounded(box.centre.y)},
-          {"yaw", Rounded(box.centre.yaw)},
+  return {{"x", Rounded(box.center.x)},
+          {"y", Rounded(box.center.y)},
+          {"yaw", Rounded(box.center.yaw)},
           {"length", Rounded(box.length)},
           {"width", Rounded(box.width)}};
 }

@@ -1,5 +1,5 @@
-#include "src/scenario/complaints.h"
 #include "src/scenario/cross_check.h"
+#include "src/scenario/diagnostics.h"
 
 namespace trackbed {
 namespace {
@@ -7,31 +7,32 @@ namespace {
 using EachExpectation =
     std::function<void(const std::string& key, const PlantExpectation& expectation)>;
 
-void CheckPlants(Complaints& c) {
+void CheckPlants(Diagnostics& c) {
   if (c.scenario.drive.plants.empty()) {
-    c.Complain("drive.plants", "at least one plant is needed");
+    c.AddError("drive.plants", "at least one plant is needed");
   }
   for (const auto& [plant, expectation] : c.scenario.expect.plants) {
     if (!Drives(c.scenario, plant)) {
-      c.Complain("expect." + plant,
+      c.AddError("expect." + plant,
                  fmt::format("drive.plants does not drive it; driven: {}", c.Driven()));
     }
   }
 }
 
-void CheckTwoPlants(Complaints& c, const std::string& key, const std::vector<std::string>& plants) {
+void CheckTwoPlants(Diagnostics& c, const std::string& key,
+                    const std::vector<std::string>& plants) {
   if (plants.size() != 2) {
-    c.Complain(key, fmt::format("expected two plants, found {}", plants.size()));
+    c.AddError(key, fmt::format("expected two plants, found {}", plants.size()));
     return;
   }
   for (const std::string& plant : plants) {
     if (c.CouldRead({"drive.plants"}) && !Drives(c.scenario, plant)) {
-      c.Complain(key, fmt::format("drive.plants does not drive {}; driven: {}", plant, c.Driven()));
+      c.AddError(key, fmt::format("drive.plants does not drive {}; driven: {}", plant, c.Driven()));
     }
   }
 }
 
-void CheckBetween(Complaints& c) {
+void CheckBetween(Diagnostics& c) {
   for (std::size_t i = 0; i < c.scenario.expect.between.size(); ++i) {
     const BetweenExpectation& between = c.scenario.expect.between[i];
     const std::string key = fmt::format("expect.between[{}]", i);
@@ -41,53 +42,53 @@ void CheckBetween(Complaints& c) {
     const auto could_read = [&](const char* bound) { return c.could_read(key + "." + bound); };
     if (!between.bounds.any() && could_read("position_max") && could_read("heading_max") &&
         could_read("yaw_rate_max") && could_read("steering_max")) {
-      c.Complain(key, "asks nothing; give position_max, heading_max, yaw_rate_max or steering_max");
+      c.AddError(key, "asks nothing; give position_max, heading_max, yaw_rate_max or steering_max");
     }
   }
 }
 
-void ForEachExpectation(Complaints& c, const EachExpectation& call) {
+void ForEachExpectation(Diagnostics& c, const EachExpectation& call) {
   call("expect", c.scenario.expect.all);
   for (const auto& [plant, expectation] : c.scenario.expect.plants) {
     call("expect." + plant, expectation);
   }
 }
 
-void CheckMetrics(Complaints& c) {
+void CheckMetrics(Diagnostics& c) {
   ForEachExpectation(c, [&](const std::string& key, const PlantExpectation& expectation) {
     for (std::size_t i = 0; i < expectation.metrics.size(); ++i) {
       const MetricExpectation& metric = expectation.metrics[i];
       const std::string own = fmt::format("{}.metrics[{}]", key, i);
       if (!metric.min && !metric.max && !metric.equals && c.could_read(own + ".min") &&
           c.could_read(own + ".max") && c.could_read(own + ".equals")) {
-        c.Complain(own, "asks nothing; give min, max or equals");
+        c.AddError(own, "asks nothing; give min, max or equals");
       }
       if (metric.min && metric.max && *metric.min > *metric.max) {
-        c.Complain(own, fmt::format("min {} is above max {}", *metric.min, *metric.max));
+        c.AddError(own, fmt::format("min {} is above max {}", *metric.min, *metric.max));
       }
     }
   });
 }
 
 /// Without a path or obstacles there is nothing to measure.
-void CheckWhatIsMeasured(Complaints& c) {
+void CheckWhatIsMeasured(Diagnostics& c) {
   const bool has_path = c.scenario.plan || !c.CouldReadPlan({"method"});
   const bool has_obstacles =
       !c.scenario.world.obstacles.empty() || !c.CouldRead({"world.obstacles"});
   ForEachExpectation(c, [&](const std::string& key, const PlantExpectation& expectation) {
     if (!has_path && (expectation.reach_goal || expectation.max_cross_track ||
                       expectation.rms_cross_track || expectation.max_heading_error)) {
-      c.Complain(key, "without a plan there is no goal and no path to be off");
+      c.AddError(key, "without a plan there is no goal and no path to be off");
     }
     if (!has_obstacles && (expectation.min_clearance || expectation.collision.value_or(false))) {
-      c.Complain(key, "without world.obstacles there is nothing to be clear of or to hit");
+      c.AddError(key, "without world.obstacles there is nothing to be clear of or to hit");
     }
   });
 }
 
 }  // namespace
 
-void CheckExpectations(Complaints& c) {
+void CheckExpectations(Diagnostics& c) {
   if (c.CouldRead({"drive.plants"})) {
     CheckPlants(c);
   }

@@ -1,6 +1,6 @@
 #include <limits>
 
-#include "src/scenario/complaints.h"
+#include "src/scenario/diagnostics.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/planning/common/planner.h"
@@ -12,14 +12,14 @@
 namespace trackbed {
 namespace {
 
-void CheckCourse(Complaints& c) {
+void CheckCourse(Diagnostics& c) {
   const auto* course = c.scenario.plan ? c.scenario.plan->global.As<CourseOptions>() : nullptr;
   if (course == nullptr) {
     return;
   }
   const std::string key = c.KeyOfPlan("segments");
   if (course->segments.empty() && c.CouldReadPlan({"segments"})) {
-    c.Complain(key, "a course needs at least one");
+    c.AddError(key, "a course needs at least one");
   }
   for (std::size_t i = 0; i < course->segments.size(); ++i) {
     const CoursePiece& piece = course->segments[i];
@@ -29,28 +29,28 @@ void CheckCourse(Complaints& c) {
       continue;
     }
     if (piece.curvature && (piece.curvature_from || piece.curvature_to)) {
-      c.Complain(own, "give curvature, or curvature_to of a ramp, not both");
+      c.AddError(own, "give curvature, or curvature_to of a ramp, not both");
     } else if (!piece.curvature && !piece.curvature_to) {
-      c.Complain(own, "needs curvature (0 for a straight), or curvature_to of a ramp");
+      c.AddError(own, "needs curvature (0 for a straight), or curvature_to of a ramp");
     }
   }
 }
 
-void CheckSmoothing(Complaints& c, const PlannerOptions& planner, const std::string& key) {
+void CheckSmoothing(Diagnostics& c, const PlannerOptions& planner, const std::string& key) {
   const auto* rrt = planner.As<RrtPlannerOptions>();
   if (rrt == nullptr) {
     return;
   }
   const double step = rrt->data_weight + 2.0 * rrt->smoothness_weight;
   if (step <= 0.0 || step >= 1.0) {
-    c.Complain(key,
+    c.AddError(key,
                fmt::format("data_weight + 2 smoothness_weight is {:.4g}; must be above 0 and below "
                            "1, or smoothing does not converge",
                            step));
   }
 }
 
-void CheckSmoothing(Complaints& c) {
+void CheckSmoothing(Diagnostics& c) {
   if (!c.scenario.plan) {
     return;
   }
@@ -64,10 +64,10 @@ void CheckSmoothing(Complaints& c) {
   }
 }
 
-void CheckAvoider(Complaints& c) {
+void CheckAvoider(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   if (plan && plan->avoid && MayGoBackwards(plan->global) && c.CouldReadPlan({"method"})) {
-    c.Complain("plan.avoid",
+    c.AddError("plan.avoid",
                fmt::format("a plan by {} may go backwards, which cannot be led around "
                            "anything on the way; leave one out",
                            PlannerFor(plan->global).name));
@@ -75,51 +75,51 @@ void CheckAvoider(Complaints& c) {
 }
 
 /// Local planners join their paths to straight legs with straight wheels.
-void CheckNeutralSteering(Complaints& c) {
+void CheckNeutralSteering(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   const auto* fillets = plan ? plan->global.As<FilletOptions>() : nullptr;
   if (fillets == nullptr || fillets->neutral_steering == 0.0 || !(plan->avoid || plan->replan) ||
       !c.CouldReadPlan({"neutral_steering"})) {
     return;
   }
-  c.Complain(c.KeyOfPlan("neutral_steering"),
+  c.AddError(c.KeyOfPlan("neutral_steering"),
              fmt::format("{} goes on from straight wheels between turns; leave one out",
                          plan->avoid ? "plan.avoid" : "plan.replan"));
 }
 
-void CheckNotEmpty(Complaints& c, const std::string& key, const std::vector<double>& values) {
+void CheckNotEmpty(Diagnostics& c, const std::string& key, const std::vector<double>& values) {
   const std::string dotted = "plan.replan.along." + key;
   if (values.empty() && c.could_read(dotted)) {
-    c.Complain(dotted, "needs at least one");
+    c.AddError(dotted, "needs at least one");
   }
 }
 
 /// Drives repeat, so nothing on the way goes by the clock; and a detour that does not come back to
 /// the route is none.
-void CheckDetourTrees(Complaints& c) {
+void CheckDetourTrees(Diagnostics& c) {
   const auto& detour = c.scenario.plan->replan->detour;
   const auto* rrt = detour ? detour->As<RrtPlannerOptions>() : nullptr;
   if (rrt == nullptr) {
     return;
   }
   if (rrt->time_limit) {
-    c.Complain("plan.replan.detour.time_limit",
+    c.AddError("plan.replan.detour.time_limit",
                "a detour is planned within its iterations, as a drive repeats: leave it out");
   }
   if (rrt->partial.value_or(false)) {
-    c.Complain("plan.replan.detour.partial",
+    c.AddError("plan.replan.detour.partial",
                "a detour leads all the way back to the route: leave it out");
   }
 }
 
-void CheckReplan(Complaints& c) {
+void CheckReplan(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   if (!plan || !plan->replan) {
     return;
   }
   const ReplanOptions& replan = *plan->replan;
   if (MayGoBackwards(plan->global) && c.CouldReadPlan({"method"})) {
-    c.Complain("plan.replan",
+    c.AddError("plan.replan",
                fmt::format("a plan by {} may go backwards; planning again on the way goes "
                            "forwards only: leave one out",
                            PlannerFor(plan->global).name));
@@ -129,20 +129,20 @@ void CheckReplan(Complaints& c) {
     return;
   }
   if (replan.detour && MayGoBackwards(*replan.detour)) {
-    c.Complain("plan.replan.detour.reverse", "a detour goes forwards: leave it out");
+    c.AddError("plan.replan.detour.reverse", "a detour goes forwards: leave it out");
   }
   CheckDetourTrees(c);
   if (!replan.along && !replan.detour) {
-    c.Complain("plan.replan", "needs along, detour or both: nothing else plans again");
+    c.AddError("plan.replan", "needs along, detour or both: nothing else plans again");
   }
   if (!replan.detour && replan.comparator) {
-    c.Complain("plan.replan.comparator", "needs detour: there is nothing else to compare");
+    c.AddError("plan.replan.comparator", "needs detour: there is nothing else to compare");
   }
   if (replan.detour &&
       c.CouldRead({"plan.replan.safe_distance", "plan.replan.detour.safe_distance"})) {
     const std::optional<double> own = SafeDistanceOf(*replan.detour);
     if (own && *own < replan.settings.safe_distance) {
-      c.Complain("plan.replan.detour.safe_distance",
+      c.AddError("plan.replan.detour.safe_distance",
                  fmt::format("{:.4g} m is less than plan.replan.safe_distance, {:.4g} m: every "
                              "detour would be blocked",
                              *own, replan.settings.safe_distance));
@@ -160,44 +160,44 @@ void CheckReplan(Complaints& c) {
   }
 }
 
-void CheckHeadings(Complaints& c) {
+void CheckHeadings(Diagnostics& c) {
   const MissionSpec& mission = c.scenario.mission;
   if (mission.headings.empty() || !c.CouldRead({"mission.headings"})) {
     return;
   }
   if (mission.headings.size() != mission.waypoints.size()) {
-    c.Complain("mission.headings", fmt::format("{} given for {} waypoints; give one for each",
+    c.AddError("mission.headings", fmt::format("{} given for {} waypoints; give one for each",
                                                mission.headings.size(), mission.waypoints.size()));
   }
   if (c.scenario.plan && !PlannerFor(c.scenario.plan->global).has_headings &&
       c.CouldReadPlan({"method"})) {
-    c.Complain("mission.headings", fmt::format("a plan by {} does not look at them; leave them out",
+    c.AddError("mission.headings", fmt::format("a plan by {} does not look at them; leave them out",
                                                PlannerFor(c.scenario.plan->global).name));
   }
 }
 
-void CheckWaypoints(Complaints& c) {
+void CheckWaypoints(Diagnostics& c) {
   const std::vector<Vec2>& waypoints = c.scenario.mission.waypoints;
   for (std::size_t i = 1; i < waypoints.size(); ++i) {
     if (waypoints[i] == waypoints[i - 1]) {
-      c.Complain(fmt::format("mission.waypoints[{}]", i), "the same point as the one before it");
+      c.AddError(fmt::format("mission.waypoints[{}]", i), "the same point as the one before it");
     }
   }
   if (c.scenario.plan && PlannerFor(c.scenario.plan->global).min_waypoints == 0 &&
       !waypoints.empty() && c.CouldReadPlan({"method"})) {
-    c.Complain("mission.waypoints", fmt::format("a plan by {} has its own course; leave them out",
+    c.AddError("mission.waypoints", fmt::format("a plan by {} has its own course; leave them out",
                                                 PlannerFor(c.scenario.plan->global).name));
   }
   CheckHeadings(c);
   if (c.scenario.plan && waypoints.size() < PlannerFor(c.scenario.plan->global).min_waypoints) {
     const std::string given = waypoints.empty() ? "none" : std::to_string(waypoints.size());
-    c.Complain("mission.waypoints", fmt::format("{} given; a plan by {} needs at least {}", given,
+    c.AddError("mission.waypoints", fmt::format("{} given; a plan by {} needs at least {}", given,
                                                 PlannerFor(c.scenario.plan->global).name,
                                                 PlannerFor(c.scenario.plan->global).min_waypoints));
   }
 }
 
-void CheckMission(Complaints& c) {
+void CheckMission(Diagnostics& c) {
   const MissionSpec& mission = c.scenario.mission;
   const auto& plan = c.scenario.plan;
   if (c.CouldRead({"mission.waypoints"})) {
@@ -212,31 +212,31 @@ void CheckMission(Complaints& c) {
                                !c.CouldRead({"mission.start.speed", "control.speed.over_time",
                                              "control.file", "control.columns"});
   if (mission.speed == 0.0 && c.CouldRead({"mission.speed"}) && (plan || !has_start_speed)) {
-    c.Complain("mission.speed", "missing");
+    c.AddError("mission.speed", "missing");
   }
   if (c.CouldRead({"control.method"})) {
     const ControllerEntry& controller = ControllerFor(c.scenario.control.steering);
     if (controller.needs_plan && !plan) {
-      c.Complain("plan", fmt::format("missing; the controller {} follows a plan", controller.name));
+      c.AddError("plan", fmt::format("missing; the controller {} follows a plan", controller.name));
     }
   }
   if (plan && mission.duration) {
-    c.Complain("mission.duration", "with a plan the drive ends at the goal; leave one out");
+    c.AddError("mission.duration", "with a plan the drive ends at the goal; leave one out");
   }
   if (!plan && !DurationOf(c.scenario) &&
       c.CouldRead({"mission.duration", "control.file", "control.columns"})) {
-    c.Complain("mission.duration", "missing; without a plan there is no goal to stop at");
+    c.AddError("mission.duration", "missing; without a plan there is no goal to stop at");
   }
   const auto* fillet = plan ? plan->global.As<FilletOptions>() : nullptr;
   if (fillet != nullptr && c.CouldReadPlan({"radius", "constraint"}) && !fillet->radius &&
       fillet->constraint == RadiusConstraint::kNone) {
-    c.Complain(c.KeyOfPlan("constraint"), "'none' needs a radius: nothing else would limit it");
+    c.AddError(c.KeyOfPlan("constraint"), "'none' needs a radius: nothing else would limit it");
   }
 }
 
 }  // namespace
 
-void CheckMissionAndPlan(Complaints& c) {
+void CheckMissionAndPlan(Diagnostics& c) {
   CheckMission(c);
   CheckCourse(c);
   CheckSmoothing(c);

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "src/scenario/complaints.h"
+#include "src/scenario/diagnostics.h"
 #include "trackbed/control/optimal_steering.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/course/lane_change.h"
@@ -10,16 +10,16 @@
 namespace trackbed {
 namespace {
 
-void CheckSpeedOverTime(Complaints& c) {
+void CheckSpeedOverTime(Diagnostics& c) {
   const Recording* recording = RecordingOf(c.scenario);
   if (recording != nullptr && (!recording->speed.empty() || !recording->acceleration.empty())) {
     const SpeedControlOptions& speed = c.scenario.control.speed;
     const std::string message = "the recording has the speed or acceleration; leave this out";
     if (!speed.over_time.empty()) {
-      c.Complain("control.speed.over_time", message);
+      c.AddError("control.speed.over_time", message);
     }
     if (speed.braking) {
-      c.Complain("control.speed.braking", message);
+      c.AddError("control.speed.braking", message);
     }
   }
   const Signal& over_time = c.scenario.control.speed.over_time;
@@ -30,46 +30,46 @@ void CheckSpeedOverTime(Complaints& c) {
   for (std::size_t i = 1; i < over_time.knots.size(); ++i) {
     const double before = over_time.knots[i - 1].x();
     if (over_time.knots[i].x() <= before) {
-      c.Complain(fmt::format("{}[{}]", key, i), fmt::format("{} s is not after the {} s before it",
+      c.AddError(fmt::format("{}[{}]", key, i), fmt::format("{} s is not after the {} s before it",
                                                             over_time.knots[i].x(), before));
     }
   }
   if (c.scenario.plan && c.CouldReadPlan({"method"})) {
-    c.Complain(key, "with a plan the speed is the plan's; leave one out");
+    c.AddError(key, "with a plan the speed is the plan's; leave one out");
   }
 }
 
-void CheckOptimalSteering(Complaints& c) {
+void CheckOptimalSteering(Diagnostics& c) {
   const auto* options = c.scenario.control.steering.As<OptimalSteeringOptions>();
   if (options != nullptr &&
       c.CouldRead({"control.method", "control.weights.position", "control.weights.heading"}) &&
       options->weights.position == 0.0 && options->weights.heading == 0.0) {
-    c.Complain("control.weights", "position and heading are both 0: nothing is left to minimize");
+    c.AddError("control.weights", "position and heading are both 0: nothing is left to minimize");
   }
 }
 
-void CheckSteps(Complaints& c) {
+void CheckSteps(Diagnostics& c) {
   const DriveSpec& drive = c.scenario.drive;
   const double steps = drive.control_period / drive.timestep;
   if (c.CouldRead({"drive.control_period", "drive.timestep"}) &&
       (std::abs(steps - std::round(steps)) > 1e-6 || steps < 0.5)) {
-    c.Complain("drive.control_period",
+    c.AddError("drive.control_period",
                fmt::format("{} s is not a whole number of timesteps of {} s", drive.control_period,
                            drive.timestep));
   }
 }
 
-void CheckPicture(Complaints& c) {
+void CheckPicture(Diagnostics& c) {
   const RenderSpec& render = c.scenario.render;
   if (c.CouldRead({"render.size"}) &&
       (render.width % 2 != 0 || render.height % 2 != 0 || render.height > 4320)) {
-    c.Complain("render.size", fmt::format("{}x{}: both must be even, the height at most 4320",
+    c.AddError("render.size", fmt::format("{}x{}: both must be even, the height at most 4320",
                                           render.width, render.height));
   }
 }
 
 /// What is steeper than 45 degrees is a wall, not something to drive over.
-void CheckGround(Complaints& c) {
+void CheckGround(Diagnostics& c) {
   constexpr double kSteepest = 1.0;
   for (std::size_t i = 0; i < c.scenario.world.ground.bumps.size(); ++i) {
     const Bump& bump = c.scenario.world.ground.bumps[i];
@@ -82,7 +82,7 @@ void CheckGround(Complaints& c) {
     const auto check = [&](double reach, const char* where) {
       const double steepest = 0.5 * kPi * bump.height / reach;
       if (steepest > kSteepest) {
-        c.Complain(key, fmt::format("rises {:.3g} m per m {}; at most {} can be driven over",
+        c.AddError(key, fmt::format("rises {:.3g} m per m {}; at most {} can be driven over",
                                     steepest, where, kSteepest));
       }
     };
@@ -91,69 +91,69 @@ void CheckGround(Complaints& c) {
   }
 }
 
-void CheckGusts(Complaints& c) {
+void CheckGusts(Diagnostics& c) {
   for (std::size_t i = 0; i < c.scenario.world.wind.gusts.size(); ++i) {
     const Gust& gust = c.scenario.world.wind.gusts[i];
     const std::string key = fmt::format("world.wind.gusts[{}]", i);
     if (gust.shape == GustShape::kOneMinusCosine && !gust.duration &&
         c.could_read(key + ".duration") && c.could_read(key + ".shape")) {
-      c.Complain(key, "one_minus_cosine needs a duration; only a step can blow without end");
+      c.AddError(key, "one_minus_cosine needs a duration; only a step can blow without end");
     }
   }
 }
 
-void CheckObstacles(Complaints& c) {
+void CheckObstacles(Diagnostics& c) {
   for (std::size_t i = 0; i < c.scenario.world.obstacles.size(); ++i) {
     const Obstacle& obstacle = c.scenario.world.obstacles[i];
     if (obstacle.known_from_time && obstacle.known_from_range) {
-      c.Complain(fmt::format("world.obstacles[{}].known_from", i), "give time or range, not both");
+      c.AddError(fmt::format("world.obstacles[{}].known_from", i), "give time or range, not both");
     }
     if (obstacle.moves() && !IsFlat(c.scenario.world.ground)) {
-      c.Complain(fmt::format("world.obstacles[{}].velocity", i),
+      c.AddError(fmt::format("world.obstacles[{}].velocity", i),
                  "what moves needs level ground; here world.ground is not");
     }
   }
 }
 
-void CheckDisturbances(Complaints& c) {
+void CheckDisturbances(Diagnostics& c) {
   const Disturbances& disturb = c.scenario.disturb;
   const auto& loss = disturb.speed_loss;
   if (loss && loss->from && loss->station) {
-    c.Complain("disturb.speed_loss", "give from or station, not both");
+    c.AddError("disturb.speed_loss", "give from or station, not both");
   }
   const auto& payload = disturb.payload;
   if (payload && payload->mass.has_value() == payload->share.has_value() &&
       c.CouldRead({"disturb.payload.mass", "disturb.payload.share"})) {
-    c.Complain("disturb.payload", "give either mass or share");
+    c.AddError("disturb.payload", "give either mass or share");
   }
   for (std::size_t i = 0; i < disturb.kicks.size(); ++i) {
     const Kick& kick = disturb.kicks[i];
     const std::string key = fmt::format("disturb.kicks[{}]", i);
     if (kick.displacement.has_value() == kick.impulse.has_value() &&
         c.could_read(key + ".displacement") && c.could_read(key + ".impulse")) {
-      c.Complain(key, "give either displacement or impulse");
+      c.AddError(key, "give either displacement or impulse");
     } else if (kick.displacement && kick.duration) {
-      c.Complain(key + ".duration", "a displacement has none");
+      c.AddError(key + ".duration", "a displacement has none");
     }
   }
 }
 
 template <typename Options>
-void CheckFit(Complaints& c, const Options& options) {
+void CheckFit(Diagnostics& c, const Options& options) {
   if constexpr (requires { options.fit_from; }) {
     if (options.fit_from >= options.fit_to) {
-      c.Complain("manoeuvre.fit_to", fmt::format("{} m/s^2 is not above fit_from, {} m/s^2",
+      c.AddError("manoeuvre.fit_to", fmt::format("{} m/s^2 is not above fit_from, {} m/s^2",
                                                  options.fit_to, options.fit_from));
     }
   }
 }
 
-void CheckManoeuvre(Complaints& c) {
+void CheckManoeuvre(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   const bool has_gates = plan && plan->global.Is<LaneChangePlannerOptions>();
   if (c.scenario.manoeuvre && std::holds_alternative<LaneChangeOptions>(*c.scenario.manoeuvre) &&
       !has_gates && c.CouldReadPlan({"method"})) {
-    c.Complain("manoeuvre", "a lane change needs gates; plan: {method: lane_change} has them");
+    c.AddError("manoeuvre", "a lane change needs gates; plan: {method: lane_change} has them");
   }
   if (c.scenario.manoeuvre && c.CouldRead({"manoeuvre.fit_from", "manoeuvre.fit_to"})) {
     std::visit([&](const auto& options) { CheckFit(c, options); }, *c.scenario.manoeuvre);
@@ -164,7 +164,7 @@ void CheckManoeuvre(Complaints& c) {
 
 std::vector<std::pair<std::string, std::string>> CrossProblems(
     const Scenario& scenario, const std::function<bool(const std::string& key)>& could_read) {
-  Complaints c{.scenario = scenario, .could_read = could_read};
+  Diagnostics c{.scenario = scenario, .could_read = could_read};
   CheckMissionAndPlan(c);
   CheckSpeedOverTime(c);
   CheckOptimalSteering(c);

@@ -23,7 +23,7 @@ class RecordingExcerpt {
     }
     for (std::size_t row = 1; row < axis_.size(); ++row) {
       if (axis_[row] <= axis_[row - 1]) {
-        Complain(
+        AddError(
             row, axis_name_,
             fmt::format("{} is not after the {} of the row before", axis_[row], axis_[row - 1]));
       }
@@ -44,7 +44,7 @@ class RecordingExcerpt {
     for (std::size_t row = 0; row < values.size(); ++row) {
       const Range& own = row + 1 == values.size() ? last : range;
       if (values[row] < own.min || values[row] > own.max || values[row] <= own.above) {
-        Complain(row, column,
+        AddError(row, column,
                  fmt::format("{} is out of range; must be {}", values[row], AllowedBy(own)));
       }
       signal.knots.emplace_back(axis_[row], values[row]);
@@ -65,7 +65,7 @@ class RecordingExcerpt {
   }
 
  private:
-  void Complain(std::size_t row, const std::string& column, std::string message) {
+  void AddError(std::size_t row, const std::string& column, std::string message) {
     problems_.push_back({file_, excerpt_.lines[row], 0, column, std::move(message)});
   }
 

@@ -81,9 +81,9 @@ YAML::Node NodeAt(const YAML::Node& root, const std::string& key) {
 
 /// Reads the recording that is to be replayed. What is wrong in it is placed there, and follows
 /// the problems of the scenario.
-template <typename Complain>
+template <typename AddError>
 std::vector<Problem> ReadInputs(Scenario& scenario, const ReaderContext& context,
-                                const Complain& complain) {
+                                const AddError& add_error) {
   auto* playback = scenario.control.steering.As<PlaybackOptions>();
   if (playback == nullptr || !context.Read("control.file") || !context.Read("control.columns")) {
     return {};
@@ -96,9 +96,9 @@ std::vector<Problem> ReadInputs(Scenario& scenario, const ReaderContext& context
     if (!first.file.empty()) {
       return error.problems();
     }
-    complain(first.key, first.message);
+    add_error(first.key, first.message);
   } catch (const RunError& error) {
-    complain("control.file", error.what());
+    add_error("control.file", error.what());
   }
   return {};
 }
@@ -118,21 +118,21 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
   YamlReader reader(context, root, "");
   Visit(reader, scenario);
   reader.Finish();
-  const auto complain = [&](const std::string& key, std::string message) {
-    context.Complain(NodeAt(root, key).Mark(), key, std::move(message));
+  const auto add_error = [&](const std::string& key, std::string message) {
+    context.AddError(NodeAt(root, key).Mark(), key, std::move(message));
   };
   try {
     static_cast<void>(FindModel(scenario.vehicle.model, folder));
   } catch (const InputError& error) {
-    complain("vehicle.model", error.problems().front().message);
+    add_error("vehicle.model", error.problems().front().message);
   }
-  const std::vector<Problem> of_inputs = ReadInputs(scenario, context, complain);
+  const std::vector<Problem> of_inputs = ReadInputs(scenario, context, add_error);
   if (!of_inputs.empty()) {
     context.unread.emplace_back("control.file");
   }
   const std::string& camera = scenario.render.camera;
   if (!cameras.empty() && std::find(cameras.begin(), cameras.end(), camera) == cameras.end()) {
-    complain("render.camera", "unknown " + UnknownName(camera, cameras));
+    add_error("render.camera", "unknown " + UnknownName(camera, cameras));
   }
   if (std::find(context.overridden.begin(), context.overridden.end(), "drive.plants") !=
       context.overridden.end()) {
@@ -140,11 +140,11 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
   }
   const auto could_read = [&context](const std::string& key) { return context.Read(key); };
   for (auto& [key, message] : CrossProblems(scenario, could_read)) {
-    complain(key, std::move(message));
+    add_error(key, std::move(message));
   }
   if (metrics && context.problems.empty() && of_inputs.empty()) {
     for (auto& [key, message] : UnknownMetrics(scenario.expect, metrics(scenario))) {
-      complain(key, std::move(message));
+      add_error(key, std::move(message));
     }
   }
   std::stable_sort(context.problems.begin(), context.problems.end(),

@@ -11,7 +11,7 @@
 namespace trackbed {
 namespace {
 
-constexpr std::size_t kMostRuns = 100000;
+constexpr std::size_t kMaxRuns = 100000;
 
 /// Writes a value as it was read, on one line: what stood in quotes keeps them.
 void WriteFlow(const YAML::Node& node, YAML::Emitter& out) {
@@ -95,10 +95,10 @@ class StudyReader {
   }
 
  private:
-  void Complain(const YAML::Node& node, const std::string& key, std::string message) {
-    context_.Complain(node.Mark(), key, std::move(message));
+  void AddError(const YAML::Node& node, const std::string& key, std::string message) {
+    context_.AddError(node.Mark(), key, std::move(message));
   }
-  void Complain(const Setting& at, std::string message) {
+  void AddError(const Setting& at, std::string message) {
     context_.problems.push_back({context_.file, at.line, at.column, at.key, std::move(message)});
   }
 
@@ -108,7 +108,7 @@ class StudyReader {
   /// Calls with each key of a section of keys of the scenario's, and its value.
   void ForEachKey(const YAML::Node& node, const std::string& section, const ReadEntry& read) {
     if (!node.IsMap() || node.size() == 0) {
-      Complain(node, section,
+      AddError(node, section,
                fmt::format("expected a section of scenario keys, found {}",
                            node.IsMap() ? "an empty one" : YamlReader::Describe(node)));
       return;
@@ -116,17 +116,17 @@ class StudyReader {
     Names seen;
     for (const auto& entry : node) {
       if (!entry.first.IsScalar() || entry.first.Scalar().empty()) {
-        Complain(entry.first, section, "a key must be a name");
+        AddError(entry.first, section, "a key must be a name");
         continue;
       }
       const std::string& key = entry.first.Scalar();
       const std::string dotted = section + "." + key;
       if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
-        Complain(entry.first, dotted, "the key is given twice");
+        AddError(entry.first, dotted, "the key is given twice");
       } else if (key.find('=') != std::string::npos) {
-        Complain(entry.first, dotted, "a key has no '='");
+        AddError(entry.first, dotted, "a key has no '='");
       } else if (entry.second.IsNull()) {
-        Complain(entry.first, dotted, "expected a value, found nothing");
+        AddError(entry.first, dotted, "expected a value, found nothing");
       } else {
         read(entry.first, entry.second, dotted);
       }
@@ -154,7 +154,7 @@ class StudyReader {
                                   const std::string& dotted) {
     std::vector<Setting> values;
     if (!node.IsSequence() || node.size() == 0) {
-      Complain(node, dotted,
+      AddError(node, dotted,
                fmt::format("expected a list of values, or {{from, to, steps}}, found {}",
                            node.IsSequence() ? "an empty list" : YamlReader::Describe(node)));
       return values;
@@ -178,7 +178,7 @@ class StudyReader {
     }
     CheckEnds(node, dotted, range.from, range.to);
     if (range.scale == GridScale::kLog && range.from <= 0.0) {
-      Complain(node["from"], dotted + ".from", "a scale of equal ratios needs positive ends");
+      AddError(node["from"], dotted + ".from", "a scale of equal ratios needs positive ends");
     }
     for (int i = 0; i < range.steps; ++i) {
       values.push_back({key, GridValue(range, i), node.Mark().line + 1, node.Mark().column + 1});
@@ -188,13 +188,13 @@ class StudyReader {
 
   void CheckEnds(const YAML::Node& node, const std::string& dotted, double from, double to) {
     if (!(from < to)) {
-      Complain(node["from"], dotted + ".from", fmt::format("{} is not below to: {}", from, to));
+      AddError(node["from"], dotted + ".from", fmt::format("{} is not below to: {}", from, to));
     }
   }
 
   void ReadList(const YAML::Node& node, const std::string& section, Study& study) {
     if (!node.IsSequence() || node.size() == 0) {
-      Complain(node, section,
+      AddError(node, section,
                fmt::format("expected a list of points, found {}",
                            node.IsSequence() ? "an empty one" : YamlReader::Describe(node)));
       return;
@@ -206,7 +206,7 @@ class StudyReader {
 
   void ReadOutputs(const YAML::Node& node, const std::string& section, Study& study) {
     if (!node.IsSequence()) {
-      Complain(node, section,
+      AddError(node, section,
                fmt::format("expected a list of names, found {}", YamlReader::Describe(node)));
       return;
     }
@@ -215,9 +215,9 @@ class StudyReader {
       const std::string key = fmt::format("{}[{}]", section, i);
       const auto is_it = [&](const OutputSpec& other) { return other.path == item.Scalar(); };
       if (!item.IsScalar() || item.Scalar().empty()) {
-        Complain(item, key, fmt::format("expected a name, found {}", YamlReader::Describe(item)));
+        AddError(item, key, fmt::format("expected a name, found {}", YamlReader::Describe(item)));
       } else if (std::any_of(study.outputs.begin(), study.outputs.end(), is_it)) {
-        Complain(item, key, fmt::format("'{}' is listed twice", item.Scalar()));
+        AddError(item, key, fmt::format("'{}' is listed twice", item.Scalar()));
       } else {
         study.outputs.push_back({item.Scalar(), item.Mark().line + 1, item.Mark().column + 1});
       }
@@ -232,7 +232,7 @@ class StudyReader {
     try {
       study.scenario_text = ReadInput(study.scenario);
     } catch (const InputError& error) {
-      Complain(root_["scenario"], "scenario", error.problems().front().message);
+      AddError(root_["scenario"], "scenario", error.problems().front().message);
     }
   }
 
@@ -250,15 +250,15 @@ class StudyReader {
   void CheckStudy(const Study& study) {
     const bool varies = root_["vary"] || root_["list"] || root_["repeat"] || root_["bisect"];
     if (!varies) {
-      Complain(root_, "vary", "missing; a study has vary, list, repeat or bisect");
+      AddError(root_, "vary", "missing; a study has vary, list, repeat or bisect");
     }
     auto runs = static_cast<double>(study.repeat);
     for (const auto& alternatives : study.vary) {
       runs *= static_cast<double>(alternatives.size());
     }
     runs *= static_cast<double>(std::max<std::size_t>(study.list.size(), 1));
-    if (runs > static_cast<double>(kMostRuns)) {
-      Complain(root_, "vary", fmt::format("{} runs; at most {}", runs, kMostRuns));
+    if (runs > static_cast<double>(kMaxRuns)) {
+      AddError(root_, "vary", fmt::format("{} runs; at most {}", runs, kMaxRuns));
     }
     CheckWhatReplaces(study);
     CheckSeed(study);
@@ -304,7 +304,7 @@ class StudyReader {
                  problem.message == message;
         });
     if (!known) {
-      Complain(at, message);
+      AddError(at, message);
     }
   }
 

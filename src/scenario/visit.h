@@ -114,15 +114,15 @@ inline void Visit(KeyVisitor& a, MetricExpectation& expect) {
 
 inline void Visit(KeyVisitor& a, PlantExpectation& expect) {
   a.Field({"reach_goal", "m", "largest distance to the goal at the end"}, expect.reach_goal,
-          kNotNegative);
+          kNonNegative);
   a.Field({"max_cross_track", "m", "largest distance from the path"}, expect.max_cross_track,
-          kNotNegative);
+          kNonNegative);
   a.Field({"rms_cross_track", "m", "largest root mean square of it"}, expect.rms_cross_track,
-          kNotNegative);
+          kNonNegative);
   a.Field({"max_heading_error", "rad", "largest angle to the path"}, expect.max_heading_error,
-          kNotNegative);
+          kNonNegative);
   a.Field({"min_clearance", "m", "smallest distance of the car's outline from an obstacle"},
-          expect.min_clearance, kNotNegative);
+          expect.min_clearance, kNonNegative);
   a.Field({"collision", "", "whether the car hits an obstacle"}, expect.collision);
   a.List({"metrics", "", "bounds on whatever else was measured"}, expect.metrics);
 }
@@ -131,14 +131,14 @@ inline void Visit(KeyVisitor& a, BetweenExpectation& expect) {
   a.Field({"plants", "", "the two plants to compare"}, expect.plants, Need::kRequired,
           PlantNames());
   a.Field({"position_max", "m", "largest distance between them at equal station"},
-          expect.bounds.position_max, kNotNegative);
+          expect.bounds.position_max, kNonNegative);
   a.Field({"heading_max", "rad", "largest angle between them at equal station"},
-          expect.bounds.heading_max, kNotNegative);
+          expect.bounds.heading_max, kNonNegative);
   a.Field({"yaw_rate_max", "rad/s", "largest difference of their yaw rates at equal station"},
-          expect.bounds.yaw_rate_max, kNotNegative);
+          expect.bounds.yaw_rate_max, kNonNegative);
   a.Field({"steering_max", "rad",
            "largest difference of their measured steering angles at equal station"},
-          expect.bounds.steering_max, kNotNegative);
+          expect.bounds.steering_max, kNonNegative);
 }
 
 inline void VisitPlants(KeyVisitor& a, Expectations& expect) {

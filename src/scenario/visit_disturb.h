@@ -9,8 +9,8 @@ inline constexpr Range kFactor{.min = 0.1, .max = 10.0};
 inline constexpr Range kOnCar{.min = -100.0, .max = 100.0};  // [m]
 
 inline void Visit(KeyVisitor& a, SpeedLoss& loss) {
-  a.Field({"from", "s", "from this moment on; else from the start"}, loss.from, kNotNegative);
-  a.Field({"station", "m", "instead: from this station (`s_m`) on"}, loss.station, kNotNegative);
+  a.Field({"from", "s", "from this moment on; else from the start"}, loss.from, kNonNegative);
+  a.Field({"station", "m", "instead: from this station (`s_m`) on"}, loss.station, kNonNegative);
   a.Field({"speed", "m/s", "the car's largest from then on"}, loss.speed, Need::kRequired,
           kSpeedRange);
 }
@@ -20,8 +20,8 @@ inline void Visit(KeyVisitor& a, SteeringFaults& faults) {
           Need::kOptional, kFactor);
   a.Field({"delay", "s", "of the wanted angle on its way to the actuator"}, faults.delay,
           Need::kOptional, Range{.min = 0.0, .max = 10.0});
-  a.Field({"dead_band", "rad", "the whole play of the steering, at the road wheels"},
-          faults.dead_band, Need::kOptional, Range{.min = 0.0, .max = 1.5});
+  a.Field({"backlash", "rad", "the whole play of the steering, at the road wheels"},
+          faults.backlash, Need::kOptional, Range{.min = 0.0, .max = 1.5});
 }
 
 inline void Visit(KeyVisitor& a, MeasurementNoise& noise) {
@@ -42,7 +42,7 @@ inline void Visit(KeyVisitor& a, Payload& payload) {
 }
 
 inline void Visit(KeyVisitor& a, Kick& kick) {
-  a.Field({"at", "s", "when it comes"}, kick.at, Need::kRequired, kNotNegative);
+  a.Field({"at", "s", "when it comes"}, kick.at, Need::kRequired, kNonNegative);
   a.Field({"displacement", "m", "the car is set aside by this at once, positive to its left"},
           kick.displacement, Range{.min = -10.0, .max = 10.0});
   a.Field({"impulse", "N s",

@@ -9,9 +9,9 @@ namespace trackbed {
 /// Of the maneuvers that fit gradients.
 template <typename Options>
 void VisitGradients(KeyVisitor& a, Options& options) {
-  a.Field({"settle", "s", "samples count after it"}, options.settle, Need::kOptional, kNotNegative);
+  a.Field({"settle", "s", "samples count after it"}, options.settle, Need::kOptional, kNonNegative);
   a.Field({"fit_from", "m/s^2", "gradients are fitted from this lateral acceleration"},
-          options.fit_from, Need::kOptional, kNotNegative);
+          options.fit_from, Need::kOptional, kNonNegative);
   a.Field({"fit_to", "m/s^2", "up to this one"}, options.fit_to, Need::kOptional, kPositive);
 }
 
@@ -34,12 +34,12 @@ inline void Visit(KeyVisitor&, LaneChangeOptions&) {}
 
 inline void Visit(KeyVisitor& a, BrakingTestOptions& options) {
   a.Field({"to_speed", "m/s", "the braking distance ends here"}, options.to_speed, Need::kOptional,
-          kNotNegative);
+          kNonNegative);
 }
 
 inline void Visit(KeyVisitor& a, DisturbanceOptions& options) {
   a.Field({"at", "s", "the course held then is what is departed from"}, options.at, Need::kOptional,
-          kNotNegative);
+          kNonNegative);
   a.Field({"yaw_rate_bound", "rad/s", "below it for good, the car has recovered"},
           options.yaw_rate_bound, Need::kOptional, kPositive);
 }

@@ -32,7 +32,7 @@ inline void VisitInfeasible(KeyVisitor& a, InfeasiblePolicy& policy) {
 inline void Visit(KeyVisitor& a, PlanLayers& layers) {
   a.Method({"global", "", "the planner of the whole path"}, layers.global, Planners(),
            Need::kRequired);
-  a.Method(kAvoid, layers.avoid, Avoiders(), Need::kOptional);
+  a.Method(kAvoid, layers.avoid, LocalPlanners(), Need::kOptional);
   a.Section(kReplan, layers.replan);
   VisitInfeasible(a, layers.infeasible);
 }
@@ -60,7 +60,7 @@ inline void VisitPlan(KeyVisitor& a, std::optional<PlanSpec>& plan) {
         inner.Mention(
             {"global", "", "the keys of this section, when `avoid` or `replan` stands beside them"},
             "section");
-        inner.Method(kAvoid, avoid, Avoiders(), Need::kOptional);
+        inner.Method(kAvoid, avoid, LocalPlanners(), Need::kOptional);
         inner.Section(kReplan, replan);
       }
       VisitInfeasible(inner, infeasible);

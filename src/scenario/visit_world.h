@@ -13,9 +13,9 @@ inline constexpr Range kWindSpeed{.min = -100.0, .max = 100.0};  // [m/s]
 inline constexpr Key kWorldSection{"world", "", "what the car drives in"};
 
 inline void Visit(KeyVisitor& a, OrientedBox& box) {
-  a.Field({"x", "m", "center of the rectangle"}, box.centre.x, Need::kRequired, kMap);
-  a.Field({"y", "m", "likewise"}, box.centre.y, Need::kRequired, kMap);
-  a.Field({"yaw", "rad", "direction of its length"}, box.centre.yaw, Need::kOptional);
+  a.Field({"x", "m", "center of the rectangle"}, box.center.x, Need::kRequired, kMap);
+  a.Field({"y", "m", "likewise"}, box.center.y, Need::kRequired, kMap);
+  a.Field({"yaw", "rad", "direction of its length"}, box.center.yaw, Need::kOptional);
   a.Field({"length", "m", "along its own x axis"}, box.length, Need::kRequired, kSize);
   a.Field({"width", "m", "along its own y axis"}, box.width, Need::kRequired, kSize);
 }
@@ -44,7 +44,7 @@ inline void Visit(KeyVisitor& a, Bump& bump) {
           bump.edge, Need::kOptional, kPositive);
 }
 
-inline void Visit(KeyVisitor& a, SideSlope& stretch) {
+inline void Visit(KeyVisitor& a, Superelevation& stretch) {
   Visit(a, stretch.area);
   a.Field({"slope", "", "rise over run to its left; negative: it rises to the right"},
           stretch.slope, Need::kRequired, kRiseOverRun);
@@ -65,7 +65,7 @@ inline void Visit(KeyVisitor& a, Gust& gust) {
   a.Field({"x", "m/s", "at its strongest, eastward"}, gust.velocity.x(), Need::kOptional,
           kWindSpeed);
   a.Field({"y", "m/s", "likewise, northward"}, gust.velocity.y(), Need::kOptional, kWindSpeed);
-  a.Field({"from", "s", "when it begins"}, gust.from, Need::kOptional, kNotNegative);
+  a.Field({"from", "s", "when it begins"}, gust.from, Need::kOptional, kNonNegative);
   a.Field({"duration", "s", "how long it blows; a step without one never ends"}, gust.duration,
           kPositive);
   static const EnumNames<GustShape> shapes{{GustShape::kOneMinusCosine, "one_minus_cosine"},
@@ -119,9 +119,9 @@ struct KnownFromKeys {
 
 inline void Visit(KeyVisitor& a, KnownFromKeys& keys) {
   a.Field({"time", "s", "at this moment of the drive"}, keys.obstacle.known_from_time,
-          kNotNegative);
+          kNonNegative);
   a.Field({"range", "m", "once the car's outline is this close to it"},
-          keys.obstacle.known_from_range, kNotNegative);
+          keys.obstacle.known_from_range, kNonNegative);
 }
 
 inline void Visit(KeyVisitor& a, Obstacle& obstacle) {

@@ -18,7 +18,7 @@ namespace trackbed {
 namespace {
 
 constexpr std::size_t kDeepest = 64;
-constexpr std::size_t kMostValues = 100000;
+constexpr std::size_t kMaxValues = 100000;
 
 [[noreturn]] void Fail(const std::string& file, const YAML::Mark& mark, std::string message) {
   throw InputError(Problem{file, mark.line + 1, mark.column + 1, "", std::move(message)});
@@ -98,9 +98,9 @@ class Watch : public YAML::EventHandler {
 
   void Count(const YAML::Mark& mark, std::size_t values) {
     values_ += values;
-    if (values_ > kMostValues) {
+    if (values_ > kMaxValues) {
       Fail(file_, mark,
-           fmt::format("more than {} values, counting what each '*' repeats", kMostValues));
+           fmt::format("more than {} values, counting what each '*' repeats", kMaxValues));
     }
   }
   void Value(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -38,6 +39,18 @@ bool IsTooLarge(const YAML::Node& node) {
   return !text.empty() && *end == '\0' && std::isinf(number);
 }
 
+/// Keys of earlier versions, and what they are called now.
+constexpr std::array kRenamedKeys{std::pair{"dead_band", "backlash"}};
+
+std::string UnknownKey(const std::string& name, const Names& known) {
+  for (const auto& [before, now] : kRenamedKeys) {
+    if (name == before && std::find(known.begin(), known.end(), now) != known.end()) {
+      return fmt::format("unknown key '{}'; it is now called '{}'", before, now);
+    }
+  }
+  return "unknown key " + UnknownName(name, known);
+}
+
 }  // namespace
 
 YamlReader::YamlReader(ReaderContext& context, YAML::Node node, std::string key)
@@ -47,31 +60,9 @@ std::string YamlReader::Dotted(const char* key) const {
   return key_.empty() ? key : key_ + "." + key;
 }
 
-void ReaderContext::Complain(const YAML::Mark& mark, const std::string& dotted,
-                             std::string message) {
-  const bool set = std::any_of(overridden.begin(), overridden.end(), [&](const std::string& key) {
-    const char next = dotted.size() > key.size() ? dotted[key.size()] : '.';
-    return dotted.starts_with(key) && (next == '.' || next == '[');
-  });
-  if (set) {
-    problems.push_back({"--set", 0, 0, dotted, std::move(message)});
-  } else {
-    problems.push_back({file, mark.line + 1, mark.column + 1, dotted, std::move(message)});
-  }
-  unread.push_back(dotted);
-}
-
-bool ReaderContext::Read(std::string_view dotted) const {
-  return std::none_of(unread.begin(), unread.end(), [&](const std::string& key) {
-    const char next = dotted.size() > key.size() ? dotted[key.size()] : '.';
-    return (dotted.starts_with(key) && (next == '.' || next == '[')) ||
-           key.starts_with(std::string(dotted) + '[');
-  });
-}
-
-void YamlReader::Complain(const YAML::Node& node, const std::string& dotted, std::string message) {
+void YamlReader::AddError(const YAML::Node& node, const std::string& dotted, std::string message) {
   // yaml-cpp places a value that is not there at whatever comes next.
-  context_.Complain(node.IsNull() ? taken_ : node.Mark(), dotted, std::move(message));
+  context_.AddError(node.IsNull() ? taken_ : node.Mark(), dotted, std::move(message));
 }
 
 std::string YamlReader::Describe(const YAML::Node& node) {
@@ -104,7 +95,7 @@ std::optional<YAML::Node> YamlReader::Take(const char* key, Need need) {
     }
   }
   if (need == Need::kRequired) {
-    Complain(node_, Dotted(key), "missing");
+    AddError(node_, Dotted(key), "missing");
   }
   return std::nullopt;
 }
@@ -133,7 +124,7 @@ void YamlReader::VisitList(const Key& key, std::size_t,
     return;
   }
   if (!node->IsSequence()) {
-    Complain(*node, Dotted(key.name), fmt::format("expected a list, found {}", Describe(*node)));
+    AddError(*node, Dotted(key.name), fmt::format("expected a list, found {}", Describe(*node)));
     return;
   }
   resize(node->size());
@@ -174,7 +165,7 @@ bool YamlReader::HasOneOf(const char* key, const Names& inner) const {
 
 bool YamlReader::CheckMap(const YAML::Node& node, const std::string& dotted) {
   if (!node.IsMap()) {
-    Complain(node, dotted,
+    AddError(node, dotted,
              fmt::format("expected a section of 'key: value', found {}", Describe(node)));
     return false;
   }
@@ -186,28 +177,28 @@ bool YamlReader::ReadNumber(const YAML::Node& node, const std::string& dotted, R
   double number = 0.0;
   const bool is_number = Decode(node, number);
   if (range.min == range.max && (!is_number || number != range.min)) {
-    Complain(node, dotted,
+    AddError(node, dotted,
              fmt::format("must be {}, found {}", range.min,
                          is_number ? fmt::format("{}", number) : DescribeNo<double>(node)));
     return false;
   }
   if (!is_number && IsTooLarge(node)) {
     const std::string allowed = AllowedBy(range);
-    Complain(node, dotted,
+    AddError(node, dotted,
              fmt::format("{} is out of range; must be {}", node.Scalar(),
                          allowed.empty() ? "a number of at most 308 digits" : allowed));
     return false;
   }
   if (!is_number) {
-    Complain(node, dotted, fmt::format("expected a number, found {}", DescribeNo<double>(node)));
+    AddError(node, dotted, fmt::format("expected a number, found {}", DescribeNo<double>(node)));
     return false;
   }
   if (!std::isfinite(number)) {
-    Complain(node, dotted, fmt::format("expected a finite number, found {}", Describe(node)));
+    AddError(node, dotted, fmt::format("expected a finite number, found {}", Describe(node)));
     return false;
   }
   if (number < range.min || number > range.max || number <= range.above) {
-    Complain(node, dotted, fmt::format("{} is out of range; must be {}", number, AllowedBy(range)));
+    AddError(node, dotted, fmt::format("{} is out of range; must be {}", number, AllowedBy(range)));
     return false;
   }
   value = number;
@@ -231,7 +222,7 @@ void YamlReader::Field(const Key& key, std::optional<double>& value, Range range
 
 bool YamlReader::ReadFlag(const YAML::Node& node, const std::string& dotted, bool& value) {
   if (!Decode(node, value)) {
-    Complain(node, dotted, fmt::format("expected true or false, found {}", DescribeNo<bool>(node)));
+    AddError(node, dotted, fmt::format("expected true or false, found {}", DescribeNo<bool>(node)));
     return false;
   }
   return true;
@@ -259,7 +250,7 @@ void YamlReader::Field(const Key& key, int& value, Need need, Range range) {
       return;
     }
     if (number != std::floor(number) || std::abs(number) > 1e9) {
-      Complain(*node, Dotted(key.name), fmt::format("expected a whole number, found {}", number));
+      AddError(*node, Dotted(key.name), fmt::format("expected a whole number, found {}", number));
       return;
     }
     value = static_cast<int>(number);
@@ -270,7 +261,7 @@ void YamlReader::Field(const Key& key, std::uint64_t& value, Need need) {
   if (const auto node = Take(key.name, need)) {
     // A stream reads -1 as the largest number that there is.
     if (node->Scalar().starts_with('-') || !Decode(*node, value)) {
-      Complain(
+      AddError(
           *node, Dotted(key.name),
           fmt::format("expected a whole number from 0 to {}, found {}",
                       std::numeric_limits<std::uint64_t>::max(), DescribeNo<std::uint64_t>(*node)));
@@ -284,12 +275,12 @@ void YamlReader::Field(const Key& key, std::string& value, Need need, const Name
     return;
   }
   if (!node->IsScalar() || node->Scalar().empty()) {
-    Complain(*node, Dotted(key.name), fmt::format("expected a name, found {}", Describe(*node)));
+    AddError(*node, Dotted(key.name), fmt::format("expected a name, found {}", Describe(*node)));
     return;
   }
   if (!allowed.empty() &&
       std::find(allowed.begin(), allowed.end(), node->Scalar()) == allowed.end()) {
-    Complain(*node, Dotted(key.name), "unknown " + UnknownName(node->Scalar(), allowed));
+    AddError(*node, Dotted(key.name), "unknown " + UnknownName(node->Scalar(), allowed));
     return;
   }
   value = node->Scalar();
@@ -312,7 +303,7 @@ void YamlReader::Identifier(const Key& key, std::string& value) {
                          !std::all_of(value.begin(), value.end(), fits))) {
     for (const auto& entry : node_) {
       if (entry.first.IsScalar() && entry.first.Scalar() == key.name) {
-        Complain(
+        AddError(
             entry.second, Dotted(key.name),
             fmt::format("'{}' cannot name a folder; allowed are up to 100 letters, digits, '_', "
                         "'-' and '.', the first not '.'",
@@ -330,7 +321,7 @@ void YamlReader::Field(const Key& key, std::vector<std::string>& value, Need nee
     return;
   }
   if (!node->IsSequence() || node->size() == 0) {
-    Complain(*node, Dotted(key.name),
+    AddError(*node, Dotted(key.name),
              fmt::format("expected a list of names, found {}",
                          node->IsSequence() ? "an empty one" : Describe(*node)));
     return;
@@ -340,11 +331,11 @@ void YamlReader::Field(const Key& key, std::vector<std::string>& value, Need nee
     const YAML::Node item = (*node)[i];
     const std::string dotted = fmt::format("{}[{}]", Dotted(key.name), i);
     if (!item.IsScalar()) {
-      Complain(item, dotted, fmt::format("expected a name, found {}", Describe(item)));
+      AddError(item, dotted, fmt::format("expected a name, found {}", Describe(item)));
     } else if (std::find(allowed.begin(), allowed.end(), item.Scalar()) == allowed.end()) {
-      Complain(item, dotted, "unknown " + UnknownName(item.Scalar(), allowed));
+      AddError(item, dotted, "unknown " + UnknownName(item.Scalar(), allowed));
     } else if (std::find(names.begin(), names.end(), item.Scalar()) != names.end()) {
-      Complain(item, dotted, fmt::format("'{}' is listed twice", item.Scalar()));
+      AddError(item, dotted, fmt::format("'{}' is listed twice", item.Scalar()));
     } else {
       names.push_back(item.Scalar());
     }
@@ -359,7 +350,7 @@ void YamlReader::Field(const Key& key, std::vector<Vec2>& value, Need need,
     return;
   }
   if (!node->IsSequence()) {
-    Complain(*node, Dotted(key.name),
+    AddError(*node, Dotted(key.name),
              fmt::format("expected a list of {}, found {}", shape.many, Describe(*node)));
     return;
   }
@@ -368,7 +359,7 @@ void YamlReader::Field(const Key& key, std::vector<Vec2>& value, Need need,
     const YAML::Node item = (*node)[i];
     const std::string dotted = fmt::format("{}[{}]", Dotted(key.name), i);
     if (!item.IsSequence() || item.size() != 2) {
-      Complain(item, dotted,
+      AddError(item, dotted,
                fmt::format("expected {}, found {}", shape.one,
                            item.IsSequence() ? Numbers(item.size()) : Describe(item)));
       continue;
@@ -387,7 +378,7 @@ void YamlReader::Field(const Key& key, std::vector<double>& value, Need need, Ra
     return;
   }
   if (!node->IsSequence()) {
-    Complain(*node, Dotted(key.name),
+    AddError(*node, Dotted(key.name),
              fmt::format("expected a list of numbers, found {}", Describe(*node)));
     return;
   }
@@ -406,7 +397,7 @@ void YamlReader::Pair(const Key& key, int& first, int& second, Range range) {
     return;
   }
   if (!node->IsSequence() || node->size() != 2) {
-    Complain(*node, Dotted(key.name),
+    AddError(*node, Dotted(key.name),
              fmt::format("expected two whole numbers, found {}",
                          node->IsSequence() ? Numbers(node->size()) : Describe(*node)));
     return;
@@ -418,7 +409,7 @@ void YamlReader::Pair(const Key& key, int& first, int& second, Range range) {
       continue;
     }
     if (number != std::floor(number)) {
-      Complain((*node)[i], dotted, fmt::format("expected a whole number, found {}", number));
+      AddError((*node)[i], dotted, fmt::format("expected a whole number, found {}", number));
       continue;
     }
     (i == 0 ? first : second) = static_cast<int>(number);
@@ -429,14 +420,14 @@ void YamlReader::Finish() {
   Names seen;
   for (const auto& entry : node_) {
     if (!entry.first.IsScalar()) {
-      Complain(entry.first, key_, "a key must be a name");
+      AddError(entry.first, key_, "a key must be a name");
       continue;
     }
     const std::string& name = entry.first.Scalar();
     if (std::find(seen.begin(), seen.end(), name) != seen.end()) {
-      Complain(entry.first, Dotted(name.c_str()), "the key is given twice");
+      AddError(entry.first, Dotted(name.c_str()), "the key is given twice");
     } else if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
-      Complain(entry.first, Dotted(name.c_str()), "unknown key " + UnknownName(name, known_));
+      AddError(entry.first, Dotted(name.c_str()), UnknownKey(name, known_));
       if (const std::string meant = NearestSpelling(name, known_); !meant.empty()) {
         context_.unread.push_back(Dotted(meant.c_str()));
       }

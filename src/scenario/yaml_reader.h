@@ -12,24 +12,11 @@
 #include <variant>
 #include <vector>
 
+#include "src/scenario/reader_context.h"
 #include "trackbed/core/error.h"
 #include "trackbed/options/key_visitor.h"
 
 namespace trackbed {
-
-/// What all readers of one file share.
-struct ReaderContext {
-  std::string file;
-  std::vector<std::string> overridden;  // dotted keys that --set put in
-  std::vector<Problem> problems;
-  std::vector<std::string> unread;  // dotted keys whose value is not known for a problem of theirs
-
-  /// Adds a problem of the key, placed at `mark`, or at --set if that is where the key comes from.
-  void Complain(const YAML::Mark& mark, const std::string& dotted, std::string message);
-
-  /// Whether the key, or some element of it if it is a list, is among what could not be read.
-  [[nodiscard]] bool Read(std::string_view dotted) const;
-};
 
 /// Reads one YAML mapping into a struct by the keys that its `Visit` declares (key_visitor.h).
 /// Finish adds the problems of unknown and repeated keys.
@@ -62,7 +49,7 @@ class YamlReader final : public KeyVisitor {
   void Custom(const Key& key, const char* type, const Read& read) {
     const auto node = Take(key.name, Need::kOptional);
     if (node && node->IsNull()) {
-      Complain(*node, Dotted(key.name), fmt::format("expected a {}, found nothing", type));
+      AddError(*node, Dotted(key.name), fmt::format("expected a {}, found nothing", type));
     } else if (node) {
       read(*node, Dotted(key.name));
     }
@@ -87,7 +74,7 @@ class YamlReader final : public KeyVisitor {
   bool CheckMap(const YAML::Node& node, const std::string& dotted);
   bool ReadFlag(const YAML::Node& node, const std::string& dotted, bool& value);
   bool ReadNumber(const YAML::Node& node, const std::string& dotted, Range range, double& value);
-  void Complain(const YAML::Node& node, const std::string& dotted, std::string message);
+  void AddError(const YAML::Node& node, const std::string& dotted, std::string message);
   /// Describes a value that is no T, with the way out if it only has quotes too many.
   template <typename T>
   static std::string DescribeNo(const YAML::Node& node);

@@ -48,7 +48,7 @@ CompileError Understand(const std::string& message) {
 }
 
 mjModel* Compile(const Scene& scene, const std::string& name) {
-  TameMujoco();
+  InstallMujocoErrorHandlers();
   static_cast<void>(PhysicsVersion());
   const std::unique_ptr<mjVFS, VfsDeleter> vfs(new mjVFS);  // too large for the stack
   mj_defaultVFS(vfs.get());

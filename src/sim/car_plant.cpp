@@ -158,7 +158,7 @@ void CarPlant::Propel(const Command& command) {
   // A car that is to stand, or whose motor is too weak for the slope, is held by its brakes until
   // it can drive on.
   const bool drives_on = along_gear > 0.0 && DriveLimit() > resistance;
-  const bool stands = Speed() * command.gear < kStandstill;
+  const bool stands = Speed() * command.gear < kAtRestSpeed;
   hold_ = !drives_on && (hold_ || stands);
   if (command.coast && !hold_) {
     data().ctrl[parts.drive_actuator] = 0.0;
@@ -243,7 +243,7 @@ std::array<WheelState, 4> CarPlant::ContactWheels() const {
     const WheelContact& contact = contacts[w];
     // Slip is relative to the speed; near standstill to the speed at which a car counts as
     // standing.
-    const double reference = std::max(std::abs(contact.rolling_speed), kStandstill);
+    const double reference = std::max(std::abs(contact.rolling_speed), kAtRestSpeed);
     wheels[w] = {.normal_force = std::max(0.0, contact.up.dot(forces[w])),
                  .longitudinal_force = contact.forward.dot(forces[w]),
                  .lateral_force = contact.left.dot(forces[w]),

@@ -31,11 +31,11 @@ class ExactPlant final : public Plant {
     }
   }
 
-  void Shift(double left) override { car_.Shift(left); }
+  void ApplyLateralOffset(double left) override { car_.ApplyLateralOffset(left); }
 
-  void Push(double force) override {
-    if constexpr (requires { car_.Push(force); }) {
-      car_.Push(force * model_.timestep());
+  void ApplyLateralForce(double force) override {
+    if constexpr (requires { car_.ApplyLateralForce(force); }) {
+      car_.ApplyLateralForce(force * model_.timestep());
     }
   }
 

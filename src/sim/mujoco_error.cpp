@@ -7,7 +7,7 @@
 
 namespace trackbed {
 
-void TameMujoco() {
+void InstallMujocoErrorHandlers() {
   // Once: other threads may be using them.
   static const bool tamed = [] {
     mju_user_error = [](const char* message) {

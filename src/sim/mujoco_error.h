@@ -4,6 +4,6 @@ namespace trackbed {
 
 /// Makes MuJoCo's fatal errors throw RunError instead of waiting on stdin, and keeps its warnings
 /// off the terminal (they stay counted in mjData). Idempotent; call before anything else of MuJoCo.
-void TameMujoco();
+void InstallMujocoErrorHandlers();
 
 }  // namespace trackbed

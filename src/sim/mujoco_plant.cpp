@@ -156,13 +156,13 @@ void MujocoPlant::PushByAir() {
   const Vector3d force_W = R_WV * Vector3d(pressure * air_V.x() * car.drag_area,
                                            pressure * air_V.y() * car.side_area, 0.0);
   const Vector3d at_W = Vec(ChassisPosition()) +
-                        R_WV * Vector3d(car.centre_of_pressure[0], 0.0, car.centre_of_pressure[1]);
+                        R_WV * Vector3d(car.center_of_pressure[0], 0.0, car.center_of_pressure[1]);
   const std::array<mjtNum, 3> no_moment{};
   mj_applyFT(model_.get(), data_.get(), force_W.data(), no_moment.data(), at_W.data(),
              car_.chassis().chassis, data_->qfrc_applied);
 }
 
-void MujocoPlant::Shift(double left) {
+void MujocoPlant::ApplyLateralOffset(double left) {
   mjtNum* at = data_->qpos + car_.chassis().chassis_qpos;
   const Vec2 from(at[0], at[1]);
   const Vec2 to = from + left * LeftOf(Direction(Yaw()));
@@ -214,7 +214,7 @@ VehicleState MujocoPlant::Observe() const {
   const double cg_speed = ahead.dot(v_cg_W.head<2>());
   // A direction of motion needs motion: at rest the angle would be that of rounding errors.
   state.sideslip =
-      v_cg_W.head<2>().norm() < kStandstill ? 0.0 : std::atan(state.lateral_speed / cg_speed);
+      v_cg_W.head<2>().norm() < kAtRestSpeed ? 0.0 : std::atan(state.lateral_speed / cg_speed);
   const Wheels wheels = ObserveWheels();
   state.steering_actuator = wheels.actuator;
   state.steering = wheels.steering;

@@ -14,16 +14,13 @@
 
 namespace trackbed {
 
-/// Below this a vehicle counts as standing and is held by its brakes [m/s].
-inline constexpr double kStandstill = 0.01;
-
 /// What the plants of MuJoCo have in common, whatever moves the vehicle: its state, the road, the
 /// air and what pushes it.
 class MujocoPlant : public Plant {
  public:
   void Step(const Command& command) final;
-  void Shift(double left) final;
-  void Push(double force) final { push_ = force; }
+  void ApplyLateralOffset(double left) final;
+  void ApplyLateralForce(double force) final { push_ = force; }
   [[nodiscard]] VehicleState Observe() const final;
   [[nodiscard]] Pose2 pose() const final;
   [[nodiscard]] double obstacle_force() const final;

@@ -95,9 +95,9 @@ void PartsReader::ReadAerodynamics() {
   CarAerodynamics& air = chassis_.aerodynamics;
   numerics_.Read("drag_area", air.drag_area);
   numerics_.Read("side_area", air.side_area);
-  air.centre_of_pressure = {params_.cg_to_rear, chassis_.cg_height};
+  air.center_of_pressure = {params_.cg_to_rear, chassis_.cg_height};
   if (const mjtNum* at = numerics_.Find("centre_of_pressure", 2)) {
-    air.centre_of_pressure = {at[0], at[1]};
+    air.center_of_pressure = {at[0], at[1]};
   }
   if (!(air.drag_area >= 0.0 && air.side_area >= 0.0)) {
     Complain("drag_area", "drag_area and side_area must not be negative");

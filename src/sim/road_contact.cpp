@@ -72,11 +72,11 @@ RoadContact::RoadContact(const CarModel& car, mjModel& model)
   }
 }
 
-RoadContact::Touch RoadContact::Find(std::size_t wheel, const Vector3d& centre_W,
+RoadContact::Touch RoadContact::Find(std::size_t wheel, const Vector3d& center_W,
                                      const Matrix3d& R_WT) const {
   const Ground& ground = car_.scene().ground;
   Touch touch;
-  Vec2 under = centre_W.head<2>();
+  Vec2 under = center_W.head<2>();
   double share = 1.0;
   Vec2 last = Vec2::Zero();
   // The ground's normal leans by less than the tyre's lowest point moves on: this contracts by
@@ -85,7 +85,7 @@ RoadContact::Touch RoadContact::Find(std::size_t wheel, const Vector3d& centre_W
     touch.normal_W = GroundNormal(ground, under);
     const Vector3d squares = half_axes_T[wheel].cwiseProduct(half_axes_T[wheel]);
     const Vector3d normal_T = R_WT.transpose() * touch.normal_W;
-    touch.lowest_W = centre_W - R_WT * squares.cwiseProduct(normal_T) /
+    touch.lowest_W = center_W - R_WT * squares.cwiseProduct(normal_T) /
                                     std::sqrt(squares.dot(normal_T.cwiseProduct(normal_T)));
     const Vec2 move = touch.lowest_W.head<2>() - under;
     if (move.norm() < 1e-8) {
@@ -114,15 +114,15 @@ void RoadContact::Place(mjModel& model, mjData& data) const {
   const std::span<const int> tyres = car_.tyres();
   for (std::size_t w = 0; w < tyres.size(); ++w) {
     const int tyre = tyres[w];
-    const Vector3d centre_W(data.geom_xpos + 3 * tyre);
+    const Vector3d center_W(data.geom_xpos + 3 * tyre);
     const Matrix3d R_WT =
         Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data.geom_xmat + 9 * tyre);
-    const double gap = Find(w, centre_W, R_WT).gap;
+    const double gap = Find(w, center_W, R_WT).gap;
     // The plane leans as the ground does half way through the step: what the tyre then moves along
     // it ends on the ground again, to second order. Its distance is that of the ground now.
     const Vector3d half_way =
-        0.5 * model.opt.timestep * (Vector3d(velocity) + w_W.cross(centre_W - origin_W));
-    const Touch ahead = Find(w, centre_W + half_way, R_WT);
+        0.5 * model.opt.timestep * (Vector3d(velocity) + w_W.cross(center_W - origin_W));
+    const Touch ahead = Find(w, center_W + half_way, R_WT);
     // A tyre with a margin is a spring that reaches beyond its shape: it forgets nothing.
     const bool rigid = model.geom_margin[tyre] == 0.0;
     const double distance = rigid && gap > 0.0 && gap < kTouching ? kTouch : gap;

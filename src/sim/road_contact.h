@@ -35,7 +35,7 @@ class RoadContact {
     double gap;  ///< from the ground to that point along the normal [m]
   };
 
-  [[nodiscard]] Touch Find(std::size_t wheel, const Eigen::Vector3d& centre_W,
+  [[nodiscard]] Touch Find(std::size_t wheel, const Eigen::Vector3d& center_W,
                            const Eigen::Matrix3d& R_WT) const;
 
   const CarModel& car_;

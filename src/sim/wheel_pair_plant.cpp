@@ -33,7 +33,7 @@ class WheelPairPlant final : public MujocoPlant {
                  .At(timestep);
     const double along_gear = command.coast ? 0.0 : command.acceleration * command.gear;
     const double speed = command.gear * Speed();
-    const bool hold = along_gear <= 0.0 && speed < kStandstill;
+    const bool hold = along_gear <= 0.0 && speed < kAtRestSpeed;
     if (command.coast && !hold) {
       Coast();
       return;

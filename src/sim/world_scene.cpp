@@ -43,7 +43,7 @@ HeightField Sample(const Feature& feature, const Ground& ground) {
   std::vector<double> heights;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
-      const Vec2 p = ToWorld(box.centre, {(column / (columns - 1.0) - 0.5) * box.length,
+      const Vec2 p = ToWorld(box.center, {(column / (columns - 1.0) - 0.5) * box.length,
                                           (row / (rows - 1.0) - 0.5) * box.width});
       heights.push_back(ground.grade.dot(p) + Rise(feature, p));
     }
@@ -121,12 +121,12 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
     if (rgba != nullptr) {
       geom.SetAttribute("rgba", rgba);
     }
-    Place(geom, {box.centre.x, box.centre.y, field.lowest}, Upright(Vec2::Zero(), box.centre.yaw));
+    Place(geom, {box.center.x, box.center.y, field.lowest}, Upright(Vec2::Zero(), box.center.yaw));
   };
   for (const Bump& bump : ground.bumps) {
     add(bump, "1 0.93 0.68 1");  // one would hardly see it
   }
-  for (const SideSlope& side_slope : ground.side_slopes) {
+  for (const Superelevation& side_slope : ground.side_slopes) {
     add(side_slope, nullptr);
   }
   if (count > 0) {
@@ -220,8 +220,8 @@ Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const 
   for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
     const Obstacle& obstacle = world.obstacles[i];
     const OrientedBox& box = obstacle.footprint;
-    const Vec2 place = box.centre.position();
-    const Eigen::Quaterniond turn = Upright(GroundSlope(world.ground, place), box.centre.yaw);
+    const Vec2 place = box.center.position();
+    const Eigen::Quaterniond turn = Upright(GroundSlope(world.ground, place), box.center.yaw);
     const Eigen::Vector3d up = turn * Eigen::Vector3d(0.0, 0.0, 0.5 * obstacle.height);
     const std::string name = fmt::format("obstacle_{}", i);
     XMLElement* parent = bodies;

@@ -137,7 +137,7 @@ void PrintTo(const PlantComparison& comparison, std::ostream* out) {
       comparison.steering.max);
 }
 
-testing::Matcher<const PlantComparison&> PartsAtMost(const DifferenceBounds& bounds) {
+testing::Matcher<const PlantComparison&> DiffersByAtMost(const DifferenceBounds& bounds) {
   return PartsAtMostMatcher(bounds);
 }
 

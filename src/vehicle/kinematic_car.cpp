@@ -34,7 +34,7 @@ void KinematicCar::Step(const Command& command, double duration) {
   acceleration_ = motion.acceleration;
 }
 
-void KinematicCar::Shift(double left) {
+void KinematicCar::ApplyLateralOffset(double left) {
   const Vec2 to = ToWorld(state_.pose, {0.0, left});
   state_.pose.x = to.x();
   state_.pose.y = to.y();
@@ -86,7 +86,7 @@ VehicleState KinematicCar::FullState() const {
   double speed = state_.speed;
   double acceleration = acceleration_;
   Pose2 pose = state_.pose;
-  if (reference_ == ReferencePoint::kCentreOfGravity) {
+  if (reference_ == ReferencePoint::kCenterOfGravity) {
     const double cosine = std::cos(slip);
     const double slip_rate = l_g * curvature_rate * cosine * cosine;
     speed = state_.speed * cosine;

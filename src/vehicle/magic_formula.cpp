@@ -11,7 +11,7 @@ namespace {
 constexpr double kCamberSign = 5e-4;
 /// Tyres are measured to some 6 degrees; beyond, the formula's square in the camber would let a car
 /// that tips over hold ever better [rad].
-constexpr double kMostCamber = 0.1;
+constexpr double kMaxCamber = 0.1;
 
 /// f(u) = C atan(u - E (u - atan u)).
 double Shape(double c, double e, double u) {
@@ -103,7 +103,7 @@ TyreForce ForceOf(const MagicFormula& t, double load, double road, const TyreSli
   if (!(load > 0.0)) {
     return {};
   }
-  const double gamma = std::clamp(slip.camber, -kMostCamber, kMostCamber);
+  const double gamma = std::clamp(slip.camber, -kMaxCamber, kMaxCamber);
   const double side = slip.shift * gamma / std::hypot(gamma, kCamberSign);  // sgn gamma
   const double lean = std::abs(gamma);
   const double load_change = LoadChange(t, load);

@@ -73,13 +73,13 @@ void SingleTrackCar::Step(const Command& command, double duration) {
   acceleration_ = motion.acceleration;
 }
 
-void SingleTrackCar::Shift(double left) {
+void SingleTrackCar::ApplyLateralOffset(double left) {
   const Vec2 to = ToWorld(state_.pose, {0.0, left});
   state_.pose.x = to.x();
   state_.pose.y = to.y();
 }
 
-void SingleTrackCar::Push(double impulse) {
+void SingleTrackCar::ApplyLateralForce(double impulse) {
   if (state_.speed != 0.0) {
     state_.lateral_speed += impulse / params_.mass;
   }

@@ -14,7 +14,7 @@ double FaultySteering::Pass(double wanted) {
   on_the_way_.push_back(faults_.factor * wanted);
   const double arrived = on_the_way_.front();
   on_the_way_.pop_front();
-  const double play = 0.5 * faults_.dead_band;
+  const double play = 0.5 * faults_.backlash;
   given_ = std::clamp(given_, arrived - play, arrived + play);
   return given_;
 }

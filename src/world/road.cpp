@@ -44,16 +44,16 @@ Lift Product(const Pose2& pose, double height, const Profile& along, const Profi
 }
 
 Lift LiftOf(const Bump& bump, const Vec2& point_W) {
-  const Vec2 p = ToLocal(bump.area.centre, point_W);
+  const Vec2 p = ToLocal(bump.area.center, point_W);
   const double half_length = 0.5 * bump.area.length;
   const double half_width = 0.5 * bump.area.width;
-  return Product(bump.area.centre, bump.height,
+  return Product(bump.area.center, bump.height,
                  ComesDownOnBothSides(p.x(), half_length, half_length),
                  ComesDownOnBothSides(p.y(), half_width, std::min(bump.edge, half_width)));
 }
 
-Lift LiftOf(const SideSlope& stretch, const Vec2& point_W) {
-  const Vec2 p = ToLocal(stretch.area.centre, point_W);
+Lift LiftOf(const Superelevation& stretch, const Vec2& point_W) {
+  const Vec2 p = ToLocal(stretch.area.center, point_W);
   const double half_length = 0.5 * stretch.area.length;
   const double width = stretch.area.width;
   const double up = std::copysign(1.0, stretch.slope);  // the sign of v uphill
@@ -65,7 +65,7 @@ Lift LiftOf(const SideSlope& stretch, const Vec2& point_W) {
   } else if (w > 0.0) {
     across = {w, up};
   }
-  return Product(stretch.area.centre, std::abs(stretch.slope),
+  return Product(stretch.area.center, std::abs(stretch.slope),
                  ComesDownOnBothSides(p.x(), half_length, std::min(stretch.run_in, half_length)),
                  across);
 }
@@ -96,7 +96,7 @@ double Rise(const Bump& bump, const Vec2& point_W) {
   return LiftOf(bump, point_W).height;
 }
 
-double Rise(const SideSlope& side_slope, const Vec2& point_W) {
+double Rise(const Superelevation& side_slope, const Vec2& point_W) {
   return LiftOf(side_slope, point_W).height;
 }
 
@@ -104,11 +104,11 @@ OrientedBox Extent(const Bump& bump) {
   return bump.area;
 }
 
-OrientedBox Extent(const SideSlope& side_slope) {
+OrientedBox Extent(const Superelevation& side_slope) {
   const OrientedBox& area = side_slope.area;
   const Vec2 middle =
-      ToWorld(area.centre, {0.0, std::copysign(0.5 * area.width, side_slope.slope)});
-  return {{middle.x(), middle.y(), area.centre.yaw}, area.length, 2.0 * area.width};
+      ToWorld(area.center, {0.0, std::copysign(0.5 * area.width, side_slope.slope)});
+  return {{middle.x(), middle.y(), area.center.yaw}, area.length, 2.0 * area.width};
 }
 
 double GroundHeight(const Ground& ground, const Vec2& point_W) {

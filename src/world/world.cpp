@@ -53,14 +53,14 @@ std::optional<double> Clearance(const World& world, const VehicleParams& vehicle
     return std::nullopt;
   }
   const OrientedBox outline = OutlineAt(vehicle, pose);
-  const Vec2 middle = outline.centre.position();
+  const Vec2 middle = outline.center.position();
   const double radius = 0.5 * std::hypot(outline.length, outline.width);
   double nearest = std::numeric_limits<double>::infinity();
   for (const Obstacle& obstacle : world.obstacles) {
     const OrientedBox box = FootprintAt(obstacle, time);
     // Circles around both tell of most boxes that they are not the nearest.
     const double circles = nearest + radius + 0.5 * std::hypot(box.length, box.width);
-    if ((box.centre.position() - middle).squaredNorm() < circles * circles) {
+    if ((box.center.position() - middle).squaredNorm() < circles * circles) {
       nearest = std::min(nearest, Distance(outline, box));
     }
   }

@@ -37,7 +37,7 @@ TEST(Turns, OfTheKinematicCarAreAsPredicted) {
 
 TEST(Turns, SayWhereAndWhenTheyWereMeasured) {
   const RunResult run = RunMission(Load("three_turns", {"drive.plants=[kinematic]"}));
-  const std::vector<LoneTurn>& planned = run.plan.turns;
+  const std::vector<IsolatedTurn>& planned = run.plan.turns;
   const std::vector<TurnMetrics>& turns = run.metrics[0].turns;
   ASSERT_EQ(turns.size(), planned.size());
   for (std::size_t i = 0; i < turns.size(); ++i) {

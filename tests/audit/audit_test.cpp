@@ -32,7 +32,7 @@ namespace {
 /// Twice every planner with every controller on every plant: 8 of each of the first two.
 constexpr std::size_t kDefaultScenarios = 768;
 constexpr std::size_t kShards = 16;
-constexpr int kMostAttempts = 50;
+constexpr int kMaxAttempts = 50;
 
 std::optional<std::size_t> NumberFrom(const char* variable) {
   const char* text = std::getenv(variable);
@@ -67,7 +67,7 @@ struct Outcome {
 /// The first attempt that the program does not refuse as wrong input.
 Outcome AuditOf(std::size_t index) {
   Outcome outcome;
-  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+  for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
     outcome.scenario = RandomScenario(index, attempt);
     try {
       outcome.record = RecordRun(outcome.scenario);

@@ -198,7 +198,7 @@ struct Generator {
     }
     if (dice.Chance(0.15)) {
       std::vector<AvoiderOptions> avoiders;  // the others may be driven into what they know of
-      for (const AvoiderEntry& entry : Avoiders()) {
+      for (const AvoiderEntry& entry : LocalPlanners()) {
         if (entry.keeps_clear) {
           avoiders.push_back(entry.defaults);
         }
@@ -244,7 +244,7 @@ struct Generator {
       obstacle.footprint.length = size * dice.Logarithmic(0.2, 5.0);
       obstacle.footprint.width = size * dice.Logarithmic(0.05, 3.0);
       obstacle.height = size;
-      obstacle.footprint.centre.yaw = dice.Between(-kPi, kPi);
+      obstacle.footprint.center.yaw = dice.Between(-kPi, kPi);
       const double chance = dice.Between(0.0, 1.0);
       const double heading = dice.Between(-kPi, kPi);
       const Vec2 direction(std::cos(heading), std::sin(heading));
@@ -255,12 +255,12 @@ struct Generator {
         // Thin and fast enough to be on one side of the car at one control period and on the other
         // at the next.
         obstacle.footprint.length = size * 0.05;
-        obstacle.footprint.centre.yaw = heading;
+        obstacle.footprint.center.yaw = heading;
         obstacle.velocity = size * dice.Between(20.0, 80.0) * direction;
         at -= obstacle.velocity * dice.Between(0.5, 8.0);
       }
-      obstacle.footprint.centre.x = at.x();
-      obstacle.footprint.centre.y = at.y();
+      obstacle.footprint.center.x = at.x();
+      obstacle.footprint.center.y = at.y();
       if (dice.Chance(0.25)) {
         obstacle.known_from_range = size * dice.Between(2.0, 30.0);
       } else if (dice.Chance(0.1)) {

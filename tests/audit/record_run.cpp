@@ -99,7 +99,7 @@ Mission MissionFrom(const trackbed::Scenario& scenario) {
       scenario.plan && (trackbed::PlannerFor(scenario.plan->global).keeps_clear);
   for (const trackbed::Obstacle& obstacle : scenario.world.obstacles) {
     const trackbed::OrientedBox& box = obstacle.footprint;
-    mission.obstacles.push_back({{0.0, box.centre.x, box.centre.y, box.centre.yaw},
+    mission.obstacles.push_back({{0.0, box.center.x, box.center.y, box.center.yaw},
                                  box.length,
                                  box.width,
                                  {obstacle.velocity.x(), obstacle.velocity.y()}});

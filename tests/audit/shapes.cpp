@@ -73,10 +73,10 @@ double Gap(const Quad& a, const Quad& b) {
 }
 
 Quad Box::CornersAt(double t) const {
-  const double passed = t - centre.t;
+  const double passed = t - center.t;
   return audit::CornersAt(
       {-0.5 * length, 0.5 * length, width},
-      {t, centre.x + passed * velocity.x, centre.y + passed * velocity.y, centre.yaw});
+      {t, center.x + passed * velocity.x, center.y + passed * velocity.y, center.yaw});
 }
 
 Nearest SweptGap(const Rectangle& outline, const std::vector<TimedPose>& poses, const Box& box,

@@ -42,7 +42,7 @@ double Gap(const Quad& a, const Quad& b);
 
 /// A box that moves at a constant velocity without turning.
 struct Box {
-  TimedPose centre;     ///< at its time t
+  TimedPose center;     ///< at its time t
   double length = 0.0;  ///< along its own x [m]
   double width = 0.0;   ///< [m]
   Point velocity;       ///< [m/s]

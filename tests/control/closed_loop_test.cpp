@@ -49,7 +49,7 @@ namespace {
 
 /// A state of a car, and what it follows.
 struct Case {
-  VehicleParams vehicle = SeedCar();
+  VehicleParams vehicle = ReferenceCar();
   Reference reference;
   VehicleState state;
   double station = 0.0;
@@ -67,7 +67,7 @@ double Steer(const ControllerOptions& options, const Case& at) {
 /// Anywhere near a path of any shape, on any of the cars.
 Case RandomCase(Random& random, int direction = 1) {
   Case at;
-  at.vehicle = random.Uniform(0.0, 1.0) < 0.5 ? SeedCar() : SeedCarWithTyres();
+  at.vehicle = random.Uniform(0.0, 1.0) < 0.5 ? ReferenceCar() : ReferenceCarWithTyres();
   std::vector<Segment> segments;
   for (int i = 0; i < 6; ++i) {
     segments.push_back({.length = random.Uniform(5.0, 30.0),
@@ -205,7 +205,7 @@ TEST_P(EveryFollower, ComesBackFromMetresAway) {
   }
   for (const ControllerOptions& options : all) {
     for (const double offset : {1.5, -4.0}) {
-      for (const VehicleParams& vehicle : {SeedCar(), SeedCarWithTyres()}) {
+      for (const VehicleParams& vehicle : {ReferenceCar(), ReferenceCarWithTyres()}) {
         SCOPED_TRACE(fmt::format("offset {}, {}", offset, vehicle.cornering_stiffness_front));
         LoopSetup setup;
         setup.vehicle = vehicle;
@@ -256,7 +256,7 @@ TEST_P(EveryFollower, GoesOnAlongTheEndTangent) {
 
 TEST_P(EveryFollower, StandsAndCrawlsWithoutTurningItsWheelsAbout) {
   // On its path, at rest and up to 1 m/s.
-  for (const VehicleParams& vehicle : {SeedCar(), SeedCarWithTyres()}) {
+  for (const VehicleParams& vehicle : {ReferenceCar(), ReferenceCarWithTyres()}) {
     for (const double speed : {0.0, 1e-6, 0.01, 0.3, 1.0}) {
       Case at;
       at.vehicle = vehicle;
@@ -340,7 +340,7 @@ TEST_P(AnyController, TakesNoHeapMemoryAfterItsFirstStep) {
   if (std::string(GetParam().name) == "optimal_steering") {
     GTEST_SKIP() << "searches, see TakeNLoptsMemoryAlone";
   }
-  for (const VehicleParams& vehicle : {SeedCar(), SeedCarWithTyres()}) {
+  for (const VehicleParams& vehicle : {ReferenceCar(), ReferenceCarWithTyres()}) {
     EXPECT_EQ(AllocationsOf(GetParam().defaults, vehicle, 0.0, 0.003), 0);
   }
 }
@@ -351,15 +351,15 @@ constexpr long kOfOneCall = 30;
 
 TEST(ControllersThatSearch, TakeNLoptsMemoryAlone) {
   // A program with limits in the way is solved once or twice in each of the 199 periods.
-  const long of_mpc = AllocationsOf(MpcOptions{}, SeedCar(), 1.0, 0.05);
+  const long of_mpc = AllocationsOf(MpcOptions{}, ReferenceCar(), 1.0, 0.05);
   EXPECT_GT(of_mpc, 0);
   EXPECT_LT(of_mpc, 199 * 2 * kOfOneCall);
   // One search in each period, whatever it evaluates; none on a straight.
   const OptimalSteeringOptions searching{.deviation_limit = 0.0};
-  const long of_search = AllocationsOf(searching, SeedCar(), 0.1, 0.05);
+  const long of_search = AllocationsOf(searching, ReferenceCar(), 0.1, 0.05);
   EXPECT_GT(of_search, 0);
   EXPECT_LT(of_search, 199 * kOfOneCall);
-  EXPECT_EQ(AllocationsOf(OptimalSteeringOptions{}, SeedCar(), 0.0, 0.0), 0);
+  EXPECT_EQ(AllocationsOf(OptimalSteeringOptions{}, ReferenceCar(), 0.0, 0.0), 0);
 }
 
 }  // namespace

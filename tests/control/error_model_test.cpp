@@ -47,11 +47,11 @@ class Situation {
 };
 
 std::vector<VehicleParams> Cars() {
-  return {SeedCar(), SeedCarWithTyres()};
+  return {ReferenceCar(), ReferenceCarWithTyres()};
 }
 
 TEST(SteadyTurn, IsWhereTheSingleTrackCarSettles) {
-  const VehicleParams car = SeedCarWithTyres();
+  const VehicleParams car = ReferenceCarWithTyres();
   for (const double curvature : {0.02, -0.05, 0.15}) {
     for (const double speed : {2.0, 8.0, -3.0}) {
       SCOPED_TRACE(fmt::format("curvature {}, speed {}", curvature, speed));
@@ -99,7 +99,7 @@ TEST(ErrorModel, RunsAsTheCarDoesNearItsPath) {
   // model leaves out are squares, 1e-6 of each, and cubes of the steering angle.
   for (const double speed : {2.0, 10.0, 20.0, -2.0}) {
     SCOPED_TRACE(speed);
-    VehicleParams car = SeedCarWithTyres();
+    VehicleParams car = ReferenceCarWithTyres();
     car.steering_lag = 0.0;
     Situation situation(car, speed, 0.0);
     VehicleState& state = situation.state;
@@ -155,7 +155,7 @@ TEST(Regulator, SolvesTheRiccatiEquationAndIsStable) {
 
 TEST(Regulator, CostsWhatItSays) {
   // Driven to the end, the sum of the costs is x^T P x.
-  const Situation situation(SeedCarWithTyres(), 10.0, 0.0);
+  const Situation situation(ReferenceCarWithTyres(), 10.0, 0.0);
   const ControlInput input = situation.input();
   const ErrorModel model = ErrorModelOf(input, TrackingOf(input), 0.05);
   const ErrorWeights weights;
@@ -172,7 +172,7 @@ TEST(Regulator, CostsWhatItSays) {
 }
 
 TEST(Ahead, MovesTheSteadyTurnToTheCurvatureAhead) {
-  const VehicleParams car = SeedCarWithTyres();
+  const VehicleParams car = ReferenceCarWithTyres();
   const Reference reference{Path({}, {{10.0, 0.0, 1}, {50.0, 0.02, 1}}), {}};
   const SteeringSchedule schedule;
   VehicleState state;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/vehicle/kinematic_car.h"
@@ -13,8 +13,8 @@
 namespace trackbed {
 
 /// The reference car on tyres: a Prius's, understeering by 0.002 rad per m/s^2.
-inline VehicleParams SeedCarWithTyres() {
-  VehicleParams car = SeedCar();
+inline VehicleParams ReferenceCarWithTyres() {
+  VehicleParams car = ReferenceCar();
   car.yaw_inertia = 2200.0;
   car.cornering_stiffness_front = 90000.0;
   car.cornering_stiffness_rear = 110000.0;
@@ -23,7 +23,7 @@ inline VehicleParams SeedCarWithTyres() {
 }
 
 struct LoopSetup {
-  VehicleParams vehicle = SeedCar();
+  VehicleParams vehicle = ReferenceCar();
   Path path;
   Pose2 start;
   double speed = 3.0;  ///< [m/s], signed

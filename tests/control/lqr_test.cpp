@@ -28,7 +28,7 @@ TEST(Lqr, SettlesOnACircleWithoutErrorAtAnySpeed) {
   for (const double speed : {3.0, 10.0, 20.0}) {
     SCOPED_TRACE(speed);
     LoopSetup setup;
-    setup.vehicle = SeedCarWithTyres();
+    setup.vehicle = ReferenceCarWithTyres();
     setup.path = Ramps(4.0 / std::max(speed * speed, 40.0));
     setup.speed = speed;
     setup.duration = 200.0 / speed;
@@ -40,7 +40,7 @@ TEST(Lqr, SettlesOnACircleWithoutErrorAtAnySpeed) {
 TEST(Lqr, SeesRampsComing) {
   // With preview it is nearer to the path than without.
   LoopSetup setup;
-  setup.vehicle = SeedCarWithTyres();
+  setup.vehicle = ReferenceCarWithTyres();
   setup.path = Ramps(0.01);
   setup.speed = 20.0;
   setup.duration = 8.0;

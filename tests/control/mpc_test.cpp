@@ -31,7 +31,7 @@ TEST(Mpc, IsTheRegulatorWhereNoLimitIsInTheWay) {
   Random random(91);
   const double period = 0.1;
   for (int i = 0; i < 100; ++i) {
-    VehicleParams car = i % 2 == 0 ? SeedCar() : SeedCarWithTyres();
+    VehicleParams car = i % 2 == 0 ? ReferenceCar() : ReferenceCarWithTyres();
     car.steering_rate = 100.0;
     car.steering_limit = 1.5;
     const int direction = i % 5 == 0 ? -1 : 1;
@@ -91,12 +91,12 @@ TEST(Mpc, KeepsRateAndAngle) {
   setup.path = Path({}, {{30.0, 0.0, 1}, {12.0, 0.19, 1}, {100.0, 0.0, 1}});
   setup.start = {0.0, 1.5, 0.3};
   setup.duration = 30.0;
-  const double most = SeedCar().steering_rate * setup.period;
+  const double most = ReferenceCar().steering_rate * setup.period;
   double before = 0.0;
   bool at_rate = false;
   for (const LoopRow& row : Loop(MpcOptions{}, setup)) {
     EXPECT_LE(std::abs(row.wanted - before), most + Tolerance(1e-12));
-    EXPECT_LE(std::abs(row.wanted), SeedCar().steering_limit);
+    EXPECT_LE(std::abs(row.wanted), ReferenceCar().steering_limit);
     at_rate = at_rate || std::abs(std::abs(row.wanted - before) - most) < 1e-9;
     before = row.wanted;
   }
@@ -106,7 +106,7 @@ TEST(Mpc, KeepsRateAndAngle) {
 TEST(Mpc, SmallLimitsAreKeptByThePlanToo) {
   // A car that can turn its wheels by 0.02 rad is held on a circle of 0.01 1/m, which takes 0.027:
   // it plans with full lock and no more.
-  VehicleParams car = SeedCar();
+  VehicleParams car = ReferenceCar();
   car.steering_limit = 0.02;
   LoopSetup setup;
   setup.vehicle = car;

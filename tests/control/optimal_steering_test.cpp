@@ -13,7 +13,7 @@
 
 #include "tests/geometry/random.h"
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/angle.h"
@@ -56,7 +56,7 @@ void ExpectNear(const Pose2& actual, const Pose2& expected, double tolerance) {
 }
 
 TEST(PredictPose, WithTheWheelsThereIsACircle) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   const double radius = 2.7 / std::tan(0.2);
   for (const double s : {-7.0, 3.0, 60.0}) {
     ExpectNear(PredictPose(car, 0.2, 0.2, 3.0, s),
@@ -67,7 +67,7 @@ TEST(PredictPose, WithTheWheelsThereIsACircle) {
 }
 
 TEST(PredictPose, IsWhereTheKinematicCarGets) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   Random random(72);
   for (int i = 0; i < 200; ++i) {
     const double steering = random.Uniform(-0.45, 0.45);
@@ -108,7 +108,7 @@ double MatchedDegrees(double speed, Matching matching, SearchMethod method) {
                                .matching = matching};
   // Esch mutates one variable in large steps: it needs ten times as many.
   const int evaluations = method == SearchMethod::kEsch ? 100000 : 0;
-  return MatchSteering(SeedCar(), paper, {.method = method, .evaluations = evaluations}, 1)
+  return MatchSteering(ReferenceCar(), paper, {.method = method, .evaluations = evaluations}, 1)
              .steering /
          kDegree;
 }
@@ -147,11 +147,11 @@ TEST(MatchSteering, FindsTheMirroredAngleOnTheMirroredCircle) {
   CircleExperiment right = left;
   right.primary_steering = -0.15;
   const SearchOptions direct{.method = SearchMethod::kDirect};
-  const double found = MatchSteering(SeedCar(), left, direct, 1).steering;
+  const double found = MatchSteering(ReferenceCar(), left, direct, 1).steering;
   EXPECT_GT(found, 0.15);
   // Direct ends within its tolerance of 1e-9 of the bounds, where the cost is flat to rounding:
   // 1e-16 of some 10 m^2 over a curvature of 1e5 m^2/rad^2 are 1e-10 rad^2.
-  EXPECT_NEAR(MatchSteering(SeedCar(), right, direct, 1).steering, -found, Tolerance(1e-5));
+  EXPECT_NEAR(MatchSteering(ReferenceCar(), right, direct, 1).steering, -found, Tolerance(1e-5));
 }
 
 // --- One search ----------------------------------------------------------------------------------
@@ -183,7 +183,7 @@ double Accuracy(const SearchEntry& search) {
 }
 
 TEST_P(EverySearch, FindsTheAngleThatLeadsToThePose) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   Random random(73);
   for (int i = 0; i < 50; ++i) {
     const double steering = random.Uniform(-0.3, 0.3);
@@ -199,7 +199,7 @@ TEST_P(EverySearch, FindsTheAngleThatLeadsToThePose) {
 }
 
 TEST_P(EverySearch, TurnsTheWheelsAsTheBestAngleOfAGridDoes) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   Random random(74);
   for (int i = 0; i < 100; ++i) {
     // Near a pose that can be reached; far from all of them there are several minima.
@@ -230,7 +230,7 @@ TEST_P(EverySearch, TurnsTheWheelsAsTheBestAngleOfAGridDoes) {
 }
 
 TEST_P(EverySearch, SolvesTheMirroredProblemExactlyAlike) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   Random random(75);
   for (int i = 0; i < 50; ++i) {
     SteeringProblem problem = Problem(car, random.Uniform(-0.4, 0.4), 0.0, 3.0);
@@ -251,7 +251,7 @@ TEST_P(EverySearch, SolvesTheMirroredProblemExactlyAlike) {
 }
 
 TEST_P(EverySearch, LeavesTheBoundOnWhichItBegins) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   SteeringProblem problem = Problem(car, car.steering_limit, car.steering_limit - 0.01, 3.0);
   const SteeringMatch match = SearchSteering(car, problem, {}, Default(GetParam().method));
   EXPECT_NEAR(match.steering, car.steering_limit - 0.01, Tolerance(Accuracy(GetParam())));
@@ -260,7 +260,7 @@ TEST_P(EverySearch, LeavesTheBoundOnWhichItBegins) {
 TEST(TurnShare, IsTheShareOfTheHeading) {
   // From straight on the heading gained over S is (v/(L omega)) (-ln cos delta) + (S - ramp)
   // tan(delta)/L; on small angles a parabola of delta whose vertex is the angle reached at the end.
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   SteeringProblem problem = Problem(car, 0.0, 0.0, 3.0);
   const double most = PredictPose(car, 0.0, 1.0, 3.0, 3.0).yaw;
   for (const double share : {-1.0, -0.3, 0.0, 0.1, 0.5, 0.9, 1.0}) {
@@ -277,7 +277,7 @@ TEST(TurnShare, IsTheShareOfTheHeading) {
 }
 
 TEST(SearchSteering, KeepsItsBoundWhereTheWheelsAreBeyondIt) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   SteeringProblem problem = Problem(car, 0.45, 0.48, 3.0);
   problem.max_steering = 0.1;  // 0.15 rad are reached: still beyond
   EXPECT_EQ(SearchSteering(car, problem, {}, Default(SearchMethod::kNelderMead)).steering, 0.1);
@@ -293,7 +293,7 @@ struct Asked {
 
 double Steer(SteeringController& controller, const Path& path, const Pose2& pose, double station,
              const Asked& asked = {}) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   const Reference reference{path, SpeedProfile({{0.0, 3.0}, {path.length(), 3.0}})};
   const SteeringSchedule schedule;
   VehicleState state;
@@ -353,7 +353,7 @@ TEST(OptimalSteering, SolvesTheLinearProblemOfAStraight) {
   // With the wheels at their angle at once, a car e left of a straight, turned by psi, is after S
   // at e + psi S + kappa S^2/2, turned by psi + kappa S: F is least for
   //   kappa = -((e + psi S) S^2/2 + w psi S)/(S^4/4 + w S^2).
-  VehicleParams quick = SeedCar();
+  VehicleParams quick = ReferenceCar();
   quick.steering_rate = 1e4;
   const double S = 4.0;
   const double w = 3.0;
@@ -388,7 +388,7 @@ TEST(OptimalSteering, KeepsItsOwnLimitAndTheCars) {
   const OptimalSteeringOptions blind{.deviation_limit = 1e3, .max_steering = 0.05};
   EXPECT_EQ(Steer(blind, Bend(), Bend().At(25.0).pose, 25.0), 0.05);
   const OptimalSteeringOptions wide{.horizon = 20.0, .max_steering = 1.4};
-  EXPECT_NEAR(Steer(wide, Bend(), {10.0, 9.0, 1.0}, 10.0), -SeedCar().steering_limit,
+  EXPECT_NEAR(Steer(wide, Bend(), {10.0, 9.0, 1.0}, 10.0), -ReferenceCar().steering_limit,
               Tolerance(1e-6));
 }
 
@@ -473,7 +473,7 @@ struct Trace {
 Trace Follow(const OptimalSteeringOptions& options, const Path& path, const Pose2& start,
              double until) {
   const auto controller = MakeSteeringController(options);
-  KinematicCar car(SeedCar(), ReferencePoint::kRearAxle, {.pose = start, .speed = 3.0});
+  KinematicCar car(ReferenceCar(), ReferencePoint::kRearAxle, {.pose = start, .speed = 3.0});
   Trace trace;
   double s = 0.0;
   while (s < until) {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/error.h"
@@ -61,7 +61,7 @@ TEST(Playback, TakesTheMeanOfTheAcceleration) {
 }
 
 TEST(Playback, ByDistanceTheControllerAsksTheOdometer) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   const Reference reference;
   const SteeringSchedule schedule;
   VehicleState state;
@@ -101,7 +101,7 @@ TEST(Playback, OfAccelerationGivesItsIntegral) {
     acceleration.knots.emplace_back(i / 15.0, 2.0 - 2.0 * i / 15.0);
   }
   const PlaybackOptions options = Replay(PlaybackAxis::kTime, {kSteering, {}, acceleration});
-  KinematicCar car(SeedCar(), ReferencePoint::kRearAxle, {.speed = 10.0});
+  KinematicCar car(ReferenceCar(), ReferencePoint::kRearAxle, {.speed = 10.0});
   for (int i = 0; i < 100; ++i) {
     const double t = 0.02 * i;
     EXPECT_NEAR(car.state().speed, 10.0 + 2.0 * t - t * t, Tolerance(kRounding)) << t;

@@ -44,11 +44,12 @@ double Ramp(const VehicleParams& car, double before, double after, double speed)
 
 TEST(PreviewDistance, OnAStraightIsThreeQuartersOfTheWheelbaseOrThreeResponses) {
   const Path straight({}, {{200.0, 0.0, 1}});
-  EXPECT_NEAR(Distance(SeedCar(), straight, 50.0, 3.0), 0.75 * 2.7, Tolerance(kRounding));
+  EXPECT_NEAR(Distance(ReferenceCar(), straight, 50.0, 3.0), 0.75 * 2.7, Tolerance(kRounding));
   // Fast, without tyres: 3 v T with T = 0.02 s.
-  EXPECT_NEAR(Distance(SeedCar(), straight, 50.0, 60.0), 3.0 * 60.0 * 0.02, Tolerance(kRounding));
+  EXPECT_NEAR(Distance(ReferenceCar(), straight, 50.0, 60.0), 3.0 * 60.0 * 0.02,
+              Tolerance(kRounding));
   // T = 0.02 + 0.01 + 1317 * 20/(90000 + 110000) = 0.1617 s.
-  const VehicleParams car = SeedCarWithTyres();
+  const VehicleParams car = ReferenceCarWithTyres();
   EXPECT_NEAR(ResponseTime(car, 20.0, kPeriod), 0.1617, Tolerance(kRounding));
   EXPECT_NEAR(Distance(car, straight, 50.0, 20.0), 3.0 * 20.0 * 0.1617, Tolerance(kRounding));
   EXPECT_NEAR(Distance(car, straight, 50.0, 20.0, 0.2), 3.0 * 20.0 * 0.3617, Tolerance(kRounding));
@@ -57,7 +58,7 @@ TEST(PreviewDistance, OnAStraightIsThreeQuartersOfTheWheelbaseOrThreeResponses) 
 }
 
 TEST(PreviewDistance, ReachesAStepOfCurvatureAsFarAsTheRampAsks) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   for (const double curvature : {0.05, -0.12}) {
     for (const int direction : {1, -1}) {
       const Path path({}, {{50.0, 0.0, direction}, {50.0, curvature, direction}});
@@ -83,7 +84,7 @@ TEST(PreviewDistance, AddsStepsThatTheWheelsHaveNotTheTimeFor) {
   // From left to right over a straight that takes `gap` off the ramp from one lock to the other.
   // The stations looked at lie up to 0.3 of their distance apart, which is how much of the gap
   // counts.
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   const double speed = 5.0;
   const double one = Ramp(car, 0.0, 0.1, speed);
   const double gap = 2.0;
@@ -95,7 +96,7 @@ TEST(PreviewDistance, AddsStepsThatTheWheelsHaveNotTheTimeFor) {
 
 TEST(PreviewDistance, IsShortWhereTheWheelsCanFollow) {
   // Curvature ramps that ask for 0.8 of the steering rate or less: S = 0.
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   const double speed = 5.0;
   const double sharpness = 0.8 * car.steering_rate / (car.wheelbase * speed);
   const double length = 0.1 / sharpness;
@@ -111,7 +112,7 @@ TEST(PreviewDistance, IsShortWhereTheWheelsCanFollow) {
 
 TEST(PreviewDistance, LooksNeitherBeyondTheEndsNorOverACusp) {
   // Beyond its ends a path is straight, and at a cusp the wheels turn while the car stands.
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   const Path arc({}, {{20.0, 0.1, 1}});
   const Path cusp({}, {{20.0, 0.1, 1}, {20.0, -0.1, -1}});
   for (const double s : {0.0, 0.5, 10.0, 19.9, 20.0}) {
@@ -138,7 +139,7 @@ double ErrorOnTurn(const ControllerOptions& options, const VehicleParams& car, d
 
 /// A tenth of the car, with wheels that turn four times as fast.
 VehicleParams TenthOfACar() {
-  VehicleParams car = SeedCar();
+  VehicleParams car = ReferenceCar();
   car.wheelbase *= 0.1;
   car.cg_to_rear *= 0.1;
   car.steering_rate *= 4.0;
@@ -151,7 +152,7 @@ TEST(PreviewDistance, ErrorsScaleWithTheCar) {
        {ControllerOptions(PreviewOptions{}), ControllerOptions(PreviewIntegralOptions{}),
         ControllerOptions(PurePursuitOptions{}), ControllerOptions(StanleyOptions{})}) {
     SCOPED_TRACE(ControllerFor(options).name);
-    const double large = ErrorOnTurn(options, SeedCar(), 20.0, 1.6, 2.0);
+    const double large = ErrorOnTurn(options, ReferenceCar(), 20.0, 1.6, 2.0);
     const double small = ErrorOnTurn(options, TenthOfACar(), 2.0, 1.6, 0.8, 0.25 * kPeriod);
     EXPECT_GT(large, 0.01);
     // The point ahead is found to 1e-13 of the station, and the loop is stable.
@@ -168,11 +169,12 @@ TEST(PreviewDistance, KeepsATenthOfACarOnItsCorner) {
 
 TEST(PreviewDistance, KeepsTheCarInASharpSlowTurn) {
   // 170 degrees near full lock at 1 m/s: the ramp, S = 3.3 m, leads off by S^2/(24 r) = 0.09 m.
-  EXPECT_LT(ErrorOnTurn(PreviewOptions{}, SeedCar(), 5.2, 2.97, 1.0), 0.15);
+  EXPECT_LT(ErrorOnTurn(PreviewOptions{}, ReferenceCar(), 5.2, 2.97, 1.0), 0.15);
   // Twice as fast the ramp itself leads off by 0.35 m. A fixed 2.5 m swings out.
-  const double fast = ErrorOnTurn(PreviewOptions{}, SeedCar(), 5.2, 2.97, 2.0);
+  const double fast = ErrorOnTurn(PreviewOptions{}, ReferenceCar(), 5.2, 2.97, 2.0);
   EXPECT_LT(fast, 2.0 * 0.35);
-  EXPECT_GT(ErrorOnTurn(PreviewOptions{.distance = 2.5}, SeedCar(), 5.2, 2.97, 2.0), 1.4 * fast);
+  EXPECT_GT(ErrorOnTurn(PreviewOptions{.distance = 2.5}, ReferenceCar(), 5.2, 2.97, 2.0),
+            1.4 * fast);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace trackbed {
 namespace {
 
 struct At {
-  VehicleParams vehicle = SeedCar();
+  VehicleParams vehicle = ReferenceCar();
   Path path;
   VehicleState state;
 };
@@ -72,7 +72,7 @@ TEST(PreviewIntegral, BesideAStraightIsTheIntegralInClosedForm) {
 TEST(PreviewIntegral, KnowsWhereTheCarSlidesAnyway) {
   // The linear car in its steady turn on a circle of kappa: y_0 + A tan(delta_0) is its own way, so
   // that the law gives delta_0 but for (R kappa)^2 of the circle, and the slip of the rear axle.
-  const VehicleParams car = SeedCarWithTyres();
+  const VehicleParams car = ReferenceCarWithTyres();
   const double speed = 15.0;
   const double curvature = 0.005;
   const double understeer = car.mass *
@@ -96,7 +96,7 @@ TEST(PreviewIntegral, DelayHoldsTheAngleBack) {
   const auto controller = MakeSteeringController(PreviewIntegralOptions{.delay = 0.05});
   const Path straight({}, {{100.0, 0.0, 1}});
   const Reference reference{straight, {}};
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   const SteeringSchedule schedule;
   std::vector<double> given;
   std::vector<double> wanted;
@@ -124,7 +124,7 @@ TEST(PreviewIntegral, ADriverNeedsPreviewForHisDelay) {
   LoopSetup setup;
   setup.path = Path({}, {{600.0, 0.0, 1}});
   setup.start = {0.0, 0.3, 0.0};
-  setup.vehicle = SeedCarWithTyres();
+  setup.vehicle = ReferenceCarWithTyres();
   setup.speed = 15.0;
   setup.duration = 30.0;
   const auto late = [&](double time, double delay) {

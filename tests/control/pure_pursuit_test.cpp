@@ -12,7 +12,7 @@ namespace trackbed {
 namespace {
 
 double Steer(const PurePursuitOptions& options, const Path& path, const Pose2& pose, double speed) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   const Reference reference{path, {}};
   VehicleState state;
   state.pose = pose;

@@ -64,12 +64,12 @@ TEST(Signal, MeanAgreesWithAFineSum) {
 }
 
 TEST(Signal, RisesStrictlyOrNot) {
-  EXPECT_TRUE(kSawtooth.Rises());
-  EXPECT_TRUE(Signal{}.Rises());
-  EXPECT_FALSE((Signal{{{1.0, 0.0}, {1.0, 0.0}}}.Rises()));
-  EXPECT_FALSE((Signal{{{1.0, 0.0}, {0.5, 0.0}}}.Rises()));
-  EXPECT_FALSE((Signal{{{std::nan(""), 0.0}}}.Rises()));
-  EXPECT_FALSE((Signal{{{0.0, std::numeric_limits<double>::infinity()}}}.Rises()));
+  EXPECT_TRUE(kSawtooth.IsStrictlyIncreasing());
+  EXPECT_TRUE(Signal{}.IsStrictlyIncreasing());
+  EXPECT_FALSE((Signal{{{1.0, 0.0}, {1.0, 0.0}}}.IsStrictlyIncreasing()));
+  EXPECT_FALSE((Signal{{{1.0, 0.0}, {0.5, 0.0}}}.IsStrictlyIncreasing()));
+  EXPECT_FALSE((Signal{{{std::nan(""), 0.0}}}.IsStrictlyIncreasing()));
+  EXPECT_FALSE((Signal{{{0.0, std::numeric_limits<double>::infinity()}}}.IsStrictlyIncreasing()));
 }
 
 }  // namespace

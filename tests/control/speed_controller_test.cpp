@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/vehicle/kinematic_car.h"
 
 namespace trackbed {
@@ -87,7 +87,7 @@ TEST(SpeedControl, StopsTheCarAtTheEndOfItsProfile) {
       for (const double start : {0.0, 1.0}) {
         SCOPED_TRACE(fmt::format("period {}, length {}, start {}", period, length, start));
         const SpeedProfile profile = StopAtEnd(length, start, kLimits);
-        KinematicCar car(SeedCar(), ReferencePoint::kRearAxle, {.speed = start});
+        KinematicCar car(ReferenceCar(), ReferencePoint::kRearAxle, {.speed = start});
         for (int i = 0; i < 20000; ++i) {
           const double s = car.state().pose.x;
           car.Step({.acceleration = SpeedControl(kOptions, profile, s, car.state().speed, period)},
@@ -104,7 +104,7 @@ TEST(SpeedControl, StopsTheCarAtTheEndOfItsProfile) {
 TEST(SpeedControl, FollowsItsProfileClosely) {
   // The same error of max(a, b) T/2 at each knot, at most two of them at once.
   const SpeedProfile profile = StopAtEnd(60.0, 0.0, kLimits);
-  KinematicCar car(SeedCar(), ReferencePoint::kRearAxle, {});
+  KinematicCar car(ReferenceCar(), ReferencePoint::kRearAxle, {});
   while (car.state().pose.x < 59.0) {
     const double s = car.state().pose.x;
     ASSERT_NEAR(car.state().speed, profile.SpeedAt(s), Tolerance(2.0 * 1.5 * kPeriod / 2.0));
@@ -154,7 +154,7 @@ TEST(TimedSpeedControl, BrakesFromTheMomentOnHarderThanTheLimits) {
 TEST(TimedSpeedControl, FollowsASpeedThatTheLimitsWouldCut) {
   SpeedControlOptions options = kOptions;
   options.over_time = {{{1.0, 20.0}, {3.0, 4.0}}};
-  KinematicCar car(SeedCar(), ReferencePoint::kRearAxle, {.speed = 20.0});
+  KinematicCar car(ReferenceCar(), ReferencePoint::kRearAxle, {.speed = 20.0});
   for (int i = 0; i < 200; ++i) {
     const double time = i * kPeriod;
     // Without an error the car obeys to rounding, 1e-16 of 20 m/s at each of 200 periods.

@@ -13,7 +13,7 @@ namespace trackbed {
 namespace {
 
 double Steer(const StanleyOptions& options, const Path& path, const Pose2& pose, double speed) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   const Reference reference{path, {}};
   VehicleState state;
   state.pose = pose;
@@ -56,7 +56,7 @@ TEST(Stanley, FrontAxleReturnsExponentially) {
 
 TEST(Stanley, KeepsTheSingleTrackCarInASteadyTurn) {
   // Understeer and the rear axle's slip are in its feed-forward.
-  const VehicleParams car = SeedCarWithTyres();
+  const VehicleParams car = ReferenceCarWithTyres();
   LoopSetup setup;
   setup.vehicle = car;
   setup.path = Path({}, {{.length = 20.0},

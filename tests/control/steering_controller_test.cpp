@@ -12,7 +12,7 @@
 #include "tests/control/loop.h"
 #include "tests/geometry/random.h"
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "tests/vehicle/wheel_pair.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/preview.h"
@@ -34,7 +34,7 @@ constexpr double kFound = 1e-11;
 double Steer(const ControllerOptions& options, const Path& path, const Pose2& pose, double station,
              const SteeringSchedule& schedule = {}, double speed = 3.0, double period = 0.02,
              double time = 0.0) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   const Reference reference{path, StopAtEnd(path.length(), 3.0, {3.0, 1.0, 1.5})};
   VehicleState state;
   state.time = time;
@@ -192,7 +192,7 @@ TEST(PreviewController, WithSlipSteersTheSteadyTurn) {
   // The angle u counts from the velocity. A car with tyres on its circle: the rear axle moves along
   // it, the car heads inward by its slip, and the angle is that of the understeering car,
   // tan(delta) = kappa (L + K v^2).
-  const VehicleParams car = SeedCarWithTyres();
+  const VehicleParams car = ReferenceCarWithTyres();
   const double speed = 15.0;
   const double curvature = 0.01;
   const double force = car.mass * speed * speed * curvature / car.wheelbase;

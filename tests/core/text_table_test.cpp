@@ -64,12 +64,12 @@ TEST(TextTable, RefusesRowsOfAnotherWidth) {
   EXPECT_THROW(TextTable({}), InternalError);
 }
 
-TEST(TextsApart, TakesTheDigitsThatItTakes) {
+TEST(FormatDistinct, TakesTheDigitsThatItTakes) {
   using Texts = std::pair<std::string, std::string>;
-  EXPECT_EQ(TextsApart(0.1, 0.12345678), Texts("0.1", "0.1235"));
-  EXPECT_EQ(TextsApart(0.03703, 0.0370349), Texts("0.03703", "0.037035"));
-  EXPECT_EQ(TextsApart(1.0, std::nextafter(1.0, 2.0)), Texts("1", "1.0000000000000002"));
-  EXPECT_EQ(TextsApart(0.5, 0.5), Texts("0.5", "0.5"));
+  EXPECT_EQ(FormatDistinct(0.1, 0.12345678), Texts("0.1", "0.1235"));
+  EXPECT_EQ(FormatDistinct(0.03703, 0.0370349), Texts("0.03703", "0.037035"));
+  EXPECT_EQ(FormatDistinct(1.0, std::nextafter(1.0, 2.0)), Texts("1", "1.0000000000000002"));
+  EXPECT_EQ(FormatDistinct(0.5, 0.5), Texts("0.5", "0.5"));
 }
 
 TEST(ShortestText, ReadsBackToTheSameNumber) {

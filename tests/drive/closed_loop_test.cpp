@@ -68,7 +68,7 @@ TEST(SimulateClosedLoop, ArrivesAtTheEndOfAPathWhenItsSpeedsSay) {
   Unicycle plant({});
   ConstantController controller(0.0);
   const RunLog log =
-      SimulateClosedLoop(plant, controller, PlanAlong({{.length = 50.0}}, 0.0), Config());
+      SimulateClosedLoop(plant, controller, PlanAlongRoute({{.length = 50.0}}, 0.0), Config());
   EXPECT_EQ(log.status, DriveStatus::kArrived);
   // 4.5 m in 3 s, 42.5 m at 3 m/s, 3 m in 2 s. The mean acceleration of a period is off where the
   // profile has its three knots: by at most a period times the change of acceleration there, half
@@ -87,7 +87,7 @@ TEST(SimulateClosedLoop, DrivesForwardAndReverseSegmentsInTurn) {
   Unicycle plant({});
   ConstantController controller(0.0);
   const RunLog log = SimulateClosedLoop(
-      plant, controller, PlanAlong({{.length = 10.0}, {.length = 6.0, .direction = -1}}, 0.0),
+      plant, controller, PlanAlongRoute({{.length = 10.0}, {.length = 6.0, .direction = -1}}, 0.0),
       Config());
   EXPECT_EQ(log.status, DriveStatus::kArrived);
   EXPECT_NEAR(log.rows.back().state.pose.x, 4.0, Tolerance(0.01));
@@ -112,7 +112,7 @@ TEST(SimulateClosedLoop, CountsFromTheOdometerThatThePlantBeginsWith) {
     LoopConfig config = Config();
     config.station_source = StationSource::kOdometer;
     const RunLog log =
-        SimulateClosedLoop(plant, controller, PlanAlong({{.length = 10.0}}, 0.0), config);
+        SimulateClosedLoop(plant, controller, PlanAlongRoute({{.length = 10.0}}, 0.0), config);
     EXPECT_EQ(log.status, DriveStatus::kArrived);
     return controller.stations;
   };
@@ -213,7 +213,7 @@ TEST(SimulateClosedLoop, RepeatsEveryBit) {
 /// What the message of a bad argument says; empty when there was none. Nothing was stepped then.
 std::string MessageFor(const std::function<void(LoopConfig&, Plan&)>& spoil) {
   LoopConfig config = Config();
-  Plan plan = PlanAlong({{.length = 10.0}}, 3.0);
+  Plan plan = PlanAlongRoute({{.length = 10.0}}, 3.0);
   spoil(config, plan);
   Unicycle plant({.speed = 3.0});
   ConstantController controller(0.0);

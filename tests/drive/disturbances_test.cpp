@@ -64,7 +64,7 @@ std::vector<double> Configurations(const RunLog& log, const std::string& column)
 
 TEST(NoDisturbance, LeavesEveryByte) {
   const std::string neutral =
-      "disturb: {wheelbase: 1, steering: {factor: 1, delay: 0, dead_band: 0}, noise: {position: "
+      "disturb: {wheelbase: 1, steering: {factor: 1, delay: 0, backlash: 0}, noise: {position: "
       "0, heading: 0}, kicks: [{at: 2, displacement: 0}, {at: 3, impulse: 0}], speed_loss: {speed: "
       "100}}\n";
   for (const char* plant : {"kinematic", "single_track", "mujoco", "mujoco:magic_formula"}) {
@@ -114,7 +114,7 @@ TEST(SteeringFactor, ScalesTheCircle) {
 TEST(SteeringDeadBand, IsTakenOffWhatTheWheelsDo) {
   const RunLog log =
       Open("{method: sine, amplitude: 0.05, frequency: 0.25, cycles: 1}",
-           "disturb: {steering: {dead_band: 0.02}}", "plants: [kinematic], steering: prescribed");
+           "disturb: {steering: {backlash: 0.02}}", "plants: [kinematic], steering: prescribed");
   double play = 0.0;  // the closed form of backlash, row by row
   for (std::size_t i = 1; i < log.rows.size(); ++i) {
     const double wanted = log.rows[i - 1].command.steering;

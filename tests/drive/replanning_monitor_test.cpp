@@ -122,7 +122,7 @@ TEST(ReplanningMonitor, WaitsBehindWhatMayClearOnly) {
     ReplanOptions& replan = options.replanning.replan.emplace();
     replan.settings.road = {1.6, 1.6};
     replan.along.emplace();
-    Plan plan = PlanAlong({{.length = 30.0}}, 0.0);
+    Plan plan = PlanAlongRoute({{.length = 30.0}}, 0.0);
     ReplanningMonitor monitor(options, plan);
     VehicleState state;
     state.pose.x = 4.0;

@@ -12,7 +12,7 @@ namespace {
 
 /// 10 m forwards, 6 m back, 3 m forwards, straight along x.
 Plan BackAndForth() {
-  return PlanAlong({{.length = 10.0}, {.length = 6.0, .direction = -1}, {.length = 3.0}}, 0.0);
+  return PlanAlongRoute({{.length = 10.0}, {.length = 6.0, .direction = -1}, {.length = 3.0}}, 0.0);
 }
 
 SegmentSequencer::Options Options(StationSource source = StationSource::kProjection) {
@@ -52,13 +52,13 @@ TEST(Segments, AreCutAtCuspsWithTheirSpeedsAndSchedule) {
 }
 
 TEST(Segments, OfAPlanWithoutCuspsAreThePlan) {
-  const std::deque<Plan> segments = SegmentsOf(PlanAlong({{.length = 10.0}}, 0.0));
+  const std::deque<Plan> segments = SegmentsOf(PlanAlongRoute({{.length = 10.0}}, 0.0));
   ASSERT_EQ(segments.size(), 1U);
   EXPECT_EQ(segments[0].reference.path.length(), 10.0);
 }
 
 TEST(Segments, AreCutAtStopsToo) {
-  Plan plan = PlanAlong({{.length = 10.0}}, 0.0);
+  Plan plan = PlanAlongRoute({{.length = 10.0}}, 0.0);
   plan.stops = {4.0};
   const std::deque<Plan> segments = SegmentsOf(plan);
   ASSERT_EQ(segments.size(), 2U);
@@ -105,7 +105,7 @@ TEST(SegmentSequencer, CountsStationsOnOverSegments) {
 }
 
 TEST(SegmentSequencer, EndsAfterItsLastSegment) {
-  SegmentSequencer sequencer(PlanAlong({{.length = 10.0}}, 0.0), StateAt(0.0, 0.0), Options());
+  SegmentSequencer sequencer(PlanAlongRoute({{.length = 10.0}}, 0.0), StateAt(0.0, 0.0), Options());
   for (double x = 0.0; x <= 10.0; x += 1.0) {
     sequencer.Project(StateAt(x, x));
   }
@@ -115,8 +115,9 @@ TEST(SegmentSequencer, EndsAfterItsLastSegment) {
 
 TEST(SegmentSequencer, ReachesHalfOfAShortSegmentAtLeast) {
   // 0.4 m of tolerance would skip a segment of 0.3 m: half of it has to be driven.
-  SegmentSequencer sequencer(PlanAlong({{.length = 0.3}, {.length = 5.0, .direction = -1}}, 0.0),
-                             StateAt(0.0, 0.0), Options());
+  SegmentSequencer sequencer(
+      PlanAlongRoute({{.length = 0.3}, {.length = 5.0, .direction = -1}}, 0.0), StateAt(0.0, 0.0),
+      Options());
   sequencer.Project(StateAt(0.14, 0.14));
   EXPECT_FALSE(sequencer.Advance(StateAt(0.14, 0.14)));
   sequencer.Project(StateAt(0.16, 0.16));
@@ -132,7 +133,7 @@ TEST(SegmentSequencer, CountsTheOdometerFromWhereverItBegins) {
 }
 
 TEST(SegmentSequencer, FollowsTheSpeedsOfItsStationSource) {
-  Plan plan = PlanAlong({{.length = 10.0}}, 0.0);
+  Plan plan = PlanAlongRoute({{.length = 10.0}}, 0.0);
   plan.schedule_speed = SpeedProfile({{0.0, 1.25}});
   const SegmentSequencer closed(plan, StateAt(0.0, 0.0), Options());
   const SegmentSequencer open(plan, StateAt(0.0, 0.0), Options(StationSource::kOdometer));
@@ -143,7 +144,7 @@ TEST(SegmentSequencer, FollowsTheSpeedsOfItsStationSource) {
 TEST(SegmentSequencer, ReplacesWhatIsLeft) {
   SegmentSequencer sequencer(BackAndForth(), StateAt(0.0, 0.0), Options());
   sequencer.Project(StateAt(1.25, 1.25));
-  Plan next = PlanAlong({{.length = 7.0}}, 0.0);
+  Plan next = PlanAlongRoute({{.length = 7.0}}, 0.0);
   next.reference.path = Path({1.25, 0.0, 0.0}, {{.length = 7.0}});
   sequencer.Replace(next, StateAt(1.25, 1.25, 2.0));
   EXPECT_TRUE(sequencer.is_last());
@@ -158,7 +159,7 @@ TEST(SegmentSequencer, SteersBeforeAStartOnABendFromRestAlone) {
   VehicleState rolling = StateAt(0.0, 0.0);
   rolling.speed = 1.0;
   const auto steers = [&](const std::vector<Segment>& segments, const VehicleState& start) {
-    return SegmentSequencer(PlanAlong(segments, start.speed), start, Options())
+    return SegmentSequencer(PlanAlongRoute(segments, start.speed), start, Options())
         .stationary_steer()
         .InProgress();
   };

@@ -39,7 +39,7 @@ class TerminationTest : public ::testing::Test {
   }
 
   LoopConfig config_ = Config();
-  Plan plan_ = PlanAlong({{.length = 10.0}}, 0.0);
+  Plan plan_ = PlanAlongRoute({{.length = 10.0}}, 0.0);
   VehicleState state_;
   bool is_last_segment_ = true;
   bool diverged_ = false;

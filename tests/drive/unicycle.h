@@ -54,12 +54,12 @@ class Unicycle : public Plant {
     state_.speed = command.gear * along;
   }
 
-  void Shift(double left) override {
+  void ApplyLateralOffset(double left) override {
     const Vec2 to = ToWorld(state_.pose, {0.0, left});
     state_.pose.x = to.x();
     state_.pose.y = to.y();
   }
-  void Push(double /*force*/) override {}
+  void ApplyLateralForce(double /*force*/) override {}
   [[nodiscard]] VehicleState Observe() const override { return state_; }
   [[nodiscard]] Pose2 pose() const override { return state_.pose; }
   [[nodiscard]] double obstacle_force() const override { return force; }
@@ -104,7 +104,7 @@ inline constexpr SpeedLimits kUnicycleLimits{
     .speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
 
 /// Along `segments` from the origin, at rest at its cusps and its end.
-inline Plan PlanAlong(const std::vector<Segment>& segments, double start_speed) {
+inline Plan PlanAlongRoute(const std::vector<Segment>& segments, double start_speed) {
   Plan plan;
   plan.reference.path = Path({}, segments);
   plan.reference.speed = StopAtCusps(plan.reference.path, start_speed, kUnicycleLimits);

@@ -55,7 +55,7 @@ OrientedBox RandomBox(Random& random, double reach) {
 }
 
 OrientedBox Moved(const OrientedBox& box, const Vec2& by) {
-  return {{box.centre.x + by.x(), box.centre.y + by.y(), box.centre.yaw}, box.length, box.width};
+  return {{box.center.x + by.x(), box.center.y + by.y(), box.center.yaw}, box.length, box.width};
 }
 
 TEST(OrientedBox, CornersGoRoundCounterClockwise) {
@@ -194,7 +194,7 @@ TEST(Separation, OfOverlappingBoxesIsTheShortestWayOut) {
     // A thousandth more along one of the axes of either frees it; 1 % less does not, neither along
     // them nor any other way.
     bool freed = false;
-    for (const double yaw : {a.centre.yaw, b.centre.yaw}) {
+    for (const double yaw : {a.center.yaw, b.center.yaw}) {
       const Vec2 along = Direction(yaw);
       for (const Vec2& way : {along, Vec2(-along), LeftOf(along), Vec2(-LeftOf(along))}) {
         freed = freed || ByBoost(a, Moved(b, 1.001 * depth * way)) > 0.0;
@@ -270,10 +270,10 @@ TEST(DistanceOfALine, IsZeroWithinAcrossAndAtTheTouch) {
 TEST(MovingBox, GoesOnWithoutTurning) {
   const MovingBox box{{{1.0, 2.0, 0.5}, 4.0, 2.0}, {3.0, -1.0}};
   const OrientedBox later = box.At(2.0);
-  EXPECT_EQ(later.centre, (Pose2{7.0, 0.0, 0.5}));
+  EXPECT_EQ(later.center, (Pose2{7.0, 0.0, 0.5}));
   EXPECT_EQ(later.length, 4.0);
   EXPECT_EQ(later.width, 2.0);
-  EXPECT_EQ(box.At(0.0).centre, box.box.centre);
+  EXPECT_EQ(box.At(0.0).center, box.box.center);
 }
 
 }  // namespace

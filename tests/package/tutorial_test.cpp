@@ -145,8 +145,9 @@ class Newcomer {
         Run(line);
       }
     } else if (block.language == "text") {
-      EXPECT_EQ(FirstDifference(block.lines, told_), "") << "what came out:\n" << Joined(told_);
-      told_.clear();
+      EXPECT_EQ(FirstDifference(block.lines, diagnostics_), "") << "what came out:\n"
+                                                                << Joined(diagnostics_);
+      diagnostics_.clear();
     } else if (block.file.empty()) {
       ADD_FAILURE() << "nobody knows what to do with:\n" << Joined(block.lines);
     } else if (block.language == "diff") {
@@ -158,8 +159,8 @@ class Newcomer {
 
   /// Whatever the last commands said has been shown, up to what builds say.
   void ExpectAllShown() {
-    EXPECT_TRUE(told_.empty()) << "the page does not show:\n" << Joined(told_);
-    told_.clear();
+    EXPECT_TRUE(diagnostics_.empty()) << "the page does not show:\n" << Joined(diagnostics_);
+    diagnostics_.clear();
   }
 
   [[nodiscard]] std::size_t skipped() const { return skipped_; }
@@ -184,7 +185,7 @@ class Newcomer {
     const std::string output =
         std::regex_replace(outcome.output, std::regex(home_.path().string()), "/home/you");
     for (const std::string& told : LinesOf(output)) {
-      told_.push_back(told);
+      diagnostics_.push_back(told);
     }
   }
 
@@ -202,8 +203,8 @@ class Newcomer {
   }
 
   TempFolder home_;
-  std::string kept_;  ///< comes before every command
-  Lines told_;        ///< by the commands since the last output shown
+  std::string kept_;   ///< comes before every command
+  Lines diagnostics_;  ///< by the commands since the last output shown
   std::size_t skipped_ = 0;
 };
 

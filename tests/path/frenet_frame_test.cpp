@@ -134,7 +134,7 @@ TEST(FrenetFrame, IsMirroredWithThePath) {
   EXPECT_NEAR(a->acceleration, b->acceleration, Tolerance(1e-12));
 }
 
-TEST(FrenetFrame, EndsAtTheCentreOfCurvature) {
+TEST(FrenetFrame, EndsAtTheCenterOfCurvature) {
   const Path circle({0.0, 0.0, 0.0}, {{20.0, 0.1, 1}});
   EXPECT_TRUE(FromFrenet(circle, {5.0, 3.0, 0.0, 9.99, 0.0, 0.0}));
   EXPECT_FALSE(FromFrenet(circle, {5.0, 3.0, 0.0, 10.0, 0.0, 0.0}));

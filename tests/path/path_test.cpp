@@ -405,7 +405,7 @@ TEST(QuadraticSegment, DerivativesAreThoseOfItsPoints) {
   }
 }
 
-TEST(QuadraticSegment, MeetsItsNeighbours) {
+TEST(QuadraticSegment, MeetsItsNeighbors) {
   // Each carries on the curvature of the one before.
   Random random(54);
   std::vector<Segment> segments;

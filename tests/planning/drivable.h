@@ -88,8 +88,8 @@ inline void ExpectDrivable(const Path& path, const FrenetRequest& request,
     const OrientedBox outline{{middle.x(), middle.y(), now.yaw}, car.length, car.width};
     for (const MovingBox& obstacle : request.obstacles) {
       OrientedBox box = obstacle.box;
-      box.centre.x += t * obstacle.velocity.x();
-      box.centre.y += t * obstacle.velocity.y();
+      box.center.x += t * obstacle.velocity.x();
+      box.center.y += t * obstacle.velocity.y();
       EXPECT_GE(bg::distance(polygon_of(outline), polygon_of(box)),
                 limits.safe_distance - 0.5 * (moves + step * obstacle.velocity.norm()));
     }

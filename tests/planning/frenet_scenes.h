@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "tests/geometry/random.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/planning/frenet/frenet.h"
 
 namespace trackbed {
@@ -26,7 +26,7 @@ inline Path BentRoad() {
 /// A car on the path at its speed.
 inline FrenetRequest OnPath(double speed) {
   FrenetRequest request;
-  request.vehicle = SeedCar();
+  request.vehicle = ReferenceCar();
   request.speed = {speed, 2.0, 3.0};
   request.start.s_rate = speed;
   request.goal = KeepSpeed{speed};
@@ -37,8 +37,8 @@ inline FrenetRequest OnPath(double speed) {
 inline MovingBox BoxAt(const Path& path, double s, double d, double length = 2.0,
                        double width = 1.5) {
   const Pose2 at = path.At(s).pose;
-  const Vec2 centre = at.position() + d * LeftOf(Direction(at.yaw));
-  return {{{centre.x(), centre.y(), at.yaw}, length, width}, {0.0, 0.0}};
+  const Vec2 center = at.position() + d * LeftOf(Direction(at.yaw));
+  return {{{center.x(), center.y(), at.yaw}, length, width}, {0.0, 0.0}};
 }
 
 /// A few boxes ahead, some of them on their way.

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/avoidance/avoidance.h"
 #include "trackbed/planning/common/plan.h"
@@ -82,7 +82,7 @@ struct Course {
     FilletOptions options;
     options.radius = radius;
     options.constraint = RadiusConstraint::kNone;
-    return MakePlan({.vehicle = SeedCar(),
+    return MakePlan({.vehicle = ReferenceCar(),
                      .waypoints = Waypoints(),
                      .start_speed = kSpeed,
                      .speed = kLimits,
@@ -98,7 +98,7 @@ struct Course {
 
 inline Plan Around(const Plan& plan, const std::vector<OrientedBox>& obstacles,
                    const AvoiderOptions& options = {}) {
-  return PlanAround({.vehicle = SeedCar(),
+  return PlanAround({.vehicle = ReferenceCar(),
                      .plan = plan,
                      .speed = kLimits,
                      .obstacles = obstacles,

@@ -141,7 +141,7 @@ TEST(PatchTiles, OnAPlaneAreOnePerPatchLaterOnesAbove) {
   double below = 0.0;
   for (const Tile& tile : tiles) {
     EXPECT_NEAR((tile.rotation.col(2) - normal).norm(), 0.0, Tolerance(1e-12));
-    const double above = normal.dot(tile.centre);
+    const double above = normal.dot(tile.center);
     EXPECT_GT(above, below + 2e-4);
     EXPECT_LT(above, 0.002);  // where ribbons begin
     below = above;
@@ -167,7 +167,7 @@ TEST(PatchTiles, FollowTheGroundAndCoverThePatch) {
     covered += 4.0 * tile.half_length * tile.half_width * tile.rotation(2, 2);
     for (int i = 0; i < 10; ++i) {
       const Eigen::Vector3d p =
-          tile.centre +
+          tile.center +
           tile.rotation * Eigen::Vector3d(random.Uniform(-1.0, 1.0) * tile.half_length,
                                           random.Uniform(-1.0, 1.0) * tile.half_width, 0.0);
       const double above = p.z() - GroundHeight(world, p.head<2>());

@@ -138,7 +138,7 @@ world: {friction_patches: [{x: 3, y: 1, length: 20, width: 2, friction: 0.5}]}
   }
 }
 
-TEST_F(TyreForcesTest, AreDrawnAlongTheirDirectionInTheColourOfTheirUse) {
+TEST_F(TyreForcesTest, AreDrawnAlongTheirDirectionInTheColorOfTheirUse) {
   Image glyph;
   glyph.Resize(4, 8);
   Font font(std::vector<Image>(Font::kLast - Font::kFirst + 1, glyph));
@@ -174,7 +174,7 @@ TEST_F(TyreForcesTest, AreDrawnAlongTheirDirectionInTheColourOfTheirUse) {
   EXPECT_LT(all.Pixel(70, 60)[0], 120);
 }
 
-TEST_F(FilmSceneTest, TheErrorRibbonHasTheColourOfTheDistanceFromThePath) {
+TEST_F(FilmSceneTest, TheErrorRibbonHasTheColorOfTheDistanceFromThePath) {
   WriteStraightPlan(folder_.path(), 16.0);
   // Off by 0.18 m from x = 3 on.
   SetLogColumn(folder_.path(), "mujoco", "cross_track_m",
@@ -195,7 +195,7 @@ TEST_F(FilmSceneTest, WithoutAPathThereIsNoErrorRibbon) {
   EXPECT_EQ(ReadRecording(folder_.path()).scales.error, 0.0);
 }
 
-TEST_F(FilmSceneTest, ErrorsThatSwayByLittleKeepOneColour) {
+TEST_F(FilmSceneTest, ErrorsThatSwayByLittleKeepOneColor) {
   WriteStraightPlan(folder_.path(), 16.0);
   // A step of the scale is 0.05 / 16 m: half a step and a tenth of one to each side.
   SetLogColumn(folder_.path(), "mujoco", "cross_track_m",

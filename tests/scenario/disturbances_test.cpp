@@ -22,7 +22,7 @@ TEST(Disturbances, AreOffUnlessAskedFor) {
   EXPECT_EQ(none.wheelbase, 1.0);
   EXPECT_EQ(none.steering.factor, 1.0);
   EXPECT_EQ(none.steering.delay, 0.0);
-  EXPECT_EQ(none.steering.dead_band, 0.0);
+  EXPECT_EQ(none.steering.backlash, 0.0);
   EXPECT_EQ(none.noise.position, 0.0);
   EXPECT_EQ(none.noise.heading, 0.0);
   EXPECT_FALSE(none.payload);
@@ -32,7 +32,7 @@ TEST(Disturbances, AreOffUnlessAskedFor) {
 constexpr const char* kAll = R"(disturb:
   speed_loss: {station: 12, speed: 1}
   wheelbase: 1.1
-  steering: {factor: 0.9, delay: 0.1, dead_band: 0.02}
+  steering: {factor: 0.9, delay: 0.1, backlash: 0.02}
   noise: {position: 0.05, heading: 0.01}
   payload: {share: 0.2, x: -0.5, y: 0.3, z: 0.4}
   kicks:
@@ -50,7 +50,7 @@ TEST(Disturbances, AreReadAndWrittenBack) {
   EXPECT_EQ(all.wheelbase, 1.1);
   EXPECT_EQ(all.steering.factor, 0.9);
   EXPECT_EQ(all.steering.delay, 0.1);
-  EXPECT_EQ(all.steering.dead_band, 0.02);
+  EXPECT_EQ(all.steering.backlash, 0.02);
   EXPECT_EQ(all.noise.position, 0.05);
   EXPECT_EQ(all.noise.heading, 0.01);
   EXPECT_EQ(all.payload->share, 0.2);

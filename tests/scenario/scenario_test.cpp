@@ -296,7 +296,7 @@ constexpr const char* kWorld = R"(world:
 void ExpectWorld(const World& world) {
   EXPECT_EQ(world.friction, 0.8);
   ASSERT_EQ(world.friction_patches.size(), 2U);
-  EXPECT_EQ(world.friction_patches[0].area.centre, (Pose2{10.0, 1.0, 0.5}));
+  EXPECT_EQ(world.friction_patches[0].area.center, (Pose2{10.0, 1.0, 0.5}));
   EXPECT_EQ(world.friction_patches[0].area.length, 20.0);
   EXPECT_EQ(world.friction_patches[0].area.width, 3.0);
   EXPECT_EQ(world.friction_patches[0].friction, 0.1);
@@ -307,7 +307,7 @@ void ExpectWorld(const World& world) {
   EXPECT_EQ(world.ground.bumps[0].height, 0.08);
   EXPECT_EQ(world.ground.bumps[0].edge, 0.4);
   ASSERT_EQ(world.ground.side_slopes.size(), 1U);
-  EXPECT_EQ(world.ground.side_slopes[0].area.centre, (Pose2{50.0, 0.0, 1.5}));
+  EXPECT_EQ(world.ground.side_slopes[0].area.center, (Pose2{50.0, 0.0, 1.5}));
   EXPECT_EQ(world.ground.side_slopes[0].slope, -0.06);
   EXPECT_EQ(world.ground.side_slopes[0].run_in, 12.0);
   EXPECT_EQ(world.wind.velocity, Vec2(1.5, -2.0));
@@ -321,7 +321,7 @@ void ExpectWorld(const World& world) {
   EXPECT_FALSE(world.wind.gusts[1].duration.has_value());
   EXPECT_EQ(world.wind.gusts[1].shape, GustShape::kStep);
   ASSERT_TRUE(world.wind.gusts[1].area.has_value());
-  EXPECT_EQ(world.wind.gusts[1].area->centre, (Pose2{20.0, 0.0, 0.1}));
+  EXPECT_EQ(world.wind.gusts[1].area->center, (Pose2{20.0, 0.0, 0.1}));
   EXPECT_EQ(world.wind.gusts[1].area->width, 10.0);
 }
 

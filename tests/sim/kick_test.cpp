@@ -6,7 +6,7 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/sim/plant.h"
 
-// Plant::Shift and Plant::Push.
+// Plant::ApplyLateralOffset and Plant::ApplyLateralForce.
 namespace trackbed {
 namespace {
 
@@ -15,13 +15,13 @@ const CarModel& Prius() {
   return car;
 }
 
-TEST(Shift, SetsEveryPlantAside) {
+TEST(ApplyLateralOffset, SetsEveryPlantAside) {
   const World world;
   for (const PlantEntry& entry : Plants()) {
     const auto plant = MakePlant(
         entry.name,
         {.car = Prius(), .world = world, .start = {.pose = {5.0, 3.0, 0.7}, .speed = 4.0}});
-    plant->Shift(0.5);
+    plant->ApplyLateralOffset(0.5);
     const VehicleState state = plant->Observe();
     EXPECT_NEAR(state.pose.x, 5.0 - 0.5 * std::sin(0.7), Tolerance(1e-14)) << entry.name;
     EXPECT_NEAR(state.pose.y, 3.0 + 0.5 * std::cos(0.7), Tolerance(1e-14)) << entry.name;
@@ -38,24 +38,24 @@ TEST(Shift, SetsEveryPlantAside) {
   }
 }
 
-TEST(Shift, GoesUpWithTheGround) {
+TEST(ApplyLateralOffset, GoesUpWithTheGround) {
   World world;
   world.ground.grade = {0.0, 0.1};
   const CarModel car(WithWorld(Prius().scene(), Prius().params(), world), "prius");
   const auto plant = MakePlant("mujoco", {.car = car, .world = world, .start = {}});
   const double before = plant->Configuration()[2];
-  plant->Shift(2.0);
+  plant->ApplyLateralOffset(2.0);
   EXPECT_NEAR(plant->Configuration()[2] - before, 0.2, Tolerance(1e-14));
 }
 
 /// On ice, where nothing else acts across, the impulse is the car's momentum.
-TEST(Push, GivesMujocosCarTheMomentum) {
+TEST(ApplyLateralForce, GivesMujocosCarTheMomentum) {
   const World ice{.friction = 1e-5};
   const auto plant = MakePlant(
       "mujoco",
       {.car = Prius(), .world = ice, .start = {.pose = {0.0, 0.0, kPi / 3.0}, .speed = 5.0}});
   for (int i = 0; i < 50; ++i) {
-    plant->Push(4000.0);
+    plant->ApplyLateralForce(4000.0);
     plant->Step({});
   }
   const VehicleState state = plant->Observe();
@@ -69,17 +69,17 @@ TEST(Push, GivesMujocosCarTheMomentum) {
   EXPECT_NEAR(plant->Observe().lateral_speed, state.lateral_speed, Tolerance(1e-4));
 }
 
-TEST(Push, MovesTheSingleTrackCarAndNotTheKinematicOne) {
+TEST(ApplyLateralForce, MovesTheSingleTrackCarAndNotTheKinematicOne) {
   const World world;
   const PlantSetup setup{.car = Prius(), .world = world, .start = {.speed = 10.0}};
   const auto dynamic = MakePlant("single_track", setup);
-  dynamic->Push(4000.0);
+  dynamic->ApplyLateralForce(4000.0);
   const double mass = Prius().params().mass;
   EXPECT_NEAR(dynamic->Observe().lateral_speed, 4000.0 * 0.002 / mass, Tolerance(1e-15));
   dynamic->Step({});
   EXPECT_GT(dynamic->Observe().pose.y, 0.0);
   const auto kinematic = MakePlant("kinematic", setup);
-  kinematic->Push(4000.0);
+  kinematic->ApplyLateralForce(4000.0);
   kinematic->Step({});
   EXPECT_EQ(kinematic->Observe().pose.y, 0.0);
 }

@@ -36,7 +36,7 @@ double Column(const CarModel& car, const Plant& plant, const std::string& name) 
   return plant.Configuration().at(static_cast<std::size_t>(at));
 }
 
-TEST(Payload, MovesMassCentreOfGravityAndYawInertia) {
+TEST(Payload, MovesMassCenterOfGravityAndYawInertia) {
   const CarModel own = Unloaded("prius");
   const CarModel car = Loaded("prius", {.mass = 250.0, .x = -0.3, .y = 0.4, .z = 0.7});
   const double mass = own.params().mass;

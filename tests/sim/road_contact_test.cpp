@@ -154,7 +154,7 @@ TEST(RoadContact, ACarComesToRestAgainAsItStood) {
 TEST(RoadContact, FlatStretchesAreAsFlatGround) {
   // Two cars, one with a hump far away.
   Ground far = kHump;
-  far.bumps[0].area.centre.x = 1000.0;
+  far.bumps[0].area.center.x = 1000.0;
   const CarModel flat = PriusOn({});
   const CarModel with_hump = PriusOn({.ground = far});
   Rolling a(flat, 5.0);

@@ -352,7 +352,7 @@ TEST(WheelPair, FeelsAPush) {
   const World ice{.friction = 1e-5};
   const auto plant = Mujoco({.speed = 2.0}, ice);
   for (int i = 0; i < 50; ++i) {
-    plant->Push(200.0);
+    plant->ApplyLateralForce(200.0);
     plant->Step({});
   }
   // 20 N s on 80 kg, less the road's 1e-5 and the air's 0.01 N s.

@@ -108,7 +108,7 @@ double BallHeight(const Ground& ground, const Vec2& p, double r, double step) {
 TEST(WithGround, ABallComesToRestOnTheClosedForm) {
   const Ground ground{.grade = {0.02, 0.0}, .bumps = {kBump}};
   for (const double along : {-3.0, -1.4, -0.6, 0.0, 0.9, 1.7}) {
-    const Vec2 p = ToWorld(kBump.area.centre, {along, 0.3});
+    const Vec2 p = ToWorld(kBump.area.center, {along, 0.3});
     Scene scene = WithGround(Prius(), ground);
     const double r = 0.3;
     const std::string ball = fmt::format(
@@ -209,9 +209,9 @@ TEST(StandingPosition, AcrossABumpNoWheelIsInTheGround) {
     mj_kinematics(car.get(), d.get());
     double nearest = 1.0;
     for (const int tyre : car.parts().tyre) {
-      const mjtNum* centre = d->geom_xpos + 3 * tyre;
+      const mjtNum* center = d->geom_xpos + 3 * tyre;
       nearest =
-          std::min(nearest, centre[2] - BallHeight(ground, {centre[0], centre[1]}, 0.31073, 0.01));
+          std::min(nearest, center[2] - BallHeight(ground, {center[0], center[1]}, 0.31073, 0.01));
     }
     // Above the point under a hub; what comes before or behind it on a slope of 0.08 may be higher
     // by R (1 - cos 0.08) = 1 mm, and a car that leans by that moves its hubs by 0.02 m of it.

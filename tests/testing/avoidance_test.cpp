@@ -36,7 +36,7 @@ TEST_P(DrivenRoundObstacle, KeepsToThePlanAndClearOnBothPlants) {
       {0.0, 0.0}, corner, corner + (kStraight + tangent) * Direction(c.side * turn)};
   const double swept = turn * c.sixth / 6.0;
   Obstacle& obstacle = scenario.world.obstacles.at(0);
-  obstacle.footprint.centre = {kStraight + kRadius * std::sin(swept),
+  obstacle.footprint.center = {kStraight + kRadius * std::sin(swept),
                                c.side * kRadius * (1.0 - std::cos(swept)), 0.0};
   std::get<BezierAvoidanceOptions>(*scenario.plan->avoid).ring = c.ring;
 

@@ -104,10 +104,9 @@ TEST(SCourse, PreviewHasToLookFurtherTheFasterItGoes) {
 TEST(SlowDrives, FollowersTrackInSpiteOfTheirSteering) {
   // An actuator that is late, has play, or gives another angle than it is asked for; and a kick.
   // The kinematic car: what is seen is the controller.
-  for (const char* disturbance :
-       {"disturb.steering.delay=0.1", "disturb.steering.dead_band=0.00873",
-        "disturb.steering.factor=0.9", "disturb.steering.factor=1.1",
-        "disturb.kicks=[{at: 5, displacement: 0.5}]"}) {
+  for (const char* disturbance : {"disturb.steering.delay=0.1", "disturb.steering.backlash=0.00873",
+                                  "disturb.steering.factor=0.9", "disturb.steering.factor=1.1",
+                                  "disturb.kicks=[{at: 5, displacement: 0.5}]"}) {
     for (const char* method :
          {"preview", "preview_integral", "optimal_steering", "pure_pursuit", "lqr", "mpc"}) {
       SCOPED_TRACE(fmt::format("{} with {}", method, disturbance));

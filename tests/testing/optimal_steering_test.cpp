@@ -65,7 +65,7 @@ const std::vector<Disturbance>& EveryDisturbance() {
       {"weak_steering", {"disturb.steering.factor=0.9"}},
       {"strong_steering", {"disturb.steering.factor=1.1"}},
       {"late_steering", {"disturb.steering.delay=0.1"}},
-      {"play", {"disturb.steering.dead_band=0.00873"}},                      // 0.5 deg
+      {"play", {"disturb.steering.backlash=0.00873"}},                       // 0.5 deg
       {"noise", {"disturb.noise={position: 0.02, heading: 0.0034906585}"}},  // 0.2 deg
       {"wind_from_the_right", {"world.wind.y=15"}},
       {"wind_from_the_left", {"world.wind.y=-15"}},

@@ -132,12 +132,13 @@ PlantComparison HalfApart() {
           .steering = half};
 }
 
-TEST(PartsAtMost, SaysWhatIsExceededByHowMuchWhereAndWhen) {
-  const auto matcher = PartsAtMost({.position_max = 0.3, .yaw_rate_max = 0.5, .steering_max = 0});
+TEST(DiffersByAtMost, SaysWhatIsExceededByHowMuchWhereAndWhen) {
+  const auto matcher =
+      DiffersByAtMost({.position_max = 0.3, .yaw_rate_max = 0.5, .steering_max = 0});
   EXPECT_EQ(testing::DescribeMatcher<const PlantComparison&>(matcher),
             "part at most 0.3 m in position, 0.5 rad/s in yaw rate, 0 rad in steering");
   EXPECT_EQ(testing::DescribeMatcher<const PlantComparison&>(
-                testing::Not(PartsAtMost({.heading_max = 0.1}))),
+                testing::Not(DiffersByAtMost({.heading_max = 0.1}))),
             "part more than 0.1 rad in heading");
   testing::StringMatchResultListener listener;
   EXPECT_FALSE(testing::ExplainMatchResult(matcher, HalfApart(), &listener));
@@ -145,14 +146,14 @@ TEST(PartsAtMost, SaysWhatIsExceededByHowMuchWhereAndWhen) {
             "kinematic and mujoco: position difference expected at most 0.3 m, was 0.5 m at s = 12 "
             "m, t = 4 s; kinematic and mujoco: steering difference expected at most 0 rad, was 0.5 "
             "rad at s = 12 m, t = 4 s");
-  EXPECT_THAT(HalfApart(), PartsAtMost({0.5, 0.5, 0.5, 0.5}));
-  EXPECT_THAT(HalfApart(), testing::Not(PartsAtMost({.heading_max = 0.4})));
+  EXPECT_THAT(HalfApart(), DiffersByAtMost({0.5, 0.5, 0.5, 0.5}));
+  EXPECT_THAT(HalfApart(), testing::Not(DiffersByAtMost({.heading_max = 0.4})));
 }
 
-TEST(PartsAtMost, DoesNotMatchDrivesWithNothingInCommon) {
+TEST(DiffersByAtMost, DoesNotMatchDrivesWithNothingInCommon) {
   const PlantComparison nothing{.first = "a", .second = "b"};
   testing::StringMatchResultListener listener;
-  EXPECT_FALSE(testing::ExplainMatchResult(PartsAtMost({1, 1, 1, 1}), nothing, &listener));
+  EXPECT_FALSE(testing::ExplainMatchResult(DiffersByAtMost({1, 1, 1, 1}), nothing, &listener));
   EXPECT_EQ(listener.str(), "a and b: expected to be compared, but they have no stretch in common");
   RunResult run;
   run.comparisons = {nothing};
@@ -178,7 +179,7 @@ TEST(Compare, HoldsPlantsAndRunsAgainstEachOther) {
   EXPECT_EQ(runs.first, "winding/kinematic");
   EXPECT_EQ(runs.second, "far/kinematic");
   EXPECT_GT(runs.steering.max, 0.0);
-  EXPECT_THAT(Compare(other, other, "kinematic"), PartsAtMost({0, 0, 0, 0}));
+  EXPECT_THAT(Compare(other, other, "kinematic"), DiffersByAtMost({0, 0, 0, 0}));
   try {
     Compare(run, other, "mujoco");
     ADD_FAILURE() << "compared a plant that was not driven";
@@ -194,10 +195,10 @@ TEST(ThreeTurns, IsDrivenOnContactsAsTheKinematicModelSays) {
   EXPECT_THAT(
       Compare(RunScenario(File("three_turns"), {"control.distance=2.5", "vehicle.tyre=contact"}),
               "kinematic", "mujoco"),
-      PartsAtMost({.position_max = Tolerance(0.007),
-                   .heading_max = Tolerance(0.0027),
-                   .yaw_rate_max = Tolerance(0.0026),
-                   .steering_max = Tolerance(0.0023)}));
+      DiffersByAtMost({.position_max = Tolerance(0.007),
+                       .heading_max = Tolerance(0.0027),
+                       .yaw_rate_max = Tolerance(0.0026),
+                       .steering_max = Tolerance(0.0023)}));
 }
 
 TEST(KeepsClearOf, SaysHowNearWhereAndWhen) {

@@ -67,7 +67,7 @@ TEST(Skid, IsDisturbedAsCarsAre) {
   const RunResult run = RunScenario(
       File("slalom"),
       {"vehicle.model=skid", "drive.time_limit=20", "expect={}",
-       "disturb={steering: {factor: 0.9, delay: 0.1, dead_band: 0.01}, kicks: [{at: 5, impulse: "
+       "disturb={steering: {factor: 0.9, delay: 0.1, backlash: 0.01}, kicks: [{at: 5, impulse: "
        "20}, {at: 8, displacement: 0.2}]}"});
   ASSERT_EQ(run.logs.size(), 2U);
   for (const RunLog& log : run.logs) {

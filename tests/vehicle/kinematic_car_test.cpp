@@ -8,7 +8,7 @@
 
 #include "tests/geometry/random.h"
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "tests/vehicle/wheel_pair.h"
 #include "trackbed/core/angle.h"
 
@@ -16,7 +16,7 @@ namespace trackbed {
 namespace {
 
 constexpr ReferencePoint kRear = ReferencePoint::kRearAxle;
-constexpr ReferencePoint kCg = ReferencePoint::kCentreOfGravity;
+constexpr ReferencePoint kCg = ReferencePoint::kCenterOfGravity;
 constexpr double kSpeed = 3.0;
 
 void ExpectSamePose(const Pose2& actual, const Pose2& expected, double tolerance) {
@@ -26,7 +26,7 @@ void ExpectSamePose(const Pose2& actual, const Pose2& expected, double tolerance
 }
 
 KinematicCar CarAt(const KinematicState& start, ReferencePoint reference = kRear) {
-  return {SeedCar(), reference, start};
+  return {ReferenceCar(), reference, start};
 }
 
 // --- Conventions ---------------------------------------------------------------------------------
@@ -105,7 +105,7 @@ TEST(KinematicCar, YawRateIsSpeedOverRadius) {
       {5.1, 0.567251}, {10.0, 0.297103}, {20.0, 0.149634}, {50.0, 0.059976}, {154.0, 0.019480}};
   for (const auto& [radius, rate] : table) {
     SCOPED_TRACE(radius);
-    const double steering = SteeringForCurvature(SeedCar(), 1.0 / radius);
+    const double steering = SteeringForCurvature(ReferenceCar(), 1.0 / radius);
     KinematicCar cg = CarAt({.speed = kSpeed, .steering = steering}, kCg);
     cg.Step({.steering = steering}, 1.0);
     EXPECT_NEAR(cg.state().pose.yaw, rate, Tolerance(0.5e-6));
@@ -118,19 +118,19 @@ TEST(KinematicCar, YawRateIsSpeedOverRadius) {
   }
 }
 
-TEST(KinematicCar, CentreOfGravityRunsOnItsOwnRadius) {
+TEST(KinematicCar, CenterOfGravityRunsOnItsOwnRadius) {
   const std::vector<std::pair<double, double>> table{
       {5.1, 5.2887}, {10.0, 10.0975}, {20.0, 20.0489}, {50.0, 50.0196}, {154.0, 154.0064}};
   for (const auto& [radius, outer] : table) {
     SCOPED_TRACE(radius);
-    const double steering = SteeringForCurvature(SeedCar(), 1.0 / radius);
+    const double steering = SteeringForCurvature(ReferenceCar(), 1.0 / radius);
     // The rear axle starts at the origin, so the circle's center is (0, r).
     KinematicCar car = CarAt({.speed = kSpeed, .steering = steering});
     car.Step({.steering = steering}, 2.7);
-    const Vec2 centre{0.0, radius};
-    EXPECT_NEAR((car.state().pose.position() - centre).norm(), radius, Tolerance(1e-12));
+    const Vec2 center{0.0, radius};
+    EXPECT_NEAR((car.state().pose.position() - center).norm(), radius, Tolerance(1e-12));
     const Vec2 cg = ToWorld(car.state().pose, {1.4, 0.0});
-    EXPECT_NEAR((cg - centre).norm(), outer, Tolerance(0.5e-4));
+    EXPECT_NEAR((cg - center).norm(), outer, Tolerance(0.5e-4));
   }
 }
 
@@ -213,9 +213,9 @@ TEST(KinematicCar, BothReferencePointsAreOneCar) {
 TEST(KinematicCar, FullLockTakesLimitOverRate) {
   KinematicCar car = CarAt({.speed = kSpeed});
   car.Step({.steering = 1.0}, 3.2337 - Tolerance(0.5e-4));
-  EXPECT_LT(car.state().steering, SeedCar().steering_limit);
+  EXPECT_LT(car.state().steering, ReferenceCar().steering_limit);
   car.Step({.steering = 1.0}, 2.0 * Tolerance(0.5e-4));
-  EXPECT_EQ(car.state().steering, SeedCar().steering_limit);
+  EXPECT_EQ(car.state().steering, ReferenceCar().steering_limit);
 }
 
 TEST(KinematicCar, StepsOfTwentyMillisecondsKeepTheirPromise) {
@@ -245,7 +245,7 @@ TEST(KinematicCar, StepsOfTwentyMillisecondsKeepTheirPromise) {
 TEST(KinematicCar, ArrivalOfTheSteeringSplitsTheStep) {
   // The ramp ends inside the step: the same as stepping to its end and on from there.
   const double to = 0.1;
-  const double ramp = to / SeedCar().steering_rate;
+  const double ramp = to / ReferenceCar().steering_rate;
   KinematicCar once = CarAt({.speed = kSpeed});
   once.Step({.steering = to}, 5.0);
   KinematicCar twice = CarAt({.speed = kSpeed});
@@ -362,7 +362,7 @@ TEST(KinematicCar, NeverRollsAgainstItsGear) {
 // --- The full state
 // ---------------------------------------------------------------------------------
 
-TEST(FullState, AccelerationsAreThoseOfTheCentreOfGravity) {
+TEST(FullState, AccelerationsAreThoseOfTheCenterOfGravity) {
   // Second differences of the CG's position over h = 1 ms, in the car's axes. Their truncation is
   // h^2/12 times the fourth derivative, below 10 m/s^4 for these speeds, angles and rates; their
   // rounding 4 * 1e-16 * 5 m/h^2 = 2e-9.
@@ -408,7 +408,7 @@ TEST(FullState, LateralAccelerationRunsSmoothlyAlongARampCutIntoPeriods) {
   // tan(delta)/L + l_g v omega/(L cos^2 delta) rises by v^2/L omega T/cos^2 = 0.0115 m/s^2 a period
   // at most; losing the steering rate for one period would show as l_g v omega/L = 0.234 m/s^2.
   const double period = 0.02;
-  const VehicleParams params = SeedCar();
+  const VehicleParams params = ReferenceCar();
   KinematicCar car = CarAt({.speed = kSpeed});
   car.Step({.steering = 1.0}, period);
   double previous = car.FullState().lateral_acceleration;

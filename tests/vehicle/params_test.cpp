@@ -7,7 +7,7 @@
 
 #include "tests/geometry/random.h"
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "tests/vehicle/wheel_pair.h"
 #include "trackbed/core/angle.h"
 
@@ -30,10 +30,10 @@ TEST(SteeringForCurvature, HasThePrintedTable) {
        {Row{5.1, 0.486899, 27.8973}, Row{10.0, 0.263712, 15.1096}, Row{20.0, 0.134189, 7.6884},
         Row{50.0, 0.053948, 3.0910}, Row{154.0, 0.017531, 1.0044}}) {
     SCOPED_TRACE(row.radius);
-    const double steering = SteeringForCurvature(SeedCar(), 1.0 / row.radius);
+    const double steering = SteeringForCurvature(ReferenceCar(), 1.0 / row.radius);
     EXPECT_NEAR(steering, row.steering, Tolerance(0.5e-6));
     EXPECT_NEAR(steering * 180.0 / kPi, row.degrees, Tolerance(0.5e-4));
-    EXPECT_NEAR(SteeringForCurvature(SeedCar(), -1.0 / row.radius), -steering,
+    EXPECT_NEAR(SteeringForCurvature(ReferenceCar(), -1.0 / row.radius), -steering,
                 Tolerance(kRounding));
   }
 }
@@ -42,29 +42,30 @@ TEST(CurvatureForSteering, InvertsSteeringForCurvature) {
   Random random(1);
   for (int i = 0; i < 200; ++i) {
     const double curvature = random.Uniform(-0.5, 0.5);
-    EXPECT_NEAR(CurvatureForSteering(SeedCar(), SteeringForCurvature(SeedCar(), curvature)),
-                curvature, Tolerance(kRounding));
+    EXPECT_NEAR(
+        CurvatureForSteering(ReferenceCar(), SteeringForCurvature(ReferenceCar(), curvature)),
+        curvature, Tolerance(kRounding));
   }
 }
 
 TEST(VehicleParams, DerivedLengthsFollow) {
-  EXPECT_NEAR(SeedCar().min_turning_radius(), 5.1, Tolerance(kRounding * 5.1));
-  EXPECT_NEAR(SeedCar().cg_to_front(), 1.3, Tolerance(kRounding));
+  EXPECT_NEAR(ReferenceCar().min_turning_radius(), 5.1, Tolerance(kRounding * 5.1));
+  EXPECT_NEAR(ReferenceCar().cg_to_front(), 1.3, Tolerance(kRounding));
 }
 
 TEST(AckermannAngles, InnerWheelTurnsFurther) {
-  const FrontAngles left = AckermannAngles(SeedCar(), 0.3);
+  const FrontAngles left = AckermannAngles(ReferenceCar(), 0.3);
   EXPECT_GT(left.left, 0.3);
   EXPECT_LT(left.right, 0.3);
   EXPECT_GT(left.right, 0.0);
-  const FrontAngles right = AckermannAngles(SeedCar(), -0.3);
+  const FrontAngles right = AckermannAngles(ReferenceCar(), -0.3);
   EXPECT_NEAR(right.right, -left.left, Tolerance(kRounding));
   EXPECT_NEAR(right.left, -left.right, Tolerance(kRounding));
 }
 
 TEST(AckermannAngles, KeepTheCotangentRelation) {
   // cot outer - cot inner = track/wheelbase, and the bicycle's cotangent lies midway.
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   for (int i = 1; i <= 48; ++i) {
     const double steering = 0.01 * i;
     SCOPED_TRACE(steering);
@@ -76,24 +77,24 @@ TEST(AckermannAngles, KeepTheCotangentRelation) {
   }
 }
 
-TEST(AckermannAngles, WheelsPointAtOneCentre) {
+TEST(AckermannAngles, WheelsPointAtOneCenter) {
   // Each wheel is square to the line from the turning center (0, L cot delta) to its hub.
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   for (const double steering : {-0.48, -0.1, 0.02, 0.25, 0.4868}) {
     SCOPED_TRACE(steering);
-    const double centre = car.wheelbase * Cot(steering);
+    const double center = car.wheelbase * Cot(steering);
     const FrontAngles front = AckermannAngles(car, steering);
     for (const auto& [angle, y] : {std::pair{front.left, 0.5 * car.track_front},
                                    std::pair{front.right, -0.5 * car.track_front}}) {
       // Meters times a unit vector; the center is up to 135 m away.
-      EXPECT_NEAR(car.wheelbase * std::cos(angle) + (y - centre) * std::sin(angle), 0.0,
+      EXPECT_NEAR(car.wheelbase * std::cos(angle) + (y - center) * std::sin(angle), 0.0,
                   Tolerance(135.0 * kRounding));
     }
   }
 }
 
 TEST(BicycleAngle, InvertsAckermannAngles) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   Random random(2);
   for (int i = 0; i < 500; ++i) {
     const double steering = random.Uniform(-car.steering_limit, car.steering_limit);
@@ -107,7 +108,7 @@ TEST(BicycleAngle, InvertsAckermannAngles) {
 TEST(BicycleAngle, ReadsToeAsNearlyNothing) {
   // Toe of +-epsilon: each wheel's own bicycle angle is epsilon (1 -+ k epsilon), so the mean is
   // k epsilon^2 at most, k = track/(2 L) = 0.279. The mean of cotangents would give 90 deg.
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   for (const double toe : {1e-6, -1e-6, 1e-3, -1e-3, 0.02}) {
     SCOPED_TRACE(toe);
     EXPECT_LE(std::abs(BicycleAngle(car, {.left = toe, .right = -toe})),
@@ -116,7 +117,7 @@ TEST(BicycleAngle, ReadsToeAsNearlyNothing) {
 }
 
 TEST(BicycleAngle, IsTheMeanOfSmallAngles) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   Random random(3);
   for (int i = 0; i < 200; ++i) {
     const double left = random.Uniform(-1e-4, 1e-4);

@@ -10,7 +10,7 @@
 
 #include "tests/geometry/random.h"
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
@@ -19,7 +19,7 @@ namespace {
 
 /// The reference car on tyres that make it understeer, as most cars do.
 VehicleParams TyredCar(double front = 70e3, double rear = 110e3) {
-  VehicleParams car = SeedCar();
+  VehicleParams car = ReferenceCar();
   car.yaw_inertia = 2300.0;
   car.cornering_stiffness_front = front;
   car.cornering_stiffness_rear = rear;
@@ -347,7 +347,7 @@ TEST(SingleTrackCar, MirrorsAndTurnsWithItsStart) {
 
 // --- The full state ------------------------------------------------------------------------------
 
-TEST(SingleTrackCar, AccelerationsAreThoseOfTheCentreOfGravity) {
+TEST(SingleTrackCar, AccelerationsAreThoseOfTheCenterOfGravity) {
   // Second differences of the CG's position over 1 ms, as for the kinematic car: h^2/12 of a fourth
   // derivative. A tenth of a second into a ramp that is C_f omega/m, 8 m/s^3, over the tyres' 10 ms
   // at most: 800 m/s^4.
@@ -385,7 +385,7 @@ TEST(SingleTrackCar, AccelerationsAreThoseOfTheCentreOfGravity) {
 }
 
 TEST(SingleTrackCar, NeedsTyres) {
-  EXPECT_THROW(SingleTrackCar(SeedCar(), {}), InternalError);
+  EXPECT_THROW(SingleTrackCar(ReferenceCar(), {}), InternalError);
 }
 
 }  // namespace

@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 
 namespace trackbed {
 namespace {
 
 SteeringLimits Limits() {
-  return {SeedCar().steering_limit, SeedCar().steering_rate};
+  return {ReferenceCar().steering_limit, ReferenceCar().steering_rate};
 }
 
 // Two roundings of numbers below 4.

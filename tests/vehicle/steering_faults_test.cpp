@@ -66,7 +66,7 @@ TEST(FaultySteering, HasThePlayOfItsDeadBand) {
       wanted.push_back(std::lerp(from, to, i / 100.0));
     }
   }
-  const std::vector<double> given = PassAll({.dead_band = kBand}, wanted);
+  const std::vector<double> given = PassAll({.backlash = kBand}, wanted);
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const double up = wanted[i] - 0.5 * kBand;
     const double down = wanted[i] + 0.5 * kBand;
@@ -82,7 +82,7 @@ TEST(FaultySteering, StaysWithinTheDeadBand) {
   for (double& angle : wanted) {
     angle = 0.1 + 0.02 * angle;  // at most 8 mrad to either side
   }
-  for (const double given : PassAll({.dead_band = 0.017}, wanted, 0.1)) {
+  for (const double given : PassAll({.backlash = 0.017}, wanted, 0.1)) {
     EXPECT_EQ(given, 0.1);
   }
 }
@@ -91,7 +91,7 @@ TEST(FaultySteering, TakesItsFaultsInOrder) {
   // At the road wheels, so after the factor; and play at the end of the line, not before.
   const std::vector<double> wanted{0.1, 0.1, 0.0, 0.0};
   const std::vector<double> given =
-      PassAll({.factor = 2.0, .delay = 0.002, .dead_band = 0.1}, wanted);
+      PassAll({.factor = 2.0, .delay = 0.002, .backlash = 0.1}, wanted);
   const std::vector<double> expected{0.0, 0.15, 0.15, 0.05};
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     EXPECT_NEAR(given[i], expected[i], Tolerance(1e-15)) << i;

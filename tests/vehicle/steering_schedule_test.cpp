@@ -9,7 +9,7 @@
 
 #include "tests/geometry/random.h"
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
@@ -17,7 +17,7 @@ namespace trackbed {
 namespace {
 
 constexpr double kSpeed = 3.0;
-const double kSlope = SeedCar().steering_rate / kSpeed;
+const double kSlope = ReferenceCar().steering_rate / kSpeed;
 
 // Angles below 1 rad over distances below 200 m, a few operations: 200 * slope * 2^-53 and the
 // like.
@@ -170,10 +170,10 @@ TEST(SteeringDistance, HasThePrintedTable) {
   const std::vector<std::pair<double, double>> table{
       {5.1, 9.7012}, {10.0, 5.2543}, {20.0, 2.6736}, {50.0, 1.0749}, {154.0, 0.3493}};
   for (const auto& [radius, distance] : table) {
-    const double steering = SteeringForCurvature(SeedCar(), 1.0 / radius);
-    EXPECT_NEAR(SteeringDistance(SeedCar(), steering, kSpeed), distance, Tolerance(0.5e-4));
-    EXPECT_EQ(SteeringDistance(SeedCar(), -steering, kSpeed),
-              SteeringDistance(SeedCar(), steering, kSpeed));
+    const double steering = SteeringForCurvature(ReferenceCar(), 1.0 / radius);
+    EXPECT_NEAR(SteeringDistance(ReferenceCar(), steering, kSpeed), distance, Tolerance(0.5e-4));
+    EXPECT_EQ(SteeringDistance(ReferenceCar(), -steering, kSpeed),
+              SteeringDistance(ReferenceCar(), steering, kSpeed));
   }
 }
 
@@ -185,15 +185,15 @@ TEST(SteeringDistance, FitsIntoTheArcFromThePrintedRadiusOn) {
   for (const auto& [degrees, radius] : table) {
     SCOPED_TRACE(degrees);
     const auto spare = [change = degrees * kPi / 180.0](double r) {
-      return r * change -
-             SteeringDistance(SeedCar(), SteeringForCurvature(SeedCar(), 1.0 / r), kSpeed);
+      return r * change - SteeringDistance(ReferenceCar(),
+                                           SteeringForCurvature(ReferenceCar(), 1.0 / r), kSpeed);
     };
     EXPECT_LT(spare(radius - Tolerance(0.5e-3)), 0.0);
     EXPECT_GT(spare(radius + Tolerance(0.5e-3)), 0.0);
   }
 }
 
-/// Heading that a turn misses [rad, <= 0] when both its ramps are centred on the tangent points and
+/// Heading that a turn misses [rad, <= 0] when both its ramps are centerd on the tangent points and
 /// fit into the arc: (v/(L omega)) (-2 ln cos delta - delta tan delta).
 double TurnHeadingDefect(const VehicleParams& params, double steering, double speed) {
   const double scale = speed / (params.wheelbase * params.steering_rate);
@@ -209,21 +209,21 @@ TEST(TurnHeadingDefect, HasThePrintedValues) {
        {Row{5.1, -4.52, 0.5e-2}, Row{10.0, -0.354, 0.5e-3}, Row{13.0152, -0.126, 0.5e-3},
         Row{16.83, -0.0457, 0.5e-4}, Row{20.0, -0.0231, 0.5e-4}, Row{50.0, -0.0006, 0.5e-4}}) {
     SCOPED_TRACE(row.radius);
-    const double steering = SteeringForCurvature(SeedCar(), 1.0 / row.radius);
-    EXPECT_NEAR(TurnHeadingDefect(SeedCar(), steering, kSpeed) * 180.0 / kPi, row.degrees,
+    const double steering = SteeringForCurvature(ReferenceCar(), 1.0 / row.radius);
+    EXPECT_NEAR(TurnHeadingDefect(ReferenceCar(), steering, kSpeed) * 180.0 / kPi, row.degrees,
                 Tolerance(row.tolerance));
-    EXPECT_EQ(TurnHeadingDefect(SeedCar(), -steering, kSpeed),
-              TurnHeadingDefect(SeedCar(), steering, kSpeed));
+    EXPECT_EQ(TurnHeadingDefect(ReferenceCar(), -steering, kSpeed),
+              TurnHeadingDefect(ReferenceCar(), steering, kSpeed));
   }
 }
 
 TEST(TurnHeadingDefect, IsOfFourthOrder) {
   // -2 ln cos d - d tan d = -d^4/6 - 4 d^6/45 - ...: below 0.1 rad the second term is 0.54 % of the
   // first, the third ten times less again.
-  const double scale = kSpeed / (2.7 * SeedCar().steering_rate);
+  const double scale = kSpeed / (2.7 * ReferenceCar().steering_rate);
   for (const double steering : {0.02, 0.05, 0.1}) {
     const double first = -scale * std::pow(steering, 4) / 6.0;
-    EXPECT_NEAR(TurnHeadingDefect(SeedCar(), steering, kSpeed), first,
+    EXPECT_NEAR(TurnHeadingDefect(ReferenceCar(), steering, kSpeed), first,
                 Tolerance(0.6 * steering * steering * std::abs(first)));
   }
 }
@@ -235,25 +235,25 @@ KinematicState Start() {
 TEST(RampHeading, IsWhatTheCarTurnsOnItsRamp) {
   for (const double steering : {0.05, 0.134189, -0.263712, 0.486899}) {
     SCOPED_TRACE(steering);
-    const double ramp = SteeringDistance(SeedCar(), steering, kSpeed);
+    const double ramp = SteeringDistance(ReferenceCar(), steering, kSpeed);
     const SteeringSchedule schedule({{0.0, 100.0, steering}}, kSlope);
-    const KinematicState end = RollOut(SeedCar(), Start(), schedule, ramp, 0.05);
+    const KinematicState end = RollOut(ReferenceCar(), Start(), schedule, ramp, 0.05);
     // Simpson's rule on psi' = v tan(delta)/L: the error is h^4/2880 |d^4/ds^4 tan(delta)/L| S;
     // tan'''' <= 60 at 0.487 rad, slope^4 = 6.3e-6: 6.25e-6/2880 * 60/2.7 * 6.3e-6 * 9.7 = 3e-12.
-    EXPECT_NEAR(end.pose.yaw, RampHeading(SeedCar(), steering, kSpeed), Tolerance(1e-11));
+    EXPECT_NEAR(end.pose.yaw, RampHeading(ReferenceCar(), steering, kSpeed), Tolerance(1e-11));
     EXPECT_NEAR(end.steering, steering, Tolerance(kRounding));
   }
-  EXPECT_EQ(RampHeading(SeedCar(), 0.0, kSpeed), 0.0);
+  EXPECT_EQ(RampHeading(ReferenceCar(), 0.0, kSpeed), 0.0);
 }
 
 TEST(RollOut, MissesTheArcsHeadingByTheDefect) {
   for (const double radius : {10.0, 16.83, -20.0}) {
     SCOPED_TRACE(radius);
-    const double steering = SteeringForCurvature(SeedCar(), 1.0 / radius);
+    const double steering = SteeringForCurvature(ReferenceCar(), 1.0 / radius);
     const double arc = std::abs(radius) * kPi / 2.0;
     const SteeringSchedule schedule({{5.0, 5.0 + arc, steering}}, kSlope);
-    const double yaw = RollOut(SeedCar(), Start(), schedule, 60.0, 0.05).pose.yaw;
-    EXPECT_NEAR(std::abs(yaw), kPi / 2.0 + TurnHeadingDefect(SeedCar(), steering, kSpeed),
+    const double yaw = RollOut(ReferenceCar(), Start(), schedule, 60.0, 0.05).pose.yaw;
+    EXPECT_NEAR(std::abs(yaw), kPi / 2.0 + TurnHeadingDefect(ReferenceCar(), steering, kSpeed),
                 Tolerance(1e-11));
     EXPECT_EQ(std::signbit(yaw), std::signbit(radius));
   }
@@ -262,22 +262,24 @@ TEST(RollOut, MissesTheArcsHeadingByTheDefect) {
 TEST(RollOut, TruncatedTurnTurnsSeventyDegrees) {
   // 90 deg at 5.1 m peaks at 0.4021 rad and turns the rear axle by 70.2771 deg.
   const double arc = 5.1 * kPi / 2.0;
-  const SteeringSchedule schedule({{5.0, 5.0 + arc, SeedCar().steering_limit}}, kSlope);
-  const KinematicState peak = RollOut(SeedCar(), Start(), schedule, 5.0 + arc, 0.05);
+  const SteeringSchedule schedule({{5.0, 5.0 + arc, ReferenceCar().steering_limit}}, kSlope);
+  const KinematicState peak = RollOut(ReferenceCar(), Start(), schedule, 5.0 + arc, 0.05);
   EXPECT_NEAR(peak.steering, 0.4021, Tolerance(0.5e-4));
   EXPECT_NEAR(peak.steering, kSlope * arc, Tolerance(kRounding));
-  const KinematicState end = RollOut(SeedCar(), Start(), schedule, 40.0, 0.05);
+  const KinematicState end = RollOut(ReferenceCar(), Start(), schedule, 40.0, 0.05);
   EXPECT_NEAR(end.pose.yaw * 180.0 / kPi, 70.2771, Tolerance(0.5e-4));
-  EXPECT_NEAR(end.pose.yaw, 2.0 * RampHeading(SeedCar(), kSlope * arc, kSpeed), Tolerance(1e-11));
+  EXPECT_NEAR(end.pose.yaw, 2.0 * RampHeading(ReferenceCar(), kSlope * arc, kSpeed),
+              Tolerance(1e-11));
   EXPECT_NEAR(
-      RollOut(SeedCar(), Start(), schedule, 40.0, 0.05, ReferencePoint::kCentreOfGravity).pose.yaw *
+      RollOut(ReferenceCar(), Start(), schedule, 40.0, 0.05, ReferencePoint::kCenterOfGravity)
+              .pose.yaw *
           180.0 / kPi,
       69.4659, Tolerance(0.5e-4));
 }
 
 TEST(RollOut, DrivesTheDistance) {
   const SteeringSchedule schedule({{1.0, 7.3, 0.3}}, kSlope);
-  const KinematicState end = RollOut(SeedCar(), Start(), schedule, 23.7, 0.11);
+  const KinematicState end = RollOut(ReferenceCar(), Start(), schedule, 23.7, 0.11);
   EXPECT_NEAR(end.distance, 23.7, Tolerance(1e-12));  // 220 sums of rounding 2e-15
   EXPECT_EQ(end.speed, kSpeed);
 }
@@ -287,9 +289,9 @@ TEST(RollOut, IsOfFourthOrder) {
   // for the next order.
   const SteeringSchedule schedule({{5.0, 20.0, 0.4}, {25.0, 40.0, -0.4}}, kSlope);
   for (const ReferencePoint reference :
-       {ReferencePoint::kRearAxle, ReferencePoint::kCentreOfGravity}) {
+       {ReferencePoint::kRearAxle, ReferencePoint::kCenterOfGravity}) {
     const auto end = [&](double step) {
-      return RollOut(SeedCar(), Start(), schedule, 60.0, step, reference).pose.position();
+      return RollOut(ReferenceCar(), Start(), schedule, 60.0, step, reference).pose.position();
     };
     const Vec2 exact = end(0.02);
     const double coarse = (end(2.0) - exact).norm();
@@ -300,8 +302,8 @@ TEST(RollOut, IsOfFourthOrder) {
 }
 
 TEST(RollOut, ChecksItsCaller) {
-  EXPECT_THROW(RollOut(SeedCar(), {}, SteeringSchedule(), 1.0, 0.1), InternalError);
-  EXPECT_THROW(RollOut(SeedCar(), Start(), SteeringSchedule(), 1.0, 0.0), InternalError);
+  EXPECT_THROW(RollOut(ReferenceCar(), {}, SteeringSchedule(), 1.0, 0.1), InternalError);
+  EXPECT_THROW(RollOut(ReferenceCar(), Start(), SteeringSchedule(), 1.0, 0.0), InternalError);
 }
 
 TEST(SteeringSchedule, ValueAtTheEndOfThePeriodDrivesTheScheduleAtAnyPeriod) {
@@ -309,7 +311,7 @@ TEST(SteeringSchedule, ValueAtTheEndOfThePeriodDrivesTheScheduleAtAnyPeriod) {
   // inside a period T, a share f after its start, the wheels set out f T early and rest (1 - f) T
   // of ramp: the heading errs by v/L * omega f (1 - f) T^2 <= v omega T^2/(4 L). Everything else is
   // exact: two beginnings make twice that, and the position at most that times the distance.
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   const double distance = 60.0;
   const SteeringSchedule schedule({{10.013, 30.007, SteeringForCurvature(car, 1.0 / 16.830685)}},
                                   kSlope);

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/core/error.h"
 #include "trackbed/world/world.h"
 
@@ -13,16 +13,16 @@ namespace trackbed {
 namespace {
 
 ClearanceSample Sample(const World& world, const Pose2& pose, double time) {
-  return {pose, time, *Clearance(world, SeedCar(), pose, time)};
+  return {pose, time, *Clearance(world, ReferenceCar(), pose, time)};
 }
 
 ClosestApproach Between(const World& world, const Pose2& from, const Pose2& to, double time) {
-  return ApproachBetween(world, SeedCar(), Sample(world, from, 0.0), Sample(world, to, time));
+  return ApproachBetween(world, ReferenceCar(), Sample(world, from, 0.0), Sample(world, to, time));
 }
 
 TEST(ApproachBetween, FindsAThinWallThatTheCarJumpsOver) {
   // Half a second at 30 m/s: 15 m, over a wall of 0.2 m that is clear of the car at both ends.
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   const double front = car.length - car.rear_overhang;
   const World world{.obstacles = {{.footprint = {{front + 5.0, 0.0, 0.0}, 0.2, 3.0}}}};
   const ClosestApproach hit = Between(world, {}, {15.0, 0.0, 0.0}, 0.5);
@@ -62,7 +62,7 @@ TEST(ApproachBetween, IsTheSmallestOfManySamples) {
       const double share = k / 1000.0;
       const Pose2 pose{std::lerp(from.x, to.x, share), std::lerp(from.y, to.y, share),
                        std::lerp(from.yaw, to.yaw, share)};
-      least = std::min(least, *Clearance(world, SeedCar(), pose, 0.5 * share));
+      least = std::min(least, *Clearance(world, ReferenceCar(), pose, 0.5 * share));
     }
     const double found = Between(world, from, to, 0.5).clearance;
     EXPECT_LE(found, least + std::max(5e-3, 1e-2 * least)) << i;
@@ -74,7 +74,7 @@ TEST(ApproachBetween, IsTheSmallestOfManySamples) {
 }
 
 TEST(ApproachBetween, NeedsObstacles) {
-  EXPECT_THROW(ApproachBetween({}, SeedCar(), {}, {}), InternalError);
+  EXPECT_THROW(ApproachBetween({}, ReferenceCar(), {}, {}), InternalError);
 }
 
 }  // namespace

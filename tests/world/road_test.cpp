@@ -17,7 +17,7 @@ namespace {
 constexpr double kRounding = 1e-13;
 
 const Bump kBump{.area = {{10.0, 0.0, 0.0}, 4.0, 6.0}, .height = 0.1, .edge = 0.5};
-const SideSlope kStretch{.area = {{0.0, 0.0, 0.0}, 60.0, 8.0}, .slope = 0.05, .run_in = 10.0};
+const Superelevation kStretch{.area = {{0.0, 0.0, 0.0}, 60.0, 8.0}, .slope = 0.05, .run_in = 10.0};
 
 /// One of each, turned and not.
 Ground Hilly() {
@@ -83,7 +83,7 @@ TEST(GroundHeight, OfABumpIsACosineSquaredAlongTheWay) {
 
 TEST(GroundHeight, OfASideSlopeRisesFromItsLowerEdgeAndComesDownBehindTheOther) {
   for (const double sign : {1.0, -1.0}) {
-    SideSlope stretch = kStretch;
+    Superelevation stretch = kStretch;
     stretch.slope *= sign;
     const Ground ground{.side_slopes = {stretch}};
     const auto height = [&](double x, double left) {
@@ -163,9 +163,9 @@ TEST(GroundSlope, IsThatOfFiniteDifferences) {
 TEST(GroundHeight, TurnsWithItsFeatures) {
   const Pose2 turn{3.0, -7.0, 1.1};
   Bump turned = kBump;
-  turned.area.centre = Compose(turn, kBump.area.centre);
-  SideSlope turned_stretch = kStretch;
-  turned_stretch.area.centre = Compose(turn, kStretch.area.centre);
+  turned.area.center = Compose(turn, kBump.area.center);
+  Superelevation turned_stretch = kStretch;
+  turned_stretch.area.center = Compose(turn, kStretch.area.center);
   Random random(3);
   for (int i = 0; i < 500; ++i) {
     const Vec2 p(random.Uniform(-30.0, 30.0), random.Uniform(-12.0, 12.0));

@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 
 namespace trackbed {
 namespace {
 
 TEST(OutlineAt, ReachesFromTheRearBumperToTheFront) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   const OrientedBox outline = OutlineAt(car, {10.0, 5.0, 0.0});
   const auto corners = outline.Corners();
   EXPECT_NEAR(corners[0].x(), 10.0 + 4.45 - car.rear_overhang, Tolerance(1e-12));
@@ -20,7 +20,7 @@ TEST(OutlineAt, ReachesFromTheRearBumperToTheFront) {
 }
 
 TEST(Clearance, IsMeasuredFromTheOutlineToTheNearestObstacle) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   World world;
   EXPECT_FALSE(Clearance(world, car, {}, 0.0).has_value());
   world.obstacles.push_back({{{30.0, 0.0, 0.0}, 2.0, 2.0}, 1.0});
@@ -34,20 +34,20 @@ TEST(Clearance, IsMeasuredFromTheOutlineToTheNearestObstacle) {
 }
 
 TEST(Obstacles, MoveOnWithoutTurning) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   World world;
   world.obstacles.push_back({.footprint = {{30.0, 2.0, 0.5}, 4.0, 2.0}, .velocity = {-3.0, 0.5}});
   const OrientedBox later = FootprintAt(world.obstacles[0], 4.0);
-  EXPECT_EQ(later.centre.x, 18.0);
-  EXPECT_EQ(later.centre.y, 4.0);
-  EXPECT_EQ(later.centre.yaw, 0.5);
+  EXPECT_EQ(later.center.x, 18.0);
+  EXPECT_EQ(later.center.y, 4.0);
+  EXPECT_EQ(later.center.yaw, 0.5);
   EXPECT_EQ(*Clearance(world, car, {}, 4.0), Distance(OutlineAt(car, {}), later));
   EXPECT_EQ(*Clearance(world, car, {}, 0.0),
             Distance(OutlineAt(car, {}), world.obstacles[0].footprint));
 }
 
 TEST(Obstacles, AreSeenWhereTheyAreByThen) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   const Obstacle obstacle{
       .footprint = {{40.0, 0.0, 0.0}, 4.0, 2.0}, .known_from_range = 10.0, .velocity = {-5.0, 0.0}};
   // From the front bumper to its near side: 38 - front - 5 t.

@@ -8,7 +8,7 @@
 namespace {
 
 using trackbed::Compare;
-using trackbed::PartsAtMost;
+using trackbed::DiffersByAtMost;
 using trackbed::ReachesGoal;
 using trackbed::RunResult;
 using trackbed::RunScenario;
@@ -27,7 +27,7 @@ TEST(Corner, IsDrivenByTheTyresAsTheKinematicModelSays) {
   const RunResult run = RunScenario(kCorner);
   EXPECT_THAT(run, StaysWithin("kinematic", "mujoco:contact", 0.1));
   EXPECT_THAT(Compare(run, "kinematic", "mujoco:magic_formula"),
-              PartsAtMost({.position_max = 0.1, .heading_max = 0.02, .steering_max = 0.05}));
+              DiffersByAtMost({.position_max = 0.1, .heading_max = 0.02, .steering_max = 0.05}));
 }
 
 TEST(Corner, IsNotThatOfTheKinematicModelOnIce) {

@@ -18,8 +18,8 @@ class LaggingPlant final : public Plant {
     delayed.steering = steering_;
     car_->Step(delayed);
   }
-  void Shift(double left) override { car_->Shift(left); }
-  void Push(double force) override { car_->Push(force); }
+  void ApplyLateralOffset(double left) override { car_->ApplyLateralOffset(left); }
+  void ApplyLateralForce(double force) override { car_->ApplyLateralForce(force); }
   [[nodiscard]] VehicleState Observe() const override { return car_->Observe(); }
   [[nodiscard]] Pose2 pose() const override { return car_->pose(); }
   [[nodiscard]] std::vector<double> Configuration() const override { return car_->Configuration(); }

@@ -120,7 +120,7 @@ struct CircleExperiment {
   double speed = 0.0;             ///< v likewise
   double max_steering = 0.0;      ///< delta_max [rad]
   Matching matching = Matching::kArcLength;
-  ReferencePoint reference = ReferencePoint::kCentreOfGravity;
+  ReferencePoint reference = ReferencePoint::kCenterOfGravity;
 };
 
 /// The constant angle within +-delta_max that minimizes (1) of the experiment, weights 1.

@@ -22,7 +22,7 @@ struct Signal {
   [[nodiscard]] double Mean(double from, double to) const;
 
   /// Whether x rises strictly and everything is finite.
-  [[nodiscard]] bool Rises() const;
+  [[nodiscard]] bool IsStrictlyIncreasing() const;
 };
 
 }  // namespace trackbed

@@ -12,7 +12,7 @@ std::string ShortestText(double number);
 
 /// Two numbers for a sentence that tells them apart: with four digits, or with as many as it takes
 /// until they differ.
-std::pair<std::string, std::string> TextsApart(double first, double second);
+std::pair<std::string, std::string> FormatDistinct(double first, double second);
 
 /// A table of texts with named columns, for results that are not all numbers. Text in, text out:
 /// an empty cell is a value that there is none of.

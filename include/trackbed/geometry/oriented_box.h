@@ -8,7 +8,7 @@ namespace trackbed {
 
 /// A rectangle in the plane, turned by its pose's yaw.
 struct OrientedBox {
-  Pose2 centre;         ///< middle of the rectangle; its x axis runs along the length
+  Pose2 center;         ///< middle of the rectangle; its x axis runs along the length
   double length = 0.0;  ///< along its own x [m], > 0
   double width = 0.0;   ///< along its own y [m], > 0
 

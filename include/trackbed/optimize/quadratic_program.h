@@ -8,14 +8,14 @@ namespace trackbed {
 
 /// Sizes are bounded so that solving takes no heap memory but NLopt's.
 struct QuadraticProgram {
-  static constexpr int kMostVariables = 40;
-  static constexpr int kMostConstraints = 4 * kMostVariables;
+  static constexpr int kMaxVariables = 40;
+  static constexpr int kMaxConstraints = 4 * kMaxVariables;
   using Matrix =
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostVariables, kMostVariables>;
-  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostVariables, 1>;
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxVariables, kMaxVariables>;
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxVariables, 1>;
   using Rows =
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostConstraints, kMostVariables>;
-  using Bounds = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostConstraints, 1>;
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxConstraints, kMaxVariables>;
+  using Bounds = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxConstraints, 1>;
 
   Matrix hessian;    ///< H, symmetric positive definite
   Vector linear;     ///< f

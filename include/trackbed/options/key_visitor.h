@@ -46,7 +46,7 @@ struct Range {
 };
 
 inline constexpr Range kPositive{.above = 0.0};
-inline constexpr Range kNotNegative{.min = 0.0};
+inline constexpr Range kNonNegative{.min = 0.0};
 
 inline constexpr Range kMap{.min = -1e5, .max = 1e5};          ///< [m]; beyond any route
 inline constexpr Range kSpeedRange{.min = 0.0, .max = 100.0};  ///< [m/s]

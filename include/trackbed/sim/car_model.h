@@ -36,7 +36,7 @@ inline constexpr double kAirDensity = 1.225;  ///< ISO 2533 at sea level [kg/m^3
 struct CarAerodynamics {
   double drag_area = 0.0;                      ///< C_d A [m^2], of wind along x
   double side_area = 0.0;                      ///< C_s A [m^2], of wind along y
-  std::array<double, 2> centre_of_pressure{};  ///< x and z of where it pushes [m]
+  std::array<double, 2> center_of_pressure{};  ///< x and z of where it pushes [m]
 };
 
 /// Where Trackbed finds the parts of a vehicle in the compiled model (docs name the MJCF names).

@@ -30,11 +30,11 @@ class Plant {
 
   /// Sets the car aside by `left` [m], to its left, at once: as it stands and moves, on the ground
   /// that is there.
-  virtual void Shift(double left) = 0;
+  virtual void ApplyLateralOffset(double left) = 0;
 
   /// A horizontal force to the left [N] that acts on its center of gravity during the next step
   /// alone. Cars that know no forces do not feel it.
-  virtual void Push(double force) = 0;
+  virtual void ApplyLateralForce(double force) = 0;
 
   /// The state now. For plants with forces, accelerations and wheel forces are those of the step
   /// that led here.
@@ -96,7 +96,7 @@ struct PlantEntry {
 /// InputError names its file and what is missing there; it begins without slip, as every plant
 /// does. Where it is unstable it ends as diverged, 1e10 m or rad away.
 ///
-/// `kinematic` feels no Push, and `single_track` none at rest.
+/// `kinematic` feels no ApplyLateralForce, and `single_track` none at rest.
 ///
 /// The MuJoCo plant turns a wanted acceleration into drive torque on its differential, or, against
 /// the gear, into dry friction of the brakes, front to rear as the model's brake torques; both are
@@ -121,7 +121,7 @@ std::unique_ptr<Plant> MakePlant(const std::string& name, const PlantSetup& setu
 /// `name` as it stands in file names: "mujoco:contact" is "mujoco-contact".
 std::string PlantFileName(const std::string& name);
 
-/// The kinematic plant with the reference point of your choice: with kCentreOfGravity,
+/// The kinematic plant with the reference point of your choice: with kCenterOfGravity,
 /// `start.speed` and the commanded acceleration are those of the center of gravity.
 std::unique_ptr<Plant> MakeKinematicPlant(const PlantSetup& setup, ReferencePoint reference);
 

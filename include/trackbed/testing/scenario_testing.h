@@ -17,7 +17,7 @@
 ///     EXPECT_THAT(run, trackbed::TracksWithin(0.15));
 ///     EXPECT_THAT(run, trackbed::StaysWithin("kinematic", "mujoco", 0.1));
 ///     EXPECT_THAT(trackbed::Compare(run, "kinematic", "mujoco"),
-///                 trackbed::PartsAtMost({.position_max = 0.1, .yaw_rate_max = 0.05}));
+///                 trackbed::DiffersByAtMost({.position_max = 0.1, .yaw_rate_max = 0.05}));
 ///
 /// A matcher that fails says what was expected, what was, where (station) and when (time). Each
 /// matcher asks every plant of the run; a run without a plan, without the plants asked for, or
@@ -45,7 +45,7 @@ void PrintTo(const PlantComparison& comparison, std::ostream* out);
 
 /// The two are never further apart than the bounds; two that have no stretch in common do not
 /// match.
-testing::Matcher<const PlantComparison&> PartsAtMost(const DifferenceBounds& bounds);
+testing::Matcher<const PlantComparison&> DiffersByAtMost(const DifferenceBounds& bounds);
 
 /// What GoogleTest prints of a run: "three_turns: kinematic arrived at 47.12 s, mujoco arrived at
 /// 47.13 s; met its expectations".

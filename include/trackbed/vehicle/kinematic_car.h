@@ -15,7 +15,7 @@ namespace trackbed {
 struct MotionPiece;
 
 /// The point whose pose the car's state is, and whose speed is v.
-enum class ReferencePoint { kRearAxle, kCentreOfGravity };
+enum class ReferencePoint { kRearAxle, kCenterOfGravity };
 
 struct KinematicState {
   Pose2 pose;             ///< of the reference point
@@ -37,7 +37,7 @@ class KinematicCar {
   void Step(const Command& command, double duration);
 
   /// Sets the car aside by `left` [m], to its left, at once.
-  void Shift(double left);
+  void ApplyLateralOffset(double left);
 
   [[nodiscard]] const KinematicState& state() const { return state_; }
 

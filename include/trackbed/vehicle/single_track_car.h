@@ -53,11 +53,11 @@ class SingleTrackCar {
   void Step(const Command& command, double duration);
 
   /// Sets the car aside by `left` [m], to its left, at once.
-  void Shift(double left);
+  void ApplyLateralOffset(double left);
 
   /// A blow to the left [N s] at the center of gravity. A car at rest, which has no lateral speed,
   /// does not feel it.
-  void Push(double impulse);
+  void ApplyLateralForce(double impulse);
 
   [[nodiscard]] const SingleTrackState& state() const { return state_; }
 

@@ -11,9 +11,9 @@ namespace trackbed {
 ///   u_3(t), with |u_3 - u_2| <= b/2  play b: it moves only where it would come out of it
 /// Nothing is lost of a change that is slower than all of it, but the play.
 struct SteeringFaults {
-  double factor = 1.0;     ///< wanted angle to that of the road wheels, > 0
-  double delay = 0.0;      ///< [s], >= 0
-  double dead_band = 0.0;  ///< b, the whole play, at the road wheels [rad], >= 0
+  double factor = 1.0;    ///< wanted angle to that of the road wheels, > 0
+  double delay = 0.0;     ///< [s], >= 0
+  double backlash = 0.0;  ///< b, the whole play, at the road wheels [rad], >= 0
 };
 
 /// Guarantees: without faults, what is asked for comes out, bit for bit. The delay is the whole

@@ -30,7 +30,7 @@ struct Bump {
 /// above the plane by
 ///   |slope| C((|u| - L/2 + r) / r) w               for 0 <= w <= W,     r = min(run_in, L/2),
 ///   |slope| C((|u| - L/2 + r) / r) W C((w - W)/W)  beyond.
-struct SideSlope {
+struct Superelevation {
   OrientedBox area;      ///< of what leans; the embankment lies beside it
   double slope = 0.0;    ///< rise over run to its left; negative: it rises to the right
   double run_in = 10.0;  ///< length over which it comes at either end [m], > 0
@@ -40,7 +40,7 @@ struct SideSlope {
 struct Ground {
   Vec2 grade = Vec2::Zero();  ///< of the plane: dz/dx and dz/dy
   std::vector<Bump> bumps{};
-  std::vector<SideSlope> side_slopes{};
+  std::vector<Superelevation> side_slopes{};
 };
 
 /// Whether the ground is the plane z = 0.
@@ -48,11 +48,11 @@ bool IsFlat(const Ground& ground);
 
 /// Above the plane, at a point of the world [m]; 0 outside.
 double Rise(const Bump& bump, const Vec2& point_W);
-double Rise(const SideSlope& side_slope, const Vec2& point_W);
+double Rise(const Superelevation& side_slope, const Vec2& point_W);
 
 /// The rectangle outside which a feature rises nowhere: of a side slope, with its embankment.
 OrientedBox Extent(const Bump& bump);
-OrientedBox Extent(const SideSlope& side_slope);
+OrientedBox Extent(const Superelevation& side_slope);
 
 /// z of the ground [m]. Continuous. Cost O(features).
 double GroundHeight(const Ground& ground, const Vec2& point_W);

@@ -145,7 +145,7 @@ class AroundObstacles {
     Append(caps, Moved(plan_.caps, after, shift));
     plan_.caps = caps;
 
-    std::vector<LoneTurn> turns = Moved(plan_.turns, before, 0.0);
+    std::vector<IsolatedTurn> turns = Moved(plan_.turns, before, 0.0);
     Append(turns, Moved(plan_.turns, after, shift));
     plan_.turns = turns;
 
@@ -185,7 +185,7 @@ class AroundObstacles {
   void Tell(const Replacement& replacement, const OrientedBox& obstacle, const Stations& curve) {
     const CurveCheck& check = replacement.check;
     json entry = replacement.diagnostics(plan_, curve);
-    entry["obstacle_m"] = Point(obstacle.centre.position());
+    entry["obstacle_m"] = Point(obstacle.center.position());
     entry["ring"] = ToString(replacement.ring);
     entry["leave_s_m"] = curve.from;
     entry["return_s_m"] = curve.to;
@@ -232,7 +232,7 @@ class AroundObstacles {
     plan_.caps = Moved(plan_.caps, before, 0.0);
     plan_.turns = Moved(plan_.turns, before, 0.0);
     SetSpeed(start_speed, path().length());
-    const Vec2 obstacle = conflict.obstacle.centre.position();
+    const Vec2 obstacle = conflict.obstacle.center.position();
     plan_.blocked = fmt::format("stops before the obstacle at ({:.4g}, {:.4g}): {}", obstacle.x(),
                                 obstacle.y(), why);
     plan_.diagnostics["blocked"] = plan_.blocked;
@@ -320,11 +320,11 @@ Plan PlanAroundWith(const ListingAvoidanceOptions& options, const AvoidanceReque
 
 }  // namespace
 
-const char* ToString(Ring ring) {
-  return ring == Ring::kInner ? "inner" : "outer";
+const char* ToString(PassingSide ring) {
+  return ring == PassingSide::kInner ? "inner" : "outer";
 }
 
-const std::vector<AvoiderEntry>& Avoiders() {
+const std::vector<AvoiderEntry>& LocalPlanners() {
   static const std::vector<AvoiderEntry> table{
       {"bezier", "RRT* and a degree-7 Bezier curve, repaired until it can be driven (F.2)",
        BezierAvoidanceOptions{}, true},
@@ -355,17 +355,18 @@ namespace {
 template <typename Options>
 void VisitAvoider(KeyVisitor& keys, Options& options) {
   keys.Field({"safe_distance", "m", "of the car's outline from obstacles"}, options.safe_distance,
-             Need::kOptional, kNotNegative);
+             Need::kOptional, kNonNegative);
   keys.Field({"delay", "s", "from learning of an obstacle to the new plan"}, options.delay,
-             Need::kOptional, kNotNegative);
+             Need::kOptional, kNonNegative);
 }
 
 }  // namespace
 
 void Visit(KeyVisitor& keys, BezierAvoidanceOptions& options) {
   VisitAvoider(keys, options);
-  static const EnumNames<RingChoice> rings{
-      {RingChoice::kAuto, "auto"}, {RingChoice::kInner, "inner"}, {RingChoice::kOuter, "outer"}};
+  static const EnumNames<PassingSideChoice> rings{{PassingSideChoice::kAuto, "auto"},
+                                                  {PassingSideChoice::kInner, "inner"},
+                                                  {PassingSideChoice::kOuter, "outer"}};
   keys.Field(
       {"ring", "",
        "on which side to pass: toward the turn's center (left on a straight), away from it, or "
@@ -391,9 +392,9 @@ void Visit(KeyVisitor& keys, ListingAvoidanceOptions& options) {
   keys.Field({"inner_width", "m",
               "free toward the turn's center; the curve leads past on the wider side, this one of "
               "two alike"},
-             options.inner_width, Need::kOptional, kNotNegative);
+             options.inner_width, Need::kOptional, kNonNegative);
   keys.Field({"outer_width", "m", "free on the other side"}, options.outer_width, Need::kOptional,
-             kNotNegative);
+             kNonNegative);
   keys.Field({"grid", "", "the arc in steps of 0.01 rad, as printed; else exact"},
              options.literal.grid, Need::kOptional);
   keys.Field({"right_shift", "",

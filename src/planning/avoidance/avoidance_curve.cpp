@@ -238,7 +238,7 @@ class Evaluation {
     double nearest = wanted_ + kFar;
     for (const Near& near : obstacles_) {
       const double reach = nearest + near.radius;
-      if ((middle - near.box.centre.position()).squaredNorm() < reach * reach) {
+      if ((middle - near.box.center.position()).squaredNorm() < reach * reach) {
         const OrientedBox outline{{middle.x(), middle.y(), std::atan2(forward.y(), forward.x())},
                                   vehicle.length,
                                   vehicle.width};

@@ -26,8 +26,8 @@ struct MirrorFrame {
   [[nodiscard]] Vec2 Out(const Vec2& p) const { return ToWorld(pose, {p.x(), side * p.y()}); }
   [[nodiscard]] double In(double yaw) const { return side * (yaw - pose.yaw); }
   [[nodiscard]] OrientedBox In(const OrientedBox& box) const {
-    const Vec2 centre = In(box.centre.position());
-    return {{centre.x(), centre.y(), In(box.centre.yaw)}, box.length, box.width};
+    const Vec2 center = In(box.center.position());
+    return {{center.x(), center.y(), In(box.center.yaw)}, box.length, box.width};
   }
 };
 

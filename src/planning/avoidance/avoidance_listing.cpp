@@ -101,7 +101,7 @@ std::vector<std::string> NotesOn(const CurveCheck& check, const VehicleParams& v
     return {};
   }
   return {fmt::format("driven although its curve past the obstacle at ({:.4g}, {:.4g}) has {}",
-                      obstacle.centre.x, obstacle.centre.y, fmt::join(broken, "; "))};
+                      obstacle.center.x, obstacle.center.y, fmt::join(broken, "; "))};
 }
 
 /// The listing's own findings.

@@ -40,7 +40,7 @@ struct Bend {
 
 /// One side of an obstacle, and the way that RRT* found there.
 struct Way {
-  Ring ring = Ring::kInner;
+  PassingSide ring = PassingSide::kInner;
   RrtStarResult tree;
 };
 
@@ -78,7 +78,7 @@ class StretchFinder {
           const auto problem_to = [&, speed = speed, share = share](double back) {
             CurveProblem problem = ProblemFor(leave, back, {speed, share}, from);
             problem.gate = {SideFrame(conflict), SideOf(bend, way.ring)};
-            problem.mirror = SideOf(bend, Ring::kInner);
+            problem.mirror = SideOf(bend, PassingSide::kInner);
             return problem;
           };
           std::optional<Stretch> stretch;
@@ -115,7 +115,7 @@ class StretchFinder {
     }
     const std::string why =
         fmt::format("no curve passes it on {} at {:.3g} m/s or more ({} tried)",
-                    options_.ring == RingChoice::kAuto
+                    options_.ring == PassingSideChoice::kAuto
                         ? "either side"
                         : fmt::format("the {} side", ToString(ways.front().ring)),
                     std::min(full, options_.min_speed), tried);
@@ -246,14 +246,14 @@ class StretchFinder {
   }
 
   /// Across the path at the obstacle, to the left if it passes the obstacle there.
-  [[nodiscard]] static double SideOf(const Bend& bend, Ring ring) {
+  [[nodiscard]] static double SideOf(const Bend& bend, PassingSide ring) {
     const double inner = bend.curvature < 0.0 ? -1.0 : 1.0;
-    return ring == Ring::kInner ? inner : -inner;
+    return ring == PassingSide::kInner ? inner : -inner;
   }
 
   /// The frame in which sides are told: at the obstacle, along the path beside it.
   [[nodiscard]] Pose2 SideFrame(const Conflict& conflict) const {
-    return {conflict.obstacle.centre.x, conflict.obstacle.centre.y,
+    return {conflict.obstacle.center.x, conflict.obstacle.center.y,
             path().At(StationBeside(path(), request_.vehicle, conflict)).pose.yaw};
   }
 
@@ -281,10 +281,10 @@ class StretchFinder {
       tree.obstacles.push_back(frame.In(obstacle));
     }
     const double around = HalfDiagonal(conflict.obstacle) + 2.0 * tree.inflation;
-    const Vec2 centre = frame.In(conflict.obstacle.centre.position());
+    const Vec2 center = frame.In(conflict.obstacle.center.position());
     const Vec2 margin = Vec2::Constant(tree.inflation);
-    tree.low = tree.start.cwiseMin(tree.goal).cwiseMin(centre - Vec2::Constant(around)) - margin;
-    tree.high = tree.start.cwiseMax(tree.goal).cwiseMax(centre + Vec2::Constant(around)) + margin;
+    tree.low = tree.start.cwiseMin(tree.goal).cwiseMin(center - Vec2::Constant(around)) - margin;
+    tree.high = tree.start.cwiseMax(tree.goal).cwiseMax(center + Vec2::Constant(around)) + margin;
     return tree;
   }
 
@@ -299,11 +299,12 @@ class StretchFinder {
   [[nodiscard]] std::vector<Way> WaysFor(const Conflict& conflict, const Bend& bend,
                                          const CurveProblem& problem) const {
     const Pose2 beside = SideFrame(conflict);
-    const MirrorFrame frame{problem.start.pose, SideOf(bend, Ring::kInner)};
-    const auto grow = [&](std::optional<Ring> only) {
+    const MirrorFrame frame{problem.start.pose, SideOf(bend, PassingSide::kInner)};
+    const auto grow = [&](std::optional<PassingSide> only) {
       RrtStarProblem tree = TreeProblem(frame, problem, conflict);
       if (only) {
-        const Ring closed = *only == Ring::kInner ? Ring::kOuter : Ring::kInner;
+        const PassingSide closed =
+            *only == PassingSide::kInner ? PassingSide::kOuter : PassingSide::kInner;
         const double length = (tree.high - tree.low).norm();
         tree.obstacles.push_back(frame.In(WallOn({beside, SideOf(bend, closed)}, length)));
       }
@@ -317,16 +318,19 @@ class StretchFinder {
       }
       return result;
     };
-    if (options_.ring != RingChoice::kAuto) {
-      const Ring ring = options_.ring == RingChoice::kInner ? Ring::kInner : Ring::kOuter;
+    if (options_.ring != PassingSideChoice::kAuto) {
+      const PassingSide ring =
+          options_.ring == PassingSideChoice::kInner ? PassingSide::kInner : PassingSide::kOuter;
       return {{ring, grow(ring)}};
     }
-    Way first{Ring::kInner, grow(std::nullopt)};
+    Way first{PassingSide::kInner, grow(std::nullopt)};
     if (first.tree.ok()) {
       const bool left = GoesThrough({beside, 1.0}, first.tree.path);
-      first.ring = (left ? 1.0 : -1.0) == SideOf(bend, Ring::kInner) ? Ring::kInner : Ring::kOuter;
+      first.ring = (left ? 1.0 : -1.0) == SideOf(bend, PassingSide::kInner) ? PassingSide::kInner
+                                                                            : PassingSide::kOuter;
     }
-    const Ring other = first.ring == Ring::kInner ? Ring::kOuter : Ring::kInner;
+    const PassingSide other =
+        first.ring == PassingSide::kInner ? PassingSide::kOuter : PassingSide::kInner;
     return {first, {other, grow(other)}};
   }
 
@@ -380,7 +384,7 @@ std::optional<Conflict> FirstConflict(const AvoidanceRequest& request, double sa
 }
 
 double StationBeside(const Path& path, const VehicleParams& vehicle, const Conflict& conflict) {
-  const Pose2 at{conflict.obstacle.centre.x, conflict.obstacle.centre.y, 0.0};
+  const Pose2 at{conflict.obstacle.center.x, conflict.obstacle.center.y, 0.0};
   return path.Project(at, {conflict.from, conflict.to + vehicle.length}).s;
 }
 

@@ -36,7 +36,7 @@ struct Replacement {
   BezierCurve curve;
   CurveCheck check;
   double speed = 0.0;  ///< at most, on the curve [m/s]
-  Ring ring = Ring::kInner;
+  PassingSide ring = PassingSide::kInner;
   std::vector<TreeNode> tree;  ///< that was searched for it
   std::vector<std::string> notes;
   /// The method's own findings, given the new plan and the curve's stations on it.
@@ -52,7 +52,7 @@ struct ReplacementSearch {
 struct Stretch {
   CurveProblem problem;
   Repair repair;
-  Ring ring = Ring::kInner;
+  PassingSide ring = PassingSide::kInner;
   double leave = 0.0;  ///< station [m]
   double back = 0.0;   ///< station [m]
   RrtStarResult tree;

@@ -16,10 +16,10 @@
 namespace trackbed {
 namespace {
 
-constexpr double kGrid = 0.01;        // [rad]
-constexpr double kTestAhead = 2.0;    // [m]
-constexpr double kStep = 1.0;         // EPS [m]
-constexpr double kNeighbours = 10.0;  // r [m]
+constexpr double kGrid = 0.01;       // [rad]
+constexpr double kTestAhead = 2.0;   // [m]
+constexpr double kStep = 1.0;        // EPS [m]
+constexpr double kNeighbors = 10.0;  // r [m]
 constexpr std::size_t kIntervals = 500;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -117,17 +117,17 @@ std::size_t NearestNode(const std::vector<TreeNode>& nodes, const Vec2& point) {
 /// The corner of the obstacle that the listing measures to: the rear one toward the center of the
 /// turn if the car passes there, else the front one on the other side.
 Vec2 TestCorner(const TurnManoeuvre& manoeuvre, const OrientedBox& obstacle) {
-  const double ring = manoeuvre.ring() == Ring::kInner ? 1.0 : -1.0;
-  return ToWorld(obstacle.centre,
+  const double ring = manoeuvre.ring() == PassingSide::kInner ? 1.0 : -1.0;
+  return ToWorld(obstacle.center,
                  {-ring * 0.5 * obstacle.length, ring * Sign(manoeuvre) * 0.5 * obstacle.width});
 }
 
 }  // namespace
 
-double SafeRadius(const TurnManoeuvre& manoeuvre, double vehicle_width, Ring ring) {
+double SafeRadius(const TurnManoeuvre& manoeuvre, double vehicle_width, PassingSide ring) {
   const double need = Need(manoeuvre, vehicle_width);
-  return ring == Ring::kInner ? manoeuvre.radius - need - manoeuvre.inner_width
-                              : 1.5 * (manoeuvre.radius + need + manoeuvre.outer_width);
+  return ring == PassingSide::kInner ? manoeuvre.radius - need - manoeuvre.inner_width
+                                     : 1.5 * (manoeuvre.radius + need + manoeuvre.outer_width);
 }
 
 TurnLayout LayOutTurn(const TurnManoeuvre& manoeuvre, const VehicleParams& vehicle) {
@@ -165,9 +165,9 @@ TurnLayout LayOutTurn(const TurnManoeuvre& manoeuvre, const VehicleParams& vehic
     obstacle_angle = angles[layout.obstacle_at - 1];
     layout.safe_angle = kGrid * static_cast<double>(layout.obstacle_at - 1);
   }
-  const Vec2 centre = PointAt(manoeuvre, manoeuvre.radius, obstacle_angle);
+  const Vec2 center = PointAt(manoeuvre, manoeuvre.radius, obstacle_angle);
   layout.obstacle = {
-      {centre.x(), centre.y(), 0.0}, manoeuvre.obstacle_length, manoeuvre.obstacle_width};
+      {center.x(), center.y(), 0.0}, manoeuvre.obstacle_length, manoeuvre.obstacle_width};
   layout.safe_point = PointAt(manoeuvre, layout.safe_radius, layout.safe_angle);
   return layout;
 }
@@ -192,8 +192,8 @@ std::array<Vec2, 8> ControlPoints(const TurnManoeuvre& manoeuvre, const TurnLayo
   points[5] = arc_end;
   if (manoeuvre.literal.right_angle_rule && manoeuvre.reduction == 0.0) {
     // Beside the safe point, on the outside beside the one that the inside would have.
-    const double radius = SafeRadius(manoeuvre, vehicle.width, Ring::kInner);
-    const double y = manoeuvre.ring() == Ring::kInner
+    const double radius = SafeRadius(manoeuvre, vehicle.width, PassingSide::kInner);
+    const double y = manoeuvre.ring() == PassingSide::kInner
                          ? layout.safe_point.y()
                          : PointAt(manoeuvre, radius, layout.safe_angle).y();
     points[5] = {arc_end.x(), y};
@@ -214,8 +214,9 @@ LiteralTree LiteralRrtStar(const TurnManoeuvre& manoeuvre, const TurnLayout& lay
   boost::random::mt19937_64 random(seed);
   const auto uniform = [&random] { return boost::random::uniform_01<double>()(random); };
   const OrientedBox& obstacle = layout.obstacle;
-  const double x_max = obstacle.centre.x;
-  const double y_max = manoeuvre.ring() == Ring::kInner ? obstacle.centre.y : -obstacle.centre.y;
+  const double x_max = obstacle.center.x;
+  const double y_max =
+      manoeuvre.ring() == PassingSide::kInner ? obstacle.center.y : -obstacle.center.y;
   const int iterations = static_cast<int>(std::floor(0.5 * manoeuvre.straight()));
 
   LiteralTree tree;
@@ -238,7 +239,7 @@ LiteralTree LiteralRrtStar(const TurnManoeuvre& manoeuvre, const TurnLayout& lay
     double cheapest = near_cost;
     for (std::size_t j = 0; j < nodes.size(); ++j) {
       const double length = (nodes[j].position - position).norm();
-      if (length <= kNeighbours && nodes[j].cost + length < cheapest &&
+      if (length <= kNeighbors && nodes[j].cost + length < cheapest &&
           CrossesNoSide(nodes[j].position, position, obstacle)) {
         parent = j;
         cheapest = nodes[j].cost + length;

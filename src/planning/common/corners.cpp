@@ -132,7 +132,7 @@ RoundCorner CornerAt(const VehicleParams& vehicle, double heading_change, double
 }
 
 RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2>& polyline,
-                            const CornerLimits& limits, const ClearWay& clear) {
+                            const CornerLimits& limits, const CollisionChecker& clear) {
   TRACKBED_CHECK(polyline.size() >= 2, "{} points", polyline.size());
   RoundedCorners result;
   const auto refuse = [&](PlanStatus status, const std::string& reason) {

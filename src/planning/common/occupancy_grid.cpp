@@ -63,7 +63,7 @@ OccupancyGrid RasterOf(const Pose2& X_WF, const GridArea& area, double cell,
   TRACKBED_CHECK(cell > 0.0 && inflation >= 0.0, "cells of {} m, inflation {} m", cell, inflation);
   const Vec2 first = FirstCell(area, cell);
   const Vec2 count = CountOf(area, cell);
-  TRACKBED_CHECK(count.minCoeff() >= 1.0 && count.prod() <= kMostCells, "{} x {} cells", count.x(),
+  TRACKBED_CHECK(count.minCoeff() >= 1.0 && count.prod() <= kMaxCells, "{} x {} cells", count.x(),
                  count.y());
   OccupancyGrid grid;
   const Vec2 corner = ToWorld(X_WF, cell * first);
@@ -74,8 +74,8 @@ OccupancyGrid RasterOf(const Pose2& X_WF, const GridArea& area, double cell,
   grid.occupied.assign(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows),
                        0);
   for (const OrientedBox& box : boxes_W) {
-    const Vec2 middle = ToLocal(grid.X_WG, box.centre.position());
-    const double turn = box.centre.yaw - X_WF.yaw;
+    const Vec2 middle = ToLocal(grid.X_WG, box.center.position());
+    const double turn = box.center.yaw - X_WF.yaw;
     const Vec2 along = Direction(turn);
     const Vec2 half{0.5 * box.length, 0.5 * box.width};
     const Vec2 reach{std::abs(along.x()) * half.x() + std::abs(along.y()) * half.y() + inflation,

@@ -30,9 +30,10 @@ std::vector<SpeedCap> Moved(const std::vector<SpeedCap>& caps, Stations within, 
   return moved;
 }
 
-std::vector<LoneTurn> Moved(const std::vector<LoneTurn>& turns, Stations within, double shift) {
-  std::vector<LoneTurn> moved;
-  for (LoneTurn turn : turns) {
+std::vector<IsolatedTurn> Moved(const std::vector<IsolatedTurn>& turns, Stations within,
+                                double shift) {
+  std::vector<IsolatedTurn> moved;
+  for (IsolatedTurn turn : turns) {
     if (turn.from >= within.from && turn.middle <= within.to) {
       turn.from += shift;
       turn.middle += shift;

@@ -81,7 +81,7 @@ Plan AlongPolyline(Plan plan, const PlanRequest& request, const std::vector<Vec2
                     .max_curvature = 1.0 / request.vehicle.min_turning_radius(),
                     .start_speed = request.start_speed,
                     .deceleration = request.speed.deceleration},
-                   ClearWay(request.vehicle, request.obstacles, safe_distance));
+                   CollisionChecker(request.vehicle, request.obstacles, safe_distance));
   if (rounded.status != PlanStatus::kOk) {
     return Refused(rounded.status, rounded.reason);
   }
@@ -122,7 +122,7 @@ double RadiusFor(const VehicleParams& vehicle, const std::optional<double>& radi
   return radius.value_or(1.1 * vehicle.min_turning_radius());
 }
 
-Plan CheckStops(const std::vector<Pose2>& stops, const ClearWay& clear) {
+Plan CheckStops(const std::vector<Pose2>& stops, const CollisionChecker& clear) {
   for (std::size_t i = 0; i < stops.size(); ++i) {
     if (!clear.IsFree(stops[i])) {
       const std::string place = fmt::format("({:.4g}, {:.4g})", stops[i].x, stops[i].y);
@@ -149,7 +149,8 @@ Plan AlongSegments(Plan plan, const PlanRequest& request, std::vector<Segment> s
   return plan;
 }
 
-bool IsFree(const ClearWay& clear, const Pose2& pose, const std::vector<Segment>& segments) {
+bool IsFree(const CollisionChecker& clear, const Pose2& pose,
+            const std::vector<Segment>& segments) {
   return !clear.FirstBlocked(Path(pose, segments));
 }
 
@@ -164,7 +165,7 @@ LeadIn LeadInForCurves(const PlanRequest& request, double radius, double min_spe
 void VisitCurves(KeyVisitor& keys, std::optional<double>& radius, double& safe_distance,
                  double& min_speed) {
   keys.Field(kCurveRadius, radius, kPositive);
-  keys.Field(kOutlineDistance, safe_distance, Need::kOptional, kNotNegative);
+  keys.Field(kOutlineDistance, safe_distance, Need::kOptional, kNonNegative);
   keys.Field(kStepSpeed, min_speed, Need::kOptional, kPositive);
 }
 
@@ -175,9 +176,9 @@ void VisitCorners(KeyVisitor& keys, Corners& corners, double& safe_distance, dou
        "what becomes of corners: rounded by clothoids and arcs that the wheels can follow, or "
        "no plan"},
       corners, Need::kOptional, names);
-  keys.Field(kOutlineDistance, safe_distance, Need::kOptional, kNotNegative);
+  keys.Field(kOutlineDistance, safe_distance, Need::kOptional, kNonNegative);
   keys.Field({"corner_room", "m", "that the search keeps besides, for rounded corners"},
-             corner_room, Need::kOptional, kNotNegative);
+             corner_room, Need::kOptional, kNonNegative);
 }
 
 }  // namespace route

@@ -4,7 +4,7 @@
 
 namespace trackbed {
 
-TurnError ErrorInTurn(const Path& path, const LoneTurn& turn, const Pose2& X_W_from,
+TurnError ErrorInTurn(const Path& path, const IsolatedTurn& turn, const Pose2& X_W_from,
                       const Pose2& X_W_middle) {
   const Pose2 planned_from = path.At(turn.from).pose;
   const Pose2 planned_middle = path.At(turn.middle).pose;
@@ -14,7 +14,7 @@ TurnError ErrorInTurn(const Path& path, const LoneTurn& turn, const Pose2& X_W_f
   return {(planned_middle.yaw - planned_from.yaw) - (X_W_middle.yaw - X_W_from.yaw), offset.y()};
 }
 
-TurnError PredictTurn(const VehicleParams& vehicle, const Path& path, const LoneTurn& turn,
+TurnError PredictTurn(const VehicleParams& vehicle, const Path& path, const IsolatedTurn& turn,
                       double lag) {
   // A lagging car does the same, later.
   const double late = turn.speed * lag;

@@ -67,9 +67,9 @@ std::vector<Gate> LaneChangeGates(LaneChangeStandard standard, Side first, doubl
     const double length = course.lengths[section];
     if (section % 2 == 0) {
       const std::size_t gate = section / 2;
-      const Vec2 centre = ToWorld(start, Vec2(x + 0.5 * length, side * course.offsets[gate]));
+      const Vec2 center = ToWorld(start, Vec2(x + 0.5 * length, side * course.offsets[gate]));
       gates.push_back({static_cast<int>(section) + 1,
-                       {{centre.x(), centre.y(), start.yaw}, length, course.widths[gate]}});
+                       {{center.x(), center.y(), start.yaw}, length, course.widths[gate]}});
     }
     x += length;
   }
@@ -84,8 +84,8 @@ std::vector<Vec2> ConesOf(const Gate& gate) {
   for (int i = 0; i < kPairs; ++i) {
     const double x = lane.length * (static_cast<double>(i) / (kPairs - 1) - 0.5);
     const double y = 0.5 * lane.width + kRadius;
-    cones.push_back(ToWorld(lane.centre, Vec2(x, y)));
-    cones.push_back(ToWorld(lane.centre, Vec2(x, -y)));
+    cones.push_back(ToWorld(lane.center, Vec2(x, y)));
+    cones.push_back(ToWorld(lane.center, Vec2(x, -y)));
   }
   return cones;
 }
@@ -98,7 +98,7 @@ std::vector<Segment> LaneChangePath(const LaneChangePlannerOptions& options,
   double y = 0.0;
   for (std::size_t i = 0; i < gates.size(); ++i) {
     const OrientedBox& lane = gates[i].lane;
-    const Vec2 middle = ToLocal(start, lane.centre.position());
+    const Vec2 middle = ToLocal(start, lane.center.position());
     const double begin = middle.x() - 0.5 * lane.length;
     const double end = middle.x() + 0.5 * lane.length;
     if (i > 0) {
@@ -127,7 +127,7 @@ std::vector<double> GateMargins(const std::vector<Gate>& gates, const VehiclePar
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const std::array<Vec2, 4> corners = OutlineAt(vehicle, poses[i]).Corners();
       for (std::size_t c = 0; c < corners.size(); ++c) {
-        const Vec2 corner = ToLocal(lane.centre, corners[c]);
+        const Vec2 corner = ToLocal(lane.center, corners[c]);
         if (std::abs(corner.x()) <= 0.5 * lane.length) {
           take(corner);
         }

@@ -32,7 +32,7 @@ struct FoundCurve {
 
 /// The shortest of `words` that is free and begins as it may, a stop counting as so many meters.
 template <typename MayBegin>
-std::optional<FoundCurve> FirstFree(const PlanRequest& request, const ClearWay& clear,
+std::optional<FoundCurve> FirstFree(const PlanRequest& request, const CollisionChecker& clear,
                                     const Pose2& from, const std::vector<ShortestCurve>& words,
                                     double min_speed, const MayBegin& may_begin) {
   constexpr double kStop = 5.0;  // [m]; as changes of direction cost hybrid A*
@@ -63,7 +63,7 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
     }
   }
   const double radius = RadiusFor(request.vehicle, options.radius);
-  const ClearWay clear(request.vehicle, request.obstacles, options.safe_distance);
+  const CollisionChecker clear(request.vehicle, request.obstacles, options.safe_distance);
   const std::vector<Pose2> stops = StopsOf(request);
   if (Plan refused = CheckStops(stops, clear); !refused.ok()) {
     return refused;

@@ -53,16 +53,16 @@ Sweeps With(double t, double u, double v, double others = 0.0) {
 // arc is to the left and forwards. What is farther than `limit` anyway need not be finished.
 
 /// From the center of the first arc to that of a last one to the left, or to the right.
-Vec2 ToLeftCentre(const CurveGoal& goal) {
+Vec2 ToLeftCenter(const CurveGoal& goal) {
   return {goal.x - goal.sin, goal.y - 1.0 + goal.cos};
 }
-Vec2 ToRightCentre(const CurveGoal& goal) {
+Vec2 ToRightCenter(const CurveGoal& goal) {
   return {goal.x + goal.sin, goal.y - 1.0 - goal.cos};
 }
 
 /// 8.1: L+S+L+.
 Sweeps LSL(const CurveGoal& goal, double limit) {
-  const Vec2 d = ToLeftCentre(goal);
+  const Vec2 d = ToLeftCenter(goal);
   const double u = d.norm();
   if (u >= limit || d.y() < -kRounding) {
     return {};  // turned to the right
@@ -74,7 +74,7 @@ Sweeps LSL(const CurveGoal& goal, double limit) {
 
 /// 8.2: L+S+R+.
 Sweeps LSR(const CurveGoal& goal, double limit) {
-  const Vec2 d = ToRightCentre(goal);
+  const Vec2 d = ToRightCenter(goal);
   const double square = d.squaredNorm() - 4.0;
   if (square < -kRounding || square >= limit * limit) {
     return {};
@@ -87,7 +87,7 @@ Sweeps LSR(const CurveGoal& goal, double limit) {
 
 /// 8.3 and 8.4: L+R-L, whose last arc may go either way.
 Sweeps LRL(const CurveGoal& goal, double /*limit*/) {
-  const Vec2 d = ToLeftCentre(goal);
+  const Vec2 d = ToLeftCenter(goal);
   const double square = d.squaredNorm();
   if (square > 16.0 + kRounding) {
     return {};
@@ -111,7 +111,7 @@ Sweeps OuterOfFour(const Vec2& d, double u, double v, double yaw, const Last& la
 
 /// 8.7: L+R+L-R-, whose inner arcs sweep u and -u.
 Sweeps LRLR(const CurveGoal& goal, double /*limit*/) {
-  const Vec2 d = ToRightCentre(goal);
+  const Vec2 d = ToRightCenter(goal);
   const double square = d.squaredNorm();
   if (square > 4.0 + kRounding) {
     return {};
@@ -123,7 +123,7 @@ Sweeps LRLR(const CurveGoal& goal, double /*limit*/) {
 
 /// 8.8: L+R-L-R+, whose inner arcs both sweep u.
 Sweeps LRLRInner(const CurveGoal& goal, double /*limit*/) {
-  const Vec2 d = ToRightCentre(goal);
+  const Vec2 d = ToRightCenter(goal);
   const double rho = (20.0 - d.squaredNorm()) / 16.0;
   if (rho < 0.0 || rho > 1.0 + kRounding) {
     return {};
@@ -135,7 +135,7 @@ Sweeps LRLRInner(const CurveGoal& goal, double /*limit*/) {
 
 /// 8.9: L+R-S-L-, whose second arc is a right angle.
 Sweeps LRSL(const CurveGoal& goal, double limit) {
-  const Vec2 d = ToLeftCentre(goal);
+  const Vec2 d = ToLeftCenter(goal);
   const double square = d.squaredNorm() - 4.0;
   const double r = Root(square);
   const double u = 2.0 - r;
@@ -151,7 +151,7 @@ Sweeps LRSL(const CurveGoal& goal, double limit) {
 
 /// 8.10: L+R-S-R-, likewise.
 Sweeps LRSR(const CurveGoal& goal, double limit) {
-  const Vec2 d = ToRightCentre(goal);
+  const Vec2 d = ToRightCenter(goal);
   const double u = 2.0 - d.norm();
   if (u > kRounding || kRight - u >= limit || d.x() < -kRounding) {
     return {};
@@ -163,7 +163,7 @@ Sweeps LRSR(const CurveGoal& goal, double limit) {
 
 /// 8.11: L+R-S-L-R+, whose second and fourth arcs are right angles.
 Sweeps LRSLR(const CurveGoal& goal, double limit) {
-  const Vec2 d = ToRightCentre(goal);
+  const Vec2 d = ToRightCenter(goal);
   const double square = d.squaredNorm() - 4.0;
   const double u = 4.0 - Root(square);
   if (u > kRounding || 2.0 * kRight - u >= limit) {

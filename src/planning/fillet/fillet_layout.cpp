@@ -19,8 +19,8 @@ void PlaceArc(const Route& route, FilletTurn& turn) {
   const Leg& out = route.legs[corner];
   const Vec2& w = route.waypoints[corner];
   turn.tangent_length = turn.radius / std::tan(turn.interior_angle / 2.0);
-  const double to_centre = turn.radius / std::sin(turn.interior_angle / 2.0);
-  turn.centre = w - to_centre * (in.direction - out.direction).normalized();
+  const double to_center = turn.radius / std::sin(turn.interior_angle / 2.0);
+  turn.center = w - to_center * (in.direction - out.direction).normalized();
   turn.arc_start = w - turn.tangent_length * in.direction;
   turn.arc_end = w + turn.tangent_length * out.direction;
   turn.arc_length = turn.radius * std::abs(turn.heading_change);
@@ -64,7 +64,7 @@ Path PathThrough(const Route& route, std::vector<FilletTurn>& turns) {
   return {route.start(), std::move(segments)};
 }
 
-void CentreRamps(const VehicleParams& vehicle, FilletTurn& turn) {
+void CenterRamps(const VehicleParams& vehicle, FilletTurn& turn) {
   const double delta = SteeringForCurvature(vehicle, 1.0 / turn.radius);
   turn.steering = std::copysign(delta, turn.heading_change);
   const double travel = turn.steering - turn.neutral;
@@ -83,10 +83,10 @@ Pose2 Route::start() const {
 }
 
 Route RouteOf(const std::vector<Vec2>& waypoints) {
-  if (waypoints.size() < kFewestFilletWaypoints) {
+  if (waypoints.size() < kMinFilletWaypoints) {
     throw Refusal{PlanStatus::kTooFewWaypoints, static_cast<int>(waypoints.size()) - 1,
                   fmt::format("{} waypoints; a route needs at least {}", waypoints.size(),
-                              kFewestFilletWaypoints)};
+                              kMinFilletWaypoints)};
   }
   Route route{waypoints, {}};
   for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {
@@ -135,7 +135,7 @@ FilletPlan LayOut(const VehicleParams& vehicle, const Route& route, std::vector<
   }
   plan.path = PathThrough(route, plan.turns);
   for (FilletTurn& turn : plan.turns) {
-    CentreRamps(vehicle, turn);
+    CenterRamps(vehicle, turn);
   }
   plan.stop_distance = plan.path.length();
   return plan;

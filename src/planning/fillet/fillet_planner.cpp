@@ -52,7 +52,7 @@ json ToJson(const FilletOptions& options, const FilletTurn& turn) {
            {"radius_m", turn.radius},
            {"speed_mps", turn.speed},
            {"active_constraint", ToString(turn.active)},
-           {"centre_m", Point(turn.centre)},
+           {"center_m", Point(turn.center)},
            {"arc_start_m", Point(turn.arc_start)},
            {"arc_end_m", Point(turn.arc_end)},
            {"arc_start_s_m", turn.arc_start_s},
@@ -78,8 +78,8 @@ double ReturnEnd(const FilletTurn& turn) {
   return turn.steer_return + turn.ramp_distance;
 }
 
-std::vector<LoneTurn> LoneTurnsOf(const FilletPlan& plan) {
-  std::vector<LoneTurn> lone;
+std::vector<IsolatedTurn> IsolatedTurnsOf(const FilletPlan& plan) {
+  std::vector<IsolatedTurn> lone;
   double straight_from = 0.0;
   for (const FilletTurn& turn : plan.turns) {
     const bool alone = turn.steer_start >= straight_from && turn.neutral == 0.0;
@@ -115,7 +115,7 @@ Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
   }
   plan.reference.path = fillets.path;
   plan.schedule = fillets.schedule;
-  plan.turns = LoneTurnsOf(fillets);
+  plan.turns = IsolatedTurnsOf(fillets);
   plan.caps = CapsOf(fillets, request.speed.speed);
   plan.goal = fillets.path.At(fillets.path.length()).pose;
   plan.reference.speed =
@@ -133,7 +133,7 @@ Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
   for (const FilletTurn& turn : fillets.turns) {
     out["turns"].push_back(ToJson(options, turn));
   }
-  for (const LoneTurn& turn : plan.turns) {
+  for (const IsolatedTurn& turn : plan.turns) {
     const TurnError error = PredictTurn(request.vehicle, fillets.path, turn, 0.0);
     for (json& entry : out["turns"]) {
       if (entry["waypoint"] == turn.waypoint) {
@@ -154,11 +154,11 @@ Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
 
 void Visit(KeyVisitor& keys, DrivenWeights& weights) {
   keys.Field({"position", "1/m^3", "of the squared distance from the path, over its length"},
-             weights.position, Need::kOptional, kNotNegative);
+             weights.position, Need::kOptional, kNonNegative);
   keys.Field({"heading", "1/m", "of the squared heading error, over its length"}, weights.heading,
-             Need::kOptional, kNotNegative);
+             Need::kOptional, kNonNegative);
   keys.Field({"end", "1/m^2", "of the squared distance from the goal at the end"}, weights.end,
-             Need::kOptional, kNotNegative);
+             Need::kOptional, kNonNegative);
 }
 
 void Visit(KeyVisitor& keys, FilletOptions& options) {
@@ -180,9 +180,10 @@ void Visit(KeyVisitor& keys, FilletOptions& options) {
       options.neutral_steering, Need::kOptional, kSteering);
   keys.Field({"max_radius", "m", "upper bound of the search"}, options.max_radius, Need::kOptional,
              kPositive);
-  static const EnumNames<WithoutRoom> without_room{{WithoutRoom::kSlowDown, "slow_down"},
-                                                   {WithoutRoom::kHalfLeg, "half_leg"},
-                                                   {WithoutRoom::kRefuse, "refuse"}};
+  static const EnumNames<InfeasibleTurnPolicy> without_room{
+      {InfeasibleTurnPolicy::kSlowDown, "slow_down"},
+      {InfeasibleTurnPolicy::kHalfLeg, "half_leg"},
+      {InfeasibleTurnPolicy::kRefuse, "refuse"}};
   keys.Field({"without_room", "", "what becomes of a turn for which C.40 has no radius"},
              options.without_room, Need::kOptional, without_room);
   keys.Field({"min_speed", "m/s", "no turn is slowed down below this"}, options.min_speed,
@@ -201,7 +202,7 @@ void Visit(KeyVisitor& keys, FilletOptions& options) {
              options.resimulate_each_turn, Need::kOptional);
   static const EnumNames<ReferencePoint> references{
       {ReferencePoint::kRearAxle, "rear_axle"},
-      {ReferencePoint::kCentreOfGravity, "centre_of_gravity"}};
+      {ReferencePoint::kCenterOfGravity, "center_of_gravity"}};
   keys.Field({"reference", "", "the point of the car that first drives follow"}, options.reference,
              Need::kOptional, references);
   keys.Section({"weights", "", "of the objective 'driven'"}, options.weights);
@@ -213,7 +214,7 @@ PlannerEntry FilletPlanner() {
       .summary = "straight legs and arcs of the largest radius the steering rate allows (C.1-C.40)",
       .defaults = FilletOptions{},
       .plan = PlanBy<FilletOptions, PlanWith>,
-      .min_waypoints = kFewestFilletWaypoints};
+      .min_waypoints = kMinFilletWaypoints};
 }
 
 }  // namespace trackbed

@@ -148,11 +148,11 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
           "at {:.4g} m/s no radius from {:.4g} to {:.4g} m leaves the distance to turn the wheels "
           "within half of the shorter leg, {:.4g} m (C.40)",
           speed, bounds.low, bounds.high, turn.shorter_leg / 2.0);
-      if (options.without_room == WithoutRoom::kRefuse) {
+      if (options.without_room == InfeasibleTurnPolicy::kRefuse) {
         throw refuse(PlanStatus::kNoRoomForSteering, why);
       }
       const bool slow_down =
-          options.without_room == WithoutRoom::kSlowDown && options.min_speed < speed;
+          options.without_room == InfeasibleTurnPolicy::kSlowDown && options.min_speed < speed;
       const auto slower =
           slow_down ? SteeringRoomSpeed(vehicle, turn.interior_angle, turn.shorter_leg, bounds,
                                         {options.min_speed, speed}, NeutralTowardTurn(turn))
@@ -161,7 +161,7 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
         turn.speed = *slower;
         turn.note = fmt::format("{}; taken at {:.4g} m/s", why, *slower);
         room = room_at(*slower);
-      } else if (options.without_room == WithoutRoom::kSlowDown) {
+      } else if (options.without_room == InfeasibleTurnPolicy::kSlowDown) {
         // C.40 keeps a whole ramp on the leg, of which half lies on the arc.
         const double v = std::min(options.min_speed, speed);
         room = SteeringRoomRadii(vehicle, 0.5 * v, turn.interior_angle, turn.shorter_leg, bounds);

@@ -75,7 +75,7 @@ TurnSearch SearchTurn(const VehicleParams& vehicle, double speed, const FilletOp
                       std::uint64_t seed, const Window& window, const RadiusLimits& limits,
                       const FilletTurn& turn) {
   const double l_g =
-      options.reference == ReferencePoint::kCentreOfGravity ? vehicle.cg_to_rear : 0.0;
+      options.reference == ReferencePoint::kCenterOfGravity ? vehicle.cg_to_rear : 0.0;
   TurnSearch search;
   search.first_radius = turn.radius;
   search.time = window.distance / speed;

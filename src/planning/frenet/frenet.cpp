@@ -256,19 +256,19 @@ FrenetPlan PlanFrenet(const Path& reference, const FrenetRequest& request,
 }
 
 void Visit(KeyVisitor& keys, FrenetWeights& weights) {
-  keys.Field({"k_dj", "s^5/m^2", "of lateral jerk"}, weights.k_dj, Need::kOptional, kNotNegative);
+  keys.Field({"k_dj", "s^5/m^2", "of lateral jerk"}, weights.k_dj, Need::kOptional, kNonNegative);
   keys.Field({"k_d", "1/m^2", "of the offset at the end"}, weights.k_d, Need::kOptional,
-             kNotNegative);
-  keys.Field({"k_dt", "1/s", "of time, laterally"}, weights.k_dt, Need::kOptional, kNotNegative);
+             kNonNegative);
+  keys.Field({"k_dt", "1/s", "of time, laterally"}, weights.k_dt, Need::kOptional, kNonNegative);
   keys.Field({"k_sj", "s^5/m^2", "of longitudinal jerk"}, weights.k_sj, Need::kOptional,
-             kNotNegative);
-  keys.Field({"k_s", "1/m^2", "of the station missed"}, weights.k_s, Need::kOptional, kNotNegative);
-  keys.Field({"k_v", "s^2/m^2", "of the speed missed"}, weights.k_v, Need::kOptional, kNotNegative);
+             kNonNegative);
+  keys.Field({"k_s", "1/m^2", "of the station missed"}, weights.k_s, Need::kOptional, kNonNegative);
+  keys.Field({"k_v", "s^2/m^2", "of the speed missed"}, weights.k_v, Need::kOptional, kNonNegative);
   keys.Field({"k_st", "1/s", "of time, along the path"}, weights.k_st, Need::kOptional,
-             kNotNegative);
-  keys.Field({"k_lat", "", "of all that is lateral"}, weights.k_lat, Need::kOptional, kNotNegative);
+             kNonNegative);
+  keys.Field({"k_lat", "", "of all that is lateral"}, weights.k_lat, Need::kOptional, kNonNegative);
   keys.Field({"k_lon", "", "of all that is along the path"}, weights.k_lon, Need::kOptional,
-             kNotNegative);
+             kNonNegative);
   keys.Field(
       {"derivative_order", "", "of the integrals: 3 is jerk (Werling et al. 2010), 2 acceleration"},
       weights.derivative_order, Need::kOptional, Range{.min = 2, .max = 3});
@@ -300,7 +300,7 @@ void Visit(KeyVisitor& keys, FrenetOptions& options) {
               "whether it moves aside over time, over the way, or over the way when that is slow"},
              options.lateral, Need::kOptional, laterals);
   keys.Field({"low_speed", "m/s", "below which 'auto' moves aside over the way"}, options.low_speed,
-             Need::kOptional, kNotNegative);
+             Need::kOptional, kNonNegative);
   VisitLimits(keys, options.limits);
   keys.Section({"weights", "", "of the cost"}, options.weights);
   keys.Field({"budget", "", "motions checked at most"}, options.budget, Need::kOptional,

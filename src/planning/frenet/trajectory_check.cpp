@@ -103,9 +103,9 @@ TrajectoryCheck::Reach TrajectoryCheck::ReachOf(const PathPoint& at,
       const double ahead = x * cosine - y * sine;
       const double aside = frenet.d + x * sine + y * cosine;
       // d = (1 - sqrt((k ahead)^2 + (1 - k aside)^2))/k, also where k is 0.
-      const double to_centre = 1.0 - k * aside;
+      const double to_center = 1.0 - k * aside;
       const double d = (2.0 * aside - k * (aside * aside + ahead * ahead)) /
-                       (1.0 + std::sqrt(k * ahead * k * ahead + to_centre * to_centre));
+                       (1.0 + std::sqrt(k * ahead * k * ahead + to_center * to_center));
       reach.left = std::max(reach.left, d);
       reach.right = std::max(reach.right, -d);
     }
@@ -117,7 +117,7 @@ bool TrajectoryCheck::Collides(double time, const Pose2& pose) const {
   const OrientedBox outline = OutlineAt(request_.vehicle, pose);
   return std::any_of(obstacles_.begin(), obstacles_.end(), [&](const Obstacle& obstacle) {
     const OrientedBox box = obstacle.box.At(time);
-    const Vec2 apart = box.centre.position() - outline.centre.position();
+    const Vec2 apart = box.center.position() - outline.center.position();
     return apart.squaredNorm() < obstacle.reach * obstacle.reach &&
            Separation(outline, box) < obstacle.margin;
   });

@@ -137,10 +137,10 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
     stops.push_back(way.back());
   }
   const GridArea area = AreaAround(request.start, stops, request.obstacles, options.margin);
-  if (CellsIn(area, options.cell) > kMostCells) {
+  if (CellsIn(area, options.cell) > kMaxCells) {
     return Refused(PlanStatus::kBudgetUsedUp,
                    fmt::format("{:.3g} cells of {:.3g} m; at most {:.3g} are searched",
-                               CellsIn(area, options.cell), options.cell, kMostCells));
+                               CellsIn(area, options.cell), options.cell, kMaxCells));
   }
   const OccupancyGrid grid = RasterOf(request.start, area, options.cell, request.obstacles,
                                       inflation + OverACell(options));
@@ -184,7 +184,7 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
 void Visit(KeyVisitor& keys, AStarOptions& options) {
   route::VisitCorners(keys, options.corners, options.safe_distance, options.corner_room);
   keys.Field(route::kGridCell, options.cell, Need::kOptional, route::kCellSize);
-  keys.Field(route::kGridMargin, options.margin, Need::kOptional, kNotNegative);
+  keys.Field(route::kGridMargin, options.margin, Need::kOptional, kNonNegative);
   keys.Field(route::kCornerSpeed, options.min_speed, Need::kOptional, kPositive);
   keys.Field({"budget", "", "cells to look at for each leg, at most"}, options.budget,
              Need::kOptional, Range{.min = 0, .max = 1e9});

@@ -11,7 +11,7 @@
 
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
-#include "trackbed/planning/common/clear_way.h"
+#include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/curves/dubins.h"
 #include "trackbed/planning/curves/reeds_shepp.h"
 #include "trackbed/planning/grid/astar.h"
@@ -55,7 +55,7 @@ class HybridAStar {
     HybridAStarResult result;
     if (grid_.size() == 0) {
       return Fail(result, PlanStatus::kBudgetUsedUp,
-                  fmt::format("more than {:.3g} cells of {:.3g} m", kMostCells, options_.cell));
+                  fmt::format("more than {:.3g} cells of {:.3g} m", kMaxCells, options_.cell));
     }
     result.cells = static_cast<int>(grid_.size());
     if (!clear_.IsFree(problem_.start)) {
@@ -104,7 +104,7 @@ class HybridAStar {
     const GridArea area =
         AreaAround(problem_.start, {problem_.start.position(), problem_.goal.position()},
                    problem_.obstacles, options_.margin);
-    if (CellsIn(area, options_.cell) > kMostCells) {
+    if (CellsIn(area, options_.cell) > kMaxCells) {
       return {};
     }
     const double nearest_side = std::min(
@@ -283,7 +283,7 @@ class HybridAStar {
   const HybridAStarOptions& options_;
   const HybridAStarProblem& problem_;
   double radius_;
-  ClearWay clear_;
+  CollisionChecker clear_;
   OccupancyGrid grid_;
   std::vector<double> distances_;  // on the grid, to the goal
   std::vector<Node> nodes_;

@@ -29,7 +29,7 @@ Plan PlanWith(const HybridAStarOptions& options, const PlanRequest& request) {
   if (rolls) {
     const LeadIn lead =
         LeadInForCurves(request, RadiusFor(request.vehicle, options.radius), options.min_speed);
-    const ClearWay clear(request.vehicle, request.obstacles, options.safe_distance);
+    const CollisionChecker clear(request.vehicle, request.obstacles, options.safe_distance);
     if (!IsFree(clear, stops[0], lead.segments)) {
       return Refused(PlanStatus::kStartBlocked,
                      fmt::format("an obstacle is too near to the first {:.3g} m, in which the "
@@ -69,9 +69,9 @@ void Visit(KeyVisitor& keys, HybridAStarOptions& options) {
   keys.Field({"reverse_cost", "", "of a meter backwards, in meters"}, options.reverse_cost,
              Need::kOptional, Range{.min = 1.0, .max = 1e3});
   keys.Field({"switch_cost", "m", "of a change of direction"}, options.switch_cost, Need::kOptional,
-             kNotNegative);
+             kNonNegative);
   keys.Field({"steering_cost", "m", "of a step of curvature from straight on to the radius"},
-             options.steering_cost, Need::kOptional, kNotNegative);
+             options.steering_cost, Need::kOptional, kNonNegative);
   keys.Field(
       {"weight", "",
        "of the estimate of what is left: above 1 it looks at less, and its way may cost so many "
@@ -80,7 +80,7 @@ void Visit(KeyVisitor& keys, HybridAStarOptions& options) {
   keys.Field(route::kGridCell, options.cell, Need::kOptional, route::kCellSize);
   keys.Field({"headings", "", "cells of a full turn"}, options.headings, Need::kOptional,
              Range{.min = 8, .max = 720});
-  keys.Field(route::kGridMargin, options.margin, Need::kOptional, kNotNegative);
+  keys.Field(route::kGridMargin, options.margin, Need::kOptional, kNonNegative);
   keys.Field({"budget", "", "poses to look at for each leg, at most"}, options.budget,
              Need::kOptional, Range{.min = 0, .max = 1e7});
 }

@@ -8,13 +8,12 @@
 #include "trackbed/core/error.h"
 #include "trackbed/path/rounded.h"
 #include "trackbed/planning/common/plan.h"
+#include "trackbed/vehicle/state.h"
 #include "trackbed/world/world.h"
 
 namespace trackbed {
 namespace {
 
-/// A motion that is slower at its end comes to rest there [m/s].
-constexpr double kAtRest = 0.01;
 /// A car comes smoothly to rest over this share of speed times duration, or less.
 constexpr double kStopShare = 0.55;
 
@@ -76,7 +75,7 @@ class AlongRoute {
     const double reach =
         std::visit([&](const auto& own) { return StopReach(own, speed); }, options_);
     if (frame_.goal - request_.start.s <= reach && Try(StopAt{frame_.goal})) {
-      AlongPlan plan = Taken(AlongKind::kOn);
+      AlongPlan plan = Taken(ManeuverType::kProceed);
       plan.to_goal = true;
       return plan;
     }
@@ -96,31 +95,31 @@ class AlongRoute {
         return true;
       }
       if (!for_now) {
-        for_now = Taken(AlongKind::kApproach);
+        for_now = Taken(ManeuverType::kApproach);
       }
       return false;
     };
     if (on({falling.front()})) {
-      return Taken(AlongKind::kOn);
+      return Taken(ManeuverType::kProceed);
     }
     if (leader && leader->speed >= kStandsBelow &&
         Try(FollowLeader{leader->rear, std::min(leader->speed, request_.wanted), settings_.gap,
                          settings_.time_gap})) {
-      return Taken(AlongKind::kFollow);
+      return Taken(ManeuverType::kFollow);
     }
     if (on(all)) {
-      return Taken(AlongKind::kOn);
+      return Taken(ManeuverType::kProceed);
     }
     for (auto factor = falling.begin() + 1; leader && factor != falling.end(); ++factor) {
       if (on({*factor})) {
-        return Taken(AlongKind::kOn);
+        return Taken(ManeuverType::kProceed);
       }
     }
     if (leader && leader->speed < kStandsBelow &&
         Try(StopAt{leader->rear - Front(request_.vehicle) - settings_.gap})) {
-      return Taken(AlongKind::kStop);
+      return Taken(ManeuverType::kStop);
     }
-    return for_now ? *for_now : AlongPlan{.kind = AlongKind::kNone, .found = found_};
+    return for_now ? *for_now : AlongPlan{.kind = ManeuverType::kNone, .found = found_};
   }
 
  private:
@@ -141,7 +140,7 @@ class AlongRoute {
       return false;
     }
     const FrenetState end = found_.motion.At(found_.motion.duration());
-    if (std::holds_alternative<StopAt>(goal) && end.s_rate > kAtRest) {
+    if (std::holds_alternative<StopAt>(goal) && end.s_rate > kAtRestSpeed) {
       return false;  // the lattice does not reach so far
     }
     points_ = WithBraking(end);
@@ -196,7 +195,7 @@ class AlongRoute {
                leader.rear + leader.speed * found_.motion.duration();
   }
 
-  [[nodiscard]] AlongPlan Taken(AlongKind kind) const {
+  [[nodiscard]] AlongPlan Taken(ManeuverType kind) const {
     return {.kind = kind, .found = found_, .points = points_};
   }
 
@@ -219,17 +218,17 @@ const std::vector<AlongEntry>& AlongMethods() {
   return table;
 }
 
-const char* ToString(AlongKind kind) {
+const char* ToString(ManeuverType kind) {
   switch (kind) {
-    case AlongKind::kNone:
+    case ManeuverType::kNone:
       return "none";
-    case AlongKind::kOn:
+    case ManeuverType::kProceed:
       return "on";
-    case AlongKind::kFollow:
+    case ManeuverType::kFollow:
       return "follow";
-    case AlongKind::kApproach:
+    case ManeuverType::kApproach:
       return "approach";
-    case AlongKind::kStop:
+    case ManeuverType::kStop:
       return "stop";
   }
   return "none";
@@ -288,8 +287,8 @@ std::optional<Leader> LeaderIn(const Path& path, const AlongRequest& request,
   return nearest;
 }
 
-AlongPlan PlanAlong(const RouteFrame& frame, const AlongRequest& request,
-                    const AlongSettings& settings, const AlongOptions& options) {
+AlongPlan PlanAlongRoute(const RouteFrame& frame, const AlongRequest& request,
+                         const AlongSettings& settings, const AlongOptions& options) {
   TRACKBED_CHECK(request.wanted >= 0.0 && request.wanted <= request.speed.speed &&
                      settings.gap >= 0.0 && settings.time_gap >= 0.0,
                  "speed {} of {}, gaps {} and {}", request.wanted, request.speed.speed,

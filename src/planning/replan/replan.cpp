@@ -11,6 +11,7 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/plan_stretch.h"
 #include "trackbed/planning/registry/planners.h"
+#include "trackbed/vehicle/state.h"
 #include "trackbed/world/world.h"
 
 namespace trackbed {
@@ -18,10 +19,8 @@ namespace {
 
 using nlohmann::json;
 
-/// Slower than this a car is at rest [m/s].
-constexpr double kAtRest = 0.01;
 /// A plan that ends at the goal is kept for its last meters, unless something comes in the way.
-constexpr double kLastMetres = 1.0;
+constexpr double kLastMeters = 1.0;
 /// As near as this to the route, a car is back on it.
 constexpr double kBackOffset = 0.02;     // [m]
 constexpr double kBackHeading = 0.005;   // [rad]
@@ -36,7 +35,7 @@ bool Stands(const MovingBox& box) {
 }
 
 std::string Place(const OrientedBox& box) {
-  return fmt::format("({:.4g}, {:.4g})", box.centre.x, box.centre.y);
+  return fmt::format("({:.4g}, {:.4g})", box.center.x, box.center.y);
 }
 
 /// A plan that follows a motion.
@@ -101,12 +100,12 @@ class Replanning {
       along = Along();
     }
     // Behind a leader the route is clear only up to where it is too near.
-    if (!driving_.on_route && (!options_.along || along.kind == AlongKind::kOn)) {
+    if (!driving_.on_route && (!options_.along || along.kind == ManeuverType::kProceed)) {
       if (auto back = BackOnRoute()) {
         return std::move(*back);
       }
     }
-    if (along.kind == AlongKind::kOn || along.kind == AlongKind::kFollow) {
+    if (along.kind == ManeuverType::kProceed || along.kind == ManeuverType::kFollow) {
       return Follow(along);
     }
     // Another start has other candidates: what is driven may lead past what none of them do.
@@ -119,8 +118,8 @@ class Replanning {
       Tell(detour);
       // Detours know only what stands.
       if (detour.route && !EncounterOf(detour.route->reference, 0.0)) {
-        told_["kind"] = "detour";
-        detour.route->diagnostics["replan"] = told_;
+        diagnostics_["kind"] = "detour";
+        detour.route->diagnostics["replan"] = diagnostics_;
         return {ReplanKind::kRoute, std::move(*detour.route)};
       }
     }
@@ -139,18 +138,19 @@ class Replanning {
  private:
   [[nodiscard]] Replanned Keep() const { return {ReplanKind::kKeep, driving_.plan}; }
 
-  [[nodiscard]] std::optional<Encounter> EncounterOf(const Reference& reference, double station,
-                                                     double offset = 0.0) const {
-    return FirstEncounter(request_.vehicle, reference, station, request_.obstacles,
-                          options_.settings.safe_distance, options_.settings.look_ahead, offset);
+  [[nodiscard]] std::optional<PredictedConflict> EncounterOf(const Reference& reference,
+                                                             double station,
+                                                             double offset = 0.0) const {
+    return PredictConflict(request_.vehicle, reference, station, request_.obstacles,
+                           options_.settings.safe_distance, options_.settings.look_ahead, offset);
   }
 
   /// What a car that drives on at its own speed, not at the planned one, gets too near to.
-  [[nodiscard]] std::optional<Encounter> AheadOfTheCar() const {
+  [[nodiscard]] std::optional<PredictedConflict> AheadOfTheCar() const {
     const double speed = request_.car.speed;
     const Plan plan = StopAfter(
         std::max(LeftToDrive(), 0.0) + 0.5 * speed * speed / ComfortableBraking(), speed, true);
-    std::optional<Encounter> encounter = EncounterOf(plan.reference, 0.0);
+    std::optional<PredictedConflict> encounter = EncounterOf(plan.reference, 0.0);
     if (encounter) {
       encounter->station += driving_.station;
     }
@@ -162,7 +162,7 @@ class Replanning {
     return driving_.plan.reference.path.length() - driving_.station;
   }
 
-  [[nodiscard]] bool NearlyThere() const { return LeftToDrive() < kLastMetres; }
+  [[nodiscard]] bool NearlyThere() const { return LeftToDrive() < kLastMeters; }
 
   /// The planned motion beside the car, or the car's own.
   [[nodiscard]] MotionState Start() const {
@@ -175,7 +175,7 @@ class Replanning {
                       .curvature = at.curvature,
                       .speed = reference.speed.SpeedAt(driving_.station),
                       .acceleration = reference.speed.AccelerationAt(driving_.station)};
-    if (request_.car.speed < kAtRest && start.speed < 10.0 * kAtRest) {
+    if (request_.car.speed < kAtRestSpeed && start.speed < 10.0 * kAtRestSpeed) {
       start.speed = 0.0;
       start.acceleration = 0.0;
     }
@@ -228,21 +228,21 @@ class Replanning {
     if (!frenet) {
       return {};
     }
-    return PlanAlong(driving_.frame,
-                     {.vehicle = request_.vehicle,
-                      .speed = request_.speed,
-                      .wanted = WantedSpeed(start.speed),
-                      .start = *frenet,
-                      .obstacles = request_.obstacles},
-                     options_.settings, *options_.along);
+    return PlanAlongRoute(driving_.frame,
+                          {.vehicle = request_.vehicle,
+                           .speed = request_.speed,
+                           .wanted = WantedSpeed(start.speed),
+                           .start = *frenet,
+                           .obstacles = request_.obstacles},
+                          options_.settings, *options_.along);
   }
 
   Replanned Follow(const AlongPlan& along) {
     Plan plan = ToPlan(request_.vehicle, along.points, driving_.route.goal);
-    told_["along"] = ToJson(along);
-    told_["kind"] = "motion";
-    plan.diagnostics["replan"] = told_;
-    if (along.kind == AlongKind::kStop) {
+    diagnostics_["along"] = ToJson(along);
+    diagnostics_["kind"] = "motion";
+    plan.diagnostics["replan"] = diagnostics_;
+    if (along.kind == ManeuverType::kStop) {
       plan.blocked = "stops behind what stands in the way: no motion leads past it";
     } else if (!along.to_goal) {
       plan.blocked = "stops where no way on was found";
@@ -272,7 +272,7 @@ class Replanning {
   }
 
   void Tell(const Detour& detour) {
-    json& out = told_["detour"];
+    json& out = diagnostics_["detour"];
     out = {{"planner", PlannerFor(*options_.detour).name},
            {"tried", detour.tried},
            {"current", ToJson(detour.current)}};
@@ -290,7 +290,7 @@ class Replanning {
 
   /// Along the plan that is driven, to rest before the place of the encounter: comfortably if that
   /// is in time, else as hard as it takes, else as hard as the car can.
-  Replanned Brake(const Encounter& encounter) {
+  Replanned Brake(const PredictedConflict& encounter) {
     const MovingBox& obstacle = request_.obstacles[encounter.obstacle];
     const double speed = std::max(Start().speed, request_.car.speed);
     const double room = encounter.station - driving_.station - kBrakeRoom;
@@ -306,9 +306,9 @@ class Replanning {
     plan.goal = driving_.route.goal;
     plan.blocked =
         fmt::format("stops before the obstacle at {}: no way leads past it", Place(obstacle.box));
-    told_["kind"] = "brake";
-    told_["deceleration_mps2"] = braking;
-    plan.diagnostics["replan"] = told_;
+    diagnostics_["kind"] = "brake";
+    diagnostics_["deceleration_mps2"] = braking;
+    plan.diagnostics["replan"] = diagnostics_;
     return {ReplanKind::kStop, std::move(plan)};
   }
 
@@ -377,7 +377,7 @@ class Replanning {
   const ReplanRequest& request_;
   const Driving& driving_;
   const ReplanOptions& options_;
-  json told_ = json::object();
+  json diagnostics_ = json::object();
 };
 
 }  // namespace
@@ -396,53 +396,6 @@ const char* ToString(ReplanKind kind) {
   return "keep";
 }
 
-std::optional<Encounter> FirstEncounter(const VehicleParams& vehicle, const Reference& reference,
-                                        double station, const std::vector<MovingBox>& obstacles,
-                                        double distance, double look_ahead, double offset) {
-  constexpr double kStep = 0.1;    // [s]
-  constexpr double kTouch = 1e-2;  // [m], what planners may fall short by between their samples
-  // From the station on: times before it may be infinite, if the profile comes to rest there.
-  const SpeedProfile ahead =
-      Excerpt(reference.speed, {station, std::max(station, reference.path.length())});
-  const auto station_at = [&](double time) { return station + ahead.StationAt(time); };
-  const auto too_near = [&](double time, const MovingBox& obstacle) {
-    const OrientedBox outline =
-        OutlineAt(vehicle, Compose(reference.path.At(station_at(time)).pose, {0.0, offset, 0.0}));
-    return Separation(outline, obstacle.At(time)) < distance - kTouch;
-  };
-  const auto steps = static_cast<int>(std::ceil(look_ahead / kStep));
-  for (int i = 0; i <= steps; ++i) {
-    const double time = i * kStep;
-    for (std::size_t j = 0; j < obstacles.size(); ++j) {
-      if (too_near(time, obstacles[j])) {
-        // A tenth of a second is 1.5 m at 15 m/s: where between the looks it began.
-        double clear = i == 0 ? time : time - kStep;
-        double near = time;
-        for (int halving = 0; halving < 10 && i > 0; ++halving) {
-          const double middle = 0.5 * (clear + near);
-          (too_near(middle, obstacles[j]) ? near : clear) = middle;
-        }
-        return Encounter{near, station_at(near), j};
-      }
-    }
-  }
-  return std::nullopt;
-}
-
-bool StandsInTurn(const VehicleParams& vehicle, const Path& path, double station,
-                  const OrientedBox& obstacle, double distance) {
-  constexpr double kBent = 1e-3;  // [1/m]
-  const std::vector<Stations> stretches =
-      BlockedStretches(vehicle, path, station, {obstacle}, distance);
-  return std::any_of(stretches.begin(), stretches.end(), [&](const Stations& stretch) {
-    const std::vector<Segment> within = path.Cut(stretch);
-    return std::any_of(within.begin(), within.end(), [&](const Segment& segment) {
-      return std::abs(segment.curvature) > kBent ||
-             std::abs(segment.CurvatureAt(segment.length)) > kBent;
-    });
-  });
-}
-
 Replanned Replan(const ReplanRequest& request, const Driving& driving,
                  const ReplanOptions& options) {
   TRACKBED_CHECK((options.along || options.detour) && driving.plan.ok() && driving.route.ok(),
@@ -451,27 +404,6 @@ Replanned Replan(const ReplanRequest& request, const Driving& driving,
   own.settings.look_ahead = std::max(
       own.settings.look_ahead, request.speed.speed / request.speed.deceleration + 2.0 * own.period);
   return Replanning(request, driving, own).Run();
-}
-
-bool MayClear(const VehicleParams& vehicle, const Path& path, double station,
-              const std::vector<MovingBox>& obstacles, double distance) {
-  constexpr double kAhead = 30.0;   // [m]
-  constexpr double kWithin = 60.0;  // [s]
-  constexpr double kStep = 0.5;     // [m] and [s]
-  for (const MovingBox& obstacle : obstacles) {
-    if (obstacle.velocity == Vec2::Zero()) {
-      continue;
-    }
-    for (double s = station; s <= std::min(station + kAhead, path.length()); s += kStep) {
-      const OrientedBox outline = OutlineAt(vehicle, path.At(s).pose);
-      for (double time = 0.0; time <= kWithin; time += kStep) {
-        if (Separation(outline, obstacle.At(time)) < distance) {
-          return true;
-        }
-      }
-    }
-  }
-  return false;
 }
 
 }  // namespace trackbed

@@ -46,9 +46,9 @@ void Visit(KeyVisitor& keys, DetourChoice& choice) {
   keys.Field({"attempts", "", "of a random planner, each with a seed of its own"}, choice.attempts,
              Need::kOptional, Range{.min = 1, .max = 1000});
   keys.Field({"collision_penalty", "m", "for a way that is blocked"},
-             choice.comparator.collision_penalty, Need::kOptional, kNotNegative);
+             choice.comparator.collision_penalty, Need::kOptional, kNonNegative);
   keys.Field({"wind_weight", "", "of the wind along the way, in meters for meters"},
-             choice.wind_weight, Need::kOptional, kNotNegative);
+             choice.wind_weight, Need::kOptional, kNonNegative);
 }
 
 void Visit(KeyVisitor& keys, ReplanOptions& options) {
@@ -57,13 +57,13 @@ void Visit(KeyVisitor& keys, ReplanOptions& options) {
   keys.Field({"look_ahead", "s", "for which the way must be clear, or another is looked for"},
              options.settings.look_ahead, Need::kOptional, Range{.min = 1.0, .max = 60.0});
   keys.Field(route::kOutlineDistance, options.settings.safe_distance, Need::kOptional,
-             kNotNegative);
+             kNonNegative);
   keys.Section({"road", "", "how far it reaches beside the route, for the outline"},
                options.settings.road);
   keys.Field({"gap", "m", "from bumper to bumper, behind what is in the way"}, options.settings.gap,
-             Need::kOptional, kNotNegative);
+             Need::kOptional, kNonNegative);
   keys.Field({"time_gap", "s", "besides, behind what moves"}, options.settings.time_gap,
-             Need::kOptional, kNotNegative);
+             Need::kOptional, kNonNegative);
   keys.Method({"along", "", "how motions along the route are found"}, options.along, AlongMethods(),
               Need::kOptional);
   keys.Method({"detour", "", "another way to the goal, when no motion along the route leads past"},

@@ -9,7 +9,7 @@
 #include <limits>
 #include <optional>
 
-#include "src/planning/sampling/few_corners.h"
+#include "src/planning/sampling/prune_waypoints.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/feasibility.h"
@@ -56,7 +56,7 @@ Task TaskOf(const RrtPlannerOptions& options, const PlanRequest& request) {
   // No further than half way to where it is going.
   task.lead.x() = std::min(options.lead_in, 0.5 * task.goals.front().norm());
   for (const OrientedBox& box : request.obstacles) {
-    task.obstacles.push_back({InFrame(frame, box.centre), box.length, box.width});
+    task.obstacles.push_back({InFrame(frame, box.center), box.length, box.width});
   }
   task.inflation = 0.5 * request.vehicle.width + options.safe_distance +
                    (options.corners == Corners::kRound ? options.corner_room : 0.0);
@@ -68,7 +68,7 @@ Task TaskOf(const RrtPlannerOptions& options, const PlanRequest& request) {
   for (Gust& gust : task.wind.wind.gusts) {
     gust.velocity = DirectionInFrame(frame, gust.velocity);
     if (gust.area) {
-      gust.area->centre = InFrame(frame, gust.area->centre);
+      gust.area->center = InFrame(frame, gust.area->center);
     }
   }
   return task;
@@ -154,7 +154,7 @@ void AddLeg(const Forest& forest, const std::vector<Vec2>& path, bool is_last,
   leg["sweeps"] = smooth.sweeps;
   leg["smooth_m"] = route::ToJson(InWorld(forest.request.start, smooth.path));
   const std::size_t before = points.size();
-  const std::vector<Vec2> few = WithFewCorners(
+  const std::vector<Vec2> few = PruneWaypoints(
       smooth.path, {.before = before > 1 ? std::optional(points[before - 2]) : std::nullopt,
                     .first_leg = before <= 2,
                     .last_leg = is_last,
@@ -251,7 +251,7 @@ Plan RefusedAs(const Way& way, const Forest& forest) {
                   way.goals + 1, inflation));
 }
 
-Plan PlanAlong(const Forest& forest, const std::vector<Vec2>& points) {
+Plan PlanAlongRoute(const Forest& forest, const std::vector<Vec2>& points) {
   Plan plan = route::AlongPolyline({}, forest.request, InWorld(forest.request.start, points),
                                    forest.options.corners, forest.options.safe_distance,
                                    forest.options.min_speed);
@@ -279,7 +279,7 @@ void TakePart(const Forest& forest, Try& next) {
     if (points.size() < 2) {
       break;  // it stands where it is
     }
-    next.plan = PlanAlong(forest, points);
+    next.plan = PlanAlongRoute(forest, points);
     if (next.plan.ok()) {
       next.way.points = points;
       next.way.left = (goal - points.back()).norm();
@@ -296,7 +296,7 @@ Try TryTree(const Forest& forest, std::uint64_t seed) {
   Try next;
   next.way = GrowWay(forest, seed);
   if (!next.is_partial()) {
-    next.plan = PlanAlong(forest, next.way.points);
+    next.plan = PlanAlongRoute(forest, next.way.points);
   } else if (MayBePartial(forest.options) && !next.way.nearest.empty()) {
     TakePart(forest, next);
   } else {
@@ -408,42 +408,6 @@ Plan PlanWith(const RrtPlannerOptions& options, const PlanRequest& request) {
 }
 
 }  // namespace
-
-void Visit(KeyVisitor& keys, RrtPlannerOptions& options) {
-  route::VisitCorners(keys, options.corners, options.safe_distance, options.corner_room);
-  keys.Field(route::kGridMargin, options.margin, Need::kOptional, kNotNegative);
-  keys.Field({"lead_in", "m", "straight on from the start, before the trees begin; 0: none"},
-             options.lead_in, Need::kOptional, kNotNegative);
-  keys.Field(route::kCornerSpeed, options.min_speed, Need::kOptional, kPositive);
-  keys.Field({"trees", "", "grown; of their ways the best one that the car can drive is the plan"},
-             options.trees, Need::kOptional, Range{.min = 1, .max = 1000});
-  keys.Field({"iterations", "", "samples for each leg of each tree, at most"}, options.iterations,
-             Need::kOptional, Range{.min = 0, .max = 1e6});
-  keys.Field(
-      {"time_limit", "s",
-       "by the clock on the wall, after which no tree grows any more: such a plan may differ "
-       "from run to run, one by `iterations` alone does not; else no limit"},
-      options.time_limit, kPositive);
-  keys.Field(
-      {"partial", "",
-       "whether, when no tree reaches the goal, the path to the node nearest to it is driven; "
-       "else it is if there is a time_limit"},
-      options.partial);
-  keys.Field({"expand_distance", "m", "from a node toward a sample at most"},
-             options.expand_distance, Need::kOptional, kPositive);
-  keys.Field({"goal_bias", "", "share of samples at the goal"}, options.goal_bias, Need::kOptional,
-             Range{.min = 0.0, .max = 1.0});
-  keys.Field({"data_weight", "", "alpha of the smoothing: keeps points where they are"},
-             options.data_weight, Need::kOptional, Range{.min = 0.0, .max = 1.0});
-  keys.Field({"smoothness_weight", "",
-              "beta of the smoothing: draws points between their neighbors; data_weight + 2 "
-              "smoothness_weight is above 0 and below 1"},
-             options.smoothness_weight, Need::kOptional, Range{.min = 0.0, .max = 0.5});
-  keys.Field({"corner_cost", "m", "of a corner, as so much way: fewer corners, with longer legs"},
-             options.corner_cost, Need::kOptional, kNotNegative);
-  keys.Field({"wind_weight", "", "how much wind counts in the length of a way; 0: not at all"},
-             options.wind_weight, Need::kOptional, kNotNegative);
-}
 
 PlannerEntry RrtPlanner() {
   return {.name = "rrt",

@@ -20,7 +20,7 @@ using Point = boost::geometry::model::d2::point_xy<double>;
 using Entry = std::pair<Point, std::size_t>;
 
 // A tenth more than 2^(d+1) e (1 + 1/d) in d = 2 dimensions.
-constexpr double kNeighbours = 1.1 * 12.0 * 2.718281828459045;
+constexpr double kNeighbors = 1.1 * 12.0 * 2.718281828459045;
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 class Tree {
@@ -60,7 +60,7 @@ class Tree {
   }
 
  private:
-  struct Neighbour {
+  struct Neighbor {
     std::size_t node;
     double distance;
     double cost;  // of the new node by way of this one
@@ -127,12 +127,12 @@ class Tree {
   /// to `reached_from` is known to be free.
   std::size_t Join(const Vec2& position, std::size_t reached_from) {
     const double count = static_cast<double>(nodes_.size());
-    const double nearest = std::ceil(kNeighbours * std::log(count + 1.0));
+    const double nearest = std::ceil(kNeighbors * std::log(count + 1.0));
     Nearest(position, static_cast<std::size_t>(nearest));
-    neighbours_.clear();
+    neighbors_.clear();
     const auto consider = [&](std::size_t node) {
       const double distance = (nodes_[node].position - position).norm();
-      neighbours_.push_back({node, distance, nodes_[node].cost + distance});
+      neighbors_.push_back({node, distance, nodes_[node].cost + distance});
     };
     for (const Entry& entry : near_) {
       if (entry.second != reached_from) {
@@ -141,15 +141,15 @@ class Tree {
     }
     consider(reached_from);
     // Cheapest first: the first free edge is the best one, and few have to be looked at.
-    std::sort(neighbours_.begin(), neighbours_.end(), [](const Neighbour& a, const Neighbour& b) {
+    std::sort(neighbors_.begin(), neighbors_.end(), [](const Neighbor& a, const Neighbor& b) {
       return a.cost < b.cost || (a.cost == b.cost && a.node < b.node);
     });
-    const Neighbour& parent =
-        *std::find_if(neighbours_.begin(), neighbours_.end(), [&](const Neighbour& other) {
+    const Neighbor& parent =
+        *std::find_if(neighbors_.begin(), neighbors_.end(), [&](const Neighbor& other) {
           return other.node == reached_from || IsFree(nodes_[other.node].position, position);
         });
     const std::size_t node = Add(position, parent.node, parent.cost);
-    for (const Neighbour& other : neighbours_) {
+    for (const Neighbor& other : neighbors_) {
       const double cost = nodes_[node].cost + other.distance;
       if (cost < nodes_[other.node].cost && IsFree(position, nodes_[other.node].position)) {
         Rejoin(other.node, node, cost);
@@ -195,8 +195,8 @@ class Tree {
   std::vector<std::vector<std::size_t>> children_;
   index::rtree<Entry, index::linear<16>> index_;
   std::size_t goal_ = kNone;
-  std::vector<Entry> near_;            // of the last query
-  std::vector<Neighbour> neighbours_;  // of the node that is being joined
+  std::vector<Entry> near_;          // of the last query
+  std::vector<Neighbor> neighbors_;  // of the node that is being joined
 };
 
 bool IsWithin(const RrtStarProblem& problem, const Vec2& p) {

@@ -32,7 +32,7 @@ double SteeringRateOf(const Plan& plan, const VehicleParams& car, Stations withi
 /// Holds a plan that has been led around obstacles against everything that it claims.
 void ExpectSafe(const Plan& plan, const Plan& global, const std::vector<OrientedBox>& obstacles,
                 const BezierAvoidanceOptions& options) {
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   const Path& path = plan.reference.path;
   EXPECT_GE(ClearanceOf(path, obstacles, car, {}), options.safe_distance - Tolerance(kTouch));
   ASSERT_TRUE(plan.diagnostics.contains("avoid"));
@@ -85,19 +85,19 @@ TEST_P(ObstacleInTurn, IsPassedSafelyOnTheSideAskedFor) {
 
   // Beside the obstacle the path runs nearer to the turn's center, or farther from it, than the
   // obstacle does.
-  const Vec2 centre{course.before, c.side * course.radius};
+  const Vec2 center{course.before, c.side * course.radius};
   const Path& path = plan.reference.path;
   double beside = 0.0;
   double nearest = std::numeric_limits<double>::infinity();
   for (double s = 0.0; s < path.length(); s += 0.1) {
-    const Vec2 p = path.At(s).pose.position() - centre;
-    const double along = std::abs(Cross((at.position() - centre).normalized(), p));
-    if (along < nearest && p.dot(at.position() - centre) > 0.0) {
+    const Vec2 p = path.At(s).pose.position() - center;
+    const double along = std::abs(Cross((at.position() - center).normalized(), p));
+    if (along < nearest && p.dot(at.position() - center) > 0.0) {
       nearest = along;
       beside = p.norm();
     }
   }
-  EXPECT_EQ(c.ring == RingChoice::kInner, beside < course.radius) << beside;
+  EXPECT_EQ(c.ring == PassingSideChoice::kInner, beside < course.radius) << beside;
 }
 
 TEST(PlanAround, AMirroredRouteGetsTheMirroredPlan) {
@@ -118,11 +118,11 @@ TEST(PlanAround, AMirroredRouteGetsTheMirroredPlan) {
 }
 
 /// A wall of boxes from the obstacle outward, 1 m apart: nothing fits through.
-std::vector<OrientedBox> WithWall(const Course& course, double share, double toward_centre) {
+std::vector<OrientedBox> WithWall(const Course& course, double share, double toward_center) {
   const Pose2 at = course.OnArc(share);
   std::vector<OrientedBox> boxes;
   for (int i = 0; i < 30; ++i) {
-    const Vec2 p = ToWorld(at, {0.0, toward_centre * 3.0 * i});
+    const Vec2 p = ToWorld(at, {0.0, toward_center * 3.0 * i});
     boxes.push_back({{p.x(), p.y(), at.yaw}, 2.0, 2.0});
   }
   return boxes;
@@ -155,8 +155,8 @@ TEST(PlanAround, StopsBeforeWhatItFindsNoWayAround) {
   EXPECT_EQ(plan.diagnostics["blocked"], plan.blocked);
   EXPECT_TRUE(plan.ok()) << "the way there can be driven";
   const Path& path = plan.reference.path;
-  EXPECT_GE(ClearanceOf(path, wall, SeedCar(), {}), kDistance - Tolerance(kTouch));
-  EXPECT_LE(ClearanceOf(path, wall, SeedCar(), {}), kDistance + 0.3);
+  EXPECT_GE(ClearanceOf(path, wall, ReferenceCar(), {}), kDistance - Tolerance(kTouch));
+  EXPECT_LE(ClearanceOf(path, wall, ReferenceCar(), {}), kDistance + 0.3);
   EXPECT_EQ(plan.reference.speed.SpeedAt(path.length()), 0.0);
   EXPECT_EQ(plan.goal, global.goal);
 }
@@ -175,7 +175,7 @@ TEST(PlanAround, PassesSeveralObstaclesOneAfterTheOther) {
 TEST(PlanAround, StartsAtTheCarsPoseAndSteering) {
   const Course course;
   const Plan global = course.Global();
-  const VehicleParams vehicle = SeedCar();
+  const VehicleParams vehicle = ReferenceCar();
   const Pose2 at = course.OnArc(0.6);
   const std::vector<OrientedBox> obstacles{{{at.x, at.y, 0.0}, 2.0, 2.0}};
   // 10 m into the arc's lead, a little beside the path, the wheels a little to the right.
@@ -202,7 +202,7 @@ TEST(PlanAround, AnObstacleFarAheadOfTheCarLeavesItsPathUntilThen) {
   const Course course{.before = 150.0};
   const Plan global = course.Global();
   const Pose2 at = course.OnArc(0.5);
-  const Plan plan = PlanAround({.vehicle = SeedCar(),
+  const Plan plan = PlanAround({.vehicle = ReferenceCar(),
                                 .plan = global,
                                 .speed = kLimits,
                                 .obstacles = {{{at.x, at.y, 0.0}, 2.0, 2.0}},
@@ -254,8 +254,8 @@ TEST_P(RandomObstacles, ArePassedSafelyOrStoppedBefore) {
       continue;
     }
     const Pose2 arc = course.OnArc(random.Uniform(0.0, 1.0));
-    const Vec2 centre = ToWorld(arc, {0.0, random.Uniform(-2.0, 2.0)});
-    const OrientedBox obstacle{{centre.x(), centre.y(), random.Uniform(-kPi, kPi)},
+    const Vec2 center = ToWorld(arc, {0.0, random.Uniform(-2.0, 2.0)});
+    const OrientedBox obstacle{{center.x(), center.y(), random.Uniform(-kPi, kPi)},
                                random.Uniform(0.5, 6.0),
                                random.Uniform(0.5, 6.0)};
     BezierAvoidanceOptions options;
@@ -271,7 +271,7 @@ TEST_P(RandomObstacles, ArePassedSafelyOrStoppedBefore) {
       continue;
     }
     if (!plan.diagnostics.contains("avoid")) {
-      EXPECT_GE(ClearanceOf(plan.reference.path, {obstacle}, SeedCar(), {}),
+      EXPECT_GE(ClearanceOf(plan.reference.path, {obstacle}, ReferenceCar(), {}),
                 options.safe_distance - Tolerance(kTouch));
       continue;
     }

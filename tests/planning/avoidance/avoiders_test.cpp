@@ -19,15 +19,15 @@ namespace {
 
 class EveryAvoider : public testing::TestWithParam<AvoiderEntry> {};
 
-INSTANTIATE_TEST_SUITE_P(Avoiders, EveryAvoider, testing::ValuesIn(Avoiders()),
+INSTANTIATE_TEST_SUITE_P(LocalPlanners, EveryAvoider, testing::ValuesIn(LocalPlanners()),
                          [](const auto& entry) { return std::string(entry.param.name); });
 
-TEST(Avoiders, AreNamedOnceAndHaveOptionsOfTheirOwn) {
-  ASSERT_EQ(Avoiders().size(), std::variant_size_v<AvoiderOptions>);
-  EXPECT_STREQ(Avoiders()[0].name, "bezier");
-  EXPECT_STREQ(Avoiders()[1].name, "listing");
-  for (std::size_t i = 0; i < Avoiders().size(); ++i) {
-    EXPECT_EQ(Avoiders()[i].defaults.index(), i);
+TEST(LocalPlanners, AreNamedOnceAndHaveOptionsOfTheirOwn) {
+  ASSERT_EQ(LocalPlanners().size(), std::variant_size_v<AvoiderOptions>);
+  EXPECT_STREQ(LocalPlanners()[0].name, "bezier");
+  EXPECT_STREQ(LocalPlanners()[1].name, "listing");
+  for (std::size_t i = 0; i < LocalPlanners().size(); ++i) {
+    EXPECT_EQ(LocalPlanners()[i].defaults.index(), i);
   }
 }
 
@@ -107,11 +107,11 @@ TEST_P(EveryAvoider, TellsHowNearItsCurveComes) {
   const Stations curve{stretch["leave_s_m"].get<double>(), stretch["return_s_m"].get<double>()};
   // Looked at every 0.05 m there, every 0.02 m here.
   EXPECT_NEAR(stretch["clearance_m"].get<double>(),
-              ClearanceOf(plan.reference.path, {box}, SeedCar(), curve),
+              ClearanceOf(plan.reference.path, {box}, ReferenceCar(), curve),
               Tolerance(kBetweenSamples));
   if (GetParam().keeps_clear) {
     EXPECT_GE(stretch["clearance_m"].get<double>(), kDistance);
-    EXPECT_LE(stretch["steering_rate_max_radps"].get<double>(), SeedCar().steering_rate);
+    EXPECT_LE(stretch["steering_rate_max_radps"].get<double>(), ReferenceCar().steering_rate);
     EXPECT_TRUE(plan.notes.empty());
   }
 }
@@ -126,11 +126,11 @@ TEST_P(EveryAvoider, TheScheduleDrivesTheCurveOpenLoop) {
   const double back = stretch["return_s_m"].get<double>();
   // The schedule has the curve's own angle every 0.1 m or less, and is straight in between.
   for (double s = leave; s < back; s += 0.37) {
-    EXPECT_NEAR(plan.schedule.At(s), SteeringForCurvature(SeedCar(), path.At(s).curvature),
+    EXPECT_NEAR(plan.schedule.At(s), SteeringForCurvature(ReferenceCar(), path.At(s).curvature),
                 Tolerance(1e-4));
   }
-  const KinematicState end =
-      RollOut(SeedCar(), {.pose = path.At(0.0).pose, .speed = kSpeed}, plan.schedule, back, 0.05);
+  const KinematicState end = RollOut(ReferenceCar(), {.pose = path.At(0.0).pose, .speed = kSpeed},
+                                     plan.schedule, back, 0.05);
   // Between two knots the wheels turn at their full rate and then rest: they lead the schedule by
   // at most a knot, 0.1 m, which moves the path by no more than (0.1 m x heading changed) = 0.16 m;
   // what is lost going one way comes back going the other.

@@ -23,10 +23,10 @@ namespace {
 
 using testing::HasSubstr;
 
-ListingAvoidanceOptions OptionsFor(RingChoice ring) {
+ListingAvoidanceOptions OptionsFor(PassingSideChoice ring) {
   ListingAvoidanceOptions options;
-  options.inner_width = ring == RingChoice::kInner ? 1.0 : 0.0;
-  options.outer_width = ring == RingChoice::kInner ? 0.0 : 1.0;
+  options.inner_width = ring == PassingSideChoice::kInner ? 1.0 : 0.0;
+  options.outer_width = ring == PassingSideChoice::kInner ? 0.0 : 1.0;
   return options;
 }
 
@@ -61,9 +61,9 @@ TEST_P(ListedObstacle, IsPassedOnTheCurveOfTheListing) {
   problem.inner_width = options.inner_width;
   problem.outer_width = options.outer_width;
   problem.literal = kLiteralTurn;
-  const TurnLayout layout = LayOutTurn(problem, SeedCar());
+  const TurnLayout layout = LayOutTurn(problem, ReferenceCar());
   const LiteralTree tree = LiteralRrtStar(problem, layout, 1);
-  const auto expected = ControlPoints(problem, layout, SeedCar(), tree.final_y);
+  const auto expected = ControlPoints(problem, layout, ReferenceCar(), tree.final_y);
 
   ASSERT_EQ(plan.diagnostics["avoid"].size(), 1U);
   const nlohmann::json& stretch = plan.diagnostics["avoid"][0];
@@ -75,7 +75,7 @@ TEST_P(ListedObstacle, IsPassedOnTheCurveOfTheListing) {
     EXPECT_NEAR(points[k].y(), expected[k].y(), Tolerance(1e-9)) << k;
   }
   EXPECT_NEAR(stretch["leave_s_m"].get<double>(), 20.0, Tolerance(1e-9));
-  EXPECT_EQ(stretch["ring"], c.ring == RingChoice::kInner ? "inner" : "outer");
+  EXPECT_EQ(stretch["ring"], c.ring == PassingSideChoice::kInner ? "inner" : "outer");
   EXPECT_EQ(stretch["obstacle_sixth"], c.sixth);
   EXPECT_EQ(stretch["rrt_star"]["final_y_m"], tree.final_y);
   ASSERT_EQ(plan.tree.size(), tree.nodes.size());
@@ -104,7 +104,7 @@ TEST(Listing, IsDrivenHoweverNearItComes) {
   // Section 5.10: 0.6 to 1.5 m on the outside, 4 m and more on the inside, of 1.5 m.
   const Course course{.turn = 75.0 * kPi / 180.0};
   const OrientedBox box = BoxAt(course.OnArc(0.5));
-  const Plan outer = Around(course.Global(), {box}, OptionsFor(RingChoice::kOuter));
+  const Plan outer = Around(course.Global(), {box}, OptionsFor(PassingSideChoice::kOuter));
   const nlohmann::json& stretch = outer.diagnostics["avoid"][0];
   EXPECT_LT(stretch["clearance_m"].get<double>(), 1.5);
   EXPECT_EQ(stretch["one_point_check"]["passed"], true);
@@ -113,14 +113,14 @@ TEST(Listing, IsDrivenHoweverNearItComes) {
               testing::MatchesRegex("driven although its curve past the obstacle at \\(54\\.88, "
                                     "4\\.133\\) has a clearance of [01]\\.[0-9]* m \\(safe "
                                     "distance 1\\.5 m\\)"));
-  const Plan inner = Around(course.Global(), {box}, OptionsFor(RingChoice::kInner));
+  const Plan inner = Around(course.Global(), {box}, OptionsFor(PassingSideChoice::kInner));
   EXPECT_GT(inner.diagnostics["avoid"][0]["clearance_m"].get<double>(), 4.0);
   EXPECT_TRUE(inner.notes.empty());
 }
 
 TEST(Listing, TellsWhatTheSteeringCannotDo) {
   const Course course;
-  AvoidanceRequest request{.vehicle = SeedCar(),
+  AvoidanceRequest request{.vehicle = ReferenceCar(),
                            .plan = course.Global(),
                            .speed = kLimits,
                            .obstacles = {BoxAt(course.OnArc(0.5))},
@@ -157,7 +157,7 @@ TEST(Listing, SteersStraightAgainBehindACurveThatEndsBent) {
   const Plan plan = Around(course.Global(), {BoxAt(course.OnArc(0.5))}, ListingAvoidanceOptions{});
   const double back = plan.diagnostics["avoid"][0]["return_s_m"].get<double>();
   const double curvature = 6.0 / 7.0 * std::cos(1.2) * std::sin(1.2) / std::pow(0.5 * 22.7, 2);
-  EXPECT_NEAR(std::abs(plan.schedule.At(back)), SteeringForCurvature(SeedCar(), curvature),
+  EXPECT_NEAR(std::abs(plan.schedule.At(back)), SteeringForCurvature(ReferenceCar(), curvature),
               Tolerance(1e-9));
   EXPECT_EQ(plan.schedule.At(back + 1e-3), 0.0);
   EXPECT_EQ(plan.reference.path.At(back + 1e-3).curvature, 0.0);
@@ -166,7 +166,7 @@ TEST(Listing, SteersStraightAgainBehindACurveThatEndsBent) {
 TEST(Listing, MendedTurnsMirrorEachOther) {
   const Course left{.turn = 1.2};
   const Course right{.turn = -1.2};
-  ListingAvoidanceOptions options = OptionsFor(RingChoice::kOuter);
+  ListingAvoidanceOptions options = OptionsFor(PassingSideChoice::kOuter);
   const auto points_of = [&](const Course& course) {
     return ControlPointsOf(
         Around(course.Global(), {BoxAt(course.OnArc(0.5))}, options).diagnostics["avoid"][0]);
@@ -229,14 +229,14 @@ TEST(Listing, TurnsWithItsRoute) {
   FilletOptions fillets;
   fillets.radius = course.radius;
   fillets.constraint = RadiusConstraint::kNone;
-  const Plan global = MakePlan({.vehicle = SeedCar(),
+  const Plan global = MakePlan({.vehicle = ReferenceCar(),
                                 .waypoints = waypoints,
                                 .start = X_WN,
                                 .start_speed = kSpeed,
                                 .speed = kLimits},
                                fillets);
   ASSERT_TRUE(global.ok()) << global.reason;
-  const OrientedBox moved{Compose(X_WN, box.centre), box.length, box.width};
+  const OrientedBox moved{Compose(X_WN, box.center), box.length, box.width};
   const auto points = ControlPointsOf(
       Around(course.Global(), {box}, ListingAvoidanceOptions{}).diagnostics["avoid"][0]);
   const Plan plan = Around(global, {moved}, ListingAvoidanceOptions{});

@@ -14,7 +14,7 @@
 #include "tests/geometry/random.h"
 #include "tests/planning/routes.h"
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
@@ -28,11 +28,12 @@ constexpr double kRounding = 1e-12;
 
 using Points = std::array<Vec2, 8>;
 
-TurnManoeuvre Literal(TurnSide side, Ring ring, double reduction = kPi / 12.0, int sixth = 3) {
+TurnManoeuvre Literal(TurnSide side, PassingSide ring, double reduction = kPi / 12.0,
+                      int sixth = 3) {
   TurnManoeuvre manoeuvre;
   manoeuvre.side = side;
-  manoeuvre.inner_width = ring == Ring::kInner ? 1.0 : 0.0;
-  manoeuvre.outer_width = ring == Ring::kInner ? 0.0 : 1.0;
+  manoeuvre.inner_width = ring == PassingSide::kInner ? 1.0 : 0.0;
+  manoeuvre.outer_width = ring == PassingSide::kInner ? 0.0 : 1.0;
   manoeuvre.reduction = reduction;
   manoeuvre.obstacle_sixth = sixth;
   manoeuvre.literal = kLiteralTurn;
@@ -40,13 +41,13 @@ TurnManoeuvre Literal(TurnSide side, Ring ring, double reduction = kPi / 12.0, i
 }
 
 TurnLayout LayOut(const TurnManoeuvre& manoeuvre) {
-  TurnLayout layout = LayOutTurn(manoeuvre, SeedCar());
+  TurnLayout layout = LayOutTurn(manoeuvre, ReferenceCar());
   EXPECT_EQ(layout.status, TurnStatus::kOk) << layout.reason;
   return layout;
 }
 
 Points PointsOf(const TurnManoeuvre& manoeuvre, double final_y) {
-  return ControlPoints(manoeuvre, LayOut(manoeuvre), SeedCar(), final_y);
+  return ControlPoints(manoeuvre, LayOut(manoeuvre), ReferenceCar(), final_y);
 }
 
 BezierCurve CurveThrough(const Points& points) {
@@ -56,7 +57,7 @@ BezierCurve CurveThrough(const Points& points) {
 /// A car as long behind its rear axle as before it: the middle of its outline drives along the
 /// curve, as in the listing.
 VehicleParams CenteredCar() {
-  VehicleParams car = SeedCar();
+  VehicleParams car = ReferenceCar();
   car.rear_overhang = 0.5 * car.length;
   return car;
 }
@@ -77,7 +78,7 @@ void ExpectPoint(const Vec2& actual, const Vec2& expected, double tolerance) {
 /// the turn's own angle stays.
 TurnManoeuvre RandomLiteral(Random& random) {
   const TurnSide side = random.Below(2) == 0 ? TurnSide::kLeft : TurnSide::kRight;
-  const Ring ring = random.Below(2) == 0 ? Ring::kInner : Ring::kOuter;
+  const PassingSide ring = random.Below(2) == 0 ? PassingSide::kInner : PassingSide::kOuter;
   const double reduction = random.Below(3) == 0 ? 0.0 : random.Uniform(-0.5, 1.3);
   TurnManoeuvre manoeuvre = Literal(side, ring, reduction, 1 + random.Below(5));
   manoeuvre.radius = random.Uniform(30.0, 60.0);
@@ -94,7 +95,7 @@ TurnManoeuvre RandomLiteral(Random& random) {
 std::string Describe(const TurnManoeuvre& m) {
   return fmt::format(
       "{} {}, r_1 {}, reduction {}, sixth {}", m.side == TurnSide::kLeft ? "left" : "right",
-      m.ring() == Ring::kInner ? "inner" : "outer", m.radius, m.reduction, m.obstacle_sixth);
+      m.ring() == PassingSide::kInner ? "inner" : "outer", m.radius, m.reduction, m.obstacle_sixth);
 }
 
 // --- Arc and obstacle: sections 5.1 and 5.2 ----------------------------------------------------
@@ -102,7 +103,7 @@ std::string Describe(const TurnManoeuvre& m) {
 TEST(TurnManoeuvre, DefaultsAreTheListings) {
   const TurnManoeuvre manoeuvre;
   EXPECT_NEAR(manoeuvre.straight(), 22.7, Tolerance(kRounding));
-  EXPECT_EQ(manoeuvre.ring(), Ring::kInner);
+  EXPECT_EQ(manoeuvre.ring(), PassingSide::kInner);
   EXPECT_EQ(manoeuvre.turn_angle, kPi / 2.0);
   EXPECT_EQ(manoeuvre.reduction, kPi / 12.0);
 }
@@ -110,9 +111,9 @@ TEST(TurnManoeuvre, DefaultsAreTheListings) {
 TEST(TurnManoeuvre, TakesTheInnerRingWhenBothAreAlike) {
   TurnManoeuvre manoeuvre;
   manoeuvre.outer_width = manoeuvre.inner_width;
-  EXPECT_EQ(manoeuvre.ring(), Ring::kInner);
+  EXPECT_EQ(manoeuvre.ring(), PassingSide::kInner);
   manoeuvre.outer_width = std::nextafter(manoeuvre.inner_width, 2.0);
-  EXPECT_EQ(manoeuvre.ring(), Ring::kOuter);
+  EXPECT_EQ(manoeuvre.ring(), PassingSide::kOuter);
 }
 
 TEST(LayOutTurn, LeftTurnGoesToPositiveY) {
@@ -131,32 +132,32 @@ TEST(LayOutTurn, ArcRunsFromEndToEnd) {
     SCOPED_TRACE(Describe(manoeuvre));
     const TurnLayout layout = LayOut(manoeuvre);
     const double sign = manoeuvre.side == TurnSide::kLeft ? 1.0 : -1.0;
-    const Vec2 centre{manoeuvre.straight(), sign * manoeuvre.radius};
+    const Vec2 center{manoeuvre.straight(), sign * manoeuvre.radius};
     ASSERT_GE(layout.arc.size(), 2U);
     ExpectPoint(layout.arc.front().position, {manoeuvre.straight(), 0.0}, kRounding);
     EXPECT_EQ(layout.arc.front().angle, 0.0);
     EXPECT_EQ(layout.arc.back().angle, manoeuvre.turn_angle - manoeuvre.reduction);
     for (std::size_t k = 1; k < layout.arc.size(); ++k) {
-      EXPECT_NEAR((layout.arc[k].position - centre).norm(), manoeuvre.radius, Tolerance(kRounding));
+      EXPECT_NEAR((layout.arc[k].position - center).norm(), manoeuvre.radius, Tolerance(kRounding));
       EXPECT_LE(layout.arc[k].angle - layout.arc[k - 1].angle, 0.01 + Tolerance(kRounding));
     }
     // The obstacle stands n sixths of the way along, and the safe point at the same angle.
     const double angle = manoeuvre.obstacle_sixth / 6.0 * layout.arc.back().angle;
     EXPECT_NEAR(layout.safe_angle, angle, Tolerance(kRounding));
     const Vec2 out{std::sin(angle), -sign * std::cos(angle)};
-    ExpectPoint(layout.obstacle.centre.position(), centre + manoeuvre.radius * out, kRounding);
-    ExpectPoint(layout.safe_point, centre + layout.safe_radius * out, kRounding);
+    ExpectPoint(layout.obstacle.center.position(), center + manoeuvre.radius * out, kRounding);
+    ExpectPoint(layout.safe_point, center + layout.safe_radius * out, kRounding);
     EXPECT_NEAR(layout.arc[layout.obstacle_at - 1].angle, angle, 0.005 + Tolerance(kRounding));
   }
 }
 
 TEST(LayOutTurn, LiteralGridHasThePrintedPoints) {
-  const TurnLayout layout = LayOut(Literal(TurnSide::kLeft, Ring::kInner));
+  const TurnLayout layout = LayOut(Literal(TurnSide::kLeft, PassingSide::kInner));
   EXPECT_EQ(layout.arc.size(), 131U);
   ExpectPoint(layout.arc.front().position, {22.8799, 0.0008}, Printed(4));
   // The other end is exact: 15 degrees short of a quarter.
   EXPECT_NEAR(layout.arc.back().angle, 75.0 * kPi / 180.0, Tolerance(kRounding));
-  EXPECT_EQ(LayOut(Literal(TurnSide::kLeft, Ring::kInner, 0.0)).arc.size(), 158U);
+  EXPECT_EQ(LayOut(Literal(TurnSide::kLeft, PassingSide::kInner, 0.0)).arc.size(), 158U);
 }
 
 TEST(LayOutTurn, LiteralObstacleStandsOnThePrintedPoint) {
@@ -164,12 +165,12 @@ TEST(LayOutTurn, LiteralObstacleStandsOnThePrintedPoint) {
   const std::array<std::size_t, 5> whole{26, 53, 79, 105, 132};
   for (int n = 1; n <= 5; ++n) {
     const auto i = static_cast<std::size_t>(n) - 1;
-    EXPECT_EQ(LayOut(Literal(TurnSide::kLeft, Ring::kInner, kPi / 12.0, n)).obstacle_at,
+    EXPECT_EQ(LayOut(Literal(TurnSide::kLeft, PassingSide::kInner, kPi / 12.0, n)).obstacle_at,
               reduced[i]);
-    EXPECT_EQ(LayOut(Literal(TurnSide::kLeft, Ring::kInner, 0.0, n)).obstacle_at, whole[i]);
+    EXPECT_EQ(LayOut(Literal(TurnSide::kLeft, PassingSide::kInner, 0.0, n)).obstacle_at, whole[i]);
   }
-  const TurnLayout layout = LayOut(Literal(TurnSide::kLeft, Ring::kInner));
-  ExpectPoint(layout.obstacle.centre.position(), {34.946483, 4.187863}, Printed(6));
+  const TurnLayout layout = LayOut(Literal(TurnSide::kLeft, PassingSide::kInner));
+  ExpectPoint(layout.obstacle.center.position(), {34.946483, 4.187863}, Printed(6));
   EXPECT_NEAR(layout.safe_angle + kPi / 12.0, 0.911799, Tolerance(Printed(6)));
   ExpectPoint(layout.obstacle.Corners()[2], {33.9465, 3.1879}, Printed(4));
   ExpectPoint(layout.obstacle.Corners()[0], {35.9465, 5.1879}, Printed(4));
@@ -194,23 +195,23 @@ TEST(LayOutTurn, LiteralAnglesMissByLessThanAStep) {
 
 TEST(SafeRadius, IsAsPrinted) {
   TurnManoeuvre manoeuvre;
-  EXPECT_NEAR(SafeRadius(manoeuvre, 1.725, Ring::kInner), 9.721573, Tolerance(Printed(6)));
-  EXPECT_NEAR(SafeRadius(manoeuvre, 1.725, Ring::kOuter), 43.917641, Tolerance(Printed(6)));
+  EXPECT_NEAR(SafeRadius(manoeuvre, 1.725, PassingSide::kInner), 9.721573, Tolerance(Printed(6)));
+  EXPECT_NEAR(SafeRadius(manoeuvre, 1.725, PassingSide::kOuter), 43.917641, Tolerance(Printed(6)));
   manoeuvre.outer_width = 1.0;
-  EXPECT_NEAR(SafeRadius(manoeuvre, 1.725, Ring::kOuter), 45.417641, Tolerance(Printed(6)));
+  EXPECT_NEAR(SafeRadius(manoeuvre, 1.725, PassingSide::kOuter), 45.417641, Tolerance(Printed(6)));
 }
 
 TEST(LayOutTurn, SafePointIsAsPrinted) {
   struct Row {
-    Ring ring;
+    PassingSide ring;
     double reduction;
     Vec2 point;
     int decimals;
   };
-  const std::vector<Row> rows{{Ring::kInner, kPi / 12.0, {28.583364, 12.260813}, 6},
-                              {Ring::kOuter, kPi / 12.0, {50.1861, -16.1562}, 4},
-                              {Ring::kInner, 0.0, {29.5370, 13.0888}, 4},
-                              {Ring::kOuter, 0.0, {54.6413, -12.2880}, 4}};
+  const std::vector<Row> rows{{PassingSide::kInner, kPi / 12.0, {28.583364, 12.260813}, 6},
+                              {PassingSide::kOuter, kPi / 12.0, {50.1861, -16.1562}, 4},
+                              {PassingSide::kInner, 0.0, {29.5370, 13.0888}, 4},
+                              {PassingSide::kOuter, 0.0, {54.6413, -12.2880}, 4}};
   for (const Row& row : rows) {
     ExpectPoint(LayOut(Literal(TurnSide::kLeft, row.ring, row.reduction)).safe_point, row.point,
                 Printed(row.decimals));
@@ -267,7 +268,7 @@ TEST(LayOutTurn, OneFormulaIsAllEightBranches) {
                                   manoeuvre.obstacle_length * manoeuvre.obstacle_length) /
                         2.0;
     const double need = 2.0 * manoeuvre.safe_distance + 2.0 * is_k + 2.0 * 1.725;
-    const bool inner = manoeuvre.ring() == Ring::kInner;
+    const bool inner = manoeuvre.ring() == PassingSide::kInner;
     const double r_k = inner ? manoeuvre.radius - need - manoeuvre.inner_width
                              : 1.5 * (manoeuvre.radius + need + manoeuvre.outer_width);
     EXPECT_NEAR(layout.safe_radius, r_k, Tolerance(kRounding));
@@ -285,32 +286,32 @@ TEST(LayOutTurn, RefusesATurnTooTightToPassInside) {
   const double limit = 7.45 + std::sqrt(8.0);
   TurnManoeuvre manoeuvre;
   manoeuvre.radius = limit * (1.0 + 1e-12);
-  EXPECT_EQ(LayOutTurn(manoeuvre, SeedCar()).status, TurnStatus::kOk);
+  EXPECT_EQ(LayOutTurn(manoeuvre, ReferenceCar()).status, TurnStatus::kOk);
   manoeuvre.radius = limit * (1.0 - 1e-12);
-  EXPECT_EQ(LayOutTurn(manoeuvre, SeedCar()).status, TurnStatus::kNoSafePoint);
+  EXPECT_EQ(LayOutTurn(manoeuvre, ReferenceCar()).status, TurnStatus::kNoSafePoint);
   manoeuvre.radius = 10.0;
-  const TurnLayout layout = LayOutTurn(manoeuvre, SeedCar());
+  const TurnLayout layout = LayOutTurn(manoeuvre, ReferenceCar());
   EXPECT_EQ(layout.status, TurnStatus::kNoSafePoint);
   EXPECT_EQ(layout.reason,
             "passing inside takes 10.2784 m (safe distance, obstacle's diagonal and car's width, "
             "with the 1 m kept free), the turn's radius is 10 m");
-  EXPECT_THROW(ControlPoints(manoeuvre, layout, SeedCar(), 0.0), InternalError);
+  EXPECT_THROW(ControlPoints(manoeuvre, layout, ReferenceCar(), 0.0), InternalError);
   // There is always a way around.
   manoeuvre.outer_width = 2.0;
-  EXPECT_EQ(LayOutTurn(manoeuvre, SeedCar()).status, TurnStatus::kOk);
+  EXPECT_EQ(LayOutTurn(manoeuvre, ReferenceCar()).status, TurnStatus::kOk);
 }
 
 TEST(LayOutTurn, RefusesAReductionThatLeavesNoTurn) {
   TurnManoeuvre manoeuvre;
   manoeuvre.reduction = manoeuvre.turn_angle;
-  const TurnLayout layout = LayOutTurn(manoeuvre, SeedCar());
+  const TurnLayout layout = LayOutTurn(manoeuvre, ReferenceCar());
   EXPECT_EQ(layout.status, TurnStatus::kNoTurn);
   EXPECT_EQ(layout.reason, "a turn of 1.5708 rad less 1.5708 rad leaves no arc");
   // One sixth of the literal grid's two points rounds to none.
   manoeuvre.literal.grid = true;
   manoeuvre.obstacle_sixth = 1;
   manoeuvre.reduction = manoeuvre.turn_angle - 0.015;
-  EXPECT_EQ(LayOutTurn(manoeuvre, SeedCar()).status, TurnStatus::kNoTurn);
+  EXPECT_EQ(LayOutTurn(manoeuvre, ReferenceCar()).status, TurnStatus::kNoTurn);
 }
 
 TEST(LayOutTurn, NumbersOutOfRangeAreBugs) {
@@ -318,7 +319,7 @@ TEST(LayOutTurn, NumbersOutOfRangeAreBugs) {
   const auto refused = [](auto change) {
     TurnManoeuvre manoeuvre;
     change(manoeuvre);
-    EXPECT_THROW(LayOutTurn(manoeuvre, SeedCar()), InternalError);
+    EXPECT_THROW(LayOutTurn(manoeuvre, ReferenceCar()), InternalError);
   };
   // The listing's abs(r_1) suggests a negative radius for right turns: S would be wrong.
   refused([](TurnManoeuvre& m) { m.radius = -20.0; });
@@ -401,7 +402,7 @@ TEST(ControlPoints, LiteralOnesAreThoseOfEveryBranch) {
     SCOPED_TRACE(Describe(manoeuvre));
     const double final_y = random.Uniform(-8.0, 8.0);
     const TurnLayout layout = LayOut(manoeuvre);
-    const Points actual = ControlPoints(manoeuvre, layout, SeedCar(), final_y);
+    const Points actual = ControlPoints(manoeuvre, layout, ReferenceCar(), final_y);
     const Points expected = PointsByBranches(manoeuvre, layout, final_y);
     for (std::size_t k = 0; k < 8; ++k) {
       SCOPED_TRACE(k);
@@ -430,7 +431,7 @@ TEST(ControlPoints, LieOnTheTangentsOfTheTurn) {
 }
 
 TEST(ControlPoints, DefaultOnesAreAsPrinted) {
-  const Points p = PointsOf(Literal(TurnSide::kLeft, Ring::kInner), 3.0);
+  const Points p = PointsOf(Literal(TurnSide::kLeft, PassingSide::kInner), 3.0);
   const std::vector<Vec2> expected{{0, 0},
                                    {7.6266, 0},
                                    {15.2533, 0.0008},
@@ -447,8 +448,8 @@ TEST(ControlPoints, DefaultOnesAreAsPrinted) {
 
 TEST(ControlPoints, LiteralRightTurnIsNoMirror) {
   // L9: P_5 alone, by cos 75 degrees.
-  const Points left = PointsOf(Literal(TurnSide::kLeft, Ring::kInner), 3.0);
-  const Points right = PointsOf(Literal(TurnSide::kRight, Ring::kInner), -3.0);
+  const Points left = PointsOf(Literal(TurnSide::kLeft, PassingSide::kInner), 3.0);
+  const Points right = PointsOf(Literal(TurnSide::kRight, PassingSide::kInner), -3.0);
   for (std::size_t k = 0; k < 8; ++k) {
     SCOPED_TRACE(k);
     EXPECT_EQ(right[k].y(), -left[k].y());
@@ -457,9 +458,9 @@ TEST(ControlPoints, LiteralRightTurnIsNoMirror) {
     }
   }
   EXPECT_NEAR(right[5].x() - left[5].x(), 0.2588, Tolerance(Printed(4)));
-  EXPECT_NEAR(Drive(Literal(TurnSide::kLeft, Ring::kInner), 3.0).length, 65.0248,
+  EXPECT_NEAR(Drive(Literal(TurnSide::kLeft, PassingSide::kInner), 3.0).length, 65.0248,
               Tolerance(Printed(4)));
-  TurnManoeuvre manoeuvre = Literal(TurnSide::kRight, Ring::kInner);
+  TurnManoeuvre manoeuvre = Literal(TurnSide::kRight, PassingSide::kInner);
   EXPECT_NEAR(Drive(manoeuvre, -3.0).length, 65.0590, Tolerance(Printed(4)));
   manoeuvre.literal.right_shift = false;
   EXPECT_NEAR(Drive(manoeuvre, -3.0).length, 65.0248, Tolerance(Printed(4)));
@@ -481,8 +482,8 @@ TEST(TurnManoeuvre, RightTurnMirrorsTheLeftToTheLastBit) {
       EXPECT_EQ(p[k].x(), q[k].x());
       EXPECT_EQ(p[k].y(), -q[k].y());
     }
-    const ManoeuvreDrive a = Drive(left, final_y, SeedCar());
-    const ManoeuvreDrive b = Drive(right, -final_y, SeedCar());
+    const ManoeuvreDrive a = Drive(left, final_y, ReferenceCar());
+    const ManoeuvreDrive b = Drive(right, -final_y, ReferenceCar());
     for (std::size_t k = 0; k < a.samples.size(); ++k) {
       EXPECT_EQ(a.samples[k].steering, -b.samples[k].steering);
     }
@@ -496,7 +497,7 @@ TEST(TurnManoeuvre, RightTurnMirrorsTheLeftToTheLastBit) {
 TEST(ControlPoints, NothingJumpsWhenTheReductionVanishes) {
   // A reduction of 1e-9 turns the exit, whose far end lies r_1 + S < 43 m from the arc's center.
   constexpr double kSmall = 1e-9;
-  for (const Ring ring : {Ring::kInner, Ring::kOuter}) {
+  for (const PassingSide ring : {PassingSide::kInner, PassingSide::kOuter}) {
     TurnManoeuvre none = Literal(TurnSide::kLeft, ring, 0.0);
     TurnManoeuvre small = Literal(TurnSide::kLeft, ring, kSmall);
     none.literal = small.literal = {};
@@ -513,7 +514,7 @@ TEST(ControlPoints, NothingJumpsWhenTheReductionVanishes) {
     for (std::size_t k = 0; k < 5; ++k) {
       ExpectPoint(c[k], d[k], 43.0 * kSmall + kRounding);
     }
-    const double inner = SafeRadius(none, 1.725, Ring::kInner);
+    const double inner = SafeRadius(none, 1.725, PassingSide::kInner);
     const double jump = -inner * std::cos(kPi / 4.0);
     EXPECT_LT(jump, -6.8);
     for (std::size_t k = 5; k < 8; ++k) {
@@ -525,7 +526,7 @@ TEST(ControlPoints, NothingJumpsWhenTheReductionVanishes) {
 // --- The curve ---------------------------------------------------------------------------------
 
 TEST(TurnManoeuvre, CurveIsTheListingsOwnCheck) {
-  const Points p = PointsOf(Literal(TurnSide::kLeft, Ring::kInner), 3.0);
+  const Points p = PointsOf(Literal(TurnSide::kLeft, PassingSide::kInner), 3.0);
   const BezierCurve curve = CurveThrough(p);
   const std::array<double, 8> position{1, 7, 21, 35, 35, 21, 7, 1};
   const std::array<double, 7> velocity{7, 42, 105, 140, 105, 42, 7};
@@ -553,7 +554,7 @@ TEST(TurnManoeuvre, CurveIsTheListingsOwnCheck) {
 }
 
 TEST(TurnManoeuvre, DerivativesAreThoseOfTheCurve) {
-  const Points p = PointsOf(Literal(TurnSide::kRight, Ring::kOuter), 3.0);
+  const Points p = PointsOf(Literal(TurnSide::kRight, PassingSide::kOuter), 3.0);
   const BezierCurve curve = CurveThrough(p);
   // A central difference misses by h^2/6 of the third derivative. Those of the curve's first and
   // second are at most 210 * 8 and 840 * 16 times the largest coordinate, 51 m, and rounding adds
@@ -569,7 +570,7 @@ TEST(TurnManoeuvre, DerivativesAreThoseOfTheCurve) {
 }
 
 TEST(DriveManoeuvre, DefaultDetailsAreAsPrinted) {
-  const ManoeuvreDrive drive = Drive(Literal(TurnSide::kLeft, Ring::kInner), 3.0);
+  const ManoeuvreDrive drive = Drive(Literal(TurnSide::kLeft, PassingSide::kInner), 3.0);
   ASSERT_EQ(drive.samples.size(), 501U);
   const ManoeuvreSample& middle = drive.samples[250];
   EXPECT_EQ(middle.u, 0.5);
@@ -611,8 +612,8 @@ TEST(DriveManoeuvre, TableIsAsPrinted) {
   };
   constexpr TurnSide kLeft = TurnSide::kLeft;
   constexpr TurnSide kRight = TurnSide::kRight;
-  constexpr Ring kInner = Ring::kInner;
-  constexpr Ring kOuter = Ring::kOuter;
+  constexpr PassingSide kInner = PassingSide::kInner;
+  constexpr PassingSide kOuter = PassingSide::kOuter;
   constexpr double kDec = kPi / 12.0;
   // V_L_1's clearance is printed as 4.59, which takes every second sample (4.586); all of them, and
   // four times as many, come to 4.5847.
@@ -663,7 +664,7 @@ TEST(DriveManoeuvre, TableIsAsPrinted) {
     EXPECT_GE(drive.steering_rate_max, LargestQuotient(drive) * (1.0 - 1e-4));
     EXPECT_LE(drive.steering_rate_max, LargestQuotient(drive) * 1.025);
     // Where the car's rear axle is on the path: up to 0.08 m from that.
-    EXPECT_NEAR(Drive(row.manoeuvre, row.final_y, SeedCar()).clearance, drive.clearance,
+    EXPECT_NEAR(Drive(row.manoeuvre, row.final_y, ReferenceCar()).clearance, drive.clearance,
                 Tolerance(0.08 + Printed(2)));
     // The point test passes in all of them, on the outer ring in vain.
     EXPECT_TRUE(drive.test_passed);
@@ -674,7 +675,7 @@ TEST(DriveManoeuvre, TableIsAsPrinted) {
 }
 
 TEST(DriveManoeuvre, OuterRingComesAsCloseAsPrinted) {
-  const TurnManoeuvre manoeuvre = Literal(TurnSide::kLeft, Ring::kOuter);
+  const TurnManoeuvre manoeuvre = Literal(TurnSide::kLeft, PassingSide::kOuter);
   EXPECT_NEAR(Drive(manoeuvre, 0.0).clearance, 0.60, Tolerance(Printed(2)));
   EXPECT_NEAR(Drive(manoeuvre, -2.0).clearance, 0.94, Tolerance(Printed(2)));
   EXPECT_NEAR(Drive(manoeuvre, -5.0).clearance, 1.41, Tolerance(Printed(2)));
@@ -684,8 +685,8 @@ TEST(DriveManoeuvre, OuterRingComesAsCloseAsPrinted) {
   EXPECT_NEAR(Drive(manoeuvre, -1.0).clearance, 0.77400, Tolerance(Printed(5)));
 }
 
-TEST(DriveManoeuvre, CentreLineComesAsCloseAsPrinted) {
-  const TurnManoeuvre manoeuvre = Literal(TurnSide::kLeft, Ring::kOuter, 0.0);
+TEST(DriveManoeuvre, CenterLineComesAsCloseAsPrinted) {
+  const TurnManoeuvre manoeuvre = Literal(TurnSide::kLeft, PassingSide::kOuter, 0.0);
   const TurnLayout layout = LayOut(manoeuvre);
   double nearest = std::numeric_limits<double>::infinity();
   for (const ManoeuvreSample& sample : Drive(manoeuvre, -3.0).samples) {
@@ -696,7 +697,7 @@ TEST(DriveManoeuvre, CentreLineComesAsCloseAsPrinted) {
 }
 
 TEST(DriveManoeuvre, HeightFromTheSearchShortensTheInnerWay) {
-  const TurnManoeuvre manoeuvre = Literal(TurnSide::kLeft, Ring::kInner);
+  const TurnManoeuvre manoeuvre = Literal(TurnSide::kLeft, PassingSide::kInner);
   EXPECT_NEAR(Drive(manoeuvre, 0.0).length, 65.44, Tolerance(Printed(2)));
   EXPECT_NEAR(Drive(manoeuvre, 5.0).length, 64.78, Tolerance(Printed(2)));
 }
@@ -705,7 +706,7 @@ TEST(DriveManoeuvre, ListingsSteeringIsTooSmallByTheFactorPrinted) {
   // L1: atan(L)/R instead of atan(L/R).
   EXPECT_NEAR(std::atan(2.7), 1.2161, Tolerance(Printed(4)));
   EXPECT_NEAR(std::atan(2.7) / 2.7, 0.450, Tolerance(Printed(3)));
-  const ManoeuvreDrive drive = Drive(Literal(TurnSide::kLeft, Ring::kInner), 3.0);
+  const ManoeuvreDrive drive = Drive(Literal(TurnSide::kLeft, PassingSide::kInner), 3.0);
   double largest = 0.0;
   for (const ManoeuvreSample& sample : drive.samples) {
     const double listing = std::atan(2.7) * sample.curvature;
@@ -722,8 +723,8 @@ TEST(DriveManoeuvre, SamplesCountChordsAtConstantSpeed) {
   TurnManoeuvre manoeuvre;
   manoeuvre.speed = 2.0;
   const TurnLayout layout = LayOut(manoeuvre);
-  const BezierCurve curve = CurveThrough(ControlPoints(manoeuvre, layout, SeedCar(), 2.0));
-  const ManoeuvreDrive drive = DriveManoeuvre(manoeuvre, layout, SeedCar(), curve);
+  const BezierCurve curve = CurveThrough(ControlPoints(manoeuvre, layout, ReferenceCar(), 2.0));
+  const ManoeuvreDrive drive = DriveManoeuvre(manoeuvre, layout, ReferenceCar(), curve);
   EXPECT_EQ(drive.samples.front().s, 0.0);
   double s = 0.0;
   for (std::size_t i = 1; i < drive.samples.size(); ++i) {
@@ -742,7 +743,7 @@ TEST(DriveManoeuvre, SamplesCountChordsAtConstantSpeed) {
 
 TEST(DriveManoeuvre, TestPointIsTwoSamplesBeforeTheStation) {
   for (int n = 1; n <= 5; ++n) {
-    const ManoeuvreDrive drive = Drive(Literal(TurnSide::kLeft, Ring::kInner, 0.2, n), 3.0);
+    const ManoeuvreDrive drive = Drive(Literal(TurnSide::kLeft, PassingSide::kInner, 0.2, n), 3.0);
     // The listing's indices from 1: B_sum(m) is s of sample m + 1, the test point P(m - 1).
     std::size_t m = 1;
     while (drive.samples[m].s < n / 6.0 * drive.length - 2.0) {
@@ -754,26 +755,26 @@ TEST(DriveManoeuvre, TestPointIsTwoSamplesBeforeTheStation) {
 }
 
 TEST(DriveManoeuvre, TestCornerIsTheListings) {
-  const auto corner = [](TurnSide side, Ring ring) {
+  const auto corner = [](TurnSide side, PassingSide ring) {
     const TurnManoeuvre manoeuvre = Literal(side, ring);
     const Vec2 lowest = LayOut(manoeuvre).obstacle.Corners()[2];
     return Vec2(Drive(manoeuvre, 0.0).test_corner - lowest);
   };
-  ExpectPoint(corner(TurnSide::kLeft, Ring::kInner), {0.0, 2.0}, kRounding);
-  ExpectPoint(corner(TurnSide::kLeft, Ring::kOuter), {2.0, 0.0}, kRounding);
-  ExpectPoint(corner(TurnSide::kRight, Ring::kInner), {0.0, 0.0}, kRounding);
-  ExpectPoint(corner(TurnSide::kRight, Ring::kOuter), {2.0, 2.0}, kRounding);
+  ExpectPoint(corner(TurnSide::kLeft, PassingSide::kInner), {0.0, 2.0}, kRounding);
+  ExpectPoint(corner(TurnSide::kLeft, PassingSide::kOuter), {2.0, 0.0}, kRounding);
+  ExpectPoint(corner(TurnSide::kRight, PassingSide::kInner), {0.0, 0.0}, kRounding);
+  ExpectPoint(corner(TurnSide::kRight, PassingSide::kOuter), {2.0, 2.0}, kRounding);
 }
 
 TEST(DriveManoeuvre, AcceptsFromTheSafeDistanceOn) {
   // SD + w_a/2 = 2.3625 for the point, SD for the outline: both at their limits.
-  const TurnManoeuvre base = Literal(TurnSide::kLeft, Ring::kOuter);
+  const TurnManoeuvre base = Literal(TurnSide::kLeft, PassingSide::kOuter);
   const TurnLayout layout = LayOut(base);
-  const BezierCurve curve = CurveThrough(ControlPoints(base, layout, SeedCar(), -3.0));
+  const BezierCurve curve = CurveThrough(ControlPoints(base, layout, ReferenceCar(), -3.0));
   const auto drive_with = [&](double safe_distance) {
     TurnManoeuvre manoeuvre = base;
     manoeuvre.safe_distance = safe_distance;
-    return DriveManoeuvre(manoeuvre, layout, SeedCar(), curve);
+    return DriveManoeuvre(manoeuvre, layout, ReferenceCar(), curve);
   };
   const ManoeuvreDrive drive = drive_with(1.5);
   EXPECT_TRUE(drive_with(drive.test_distance - 0.8625 - kRounding).test_passed);
@@ -786,10 +787,10 @@ TEST(DriveManoeuvre, AcceptsFromTheSafeDistanceOn) {
 TEST(DriveManoeuvre, KnowsTheLimitsOfTheSteering) {
   const TurnManoeuvre manoeuvre;
   const TurnLayout layout = LayOut(manoeuvre);
-  const BezierCurve curve = CurveThrough(ControlPoints(manoeuvre, layout, SeedCar(), 3.0));
-  const ManoeuvreDrive drive = DriveManoeuvre(manoeuvre, layout, SeedCar(), curve);
+  const BezierCurve curve = CurveThrough(ControlPoints(manoeuvre, layout, ReferenceCar(), 3.0));
+  const ManoeuvreDrive drive = DriveManoeuvre(manoeuvre, layout, ReferenceCar(), curve);
   const auto steerable = [&](double limit, double rate) {
-    VehicleParams car = SeedCar();
+    VehicleParams car = ReferenceCar();
     car.steering_limit = limit;
     car.steering_rate = rate;
     return DriveManoeuvre(manoeuvre, layout, car, curve).steerable;
@@ -799,18 +800,18 @@ TEST(DriveManoeuvre, KnowsTheLimitsOfTheSteering) {
   EXPECT_FALSE(steerable(drive.steering_max, 0.999 * drive.steering_rate_max));
   // No direction where it starts.
   const BezierCurve stuck({{0.0, 0.0}, {0.0, 0.0}, {10.0, 1.0}, {20.0, 0.0}});
-  EXPECT_FALSE(DriveManoeuvre(manoeuvre, layout, SeedCar(), stuck).steerable);
+  EXPECT_FALSE(DriveManoeuvre(manoeuvre, layout, ReferenceCar(), stuck).steerable);
 }
 
 TEST(DriveManoeuvre, ClearanceIsThatOfTheCarOnItsRearAxle) {
-  const TurnManoeuvre manoeuvre = Literal(TurnSide::kLeft, Ring::kInner, kPi / 12.0, 1);
+  const TurnManoeuvre manoeuvre = Literal(TurnSide::kLeft, PassingSide::kInner, kPi / 12.0, 1);
   const TurnLayout layout = LayOut(manoeuvre);
-  const BezierCurve curve = CurveThrough(ControlPoints(manoeuvre, layout, SeedCar(), 3.0));
+  const BezierCurve curve = CurveThrough(ControlPoints(manoeuvre, layout, ReferenceCar(), 3.0));
   const World world{.obstacles = {{.footprint = layout.obstacle}}};
-  const ManoeuvreDrive drive = DriveManoeuvre(manoeuvre, layout, SeedCar(), curve);
+  const ManoeuvreDrive drive = DriveManoeuvre(manoeuvre, layout, ReferenceCar(), curve);
   double smallest = std::numeric_limits<double>::infinity();
   for (const ManoeuvreSample& sample : drive.samples) {
-    smallest = std::min(smallest, Clearance(world, SeedCar(), sample.pose, 0.0).value());
+    smallest = std::min(smallest, Clearance(world, ReferenceCar(), sample.pose, 0.0).value());
   }
   EXPECT_EQ(drive.clearance, smallest);
   EXPECT_LT(drive.clearance,
@@ -820,8 +821,8 @@ TEST(DriveManoeuvre, ClearanceIsThatOfTheCarOnItsRearAxle) {
 TEST(DriveManoeuvre, DrivingThroughTheObstacleLeavesNoClearance) {
   const TurnManoeuvre manoeuvre;
   const TurnLayout layout = LayOut(manoeuvre);
-  const BezierCurve through({{0.0, 0.0}, layout.obstacle.centre.position()});
-  const ManoeuvreDrive drive = DriveManoeuvre(manoeuvre, layout, SeedCar(), through);
+  const BezierCurve through({{0.0, 0.0}, layout.obstacle.center.position()});
+  const ManoeuvreDrive drive = DriveManoeuvre(manoeuvre, layout, ReferenceCar(), through);
   EXPECT_EQ(drive.clearance, 0.0);
   EXPECT_FALSE(drive.keeps_clear);
 }
@@ -831,18 +832,18 @@ TEST(DriveManoeuvre, DrivingThroughTheObstacleLeavesNoClearance) {
 TEST(LiteralRrtStar, SpreadIsAsPrinted) {
   struct Row {
     TurnSide side;
-    Ring ring;
+    PassingSide ring;
     double median;
     double low;   // 5 %
     double high;  // 95 %
     double nearest;
   };
-  const std::vector<Row> rows{{TurnSide::kLeft, Ring::kInner, 1.05, 0.38, 1.98, 20.7},
-                              {TurnSide::kLeft, Ring::kOuter, -1.72, -2.67, -1.00, 41.9},
+  const std::vector<Row> rows{{TurnSide::kLeft, PassingSide::kInner, 1.05, 0.38, 1.98, 20.7},
+                              {TurnSide::kLeft, PassingSide::kOuter, -1.72, -2.67, -1.00, 41.9},
                               // With mirrored roles; how near they come is not printed, because
                               // rounding down takes the inner one of a right turn further.
-                              {TurnSide::kRight, Ring::kInner, -1.72, -2.67, -1.00, 0.0},
-                              {TurnSide::kRight, Ring::kOuter, 1.05, 0.38, 1.98, 0.0}};
+                              {TurnSide::kRight, PassingSide::kInner, -1.72, -2.67, -1.00, 0.0},
+                              {TurnSide::kRight, PassingSide::kOuter, 1.05, 0.38, 1.98, 0.0}};
   constexpr int kSeeds = 2000;
   for (const Row& row : rows) {
     const TurnManoeuvre manoeuvre = Literal(row.side, row.ring);
@@ -889,7 +890,8 @@ TEST(LiteralRrtStar, GrowsByStepsFromTheNearestNode) {
     ASSERT_LE(tree.nodes.size(), most + 1);
     nodes += tree.nodes.size();
     EXPECT_EQ(tree.nodes[0].position, Vec2(0.0, 0.0));
-    const bool up = (manoeuvre.side == TurnSide::kLeft) == (manoeuvre.ring() == Ring::kInner);
+    const bool up =
+        (manoeuvre.side == TurnSide::kLeft) == (manoeuvre.ring() == PassingSide::kInner);
     for (std::size_t k = 1; k < tree.nodes.size(); ++k) {
       const TreeNode& node = tree.nodes[k];
       // Samples lie on one side of the start, and so does the tree.

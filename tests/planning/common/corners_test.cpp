@@ -7,7 +7,7 @@
 
 #include "tests/planning/routes.h"
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
 
 namespace trackbed {
@@ -17,8 +17,8 @@ using ::testing::HasSubstr;
 
 const CornerLimits kLimits{.speed = 3.0, .min_speed = 0.5, .max_curvature = 1.0 / 5.1};
 
-ClearWay NothingInTheWay() {
-  return {SeedCar(), {}, 0.0};
+CollisionChecker NothingInTheWay() {
+  return {ReferenceCar(), {}, 0.0};
 }
 
 /// Curvature without jumps, its rate what the wheels can follow at the profile's speed.
@@ -39,7 +39,7 @@ void ExpectDrivable(const RoundedCorners& rounded) {
       const double kappa = segment.CurvatureAt(d);
       // ddelta/dt of delta = atan(L kappa).
       const double rate = speed * 2.7 * segment.sharpness / (1.0 + 2.7 * 2.7 * kappa * kappa);
-      EXPECT_LE(std::abs(rate), SeedCar().steering_rate * (1.0 + Tolerance(1e-9)));
+      EXPECT_LE(std::abs(rate), ReferenceCar().steering_rate * (1.0 + Tolerance(1e-9)));
     }
     station += segment.length;
   }
@@ -49,7 +49,7 @@ void ExpectDrivable(const RoundedCorners& rounded) {
 TEST(CornerAt, TurnsByTheHeadingChangeBetweenTangentPoints) {
   for (const double h : {0.05, 0.25 * kPi, 0.5 * kPi, -0.5 * kPi, 2.5}) {
     for (const double speed : {0.5, 1.5, 3.0}) {
-      const RoundCorner corner = CornerAt(SeedCar(), h, speed, kLimits.max_curvature);
+      const RoundCorner corner = CornerAt(ReferenceCar(), h, speed, kLimits.max_curvature);
       // ramp, arc, ramp: kappa^2/sigma and kappa times the arc make up h.
       const double ramp = corner.curvature / corner.sharpness;
       EXPECT_LE(corner.curvature * ramp, std::abs(h) * (1.0 + Tolerance(1e-12)));
@@ -65,7 +65,8 @@ TEST(CornerAt, TurnsByTheHeadingChangeBetweenTangentPoints) {
 TEST(CornerAt, NeedsMoreOfItsLegsTheFaster) {
   double before = 0.0;
   for (double speed = 0.2; speed < 6.0; speed += 0.1) {
-    const double length = CornerAt(SeedCar(), 1.2, speed, kLimits.max_curvature).tangent_length;
+    const double length =
+        CornerAt(ReferenceCar(), 1.2, speed, kLimits.max_curvature).tangent_length;
     EXPECT_GT(length, before);
     before = length;
   }
@@ -73,7 +74,7 @@ TEST(CornerAt, NeedsMoreOfItsLegsTheFaster) {
 
 TEST(RoundCorners, LeadsFromTheFirstPointToTheLast) {
   for (const std::vector<Vec2>& route : {RouteA(), RouteB()}) {
-    const RoundedCorners rounded = RoundCorners(SeedCar(), route, kLimits, NothingInTheWay());
+    const RoundedCorners rounded = RoundCorners(ReferenceCar(), route, kLimits, NothingInTheWay());
     ASSERT_EQ(rounded.status, PlanStatus::kOk) << rounded.reason;
     ExpectDrivable(rounded);
     const Path& path = rounded.path;
@@ -90,7 +91,7 @@ TEST(RoundCorners, LeadsFromTheFirstPointToTheLast) {
 
 TEST(RoundCorners, SlowsDownWhereLegsAreShort) {
   const std::vector<Vec2> route{{0, 0}, {14, 0}, {14, 14}, {28, 14}};
-  const RoundedCorners rounded = RoundCorners(SeedCar(), route, kLimits, NothingInTheWay());
+  const RoundedCorners rounded = RoundCorners(ReferenceCar(), route, kLimits, NothingInTheWay());
   ASSERT_EQ(rounded.status, PlanStatus::kOk) << rounded.reason;
   ExpectDrivable(rounded);
   ASSERT_EQ(rounded.caps.size(), 2U);
@@ -102,7 +103,7 @@ TEST(RoundCorners, SlowsDownWhereLegsAreShort) {
 
 TEST(RoundCorners, RefusesWithTheCorner) {
   const auto reason = [](const std::vector<Vec2>& route, PlanStatus status) {
-    const RoundedCorners rounded = RoundCorners(SeedCar(), route, kLimits, NothingInTheWay());
+    const RoundedCorners rounded = RoundCorners(ReferenceCar(), route, kLimits, NothingInTheWay());
     EXPECT_EQ(rounded.status, status);
     EXPECT_EQ(rounded.path.length(), 0.0);
     EXPECT_TRUE(rounded.corners.empty());
@@ -116,8 +117,8 @@ TEST(RoundCorners, RefusesWithTheCorner) {
 TEST(RoundCorners, KeepsClearByGoingSlowerOrRefuses) {
   const std::vector<Vec2> route{{0, 0}, {30, 0}, {30, 30}};
   const auto with_box = [&](double x, double y) {
-    const ClearWay clear(SeedCar(), {{{x, y, 0.0}, 2.0, 2.0}}, 0.2);
-    RoundedCorners rounded = RoundCorners(SeedCar(), route, kLimits, clear);
+    const CollisionChecker clear(ReferenceCar(), {{{x, y, 0.0}, 2.0, 2.0}}, 0.2);
+    RoundedCorners rounded = RoundCorners(ReferenceCar(), route, kLimits, clear);
     if (rounded.status == PlanStatus::kOk) {
       EXPECT_FALSE(clear.FirstBlocked(rounded.path));
       ExpectDrivable(rounded);
@@ -139,8 +140,8 @@ TEST(RoundCorners, MirrorsWithItsPolyline) {
   for (const Vec2& point : RouteB()) {
     mirrored.push_back({point.x(), -point.y()});
   }
-  const RoundedCorners a = RoundCorners(SeedCar(), RouteB(), kLimits, NothingInTheWay());
-  const RoundedCorners b = RoundCorners(SeedCar(), mirrored, kLimits, NothingInTheWay());
+  const RoundedCorners a = RoundCorners(ReferenceCar(), RouteB(), kLimits, NothingInTheWay());
+  const RoundedCorners b = RoundCorners(ReferenceCar(), mirrored, kLimits, NothingInTheWay());
   ASSERT_EQ(a.path.segments().size(), b.path.segments().size());
   for (double s = 0.0; s <= a.path.length(); s += 1.0) {
     const Pose2 p = a.path.At(s).pose;

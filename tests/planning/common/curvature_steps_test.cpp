@@ -7,7 +7,7 @@
 #include <random>
 
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/planning/common/course_schedule.h"
 #include "trackbed/planning/course/course.h"
 #include "trackbed/vehicle/steering_schedule.h"
@@ -21,18 +21,18 @@ TEST(StepSpeed, LeadsOffByTheDeviation) {
   // delta) = 0.494 of kappa S instead of a half: 0.003 rad short, 0.007 m over S/2. The rest is
   // cosines of 0.12 rad, below 1 %.
   const double curvature = 0.1;
-  const double speed = StepSpeed(SeedCar(), 0.0, curvature);
+  const double speed = StepSpeed(ReferenceCar(), 0.0, curvature);
   const std::vector<Segment> segments{{.length = 20.0}, {.length = 10.0, .curvature = curvature}};
   const Path path({}, segments);
-  const KinematicState end = RollOut(SeedCar(), {.pose = {}, .speed = speed},
-                                     CourseSchedule(SeedCar(), segments, speed), 22.5, 1e-3);
+  const KinematicState end = RollOut(ReferenceCar(), {.pose = {}, .speed = speed},
+                                     CourseSchedule(ReferenceCar(), segments, speed), 22.5, 1e-3);
   const double off = std::abs(path.Project(end.pose).cross_track);
   EXPECT_NEAR(off, kStepDeviation, 0.1 * kStepDeviation);
 }
 
 TEST(StepSpeed, IsInfiniteWithoutAStep) {
-  EXPECT_EQ(StepSpeed(SeedCar(), 0.1, 0.1), std::numeric_limits<double>::infinity());
-  EXPECT_EQ(StepSpeed(SeedCar(), 0.0, 0.15), StepSpeed(SeedCar(), 0.0, -0.15));
+  EXPECT_EQ(StepSpeed(ReferenceCar(), 0.1, 0.1), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(StepSpeed(ReferenceCar(), 0.0, 0.15), StepSpeed(ReferenceCar(), 0.0, -0.15));
 }
 
 TEST(PlanSteps, CapsLieAboutTheStepsAndNotAtCusps) {
@@ -40,16 +40,16 @@ TEST(PlanSteps, CapsLieAboutTheStepsAndNotAtCusps) {
                                       {.length = 10.0, .curvature = 0.1},
                                       {.length = 5.0, .curvature = -0.1, .direction = -1},
                                       {.length = 20.0, .curvature = 0.0, .direction = -1}};
-  const StepSpeeds steps = PlanSteps(SeedCar(), segments, 0.5);
+  const StepSpeeds steps = PlanSteps(ReferenceCar(), segments, 0.5);
   const std::vector<SpeedCap>& caps = steps.caps;
   ASSERT_EQ(caps.size(), 2U);
   EXPECT_TRUE(steps.stops.empty());
   EXPECT_NEAR(0.5 * (caps[0].from + caps[0].to), 20.0, Tolerance(1e-12));
   EXPECT_NEAR(0.5 * (caps[1].from + caps[1].to), 35.0, Tolerance(1e-12));
-  EXPECT_EQ(caps[0].speed, StepSpeed(SeedCar(), 0.0, 0.1));
-  EXPECT_NEAR(caps[0].to - caps[0].from, caps[0].speed * std::atan(0.27) / SeedCar().steering_rate,
-              Tolerance(1e-12));
-  EXPECT_EQ(PlanSteps(SeedCar(), segments, 2.9).caps[0].speed, 2.9);
+  EXPECT_EQ(caps[0].speed, StepSpeed(ReferenceCar(), 0.0, 0.1));
+  EXPECT_NEAR(caps[0].to - caps[0].from,
+              caps[0].speed * std::atan(0.27) / ReferenceCar().steering_rate, Tolerance(1e-12));
+  EXPECT_EQ(PlanSteps(ReferenceCar(), segments, 2.9).caps[0].speed, 2.9);
 }
 
 TEST(PlanSteps, KeepRampsApartAndStopWhereTheyWouldOverlap) {
@@ -57,12 +57,12 @@ TEST(PlanSteps, KeepRampsApartAndStopWhereTheyWouldOverlap) {
   // 0.5 m omega/atan(0.27) = 0.285 m/s.
   const std::vector<Segment> segments{
       {.length = 20.0}, {.length = 0.5, .curvature = 0.1}, {.length = 20.0}};
-  const double room = 0.5 * SeedCar().steering_rate / std::atan(0.27);
-  const StepSpeeds slow = PlanSteps(SeedCar(), segments, 0.1);
+  const double room = 0.5 * ReferenceCar().steering_rate / std::atan(0.27);
+  const StepSpeeds slow = PlanSteps(ReferenceCar(), segments, 0.1);
   ASSERT_EQ(slow.caps.size(), 2U);
   EXPECT_NEAR(slow.caps[0].speed, room, Tolerance(1e-12));
   EXPECT_NEAR(slow.caps[0].to, slow.caps[1].from, Tolerance(1e-12));
-  const StepSpeeds stops = PlanSteps(SeedCar(), segments, 1.01 * room);
+  const StepSpeeds stops = PlanSteps(ReferenceCar(), segments, 1.01 * room);
   EXPECT_TRUE(stops.caps.empty());
   EXPECT_EQ(stops.stops, (std::vector<double>{20.0, 20.5}));
 }
@@ -81,8 +81,8 @@ TEST(RampsOfSteps, AskForTheSteeringRateAndNoMore) {
       joints.push_back(joints.back() + segments.back().length);
     }
     double end = 0.0;
-    for (const SteeringRamp& ramp : RampsOfSteps(SeedCar(), segments, 3.0)) {
-      EXPECT_NEAR(ramp.speed * ramp.steering / (ramp.to - ramp.from), SeedCar().steering_rate,
+    for (const SteeringRamp& ramp : RampsOfSteps(ReferenceCar(), segments, 3.0)) {
+      EXPECT_NEAR(ramp.speed * ramp.steering / (ramp.to - ramp.from), ReferenceCar().steering_rate,
                   Tolerance(1e-9));
       EXPECT_LE(ramp.speed, 3.0);
       EXPECT_GE(ramp.from, end - Tolerance(1e-12));

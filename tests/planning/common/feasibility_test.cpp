@@ -6,7 +6,7 @@
 #include <random>
 
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/planner.h"
@@ -19,7 +19,7 @@ namespace {
 
 /// With the limits of a car on tyres of friction 0.9.
 VehicleParams Car() {
-  VehicleParams car = SeedCar();
+  VehicleParams car = ReferenceCar();
   car.friction_lateral = 0.9;
   car.friction_longitudinal = 0.9;
   car.max_deceleration = 0.9 * 9.81;

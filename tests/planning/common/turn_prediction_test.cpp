@@ -6,7 +6,7 @@
 
 #include "tests/planning/routes.h"
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/registry/planners.h"
@@ -21,7 +21,7 @@ Plan PlanOf(const std::vector<Vec2>& route, double radius) {
   FilletOptions options;
   options.radius = radius;
   options.constraint = RadiusConstraint::kNone;
-  return MakePlan({.vehicle = SeedCar(),
+  return MakePlan({.vehicle = ReferenceCar(),
                    .waypoints = route,
                    .start_speed = kSpeed,
                    .speed = {.speed = kSpeed, .acceleration = 1.0, .deceleration = 1.5}},
@@ -36,12 +36,12 @@ TEST(PredictTurn, DeficitIsTheClosedForm) {
     const double ramp = kSpeed * delta * 17.6 / 2.65;
     const double ramp_heading = kSpeed * 17.6 / (2.7 * 2.65) * -std::log(std::cos(delta));
     const double lag = 0.05;
-    for (const LoneTurn& turn : plan.turns) {
+    for (const IsolatedTurn& turn : plan.turns) {
       const double sign = turn.steering > 0.0 ? 1.0 : -1.0;
-      const TurnError none = PredictTurn(SeedCar(), plan.reference.path, turn, 0.0);
+      const TurnError none = PredictTurn(ReferenceCar(), plan.reference.path, turn, 0.0);
       EXPECT_NEAR(sign * none.heading_deficit, 0.5 * ramp / radius - ramp_heading,
                   Tolerance(1e-12));
-      const TurnError late = PredictTurn(SeedCar(), plan.reference.path, turn, lag);
+      const TurnError late = PredictTurn(ReferenceCar(), plan.reference.path, turn, lag);
       EXPECT_NEAR(sign * (late.heading_deficit - none.heading_deficit), kSpeed * lag / radius,
                   Tolerance(1e-12));
     }
@@ -51,28 +51,28 @@ TEST(PredictTurn, DeficitIsTheClosedForm) {
 TEST(PredictTurn, IsWhatTheRateLimitedCarDoes) {
   const Plan plan = PlanOf(RouteB(), 12.0);
   ASSERT_EQ(plan.turns.size(), 3U);
-  const LoneTurn& turn = plan.turns[0];
+  const IsolatedTurn& turn = plan.turns[0];
   const Pose2 start = plan.reference.path.At(0.0).pose;
-  const auto states = RollOut(SeedCar(), {.pose = start, .speed = kSpeed}, plan.schedule,
+  const auto states = RollOut(ReferenceCar(), {.pose = start, .speed = kSpeed}, plan.schedule,
                               {turn.from, turn.middle}, 0.02);
   const TurnError driven = ErrorInTurn(plan.reference.path, turn, states[0].pose, states[1].pose);
-  const TurnError predicted = PredictTurn(SeedCar(), plan.reference.path, turn, 0.0);
+  const TurnError predicted = PredictTurn(ReferenceCar(), plan.reference.path, turn, 0.0);
   // The roll-out's fourth-order error at 0.02 m.
   EXPECT_NEAR(driven.heading_deficit, predicted.heading_deficit, Tolerance(1e-10));
   EXPECT_NEAR(driven.lateral_offset, predicted.lateral_offset, Tolerance(1e-9));
 }
 
-TEST(PredictTurn, OffsetIsThatOfACentredRampOnGentleTurns) {
+TEST(PredictTurn, OffsetIsThatOfACenterdRampOnGentleTurns) {
   // kappa S^2/24 to the inside, for angles small enough that the ramp's heading is quadratic.
   const double radius = 60.0;
   const std::vector<Vec2> route{{0, 0}, {80, 0}, {150, 40}};
   const Plan plan = PlanOf(route, radius);
   ASSERT_EQ(plan.turns.size(), 1U);
-  const double ramp = SteeringDistance(SeedCar(), std::atan(2.7 / radius), kSpeed);
+  const double ramp = SteeringDistance(ReferenceCar(), std::atan(2.7 / radius), kSpeed);
   // At the end of the ramp; further on the heading deficit carries the car out again.
-  LoneTurn turn = plan.turns[0];
+  IsolatedTurn turn = plan.turns[0];
   turn.middle = turn.from + ramp;
-  const TurnError error = PredictTurn(SeedCar(), plan.reference.path, turn, 0.0);
+  const TurnError error = PredictTurn(ReferenceCar(), plan.reference.path, turn, 0.0);
   const double expected = ramp * ramp / (24.0 * radius);
   EXPECT_NEAR(error.lateral_offset, expected, Tolerance(0.01 * expected));
 }

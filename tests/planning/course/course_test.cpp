@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/course_schedule.h"
@@ -68,8 +68,9 @@ TEST(CourseSchedule, LeadsTheKinematicCarAlong) {
                                    {.length = 12.0, .curvature = 0.05},
                                    {.length = 5.0, .curvature_to = 0.0}}});
   const Path path({}, segments);
-  const KinematicState end = RollOut(SeedCar(), {.pose = {}, .speed = 3.0},
-                                     CourseSchedule(SeedCar(), segments, 3.0), path.length(), 1e-3);
+  const KinematicState end =
+      RollOut(ReferenceCar(), {.pose = {}, .speed = 3.0},
+              CourseSchedule(ReferenceCar(), segments, 3.0), path.length(), 1e-3);
   EXPECT_NEAR((end.pose.position() - path.At(path.length()).pose.position()).norm(), 0.0,
               Tolerance(2e-3));
 }
@@ -77,9 +78,9 @@ TEST(CourseSchedule, LeadsTheKinematicCarAlong) {
 TEST(CourseSchedule, DrivesAStepAsARampAboutIt) {
   const std::vector<Segment> segments = CourseSegments(
       {.segments = {{.length = 20.0, .curvature = 0.0}, {.length = 20.0, .curvature = 0.05}}});
-  const SteeringSchedule schedule = CourseSchedule(SeedCar(), segments, 3.0);
+  const SteeringSchedule schedule = CourseSchedule(ReferenceCar(), segments, 3.0);
   const double steering = std::atan(2.7 * 0.05);
-  const double half_ramp = 0.5 * 3.0 * steering / SeedCar().steering_rate;
+  const double half_ramp = 0.5 * 3.0 * steering / ReferenceCar().steering_rate;
   ASSERT_EQ(schedule.knots().size(), 4U);
   EXPECT_NEAR(schedule.At(20.0), 0.5 * steering, Tolerance(1e-12));
   EXPECT_NEAR(schedule.knots()[1].distance, 20.0 - half_ramp, Tolerance(1e-12));
@@ -94,7 +95,7 @@ TEST(CourseSchedule, RisesHoweverShortThePiecesAre) {
                                    {.length = 0.1, .curvature = 0.1},
                                    {.length = 30.0, .curvature = 0.0}}});
   // Through() refuses knots that do not.
-  EXPECT_NEAR(CourseSchedule(SeedCar(), segments, 20.0).At(40.0), 0.0, Tolerance(1e-15));
+  EXPECT_NEAR(CourseSchedule(ReferenceCar(), segments, 20.0).At(40.0), 0.0, Tolerance(1e-15));
 }
 
 }  // namespace

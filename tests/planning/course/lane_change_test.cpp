@@ -38,8 +38,8 @@ TEST(LaneChangeGates, AreThoseOfPart1) {
     EXPECT_EQ(gates[i].section, static_cast<int>(2 * i + 1));
     EXPECT_NEAR(lane.width, widths[i], Tolerance(kRounding));
     EXPECT_NEAR(lane.length, lengths[i], Tolerance(kRounding));
-    EXPECT_NEAR(lane.centre.x - 0.5 * lane.length, begins[i], Tolerance(kRounding));
-    EXPECT_NEAR(lane.centre.y - 0.5 * lane.width, right_edges[i] - 0.5 * 2.01,
+    EXPECT_NEAR(lane.center.x - 0.5 * lane.length, begins[i], Tolerance(kRounding));
+    EXPECT_NEAR(lane.center.y - 0.5 * lane.width, right_edges[i] - 0.5 * 2.01,
                 Tolerance(kRounding));
   }
 }
@@ -52,8 +52,8 @@ TEST(LaneChangeGates, AreThoseOfPart2Mirrored) {
   const std::vector<double> lengths{12.0, 11.0, 12.0};
   for (std::size_t i = 0; i < 3; ++i) {
     const OrientedBox& lane = gates[i].lane;
-    const Vec2 middle = ToLocal(start, lane.centre.position());
-    EXPECT_EQ(lane.centre.yaw, 0.5);
+    const Vec2 middle = ToLocal(start, lane.center.position());
+    EXPECT_EQ(lane.center.yaw, 0.5);
     EXPECT_NEAR(lane.width, widths[i], Tolerance(kRounding));
     EXPECT_NEAR(lane.length, lengths[i], Tolerance(kRounding));
     EXPECT_NEAR(middle.x() - 0.5 * lane.length, begins[i], Tolerance(kRounding));
@@ -93,8 +93,8 @@ TEST(LaneChangePlan, LeadsThroughTheMiddlesOnACurveWithoutJumps) {
       const Path& path = plan.reference.path;
       double last = 0.0;
       for (const Gate& gate : plan.gates) {
-        const Vec2 centre = gate.lane.centre.position();
-        const Projection at = path.Project({centre.x(), centre.y(), start.yaw});
+        const Vec2 center = gate.lane.center.position();
+        const Projection at = path.Project({center.x(), center.y(), start.yaw});
         // SegmentsThrough: below 1e-6 m over such bends.
         EXPECT_NEAR(at.cross_track, 0.0, Tolerance(1e-5));
         EXPECT_NEAR(at.heading_error, 0.0, Tolerance(1e-6));
@@ -104,7 +104,7 @@ TEST(LaneChangePlan, LeadsThroughTheMiddlesOnACurveWithoutJumps) {
       // The first change: 30 + 3 m or 13.5 + 3 m long.
       const bool part_1 = standard == LaneChangeStandard::kIso3888_1;
       const double length = part_1 ? 33.0 : 16.5;
-      const double offset = std::abs(ToLocal(start, plan.gates[1].lane.centre.position()).y());
+      const double offset = std::abs(ToLocal(start, plan.gates[1].lane.center.position()).y());
       double most = 0.0;
       for (double s = 0.0; s < 75.0; s += 0.01) {
         most = std::max(most, std::abs(path.At(s).curvature));

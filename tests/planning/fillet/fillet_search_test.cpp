@@ -10,7 +10,7 @@
 #include "tests/geometry/random.h"
 #include "tests/planning/routes.h"
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/fillet/fillet.h"
 
@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 
 constexpr double kSpeed = 3.0;
 constexpr ReferencePoint kRear = ReferencePoint::kRearAxle;
-constexpr ReferencePoint kCg = ReferencePoint::kCentreOfGravity;
+constexpr ReferencePoint kCg = ReferencePoint::kCenterOfGravity;
 
 FilletOptions Options(RadiusObjective objective, SearchMethod method = SearchMethod::kCrs2) {
   FilletOptions options;
@@ -57,7 +57,7 @@ TEST_P(FreeRadius, IsAsPrinted) {
   const FreeRadiusCase& c = GetParam();
   FilletOptions options = Options(c.objective);
   options.reference = c.reference;
-  const FilletPlan plan = PlanFillets(SeedCar(), c.route, kSpeed, options);
+  const FilletPlan plan = PlanFillets(ReferenceCar(), c.route, kSpeed, options);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   for (std::size_t k = 0; k < c.radii.size(); ++k) {
     const double free_radius = plan.turns[k].search->free_radius;
@@ -88,7 +88,7 @@ TEST(FreeRadius, IsWhereTheObjectiveVanishes) {
   // Specification 4.7's closed form: sqrt((v t/|dpsi|)^2 - l_g^2).
   FilletOptions options = Options(kTurnLocal);
   options.reference = kCg;
-  const FilletPlan plan = PlanFillets(SeedCar(), RouteB(), kSpeed, options);
+  const FilletPlan plan = PlanFillets(ReferenceCar(), RouteB(), kSpeed, options);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   for (const FilletTurn& turn : plan.turns) {
     const TurnSearch& search = *turn.search;
@@ -96,7 +96,7 @@ TEST(FreeRadius, IsWhereTheObjectiveVanishes) {
     EXPECT_NEAR(search.free_radius, std::sqrt(along * along - 1.4 * 1.4), Tolerance(1e-9));
     EXPECT_LT(search.result.value, 1e-12);
     EXPECT_EQ(search.heading > 0.0, turn.heading_change > 0.0) << "signed";
-    EXPECT_EQ(search.first_radius, SeedCar().min_turning_radius());
+    EXPECT_EQ(search.first_radius, ReferenceCar().min_turning_radius());
   }
 }
 
@@ -123,7 +123,7 @@ TEST_P(SecondPass, MissesTheGoalAsPrinted) {
   FilletOptions options = Options(c.objective);
   options.constraint = c.constraint;
   options.reference = c.reference;
-  const FilletPlan plan = PlanFillets(SeedCar(), c.route, kSpeed, options);
+  const FilletPlan plan = PlanFillets(ReferenceCar(), c.route, kSpeed, options);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   // The verification's step of 0.5 m on ramps errs by a micrometer.
   EXPECT_NEAR(plan.verification.goal_distance, c.error, Tolerance(Printed(c.decimals) + 1e-6));
@@ -159,7 +159,7 @@ TEST(SecondPass, LiteralOptimumOfAFirstTurnIsNeverInterior) {
     bent[2] = bent[1] + random.Uniform(12.0, 80.0) * Direction(turn);
     FilletOptions options = Options(kLiteral, SearchMethod::kCobyla);
     options.constraint = kHalfLeg;
-    const FilletPlan plan = PlanFillets(SeedCar(), bent, kSpeed, options);
+    const FilletPlan plan = PlanFillets(ReferenceCar(), bent, kSpeed, options);
     if (plan.status != PlanStatus::kOk) {
       continue;
     }
@@ -178,7 +178,7 @@ TEST(SecondPass, LiteralOptimumOfALaterTurnMayBeInterior) {
   FilletOptions options = Options(kLiteral);
   options.constraint = kHalfLeg;
   options.reference = kCg;
-  const FilletPlan plan = PlanFillets(SeedCar(), route, kSpeed, options);
+  const FilletPlan plan = PlanFillets(ReferenceCar(), route, kSpeed, options);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   EXPECT_NEAR(plan.turns[1].search->free_radius, 44.57, Tolerance(0.004 / 11.6 * 44.57));
   EXPECT_NEAR(plan.turns[1].radius, plan.turns[1].search->free_radius, Tolerance(1e-3));
@@ -187,7 +187,7 @@ TEST(SecondPass, LiteralOptimumOfALaterTurnMayBeInterior) {
 
 TEST(SecondPass, TurnLocalOptimumIsOftenInterior) {
   FilletOptions options = Options(kTurnLocal);
-  const FilletPlan plan = PlanFillets(SeedCar(), RouteB(), kSpeed, options);
+  const FilletPlan plan = PlanFillets(ReferenceCar(), RouteB(), kSpeed, options);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   for (const FilletTurn& turn : plan.turns) {
     EXPECT_EQ(turn.active, ActiveConstraint::kNone);
@@ -201,16 +201,16 @@ TEST(SecondPass, SimulatesAgainWhenAskedTo) {
   FilletOptions once = Options(kLiteral);
   FilletOptions again = once;
   again.resimulate_each_turn = true;
-  const FilletPlan a = PlanFillets(SeedCar(), RouteB(), kSpeed, once);
-  const FilletPlan b = PlanFillets(SeedCar(), RouteB(), kSpeed, again);
+  const FilletPlan a = PlanFillets(ReferenceCar(), RouteB(), kSpeed, once);
+  const FilletPlan b = PlanFillets(ReferenceCar(), RouteB(), kSpeed, again);
   ASSERT_EQ(a.status, PlanStatus::kOk) << a.reason;
   ASSERT_EQ(b.status, PlanStatus::kOk) << b.reason;
   EXPECT_EQ(a.turns[0].search->time, b.turns[0].search->time);
   EXPECT_NE(a.turns[1].search->time, b.turns[1].search->time);
   // One turn at a time, wherever the others are: the turn-local window stays the same.
   once.objective = again.objective = kTurnLocal;
-  const FilletPlan c = PlanFillets(SeedCar(), RouteB(), kSpeed, once);
-  const FilletPlan d = PlanFillets(SeedCar(), RouteB(), kSpeed, again);
+  const FilletPlan c = PlanFillets(ReferenceCar(), RouteB(), kSpeed, once);
+  const FilletPlan d = PlanFillets(ReferenceCar(), RouteB(), kSpeed, again);
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_NEAR(c.turns[k].search->free_radius, d.turns[k].search->free_radius, Tolerance(1e-6));
   }
@@ -264,13 +264,13 @@ TEST_P(SearchedRadius, IsTheClosedFormsOnRandomTurns) {
                              route[1].x(), route[2].x(), route[2].y()));
     FilletOptions options = Options(kTurnLocal, GetParam().method);
     options.constraint = GetParam().constraint;
-    options.without_room = WithoutRoom::kRefuse;
+    options.without_room = InfeasibleTurnPolicy::kRefuse;
     const FilletPlan plan =
-        PlanFillets(SeedCar(), route, kSpeed, options, static_cast<std::uint64_t>(i));
+        PlanFillets(ReferenceCar(), route, kSpeed, options, static_cast<std::uint64_t>(i));
     // The same turn without a search tells its geometry, and whether there is a radius at all.
     FilletOptions closed = options;
     closed.objective = RadiusObjective::kLargest;
-    const FilletPlan largest = PlanFillets(SeedCar(), route, kSpeed, closed);
+    const FilletPlan largest = PlanFillets(ReferenceCar(), route, kSpeed, closed);
     ASSERT_EQ(plan.status, largest.status) << plan.reason << "; " << largest.reason;
     if (largest.status != PlanStatus::kOk) {
       ++empty;
@@ -314,7 +314,7 @@ INSTANTIATE_TEST_SUITE_P(SteeringRoom, SearchedRadius,
 
 TEST(SearchedRadius, KeepsItsHistory) {
   const FilletPlan plan =
-      PlanFillets(SeedCar(), RouteA(), kSpeed, Options(kTurnLocal, SearchMethod::kIsres), 7);
+      PlanFillets(ReferenceCar(), RouteA(), kSpeed, Options(kTurnLocal, SearchMethod::kIsres), 7);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   const SearchResult& result = plan.turns[0].search->result;
   EXPECT_EQ(result.evaluations, 10000);
@@ -326,10 +326,10 @@ TEST(SearchedRadius, KeepsItsHistory) {
 
 TEST(Driven, EndsAtTheGoalAndStaysNearerToThePath) {
   for (const auto& [route, goal] : {std::pair{RouteA(), 0.05}, std::pair{RouteB(), 0.01}}) {
-    const FilletPlan closed = PlanFillets(SeedCar(), route, kSpeed, {});
+    const FilletPlan closed = PlanFillets(ReferenceCar(), route, kSpeed, {});
     for (const SearchMethod method : {SearchMethod::kDirect, SearchMethod::kSlsqp}) {
       const FilletPlan plan =
-          PlanFillets(SeedCar(), route, kSpeed, Options(RadiusObjective::kDriven, method), 1);
+          PlanFillets(ReferenceCar(), route, kSpeed, Options(RadiusObjective::kDriven, method), 1);
       ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
       EXPECT_LE(plan.verification.goal_distance, goal);
       EXPECT_LE(plan.verification.deviation_max, closed.verification.deviation_max);
@@ -345,10 +345,10 @@ TEST(Driven, EndsAtTheGoalAndStaysNearerToThePath) {
 TEST(Driven, WeighsWhatItIsTold) {
   FilletOptions options = Options(RadiusObjective::kDriven, SearchMethod::kSlsqp);
   options.weights = {.position = 0.0, .heading = 0.0, .end = 1.0};
-  const FilletPlan end_only = PlanFillets(SeedCar(), RouteA(), kSpeed, options);
+  const FilletPlan end_only = PlanFillets(ReferenceCar(), RouteA(), kSpeed, options);
   EXPECT_LT(end_only.verification.goal_distance, 1e-4) << "ten variables for two coordinates";
   options.weights = {.position = 1.0, .heading = 0.0, .end = 0.0};
-  const FilletPlan position_only = PlanFillets(SeedCar(), RouteA(), kSpeed, options);
+  const FilletPlan position_only = PlanFillets(ReferenceCar(), RouteA(), kSpeed, options);
   EXPECT_GT(position_only.verification.goal_distance, end_only.verification.goal_distance);
 }
 
@@ -357,11 +357,11 @@ TEST(Driven, IsNoWorseThanWhereItStarted) {
   Random random(31);
   for (int i = 0; i < 10; ++i) {
     const std::vector<Vec2> route = RandomRoute(random, 4, 25.0, 60.0, Radians(100.0));
-    const FilletPlan closed = PlanFillets(SeedCar(), route, kSpeed, {});
+    const FilletPlan closed = PlanFillets(ReferenceCar(), route, kSpeed, {});
     if (closed.status != PlanStatus::kOk) {
       continue;
     }
-    const FilletPlan plan = PlanFillets(SeedCar(), route, kSpeed,
+    const FilletPlan plan = PlanFillets(ReferenceCar(), route, kSpeed,
                                         Options(RadiusObjective::kDriven, SearchMethod::kSlsqp));
     ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
     ASSERT_FALSE(plan.search->history.empty());
@@ -386,9 +386,9 @@ TEST(SearchedPlans, OfMovedAndMirroredRoutesAreMovedAndMirrored) {
     }
     for (const RadiusObjective objective : {kLiteral, kTurnLocal}) {
       const FilletOptions options = Options(objective, SearchMethod::kDirect);
-      const FilletPlan plan = PlanFillets(SeedCar(), route, kSpeed, options);
-      const FilletPlan a = PlanFillets(SeedCar(), moved, kSpeed, options);
-      const FilletPlan b = PlanFillets(SeedCar(), mirrored, kSpeed, options);
+      const FilletPlan plan = PlanFillets(ReferenceCar(), route, kSpeed, options);
+      const FilletPlan a = PlanFillets(ReferenceCar(), moved, kSpeed, options);
+      const FilletPlan b = PlanFillets(ReferenceCar(), mirrored, kSpeed, options);
       ASSERT_EQ(plan.status, a.status);
       ASSERT_EQ(plan.status, b.status);
       for (std::size_t k = 0; k < plan.turns.size(); ++k) {
@@ -413,7 +413,7 @@ TEST(SearchedPlans, AreContinuousAndKeepWhatTheyClaimOrSayWhyNot) {
     FilletOptions options = Options(i % 2 == 0 ? kLiteral : kTurnLocal,
                                     i % 3 == 0 ? SearchMethod::kDirect : SearchMethod::kCobyla);
     options.constraint = i % 5 == 0 ? kHalfLeg : kRoom;
-    const FilletPlan plan = PlanFillets(SeedCar(), route, kSpeed, options);
+    const FilletPlan plan = PlanFillets(ReferenceCar(), route, kSpeed, options);
     if (plan.status != PlanStatus::kOk) {
       ++refused;
       EXPECT_THAT(plan.reason, HasSubstr(fmt::format("waypoint {}", plan.waypoint)));

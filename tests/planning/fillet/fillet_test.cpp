@@ -14,7 +14,7 @@
 #include "tests/geometry/random.h"
 #include "tests/planning/routes.h"
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
@@ -34,7 +34,7 @@ constexpr double kPromised = 1e-9;
 FilletPlan PlanWith(const std::vector<Vec2>& route, RadiusConstraint constraint) {
   FilletOptions options;
   options.constraint = constraint;
-  return PlanFillets(SeedCar(), route, kSpeed, options);
+  return PlanFillets(ReferenceCar(), route, kSpeed, options);
 }
 
 FilletPlan PlanGiven(const std::vector<Vec2>& route, double radius,
@@ -42,7 +42,7 @@ FilletPlan PlanGiven(const std::vector<Vec2>& route, double radius,
   FilletOptions options;
   options.radius = radius;
   options.constraint = constraint;
-  return PlanFillets(SeedCar(), route, kSpeed, options);
+  return PlanFillets(ReferenceCar(), route, kSpeed, options);
 }
 
 std::string Describe(const std::vector<Vec2>& route) {
@@ -85,7 +85,7 @@ TEST(PlanFillets, LeftTurnIsPositive) {
   EXPECT_EQ(plan.turns[0].waypoint, 1);
   EXPECT_NEAR(plan.turns[0].heading_change, kPi / 2.0, Tolerance(kRounding));
   EXPECT_GT(plan.turns[0].steering, 0.0);
-  EXPECT_GT(plan.turns[0].centre.y(), 0.0);
+  EXPECT_GT(plan.turns[0].center.y(), 0.0);
   EXPECT_GT(plan.path.At(plan.turns[0].arc_start_s + 1.0).curvature, 0.0);
   EXPECT_GT(plan.schedule.At(plan.turns[0].steer_return), 0.0);
 }
@@ -99,7 +99,7 @@ TEST(PlanFillets, RouteAPassOneHasPrintedGeometry) {
   // All of these are closed forms: at right angles K = r, so every point is a waypoint +- 5.1.
   const std::vector<Vec2> starts{{34.9, 0}, {40, 34.9}, {74.9, 40}};
   const std::vector<Vec2> ends{{40, 5.1}, {45.1, 40}, {80, 45.1}};
-  const std::vector<Vec2> centres{{34.9, 5.1}, {45.1, 34.9}, {74.9, 45.1}};
+  const std::vector<Vec2> centers{{34.9, 5.1}, {45.1, 34.9}, {74.9, 45.1}};
   const std::vector<double> signs{1.0, -1.0, 1.0};
   for (std::size_t k = 0; k < 3; ++k) {
     SCOPED_TRACE(k);
@@ -107,7 +107,7 @@ TEST(PlanFillets, RouteAPassOneHasPrintedGeometry) {
     EXPECT_EQ(turn.waypoint, static_cast<int>(k) + 1);
     ExpectPoint(turn.arc_start, starts[k], kRounding);
     ExpectPoint(turn.arc_end, ends[k], kRounding);
-    ExpectPoint(turn.centre, centres[k], kRounding);
+    ExpectPoint(turn.center, centers[k], kRounding);
     EXPECT_NEAR(turn.heading_change, signs[k] * kPi / 2.0, Tolerance(kRounding));
     EXPECT_NEAR(turn.interior_angle, kPi / 2.0, Tolerance(kRounding));
     EXPECT_NEAR(turn.tangent_length, 5.1, Tolerance(kRounding));
@@ -138,7 +138,7 @@ TEST(PlanFillets, RouteBPassOneHasPrintedGeometry) {
   const std::vector<double> tangents{1.5442, 2.7294, 3.1520};
   const std::vector<Vec2> starts{{28.4558, 0}, {57.7290, 18.4860}, {60, 56.8480}};
   const std::vector<Vec2> ends{{31.2848, 0.8565}, {60, 22.7294}, {62.8192, 61.4096}};
-  const std::vector<Vec2> centres{{28.4558, 5.1}, {54.9, 22.7294}, {65.1, 56.8480}};
+  const std::vector<Vec2> centers{{28.4558, 5.1}, {54.9, 22.7294}, {65.1, 56.8480}};
   for (std::size_t k = 0; k < 3; ++k) {
     SCOPED_TRACE(k);
     const FilletTurn& turn = plan.turns[k];
@@ -148,7 +148,7 @@ TEST(PlanFillets, RouteBPassOneHasPrintedGeometry) {
     EXPECT_NEAR(turn.tangent_length, tangents[k], Tolerance(Printed(4)));
     ExpectPoint(turn.arc_start, starts[k], Printed(4));
     ExpectPoint(turn.arc_end, ends[k], Printed(4));
-    ExpectPoint(turn.centre, centres[k], Printed(4));
+    ExpectPoint(turn.center, centers[k], Printed(4));
   }
 }
 
@@ -166,7 +166,7 @@ TEST(PlanFillets, RouteAUnderHalfLegHasPrintedTurns) {
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   ASSERT_EQ(plan.turns.size(), 3U);
   const std::vector<Vec2> joints{{20, 0}, {40, 20}, {60, 40}, {80, 60}};
-  const std::vector<Vec2> centres{{20, 20}, {60, 20}, {60, 60}};
+  const std::vector<Vec2> centers{{20, 20}, {60, 20}, {60, 60}};
   for (std::size_t k = 0; k < 3; ++k) {
     SCOPED_TRACE(k);
     const FilletTurn& turn = plan.turns[k];
@@ -176,7 +176,7 @@ TEST(PlanFillets, RouteAUnderHalfLegHasPrintedTurns) {
     EXPECT_NEAR(turn.ramp_distance, 2.6736, Tolerance(Printed(4)));
     ExpectPoint(turn.arc_start, joints[k], kRounding);
     ExpectPoint(turn.arc_end, joints[k + 1], kRounding);
-    ExpectPoint(turn.centre, centres[k], kRounding);
+    ExpectPoint(turn.center, centers[k], kRounding);
     EXPECT_FALSE(turn.ramp_truncated);
   }
   ExpectEvents(plan, {18.6632, 50.0791, 50.0791, 81.4950, 81.4950, 112.9110});
@@ -258,7 +258,8 @@ TEST(SteeringRoomRadii, HasPrintedIntervals) {
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(fmt::format("q = {}, phi = {} deg", c.leg, c.angle));
-    const auto radii = SteeringRoomRadii(SeedCar(), kSpeed, Radians(c.angle), c.leg, {5.1, 154.0});
+    const auto radii =
+        SteeringRoomRadii(ReferenceCar(), kSpeed, Radians(c.angle), c.leg, {5.1, 154.0});
     ASSERT_EQ(radii.has_value(), c.radii.has_value());
     if (radii) {
       // Angles printed to 1e-4 or 1e-5 deg move the end by dr/dphi * 1e-4 deg/2: dr/dphi is about
@@ -274,7 +275,7 @@ TEST(SteeringRoomRadii, HasPrintedIntervals) {
 
 TEST(SteeringRoomRadii, RoutesBAnglesGiveThePrintedRadii) {
   // The same rows with the angles in full: arcs of atan(2/3), atan(3/2) and atan(2).
-  const VehicleParams car = SeedCar();
+  const VehicleParams car = ReferenceCar();
   const RadiusInterval bounds{5.1, 154.0};
   const auto first = SteeringRoomRadii(car, kSpeed, kPi - std::atan2(2.0, 3.0), 30.0, bounds);
   const auto second =
@@ -295,7 +296,7 @@ TEST(SteeringRoomRadii, AgreesWithADenseScan) {
     const double leg = random.Uniform(10.0, 90.0);
     const double speed = random.Uniform(0.5, 5.0);
     SCOPED_TRACE(fmt::format("case {}: phi = {}, q = {}, v = {}", i, angle, leg, speed));
-    const VehicleParams car = SeedCar();
+    const VehicleParams car = ReferenceCar();
     const RadiusInterval bounds{5.1, 154.0};
     // C.40 in its printed form: K + S_delta - q/2.
     const auto g = [&](double r) {
@@ -379,7 +380,7 @@ TEST(PlanFillets, ShiftedStartChangesNoDistance) {
         EXPECT_NEAR(b.steer_return, a.steer_return, Tolerance(kRounding));
         ExpectPoint(b.arc_start, a.arc_start + offset, kRounding);
         ExpectPoint(b.arc_end, a.arc_end + offset, kRounding);
-        ExpectPoint(b.centre, a.centre + offset, kRounding);
+        ExpectPoint(b.center, a.center + offset, kRounding);
       }
     }
   }
@@ -416,7 +417,7 @@ TEST(PlanFillets, MirroredRouteGivesMirroredPlan) {
       EXPECT_NEAR(b.turns[k].radius, a.turns[k].radius, Tolerance(kRounding));
       EXPECT_NEAR(b.turns[k].steer_start, a.turns[k].steer_start, Tolerance(kRounding));
       EXPECT_NEAR(b.turns[k].steer_return, a.turns[k].steer_return, Tolerance(kRounding));
-      ExpectPoint(b.turns[k].centre, {a.turns[k].centre.x(), -a.turns[k].centre.y()}, kRounding);
+      ExpectPoint(b.turns[k].center, {a.turns[k].center.x(), -a.turns[k].center.y()}, kRounding);
     }
     for (const double share : {0.1, 0.5, 0.9}) {
       const double s = share * a.path.length();
@@ -456,7 +457,7 @@ TEST(PlanFillets, MovedRouteGivesMovedPlan) {
       // where g is flat the radius answers with up to some thousand times that.
       EXPECT_NEAR(b.turns[k].steering, a.turns[k].steering, Tolerance(1e-9));
       EXPECT_NEAR(b.turns[k].steer_start, a.turns[k].steer_start, Tolerance(1e-9));
-      ExpectPoint(b.turns[k].centre, ToWorld(X_WA, a.turns[k].centre), 1e-9);
+      ExpectPoint(b.turns[k].center, ToWorld(X_WA, a.turns[k].center), 1e-9);
     }
     const double s = 0.5 * a.path.length();
     const Pose2 expected = Compose(X_WA, a.path.At(s).pose);
@@ -483,10 +484,10 @@ void ExpectFilletIdentities(const std::vector<Vec2>& route, const FilletPlan& pl
                 Tolerance(1e-7));
     EXPECT_EQ(turn.heading_change > 0.0, Cross(in, out) > 0.0);
     EXPECT_NEAR(std::abs(turn.heading_change) + turn.interior_angle, kPi, Tolerance(kRounding));
-    EXPECT_NEAR((turn.centre - turn.arc_start).norm(), turn.radius, Tolerance(kPromised));
-    EXPECT_NEAR((turn.centre - turn.arc_end).norm(), turn.radius, Tolerance(kPromised));
-    EXPECT_NEAR((turn.centre - turn.arc_start).dot(in), 0.0, Tolerance(kPromised));
-    EXPECT_NEAR((turn.centre - turn.arc_end).dot(out), 0.0, Tolerance(kPromised));
+    EXPECT_NEAR((turn.center - turn.arc_start).norm(), turn.radius, Tolerance(kPromised));
+    EXPECT_NEAR((turn.center - turn.arc_end).norm(), turn.radius, Tolerance(kPromised));
+    EXPECT_NEAR((turn.center - turn.arc_start).dot(in), 0.0, Tolerance(kPromised));
+    EXPECT_NEAR((turn.center - turn.arc_end).dot(out), 0.0, Tolerance(kPromised));
     EXPECT_NEAR((route[i] - turn.arc_start).norm(), turn.tangent_length, Tolerance(kPromised));
     EXPECT_NEAR((turn.arc_end - route[i]).norm(), turn.tangent_length, Tolerance(kPromised));
     saved += 2.0 * turn.tangent_length - turn.radius * std::abs(turn.heading_change);
@@ -564,7 +565,7 @@ TEST(PlanFillets, RandomRoutesKeepTheIdentitiesOrSayWhy) {
     SCOPED_TRACE(fmt::format("case {}, constraint {}, radius {}; {}", i,
                              static_cast<int>(options.constraint), options.radius.value_or(0.0),
                              Describe(route)));
-    const FilletPlan plan = PlanFillets(SeedCar(), route, kSpeed, options);
+    const FilletPlan plan = PlanFillets(ReferenceCar(), route, kSpeed, options);
     if (plan.status != PlanStatus::kOk) {
       ++refused;
       EXPECT_GE(plan.waypoint, 1);
@@ -717,8 +718,8 @@ TEST(PlanFillets, RefusesRadiusBelowTheCars) {
                 "the given radius of 5 m is below the car's smallest, 5.1 m");
   FilletOptions options;
   options.max_radius = 5.0;
-  ExpectRefused(PlanFillets(SeedCar(), RouteA(), kSpeed, options), PlanStatus::kTurnTooTight, 1,
-                "the largest radius allowed, 5 m, is below the car's smallest, 5.1 m");
+  ExpectRefused(PlanFillets(ReferenceCar(), RouteA(), kSpeed, options), PlanStatus::kTurnTooTight,
+                1, "the largest radius allowed, 5 m, is below the car's smallest, 5.1 m");
 }
 
 TEST(PlanFillets, RefusesRightTurnWithItsSign) {
@@ -729,9 +730,10 @@ TEST(PlanFillets, RefusesRightTurnWithItsSign) {
 TEST(PlanFillets, RefusesLegsWithoutSteeringRoom) {
   // 90 deg and 28 m is empty; 60 m before it is not.
   FilletOptions options;
-  options.without_room = WithoutRoom::kRefuse;
+  options.without_room = InfeasibleTurnPolicy::kRefuse;
   const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 60}, {88, 60}};
-  ExpectRefused(PlanFillets(SeedCar(), route, kSpeed, options), PlanStatus::kNoRoomForSteering, 2,
+  ExpectRefused(PlanFillets(ReferenceCar(), route, kSpeed, options), PlanStatus::kNoRoomForSteering,
+                2,
                 "turn of -90 deg at waypoint 2: at 3 m/s no radius from 5.1 to 154 m leaves the "
                 "distance to turn the wheels within half of the shorter leg, 14 m (C.40)");
 }
@@ -740,7 +742,7 @@ TEST(PlanFillets, RefusesLegsWithoutSteeringRoom) {
 
 TEST(PlanFillets, SlowsDownForATurnWithoutRoomAndNoOther) {
   const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 60}, {88, 60}};
-  const FilletPlan plan = PlanFillets(SeedCar(), route, kSpeed, {});
+  const FilletPlan plan = PlanFillets(ReferenceCar(), route, kSpeed, {});
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   EXPECT_EQ(plan.turns[0].speed, kSpeed);
   EXPECT_EQ(plan.turns[0].note, "");
@@ -755,8 +757,9 @@ TEST(PlanFillets, SlowsDownForATurnWithoutRoomAndNoOther) {
   // Just faster there is none, just slower there is more than one.
   const RadiusInterval bounds{5.1, 154.0};
   const double phi = kPi / 2.0;
-  EXPECT_FALSE(SteeringRoomRadii(SeedCar(), slow.speed * (1.0 + 1e-9), phi, 28.0, bounds));
-  const auto slower = SteeringRoomRadii(SeedCar(), slow.speed * (1.0 - 1e-9), phi, 28.0, bounds);
+  EXPECT_FALSE(SteeringRoomRadii(ReferenceCar(), slow.speed * (1.0 + 1e-9), phi, 28.0, bounds));
+  const auto slower =
+      SteeringRoomRadii(ReferenceCar(), slow.speed * (1.0 - 1e-9), phi, 28.0, bounds);
   ASSERT_TRUE(slower);
   EXPECT_LT(slower->low, slower->high);
 }
@@ -766,7 +769,7 @@ TEST(PlanFillets, TakesNoTurnFasterBecauseItsLegIsShorter) {
   // 0.5 m/s where half of it is 5.1 + 1.617 m, at 13.434 m. With half a ramp on the leg that speed
   // is kept down to 2 (5.1 + 0.8085) = 11.817 m; below there is no plan.
   const auto plan = [](double leg) {
-    return PlanFillets(SeedCar(), {{0, 0}, {60, 0}, {60, leg}}, kSpeed, {});
+    return PlanFillets(ReferenceCar(), {{0, 0}, {60, 0}, {60, leg}}, kSpeed, {});
   };
   EXPECT_GT(plan(13.5).turns.at(0).speed, 0.5);
   double slowest = kSpeed;
@@ -784,8 +787,8 @@ TEST(PlanFillets, TakesNoTurnFasterBecauseItsLegIsShorter) {
 
 TEST(PlanFillets, KeepsItsSpeedUnderHalfLegWhenAskedTo) {
   FilletOptions options;
-  options.without_room = WithoutRoom::kHalfLeg;
-  const FilletPlan plan = PlanFillets(SeedCar(), {{0, 0}, {60, 0}, {60, 28}}, kSpeed, options);
+  options.without_room = InfeasibleTurnPolicy::kHalfLeg;
+  const FilletPlan plan = PlanFillets(ReferenceCar(), {{0, 0}, {60, 0}, {60, 28}}, kSpeed, options);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   EXPECT_EQ(plan.turns[0].speed, kSpeed);
   EXPECT_NEAR(plan.turns[0].radius, 14.0, Tolerance(kRounding));
@@ -794,7 +797,7 @@ TEST(PlanFillets, KeepsItsSpeedUnderHalfLegWhenAskedTo) {
 
 TEST(PlanFillets, SlowerCarFindsSteeringRoom) {
   const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 60}, {88, 60}};
-  const FilletPlan plan = PlanFillets(SeedCar(), route, 1.5, {});
+  const FilletPlan plan = PlanFillets(ReferenceCar(), route, 1.5, {});
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   EXPECT_EQ(plan.turns[1].speed, 1.5);
 }
@@ -892,7 +895,7 @@ TEST(PlanFillets, RefusedPlanHasNoPath) {
 }
 
 TEST(PlanFillets, ChecksItsCaller) {
-  EXPECT_THROW(PlanFillets(SeedCar(), RouteA(), 0.0, {}), InternalError);
+  EXPECT_THROW(PlanFillets(ReferenceCar(), RouteA(), 0.0, {}), InternalError);
   EXPECT_THROW(PlanWith(RouteA(), RadiusConstraint::kNone), InternalError);
   EXPECT_THROW(PlanWith({{0, 0}, {std::nan(""), 0}, {40, 40}}, RadiusConstraint::kHalfLeg),
                InternalError);
@@ -906,11 +909,11 @@ KinematicState Drive(const std::vector<Vec2>& route, const FilletPlan& plan, dou
   const Vec2 leg = route[1] - route[0];
   const KinematicState start{.pose = {route[0].x(), route[0].y(), std::atan2(leg.y(), leg.x())},
                              .speed = kSpeed};
-  return RollOut(SeedCar(), start, plan.schedule, distance, step, reference);
+  return RollOut(ReferenceCar(), start, plan.schedule, distance, step, reference);
 }
 
 constexpr ReferencePoint kRear = ReferencePoint::kRearAxle;
-constexpr ReferencePoint kCg = ReferencePoint::kCentreOfGravity;
+constexpr ReferencePoint kCg = ReferencePoint::kCenterOfGravity;
 constexpr double kStep = 0.1;  // [m]
 
 TEST(OpenLoop, PassOneStopsShortOfFullLock) {
@@ -1014,7 +1017,7 @@ class OpenLoopEnd : public ::testing::TestWithParam<EndCase> {};
 
 TEST_P(OpenLoopEnd, MissesTheGoalAsPrinted) {
   const EndCase& c = GetParam();
-  const FilletPlan plan = PlanFillets(SeedCar(), c.route, kSpeed, c.options);
+  const FilletPlan plan = PlanFillets(ReferenceCar(), c.route, kSpeed, c.options);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   const auto error = [&](double step) {
     const Pose2 end = Drive(c.route, plan, plan.path.length(), c.reference, step).pose;

@@ -8,7 +8,7 @@
 #include "tests/geometry/random.h"
 #include "tests/planning/routes.h"
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/fillet/fillet.h"
@@ -35,7 +35,7 @@ FilletOptions Neutral(double steering) {
 
 PlanRequest Request(const std::vector<Vec2>& waypoints) {
   PlanRequest request;
-  request.vehicle = SeedCar();
+  request.vehicle = ReferenceCar();
   request.waypoints = waypoints;
   request.start_speed = kSpeed;
   request.speed = {.speed = kSpeed, .acceleration = 1.0, .deceleration = 1.5};
@@ -44,7 +44,7 @@ PlanRequest Request(const std::vector<Vec2>& waypoints) {
 
 TEST(NeutralSteering, RampsTakeTheTravelFromItAndBack) {
   for (const double neutral : {0.02, -0.02}) {
-    const FilletPlan plan = PlanFillets(SeedCar(), RouteA(), kSpeed, Neutral(neutral));
+    const FilletPlan plan = PlanFillets(ReferenceCar(), RouteA(), kSpeed, Neutral(neutral));
     ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
     ASSERT_EQ(plan.turns.size(), 3U);
     EXPECT_EQ(plan.schedule.At(0.0), neutral);
@@ -68,7 +68,7 @@ TEST(NeutralSteering, RampsTakeTheTravelFromItAndBack) {
 
 TEST(NeutralSteering, LeavesTheRoomThatItsOwnRampsNeed) {
   // Legs of 40 m, all turns alike but for their side: C.40 with |delta - d_0| is 20 m = K + S.
-  const FilletPlan plan = PlanFillets(SeedCar(), RouteA(), kSpeed, Neutral(0.02));
+  const FilletPlan plan = PlanFillets(ReferenceCar(), RouteA(), kSpeed, Neutral(0.02));
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   for (const FilletTurn& turn : plan.turns) {
     EXPECT_EQ(turn.active, ActiveConstraint::kSteeringRoom);
@@ -94,7 +94,7 @@ TEST(NeutralSteering, RadiiAgreeWithADenseScan) {
       return r / std::tan(angle / 2.0) +
              speed * std::abs(std::atan(kWheelbase / r) - neutral) / kRate - leg / 2.0;
     };
-    const auto radii = SteeringRoomRadii(SeedCar(), speed, angle, leg, bounds, neutral);
+    const auto radii = SteeringRoomRadii(ReferenceCar(), speed, angle, leg, bounds, neutral);
     constexpr int kPoints = 4000;
     for (int j = 0; j <= kPoints; ++j) {
       const double r = bounds.low * std::pow(bounds.high / bounds.low, j / double{kPoints});
@@ -120,8 +120,8 @@ TEST(NeutralSteering, MirroredRouteAndAngleGiveTheMirroredPlan) {
   for (Vec2& w : mirrored) {
     w.y() = -w.y();
   }
-  const FilletPlan a = PlanFillets(SeedCar(), RouteB(), kSpeed, Neutral(0.03));
-  const FilletPlan b = PlanFillets(SeedCar(), mirrored, kSpeed, Neutral(-0.03));
+  const FilletPlan a = PlanFillets(ReferenceCar(), RouteB(), kSpeed, Neutral(0.03));
+  const FilletPlan b = PlanFillets(ReferenceCar(), mirrored, kSpeed, Neutral(-0.03));
   ASSERT_EQ(a.status, PlanStatus::kOk) << a.reason;
   ASSERT_EQ(b.status, PlanStatus::kOk) << b.reason;
   for (std::size_t k = 0; k < a.turns.size(); ++k) {
@@ -134,7 +134,7 @@ TEST(NeutralSteering, MirroredRouteAndAngleGiveTheMirroredPlan) {
 
 TEST(NeutralSteering, PredictionOfAStraightRouteIsTheCircleThatTheWheelsDrive) {
   const std::vector<Vec2> straight{{0, 0}, {20, 0}, {40, 0}};
-  const FilletPlan plan = PlanFillets(SeedCar(), straight, kSpeed, Neutral(0.05));
+  const FilletPlan plan = PlanFillets(ReferenceCar(), straight, kSpeed, Neutral(0.05));
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   const double curvature = std::tan(0.05) / kWheelbase;
   const double yaw = 40.0 * curvature;
@@ -150,7 +150,7 @@ TEST(NeutralSteering, PredictedHeadingIsTheIntegralOverRampsAndHolds) {
   // the slope m, the arc's curvature on the hold.
   const std::vector<Vec2> route{{0, 0}, {40, 0}, {40, 40}};
   for (const double neutral : {0.01, -0.03}) {
-    const FilletPlan plan = PlanFillets(SeedCar(), route, kSpeed, Neutral(neutral));
+    const FilletPlan plan = PlanFillets(ReferenceCar(), route, kSpeed, Neutral(neutral));
     ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
     const double delta = std::atan(kWheelbase / plan.turns[0].radius);
     const double slope = kRate / kSpeed;
@@ -169,7 +169,8 @@ TEST(NeutralSteering, FindingsTellIt) {
   const Plan plan = MakePlan(Request(RouteA()), Neutral(0.02));
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_EQ(plan.diagnostics.at("neutral_steering_rad"), 0.02);
-  EXPECT_EQ(plan.diagnostics.at("neutral_curvature_radpm"), CurvatureForSteering(SeedCar(), 0.02));
+  EXPECT_EQ(plan.diagnostics.at("neutral_curvature_radpm"),
+            CurvatureForSteering(ReferenceCar(), 0.02));
   // 0.02 rad over the 17 m before the first turn alone are 0.12 rad and more than a meter.
   EXPECT_GT(plan.diagnostics.at("open_loop").at("deviation_max_m"), 1.0);
   // What a turn must cost is reckoned from straight wheels.
@@ -181,7 +182,7 @@ TEST(NeutralSteering, FindingsTellIt) {
 }
 
 TEST(NeutralSteering, BeyondTheCarsLimitThereIsNoPlan) {
-  const FilletPlan plan = PlanFillets(SeedCar(), RouteA(), kSpeed, Neutral(-0.5));
+  const FilletPlan plan = PlanFillets(ReferenceCar(), RouteA(), kSpeed, Neutral(-0.5));
   EXPECT_EQ(plan.status, PlanStatus::kTurnTooTight);
   EXPECT_THAT(plan.reason, HasSubstr("between turns the wheels would stand at -0.5 rad; the car "
                                      "can steer 0.4869 rad"));
@@ -193,7 +194,7 @@ TEST(NeutralSteering, EveryObjectivePlansWithIt) {
     FilletOptions options = Neutral(0.002);
     options.objective = objective;
     options.search.method = SearchMethod::kDirect;
-    const FilletPlan plan = PlanFillets(SeedCar(), RouteB(), kSpeed, options);
+    const FilletPlan plan = PlanFillets(ReferenceCar(), RouteB(), kSpeed, options);
     ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
     EXPECT_EQ(plan.schedule.At(0.0), 0.002);
     EXPECT_EQ(plan.schedule.knots().back().steering, 0.002);

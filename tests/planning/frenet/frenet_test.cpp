@@ -200,8 +200,8 @@ TEST(Frenet, PlansOnlyWhatCanBeDriven) {
     request.road = {5.0, 4.0};
     for (MovingBox box : RandomBoxes(random, path)) {
       const Vec2 shift = path.At(request.start.s).pose.position() - path.At(0.0).pose.position();
-      box.box.centre.x += shift.x();
-      box.box.centre.y += shift.y();
+      box.box.center.x += shift.x();
+      box.box.center.y += shift.y();
       request.obstacles.push_back(box);
     }
     SCOPED_TRACE("scene " + std::to_string(i));
@@ -441,7 +441,7 @@ TEST(Frenet, IsMirroredWithItsWorld) {
     const std::vector<MovingBox> boxes = RandomBoxes(random, StraightRoad());
     std::vector<MovingBox> mirrored = boxes;
     for (MovingBox& box : mirrored) {
-      box.box.centre.y *= -1.0;
+      box.box.center.y *= -1.0;
       box.velocity.y() *= -1.0;
     }
     // The start is beside the path: no two candidates cost the same.
@@ -466,7 +466,7 @@ TEST(Frenet, MovesWithItsWorld) {
     const std::vector<MovingBox> boxes = RandomBoxes(random, here);
     std::vector<MovingBox> moved = boxes;
     for (MovingBox& box : moved) {
-      box.box.centre = Compose(X_WM, box.box.centre);
+      box.box.center = Compose(X_WM, box.box.center);
       box.velocity = ToWorld({0.0, 0.0, X_WM.yaw}, box.velocity);
     }
     const FrenetPlan a = PlanAmongBoxes(here, boxes, 0.2);

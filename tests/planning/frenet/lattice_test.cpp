@@ -325,7 +325,7 @@ TEST(Lattice, IsMirroredWithItsWorldAndRepeatsItself) {
   FrenetRequest mirrored = request;
   mirrored.start.d = -0.2;
   for (MovingBox& box : mirrored.obstacles) {
-    box.box.centre.y *= -1.0;
+    box.box.center.y *= -1.0;
   }
   const FrenetPlan a = PlanLattice(StraightRoad(), request, SlalomOptions());
   const FrenetPlan b = PlanLattice(StraightRoad(), mirrored, SlalomOptions());

@@ -118,7 +118,7 @@ TEST(AStar, SeesAtOnceThatAnEndIsInAPocket) {
   EXPECT_TRUE(SearchGrid(grid, inside, inside).ok());
 }
 
-TEST(AStar, WalksFromCellToNeighbourAndCutsNoCorner) {
+TEST(AStar, WalksFromCellToNeighborAndCutsNoCorner) {
   Random random(2);
   for (int i = 0; i < 40; ++i) {
     OccupancyGrid grid = Clutter(random, 40, 30, 0.25);

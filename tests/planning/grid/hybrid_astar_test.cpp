@@ -9,7 +9,7 @@
 #include "tests/planning/maps.h"
 #include "tests/planning/poses.h"
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/curves/reeds_shepp.h"
 #include "trackbed/world/world.h"
@@ -25,14 +25,14 @@ void ExpectGood(const HybridAStarProblem& problem, const HybridAStarOptions& opt
   ASSERT_TRUE(result.ok()) << result.reason;
   const Path path(problem.start, result.segments);
   EXPECT_LE(Apart(path.At(path.length()).pose, problem.goal), Tolerance(1e-9));
-  const double radius = options.radius.value_or(1.1 * SeedCar().min_turning_radius());
+  const double radius = options.radius.value_or(1.1 * ReferenceCar().min_turning_radius());
   for (const Segment& segment : result.segments) {
     EXPECT_LE(std::abs(segment.curvature), 1.0 / radius + Tolerance(1e-12));
   }
   // The farthest corner moves by up to 1 + 3.7/5.6 per meter: 1.7 cm in a step's half.
   const double missed = Tolerance(0.017);
   for (double s = 0.0; s <= path.length(); s += 0.02) {
-    const OrientedBox outline = OutlineAt(SeedCar(), path.At(s).pose);
+    const OrientedBox outline = OutlineAt(ReferenceCar(), path.At(s).pose);
     for (const OrientedBox& box : problem.obstacles) {
       ASSERT_GE(Separation(outline, box), options.safe_distance - missed) << "at " << s;
     }
@@ -60,11 +60,12 @@ TEST(HybridAStar, IsTheShortestCurveWhereNothingIsInTheWay) {
   for (int i = 0; i < 20; ++i) {
     const HybridAStarProblem problem{
         .start = RandomPose(random, 15.0), .goal = RandomPose(random, 15.0), .obstacles = {}};
-    const HybridAStarResult result = SearchHybridAStar(SeedCar(), problem, options);
+    const HybridAStarResult result = SearchHybridAStar(ReferenceCar(), problem, options);
     ExpectGood(problem, options, result);
-    EXPECT_NEAR(result.cost,
-                ReedsSheppLength(problem.start, problem.goal, 1.1 * SeedCar().min_turning_radius()),
-                Tolerance(1e-9));
+    EXPECT_NEAR(
+        result.cost,
+        ReedsSheppLength(problem.start, problem.goal, 1.1 * ReferenceCar().min_turning_radius()),
+        Tolerance(1e-9));
     EXPECT_LE(result.expansions, 20);
   }
 }
@@ -72,7 +73,7 @@ TEST(HybridAStar, IsTheShortestCurveWhereNothingIsInTheWay) {
 TEST(HybridAStar, ParksInAGapBackwards) {
   const HybridAStarProblem problem = ParkingRow();
   const HybridAStarOptions options;
-  const HybridAStarResult result = SearchHybridAStar(SeedCar(), problem, options);
+  const HybridAStarResult result = SearchHybridAStar(ReferenceCar(), problem, options);
   ExpectGood(problem, options, result);
   // A car that faces the lane in its gap came in backwards.
   EXPECT_EQ(result.segments.front().direction, 1);
@@ -83,7 +84,7 @@ TEST(HybridAStar, FindsNoWayBackwardsWhereItMayNot) {
   HybridAStarOptions options;
   options.reverse = false;
   options.budget = 10000;
-  const HybridAStarResult result = SearchHybridAStar(SeedCar(), ParkingRow(), options);
+  const HybridAStarResult result = SearchHybridAStar(ReferenceCar(), ParkingRow(), options);
   EXPECT_FALSE(result.ok());
   EXPECT_NE(result.reason, "");
   EXPECT_TRUE(result.segments.empty());
@@ -106,7 +107,7 @@ TEST(HybridAStar, GoesThroughMaps) {
       options.reverse = reverse;
       options.safe_distance = 0.1;
       options.radius = 5.2;
-      const HybridAStarResult result = SearchHybridAStar(SeedCar(), problem, options);
+      const HybridAStarResult result = SearchHybridAStar(ReferenceCar(), problem, options);
       ExpectGood(problem, options, result);
       for (const Segment& segment : result.segments) {
         EXPECT_TRUE(reverse || segment.direction > 0);
@@ -118,10 +119,10 @@ TEST(HybridAStar, GoesThroughMaps) {
 TEST(HybridAStar, IsNoCheaperThanWhatIsLeftSays) {
   // The curve without obstacles and the way on the grid are both less than what was found.
   const HybridAStarProblem problem = ParkingRow();
-  const HybridAStarResult result = SearchHybridAStar(SeedCar(), problem, {});
+  const HybridAStarResult result = SearchHybridAStar(ReferenceCar(), problem, {});
   ASSERT_TRUE(result.ok());
-  EXPECT_GE(result.cost,
-            ReedsSheppLength(problem.start, problem.goal, 1.1 * SeedCar().min_turning_radius()));
+  EXPECT_GE(result.cost, ReedsSheppLength(problem.start, problem.goal,
+                                          1.1 * ReferenceCar().min_turning_radius()));
 }
 
 TEST(HybridAStar, EndsWithAStatus) {
@@ -130,7 +131,7 @@ TEST(HybridAStar, EndsWithAStatus) {
     problem.obstacles.push_back(box);
     HybridAStarOptions options;
     options.budget = budget;
-    const HybridAStarResult result = SearchHybridAStar(SeedCar(), problem, options);
+    const HybridAStarResult result = SearchHybridAStar(ReferenceCar(), problem, options);
     EXPECT_EQ(result.reason.empty(), result.ok());
     EXPECT_LE(result.expansions, budget);
     return result.status;
@@ -152,7 +153,7 @@ TEST(HybridAStar, EndsWithAStatus) {
 TEST(HybridAStar, RefusesOptionsThatAreNone) {
   HybridAStarOptions options;
   options.cell = 0.0;
-  EXPECT_THROW(SearchHybridAStar(SeedCar(), {.start = {}, .goal = {5.0, 0.0, 0.0}}, options),
+  EXPECT_THROW(SearchHybridAStar(ReferenceCar(), {.start = {}, .goal = {5.0, 0.0, 0.0}}, options),
                InternalError);
 }
 

@@ -13,7 +13,7 @@
 #include "tests/planning/print_planner.h"
 #include "tests/planning/routes.h"
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
@@ -30,7 +30,7 @@ using ::testing::UnorderedElementsAre;
 
 PlanRequest Request(std::vector<Vec2> waypoints) {
   PlanRequest request;
-  request.vehicle = SeedCar();
+  request.vehicle = ReferenceCar();
   request.waypoints = std::move(waypoints);
   const Vec2 leg = request.waypoints[1] - request.waypoints[0];
   request.start = {request.waypoints[0].x(), request.waypoints[0].y(),
@@ -94,13 +94,13 @@ TEST_P(EveryPlanner, StaysWithinTheCarsSteering) {
   ASSERT_TRUE(plan.ok()) << plan.reason;
   for (const Segment& segment : plan.reference.path.segments()) {
     for (const double d : {0.0, segment.length}) {
-      EXPECT_LE(std::abs(SteeringForCurvature(SeedCar(), segment.CurvatureAt(d))),
-                SeedCar().steering_limit + Tolerance(1e-12));
+      EXPECT_LE(std::abs(SteeringForCurvature(ReferenceCar(), segment.CurvatureAt(d))),
+                ReferenceCar().steering_limit + Tolerance(1e-12));
     }
     EXPECT_TRUE(segment.direction > 0 || GetParam().goes_backwards);
   }
   for (const SteeringSchedule::Knot& knot : plan.schedule.knots()) {
-    EXPECT_LE(std::abs(knot.steering), SeedCar().steering_limit);
+    EXPECT_LE(std::abs(knot.steering), ReferenceCar().steering_limit);
   }
 }
 
@@ -143,7 +143,7 @@ TEST_P(EveryPlanner, IsAsLongAsItsSteps) {
       length += (b.pose.position() - a.pose.position()).norm();
       // Where a step leads along the heading, one with a cusp in it aside.
       const double turn = std::abs(AngleDifference(b.pose.yaw, a.pose.yaw));
-      ASSERT_LE(turn, step / SeedCar().min_turning_radius() + Tolerance(1e-9)) << "at " << b.s;
+      ASSERT_LE(turn, step / ReferenceCar().min_turning_radius() + Tolerance(1e-9)) << "at " << b.s;
     }
     // A chord of an arc is short of it by kappa^2 step^3/24: 1.6e-7 of a length of 160 m or less;
     // a cusp folds one step.
@@ -269,7 +269,7 @@ TEST(Planners, KeepTheDistanceThatTheirOptionsName) {
 // ---------------------------------------------------------------------------
 
 TEST(FilletPlanner, FindingsAreThoseOfTheFillets) {
-  const FilletPlan fillets = PlanFillets(SeedCar(), RouteB(), 3.0, {});
+  const FilletPlan fillets = PlanFillets(ReferenceCar(), RouteB(), 3.0, {});
   const Plan plan = MakePlan(Request(RouteB()), FilletOptions{});
   ASSERT_TRUE(plan.ok()) << plan.reason;
   const auto& turns = plan.diagnostics.at("turns");
@@ -281,7 +281,7 @@ TEST(FilletPlanner, FindingsAreThoseOfTheFillets) {
     EXPECT_EQ(json.at("heading_change_rad"), turn.heading_change);
     EXPECT_EQ(json.at("interior_angle_rad"), turn.interior_angle);
     EXPECT_EQ(json.at("radius_m"), turn.radius);
-    EXPECT_EQ(json.at("centre_m"), nlohmann::json::array({turn.centre.x(), turn.centre.y()}));
+    EXPECT_EQ(json.at("center_m"), nlohmann::json::array({turn.center.x(), turn.center.y()}));
     EXPECT_EQ(json.at("arc_start_m"),
               nlohmann::json::array({turn.arc_start.x(), turn.arc_start.y()}));
     EXPECT_EQ(json.at("arc_end_m"), nlohmann::json::array({turn.arc_end.x(), turn.arc_end.y()}));
@@ -300,7 +300,7 @@ TEST(FilletPlanner, FindingsAreThoseOfTheFillets) {
     }
     EXPECT_THAT(keys, UnorderedElementsAre("waypoint", "heading_change_rad", "interior_angle_rad",
                                            "radius_m", "speed_mps", "active_constraint",
-                                           "predicted", "centre_m", "arc_start_m", "arc_end_m",
+                                           "predicted", "center_m", "arc_start_m", "arc_end_m",
                                            "arc_start_s_m", "arc_length_m", "tangent_length_m",
                                            "steering_rad", "ramp_time_s", "ramp_distance_m",
                                            "steer_start_m", "steer_return_m", "ramp_truncated"));
@@ -324,7 +324,7 @@ TEST(FilletPlanner, SaysWhatHoldsTheRadius) {
 
 TEST(FilletPlanner, NamesTheWaypointOfARefusal) {
   FilletOptions options;
-  options.without_room = WithoutRoom::kRefuse;
+  options.without_room = InfeasibleTurnPolicy::kRefuse;
   const Plan plan = MakePlan(Request({{0, 0}, {60, 0}, {60, 60}, {88, 60}}), options);
   EXPECT_EQ(plan.status, PlanStatus::kNoRoomForSteering);
   EXPECT_EQ(plan.diagnostics.at("waypoint"), 2);

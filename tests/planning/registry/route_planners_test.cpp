@@ -8,7 +8,7 @@
 #include "tests/planning/poses.h"
 #include "tests/planning/print_planner.h"
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/planner.h"
@@ -35,7 +35,7 @@ std::vector<PlannerEntry> Planning() {
 
 PlanRequest Between(const Pose2& start, const Pose2& goal, std::vector<OrientedBox> obstacles) {
   PlanRequest request;
-  request.vehicle = SeedCar();
+  request.vehicle = ReferenceCar();
   request.waypoints = {start.position(), goal.position()};
   request.headings = {start.yaw, goal.yaw};
   request.obstacles = std::move(obstacles);
@@ -54,8 +54,8 @@ PlanRequest Aisle() {
 PlanRequest Blocked() {
   PlanRequest request = Aisle();
   request.obstacles.push_back({{19.0, 1.5, 0.7}, 2.0, 2.0});
-  request.obstacles[0].centre.y = 16.0;
-  request.obstacles[1].centre.y = -12.0;
+  request.obstacles[0].center.y = 16.0;
+  request.obstacles[1].center.y = -12.0;
   return request;
 }
 
@@ -122,7 +122,7 @@ TEST_P(EveryRoutePlanner, KeepsClear) {
 TEST_P(EveryRoutePlanner, KeepsTheCarsRadius) {
   const Plan plan = Make(Aisle());
   ASSERT_TRUE(plan.ok()) << plan.reason;
-  const double most = 1.0 / SeedCar().min_turning_radius();
+  const double most = 1.0 / ReferenceCar().min_turning_radius();
   for (const PathPoint& point : plan.reference.path.Sample(0.05)) {
     EXPECT_LE(std::abs(point.curvature), most + Tolerance(1e-12));
   }
@@ -239,13 +239,13 @@ PlanRequest Moved(const PlanRequest& request, const Pose2& by) {
     moved.headings[i] += by.yaw;
   }
   for (OrientedBox& box : moved.obstacles) {
-    box.centre = Compose(by, box.centre);
+    box.center = Compose(by, box.center);
   }
   moved.start = Compose(by, moved.start);
   moved.wind.velocity = ToWorld({0.0, 0.0, by.yaw}, moved.wind.velocity);
   for (Gust& gust : moved.wind.gusts) {
     gust.velocity = ToWorld({0.0, 0.0, by.yaw}, gust.velocity);
-    gust.area->centre = Compose(by, gust.area->centre);
+    gust.area->center = Compose(by, gust.area->center);
   }
   return moved;
 }
@@ -278,7 +278,7 @@ TEST_P(EveryRoutePlanner, MirrorsWithTheWorld) {
       mirrored.headings[i] *= -1.0;
     }
     for (OrientedBox& box : mirrored.obstacles) {
-      box.centre = Mirror(box.centre);
+      box.center = Mirror(box.center);
     }
     const Plan left = Make(request);
     const Plan right = Make(mirrored);

@@ -28,9 +28,12 @@ Plan PlanOn(const Path& path, double speed) {
 
 /// A car on a straight route of 200 m, 40 m from its start.
 struct Scene {
-  RouteFrame frame = FrameOf(SeedCar(), PlanOn(StraightRoad(), 3.0), {3.0, 2.0, 3.0}, kBeyond);
-  AlongRequest request{
-      .vehicle = SeedCar(), .speed = {3.0, 2.0, 3.0}, .wanted = 3.0, .start = {}, .obstacles = {}};
+  RouteFrame frame = FrameOf(ReferenceCar(), PlanOn(StraightRoad(), 3.0), {3.0, 2.0, 3.0}, kBeyond);
+  AlongRequest request{.vehicle = ReferenceCar(),
+                       .speed = {3.0, 2.0, 3.0},
+                       .wanted = 3.0,
+                       .start = {},
+                       .obstacles = {}};
   AlongSettings settings;
 
   Scene() {
@@ -40,7 +43,7 @@ struct Scene {
 };
 
 double Front() {
-  return SeedCar().length - SeedCar().rear_overhang;
+  return ReferenceCar().length - ReferenceCar().rear_overhang;
 }
 
 class EveryAlongMethod : public testing::TestWithParam<AlongEntry> {};
@@ -64,8 +67,9 @@ void ExpectEndsAtRest(const Scene& scene, const AlongPlan& plan) {
 
 TEST_P(EveryAlongMethod, GoesOnAtItsSpeedWhereNothingIsInTheWay) {
   const Scene scene;
-  const AlongPlan plan = PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults);
-  ASSERT_EQ(plan.kind, AlongKind::kOn) << plan.found.reason;
+  const AlongPlan plan =
+      PlanAlongRoute(scene.frame, scene.request, scene.settings, GetParam().defaults);
+  ASSERT_EQ(plan.kind, ManeuverType::kProceed) << plan.found.reason;
   EXPECT_FALSE(plan.to_goal);
   const FrenetState end = plan.found.motion.At(plan.found.motion.duration());
   EXPECT_NEAR(end.s_rate, 3.0, Tolerance(1e-9));
@@ -79,8 +83,9 @@ TEST_P(EveryAlongMethod, LeadsPastWhatStandsInAWideRoad) {
   Scene scene;
   scene.settings.road = {6.0, 6.0};
   scene.request.obstacles = {BoxAt(scene.frame.path, 66.0, 0.0)};
-  const AlongPlan plan = PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults);
-  ASSERT_EQ(plan.kind, AlongKind::kOn) << plan.found.reason;
+  const AlongPlan plan =
+      PlanAlongRoute(scene.frame, scene.request, scene.settings, GetParam().defaults);
+  ASSERT_EQ(plan.kind, ManeuverType::kProceed) << plan.found.reason;
   ExpectEndsAtRest(scene, plan);
   FrenetLimits limits = std::visit([](const auto& own) { return own.limits; }, GetParam().defaults);
   limits.safe_distance = scene.settings.safe_distance;
@@ -101,8 +106,9 @@ TEST_P(EveryAlongMethod, StopsItsGapBehindWhatStandsInANarrowRoad) {
   // 12.5 m to where it stops: half of speed times 8 s.
   const double stop = scene.request.start.s + 12.5;
   scene.request.obstacles = {BoxAt(scene.frame.path, stop + Front() + 2.0 + 1.0, 0.0)};
-  const AlongPlan plan = PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults);
-  ASSERT_EQ(plan.kind, AlongKind::kStop) << plan.found.reason;
+  const AlongPlan plan =
+      PlanAlongRoute(scene.frame, scene.request, scene.settings, GetParam().defaults);
+  ASSERT_EQ(plan.kind, ManeuverType::kStop) << plan.found.reason;
   ExpectEndsAtRest(scene, plan);
   // At the station itself, or at one of the offsets before it.
   EXPECT_LE(plan.points.back().frenet.s, stop + Tolerance(1e-6));
@@ -123,8 +129,8 @@ TEST_P(EveryAlongMethod, ApproachesWhatStandsTooFarAwayToStopThere) {
     std::get<LatticeOptions>(options).layers = 2;
     std::get<LatticeOptions>(options).spacing = 4.0;
   }
-  const AlongPlan plan = PlanAlong(scene.frame, scene.request, scene.settings, options);
-  EXPECT_EQ(plan.kind, AlongKind::kApproach) << plan.found.reason;
+  const AlongPlan plan = PlanAlongRoute(scene.frame, scene.request, scene.settings, options);
+  EXPECT_EQ(plan.kind, ManeuverType::kApproach) << plan.found.reason;
   ExpectEndsAtRest(scene, plan);
   // Clear even if it is the last one that is found.
   const double front = plan.points.back().frenet.s + Front();
@@ -142,7 +148,7 @@ TEST_P(EveryAlongMethod, NeverLeadsToWhereItCannotStop) {
   for (double ahead = 20.0; ahead < 120.0; ahead += 5.0) {
     scene.request.obstacles = {BoxAt(scene.frame.path, 40.0 + Front() + ahead + 1.0, 0.0)};
     const AlongPlan plan =
-        PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults);
+        PlanAlongRoute(scene.frame, scene.request, scene.settings, GetParam().defaults);
     if (plan.ok()) {
       ++found;
       EXPECT_LE(plan.points.back().frenet.s + scene.settings.safe_distance, 40.0 + ahead + 0.01);
@@ -159,8 +165,9 @@ TEST_P(EveryAlongMethod, FollowsWhatMovesSlowlyInANarrowRoad) {
   scene.settings.time_gap = 1.0;
   scene.request.obstacles = {BoxAt(scene.frame.path, 52.0, 0.0)};
   scene.request.obstacles[0].velocity = {1.5, 0.0};
-  const AlongPlan plan = PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults);
-  ASSERT_EQ(plan.kind, AlongKind::kFollow) << plan.found.reason;
+  const AlongPlan plan =
+      PlanAlongRoute(scene.frame, scene.request, scene.settings, GetParam().defaults);
+  ASSERT_EQ(plan.kind, ManeuverType::kFollow) << plan.found.reason;
   ExpectEndsAtRest(scene, plan);
   const double duration = plan.found.motion.duration();
   const FrenetState end = plan.found.motion.At(duration);
@@ -176,8 +183,9 @@ TEST_P(EveryAlongMethod, FollowsWhatMovesSlowlyInANarrowRoad) {
 TEST_P(EveryAlongMethod, StopsAtTheEndOfTheRoute) {
   Scene scene;
   scene.request.start.s = scene.frame.goal - 12.0;
-  const AlongPlan plan = PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults);
-  ASSERT_EQ(plan.kind, AlongKind::kOn) << plan.found.reason;
+  const AlongPlan plan =
+      PlanAlongRoute(scene.frame, scene.request, scene.settings, GetParam().defaults);
+  ASSERT_EQ(plan.kind, ManeuverType::kProceed) << plan.found.reason;
   EXPECT_TRUE(plan.to_goal);
   // The station offsets end before the goal; none is cheaper than the goal itself.
   EXPECT_NEAR(plan.points.back().frenet.s, scene.frame.goal, Tolerance(1e-6));
@@ -187,8 +195,9 @@ TEST_P(EveryAlongMethod, StopsAtTheEndOfTheRoute) {
 TEST_P(EveryAlongMethod, GivesNothingWhereItTouches) {
   Scene scene;
   scene.request.obstacles = {BoxAt(scene.frame.path, 41.0, 0.0)};
-  const AlongPlan plan = PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults);
-  EXPECT_EQ(plan.kind, AlongKind::kNone);
+  const AlongPlan plan =
+      PlanAlongRoute(scene.frame, scene.request, scene.settings, GetParam().defaults);
+  EXPECT_EQ(plan.kind, ManeuverType::kNone);
   EXPECT_FALSE(plan.ok());
   EXPECT_EQ(plan.found.status, PlanStatus::kStartBlocked);
   EXPECT_TRUE(plan.points.empty());
@@ -198,15 +207,15 @@ TEST_P(EveryAlongMethod, IsTheSameEveryTime) {
   Scene scene;
   scene.request.obstacles = {BoxAt(scene.frame.path, 66.0, 0.4)};
   const AlongPlan first =
-      PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults);
+      PlanAlongRoute(scene.frame, scene.request, scene.settings, GetParam().defaults);
   EXPECT_EQ(first.points,
-            PlanAlong(scene.frame, scene.request, scene.settings, GetParam().defaults).points);
+            PlanAlongRoute(scene.frame, scene.request, scene.settings, GetParam().defaults).points);
 }
 
-TEST(PlanAlong, RefusesWhatMakesNoSense) {
+TEST(PlanAlongRoute, RefusesWhatMakesNoSense) {
   Scene scene;
   scene.request.wanted = 4.0;
-  EXPECT_THROW(PlanAlong(scene.frame, scene.request, scene.settings, FrenetOptions{}),
+  EXPECT_THROW(PlanAlongRoute(scene.frame, scene.request, scene.settings, FrenetOptions{}),
                InternalError);
 }
 
@@ -214,17 +223,17 @@ TEST_P(EveryAlongMethod, RefusesToTryNoSpeed) {
   const Scene scene;
   AlongOptions options = GetParam().defaults;
   std::visit([](auto& own) { own.speed_factors.clear(); }, options);
-  EXPECT_THROW(PlanAlong(scene.frame, scene.request, scene.settings, options), InternalError);
+  EXPECT_THROW(PlanAlongRoute(scene.frame, scene.request, scene.settings, options), InternalError);
 }
 
 // --- the leader
 
 TEST(LeaderIn, IsTheNearestInTheLane) {
   const Path path = StraightRoad();
-  AlongRequest request{.vehicle = SeedCar(), .speed = {3.0, 2.0, 3.0}, .wanted = 3.0};
+  AlongRequest request{.vehicle = ReferenceCar(), .speed = {3.0, 2.0, 3.0}, .wanted = 3.0};
   request.start.s = 20.0;
   const AlongSettings settings{.safe_distance = 0.5};
-  const double room = 0.5 * SeedCar().width + 0.5;
+  const double room = 0.5 * ReferenceCar().width + 0.5;
   // 1.5 m wide: beside the lane from 0.75 + room on.
   request.obstacles = {BoxAt(path, 60.0, 0.0), BoxAt(path, 40.0, 0.75 + room + 0.01),
                        BoxAt(path, 10.0, 0.0), BoxAt(path, 50.0, -(0.75 + room - 0.01))};
@@ -254,17 +263,17 @@ TEST(FrameOf, OfArcsAsksNoMoreOfTheWheelsThanTheyCan) {
   const double speed = 2.0;
   const Path path({0.0, 0.0, 0.0}, {{60.0, 0.0}, {6.0 * M_PI, 1.0 / 12.0}, {60.0, 0.0}});
   const SpeedLimits limits{speed, 2.0, 3.0};
-  const RouteFrame frame = FrameOf(SeedCar(), PlanOn(path, speed), limits, kBeyond);
-  const double steering = SteeringForCurvature(SeedCar(), 1.0 / 12.0);
-  const double window = speed * steering / SeedCar().steering_rate;
+  const RouteFrame frame = FrameOf(ReferenceCar(), PlanOn(path, speed), limits, kBeyond);
+  const double steering = SteeringForCurvature(ReferenceCar(), 1.0 / 12.0);
+  const double window = speed * steering / ReferenceCar().steering_rate;
   double before = 0.0;
   constexpr double kStep = 0.2;  // [m]: the joints of its segments are 0.1 m apart
   for (double s = kStep; s < frame.goal; s += kStep) {
-    const double now = SteeringForCurvature(SeedCar(), frame.path.At(s).curvature);
+    const double now = SteeringForCurvature(ReferenceCar(), frame.path.At(s).curvature);
     // The curvature rises evenly over the window; the steering, its arctangent, fastest at 0: by
     // tan(delta)/delta = 1.017 more. A hundredth for the arc, which gets tighter by (k w)^2/24.
     const double rate = (now - before) / kStep * speed;
-    EXPECT_LE(std::abs(rate), 1.03 * SeedCar().steering_rate) << s;
+    EXPECT_LE(std::abs(rate), 1.03 * ReferenceCar().steering_rate) << s;
     before = now;
   }
   // Within window^2/24 of the largest curvature, 0.12 m.
@@ -281,7 +290,7 @@ TEST(FrameOf, IsSharperWhereTheRouteIsSlow) {
   Plan plan = PlanOn(path, 6.0);
   // Between a tenth and nine tenths of the bend's curvature: eight tenths of the window.
   const auto ramp = [&] {
-    const RouteFrame frame = FrameOf(SeedCar(), plan, {6.0, 2.0, 3.0}, kBeyond);
+    const RouteFrame frame = FrameOf(ReferenceCar(), plan, {6.0, 2.0, 3.0}, kBeyond);
     const auto reaches = [&](double curvature) {
       double s = 0.0;
       while (frame.path.At(s).curvature < curvature) {
@@ -291,7 +300,8 @@ TEST(FrameOf, IsSharperWhereTheRouteIsSlow) {
     };
     return reaches(0.9 / 8.0) - reaches(0.1 / 8.0);
   };
-  const double turning = SteeringForCurvature(SeedCar(), 1.0 / 8.0) / SeedCar().steering_rate;
+  const double turning =
+      SteeringForCurvature(ReferenceCar(), 1.0 / 8.0) / ReferenceCar().steering_rate;
   // The arc's own curvature grows by (k w)^2/24 = 0.11 at 6 m/s and 0.11^2, so that nine tenths
   // come sooner.
   EXPECT_NEAR(ramp(), 0.8 * 6.0 * turning, Tolerance(0.1221 * 6.0 * turning));

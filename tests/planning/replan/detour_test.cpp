@@ -25,7 +25,7 @@ constexpr SpeedLimits kSpeed{3.0, 1.0, 2.0};
 
 /// 120 m along x at 3 m/s, the car at 20 m, a box of 4 m by 9 m across the way at 50 m.
 DetourRequest Blocked() {
-  DetourRequest request{.vehicle = SeedCar(), .speed = kSpeed};
+  DetourRequest request{.vehicle = ReferenceCar(), .speed = kSpeed};
   const Path path({0.0, 0.0, 0.0}, {{120.0, 0.0}});
   request.route.reference = {path, StopAtEnd(120.0, 3.0, kSpeed)};
   request.route.schedule_speed = request.route.reference.speed;
@@ -49,7 +49,7 @@ TEST(BlockedStretches, AreWhereTheOutlineIsTooNear) {
   // The front is 3.625 m ahead of the rear axle, the rear 0.825 m behind it.
   const Path path({0.0, 0.0, 0.0}, {{120.0, 0.0}});
   const std::vector<OrientedBox> boxes{{{50.0, 0.0, 0.0}, 4.0, 1.0}, {{80.0, 1.9, 0.0}, 2.0, 1.0}};
-  const auto stretches = BlockedStretches(SeedCar(), path, 10.0, boxes, 0.6);
+  const auto stretches = BlockedStretches(ReferenceCar(), path, 10.0, boxes, 0.6);
   ASSERT_EQ(stretches.size(), 2U);
   // Looked at every 0.1 m.
   EXPECT_NEAR(stretches[0].from, 48.0 - 0.6 - 3.625, Tolerance(0.1));
@@ -57,8 +57,8 @@ TEST(BlockedStretches, AreWhereTheOutlineIsTooNear) {
   // The other one is 1.4 - 0.8625 = 0.5375 m beside: sqrt(0.6^2 - 0.5375^2) = 0.267 m of ends.
   EXPECT_NEAR(stretches[1].from, 79.0 - 0.267 - 3.625, Tolerance(0.1));
   EXPECT_NEAR(stretches[1].to, 81.0 + 0.267 + 0.825, Tolerance(0.1));
-  EXPECT_EQ(BlockedStretches(SeedCar(), path, 60.0, boxes, 0.6).size(), 1U);
-  EXPECT_TRUE(BlockedStretches(SeedCar(), path, 60.0, boxes, 0.5).empty());
+  EXPECT_EQ(BlockedStretches(ReferenceCar(), path, 60.0, boxes, 0.6).size(), 1U);
+  EXPECT_TRUE(BlockedStretches(ReferenceCar(), path, 60.0, boxes, 0.5).empty());
 }
 
 class EveryDetour : public testing::TestWithParam<PlannerOptions> {};
@@ -91,7 +91,7 @@ TEST_P(EveryDetour, LeadsRoundAndBack) {
   // Keeps the planner's distance of 0.3 m, less 1 cm between its samples.
   for (double s = 0.0; s < path.length(); s += 0.02) {
     const PathPoint at = path.At(s);
-    EXPECT_GE(Separation(OutlineAt(SeedCar(), at.pose), request.obstacles[0]), 0.28) << s;
+    EXPECT_GE(Separation(OutlineAt(ReferenceCar(), at.pose), request.obstacles[0]), 0.28) << s;
     EXPECT_LE(std::abs(at.curvature), 1.0 / 5.1 + 1e-9);
     EXPECT_GT(at.direction, 0);
   }
@@ -108,7 +108,7 @@ TEST_P(EveryDetour, LeadsRoundAndBack) {
     const Segment& before = path.segments()[i - 1];
     joint += before.length;
     const double speed =
-        StepSpeed(SeedCar(), before.CurvatureAt(before.length), path.segments()[i].curvature);
+        StepSpeed(ReferenceCar(), before.CurvatureAt(before.length), path.segments()[i].curvature);
     EXPECT_LE(plan.reference.speed.SpeedAt(joint), std::max(1.001 * speed, 0.3)) << joint;
   }
   EXPECT_FALSE(detour.best.collides);

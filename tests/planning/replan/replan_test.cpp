@@ -30,12 +30,12 @@ Plan StraightPlan(double length, double start_speed) {
 /// On a straight route of 150 m, 30 m from its start, at 3 m/s.
 struct Scene {
   Driving driving;
-  ReplanRequest request{.vehicle = SeedCar(), .speed = kSpeed};
+  ReplanRequest request{.vehicle = ReferenceCar(), .speed = kSpeed};
   ReplanOptions options;
 
   Scene() {
     driving.route = StraightPlan(150.0, 3.0);
-    driving.frame = FrameOf(SeedCar(), driving.route, kSpeed, 80.0);
+    driving.frame = FrameOf(ReferenceCar(), driving.route, kSpeed, 80.0);
     driving.plan = driving.route;
     driving.station = 30.0;
     driving.route_station = 30.0;
@@ -66,11 +66,11 @@ struct Scene {
 
 // --- encounters
 
-TEST(FirstEncounter, WithWhatStandsIsWhenTheFrontGetsNear) {
+TEST(PredictConflict, WithWhatStandsIsWhenTheFrontGetsNear) {
   const Reference reference{Path({0.0, 0.0, 0.0}, {{150.0, 0.0}}), SpeedProfile({{0.0, 3.0}})};
   const std::vector<MovingBox> boxes{BoxAt(reference.path, 100.0, 9.0),
                                      BoxAt(reference.path, 60.0, 0.0)};
-  const auto met = FirstEncounter(SeedCar(), reference, 30.0, boxes, 0.5, 12.0);
+  const auto met = PredictConflict(ReferenceCar(), reference, 30.0, boxes, 0.5, 12.0);
   ASSERT_TRUE(met);
   EXPECT_EQ(met->obstacle, 1U);
   // Looked at every 0.1 s, that is 0.3 m; a centimeter too near is near enough.
@@ -78,29 +78,29 @@ TEST(FirstEncounter, WithWhatStandsIsWhenTheFrontGetsNear) {
   EXPECT_GE(met->station, station);
   EXPECT_LE(met->station, station + 0.31);
   EXPECT_NEAR(met->time, (met->station - 30.0) / 3.0, Tolerance(1e-9));
-  EXPECT_FALSE(FirstEncounter(SeedCar(), reference, 30.0, boxes, 0.5, 8.0));
+  EXPECT_FALSE(PredictConflict(ReferenceCar(), reference, 30.0, boxes, 0.5, 8.0));
 }
 
-TEST(FirstEncounter, ReckonsWithWhatMoves) {
+TEST(PredictConflict, ReckonsWithWhatMoves) {
   const Reference reference{Path({0.0, 0.0, 0.0}, {{150.0, 0.0}}), SpeedProfile({{0.0, 3.0}})};
   // Crosses from the right at 1 m/s, over the path 8 s from now, where the car then is.
   std::vector<MovingBox> boxes{BoxAt(reference.path, 30.0 + 24.0, -8.0, 1.0, 1.0)};
   boxes[0].velocity = {0.0, 1.0};
-  EXPECT_TRUE(FirstEncounter(SeedCar(), reference, 30.0, boxes, 0.3, 12.0));
+  EXPECT_TRUE(PredictConflict(ReferenceCar(), reference, 30.0, boxes, 0.3, 12.0));
   // 5 s earlier or later it does no harm.
   for (const double shift : {-5.0, 5.0}) {
     std::vector<MovingBox> other = boxes;
-    other[0].box.centre.y += shift;
-    EXPECT_FALSE(FirstEncounter(SeedCar(), reference, 30.0, other, 0.3, 12.0)) << shift;
+    other[0].box.center.y += shift;
+    EXPECT_FALSE(PredictConflict(ReferenceCar(), reference, 30.0, other, 0.3, 12.0)) << shift;
   }
 }
 
-TEST(FirstEncounter, OfACarThatStandsIsWithWhatComes) {
+TEST(PredictConflict, OfACarThatStandsIsWithWhatComes) {
   Reference reference{Path({0.0, 0.0, 0.0}, {{30.0, 0.0}}), StopAtEnd(30.0, 3.0, kSpeed)};
   std::vector<MovingBox> boxes{BoxAt(reference.path, 50.0, 0.0)};
-  EXPECT_FALSE(FirstEncounter(SeedCar(), reference, 30.0, boxes, 0.5, 12.0));
+  EXPECT_FALSE(PredictConflict(ReferenceCar(), reference, 30.0, boxes, 0.5, 12.0));
   boxes[0].velocity = {-2.0, 0.0};
-  const auto met = FirstEncounter(SeedCar(), reference, 30.0, boxes, 0.5, 12.0);
+  const auto met = PredictConflict(ReferenceCar(), reference, 30.0, boxes, 0.5, 12.0);
   ASSERT_TRUE(met);
   EXPECT_NEAR(met->time, (49.0 - 30.0 - kFront - 0.5) / 2.0, Tolerance(0.1));
 }
@@ -108,30 +108,30 @@ TEST(FirstEncounter, OfACarThatStandsIsWithWhatComes) {
 TEST(StandsInTurn, AsksForTheBendBesideIt) {
   const Path path({0.0, 0.0, 0.0}, {{40.0, 0.0}, {15.0, 0.1}, {40.0, 0.0}});
   const auto box = [&](double s) { return BoxAt(path, s, 0.0).box; };
-  EXPECT_FALSE(StandsInTurn(SeedCar(), path, 0.0, box(20.0), 1.0));
-  EXPECT_TRUE(StandsInTurn(SeedCar(), path, 0.0, box(47.0), 1.0));
-  EXPECT_FALSE(StandsInTurn(SeedCar(), path, 0.0, box(80.0), 1.0));
-  EXPECT_FALSE(StandsInTurn(SeedCar(), path, 60.0, box(47.0), 1.0));  // it is behind
+  EXPECT_FALSE(StandsInTurn(ReferenceCar(), path, 0.0, box(20.0), 1.0));
+  EXPECT_TRUE(StandsInTurn(ReferenceCar(), path, 0.0, box(47.0), 1.0));
+  EXPECT_FALSE(StandsInTurn(ReferenceCar(), path, 0.0, box(80.0), 1.0));
+  EXPECT_FALSE(StandsInTurn(ReferenceCar(), path, 60.0, box(47.0), 1.0));  // it is behind
 }
 
-TEST(FirstEncounter, ReckonsWithAnOffset) {
+TEST(PredictConflict, ReckonsWithAnOffset) {
   const Reference reference{Path({0.0, 0.0, 0.0}, {{150.0, 0.0}}), SpeedProfile({{0.0, 3.0}})};
   const std::vector<MovingBox> boxes{BoxAt(reference.path, 50.0, 3.0)};
-  EXPECT_FALSE(FirstEncounter(SeedCar(), reference, 30.0, boxes, 0.5, 12.0));
-  EXPECT_TRUE(FirstEncounter(SeedCar(), reference, 30.0, boxes, 0.5, 12.0, 1.2));
-  EXPECT_FALSE(FirstEncounter(SeedCar(), reference, 30.0, boxes, 0.5, 12.0, -1.2));
+  EXPECT_FALSE(PredictConflict(ReferenceCar(), reference, 30.0, boxes, 0.5, 12.0));
+  EXPECT_TRUE(PredictConflict(ReferenceCar(), reference, 30.0, boxes, 0.5, 12.0, 1.2));
+  EXPECT_FALSE(PredictConflict(ReferenceCar(), reference, 30.0, boxes, 0.5, 12.0, -1.2));
 }
 
-TEST(MayClear, CountsWhatIsOrComesInTheWay) {
+TEST(MightClear, CountsWhatIsOrComesInTheWay) {
   const Path path({0.0, 0.0, 0.0}, {{150.0, 0.0}});
   std::vector<MovingBox> boxes{BoxAt(path, 50.0, 0.0)};
-  EXPECT_FALSE(MayClear(SeedCar(), path, 30.0, boxes, 0.5));  // it stands
+  EXPECT_FALSE(MightClear(ReferenceCar(), path, 30.0, boxes, 0.5));  // it stands
   boxes[0].velocity = {0.0, 1.0};
-  EXPECT_TRUE(MayClear(SeedCar(), path, 30.0, boxes, 0.5));
-  boxes[0].box.centre.y = 20.0;  // and is gone
-  EXPECT_FALSE(MayClear(SeedCar(), path, 30.0, boxes, 0.5));
+  EXPECT_TRUE(MightClear(ReferenceCar(), path, 30.0, boxes, 0.5));
+  boxes[0].box.center.y = 20.0;  // and is gone
+  EXPECT_FALSE(MightClear(ReferenceCar(), path, 30.0, boxes, 0.5));
   boxes[0].velocity = {0.0, -1.0};  // or comes back
-  EXPECT_TRUE(MayClear(SeedCar(), path, 30.0, boxes, 0.5));
+  EXPECT_TRUE(MightClear(ReferenceCar(), path, 30.0, boxes, 0.5));
 }
 
 // --- what comes of it
@@ -162,7 +162,7 @@ TEST(Replan, LeadsPastAndBackOntoTheRoute) {
     EXPECT_NEAR(start.curvature, scene.request.car.curvature, Tolerance(1e-5));
     EXPECT_NEAR(next.plan.reference.speed.SpeedAt(0.0), scene.request.car.speed, Tolerance(1e-6));
     scene.Drive(next, 1.5);
-    nearest = std::min(nearest, Separation(OutlineAt(SeedCar(), scene.request.car.pose),
+    nearest = std::min(nearest, Separation(OutlineAt(ReferenceCar(), scene.request.car.pose),
                                            scene.request.obstacles[0].box));
     const Replanned now = scene.Go();
     if (now.kind == ReplanKind::kKeep) {
@@ -242,13 +242,13 @@ TEST(Replan, BrakesForWhatComesAsHardAsThatTakes) {
   scene.request.max_deceleration = 8.0;
   scene.Block(2.0, 2.0);
   // It crosses from the right: at its own speed the car would meet it, stopped it would not.
-  scene.request.obstacles[0].box.centre.y = -4.0;
+  scene.request.obstacles[0].box.center.y = -4.0;
   scene.request.obstacles[0].velocity = {0.0, 3.0};
   scene.options.settings.road = {1.0, 1.0};
   const Replanned next = scene.Go();
   if (next.kind == ReplanKind::kStop) {
-    EXPECT_FALSE(FirstEncounter(SeedCar(), next.plan.reference, 0.0, scene.request.obstacles,
-                                scene.options.settings.safe_distance, 12.0));
+    EXPECT_FALSE(PredictConflict(ReferenceCar(), next.plan.reference, 0.0, scene.request.obstacles,
+                                 scene.options.settings.safe_distance, 12.0));
     EXPECT_GE(next.plan.reference.speed.AccelerationAt(0.0), -8.0 - 1e-9);
   }
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/planning/replan/detour.h"
@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 
 PlanRequest To(std::vector<Vec2> waypoints, std::vector<OrientedBox> obstacles = {}) {
   PlanRequest request;
-  request.vehicle = SeedCar();
+  request.vehicle = ReferenceCar();
   request.waypoints = {{0.0, 0.0}};
   request.waypoints.insert(request.waypoints.end(), waypoints.begin(), waypoints.end());
   request.obstacles = std::move(obstacles);
@@ -287,7 +287,7 @@ TEST(TimeLimit, IsKeptByTheCallersClockAlone) {
 
 TEST(PartialPlan, IsNoDetour) {
   const SpeedLimits speed{3.0, 1.0, 2.0};
-  DetourRequest request{.vehicle = SeedCar(), .speed = speed};
+  DetourRequest request{.vehicle = ReferenceCar(), .speed = speed};
   const Path path({0.0, 0.0, 0.0}, {{120.0, 0.0}});
   request.route.reference = {path, StopAtEnd(120.0, 3.0, speed)};
   request.route.schedule_speed = request.route.reference.speed;

@@ -10,7 +10,7 @@
 
 #include "tests/geometry/random.h"
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
@@ -26,7 +26,7 @@ using ::testing::HasSubstr;
 
 PlanRequest Across(std::vector<OrientedBox> obstacles) {
   PlanRequest request;
-  request.vehicle = SeedCar();
+  request.vehicle = ReferenceCar();
   request.waypoints = {{0.0, 0.0}, {50.0, 0.0}};
   request.obstacles = std::move(obstacles);
   request.speed = {.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
@@ -133,7 +133,7 @@ TEST(RrtPlanner, GivesItsTree) {
   ASSERT_EQ(legs.size(), 2U);
   ASSERT_EQ(plan.tree.size(),
             legs[0]["nodes"].get<std::size_t>() + legs[1]["nodes"].get<std::size_t>());
-  const double inflation = 0.5 * SeedCar().width + 0.3 + 1.0;
+  const double inflation = 0.5 * ReferenceCar().width + 0.3 + 1.0;
   for (std::size_t i = 0; i < plan.tree.size(); ++i) {
     const TreeNode& node = plan.tree[i];
     const TreeNode& parent = plan.tree.at(node.parent);
@@ -209,10 +209,10 @@ TEST(RrtPlanner, IsClearOrSaysWhyNotInRandomFields) {
     const Path& path = plan.reference.path;
     for (double s = 0.0; s <= path.length(); s += 0.05) {
       const PathPoint point = path.At(s);
-      ASSERT_LE(std::abs(point.curvature), 1.0 / SeedCar().min_turning_radius() + 1e-12);
+      ASSERT_LE(std::abs(point.curvature), 1.0 / ReferenceCar().min_turning_radius() + 1e-12);
       for (const OrientedBox& box : request.obstacles) {
         // Between its own checks the outline's farthest corner may come 1.8 cm nearer.
-        ASSERT_GE(Separation(OutlineAt(SeedCar(), point.pose), box), 0.3 - Tolerance(0.018));
+        ASSERT_GE(Separation(OutlineAt(ReferenceCar(), point.pose), box), 0.3 - Tolerance(0.018));
       }
     }
   }

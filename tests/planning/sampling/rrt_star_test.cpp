@@ -88,7 +88,7 @@ double ShortestWay(const RrtStarProblem& problem) {
       for (int k = 0; k < 45; ++k) {
         // The first corner lies ahead on the left.
         const double yaw =
-            box.centre.yaw + static_cast<double>(i) * kPi / 2.0 + (2 * k + 1) * kHalfStep;
+            box.center.yaw + static_cast<double>(i) * kPi / 2.0 + (2 * k + 1) * kHalfStep;
         const Vec2 p = corners[i] + radius * Direction(yaw);
         if ((p.array() >= problem.low.array()).all() && (p.array() <= problem.high.array()).all() &&
             surroundings.IsFree(p)) {

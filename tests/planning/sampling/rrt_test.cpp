@@ -29,7 +29,7 @@ bool IsFreeDensely(const Vec2& from, const Vec2& to, const RrtProblem& problem) 
   for (int i = 0; i <= steps; ++i) {
     const Vec2 p = from + (to - from) * (static_cast<double>(i) / steps);
     for (const OrientedBox& box : problem.obstacles) {
-      const Vec2 own = ToLocal(box.centre, p);
+      const Vec2 own = ToLocal(box.center, p);
       const double dx = std::max(std::abs(own.x()) - 0.5 * box.length, 0.0);
       const double dy = std::max(std::abs(own.y()) - 0.5 * box.width, 0.0);
       if (std::hypot(dx, dy) <= problem.inflation) {

@@ -23,19 +23,19 @@
 namespace trackbed {
 
 /// "inner" or "outer".
-const char* ToString(Ring ring);
+const char* ToString(PassingSide ring);
 
-enum class RingChoice {
+enum class PassingSideChoice {
   kAuto,   ///< that of the RRT* path; the other one if it cannot be had
   kInner,  ///< this one alone
   kOuter,
 };
 
 struct BezierAvoidanceOptions {
-  double safe_distance = 1.5;           ///< SD [m], >= 0
-  double delay = 0.9;                   ///< t_d [s], >= 0: until then the old plan is driven
-  RingChoice ring = RingChoice::kAuto;  ///< on a straight, inner means left
-  double min_speed = 0.5;               ///< the car is not made slower than this to get past [m/s]
+  double safe_distance = 1.5;  ///< SD [m], >= 0
+  double delay = 0.9;          ///< t_d [s], >= 0: until then the old plan is driven
+  PassingSideChoice ring = PassingSideChoice::kAuto;  ///< on a straight, inner means left
+  double min_speed = 0.5;  ///< the car is not made slower than this to get past [m/s]
   double max_lateral_acceleration = 3.0;  ///< of the curve [m/s^2]
   double steering_rate_share = 0.9;       ///< of the car's steering rate that the curve may ask for
   double comfortable_rate_share = 0.5;    ///< curves that ask for no more are preferred
@@ -54,7 +54,7 @@ void Visit(KeyVisitor& keys, BezierAvoidanceOptions& options);
 struct ListingAvoidanceOptions {
   double safe_distance = 1.5;          ///< SD [m], >= 0
   double delay = 0.9;                  ///< t_d [s], >= 0: until then the old plan is driven
-  double inner_width = 1.0;            ///< free toward the turn's centre [m], >= 0
+  double inner_width = 1.0;            ///< free toward the turn's center [m], >= 0
   double outer_width = 0.0;            ///< free on the other side [m], >= 0; the wider one is taken
   LiteralTurn literal = kLiteralTurn;  ///< what is followed to the letter
 };
@@ -71,7 +71,7 @@ struct AvoiderEntry {
 };
 
 /// Every local planner there is.
-const std::vector<AvoiderEntry>& Avoiders();
+const std::vector<AvoiderEntry>& LocalPlanners();
 
 /// What the local planner is told.
 struct AvoidanceRequest {

@@ -25,7 +25,7 @@
 namespace trackbed {
 
 /// The side of the obstacle to pass on: toward the center of the turn, or away from it.
-enum class Ring { kInner, kOuter };
+enum class PassingSide { kInner, kOuter };
 
 enum class TurnSide { kLeft, kRight };
 
@@ -63,8 +63,8 @@ struct TurnManoeuvre {
   LiteralTurn literal;
 
   /// The side with more room; the inner one if there is the same on both.
-  [[nodiscard]] Ring ring() const {
-    return inner_width >= outer_width ? Ring::kInner : Ring::kOuter;
+  [[nodiscard]] PassingSide ring() const {
+    return inner_width >= outer_width ? PassingSide::kInner : PassingSide::kOuter;
   }
   /// S [m].
   [[nodiscard]] double straight() const { return radius + speed * delay; }
@@ -102,7 +102,7 @@ struct TurnLayout {
 /// outer_width) on the outside, with need = 2 SD + 2 IS_k + 2 w_a, IS_k being half the obstacle's
 /// diagonal and w_a the car's width. The factor makes up for a curve that only leans toward its
 /// control point.
-double SafeRadius(const TurnManoeuvre& manoeuvre, double vehicle_width, Ring ring);
+double SafeRadius(const TurnManoeuvre& manoeuvre, double vehicle_width, PassingSide ring);
 
 /// Arc, obstacle and safe point. Errors: InternalError for a number out of the range that
 /// TurnManoeuvre gives it, or not finite.

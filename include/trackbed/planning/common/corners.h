@@ -5,7 +5,7 @@
 
 #include "trackbed/path/path.h"
 #include "trackbed/path/reference.h"
-#include "trackbed/planning/common/clear_way.h"
+#include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/common/plan_status.h"
 #include "trackbed/vehicle/params.h"
 
@@ -63,9 +63,9 @@ RoundCorner CornerAt(const VehicleParams& vehicle, double heading_change, double
 /// one at which the outline is too near to a box, more slowly, which leads nearer to the corner.
 /// Guarantees when ok: the path starts at the first point along the first leg and ends at the last,
 /// continuous in curvature; no curvature above the limit; the steering rate kept at the caps; the
-/// outline free (ClearWay). Else the reason names the corner.
+/// outline free (CollisionChecker). Else the reason names the corner.
 RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2>& polyline,
-                            const CornerLimits& limits, const ClearWay& clear);
+                            const CornerLimits& limits, const CollisionChecker& clear);
 
 /// Leaves out the points at which it goes straight on.
 std::vector<Vec2> WithoutStraightOn(const std::vector<Vec2>& polyline);

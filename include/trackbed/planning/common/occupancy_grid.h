@@ -38,14 +38,14 @@ GridArea AreaAround(const Pose2& X_WF, const std::vector<Vec2>& points_W,
                     const std::vector<OrientedBox>& boxes_W, double margin);
 
 /// More cells than this are none to search.
-inline constexpr double kMostCells = 2e7;
+inline constexpr double kMaxCells = 2e7;
 
 /// How many cells cover an area.
 double CellsIn(const GridArea& area, double cell);
 
 /// A grid over an area of the frame X_WF, one cell's middle on the frame's origin. A cell is
 /// occupied when its middle is not further than `inflation` [m] from a box. Cost: the cells of the
-/// inflated boxes. InternalError for more than kMostCells.
+/// inflated boxes. InternalError for more than kMaxCells.
 OccupancyGrid RasterOf(const Pose2& X_WF, const GridArea& area, double cell,
                        const std::vector<OrientedBox>& boxes_W, double inflation);
 

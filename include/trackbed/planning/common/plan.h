@@ -78,11 +78,11 @@ struct Plan {
   /// Why the path leads only part of the way, for people, when a search for more of it was ended;
   /// empty when it leads to the goal. Whatever plans again on the way leads no further either.
   std::string partial;
-  std::vector<Gate> gates;         ///< that it leads through
-  std::vector<LoneTurn> turns;     ///< whose cost to an open-loop drive can be told
-  std::vector<std::string> notes;  ///< what to know of it, for people: that it was slowed down
-  nlohmann::json diagnostics;      ///< the method's own findings, as in plan.json
-  std::vector<TreeNode> tree;      ///< of every RRT or RRT* that was used, one after the other
+  std::vector<Gate> gates;          ///< that it leads through
+  std::vector<IsolatedTurn> turns;  ///< whose cost to an open-loop drive can be told
+  std::vector<std::string> notes;   ///< what to know of it, for people: that it was slowed down
+  nlohmann::json diagnostics;       ///< the method's own findings, as in plan.json
+  std::vector<TreeNode> tree;       ///< of every RRT or RRT* that was used, one after the other
 
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }
 };

@@ -15,7 +15,8 @@ std::vector<SteeringSchedule::Knot> Moved(const SteeringSchedule& schedule, Stat
 std::vector<SpeedCap> Moved(const std::vector<SpeedCap>& caps, Stations within, double shift);
 
 /// The turns that lie within as far as they are looked at, from the first ramp to their middle.
-std::vector<LoneTurn> Moved(const std::vector<LoneTurn>& turns, Stations within, double shift);
+std::vector<IsolatedTurn> Moved(const std::vector<IsolatedTurn>& turns, Stations within,
+                                double shift);
 
 /// The segments between two stations, the straight continuations before the start and beyond the
 /// end included: a car that was thrown off the ends of its path has a way to go on. None where

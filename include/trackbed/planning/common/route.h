@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "trackbed/options/key_visitor.h"
-#include "trackbed/planning/common/clear_way.h"
+#include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/common/corners.h"
 #include "trackbed/planning/common/lead_in.h"
 #include "trackbed/planning/common/plan.h"
@@ -31,13 +31,13 @@ Plan CheckRoute(const PlanRequest& request);
 Plan CheckRadius(const VehicleParams& vehicle, const std::optional<double>& radius);
 
 /// Whether the car can stand at every stop.
-Plan CheckStops(const std::vector<Pose2>& stops, const ClearWay& clear);
+Plan CheckStops(const std::vector<Pose2>& stops, const CollisionChecker& clear);
 
 /// The radius to plan with [m]: the one asked for, or a tenth more than the car's smallest.
 double RadiusFor(const VehicleParams& vehicle, const std::optional<double>& radius);
 
 /// Whether segments that begin at `pose` are clear.
-bool IsFree(const ClearWay& clear, const Pose2& pose, const std::vector<Segment>& segments);
+bool IsFree(const CollisionChecker& clear, const Pose2& pose, const std::vector<Segment>& segments);
 
 /// Where a rolling car's curves begin: after it has slowed down for the first step of curvature.
 LeadIn LeadInForCurves(const PlanRequest& request, double radius, double min_speed);

@@ -7,7 +7,7 @@
 namespace trackbed {
 
 /// A turn that stands alone: its wheels are straight before, and reach their angle by the middle.
-struct LoneTurn {
+struct IsolatedTurn {
   int waypoint = 0;       ///< the corner's index in the route
   double from = 0.0;      ///< station where the wheels begin to turn [m]
   double middle = 0.0;    ///< station of the middle of the arc [m]
@@ -24,14 +24,14 @@ struct TurnError {
 
 /// The error of a car that drives from `X_W_from` to `X_W_middle`, while the path leads from its
 /// station `from` to `middle`.
-TurnError ErrorInTurn(const Path& path, const LoneTurn& turn, const Pose2& X_W_from,
+TurnError ErrorInTurn(const Path& path, const IsolatedTurn& turn, const Pose2& X_W_from,
                       const Pose2& X_W_middle);
 
 /// That error of the rate-limited kinematic car, exactly: a ramp from `from` on, then the arc. With
 /// S = v delta/omega and the wheels `lag` seconds behind their actuator, the heading deficit is
 /// kappa S/2 - (v/(L omega)) (-ln cos delta) + kappa v lag for a ramp centered on the tangent
 /// point.
-TurnError PredictTurn(const VehicleParams& vehicle, const Path& path, const LoneTurn& turn,
+TurnError PredictTurn(const VehicleParams& vehicle, const Path& path, const IsolatedTurn& turn,
                       double lag);
 
 }  // namespace trackbed

@@ -40,7 +40,7 @@ enum class RadiusConstraint {
 };
 
 /// What to do about a turn for which C.40 has no radius at the mission's speed.
-enum class WithoutRoom {
+enum class InfeasibleTurnPolicy {
   /// Take it as fast as C.40 allows. Below `min_speed`: at that, if half a ramp, which is what lies
   /// on the leg, fits into half of it besides the arc's tangent; else refuse.
   kSlowDown,
@@ -82,7 +82,7 @@ struct FilletOptions {
   /// car leaves its straight legs on a circle of radius L/tan(d_0) unless it is 0.
   double neutral_steering = 0.0;
   double max_radius = 154.0;  ///< upper bound of the search [m]; listing F.1's, one degree
-  WithoutRoom without_room = WithoutRoom::kSlowDown;
+  InfeasibleTurnPolicy without_room = InfeasibleTurnPolicy::kSlowDown;
   double min_speed = 0.5;  ///< no turn is taken more slowly [m/s]
   RadiusObjective objective = RadiusObjective::kLargest;
   SearchOptions search;               ///< of every objective but kLargest
@@ -128,7 +128,7 @@ struct FilletTurn {
   std::string note;                  ///< why not at the mission's speed or under C.40; else empty
   std::optional<TurnSearch> search;  ///< kLiteral and kTurnLocal
   double tangent_length = 0.0;       ///< K [m]
-  Vec2 centre{0.0, 0.0};             ///< C (C.19)
+  Vec2 center{0.0, 0.0};             ///< C (C.19)
   Vec2 arc_start{0.0, 0.0};          ///< H_i (C.14)
   Vec2 arc_end{0.0, 0.0};            ///< H_{i+1} (C.15)
   double arc_start_s = 0.0;          ///< station of H_i [m]
@@ -182,7 +182,7 @@ std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double int
 std::optional<RadiusInterval> HalfLegRadii(double interior_angle, double shorter_leg,
                                            RadiusInterval bounds);
 
-inline constexpr std::size_t kFewestFilletWaypoints = 3;
+inline constexpr std::size_t kMinFilletWaypoints = 3;
 
 /// Plans a route of N >= 3 waypoints (collinear ones make no turn) for a car that keeps `speed`,
 /// but for the turns that are slowed down. `seed` is of the search's random numbers.

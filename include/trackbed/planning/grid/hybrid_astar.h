@@ -60,10 +60,10 @@ struct HybridAStarResult {
 
 /// Guarantees when ok: leads from the start to the goal pose within 1e-9 m and rad (the last leg is
 /// a Reeds-Shepp curve, forwards alone a Dubins one); no curvature above 1/r; the outline free
-/// (ClearWay); the same for the same input. Not the cheapest way there is, but the cheapest of
-/// those that the cells tell apart and a last curve ends. When the budget ends, the best found by
-/// then. kNoPath when every pose has been looked at. InternalError for options out of range. Cost:
-/// about 10 us an expansion.
+/// (CollisionChecker); the same for the same input. Not the cheapest way there is, but the cheapest
+/// of those that the cells tell apart and a last curve ends. When the budget ends, the best found
+/// by then. kNoPath when every pose has been looked at. InternalError for options out of range.
+/// Cost: about 10 us an expansion.
 HybridAStarResult SearchHybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
                                     const HybridAStarOptions& options);
 

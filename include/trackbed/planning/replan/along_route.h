@@ -62,26 +62,26 @@ struct AlongRequest {
   std::vector<MovingBox> obstacles;
 };
 
-enum class AlongKind {
+enum class ManeuverType {
   kNone,      ///< nothing was found
-  kOn,        ///< on along the route, past what is in the way, or to its end
+  kProceed,   ///< on along the route, past what is in the way, or to its end
   kFollow,    ///< behind something that moves
   kApproach,  ///< on, but not past what stands ahead: the next time it may be kStop
   kStop,      ///< to rest behind what stands ahead
 };
 
 /// "none", "on", "follow", "approach", "stop".
-const char* ToString(AlongKind kind);
+const char* ToString(ManeuverType kind);
 
 struct AlongPlan {
-  AlongKind kind = AlongKind::kNone;
+  ManeuverType kind = ManeuverType::kNone;
   FrenetPlan found;  ///< what the method says
   /// The motion, and after it braking at its last offset until the car stands: the car never
   /// depends on finding another one. Empty unless something was found.
   std::vector<TrajectoryPoint> points;
   bool to_goal = false;  ///< it ends at the end of the route
 
-  [[nodiscard]] bool ok() const { return kind != AlongKind::kNone; }
+  [[nodiscard]] bool ok() const { return kind != ManeuverType::kNone; }
 };
 
 /// What is nearest ahead in the car's way along the path: an obstacle whose outline, seen from the
@@ -107,7 +107,7 @@ std::optional<Leader> LeaderIn(const Path& path, const AlongRequest& request,
 /// limits but for the steering rate, and the safe distance too, every 0.1 s. Same input, same
 /// bytes. Does not change route or frame. Errors: InternalError without speed factors, for a wanted
 /// speed or gaps out of range, and those of the method. Cost: a few times that of the method.
-AlongPlan PlanAlong(const RouteFrame& frame, const AlongRequest& request,
-                    const AlongSettings& settings, const AlongOptions& options);
+AlongPlan PlanAlongRoute(const RouteFrame& frame, const AlongRequest& request,
+                         const AlongSettings& settings, const AlongOptions& options);
 
 }  // namespace trackbed

@@ -68,7 +68,7 @@ struct Replanned {
 };
 
 /// When the way that is driven is first too close to a known obstacle, if it is within the look.
-struct Encounter {
+struct PredictedConflict {
   double time = 0.0;     ///< from now [s]
   double station = 0.0;  ///< of the plan [m]
   std::size_t obstacle = 0;
@@ -76,9 +76,11 @@ struct Encounter {
 
 /// Looks every 0.1 s along the plan's own speeds from `station` on, for a car that keeps `offset`
 /// [m] left of it, and halves that time down to 0.1 ms for the moment when it began.
-std::optional<Encounter> FirstEncounter(const VehicleParams& vehicle, const Reference& reference,
-                                        double station, const std::vector<MovingBox>& obstacles,
-                                        double distance, double look_ahead, double offset = 0.0);
+std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
+                                                 const Reference& reference, double station,
+                                                 const std::vector<MovingBox>& obstacles,
+                                                 double distance, double look_ahead,
+                                                 double offset = 0.0);
 
 /// Whether an obstacle stands in a turn: where it is closer than `distance` to the path, from
 /// `station` on, that is bent.
@@ -87,8 +89,8 @@ bool StandsInTurn(const VehicleParams& vehicle, const Path& path, double station
 
 /// Whether waiting may help: something that moves is in the way of the next 30 m of a path, closer
 /// than `distance`, or will be within a minute.
-bool MayClear(const VehicleParams& vehicle, const Path& path, double station,
-              const std::vector<MovingBox>& obstacles, double distance);
+bool MightClear(const VehicleParams& vehicle, const Path& path, double station,
+                const std::vector<MovingBox>& obstacles, double distance);
 
 /// Keeps a route or a motion to the goal that is clear; else, in this order, the rest of the route
 /// if the car is back on it and it is clear, a motion that leads on, a detour that the comparator

@@ -1,4 +1,4 @@
-#include "trackbed/planning/common/clear_way.h"
+#include "trackbed/planning/common/collision_checker.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "tests/planning/poses.h"
 #include "tests/tolerance.h"
-#include "tests/vehicle/seed_car.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/world/world.h"
 
 namespace trackbed {
@@ -21,25 +21,25 @@ std::vector<OrientedBox> RandomBoxes(Random& random, int count, double reach) {
   return boxes;
 }
 
-TEST(ClearWay, TellsTheRoomOfEveryPose) {
+TEST(CollisionChecker, TellsTheRoomOfEveryPose) {
   Random random(1);
   const std::vector<OrientedBox> boxes = RandomBoxes(random, 30, 60.0);
-  const ClearWay clear(SeedCar(), boxes, 0.4);
+  const CollisionChecker clear(ReferenceCar(), boxes, 0.4);
   for (int i = 0; i < 5000; ++i) {
     const Pose2 pose = RandomPose(random, 80.0);
-    double nearest = ClearWay::kFarthest;
+    double nearest = CollisionChecker::kFarthest;
     for (const OrientedBox& box : boxes) {
-      nearest = std::min(nearest, Separation(OutlineAt(SeedCar(), pose), box) - 0.4);
+      nearest = std::min(nearest, Separation(OutlineAt(ReferenceCar(), pose), box) - 0.4);
     }
-    ASSERT_NEAR(clear.RoomAt(pose), nearest, Tolerance(1e-12));
+    ASSERT_NEAR(clear.Clearance(pose), nearest, Tolerance(1e-12));
   }
 }
 
-TEST(ClearWay, FindsTheFirstPlaceThatIsTooNear) {
+TEST(CollisionChecker, FindsTheFirstPlaceThatIsTooNear) {
   Random random(2);
   int blocked_ones = 0;
   for (int i = 0; i < 200; ++i) {
-    const ClearWay clear(SeedCar(), RandomBoxes(random, 6, 25.0), 0.2);
+    const CollisionChecker clear(ReferenceCar(), RandomBoxes(random, 6, 25.0), 0.2);
     const Path path(RandomPose(random, 10.0), {{.length = random.Uniform(1.0, 20.0),
                                                 .curvature = random.Uniform(-0.19, 0.19),
                                                 .direction = i % 2 == 0 ? 1 : -1},
@@ -50,10 +50,10 @@ TEST(ClearWay, FindsTheFirstPlaceThatIsTooNear) {
     const double missed = 0.01 * 1.75;
     const double end = blocked ? *blocked - 0.02 : path.length();
     for (double s = 0.0; s < end; s += 0.005) {
-      ASSERT_GE(clear.RoomAt(path.At(s).pose), -Tolerance(missed)) << s << " of " << end;
+      ASSERT_GE(clear.Clearance(path.At(s).pose), -Tolerance(missed)) << s << " of " << end;
     }
     if (blocked) {
-      EXPECT_LT(clear.RoomAt(path.At(*blocked).pose), 0.0);
+      EXPECT_LT(clear.Clearance(path.At(*blocked).pose), 0.0);
     }
     const Segment& first = path.segments().front();
     EXPECT_EQ(clear.IsFree(path.At(0.0).pose, first), !blocked || *blocked > first.length);
@@ -62,9 +62,9 @@ TEST(ClearWay, FindsTheFirstPlaceThatIsTooNear) {
   EXPECT_LT(blocked_ones, 190);
 }
 
-TEST(ClearWay, IsFreeWithoutBoxes) {
-  const ClearWay clear(SeedCar(), {}, 0.5);
-  EXPECT_EQ(clear.RoomAt({}), ClearWay::kFarthest);
+TEST(CollisionChecker, IsFreeWithoutBoxes) {
+  const CollisionChecker clear(ReferenceCar(), {}, 0.5);
+  EXPECT_EQ(clear.Clearance({}), CollisionChecker::kFarthest);
   EXPECT_FALSE(clear.FirstBlocked(Path({}, {{.length = 100.0}})));
 }
 

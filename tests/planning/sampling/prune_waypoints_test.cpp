@@ -1,4 +1,4 @@
-#include "src/planning/sampling/few_corners.h"
+#include "src/planning/sampling/prune_waypoints.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ struct Case {
   bool first_leg = true;
   bool last_leg = true;
 
-  [[nodiscard]] FewCornersProblem problem() const {
+  [[nodiscard]] PruningProblem problem() const {
     return {.before = before,
             .first_leg = first_leg,
             .last_leg = last_leg,
@@ -122,7 +122,7 @@ TEST(FewCorners, AreTheCheapestOfAllChoices) {
   int fewer = 0;
   for (int i = 0; i < 500; ++i) {
     const Case one = RandomCase(random);
-    const std::vector<Vec2> few = WithFewCorners(one.way, one.problem());
+    const std::vector<Vec2> few = PruneWaypoints(one.way, one.problem());
     ASSERT_EQ(few.front(), one.way.front());
     ASSERT_EQ(few.back(), one.way.back());
     // Sums of up to 1e7 m, in another order.
@@ -134,9 +134,9 @@ TEST(FewCorners, AreTheCheapestOfAllChoices) {
 
 TEST(FewCorners, OfAStraightWayAreNone) {
   const Case one{.way = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {9, 0}}, .corner_cost = 1.0};
-  EXPECT_EQ(WithFewCorners(one.way, one.problem()), (std::vector<Vec2>{{0, 0}, {9, 0}}));
+  EXPECT_EQ(PruneWaypoints(one.way, one.problem()), (std::vector<Vec2>{{0, 0}, {9, 0}}));
   const Case two{.way = {{0, 0}, {1, 5}}};
-  EXPECT_EQ(WithFewCorners(two.way, two.problem()), two.way);
+  EXPECT_EQ(PruneWaypoints(two.way, two.problem()), two.way);
 }
 
 TEST(InPieces, AreShortAndTheSameWay) {

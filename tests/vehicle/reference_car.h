@@ -6,9 +6,9 @@ namespace trackbed {
 
 /// The car of Skackauskas et al. 2017 and of listings F.1 and F.2 of Skackauskas, dissertation,
 /// written by hand so that the upper modules can be tested without a compiled model.
-inline VehicleParams SeedCar() {
+inline VehicleParams ReferenceCar() {
   VehicleParams car;
-  car.name = "seed_car";
+  car.name = "reference_car";
   car.wheelbase = 2.7;
   car.cg_to_rear = 1.4;
   car.track_front = 1.505;

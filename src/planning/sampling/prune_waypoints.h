@@ -11,7 +11,7 @@
 namespace trackbed {
 
 /// Where the way stands in the whole polyline, and what it costs.
-struct FewCornersProblem {
+struct PruningProblem {
   std::optional<Vec2> before;  ///< the polyline's point before the way's first one
   bool first_leg = true;       ///< it is the polyline's first
   bool last_leg = true;        ///< the way's end is the polyline's
@@ -27,7 +27,7 @@ struct FewCornersProblem {
 /// least length, less wind score, plus corner cost per line; corners for which their lines leave no
 /// room, as RoundCorners shares it, are taken only where there is no other way. The way's own lines
 /// are taken to be free. Cost O(n^3) for n points and O(n^2 x obstacles).
-std::vector<Vec2> WithFewCorners(const std::vector<Vec2>& way, const FewCornersProblem& problem);
+std::vector<Vec2> PruneWaypoints(const std::vector<Vec2>& way, const PruningProblem& problem);
 
 /// The same way in pieces short enough for the wind to be the same all along each.
 std::vector<Vec2> InPieces(const std::vector<Vec2>& way);

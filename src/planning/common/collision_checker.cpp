@@ -1,4 +1,4 @@
-#include "trackbed/planning/common/clear_way.h"
+#include "trackbed/planning/common/collision_checker.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,8 @@ double CircleAround(const OrientedBox& box) {
 
 }  // namespace
 
-ClearWay::ClearWay(const VehicleParams& vehicle, std::vector<OrientedBox> boxes, double distance)
+CollisionChecker::CollisionChecker(const VehicleParams& vehicle, std::vector<OrientedBox> boxes,
+                                   double distance)
     : vehicle_(vehicle),
       boxes_(std::move(boxes)),
       distance_(distance),
@@ -31,25 +32,25 @@ ClearWay::ClearWay(const VehicleParams& vehicle, std::vector<OrientedBox> boxes,
   if (boxes_.empty()) {
     return;
   }
-  low_ = boxes_.front().centre.position();
+  low_ = boxes_.front().center.position();
   Vec2 high = low_;
   const auto reach_of = [&](std::size_t i) { return radii_[i] + radius_ + distance_ + kFarthest; };
   for (const OrientedBox& box : boxes_) {
     radii_.push_back(CircleAround(box));
     const Vec2 reach = Vec2::Constant(reach_of(radii_.size() - 1));
-    low_ = low_.cwiseMin(box.centre.position() - reach);
-    high = high.cwiseMax(box.centre.position() + reach);
+    low_ = low_.cwiseMin(box.center.position() - reach);
+    high = high.cwiseMax(box.center.position() + reach);
   }
   columns_ = static_cast<int>((high.x() - low_.x()) / kBin) + 1;
   rows_ = static_cast<int>((high.y() - low_.y()) / kBin) + 1;
   bins_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
-    const Vec2 centre = boxes_[i].centre.position();
+    const Vec2 center = boxes_[i].center.position();
     const auto first = [&](int axis) {
-      return static_cast<int>((centre[axis] - reach_of(i) - low_[axis]) / kBin);
+      return static_cast<int>((center[axis] - reach_of(i) - low_[axis]) / kBin);
     };
     const auto last = [&](int axis) {
-      return static_cast<int>((centre[axis] + reach_of(i) - low_[axis]) / kBin);
+      return static_cast<int>((center[axis] + reach_of(i) - low_[axis]) / kBin);
     };
     for (int row = first(1); row <= std::min(last(1), rows_ - 1); ++row) {
       for (int column = first(0); column <= std::min(last(0), columns_ - 1); ++column) {
@@ -59,7 +60,7 @@ ClearWay::ClearWay(const VehicleParams& vehicle, std::vector<OrientedBox> boxes,
   }
 }
 
-const std::vector<int>* ClearWay::Near(const Vec2& middle) const {
+const std::vector<int>* CollisionChecker::Near(const Vec2& middle) const {
   const Vec2 bin = (middle - low_) / kBin;
   if (bin.x() < 0.0 || bin.y() < 0.0 || bin.x() >= columns_ || bin.y() >= rows_) {
     return nullptr;
@@ -68,7 +69,7 @@ const std::vector<int>* ClearWay::Near(const Vec2& middle) const {
                                          static_cast<int>(bin.x()))];
 }
 
-double ClearWay::RoomAt(const Pose2& pose) const {
+double CollisionChecker::Clearance(const Pose2& pose) const {
   const Vec2 middle = pose.position() + middle_ * Direction(pose.yaw);
   const std::vector<int>* near = Near(middle);
   double room = kFarthest;
@@ -79,14 +80,14 @@ double ClearWay::RoomAt(const Pose2& pose) const {
   for (const int i : *near) {
     const OrientedBox& box = boxes_[static_cast<std::size_t>(i)];
     const double circles = radii_[static_cast<std::size_t>(i)] + radius_ + distance_ + room;
-    if ((box.centre.position() - middle).squaredNorm() < circles * circles) {
+    if ((box.center.position() - middle).squaredNorm() < circles * circles) {
       room = std::min(room, Separation(outline, box) - distance_);
     }
   }
   return room;
 }
 
-std::optional<double> ClearWay::FirstBlocked(const Path& path) const {
+std::optional<double> CollisionChecker::FirstBlocked(const Path& path) const {
   double sharpest = 0.0;
   for (const Segment& segment : path.segments()) {
     sharpest = std::max({sharpest, std::abs(segment.curvature),
@@ -95,7 +96,7 @@ std::optional<double> ClearWay::FirstBlocked(const Path& path) const {
   }
   const double moved = 1.0 + sharpest * reach_;  // by the outline, per meter of path
   for (double s = 0.0;;) {
-    const double room = RoomAt(path.At(s).pose);
+    const double room = Clearance(path.At(s).pose);
     if (room < 0.0) {
       return s;
     }
@@ -106,11 +107,11 @@ std::optional<double> ClearWay::FirstBlocked(const Path& path) const {
   }
 }
 
-bool ClearWay::IsFree(const Pose2& start, const Segment& segment) const {
+bool CollisionChecker::IsFree(const Pose2& start, const Segment& segment) const {
   const double moved = 1.0 + std::abs(segment.curvature) * reach_;
   for (double d = 0.0;;) {
     const double along = segment.direction * d;
-    const double room = RoomAt(MoveOnArc(start, along, segment.curvature * along));
+    const double room = Clearance(MoveOnArc(start, along, segment.curvature * along));
     if (room < 0.0) {
       return false;
     }

@@ -1,4 +1,4 @@
-#include "src/planning/sampling/few_corners.h"
+#include "src/planning/sampling/prune_waypoints.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,15 +11,15 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Of a corner that the car cannot drive [m].
 constexpr double kTooTight = 1e6;
 
-bool IsFree(const FewCornersProblem& problem, const Vec2& from, const Vec2& to) {
+bool IsFree(const PruningProblem& problem, const Vec2& from, const Vec2& to) {
   return std::all_of(
       problem.obstacles.begin(), problem.obstacles.end(),
       [&](const OrientedBox& box) { return Distance(from, to, box) > problem.inflation; });
 }
 
 /// What the corner at `at` costs. `all_in`, `all_out`: the whole of a leg may be used for it.
-double CornerCost(const FewCornersProblem& problem, const Vec2& from, const Vec2& at,
-                  const Vec2& to, bool all_in, bool all_out) {
+double CornerCost(const PruningProblem& problem, const Vec2& from, const Vec2& at, const Vec2& to,
+                  bool all_in, bool all_out) {
   const Vec2 in = at - from;
   const Vec2 out = to - at;
   const double room =
@@ -36,7 +36,7 @@ struct Line {
 
 }  // namespace
 
-std::vector<Vec2> WithFewCorners(const std::vector<Vec2>& way, const FewCornersProblem& problem) {
+std::vector<Vec2> PruneWaypoints(const std::vector<Vec2>& way, const PruningProblem& problem) {
   const std::size_t n = way.size();
   const bool windy = problem.wind.weight != 0.0 && !IsCalm(problem.wind.wind);
   std::vector<Line> lines(n * n);

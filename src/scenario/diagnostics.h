@@ -15,7 +15,7 @@
 namespace trackbed {
 
 /// What is found wrong between keys of a scenario, each with the key that it is said of.
-struct Complaints {
+struct Diagnostics {
   const Scenario& scenario;
   /// Whether the value of a key was read: what could not be is complained about already.
   const std::function<bool(const std::string& key)>& could_read;
@@ -43,14 +43,14 @@ struct Complaints {
     return fmt::format("{}", fmt::join(scenario.drive.plants, ", "));
   }
 
-  void Complain(std::string key, std::string message) {
+  void AddError(std::string key, std::string message) {
     found.emplace_back(std::move(key), std::move(message));
   }
 };
 
 /// Of the mission and its plan.
-void CheckMissionAndPlan(Complaints& c);
+void CheckMissionAndPlan(Diagnostics& c);
 /// Of what is expected of the drive.
-void CheckExpectations(Complaints& c);
+void CheckExpectations(Diagnostics& c);
 
 }  // namespace trackbed

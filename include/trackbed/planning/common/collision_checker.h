@@ -10,19 +10,19 @@
 namespace trackbed {
 
 /// Whether a car's outline keeps a distance from boxes, asked many thousand times. Immutable.
-class ClearWay {
+class CollisionChecker {
  public:
   /// No room beyond this is told apart [m].
   static constexpr double kFarthest = 4.0;
 
   /// `distance` [m], >= 0, is what the outline keeps from every box.
-  ClearWay(const VehicleParams& vehicle, std::vector<OrientedBox> boxes, double distance);
+  CollisionChecker(const VehicleParams& vehicle, std::vector<OrientedBox> boxes, double distance);
 
   /// What is left between the outline and the nearest box beyond the distance [m]: exact, negative
   /// when it is too near, kFarthest when it is more. Cost: the boxes near by, about 50 ns each.
-  [[nodiscard]] double RoomAt(const Pose2& pose) const;
+  [[nodiscard]] double Clearance(const Pose2& pose) const;
 
-  [[nodiscard]] bool IsFree(const Pose2& pose) const { return RoomAt(pose) >= 0.0; }
+  [[nodiscard]] bool IsFree(const Pose2& pose) const { return Clearance(pose) >= 0.0; }
 
   /// The first station at which the car is too near to a box, or none. Goes forward by as much as
   /// the room surely allows, and by 2 cm where there is none: what is found free is off by 1 cm

@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/planning/common/collision_checker.h"
+#include "trackbed/planning/replan/replan.h"
+#include "trackbed/world/world.h"
+
+namespace trackbed {
+
+std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
+                                                 const Reference& reference, double station,
+                                                 const std::vector<MovingBox>& obstacles,
+                                                 double distance, double look_ahead,
+                                                 double offset) {
+  constexpr double kStep = 0.1;    // [s]
+  constexpr double kTouch = 1e-2;  // [m], what planners may fall short by between their samples
+  // From the station on: times before it may be infinite, if the profile comes to rest there.
+  const SpeedProfile ahead =
+      Excerpt(reference.speed, {station, std::max(station, reference.path.length())});
+  const auto station_at = [&](double time) { return station + ahead.StationAt(time); };
+  const auto too_near = [&](double time, const MovingBox& obstacle) {
+    const OrientedBox outline =
+        OutlineAt(vehicle, Compose(reference.path.At(station_at(time)).pose, {0.0, offset, 0.0}));
+    return Separation(outline, obstacle.At(time)) < distance - kTouch;
+  };
+  const auto steps = static_cast<int>(std::ceil(look_ahead / kStep));
+  for (int i = 0; i <= steps; ++i) {
+    const double time = i * kStep;
+    for (std::size_t j = 0; j < obstacles.size(); ++j) {
+      if (too_near(time, obstacles[j])) {
+        // A tenth of a second is 1.5 m at 15 m/s: where between the looks it began.
+        double clear = i == 0 ? time : time - kStep;
+        double near = time;
+        for (int halving = 0; halving < 10 && i > 0; ++halving) {
+          const double middle = 0.5 * (clear + near);
+          (too_near(middle, obstacles[j]) ? near : clear) = middle;
+        }
+        return PredictedConflict{near, station_at(near), j};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+bool StandsInTurn(const VehicleParams& vehicle, const Path& path, double station,
+                  const OrientedBox& obstacle, double distance) {
+  constexpr double kBent = 1e-3;  // [1/m]
+  const std::vector<Stations> stretches =
+      BlockedStretches(vehicle, path, station, {obstacle}, distance);
+  return std::any_of(stretches.begin(), stretches.end(), [&](const Stations& stretch) {
+    const std::vector<Segment> within = path.Cut(stretch);
+    return std::any_of(within.begin(), within.end(), [&](const Segment& segment) {
+      return std::abs(segment.curvature) > kBent ||
+             std::abs(segment.CurvatureAt(segment.length)) > kBent;
+    });
+  });
+}
+
+bool MightClear(const VehicleParams& vehicle, const Path& path, double station,
+                const std::vector<MovingBox>& obstacles, double distance) {
+  constexpr double kAhead = 30.0;   // [m]
+  constexpr double kWithin = 60.0;  // [s]
+  constexpr double kStep = 0.5;     // [m] and [s]
+  for (const MovingBox& obstacle : obstacles) {
+    if (obstacle.velocity == Vec2::Zero()) {
+      continue;
+    }
+    for (double s = station; s <= std::min(station + kAhead, path.length()); s += kStep) {
+      const OrientedBox outline = OutlineAt(vehicle, path.At(s).pose);
+      for (double time = 0.0; time <= kWithin; time += kStep) {
+        if (Separation(outline, obstacle.At(time)) < distance) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace trackbed

@@ -1,0 +1,30 @@
+#include "src/scenario/reader_context.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace trackbed {
+
+void ReaderContext::AddError(const YAML::Mark& mark, const std::string& dotted,
+                             std::string message) {
+  const bool set = std::any_of(overridden.begin(), overridden.end(), [&](const std::string& key) {
+    const char next = dotted.size() > key.size() ? dotted[key.size()] : '.';
+    return dotted.starts_with(key) && (next == '.' || next == '[');
+  });
+  if (set) {
+    problems.push_back({"--set", 0, 0, dotted, std::move(message)});
+  } else {
+    problems.push_back({file, mark.line + 1, mark.column + 1, dotted, std::move(message)});
+  }
+  unread.push_back(dotted);
+}
+
+bool ReaderContext::Read(std::string_view dotted) const {
+  return std::none_of(unread.begin(), unread.end(), [&](const std::string& key) {
+    const char next = dotted.size() > key.size() ? dotted[key.size()] : '.';
+    return (dotted.starts_with(key) && (next == '.' || next == '[')) ||
+           key.starts_with(std::string(dotted) + '[');
+  });
+}
+
+}  // namespace trackbed
