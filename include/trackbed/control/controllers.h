@@ -11,10 +11,9 @@ namespace trackbed {
 /// All steering controllers, those of Trackbed first.
 const std::vector<ControllerEntry>& Controllers();
 
-/// Adds a controller of yours: its name can then be used in scenarios, and `trackbed list`,
-/// messages and reports know it. Call it at the start of main: references to entries become
-/// invalid, and it is not thread-safe. PreconditionError when the name or the type of the options
-/// is taken.
+/// Adds a controller to the registry, for scenarios, `trackbed list`, messages and reports. Call it
+/// at the start of main: it invalidates references to entries and is not thread-safe.
+/// PreconditionError when the name or the type of the options is taken.
 void RegisterController(ControllerEntry entry);
 
 /// The entry of the controller that `options` belong to. InternalError for options of none.

@@ -45,7 +45,7 @@ class SteeringController {
   [[nodiscard]] virtual std::vector<double> Values() const;
 };
 
-/// The options of one controller; which struct it holds says which controller is meant.
+/// The options of a controller. The type of the struct that it holds identifies the controller.
 using ControllerOptions = MethodOptions<SteeringController>;
 
 /// Where a controller takes the station from.
@@ -64,7 +64,7 @@ struct ControllerEntry {
   std::unique_ptr<SteeringController> (*make)(const ControllerOptions& options);
 };
 
-/// A ControllerEntry::make of a class that is constructed from its options.
+/// A ControllerEntry::make for a class that is constructed from its options.
 template <typename Options, typename Controller>
 std::unique_ptr<SteeringController> MakeBy(const ControllerOptions& options) {
   return std::make_unique<Controller>(options.Get<Options>());

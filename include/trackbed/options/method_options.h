@@ -10,10 +10,9 @@
 
 namespace trackbed {
 
-/// The options of one of the methods of a kind, such as the planners: a value of any copyable
-/// struct that declares its keys (key_visitor.h). Which struct it is says which method is meant, so
-/// that methods can be added without a list of all types. `Kind` keeps the options of planners
-/// apart from those of controllers.
+/// The options of a registered method, such as a planner: a value of any copyable struct that
+/// declares its keys (key_visitor.h). The type of the struct identifies the method. `Kind`
+/// separates the options of planners from those of controllers.
 template <typename Kind>
 class MethodOptions {
  public:

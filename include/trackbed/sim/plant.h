@@ -110,9 +110,9 @@ struct PlantEntry {
 /// are off counts with (v/0.1 m/s)^2 only, so that it is the actuator's at rest.
 const std::vector<PlantEntry>& Plants();
 
-/// Adds a plant of yours: its name can then be used in scenarios, and `trackbed list`, messages and
-/// reports know it. Call it at the start of main: references to entries become invalid, and it is
-/// not thread-safe. PreconditionError when the name is taken.
+/// Adds a plant to the registry, for scenarios, `trackbed list`, messages and reports. Call it at
+/// the start of main: it invalidates references to entries and is not thread-safe.
+/// PreconditionError when the name is taken.
 void RegisterPlant(PlantEntry entry);
 
 /// InputError with the nearest spelling when there is no such plant.

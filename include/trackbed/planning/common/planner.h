@@ -8,7 +8,7 @@
 /// The interface of everything that plans a whole path.
 namespace trackbed {
 
-/// The options of one planner; which struct it holds says which planner is meant.
+/// The options of a planner. The type of the struct that it holds identifies the planner.
 using PlannerOptions = MethodOptions<Plan>;
 
 /// A planner in the registry (planners.h).
@@ -17,20 +17,20 @@ struct PlannerEntry {
   const char* summary;  ///< for people, on one line
   PlannerOptions defaults;
   Plan (*plan)(const PlanRequest& request, const PlannerOptions& options);
-  std::size_t min_waypoints = 0;  ///< that it can plan with; 0: it needs no route
-  bool keeps_clear = false;       ///< it knows obstacles and keeps clear of them itself
-  bool has_headings = false;      ///< it leads through the waypoints with headings
-  bool goes_backwards = false;    ///< it may
-  bool searches = false;   ///< as long as its budget lasts; so it finds paths around obstacles
-  bool has_ties = false;   ///< of paths that cost the same it takes any, mirrored or not
-  bool is_random = false;  ///< another seed, another plan
-  /// Whether a plan with these options may lead backwards somewhere; null: goes_backwards.
+  std::size_t min_waypoints = 0;  ///< least number of waypoints; 0: takes no route
+  bool keeps_clear = false;       ///< avoids the obstacles of the request
+  bool has_headings = false;      ///< meets PlanRequest::headings at the waypoints
+  bool goes_backwards = false;    ///< its paths may contain reverse segments
+  bool searches = false;          ///< searches for a path around obstacles, within a budget
+  bool has_ties = false;   ///< does not distinguish paths of equal cost, such as mirrored ones
+  bool is_random = false;  ///< its plan depends on PlanRequest::seed
+  /// Whether a plan with these options may contain reverse segments; null: goes_backwards.
   bool (*may_go_backwards)(const PlannerOptions& options) = nullptr;
-  /// Whether it may lead only part of the way (Plan::partial); null: no.
+  /// Whether a plan with these options may be partial (Plan::partial); null: no.
   bool (*may_be_partial)(const PlannerOptions& options) = nullptr;
 };
 
-/// A PlannerEntry::plan of a function that takes the options themselves.
+/// Adapts a planning function that takes its own options struct to PlannerEntry::plan.
 template <typename Options, Plan (*PlanWith)(const Options&, const PlanRequest&)>
 Plan PlanBy(const PlanRequest& request, const PlannerOptions& options) {
   return PlanWith(options.Get<Options>(), request);

@@ -12,18 +12,18 @@ namespace trackbed {
 /// All planners, those of Trackbed first.
 const std::vector<PlannerEntry>& Planners();
 
-/// Adds a planner of yours: its name can then be used in scenarios, and `trackbed list`, messages
-/// and reports know it. Call it at the start of main: references to entries become invalid, and it
-/// is not thread-safe. PreconditionError when the name or the type of the options is taken.
+/// Adds a planner to the registry, for scenarios, `trackbed list`, messages and reports. Call it at
+/// the start of main: it invalidates references to entries and is not thread-safe.
+/// PreconditionError when the name or the type of the options is taken.
 void RegisterPlanner(PlannerEntry entry);
 
 /// The entry of the planner that `options` belong to. InternalError for options of none.
 const PlannerEntry& PlannerFor(const PlannerOptions& options);
 
-/// Whether a plan with these options may lead backwards somewhere.
+/// Whether a plan with these options may contain reverse segments.
 bool MayGoBackwards(const PlannerOptions& options);
 
-/// Whether a plan with these options may lead only part of the way (Plan::partial).
+/// Whether a plan with these options may be partial (Plan::partial).
 bool MayBePartial(const PlannerOptions& options);
 
 /// The distance [m] that plans with these options keep between car and obstacles: their key
