@@ -1,4 +1,4 @@
-# trackbed_module(PATH [SOURCE_DIR DIR] [KIND NUMERICS|JSON|LIGHT] [MODULES module...]
+# trackbed_module(PATH [SOURCE_DIR DIR] [KIND NUMERICS|LIGHT] [MODULES module...]
 #                 [LIBRARIES lib...] [PRIVATE_LIBRARIES lib...])
 #
 # One static library per module: public headers in include/trackbed/PATH, sources in src/PATH (or

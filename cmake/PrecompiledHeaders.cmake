@@ -3,8 +3,7 @@
 # Parses once what most sources spend half their compile time on: standard containers, fmt and Eigen.
 # KIND also says what the target is compiled for:
 #   NUMERICS  standard containers, fmt, Eigen
-#   JSON      JSON as well: every file of the target pays 0.7 s for the parser in it
-#   LIGHT     as JSON, at -O1: targets that read, write and judge, where a third of the compile time
+#   LIGHT     JSON as well, at -O1: targets that read, write and judge, where a third of the compile time
 #             went into optimizing code that takes no time
 #   TESTS     as LIGHT, with GoogleTest
 # One precompiled header for all targets of a kind; GCC takes the optimization level from it. Public
@@ -28,7 +27,6 @@ endfunction()
 if(TRACKBED_PRECOMPILED_HEADERS)
   set(json HEADERS <nlohmann/json.hpp> LIBRARIES nlohmann_json::nlohmann_json)
   trackbed_precompiled_header(NUMERICS)
-  trackbed_precompiled_header(JSON ${json})
   trackbed_precompiled_header(LIGHT ${json} OPTIONS ${light})
   if(TRACKBED_BUILD_TESTS)
     trackbed_precompiled_header(

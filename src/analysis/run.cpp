@@ -13,6 +13,7 @@
 #include "trackbed/core/version.h"
 #include "trackbed/optimize/search.h"
 #include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/registry/planners.h"
 
 namespace trackbed {
@@ -72,25 +73,25 @@ Table TreeTable(const std::vector<TreeNode>& tree) {
   return table;
 }
 
-/// The convergence histories of plan.json as rows: best radii after each generation.
-Table ConvergenceTable(const nlohmann::json& diagnostics) {
+/// The convergence histories of a fillet plan as rows: best radii after each generation.
+Table ConvergenceTable(const PlanDiagnostics& diagnostics) {
   Table table({"waypoint", "evaluations", "objective", "radius_m"});
-  const auto found = diagnostics.find("turns");
-  if (found == diagnostics.end()) {
-    return table;  // a planner without turns
-  }
-  const nlohmann::json& turns = *found;
-  for (std::size_t k = 0; k < turns.size(); ++k) {
-    const double waypoint = turns[k]["waypoint"].get<double>();
-    // A search of its own, or the joint one.
-    const bool own = turns[k].contains("search");
-    const nlohmann::json& from = own ? turns[k] : diagnostics;
-    if (!from.contains("search")) {
-      continue;
+  const auto* all_turns = diagnostics.planner.As<FilletDiagnostics>();
+  for (std::size_t k = 0; k < diagnostics.turns.size(); ++k) {
+    const auto* found = diagnostics.turns[k].As<FilletTurnFindings>();
+    if (found == nullptr) {
+      continue;  // another planner's
     }
-    for (const nlohmann::json& best : from["search"]["history"]) {
-      table.AddRow({waypoint, best["evaluations"].get<double>(), best["objective"].get<double>(),
-                    best["radius_m"][own ? 0 : k].get<double>()});
+    const double waypoint = found->turn.waypoint;
+    if (found->turn.search) {
+      for (const SearchProgress& best : found->turn.search->result.history) {
+        table.AddRow({waypoint, static_cast<double>(best.evaluations), best.value, best.x[0]});
+      }
+    } else if (all_turns != nullptr && all_turns->search) {
+      for (const SearchProgress& best : all_turns->search->history) {
+        table.AddRow(
+            {waypoint, static_cast<double>(best.evaluations), best.value, DrivenRadii(best.x)[k]});
+      }
     }
   }
   return table;
@@ -121,9 +122,10 @@ ordered_json ChangesJson(const RunLog& log) {
     ordered_json entry{{"time_s", change.time},
                        {"station_m", change.station},
                        {"length_m", change.plan.reference.path.length()}};
+    const nlohmann::json diagnostics = DiagnosticsJson(change.plan);
     for (const char* key : {"avoid", "blocked", "replan"}) {
-      if (change.plan.diagnostics.contains(key)) {
-        entry[key] = change.plan.diagnostics[key];
+      if (diagnostics.contains(key)) {
+        entry[key] = diagnostics[key];
       }
     }
     changes.push_back(entry);
@@ -304,7 +306,8 @@ void WritePlan(const Plan& plan, const Scenario& scenario, const fs::path& folde
     WriteUnlessEmpty(ConvergenceTable(plan.diagnostics), folder / "convergence.csv");
     WriteUnlessEmpty(TreeTable(plan.tree), folder / "tree.csv");
   }
-  for (const auto& [key, value] : plan.diagnostics.items()) {
+  const nlohmann::json diagnostics = DiagnosticsJson(plan);
+  for (const auto& [key, value] : diagnostics.items()) {
     json[key] = value;
   }
   WriteFileAtomically(folder / "plan.json", Pretty(json));

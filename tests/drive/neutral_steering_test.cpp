@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
@@ -31,7 +32,7 @@ TEST(NeutralSteering, CarDrivesWhatItsPlanPredicts) {
   // The prediction is of the distance D_end at constant speed; the car comes to rest within a
   // control period's crawl of it, 1 mm, and its ramps are steps of 3 mm: 1e-3 m each over the
   // ramps.
-  const auto& predicted = plan.diagnostics.at("open_loop");
+  const auto predicted = DiagnosticsJson(plan).at("open_loop");
   const Pose2 goal = plan.reference.path.At(plan.reference.path.length()).pose;
   const double distance = (last.state.pose.position() - goal.position()).norm();
   EXPECT_GT(distance, 5.0);  // the legs are driven on a bend

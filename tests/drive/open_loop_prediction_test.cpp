@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 
@@ -63,7 +64,7 @@ bool Agrees(const std::string& mission, const std::string& plan) {
     return false;
   }
   SCOPED_TRACE(mission + "\n" + plan);
-  const nlohmann::json& predicted = made.diagnostics["open_loop"];
+  const nlohmann::json predicted = DiagnosticsJson(made)["open_loop"];
   const RunLog log = DrivePlant(scenario, car, made, "kinematic");
   const VehicleState& end = log.rows.back().state;
   EXPECT_NEAR(end.speed, 0.0, 0.01);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
@@ -28,9 +29,9 @@ Scenario Read(const std::string& name) {
 }
 
 std::string KindOf(const PlanChange& change) {
-  return change.plan.diagnostics.contains("avoid") && !change.plan.diagnostics.contains("replan")
+  return !change.plan.diagnostics.avoided.empty() && !change.plan.diagnostics.replan.has_value()
              ? "avoid"
-             : change.plan.diagnostics.at("replan").at("kind").get<std::string>();
+             : DiagnosticsJson(change.plan).at("replan").at("kind").get<std::string>();
 }
 
 std::set<std::string> KindsOf(const RunLog& log) {
@@ -135,7 +136,7 @@ TEST(BlockedRoad, TakesADetour) {
   const RunResult run = RunScenario(scenario);
   for (const RunLog& log : run.logs) {
     EXPECT_THAT(KindsOf(log), testing::Contains("detour"));
-    const auto& told = log.changes.front().plan.diagnostics.at("replan").at("detour");
+    const auto told = DiagnosticsJson(log.changes.front().plan).at("replan").at("detour");
     EXPECT_TRUE(told.at("current").at("collides").get<bool>());
     EXPECT_FALSE(told.at("best").at("collides").get<bool>());
     EXPECT_LT(told.at("best").at("total_m").get<double>(),

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "trackbed/core/angle.h"
 #include "trackbed/testing/scenario_testing.h"
@@ -34,7 +35,7 @@ TEST(Routes, GoWithTheStreamInAWindyField) {
   const RunResult run = RunScenario(File("windy_field"));
   EXPECT_THAT(run, MeetsItsExpectations());
   const auto score = [](const RunResult& other) {
-    const auto& diagnostics = other.plan.diagnostics;
+    const auto diagnostics = DiagnosticsJson(other.plan);
     return diagnostics["trees"].at(diagnostics["chosen"].get<std::size_t>());
   };
   EXPECT_GT(score(run)["wind_m"], 0.0);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
@@ -71,7 +72,8 @@ TEST(Slalom, HasSixTurnsOfMoreThanSixtyDegreesBothWaysWithinTheSteeringLimit) {
   ASSERT_TRUE(run.plan.ok());
   int left = 0;
   int right = 0;
-  for (const auto& turn : run.plan.diagnostics["turns"]) {
+  const nlohmann::json turns = DiagnosticsJson(run.plan)["turns"];
+  for (const auto& turn : turns) {
     const double heading_change = turn["heading_change_rad"];
     left += heading_change >= 1.0472 ? 1 : 0;
     right += heading_change <= -1.0472 ? 1 : 0;

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trackbed/control/steering_controller.h"
-
 using namespace trackbed;
 
 /// The path's mean curvature over the distance in which the wheels turn, corrected by the

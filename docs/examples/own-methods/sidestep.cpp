@@ -4,10 +4,6 @@
 
 #include <cmath>
 
-#include "trackbed/planning/common/course_schedule.h"
-#include "trackbed/planning/common/plan.h"
-#include "trackbed/planning/common/planner.h"
-
 using namespace trackbed;
 
 /// Straight on, an S to the lane on the left, straight on.
@@ -19,6 +15,15 @@ struct SidestepOptions {
 void Visit(KeyVisitor& keys, SidestepOptions& options) {
   keys.Field({"offset", "m", "to the left"}, options.offset, Need::kOptional, kPositive);
   keys.Field({"radius", "m", "of both arcs"}, options.radius, Need::kOptional, kPositive);
+}
+
+/// What plan.json and `trackbed plan` show of it, besides what all planners have.
+struct SidestepDiagnostics {
+  double turn = 0.0;  ///< heading change of each arc [rad]
+};
+
+void Visit(DiagnosticsVisitor& out, const SidestepDiagnostics& own) {
+  out.Number("turn_rad", own.turn);
 }
 
 Plan PlanWith(const SidestepOptions& options, const PlanRequest& request) {
@@ -41,6 +46,7 @@ Plan PlanWith(const SidestepOptions& options, const PlanRequest& request) {
   plan.schedule = CourseSchedule(request.vehicle, segments, request.speed.speed, plan.caps);
   plan.schedule_speed = plan.reference.speed;
   plan.goal = plan.reference.path.At(length).pose;
+  plan.diagnostics.planner = SidestepDiagnostics{turn};
   return plan;
 }
 

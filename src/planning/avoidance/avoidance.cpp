@@ -28,7 +28,6 @@ using avoidance::Replacement;
 using avoidance::ReplacementSearch;
 using avoidance::Stretch;
 using avoidance::StretchSearch;
-using nlohmann::json;
 
 /// Of the curve's pieces of path [m].
 constexpr double kCurveSpacing = 0.1;
@@ -39,10 +38,6 @@ constexpr double kStep = 1e-6;
 bool Jumps(const PathPoint& plan, const CurvePoint& curve) {
   constexpr double kRounding = 1e-9;  // [1/m]
   return std::abs(plan.curvature - curve.curvature) > kRounding;
-}
-
-json Point(const Vec2& p) {
-  return json::array({p.x(), p.y()});
 }
 
 /// A method's curve past an obstacle, which the plan can be left for at `from` or later.
@@ -82,8 +77,8 @@ class AroundObstacles {
       }
       from = Replace(*found.replacement, conflict->obstacle);
     }
-    if (plan_.diagnostics.contains("avoid") || !plan_.blocked.empty()) {
-      TellOpenLoop();
+    if (!plan_.diagnostics.avoided.empty() || !plan_.blocked.empty()) {
+      PredictOpenLoop();
     }
     return plan_;
   }
@@ -94,11 +89,9 @@ class AroundObstacles {
   /// What lies ahead of the car, in stations from there.
   void StartAtCar() {
     plan_ = RestOf(plan_, request_.station, request_.station_speed, request_.speed);
-    if (plan_.diagnostics.contains("avoid")) {
-      plan_.diagnostics.erase("avoid");  // of stations that no longer count
-    }
+    plan_.diagnostics.avoided.clear();  // of stations that no longer count
     plan_.tree.clear();
-    MoveTurns({-1.0, -1.0}, -request_.station);
+    MoveDiagnostics({-1.0, -1.0}, -request_.station);
   }
 
   void SetSpeed(double start_speed, double open_loop_end) {
@@ -150,54 +143,27 @@ class AroundObstacles {
     plan_.turns = turns;
 
     SetSpeed(plan_.reference.speed.SpeedAt(0.0), plan_.schedule_speed.knots().back().s + shift);
-    MoveTurns(replacement.stations, shift);
-    Tell(replacement, obstacle, {leave, back});
+    MoveDiagnostics(replacement.stations, shift);
+    Record(replacement, obstacle, {leave, back});
     return back;
   }
 
-  /// What the method before told of its turns, in stations of the new plan.
-  void MoveTurns(Stations replaced, double shift) {
-    if (!plan_.diagnostics.contains("turns")) {
-      return;
+  /// Keeps the stations in the diagnostics those of the new path.
+  void MoveDiagnostics(const Stations& replaced, double shift) {
+    for (MethodDiagnostics& turn : plan_.diagnostics.turns) {
+      ReplaceStretch(turn, replaced, shift);
     }
-    for (json& turn : plan_.diagnostics["turns"]) {
-      if (turn["steer_start_m"].get<double>() >= replaced.to) {
-        for (const char* key : {"arc_start_s_m", "steer_start_m", "steer_return_m"}) {
-          turn[key] = turn[key].get<double>() + shift;
-        }
-      } else if (turn["steer_return_m"].get<double>() > replaced.from) {
-        turn["note"] = "led around an obstacle here";
-      }
-    }
+    ReplaceStretch(plan_.diagnostics.planner, replaced, shift);
   }
 
-  void TellOpenLoop() {
-    double speed = request_.speed.speed;
-    for (const SpeedCap& cap : plan_.caps) {
-      speed = std::min(speed, cap.speed);
-    }
+  void PredictOpenLoop() {
     const double stop = plan_.schedule_speed.knots().back().s;
-    plan_.diagnostics["stop_distance_m"] = stop;
-    plan_.diagnostics["open_loop"] =
-        ToJson(DriveOpenLoop(request_.vehicle, path(), plan_.schedule, stop));
+    plan_.diagnostics.stop_distance = stop;
+    plan_.diagnostics.open_loop = DriveOpenLoop(request_.vehicle, path(), plan_.schedule, stop);
   }
 
-  void Tell(const Replacement& replacement, const OrientedBox& obstacle, const Stations& curve) {
-    const CurveCheck& check = replacement.check;
-    json entry = replacement.diagnostics(plan_, curve);
-    entry["obstacle_m"] = Point(obstacle.center.position());
-    entry["ring"] = ToString(replacement.ring);
-    entry["leave_s_m"] = curve.from;
-    entry["return_s_m"] = curve.to;
-    entry["speed_mps"] = replacement.speed;
-    entry["length_m"] = check.length;
-    entry["clearance_m"] = check.clearance;
-    entry["steering_max_rad"] = check.steering;
-    entry["steering_rate_max_radps"] = check.steering_rate;
-    entry["lateral_acceleration_max_mps2"] = check.lateral_acceleration;
-    for (const Vec2& point : replacement.curve.control_points()) {
-      entry["control_points_m"].push_back(Point(point));
-    }
+  /// Adds what there is to know of the replaced stretch to the plan.
+  void Record(const Replacement& replacement, const OrientedBox& obstacle, const Stations& curve) {
     const std::size_t first = plan_.tree.size();
     for (TreeNode node : replacement.tree) {
       node.parent += first;
@@ -215,10 +181,21 @@ class AroundObstacles {
                  .speed = replacement.speed,
                  .steering = SteeringForCurvature(request_.vehicle, start.curvature)},
                 SteeringSchedule::Through(own), curve.to - curve.from, kCurveSpacing);
-    entry["open_loop"] = {
-        {"end_distance_m", (driven.pose.position() - end.pose.position()).norm()},
-        {"end_heading_error_rad", AngleDifference(driven.pose.yaw, end.pose.yaw)}};
-    plan_.diagnostics["avoid"].push_back(entry);
+    const CurveCheck& check = replacement.check;
+    plan_.diagnostics.avoided.push_back(
+        {.method = replacement.diagnostics(plan_, curve),
+         .obstacle = obstacle.center.position(),
+         .ring = replacement.ring,
+         .stations = curve,
+         .speed = replacement.speed,
+         .length = check.length,
+         .clearance = check.clearance,
+         .steering_max = check.steering,
+         .steering_rate_max = check.steering_rate,
+         .lateral_acceleration_max = check.lateral_acceleration,
+         .control_points = replacement.curve.control_points(),
+         .end_distance = (driven.pose.position() - end.pose.position()).norm(),
+         .end_heading_error = AngleDifference(driven.pose.yaw, end.pose.yaw)});
   }
 
   /// Ends the plan where the obstacle comes closer than SD, or as soon as the car can stop.
@@ -235,7 +212,6 @@ class AroundObstacles {
     const Vec2 obstacle = conflict.obstacle.center.position();
     plan_.blocked = fmt::format("stops before the obstacle at ({:.4g}, {:.4g}): {}", obstacle.x(),
                                 obstacle.y(), why);
-    plan_.diagnostics["blocked"] = plan_.blocked;
   }
 
   const AvoidanceRequest& request_;
@@ -244,24 +220,9 @@ class AroundObstacles {
   Plan plan_;
 };
 
-/// What `bezier` says of a stretch besides what all methods say.
-json Findings(const Stretch& stretch, const AvoidanceRequest& request,
-              const BezierAvoidanceOptions& options, const Plan& plan, const Stations& curve) {
-  json entry{{"method", "bezier"}, {"curves_tried", stretch.tried}};
-  entry["rrt_star"] = {{"status", ToString(stretch.tree.status)},
-                       {"iterations", stretch.tree.iterations},
-                       {"nodes", stretch.tree.nodes.size()}};
-  if (stretch.tree.ok()) {
-    entry["rrt_star"]["cost_m"] = stretch.tree.cost;
-    for (const Vec2& point : stretch.tree.path) {
-      entry["rrt_star"]["path_m"].push_back(Point(point));
-    }
-  }
-  entry["search"] = {{"method", SearchFor(options.search.method).name},
-                     {"evaluations", stretch.repair.search.evaluations},
-                     {"objective", stretch.repair.search.value}};
-  // The listing's check, for comparison (Salyga_2): a single point of the path, two metres before
-  // it is beside the obstacle, against a corner; ours is the nearest one.
+BezierAvoidanceDiagnostics DiagnosticsOn(const Stretch& stretch, const AvoidanceRequest& request,
+                                         const BezierAvoidanceOptions& options, const Plan& plan,
+                                         const Stations& curve) {
   const double share = (stretch.beside - stretch.leave) / (stretch.back - stretch.leave);
   const double beside = stretch.repair.check.length * share;
   const Vec2 point =
@@ -270,10 +231,18 @@ json Findings(const Stretch& stretch, const AvoidanceRequest& request,
   for (const Vec2& p : stretch.obstacle.Corners()) {
     corner = std::min(corner, (p - point).norm());
   }
-  entry["one_point_check"] = {
-      {"distance_m", corner},
-      {"passed", corner >= options.safe_distance + 0.5 * request.vehicle.width}};
-  return entry;
+  return {
+      .curves_tried = stretch.tried,
+      .tree_status = stretch.tree.status,
+      .tree_iterations = stretch.tree.iterations,
+      .tree_nodes = stretch.tree.nodes.size(),
+      .tree_cost = stretch.tree.cost,
+      .tree_path = stretch.tree.path,
+      .search_method = SearchFor(options.search.method).name,
+      .search_evaluations = stretch.repair.search.evaluations,
+      .search_objective = stretch.repair.search.value,
+      .one_point_check = {.distance = corner,
+                          .passed = corner >= options.safe_distance + 0.5 * request.vehicle.width}};
 }
 
 Plan PlanAroundWith(const BezierAvoidanceOptions& options, const AvoidanceRequest& request) {
@@ -300,7 +269,7 @@ Plan PlanAroundWith(const BezierAvoidanceOptions& options, const AvoidanceReques
                     .notes = {},
                     .diagnostics =
                         [=, &request, &options](const Plan& around, const Stations& curve) {
-                          return Findings(stretch, request, options, around, curve);
+                          return DiagnosticsOn(stretch, request, options, around, curve);
                         }},
         ""};
   };
@@ -319,10 +288,6 @@ Plan PlanAroundWith(const ListingAvoidanceOptions& options, const AvoidanceReque
 }
 
 }  // namespace
-
-const char* ToString(PassingSide ring) {
-  return ring == PassingSide::kInner ? "inner" : "outer";
-}
 
 const std::vector<AvoiderEntry>& LocalPlanners() {
   static const std::vector<AvoiderEntry> table{

@@ -14,8 +14,6 @@
 namespace trackbed::avoidance {
 namespace {
 
-using nlohmann::json;
-
 /// Of stations that are sums of lengths [m], and of angles that are lengths over radii [rad].
 constexpr double kRounding = 1e-9;
 
@@ -104,19 +102,16 @@ std::vector<std::string> NotesOn(const CurveCheck& check, const VehicleParams& v
                       obstacle.center.x, obstacle.center.y, fmt::join(broken, "; "))};
 }
 
-/// The listing's own findings.
-json Findings(const TurnManoeuvre& problem, const TurnLayout& layout, const LiteralTree& tree,
-              const VehicleParams& vehicle, const std::array<Vec2, 8>& points) {
+ListingAvoidanceDiagnostics DiagnosticsOn(const TurnManoeuvre& problem, const TurnLayout& layout,
+                                          const LiteralTree& tree, const VehicleParams& vehicle,
+                                          const std::array<Vec2, 8>& points) {
   const ManoeuvreDrive drive =
       DriveManoeuvre(problem, layout, vehicle, BezierCurve({points.begin(), points.end()}));
-  return {
-      {"method", "listing"},
-      {"obstacle_sixth", problem.obstacle_sixth},
-      {"rrt_star",
-       {{"nodes", tree.nodes.size()},
-        {"goal_distance_m", tree.goal_distance},
-        {"final_y_m", tree.final_y}}},
-      {"one_point_check", {{"distance_m", drive.test_distance}, {"passed", drive.test_passed}}}};
+  return {.obstacle_sixth = problem.obstacle_sixth,
+          .tree_nodes = tree.nodes.size(),
+          .goal_distance = tree.goal_distance,
+          .final_y = tree.final_y,
+          .one_point_check = {.distance = drive.test_distance, .passed = drive.test_passed}};
 }
 
 }  // namespace
@@ -167,17 +162,18 @@ ReplacementSearch FindListingCurve(const AvoidanceRequest& request,
                                   .start_speed = problem.speed,
                                   .speed = problem.speed},
                                  curve);
-  return {Replacement{.stations = {std::max(turn->arc.from - before, from),
-                                   std::min(turn->arc.to + after, path.length())},
-                      .start = X_WM,
-                      .curve = curve,
-                      .check = check,
-                      .speed = problem.speed,
-                      .ring = problem.ring(),
-                      .tree = nodes,
-                      .notes = NotesOn(check, vehicle, options.safe_distance, conflict.obstacle),
-                      .diagnostics = [own = Findings(problem, layout, tree, vehicle, points)](
-                                         const Plan&, const Stations&) { return own; }},
+  return {Replacement{
+              .stations = {std::max(turn->arc.from - before, from),
+                           std::min(turn->arc.to + after, path.length())},
+              .start = X_WM,
+              .curve = curve,
+              .check = check,
+              .speed = problem.speed,
+              .ring = problem.ring(),
+              .tree = nodes,
+              .notes = NotesOn(check, vehicle, options.safe_distance, conflict.obstacle),
+              .diagnostics = [own = DiagnosticsOn(problem, layout, tree, vehicle, points)](
+                                 const Plan&, const Stations&) { return MethodDiagnostics(own); }},
           ""};
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -39,8 +38,8 @@ struct Replacement {
   PassingSide ring = PassingSide::kInner;
   std::vector<TreeNode> tree;  ///< that was searched for it
   std::vector<std::string> notes;
-  /// The method's own findings, given the new plan and the curve's stations on it.
-  std::function<nlohmann::json(const Plan& plan, const Stations& curve)> diagnostics;
+  /// Of the method, given the new plan and the curve's stations on it.
+  std::function<MethodDiagnostics(const Plan& plan, const Stations& curve)> diagnostics;
 };
 
 struct ReplacementSearch {

@@ -131,6 +131,40 @@ RoundCorner CornerAt(const VehicleParams& vehicle, double heading_change, double
   return corner;
 }
 
+namespace {
+
+RoundCorner AtSpeed(const VehicleParams& vehicle, const CornerLimits& limits,
+                    const RoundCorner& corner, double speed) {
+  RoundCorner slower = CornerAt(vehicle, corner.heading_change, speed, limits.max_curvature);
+  slower.at = corner.at;
+  return slower;
+}
+
+/// Lays out the path, its corners slowed down until it is clear. Returns why it is not, for people;
+/// empty when it is.
+std::string SlowUntilClear(const VehicleParams& vehicle, const std::vector<Vec2>& polyline,
+                           const CornerLimits& limits, const CollisionChecker& clear,
+                           RoundedCorners& result) {
+  for (;;) {
+    result.path = LayOut(polyline, result.corners);
+    const std::optional<double> blocked = clear.FirstBlocked(result.path);
+    if (!blocked) {
+      return "";
+    }
+    RoundCorner* corner = CornerToSlow(result.corners, *blocked, limits.min_speed);
+    if (corner == nullptr) {
+      const Vec2 at = result.path.At(*blocked).pose.position();
+      return fmt::format("rounded, the path comes too near to an obstacle at ({:.4g}, {:.4g})",
+                         at.x(), at.y());
+    }
+    constexpr double kSlower = 0.8;
+    *corner =
+        AtSpeed(vehicle, limits, *corner, std::max(kSlower * corner->speed, limits.min_speed));
+  }
+}
+
+}  // namespace
+
 RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2>& polyline,
                             const CornerLimits& limits, const CollisionChecker& clear) {
   TRACKBED_CHECK(polyline.size() >= 2, "{} points", polyline.size());
@@ -142,9 +176,7 @@ RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2
     return result;
   };
   const auto at_speed = [&](const RoundCorner& corner, double speed) {
-    RoundCorner slower = CornerAt(vehicle, corner.heading_change, speed, limits.max_curvature);
-    slower.at = corner.at;
-    return slower;
+    return AtSpeed(vehicle, limits, corner, speed);
   };
   for (std::size_t i = 1; i + 1 < polyline.size(); ++i) {
     const Vec2 in = polyline[i] - polyline[i - 1];
@@ -192,22 +224,9 @@ RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2
     }
     result.corners.push_back(at_speed(corner, speed));
   }
-  for (;;) {
-    result.path = LayOut(polyline, result.corners);
-    const std::optional<double> blocked = clear.FirstBlocked(result.path);
-    if (!blocked) {
-      break;
-    }
-    RoundCorner* corner = CornerToSlow(result.corners, *blocked, limits.min_speed);
-    if (corner == nullptr) {
-      const Vec2 at = result.path.At(*blocked).pose.position();
-      return refuse(
-          PlanStatus::kCollides,
-          fmt::format("rounded, the path comes too near to an obstacle at ({:.4g}, {:.4g})", at.x(),
-                      at.y()));
-    }
-    constexpr double kSlower = 0.8;
-    *corner = at_speed(*corner, std::max(kSlower * corner->speed, limits.min_speed));
+  if (const std::string blocked = SlowUntilClear(vehicle, polyline, limits, clear, result);
+      !blocked.empty()) {
+    return refuse(PlanStatus::kCollides, blocked);
   }
   for (const RoundCorner& corner : result.corners) {
     if (corner.speed < limits.speed) {

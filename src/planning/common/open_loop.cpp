@@ -41,10 +41,10 @@ OpenLoopDrive DriveOpenLoop(const VehicleParams& vehicle, const Path& path,
   return drive;
 }
 
-nlohmann::json ToJson(const OpenLoopDrive& drive) {
-  return {{"goal_distance_m", drive.goal_distance},
-          {"goal_heading_error_rad", drive.goal_heading},
-          {"deviation_max_m", drive.deviation_max}};
+void Visit(DiagnosticsVisitor& out, const OpenLoopDrive& drive) {
+  out.Number("goal_distance_m", drive.goal_distance);
+  out.Number("goal_heading_error_rad", drive.goal_heading);
+  out.Number("deviation_max_m", drive.deviation_max);
 }
 
 }  // namespace trackbed

@@ -63,8 +63,7 @@ void Complete(Plan& plan, const PlanRequest& request) {
   plan.schedule =
       CourseSchedule(request.vehicle, path.segments(), request.speed.speed, plan.caps, plan.stops);
   plan.goal = path.At(path.length()).pose;
-  plan.diagnostics["turns"] = nlohmann::json::array();
-  plan.diagnostics["changes_of_direction"] = LegsOf(path).size() - 1;
+  plan.diagnostics.direction_changes = LegsOf(path).size() - 1;
 }
 
 Plan AlongPolyline(Plan plan, const PlanRequest& request, const std::vector<Vec2>& points,
@@ -85,28 +84,11 @@ Plan AlongPolyline(Plan plan, const PlanRequest& request, const std::vector<Vec2
   if (rounded.status != PlanStatus::kOk) {
     return Refused(rounded.status, rounded.reason);
   }
-  plan.diagnostics["corners"] = nlohmann::json::array();
-  for (const RoundCorner& corner : rounded.corners) {
-    plan.diagnostics["corners"].push_back({{"at_m", {corner.at.x(), corner.at.y()}},
-                                           {"heading_change_rad", corner.heading_change},
-                                           {"speed_mps", corner.speed},
-                                           {"curvature_radpm", corner.curvature},
-                                           {"tangent_length_m", corner.tangent_length},
-                                           {"from_s_m", corner.from},
-                                           {"to_s_m", corner.to}});
-  }
+  plan.diagnostics.corners = std::move(rounded.corners);
   plan.reference.path = std::move(rounded.path);
   plan.caps = std::move(rounded.caps);
   Complete(plan, request);
   return plan;
-}
-
-nlohmann::json ToJson(const std::vector<Vec2>& points) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const Vec2& point : points) {
-    list.push_back({point.x(), point.y()});
-  }
-  return list;
 }
 
 Plan CheckRadius(const VehicleParams& vehicle, const std::optional<double>& radius) {
@@ -143,9 +125,6 @@ Plan AlongSegments(Plan plan, const PlanRequest& request, std::vector<Segment> s
   plan.stops = std::move(steps.stops);
   plan.reference.path = Path(request.start, std::move(segments));
   Complete(plan, request);
-  if (!plan.stops.empty()) {
-    plan.diagnostics["stops_m"] = plan.stops;
-  }
   return plan;
 }
 

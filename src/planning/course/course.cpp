@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/course_schedule.h"
@@ -44,7 +43,7 @@ Plan PlanWith(const CourseOptions& options, const PlanRequest& request) {
           "segments[{}] has a curvature of {:.4g} 1/m, which takes {:.3f} rad of steering; the car "
           "can steer {:.3f} rad",
           i, sharpest, steering, request.vehicle.steering_limit);
-      plan.diagnostics["segment"] = i;
+      plan.diagnostics.planner = CourseDiagnostics{.failed_segment = i, .segments = {}};
       return plan;
     }
   }
@@ -55,24 +54,38 @@ Plan PlanWith(const CourseOptions& options, const PlanRequest& request) {
   plan.schedule_speed = plan.reference.speed;
   plan.goal = path.At(path.length()).pose;
 
-  nlohmann::json& out = plan.diagnostics;
-  out["turns"] = nlohmann::json::array();
-  out["segments"] = nlohmann::json::array();
+  CourseDiagnostics found;
   double start = 0.0;
   for (const Segment& segment : segments) {
     const double speed = request.speed.speed;
-    out["segments"].push_back(
-        {{"start_s_m", start},
-         {"length_m", segment.length},
-         {"curvature_from_radpm", segment.curvature},
-         {"curvature_to_radpm", segment.CurvatureAt(segment.length)},
-         {"lateral_acceleration_mps2", SharpestCurvature(segment) * speed * speed}});
+    found.segments.push_back({.start = start,
+                              .length = segment.length,
+                              .curvature_from = segment.curvature,
+                              .curvature_to = segment.CurvatureAt(segment.length),
+                              .lateral_acceleration = SharpestCurvature(segment) * speed * speed});
     start += segment.length;
   }
+  plan.diagnostics.planner = std::move(found);
   return plan;
 }
 
 }  // namespace
+
+void Visit(DiagnosticsVisitor& out, const CourseSegmentFindings& own) {
+  out.Number("start_s_m", own.start);
+  out.Number("length_m", own.length);
+  out.Number("curvature_from_radpm", own.curvature_from);
+  out.Number("curvature_to_radpm", own.curvature_to);
+  out.Number("lateral_acceleration_mps2", own.lateral_acceleration);
+}
+
+void Visit(DiagnosticsVisitor& out, const CourseDiagnostics& own) {
+  if (own.failed_segment) {
+    out.Integer("segment", *own.failed_segment);
+  } else {
+    out.List("segments", own.segments);
+  }
+}
 
 void Visit(KeyVisitor& keys, CoursePiece& piece) {
   static constexpr Range kCurvature{.min = -10.0, .max = 10.0};  // [1/m]

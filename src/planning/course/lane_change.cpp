@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "trackbed/core/error.h"
 #include "trackbed/path/bezier.h"
@@ -147,12 +146,6 @@ std::vector<double> GateMargins(const std::vector<Gate>& gates, const VehiclePar
 
 namespace {
 
-using nlohmann::json;
-
-json Point(const Vec2& p) {
-  return json::array({p.x(), p.y()});
-}
-
 Plan PlanWith(const LaneChangePlannerOptions& options, const PlanRequest& request) {
   const Pose2& start = request.start;
   const Vec2 first = ToWorld(start, Vec2(options.lead_in, 0.0));
@@ -188,26 +181,31 @@ Plan PlanWith(const LaneChangePlannerOptions& options, const PlanRequest& reques
   }
   plan.schedule = SteeringSchedule::Through(std::move(knots));
 
-  json& out = plan.diagnostics;
-  out["turns"] = json::array();
-  out["gates"] = json::array();
+  LaneChangeDiagnostics found;
   const std::vector<double> margins = GateMargins(plan.gates, request.vehicle, poses);
   for (std::size_t i = 0; i < plan.gates.size(); ++i) {
-    const OrientedBox& lane = plan.gates[i].lane;
-    json cones = json::array();
-    for (const Vec2& cone : ConesOf(plan.gates[i])) {
-      cones.push_back(Point(cone));
-    }
-    out["gates"].push_back({{"section", plan.gates[i].section},
-                            {"cones_m", cones},
-                            {"length_m", lane.length},
-                            {"width_m", lane.width},
-                            {"planned_margin_m", margins[i]}});
+    found.gates.push_back(
+        {.gate = plan.gates[i], .cones = ConesOf(plan.gates[i]), .planned_margin = margins[i]});
   }
+  plan.diagnostics.planner = std::move(found);
   return plan;
 }
 
 }  // namespace
+
+void Visit(DiagnosticsVisitor& out, const GateFindings& own) {
+  out.Integer("section", own.gate.section);
+  out.Number("length_m", own.gate.lane.length);
+  out.Number("width_m", own.gate.lane.width);
+  out.Number("planned_margin_m", own.planned_margin);
+  if (out.full()) {
+    out.Points("cones_m", own.cones);
+  }
+}
+
+void Visit(DiagnosticsVisitor& out, const LaneChangeDiagnostics& own) {
+  out.List("gates", own.gates);
+}
 
 void Visit(KeyVisitor& keys, LaneChangePlannerOptions& options) {
   static const EnumNames<LaneChangeStandard> standards{

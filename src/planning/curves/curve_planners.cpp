@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "trackbed/planning/common/curvature_steps.h"
 #include "trackbed/planning/common/route.h"
@@ -69,7 +68,7 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
     return refused;
   }
   Plan plan;
-  plan.diagnostics["curves"] = nlohmann::json::array();
+  CurveDiagnostics found_curves;
   std::vector<Segment> segments;
   const auto any = [](const std::vector<Segment>&) { return true; };
   for (std::size_t i = 1; i < stops.size(); ++i) {
@@ -109,11 +108,12 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
                             : ""));
     }
     segments.insert(segments.end(), found->segments.begin(), found->segments.end());
-    plan.diagnostics["curves"].push_back({{"word", WordOf(found->curve)},
-                                          {"length_m", found->curve.length},
-                                          {"radius_m", radius},
-                                          {"shorter_ones_blocked", found->shorter_ones_blocked}});
+    found_curves.curves.push_back({.word = WordOf(found->curve),
+                                   .length = found->curve.length,
+                                   .radius = radius,
+                                   .shorter_ones_blocked = found->shorter_ones_blocked});
   }
+  plan.diagnostics.planner = std::move(found_curves);
   return route::AlongSegments(std::move(plan), request, std::move(segments), options.min_speed);
 }
 
@@ -135,6 +135,17 @@ Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
 }
 
 }  // namespace
+
+void Visit(DiagnosticsVisitor& out, const CurveFindings& own) {
+  out.Text("word", own.word);
+  out.Number("length_m", own.length);
+  out.Number("radius_m", own.radius);
+  out.Integer("shorter_ones_blocked", own.shorter_ones_blocked);
+}
+
+void Visit(DiagnosticsVisitor& out, const CurveDiagnostics& own) {
+  out.List("curves", own.curves);
+}
 
 void Visit(KeyVisitor& keys, DubinsOptions& options) {
   route::VisitCurves(keys, options.radius, options.safe_distance, options.min_speed);

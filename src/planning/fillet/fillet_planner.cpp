@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "src/planning/fillet/fillet_layout.h"
 #include "trackbed/planning/fillet/fillet.h"
@@ -9,68 +8,67 @@
 namespace trackbed {
 namespace {
 
-using nlohmann::json;
+/// The course of a search as plan.json has it, with the radii among its variables.
+struct SearchRecord {
+  const std::string& method;
+  const SearchResult& result;
+  std::vector<double> (*radii)(const std::vector<double>& x);
+};
 
-json Point(const Vec2& p) {
-  return json::array({p.x(), p.y()});
+struct ProgressRecord {
+  int evaluations = 0;
+  double value = 0.0;
+  std::vector<double> radii;  ///< [m]
+};
+
+void Visit(DiagnosticsVisitor& out, const ProgressRecord& own) {
+  out.Integer("evaluations", own.evaluations);
+  out.Number("objective", own.value);
+  out.Numbers("radius_m", own.radii);
 }
 
-/// A search whose every `stride`-th variable is a radius.
-json ToJson(const SearchOptions& options, const SearchResult& result, std::size_t stride) {
-  json out{{"method", SearchFor(options.method).name},
-           {"status", ToString(result.status)},
-           {"evaluations", result.evaluations},
-           {"objective", result.value},
-           {"history", json::array()}};
-  for (const SearchProgress& progress : result.history) {
-    json radii = json::array();
-    for (std::size_t i = 0; i + stride <= progress.x.size(); i += stride) {
-      radii.push_back(progress.x[i]);
+void Visit(DiagnosticsVisitor& out, const SearchRecord& own) {
+  if (out.full()) {
+    out.Text("method", own.method);
+    out.Text("status", ToString(own.result.status));
+  }
+  out.Integer("evaluations", own.result.evaluations);
+  out.Number("objective", own.result.value);
+  if (out.full()) {
+    std::vector<ProgressRecord> history;
+    for (const SearchProgress& progress : own.result.history) {
+      history.push_back({progress.evaluations, progress.value, own.radii(progress.x)});
     }
-    out["history"].push_back({{"evaluations", progress.evaluations},
-                              {"objective", progress.value},
-                              {"radius_m", radii}});
+    out.List("history", history);
   }
-  return out;
 }
 
-json ToJson(const FilletOptions& options, const TurnSearch& search) {
-  json out = ToJson(options.search, search.result, 1);
-  out["first_radius_m"] = search.first_radius;
-  out["window_time_s"] = search.time;
-  out["window_heading_rad"] = search.heading;
-  // JSON knows no infinity: a car that did not turn in its window has no such radius.
-  out["free_radius_m"] =
-      std::isfinite(search.free_radius) ? json(search.free_radius) : json(nullptr);
-  return out;
+/// With what the search of a single turn began from.
+struct TurnSearchRecord {
+  const std::string& method;
+  const TurnSearch& search;
+};
+
+void Visit(DiagnosticsVisitor& out, const TurnSearchRecord& own) {
+  out.Number("first_radius_m", own.search.first_radius);
+  Visit(out, SearchRecord{own.method, own.search.result,
+                          [](const std::vector<double>& x) { return x; }});
+  if (out.full()) {
+    out.Number("window_time_s", own.search.time);
+    out.Number("window_heading_rad", own.search.heading);
+    out.Number("free_radius_m", own.search.free_radius);
+  }
 }
 
-json ToJson(const FilletOptions& options, const FilletTurn& turn) {
-  json out{{"waypoint", turn.waypoint},
-           {"heading_change_rad", turn.heading_change},
-           {"interior_angle_rad", turn.interior_angle},
-           {"radius_m", turn.radius},
-           {"speed_mps", turn.speed},
-           {"active_constraint", ToString(turn.active)},
-           {"center_m", Point(turn.center)},
-           {"arc_start_m", Point(turn.arc_start)},
-           {"arc_end_m", Point(turn.arc_end)},
-           {"arc_start_s_m", turn.arc_start_s},
-           {"arc_length_m", turn.arc_length},
-           {"tangent_length_m", turn.tangent_length},
-           {"steering_rad", turn.steering},
-           {"ramp_time_s", turn.ramp_time},
-           {"ramp_distance_m", turn.ramp_distance},
-           {"steer_start_m", turn.steer_start},
-           {"steer_return_m", turn.steer_return},
-           {"ramp_truncated", turn.ramp_truncated}};
-  if (!turn.note.empty()) {
-    out["note"] = turn.note;
+struct PredictedRecord {
+  const TurnError& error;
+};
+
+void Visit(DiagnosticsVisitor& out, const PredictedRecord& own) {
+  out.Number("heading_deficit_rad", own.error.heading_deficit);
+  if (out.full()) {
+    out.Number("lateral_offset_m", own.error.lateral_offset);
   }
-  if (turn.search) {
-    out["search"] = ToJson(options, *turn.search);
-  }
-  return out;
 }
 
 /// Where the wheels of a turn are straight again.
@@ -110,7 +108,7 @@ Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
   plan.status = fillets.status;
   plan.reason = fillets.reason;
   if (!plan.ok()) {
-    plan.diagnostics["waypoint"] = fillets.waypoint;
+    plan.diagnostics.planner = FilletDiagnostics{.failed_waypoint = fillets.waypoint};
     return plan;
   }
   plan.reference.path = fillets.path;
@@ -123,34 +121,92 @@ Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
   plan.schedule_speed =
       StopAtEnd(fillets.stop_distance, request.start_speed, request.speed, plan.caps);
 
-  json& out = plan.diagnostics;
-  if (options.neutral_steering != 0.0) {
-    out["neutral_steering_rad"] = options.neutral_steering;
-    out["neutral_curvature_radpm"] =
-        CurvatureForSteering(request.vehicle, options.neutral_steering);
-  }
-  out["turns"] = json::array();
+  FilletDiagnostics own{
+      .neutral_steering = options.neutral_steering,
+      .neutral_curvature = CurvatureForSteering(request.vehicle, options.neutral_steering),
+      .search_method = SearchFor(options.search.method).name,
+      .search = fillets.search};
   for (const FilletTurn& turn : fillets.turns) {
-    out["turns"].push_back(ToJson(options, turn));
-  }
-  for (const IsolatedTurn& turn : plan.turns) {
-    const TurnError error = PredictTurn(request.vehicle, fillets.path, turn, 0.0);
-    for (json& entry : out["turns"]) {
-      if (entry["waypoint"] == turn.waypoint) {
-        entry["predicted"] = {{"heading_deficit_rad", error.heading_deficit},
-                              {"lateral_offset_m", error.lateral_offset}};
+    FilletTurnFindings found{.turn = turn, .search_method = own.search_method};
+    for (const IsolatedTurn& alone : plan.turns) {
+      if (alone.waypoint == turn.waypoint) {
+        found.predicted = PredictTurn(request.vehicle, fillets.path, alone, 0.0);
       }
     }
+    plan.diagnostics.turns.emplace_back(std::move(found));
   }
-  out["stop_distance_m"] = fillets.stop_distance;
-  out["open_loop"] = ToJson(fillets.verification);
-  if (fillets.search) {
-    out["search"] = ToJson(options.search, *fillets.search, fillet::kDrivenVariables);
-  }
+  plan.diagnostics.planner = std::move(own);
+  plan.diagnostics.stop_distance = fillets.stop_distance;
+  plan.diagnostics.open_loop = fillets.verification;
   return plan;
 }
 
 }  // namespace
+
+void Visit(DiagnosticsVisitor& out, const FilletTurnFindings& own) {
+  const FilletTurn& turn = own.turn;
+  out.Integer("waypoint", turn.waypoint);
+  out.Number("heading_change_rad", turn.heading_change);
+  out.Number("radius_m", turn.radius);
+  out.Number("speed_mps", turn.speed);
+  out.Text("active_constraint", ToString(turn.active));
+  out.Number("ramp_time_s", turn.ramp_time);
+  out.Number("ramp_distance_m", turn.ramp_distance);
+  out.Number("steer_start_m", turn.steer_start);
+  out.Number("steer_return_m", turn.steer_return);
+  out.Flag("ramp_truncated", turn.ramp_truncated);
+  if (!turn.note.empty()) {
+    out.Text("note", turn.note);
+  }
+  if (turn.search) {
+    out.Section("search", TurnSearchRecord{own.search_method, *turn.search});
+  }
+  if (own.predicted) {
+    out.Section("predicted", PredictedRecord{*own.predicted});
+  }
+  if (out.full()) {
+    out.Number("interior_angle_rad", turn.interior_angle);
+    out.Point("center_m", turn.center);
+    out.Point("arc_start_m", turn.arc_start);
+    out.Point("arc_end_m", turn.arc_end);
+    out.Number("arc_start_s_m", turn.arc_start_s);
+    out.Number("arc_length_m", turn.arc_length);
+    out.Number("tangent_length_m", turn.tangent_length);
+    out.Number("steering_rad", turn.steering);
+  }
+}
+
+void ReplaceStretch(FilletTurnFindings& own, const Stations& replaced, double shift) {
+  FilletTurn& turn = own.turn;
+  if (turn.steer_start >= replaced.to) {
+    for (double* station : {&turn.arc_start_s, &turn.steer_start, &turn.steer_return}) {
+      *station += shift;
+    }
+  } else if (turn.steer_return > replaced.from) {
+    turn.note = "led around an obstacle here";
+  }
+}
+
+void Visit(DiagnosticsVisitor& out, const FilletDiagnostics& own) {
+  if (own.failed_waypoint) {
+    out.Integer("waypoint", *own.failed_waypoint);
+  }
+  if (own.neutral_steering != 0.0) {
+    out.Number("neutral_steering_rad", own.neutral_steering);
+    out.Number("neutral_curvature_radpm", own.neutral_curvature);
+  }
+  if (own.search) {
+    out.Section("search", SearchRecord{own.search_method, *own.search, DrivenRadii});
+  }
+}
+
+std::vector<double> DrivenRadii(const std::vector<double>& x) {
+  std::vector<double> radii;
+  for (std::size_t i = 0; i + fillet::kDrivenVariables <= x.size(); i += fillet::kDrivenVariables) {
+    radii.push_back(x[i]);
+  }
+  return radii;
+}
 
 void Visit(KeyVisitor& keys, DrivenWeights& weights) {
   keys.Field({"position", "1/m^3", "of the squared distance from the path, over its length"},

@@ -96,6 +96,61 @@ double NeutralTowardTurn(const FilletTurn& turn) {
   return turn.heading_change < 0.0 ? -turn.neutral : turn.neutral;
 }
 
+Refusal RefuseTurn(const FilletTurn& turn, PlanStatus status, const std::string& why) {
+  return {status, turn.waypoint,
+          fmt::format("turn of {:.4g} deg at waypoint {}: {}", turn.heading_change * 180.0 / kPi,
+                      turn.waypoint, why)};
+}
+
+/// The radii that C.40 allows, at the speed that is left to the turn where it allows none at the
+/// mission's; none where C.34 is to take its place.
+std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle, double speed,
+                                                    const FilletOptions& options,
+                                                    const RadiusInterval& bounds,
+                                                    FilletTurn& turn) {
+  const auto room_at = [&](double v) {
+    return SteeringRoomRadii(vehicle, v, turn.interior_angle, turn.shorter_leg, bounds,
+                             NeutralTowardTurn(turn));
+  };
+  if (auto room = room_at(speed)) {
+    return room;
+  }
+  const std::string why = fmt::format(
+      "at {:.4g} m/s no radius from {:.4g} to {:.4g} m leaves the distance to turn the wheels "
+      "within half of the shorter leg, {:.4g} m (C.40)",
+      speed, bounds.low, bounds.high, turn.shorter_leg / 2.0);
+  if (options.without_room == InfeasibleTurnPolicy::kRefuse) {
+    throw RefuseTurn(turn, PlanStatus::kNoRoomForSteering, why);
+  }
+  if (options.without_room == InfeasibleTurnPolicy::kHalfLeg) {
+    turn.note = why + "; under C.34 instead";
+    return std::nullopt;
+  }
+  const auto slower =
+      options.min_speed < speed
+          ? SteeringRoomSpeed(vehicle, turn.interior_angle, turn.shorter_leg, bounds,
+                              {options.min_speed, speed}, NeutralTowardTurn(turn))
+          : std::nullopt;
+  if (slower) {
+    turn.speed = *slower;
+    turn.note = fmt::format("{}; taken at {:.4g} m/s", why, *slower);
+    return room_at(*slower);
+  }
+  // C.40 keeps a whole ramp on the leg, of which half lies on the arc.
+  const double v = std::min(options.min_speed, speed);
+  const auto room =
+      SteeringRoomRadii(vehicle, 0.5 * v, turn.interior_angle, turn.shorter_leg, bounds);
+  if (!room) {
+    throw RefuseTurn(
+        turn, PlanStatus::kNoRoomForSteering,
+        fmt::format("{}, and at {:.4g} m/s its ramps would overlap those of its neighbors", why,
+                    v));
+  }
+  turn.speed = v;
+  turn.note = fmt::format("{}; taken at {:.4g} m/s with half a ramp on the leg", why, v);
+  return room;
+}
+
 }  // namespace
 
 RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const FilletOptions& options,
@@ -104,9 +159,7 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
   // The model's limit is an angle: its radius comes back with rounding, which must not refuse it.
   const double tolerance = 1e-9 * r_min;
   const auto refuse = [&](PlanStatus status, const std::string& why) {
-    return Refusal{status, turn.waypoint,
-                   fmt::format("turn of {:.4g} deg at waypoint {}: {}",
-                               turn.heading_change * 180.0 / kPi, turn.waypoint, why)};
+    return RefuseTurn(turn, status, why);
   };
   if (options.radius && *options.radius < r_min - tolerance) {
     throw refuse(PlanStatus::kTurnTooTight,
@@ -138,45 +191,7 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
   RadiusLimits limits{*half_leg, ActiveConstraint::kMinRadius, ActiveConstraint::kHalfLeg,
                       RadiusConstraint::kHalfLeg};
   if (options.constraint == RadiusConstraint::kSteeringRoom) {
-    const auto room_at = [&](double v) {
-      return SteeringRoomRadii(vehicle, v, turn.interior_angle, turn.shorter_leg, bounds,
-                               NeutralTowardTurn(turn));
-    };
-    auto room = room_at(speed);
-    if (!room) {
-      const std::string why = fmt::format(
-          "at {:.4g} m/s no radius from {:.4g} to {:.4g} m leaves the distance to turn the wheels "
-          "within half of the shorter leg, {:.4g} m (C.40)",
-          speed, bounds.low, bounds.high, turn.shorter_leg / 2.0);
-      if (options.without_room == InfeasibleTurnPolicy::kRefuse) {
-        throw refuse(PlanStatus::kNoRoomForSteering, why);
-      }
-      const bool slow_down =
-          options.without_room == InfeasibleTurnPolicy::kSlowDown && options.min_speed < speed;
-      const auto slower =
-          slow_down ? SteeringRoomSpeed(vehicle, turn.interior_angle, turn.shorter_leg, bounds,
-                                        {options.min_speed, speed}, NeutralTowardTurn(turn))
-                    : std::nullopt;
-      if (slower) {
-        turn.speed = *slower;
-        turn.note = fmt::format("{}; taken at {:.4g} m/s", why, *slower);
-        room = room_at(*slower);
-      } else if (options.without_room == InfeasibleTurnPolicy::kSlowDown) {
-        // C.40 keeps a whole ramp on the leg, of which half lies on the arc.
-        const double v = std::min(options.min_speed, speed);
-        room = SteeringRoomRadii(vehicle, 0.5 * v, turn.interior_angle, turn.shorter_leg, bounds);
-        if (!room) {
-          throw refuse(PlanStatus::kNoRoomForSteering,
-                       fmt::format("{}, and at {:.4g} m/s its ramps would overlap those of its "
-                                   "neighbors",
-                                   why, v));
-        }
-        turn.speed = v;
-        turn.note = fmt::format("{}; taken at {:.4g} m/s with half a ramp on the leg", why, v);
-      } else {
-        turn.note = why + "; under C.34 instead";
-      }
-    }
+    const auto room = RadiiWithSteeringRoom(vehicle, speed, options, bounds, turn);
     if (room) {
       limits = {
           *room,

@@ -56,7 +56,7 @@ Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const Occ
               double inflation, std::vector<Vec2> points) {
   const bool round = options.corners == Corners::kRound;
   Plan plan;
-  plan.diagnostics["legs"] = nlohmann::json::array();
+  AStarDiagnostics found;
   for (std::size_t i = 1; i < request.waypoints.size(); ++i) {
     const Vec2 goal = request.waypoints[i];
     const int from = grid.CellAt(points.back());
@@ -72,10 +72,10 @@ Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const Occ
     }
     std::vector<Vec2> leg = PointsOf(grid, way, goal);
     leg.front() = points.back();
-    plan.diagnostics["legs"].push_back({{"cost_m", way.cost * options.cell},
-                                        {"expansions", way.expansions},
-                                        {"cells", grid.size()},
-                                        {"path_m", route::ToJson(WithoutStraightOn(leg))}});
+    found.legs.push_back({.cost = way.cost * options.cell,
+                          .expansions = way.expansions,
+                          .cells = grid.size(),
+                          .path = WithoutStraightOn(leg)});
     if (round) {
       leg = Shortcut(leg, request.obstacles, inflation);
     }
@@ -84,6 +84,7 @@ Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const Occ
   if (!round) {
     points = WithoutStraightOn(points);
   }
+  plan.diagnostics.planner = std::move(found);
   return route::AlongPolyline(std::move(plan), request, points, options.corners,
                               options.safe_distance, options.min_speed);
 }
@@ -180,6 +181,19 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
 }
 
 }  // namespace
+
+void Visit(DiagnosticsVisitor& out, const AStarLeg& leg) {
+  out.Number("cost_m", leg.cost);
+  out.Integer("expansions", leg.expansions);
+  out.Integer("cells", leg.cells);
+  if (out.full()) {
+    out.Points("path_m", leg.path);
+  }
+}
+
+void Visit(DiagnosticsVisitor& out, const AStarDiagnostics& own) {
+  out.List("legs", own.legs);
+}
 
 void Visit(KeyVisitor& keys, AStarOptions& options) {
   route::VisitCorners(keys, options.corners, options.safe_distance, options.corner_room);

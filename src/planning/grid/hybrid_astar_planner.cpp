@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
 
@@ -23,7 +21,7 @@ Plan PlanWith(const HybridAStarOptions& options, const PlanRequest& request) {
   }
   std::vector<Pose2> stops = StopsOf(request);
   Plan plan;
-  plan.diagnostics["legs"] = nlohmann::json::array();
+  HybridAStarDiagnostics diagnostics;
   const bool rolls = request.start_speed > 0.0;
   std::vector<Segment> segments;
   if (rolls) {
@@ -51,9 +49,10 @@ Plan PlanWith(const HybridAStarOptions& options, const PlanRequest& request) {
                      fmt::format("from waypoint {} to {}: {}", i - 1, i, found.reason));
     }
     segments.insert(segments.end(), found.segments.begin(), found.segments.end());
-    plan.diagnostics["legs"].push_back(
-        {{"cost_m", found.cost}, {"expansions", found.expansions}, {"cells", found.cells}});
+    diagnostics.legs.push_back(
+        {.cost = found.cost, .expansions = found.expansions, .cells = found.cells});
   }
+  plan.diagnostics.planner = std::move(diagnostics);
   return route::AlongSegments(std::move(plan), request, std::move(segments), options.min_speed);
 }
 
@@ -62,6 +61,16 @@ bool MayReverse(const PlannerOptions& options) {
 }
 
 }  // namespace
+
+void Visit(DiagnosticsVisitor& out, const HybridAStarLeg& leg) {
+  out.Number("cost_m", leg.cost);
+  out.Integer("expansions", leg.expansions);
+  out.Integer("cells", leg.cells);
+}
+
+void Visit(DiagnosticsVisitor& out, const HybridAStarDiagnostics& own) {
+  out.List("legs", own.legs);
+}
 
 void Visit(KeyVisitor& keys, HybridAStarOptions& options) {
   route::VisitCurves(keys, options.radius, options.safe_distance, options.min_speed);

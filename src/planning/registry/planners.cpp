@@ -1,7 +1,6 @@
 #include "trackbed/planning/registry/planners.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "trackbed/core/error.h"
 #include "trackbed/options/registry.h"
@@ -85,9 +84,9 @@ Plan MakePlan(const PlanRequest& request, const PlannerOptions& options) {
   }
   Plan plan = PlannerFor(options).plan(request, options);
   plan = MakeFeasible(std::move(plan), request);
-  if (plan.ok() && !plan.diagnostics.contains("open_loop")) {
-    plan.diagnostics["open_loop"] = ToJson(DriveOpenLoop(
-        request.vehicle, plan.reference.path, plan.schedule, plan.schedule_speed.knots().back().s));
+  if (plan.ok() && !plan.diagnostics.open_loop) {
+    plan.diagnostics.open_loop = DriveOpenLoop(request.vehicle, plan.reference.path, plan.schedule,
+                                               plan.schedule_speed.knots().back().s);
   }
   return plan;
 }

@@ -297,4 +297,19 @@ AlongPlan PlanAlongRoute(const RouteFrame& frame, const AlongRequest& request,
   return AlongRoute(frame, request, settings, options).Plan();
 }
 
+void Visit(DiagnosticsVisitor& out, const AlongPlan& along) {
+  out.Text("kind", ToString(along.kind));
+  out.Text("status", ToString(along.found.status));
+  out.Integer("candidates", along.found.candidates);
+  out.Integer("checked", along.found.checked);
+  out.Text("rejected", along.found.rejected.ToString());
+  if (along.ok()) {
+    const FrenetState end = along.found.motion.At(along.found.motion.duration());
+    out.Number("cost", along.found.cost);
+    out.Number("duration_s", along.found.motion.duration());
+    out.Number("end_offset_m", end.d);
+    out.Number("end_speed_mps", end.s_rate);
+  }
+}
+
 }  // namespace trackbed

@@ -137,16 +137,23 @@ class DetourSearch {
   }
 
  private:
+  /// A plan from the car on, and between which of its stations it is the planner's.
+  struct JoinedPlan {
+    Plan plan;
+    Stations replaced;  ///< [m]
+  };
+
   /// Asks the planner for a way between two stations, and keeps it if it is the best so far.
   void Try(double leave, double back, std::uint64_t attempt, Detour& detour) const {
     for (const double straight_on : kStraightOn) {
       ++detour.tried;
-      std::optional<Plan> found = Between(leave, back, straight_on, attempt, detour.why);
+      std::optional<JoinedPlan> found = Between(leave, back, straight_on, attempt, detour.why);
       if (found) {
-        const WayScore score = Score(PointsOf(found->reference.path));
+        const WayScore score = Score(PointsOf(found->plan.reference.path));
         if (IsBetter(score, detour.best)) {
           detour.best = score;
-          detour.route = std::move(found);
+          detour.route = std::move(found->plan);
+          detour.replaced = found->replaced;
         }
         return;
       }
@@ -200,8 +207,8 @@ class DetourSearch {
     return backs;
   }
 
-  std::optional<Plan> Between(double leave, double back, double straight_on, std::uint64_t attempt,
-                              std::string& why) const {
+  std::optional<JoinedPlan> Between(double leave, double back, double straight_on,
+                                    std::uint64_t attempt, std::string& why) const {
     const Path& driven = request_.driven.reference.path;
     const Path& route = request_.route.reference.path;
     const Pose2 from = driven.At(leave).pose;
@@ -245,7 +252,8 @@ class DetourSearch {
   }
 
   /// The driven path up to `leave`, the way, the route from `back` on.
-  std::optional<Plan> Joined(double leave, const Plan& way, double back, std::string& why) const {
+  std::optional<JoinedPlan> Joined(double leave, const Plan& way, double back,
+                                   std::string& why) const {
     const Path& driven = request_.driven.reference.path;
     const Path& route = request_.route.reference.path;
     const double lead = leave - request_.station;
@@ -279,11 +287,7 @@ class DetourSearch {
     plan.schedule_speed = plan.reference.speed;
     plan.goal = request_.route.goal;
     plan.tree = way.tree;
-    plan.diagnostics["turns"] = nlohmann::json::array();
-    plan.diagnostics["planner"] = entry_.name;
-    plan.diagnostics["leave_s_m"] = lead;
-    plan.diagnostics["return_s_m"] = beyond;
-    return plan;
+    return JoinedPlan{std::move(plan), {lead, beyond}};
   }
 
   const DetourRequest& request_;
@@ -322,6 +326,21 @@ Detour PlanDetour(const DetourRequest& request, const PlannerOptions& planner,
                      request.driven.ok() && request.route.ok(),
                  "{} attempts of a detour by {}", choice.attempts, entry.name);
   return DetourSearch(request, planner, choice).Run();
+}
+
+void Visit(DiagnosticsVisitor& out, const DetourFindings& own) {
+  out.Text("planner", own.planner);
+  out.Integer("tried", own.tried);
+  out.Section("current", own.current);
+  if (own.best) {
+    out.Section("best", *own.best);
+  }
+  if (own.replaced) {
+    out.Number("leave_s_m", own.replaced->from);
+    out.Number("return_s_m", own.replaced->to);
+  } else {
+    out.Text("why", own.why);
+  }
 }
 
 }  // namespace trackbed

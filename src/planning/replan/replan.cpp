@@ -17,8 +17,6 @@
 namespace trackbed {
 namespace {
 
-using nlohmann::json;
-
 /// A plan that ends at the goal is kept for its last meters, unless something comes in the way.
 constexpr double kLastMeters = 1.0;
 /// As near as this to the route, a car is back on it.
@@ -53,29 +51,6 @@ Plan ToPlan(const VehicleParams& vehicle, const std::vector<TrajectoryPoint>& po
   }
   plan.schedule = SteeringSchedule::Through(std::move(knots));
   return plan;
-}
-
-json ToJson(const AlongPlan& along) {
-  json out{{"kind", ToString(along.kind)},
-           {"status", ToString(along.found.status)},
-           {"candidates", along.found.candidates},
-           {"checked", along.found.checked},
-           {"rejected", along.found.rejected.ToString()}};
-  if (along.ok()) {
-    const FrenetState end = along.found.motion.At(along.found.motion.duration());
-    out["cost"] = along.found.cost;
-    out["duration_s"] = along.found.motion.duration();
-    out["end_offset_m"] = end.d;
-    out["end_speed_mps"] = end.s_rate;
-  }
-  return out;
-}
-
-json ToJson(const WayScore& score) {
-  return {{"length_m", score.length},
-          {"wind_m", score.wind},
-          {"collides", score.collides},
-          {"total_m", score.total}};
 }
 
 class Replanning {
@@ -115,11 +90,11 @@ class Replanning {
     }
     if (options_.detour) {
       Detour detour = FindDetour();
-      Tell(detour);
+      diagnostics_.detour = FindingsOn(detour);
       // Detours know only what stands.
       if (detour.route && !EncounterOf(detour.route->reference, 0.0)) {
-        diagnostics_["kind"] = "detour";
-        detour.route->diagnostics["replan"] = diagnostics_;
+        diagnostics_.kind = "detour";
+        detour.route->diagnostics.replan = diagnostics_;
         return {ReplanKind::kRoute, std::move(*detour.route)};
       }
     }
@@ -200,7 +175,7 @@ class Replanning {
     if (EncounterOf(rest.reference, 0.0)) {
       return std::nullopt;
     }
-    rest.diagnostics["replan"] = {{"kind", "back_on_route"}};
+    rest.diagnostics.replan = ReplanDiagnostics{.kind = "back_on_route"};
     return Replanned{ReplanKind::kRoute, std::move(rest)};
   }
 
@@ -239,9 +214,9 @@ class Replanning {
 
   Replanned Follow(const AlongPlan& along) {
     Plan plan = ToPlan(request_.vehicle, along.points, driving_.route.goal);
-    diagnostics_["along"] = ToJson(along);
-    diagnostics_["kind"] = "motion";
-    plan.diagnostics["replan"] = diagnostics_;
+    diagnostics_.along = along;
+    diagnostics_.kind = "motion";
+    plan.diagnostics.replan = diagnostics_;
     if (along.kind == ManeuverType::kStop) {
       plan.blocked = "stops behind what stands in the way: no motion leads past it";
     } else if (!along.to_goal) {
@@ -271,21 +246,19 @@ class Replanning {
     return PlanDetour(request, *options_.detour, options_.comparator.value_or(DetourChoice{}));
   }
 
-  void Tell(const Detour& detour) {
-    json& out = diagnostics_["detour"];
-    out = {{"planner", PlannerFor(*options_.detour).name},
-           {"tried", detour.tried},
-           {"current", ToJson(detour.current)}};
+  [[nodiscard]] DetourFindings FindingsOn(const Detour& detour) const {
+    DetourFindings found{.planner = PlannerFor(*options_.detour).name,
+                         .tried = detour.tried,
+                         .current = detour.current,
+                         .best = std::nullopt,
+                         .why = detour.why};
     if (std::isfinite(detour.best.total)) {
-      out["best"] = ToJson(detour.best);
+      found.best = detour.best;
     }
     if (detour.route) {
-      for (const char* key : {"leave_s_m", "return_s_m"}) {
-        out[key] = detour.route->diagnostics[key];
-      }
-    } else {
-      out["why"] = detour.why;
+      found.replaced = detour.replaced;
     }
+    return found;
   }
 
   /// Along the plan that is driven, to rest before the place of the encounter: comfortably if that
@@ -306,9 +279,9 @@ class Replanning {
     plan.goal = driving_.route.goal;
     plan.blocked =
         fmt::format("stops before the obstacle at {}: no way leads past it", Place(obstacle.box));
-    diagnostics_["kind"] = "brake";
-    diagnostics_["deceleration_mps2"] = braking;
-    plan.diagnostics["replan"] = diagnostics_;
+    diagnostics_.kind = "brake";
+    diagnostics_.deceleration = braking;
+    plan.diagnostics.replan = diagnostics_;
     return {ReplanKind::kStop, std::move(plan)};
   }
 
@@ -377,10 +350,23 @@ class Replanning {
   const ReplanRequest& request_;
   const Driving& driving_;
   const ReplanOptions& options_;
-  json diagnostics_ = json::object();
+  ReplanDiagnostics diagnostics_;
 };
 
 }  // namespace
+
+void Visit(DiagnosticsVisitor& out, const ReplanDiagnostics& own) {
+  out.Text("kind", own.kind);
+  if (own.along) {
+    out.Section("along", *own.along);
+  }
+  if (own.detour) {
+    out.Section("detour", *own.detour);
+  }
+  if (own.deceleration) {
+    out.Number("deceleration_mps2", *own.deceleration);
+  }
+}
 
 const char* ToString(ReplanKind kind) {
   switch (kind) {

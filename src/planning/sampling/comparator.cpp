@@ -55,4 +55,11 @@ WayScore ScoreWay(const std::vector<Vec2>& way, const Vec2& position,
   return score;
 }
 
+void Visit(DiagnosticsVisitor& out, const WayScore& score) {
+  out.Number("length_m", score.length);
+  out.Number("wind_m", score.wind);
+  out.Flag("collides", score.collides);
+  out.Number("total_m", score.total);
+}
+
 }  // namespace trackbed

@@ -110,7 +110,7 @@ struct Way {
   std::vector<Vec2> nearest;  ///< the tree's path toward the next one, to the node nearest to it
   double left = 0.0;          ///< from where it ends to the next goal [m]
   RrtStatus status = RrtStatus::kReached;
-  nlohmann::json legs = nlohmann::json::array();
+  std::vector<RrtLeg> legs;
   std::vector<TreeNode> tree;  ///< in the world
 };
 
@@ -145,14 +145,14 @@ std::vector<Vec2> InWorld(const Pose2& frame, std::vector<Vec2> points) {
 
 /// Goes on along a tree's path, smoothed, and with no more corners than it needs; `leg` is told.
 void AddLeg(const Forest& forest, const std::vector<Vec2>& path, bool is_last,
-            std::vector<Vec2>& points, nlohmann::json& leg) {
+            std::vector<Vec2>& points, RrtLeg& leg) {
   const RrtPlannerOptions& options = forest.options;
   const Task& task = forest.task;
   const SmoothingResult smooth =
       SmoothPath(path, task.obstacles, task.inflation, task.wind,
                  {.data = options.data_weight, .smoothness = options.smoothness_weight});
-  leg["sweeps"] = smooth.sweeps;
-  leg["smooth_m"] = route::ToJson(InWorld(forest.request.start, smooth.path));
+  leg.sweeps = smooth.sweeps;
+  leg.smooth = InWorld(forest.request.start, smooth.path);
   const std::size_t before = points.size();
   const std::vector<Vec2> few = PruneWaypoints(
       smooth.path, {.before = before > 1 ? std::optional(points[before - 2]) : std::nullopt,
@@ -189,11 +189,13 @@ Way GrowWay(const Forest& forest, std::uint64_t seed) {
                                     .stop = forest.time_is_over},
                                    seed + way.goals);
     AddTree(tree, frame, way.tree);
-    way.legs.push_back({{"status", ToString(tree.status)},
-                        {"iterations", tree.iterations},
-                        {"nodes", tree.nodes.size()},
-                        {"length_m", tree.length},
-                        {"path_m", route::ToJson(InWorld(frame, tree.path))}});
+    way.legs.push_back({.status = tree.status,
+                        .iterations = tree.iterations,
+                        .nodes = tree.nodes.size(),
+                        .length = tree.length,
+                        .path = InWorld(frame, tree.path),
+                        .sweeps = {},
+                        .smooth = {}});
     if (!tree.ok()) {
       way.status = tree.status;
       way.nearest = tree.path;
@@ -270,7 +272,7 @@ void TakePart(const Forest& forest, Try& next) {
   std::string why;
   for (std::size_t nodes = nearest.size(); nodes > 0; --nodes) {
     std::vector<Vec2> points = reached;
-    nlohmann::json leg = next.way.legs.back();
+    RrtLeg leg = next.way.legs.back();
     if (nodes > 1) {
       const std::vector<Vec2> part(nearest.begin(),
                                    nearest.begin() + static_cast<std::ptrdiff_t>(nodes));
@@ -309,21 +311,17 @@ Try TryTree(const Forest& forest, std::uint64_t seed) {
   return next;
 }
 
-nlohmann::json ToJson(const Try& each) {
-  nlohmann::json json{{"status", ToString(each.plan.status)},
-                      {"reason", each.plan.reason},
-                      {"length_m", each.score.length},
-                      {"wind_m", each.score.wind},
-                      {"total_m", each.score.total}};
+RrtTreeFindings FindingsOn(const Try& each) {
+  RrtTreeFindings found{each.plan.status, each.plan.reason, each.score, std::nullopt};
   if (each.plan.ok() && each.is_partial()) {
-    json["partial"] = true;
-    json["left_m"] = each.way.left;
+    found.remaining = each.way.left;
   }
-  return json;
+  return found;
 }
 
 /// Says of a plan that leads nowhere, or part of the way, how far trees came with what they had.
-void TellBudget(const Forest& forest, const Try& best, const std::string& budget, Plan& plan) {
+void TellBudget(const Forest& forest, const Try& best, const std::string& budget, Plan& plan,
+                RrtDiagnostics& diagnostics) {
   if (plan.status == PlanStatus::kBudgetUsedUp) {
     plan.reason = fmt::format("not reached by {}: the nearest one {}", budget, plan.reason);
   } else if (plan.ok() && best.is_partial()) {
@@ -332,10 +330,7 @@ void TellBudget(const Forest& forest, const Try& best, const std::string& budget
     plan.partial = fmt::format(
         "ends {:.3g} m from waypoint {}, the nearest that {} came by a way that the car can drive",
         best.way.left, waypoint, budget);
-    plan.diagnostics["partial"] = true;
-    plan.diagnostics["partial_reason"] = plan.partial;
-    plan.diagnostics["next_waypoint"] = waypoint;
-    plan.diagnostics["left_m"] = best.way.left;
+    diagnostics.partial = {waypoint, best.way.left, plan.partial};
   }
 }
 
@@ -358,17 +353,16 @@ Plan PlanTrees(const RrtPlannerOptions& options, const PlanRequest& request) {
     forest.time_is_over = [&request, end] { return request.clock() >= end; };
   }
   std::optional<Try> best;
-  nlohmann::json trees = nlohmann::json::array();
-  int chosen = 0;
+  RrtDiagnostics diagnostics;
   bool time_is_over = false;
   for (int i = 0; i < options.trees && !time_is_over; ++i) {
     Try next = TryTree(forest, request.seed + (static_cast<std::uint64_t>(i) << 32U));
-    trees.push_back(ToJson(next));
+    diagnostics.trees.push_back(FindingsOn(next));
     const RrtStatus status = next.way.status;
     const bool hopeless = status == RrtStatus::kGoalBlocked;  // so it is for every tree
     if (!best || hopeless || IsBetterTry(next, *best)) {
       best = std::move(next);
-      chosen = i;
+      diagnostics.chosen = i;
     }
     if (hopeless) {
       break;
@@ -377,10 +371,10 @@ Plan PlanTrees(const RrtPlannerOptions& options, const PlanRequest& request) {
                    (i + 1 < options.trees && forest.time_is_over && forest.time_is_over());
   }
   Plan plan = std::move(best->plan);
-  TellBudget(forest, *best, BudgetOf(options, trees.size(), time_is_over), plan);
-  plan.diagnostics["legs"] = std::move(best->way.legs);
-  plan.diagnostics["trees"] = std::move(trees);
-  plan.diagnostics["chosen"] = chosen;
+  TellBudget(forest, *best, BudgetOf(options, diagnostics.trees.size(), time_is_over), plan,
+             diagnostics);
+  diagnostics.legs = std::move(best->way.legs);
+  plan.diagnostics.planner = std::move(diagnostics);
   if (plan.ok()) {
     plan.tree = std::move(best->way.tree);
   }

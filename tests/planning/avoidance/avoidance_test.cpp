@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "tests/geometry/random.h"
 #include "tests/planning/obstacle_turns.h"
@@ -35,8 +36,9 @@ void ExpectSafe(const Plan& plan, const Plan& global, const std::vector<Oriented
   const VehicleParams car = ReferenceCar();
   const Path& path = plan.reference.path;
   EXPECT_GE(ClearanceOf(path, obstacles, car, {}), options.safe_distance - Tolerance(kTouch));
-  ASSERT_TRUE(plan.diagnostics.contains("avoid"));
-  for (const nlohmann::json& stretch : plan.diagnostics["avoid"]) {
+  ASSERT_FALSE(plan.diagnostics.avoided.empty());
+  const nlohmann::json stretches = DiagnosticsJson(plan)["avoid"];
+  for (const nlohmann::json& stretch : stretches) {
     const Stations curve{stretch["leave_s_m"].get<double>(), stretch["return_s_m"].get<double>()};
     EXPECT_GE(ClearanceOf(path, obstacles, car, curve),
               options.safe_distance - Tolerance(kBetweenSamples));
@@ -134,10 +136,10 @@ TEST(PlanAround, TakesTheOnlyRingThatIsFree) {
   // To the left is the turn's center.
   const Plan outer = Around(global, WithWall(course, 0.5, 1.0));
   ASSERT_EQ(outer.blocked, "");
-  EXPECT_EQ(outer.diagnostics["avoid"][0]["ring"], "outer");
+  EXPECT_EQ(DiagnosticsJson(outer)["avoid"][0]["ring"], "outer");
   const Plan inner = Around(global, WithWall(course, 0.5, -1.0));
   ASSERT_EQ(inner.blocked, "");
-  EXPECT_EQ(inner.diagnostics["avoid"][0]["ring"], "inner");
+  EXPECT_EQ(DiagnosticsJson(inner)["avoid"][0]["ring"], "inner");
 }
 
 TEST(PlanAround, StopsBeforeWhatItFindsNoWayAround) {
@@ -152,7 +154,7 @@ TEST(PlanAround, StopsBeforeWhatItFindsNoWayAround) {
   const Plan plan = Around(global, wall, options);
   EXPECT_THAT(plan.blocked, testing::StartsWith("stops before the obstacle at ("));
   EXPECT_THAT(plan.blocked, testing::HasSubstr("no curve passes it on either side at 2 m/s"));
-  EXPECT_EQ(plan.diagnostics["blocked"], plan.blocked);
+  EXPECT_EQ(DiagnosticsJson(plan)["blocked"], plan.blocked);
   EXPECT_TRUE(plan.ok()) << "the way there can be driven";
   const Path& path = plan.reference.path;
   EXPECT_GE(ClearanceOf(path, wall, ReferenceCar(), {}), kDistance - Tolerance(kTouch));
@@ -168,7 +170,7 @@ TEST(PlanAround, PassesSeveralObstaclesOneAfterTheOther) {
   const BezierAvoidanceOptions options;
   const Plan plan = Around(global, obstacles, options);
   ASSERT_EQ(plan.blocked, "");
-  EXPECT_EQ(plan.diagnostics["avoid"].size(), 2U);
+  EXPECT_EQ(plan.diagnostics.avoided.size(), 2U);
   ExpectSafe(plan, global, obstacles, options);
 }
 
@@ -212,7 +214,7 @@ TEST(PlanAround, AnObstacleFarAheadOfTheCarLeavesItsPathUntilThen) {
                                 .seed = 1},
                                BezierAvoidanceOptions{});
   ASSERT_EQ(plan.blocked, "");
-  EXPECT_GT(plan.diagnostics["avoid"][0]["leave_s_m"].get<double>(), 90.0);
+  EXPECT_GT(DiagnosticsJson(plan)["avoid"][0]["leave_s_m"].get<double>(), 90.0);
   EXPECT_EQ(plan.reference.path.At(0.0).pose, global.reference.path.At(30.0).pose);
 }
 
@@ -270,7 +272,7 @@ TEST_P(RandomObstacles, ArePassedSafelyOrStoppedBefore) {
       EXPECT_EQ(plan.reference.speed.SpeedAt(plan.reference.path.length()), 0.0);
       continue;
     }
-    if (!plan.diagnostics.contains("avoid")) {
+    if (plan.diagnostics.avoided.empty()) {
       EXPECT_GE(ClearanceOf(plan.reference.path, {obstacle}, ReferenceCar(), {}),
                 options.safe_distance - Tolerance(kTouch));
       continue;

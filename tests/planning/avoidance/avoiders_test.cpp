@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "tests/planning/obstacle_turns.h"
@@ -43,11 +44,11 @@ TEST_P(EveryAvoider, LeavesAPlanThatNothingStandsInTheWayOf) {
   const OrientedBox beside{{20.0, 3.3626, 0.0}, 2.0, 2.0};
   const Plan plan = Around(global, {beside}, GetParam().defaults);
   EXPECT_EQ(plan.reference.path.segments(), global.reference.path.segments());
-  EXPECT_FALSE(plan.diagnostics.contains("avoid"));
+  EXPECT_TRUE(plan.diagnostics.avoided.empty());
   EXPECT_EQ(plan.blocked, "");
   const OrientedBox nearer{{20.0, 3.36, 0.0}, 2.0, 2.0};
   const Plan around = Around(global, {nearer}, GetParam().defaults);
-  EXPECT_NE(around.diagnostics.contains("avoid"), !around.blocked.empty());
+  EXPECT_NE(!around.diagnostics.avoided.empty(), !around.blocked.empty());
 }
 
 TEST_P(EveryAvoider, LeavesTheWayToTheCurveAsItWas) {
@@ -55,7 +56,7 @@ TEST_P(EveryAvoider, LeavesTheWayToTheCurveAsItWas) {
   const Plan global = course.Global();
   const Plan plan = Around(global, {InTheMiddle(course)}, GetParam().defaults);
   ASSERT_EQ(plan.blocked, "");
-  const double leave = plan.diagnostics["avoid"][0]["leave_s_m"].get<double>();
+  const double leave = DiagnosticsJson(plan)["avoid"][0]["leave_s_m"].get<double>();
   // S = r + v t_d before the arc, from 42.7 m on.
   EXPECT_NEAR(leave, 42.7 - 22.7, Tolerance(0.1));
   constexpr double kStep = 1e-6;  // [m]; where the steering jumps it may begin so much earlier
@@ -81,7 +82,7 @@ TEST_P(EveryAvoider, DrivesTheCurveOfItsControlPoints) {
   const Course course;
   const Plan plan = Around(course.Global(), {InTheMiddle(course)}, GetParam().defaults);
   ASSERT_EQ(plan.blocked, "");
-  const nlohmann::json& stretch = plan.diagnostics["avoid"][0];
+  const nlohmann::json stretch = DiagnosticsJson(plan)["avoid"][0];
   std::vector<Vec2> points;
   for (const nlohmann::json& point : stretch["control_points_m"]) {
     points.emplace_back(point[0].get<double>(), point[1].get<double>());
@@ -103,7 +104,7 @@ TEST_P(EveryAvoider, TellsHowNearItsCurveComes) {
   const OrientedBox box = InTheMiddle(course);
   const Plan plan = Around(course.Global(), {box}, GetParam().defaults);
   ASSERT_EQ(plan.blocked, "");
-  const nlohmann::json& stretch = plan.diagnostics["avoid"][0];
+  const nlohmann::json stretch = DiagnosticsJson(plan)["avoid"][0];
   const Stations curve{stretch["leave_s_m"].get<double>(), stretch["return_s_m"].get<double>()};
   // Looked at every 0.05 m there, every 0.02 m here.
   EXPECT_NEAR(stretch["clearance_m"].get<double>(),
@@ -121,7 +122,7 @@ TEST_P(EveryAvoider, TheScheduleDrivesTheCurveOpenLoop) {
   const Plan plan = Around(course.Global(), {InTheMiddle(course)}, GetParam().defaults);
   ASSERT_EQ(plan.blocked, "");
   const Path& path = plan.reference.path;
-  const nlohmann::json& stretch = plan.diagnostics["avoid"][0];
+  const nlohmann::json stretch = DiagnosticsJson(plan)["avoid"][0];
   const double leave = stretch["leave_s_m"].get<double>();
   const double back = stretch["return_s_m"].get<double>();
   // The schedule has the curve's own angle every 0.1 m or less, and is straight in between.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "tests/geometry/random.h"
@@ -65,8 +66,8 @@ TEST_P(ListedObstacle, IsPassedOnTheCurveOfTheListing) {
   const LiteralTree tree = LiteralRrtStar(problem, layout, 1);
   const auto expected = ControlPoints(problem, layout, ReferenceCar(), tree.final_y);
 
-  ASSERT_EQ(plan.diagnostics["avoid"].size(), 1U);
-  const nlohmann::json& stretch = plan.diagnostics["avoid"][0];
+  ASSERT_EQ(plan.diagnostics.avoided.size(), 1U);
+  const nlohmann::json stretch = DiagnosticsJson(plan)["avoid"][0];
   const std::vector<Vec2> points = ControlPointsOf(stretch);
   ASSERT_EQ(points.size(), 8U);
   for (std::size_t k = 0; k < 8; ++k) {
@@ -87,7 +88,7 @@ TEST(Listing, PassesOnThePrintedPoints) {
   // Section 5.10, with the height of P_3 that this seed's tree gives it. P_0 is at (20, 0).
   const Course course{.turn = 75.0 * kPi / 180.0};
   const Plan plan = Around(course.Global(), {BoxAt(course.OnArc(0.5))}, ListingAvoidanceOptions{});
-  const nlohmann::json& stretch = plan.diagnostics["avoid"][0];
+  const nlohmann::json stretch = DiagnosticsJson(plan)["avoid"][0];
   const std::vector<Vec2> points = ControlPointsOf(stretch);
   const double final_y = stretch["rrt_star"]["final_y_m"].get<double>();
   const std::array<Vec2, 8> printed{Vec2{0.0, 0.0},         Vec2{7.6266, 0.0},
@@ -105,7 +106,7 @@ TEST(Listing, IsDrivenHoweverNearItComes) {
   const Course course{.turn = 75.0 * kPi / 180.0};
   const OrientedBox box = BoxAt(course.OnArc(0.5));
   const Plan outer = Around(course.Global(), {box}, OptionsFor(PassingSideChoice::kOuter));
-  const nlohmann::json& stretch = outer.diagnostics["avoid"][0];
+  const nlohmann::json stretch = DiagnosticsJson(outer)["avoid"][0];
   EXPECT_LT(stretch["clearance_m"].get<double>(), 1.5);
   EXPECT_EQ(stretch["one_point_check"]["passed"], true);
   ASSERT_EQ(outer.notes.size(), 1U);
@@ -114,7 +115,7 @@ TEST(Listing, IsDrivenHoweverNearItComes) {
                                     "4\\.133\\) has a clearance of [01]\\.[0-9]* m \\(safe "
                                     "distance 1\\.5 m\\)"));
   const Plan inner = Around(course.Global(), {box}, OptionsFor(PassingSideChoice::kInner));
-  EXPECT_GT(inner.diagnostics["avoid"][0]["clearance_m"].get<double>(), 4.0);
+  EXPECT_GT(DiagnosticsJson(inner)["avoid"][0]["clearance_m"].get<double>(), 4.0);
   EXPECT_TRUE(inner.notes.empty());
 }
 
@@ -142,7 +143,7 @@ TEST(Listing, TakesTheNearestSixth) {
   const auto sixth_at = [&](double share) {
     const Plan plan =
         Around(course.Global(), {BoxAt(course.OnArc(share))}, ListingAvoidanceOptions{});
-    return plan.diagnostics["avoid"][0]["obstacle_sixth"].get<int>();
+    return DiagnosticsJson(plan)["avoid"][0]["obstacle_sixth"].get<int>();
   };
   EXPECT_EQ(sixth_at(0.01), 1);
   EXPECT_EQ(sixth_at(0.24), 1);  // 1.44 sixths
@@ -155,7 +156,7 @@ TEST(Listing, SteersStraightAgainBehindACurveThatEndsBent) {
   // curvature of (6/7) h/(S/2)^2, where h = cos(1.2) sin(1.2) is how far beside.
   const Course course{.turn = -1.2};
   const Plan plan = Around(course.Global(), {BoxAt(course.OnArc(0.5))}, ListingAvoidanceOptions{});
-  const double back = plan.diagnostics["avoid"][0]["return_s_m"].get<double>();
+  const double back = DiagnosticsJson(plan)["avoid"][0]["return_s_m"].get<double>();
   const double curvature = 6.0 / 7.0 * std::cos(1.2) * std::sin(1.2) / std::pow(0.5 * 22.7, 2);
   EXPECT_NEAR(std::abs(plan.schedule.At(back)), SteeringForCurvature(ReferenceCar(), curvature),
               Tolerance(1e-9));
@@ -169,7 +170,7 @@ TEST(Listing, MendedTurnsMirrorEachOther) {
   ListingAvoidanceOptions options = OptionsFor(PassingSideChoice::kOuter);
   const auto points_of = [&](const Course& course) {
     return ControlPointsOf(
-        Around(course.Global(), {BoxAt(course.OnArc(0.5))}, options).diagnostics["avoid"][0]);
+        DiagnosticsJson(Around(course.Global(), {BoxAt(course.OnArc(0.5))}, options))["avoid"][0]);
   };
   // P_5 of the right turn is shifted along x by the cosine of its angle (L9).
   EXPECT_NEAR(points_of(right)[5].x() - points_of(left)[5].x(), std::cos(1.2), Tolerance(1e-9));
@@ -186,8 +187,8 @@ TEST(Listing, MendedTurnsMirrorEachOther) {
 std::string WhyBlocked(const Course& course, const OrientedBox& box,
                        const ListingAvoidanceOptions& options = {}) {
   const Plan plan = Around(course.Global(), {box}, options);
-  EXPECT_FALSE(plan.diagnostics.contains("avoid"));
-  EXPECT_EQ(plan.diagnostics["blocked"], plan.blocked);
+  EXPECT_TRUE(plan.diagnostics.avoided.empty());
+  EXPECT_EQ(DiagnosticsJson(plan)["blocked"], plan.blocked);
   EXPECT_EQ(plan.reference.speed.SpeedAt(plan.reference.path.length()), 0.0);
   return plan.blocked;
 }
@@ -238,9 +239,9 @@ TEST(Listing, TurnsWithItsRoute) {
   ASSERT_TRUE(global.ok()) << global.reason;
   const OrientedBox moved{Compose(X_WN, box.center), box.length, box.width};
   const auto points = ControlPointsOf(
-      Around(course.Global(), {box}, ListingAvoidanceOptions{}).diagnostics["avoid"][0]);
+      DiagnosticsJson(Around(course.Global(), {box}, ListingAvoidanceOptions{}))["avoid"][0]);
   const Plan plan = Around(global, {moved}, ListingAvoidanceOptions{});
-  const auto elsewhere = ControlPointsOf(plan.diagnostics["avoid"][0]);
+  const auto elsewhere = ControlPointsOf(DiagnosticsJson(plan)["avoid"][0]);
   for (std::size_t k = 0; k < 8; ++k) {
     EXPECT_LE((elsewhere[k] - ToWorld(X_WN, points[k])).norm(), Tolerance(1e-9)) << k;
   }

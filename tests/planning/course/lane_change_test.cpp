@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
@@ -124,7 +125,7 @@ TEST(LaneChangePlan, LeadsThroughTheMiddlesOnACurveWithoutJumps) {
       // 12 m/s at 1.5 m/s^2.
       EXPECT_NEAR(plan.reference.speed.SpeedAt(path.length() - 48.0), 12.0, Tolerance(1e-6));
       EXPECT_EQ(plan.reference.speed.SpeedAt(path.length()), 0.0);
-      EXPECT_EQ(plan.diagnostics["gates"].size(), 3U);
+      EXPECT_EQ(DiagnosticsJson(plan)["gates"].size(), 3U);
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "tests/geometry/random.h"
@@ -168,17 +169,17 @@ TEST(NeutralSteering, PredictedHeadingIsTheIntegralOverRampsAndHolds) {
 TEST(NeutralSteering, FindingsTellIt) {
   const Plan plan = MakePlan(Request(RouteA()), Neutral(0.02));
   ASSERT_TRUE(plan.ok()) << plan.reason;
-  EXPECT_EQ(plan.diagnostics.at("neutral_steering_rad"), 0.02);
-  EXPECT_EQ(plan.diagnostics.at("neutral_curvature_radpm"),
+  EXPECT_EQ(DiagnosticsJson(plan).at("neutral_steering_rad"), 0.02);
+  EXPECT_EQ(DiagnosticsJson(plan).at("neutral_curvature_radpm"),
             CurvatureForSteering(ReferenceCar(), 0.02));
   // 0.02 rad over the 17 m before the first turn alone are 0.12 rad and more than a meter.
-  EXPECT_GT(plan.diagnostics.at("open_loop").at("deviation_max_m"), 1.0);
+  EXPECT_GT(DiagnosticsJson(plan).at("open_loop").at("deviation_max_m"), 1.0);
   // What a turn must cost is reckoned from straight wheels.
   EXPECT_TRUE(plan.turns.empty());
-  EXPECT_FALSE(plan.diagnostics.at("turns").at(0).contains("predicted"));
+  EXPECT_FALSE(DiagnosticsJson(plan).at("turns").at(0).contains("predicted"));
 
   const Plan straight = MakePlan(Request(RouteA()), FilletOptions{});
-  EXPECT_FALSE(straight.diagnostics.contains("neutral_steering_rad"));
+  EXPECT_FALSE(DiagnosticsJson(straight).contains("neutral_steering_rad"));
 }
 
 TEST(NeutralSteering, BeyondTheCarsLimitThereIsNoPlan) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
@@ -123,7 +124,7 @@ TEST_P(EveryPlanner, StopsAtTheEndOfItsPath) {
 TEST_P(EveryPlanner, IsAFunctionOfItsRequest) {
   const Plan a = MakePlan(Request(RouteB()), OptionsOf(GetParam()));
   const Plan b = MakePlan(Request(RouteB()), OptionsOf(GetParam()));
-  EXPECT_EQ(a.diagnostics, b.diagnostics);
+  EXPECT_EQ(DiagnosticsJson(a), DiagnosticsJson(b));
   EXPECT_EQ(a.reference.path.segments(), b.reference.path.segments());
   EXPECT_EQ(a.caps.size(), b.caps.size());
 }
@@ -272,7 +273,7 @@ TEST(FilletPlanner, FindingsAreThoseOfTheFillets) {
   const FilletPlan fillets = PlanFillets(ReferenceCar(), RouteB(), 3.0, {});
   const Plan plan = MakePlan(Request(RouteB()), FilletOptions{});
   ASSERT_TRUE(plan.ok()) << plan.reason;
-  const auto& turns = plan.diagnostics.at("turns");
+  const auto turns = DiagnosticsJson(plan).at("turns");
   ASSERT_EQ(turns.size(), 3U);
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& json = turns[k];
@@ -310,7 +311,7 @@ TEST(FilletPlanner, FindingsAreThoseOfTheFillets) {
 TEST(FilletPlanner, SaysWhatHoldsTheRadius) {
   const auto active = [](const std::vector<Vec2>& route, const FilletOptions& options) {
     const Plan plan = MakePlan(Request(route), options);
-    return plan.ok() ? plan.diagnostics["turns"][0]["active_constraint"].get<std::string>()
+    return plan.ok() ? DiagnosticsJson(plan)["turns"][0]["active_constraint"].get<std::string>()
                      : plan.reason;
   };
   EXPECT_EQ(active(RouteA(), {}), "steering_room");
@@ -327,7 +328,7 @@ TEST(FilletPlanner, NamesTheWaypointOfARefusal) {
   options.without_room = InfeasibleTurnPolicy::kRefuse;
   const Plan plan = MakePlan(Request({{0, 0}, {60, 0}, {60, 60}, {88, 60}}), options);
   EXPECT_EQ(plan.status, PlanStatus::kNoRoomForSteering);
-  EXPECT_EQ(plan.diagnostics.at("waypoint"), 2);
+  EXPECT_EQ(DiagnosticsJson(plan).at("waypoint"), 2);
   EXPECT_THAT(plan.reason, HasSubstr("waypoint 2"));
 }
 

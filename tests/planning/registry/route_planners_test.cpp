@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -188,7 +189,7 @@ TEST_P(EveryRoutePlanner, IsTheSameEveryTime) {
   const Plan a = Make(Blocked());
   const Plan b = Make(Blocked());
   EXPECT_EQ(a.status, b.status);
-  EXPECT_EQ(a.diagnostics.dump(), b.diagnostics.dump());
+  EXPECT_EQ(DiagnosticsJson(a).dump(), DiagnosticsJson(b).dump());
   EXPECT_EQ(a.reference.path.segments(), b.reference.path.segments());
 }
 
@@ -289,8 +290,8 @@ TEST_P(EveryRoutePlanner, MirrorsWithTheWorld) {
     }
     if (GetParam().has_ties) {
       ASSERT_TRUE(left.ok());
-      EXPECT_NEAR(left.diagnostics["legs"][0]["cost_m"].get<double>(),
-                  right.diagnostics["legs"][0]["cost_m"].get<double>(), Tolerance(1e-9));
+      EXPECT_NEAR(DiagnosticsJson(left)["legs"][0]["cost_m"].get<double>(),
+                  DiagnosticsJson(right)["legs"][0]["cost_m"].get<double>(), Tolerance(1e-9));
       continue;
     }
     const Path& path = left.reference.path;
@@ -324,7 +325,7 @@ TEST_P(EveryRoutePlanner, StopsWhereItChangesDirection) {
   ASSERT_TRUE(plan.ok()) << plan.reason;
   const std::vector<Stations> legs = LegsOf(plan.reference.path);
   ASSERT_GT(legs.size(), 1U);
-  EXPECT_EQ(plan.diagnostics["changes_of_direction"], legs.size() - 1);
+  EXPECT_EQ(DiagnosticsJson(plan)["changes_of_direction"], legs.size() - 1);
   for (const Stations& leg : legs) {
     EXPECT_EQ(plan.reference.speed.SpeedAt(leg.to), 0.0);
     EXPECT_GT(plan.reference.speed.SpeedAt(0.5 * (leg.from + leg.to)), 0.0);
@@ -344,7 +345,7 @@ TEST(CurvePlanners, TakeAnotherWordWhereTheShortestIsBlocked) {
   request.obstacles = {{middle.pose, 1.0, 1.0}};
   const Plan other = MakePlan(request, DubinsOptions{});
   ASSERT_TRUE(other.ok()) << other.reason;
-  EXPECT_GT(other.diagnostics["curves"][0]["shorter_ones_blocked"], 0);
+  EXPECT_GT(DiagnosticsJson(other)["curves"][0]["shorter_ones_blocked"], 0);
   EXPECT_GT(other.reference.path.length(), open.reference.path.length());
   ExpectClear(request, other);
 }
@@ -385,8 +386,9 @@ TEST(AStarPlanner, RefusesCornersWhenAsked) {
 TEST(AStarPlanner, TellsItsCorners) {
   const Plan plan = MakePlan(Blocked(), AStarOptions{});
   ASSERT_TRUE(plan.ok()) << plan.reason;
-  ASSERT_FALSE(plan.diagnostics["corners"].empty());
-  for (const auto& corner : plan.diagnostics["corners"]) {
+  ASSERT_FALSE(DiagnosticsJson(plan)["corners"].empty());
+  const nlohmann::json corners = DiagnosticsJson(plan)["corners"];
+  for (const auto& corner : corners) {
     EXPECT_GT(corner["tangent_length_m"], 0.0);
     EXPECT_LE(corner["speed_mps"], 3.0);
   }

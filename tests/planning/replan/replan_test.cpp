@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "tests/planning/frenet_scenes.h"
@@ -178,7 +179,7 @@ TEST(Replan, LeadsPastAndBackOntoTheRoute) {
   EXPECT_NEAR(path.At(path.length()).pose.x, 150.0, Tolerance(1e-9));
   EXPECT_EQ(path.At(0.0).pose.y, 0.0);
   EXPECT_TRUE(next.plan.blocked.empty());
-  EXPECT_EQ(next.plan.diagnostics["replan"]["kind"], "back_on_route");
+  EXPECT_EQ(DiagnosticsJson(next.plan)["replan"]["kind"], "back_on_route");
 }
 
 TEST(Replan, StopsBehindWhatItCannotPass) {
@@ -297,8 +298,8 @@ TEST(Replan, TakesADetourWhereNoMotionLeadsPast) {
   planner.reverse = false;
   scene.options.detour = planner;
   const Replanned next = scene.Go();
-  ASSERT_EQ(next.kind, ReplanKind::kRoute) << next.plan.diagnostics.dump();
-  EXPECT_EQ(next.plan.diagnostics["replan"]["kind"], "detour");
+  ASSERT_EQ(next.kind, ReplanKind::kRoute) << DiagnosticsJson(next.plan).dump();
+  EXPECT_EQ(DiagnosticsJson(next.plan)["replan"]["kind"], "detour");
   EXPECT_TRUE(next.plan.blocked.empty());
   // Without a penalty it is not worth the way: the motion that stops or goes on for now is.
   scene.options.comparator = DetourChoice{.comparator = {.collision_penalty = 0.0}};
@@ -315,7 +316,7 @@ TEST(Replan, DoesNotGoRoundWhatMovesOn) {
   scene.request.obstacles[0].velocity = {1.0, 0.0};
   const Replanned next = scene.Go();
   ASSERT_EQ(next.kind, ReplanKind::kMotion);
-  EXPECT_EQ(next.plan.diagnostics["replan"]["along"]["kind"], "follow");
+  EXPECT_EQ(DiagnosticsJson(next.plan)["replan"]["along"]["kind"], "follow");
 }
 
 TEST(Replan, StartsFromTheCarThatHasStrayed) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
@@ -89,7 +90,7 @@ TEST(PartialPlan, EndsAtTheNodeNearestToTheGoal) {
         MakePlan(request, RrtPlannerOptions{.trees = 1, .iterations = 40, .partial = true});
     ASSERT_TRUE(plan.ok()) << plan.reason;
     if (plan.partial.empty()) {
-      EXPECT_EQ(plan.diagnostics.count("partial"), 0U);
+      EXPECT_EQ(DiagnosticsJson(plan).count("partial"), 0U);
       continue;
     }
     const Vec2 goal = request.waypoints.back();
@@ -97,7 +98,7 @@ TEST(PartialPlan, EndsAtTheNodeNearestToTheGoal) {
     const auto before = NodesBefore(plan.tree, nearest, EndOf(plan));
     ASSERT_TRUE(before) << seed;
     at_the_nearest += *before == 0 ? 1 : 0;
-    EXPECT_NEAR(plan.diagnostics["left_m"], (EndOf(plan) - goal).norm(), Tolerance(1e-9));
+    EXPECT_NEAR(DiagnosticsJson(plan)["left_m"], (EndOf(plan) - goal).norm(), Tolerance(1e-9));
     EXPECT_EQ(plan.reference.speed.SpeedAt(plan.reference.path.length()), 0.0);
   }
   // Not where the way there has a corner that is too sharp for the car.
@@ -112,10 +113,10 @@ TEST(PartialPlan, SaysHowFarItLeads) {
   EXPECT_THAT(plan.partial,
               HasSubstr("m from waypoint 1, the nearest that 3 trees of 500 samples"));
   EXPECT_TRUE(plan.blocked.empty());
-  EXPECT_EQ(plan.diagnostics["partial"], true);
-  EXPECT_EQ(plan.diagnostics["partial_reason"], plan.partial);
-  EXPECT_EQ(plan.diagnostics["next_waypoint"], 1);
-  EXPECT_EQ(plan.diagnostics["legs"].at(0)["status"], "iterations");
+  EXPECT_EQ(DiagnosticsJson(plan)["partial"], true);
+  EXPECT_EQ(DiagnosticsJson(plan)["partial_reason"], plan.partial);
+  EXPECT_EQ(DiagnosticsJson(plan)["next_waypoint"], 1);
+  EXPECT_EQ(DiagnosticsJson(plan)["legs"].at(0)["status"], "iterations");
   // The mission's goal is what it was.
   EXPECT_EQ(plan.goal, (Pose2{50.0, 0.0, 0.0}));
 }
@@ -142,13 +143,13 @@ TEST(PartialPlan, IsOfTheTreeThatLeadsNearest) {
     const Plan plan = MakePlan(
         BeforeAWall(), RrtPlannerOptions{.trees = trees, .iterations = 25, .partial = true});
     ASSERT_TRUE(plan.ok()) << plan.reason;
-    const double own = plan.diagnostics["left_m"];
-    const auto& each = plan.diagnostics["trees"];
+    const double own = DiagnosticsJson(plan)["left_m"];
+    const auto each = DiagnosticsJson(plan)["trees"];
     ASSERT_EQ(each.size(), static_cast<std::size_t>(trees));
     for (const auto& tree : each) {
       EXPECT_LE(own, tree.value("left_m", own));
     }
-    EXPECT_EQ(each.at(plan.diagnostics["chosen"].get<std::size_t>())["left_m"], own);
+    EXPECT_EQ(each.at(DiagnosticsJson(plan)["chosen"].get<std::size_t>())["left_m"], own);
     // The first of eight trees are those of fewer.
     EXPECT_LE(own, left);
     left = own;
@@ -163,16 +164,16 @@ TEST(PartialPlan, LeadsThroughTheWaypointsThatAreReached) {
   const Plan plan =
       MakePlan(request, RrtPlannerOptions{.trees = 4, .iterations = 2000, .partial = true});
   ASSERT_TRUE(plan.ok()) << plan.reason;
-  EXPECT_EQ(plan.diagnostics["next_waypoint"], 2);
+  EXPECT_EQ(DiagnosticsJson(plan)["next_waypoint"], 2);
   EXPECT_THAT(plan.partial, HasSubstr("m from waypoint 2"));
   ExpectClear(request, plan);
-  const auto& legs = plan.diagnostics["legs"];
+  const auto legs = DiagnosticsJson(plan)["legs"];
   ASSERT_EQ(legs.size(), 2U);
   EXPECT_EQ(legs[0]["status"], "reached");
   const std::size_t nearest =
       NearestNode(plan.tree, request.waypoints[2], legs[0]["nodes"].get<std::size_t>());
   EXPECT_TRUE(NodesBefore(plan.tree, nearest, EndOf(plan)));
-  EXPECT_NEAR(plan.diagnostics["left_m"], (EndOf(plan) - request.waypoints[2]).norm(),
+  EXPECT_NEAR(DiagnosticsJson(plan)["left_m"], (EndOf(plan) - request.waypoints[2]).norm(),
               Tolerance(1e-9));
   // Its corner there is rounded: by no more than the car's radius allows it to cut off.
   EXPECT_LT(
@@ -226,7 +227,7 @@ TEST(PartialPlan, OfSamplesAloneIsTheSameEveryTime) {
   ASSERT_FALSE(first.partial.empty()) << first.reason;
   EXPECT_EQ(first.reference.path.segments(), second.reference.path.segments());
   EXPECT_EQ(first.partial, second.partial);
-  EXPECT_EQ(first.diagnostics, second.diagnostics);
+  EXPECT_EQ(DiagnosticsJson(first), DiagnosticsJson(second));
 }
 
 /// A clock that goes on by `step` whenever it is read.
@@ -241,7 +242,7 @@ TEST(TimeLimit, EndsTheTreeAndLeadsToItsNearestNode) {
   ASSERT_TRUE(limited.ok()) << limited.reason;
   EXPECT_THAT(limited.partial, HasSubstr("the nearest that 1 tree in 0.0625 s"));
   // Read once at the start, then before every iteration: that after 63 is told that time is over.
-  const auto& leg = limited.diagnostics["legs"].at(0);
+  const auto leg = DiagnosticsJson(limited)["legs"].at(0);
   EXPECT_EQ(leg["status"], "stopped");
   EXPECT_EQ(leg["iterations"], 63);
   // So many samples give the same plan.
@@ -255,13 +256,13 @@ TEST(TimeLimit, KeepsTheWayThatWasFoundBefore) {
   const Plan one = MakePlan(request, RrtPlannerOptions{.trees = 1});
   ASSERT_TRUE(one.ok()) << one.reason;
   // Enough for the first tree, none for the second.
-  const double samples = one.diagnostics["legs"].at(0)["iterations"];
+  const double samples = DiagnosticsJson(one)["legs"].at(0)["iterations"];
   request.clock = Clock(1.0);
   const Plan limited = MakePlan(request, RrtPlannerOptions{.time_limit = samples + 2.0});
   ASSERT_TRUE(limited.ok()) << limited.reason;
   EXPECT_EQ(limited.partial, "");
-  EXPECT_EQ(limited.diagnostics["trees"].size(), 2U);
-  EXPECT_EQ(limited.diagnostics["chosen"], 0);
+  EXPECT_EQ(DiagnosticsJson(limited)["trees"].size(), 2U);
+  EXPECT_EQ(DiagnosticsJson(limited)["chosen"], 0);
   EXPECT_EQ(limited.reference.path.segments(), one.reference.path.segments());
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "tests/geometry/random.h"
@@ -60,8 +61,8 @@ TEST(RrtPlanner, GoesRoundOnTheSideOfTheTailwind) {
     const Plan plan = MakePlan(request, RrtPlannerOptions{});
     ASSERT_TRUE(plan.ok()) << plan.reason;
     EXPECT_GT(left * SideAt(plan, 0.5), 3.0);
-    const auto& chosen =
-        plan.diagnostics["trees"].at(plan.diagnostics["chosen"].get<std::size_t>());
+    const auto chosen =
+        DiagnosticsJson(plan)["trees"].at(DiagnosticsJson(plan)["chosen"].get<std::size_t>());
     EXPECT_GT(chosen["wind_m"], 0.0);
   }
 }
@@ -82,9 +83,9 @@ TEST(RrtPlanner, TakesTheBestOfItsTrees) {
   for (request.seed = 1; request.seed <= 5; ++request.seed) {
     const Plan plan = MakePlan(request, RrtPlannerOptions{.trees = 6});
     ASSERT_TRUE(plan.ok()) << plan.reason;
-    const auto& trees = plan.diagnostics["trees"];
+    const auto trees = DiagnosticsJson(plan)["trees"];
     ASSERT_EQ(trees.size(), 6U);
-    const auto& chosen = trees.at(plan.diagnostics["chosen"].get<std::size_t>());
+    const auto& chosen = trees.at(DiagnosticsJson(plan)["chosen"].get<std::size_t>());
     EXPECT_EQ(chosen["status"], "ok");
     for (const auto& tree : trees) {
       if (tree["status"] == "ok") {
@@ -129,7 +130,7 @@ TEST(RrtPlanner, GivesItsTree) {
   request.waypoints = {{3.0, -2.0}, {40.0, 14.0}, {70.0, 14.0}};
   const Plan plan = MakePlan(request, RrtPlannerOptions{});
   ASSERT_TRUE(plan.ok()) << plan.reason;
-  const auto& legs = plan.diagnostics["legs"];
+  const auto legs = DiagnosticsJson(plan)["legs"];
   ASSERT_EQ(legs.size(), 2U);
   ASSERT_EQ(plan.tree.size(),
             legs[0]["nodes"].get<std::size_t>() + legs[1]["nodes"].get<std::size_t>());
@@ -157,7 +158,7 @@ TEST(RrtPlanner, TellsHowFarItCame) {
   const Plan plan = MakePlan(request, RrtPlannerOptions{.trees = 2, .iterations = 2000});
   EXPECT_EQ(plan.status, PlanStatus::kBudgetUsedUp);
   EXPECT_THAT(plan.reason, HasSubstr("2 trees of 2000 samples"));
-  const auto& leg = plan.diagnostics["legs"].at(0);
+  const auto leg = DiagnosticsJson(plan)["legs"].at(0);
   EXPECT_EQ(leg["status"], "iterations");
   EXPECT_EQ(leg["iterations"], 2000);
   // The wall is 29.5 m off, and 2.16 m are kept from it.
@@ -174,7 +175,7 @@ TEST(RrtPlanner, TellsOfTheTreeThatCameNearest) {
   for (int trees = 1; trees <= 8; ++trees) {
     const Plan plan = MakePlan(request, RrtPlannerOptions{.trees = trees, .iterations = 25});
     ASSERT_EQ(plan.status, PlanStatus::kBudgetUsedUp);
-    const auto& nearest = plan.diagnostics["legs"].at(0)["path_m"].back();
+    const auto nearest = DiagnosticsJson(plan)["legs"].at(0)["path_m"].back();
     left.push_back((Vec2(nearest[0], nearest[1]) - Vec2(request.waypoints.back())).norm());
   }
   EXPECT_TRUE(std::is_sorted(left.rbegin(), left.rend()));

@@ -1,14 +1,18 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
 #include "trackbed/geometry/oriented_box.h"
 #include "trackbed/optimize/search.h"
 #include "trackbed/planning/avoidance/turn_manoeuvre.h"
+#include "trackbed/planning/common/plan_diagnostics.h"
 #include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/sampling/rrt_star.h"
 #include "trackbed/vehicle/params.h"
 
 /// The local planners: they lead a plan around obstacles that stand in its way. In `bezier`, RRT*
@@ -21,9 +25,6 @@
 /// S = r + v t_d the distance before and after a turn of radius r within which the car leaves its
 /// path and is back on it [m].
 namespace trackbed {
-
-/// "inner" or "outer".
-const char* ToString(PassingSide ring);
 
 enum class PassingSideChoice {
   kAuto,   ///< that of the RRT* path; the other one if it cannot be had
@@ -60,6 +61,39 @@ struct ListingAvoidanceOptions {
 };
 void Visit(KeyVisitor& keys, ListingAvoidanceOptions& options);
 
+/// The listing's check, for comparison (Salyga_2): a single point of the path, two meters before it
+/// is beside the obstacle, against the obstacle's corners.
+struct OnePointCheck {
+  double distance = 0.0;  ///< to the nearest corner [m]
+  bool passed = false;    ///< at least SD and half the car's width away
+};
+void Visit(DiagnosticsVisitor& out, const OnePointCheck& check);
+
+/// What `bezier` says of a stretch: AvoidedStretch::method.
+struct BezierAvoidanceDiagnostics {
+  int curves_tried = 0;
+  RrtStarStatus tree_status = RrtStarStatus::kNotReached;
+  int tree_iterations = 0;
+  std::size_t tree_nodes = 0;
+  double tree_cost = 0.0;       ///< of a tree that found a path [m]
+  std::vector<Vec2> tree_path;  ///< likewise [m]
+  std::string search_method;
+  int search_evaluations = 0;
+  double search_objective = 0.0;
+  OnePointCheck one_point_check;
+};
+void Visit(DiagnosticsVisitor& out, const BezierAvoidanceDiagnostics& own);
+
+/// What `listing` says of one.
+struct ListingAvoidanceDiagnostics {
+  int obstacle_sixth = 0;  ///< of the arc, at which the obstacle is taken to stand
+  std::size_t tree_nodes = 0;
+  double goal_distance = 0.0;  ///< from the tree to its goal [m]
+  double final_y = 0.0;        ///< of the tree's path, see turn_manoeuvre.h [m]
+  OnePointCheck one_point_check;
+};
+void Visit(DiagnosticsVisitor& out, const ListingAvoidanceDiagnostics& own);
+
 /// The options of one way to avoid obstacles.
 using AvoiderOptions = std::variant<BezierAvoidanceOptions, ListingAvoidanceOptions>;
 
@@ -95,7 +129,7 @@ struct AvoidanceRequest {
 bool IsInTheWay(const VehicleParams& vehicle, const Path& path, double station,
                 const OrientedBox& obstacle, double distance);
 
-/// The plan that avoids the obstacles. What it passes is told in its diagnostics under "avoid", one
+/// The plan that avoids the obstacles. PlanDiagnostics::avoided has an
 /// entry for each stretch that was replaced; a plan that nothing stands in the way of comes back as
 /// it was. Where an obstacle cannot be passed, by `bezier` not even at `min_speed`, the plan ends
 /// before it and says why (Plan::blocked).

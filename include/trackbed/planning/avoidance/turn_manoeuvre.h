@@ -24,9 +24,6 @@
 ///   r_k    distance from C to the safe point, the control point beside the obstacle [m]
 namespace trackbed {
 
-/// The side of the obstacle to pass on: toward the center of the turn, or away from it.
-enum class PassingSide { kInner, kOuter };
-
 enum class TurnSide { kLeft, kRight };
 
 /// Where the listing is followed to the letter instead of being mended. All off: a right turn is

@@ -6,6 +6,7 @@
 #include "trackbed/path/path.h"
 #include "trackbed/path/reference.h"
 #include "trackbed/planning/common/collision_checker.h"
+#include "trackbed/planning/common/diagnostics.h"
 #include "trackbed/planning/common/plan_status.h"
 #include "trackbed/vehicle/params.h"
 
@@ -43,6 +44,7 @@ struct RoundCorner {
   double from = 0.0;            ///< station of its beginning [m]
   double to = 0.0;              ///< and of its end [m]
 };
+void Visit(DiagnosticsVisitor& out, const RoundCorner& corner);
 
 struct RoundedCorners {
   PlanStatus status = PlanStatus::kOk;

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include "trackbed/path/path.h"
+#include "trackbed/planning/common/diagnostics.h"
 #include "trackbed/vehicle/kinematic_car.h"
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/steering_schedule.h"
@@ -23,7 +22,6 @@ OpenLoopDrive DriveOpenLoop(const VehicleParams& vehicle, const Path& path,
                             const SteeringSchedule& schedule, double stop_distance,
                             ReferencePoint reference = ReferencePoint::kRearAxle);
 
-/// As plan.json has it.
-nlohmann::json ToJson(const OpenLoopDrive& drive);
+void Visit(DiagnosticsVisitor& out, const OpenLoopDrive& drive);
 
 }  // namespace trackbed

@@ -3,12 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "trackbed/geometry/oriented_box.h"
 #include "trackbed/path/reference.h"
+#include "trackbed/planning/common/plan_diagnostics.h"
 #include "trackbed/planning/common/plan_status.h"
 #include "trackbed/planning/common/turn_prediction.h"
 #include "trackbed/vehicle/params.h"
@@ -81,7 +81,7 @@ struct Plan {
   std::vector<Gate> gates;          ///< that it leads through
   std::vector<IsolatedTurn> turns;  ///< whose cost to an open-loop drive can be told
   std::vector<std::string> notes;   ///< what to know of it, for people: that it was slowed down
-  nlohmann::json diagnostics;       ///< the method's own findings, as in plan.json
+  PlanDiagnostics diagnostics;      ///< how it was found, for plan.json
   std::vector<TreeNode> tree;       ///< of every RRT or RRT* that was used, one after the other
 
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,9 +52,6 @@ Plan AlongSegments(Plan plan, const PlanRequest& request, std::vector<Segment> s
 /// `plan` has the diagnostics of how it was found.
 Plan AlongPolyline(Plan plan, const PlanRequest& request, const std::vector<Vec2>& points,
                    Corners corners, double safe_distance, double min_speed);
-
-/// Points as they stand in plan.json.
-nlohmann::json ToJson(const std::vector<Vec2>& points);
 
 // Keys that several of them have.
 

@@ -35,6 +35,22 @@ void Visit(KeyVisitor& keys, CourseOptions& options);
 /// or a ramp.
 std::vector<Segment> CourseSegments(const CourseOptions& options);
 
+/// A piece of the course as planned.
+struct CourseSegmentFindings {
+  double start = 0.0;                 ///< station [m]
+  double length = 0.0;                ///< [m]
+  double curvature_from = 0.0;        ///< [rad/m]
+  double curvature_to = 0.0;          ///< [rad/m]
+  double lateral_acceleration = 0.0;  ///< at the mission's speed, where it is sharpest [m/s^2]
+};
+void Visit(DiagnosticsVisitor& out, const CourseSegmentFindings& own);
+
+struct CourseDiagnostics {
+  std::optional<std::size_t> failed_segment;  ///< that the car cannot steer
+  std::vector<CourseSegmentFindings> segments;
+};
+void Visit(DiagnosticsVisitor& out, const CourseDiagnostics& own);
+
 /// The planner `course`.
 PlannerEntry CoursePlanner();
 

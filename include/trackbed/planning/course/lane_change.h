@@ -62,6 +62,19 @@ std::vector<Segment> LaneChangePath(const LaneChangePlannerOptions& options,
 std::vector<double> GateMargins(const std::vector<Gate>& gates, const VehicleParams& vehicle,
                                 const std::vector<Pose2>& poses);
 
+/// A gate of the course and how the plan passes it.
+struct GateFindings {
+  Gate gate;
+  std::vector<Vec2> cones;      ///< [m]
+  double planned_margin = 0.0;  ///< see GateMargins [m]
+};
+void Visit(DiagnosticsVisitor& out, const GateFindings& own);
+
+struct LaneChangeDiagnostics {
+  std::vector<GateFindings> gates;
+};
+void Visit(DiagnosticsVisitor& out, const LaneChangeDiagnostics& own);
+
 /// The planner `lane_change`.
 PlannerEntry LaneChangePlanner();
 

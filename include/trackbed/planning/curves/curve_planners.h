@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "trackbed/planning/common/planner.h"
 
@@ -22,6 +25,21 @@ struct ReedsSheppOptions {
   double min_speed = 0.3;
 };
 void Visit(KeyVisitor& keys, ReedsSheppOptions& options);
+
+/// The curve from one stop to the next.
+struct CurveFindings {
+  std::string word;                         ///< such as "LSR"
+  double length = 0.0;                      ///< [m]
+  double radius = 0.0;                      ///< of its arcs [m]
+  std::ptrdiff_t shorter_ones_blocked = 0;  ///< by obstacles, or by how the car rolls
+};
+void Visit(DiagnosticsVisitor& out, const CurveFindings& own);
+
+/// Of both planners.
+struct CurveDiagnostics {
+  std::vector<CurveFindings> curves;
+};
+void Visit(DiagnosticsVisitor& out, const CurveDiagnostics& own);
 
 PlannerEntry DubinsPlanner();
 PlannerEntry ReedsSheppPlanner();

@@ -11,6 +11,7 @@
 #include "trackbed/planning/common/open_loop.h"
 #include "trackbed/planning/common/plan_status.h"
 #include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/common/turn_prediction.h"
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/steering_schedule.h"
 
@@ -197,6 +198,29 @@ inline constexpr std::size_t kMinFilletWaypoints = 3;
 /// 0.2 us each plus NLopt's own, for kDriven some 20 us each.
 FilletPlan PlanFillets(const VehicleParams& vehicle, const std::vector<Vec2>& waypoints,
                        double speed, const FilletOptions& options, std::uint64_t seed = 0);
+
+/// A turn of a plan: PlanDiagnostics::turns.
+struct FilletTurnFindings {
+  FilletTurn turn;
+  std::string search_method;           ///< of `turn.search`, if there is one
+  std::optional<TurnError> predicted;  ///< of the open loop, for a turn that stands alone
+};
+void Visit(DiagnosticsVisitor& out, const FilletTurnFindings& own);
+/// Moves a turn that lies beyond a replaced stretch of the path, and marks one within it.
+void ReplaceStretch(FilletTurnFindings& own, const Stations& replaced, double shift);
+
+/// What else there is to know of a plan or why there is none: PlanDiagnostics::planner.
+struct FilletDiagnostics {
+  std::optional<int> failed_waypoint;    ///< of a plan that failed
+  double neutral_steering = 0.0;         ///< d_0 [rad]
+  double neutral_curvature = 0.0;        ///< of a kinematic car that steers d_0 [rad/m]
+  std::string search_method;             ///< of `search`, if there is one
+  std::optional<SearchResult> search{};  ///< of all turns together (kDriven)
+};
+void Visit(DiagnosticsVisitor& out, const FilletDiagnostics& own);
+
+/// The radii of a search of all turns together, x of `search` or of its history [m].
+std::vector<double> DrivenRadii(const std::vector<double>& x);
 
 /// The planner `fillet`.
 PlannerEntry FilletPlanner();

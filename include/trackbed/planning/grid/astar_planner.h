@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "trackbed/planning/common/corners.h"
 #include "trackbed/planning/common/planner.h"
 
@@ -16,6 +19,20 @@ struct AStarOptions {
   int budget = 1000000;        ///< cells to look at, for each leg, >= 0
 };
 void Visit(KeyVisitor& keys, AStarOptions& options);
+
+/// The search from one waypoint to the next.
+struct AStarLeg {
+  double cost = 0.0;       ///< of its path, see astar.h [m]
+  long expansions = 0;     ///< cells that were looked at
+  std::size_t cells = 0;   ///< of the grid
+  std::vector<Vec2> path;  ///< corners of the path on the grid [m]
+};
+void Visit(DiagnosticsVisitor& out, const AStarLeg& leg);
+
+struct AStarDiagnostics {
+  std::vector<AStarLeg> legs;
+};
+void Visit(DiagnosticsVisitor& out, const AStarDiagnostics& own);
 
 PlannerEntry AStarPlanner();
 

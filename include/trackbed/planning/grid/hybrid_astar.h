@@ -67,6 +67,19 @@ struct HybridAStarResult {
 HybridAStarResult SearchHybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
                                     const HybridAStarOptions& options);
 
+/// The search from one stop to the next.
+struct HybridAStarLeg {
+  double cost = 0.0;   ///< [m]
+  int expansions = 0;  ///< poses that were looked at
+  int cells = 0;       ///< of the area, headings not counted
+};
+void Visit(DiagnosticsVisitor& out, const HybridAStarLeg& leg);
+
+struct HybridAStarDiagnostics {
+  std::vector<HybridAStarLeg> legs;
+};
+void Visit(DiagnosticsVisitor& out, const HybridAStarDiagnostics& own);
+
 /// The planner `hybrid_astar`.
 PlannerEntry HybridAStarPlanner();
 

@@ -83,6 +83,7 @@ struct AlongPlan {
 
   [[nodiscard]] bool ok() const { return kind != ManeuverType::kNone; }
 };
+void Visit(DiagnosticsVisitor& out, const AlongPlan& along);
 
 /// What is nearest ahead in the car's way along the path: an obstacle whose outline, seen from the
 /// path, comes closer to the car's lane on the path than the safe distance.

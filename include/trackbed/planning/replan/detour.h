@@ -38,11 +38,23 @@ struct DetourRequest {
 /// What came of it.
 struct Detour {
   std::optional<Plan> route;  ///< from the car's station on, to the goal; none: stay
-  WayScore current;           ///< of the way as it is
-  WayScore best;              ///< of the best other one; its total is infinite if there is none
-  int tried = 0;              ///< times the planner was asked
-  std::string why;            ///< there is none, for people
+  Stations replaced;  ///< of the new route: where it leaves the driven path, and is back [m]
+  WayScore current;   ///< of the way as it is
+  WayScore best;      ///< of the best other one; its total is infinite if there is none
+  int tried = 0;      ///< times the planner was asked
+  std::string why;    ///< there is none, for people
 };
+
+/// A search for a detour, without the plan.
+struct DetourFindings {
+  std::string planner;                 ///< its name
+  int tried = 0;                       ///< times it was asked
+  WayScore current;                    ///< of the path as it is
+  std::optional<WayScore> best;        ///< of the best other one
+  std::optional<Stations> replaced{};  ///< of the new route; none: there is no detour [m]
+  std::string why;                     ///< there is none, for people
+};
+void Visit(DiagnosticsVisitor& out, const DetourFindings& own);
 
 /// Looks for a way only where something that stands blocks the route. Leaves the driven path where
 /// it is straight, as early as the car can, and comes back on straight stretches of the route

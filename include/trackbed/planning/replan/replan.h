@@ -60,10 +60,20 @@ enum class ReplanKind {
 /// "keep", "motion", "route", "stop".
 const char* ToString(ReplanKind kind);
 
+/// How a plan was found while driving: PlanDiagnostics::replan.
+struct ReplanDiagnostics {
+  std::string kind;                  ///< "motion", "detour", "back_on_route" or "brake"
+  std::optional<AlongPlan> along{};  ///< the motion along the route, if one was searched for
+  std::optional<DetourFindings> detour{};
+  std::optional<double> deceleration{};  ///< of braking [m/s^2]
+};
+void Visit(DiagnosticsVisitor& out, const ReplanDiagnostics& own);
+
 struct Replanned {
   ReplanKind kind = ReplanKind::kKeep;
   /// Its stations begin beside the car. Plan::blocked says why it ends before the goal, if it does;
-  /// diagnostics["replan"] what was found. The old one's copy when it is kept.
+  /// PlanDiagnostics::replan what was found (ReplanDiagnostics). The old one's copy when it is
+  /// kept.
   Plan plan;
 };
 

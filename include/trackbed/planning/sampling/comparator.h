@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "trackbed/planning/common/diagnostics.h"
 #include "trackbed/planning/sampling/smoothing.h"
 
 /// Which of two ways to go on with ("Comparator" of the wind-aware RRT): the shorter one, where a
@@ -19,6 +20,8 @@ struct WayScore {
   double wind = 0.0;      ///< W of what is left of it [m]
   double total = 0.0;     ///< L - W, and the penalty [m]
 };
+
+void Visit(DiagnosticsVisitor& out, const WayScore& score);
 
 /// The score of a way for a car at `position`. That listing counts from the way's nearest corner,
 /// which may lie behind the car or far ahead; here it is the nearest point. `inflation` [m]: how

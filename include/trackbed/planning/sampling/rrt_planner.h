@@ -1,9 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "trackbed/planning/common/corners.h"
 #include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/sampling/comparator.h"
+#include "trackbed/planning/sampling/rrt.h"
 
 namespace trackbed {
 
@@ -35,6 +40,41 @@ struct RrtPlannerOptions {
   std::optional<bool> partial{};
 };
 void Visit(KeyVisitor& keys, RrtPlannerOptions& options);
+
+/// The tree from one waypoint toward the next.
+struct RrtLeg {
+  RrtStatus status = RrtStatus::kReached;
+  int iterations = 0;         ///< samples
+  std::size_t nodes = 0;      ///< of the tree
+  double length = 0.0;        ///< of its path [m]
+  std::vector<Vec2> path;     ///< of the tree [m]
+  std::optional<int> sweeps;  ///< of the smoothing; none: there was nothing to smooth
+  std::vector<Vec2> smooth;   ///< the smoothed path [m]
+};
+void Visit(DiagnosticsVisitor& out, const RrtLeg& leg);
+
+/// One of the trees tried, through all waypoints, and what the comparator makes of it.
+struct RrtTreeFindings {
+  PlanStatus status = PlanStatus::kOk;
+  std::string reason;               ///< for people; empty when ok
+  WayScore score;                   ///< of its path
+  std::optional<double> remaining;  ///< of a partial path: to the waypoint not reached [m]
+};
+void Visit(DiagnosticsVisitor& out, const RrtTreeFindings& own);
+
+struct RrtDiagnostics {
+  std::vector<RrtLeg> legs;            ///< of the chosen tree
+  std::vector<RrtTreeFindings> trees;  ///< in the order in which they were tried
+  int chosen = 0;                      ///< index into `trees`
+  /// Of a partial plan: the waypoint not reached, how far it is from the end [m], and why.
+  struct Partial {
+    std::size_t waypoint = 0;
+    double remaining = 0.0;
+    std::string reason;
+  };
+  std::optional<Partial> partial;
+};
+void Visit(DiagnosticsVisitor& out, const RrtDiagnostics& own);
 
 PlannerEntry RrtPlanner();
 

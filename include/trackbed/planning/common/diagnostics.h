@@ -1,0 +1,136 @@
+#pragma once
+
+#include <any>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <typeinfo>
+#include <utility>
+#include <vector>
+
+#include "trackbed/core/error.h"
+#include "trackbed/geometry/pose.h"
+#include "trackbed/path/path.h"
+
+/// How a planner reports what it found, typed, without a file format.
+///
+/// The diagnostics of a planner are any copyable struct. Beside it stands a function that names its
+/// fields, found by argument-dependent lookup:
+///
+///     void Visit(DiagnosticsVisitor& out, const MyDiagnostics& own) {
+///       out.Integer("expansions", own.expansions);
+///       out.Number("cost_m", own.cost);
+///     }
+///
+/// The writer of plan.json and the printer of `trackbed plan` are visitors. Names carry units, as
+/// columns do: "cost_m".
+namespace trackbed {
+
+class DiagnosticsVisitor {
+ public:
+  virtual ~DiagnosticsVisitor() = default;
+
+  /// Whether everything is asked for, as in plan.json; otherwise a summary for people, without
+  /// points, histories and what follows from other fields.
+  [[nodiscard]] virtual bool full() const = 0;
+
+  virtual void Number(const char* name, double value) = 0;  ///< not finite: null in plan.json
+  virtual void Integer(const char* name, std::int64_t value) = 0;
+  virtual void Flag(const char* name, bool value) = 0;
+  virtual void Text(const char* name, const std::string& value) = 0;
+  virtual void Numbers(const char* name, const std::vector<double>& values) = 0;
+  virtual void Point(const char* name, const Vec2& value) = 0;
+  virtual void Points(const char* name, const std::vector<Vec2>& values) = 0;
+
+  template <std::integral Count>
+  void Integer(const char* name, Count value) {
+    Integer(name, static_cast<std::int64_t>(value));
+  }
+
+  /// The fields of a struct, under a name of their own.
+  template <typename Struct>
+  void Section(const char* name, const Struct& value) {
+    VisitSection(name, [&](DiagnosticsVisitor& inner) { Visit(inner, value); });
+  }
+
+  /// A list of structs; it may be empty.
+  template <typename Struct>
+  void List(const char* name, const std::vector<Struct>& values) {
+    VisitList(name, values.size(),
+              [&](DiagnosticsVisitor& inner, std::size_t i) { Visit(inner, values[i]); });
+  }
+
+ protected:
+  using Inside = std::function<void(DiagnosticsVisitor& inner)>;
+  using Element = std::function<void(DiagnosticsVisitor& inner, std::size_t i)>;
+
+  virtual void VisitSection(const char* name, const Inside& inside) = 0;
+  virtual void VisitList(const char* name, std::size_t size, const Element& element) = 0;
+};
+
+/// The diagnostics of one method: a value of any copyable struct that names its fields, or nothing.
+///
+/// Diagnostics that contain stations of the path may also have
+///
+///     void ReplaceStretch(MyDiagnostics& own, const Stations& replaced, double shift);
+///
+/// which is called when the path between two stations is replaced: what lies beyond moves on by
+/// `shift` [m].
+class MethodDiagnostics {
+ public:
+  MethodDiagnostics() = default;
+
+  template <typename Struct>
+  requires(!std::is_same_v<std::decay_t<Struct>, MethodDiagnostics>) MethodDiagnostics(
+      Struct own)  // NOLINT(google-explicit-constructor): stands for what it holds
+      : value_(std::move(own)), visit_([](DiagnosticsVisitor& out, const std::any& value) {
+          Visit(out, *std::any_cast<Struct>(&value));
+        }) {
+    if constexpr (requires(Struct & value, const Stations& stations) {
+                    ReplaceStretch(value, stations, 0.0);
+                  }) {
+      replace_ = [](std::any& value, const Stations& replaced, double shift) {
+        ReplaceStretch(*std::any_cast<Struct>(&value), replaced, shift);
+      };
+    }
+  }
+
+  [[nodiscard]] bool has_value() const { return value_.has_value(); }
+
+  /// The struct, if it is of this type; else null.
+  template <typename Struct>
+  [[nodiscard]] const Struct* As() const {
+    return std::any_cast<Struct>(&value_);
+  }
+
+  /// The struct, which must be of this type: InternalError.
+  template <typename Struct>
+  [[nodiscard]] const Struct& Get() const {
+    TRACKBED_CHECK(As<Struct>() != nullptr, "diagnostics of another method: {}",
+                   value_.type().name());
+    return *As<Struct>();
+  }
+
+  /// Names no field when there is nothing.
+  friend void Visit(DiagnosticsVisitor& out, const MethodDiagnostics& own) {
+    if (own.visit_ != nullptr) {
+      own.visit_(out, own.value_);
+    }
+  }
+
+  friend void ReplaceStretch(MethodDiagnostics& own, const Stations& replaced, double shift) {
+    if (own.replace_ != nullptr) {
+      own.replace_(own.value_, replaced, shift);
+    }
+  }
+
+ private:
+  std::any value_;
+  void (*visit_)(DiagnosticsVisitor& out, const std::any& value) = nullptr;
+  void (*replace_)(std::any& value, const Stations& replaced, double shift) = nullptr;
+};
+
+}  // namespace trackbed

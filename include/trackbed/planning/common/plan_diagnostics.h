@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <vector>
+
+#include "trackbed/planning/common/corners.h"
+#include "trackbed/planning/common/diagnostics.h"
+#include "trackbed/planning/common/open_loop.h"
+
+namespace trackbed {
+
+struct Plan;
+
+/// On which side of an obstacle a path leads past: toward the center of the turn, or away from it.
+/// On a straight, inner means left.
+enum class PassingSide { kInner, kOuter };
+
+/// "inner" or "outer".
+const char* ToString(PassingSide ring);
+
+/// A stretch of the path that a local planner replaced to pass an obstacle.
+struct AvoidedStretch {
+  MethodDiagnostics method;  ///< of the local planner
+  Vec2 obstacle{0.0, 0.0};   ///< its center [m]
+  PassingSide ring = PassingSide::kInner;
+  Stations stations;                      ///< of the new path [m]
+  double speed = 0.0;                     ///< at most [m/s]
+  double length = 0.0;                    ///< [m]
+  double clearance = 0.0;                 ///< of the car's outline from known obstacles [m]
+  double steering_max = 0.0;              ///< of the bicycle angle [rad]
+  double steering_rate_max = 0.0;         ///< at `speed` [rad/s]
+  double lateral_acceleration_max = 0.0;  ///< at `speed` [m/s^2]
+  std::vector<Vec2> control_points;       ///< of the Bezier curve [m]
+  /// Of the kinematic car that drives the stretch open loop, at its end.
+  double end_distance = 0.0;       ///< from the path's point [m]
+  double end_heading_error = 0.0;  ///< heading of the car minus that of the path [rad]
+};
+void Visit(DiagnosticsVisitor& out, const AvoidedStretch& stretch);
+
+/// How a plan was found and what it asks of an open-loop drive. Nothing here is needed to drive it.
+struct PlanDiagnostics {
+  MethodDiagnostics planner;             ///< of the planner, such as RrtDiagnostics
+  std::vector<MethodDiagnostics> turns;  ///< with an open-loop schedule: FilletTurnFindings
+  std::optional<std::vector<RoundCorner>> corners;  ///< that were rounded
+  std::optional<std::size_t> direction_changes;     ///< cusps on the path
+  std::optional<double> stop_distance;              ///< D_end, where the schedule has one [m]
+  std::optional<OpenLoopDrive> open_loop;           ///< of the schedule, by the kinematic car
+  std::vector<AvoidedStretch> avoided;              ///< that were replaced to pass obstacles
+  MethodDiagnostics replan;                         ///< ReplanDiagnostics of a plan made on the way
+};
+
+/// Names the fields of a plan's diagnostics.
+void Visit(DiagnosticsVisitor& out, const Plan& plan);
+
+/// As plan.json has them.
+nlohmann::json DiagnosticsJson(const Plan& plan);
+
+}  // namespace trackbed

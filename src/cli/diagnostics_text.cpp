@@ -1,0 +1,229 @@
+#include "src/cli/diagnostics_text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace trackbed::cli {
+namespace {
+
+using Texts = std::vector<std::string>;
+
+/// The words and the unit of a field's name: "ramp_time_s" is {"ramp", "time"} in s.
+struct Heading {
+  Texts words;
+  std::string unit;  ///< empty for what has none
+};
+
+Heading HeadingFor(std::string_view name) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kUnits{{
+      {"m", "m"},
+      {"s", "s"},
+      {"rad", "rad"},
+      {"mps", "m/s"},
+      {"mps2", "m/s^2"},
+      {"radps", "rad/s"},
+      {"radpm", "rad/m"},
+  }};
+  Heading heading;
+  std::istringstream in{std::string(name)};
+  for (std::string word; std::getline(in, word, '_');) {
+    heading.words.push_back(word);
+  }
+  for (const auto& [suffix, unit] : kUnits) {
+    if (heading.words.size() > 1 && heading.words.back() == suffix) {
+      heading.words.pop_back();
+      heading.unit = unit;
+      break;
+    }
+  }
+  return heading;
+}
+
+/// A field as text.
+struct Cell {
+  std::string name;  ///< with the names of the sections around it
+  std::string text;
+};
+
+/// What a list element or the plan itself consists of.
+struct Fields {
+  std::vector<Cell> cells;
+  Texts remarks;  ///< sentences, which are too long for a column
+};
+
+/// A list as rows.
+struct NamedList {
+  std::string name;
+  std::vector<Fields> rows;
+};
+
+/// Collects fields and lists. Sections are flattened: "search_evaluations".
+class Collector : public DiagnosticsVisitor {
+ public:
+  Collector(Fields& fields, std::vector<NamedList>& lists, std::string prefix = "")
+      : fields_(fields), lists_(lists), prefix_(std::move(prefix)) {}
+
+  [[nodiscard]] bool full() const override { return false; }
+
+  void Number(const char* name, double value) override { Add(name, fmt::format("{:.5g}", value)); }
+  void Integer(const char* name, std::int64_t value) override {
+    Add(name, fmt::format("{}", value));
+  }
+  void Flag(const char* name, bool value) override { Add(name, value ? "yes" : "no"); }
+  void Text(const char* name, const std::string& value) override {
+    if (value.find(' ') != std::string::npos) {
+      fields_.remarks.push_back(fmt::format("{}: {}", name, value));
+    } else {
+      Add(name, value);
+    }
+  }
+  void Numbers(const char* name, const std::vector<double>& values) override {
+    Texts texts;
+    for (const double value : values) {
+      texts.push_back(fmt::format("{:.5g}", value));
+    }
+    Add(name, fmt::format("{}", fmt::join(texts, ", ")));
+  }
+  void Point(const char* name, const Vec2& value) override {
+    Add(name, fmt::format("({:.4g}, {:.4g})", value.x(), value.y()));
+  }
+  void Points(const char* name, const std::vector<Vec2>& values) override {
+    Add(name, fmt::format("{} points", values.size()));
+  }
+
+ protected:
+  void VisitSection(const char* name, const Inside& inside) override {
+    Collector inner(fields_, lists_, prefix_ + name + "_");
+    inside(inner);
+  }
+  void VisitList(const char* name, std::size_t size, const Element& element) override {
+    NamedList list{prefix_ + name, {}};
+    for (std::size_t i = 0; i < size; ++i) {
+      Fields& row = list.rows.emplace_back();
+      Collector inner(row, lists_);
+      element(inner, i);
+    }
+    if (!list.rows.empty()) {
+      lists_.push_back(std::move(list));
+    }
+  }
+
+ private:
+  void Add(const char* name, std::string text) {
+    fields_.cells.push_back({prefix_ + name, std::move(text)});
+  }
+
+  Fields& fields_;
+  std::vector<NamedList>& lists_;
+  std::string prefix_;
+};
+
+/// A column of a table, its heading above its texts.
+struct Column {
+  std::string name;
+  Texts heading;  ///< lines
+  Texts texts;    ///< one per row; "-" for what a row does not have
+  std::size_t width = 0;
+};
+
+/// Breaks the words into lines no wider than the column needs anyway.
+void SetHeading(Column& column) {
+  constexpr std::size_t kNarrow = 9;
+  const Heading heading = HeadingFor(column.name);
+  column.width = kNarrow;
+  for (const std::string& word : heading.words) {
+    column.width = std::max(column.width, word.size());
+  }
+  for (const std::string& text : column.texts) {
+    column.width = std::max(column.width, text.size());
+  }
+  for (const std::string& word : heading.words) {
+    if (!column.heading.empty() && column.heading.back().size() + 1 + word.size() <= column.width) {
+      column.heading.back() += " " + word;
+    } else {
+      column.heading.push_back(word);
+    }
+  }
+  column.heading.push_back(heading.unit.empty() ? "" : "[" + heading.unit + "]");
+}
+
+std::vector<Column> ColumnsOf(const NamedList& list) {
+  std::vector<Column> columns;
+  for (std::size_t row = 0; row < list.rows.size(); ++row) {
+    for (const Cell& cell : list.rows[row].cells) {
+      auto column = std::find_if(columns.begin(), columns.end(),
+                                 [&](const Column& each) { return each.name == cell.name; });
+      if (column == columns.end()) {
+        column = columns.insert(
+            columns.end(),
+            {.name = cell.name, .heading = {}, .texts = Texts(list.rows.size(), "-")});
+      }
+      column->texts[row] = cell.text;
+    }
+  }
+  for (Column& column : columns) {
+    SetHeading(column);
+  }
+  return columns;
+}
+
+std::string TableText(const NamedList& list) {
+  const std::vector<Column> columns = ColumnsOf(list);
+  std::size_t height = 0;
+  for (const Column& column : columns) {
+    height = std::max(height, column.heading.size());
+  }
+  std::string text = fmt::format("  {}\n", list.name);
+  for (std::size_t line = 0; line < height; ++line) {
+    text += " ";
+    for (const Column& column : columns) {
+      const std::size_t empty = height - column.heading.size();
+      text +=
+          fmt::format(" {:>{}}", line < empty ? "" : column.heading[line - empty], column.width);
+    }
+    text += "\n";
+  }
+  for (std::size_t row = 0; row < list.rows.size(); ++row) {
+    text += " ";
+    for (const Column& column : columns) {
+      text += fmt::format(" {:>{}}", column.texts[row], column.width);
+    }
+    text += "\n";
+    for (const std::string& remark : list.rows[row].remarks) {
+      text += fmt::format("      {}\n", remark);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string DiagnosticsText(const Plan& plan) {
+  Fields fields;
+  std::vector<NamedList> lists;
+  Collector collector(fields, lists);
+  Visit(collector, plan);
+  std::string text;
+  for (const NamedList& list : lists) {
+    text += TableText(list);
+  }
+  for (const Cell& cell : fields.cells) {
+    const Heading heading = HeadingFor(cell.name);
+    text += fmt::format("  {}: {}{}{}\n", fmt::join(heading.words, " "), cell.text,
+                        heading.unit.empty() ? "" : " ", heading.unit);
+  }
+  for (const std::string& remark : fields.remarks) {
+    text += fmt::format("  {}\n", remark);
+  }
+  return text;
+}
+
+}  // namespace trackbed::cli
