@@ -203,6 +203,7 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
   RunResult result;
   result.scenario = scenario;
   result.scene = car.scene();
+  result.vehicle = car.params();
   const Stopwatch planning;
   result.plan = PlanMission(scenario, car.unladen());
   result.planning_time = planning.Seconds();
