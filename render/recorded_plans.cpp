@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "trackbed/analysis/json_file.h"
+#include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/file.h"
 
 namespace trackbed::render {
 namespace {
@@ -35,11 +35,7 @@ std::vector<double> FiniteColumn(const Table& table, const fs::path& file, const
 }  // namespace
 
 Table ReadRunTable(const fs::path& file) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) {
-    Reject(file, "", "missing from the run folder");
-  }
-  return ReadCsv(file);
+  return ReadCsv(run_folder::RequireFile(file));
 }
 
 std::vector<Point> ReadPlan(const fs::path& file) {
@@ -116,15 +112,8 @@ std::vector<Point> ReadCones(const fs::path& file) {
   if (!fs::exists(file, ignored)) {
     return cones;
   }
-  try {
-    const nlohmann::json plan = nlohmann::json::parse(ReadFile(file));
-    for (const nlohmann::json& gate : plan.value("gates", nlohmann::json::array())) {
-      for (const nlohmann::json& cone : gate.at("cones_m")) {
-        cones.push_back({cone.at(0).get<double>(), cone.at(1).get<double>()});
-      }
-    }
-  } catch (const nlohmann::json::exception& error) {
-    Reject(file, "gates", error.what());
+  for (const Vec2& cone : ReadJson(file, ConesOf, {.key = "gates"})) {
+    cones.push_back({cone.x(), cone.y()});
   }
   return cones;
 }

@@ -6,9 +6,10 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <string_view>
 #include <utility>
 
+#include "trackbed/analysis/json_file.h"
+#include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
@@ -21,20 +22,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kStateSuffix = ".state.csv";
-
 [[noreturn]] void Reject(const fs::path& file, std::string key, std::string message) {
   throw InputError(
       Problem{.file = file.string(), .key = std::move(key), .message = std::move(message)});
 }
 
 ModelHandle LoadModel(const fs::path& file) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) {
-    Reject(file, "", "missing from the run folder");
-  }
   std::array<char, 1000> error{};
-  ModelHandle model(mj_loadXML(file.c_str(), nullptr, error.data(), error.size()));
+  ModelHandle model(
+      mj_loadXML(run_folder::RequireFile(file).c_str(), nullptr, error.data(), error.size()));
   if (!model) {
     std::string message = error.data();
     std::replace(message.begin(), message.end(), '\n', ' ');
@@ -47,16 +43,8 @@ ModelHandle LoadModel(const fs::path& file) {
 std::vector<std::string> PlantsWithStates(const fs::path& folder) {
   std::vector<std::string> plants;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    std::string name = entry.path().filename().string();
-    // Names with a leading dot are files that a writer has not finished.
-    if (name.size() > kStateSuffix.size() && name.ends_with(kStateSuffix) && name[0] != '.') {
-      name.resize(name.size() - kStateSuffix.size());
-      for (const PlantEntry& plant : Plants()) {
-        if (PlantFileName(plant.name) == name) {
-          name = plant.name;
-        }
-      }
-      plants.push_back(std::move(name));
+    if (auto plant = run_folder::PlantOfStateCsv(entry.path().filename().string())) {
+      plants.push_back(*std::move(plant));
     }
   }
   if (plants.empty()) {
@@ -68,23 +56,21 @@ std::vector<std::string> PlantsWithStates(const fs::path& folder) {
 
 /// InputError when `metrics.json`, if there is one, tells of a plant that is not among these.
 void CheckAllAreThere(const fs::path& folder, const std::vector<std::string>& plants) {
-  const fs::path metrics = folder / "metrics.json";
+  const fs::path metrics = folder / run_folder::kMetricsJson;
   std::error_code ignored;
   if (!fs::exists(metrics, ignored)) {
     return;
   }
-  try {
-    const nlohmann::json told = nlohmann::json::parse(ReadFile(metrics));
+  const auto visit = [&](const nlohmann::ordered_json& told) {
     for (const auto& item : told.at("plants").items()) {
       if (std::find(plants.begin(), plants.end(), item.key()) == plants.end()) {
-        Reject(folder / (PlantFileName(item.key()) + std::string(kStateSuffix)), "",
+        Reject(folder / run_folder::StateCsv(item.key()), "",
                fmt::format("missing from the run folder, whose metrics.json tells of a drive of {}",
                            item.key()));
       }
     }
-  } catch (const nlohmann::json::exception& error) {
-    Reject(metrics, "plants", error.what());
-  }
+  };
+  VisitJson(metrics, visit, {.key = "plants"});
 }
 
 /// The plants of the run, the one to show as the car first.
@@ -179,8 +165,8 @@ double TimedTable::Value(const Place& place, std::size_t column) const {
 PlantRecording::PlantRecording(const fs::path& folder, const std::string& plant,
                                const mjModel& model)
     : plant_(plant),
-      state_(folder / (PlantFileName(plant) + std::string(kStateSuffix))),
-      log_(folder / (PlantFileName(plant) + ".csv")),
+      state_(folder / run_folder::StateCsv(plant)),
+      log_(folder / run_folder::LogCsv(plant)),
       speed_(log_.Require("speed_mps")),
       steering_asked_(log_.Require("steering_command_rad")),
       steering_(log_.Require("steering_rad")),
@@ -190,7 +176,7 @@ PlantRecording::PlantRecording(const fs::path& folder, const std::string& plant,
   }
   const int chassis = mj_name2id(&model, mjOBJ_JOINT, "chassis");
   if (chassis < 0 || model.jnt_type[chassis] != mjJNT_FREE) {
-    Reject(folder / "model.xml", "", "no free joint named 'chassis'");
+    Reject(folder / run_folder::kModelXml, "", "no free joint named 'chassis'");
   }
   free_joint_qpos_ = model.jnt_qposadr[chassis];
   for (int joint = 0; joint < model.njnt; ++joint) {
@@ -316,24 +302,24 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
   const std::vector<std::string> plants = Chosen(folder, FindPlants(folder), asked);
   Recording recording;
   recording.name = fs::weakly_canonical(folder).filename().string();
-  recording.model = LoadModel(folder / "model.xml");
+  recording.model = LoadModel(folder / run_folder::kModelXml);
   for (const std::string& plant : plants) {
     recording.plants.emplace_back(folder, plant, *recording.model);
   }
-  if (const fs::path scenario = folder / "scenario.resolved.yaml"; fs::exists(scenario, ignored)) {
+  if (const fs::path scenario = folder / run_folder::kScenarioYaml; fs::exists(scenario, ignored)) {
     recording.world = ReadWorld(scenario);
     const VehicleSpec vehicle = ReadVehicleSpec(scenario);
     recording.note = NoteOf(vehicle);
     recording.tyre = vehicle.tyre;
   }
-  for (const Point& cone : ReadCones(folder / "plan.json")) {
+  for (const Point& cone : ReadCones(folder / run_folder::kPlanJson)) {
     recording.cones.push_back(recording.OnGround(cone));
   }
-  const fs::path plan = folder / "plan.csv";
-  if (fs::exists(folder / "plan.json", ignored) && !fs::exists(plan, ignored)) {
+  const fs::path plan = folder / run_folder::kPlanCsv;
+  if (fs::exists(folder / run_folder::kPlanJson, ignored) && !fs::exists(plan, ignored)) {
     Reject(plan, "", "missing from the run folder, which has plan.json");
   }
-  const fs::path new_plans = folder / (PlantFileName(plants.front()) + ".plan.csv");
+  const fs::path new_plans = folder / run_folder::NewPlansCsv(plants.front());
   recording.plan = ReadPlan(plan);
   recording.new_plans = ReadNewPlans(new_plans);
   recording.curvatures = ReadCurvatures(plan, recording.begin());

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "src/analysis/metric_table.h"
+#include "trackbed/analysis/json_file.h"
+#include "trackbed/analysis/run_folder.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
@@ -213,18 +215,17 @@ Table DifferencesOverArcLength(const Trace& first, const Trace& second) {
 }
 
 std::vector<FinishedDrive> ReadRunFolder(const fs::path& folder) {
-  const fs::path file = folder / "metrics.json";
+  const fs::path file = folder / run_folder::kMetricsJson;
   if (!fs::exists(file)) {
     throw InputError(Problem{.file = folder.string(),
                              .message = "the folder of no finished run (it has no metrics.json)"});
   }
-  const auto json = nlohmann::ordered_json::parse(ReadFile(file), nullptr, false);
   std::vector<std::string> known;
   for (const PlantEntry& plant : Plants()) {
     known.push_back(plant.name);
   }
   std::vector<FinishedDrive> drives;
-  try {
+  const auto visit = [&](const nlohmann::ordered_json& json) {
     if (!json.value("complete", true)) {
       throw InputError(Problem{.file = folder.string(),
                                .message = "the run was interrupted; it has no whole drives to "
@@ -238,11 +239,10 @@ std::vector<FinishedDrive> ReadRunFolder(const fs::path& folder) {
                                  .message = "unknown " + UnknownName(plant, known)});
       }
       drives.push_back({metrics.at("status").get<std::string>(),
-                        ReadTrace(folder / (PlantFileName(plant) + ".csv"), plant)});
+                        ReadTrace(folder / run_folder::LogCsv(plant), plant)});
     }
-  } catch (const nlohmann::json::exception&) {
-    throw InputError(Problem{.file = file.string(), .message = "not the metrics of a run"});
-  }
+  };
+  VisitJson(file, visit, {.message = "not the metrics of a run"});
   return drives;
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
@@ -103,7 +104,7 @@ FinishedRun ReadRun(const fs::path& folder) {
     throw InputError(
         Problem{.file = folder.string(), .message = "the run did not drive; it had no plan"});
   }
-  if (const fs::path scenario = folder / "scenario.resolved.yaml"; fs::exists(scenario)) {
+  if (const fs::path scenario = folder / run_folder::kScenarioYaml; fs::exists(scenario)) {
     run.expect = ReadExpectations(scenario);
   }
   return run;
@@ -222,8 +223,8 @@ bool AreAlike(const Table& first, const Table& second) {
 
 /// Whoever compares two runs mostly means runs of one plan, and should know when they are not.
 void NoteOtherPlan(const fs::path& first, const fs::path& second, Verdict& verdict) {
-  const bool has_first = fs::exists(first / "plan.csv");
-  const bool has_second = fs::exists(second / "plan.csv");
+  const bool has_first = fs::exists(first / run_folder::kPlanCsv);
+  const bool has_second = fs::exists(second / run_folder::kPlanCsv);
   if (!has_first && !has_second) {
     return;
   }
@@ -232,8 +233,8 @@ void NoteOtherPlan(const fs::path& first, const fs::path& second, Verdict& verdi
         fmt::format("only {} followed a plan", (has_first ? first : second).string()));
     return;
   }
-  const Table plan_1 = ReadCsv(first / "plan.csv");
-  const Table plan_2 = ReadCsv(second / "plan.csv");
+  const Table plan_1 = ReadCsv(first / run_folder::kPlanCsv);
+  const Table plan_2 = ReadCsv(second / run_folder::kPlanCsv);
   if (AreAlike(plan_1, plan_2)) {
     return;
   }
@@ -376,8 +377,8 @@ DifferenceBounds ParseTolerances(const std::vector<std::string>& texts) {
 void WriteComparison(const RunComparison& comparison, const fs::path& folder) {
   MakeFolder(folder);
   std::error_code ignored;  // what cannot be removed cannot be replaced either: that will tell
-  fs::remove(folder / "compare.json", ignored);
-  fs::remove(folder / "report.html", ignored);
+  fs::remove(folder / run_folder::kCompareJson, ignored);
+  fs::remove(folder / run_folder::kReport, ignored);
 
   std::vector<std::string> columns{"pair"};
   const Table any = DifferencesOverArcLength({}, {});
@@ -405,8 +406,8 @@ void WriteComparison(const RunComparison& comparison, const fs::path& folder) {
     json["verdict"]["passed"] = nullptr;
   }
   json["versions"] = Versions();
-  WriteFileAtomically(folder / "compare.csv", table.ToCsv());
-  WriteFileAtomically(folder / "compare.json", json.dump(2) + "\n");
+  WriteFileAtomically(folder / run_folder::kCompareCsv, table.ToCsv());
+  WriteFileAtomically(folder / run_folder::kCompareJson, json.dump(2) + "\n");
 }
 
 }  // namespace trackbed

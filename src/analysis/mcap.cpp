@@ -100,8 +100,9 @@ struct Message {
   json content;
 };
 
-void AddPlant(const RunResult& result, const RunLog& log, const VehicleParams& vehicle,
-              McapWriter& writer, std::vector<Message>& messages) {
+void AddPlant(const RunResult& result, const RunLog& log, McapWriter& writer,
+              std::vector<Message>& messages) {
+  const VehicleParams& vehicle = result.vehicle;
   const std::string topic = "/" + log.plant + "/";
   const Table table = ToTable(log);
   json columns = json::object();
@@ -144,12 +145,11 @@ void AddPlant(const RunResult& result, const RunLog& log, const VehicleParams& v
 
 std::string ToMcap(const RunResult& result) {
   const World& world = result.scenario.world;
-  const VehicleParams vehicle = LoadCar(result.scenario).params();
   McapWriter writer;
   std::vector<Message> messages;
   double end = 0.0;
   for (const RunLog& log : result.logs) {
-    AddPlant(result, log, vehicle, writer, messages);
+    AddPlant(result, log, writer, messages);
     end = std::max(end, log.rows.back().state.time);
   }
   if (!world.obstacles.empty()) {

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "trackbed/analysis/mcap.h"
+#include "trackbed/analysis/run_folder.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
@@ -149,17 +150,7 @@ std::string Pretty(const ordered_json& json) {
 
 /// Removes what an earlier run may have left under names that a run writes, and nothing else.
 void RemoveEarlierRun(const fs::path& folder) {
-  std::vector<std::string> names{"plan.csv",    "schedule.csv", "convergence.csv",
-                                 "tree.csv",    "plan.json",    "metrics.json",
-                                 "timing.json", "model.xml",    "scenario.resolved.yaml",
-                                 "video.mp4",   "compare.csv",  "compare.json",
-                                 "report.html", "picture.png",  kMcapName};
-  for (const PlantEntry& plant : Plants()) {
-    for (const char* ending : {".csv", ".state.csv", ".plan.csv", ".plan.json", ".tree.csv"}) {
-      names.push_back(PlantFileName(plant.name) + ending);
-    }
-  }
-  for (const std::string& name : names) {
+  for (const std::string& name : run_folder::AllNames()) {
     std::error_code ignored;  // what cannot be removed cannot be replaced either: that will tell
     fs::remove(folder / name, ignored);
   }
@@ -214,6 +205,7 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
   RunResult result;
   result.scenario = scenario;
   result.scene = car.scene();
+  result.vehicle = car.params();
   const Stopwatch planning;
   result.plan = PlanMission(scenario, car.unladen());
   result.planning_time = planning.Seconds();
@@ -301,35 +293,35 @@ void WritePlan(const Plan& plan, const Scenario& scenario, const fs::path& folde
     const double length = plan.reference.path.length();
     json["length_m"] = length;
     json["duration_s"] = plan.reference.speed.TimeAt(length);
-    WriteFileAtomically(folder / "plan.csv", PlanTable(plan.reference).ToCsv());
-    WriteFileAtomically(folder / "schedule.csv", ScheduleTable(plan.schedule).ToCsv());
-    WriteUnlessEmpty(ConvergenceTable(plan.diagnostics), folder / "convergence.csv");
-    WriteUnlessEmpty(TreeTable(plan.tree), folder / "tree.csv");
+    WriteFileAtomically(folder / run_folder::kPlanCsv, PlanTable(plan.reference).ToCsv());
+    WriteFileAtomically(folder / run_folder::kScheduleCsv, ScheduleTable(plan.schedule).ToCsv());
+    WriteUnlessEmpty(ConvergenceTable(plan.diagnostics), folder / run_folder::kConvergenceCsv);
+    WriteUnlessEmpty(TreeTable(plan.tree), folder / run_folder::kTreeCsv);
   }
   const nlohmann::json diagnostics = DiagnosticsJson(plan);
   for (const auto& [key, value] : diagnostics.items()) {
     json[key] = value;
   }
-  WriteFileAtomically(folder / "plan.json", Pretty(json));
+  WriteFileAtomically(folder / run_folder::kPlanJson, Pretty(json));
 }
 
 void WriteRunFolder(const RunResult& result, const fs::path& folder,
                     const RunFolderOptions& options) {
   MakeFolder(folder);
   RemoveEarlierRun(folder);
-  WriteFileAtomically(folder / "scenario.resolved.yaml", ResolvedYaml(result.scenario));
-  WriteScene(result.scene, folder / "model.xml");
+  WriteFileAtomically(folder / run_folder::kScenarioYaml, ResolvedYaml(result.scenario));
+  WriteScene(result.scene, folder / run_folder::kModelXml);
   if (result.scenario.plan) {
     WritePlan(result.plan, result.scenario, folder);
   }
   for (const RunLog& log : result.logs) {
-    const std::string name = PlantFileName(log.plant);
-    WriteFileAtomically(folder / (name + ".csv"), ToTable(log).ToCsv());
-    WriteFileAtomically(folder / (name + ".state.csv"), log.configurations.ToCsv());
+    WriteFileAtomically(folder / run_folder::LogCsv(log.plant), ToTable(log).ToCsv());
+    WriteFileAtomically(folder / run_folder::StateCsv(log.plant), log.configurations.ToCsv());
     if (!log.changes.empty()) {
-      WriteFileAtomically(folder / (name + ".plan.csv"), ChangesTable(log).ToCsv());
-      WriteFileAtomically(folder / (name + ".plan.json"), Pretty(ChangesJson(log)));
-      WriteUnlessEmpty(TreeTable(log.changes.back().plan.tree), folder / (name + ".tree.csv"));
+      WriteFileAtomically(folder / run_folder::NewPlansCsv(log.plant), ChangesTable(log).ToCsv());
+      WriteFileAtomically(folder / run_folder::NewPlansJson(log.plant), Pretty(ChangesJson(log)));
+      WriteUnlessEmpty(TreeTable(log.changes.back().plan.tree),
+                       folder / run_folder::NewPlansTreeCsv(log.plant));
     }
   }
   ordered_json timing{{"planning_s", result.planning_time}};
@@ -340,12 +332,12 @@ void WriteRunFolder(const RunResult& result, const fs::path& folder,
         {"steering",
          {{"updates", plant.updates}, {"mean_s", plant.update_mean}, {"max_s", plant.update_max}}}};
   }
-  WriteFileAtomically(folder / "timing.json", Pretty(timing));
+  WriteFileAtomically(folder / run_folder::kTimingJson, Pretty(timing));
   if (options.mcap && !result.logs.empty()) {
-    WriteFileAtomically(folder / kMcapName, ToMcap(result));
+    WriteFileAtomically(folder / run_folder::kMcap, ToMcap(result));
   }
 
-  WriteFileAtomically(folder / "metrics.json", Pretty(MetricsJson(result)));
+  WriteFileAtomically(folder / run_folder::kMetricsJson, Pretty(MetricsJson(result)));
 }
 
 }  // namespace trackbed

@@ -7,6 +7,7 @@
 
 #include "src/analysis/parallel.h"
 #include "trackbed/analysis/bisect.h"
+#include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
@@ -250,10 +251,10 @@ SweepResult RunSweep(const Study& study, const std::vector<StudyPoint>& points,
 void WriteSweep(const SweepResult& sweep, const fs::path& folder) {
   MakeFolder(folder);
   std::error_code ignored;  // what cannot be removed cannot be replaced either: that will tell
-  fs::remove(folder / "sweep.json", ignored);
-  fs::remove(folder / "report.html", ignored);
-  WriteFileAtomically(folder / "sweep.csv", sweep.table.ToCsv());
-  WriteFileAtomically(folder / "sweep.json", sweep.description.dump(2) + "\n");
+  fs::remove(folder / run_folder::kSweepJson, ignored);
+  fs::remove(folder / run_folder::kReport, ignored);
+  WriteFileAtomically(folder / run_folder::kSweepCsv, sweep.table.ToCsv());
+  WriteFileAtomically(folder / run_folder::kSweepJson, sweep.description.dump(2) + "\n");
 }
 
 }  // namespace trackbed

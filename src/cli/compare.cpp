@@ -8,6 +8,7 @@
 #include "src/cli/scenario_runs.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/compare_runs.h"
+#include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
 
@@ -43,7 +44,8 @@ std::string StatusText(const RunComparison& result) {
 }
 
 void Print(const std::string& name, const RunComparison& result, const fs::path& out) {
-  fmt::print("{}: {}, in {}\n", name, StatusText(result), (out / "compare.json").string());
+  fmt::print("{}: {}, in {}\n", name, StatusText(result),
+             (out / run_folder::kCompareJson).string());
   for (const ComparedPair& pair : result.pairs) {
     const PlantComparison& c = pair.comparison;
     if (!c.comparable()) {

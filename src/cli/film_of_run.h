@@ -6,9 +6,6 @@
 
 namespace trackbed::cli {
 
-/// What a run's film is called in its folder.
-inline constexpr const char* kVideoName = "video.mp4";
-
 /// Films a run folder with a progress bar; Ctrl-C ends it with nothing written.
 void FilmRun(const std::filesystem::path& folder, const std::filesystem::path& output,
              const FilmOptions& options, bool quiet);

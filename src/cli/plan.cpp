@@ -11,6 +11,7 @@
 #include "src/cli/scenario_options.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run.h"
+#include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
@@ -37,7 +38,7 @@ int PlanOne(const PlanOptions& options) {
   const Plan plan = PlanMission(scenario, car.unladen());
   if (!plan.ok()) {
     std::error_code ignored;
-    for (const char* name : {"plan.csv", "schedule.csv", "convergence.csv", "tree.csv"}) {
+    for (const char* name : run_folder::kPathFiles) {
       fs::remove(out / name, ignored);  // of an earlier plan
     }
   }

@@ -7,6 +7,7 @@
 #include "src/cli/film_of_run.h"
 #include "src/cli/progress_bar.h"
 #include "src/cli/verbs.h"
+#include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/scenario/scenario.h"
 
@@ -59,7 +60,7 @@ int RenderOne(const RenderOptions& options) {
   const fs::path folder = options.folder;
   FilmOptions film;
   // What the command does not say, the scenario of the run does.
-  if (const fs::path resolved = folder / "scenario.resolved.yaml"; fs::exists(resolved)) {
+  if (const fs::path resolved = folder / run_folder::kScenarioYaml; fs::exists(resolved)) {
     const RenderSpec render = ReadRenderSpec(resolved);
     film = {
         .width = render.width, .height = render.height, .fps = render.fps, .camera = render.camera};
@@ -79,7 +80,7 @@ int RenderOne(const RenderOptions& options) {
   } else if (!options.overlays.empty()) {
     film.overlays = options.overlays;
   }
-  const char* name = options.at ? "picture.png" : kVideoName;
+  const char* name = options.at ? run_folder::kPicture : run_folder::kVideo;
   const fs::path out = options.out.empty() ? folder / name : fs::path(options.out);
   if (options.at) {
     RenderPicture(folder, out, *options.at, film);

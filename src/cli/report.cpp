@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "src/cli/verbs.h"
+#include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
 
@@ -37,14 +38,13 @@ FilmPlace PlaceOf(const std::string& film) {
 
 int Report(const ReportOptions& options) {
   const FilmPlace film = PlaceOf(options.film);
-  constexpr const char* kName = "report.html";
   const std::vector<fs::path> paths(options.paths.begin(), options.paths.end());
   const fs::path& first = paths.front();
   // Of several runs the page is no part of one of them.
   const fs::path folder = paths.size() > 1          ? fs::path()
                           : fs::is_directory(first) ? first
                                                     : first.parent_path();
-  const fs::path file = options.out.empty() ? folder / kName : fs::path(options.out);
+  const fs::path file = options.out.empty() ? folder / run_folder::kReport : fs::path(options.out);
   WriteReport(paths, file, film);
   if (!options.quiet) {
     fmt::print("{}\n", file.string());

@@ -10,6 +10,7 @@
 #include "src/cli/film_of_run.h"
 #include "src/cli/scenario_runs.h"
 #include "src/cli/verbs.h"
+#include "trackbed/analysis/run_folder.h"
 #include "trackbed/report/report.h"
 
 namespace trackbed::cli {
@@ -82,7 +83,7 @@ int RunOne(const ScenarioRun& run, const RunOptions& options) {
   }
   if (options.video && !result.interrupted && result.plan.ok()) {
     const RenderSpec& render = scenario.render;
-    FilmRun(out, out / kVideoName,
+    FilmRun(out, out / run_folder::kVideo,
             {.width = render.width,
              .height = render.height,
              .fps = render.fps,
@@ -90,7 +91,7 @@ int RunOne(const ScenarioRun& run, const RunOptions& options) {
             options.scenario.quiet);
   }
   if (options.report && !result.interrupted) {
-    WriteReport({out}, out / "report.html");
+    WriteReport({out}, out / run_folder::kReport);
   }
   const bool failed = result.verdict.judged && !result.verdict.passed;
   return result.interrupted ? kInterrupted : failed ? kFailedExpectations : kOk;
@@ -116,7 +117,7 @@ void AddRun(const Command& command) {
         ReadScenarioRuns(options->files, options->scenario, options->out, "out");
     for (const ScenarioRun& run : runs) {
       if (options->video) {
-        CheckFilmName(run.folder / kVideoName);
+        CheckFilmName(run.folder / run_folder::kVideo);
       }
     }
     return ForEachRun(runs, [&](const ScenarioRun& run) { return RunOne(run, *options); });

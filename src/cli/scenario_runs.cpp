@@ -58,10 +58,10 @@ int ForEachRun(const std::vector<ScenarioRun>& runs,
 }
 
 RunResult DriveScenario(const ScenarioRun& run, bool quiet) {
-  static_cast<void>(LoadCar(run.scenario));
+  const CarModel car = LoadCar(run.scenario);
   MakeFolder(run.folder);
   std::unique_ptr<ProgressBar> bar;
-  return RunMission(run.scenario, {.drive = [&](const std::string& plant) {
+  return RunMission(run.scenario, car, {.drive = [&](const std::string& plant) {
                       bar.reset();
                       bar = std::make_unique<ProgressBar>(
                           fmt::format("{} {}", run.scenario.name, plant), quiet);

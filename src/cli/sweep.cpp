@@ -10,6 +10,7 @@
 #include "src/cli/progress_bar.h"
 #include "src/cli/scenario_options.h"
 #include "src/cli/verbs.h"
+#include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/file.h"
 
 namespace trackbed::cli {
@@ -48,7 +49,7 @@ int Sweep(const SweepVerbOptions& options) {
         sweep.complete()
             ? fmt::format("{} rows from {} runs, {} passed", rows, sweep.runs, sweep.passed)
             : fmt::format("interrupted after {} of {} rows", rows, sweep.rows_expected);
-    fmt::print("{}: {}, in {}\n", name, how, (out / "sweep.csv").string());
+    fmt::print("{}: {}, in {}\n", name, how, (out / run_folder::kSweepCsv).string());
   }
   return sweep.complete() ? kOk : kInterrupted;
 }

@@ -4,22 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 
-#include "src/report/json_file.h"
 #include "src/report/names.h"
 #include "src/report/numbers.h"
 #include "src/report/paths.h"
 #include "src/report/run_data.h"
 #include "trackbed/analysis/compare.h"
+#include "trackbed/analysis/json_file.h"
+#include "trackbed/analysis/run_folder.h"
 
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-constexpr const char* kComparisonName = "compare.json";
 
 /// Rows of all curves together: a chart has no more pixels, and ten pairs are much.
 constexpr std::size_t kCurveRows = 6000;
@@ -45,8 +45,8 @@ struct Pair {
 /// The pairs of a comparison and its verdict. The runs are those from `at` on.
 void TakeJudged(const fs::path& folder, const std::vector<fs::path>& runs, std::size_t at,
                 std::vector<Pair>& pairs, ordered_json& verdicts) {
-  const fs::path file = folder / kComparisonName;
-  WithJson(file, [&](const ordered_json& json) {
+  const fs::path file = folder / run_folder::kCompareJson;
+  VisitJson(file, [&](const ordered_json& json) {
     const std::size_t last = ComparedRuns(folder).size() - 1;
     for (const ordered_json& pair : json.at("pairs")) {
       // Of two runs, a drive is called after its folder and its plant.
@@ -167,11 +167,11 @@ ordered_json DataOf(const Pair& pair, const Trace& first, const Trace& second,
 
 bool HasComparison(const fs::path& folder) {
   std::error_code ignored;
-  return fs::is_regular_file(folder / kComparisonName, ignored);
+  return fs::is_regular_file(folder / run_folder::kCompareJson, ignored);
 }
 
 std::vector<fs::path> ComparedRuns(const fs::path& folder) {
-  return WithJson(folder / kComparisonName, [&](const ordered_json& json) {
+  return ReadJson(folder / run_folder::kCompareJson, [&](const ordered_json& json) {
     std::vector<fs::path> runs;
     for (const ordered_json& run : json.value("runs", ordered_json::array())) {
       const fs::path path = folder / run.get<std::string>();  // one from the root on stays so
@@ -183,7 +183,7 @@ std::vector<fs::path> ComparedRuns(const fs::path& folder) {
       runs.push_back(folder);
     }
     if (runs.empty()) {
-      Unfit(folder / kComparisonName, "does not say of which runs it is");
+      Unfit(folder / run_folder::kCompareJson, "does not say of which runs it is");
     }
     return runs;
   });

@@ -12,6 +12,7 @@
 #include "src/report/page_text.h"
 #include "src/report/run_data.h"
 #include "src/report/study_data.h"
+#include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
@@ -182,7 +183,7 @@ ordered_json DataOf(const std::vector<fs::path>& paths, const ShownRuns& shown) 
 
 void AddFilms(const ShownRuns& shown, const fs::path& file, FilmPlace place, ordered_json& data) {
   for (std::size_t i = 0; i < shown.folders.size(); ++i) {
-    const fs::path video = shown.folders[i] / "video.mp4";
+    const fs::path video = shown.folders[i] / run_folder::kVideo;
     std::error_code ignored;
     if (!fs::is_regular_file(video, ignored)) {
       continue;

@@ -3,27 +3,26 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <nlohmann/json.hpp>
 
 #include "src/report/checks.h"
-#include "src/report/json_file.h"
 #include "src/report/names.h"
 #include "src/report/numbers.h"
 #include "src/report/paths.h"
+#include "trackbed/analysis/json_file.h"
+#include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/table.h"
 #include "trackbed/planning/common/plan_status.h"
 #include "trackbed/scenario/scenario.h"
 #include "trackbed/sim/car_model.h"
-#include "trackbed/sim/plant.h"
 
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-constexpr const char* kMetricsName = "metrics.json";
 
 /// What the page calls a column, and whether every log has it.
 struct Channel {
@@ -79,7 +78,7 @@ ordered_json LogOf(const fs::path& file, std::size_t row_limit) {
   for (const Channel& channel : kChannels) {
     (channel.needed ? needed : optional).emplace_back(channel.column);
   }
-  const CsvExcerpt log = ReadCsvExcerpt(Needed(file), needed, optional);
+  const CsvExcerpt log = ReadCsvExcerpt(run_folder::RequireFile(file), needed, optional);
   const std::vector<double> times = log.table.Column("t_s");
   if (times.empty()) {
     throw InputError(Problem{.file = file.string(), .message = "no rows"});
@@ -102,9 +101,8 @@ ordered_json LogOf(const fs::path& file, std::size_t row_limit) {
 }
 
 ordered_json PlantOf(const fs::path& folder, const std::string& plant, std::size_t row_limit) {
-  const std::string name = PlantFileName(plant);
-  ordered_json json{{"name", plant}, {"log", LogOf(folder / (name + ".csv"), row_limit)}};
-  if (const fs::path plans = folder / (name + ".plan.csv"); fs::exists(plans)) {
+  ordered_json json{{"name", plant}, {"log", LogOf(folder / run_folder::LogCsv(plant), row_limit)}};
+  if (const fs::path plans = folder / run_folder::NewPlansCsv(plant); fs::exists(plans)) {
     json["new_plans"] = NewPlans(plans);
   }
   return json;
@@ -134,7 +132,8 @@ ordered_json WorldOf(const World& world) {
 }
 
 ordered_json CarOf(const fs::path& model) {
-  const VehicleParams car = CarModel(ComposeScene(Needed(model), {}), model.string()).params();
+  const VehicleParams car =
+      CarModel(ComposeScene(run_folder::RequireFile(model), {}), model.string()).params();
   return {{"name", car.name},
           {"length", Rounded(car.length)},
           {"width", Rounded(car.width)},
@@ -143,7 +142,7 @@ ordered_json CarOf(const fs::path& model) {
 
 /// How the plan was found, the gates it leads through, and its line.
 ordered_json PlanOf(const fs::path& folder) {
-  ordered_json plan = WithJson(folder / "plan.json", [](const ordered_json& file) {
+  ordered_json plan = ReadJson(folder / run_folder::kPlanJson, [](const ordered_json& file) {
     ordered_json json;
     for (const char* key : {"status", "reason", "method", "length_m", "duration_s"}) {
       if (file.contains(key)) {
@@ -151,16 +150,13 @@ ordered_json PlanOf(const fs::path& folder) {
       }
     }
     json["cones"] = ordered_json::array();
-    for (const ordered_json& gate : file.value("gates", ordered_json::array())) {
-      for (const ordered_json& cone : gate.at("cones_m")) {
-        json["cones"].push_back(
-            {Rounded(cone.at(0).get<double>()), Rounded(cone.at(1).get<double>())});
-      }
+    for (const Vec2& cone : ConesOf(file)) {
+      json["cones"].push_back({Rounded(cone.x()), Rounded(cone.y())});
     }
     return json;
   });
   if (plan.at("status") == ToString(PlanStatus::kOk)) {
-    plan["line"] = PlanLine(Needed(folder / "plan.csv"));
+    plan["line"] = PlanLine(run_folder::RequireFile(folder / run_folder::kPlanCsv));
   }
   return plan;
 }
@@ -169,26 +165,26 @@ ordered_json PlanOf(const fs::path& folder) {
 
 bool IsRunFolder(const fs::path& folder) {
   std::error_code ignored;
-  return fs::is_regular_file(folder / kMetricsName, ignored);
+  return fs::is_regular_file(folder / run_folder::kMetricsJson, ignored);
 }
 
 std::size_t PlantCount(const fs::path& folder) {
-  return WithJson(folder / kMetricsName,
+  return ReadJson(folder / run_folder::kMetricsJson,
                   [](const ordered_json& metrics) { return metrics.at("plants").size(); });
 }
 
 ordered_json RunData(const fs::path& folder, const std::string& name, std::size_t row_limit) {
-  const fs::path scenario = Needed(folder / "scenario.resolved.yaml");
-  return WithJson(folder / kMetricsName, [&](const ordered_json& metrics) {
+  const fs::path scenario = run_folder::RequireFile(folder / run_folder::kScenarioYaml);
+  return ReadJson(folder / run_folder::kMetricsJson, [&](const ordered_json& metrics) {
     ordered_json run{{"name", name}};
     for (const char* key : {"scenario", "complete", "seed", "versions", "verdict"}) {
       run[key] = metrics.at(key);
     }
     run["verdict"].erase("checks");
     run["expectations"] = CheckRows(metrics.at("verdict"));
-    run["car"] = CarOf(folder / "model.xml");
+    run["car"] = CarOf(folder / run_folder::kModelXml);
     run["world"] = WorldOf(ReadWorld(scenario));
-    if (fs::exists(folder / "plan.json") || fs::exists(folder / "plan.csv")) {
+    if (fs::exists(folder / run_folder::kPlanJson) || fs::exists(folder / run_folder::kPlanCsv)) {
       run["plan"] = PlanOf(folder);
     }
     run["plants"] = ordered_json::array();

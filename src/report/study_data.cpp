@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
-#include "src/report/json_file.h"
 #include "src/report/names.h"
 #include "src/report/numbers.h"
+#include "trackbed/analysis/json_file.h"
+#include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
 
@@ -31,12 +33,12 @@ ordered_json ValueOf(const std::string& cell) {
 
 /// What stands in sweep.json beside the table; nothing when there is none.
 ordered_json DescriptionOf(const fs::path& table) {
-  const fs::path file = table.parent_path() / "sweep.json";
+  const fs::path file = table.parent_path() / run_folder::kSweepJson;
   std::error_code ignored;
-  if (table.filename() != "sweep.csv" || !fs::is_regular_file(file, ignored)) {
+  if (table.filename() != run_folder::kSweepCsv || !fs::is_regular_file(file, ignored)) {
     return ordered_json::object();
   }
-  return WithJson(file, [](const ordered_json& json) -> ordered_json {
+  return ReadJson(file, [](const ordered_json& json) -> ordered_json {
     return {{"name", json.at("study")},        {"scenario", json.at("scenario")},
             {"complete", json.at("complete")}, {"rows_expected", json.at("rows_expected")},
             {"versions", json.at("versions")}, {"text", json.dump(2)}};
@@ -75,7 +77,7 @@ std::optional<fs::path> StudyTable(const fs::path& path) {
   if (fs::is_regular_file(path, ignored) && path.extension() == ".csv") {
     return path;
   }
-  const fs::path table = path / "sweep.csv";
+  const fs::path table = path / run_folder::kSweepCsv;
   return fs::is_regular_file(table, ignored) ? std::optional(table) : std::nullopt;
 }
 

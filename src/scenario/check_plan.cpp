@@ -1,6 +1,7 @@
 #include <limits>
 
 #include "src/scenario/diagnostics.h"
+#include "src/scenario/start_state.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/planning/common/planner.h"
@@ -206,9 +207,7 @@ void CheckMission(Diagnostics& c) {
   if (!c.CouldReadPlan({"method"})) {
     return;
   }
-  const Recording* recording = RecordingOf(c.scenario);
-  const bool has_start_speed = mission.start.speed || !c.scenario.control.speed.over_time.empty() ||
-                               (recording != nullptr && !recording->speed.empty()) ||
+  const bool has_start_speed = StartSpeedBesideMission(c.scenario) ||
                                !c.CouldRead({"mission.start.speed", "control.speed.over_time",
                                              "control.file", "control.columns"});
   if (mission.speed == 0.0 && c.CouldRead({"mission.speed"}) && (plan || !has_start_speed)) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "src/scenario/cross_check.h"
 #include "src/scenario/overrides.h"
@@ -15,7 +14,6 @@
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/planning/common/planner.h"
-#include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/scenario/recording_file.h"
 
 namespace trackbed {
@@ -209,43 +207,6 @@ void CheckScenario(const Scenario& scenario) {
 const Recording* RecordingOf(const Scenario& scenario) {
   const auto* playback = scenario.control.steering.As<PlaybackOptions>();
   return playback != nullptr ? &playback->recording : nullptr;
-}
-
-StartState StartOf(const Scenario& scenario) {
-  const MissionSpec& mission = scenario.mission;
-  const StartSpec& given = mission.start;
-  StartState start;
-  if (!mission.waypoints.empty()) {
-    start.pose.x = mission.waypoints.front().x();
-    start.pose.y = mission.waypoints.front().y();
-  }
-  if (mission.waypoints.size() >= 2) {
-    const Vec2 leg = mission.waypoints[1] - mission.waypoints[0];
-    start.pose.yaw = std::atan2(leg.y(), leg.x());
-  }
-  if (!mission.headings.empty()) {
-    start.pose.yaw = mission.headings.front();
-  }
-  start.pose = {given.x.value_or(start.pose.x), given.y.value_or(start.pose.y),
-                given.yaw.value_or(start.pose.yaw)};
-  if (scenario.plan) {
-    if (const auto* fillets = scenario.plan->global.As<FilletOptions>()) {
-      start.steering = fillets->neutral_steering;
-    }
-  }
-  const Recording* recording = RecordingOf(scenario);
-  const Signal& over_time = scenario.control.speed.over_time;
-  if (recording != nullptr && !recording->speed.empty()) {
-    start.speed = recording->speed.At(0.0);
-  } else {
-    start.speed = over_time.empty() ? mission.speed : over_time.At(0.0);
-  }
-  start.speed = given.speed.value_or(start.speed);
-  if (recording != nullptr && scenario.drive.steering == SteeringInput::kPrescribed) {
-    start.steering = recording->steering.At(0.0);
-  }
-  start.steering = given.steering.value_or(start.steering);
-  return start;
 }
 
 std::optional<double> DurationOf(const Scenario& scenario) {

@@ -18,10 +18,9 @@ class CarPlant final : public MujocoPlant {
       tyres_.emplace(car(), model());
     }
     linked_ = FindLinkage();
-    const auto rolling = RollingSpeeds(car().params(), setup.start.speed, setup.start.steering);
+    RollWheels(parts.spin_dof, setup.start);
     for (std::size_t w = 0; w < kWheels.size(); ++w) {
       bearing_friction_[w] = model().dof_frictionloss[parts.spin_dof[w]];
-      data().qvel[parts.spin_dof[w]] = rolling[w] / car().params().wheel_radius;
     }
     data().act[parts.steer_state] = setup.start.steering;
     Begin();

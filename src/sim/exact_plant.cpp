@@ -13,4 +13,8 @@ VehicleParams Steered(const PlantSetup& setup) {
   return params;
 }
 
+KinematicState InPlane(const StartState& start) {
+  return {.pose = start.pose, .speed = start.speed, .steering = start.steering};
+}
+
 }  // namespace trackbed

@@ -11,6 +11,9 @@ namespace trackbed {
 /// are there at once.
 VehicleParams Steered(const PlantSetup& setup);
 
+/// The start of a run as a state of the rear axle.
+KinematicState InPlane(const StartState& start);
+
 /// A plant made of a car that moves in the plane and obeys exactly: KinematicCar, SingleTrackCar.
 /// Its wheels turn as those of a car that does not slip; that is for the film.
 template <typename Car>

@@ -5,7 +5,7 @@ namespace {
 
 KinematicState StateAt(const VehicleParams& params, const StartState& start,
                        ReferencePoint reference) {
-  KinematicState state{.pose = start.pose, .speed = start.speed, .steering = start.steering};
+  KinematicState state = InPlane(start);
   if (reference == ReferencePoint::kCenterOfGravity) {
     const Vec2 cg = ToWorld(start.pose, {params.cg_to_rear, 0.0});
     state.pose.x = cg.x();

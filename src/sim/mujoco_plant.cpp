@@ -59,6 +59,13 @@ MujocoPlant::MujocoPlant(const PlantSetup& setup)
   }
 }
 
+void MujocoPlant::RollWheels(std::span<const int> spin_dof, const StartState& start) {
+  const auto rolling = RollingSpeeds(car_.params(), start.speed, start.steering);
+  for (std::size_t w = 0; w < spin_dof.size(); ++w) {
+    data_->qvel[spin_dof[w]] = rolling[w] / car_.params().wheel_radius;
+  }
+}
+
 void MujocoPlant::Begin() {
   ground_.Place(*model_, *data_);
   MoveObstacles();

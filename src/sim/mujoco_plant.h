@@ -39,6 +39,9 @@ class MujocoPlant : public Plant {
 
   /// The vehicle stands and moves as `setup.start` says, but for its wheels' spin.
   explicit MujocoPlant(const PlantSetup& setup);
+  /// Sets the speeds of the wheels' spin joints, in the order of CarModel::wheels(): they roll
+  /// without slip.
+  void RollWheels(std::span<const int> spin_dof, const StartState& start);
   /// To be called once spin and actuators are set as well.
   void Begin();
 

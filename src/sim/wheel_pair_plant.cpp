@@ -16,10 +16,9 @@ class WheelPairPlant final : public MujocoPlant {
   explicit WheelPairPlant(const PlantSetup& setup)
       : MujocoPlant(setup), wanted_speed_(setup.start.speed), ratio_(setup.start.steering) {
     const WheelPairParts& parts = car().wheel_pair();
-    const auto rolling = RollingSpeeds(car().params(), wanted_speed_, ratio_);
-    for (std::size_t w = 0; w < rolling.size(); ++w) {
+    RollWheels(parts.spin_dof, setup.start);
+    for (std::size_t w = 0; w < parts.spin_dof.size(); ++w) {
       bearing_friction_[w] = model().dof_frictionloss[parts.spin_dof[w]];
-      data().qvel[parts.spin_dof[w]] = rolling[w] / car().params().wheel_radius;
     }
     Begin();
   }

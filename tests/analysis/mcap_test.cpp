@@ -181,7 +181,7 @@ TEST(Mcap, IsReadByTheOfficialReader) {
   }
   TempFolder folder;
   const RunResult run = DriveAndPass();
-  WriteFileAtomically(folder.path() / kMcapName, ToMcap(run));
+  WriteFileAtomically(folder.path() / "run.mcap", ToMcap(run));
   const std::string script =
       "import sys; from mcap.stream_reader import StreamReader; "
       "n = sum(type(r).__name__ == 'Message' for r in StreamReader(open(sys.argv[1], "
@@ -189,7 +189,7 @@ TEST(Mcap, IsReadByTheOfficialReader) {
       " sys.exit(0 if n > " +
       std::to_string(2 * run.logs[0].rows.size()) + " else 1)";
   const std::string command =
-      "python3 -c \"" + script + "\" " + (folder.path() / kMcapName).string();
+      "python3 -c \"" + script + "\" " + (folder.path() / "run.mcap").string();
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 

@@ -148,6 +148,44 @@ TEST(Modules, AreDrawnAsTheBuildLinksThem) {
   EXPECT_THAT(drawn, testing::UnorderedElementsAreArray(links));
 }
 
+// The names of the files of a run folder have one owner, and the modules that can see it write no
+// other.
+TEST(RunFolder, ItsFilesAreNamedInOnePlaceAlone) {
+  const std::vector<fs::path> owners{kRoot / "include/trackbed/analysis/run_folder.h",
+                                     kRoot / "src/analysis/run_folder.cpp"};
+  std::vector<std::string> names;  // in quotation marks: "plan.csv", ".state.csv"
+  const std::regex name(R"re("\.?\w+\.[\w.]+")re");
+  for (const fs::path& owner : owners) {
+    std::istringstream text(TextOf(owner));
+    for (std::string line; std::getline(text, line);) {
+      if (std::smatch match; !line.starts_with("#") && std::regex_search(line, match, name)) {
+        names.push_back(match[0]);
+      }
+    }
+  }
+  EXPECT_THAT(names, testing::IsSupersetOf({"\"plan.csv\"", "\"run.mcap\"", "\".state.csv\""}));
+  const std::vector<std::string> can_see{"analysis", "report", "testing", "render", "cli"};
+  for (const Module& module : Modules()) {
+    if (std::find(can_see.begin(), can_see.end(), module.path) == can_see.end()) {
+      continue;
+    }
+    for (const fs::path& folder : module.folders()) {
+      for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        const fs::path extension = entry.path().extension();
+        if ((extension != ".h" && extension != ".cpp") ||
+            std::find(owners.begin(), owners.end(), entry.path()) != owners.end()) {
+          continue;
+        }
+        const std::string text = TextOf(entry.path());
+        for (const std::string& literal : names) {
+          EXPECT_EQ(text.find(literal), std::string::npos)
+              << entry.path() << " has " << literal << "; run_folder.h names it";
+        }
+      }
+    }
+  }
+}
+
 // The examples that pages show are those that the tests build (tests/package).
 TEST(Pages, ShowTheirExamplesAsTheyAreBuilt) {
   struct Shown {

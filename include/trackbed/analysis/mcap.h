@@ -7,9 +7,6 @@
 /// Runs for other programs: MCAP, the container that Foxglove and others open.
 namespace trackbed {
 
-/// In a run folder.
-inline constexpr const char* kMcapName = "run.mcap";
-
 /// A run as an MCAP file (mcap.dev/spec, version 0): without chunks, index or compression; messages
 /// in JSON, in the order of their times, each schema beside its channel. Times count from the start
 /// of the drive [ns].

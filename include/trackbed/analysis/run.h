@@ -24,7 +24,8 @@ struct DriveTiming {
 /// One run of a scenario: planned once, driven on each of its plants, measured and judged.
 struct RunResult {
   Scenario scenario;
-  Scene scene;  ///< the composed MJCF that was driven
+  Scene scene;            ///< the composed MJCF that was driven
+  VehicleParams vehicle;  ///< the car that was driven, with its payload
   Plan plan;
   std::vector<RunLog> logs;
   std::vector<PlantMetrics> metrics;

@@ -9,6 +9,7 @@
 
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/planning/common/route_start.h"
 
 namespace trackbed {
 namespace {
@@ -59,8 +60,7 @@ Path LayOut(const std::vector<Vec2>& polyline, std::vector<RoundCorner>& corners
       corner.to = station;
     }
   }
-  const Vec2 leg = polyline[1] - polyline[0];
-  return {{polyline[0].x(), polyline[0].y(), std::atan2(leg.y(), leg.x())}, std::move(segments)};
+  return {StartOfRoute(polyline), std::move(segments)};
 }
 
 /// The highest speed up to `highest` at which the leg before the first corner, `leg` [m] long,

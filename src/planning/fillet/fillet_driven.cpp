@@ -6,6 +6,7 @@
 
 #include "src/planning/fillet/fillet_layout.h"
 #include "trackbed/core/angle.h"
+#include "trackbed/planning/common/route_start.h"
 
 namespace trackbed::fillet {
 namespace {
@@ -55,7 +56,8 @@ class DrivenProblem {
     for (std::size_t i = 0; i <= intervals; ++i) {
       stations[i] = static_cast<double>(i) * spacing;
     }
-    const KinematicState start{.pose = route_.start(), .speed = 1.0};  // of no importance
+    const KinematicState start{.pose = StartOfRoute(route_.waypoints),
+                               .speed = 1.0};  // of no importance
     const auto states =
         RollOut(vehicle_, start, plan.schedule, stations, kSpacing, options_.reference);
     double position = 0.0;

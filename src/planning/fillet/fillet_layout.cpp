@@ -7,6 +7,7 @@
 
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/planning/common/route_start.h"
 
 namespace trackbed::fillet {
 namespace {
@@ -61,7 +62,7 @@ Path PathThrough(const Route& route, std::vector<FilletTurn>& turns) {
     ++turn;
   }
   straight(pending, static_cast<int>(route.legs.size()));
-  return {route.start(), std::move(segments)};
+  return {StartOfRoute(route.waypoints), std::move(segments)};
 }
 
 void CenterRamps(const VehicleParams& vehicle, FilletTurn& turn) {
@@ -76,11 +77,6 @@ void CenterRamps(const VehicleParams& vehicle, FilletTurn& turn) {
 }
 
 }  // namespace
-
-Pose2 Route::start() const {
-  const Vec2& d = legs.front().direction;
-  return {waypoints[0].x(), waypoints[0].y(), std::atan2(d.y(), d.x())};
-}
 
 Route RouteOf(const std::vector<Vec2>& waypoints) {
   if (waypoints.size() < kMinFilletWaypoints) {

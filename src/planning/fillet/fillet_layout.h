@@ -24,8 +24,6 @@ struct Leg {
 struct Route {
   std::vector<Vec2> waypoints;
   std::vector<Leg> legs;
-
-  [[nodiscard]] Pose2 start() const;
 };
 
 Route RouteOf(const std::vector<Vec2>& waypoints);

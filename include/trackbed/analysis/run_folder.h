@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The names of the files in the folders of runs, comparisons and studies, for everything that
+/// writes or reads one. docs/cli.md says what each file holds.
+namespace trackbed::run_folder {
+
+// Of a run.
+inline constexpr const char* kScenarioYaml = "scenario.resolved.yaml";
+inline constexpr const char* kModelXml = "model.xml";
+inline constexpr const char* kPlanCsv = "plan.csv";
+inline constexpr const char* kPlanJson = "plan.json";
+inline constexpr const char* kScheduleCsv = "schedule.csv";
+inline constexpr const char* kConvergenceCsv = "convergence.csv";
+inline constexpr const char* kTreeCsv = "tree.csv";
+inline constexpr const char* kTimingJson = "timing.json";
+inline constexpr const char* kMetricsJson = "metrics.json";
+inline constexpr const char* kMcap = "run.mcap";
+
+// Made from a finished run.
+inline constexpr const char* kVideo = "video.mp4";
+inline constexpr const char* kPicture = "picture.png";
+inline constexpr const char* kReport = "report.html";  ///< of a comparison or a study, too
+
+// Of a comparison; in the folder of the run itself if it compares that run's plants.
+inline constexpr const char* kCompareCsv = "compare.csv";
+inline constexpr const char* kCompareJson = "compare.json";
+
+// Of a study.
+inline constexpr const char* kSweepCsv = "sweep.csv";
+inline constexpr const char* kSweepJson = "sweep.json";
+
+/// What a plan with a path may have beside plan.json.
+inline constexpr std::array kPathFiles{kPlanCsv, kScheduleCsv, kConvergenceCsv, kTreeCsv};
+
+// Of a plant, by its name in the registry: "mujoco:contact" has "mujoco-contact.csv".
+
+std::string LogCsv(const std::string& plant);    ///< <plant>.csv
+std::string StateCsv(const std::string& plant);  ///< <plant>.state.csv
+// Of the plans adopted during the run.
+std::string NewPlansCsv(const std::string& plant);      ///< <plant>.plan.csv
+std::string NewPlansJson(const std::string& plant);     ///< <plant>.plan.json
+std::string NewPlansTreeCsv(const std::string& plant);  ///< <plant>.tree.csv
+
+/// The plant whose StateCsv has this name; none for the name of another file. A plant that is not
+/// in the registry is called as in its file's name.
+std::optional<std::string> PlantOfStateCsv(const std::string& file_name);
+
+/// Every name that the folder of a run may have, with those of the plants in the registry.
+std::vector<std::string> AllNames();
+
+/// `file` itself. InputError naming it if it does not exist.
+std::filesystem::path RequireFile(const std::filesystem::path& file);
+
+}  // namespace trackbed::run_folder

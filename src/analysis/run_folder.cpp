@@ -1,0 +1,76 @@
+#include "trackbed/analysis/run_folder.h"
+
+#include <algorithm>
+#include <string_view>
+#include <system_error>
+
+#include "trackbed/core/error.h"
+#include "trackbed/sim/plant.h"
+
+namespace trackbed::run_folder {
+namespace {
+
+constexpr std::string_view kStateEnding = ".state.csv";
+
+std::string Name(const std::string& plant, std::string_view ending) {
+  return PlantFileName(plant).append(ending);
+}
+
+}  // namespace
+
+std::string LogCsv(const std::string& plant) {
+  return Name(plant, ".csv");
+}
+
+std::string StateCsv(const std::string& plant) {
+  return Name(plant, kStateEnding);
+}
+
+std::string NewPlansCsv(const std::string& plant) {
+  return Name(plant, ".plan.csv");
+}
+
+std::string NewPlansJson(const std::string& plant) {
+  return Name(plant, ".plan.json");
+}
+
+std::string NewPlansTreeCsv(const std::string& plant) {
+  return Name(plant, ".tree.csv");
+}
+
+std::optional<std::string> PlantOfStateCsv(const std::string& file_name) {
+  // Names with a leading dot are files that a writer has not finished.
+  if (file_name.size() <= kStateEnding.size() || !file_name.ends_with(kStateEnding) ||
+      file_name.front() == '.') {
+    return std::nullopt;
+  }
+  for (const PlantEntry& plant : Plants()) {
+    if (StateCsv(plant.name) == file_name) {
+      return plant.name;
+    }
+  }
+  return file_name.substr(0, file_name.size() - kStateEnding.size());
+}
+
+std::vector<std::string> AllNames() {
+  std::vector<std::string> names{kScenarioYaml, kModelXml,   kPlanJson,   kTimingJson,
+                                 kMetricsJson,  kMcap,       kVideo,      kPicture,
+                                 kReport,       kCompareCsv, kCompareJson};
+  names.insert(names.end(), kPathFiles.begin(), kPathFiles.end());
+  for (const PlantEntry& plant : Plants()) {
+    for (const auto name_of : {LogCsv, StateCsv, NewPlansCsv, NewPlansJson, NewPlansTreeCsv}) {
+      names.push_back(name_of(plant.name));
+    }
+  }
+  return names;
+}
+
+std::filesystem::path RequireFile(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) {
+    throw InputError(Problem{.file = file.string(), .message = "missing from the run folder"});
+  }
+  return file;
+}
+
+}  // namespace trackbed::run_folder

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <optional>
+
+#include "trackbed/scenario/scenario.h"
+
+namespace trackbed {
+
+/// The speed at the start [m/s] where something else than mission.speed gives it: in this order
+/// mission.start.speed, a recording that has speeds, or control.speed.over_time.
+std::optional<double> StartSpeedBesideMission(const Scenario& scenario);
+
+}  // namespace trackbed

@@ -1,0 +1,106 @@
+#include "trackbed/analysis/run_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/temp_folder.h"
+#include "trackbed/analysis/compare_runs.h"
+#include "trackbed/analysis/run.h"
+#include "trackbed/core/error.h"
+#include "trackbed/sim/plant.h"
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+
+Scenario Read(const std::string& name, const std::vector<Override>& overrides) {
+  return ReadScenario(fs::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml"), overrides);
+}
+
+// Users' scripts know these names, which docs/cli.md lists.
+TEST(RunFolder, NamesItsFilesAsDocumented) {
+  EXPECT_THAT(run_folder::AllNames(), testing::IsSupersetOf({"scenario.resolved.yaml",
+                                                             "model.xml",
+                                                             "plan.csv",
+                                                             "plan.json",
+                                                             "schedule.csv",
+                                                             "convergence.csv",
+                                                             "tree.csv",
+                                                             "timing.json",
+                                                             "run.mcap",
+                                                             "metrics.json",
+                                                             "video.mp4",
+                                                             "picture.png",
+                                                             "report.html",
+                                                             "compare.csv",
+                                                             "compare.json",
+                                                             "kinematic.csv",
+                                                             "kinematic.state.csv",
+                                                             "kinematic.plan.csv",
+                                                             "kinematic.plan.json",
+                                                             "kinematic.tree.csv",
+                                                             "mujoco-magic_formula.state.csv"}));
+  // Five of each plant, and the fifteen others.
+  EXPECT_EQ(run_folder::AllNames().size(), 5 * Plants().size() + 15);
+  EXPECT_STREQ(run_folder::kSweepCsv, "sweep.csv");
+  EXPECT_STREQ(run_folder::kSweepJson, "sweep.json");
+}
+
+TEST(RunFolder, TellsWhosePlantAStateIs) {
+  for (const PlantEntry& plant : Plants()) {
+    EXPECT_EQ(run_folder::PlantOfStateCsv(run_folder::StateCsv(plant.name)), plant.name);
+  }
+  EXPECT_EQ(run_folder::PlantOfStateCsv("mujoco-contact.state.csv"), "mujoco:contact");
+  EXPECT_EQ(run_folder::PlantOfStateCsv("of_a_plugin.state.csv"), "of_a_plugin");
+  for (const char* other : {"kinematic.csv", ".state.csv", ".kinematic.state.csv", "state.csv"}) {
+    EXPECT_EQ(run_folder::PlantOfStateCsv(other), std::nullopt) << other;
+  }
+}
+
+TEST(RunFolder, RequiresFilesByName) {
+  const TempFolder folder;
+  const fs::path file = folder.Write("plan.csv", "");
+  EXPECT_EQ(run_folder::RequireFile(file), file);
+  const fs::path missing = folder.path() / "plan.json";
+  try {
+    run_folder::RequireFile(missing);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(), missing.string() + ": missing from the run folder");
+  }
+}
+
+// What a run writes and the list does not have would be left there by the next run.
+TEST(RunFolder, ListsWhateverARunAndItsComparisonWrite) {
+  const TempFolder folder;
+  // Searched turns, and a new plan on the way.
+  const RunResult run =
+      RunMission(Read("obstacle_appears", {"plan.global={method: fillet, objective: turn_local}",
+                                           "drive.time_limit=25", "expect={}"}));
+  ASSERT_TRUE(run.plan.ok()) << run.plan.reason;
+  WriteRunFolder(run, folder.path(), {.mcap = true});
+  WriteComparison(CompareRun(run, std::nullopt), folder.path());
+  const std::vector<std::string> names = folder.Names();
+  EXPECT_THAT(names, testing::IsSupersetOf({"run.mcap", "kinematic.plan.csv", "mujoco.plan.json",
+                                            "convergence.csv", "compare.csv", "schedule.csv"}));
+  EXPECT_THAT(run_folder::AllNames(), testing::IsSupersetOf(names));
+}
+
+TEST(RunFolder, LosesEveryFileOfAnEarlierRun) {
+  const TempFolder folder;
+  for (const std::string& name : run_folder::AllNames()) {
+    folder.Write(name, "of an earlier run");
+  }
+  folder.Write("notes.txt", "mine");
+  WriteRunFolder(RunMission(Read("steering_circle",
+                                 {"drive.plants=[kinematic]", "expect={}", "mission.duration=1"})),
+                 folder.path());
+  EXPECT_THAT(folder.Names(),
+              testing::UnorderedElementsAre("scenario.resolved.yaml", "model.xml", "kinematic.csv",
+                                            "kinematic.state.csv", "timing.json", "metrics.json",
+                                            "notes.txt"));
+}
+
+}  // namespace
+}  // namespace trackbed

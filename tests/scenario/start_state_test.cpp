@@ -1,0 +1,78 @@
+// How a run begins: one answer for planners, plants and checks.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/geometry/random.h"
+#include "tests/support/temp_folder.h"
+#include "tests/vehicle/reference_car.h"
+#include "trackbed/core/error.h"
+#include "trackbed/planning/common/corners.h"
+#include "trackbed/planning/fillet/fillet.h"
+#include "trackbed/scenario/scenario.h"
+
+namespace trackbed {
+namespace {
+
+// The path's heading and the car's come from one function: not even the last bit differs.
+TEST(StartState, IsWherePathsAlongTheRouteBegin) {
+  Random random(3);
+  FilletOptions options;
+  options.radius = 6.0;
+  options.constraint = RadiusConstraint::kNone;
+  int planned = 0;
+  for (int i = 0; i < 500; ++i) {
+    Scenario scenario;
+    for (int k = 0; k < 3; ++k) {
+      scenario.mission.waypoints.emplace_back(random.Uniform(-90.0, 90.0),
+                                              random.Uniform(-90.0, 90.0));
+    }
+    SCOPED_TRACE(fmt::format("route {}", i));
+    const Pose2 start = StartOf(scenario).pose;
+    const FilletPlan fillets =
+        PlanFillets(ReferenceCar(), scenario.mission.waypoints, 3.0, options);
+    const RoundedCorners rounded =
+        RoundCorners(ReferenceCar(), scenario.mission.waypoints, {}, {ReferenceCar(), {}, 0.0});
+    if (fillets.status == PlanStatus::kOk) {
+      ++planned;
+      EXPECT_EQ(fillets.path.At(0.0).pose, start);
+    }
+    if (rounded.status == PlanStatus::kOk) {
+      EXPECT_EQ(rounded.path.At(0.0).pose, start);
+    }
+  }
+  EXPECT_GT(planned, 100);
+}
+
+// The mission's speed may be missing exactly where the start has one of its own.
+TEST(StartState, HasTheSpeedThatReplacesTheMissions) {
+  const TempFolder folder;
+  folder.Write("r.csv", "t_s,steering_rad,speed_mps\n0,0,5\n9,0,5\n");
+  struct Case {
+    const char* keys;
+    std::optional<double> speed;  ///< none: refused
+  };
+  for (const auto& [keys, speed] : {
+           Case{"control: {method: sine, amplitude: 0.01}\nmission: {duration: 3}", std::nullopt},
+           Case{"control: {method: sine, amplitude: 0.01}\n"
+                "mission: {duration: 3, start: {speed: 0}}",
+                0.0},
+           Case{"control: {method: sine, amplitude: 0.01, speed: {over_time: [[0, 4], [2, 6]]}}\n"
+                "mission: {duration: 3}",
+                4.0},
+           Case{"control: {method: playback, file: r.csv}\nmission: {}", 5.0},
+           Case{"control: {method: playback, file: r.csv}\nmission: {start: {speed: 2}}", 2.0},
+       }) {
+    SCOPED_TRACE(keys);
+    const std::string yaml = std::string("schema: 1\nname: x\n") + keys + "\n";
+    if (speed) {
+      EXPECT_EQ(StartOf(ParseScenario(yaml, "x.yaml", folder.path())).speed, *speed);
+    } else {
+      EXPECT_THROW(ParseScenario(yaml, "x.yaml", folder.path()), InputError);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trackbed
