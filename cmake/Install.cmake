@@ -5,7 +5,9 @@
 #   trackbed::MODULE     one module, such as trackbed::drive or trackbed::planning_fillet
 #   trackbed::testing    matchers for tests, with find_package(trackbed COMPONENTS testing): only
 #                        this component needs GoogleTest
-#   trackbed::cli        the program
+#   trackbed::cli        the program; its module is trackbed::cli_library
+#
+# What each module links: docs/how-to/embed.md.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -14,7 +16,6 @@ set(data_folder ${CMAKE_INSTALL_DATADIR}/trackbed)
 
 # One header and one target for everything.
 add_library(trackbed_library INTERFACE)
-add_library(trackbed::library ALIAS trackbed_library)
 trackbed_link_folder(${PROJECT_BINARY_DIR}/modules/library trackbed/trackbed.h
                      ${PROJECT_SOURCE_DIR}/include/trackbed/trackbed.h)
 target_include_directories(
