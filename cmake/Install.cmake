@@ -8,7 +8,6 @@
 #   trackbed::cli        the program; its module is trackbed::cli_library
 #
 # What each module links: docs/how-to/embed.md.
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/trackbed)
@@ -42,6 +41,9 @@ set_target_properties(trackbed_version PROPERTIES EXPORT_NAME version)
 set_target_properties(trackbed_library PROPERTIES EXPORT_NAME trackbed)
 set_target_properties(trackbed_cli PROPERTIES EXPORT_NAME cli_library)
 set_target_properties(trackbed PROPERTIES EXPORT_NAME cli)
+if(BUILD_SHARED_LIBS)
+  set_target_properties(trackbed PROPERTIES INSTALL_RPATH ${TRACKBED_PROGRAM_RPATH})
+endif()
 install(TARGETS ${installed} trackbed EXPORT trackbedTargets)
 install(EXPORT trackbedTargets NAMESPACE trackbed:: DESTINATION ${package_folder})
 # Without scenarios/validation, which replays the tests' recordings.
