@@ -1,7 +1,9 @@
 # How sim finds models/ and scenarios/, so that no installed file holds a path (DataFolder in
 # trackbed/sim/scene.h). Beside the program first; otherwise what PlaceOfData returns, which is
 #   in a shared library of sim     the folder beside the library
-#   for static libraries           written by each CMake build (Place.cmake)
+#   for static libraries           written by each CMake build (Place.cmake), for other builds an
+#                                  error that asks for TRACKBED_DATA: libtrackbed_default_place.a,
+#                                  which trackbed.pc names
 include(Place)
 set(data /${CMAKE_INSTALL_DATADIR}/trackbed)
 file(RELATIVE_PATH data_from_program /${CMAKE_INSTALL_BINDIR} ${data})
@@ -15,4 +17,6 @@ else()
   trackbed_add_place(${PROJECT_SOURCE_DIR})
   target_link_libraries(trackbed_sim PRIVATE $<BUILD_INTERFACE:trackbed_place>
                                              $<INSTALL_INTERFACE:trackbed::place>)
+  add_library(trackbed_default_place STATIC src/sim/place/unknown.cpp)
+  target_link_libraries(trackbed_default_place PRIVATE trackbed_core trackbed_compiler)
 endif()

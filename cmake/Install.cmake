@@ -1,5 +1,6 @@
-# `cmake --install` installs the program; the package `trackbed`; and the models and scenarios.
-# Everything is found from where the package or the program is, so that all of it can be moved.
+# `cmake --install` installs the program; the package `trackbed`, for CMake and for pkg-config; and the
+# models and scenarios. Everything is found from where the package or the program is, so that all of
+# it can be moved.
 #
 #   trackbed::trackbed   the library: all modules but testing
 #   trackbed::MODULE     one module, such as trackbed::drive or trackbed::planning_fillet
@@ -43,6 +44,9 @@ set_target_properties(trackbed_cli PROPERTIES EXPORT_NAME cli_library)
 set_target_properties(trackbed PROPERTIES EXPORT_NAME cli)
 if(BUILD_SHARED_LIBS)
   set_target_properties(trackbed PROPERTIES INSTALL_RPATH ${TRACKBED_PROGRAM_RPATH})
+else()
+  install(TARGETS trackbed_default_place)
+  add_dependencies(trackbed trackbed_default_place)
 endif()
 install(TARGETS ${installed} trackbed EXPORT trackbedTargets)
 install(EXPORT trackbedTargets NAMESPACE trackbed:: DESTINATION ${package_folder})
@@ -58,3 +62,4 @@ install(
         ${PROJECT_BINARY_DIR}/package/trackbedConfigVersion.cmake cmake/LibraryDependencies.cmake
         cmake/Place.cmake
   DESTINATION ${package_folder})
+include(PkgConfig)
