@@ -1,12 +1,14 @@
-# `cmake --install` installs the program; the package `trackbed`; and the models and scenarios.
-# Everything is found from where the package or the program is, so that all of it can be moved.
+# `cmake --install` installs the program; the package `trackbed`, for CMake and for pkg-config; and the
+# models and scenarios. Everything is found from where the package or the program is, so that all of
+# it can be moved.
 #
 #   trackbed::trackbed   the library: all modules but testing
 #   trackbed::MODULE     one module, such as trackbed::drive or trackbed::planning_fillet
 #   trackbed::testing    matchers for tests, with find_package(trackbed COMPONENTS testing): only
 #                        this component needs GoogleTest
-#   trackbed::cli        the program
-include(GNUInstallDirs)
+#   trackbed::cli        the program; its module is trackbed::cli_library
+#
+# What each module links: docs/how-to/embed.md.
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/trackbed)
@@ -14,7 +16,6 @@ set(data_folder ${CMAKE_INSTALL_DATADIR}/trackbed)
 
 # One header and one target for everything.
 add_library(trackbed_library INTERFACE)
-add_library(trackbed::library ALIAS trackbed_library)
 trackbed_link_folder(${PROJECT_BINARY_DIR}/modules/library trackbed/trackbed.h
                      ${PROJECT_SOURCE_DIR}/include/trackbed/trackbed.h)
 target_include_directories(
@@ -41,6 +42,12 @@ set_target_properties(trackbed_version PROPERTIES EXPORT_NAME version)
 set_target_properties(trackbed_library PROPERTIES EXPORT_NAME trackbed)
 set_target_properties(trackbed_cli PROPERTIES EXPORT_NAME cli_library)
 set_target_properties(trackbed PROPERTIES EXPORT_NAME cli)
+if(BUILD_SHARED_LIBS)
+  set_target_properties(trackbed PROPERTIES INSTALL_RPATH ${TRACKBED_PROGRAM_RPATH})
+else()
+  install(TARGETS trackbed_default_place)
+  add_dependencies(trackbed trackbed_default_place)
+endif()
 install(TARGETS ${installed} trackbed EXPORT trackbedTargets)
 install(EXPORT trackbedTargets NAMESPACE trackbed:: DESTINATION ${package_folder})
 # Without scenarios/validation, which replays the tests' recordings.
@@ -55,3 +62,4 @@ install(
         ${PROJECT_BINARY_DIR}/package/trackbedConfigVersion.cmake cmake/LibraryDependencies.cmake
         cmake/Place.cmake
   DESTINATION ${package_folder})
+include(PkgConfig)

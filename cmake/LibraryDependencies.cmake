@@ -1,9 +1,13 @@
 # What Trackbed's libraries are made of: for its own build, and for projects that link the installed
-# package. TRACKBED_VIDEO says whether render links FFmpeg.
+# package. TRACKBED_VIDEO says whether render links FFmpeg. Projects that link shared libraries,
+# trackbed_SHARED, need only what public headers include.
 find_package(fmt REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(Boost 1.74 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
+if(trackbed_SHARED)
+  return()
+endif()
 find_package(yaml-cpp REQUIRED)
 find_package(tinyxml2 REQUIRED)
 find_package(NLopt REQUIRED)

@@ -1,16 +1,16 @@
-# trackbed_module(PATH [SOURCE_DIR DIR] [KIND NUMERICS|LIGHT] [MODULES module...]
+# trackbed_module(PATH [STATIC] [SOURCE_DIR DIR] [KIND NUMERICS|LIGHT] [MODULES module...]
 #                 [LIBRARIES lib...] [PRIVATE_LIBRARIES lib...])
 #
-# One static library per module: public headers in include/trackbed/PATH, sources in src/PATH (or
-# DIR). PATH is `core`, or `planning/fillet` for a part of a larger module; its target is
-# trackbed_planning_fillet, trackbed::planning_fillet for others. MODULES must be declared already,
-# so that the order of the calls is the order of the modules, from the bottom up.
+# One library per module, static or shared (Shared.cmake), with STATIC always static: public headers
+# in include/trackbed/PATH, sources in src/PATH (or DIR). PATH is `core`, or `planning/fillet` for a
+# part of a larger module; its target is trackbed_planning_fillet, trackbed::planning_fillet for
+# others. MODULES must be declared already, so that the order of the calls is the order of the
+# modules, from the bottom up.
 #
 # A target sees the headers of the modules that it links, and no others: each module has an include
 # directory of its own in the build tree, with a link to its headers.
 # KIND is explained in PrecompiledHeaders.cmake; NUMERICS unless it is given.
 # The target header_checks, which is no part of `all`, compiles each public header alone.
-include(GNUInstallDirs)
 set_property(GLOBAL PROPERTY TRACKBED_MODULES "")
 add_custom_target(header_checks)
 
@@ -22,7 +22,7 @@ function(trackbed_link_folder dir link source)
 endfunction()
 
 function(trackbed_module path)
-  cmake_parse_arguments(ARG "" "SOURCE_DIR;KIND" "MODULES;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "STATIC" "SOURCE_DIR;KIND" "MODULES;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   if(NOT ARG_SOURCE_DIR)
     set(ARG_SOURCE_DIR src/${path})
   endif()
@@ -43,7 +43,15 @@ function(trackbed_module path)
   trackbed_link_folder(${private} ${ARG_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/${ARG_SOURCE_DIR})
 
   file(GLOB sources CONFIGURE_DEPENDS ${ARG_SOURCE_DIR}/*.cpp)
-  add_library(trackbed_${name} STATIC ${sources})
+  if(ARG_STATIC)
+    add_library(trackbed_${name} STATIC ${sources})
+    if(BUILD_SHARED_LIBS) # as the precompiled headers that it shares
+      set_target_properties(trackbed_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    endif()
+  else()
+    add_library(trackbed_${name} ${sources})
+    trackbed_shared_properties(trackbed_${name})
+  endif()
   add_library(trackbed::${name} ALIAS trackbed_${name})
   target_include_directories(
     trackbed_${name}

@@ -19,6 +19,10 @@ function(trackbed_precompiled_header kind)
   add_library(${target} OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/precompiled/${target}.cpp)
   target_link_libraries(${target} PRIVATE trackbed_compiler fmt::fmt Eigen3::Eigen ${ARG_LIBRARIES})
   target_compile_options(${target} PRIVATE ${ARG_OPTIONS})
+  # GCC uses a precompiled header only with the flags it was compiled with.
+  if(BUILD_SHARED_LIBS AND NOT kind STREQUAL TESTS)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  endif()
   target_precompile_headers(
     ${target} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional>
     <string> <variant> <vector> <fmt/format.h> <Eigen/Core> ${ARG_HEADERS})

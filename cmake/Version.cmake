@@ -1,4 +1,4 @@
-# trackbed_version: an object library with the version as git describes it, refreshed at each build.
+# trackbed_version: a library with the version as git describes it, refreshed at each build.
 find_package(Git QUIET)
 set(TRACKBED_VERSION_FILE ${PROJECT_BINARY_DIR}/version/version.cpp)
 add_custom_target(
@@ -8,7 +8,8 @@ add_custom_target(
           -DVERSION=${PROJECT_VERSION} -DOUTPUT=${TRACKBED_VERSION_FILE} -P
           ${PROJECT_SOURCE_DIR}/cmake/describe.cmake
   COMMENT "")
-add_library(trackbed_version STATIC ${TRACKBED_VERSION_FILE})
+add_library(trackbed_version ${TRACKBED_VERSION_FILE})
+trackbed_shared_properties(trackbed_version)
 add_dependencies(trackbed_version trackbed_describe)
 target_link_libraries(trackbed_version PRIVATE $<BUILD_INTERFACE:trackbed_compiler>)
 target_include_directories(trackbed_version PRIVATE ${PROJECT_SOURCE_DIR}/include)

@@ -15,7 +15,7 @@
 
 namespace trackbed {
 
-/// The folder of models/ and scenarios/, as the build of the program names it (cmake/Place.cmake).
+/// The folder of models/ and scenarios/, when it is not beside the program (cmake/Data.cmake).
 const char* PlaceOfData();
 
 namespace {
@@ -222,17 +222,13 @@ std::vector<std::string> ModelNames() {
 }
 
 fs::path FindModel(const std::string& model, const fs::path& base) {
-  const fs::path named = DataFolder() / "models" / model / (model + ".xml");
   const bool is_name = model.find('/') == std::string::npos && fs::path(model).extension().empty();
-  if (is_name && fs::is_regular_file(named)) {
-    return named;
+  const fs::path file = is_name ? DataFolder() / "models" / model / (model + ".xml") : base / model;
+  if (fs::is_regular_file(file)) {
+    return file;
   }
-  if (!is_name && fs::is_regular_file(base / model)) {
-    return base / model;
-  }
-  throw InputError(
-      Problem{.message = is_name ? "unknown model " + UnknownName(model, ModelNames())
-                                 : fmt::format("no model file {}", (base / model).string())});
+  throw InputError(Problem{.message = is_name ? "unknown model " + UnknownName(model, ModelNames())
+                                              : fmt::format("no model file {}", file.string())});
 }
 
 Scene ComposeScene(const fs::path& car_file, const SceneOptions& options) {

@@ -24,6 +24,8 @@ std::string TextOf(const fs::path& file) {
 struct Module {
   std::string path;               // "planning/fillet"
   std::vector<std::string> uses;  // modules, likewise
+  std::vector<std::string> libraries;
+  std::vector<std::string> private_libraries;
 
   /// Its target without the prefix: "planning_fillet".
   [[nodiscard]] std::string name() const {
@@ -53,6 +55,10 @@ std::vector<Module> Modules() {
         keyword = word;
       } else if (keyword == "MODULES") {
         module.uses.push_back(word);
+      } else if (keyword == "LIBRARIES") {
+        module.libraries.push_back(word);
+      } else if (keyword == "PRIVATE_LIBRARIES" && !word.starts_with("$<BUILD_INTERFACE:")) {
+        module.private_libraries.push_back(word);
       }
     }
     modules.push_back(std::move(module));
@@ -140,7 +146,7 @@ TEST(Modules, AreDrawnAsTheBuildLinksThem) {
   std::vector<std::string> links;
   for (const Module& module : Modules()) {
     for (const std::string& used : module.uses) {
-      links.push_back(module.name() + " --> " + Module{used, {}}.name());
+      links.push_back(module.name() + " --> " + Module{.path = used}.name());
     }
     EXPECT_NE(page.find("| `" + module.path), std::string::npos)
         << module.path << " is not in the table of modules";
@@ -184,6 +190,32 @@ TEST(RunFolder, ItsFilesAreNamedInOnePlaceAlone) {
       }
     }
   }
+}
+
+/// A cell of a table: "`core`, `world`", or "-" when there is nothing.
+std::string Cell(const std::vector<std::string>& words) {
+  std::string cell;
+  for (const std::string& word : words) {
+    cell += (cell.empty() ? "`" : ", `") + word + "`";
+  }
+  return cell.empty() ? "-" : cell;
+}
+
+TEST(Modules, AreComponentsThatLinkWhatTheirPageSays) {
+  const std::string page = TextOf(kRoot / "docs/how-to/embed.md");
+  std::size_t rows = 0;
+  for (const Module& module : Modules()) {
+    std::vector<std::string> uses;
+    for (const std::string& used : module.uses) {
+      uses.push_back(Module{.path = used}.name());
+    }
+    const std::string name = module.name() == "cli" ? "cli_library" : module.name();
+    const std::string row = "| `trackbed::" + name + "` | " + Cell(uses) + " | " +
+                            Cell(module.libraries) + " | " + Cell(module.private_libraries) + " |";
+    EXPECT_NE(page.find("\n" + row + "\n"), std::string::npos) << "there is no row\n" << row;
+    ++rows;
+  }
+  EXPECT_GT(rows, 20U);
 }
 
 // The examples that pages show are those that the tests build (tests/package).

@@ -42,7 +42,9 @@ std::vector<std::string> ModelNames();
 
 /// Where models/ and scenarios/ are: the environment variable TRACKBED_DATA; or ../share/trackbed
 /// from the folder of the program, if there are models; or, for a program that links the installed
-/// package, the data installed with it, and for Trackbed's own build the source tree.
+/// package, the data installed with it, and for Trackbed's own build the source tree. InputError
+/// for a program that was linked to the installed static libraries without CMake, and has neither
+/// of the first two.
 std::filesystem::path DataFolder();
 
 /// Reads a car's MJCF, resolves its includes, gathers the files it refers to, and sets the options.

@@ -1,0 +1,22 @@
+# How sim finds models/ and scenarios/, so that no installed file holds a path (DataFolder in
+# trackbed/sim/scene.h). Beside the program first; otherwise what PlaceOfData returns, which is
+#   in a shared library of sim     the folder beside the library
+#   for static libraries           written by each CMake build (Place.cmake), for other builds an
+#                                  error that asks for TRACKBED_DATA: libtrackbed_default_place.a,
+#                                  which trackbed.pc names
+include(Place)
+set(data /${CMAKE_INSTALL_DATADIR}/trackbed)
+file(RELATIVE_PATH data_from_program /${CMAKE_INSTALL_BINDIR} ${data})
+file(RELATIVE_PATH data_from_library /${CMAKE_INSTALL_LIBDIR} ${data})
+target_compile_definitions(trackbed_sim PRIVATE TRACKBED_DATA_FROM_PROGRAM="${data_from_program}")
+if(BUILD_SHARED_LIBS)
+  target_sources(trackbed_sim PRIVATE src/sim/place/beside_library.cpp)
+  target_compile_definitions(trackbed_sim PRIVATE TRACKBED_DATA_FROM_LIBRARY="${data_from_library}")
+  target_link_libraries(trackbed_sim PRIVATE ${CMAKE_DL_LIBS})
+else()
+  trackbed_add_place(${PROJECT_SOURCE_DIR})
+  target_link_libraries(trackbed_sim PRIVATE $<BUILD_INTERFACE:trackbed_place>
+                                             $<INSTALL_INTERFACE:trackbed::place>)
+  add_library(trackbed_default_place STATIC src/sim/place/unknown.cpp)
+  target_link_libraries(trackbed_default_place PRIVATE trackbed_core trackbed_compiler)
+endif()

@@ -1,0 +1,42 @@
+# The shared libraries installed in WORK: each is named after its version, finds the others wherever
+# all were moved to, and links all that it uses; only render and what uses it load OSMesa and FFmpeg.
+set(libraries ${WORK}/installed/${LIBDIR})
+
+# What FILE says of itself in its dynamic section must match all of ARGN.
+function(expect_dynamic file)
+  execute_process(COMMAND readelf --dynamic --wide ${file} OUTPUT_VARIABLE output
+                  COMMAND_ERROR_IS_FATAL ANY)
+  foreach(expected IN LISTS ARGN)
+    string(FIND "${output}" "${expected}" place)
+    if(place EQUAL -1)
+      message(FATAL_ERROR "${file} does not have '${expected}':\n${output}")
+    endif()
+  endforeach()
+endfunction()
+
+string(REGEX MATCH "^[0-9]+\\.[0-9]+" abi ${VERSION})
+file(GLOB files RELATIVE ${libraries} ${libraries}/libtrackbed_*.so)
+list(LENGTH files count)
+if(count LESS 20)
+  message(FATAL_ERROR "only ${count} shared libraries: ${files}")
+endif()
+foreach(file IN LISTS files)
+  file(REAL_PATH ${libraries}/${file} real)
+  if(NOT real MATCHES "/${file}\\.${VERSION}$" OR NOT EXISTS ${libraries}/${file}.${abi})
+    message(FATAL_ERROR "${file} is ${real}")
+  endif()
+  expect_dynamic(${real} "Library soname: [${file}.${abi}]")
+  execute_process(COMMAND ldd -r ${real} OUTPUT_VARIABLE loaded ERROR_VARIABLE loaded
+                  COMMAND_ERROR_IS_FATAL ANY)
+  if(loaded MATCHES "not found|undefined symbol")
+    message(FATAL_ERROR "${file}:\n${loaded}")
+  endif()
+  if(NOT file MATCHES "_(render|cli)\\.so$" AND loaded MATCHES "OSMesa|avcodec")
+    message(FATAL_ERROR "${file} loads\n${loaded}")
+  endif()
+  if(loaded MATCHES "libtrackbed_")
+    expect_dynamic(${real} "Library runpath: [$ORIGIN]")
+  endif()
+endforeach()
+file(RELATIVE_PATH from_program ${WORK}/installed/${BINDIR} ${libraries})
+expect_dynamic(${WORK}/installed/${BINDIR}/trackbed "Library runpath: [$ORIGIN/${from_program}]")
