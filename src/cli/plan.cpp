@@ -60,7 +60,7 @@ void PrintTurns(const nlohmann::json& diagnostics) {
   if (!diagnostics.contains("turns") || diagnostics["turns"].empty()) {
     return;
   }
-  for (const char* line : {"waypoint|angle|first r|radius|speed|held by|ramp|ramp|steer|return|"
+  for (const char* line : {"waypoint|angle|first r|radius|speed|constraint|ramp|ramp|steer|return|"
                            "evaluations|objective|deficit",
                            "|[rad]|[m]|[m]|[m/s]||[s]|[m]|from [m]|from [m]|||[rad]"}) {
     PrintRow(Split(line));
@@ -78,22 +78,24 @@ void PrintTurns(const nlohmann::json& diagnostics) {
               number("/search/objective", "{:.2e}"),
               number("/predicted/heading_deficit_rad", "{:.5f}")});
     if (turn["ramp_truncated"].get<bool>()) {
-      fmt::print("           ramp truncated: the wheels turn back before they are there\n");
+      fmt::print(
+          "           ramp truncated: the wheels return before they reach the arc's angle\n");
     }
     if (turn.contains("note")) {
       fmt::print("           {}\n", turn["note"].get<std::string>());
     }
   }
   if (diagnostics.contains("neutral_steering_rad")) {
-    fmt::print(
-        "  between turns the wheels stand at {:.4g} rad, kinematic: a curvature of {:.4g} 1/m\n",
-        diagnostics["neutral_steering_rad"].get<double>(),
-        diagnostics["neutral_curvature_radpm"].get<double>());
+    fmt::print("  between turns: steering angle {:.4g} rad, kinematic curvature {:.4g} 1/m\n",
+               diagnostics["neutral_steering_rad"].get<double>(),
+               diagnostics["neutral_curvature_radpm"].get<double>());
   }
-  fmt::print("  open loop, kinematic: {} m from the goal, {} rad off, at most {} m off the path\n",
-             Number(diagnostics, Pointer("/open_loop/goal_distance_m"), "{:.4f}"),
-             Number(diagnostics, Pointer("/open_loop/goal_heading_error_rad"), "{:.5f}"),
-             Number(diagnostics, Pointer("/open_loop/deviation_max_m"), "{:.4f}"));
+  fmt::print(
+      "  open loop, kinematic: goal distance {} m, goal heading error {} rad, maximum deviation {} "
+      "m\n",
+      Number(diagnostics, Pointer("/open_loop/goal_distance_m"), "{:.4f}"),
+      Number(diagnostics, Pointer("/open_loop/goal_heading_error_rad"), "{:.5f}"),
+      Number(diagnostics, Pointer("/open_loop/deviation_max_m"), "{:.4f}"));
 }
 
 /// The stretches that lead around obstacles, one line each.
@@ -101,8 +103,8 @@ void PrintAvoided(const Plan& plan) {
   if (plan.diagnostics.contains("avoid")) {
     for (const nlohmann::json& stretch : plan.diagnostics["avoid"]) {
       fmt::print(
-          "  passes the obstacle at ({:.4g}, {:.4g}) on the {} side, {:.3f} m clear: from {:.2f} m "
-          "to {:.2f} m, steering at most {:.4f} rad and {:.4f} rad/s\n",
+          "  passes the obstacle at ({:.4g}, {:.4g}) on the {} side: clearance {:.3f} m, from "
+          "{:.2f} m to {:.2f} m, maximum steering {:.4f} rad and {:.4f} rad/s\n",
           stretch["obstacle_m"][0].get<double>(), stretch["obstacle_m"][1].get<double>(),
           stretch["ring"].get<std::string>(), stretch["clearance_m"].get<double>(),
           stretch["leave_s_m"].get<double>(), stretch["return_s_m"].get<double>(),
@@ -121,7 +123,7 @@ void PrintAvoided(const Plan& plan) {
 int PlanOne(const PlanOptions& options) {
   const Scenario scenario = options.scenario.Read(options.file);
   if (!scenario.plan) {
-    throw InputError(Problem{options.file, 0, 0, "plan", "missing; there is nothing to plan"});
+    throw InputError(Problem{options.file, 0, 0, "plan", "missing; 'trackbed plan' needs one"});
   }
   const fs::path out =
       options.out.empty() ? fs::path("out") / scenario.name : fs::path(options.out);
@@ -154,7 +156,7 @@ int PlanOne(const PlanOptions& options) {
 void AddPlan(const Command& command) {
   const auto options = std::make_shared<PlanOptions>();
   command.AddPositional("file", options->file, "Scenario file").Required().TypeName("FILE");
-  command.AddOption("-o,--out", options->out, "Folder to write to (default: out/<scenario>)")
+  command.AddOption("-o,--out", options->out, "Output folder (default: out/<scenario>)")
       .TypeName("DIR");
   options->scenario.AddTo(command);
   command.OnRun([options] { return PlanOne(*options); });

@@ -499,7 +499,7 @@ class Reports(unittest.TestCase):
         )
         shown = self.run_in_page(
             "const i = Array.from(document.querySelectorAll('#headline thead th'))"
-            ".findIndex(e => e.textContent.startsWith('Largest cross-track'));"
+            ".findIndex(e => e.textContent.startsWith('Maximum cross-track'));"
             "return Array.from(document.querySelectorAll('#headline tbody tr'))"
             ".map(row => parseFloat(row.children[i].textContent))"
         )

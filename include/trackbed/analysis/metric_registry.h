@@ -26,7 +26,7 @@ struct MetricInput {
 /// where the run has no such value, and then metrics.json has no such key.
 struct MetricEntry {
   std::string path;   ///< in metrics.json: words of a-z, 0-9 and '_', sections joined by '.'
-  std::string label;  ///< on a report: "Largest cross-track error"
+  std::string label;  ///< on a report: "Maximum cross-track error"
   std::string unit;   ///< SI, "m/s^2"; empty for what has none
   std::function<std::optional<MetricReading>(const PlantMetrics&)> read = {};
   std::function<std::optional<MetricReading>(const MetricInput&)> measure = {};

@@ -42,7 +42,7 @@ struct Metric {
 
 /// What people call a metric.
 struct MetricInfo {
-  std::string label;      ///< "Largest cross-track error"
+  std::string label;      ///< "Maximum cross-track error"
   std::string unit;       ///< SI, "m/s^2"; empty for ratios, counts and texts
   bool headline = false;  ///< shown first in a report
 };

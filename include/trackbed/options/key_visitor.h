@@ -34,7 +34,7 @@ struct Key {
 };
 
 /// The key that selects one of several methods, each with keys of its own.
-inline constexpr Key kMethod{"method", "", "which one; each has keys of its own"};
+inline constexpr Key kMethod{"method", "", "name of the method; each has its own keys"};
 
 enum class Need { kRequired, kOptional };
 

@@ -243,9 +243,9 @@ class Replanning {
     diagnostics_["kind"] = "motion";
     plan.diagnostics["replan"] = diagnostics_;
     if (along.kind == ManeuverType::kStop) {
-      plan.blocked = "stops behind what stands in the way: no motion leads past it";
+      plan.blocked = "stops behind the obstacle: no feasible motion past it";
     } else if (!along.to_goal) {
-      plan.blocked = "stops where no way on was found";
+      plan.blocked = "stops: no feasible motion found";
     }
     return {ReplanKind::kMotion, std::move(plan)};
   }
@@ -305,7 +305,7 @@ class Replanning {
     Plan plan = StopAfter(way, speed, comfortable);
     plan.goal = driving_.route.goal;
     plan.blocked =
-        fmt::format("stops before the obstacle at {}: no way leads past it", Place(obstacle.box));
+        fmt::format("stops before the obstacle at {}: no path around it", Place(obstacle.box));
     diagnostics_["kind"] = "brake";
     diagnostics_["deceleration_mps2"] = braking;
     plan.diagnostics["replan"] = diagnostics_;

@@ -265,8 +265,9 @@ TEST_P(RandomObstacles, ArePassedSafelyOrStoppedBefore) {
     options.search.evaluations = 500;
     const Plan plan = Around(global, {obstacle}, options);
     if (!plan.blocked.empty()) {
-      EXPECT_THAT(plan.blocked, testing::AnyOf(testing::HasSubstr("no curve passes it"),
-                                               testing::HasSubstr("the path ends beside it")));
+      EXPECT_THAT(plan.blocked,
+                  testing::AnyOf(testing::HasSubstr("no curve passes it"),
+                                 testing::HasSubstr("the path ends beside the obstacle")));
       EXPECT_EQ(plan.reference.speed.SpeedAt(plan.reference.path.length()), 0.0);
       continue;
     }
