@@ -226,8 +226,7 @@ std::vector<FinishedDrive> ReadRunFolder(const fs::path& folder) {
   try {
     if (!json.value("complete", true)) {
       throw InputError(Problem{.file = folder.string(),
-                               .message = "the run was interrupted; it has no whole drives to "
-                                          "compare"});
+                               .message = "the run was interrupted; its logs are incomplete"});
     }
     using Object = nlohmann::ordered_json::object_t;
     for (const auto& [plant, metrics] : json.at("plants").get_ref<const Object&>()) {

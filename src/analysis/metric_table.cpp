@@ -87,7 +87,7 @@ std::vector<MetricEntry> OwnMetrics() {
   constexpr MetricSpan kEnd = MetricSpan::kEnd;
   return {
       {"status", "End status", "", Status},
-      {"distance", "Distance driven", "m", Of(&P::distance, kEnd)},
+      {"distance", "Distance traveled", "m", Of(&P::distance, kEnd)},
       Headline({"time", "Time", "s", Of(&P::time, kEnd)}),
       {"cross_track.rms", "Cross-track error, rms", "m", Of(&T::cross_track_rms)},
       Headline(Located({"cross_track.max", "Maximum cross-track error", "m",

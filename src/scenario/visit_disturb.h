@@ -53,8 +53,7 @@ inline void Visit(KeyVisitor& a, Kick& kick) {
 }
 
 inline void Visit(KeyVisitor& a, Disturbances& disturb) {
-  a.Section({"speed_loss", "", "loss of drive: limits the speed below the commanded speed"},
-            disturb.speed_loss);
+  a.Section({"speed_loss", "", "limits the speed below the commanded speed"}, disturb.speed_loss);
   a.Field({"wheelbase", "", "ratio of the wheelbase assumed by controllers to the actual one"},
           disturb.wheelbase, Need::kOptional, kFactor);
   a.Section({"steering", "", "faults between steering command and actuator"}, disturb.steering);

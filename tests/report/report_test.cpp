@@ -161,7 +161,7 @@ TEST(ReportData, FindsUnmetWhatTheVerdictFinds) {
                   "kinematic: Collision = true", "mujoco: Maximum cross-track error ≤ 1e-09",
                   "mujoco: Cross-track error, rms ≤ 1e-09", "mujoco: Minimum clearance ≥ 100",
                   "mujoco: Collision = true", "mujoco: Distance to the goal ≤ 1e-09",
-                  "mujoco: Distance driven ≤ 2", "mujoco: Replans = 1", "mujoco: distanze ≥ 1",
+                  "mujoco: Distance traveled ≤ 2", "mujoco: Replans = 1", "mujoco: distanze ≥ 1",
                   "kinematic – mujoco: Maximum distance ≤ 1e-09"));
   // Every bound is there, that the car arrives where nothing else is asked of its end, and that the
   // wheels turn no faster than their actuator: 6 and 1 of each plant, the arrival of one, 6 more of

@@ -399,7 +399,7 @@ const char* ToString(ReplanKind kind) {
 Replanned Replan(const ReplanRequest& request, const Driving& driving,
                  const ReplanOptions& options) {
   TRACKBED_CHECK((options.along || options.detour) && driving.plan.ok() && driving.route.ok(),
-                 "nothing to plan with, or no plan to begin with");
+                 "needs a planner and an initial plan");
   ReplanOptions own = options;
   own.settings.look_ahead = std::max(
       own.settings.look_ahead, request.speed.speed / request.speed.deceleration + 2.0 * own.period);
