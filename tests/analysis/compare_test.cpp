@@ -256,9 +256,8 @@ TEST(ReadRunFolder, RefusesWhatIsNoRun) {
   EXPECT_EQ(Complaint(folder.path()),
             file.string() + ": plants: unknown '../kinematic'; did you mean 'kinematic'?");
   folder.Write("metrics.json", R"({"complete": false, "plants": {}})");
-  EXPECT_EQ(Complaint(folder.path()), folder.path().string() +
-                                          ": the run was interrupted; it has no whole drives to "
-                                          "compare");
+  EXPECT_EQ(Complaint(folder.path()),
+            folder.path().string() + ": the run was interrupted; its logs are incomplete");
 }
 
 }  // namespace
