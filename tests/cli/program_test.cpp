@@ -444,7 +444,7 @@ TEST(Program, CtrlCInTheFilmLeavesTheVerdict) {
   EXPECT_EQ(outcome.code, 130);
   EXPECT_THAT(ReadFile(folder.path() / "told"), StartsWith("winding: passed, in r/winding\n"));
   EXPECT_EQ(ReadFile(folder.path() / "errors"),
-            "interrupted; no film was written\ninterrupted: 1 of 2 scenarios not driven\n");
+            "interrupted; no film was written\ninterrupted: 1 of 2 scenarios not run\n");
 }
 
 }  // namespace

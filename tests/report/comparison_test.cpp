@@ -184,8 +184,8 @@ TEST(Comparison, SaysWhatIsWrong) {
   EXPECT_THAT(ErrorOf({out}), EndsWith("compare.json: of single_track, which " + b.string() +
                                        " did not drive; compare the runs again"));
   fs::remove_all(b);
-  EXPECT_EQ(ErrorOf({out}), out.string() + ": the comparison is of the run in " + b.string() +
-                                ", where there is none (any more): no metrics.json");
+  EXPECT_EQ(ErrorOf({out}), out.string() + ": the compared run in " + b.string() +
+                                " does not exist (no metrics.json)");
 }
 
 TEST(Comparison, CallsRunsOfOneNameAfterTheirParents) {

@@ -102,7 +102,7 @@ TEST(ComposeScene, NamesFileAndLineOfWhatIsWrong) {
             at + "/d.xml:2: d.xml is included twice");
   EXPECT_EQ(
       MessageOf(folder.Write("e.xml", "<mujoco><asset>\n<mesh file='x.stl'/></asset></mujoco>")),
-      at + "/e.xml:2: <mesh> refers to " + at + "/x.stl, which is no file");
+      at + "/e.xml:2: <mesh> refers to " + at + "/x.stl, which does not exist");
 }
 
 TEST(ComposeScene, SaysInPlainWordsWhatIsNoXml) {

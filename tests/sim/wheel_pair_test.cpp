@@ -170,8 +170,8 @@ std::string MessageFrom(const std::function<void()>& call) {
 }
 
 TEST(WheelPair, SaysWhatItLacksForWhatIsACars) {
-  const std::string needs = " needs a car with steered front wheels";
-  const std::string skid = "skid: skid turns by the speeds of its two driven wheels; ";
+  const std::string needs = " needs steered front wheels";
+  const std::string skid = "skid: skid has differential drive; ";
   EXPECT_EQ(
       MessageFrom([] { MakePlant("single_track", {.car = Skid(), .world = Calm(), .start = {}}); }),
       skid + "the plant single_track" + needs);

@@ -151,7 +151,7 @@ TEST(PlanAround, StopsBeforeWhatItFindsNoWayAround) {
   options.min_speed = 2.0;
   const Plan plan = Around(global, wall, options);
   EXPECT_THAT(plan.blocked, testing::StartsWith("stops before the obstacle at ("));
-  EXPECT_THAT(plan.blocked, testing::HasSubstr("no curve passes it on either side at 2 m/s"));
+  EXPECT_THAT(plan.blocked, testing::HasSubstr("no feasible curve on either side at 2 m/s"));
   EXPECT_EQ(plan.diagnostics["blocked"], plan.blocked);
   EXPECT_TRUE(plan.ok()) << "the way there can be driven";
   const Path& path = plan.reference.path;
