@@ -562,7 +562,7 @@ class Reports(unittest.TestCase):
                     ".map(e => e.textContent.replace(/ difference .*|, [\\d.]+ m and .*/, ''))"
                 ),
                 ["failed", *[f"slow/{p} and quick/{p}: heading" for p in ("kinematic", "mujoco")],
-                 "the runs planned different paths"]
+                 "the runs follow different paths"]
                 if judged else [],
             )
             # The curve at the station that is pointed at, and the cars where the first one was.
