@@ -8,7 +8,7 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/text_table.h"
 
-// Single checks, and what is said of one that is not met.
+// Single checks and their failure messages.
 namespace trackbed {
 namespace {
 
@@ -24,11 +24,11 @@ const Metric* Find(const std::vector<Metric>& metrics, const std::string& path) 
 std::string WhyMissing(const std::string& path, const std::vector<Metric>& metrics,
                        const PlantMetrics& plant) {
   if (path.starts_with("turns[")) {
-    return fmt::format("{} expected, but the drive has {} turns that stand alone", path,
-                       plant.turns.size());
+    return fmt::format("{} is not available: the run has {} isolated turn{}", path,
+                       plant.turns.size(), plant.turns.size() == 1 ? "" : "s");
   }
   if (path.starts_with("manoeuvre.") && plant.manoeuvre && !plant.manoeuvre->missing.empty()) {
-    return fmt::format("{} expected, but not measured: {}", path, plant.manoeuvre->missing);
+    return fmt::format("{} was not measured: {}", path, plant.manoeuvre->missing);
   }
   std::vector<std::string> paths;
   for (const Metric& metric : metrics) {
@@ -69,20 +69,20 @@ bool IsMet(const MetricValue& value, Relation relation, const MetricValue& bound
 std::string Where(const MetricPlace& at) {
   switch (at.span) {
     case MetricSpan::kRun:
-      return fmt::format(" over the drive to s = {:.4g} m, t = {:.4g} s", at.s, at.t);
+      return fmt::format(" over the run to s = {:.4g} m, t = {:.4g} s", at.s, at.t);
     case MetricSpan::kEnd:
       return fmt::format(" at the end, s = {:.4g} m, t = {:.4g} s", at.s, at.t);
     case MetricSpan::kMoment:
       return fmt::format(" at s = {:.4g} m, t = {:.4g} s", at.s, at.t);
     case MetricSpan::kSince:
-      return fmt::format(" from t = {:.4g} s on", at.from_t);
+      return fmt::format(" after t = {:.4g} s", at.from_t);
     case MetricSpan::kInterval:
       return fmt::format(" between t = {:.4g} s and {:.4g} s", at.from_t, at.t);
   }
   return "";
 }
 
-/// Bound and value with as many digits as tell them apart.
+/// Bound and value with enough digits to differ.
 std::pair<std::string, std::string> NumbersApart(const Check& check) {
   return FormatDistinct(NumberIn(check.bound).value_or(0.0), NumberIn(check.value).value_or(0.0));
 }
@@ -91,10 +91,10 @@ std::string UnequalMessage(const Check& check) {
   const std::string expected = ToText(check.bound);
   if (NumberIn(check.value)) {
     const std::string unit = check.unit.empty() ? "" : " " + check.unit;
-    return fmt::format("{} expected to be {}{}, was {}{}{}", check.name, expected, unit,
-                       ToJson(check.value).dump(), unit, Where(check.at));
+    return fmt::format("{} is {}{} instead of {}{}{}", check.name, ToJson(check.value).dump(), unit,
+                       expected, unit, Where(check.at));
   }
-  return fmt::format("{} expected to be {}, was {}{}", check.name, expected, ToText(check.value),
+  return fmt::format("{} is {} instead of {}{}", check.name, ToText(check.value), expected,
                      Where(check.at));
 }
 
@@ -108,33 +108,32 @@ std::string ExpectedMessage(const Check& check) {
   const std::string where = Where(check.at);
   if (std::holds_alternative<std::monostate>(check.value) && check.at.span == MetricSpan::kSince) {
     return fmt::format(
-        "{} expected to be a number, but the car had not recovered{} at the end, s = {:.4g} m, t = "
-        "{:.4g} s",
+        "{} is not defined: the car did not recover{}; end of the run at s = {:.4g} m, t = {:.4g} "
+        "s",
         check.name, where, check.at.s, check.at.t);
   }
   if (!NumberIn(check.value)) {
-    return fmt::format("{} expected to be a number, was {}", check.name,
-                       ToJson(check.value).dump());
+    return fmt::format("{} is not a number: {}", check.name, ToJson(check.value).dump());
   }
-  const auto [expected, was] = NumbersApart(check);
+  const auto [bound, value] = NumbersApart(check);
   const std::string unit = check.unit.empty() ? "" : " " + check.unit;
-  return fmt::format("{} expected at {} {}{}, was {}{}{}", check.name,
-                     check.relation == Relation::kAtMost ? "most" : "least", expected, unit, was,
-                     unit, where);
+  return fmt::format("{} {}{} {} {}{}{}", check.name, value, unit,
+                     check.relation == Relation::kAtMost ? "exceeds" : "is below", bound, unit,
+                     where);
 }
 
 std::string CorridorMessage(const Check& check) {
-  const auto [expected, was] = NumbersApart(check);
+  const auto [bound, value] = NumbersApart(check);
   return fmt::format(
-      "left its path: cross-track maximum {} m, more than the car's width of {} m,{} "
-      "(expect.max_cross_track sets another bound)",
-      was, expected, Where(check.at));
+      "maximum cross-track error {} m exceeds the car's width of {} m{} (default bound; "
+      "expect.max_cross_track overrides it)",
+      value, bound, Where(check.at));
 }
 
 std::string CollisionMessage(const Check& check) {
   return check.value == MetricValue(true)
-             ? "expected no collision, but hit an obstacle" + Where(check.at)
-             : fmt::format("expected a collision, but stayed {} m clear{}", check.detail,
+             ? "unexpected collision" + Where(check.at)
+             : fmt::format("expected a collision; minimum clearance {} m{}", check.detail,
                            Where(check.at));
 }
 
@@ -181,7 +180,7 @@ std::vector<Check> CheckBounds(const DifferenceBounds& bounds, const PlantCompar
              .bound = "true",
              .value = false,
              .reason = CheckReason::kComparable,
-             .detail = "they have no stretch in common"}};
+             .detail = "their station ranges do not overlap"}};
   }
   std::vector<Check> checks;
   for (const ComparedQuantity& quantity : ComparedQuantities()) {
@@ -209,23 +208,23 @@ std::string FailureMessage(const Check& check) {
       case CheckReason::kExpected:
         return ExpectedMessage(check);
       case CheckReason::kArrival:
-        return fmt::format("expected to arrive, ended as {} at s = {:.4g} m, t = {:.4g} s{}",
+        return fmt::format("did not {}: {} at s = {:.4g} m, t = {:.4g} s{}", check.name,
                            ToText(check.value), check.at.s, check.at.t, check.detail);
       case CheckReason::kNoContact:
-        return "";  // kArrival says that the run ended as collided
+        return "";  // kArrival reports the collision
       case CheckReason::kCorridor:
         return CorridorMessage(check);
       case CheckReason::kSteeringRate:
         return fmt::format(
-            "the wheels turned at {:.4g} rad/s, and the car's actuator at {} rad/s at most,{}; "
-            "drive.timestep is too long for this car",
+            "steering rate {:.4g} rad/s exceeds the actuator limit of {} rad/s{}; drive.timestep "
+            "is too long for this car",
             NumberIn(check.value).value_or(0.0), check.detail, Where(check.at));
       case CheckReason::kCollision:
         return CollisionMessage(check);
       case CheckReason::kComparable:
-        return "expected to be compared, but " + check.detail;
+        return "cannot be compared: " + check.detail;
       case CheckReason::kSameEnd:
-        return fmt::format("{} ended as {}, {} as {}", check.plant, ToText(check.bound),
+        return fmt::format("end status differs: {} {}, {} {}", check.plant, ToText(check.bound),
                            check.other, ToText(check.value));
     }
     return "";

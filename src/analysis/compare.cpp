@@ -158,10 +158,9 @@ Trace ReadTrace(const fs::path& file, const std::string& name) {
   const auto yaw_rate = column("yaw_rate_radps");
   const auto steering = column("steering_rad");
   if (table.rows() < 2) {
-    throw InputError(Problem{
-        .file = file.string(),
-        .message =
-            fmt::format("the log of a drive needs at least two rows, and has {}", table.rows())});
+    throw InputError(
+        Problem{.file = file.string(),
+                .message = fmt::format("a log needs at least two rows; found {}", table.rows())});
   }
   Trace trace{.name = name};
   for (std::size_t i = 0; i < table.rows(); ++i) {
@@ -174,14 +173,14 @@ const std::vector<ComparedQuantity>& ComparedQuantities() {
   using C = PlantComparison;
   using B = DifferenceBounds;
   static const std::vector<ComparedQuantity> quantities{
-      {"position", "position", "m", "Largest distance", "Distance, rms", &C::position,
+      {"position", "position", "m", "Maximum distance", "Distance, rms", &C::position,
        &B::position_max},
-      {"heading", "heading", "rad", "Largest difference of heading", "Difference of heading, rms",
+      {"heading", "heading", "rad", "Maximum heading difference", "Heading difference, rms",
        &C::heading, &B::heading_max},
-      {"yaw_rate", "yaw rate", "rad/s", "Largest difference of yaw rate",
-       "Difference of yaw rate, rms", &C::yaw_rate, &B::yaw_rate_max},
-      {"steering", "steering", "rad", "Largest difference of steering",
-       "Difference of steering, rms", &C::steering, &B::steering_max}};
+      {"yaw_rate", "yaw rate", "rad/s", "Maximum yaw rate difference", "Yaw rate difference, rms",
+       &C::yaw_rate, &B::yaw_rate_max},
+      {"steering", "steering", "rad", "Maximum steering difference", "Steering difference, rms",
+       &C::steering, &B::steering_max}};
   return quantities;
 }
 
@@ -218,7 +217,7 @@ std::vector<FinishedDrive> ReadRunFolder(const fs::path& folder) {
   const fs::path file = folder / run_folder::kMetricsJson;
   if (!fs::exists(file)) {
     throw InputError(Problem{.file = folder.string(),
-                             .message = "the folder of no finished run (it has no metrics.json)"});
+                             .message = "not the folder of a finished run (no metrics.json)"});
   }
   std::vector<std::string> known;
   for (const PlantEntry& plant : Plants()) {
@@ -228,8 +227,7 @@ std::vector<FinishedDrive> ReadRunFolder(const fs::path& folder) {
   const auto visit = [&](const nlohmann::ordered_json& json) {
     if (!json.value("complete", true)) {
       throw InputError(Problem{.file = folder.string(),
-                               .message = "the run was interrupted; it has no whole drives to "
-                                          "compare"});
+                               .message = "the run was interrupted; its logs are incomplete"});
     }
     using Object = nlohmann::ordered_json::object_t;
     for (const auto& [plant, metrics] : json.at("plants").get_ref<const Object&>()) {

@@ -91,7 +91,7 @@ struct FinishedRun {
     });
     if (found == drives.end()) {
       throw InputError(Problem{.file = folder.string(),
-                               .message = fmt::format("the run did not drive {}; driven: {}", plant,
+                               .message = fmt::format("the run has no plant {}; it has: {}", plant,
                                                       fmt::join(Plants(), ", "))});
     }
     return *found;
@@ -102,7 +102,7 @@ FinishedRun ReadRun(const fs::path& folder) {
   FinishedRun run{.folder = folder, .drives = ReadRunFolder(folder), .expect = {}};
   if (run.drives.empty()) {
     throw InputError(
-        Problem{.file = folder.string(), .message = "the run did not drive; it had no plan"});
+        Problem{.file = folder.string(), .message = "the run has no logs: it had no plan"});
   }
   if (const fs::path scenario = folder / run_folder::kScenarioYaml; fs::exists(scenario)) {
     run.expect = ReadExpectations(scenario);
@@ -127,10 +127,10 @@ std::vector<Candidates> WithinOne(const FinishedRun& run, const std::vector<std:
     }
   }
   if (pairs.empty()) {
-    throw InputError(Problem{.file = run.folder.string(),
-                             .message = fmt::format("nothing to compare {} with; a run with two "
-                                                    "plants is needed, or a second run",
-                                                    fmt::join(plants, ", "))});
+    throw InputError(
+        Problem{.file = run.folder.string(),
+                .message = fmt::format("only {}; comparing needs two plants or a second run",
+                                       fmt::join(plants, ", "))});
   }
   return pairs;
 }
@@ -158,7 +158,7 @@ std::vector<Candidates> AcrossTwo(const FinishedRun& first, const FinishedRun& s
     throw InputError(Problem{
         .file = second.folder.string(),
         .message =
-            fmt::format("no plant in common with {}; driven: {} and {}", first.folder.string(),
+            fmt::format("no plant in common with {}; plants: {} and {}", first.folder.string(),
                         fmt::join(first.Plants(), ", "), fmt::join(second.Plants(), ", "))});
   }
   return pairs;
@@ -175,8 +175,8 @@ void NoteLeftOut(const FinishedRun& first, const FinishedRun& second, Verdict& v
       }
     }
     if (!alone.empty()) {
-      verdict.notes.push_back(fmt::format("not compared: {}, which only {} drove",
-                                          fmt::join(alone, ", "), run->folder.string()));
+      verdict.notes.push_back(fmt::format("not compared: {}, only in {}", fmt::join(alone, ", "),
+                                          run->folder.string()));
     }
   }
 }
@@ -247,9 +247,9 @@ void NoteOtherPlan(const fs::path& first, const fs::path& second, Verdict& verdi
   const bool one_path =
       apart.max <= kRounding && std::abs(length(path_1) - length(path_2)) <= kRounding;
   verdict.notes.push_back(
-      one_path ? "the runs planned one path at different speeds"
-               : fmt::format("the runs planned different paths, {:.4g} m and {:.4g} m long and up "
-                             "to {:.4g} m apart at s = {:.4g} m",
+      one_path ? "the runs follow the same path at different speeds"
+               : fmt::format("the runs follow different paths, {:.4g} m and {:.4g} m long, up to "
+                             "{:.4g} m apart at s = {:.4g} m",
                              length(path_1), length(path_2), apart.max, apart.max_s));
 }
 
@@ -346,7 +346,7 @@ DifferenceBounds ParseTolerances(const std::vector<std::string>& texts) {
     const std::size_t equals = text.find('=');
     const std::string name = text.substr(0, equals);
     if (equals == std::string::npos) {
-      BadTolerance(fmt::format("'{}' is not of the form position=0.1", text));
+      BadTolerance(fmt::format("expected NAME=VALUE such as position=0.1, found '{}'", text));
     }
     const std::string value = text.substr(equals + 1);
     double number = 0.0;

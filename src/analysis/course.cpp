@@ -62,9 +62,9 @@ std::vector<ManoeuvreMetric> MetricsOf(const BrakingTestOptions& /*options*/) {
   return {{"initial_speed", "initial speed", "m/s"},
           {"distance", "braking distance", "m", true},
           {"mean_fully_developed_deceleration", "mean fully developed deceleration", "m/s^2"},
-          {"yaw_rate_max", "largest yaw rate", "rad/s"},
-          {"heading_deviation_max", "largest heading deviation", "rad"},
-          {"lateral_deviation_max", "largest lateral deviation", "m"}};
+          {"yaw_rate_max", "maximum yaw rate", "rad/s"},
+          {"heading_deviation_max", "maximum heading deviation", "rad"},
+          {"lateral_deviation_max", "maximum lateral deviation", "m"}};
 }
 
 void Evaluate(const BrakingTestOptions& options, const ManoeuvreInput& input,
@@ -77,7 +77,7 @@ void Evaluate(const BrakingTestOptions& options, const ManoeuvreInput& input,
     ++onset;
   }
   if (onset == rows.size()) {
-    metrics.missing = "the car is not braked";
+    metrics.missing = "the car does not brake";
     return;
   }
   const VehicleState& start = rows[onset].state;
@@ -95,7 +95,7 @@ void Evaluate(const BrakingTestOptions& options, const ManoeuvreInput& input,
     metrics.end = *end;
     metrics.values.emplace_back("distance", *distance_at(end_speed));
   } else {
-    metrics.missing = fmt::format("the car does not get down to {:.3g} m/s", options.to_speed);
+    metrics.missing = fmt::format("the speed does not drop to {:.3g} m/s", options.to_speed);
   }
   const double v_b = 0.8 * start.speed;
   const double v_e = 0.1 * start.speed;
@@ -116,10 +116,10 @@ void Evaluate(const BrakingTestOptions& options, const ManoeuvreInput& input,
 }
 
 std::vector<ManoeuvreMetric> MetricsOf(const DisturbanceOptions& /*options*/) {
-  return {{"lateral_deviation_max", "largest lateral deviation", "m"},
-          {"heading_deviation_max", "largest heading deviation", "rad"},
-          {"yaw_rate_deviation_max", "largest yaw rate deviation", "rad/s"},
-          {"recovery_time", "recovery time of the yaw rate", "s", true}};
+  return {{"lateral_deviation_max", "maximum lateral deviation", "m"},
+          {"heading_deviation_max", "maximum heading deviation", "rad"},
+          {"yaw_rate_deviation_max", "maximum yaw rate deviation", "rad/s"},
+          {"recovery_time", "yaw rate recovery time", "s", true}};
 }
 
 void Evaluate(const DisturbanceOptions& options, const ManoeuvreInput& input,
@@ -130,7 +130,7 @@ void Evaluate(const DisturbanceOptions& options, const ManoeuvreInput& input,
     ++from;
   }
   if (from == rows.size()) {
-    metrics.missing = fmt::format("the drive ends before {} s", options.at);
+    metrics.missing = fmt::format("the run ends before {} s", options.at);
     return;
   }
   metrics.begin = rows[from].state.time;
@@ -158,7 +158,7 @@ void Evaluate(const DisturbanceOptions& options, const ManoeuvreInput& input,
   metrics.values.emplace_back("heading_deviation_max", departure.heading);
   metrics.values.emplace_back("yaw_rate_deviation_max", yaw_rate);
   if (left && !std::isfinite(back)) {
-    metrics.missing = "the yaw rate does not come back to its bound";
+    metrics.missing = "the yaw rate does not return below its bound";
   } else {
     metrics.values.emplace_back("recovery_time", left ? back - *left : 0.0);
   }

@@ -14,13 +14,13 @@
 namespace trackbed {
 
 std::vector<ManoeuvreMetric> MetricsOf(const LaneChangeOptions& /*options*/) {
-  return {{"margin", "smallest margin to a gate", "m", true},
-          {"margin_gate", "section of the smallest margin", ""},
+  return {{"margin", "minimum gate margin", "m", true},
+          {"margin_gate", "section of the minimum margin", ""},
           {"margin_1", "margin in section 1", "m"},
           {"margin_3", "margin in section 3", "m"},
           {"margin_5", "margin in section 5", "m"},
           {"entry_speed", "entry speed", "m/s", true},
-          {"speed_loss", "loss of speed", "m/s"}};
+          {"speed_loss", "speed loss", "m/s"}};
 }
 
 void Evaluate(const LaneChangeOptions&, const ManoeuvreInput& input, ManoeuvreMetrics& metrics) {
@@ -78,7 +78,7 @@ void Evaluate(const LaneChangeOptions&, const ManoeuvreInput& input, ManoeuvreMe
   if (exit) {
     metrics.values.emplace_back("speed_loss", *entry - *exit);
   } else {
-    metrics.missing = "the car does not get through the last gate";
+    metrics.missing = "the car does not pass the last gate";
   }
 }
 

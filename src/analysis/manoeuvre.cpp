@@ -35,7 +35,7 @@ const std::vector<ManoeuvreMetric>& CommonMetrics() {
       {"passed", "passed", "", true},
       {"begin", "evaluated from", "s"},
       {"end", "evaluated until", "s"},
-      {"steering_saturated_fraction", "share of time at the steering rate's limit", ""},
+      {"steering_saturated_fraction", "fraction of time at the steering rate limit", ""},
       {"missing", "not measured", ""}};
   return metrics;
 }
@@ -51,7 +51,7 @@ void CheckRoll(const RunLog& log, ManoeuvreMetrics& metrics) {
     if (std::abs(row.state.roll) > kTippedOver) {
       metrics.passed = false;
       metrics.missing += metrics.missing.empty() ? "" : "; ";
-      metrics.missing += fmt::format("the car turns over at {:.2f} s", row.state.time);
+      metrics.missing += fmt::format("the car rolls over at {:.2f} s", row.state.time);
       return;
     }
   }

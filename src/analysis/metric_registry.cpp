@@ -64,13 +64,13 @@ void CheckEntry(const MetricEntry& entry) {
     throw InputError(Problem{.message = fmt::format("metric '{}': {}", entry.path, why)});
   };
   if (!IsPath(entry.path)) {
-    refuse("expected words of a-z, 0-9 and '_' that begin with a letter, joined by '.'");
+    refuse("must be words of a-z, 0-9 and '_' that start with a letter, joined by '.'");
   }
   if (entry.label.empty()) {
-    refuse("it needs a label");
+    refuse("the label is missing");
   }
   if (static_cast<bool>(entry.read) == static_cast<bool>(entry.measure)) {
-    refuse("it needs either a function that measures it or one that reads it");
+    refuse("exactly one of `measure` and `read` must be given");
   }
   std::vector<std::string> taken{kManoeuvre, kTurns};
   for (const MetricEntry& other : Metrics()) {
@@ -80,7 +80,7 @@ void CheckEntry(const MetricEntry& entry) {
   for (const std::string& path : PathsOf(entry)) {
     for (const std::string& other : taken) {
       if (Conflict(path, other)) {
-        refuse(fmt::format("there is '{}' already", other));
+        refuse(fmt::format("conflicts with the metric '{}'", other));
       }
     }
   }

@@ -182,8 +182,8 @@ void NoteSlidingContacts(RunResult& result, const CarModel& car) {
     const double share = contact ? SlidingShare(log) : 0.0;
     if (share > kNoticed) {
       result.verdict.notes.push_back(fmt::format(
-          "{}: its tyres slid on bare contacts for {:.0f} % of the time, which makes them bounce: "
-          "forces and accelerations there are not those of a tyre (tyre: magic_formula has them)",
+          "{}: the tyres slid on MuJoCo contacts for {:.0f} % of the time and bounced; forces and "
+          "accelerations are not realistic there (use vehicle.tyre: magic_formula)",
           log.plant, 100.0 * share));
     }
   }
@@ -257,7 +257,7 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
   }
   result.verdict = Judge(scenario.expect, result.metrics, result.comparisons);
   for (const std::string& note : result.plan.notes) {
-    result.verdict.notes.push_back("the plan is " + note);
+    result.verdict.notes.push_back("plan: " + note);
   }
   if (const auto& rate = scenario.vehicle.steering_rate) {
     result.verdict.notes.push_back(fmt::format("steering rate set to {:.4g} rad/s", *rate));

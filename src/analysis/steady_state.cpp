@@ -105,8 +105,8 @@ void EvaluateGradients(const std::vector<Sample>& samples, double from, double t
   const std::vector<Sample> used = Between(samples, from, to);
   if (Spread(used) < kLeastSpread) {
     metrics.missing =
-        fmt::format("quasi-steady samples between {} and {} m/s^2 spread by less than {} m/s^2",
-                    from, to, kLeastSpread);
+        fmt::format("quasi-steady samples between {} and {} m/s^2 span less than {} m/s^2", from,
+                    to, kLeastSpread);
     return;
   }
   const double understeer =
@@ -135,13 +135,13 @@ void EvaluateGradients(const std::vector<Sample>& samples, double from, double t
 }  // namespace
 
 std::vector<ManoeuvreMetric> MetricsOf(const SteadyStateCircleOptions& /*options*/) {
-  return {{"lateral_acceleration_max", "largest quasi-steady lateral acceleration", "m/s^2"},
+  return {{"lateral_acceleration_max", "maximum quasi-steady lateral acceleration", "m/s^2"},
           {"understeer_gradient", "understeer gradient", "rad s^2/m", true},
           {"characteristic_speed", "characteristic speed", "m/s"},
           {"critical_speed", "critical speed", "m/s"},
           {"yaw_rate_gain", "yaw rate gain", "1/s"},
           {"roll_gradient", "roll gradient", "rad s^2/m"},
-          {"sideslip_gradient", "side-slip gradient", "rad s^2/m"}};
+          {"sideslip_gradient", "sideslip gradient", "rad s^2/m"}};
 }
 
 std::vector<ManoeuvreMetric> MetricsOf(const SlowlyIncreasingSteerOptions& /*options*/) {

@@ -149,7 +149,7 @@ void AddOutcome(tinyxml2::XMLElement& element, const SuiteCase& one) {
   tinyxml2::XMLElement& outcome = *element.InsertNewChildElement(kind.element);
   if (one.status == CaseStatus::kInterrupted || one.status == CaseStatus::kNotJudged) {
     SetText(outcome, "message",
-            one.status == CaseStatus::kInterrupted ? "interrupted" : "nothing was asked of it");
+            one.status == CaseStatus::kInterrupted ? "interrupted" : "no expectations");
     return;
   }
   SetText(outcome, "message", one.reasons.empty() ? "" : one.reasons.front());

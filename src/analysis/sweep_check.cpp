@@ -82,7 +82,7 @@ void CheckOutputs(const CheckedStudy& checked) {
     if (possible.find(output.path) == possible.end()) {
       problems.push_back(
           {checked.study.file, output.line, output.column, fmt::format("outputs[{}]", i),
-           "no run can have " + UnknownName(output.path, {possible.begin(), possible.end()})});
+           "unknown metric " + UnknownName(output.path, {possible.begin(), possible.end()})});
     }
   }
   if (!problems.empty()) {

@@ -90,17 +90,17 @@ double EvaluateResponse(const RunLog& log, const Step& step, double steady_time,
 }  // namespace
 
 std::vector<ManoeuvreMetric> MetricsOf(const StepSteerOptions& /*options*/) {
-  return {{"speed", "speed at the beginning", "m/s"},
+  return {{"speed", "initial speed", "m/s"},
           {"yaw_rate_steady", "steady yaw rate", "rad/s"},
-          {"yaw_rate_response_time", "response time of the yaw rate", "s", true},
-          {"yaw_rate_peak_time", "peak time of the yaw rate", "s"},
-          {"yaw_rate_overshoot", "overshoot of the yaw rate", ""},
+          {"yaw_rate_response_time", "yaw rate response time", "s", true},
+          {"yaw_rate_peak_time", "yaw rate peak time", "s"},
+          {"yaw_rate_overshoot", "yaw rate overshoot", ""},
           {"yaw_rate_gain", "yaw rate gain", "1/s"},
           {"lateral_acceleration_steady", "steady lateral acceleration", "m/s^2"},
-          {"lateral_acceleration_response_time", "response time of the lateral acceleration", "s"},
-          {"lateral_acceleration_peak_time", "peak time of the lateral acceleration", "s"},
-          {"lateral_acceleration_overshoot", "overshoot of the lateral acceleration", ""},
-          {"sideslip_steady", "steady side-slip angle", "rad"},
+          {"lateral_acceleration_response_time", "lateral acceleration response time", "s"},
+          {"lateral_acceleration_peak_time", "lateral acceleration peak time", "s"},
+          {"lateral_acceleration_overshoot", "lateral acceleration overshoot", ""},
+          {"sideslip_steady", "steady sideslip angle", "rad"},
           {"tb", "TB value", "s rad"}};
 }
 
@@ -109,7 +109,7 @@ void Evaluate(const StepSteerOptions& options, const ManoeuvreInput& input,
   const RunLog& log = input.log;
   const std::optional<Step> step = FindStep(log, options.steady);
   if (!step) {
-    metrics.missing = "the steering does not change";
+    metrics.missing = "the steering angle does not change";
     return;
   }
   metrics.begin = log.rows[step->row].state.time;
@@ -127,7 +127,7 @@ void Evaluate(const StepSteerOptions& options, const ManoeuvreInput& input,
 }
 
 std::vector<ManoeuvreMetric> MetricsOf(const SineWithDwellTestOptions& /*options*/) {
-  return {{"speed", "speed at the beginning", "m/s"},
+  return {{"speed", "initial speed", "m/s"},
           {"lateral_displacement", "lateral displacement", "m", true},
           {"yaw_rate_peak", "peak yaw rate", "rad/s"},
           {"yaw_rate_ratio_1_00", "yaw rate ratio after 1.00 s", "", true},
@@ -146,7 +146,7 @@ void Evaluate(const SineWithDwellTestOptions&, const ManoeuvreInput& input,
     ++first;
   }
   if (first == rows.size()) {
-    metrics.missing = "the steering does not begin";
+    metrics.missing = "the steering input does not start";
     return;
   }
   const double side = std::copysign(1.0, steering(first));
@@ -163,7 +163,7 @@ void Evaluate(const SineWithDwellTestOptions&, const ManoeuvreInput& input,
     --complete;
   }
   if (reversal == rows.size() || complete == rows.size()) {
-    metrics.missing = "the steering is not reversed and brought back to zero";
+    metrics.missing = "the steering input is not reversed and returned to zero";
     return;
   }
   const double completion = rows[complete].state.time;
@@ -186,7 +186,7 @@ void Evaluate(const SineWithDwellTestOptions&, const ManoeuvreInput& input,
   metrics.values.emplace_back("lateral_displacement", displacement);
   metrics.values.emplace_back("yaw_rate_peak", peak);
   if (rows.back().state.time < completion + 1.75 - 1e-9 || peak <= 0.0) {
-    metrics.missing = "the drive ends before 1.75 s after the completion of steering";
+    metrics.missing = "the run ends less than 1.75 s after the completion of steering";
     metrics.passed = false;
     return;
   }

@@ -7,7 +7,7 @@
 namespace trackbed {
 namespace {
 
-/// The measured wheels may swing past their actuator by this share of its rate.
+/// Fraction of the actuator rate by which the measured steering rate may exceed it.
 constexpr double kWheelCompliance = 0.03;
 
 bool HasExpectationOf(std::string_view metric, const PlantExpectation& expect) {
@@ -27,14 +27,14 @@ bool AsksAnything(const Expectations& expect) {
                      [](const auto& own) { return AsksAnything(own.second); });
 }
 
-/// Why a plan ended before the goal, as an addition to what is said of its drive.
+/// Why a run ended before the goal, appended to its failure message.
 std::string WhyNotAtGoal(const PlantMetrics& metrics) {
   return !metrics.blocked.empty()   ? fmt::format(" (it {})", metrics.blocked)
          : !metrics.partial.empty() ? fmt::format(" (the plan {})", metrics.partial)
                                     : "";
 }
 
-/// What a scenario says of one plant: of all of them, and then of that one.
+/// The expectations on one plant: those on all plants, then its own.
 class Expected {
  public:
   Expected(const Expectations& expect, const std::string& plant) {
@@ -73,8 +73,8 @@ class Expected {
   std::vector<const PlantExpectation*> parts_;
 };
 
-/// That the run arrives, or ends in the collision that is expected. Whether the scenario says
-/// otherwise.
+/// Checks that the run arrives, or ends in the expected collision. Returns whether it does, or
+/// whether the scenario has its own expectation of the status.
 bool JudgeEnd(const Expected& expected, const PlantMetrics& metrics, Verdict& verdict) {
   if (expected.HasStatus()) {
     return true;
@@ -84,6 +84,7 @@ bool JudgeEnd(const Expected& expected, const PlantMetrics& metrics, Verdict& ve
   Check arrival = CheckMetric(metrics, "status", Relation::kEquals,
                               ToString(collides ? DriveStatus::kCollided : DriveStatus::kArrived));
   arrival.reason = CheckReason::kArrival;
+  arrival.name = metrics.tracking ? "reach the goal" : "complete the run";
   arrival.detail = WhyNotAtGoal(metrics);
   AddCheck(arrival, verdict);
   if (metrics.clearance && !expected.Collision()) {
@@ -94,17 +95,17 @@ bool JudgeEnd(const Expected& expected, const PlantMetrics& metrics, Verdict& ve
   return arrival.met;
 }
 
-/// Wheels whose angle is prescribed turn beyond what the car can, which is to be known.
+/// Notes prescribed steering that exceeds the limits of the car.
 void NotePrescribedSteering(const PlantMetrics& metrics, Verdict& verdict) {
   const auto note = [&](const char* what, double was, double limit, const char* unit) {
     if (limit > 0.0 && was > (1.0 + kWheelCompliance) * limit) {
       verdict.notes.push_back(fmt::format(
-          "{}: the prescribed steering {} {:.4g} {}, beyond the car's limit of {:.4g} {}",
+          "{}: the prescribed steering {} of {:.4g} {} exceeds the vehicle limit of {:.4g} {}",
           metrics.plant, what, was, unit, limit, unit));
     }
   };
-  note("reached an angle of", metrics.steering_max, metrics.steering_limit, "rad");
-  note("turned at", metrics.steering_rate_max, metrics.steering_rate_limit, "rad/s");
+  note("angle", metrics.steering_max, metrics.steering_limit, "rad");
+  note("rate", metrics.steering_rate_max, metrics.steering_rate_limit, "rad/s");
 }
 
 void JudgeSteeringRate(const PlantMetrics& metrics, Verdict& verdict) {
@@ -142,7 +143,7 @@ void JudgeMetric(const MetricExpectation& expect, const PlantMetrics& metrics, V
   const auto check = [&](Relation relation, const MetricValue& bound) {
     if (is_number) {
       Check own = CheckMetric(metrics, expect.metric, relation, bound);
-      // One that is missing or no number is told of once, whatever its bounds are.
+      // A missing or non-numeric metric is reported once, not once per bound.
       const bool found = own.detail.empty();
       const bool number =
           std::holds_alternative<int>(own.value) || std::holds_alternative<double>(own.value);
@@ -186,9 +187,9 @@ void JudgePlant(const PlantExpectation& expect, const PlantMetrics& metrics, Ver
   if (metrics.tracking) {
     constexpr Relation kAtMost = Relation::kAtMost;
     check(expect.reach_goal, kAtMost, "goal_distance", "distance to the goal");
-    check(expect.max_cross_track, kAtMost, "cross_track.max", "cross-track maximum");
-    check(expect.rms_cross_track, kAtMost, "cross_track.rms", "cross-track rms");
-    check(expect.max_heading_error, kAtMost, "heading_error.max", "heading error maximum");
+    check(expect.max_cross_track, kAtMost, "cross_track.max", "maximum cross-track error");
+    check(expect.rms_cross_track, kAtMost, "cross_track.rms", "rms cross-track error");
+    check(expect.max_heading_error, kAtMost, "heading_error.max", "maximum heading error");
   }
 }
 
@@ -208,7 +209,7 @@ void JudgeBetween(const BetweenExpectation& between,
               .bound = "true",
               .value = false,
               .reason = CheckReason::kComparable,
-              .detail = "were not both driven"},
+              .detail = "not both plants were run"},
              verdict);
     return;
   }

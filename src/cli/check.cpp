@@ -18,7 +18,7 @@ void AddCheck(const Command& command) {
   const auto options = std::make_shared<Options>();
   command
       .AddPositional("files", options->paths,
-                     "Scenario or study files, or folders with them at any depth")
+                     "Scenario or study files, or folders searched recursively")
       .Required()
       .TypeName("FILE...");
   options->scenario.AddTo(command);

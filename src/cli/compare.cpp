@@ -40,7 +40,7 @@ void PrintRow(const char* what, const char* unit, const Difference& difference,
 std::string StatusText(const RunComparison& result) {
   return !result.verdict.passed ? "FAILED"
          : result.judged()      ? "passed"
-                                : "compared, without a tolerance to judge by";
+                                : "compared, no tolerances given";
 }
 
 void Print(const std::string& name, const RunComparison& result, const fs::path& out) {
@@ -78,8 +78,8 @@ std::optional<DifferenceBounds> Tolerances(const CompareOptions& options) {
 
 int CompareFinished(const CompareOptions& options) {
   if (!options.scenario.overrides.empty() || !options.scenario.seed.empty()) {
-    throw InputError(Problem{.message = "--set and --seed are for scenarios; finished runs stay as "
-                                        "they are"});
+    throw InputError(
+        Problem{.message = "--set and --seed apply to scenarios, not to finished runs"});
   }
   const std::vector<fs::path> folders(options.files.begin(), options.files.end());
   const RunComparison result =
@@ -108,10 +108,11 @@ int CompareScenarios(const CompareOptions& options) {
       ReadScenarioRuns(options.files, options.scenario, options.out, "out/compare");
   for (const ScenarioRun& run : runs) {
     if (run.scenario.drive.plants.size() < 2) {
-      throw InputError(Problem{.key = run.scenario.name + ": drive.plants",
-                               .message = fmt::format("only {}; two plants are needed to compare, "
-                                                      "such as --plants kinematic,mujoco",
-                                                      run.scenario.drive.plants.front())});
+      throw InputError(Problem{
+          .key = run.scenario.name + ": drive.plants",
+          .message =
+              fmt::format("only {}; comparing needs two plants, such as --plants kinematic,mujoco",
+                          run.scenario.drive.plants.front())});
     }
   }
   return ForEachRun(runs, [&](const ScenarioRun& run) { return CompareScenario(run, options); });
@@ -125,8 +126,8 @@ int Compare(const CompareOptions& options) {
     return CompareScenarios(options);
   }
   if (folders != static_cast<std::ptrdiff_t>(options.files.size()) || folders > 2) {
-    throw InputError(Problem{
-        .message = "compares scenarios, or one or two folders of finished runs, and not both"});
+    throw InputError(
+        Problem{.message = "give scenario files or one or two folders of finished runs, not both"});
   }
   return CompareFinished(options);
 }
@@ -142,23 +143,22 @@ void AddCompare(const Command& command) {
       .TypeName("FILE...");
   command
       .AddOption("--plants", options->scenario.plants,
-                 "Compare these plants (default: the scenario's; those of the run, or that both "
-                 "runs have); of two runs A,B: A of the first with B of the second")
+                 "Plants to compare (default: all of the scenario or run, or those common to both "
+                 "runs); with two runs, A,B compares A of the first with B of the second")
       .Delimiter(',')
       .OneWord()
       .TypeName("A,B...");
   command
       .AddOption("--tolerance", options->tolerances,
-                 "Largest differences that pass, of position [m], heading [rad], yaw_rate "
-                 "[rad/s], steering [rad] (default: what the scenario, or that of the one finished "
-                 "run, expects between the plants; of two runs none)")
+                 "Tolerances on position [m], heading [rad], yaw_rate [rad/s], steering [rad] "
+                 "(default: expect.between of the scenario; none for two runs)")
       .Delimiter(',')
       .OneWord()
       .TypeName("NAME=VALUE,...");
   command
       .AddOption("-o,--out", options->out,
-                 "Folder to write to (default: out/compare/<scenario>, for finished runs "
-                 "out/compare); of several scenarios: parent of one folder each")
+                 "Output folder (default: out/compare/<scenario>, or out/compare for finished "
+                 "runs); with several scenarios, one subfolder each")
       .TypeName("DIR");
   options->scenario.AddKeysTo(command);
   command.OnRun([options] { return Compare(*options); });

@@ -136,11 +136,11 @@ std::string Filled(const std::string& file, const std::string& page, std::vector
   }
   for (const Block& block : blocks) {
     if (!block.placed) {
-      throw InputError(
-          Problem{.file = file,
-                  .message = fmt::format("no place for '{0}': add the lines '{1}{0}{2}' "
-                                         "and '{3}', and say what they are about",
-                                         block.name, kBegin, kClose, kEnd)});
+      throw InputError(Problem{
+          .file = file,
+          .message =
+              fmt::format("no markers for '{0}'; add the lines '{1}{0}{2}' and '{3}' to the page",
+                          block.name, kBegin, kClose, kEnd)});
     }
   }
   return filled;
@@ -151,9 +151,7 @@ std::string Filled(const std::string& file, const std::string& page, std::vector
 void AddDocs(const Command& command) {
   command.Hide();  // for those who work on Trackbed; not in --help
   const auto page = std::make_shared<std::string>();
-  command.AddPositional("page", *page, "Markdown file to bring up to date")
-      .Required()
-      .TypeName("FILE");
+  command.AddPositional("page", *page, "Markdown file to update").Required().TypeName("FILE");
   command.OnRun([page, command] {
     WriteFileAtomically(*page, Filled(*page, ReadFile(*page), Blocks(command.VisibleVerbs())));
     return kOk;

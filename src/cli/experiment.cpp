@@ -216,8 +216,7 @@ void AddExperiment(const Command& command) {
   command
       .AddPositional(
           "name", options->name,
-          "optimal_steering: a car at another speed than the wanted one, the angle found "
-          "by search")
+          "optimal_steering: search for the steering angle that compensates a speed difference")
       .Required()
       .TypeName("NAME");
   command.AddOption("--vehicle", options->vehicle, "A model by name, or the path of an MJCF file")
@@ -235,24 +234,25 @@ void AddExperiment(const Command& command) {
       .ShowDefault();
   command
       .AddOption("--max-steering-deg", options->max_steering,
-                 "Largest steering angle of the search [deg]")
+                 "Maximum steering angle of the search [deg]")
       .Range(0.1, 80.0)
       .TypeName("DEG")
       .ShowDefault();
   command
-      .AddOption("--speeds", options->speeds,
-                 "Speeds of the car that follows it (secondary) [m/s] (default: 2.5,2,1.5,1)")
+      .AddOption(
+          "--speeds", options->speeds,
+          "Speeds of the car that follows the reference (secondary) [m/s] (default: 2.5,2,1.5,1)")
       .Delimiter(',')
       .Range(0.01, 100.0)
       .TypeName("V,...");
   command
       .AddOption("--searches", options->searches,
-                 "Of 'trackbed list optimizers' (default: all of them)")
+                 "Optimizers; see 'trackbed list optimizers' (default: all)")
       .Delimiter(',')
       .TypeName("NAME,...");
   command
       .AddOption("--evaluations", options->evaluations,
-                 "Of a search at most; 0: each method's own number")
+                 "Maximum evaluations per search; 0: each method's default")
       .Range(0, 100000000)
       .TypeName("N")
       .ShowDefault();

@@ -35,7 +35,7 @@ const std::vector<Verb> kVerbs{
     {"compare", "Compare plants on one plan, or two finished runs", AddCompare},
     {"test", "Run scenarios and check their expectations, one line each", AddTest},
     {"check", "Validate scenarios and studies without running them", AddCheck},
-    {"sweep", "Run a study: one scenario over many parameter values, collected in one table",
+    {"sweep", "Run a study: one scenario over many parameter values, results in one table",
      AddSweep},
     {"report", "Write one HTML page about finished runs or a study", AddReport},
     {"experiment", "Repeat a published experiment and print its table", AddExperiment},
@@ -44,7 +44,7 @@ const std::vector<Verb> kVerbs{
      "models or scenarios",
      AddList},
     {"model", "Print the parameters of a vehicle model, or write its composed MJCF", AddModel},
-    {"docs", "Bring the tables of docs/cli.md up to date with this program", AddDocs},
+    {"docs", "Update the generated tables of docs/cli.md", AddDocs},
 };
 
 std::string VersionText() {
@@ -54,8 +54,8 @@ std::string VersionText() {
 
 int Run(int argc, char** argv) {
   CommandLine line("trackbed",
-                   "A physics-engine vehicle testbed: plans are driven under contact dynamics, "
-                   "measured against the kinematic model, and filmed off-screen.",
+                   "Vehicle simulation testbed on MuJoCo: runs plans and controllers under contact "
+                   "dynamics, compares them with a kinematic model, and renders videos off-screen.",
                    VersionText);
   for (const Verb& verb : kVerbs) {
     verb.add(line.AddVerb(verb.name, verb.summary));

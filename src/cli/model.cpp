@@ -102,8 +102,7 @@ void AddModel(const Command& command) {
       .TypeName("NAME");
   command
       .AddOption("--save", options->save,
-                 "Write the composed MJCF, to open in MuJoCo's viewer, with the files it needs "
-                 "beside it")
+                 "Write the composed MJCF and the files it needs, to open in MuJoCo's viewer")
       .TypeName("FILE");
   command.AddFlag(
       "--linkage", options->linkage,

@@ -29,7 +29,7 @@ struct PlanOptions {
 int PlanOne(const PlanOptions& options) {
   const Scenario scenario = options.scenario.Read(options.file);
   if (!scenario.plan) {
-    throw InputError(Problem{options.file, 0, 0, "plan", "missing; there is nothing to plan"});
+    throw InputError(Problem{options.file, 0, 0, "plan", "missing; 'trackbed plan' needs one"});
   }
   const fs::path out =
       options.out.empty() ? fs::path("out") / scenario.name : fs::path(options.out);
@@ -64,7 +64,7 @@ int PlanOne(const PlanOptions& options) {
 void AddPlan(const Command& command) {
   const auto options = std::make_shared<PlanOptions>();
   command.AddPositional("file", options->file, "Scenario file").Required().TypeName("FILE");
-  command.AddOption("-o,--out", options->out, "Folder to write to (default: out/<scenario>)")
+  command.AddOption("-o,--out", options->out, "Output folder (default: out/<scenario>)")
       .TypeName("DIR");
   options->scenario.AddTo(command);
   command.OnRun([options] { return PlanOne(*options); });

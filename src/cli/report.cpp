@@ -57,20 +57,19 @@ int Report(const ReportOptions& options) {
 void AddReport(const Command& command) {
   const auto options = std::make_shared<ReportOptions>();
   command
-      .AddPositional(
-          "folder", options->paths,
-          "Folders of finished runs, compared if there are several; or the folder of one "
-          "comparison; or the folder or the .csv file of one study")
+      .AddPositional("folder", options->paths,
+                     "Folders of finished runs (several are compared), the folder of one "
+                     "comparison, or the folder or .csv file of one study")
       .Required()
       .TypeName("DIR...");
   command
       .AddOption("-o,--out", options->out,
-                 "The page to write (default: report.html in the folder; of several, here)")
+                 "Page to write (default: report.html in the folder, or in the current directory "
+                 "for several folders)")
       .TypeName("FILE");
   command
       .AddOption("--film", options->film,
-                 "Where the page has a run's video.mp4 from: embedded, in the page; beside, the "
-                 "file where it lies; or none")
+                 "Video of each run: embedded in the page, linked to its file (beside), or none")
       .TypeName("embedded|beside|none");
   command.AddFlag("-q,--quiet", options->quiet, "Print errors only");
   command.OnRun([options] { return Report(*options); });

@@ -31,7 +31,7 @@ void PrintManoeuvre(const ManoeuvreMetrics& manoeuvre) {
   fmt::print("    {}{}\n", manoeuvre.method,
              !manoeuvre.passed   ? ""
              : *manoeuvre.passed ? ": passed"
-                                 : ": NOT passed");
+                                 : ": FAILED");
   for (const auto& [name, value] : manoeuvre.values) {
     fmt::print("    {:<36} {:>10.4g}\n", name, value);
   }
@@ -46,7 +46,7 @@ void PrintSummary(const RunResult& result) {
                plant.time, plant.distance);
     if (plant.tracking) {
       const TrackingMetrics& tracking = *plant.tracking;
-      fmt::print("; cross-track max {:.4f} m, rms {:.4f} m; {:.4f} m from the goal",
+      fmt::print("; cross-track error max {:.4f} m, rms {:.4f} m; goal distance {:.4f} m",
                  tracking.cross_track_max, tracking.cross_track_rms, tracking.goal_distance);
     }
     fmt::print("\n");
@@ -74,7 +74,7 @@ int RunOne(const ScenarioRun& run, const RunOptions& options) {
   if (!options.scenario.quiet) {
     fmt::print("{}: {}, in {}\n", scenario.name,
                result.interrupted       ? "interrupted"
-               : !result.verdict.judged ? "driven; its scenario asks nothing of it"
+               : !result.verdict.judged ? "finished, no expectations"
                : result.verdict.passed  ? "passed"
                                         : "FAILED",
                out.string());
@@ -103,14 +103,14 @@ void AddRun(const Command& command) {
   const auto options = std::make_shared<RunOptions>();
   command.AddPositional("files", options->files, "Scenario files").Required().TypeName("FILE...");
   command
-      .AddOption("-o,--out", options->out,
-                 "Folder of the run (default: out/<scenario>); of several files: parent of one "
-                 "folder each")
+      .AddOption(
+          "-o,--out", options->out,
+          "Output folder (default: out/<scenario>); with several scenarios, one subfolder each")
       .TypeName("DIR");
   options->scenario.AddTo(command);
   command.AddFlag("--video", options->video, "Also render video.mp4 in the run folder");
   command.AddFlag("--report", options->report,
-                  "Also write report.html in the run folder, with the video if there is one");
+                  "Also write report.html in the run folder, including the video if present");
   command.AddFlag("--mcap", options->mcap, "Also write run.mcap (Foxglove) in the run folder");
   command.OnRun([options] {
     const std::vector<ScenarioRun> runs =

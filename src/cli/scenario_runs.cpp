@@ -27,7 +27,7 @@ std::vector<ScenarioRun> ReadScenarioRuns(const std::vector<std::string>& files,
       if (other.folder == folder) {
         throw InputError(
             Problem{file, 0, 0, "name",
-                    fmt::format("'{}' is the name of an earlier file too; both would write to {}",
+                    fmt::format("the scenario name '{}' is used twice; both would write to {}",
                                 scenario.name, folder.string())});
       }
     }
@@ -51,7 +51,7 @@ int ForEachRun(const std::vector<ScenarioRun>& runs,
     }
     const std::size_t left = runs.size() - i - 1;
     if (worst == kInterrupted && left > 0) {
-      fmt::print(stderr, "interrupted: {} of {} scenarios not driven\n", left, runs.size());
+      fmt::print(stderr, "interrupted: {} of {} scenarios not run\n", left, runs.size());
     }
   }
   return worst;

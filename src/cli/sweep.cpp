@@ -63,7 +63,7 @@ void AddSweep(const Command& command) {
       .AddOption("-j,--jobs", options->jobs, "Runs in parallel (default: one per hardware thread)")
       .Range(1, 1000)
       .TypeName("N");
-  command.AddOption("-o,--out", options->out, "Folder to write to (default: out/<study>)")
+  command.AddOption("-o,--out", options->out, "Output folder (default: out/<study>)")
       .TypeName("DIR");
   options->scenario.AddTo(command);
   command.OnRun([options] { return Sweep(*options); });

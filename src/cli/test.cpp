@@ -24,9 +24,9 @@ struct TestOptions {
 };
 
 void Tell(const SuiteCase& one, bool quiet) {
-  std::string line = one.status == CaseStatus::kPassed ? "as expected"
+  std::string line = one.status == CaseStatus::kPassed ? "all expectations met"
                      : one.status == CaseStatus::kNotJudged
-                         ? "its scenario asks nothing of it"
+                         ? "no expectations"
                          : fmt::format("{}", fmt::join(one.reasons, "; "));
   for (const std::string& note : one.notes) {
     line += "; " + note;
@@ -95,8 +95,7 @@ int Test(const TestOptions& options) {
 
 void AddTest(const Command& command) {
   const auto options = std::make_shared<TestOptions>();
-  command
-      .AddPositional("paths", options->paths, "Scenario files, or folders with them at any depth")
+  command.AddPositional("paths", options->paths, "Scenario files, or folders searched recursively")
       .Required()
       .TypeName("PATH...");
   command.AddOption("--junit", options->junit, "Also write the results as JUnit XML")

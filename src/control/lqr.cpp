@@ -54,7 +54,7 @@ void Visit(KeyVisitor& keys, LqrOptions& options) {
   keys.Field(kCrossTrackWeight, options.cross_track, kWeight);
   keys.Field(kHeadingWeight, options.heading, Need::kOptional, Range{.min = 0.0, .max = 1e6});
   keys.Field(kRateWeight, options.steering_rate, kWeight);
-  keys.Field({"preview", "s", "how far ahead the path's curvature is looked at"}, options.preview,
+  keys.Field({"preview", "s", "preview time of the path's curvature"}, options.preview,
              Need::kOptional, Range{.min = 0.0, .max = 20.0});
 }
 

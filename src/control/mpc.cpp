@@ -78,7 +78,8 @@ class Mpc final : public SteeringController {
 
 ControllerEntry MpcController() {
   return {.name = "mpc",
-          .summary = "the same cost within the car's steering angle and rate, predicted ahead",
+          .summary =
+              "model predictive control: the cost of lqr within the steering angle and rate limits",
           .defaults = MpcOptions{},
           .station = StationSource::kProjection,
           .needs_plan = true,
@@ -89,9 +90,9 @@ void Visit(KeyVisitor& keys, MpcOptions& options) {
   keys.Field(kCrossTrackWeight, options.cross_track, kWeight);
   keys.Field(kHeadingWeight, options.heading, Need::kOptional, Range{.min = 0.0, .max = 1e6});
   keys.Field(kRateWeight, options.steering_rate, kWeight);
-  keys.Field({"horizon", "", "how many steps are planned"}, options.horizon, Need::kOptional,
+  keys.Field({"horizon", "", "number of prediction steps"}, options.horizon, Need::kOptional,
              Range{.min = 1, .max = MpcOptions::kLongestHorizon});
-  keys.Field({"step", "s", "of the horizon; at least the control period"}, options.step,
+  keys.Field({"step", "s", "prediction step; at least the control period"}, options.step,
              Need::kOptional, Range{.min = 1e-3, .max = 1.0});
 }
 

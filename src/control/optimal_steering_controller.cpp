@@ -98,42 +98,42 @@ class OptimalSteeringController final : public SteeringController {
 }  // namespace
 
 ControllerEntry OptimalSteering() {
-  return {.name = "optimal_steering",
-          .summary = "searches the angle that leads nearest to the path's pose ahead",
-          .defaults = OptimalSteeringOptions{},
-          .station = StationSource::kProjection,
-          .needs_plan = true,
-          .make = MakeBy<OptimalSteeringOptions, OptimalSteeringController>};
+  return {
+      .name = "optimal_steering",
+      .summary =
+          "searches the steering angle whose predicted pose is nearest to the path's pose ahead",
+      .defaults = OptimalSteeringOptions{},
+      .station = StationSource::kProjection,
+      .needs_plan = true,
+      .make = MakeBy<OptimalSteeringOptions, OptimalSteeringController>};
 }
 
 void Visit(KeyVisitor& keys, OptimalSteeringOptions& options) {
   static const EnumNames<Matching> matchings{{Matching::kArcLength, "arc_length"},
                                              {Matching::kTime, "time"}};
   keys.Field({"matching", "",
-              "the wanted pose: that of the path where the car is, or where it should be by now"},
+              "reference pose: at the car's station, or where the car should be at this time"},
              options.matching, Need::kOptional, matchings);
-  keys.Field(
-      {"horizon", "m",
-       "how far ahead the wanted motion is predicted, at least; else by car, speed and path"},
-      options.horizon, Range{.min = 0.1, .max = 1000.0});
+  keys.Field({"horizon", "m", "minimum prediction distance; default: from car, speed and path"},
+             options.horizon, Range{.min = 0.1, .max = 1000.0});
   keys.Field(kAheadTime, options.time, Need::kOptional, kNonNegative);
-  keys.Section({"search", "",
-                "for the angle, at every update; evaluations 0: 60, or 600 of isres, "
-                "esch and crs2"},
-               options.search);
-  keys.Section({"weights", "", "of the deviation"}, options.weights);
+  keys.Section(
+      {"search", "",
+       "search for the angle at each update; evaluations 0: 60, or 600 for isres, esch and crs2"},
+      options.search);
+  keys.Section({"weights", "", "weights of the deviation"}, options.weights);
   keys.Field({"deviation_limit", "",
-              "on the root of the weighted squares; up to it the plan's "
-              "curvature is steered"},
+              "weighted deviation (root of the sum of squares) up to which the plan's curvature is "
+              "steered without a search"},
              options.deviation_limit, Need::kOptional, kNonNegative);
-  keys.Field({"max_steering", "rad", "either way; else the car's"}, options.max_steering,
-             Range{.max = 1.5, .above = 0.0});
+  keys.Field({"max_steering", "rad", "maximum steering angle; default: the car's limit"},
+             options.max_steering, Range{.max = 1.5, .above = 0.0});
 }
 
 void Visit(KeyVisitor& keys, DeviationWeights& weights) {
-  keys.Field({"position", "1/m^2", "of the squared distance from the wanted position"},
-             weights.position, Need::kOptional, kNonNegative);
-  keys.Field({"heading", "1/rad^2", "of the squared heading error"}, weights.heading,
+  keys.Field({"position", "1/m^2", "weight of the squared position error"}, weights.position,
+             Need::kOptional, kNonNegative);
+  keys.Field({"heading", "1/rad^2", "weight of the squared heading error"}, weights.heading,
              Need::kOptional, kNonNegative);
 }
 

@@ -65,23 +65,24 @@ std::optional<double> PlaybackAcceleration(const PlaybackOptions& options, doubl
 void Visit(KeyVisitor& keys, RecordingColumns& columns) {
   keys.Field({"time", "s", "when; else t_s"}, columns.time);
   keys.Field({"distance", "m", "where; else s_m"}, columns.distance);
-  keys.Field({"steering", "rad", "the bicycle angle, positive to the left; else steering_rad"},
+  keys.Field({"steering", "rad",
+              "column of the bicycle angle, positive to the left; default: steering_rad"},
              columns.steering);
-  keys.Field({"speed", "m/s", "the speed to follow; else speed_mps if there is one"},
-             columns.speed);
-  keys.Field({"acceleration", "m/s^2",
-              "the acceleration to follow instead; else acceleration_mps2 if there is one"},
-             columns.acceleration);
+  keys.Field({"speed", "m/s", "column of the speed; default: speed_mps if present"}, columns.speed);
+  keys.Field(
+      {"acceleration", "m/s^2",
+       "column of the acceleration, instead of the speed; default: acceleration_mps2 if present"},
+      columns.acceleration);
 }
 
 void Visit(KeyVisitor& keys, PlaybackOptions& options) {
-  keys.Field({"file", "", "the recording, a CSV file with a header; relative to this file"},
+  keys.Field({"file", "", "recording: a CSV file with a header, relative to this file"},
              options.file, Need::kRequired);
   static const EnumNames<PlaybackAxis> axes{{PlaybackAxis::kTime, "time"},
                                             {PlaybackAxis::kDistance, "distance"}};
-  keys.Field({"by", "", "what its rows follow: the time, or the distance driven"}, options.by,
+  keys.Field({"by", "", "independent variable of the rows: time or distance traveled"}, options.by,
              Need::kOptional, axes);
-  keys.Section({"columns", "", "the names of its columns"}, options.columns);
+  keys.Section({"columns", "", "column names of the recording"}, options.columns);
 }
 
 ControllerEntry Playback() {

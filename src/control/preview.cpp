@@ -80,22 +80,23 @@ double PreviewAngle(const Path& path, const Pose2& pose, double station, double 
 }
 
 void Visit(KeyVisitor& keys, PreviewOptions& options) {
-  keys.Field({"distance", "m",
-              "how far ahead of the rear axle the car aims, at least; else by car, speed and path"},
-             options.distance, kAhead);
+  keys.Field(
+      {"distance", "m",
+       "minimum lookahead distance ahead of the rear axle; default: from car, speed and path"},
+      options.distance, kAhead);
   keys.Field(kAheadTime, options.time, Need::kOptional, kNonNegative);
   static const EnumNames<PreviewLaw> laws{{PreviewLaw::kLinear, "linear"},
                                           {PreviewLaw::kExactArc, "exact_arc"}};
   keys.Field({"law", "",
-              "from the angle to the point aimed at to steering: MacAdam's gain, or the circle "
-              "through the point"},
+              "steering law: MacAdam's gain on the angle to the preview point, or the arc through "
+              "the point"},
              options.law, Need::kOptional, laws);
-  keys.Field({"slip", "", "whether to reckon with the tyres' slip"}, options.slip, Need::kOptional);
+  keys.Field({"slip", "", "whether to account for tyre slip"}, options.slip, Need::kOptional);
 }
 
 ControllerEntry PreviewController() {
   return {.name = "preview",
-          .summary = "aims at the path's point at a preview distance (MacAdam, one point)",
+          .summary = "steers to the path point at a preview distance (MacAdam, one point)",
           .defaults = PreviewOptions{},
           .station = StationSource::kProjection,
           .needs_plan = true,

@@ -111,7 +111,7 @@ class PreviewIntegral final : public SteeringController {
 
 ControllerEntry PreviewIntegralController() {
   return {.name = "preview_integral",
-          .summary = "the steering that, held, fits the previewed way best (MacAdam)",
+          .summary = "the constant steering angle that fits the previewed path best (MacAdam)",
           .defaults = PreviewIntegralOptions{},
           .station = StationSource::kProjection,
           .needs_plan = true,
@@ -119,18 +119,16 @@ ControllerEntry PreviewIntegralController() {
 }
 
 void Visit(KeyVisitor& keys, PreviewIntegralOptions& options) {
-  keys.Field(
-      {"distance", "m",
-       "how far ahead of the rear axle the path is looked at, at least; else by car, speed and "
-       "path"},
-      options.distance, kAhead);
+  keys.Field({"distance", "m",
+              "minimum preview distance ahead of the rear axle; default: from car, speed and path"},
+             options.distance, kAhead);
   keys.Field(kAheadTime, options.time, Need::kOptional, kNonNegative);
   static const EnumNames<PreviewWeight> weights{{PreviewWeight::kUniform, "uniform"},
                                                 {PreviewWeight::kNear, "near"}};
   keys.Field(
-      {"weight", "", "of the previewed way: all of it alike, or less and less toward its far end"},
+      {"weight", "", "weighting of the previewed path: uniform, or decreasing with distance"},
       options.weight, Need::kOptional, weights);
-  keys.Field({"delay", "s", "the driver's, before the wanted angle takes effect"}, options.delay,
+  keys.Field({"delay", "s", "driver delay before the steering command takes effect"}, options.delay,
              Need::kOptional, Range{.min = 0.0, .max = 2.0});
 }
 

@@ -41,7 +41,7 @@ class PurePursuit final : public SteeringController {
 
 ControllerEntry PurePursuitController() {
   return {.name = "pure_pursuit",
-          .summary = "the circle through the path's point at a lookahead distance",
+          .summary = "arc through the path point at the lookahead distance (pure pursuit)",
           .defaults = PurePursuitOptions{},
           .station = StationSource::kProjection,
           .needs_plan = true,
@@ -49,9 +49,10 @@ ControllerEntry PurePursuitController() {
 }
 
 void Visit(KeyVisitor& keys, PurePursuitOptions& options) {
-  keys.Field({"distance", "m",
-              "how far ahead of the rear axle the car aims, at least; else by car, speed and path"},
-             options.distance, kAhead);
+  keys.Field(
+      {"distance", "m",
+       "minimum lookahead distance ahead of the rear axle; default: from car, speed and path"},
+      options.distance, kAhead);
   keys.Field(kAheadTime, options.time, Need::kOptional, kNonNegative);
 }
 

@@ -20,7 +20,7 @@ void Visit(KeyVisitor&, ScheduleOptions&) {}
 
 ControllerEntry ScheduleController() {
   return {.name = "schedule",
-          .summary = "the plan's steering over the distance driven, open loop",
+          .summary = "the plan's steering over distance traveled, open loop",
           .defaults = ScheduleOptions{},
           .station = StationSource::kOdometer,
           .needs_plan = true,

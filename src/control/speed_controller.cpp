@@ -6,7 +6,7 @@
 namespace trackbed {
 namespace {
 
-constexpr Key kBegin{"at", "s", "when it begins"};
+constexpr Key kBegin{"at", "s", "start time"};
 
 }  // namespace
 
@@ -103,24 +103,27 @@ double SpeedAlong(const Signal& wanted, double x, double ahead, double gain, dou
 
 void Visit(KeyVisitor& keys, Braking& braking) {
   keys.Field(kBegin, braking.at, Need::kRequired, kNonNegative);
-  keys.Field({"deceleration", "m/s^2", "down to standstill; 0: the car coasts"},
+  keys.Field({"deceleration", "m/s^2", "deceleration down to standstill; 0: the car coasts"},
              braking.deceleration, Need::kRequired, kNonNegative);
 }
 
 void Visit(KeyVisitor& keys, SpeedControlOptions& options) {
-  keys.Field({"acceleration", "m/s^2", "largest wanted; also shapes the plan's speed"},
-             options.acceleration, Need::kOptional, kPositive);
+  keys.Field(
+      {"acceleration", "m/s^2", "maximum acceleration; also limits the plan's speed profile"},
+      options.acceleration, Need::kOptional, kPositive);
   keys.Field({"deceleration", "m/s^2",
-              "of the plan's speed; the controller brakes with up to twice as much"},
+              "maximum deceleration of the plan's speed profile; the controller may brake with "
+              "twice as much"},
              options.deceleration, Need::kOptional, kPositive);
-  keys.Field({"gain", "1/s", "wanted acceleration per speed error"}, options.gain, Need::kOptional,
-             kPositive);
+  keys.Field({"gain", "1/s", "proportional gain: acceleration per speed error"}, options.gain,
+             Need::kOptional, kPositive);
   static const PairShape knot{"a knot [t, v]", "knots [t, v]", kNonNegative, kSpeedRange};
   keys.Field({"over_time", "s, m/s",
-              "the speed instead of the mission's, linear between knots and held after the last; "
-              "limited by the car alone"},
+              "speed profile in place of mission.speed, linear between knots, constant after the "
+              "last; limited only by the car"},
              options.over_time.knots, Need::kOptional, knot);
-  keys.Section({"braking", "", "from a moment on, whatever else is asked"}, options.braking);
+  keys.Section({"braking", "", "braking from a given time on, overrides every other speed command"},
+               options.braking);
 }
 
 }  // namespace trackbed

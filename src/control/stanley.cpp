@@ -40,7 +40,7 @@ class Stanley final : public SteeringController {
 
 ControllerEntry StanleyController() {
   return {.name = "stanley",
-          .summary = "heading error and the front axle's offset (Stanley)",
+          .summary = "feedback of heading error and front-axle cross-track error (Stanley)",
           .defaults = StanleyOptions{},
           .station = StationSource::kProjection,
           .needs_plan = true,
@@ -48,11 +48,12 @@ ControllerEntry StanleyController() {
 }
 
 void Visit(KeyVisitor& keys, StanleyOptions& options) {
-  keys.Field({"gain", "1/s", "at which the front axle's offset shrinks; else by the steering rate"},
-             options.gain, kPositive);
-  keys.Field({"softening", "m/s",
-              "added to the speed, so that a slow car steers calmly; else by the car's size"},
-             options.softening, kNonNegative);
+  keys.Field(
+      {"gain", "1/s", "gain on the front-axle cross-track error; default: from the steering rate"},
+      options.gain, kPositive);
+  keys.Field(
+      {"softening", "m/s", "softening term added to the speed; default: from the car's size"},
+      options.softening, kNonNegative);
 }
 
 }  // namespace trackbed

@@ -9,8 +9,8 @@ namespace trackbed {
 namespace {
 
 constexpr Range kFrequency{.max = 100.0, .above = 0.0};  // [Hz]
-constexpr Key kBegin{"at", "s", "when it begins"};
-constexpr Key kAmplitude{"amplitude", "rad", "of the sine; positive begins to the left"};
+constexpr Key kBegin{"at", "s", "start time"};
+constexpr Key kAmplitude{"amplitude", "rad", "amplitude of the sine; positive: first to the left"};
 
 /// Steers as a profile over time says.
 template <typename Options>
@@ -83,13 +83,13 @@ double SteeringAt(const SweptSineOptions& options, double time) {
 }
 
 void Visit(KeyVisitor& keys, ConstantSteeringOptions& options) {
-  keys.Field({"steering", "rad", "bicycle angle to hold, positive to the left"}, options.steering,
+  keys.Field({"steering", "rad", "bicycle angle, positive to the left"}, options.steering,
              Need::kRequired, kSteering);
 }
 
 ControllerEntry ConstantSteering() {
   return {.name = "constant_steering",
-          .summary = "holds one steering angle",
+          .summary = "constant steering angle",
           .defaults = ConstantSteeringOptions{},
           .station = StationSource::kOdometer,
           .needs_plan = false,
@@ -97,16 +97,15 @@ ControllerEntry ConstantSteering() {
 }
 
 void Visit(KeyVisitor& keys, StepSteeringOptions& options) {
-  keys.Field({"amplitude", "rad", "where the wheels are turned to, positive to the left"},
-             options.amplitude, Need::kRequired, kSteering);
-  keys.Field({"rate", "rad/s", "at which they are; else as fast as the car can"}, options.rate,
-             kPositive);
+  keys.Field({"amplitude", "rad", "final steering angle, positive to the left"}, options.amplitude,
+             Need::kRequired, kSteering);
+  keys.Field({"rate", "rad/s", "steering rate; default: the car's limit"}, options.rate, kPositive);
   keys.Field(kBegin, options.at, Need::kOptional, kNonNegative);
 }
 
 ControllerEntry StepSteering() {
   return {.name = "step",
-          .summary = "turns the wheels once, at a rate, and holds them (ISO 7401)",
+          .summary = "steering step at a given rate (ISO 7401)",
           .defaults = StepSteeringOptions{},
           .station = StationSource::kOdometer,
           .needs_plan = false,
@@ -114,15 +113,15 @@ ControllerEntry StepSteering() {
 }
 
 void Visit(KeyVisitor& keys, RampSteeringOptions& options) {
-  keys.Field({"end", "rad", "where the wheels are turned to, positive to the left"}, options.end,
+  keys.Field({"end", "rad", "final steering angle, positive to the left"}, options.end,
              Need::kRequired, kSteering);
-  keys.Field({"rate", "rad/s", "at which they are"}, options.rate, Need::kOptional, kPositive);
+  keys.Field({"rate", "rad/s", "steering rate"}, options.rate, Need::kOptional, kPositive);
   keys.Field(kBegin, options.at, Need::kOptional, kNonNegative);
 }
 
 ControllerEntry RampSteering() {
   return {.name = "ramp",
-          .summary = "turns the wheels slowly to an angle (SAE J266, ISO 4138)",
+          .summary = "slow steering ramp to an angle (SAE J266, ISO 4138)",
           .defaults = RampSteeringOptions{},
           .station = StationSource::kOdometer,
           .needs_plan = false,
@@ -131,8 +130,9 @@ ControllerEntry RampSteering() {
 
 void Visit(KeyVisitor& keys, SineSteeringOptions& options) {
   keys.Field(kAmplitude, options.amplitude, Need::kRequired, kSteering);
-  keys.Field({"frequency", "Hz", "of the sine"}, options.frequency, Need::kOptional, kFrequency);
-  keys.Field({"cycles", "", "how many"}, options.cycles, Need::kOptional, kPositive);
+  keys.Field({"frequency", "Hz", "frequency of the sine"}, options.frequency, Need::kOptional,
+             kFrequency);
+  keys.Field({"cycles", "", "number of cycles"}, options.cycles, Need::kOptional, kPositive);
   keys.Field(kBegin, options.at, Need::kOptional, kNonNegative);
 }
 
@@ -147,15 +147,16 @@ ControllerEntry SineSteering() {
 
 void Visit(KeyVisitor& keys, SineWithDwellOptions& options) {
   keys.Field(kAmplitude, options.amplitude, Need::kRequired, kSteering);
-  keys.Field({"frequency", "Hz", "of the sine"}, options.frequency, Need::kOptional, kFrequency);
-  keys.Field({"dwell", "s", "how long it stays at its second peak"}, options.dwell, Need::kOptional,
+  keys.Field({"frequency", "Hz", "frequency of the sine"}, options.frequency, Need::kOptional,
+             kFrequency);
+  keys.Field({"dwell", "s", "dwell time at the second peak"}, options.dwell, Need::kOptional,
              kNonNegative);
   keys.Field(kBegin, options.at, Need::kOptional, kNonNegative);
 }
 
 ControllerEntry SineWithDwell() {
   return {.name = "sine_with_dwell",
-          .summary = "one sine that stays at its second peak (ISO 19365)",
+          .summary = "one sine cycle with a dwell at its second peak (ISO 19365)",
           .defaults = SineWithDwellOptions{},
           .station = StationSource::kOdometer,
           .needs_plan = false,
@@ -164,22 +165,21 @@ ControllerEntry SineWithDwell() {
 
 void Visit(KeyVisitor& keys, SweptSineOptions& options) {
   keys.Field(kAmplitude, options.amplitude, Need::kRequired, kSteering);
-  keys.Field({"start_frequency", "Hz", "with which it begins"}, options.start_frequency,
-             Need::kOptional, kFrequency);
-  keys.Field({"end_frequency", "Hz", "with which it ends"}, options.end_frequency, Need::kOptional,
+  keys.Field({"start_frequency", "Hz", "start frequency"}, options.start_frequency, Need::kOptional,
              kFrequency);
-  keys.Field({"duration", "s", "how long it lasts"}, options.duration, Need::kOptional, kPositive);
+  keys.Field({"end_frequency", "Hz", "end frequency"}, options.end_frequency, Need::kOptional,
+             kFrequency);
+  keys.Field({"duration", "s", "duration"}, options.duration, Need::kOptional, kPositive);
   static const EnumNames<Sweep> sweeps{{Sweep::kLinear, "linear"},
                                        {Sweep::kExponential, "exponential"}};
-  keys.Field({"sweep", "",
-              "how the frequency goes: as long at every frequency, or as long in every octave"},
+  keys.Field({"sweep", "", "frequency over time: linear, or exponential (equal time per octave)"},
              options.sweep, Need::kOptional, sweeps);
   keys.Field(kBegin, options.at, Need::kOptional, kNonNegative);
 }
 
 ControllerEntry SweptSine() {
   return {.name = "swept_sine",
-          .summary = "sine steering from one frequency to another",
+          .summary = "sine sweep from one frequency to another",
           .defaults = SweptSineOptions{},
           .station = StationSource::kOdometer,
           .needs_plan = false,

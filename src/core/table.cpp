@@ -60,10 +60,10 @@ struct Reader {
     } else if (header.empty()) {
       Header();
     } else if (cells.size() < header.size()) {
-      ComplainOfCell(cells.size(), fmt::format("missing; {}, where the header has {}", CellCount(),
-                                               header.size()));
+      ComplainOfCell(cells.size(),
+                     fmt::format("missing; {}, the header has {}", CellCount(), header.size()));
     } else if (cells.size() > header.size()) {
-      Complain("", fmt::format("{} where the header has {}", CellCount(), header.size()));
+      Complain("", fmt::format("{}, the header has {}", CellCount(), header.size()));
     } else if (table) {
       Row();
     }
@@ -83,7 +83,7 @@ struct Reader {
         continue;
       }
       if (header[i].empty()) {
-        ComplainOfCell(i, "a column without a name");
+        ComplainOfCell(i, "the column has no name");
       } else if (std::find(columns.begin(), columns.end(), header[i]) != columns.end()) {
         ComplainOfCell(i, "repeated column");
       }
@@ -93,10 +93,9 @@ struct Reader {
     for (const std::string& name : selection.needed) {
       if (std::find(columns.begin(), columns.end(), name) == columns.end()) {
         const std::string near = NearestSpelling(name, header);
-        Complain("",
-                 fmt::format("no column '{}'; {}", name,
-                             near.empty() ? fmt::format("there are: {}", fmt::join(header, ", "))
-                                          : fmt::format("did you mean '{}'?", near)));
+        Complain("", fmt::format("no column '{}'; {}", name,
+                                 near.empty() ? fmt::format("columns: {}", fmt::join(header, ", "))
+                                              : fmt::format("did you mean '{}'?", near)));
       }
     }
     if (!columns.empty()) {
@@ -146,7 +145,7 @@ Reader ReadThrough(const std::filesystem::path& file, Selection selection) {
     reader.Complain("", csv_strerror(csv_error(&parser)));
   }
   if (reader.header.empty() && reader.problems.empty()) {
-    reader.Complain("", "empty file where a header line of column names is expected");
+    reader.Complain("", "empty file; expected a header line of column names");
   }
   if (!reader.problems.empty()) {
     throw InputError(FirstProblems(std::move(reader.problems)));

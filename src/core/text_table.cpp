@@ -58,14 +58,14 @@ struct TextReader {
     } else if (!table) {
       for (auto name = cells.begin(); name != cells.end(); ++name) {
         if (name->empty()) {
-          Complain(fmt::format("cell {}: a column without a name", name - cells.begin() + 1));
+          Complain(fmt::format("cell {}: the column has no name", name - cells.begin() + 1));
         } else if (std::find(cells.begin(), name, *name) != name) {
           Complain(fmt::format("repeated column '{}'", *name));
         }
       }
       table.emplace(cells);
     } else if (cells.size() != table->columns().size()) {
-      Complain(fmt::format("{} {} where the header has {}", cells.size(),
+      Complain(fmt::format("{} {}, the header has {}", cells.size(),
                            cells.size() == 1 ? "cell" : "cells", table->columns().size()));
     } else {
       table->AddRow(std::move(cells));
@@ -134,7 +134,7 @@ TextTable ReadTextCsv(const std::filesystem::path& file) {
     reader.Complain(csv_strerror(csv_error(&parser)));
   }
   if (!reader.table && reader.problems.empty()) {
-    reader.Complain("empty file where a header line of column names is expected");
+    reader.Complain("empty file; expected a header line of column names");
   }
   if (!reader.problems.empty()) {
     throw InputError(FirstProblems(std::move(reader.problems)));

@@ -21,7 +21,7 @@ void NoteSlowTurns(Plan& plan, double speed) {
                        [](const SpeedCap& a, const SpeedCap& b) { return a.speed < b.speed; });
   constexpr double kNoticed = 0.99;  // of the speed
   if (plan.notes.empty() && slowest != plan.caps.end() && slowest->speed < kNoticed * speed) {
-    plan.notes.push_back(fmt::format("slowed down to {:.3g} m/s in a turn at s = {:.4g} m",
+    plan.notes.push_back(fmt::format("speed reduced to {:.3g} m/s in a turn at s = {:.4g} m",
                                      slowest->speed, slowest->from));
   }
 }
@@ -30,7 +30,7 @@ void NoteSlowTurns(Plan& plan, double speed) {
 void NoteObstacle(Plan& plan, const VehicleParams& vehicle, const std::vector<OrientedBox>& known) {
   const CollisionChecker touching(vehicle, known, 0.0);
   if (const std::optional<double> s = touching.FirstBlocked(plan.reference.path)) {
-    plan.notes.push_back(fmt::format("led into an obstacle at s = {:.4g} m", *s));
+    plan.notes.push_back(fmt::format("the path hits an obstacle at s = {:.4g} m", *s));
   }
 }
 

@@ -400,13 +400,14 @@ void Visit(KeyVisitor& keys, SearchOptions& options) {
     }
     return names;
   }();
-  keys.Field({"method", "", "the search; see 'trackbed list optimizers'"}, options.method,
+  keys.Field({"method", "", "optimizer; see 'trackbed list optimizers'"}, options.method,
              Need::kOptional, methods);
-  keys.Field({"population", "", "of isres, esch and crs2"}, options.population, Need::kOptional,
-             Range{.min = 3, .max = 1e5});
-  keys.Field({"evaluations", "", "at most; 0: the method's own number"}, options.evaluations,
-             Need::kOptional, Range{.min = 0, .max = 1e8});
-  keys.Field({"tolerance", "", "on the variables, as a share of their bounds; 0: none"},
+  keys.Field({"population", "", "population size of isres, esch and crs2"}, options.population,
+             Need::kOptional, Range{.min = 3, .max = 1e5});
+  keys.Field({"evaluations", "", "maximum number of evaluations; 0: the method's default"},
+             options.evaluations, Need::kOptional, Range{.min = 0, .max = 1e8});
+  keys.Field({"tolerance", "",
+              "termination tolerance on the variables, as a fraction of their bounds; 0: none"},
              options.tolerance, Need::kOptional, Range{.min = 0.0, .max = 1.0});
 }
 

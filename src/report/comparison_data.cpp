@@ -92,8 +92,8 @@ ordered_json LeftOut(const std::vector<fs::path>& runs,
     for (const FinishedDrive& drive : drives[run]) {
       if (std::none_of(drives[other].begin(), drives[other].end(),
                        [&](const FinishedDrive& o) { return o.trace.name == drive.trace.name; })) {
-        left_out.push_back(fmt::format("not compared: {} of {}, which {} did not drive",
-                                       drive.trace.name, runs[run].string(), runs[other].string()));
+        left_out.push_back(fmt::format("not compared: {} of {}, not in {}", drive.trace.name,
+                                       runs[run].string(), runs[other].string()));
       }
     }
   };
@@ -110,7 +110,7 @@ void RefuseIfChanged(const Pair& pair, const PlantComparison& now) {
   for (const ComparedQuantity& quantity : ComparedQuantities()) {
     const double then = pair.outcome.at(quantity.key).at("max").get<double>();
     if (!(std::abs(then - (now.*quantity.difference).max) <= kSame)) {
-      Unfit(pair.file, "not of the logs that the runs have now");
+      Unfit(pair.file, "does not match the runs' current logs");
     }
   }
 }
@@ -183,7 +183,7 @@ std::vector<fs::path> ComparedRuns(const fs::path& folder) {
       runs.push_back(folder);
     }
     if (runs.empty()) {
-      Unfit(folder / run_folder::kCompareJson, "does not say of which runs it is");
+      Unfit(folder / run_folder::kCompareJson, "does not name its runs");
     }
     return runs;
   });
@@ -223,7 +223,7 @@ ordered_json ComparisonData(const std::vector<fs::path>& runs,
                        [&](const FinishedDrive& other) { return other.trace.name == drive.plant; });
       if (found == drives[drive.run].end()) {
         Unfit(pair.file,
-              fmt::format("of {}, which {} did not drive", drive.plant, runs[drive.run].string()));
+              fmt::format("of {}, which is not in {}", drive.plant, runs[drive.run].string()));
       }
       return found->trace;
     };

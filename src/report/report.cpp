@@ -96,13 +96,12 @@ void RefuseOthers(const std::vector<fs::path>& paths) {
     const bool is_comparison = HasComparison(*path);
     if (!IsRunFolder(*path) && !is_comparison && !StudyTable(*path)) {
       throw InputError(Problem{.file = path->string(),
-                               .message =
-                                   "neither a finished run (no metrics.json) nor a comparison (no "
-                                   "compare.json) nor a study (no sweep.csv, and no .csv file)"});
+                               .message = "not a finished run (no metrics.json), a comparison (no "
+                                          "compare.json) or a study (no sweep.csv or .csv file)"});
     }
     if (!IsRunFolder(*path) && paths.size() > 1) {
       throw InputError(Problem{.file = path->string(),
-                               .message = fmt::format("a {} has a report of its own; give it alone",
+                               .message = fmt::format("a {} must be given alone",
                                                       is_comparison ? "comparison" : "study")});
     }
     const fs::path real = fs::weakly_canonical(*path);
@@ -129,11 +128,10 @@ ShownRuns RunsToShow(const std::vector<fs::path>& paths) {
   ShownRuns shown{ComparedRuns(first), first};
   for (const fs::path& run : shown.folders) {
     if (!IsRunFolder(run)) {
-      throw InputError(Problem{
-          .file = first.string(),
-          .message = fmt::format("the comparison is of the run in {}, where there is none (any "
-                                 "more): no metrics.json",
-                                 run.lexically_normal().string())});
+      throw InputError(
+          Problem{.file = first.string(),
+                  .message = fmt::format("the compared run in {} does not exist (no metrics.json)",
+                                         run.lexically_normal().string())});
     }
   }
   return shown;

@@ -87,7 +87,7 @@ ordered_json LogOf(const fs::path& file, std::size_t row_limit) {
     if (!(times[row] > times[row - 1])) {
       throw InputError(
           Problem{file.string(), log.lines[row], 0, "t_s",
-                  fmt::format("{} does not come after {}", times[row], times[row - 1])});
+                  fmt::format("{} must be above the previous {}", times[row], times[row - 1])});
     }
   }
   const std::vector<std::size_t> rows = RowsToShow(log.table, row_limit);

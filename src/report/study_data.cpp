@@ -49,8 +49,8 @@ ordered_json ColumnsOf(const TextTable& table, const std::string& file) {
   const std::vector<std::string>& names = table.columns();
   const auto status = std::find(names.begin(), names.end(), "status");
   if (status == names.end()) {
-    throw InputError(Problem{
-        file, 1, 0, "", "no column 'status', which the table of a study has after its parameters"});
+    throw InputError(Problem{file, 1, 0, "",
+                             "no column 'status' after the parameters; not the table of a study"});
   }
   ordered_json columns = ordered_json::array();
   for (auto name = names.begin(); name != names.end(); ++name) {

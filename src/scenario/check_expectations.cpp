@@ -9,12 +9,11 @@ using EachExpectation =
 
 void CheckPlants(Diagnostics& c) {
   if (c.scenario.drive.plants.empty()) {
-    c.AddError("drive.plants", "at least one plant is needed");
+    c.AddError("drive.plants", "must name at least one plant");
   }
   for (const auto& [plant, expectation] : c.scenario.expect.plants) {
     if (!Drives(c.scenario, plant)) {
-      c.AddError("expect." + plant,
-                 fmt::format("drive.plants does not drive it; driven: {}", c.Driven()));
+      c.AddError("expect." + plant, fmt::format("not in drive.plants: {}", c.Driven()));
     }
   }
 }
@@ -27,7 +26,7 @@ void CheckTwoPlants(Diagnostics& c, const std::string& key,
   }
   for (const std::string& plant : plants) {
     if (c.CouldRead({"drive.plants"}) && !Drives(c.scenario, plant)) {
-      c.AddError(key, fmt::format("drive.plants does not drive {}; driven: {}", plant, c.Driven()));
+      c.AddError(key, fmt::format("{} is not in drive.plants: {}", plant, c.Driven()));
     }
   }
 }
@@ -42,7 +41,8 @@ void CheckBetween(Diagnostics& c) {
     const auto could_read = [&](const char* bound) { return c.could_read(key + "." + bound); };
     if (!between.bounds.any() && could_read("position_max") && could_read("heading_max") &&
         could_read("yaw_rate_max") && could_read("steering_max")) {
-      c.AddError(key, "asks nothing; give position_max, heading_max, yaw_rate_max or steering_max");
+      c.AddError(key,
+                 "no bound given; give position_max, heading_max, yaw_rate_max or steering_max");
     }
   }
 }
@@ -61,7 +61,7 @@ void CheckMetrics(Diagnostics& c) {
       const std::string own = fmt::format("{}.metrics[{}]", key, i);
       if (!metric.min && !metric.max && !metric.equals && c.could_read(own + ".min") &&
           c.could_read(own + ".max") && c.could_read(own + ".equals")) {
-        c.AddError(own, "asks nothing; give min, max or equals");
+        c.AddError(own, "no bound given; give min, max or equals");
       }
       if (metric.min && metric.max && *metric.min > *metric.max) {
         c.AddError(own, fmt::format("min {} is above max {}", *metric.min, *metric.max));
@@ -78,10 +78,10 @@ void CheckWhatIsMeasured(Diagnostics& c) {
   ForEachExpectation(c, [&](const std::string& key, const PlantExpectation& expectation) {
     if (!has_path && (expectation.reach_goal || expectation.max_cross_track ||
                       expectation.rms_cross_track || expectation.max_heading_error)) {
-      c.AddError(key, "without a plan there is no goal and no path to be off");
+      c.AddError(key, "goal and path expectations need a plan");
     }
     if (!has_obstacles && (expectation.min_clearance || expectation.collision.value_or(false))) {
-      c.AddError(key, "without world.obstacles there is nothing to be clear of or to hit");
+      c.AddError(key, "min_clearance and collision need world.obstacles");
     }
   });
 }

@@ -20,7 +20,7 @@ void CheckCourse(Diagnostics& c) {
   }
   const std::string key = c.KeyOfPlan("segments");
   if (course->segments.empty() && c.CouldReadPlan({"segments"})) {
-    c.AddError(key, "a course needs at least one");
+    c.AddError(key, "a course needs at least one segment");
   }
   for (std::size_t i = 0; i < course->segments.size(); ++i) {
     const CoursePiece& piece = course->segments[i];
@@ -30,9 +30,9 @@ void CheckCourse(Diagnostics& c) {
       continue;
     }
     if (piece.curvature && (piece.curvature_from || piece.curvature_to)) {
-      c.AddError(own, "give curvature, or curvature_to of a ramp, not both");
+      c.AddError(own, "give curvature or curvature_to, not both");
     } else if (!piece.curvature && !piece.curvature_to) {
-      c.AddError(own, "needs curvature (0 for a straight), or curvature_to of a ramp");
+      c.AddError(own, "give curvature (0 for a straight), or curvature_to for a ramp");
     }
   }
 }
@@ -44,10 +44,9 @@ void CheckSmoothing(Diagnostics& c, const PlannerOptions& planner, const std::st
   }
   const double step = rrt->data_weight + 2.0 * rrt->smoothness_weight;
   if (step <= 0.0 || step >= 1.0) {
-    c.AddError(key,
-               fmt::format("data_weight + 2 smoothness_weight is {:.4g}; must be above 0 and below "
-                           "1, or smoothing does not converge",
-                           step));
+    c.AddError(key, fmt::format("data_weight + 2 smoothness_weight is {:.4g}; must be above 0 and "
+                                "below 1 for the smoothing to converge",
+                                step));
   }
 }
 
@@ -68,10 +67,9 @@ void CheckSmoothing(Diagnostics& c) {
 void CheckAvoider(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   if (plan && plan->avoid && MayGoBackwards(plan->global) && c.CouldReadPlan({"method"})) {
-    c.AddError("plan.avoid",
-               fmt::format("a plan by {} may go backwards, which cannot be led around "
-                           "anything on the way; leave one out",
-                           PlannerFor(plan->global).name));
+    c.AddError("plan.avoid", fmt::format("not available for plans by {}, which may reverse; remove "
+                                         "plan.avoid or use another planner",
+                                         PlannerFor(plan->global).name));
   }
 }
 
@@ -83,15 +81,17 @@ void CheckNeutralSteering(Diagnostics& c) {
       !c.CouldReadPlan({"neutral_steering"})) {
     return;
   }
-  c.AddError(c.KeyOfPlan("neutral_steering"),
-             fmt::format("{} goes on from straight wheels between turns; leave one out",
-                         plan->avoid ? "plan.avoid" : "plan.replan"));
+  c.AddError(
+      c.KeyOfPlan("neutral_steering"),
+      fmt::format(
+          "not supported together with {}, which needs straight wheels between turns; remove one",
+          plan->avoid ? "plan.avoid" : "plan.replan"));
 }
 
 void CheckNotEmpty(Diagnostics& c, const std::string& key, const std::vector<double>& values) {
   const std::string dotted = "plan.replan.along." + key;
   if (values.empty() && c.could_read(dotted)) {
-    c.AddError(dotted, "needs at least one");
+    c.AddError(dotted, "must not be empty");
   }
 }
 
@@ -105,11 +105,11 @@ void CheckDetourTrees(Diagnostics& c) {
   }
   if (rrt->time_limit) {
     c.AddError("plan.replan.detour.time_limit",
-               "a detour is planned within its iterations, as a drive repeats: leave it out");
+               "not allowed in a detour, whose planning must be repeatable; use iterations");
   }
   if (rrt->partial.value_or(false)) {
     c.AddError("plan.replan.detour.partial",
-               "a detour leads all the way back to the route: leave it out");
+               "not allowed in a detour, which must return to the route");
   }
 }
 
@@ -120,32 +120,32 @@ void CheckReplan(Diagnostics& c) {
   }
   const ReplanOptions& replan = *plan->replan;
   if (MayGoBackwards(plan->global) && c.CouldReadPlan({"method"})) {
-    c.AddError("plan.replan",
-               fmt::format("a plan by {} may go backwards; planning again on the way goes "
-                           "forwards only: leave one out",
-                           PlannerFor(plan->global).name));
+    c.AddError(
+        "plan.replan",
+        fmt::format("not available for plans by {}, which may reverse; replanning is forward only",
+                    PlannerFor(plan->global).name));
   }
   if (!c.CouldRead({"plan.replan.along", "plan.replan.along.method", "plan.replan.detour",
                     "plan.replan.detour.method"})) {
     return;
   }
   if (replan.detour && MayGoBackwards(*replan.detour)) {
-    c.AddError("plan.replan.detour.reverse", "a detour goes forwards: leave it out");
+    c.AddError("plan.replan.detour.reverse", "not allowed in a detour, which is forward only");
   }
   CheckDetourTrees(c);
   if (!replan.along && !replan.detour) {
-    c.AddError("plan.replan", "needs along, detour or both: nothing else plans again");
+    c.AddError("plan.replan", "give along, detour or both");
   }
   if (!replan.detour && replan.comparator) {
-    c.AddError("plan.replan.comparator", "needs detour: there is nothing else to compare");
+    c.AddError("plan.replan.comparator", "needs plan.replan.detour");
   }
   if (replan.detour &&
       c.CouldRead({"plan.replan.safe_distance", "plan.replan.detour.safe_distance"})) {
     const std::optional<double> own = SafeDistanceOf(*replan.detour);
     if (own && *own < replan.settings.safe_distance) {
       c.AddError("plan.replan.detour.safe_distance",
-                 fmt::format("{:.4g} m is less than plan.replan.safe_distance, {:.4g} m: every "
-                             "detour would be blocked",
+                 fmt::format("{:.4g} m is below plan.replan.safe_distance, {:.4g} m; every detour "
+                             "would be blocked",
                              *own, replan.settings.safe_distance));
     }
   }
@@ -167,12 +167,13 @@ void CheckHeadings(Diagnostics& c) {
     return;
   }
   if (mission.headings.size() != mission.waypoints.size()) {
-    c.AddError("mission.headings", fmt::format("{} given for {} waypoints; give one for each",
-                                               mission.headings.size(), mission.waypoints.size()));
+    c.AddError("mission.headings",
+               fmt::format("{} given for {} waypoints; must be one per waypoint",
+                           mission.headings.size(), mission.waypoints.size()));
   }
   if (c.scenario.plan && !PlannerFor(c.scenario.plan->global).has_headings &&
       c.CouldReadPlan({"method"})) {
-    c.AddError("mission.headings", fmt::format("a plan by {} does not look at them; leave them out",
+    c.AddError("mission.headings", fmt::format("the planner {} does not use headings; remove them",
                                                PlannerFor(c.scenario.plan->global).name));
   }
 }
@@ -181,18 +182,19 @@ void CheckWaypoints(Diagnostics& c) {
   const std::vector<Vec2>& waypoints = c.scenario.mission.waypoints;
   for (std::size_t i = 1; i < waypoints.size(); ++i) {
     if (waypoints[i] == waypoints[i - 1]) {
-      c.AddError(fmt::format("mission.waypoints[{}]", i), "the same point as the one before it");
+      c.AddError(fmt::format("mission.waypoints[{}]", i), "same point as the previous waypoint");
     }
   }
   if (c.scenario.plan && PlannerFor(c.scenario.plan->global).min_waypoints == 0 &&
       !waypoints.empty() && c.CouldReadPlan({"method"})) {
-    c.AddError("mission.waypoints", fmt::format("a plan by {} has its own course; leave them out",
-                                                PlannerFor(c.scenario.plan->global).name));
+    c.AddError("mission.waypoints",
+               fmt::format("the planner {} defines its own course; remove them",
+                           PlannerFor(c.scenario.plan->global).name));
   }
   CheckHeadings(c);
   if (c.scenario.plan && waypoints.size() < PlannerFor(c.scenario.plan->global).min_waypoints) {
     const std::string given = waypoints.empty() ? "none" : std::to_string(waypoints.size());
-    c.AddError("mission.waypoints", fmt::format("{} given; a plan by {} needs at least {}", given,
+    c.AddError("mission.waypoints", fmt::format("{} given; the planner {} needs at least {}", given,
                                                 PlannerFor(c.scenario.plan->global).name,
                                                 PlannerFor(c.scenario.plan->global).min_waypoints));
   }
@@ -216,20 +218,20 @@ void CheckMission(Diagnostics& c) {
   if (c.CouldRead({"control.method"})) {
     const ControllerEntry& controller = ControllerFor(c.scenario.control.steering);
     if (controller.needs_plan && !plan) {
-      c.AddError("plan", fmt::format("missing; the controller {} follows a plan", controller.name));
+      c.AddError("plan", fmt::format("missing; the controller {} needs a plan", controller.name));
     }
   }
   if (plan && mission.duration) {
-    c.AddError("mission.duration", "with a plan the drive ends at the goal; leave one out");
+    c.AddError("mission.duration", "not allowed with a plan, which ends at the goal; remove one");
   }
   if (!plan && !DurationOf(c.scenario) &&
       c.CouldRead({"mission.duration", "control.file", "control.columns"})) {
-    c.AddError("mission.duration", "missing; without a plan there is no goal to stop at");
+    c.AddError("mission.duration", "missing; required without a plan");
   }
   const auto* fillet = plan ? plan->global.As<FilletOptions>() : nullptr;
   if (fillet != nullptr && c.CouldReadPlan({"radius", "constraint"}) && !fillet->radius &&
       fillet->constraint == RadiusConstraint::kNone) {
-    c.AddError(c.KeyOfPlan("constraint"), "'none' needs a radius: nothing else would limit it");
+    c.AddError(c.KeyOfPlan("constraint"), "'none' requires plan.radius");
   }
 }
 

@@ -14,7 +14,7 @@ void CheckSpeedOverTime(Diagnostics& c) {
   const Recording* recording = RecordingOf(c.scenario);
   if (recording != nullptr && (!recording->speed.empty() || !recording->acceleration.empty())) {
     const SpeedControlOptions& speed = c.scenario.control.speed;
-    const std::string message = "the recording has the speed or acceleration; leave this out";
+    const std::string message = "not allowed: the recording has speed or acceleration; remove this";
     if (!speed.over_time.empty()) {
       c.AddError("control.speed.over_time", message);
     }
@@ -30,12 +30,12 @@ void CheckSpeedOverTime(Diagnostics& c) {
   for (std::size_t i = 1; i < over_time.knots.size(); ++i) {
     const double before = over_time.knots[i - 1].x();
     if (over_time.knots[i].x() <= before) {
-      c.AddError(fmt::format("{}[{}]", key, i), fmt::format("{} s is not after the {} s before it",
+      c.AddError(fmt::format("{}[{}]", key, i), fmt::format("{} s must be above the previous {} s",
                                                             over_time.knots[i].x(), before));
     }
   }
   if (c.scenario.plan && c.CouldReadPlan({"method"})) {
-    c.AddError(key, "with a plan the speed is the plan's; leave one out");
+    c.AddError(key, "not allowed with a plan, which sets the speed; remove one");
   }
 }
 
@@ -44,7 +44,7 @@ void CheckOptimalSteering(Diagnostics& c) {
   if (options != nullptr &&
       c.CouldRead({"control.method", "control.weights.position", "control.weights.heading"}) &&
       options->weights.position == 0.0 && options->weights.heading == 0.0) {
-    c.AddError("control.weights", "position and heading are both 0: nothing is left to minimize");
+    c.AddError("control.weights", "position and heading must not both be 0");
   }
 }
 
@@ -82,8 +82,8 @@ void CheckGround(Diagnostics& c) {
     const auto check = [&](double reach, const char* where) {
       const double steepest = 0.5 * kPi * bump.height / reach;
       if (steepest > kSteepest) {
-        c.AddError(key, fmt::format("rises {:.3g} m per m {}; at most {} can be driven over",
-                                    steepest, where, kSteepest));
+        c.AddError(key,
+                   fmt::format("slope {:.3g} {}; must be at most {}", steepest, where, kSteepest));
       }
     };
     check(0.5 * bump.area.length, "along its length");
@@ -97,7 +97,7 @@ void CheckGusts(Diagnostics& c) {
     const std::string key = fmt::format("world.wind.gusts[{}]", i);
     if (gust.shape == GustShape::kOneMinusCosine && !gust.duration &&
         c.could_read(key + ".duration") && c.could_read(key + ".shape")) {
-      c.AddError(key, "one_minus_cosine needs a duration; only a step can blow without end");
+      c.AddError(key, "one_minus_cosine needs a duration; only a step may omit it");
     }
   }
 }
@@ -110,7 +110,7 @@ void CheckObstacles(Diagnostics& c) {
     }
     if (obstacle.moves() && !IsFlat(c.scenario.world.ground)) {
       c.AddError(fmt::format("world.obstacles[{}].velocity", i),
-                 "what moves needs level ground; here world.ground is not");
+                 "moving obstacles need a flat world.ground");
     }
   }
 }
@@ -133,7 +133,7 @@ void CheckDisturbances(Diagnostics& c) {
         c.could_read(key + ".displacement") && c.could_read(key + ".impulse")) {
       c.AddError(key, "give either displacement or impulse");
     } else if (kick.displacement && kick.duration) {
-      c.AddError(key + ".duration", "a displacement has none");
+      c.AddError(key + ".duration", "not allowed with displacement");
     }
   }
 }
@@ -153,7 +153,7 @@ void CheckManoeuvre(Diagnostics& c) {
   const bool has_gates = plan && plan->global.Is<LaneChangePlannerOptions>();
   if (c.scenario.manoeuvre && std::holds_alternative<LaneChangeOptions>(*c.scenario.manoeuvre) &&
       !has_gates && c.CouldReadPlan({"method"})) {
-    c.AddError("manoeuvre", "a lane change needs gates; plan: {method: lane_change} has them");
+    c.AddError("manoeuvre", "lane_change needs gates, given by plan: {method: lane_change}");
   }
   if (c.scenario.manoeuvre && c.CouldRead({"manoeuvre.fit_from", "manoeuvre.fit_to"})) {
     std::visit([&](const auto& options) { CheckFit(c, options); }, *c.scenario.manoeuvre);

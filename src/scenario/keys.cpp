@@ -19,8 +19,7 @@ std::vector<KeySection> StudyKeys() {
   KeyLister lister(sections, {"", "", "the whole file", {}});
   StudyFile defaults;
   Visit(lister, defaults);
-  KeyLister range(sections,
-                  {"vary.KEY", "", "an even grid of values, in place of a list of them", {}});
+  KeyLister range(sections, {"vary.KEY", "", "evenly spaced values instead of a list", {}});
   GridRange none;
   Visit(range, none);
   return sections;

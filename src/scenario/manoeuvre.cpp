@@ -6,18 +6,19 @@ namespace trackbed {
 
 const std::vector<ManoeuvreEntry>& Manoeuvres() {
   static const std::vector<ManoeuvreEntry> table{
-      {"steady_state_circle", "understeer, roll and side-slip gradients (ISO 4138)",
+      {"steady_state_circle", "understeer, roll and sideslip gradients (ISO 4138)",
        SteadyStateCircleOptions{}},
-      {"slowly_increasing_steer", "the same by a slow ramp at constant speed (SAE J266)",
+      {"slowly_increasing_steer",
+       "the same gradients from a slow steering ramp at constant speed (SAE J266)",
        SlowlyIncreasingSteerOptions{}},
       {"step_steer", "response to a step of the steering (ISO 7401)", StepSteerOptions{}},
       {"sine_with_dwell", "stability and responsiveness (ISO 19365, FMVSS 126)",
        SineWithDwellTestOptions{}},
-      {"lane_change", "room left in the gates of a double lane change (ISO 3888)",
+      {"lane_change", "margins to the gates of a double lane change (ISO 3888)",
        LaneChangeOptions{}},
-      {"braking", "distance, deceleration and departure from the course (ISO 21994, ISO 7975)",
+      {"braking", "braking distance, deceleration and course deviation (ISO 21994, ISO 7975)",
        BrakingTestOptions{}},
-      {"disturbance", "departure from the course, and recovery", DisturbanceOptions{}},
+      {"disturbance", "course deviation and recovery after a disturbance", DisturbanceOptions{}},
   };
   return table;
 }

@@ -19,16 +19,16 @@ void StepInto(YAML::Node& node, const std::string& text, std::string_view step) 
     const auto [end, error] =
         std::from_chars(step.data() + 1, step.data() + step.size() - 1, index);
     if (error != std::errc{} || end != step.data() + step.size() - 1 || !step.ends_with(']')) {
-      Fail(text, fmt::format("'{}' is not a list index such as [0]", step));
+      Fail(text, fmt::format("expected a list index such as [0], found '{}'", step));
     }
     if (!node.IsSequence() || index >= node.size()) {
-      Fail(text, fmt::format("there is no element {}", step));
+      Fail(text, fmt::format("element {} does not exist", step));
     }
     node.reset(node[index]);
     return;
   }
   if (step.empty() || (node.IsDefined() && !node.IsNull() && !node.IsMap())) {
-    Fail(text, fmt::format("there is no section that could hold '{}'", step));
+    Fail(text, fmt::format("no section for the key '{}'", step));
   }
   node.reset(node[std::string(step)]);
 }
@@ -48,7 +48,7 @@ std::string ApplyOverride(YAML::Node& root, const std::string& text) {
     Fail(text, error.problems().front().message);
   }
   if (key.ends_with('.')) {
-    Fail(text, "the key ends in a dot");
+    Fail(text, "the key ends with a dot");
   }
   YAML::Node node(root);
   for (std::size_t begin = 0; begin < key.size();) {

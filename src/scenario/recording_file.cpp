@@ -19,13 +19,12 @@ class RecordingExcerpt {
       : file_(file.string()), excerpt_(std::move(excerpt)), axis_name_(std::move(axis)) {
     axis_ = excerpt_.table.Column(axis_name_);
     if (axis_.empty()) {
-      problems_.push_back({.file = file_, .line = 1, .message = "no rows follow the header"});
+      problems_.push_back({.file = file_, .line = 1, .message = "no rows after the header"});
     }
     for (std::size_t row = 1; row < axis_.size(); ++row) {
       if (axis_[row] <= axis_[row - 1]) {
-        AddError(
-            row, axis_name_,
-            fmt::format("{} is not after the {} of the row before", axis_[row], axis_[row - 1]));
+        AddError(row, axis_name_,
+                 fmt::format("{} must be above the previous row's {}", axis_[row], axis_[row - 1]));
       }
     }
   }

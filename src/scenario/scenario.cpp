@@ -45,7 +45,7 @@ std::vector<std::pair<std::string, std::string>> UnknownMetrics(
       const std::string& metric = own.metrics[i].metric;
       if (std::find(possible.begin(), possible.end(), metric) == possible.end()) {
         found.emplace_back(fmt::format("{}.metrics[{}].metric", key, i),
-                           "no run can have " + UnknownName(metric, shown));
+                           "unknown metric " + UnknownName(metric, shown));
       }
     }
   };

@@ -116,15 +116,15 @@ class StudyReader {
     Names seen;
     for (const auto& entry : node) {
       if (!entry.first.IsScalar() || entry.first.Scalar().empty()) {
-        AddError(entry.first, section, "a key must be a name");
+        AddError(entry.first, section, "keys must be names");
         continue;
       }
       const std::string& key = entry.first.Scalar();
       const std::string dotted = section + "." + key;
       if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
-        AddError(entry.first, dotted, "the key is given twice");
+        AddError(entry.first, dotted, "duplicate key");
       } else if (key.find('=') != std::string::npos) {
-        AddError(entry.first, dotted, "a key has no '='");
+        AddError(entry.first, dotted, "a key must not contain '='");
       } else if (entry.second.IsNull()) {
         AddError(entry.first, dotted, "expected a value, found nothing");
       } else {
@@ -178,7 +178,7 @@ class StudyReader {
     }
     CheckEnds(node, dotted, range.from, range.to);
     if (range.scale == GridScale::kLog && range.from <= 0.0) {
-      AddError(node["from"], dotted + ".from", "a scale of equal ratios needs positive ends");
+      AddError(node["from"], dotted + ".from", "must be above 0 for a geometric scale");
     }
     for (int i = 0; i < range.steps; ++i) {
       values.push_back({key, GridValue(range, i), node.Mark().line + 1, node.Mark().column + 1});
@@ -188,7 +188,7 @@ class StudyReader {
 
   void CheckEnds(const YAML::Node& node, const std::string& dotted, double from, double to) {
     if (!(from < to)) {
-      AddError(node["from"], dotted + ".from", fmt::format("{} is not below to: {}", from, to));
+      AddError(node["from"], dotted + ".from", fmt::format("{} must be below to: {}", from, to));
     }
   }
 
@@ -250,7 +250,7 @@ class StudyReader {
   void CheckStudy(const Study& study) {
     const bool varies = root_["vary"] || root_["list"] || root_["repeat"] || root_["bisect"];
     if (!varies) {
-      AddError(root_, "vary", "missing; a study has vary, list, repeat or bisect");
+      AddError(root_, "vary", "missing; a study needs vary, list, repeat or bisect");
     }
     auto runs = static_cast<double>(study.repeat);
     for (const auto& alternatives : study.vary) {
@@ -283,7 +283,7 @@ class StudyReader {
         });
         if (earlier != later) {
           ComplainOnce(*later,
-                       fmt::format("replaces {}, which line {} sets", earlier->key, earlier->line));
+                       fmt::format("overwrites {}, set in line {}", earlier->key, earlier->line));
         }
       }
     }
@@ -292,7 +292,7 @@ class StudyReader {
   void CheckSeed(const Study& study) {
     for (const Setting& setting : Varied(study)) {
       if (study.repeat > 1 && setting.key == "seed") {
-        ComplainOnce(setting, "repeat counts the seed up, so that it cannot be varied too");
+        ComplainOnce(setting, "cannot be varied together with repeat, which sets the seed");
       }
     }
   }

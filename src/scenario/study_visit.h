@@ -23,20 +23,20 @@ struct GridRange {
 inline void Visit(KeyVisitor& a, GridRange& range) {
   a.Field({"from", "", "the first value"}, range.from, Need::kRequired);
   a.Field({"to", "", "the last value, above the first"}, range.to, Need::kRequired);
-  a.Field({"steps", "", "how many values, both ends included"}, range.steps, Need::kRequired,
+  a.Field({"steps", "", "number of values, both ends included"}, range.steps, Need::kRequired,
           Range{.min = 2, .max = 10000});
   static const EnumNames<GridScale> scales{{GridScale::kLinear, "linear"},
                                            {GridScale::kLog, "log"}};
-  a.Field({"scale", "", "equal differences, or equal ratios between positive ends"}, range.scale,
+  a.Field({"scale", "", "spacing: linear, or geometric (needs positive ends)"}, range.scale,
           Need::kOptional, scales);
 }
 
 inline void Visit(KeyVisitor& a, BisectSpec& bisect) {
   a.Field({"key", "", "of a number, dotted"}, bisect.key, Need::kRequired);
   a.Field({"from", "", "a value that passes"}, bisect.from, Need::kRequired);
-  a.Field({"to", "", "a value that fails, above the first"}, bisect.to, Need::kRequired);
-  a.Field({"tolerance", "", "how near the value found is to one that fails"}, bisect.tolerance,
-          Need::kRequired, kPositive);
+  a.Field({"to", "", "a value that fails, above `from`"}, bisect.to, Need::kRequired);
+  a.Field({"tolerance", "", "distance between the value found and one that fails"},
+          bisect.tolerance, Need::kRequired, kPositive);
 }
 
 /// The file of a study. What is under keys of the scenario's is read by the functions.
@@ -57,22 +57,20 @@ void Visit(Archive& a, StudyFile& file) {
   int schema = 1;
   a.Field({"schema", "", "version of this format"}, schema, Need::kRequired,
           Range{.min = 1, .max = 1});
-  a.Identifier({"name", "", "names the study and its folder"}, file.study.name);
-  a.Field({"scenario", "", "what is run: a scenario file, relative to this one"}, file.scenario,
-          Need::kRequired);
-  a.Custom({"set", "", "keys of the scenario, dotted, and their values in every run"}, "section",
-           file.set);
+  a.Identifier({"name", "", "name of the study and its output folder"}, file.study.name);
+  a.Field({"scenario", "", "scenario file, relative to this file"}, file.scenario, Need::kRequired);
+  a.Custom({"set", "", "dotted scenario keys and their values in every run"}, "section", file.set);
   a.Custom({"vary", "",
-            "keys of the scenario and lists of values, or grids: every combination is run, the "
-            "last key changing fastest"},
+            "dotted scenario keys with lists or grids of values; runs all combinations, the last "
+            "key fastest"},
            "section", file.vary);
-  a.Custom({"list", "", "points that set several keys at once; with `vary`, all at each of its"},
+  a.Custom({"list", "", "points that set several keys at once; combined with each point of `vary`"},
            "list of sections", file.list);
-  a.Field({"repeat", "", "runs of each point, with the scenario's seed, the next, ..."},
+  a.Field({"repeat", "", "runs per point, with consecutive seeds starting at the scenario's"},
           file.study.repeat, Need::kOptional, Range{.min = 1, .max = 1e5});
-  a.Section({"bisect", "", "looks at each point for the highest value of a key that passes"},
+  a.Section({"bisect", "", "at each point, bisects for the highest passing value of a key"},
             file.bisect);
-  a.Custom({"outputs", "", "results of a run, dotted, a column each"}, "list of names",
+  a.Custom({"outputs", "", "dotted results of a run, one column each"}, "list of names",
            file.outputs);
 }
 

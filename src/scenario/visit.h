@@ -13,10 +13,10 @@
 /// The keys of a scenario, each named once for reading, writing and listing alike.
 namespace trackbed {
 
-inline constexpr Key kVehicleSection{"vehicle", "", "the car"};
+inline constexpr Key kVehicleSection{"vehicle", "", "vehicle"};
 inline constexpr Key kExpectSection{
-    "expect", "", "bounds that the run must keep, on every plant; what is not given is not asked"};
-inline constexpr Key kRenderSection{"render", "", "how the run is filmed"};
+    "expect", "", "bounds that every plant must meet; only those given are checked"};
+inline constexpr Key kRenderSection{"render", "", "video settings"};
 
 inline Names PlantNames() {
   Names names;
@@ -27,123 +27,124 @@ inline Names PlantNames() {
 }
 
 inline void Visit(KeyVisitor& a, VehicleSpec& vehicle) {
-  a.Field({"model", "", "a name under models/, or a path relative to this file"}, vehicle.model,
+  a.Field({"model", "", "name under models/, or path relative to this file"}, vehicle.model,
           Need::kOptional);
   static const EnumNames<TyreLaw> laws{{TyreLaw::kAuto, "auto"},
                                        {TyreLaw::kContact, "contact"},
                                        {TyreLaw::kMagicFormula, "magic_formula"}};
-  a.Field(
-      {"tyre", "",
-       "what holds the plant mujoco to the road; auto: the Magic Formula for cars that have tyre "
-       "coefficients, else their contacts"},
-      vehicle.tyre, Need::kOptional, laws);
-  a.Field({"steering_rate", "rad/s", "of the road wheels, instead of the car's own"},
+  a.Field({"tyre", "",
+           "tyre model of the plant mujoco; auto: Magic Formula if the model has tyre "
+           "coefficients, else MuJoCo contacts"},
+          vehicle.tyre, Need::kOptional, laws);
+  a.Field({"steering_rate", "rad/s", "steering rate of the road wheels, overrides the model's"},
           vehicle.steering_rate, Range{.max = 10.0, .above = 0.0});
 }
 
 inline void Visit(KeyVisitor& a, StartSpec& start) {
-  a.Field({"x", "m", "rear axle at the start; else the first waypoint's, or 0"}, start.x, kMap);
+  a.Field({"x", "m", "initial position of the rear axle; default: first waypoint, or 0"}, start.x,
+          kMap);
   a.Field({"y", "m", "likewise"}, start.y, kMap);
   a.Field({"yaw", "rad",
-           "heading at the start; else the first of `headings`, along the first leg, or 0"},
+           "initial heading; default: the first of `headings`, along the first leg, or 0"},
           start.yaw);
   a.Field({"speed", "m/s",
-           "speed at the start; else the recording's, that of control.speed.over_time, or the "
-           "mission's"},
+           "initial speed; default: that of the recording, of control.speed.over_time, or of the "
+           "mission"},
           start.speed, kSpeedRange);
-  a.Field(
-      {"steering", "rad",
-       "bicycle angle of wheels and actuator at the start; else the plan's neutral_steering, or 0, "
-       "or what was recorded if it is prescribed"},
-      start.steering, kSteering);
+  a.Field({"steering", "rad",
+           "initial bicycle angle of wheels and actuator; default: the plan's neutral_steering, or "
+           "0; with prescribed steering, the recorded angle"},
+          start.steering, kSteering);
 }
 
 inline void Visit(KeyVisitor& a, MissionSpec& mission) {
   std::optional<double> speed = mission.speed > 0.0 ? std::optional(mission.speed) : std::nullopt;
   a.Field({"speed", "m/s",
-           "the speed to keep between start and goal; needed by a plan, and unless something else "
-           "gives the speed at the start"},
+           "target speed between start and goal; required with a plan, and where nothing else sets "
+           "the initial speed"},
           speed, Range{.min = 0.1, .max = 100.0});
   mission.speed = speed.value_or(0.0);
   a.Field({"waypoints", "m",
-           "the route: at least three for a plan by fillet, at least two for one around obstacles"},
+           "route; at least three points for fillet, at least two for the other planners"},
           mission.waypoints, Need::kOptional);
   a.Field({"headings", "rad",
-           "of the car at each waypoint; else along the last leg at the goal, from the stop before "
-           "to the stop after on the way"},
+           "heading of the car at each waypoint; default: along the last leg at the goal, from the "
+           "previous to the next stop at stops in between"},
           mission.headings, Need::kOptional);
-  a.Field(
-      {"duration", "s",
-       "ends the drive; needed without a plan unless a recording over time ends, refused with one"},
-      mission.duration, kPositive);
-  a.Section({"start", "", "where and how the car starts"}, mission.start);
+  a.Field({"duration", "s",
+           "end of the run; required without a plan unless a recording over time ends it, not "
+           "allowed with a plan"},
+          mission.duration, kPositive);
+  a.Section({"start", "", "initial state of the car"}, mission.start);
 }
 
 inline void Visit(KeyVisitor& a, DriveSpec& drive) {
-  a.Field({"plants", "", "what to drive the plan on, in this order"}, drive.plants, Need::kOptional,
+  a.Field({"plants", "", "plants to run, in this order"}, drive.plants, Need::kOptional,
           PlantNames());
   static const EnumNames<SteeringInput> inputs{{SteeringInput::kActuator, "actuator"},
                                                {SteeringInput::kPrescribed, "prescribed"}};
   a.Field({"steering", "",
-           "how the wanted angle reaches the road wheels: through the car's "
-           "rate-limited actuator, or exactly"},
+           "steering input: commanded, through the rate-limited actuator, or prescribed exactly"},
           drive.steering, Need::kOptional, inputs);
-  a.Field({"timestep", "s", "of the physics"}, drive.timestep, Need::kOptional,
+  a.Field({"timestep", "s", "physics timestep"}, drive.timestep, Need::kOptional,
           Range{.min = 1e-5, .max = 0.02});
-  a.Field({"control_period", "s", "between two commands; a whole number of timesteps"},
+  a.Field({"control_period", "s", "control period; a whole number of timesteps"},
           drive.control_period, Need::kOptional, Range{.min = 1e-5, .max = 1.0});
-  a.Field({"state_period", "s", "between two states logged for the film"}, drive.state_period,
+  a.Field({"state_period", "s", "logging period of the states for the video"}, drive.state_period,
           Need::kOptional, Range{.min = 1e-5, .max = 1.0});
-  a.Field({"time_limit", "s", "simulated time after which a drive is given up"}, drive.time_limit,
+  a.Field({"time_limit", "s", "simulated time after which a run is stopped"}, drive.time_limit,
           Need::kOptional, Range{.max = 1e5, .above = 0.0});
   a.Field({"goal_tolerance", "",
-           "how near a car at rest must be to its goal, as a share of its length"},
+           "largest distance to the goal at rest that counts as arrived, as a fraction of the "
+           "car's length"},
           drive.goal_tolerance, Need::kOptional, Range{.max = 10.0, .above = 0.0});
-  a.Field({"goal_heading_tolerance", "rad",
-           "largest heading error there, for missions with `headings`"},
-          drive.goal_heading_tolerance, Need::kOptional, Range{.max = 3.2, .above = 0.0});
+  a.Field(
+      {"goal_heading_tolerance", "rad",
+       "largest heading error at the goal that counts as arrived, for missions with `headings`"},
+      drive.goal_heading_tolerance, Need::kOptional, Range{.max = 3.2, .above = 0.0});
 }
 
 inline void Visit(KeyVisitor& a, MetricExpectation& expect) {
-  a.Field({"metric", "", "path into the plant's entry of metrics.json: manoeuvre.margin"},
+  a.Field({"metric", "",
+           "path of the metric in the plant's entry of metrics.json, such as manoeuvre.margin"},
           expect.metric, Need::kRequired);
-  a.Field({"min", "", "smallest value, in the metric's unit"}, expect.min);
-  a.Field({"max", "", "largest value, in the metric's unit"}, expect.max);
-  a.Field({"equals", "", "the very value: a number, a text, true or false"}, expect.equals);
+  a.Field({"min", "", "minimum, in the metric's unit"}, expect.min);
+  a.Field({"max", "", "maximum, in the metric's unit"}, expect.max);
+  a.Field({"equals", "", "exact value: a number, a text, true or false"}, expect.equals);
 }
 
 inline void Visit(KeyVisitor& a, PlantExpectation& expect) {
-  a.Field({"reach_goal", "m", "largest distance to the goal at the end"}, expect.reach_goal,
+  a.Field({"reach_goal", "m", "maximum distance to the goal at the end"}, expect.reach_goal,
           kNonNegative);
-  a.Field({"max_cross_track", "m", "largest distance from the path"}, expect.max_cross_track,
+  a.Field({"max_cross_track", "m", "maximum cross-track error"}, expect.max_cross_track,
           kNonNegative);
-  a.Field({"rms_cross_track", "m", "largest root mean square of it"}, expect.rms_cross_track,
+  a.Field({"rms_cross_track", "m", "maximum root mean square of the cross-track error"},
+          expect.rms_cross_track, kNonNegative);
+  a.Field({"max_heading_error", "rad", "maximum heading error"}, expect.max_heading_error,
           kNonNegative);
-  a.Field({"max_heading_error", "rad", "largest angle to the path"}, expect.max_heading_error,
-          kNonNegative);
-  a.Field({"min_clearance", "m", "smallest distance of the car's outline from an obstacle"},
+  a.Field({"min_clearance", "m", "minimum distance of the car's footprint from obstacles"},
           expect.min_clearance, kNonNegative);
-  a.Field({"collision", "", "whether the car hits an obstacle"}, expect.collision);
-  a.List({"metrics", "", "bounds on whatever else was measured"}, expect.metrics);
+  a.Field({"collision", "", "whether the car must hit an obstacle"}, expect.collision);
+  a.List({"metrics", "", "bounds on other metrics"}, expect.metrics);
 }
 
 inline void Visit(KeyVisitor& a, BetweenExpectation& expect) {
   a.Field({"plants", "", "the two plants to compare"}, expect.plants, Need::kRequired,
           PlantNames());
-  a.Field({"position_max", "m", "largest distance between them at equal station"},
+  a.Field({"position_max", "m", "maximum position difference at equal station"},
           expect.bounds.position_max, kNonNegative);
-  a.Field({"heading_max", "rad", "largest angle between them at equal station"},
+  a.Field({"heading_max", "rad", "maximum heading difference at equal station"},
           expect.bounds.heading_max, kNonNegative);
-  a.Field({"yaw_rate_max", "rad/s", "largest difference of their yaw rates at equal station"},
+  a.Field({"yaw_rate_max", "rad/s", "maximum yaw rate difference at equal station"},
           expect.bounds.yaw_rate_max, kNonNegative);
   a.Field({"steering_max", "rad",
-           "largest difference of their measured steering angles at equal station"},
+           "maximum difference of the measured steering angles at equal station"},
           expect.bounds.steering_max, kNonNegative);
 }
 
 inline void VisitPlants(KeyVisitor& a, Expectations& expect) {
   for (const std::string& plant : PlantNames()) {
-    const Key key{plant.c_str(), "", "the bounds above, for this plant alone"};
+    const Key key{plant.c_str(), "", "the bounds above, for this plant only"};
     if (a.mode() == KeyVisitor::Mode::kList) {
       a.Mention(key, "section");
       continue;
@@ -164,12 +165,11 @@ inline void VisitPlants(KeyVisitor& a, Expectations& expect) {
 inline void Visit(KeyVisitor& a, Expectations& expect) {
   Visit(a, expect.all);
   VisitPlants(a, expect);
-  a.List({"between", "", "how far two plants may part"}, expect.between);
+  a.List({"between", "", "bounds on the difference between two plants"}, expect.between);
 }
 
 inline void Visit(KeyVisitor& a, RenderSpec& render) {
-  a.Field({"camera", "", "point of view; `trackbed list cameras` has them"}, render.camera,
-          Need::kOptional);
+  a.Field({"camera", "", "camera; see `trackbed list cameras`"}, render.camera, Need::kOptional);
   a.Pair({"size", "pixels", "width and height, even"}, render.width, render.height,
          Range{.min = 64, .max = 7680});
   a.Field({"fps", "1/s", "frames per second of the run"}, render.fps, Need::kOptional,
@@ -180,23 +180,22 @@ inline void Visit(KeyVisitor& a, Scenario& scenario) {
   int schema = 1;
   a.Field({"schema", "", "version of this format"}, schema, Need::kRequired,
           Range{.min = 1, .max = 1});
-  a.Identifier({"name", "", "names the run and its folder"}, scenario.name);
-  a.Field({"seed", "", "of every random choice"}, scenario.seed, Need::kOptional);
+  a.Identifier({"name", "", "name of the scenario and its output folder"}, scenario.name);
+  a.Field({"seed", "", "seed of all random numbers"}, scenario.seed, Need::kOptional);
   a.Section(kVehicleSection, scenario.vehicle);
-  a.Section({"mission", "", "where to drive, and how fast"}, scenario.mission, Need::kRequired);
+  a.Section({"mission", "", "route and speed"}, scenario.mission, Need::kRequired);
   a.Section(kWorldSection, scenario.world);
   VisitPlan(a, scenario.plan);
   std::optional<ControllerOptions> steering = scenario.control.steering;
-  a.Method({"control", "", "what steers and what keeps the speed"}, steering, Controllers(),
+  a.Method({"control", "", "steering and speed controllers"}, steering, Controllers(),
            Need::kOptional, [&](KeyVisitor& inner) {
-             inner.Section({"speed", "", "how the speed is kept"}, scenario.control.speed);
+             inner.Section({"speed", "", "speed controller"}, scenario.control.speed);
            });
   scenario.control.steering = *steering;
-  a.Method({"manoeuvre", "", "the standard maneuver that the drive is evaluated as"},
-           scenario.manoeuvre, Manoeuvres(), Need::kOptional);
-  a.Section({"drive", "", "what is driven, and in which steps"}, scenario.drive);
-  a.Section({"disturb", "", "what goes wrong on the drive; nothing unless it is asked for"},
-            scenario.disturb);
+  a.Method({"manoeuvre", "", "standard maneuver as which the run is evaluated"}, scenario.manoeuvre,
+           Manoeuvres(), Need::kOptional);
+  a.Section({"drive", "", "plants, timesteps and limits of the run"}, scenario.drive);
+  a.Section({"disturb", "", "disturbances and faults; default: none"}, scenario.disturb);
   a.Section(kExpectSection, scenario.expect);
   a.Section(kRenderSection, scenario.render);
 }

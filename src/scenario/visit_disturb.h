@@ -9,18 +9,17 @@ inline constexpr Range kFactor{.min = 0.1, .max = 10.0};
 inline constexpr Range kOnCar{.min = -100.0, .max = 100.0};  // [m]
 
 inline void Visit(KeyVisitor& a, SpeedLoss& loss) {
-  a.Field({"from", "s", "from this moment on; else from the start"}, loss.from, kNonNegative);
-  a.Field({"station", "m", "instead: from this station (`s_m`) on"}, loss.station, kNonNegative);
-  a.Field({"speed", "m/s", "the car's largest from then on"}, loss.speed, Need::kRequired,
-          kSpeedRange);
+  a.Field({"from", "s", "start time; default: from the start"}, loss.from, kNonNegative);
+  a.Field({"station", "m", "start station (`s_m`), instead of `from`"}, loss.station, kNonNegative);
+  a.Field({"speed", "m/s", "maximum speed from then on"}, loss.speed, Need::kRequired, kSpeedRange);
 }
 
 inline void Visit(KeyVisitor& a, SteeringFaults& faults) {
-  a.Field({"factor", "", "the angle that the road wheels get, over the wanted one"}, faults.factor,
+  a.Field({"factor", "", "ratio of actual to commanded steering angle"}, faults.factor,
           Need::kOptional, kFactor);
-  a.Field({"delay", "s", "of the wanted angle on its way to the actuator"}, faults.delay,
-          Need::kOptional, Range{.min = 0.0, .max = 10.0});
-  a.Field({"backlash", "rad", "the whole play of the steering, at the road wheels"},
+  a.Field({"delay", "s", "delay of the steering command"}, faults.delay, Need::kOptional,
+          Range{.min = 0.0, .max = 10.0});
+  a.Field({"backlash", "rad", "total backlash of the steering, at the road wheels"},
           faults.backlash, Need::kOptional, Range{.min = 0.0, .max = 1.5});
 }
 
@@ -32,40 +31,40 @@ inline void Visit(KeyVisitor& a, MeasurementNoise& noise) {
 }
 
 inline void Visit(KeyVisitor& a, Payload& payload) {
-  a.Field({"mass", "kg", "of the payload"}, payload.mass, Range{.max = 1e5, .above = 0.0});
-  a.Field({"share", "", "instead: its mass over the car's own"}, payload.share,
+  a.Field({"mass", "kg", "mass of the payload"}, payload.mass, Range{.max = 1e5, .above = 0.0});
+  a.Field({"share", "", "mass as a fraction of the car's mass, instead of `mass`"}, payload.share,
           Range{.max = 10.0, .above = 0.0});
-  a.Field({"x", "m", "where it lies, ahead of the rear axle"}, payload.x, Need::kOptional, kOnCar);
-  a.Field({"y", "m", "likewise, to the left"}, payload.y, Need::kOptional, kOnCar);
-  a.Field({"z", "m", "likewise, above the ground; else as high as the car's center of gravity"},
+  a.Field({"x", "m", "position ahead of the rear axle"}, payload.x, Need::kOptional, kOnCar);
+  a.Field({"y", "m", "position to the left"}, payload.y, Need::kOptional, kOnCar);
+  a.Field({"z", "m", "height above the ground; default: height of the car's center of gravity"},
           payload.z, Range{.min = 0.0, .max = 100.0});
 }
 
 inline void Visit(KeyVisitor& a, Kick& kick) {
-  a.Field({"at", "s", "when it comes"}, kick.at, Need::kRequired, kNonNegative);
-  a.Field({"displacement", "m", "the car is set aside by this at once, positive to its left"},
+  a.Field({"at", "s", "time of the disturbance"}, kick.at, Need::kRequired, kNonNegative);
+  a.Field({"displacement", "m", "instantaneous lateral displacement, positive to the left"},
           kick.displacement, Range{.min = -10.0, .max = 10.0});
   a.Field({"impulse", "N s",
-           "instead: of a force at its center of gravity, positive to its left; "
-           "the kinematic car feels none"},
+           "impulse of a lateral force at the center of gravity, positive to the left, instead of "
+           "`displacement`; no effect on the plant kinematic"},
           kick.impulse, Range{.min = -1e6, .max = 1e6});
-  a.Field({"duration", "s", "of that force; else 0.1"}, kick.duration,
+  a.Field({"duration", "s", "duration of the force; default: 0.1"}, kick.duration,
           Range{.max = 100.0, .above = 0.0});
 }
 
 inline void Visit(KeyVisitor& a, Disturbances& disturb) {
-  a.Section({"speed_loss", "", "the car becomes slower than it is asked to be"},
-            disturb.speed_loss);
-  a.Field({"wheelbase", "", "what controllers take it for, over what it is"}, disturb.wheelbase,
-          Need::kOptional, kFactor);
-  a.Section({"steering", "", "what becomes of the wanted angle before the actuator gets it"},
-            disturb.steering);
-  a.Section({"noise", "", "of the pose that controllers see, normal and new in every period"},
-            disturb.noise);
-  a.Section({"payload", "", "a mass that planners and controllers do not know of"},
-            disturb.payload);
-  a.List({"kicks", "", "what throws the car off sideways"}, disturb.kicks);
-  a.Field({"recovered_within", "m", "of the path, for the metric `recovery_time`"},
+  a.Section({"speed_loss", "", "limits the speed below the commanded speed"}, disturb.speed_loss);
+  a.Field({"wheelbase", "", "ratio of the wheelbase assumed by controllers to the actual one"},
+          disturb.wheelbase, Need::kOptional, kFactor);
+  a.Section({"steering", "", "faults between steering command and actuator"}, disturb.steering);
+  a.Section(
+      {"noise", "",
+       "measurement noise of the pose seen by controllers, Gaussian, white over control periods"},
+      disturb.noise);
+  a.Section({"payload", "", "payload unknown to planners and controllers"}, disturb.payload);
+  a.List({"kicks", "", "lateral kicks"}, disturb.kicks);
+  a.Field({"recovered_within", "m",
+           "distance from the path within which the car has recovered (metric `recovery_time`)"},
           disturb.recovered_within, Need::kOptional, kPositive);
 }
 

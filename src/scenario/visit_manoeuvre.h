@@ -9,10 +9,12 @@ namespace trackbed {
 /// Of the maneuvers that fit gradients.
 template <typename Options>
 void VisitGradients(KeyVisitor& a, Options& options) {
-  a.Field({"settle", "s", "samples count after it"}, options.settle, Need::kOptional, kNonNegative);
-  a.Field({"fit_from", "m/s^2", "gradients are fitted from this lateral acceleration"},
+  a.Field({"settle", "s", "samples before this time are ignored"}, options.settle, Need::kOptional,
+          kNonNegative);
+  a.Field({"fit_from", "m/s^2", "lower end of the lateral acceleration range of the gradient fit"},
           options.fit_from, Need::kOptional, kNonNegative);
-  a.Field({"fit_to", "m/s^2", "up to this one"}, options.fit_to, Need::kOptional, kPositive);
+  a.Field({"fit_to", "m/s^2", "upper end of that range"}, options.fit_to, Need::kOptional,
+          kPositive);
 }
 
 inline void Visit(KeyVisitor& a, SteadyStateCircleOptions& options) {
@@ -24,7 +26,7 @@ inline void Visit(KeyVisitor& a, SlowlyIncreasingSteerOptions& options) {
 }
 
 inline void Visit(KeyVisitor& a, StepSteerOptions& options) {
-  a.Field({"steady", "s", "the steady state is the mean over the last so many seconds"},
+  a.Field({"steady", "s", "averaging window of the steady state, at the end of the run"},
           options.steady, Need::kOptional, kPositive);
 }
 
@@ -33,14 +35,15 @@ inline void Visit(KeyVisitor&, SineWithDwellTestOptions&) {}
 inline void Visit(KeyVisitor&, LaneChangeOptions&) {}
 
 inline void Visit(KeyVisitor& a, BrakingTestOptions& options) {
-  a.Field({"to_speed", "m/s", "the braking distance ends here"}, options.to_speed, Need::kOptional,
-          kNonNegative);
+  a.Field({"to_speed", "m/s", "final speed of the braking distance"}, options.to_speed,
+          Need::kOptional, kNonNegative);
 }
 
 inline void Visit(KeyVisitor& a, DisturbanceOptions& options) {
-  a.Field({"at", "s", "the course held then is what is departed from"}, options.at, Need::kOptional,
-          kNonNegative);
-  a.Field({"yaw_rate_bound", "rad/s", "below it for good, the car has recovered"},
+  a.Field(
+      {"at", "s", "time of the disturbance; deviations are measured from the course at this time"},
+      options.at, Need::kOptional, kNonNegative);
+  a.Field({"yaw_rate_bound", "rad/s", "the car has recovered once the yaw rate stays below this"},
           options.yaw_rate_bound, Need::kOptional, kPositive);
 }
 

@@ -16,22 +16,22 @@ struct PlanLayers {
   InfeasiblePolicy& infeasible;
 };
 
-inline constexpr Key kPlan{"plan", "", "how the path is made; without it there is none to follow"};
-inline constexpr Key kAvoid{"avoid", "", "what leads the path around obstacles that stand in it"};
-inline constexpr Key kReplan{"replan", "", "how to plan again while driving"};
+inline constexpr Key kPlan{"plan", "", "planner; without it there is no path to follow"};
+inline constexpr Key kAvoid{"avoid", "",
+                            "local planner: reroutes the path around static obstacles"};
+inline constexpr Key kReplan{"replan", "", "replanning during the run"};
 
 inline void VisitInfeasible(KeyVisitor& a, InfeasiblePolicy& policy) {
   static const EnumNames<InfeasiblePolicy> policies{{InfeasiblePolicy::kSlowDown, "slow_down"},
                                                     {InfeasiblePolicy::kRefuse, "refuse"},
                                                     {InfeasiblePolicy::kAllow, "allow"}};
   a.Field({"infeasible", "",
-           "what becomes of a plan that asks for more steering, grip or braking than the car has"},
+           "handling of plans that exceed the car's steering, friction or braking limits"},
           policy, Need::kOptional, policies);
 }
 
 inline void Visit(KeyVisitor& a, PlanLayers& layers) {
-  a.Method({"global", "", "the planner of the whole path"}, layers.global, Planners(),
-           Need::kRequired);
+  a.Method({"global", "", "global planner"}, layers.global, Planners(), Need::kRequired);
   a.Method(kAvoid, layers.avoid, LocalPlanners(), Need::kOptional);
   a.Section(kReplan, layers.replan);
   VisitInfeasible(a, layers.infeasible);
@@ -58,7 +58,7 @@ inline void VisitPlan(KeyVisitor& a, std::optional<PlanSpec>& plan) {
     a.Method(kPlan, global, Planners(), Need::kOptional, [&](KeyVisitor& inner) {
       if (inner.mode() == Mode::kList) {
         inner.Mention(
-            {"global", "", "the keys of this section, when `avoid` or `replan` stands beside them"},
+            {"global", "", "keys of the global planner, when `avoid` or `replan` is given"},
             "section");
         inner.Method(kAvoid, avoid, LocalPlanners(), Need::kOptional);
         inner.Section(kReplan, replan);

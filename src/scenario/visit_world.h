@@ -10,7 +10,7 @@ inline constexpr Range kRoadFactor{.max = 10.0, .above = 0.0};
 inline constexpr Range kRiseOverRun{.min = -0.5, .max = 0.5};    // 27 degrees
 inline constexpr Range kWindSpeed{.min = -100.0, .max = 100.0};  // [m/s]
 
-inline constexpr Key kWorldSection{"world", "", "what the car drives in"};
+inline constexpr Key kWorldSection{"world", "", "environment of the car"};
 
 inline void Visit(KeyVisitor& a, OrientedBox& box) {
   a.Field({"x", "m", "center of the rectangle"}, box.center.x, Need::kRequired, kMap);
@@ -22,7 +22,7 @@ inline void Visit(KeyVisitor& a, OrientedBox& box) {
 
 inline void Visit(KeyVisitor& a, FrictionPatch& patch) {
   Visit(a, patch.area);
-  a.Field({"friction", "", "there, in place of the world's factor"}, patch.friction,
+  a.Field({"friction", "", "friction factor here, replaces world.friction"}, patch.friction,
           Need::kRequired, kRoadFactor);
 }
 
@@ -38,58 +38,53 @@ inline void Visit(KeyVisitor& a, GradeKeys& keys) {
 
 inline void Visit(KeyVisitor& a, Bump& bump) {
   Visit(a, bump.area);
-  a.Field({"height", "m", "of its top, midway along its length"}, bump.height, Need::kOptional,
+  a.Field({"height", "m", "height at the middle of its length"}, bump.height, Need::kOptional,
           Range{.max = 100.0, .above = 0.0});
-  a.Field({"edge", "m", "width over which each side comes down; at most half the width counts"},
-          bump.edge, Need::kOptional, kPositive);
+  a.Field({"edge", "m", "width of the ramp at each side; at most half the width"}, bump.edge,
+          Need::kOptional, kPositive);
 }
 
 inline void Visit(KeyVisitor& a, Superelevation& stretch) {
   Visit(a, stretch.area);
-  a.Field({"slope", "", "rise over run to its left; negative: it rises to the right"},
-          stretch.slope, Need::kRequired, kRiseOverRun);
-  a.Field(
-      {"run_in", "m", "length over which it comes at either end; at most half the length counts"},
-      stretch.run_in, Need::kOptional, kPositive);
+  a.Field({"slope", "", "slope toward the left; negative: toward the right"}, stretch.slope,
+          Need::kRequired, kRiseOverRun);
+  a.Field({"run_in", "m", "transition length at both ends; at most half the length"},
+          stretch.run_in, Need::kOptional, kPositive);
 }
 
 inline void Visit(KeyVisitor& a, Ground& ground) {
   GradeKeys grade{ground.grade};
-  a.Section({"grade", "", "of the plane through the origin that is the ground"}, grade);
-  a.List({"bumps", "", "humps on that plane"}, ground.bumps);
-  a.List({"side_slopes", "", "stretches that rise from one long side to the other"},
-         ground.side_slopes);
+  a.Section({"grade", "", "slope of the ground plane through the origin"}, grade);
+  a.List({"bumps", "", "bumps on the ground plane"}, ground.bumps);
+  a.List({"side_slopes", "", "superelevated (banked) sections"}, ground.side_slopes);
 }
 
 inline void Visit(KeyVisitor& a, Gust& gust) {
-  a.Field({"x", "m/s", "at its strongest, eastward"}, gust.velocity.x(), Need::kOptional,
-          kWindSpeed);
+  a.Field({"x", "m/s", "peak velocity, eastward"}, gust.velocity.x(), Need::kOptional, kWindSpeed);
   a.Field({"y", "m/s", "likewise, northward"}, gust.velocity.y(), Need::kOptional, kWindSpeed);
-  a.Field({"from", "s", "when it begins"}, gust.from, Need::kOptional, kNonNegative);
-  a.Field({"duration", "s", "how long it blows; a step without one never ends"}, gust.duration,
-          kPositive);
+  a.Field({"from", "s", "start time"}, gust.from, Need::kOptional, kNonNegative);
+  a.Field({"duration", "s", "duration; a step without one does not end"}, gust.duration, kPositive);
   static const EnumNames<GustShape> shapes{{GustShape::kOneMinusCosine, "one_minus_cosine"},
                                            {GustShape::kStep, "step"}};
-  a.Field({"shape", "", "how its strength runs over its duration"}, gust.shape, Need::kOptional,
-          shapes);
-  a.Section({"area", "", "where it blows, with sharp edges; else everywhere"}, gust.area);
+  a.Field({"shape", "", "velocity profile over the duration"}, gust.shape, Need::kOptional, shapes);
+  a.Section({"area", "", "area of the gust; default: everywhere"}, gust.area);
 }
 
 inline void Visit(KeyVisitor& a, Wind& wind) {
-  a.Field({"x", "m/s", "eastward; where it blows to, not where it comes from"}, wind.velocity.x(),
-          Need::kOptional, kWindSpeed);
+  a.Field({"x", "m/s", "velocity eastward (direction toward which the wind blows)"},
+          wind.velocity.x(), Need::kOptional, kWindSpeed);
   a.Field({"y", "m/s", "northward"}, wind.velocity.y(), Need::kOptional, kWindSpeed);
-  a.List({"gusts", "", "wind on top of that, for a while or on a stretch"}, wind.gusts);
+  a.List({"gusts", "", "gusts added to the constant wind"}, wind.gusts);
 }
 
 inline void Visit(KeyVisitor& a, World& world) {
-  a.Field({"friction", "", "factor on the tyres' own friction coefficient"}, world.friction,
+  a.Field({"friction", "", "factor on the tyre friction coefficients"}, world.friction,
           Need::kOptional, kRoadFactor);
-  a.List({"friction_patches", "", "where that factor is another; later ones lie on earlier ones"},
+  a.List({"friction_patches", "", "areas of different friction; later ones override earlier ones"},
          world.friction_patches);
-  a.Section({"ground", "", "how high the road is; else flat, at z = 0"}, world.ground);
-  a.Section({"wind", "", "velocity of the air over the ground"}, world.wind);
-  a.List({"obstacles", "", "what stands in the way"}, world.obstacles);
+  a.Section({"ground", "", "road surface; default: flat at z = 0"}, world.ground);
+  a.Section({"wind", "", "air velocity over the ground"}, world.wind);
+  a.List({"obstacles", "", "obstacles"}, world.obstacles);
 }
 
 /// The keys of `box`.
@@ -99,7 +94,7 @@ struct BoxKeys {
 
 inline void Visit(KeyVisitor& a, BoxKeys& keys) {
   Visit(a, keys.obstacle.footprint);
-  a.Field({"height", "m", "above the ground"}, keys.obstacle.height, Need::kOptional, kSize);
+  a.Field({"height", "m", "height above the ground"}, keys.obstacle.height, Need::kOptional, kSize);
 }
 
 /// The keys of `velocity`.
@@ -118,25 +113,26 @@ struct KnownFromKeys {
 };
 
 inline void Visit(KeyVisitor& a, KnownFromKeys& keys) {
-  a.Field({"time", "s", "at this moment of the drive"}, keys.obstacle.known_from_time,
-          kNonNegative);
-  a.Field({"range", "m", "once the car's outline is this close to it"},
+  a.Field({"time", "s", "simulation time"}, keys.obstacle.known_from_time, kNonNegative);
+  a.Field({"range", "m", "distance from the car's footprint at which it is detected"},
           keys.obstacle.known_from_range, kNonNegative);
 }
 
 inline void Visit(KeyVisitor& a, Obstacle& obstacle) {
   BoxKeys keys{obstacle};
-  a.Section({"box", "", "a box that stands on the ground"}, keys, Need::kRequired);
+  a.Section({"box", "", "box on the ground"}, keys, Need::kRequired);
   const bool writes = a.mode() == KeyVisitor::Mode::kWrite;
   if (!writes || obstacle.moves()) {
     VelocityKeys velocity{obstacle.velocity};
-    a.Section({"velocity", "", "of the box, which does not turn; else it stands"}, velocity);
+    a.Section({"velocity", "", "velocity of the box, without rotation; default: static"}, velocity);
   }
   if (writes && !obstacle.known_from_time && !obstacle.known_from_range) {
     return;  // an empty section would say no more
   }
   KnownFromKeys known{obstacle};
-  a.Section({"known_from", "", "when planners learn of it; else from the start"}, known);
+  a.Section(
+      {"known_from", "", "when the obstacle becomes known to planners; default: from the start"},
+      known);
 }
 
 }  // namespace trackbed

@@ -37,10 +37,10 @@ void RefuseWhatIsNoText(const std::string& text, const std::string& file) {
     const boost::locale::utf::code_point c = Utf8::decode(at, text.end());
     if (c == boost::locale::utf::illegal || c == boost::locale::utf::incomplete) {
       Fail(file, mark,
-           fmt::format("the byte 0x{:02X} is not UTF-8 text", static_cast<unsigned char>(*begin)));
+           fmt::format("byte 0x{:02X} is not valid UTF-8", static_cast<unsigned char>(*begin)));
     }
     if (!IsPrintable(c)) {
-      Fail(file, mark, fmt::format("the control character U+{:04X} is not allowed", c));
+      Fail(file, mark, fmt::format("control character U+{:04X} is not allowed", c));
     }
     mark.column = c == '\n' ? 0 : mark.column + static_cast<int>(at - begin);
     mark.line += c == '\n' ? 1 : 0;
@@ -55,7 +55,7 @@ class Watch : public YAML::EventHandler {
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (++documents_ > 1) {
-      Fail(file_, mark, "a second YAML document; a file has one");
+      Fail(file_, mark, "second YAML document; must be one per file");
     }
   }
   void OnDocumentEnd() override {}
@@ -77,7 +77,7 @@ class Watch : public YAML::EventHandler {
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto found = sizes_.find(anchor);
     if (found == sizes_.end()) {
-      Fail(file_, mark, "the '*' repeats the very value that it is part of");
+      Fail(file_, mark, "the alias ('*') refers to a value that contains it");
     }
     Count(mark, found->second);
   }
@@ -99,8 +99,7 @@ class Watch : public YAML::EventHandler {
   void Count(const YAML::Mark& mark, std::size_t values) {
     values_ += values;
     if (values_ > kMaxValues) {
-      Fail(file_, mark,
-           fmt::format("more than {} values, counting what each '*' repeats", kMaxValues));
+      Fail(file_, mark, fmt::format("more than {} values, aliases ('*') expanded", kMaxValues));
     }
   }
   void Value(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
@@ -112,7 +111,7 @@ class Watch : public YAML::EventHandler {
     Count(mark, 1);
     open_.push_back({mark, anchor, values_});
     if (open_.size() > kDeepest) {
-      Fail(file_, mark, fmt::format("lists and sections are nested deeper than {}", kDeepest));
+      Fail(file_, mark, fmt::format("nested deeper than {} levels", kDeepest));
     }
   }
   void Close() {
@@ -174,7 +173,7 @@ Stumble ExplainKey(const std::vector<std::string_view>& lines, const YAML::Mark&
   const auto here = static_cast<std::size_t>(mark.line);
   const std::string_view line = lines[here];
   if (HasColon(line.substr(0, static_cast<std::size_t>(mark.column)))) {
-    return {mark, "a second ':' on one line; put a text that holds ': ' in quotes"};
+    return {mark, "second ':' on one line; put text that contains ': ' in quotes"};
   }
   for (std::size_t i = here; i-- > 0;) {
     const std::string_view before = Trimmed(lines[i]);
@@ -184,12 +183,13 @@ Stumble ExplainKey(const std::vector<std::string_view>& lines, const YAML::Mark&
     if (!HasColon(before)) {
       return {
           MarkAt(static_cast<int>(i), lines[i].find(before)),
-          fmt::format("'{}' is no 'key: value'; is a ':' or the space after it missing?", before)};
+          fmt::format("expected 'key: value', found '{}'; is a ':' or the space after it missing?",
+                      before)};
     }
     break;
   }
   return {MarkAt(mark.line, line.find(Trimmed(line))),
-          "indented deeper than the line before it, which has its value already"};
+          "indented under a line that already has a value"};
 }
 
 /// A value that does not go on where the indentation says that it should.
@@ -197,15 +197,15 @@ Stumble ExplainEnd(const std::vector<std::string_view>& lines, const YAML::Mark&
   const std::string_view line = lines[static_cast<std::size_t>(mark.line)];
   const std::string_view rest = Trimmed(line.substr(static_cast<std::size_t>(mark.column)));
   if (rest != Trimmed(line)) {
-    return {mark, fmt::format("'{}' follows a value that has ended", rest)};
+    return {mark, fmt::format("unexpected '{}' after the end of a value", rest)};
   }
   if (rest.starts_with("- ")) {
-    return {mark, "a list item among 'key: value' lines"};
+    return {mark, "list item among 'key: value' lines"};
   }
   if (!HasColon(rest)) {
-    return {mark, fmt::format("'{}' is no 'key: value'; is a ':' missing?", rest)};
+    return {mark, fmt::format("expected 'key: value', found '{}'; is a ':' missing?", rest)};
   }
-  return {mark, "the indentation is that of no section above"};
+  return {mark, "the indentation matches no section above"};
 }
 
 Stumble Explain(const std::string& text, const YAML::Exception& error, const Watch& watch) {
@@ -224,19 +224,19 @@ Stumble Explain(const std::string& text, const YAML::Exception& error, const Wat
   const std::size_t tab = line.find('\t');
   const bool in_brackets = said == Says::END_OF_SEQ_FLOW || said == Says::END_OF_MAP_FLOW;
   if (tab < indentation && !in_brackets) {
-    return {MarkAt(mark.line, tab), "a tab in the indentation; YAML wants spaces"};
+    return {MarkAt(mark.line, tab), "tab in the indentation; YAML requires spaces"};
   }
   if (in_brackets) {
     const char bracket = said == Says::END_OF_SEQ_FLOW ? '[' : '{';
     const bool at_end = static_cast<std::size_t>(error.mark.pos) >= text.size();
     return {watch.open().is_null() ? mark : watch.open(),
-            at_end ? fmt::format("this '{}' is not closed", bracket)
-                   : fmt::format("this '{}' is not closed, or a ',' is missing before line {}, "
-                                 "column {}",
-                                 bracket, mark.line + 1, mark.column + 1)};
+            at_end
+                ? fmt::format("'{}' is not closed", bracket)
+                : fmt::format("'{}' is not closed, or a ',' is missing before line {}, column {}",
+                              bracket, mark.line + 1, mark.column + 1)};
   }
   if (said == Says::FLOW_END) {
-    return {mark, fmt::format("this '{}' closes nothing that is open", here)};
+    return {mark, fmt::format("unmatched '{}'", here)};
   }
   if (said == Says::MAP_VALUE) {
     return ExplainKey(lines, mark);
@@ -245,10 +245,10 @@ Stumble Explain(const std::string& text, const YAML::Exception& error, const Wat
     return ExplainEnd(lines, mark);
   }
   if (said == Says::BLOCK_ENTRY) {
-    return {mark, "a list item ('- ') cannot stand here"};
+    return {mark, "list item ('- ') is not allowed here"};
   }
   if (said == Says::UNKNOWN_TOKEN) {
-    return {mark, fmt::format("a text that begins with '{}' must stand in quotes", here)};
+    return {mark, fmt::format("text that starts with '{}' must be in quotes", here)};
   }
   if (said.starts_with(Says::INVALID_ESCAPE)) {
     const std::size_t backslash = line.rfind('\\', static_cast<std::size_t>(mark.column));
@@ -257,16 +257,16 @@ Stumble Explain(const std::string& text, const YAML::Exception& error, const Wat
   }
   if (said == Says::ALIAS_NOT_FOUND || said == Says::ANCHOR_NOT_FOUND ||
       said == Says::CHAR_IN_ALIAS || said == Says::CHAR_IN_ANCHOR) {
-    return {mark, "a text that begins with '*' or '&' must stand in quotes"};
+    return {mark, "text that starts with '*' or '&' must be in quotes"};
   }
   if (said == Says::CHAR_IN_BLOCK || said == Says::ZERO_INDENT_IN_BLOCK) {
-    return {mark, "a text that begins with '|' or '>' must stand in quotes"};
+    return {mark, "text that starts with '|' or '>' must be in quotes"};
   }
   if (said == Says::MAP_KEY) {
-    return {mark, "a text that begins with '? ' must stand in quotes"};
+    return {mark, "text that starts with '? ' must be in quotes"};
   }
   if (said == Says::UNKNOWN_ANCHOR) {
-    return {mark, "the '*' names what no '&' above has named"};
+    return {mark, "the alias ('*') has no anchor ('&') above"};
   }
   return {mark, "not YAML: " + said};
 }
@@ -305,7 +305,7 @@ YAML::Node LoadYamlValue(const std::string& text, const std::string& file) {
   }
   if (EndsInQuotes(text)) {
     if (!watch.quoted().is_null()) {
-      stumble = {watch.quoted(), "the quotes that begin here are not closed"};
+      stumble = {watch.quoted(), "the quotes opened here are not closed"};
     } else {
       stumble = {stumble ? stumble->mark : YAML::Mark(), "quotes after this are not closed"};
     }
@@ -320,7 +320,7 @@ YAML::Node LoadYaml(const std::string& text, const std::string& file, const char
   YAML::Node root = LoadYamlValue(text, file);
   if (!root.IsMap()) {
     throw InputError(
-        Problem{file, 1, 1, "", fmt::format("{} is a section of 'key: value' lines", what)});
+        Problem{file, 1, 1, "", fmt::format("{} must be a section of 'key: value' lines", what)});
   }
   return root;
 }

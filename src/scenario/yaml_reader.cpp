@@ -186,7 +186,7 @@ bool YamlReader::ReadNumber(const YAML::Node& node, const std::string& dotted, R
     const std::string allowed = AllowedBy(range);
     AddError(node, dotted,
              fmt::format("{} is out of range; must be {}", node.Scalar(),
-                         allowed.empty() ? "a number of at most 308 digits" : allowed));
+                         allowed.empty() ? "representable as a double" : allowed));
     return false;
   }
   if (!is_number) {
@@ -303,11 +303,10 @@ void YamlReader::Identifier(const Key& key, std::string& value) {
                          !std::all_of(value.begin(), value.end(), fits))) {
     for (const auto& entry : node_) {
       if (entry.first.IsScalar() && entry.first.Scalar() == key.name) {
-        AddError(
-            entry.second, Dotted(key.name),
-            fmt::format("'{}' cannot name a folder; allowed are up to 100 letters, digits, '_', "
-                        "'-' and '.', the first not '.'",
-                        value));
+        AddError(entry.second, Dotted(key.name),
+                 fmt::format("'{}' is not a valid folder name; must be up to 100 letters, digits, "
+                             "'_', '-' and '.', not starting with '.'",
+                             value));
         return;
       }
     }
@@ -420,12 +419,12 @@ void YamlReader::Finish() {
   Names seen;
   for (const auto& entry : node_) {
     if (!entry.first.IsScalar()) {
-      AddError(entry.first, key_, "a key must be a name");
+      AddError(entry.first, key_, "keys must be names");
       continue;
     }
     const std::string& name = entry.first.Scalar();
     if (std::find(seen.begin(), seen.end(), name) != seen.end()) {
-      AddError(entry.first, Dotted(name.c_str()), "the key is given twice");
+      AddError(entry.first, Dotted(name.c_str()), "duplicate key");
     } else if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
       AddError(entry.first, Dotted(name.c_str()), UnknownKey(name, known_));
       if (const std::string meant = NearestSpelling(name, known_); !meant.empty()) {

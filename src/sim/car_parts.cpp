@@ -85,10 +85,10 @@ class CarReader final : private PartsReader {
     const mjtNum* range = m_.actuator_ctrlrange + 2 * parts_.drive_actuator;
     parts_.drive_limit = range[1];
     if (!m_.actuator_ctrllimited[parts_.drive_actuator]) {
-      Complain("drive", "must be ctrllimited: its ctrlrange is the largest drive torque");
+      Complain("drive", "must be ctrllimited: ctrlrange is the maximum drive torque");
     } else if (!(range[1] > 0.0)) {
-      Complain("drive", fmt::format("ctrlrange {:.4g} {:.4g}: its upper end is the largest drive "
-                                    "torque [N m] and must be above 0",
+      Complain("drive", fmt::format("ctrlrange {:.4g} {:.4g}: the upper limit is the maximum drive "
+                                    "torque [N m]; must be above 0",
                                     range[0], range[1]));
     }
     numerics_.Read("drive_power", parts_.drive_power);
@@ -98,7 +98,7 @@ class CarReader final : private PartsReader {
     }
     if (!(parts_.brake_torque_front >= 0.0 && parts_.brake_torque_rear >= 0.0 &&
           parts_.brake_torque_front + parts_.brake_torque_rear > 0.0)) {
-      Complain("brake_torque_front", "the brake torques must not be negative, nor both zero");
+      Complain("brake_torque_front", "brake torques must not be negative or both zero");
     }
   }
 
@@ -112,8 +112,8 @@ class CarReader final : private PartsReader {
     params_.track_rear = Wheel(2, 1) - Wheel(3, 1);
     CheckOrigin("the rear axle", "the rear wheels", parts_.wheel[2], parts_.wheel[3]);
     if (!(params_.wheelbase > 0.0)) {
-      Complain("chassis", fmt::format("the front wheels must be ahead of the rear ones, x pointing "
-                                      "forwards; they are {:.4g} m behind",
+      Complain("chassis", fmt::format("the front wheels must be ahead of the rear wheels (x "
+                                      "forward); they are {:.4g} m behind",
                                       -params_.wheelbase));
     }
     CheckTrack("front", "fl", "fr", params_.track_front);
@@ -122,9 +122,10 @@ class CarReader final : private PartsReader {
 
   void CheckTrack(const char* axle, const char* left, const char* right, double track) {
     if (!(track > 0.0)) {
-      Complain("chassis", fmt::format("at the {} axle the wheel {} must be on the left of {}, y "
-                                      "pointing left; it is {:.4g} m to the right",
-                                      axle, left, right, -track));
+      Complain(
+          "chassis",
+          fmt::format("{} axle: wheel {} must be left of {} (y left); it is {:.4g} m to the right",
+                      axle, left, right, -track));
     }
   }
 
@@ -141,8 +142,8 @@ class CarReader final : private PartsReader {
     if (m_.actuator_dyntype[steer] != mjDYN_INTEGRATOR || !m_.actuator_ctrllimited[steer] ||
         !m_.actuator_actlimited[steer]) {
       Complain("steer",
-               "must be an <intvelocity> with ctrllimited and actlimited: its ctrlrange is the "
-               "steering rate, its actrange the steering angle");
+               "must be an <intvelocity> with ctrllimited and actlimited: ctrlrange is the "
+               "steering rate, actrange the steering angle");
       return;
     }
     if (m_.actuator_trntype[steer] != mjTRN_JOINT || m_.actuator_trnid[2 * steer] != rack_) {
@@ -154,12 +155,12 @@ class CarReader final : private PartsReader {
       damping += m_.dof_damping[m_.jnt_dofadr[joint]];
     }
     params_.steering_lag = damping / m_.actuator_gainprm[mjNGAIN * steer];
-    CheckSymmetric("ctrlrange", "the steering rate [rad/s]", rate);
-    CheckSymmetric("actrange", "the steering angle [rad]", angle);
+    CheckSymmetric("ctrlrange", "steering rate [rad/s]", rate);
+    CheckSymmetric("actrange", "steering angle [rad]", angle);
     if (!(angle[1] < 1.5)) {
       Complain("steer",
-               fmt::format("actrange {:.4g} {:.4g} is in radians and must stay below 1.5; "
-                           "{:.4g} degrees are {:.4g} rad",
+               fmt::format("actrange {:.4g} {:.4g} is in radians; must be below 1.5 ({:.4g} "
+                           "degrees are {:.4g} rad)",
                            angle[0], angle[1], angle[1], angle[1] * std::numbers::pi / 180.0));
       return;
     }
@@ -172,18 +173,16 @@ class CarReader final : private PartsReader {
       const mjtNum* axis_W = data_->xaxis + 3 * steer_[w];
       if (!(axis_W[2] > kUpright)) {
         Complain(std::string("steer_") + kWheels[w],
-                 fmt::format("its axis must point up, so that positive turns left; it points along "
-                             "{}",
-                             Text(axis_W)));
+                 fmt::format("axis must point up (positive steers left), found {}", Text(axis_W)));
       }
     }
   }
 
   void CheckSymmetric(const char* attribute, const char* meaning, const mjtNum* range) {
     if (!(std::abs(range[0] + range[1]) <= kExact * std::abs(range[1]))) {
-      Complain("steer", fmt::format("{} {:.4g} {:.4g} is {} to the right and to the left, which "
-                                    "must be equal",
-                                    attribute, range[0], range[1], meaning));
+      Complain("steer",
+               fmt::format("{} {:.4g} {:.4g}: {} must be equal to the left and to the right",
+                           attribute, range[0], range[1], meaning));
     }
   }
 
@@ -195,13 +194,12 @@ class CarReader final : private PartsReader {
     }
     if (range[0] > lowest + kExact || range[1] < highest - kExact) {
       Complain(name, fmt::format(
-                         "its range, {:.4g} to {:.4g} rad, stops before the {:.4g} to {:.4g} rad "
-                         "that steering needs; without <compiler angle=\"radian\"/> a range is in "
-                         "degrees",
+                         "range {:.4g} to {:.4g} rad does not cover the {:.4g} to {:.4g} rad of "
+                         "the steering; without <compiler angle=\"radian\"/> ranges are in degrees",
                          range[0], range[1], lowest, highest));
     } else if (range[0] < -std::numbers::pi || range[1] > std::numbers::pi) {
-      Complain(name, fmt::format("its range, {:.4g} to {:.4g} rad, is more than half a turn; with "
-                                 "<compiler angle=\"radian\"/> a range is in radians",
+      Complain(name, fmt::format("range {:.4g} to {:.4g} rad exceeds half a turn; with <compiler "
+                                 "angle=\"radian\"/> ranges are in radians",
                                  range[0], range[1]));
     }
   }
@@ -294,11 +292,10 @@ class CarReader final : private PartsReader {
 
 const CarParts& SteeredParts(const CarModel& car, const std::string& needed_by) {
   if (car.params().kind != VehicleKind::kSteered) {
-    throw InputError(Problem{
-        .file = car.file(),
-        .message = fmt::format("{} turns by the speeds of its two driven wheels; {} needs a car "
-                               "with steered front wheels",
-                               car.params().name, needed_by)});
+    throw InputError(
+        Problem{.file = car.file(),
+                .message = fmt::format("{} has differential drive; {} needs steered front wheels",
+                                       car.params().name, needed_by)});
   }
   return car.parts();
 }
@@ -308,8 +305,9 @@ const CarTyres& TyresOf(const CarModel& car, const std::string& needed_by) {
   if (!tyres) {
     throw InputError(Problem{
         .file = car.file(),
-        .message = fmt::format("the car {} has no tyre coefficients; {} needs them in <custom>: {}",
-                               car.params().name, needed_by, kNeededCoefficients)});
+        .message =
+            fmt::format("the model {} has no tyre coefficients; {} needs them in <custom>: {}",
+                        car.params().name, needed_by, kNeededCoefficients)});
   }
   return *tyres;
 }

@@ -94,11 +94,11 @@ void MagicFormulaTyres::CheckTimestep(const CarModel& car, double weight) const 
   }
   const double longest = std::sqrt(2.0) / fastest;
   if (timestep_ > longest) {
-    throw InputError(Problem{
-        .key = "drive.timestep",
-        .message = fmt::format("{:.4g} s is too long for the tyres of {}: their wheels' spin would "
-                               "not be stable; at most {:.4g} s",
-                               timestep_, car.file(), longest)});
+    throw InputError(
+        Problem{.key = "drive.timestep",
+                .message = fmt::format("{:.4g} s is too long for the tyres of {}: wheel spin would "
+                                       "be unstable; must be at most {:.4g} s",
+                                       timestep_, car.file(), longest)});
   }
 }
 

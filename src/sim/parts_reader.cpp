@@ -67,9 +67,9 @@ std::string PartsReader::Text(const mjtNum* v) {
 
 void PartsReader::ReadChassis(int free_joint) {
   if (const int body = m_.jnt_bodyid[free_joint]; body != chassis_.chassis) {
-    Complain("chassis", fmt::format("the free joint is that of the body {}; it must be that of "
-                                    "the body 'chassis'",
-                                    NameOf(mjOBJ_BODY, body)));
+    Complain("chassis",
+             fmt::format("the free joint is in the body {}; must be in the body 'chassis'",
+                         NameOf(mjOBJ_BODY, body)));
   }
   params_.name = m_.names;  // the model's own name comes first
   chassis_.chassis_qpos = m_.jnt_qposadr[free_joint];
@@ -116,7 +116,7 @@ void PartsReader::ReadOutline(int site) {
   const mjtNum* middle = m_.site_pos + 3 * site;
   const mjtNum* turn = m_.site_quat + 4 * site;
   if (std::abs(middle[1]) > kExact || !(std::abs(turn[0]) > 1.0 - kExact)) {
-    Complain("outline", "must be centered on y = 0 and not turned");
+    Complain("outline", "must be centered on y = 0 and not rotated");
   }
   params_.length = 2.0 * half[0];
   params_.width = 2.0 * half[1];
@@ -140,9 +140,8 @@ double PartsReader::Place(int body, std::size_t axis) const {
 void PartsReader::CheckOrigin(const char* axle, const char* wheels, int left, int right) {
   if (std::abs(Place(left, 0)) > kExact || std::abs(Place(right, 0)) > kExact) {
     const double ahead = 0.5 * (Place(left, 0) + Place(right, 0));
-    Complain("chassis",
-             fmt::format("the body's origin must lie under {}; {} are {:.4g} m {} it", axle, wheels,
-                         std::abs(ahead), ahead < 0.0 ? "behind" : "ahead of"));
+    Complain("chassis", fmt::format("the body origin must be under {}; {} are {:.4g} m {} it", axle,
+                                    wheels, std::abs(ahead), ahead < 0.0 ? "behind" : "ahead of"));
   }
 }
 
@@ -151,25 +150,23 @@ void PartsReader::CheckWheel(const std::string& wheel, int spin, int tyre, int f
   const mjtNum* axis = m_.jnt_axis + 3 * spin;
   const mjtNum* axis_W = data_->xaxis + 3 * spin;
   if (!(axis[1] > 1.0 - kExact)) {
-    Complain("spin_" + wheel, fmt::format("a wheel spins about its body's y axis, so that "
-                                          "positive rolls forwards: axis must be 0 1 0, found {}",
-                                          Text(axis)));
-  } else if (!(axis_W[1] > kUpright)) {
     Complain(
         "spin_" + wheel,
-        fmt::format("its axis must point to the car's left; it points along {}", Text(axis_W)));
+        fmt::format("axis must be 0 1 0 (positive rotation rolls forward), found {}", Text(axis)));
+  } else if (!(axis_W[1] > kUpright)) {
+    Complain("spin_" + wheel,
+             fmt::format("axis must point to the vehicle's left, found {}", Text(axis_W)));
   }
   const int turned = m_.jnt_bodyid[spin];
   if (const int body = m_.geom_bodyid[tyre]; body != turned) {
-    Complain("tyre_" + wheel,
-             fmt::format("must be on the body that spin_{} turns, {}; it is on {}", wheel,
-                         NameOf(mjOBJ_BODY, turned), NameOf(mjOBJ_BODY, body)));
+    Complain("tyre_" + wheel, fmt::format("must be in the body of spin_{}, {}; found in {}", wheel,
+                                          NameOf(mjOBJ_BODY, turned), NameOf(mjOBJ_BODY, body)));
   }
   const double radius = m_.geom_size[3 * tyre];
   const double wanted = m_.geom_size[3 * first];
   if (!(std::abs(radius - wanted) <= kExact * wanted)) {
     Complain("tyre_" + wheel,
-             fmt::format("its radius is {:.6g} m and that of {} {:.6g} m; {} must be equal", radius,
+             fmt::format("radius {:.6g} m differs from {}, {:.6g} m; {} must be equal", radius,
                          mj_id2name(&m_, mjOBJ_GEOM, first), wanted, all));
   }
 }

@@ -138,11 +138,11 @@ Scene WithPayload(const CarModel& car, const Payload& payload) {
   const CarModel laden(scene, car.file());
   Settling settling(laden);
   if (!settling.Run() || !settling.OnAllWheels()) {
-    throw InputError(Problem{
-        .file = car.file(),
-        .message = fmt::format("{} does not come to rest on its four wheels with a payload of "
-                               "{:.4g} kg at x {:.4g} m, y {:.4g} m",
-                               car.params().name, mass, payload.x, payload.y)});
+    throw InputError(
+        Problem{.file = car.file(),
+                .message = fmt::format("{} does not come to rest on four wheels with a payload of "
+                                       "{:.4g} kg at x = {:.4g} m, y = {:.4g} m",
+                                       car.params().name, mass, payload.x, payload.y)});
   }
   XMLElement* key = root.InsertNewChildElement("keyframe")->InsertNewChildElement("key");
   key->SetAttribute("name", kLadenKeyframe);

@@ -26,13 +26,13 @@ Registry<PlantEntry>& Table() {
   static Registry<PlantEntry> table(
       "plant",
       {
-          {"kinematic", "single-track kinematics behind the rate-limited steering", MakeKinematic},
-          {"single_track", "linear single-track dynamics with the tyres' cornering stiffness",
+          {"kinematic", "kinematic single-track model with rate-limited steering", MakeKinematic},
+          {"single_track", "linear dynamic single-track model with the tyres' cornering stiffness",
            MakeSingleTrackPlant},
-          {"mujoco", "the MJCF car in MuJoCo, with the scenario's tyre law", MakeMujocoPlant},
-          {"mujoco:contact", "the same, held by the friction of its contacts",
+          {"mujoco", "MJCF model in MuJoCo, with the scenario's tyre model", MakeMujocoPlant},
+          {"mujoco:contact", "the same, with MuJoCo contact friction",
            MakeMujocoWith<TyreLaw::kContact>},
-          {"mujoco:magic_formula", "the same, held by tyres whose forces grow with slip",
+          {"mujoco:magic_formula", "the same, with slip-based Magic Formula tyres",
            MakeMujocoWith<TyreLaw::kMagicFormula>},
       });
   return table;

@@ -31,24 +31,24 @@ using tinyxml2::XMLElement;
 std::string PlainWords(const XMLDocument& document) {
   switch (document.ErrorID()) {
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
-      return "the element that begins here is not closed, or closed by another name";
+      return "element not closed, or closed by another name";
     case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
-      return "an attribute is not of the form name=\"value\", is given twice, or the file ends in "
-             "it";
+      return "attribute not of the form name=\"value\", given twice, or cut off by the end of the "
+             "file";
     case tinyxml2::XML_ERROR_PARSING_TEXT:
-      return "a text that no element follows";
+      return "text without a following element";
     case tinyxml2::XML_ERROR_PARSING_COMMENT:
-      return "a comment is not closed by -->";
+      return "comment not closed by -->";
     case tinyxml2::XML_ERROR_PARSING_CDATA:
-      return "a CDATA section is not closed by ]]>";
+      return "CDATA section not closed by ]]>";
     case tinyxml2::XML_ERROR_PARSING_DECLARATION:
-      return "a declaration <?...?> is not closed or not at the beginning";
+      return "declaration <?...?> not closed or not at the start";
     case tinyxml2::XML_ERROR_PARSING_UNKNOWN:
-      return "a declaration <!...> is not closed";
+      return "declaration <!...> not closed";
     case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
       return "elements are nested too deeply";
     default:
-      return "an element is not of the form <name attribute=\"value\">";
+      return "element not of the form <name attribute=\"value\">";
   }
 }
 
@@ -59,7 +59,7 @@ void Load(const fs::path& file, XMLDocument& document) {
   const std::string text = ReadFile(file);
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     if (document.ErrorID() == tinyxml2::XML_ERROR_EMPTY_DOCUMENT) {
-      Fail(file, 0, "the file is empty; a model is a <mujoco>");
+      Fail(file, 0, "the file is empty; expected a <mujoco> element");
     }
     // Where the text is cut off, the line after its last one is named.
     const auto lines = std::count(text.begin(), text.end(), '\n') + (text.ends_with('\n') ? 0 : 1);
@@ -84,7 +84,7 @@ void ResolveIncludes(XMLElement& parent, const fs::path& file, const fs::path& f
       }
       const fs::path other = folder / name;
       if (!included.insert(fs::weakly_canonical(other)).second) {
-        Fail(file, child->GetLineNum(), fmt::format("{} is included a second time", name));
+        Fail(file, child->GetLineNum(), fmt::format("{} is included twice", name));
       }
       XMLDocument document;
       Load(other, document);
@@ -145,7 +145,7 @@ void GatherAssets(XMLElement& root, const fs::path& file, const fs::path& folder
         const fs::path source = from / value;
         if (!fs::is_regular_file(source)) {
           Fail(file, asset->GetLineNum(),
-               fmt::format("<{}> refers to {}, which is no file", kind, source.string()));
+               fmt::format("<{}> refers to {}, which does not exist", kind, source.string()));
         }
         // A number in front keeps equal file names from different folders apart.
         const std::string name =
@@ -237,7 +237,7 @@ Scene ComposeScene(const fs::path& car_file, const SceneOptions& options) {
   XMLElement& root = *document.RootElement();
   if (std::string_view(root.Name()) != "mujoco") {
     Fail(car_file, root.GetLineNum(),
-         fmt::format("the root element is <{}>; a model is a <mujoco>", root.Name()));
+         fmt::format("root element is <{}>; must be <mujoco>", root.Name()));
   }
   const fs::path folder = car_file.parent_path();
   std::set<fs::path> included{fs::weakly_canonical(car_file)};

@@ -52,7 +52,7 @@ void CheckTyre(const Numerics& numerics, const MagicFormula& tyre, const char* a
   need(tyre.p_cy1 > 0.0, "p_cy1", "above 0", tyre.p_cy1);
   need(tyre.p_dy1 > 0.0, "p_dy1", "above 0", tyre.p_dy1);
   need(tyre.p_ky1 < 0.0, "p_ky1",
-       "below 0: a positive slip angle, with the tyre moving to the left, makes a force to the "
+       "below 0: a positive slip angle, with the tyre moving to the left, gives a force to the "
        "right",
        tyre.p_ky1);
   need(tyre.p_ey1 <= 1.0, "p_ey1", "at most 1", tyre.p_ey1);
@@ -73,7 +73,7 @@ bool Numerics::Has(const std::string& name) const {
 const double* Numerics::Find(const std::string& name, int count) const {
   const int id = mj_name2id(&model_, mjOBJ_NUMERIC, name.c_str());
   if (id >= 0 && model_.numeric_size[id] != count) {
-    Tell(name, fmt::format("has {} numbers and needs {}", model_.numeric_size[id], count));
+    Tell(name, fmt::format("has {} numbers; must have {}", model_.numeric_size[id], count));
     return nullptr;
   }
   return id < 0 ? nullptr : model_.numeric_data + model_.numeric_adr[id];

@@ -74,8 +74,8 @@ class WheelPairReader final : private PartsReader {
     params_.wheelbase = params_.track_rear;
     CheckOrigin("the axle of the driven wheels", "they", parts_.wheel[0], parts_.wheel[1]);
     if (!(left > 0.0 && std::abs(left + right) <= kExact)) {
-      Complain("chassis", fmt::format("the driven wheels must stand as far to the left, y pointing "
-                                      "left, as to the right; they are at y = {:.4g} and {:.4g} m",
+      Complain("chassis", fmt::format("the driven wheels must be at equal distances left and right "
+                                      "of y = 0; found y = {:.4g} and {:.4g} m",
                                       left, right));
     }
   }
@@ -86,7 +86,7 @@ class WheelPairReader final : private PartsReader {
     const bool readable = left.gain > 0.0 && right.gain > 0.0;
     if (readable &&
         (left.gain != right.gain || left.torque != right.torque || left.speed != right.speed)) {
-      Complain("drive_right", "must have the kv, ctrlrange and forcerange of drive_left");
+      Complain("drive_right", "kv, ctrlrange and forcerange must equal those of drive_left");
     }
     parts_.wheel_speed = left.speed;
     parts_.servo_slack = left.torque / left.gain;
@@ -109,17 +109,17 @@ class WheelPairReader final : private PartsReader {
                              bias[2] == -gain && m_.actuator_gear[6 * a] == 1.0;
     if (!limited || !is_velocity) {
       Complain(name,
-               "must be a <velocity> of gear 1 with ctrllimited and forcelimited: its ctrlrange is "
-               "the largest speed of the wheel, its forcerange the largest torque");
+               "must be a <velocity> of gear 1 with ctrllimited and forcelimited: ctrlrange is the "
+               "maximum wheel speed, forcerange the maximum torque");
       return {};
     }
-    CheckSymmetric(name, "ctrlrange", "the largest speed of the wheel [rad/s]", speed);
-    CheckSymmetric(name, "forcerange", "the largest torque [N m]", torque);
+    CheckSymmetric(name, "ctrlrange", "maximum wheel speed [rad/s]", speed);
+    CheckSymmetric(name, "forcerange", "maximum torque [N m]", torque);
     if (!(torque[1] / gain < speed[1])) {
-      Complain(name, fmt::format("kv {:.4g} is too small: forcerange/kv, the difference of speed "
-                                 "that takes all the torque, is {:.4g} rad/s and must be below the "
-                                 "ctrlrange of {:.4g} rad/s",
-                                 gain, torque[1] / gain, speed[1]));
+      Complain(name,
+               fmt::format("kv {:.4g} is too small: forcerange/kv, the speed error at maximum "
+                           "torque, is {:.4g} rad/s; must be below the ctrlrange of {:.4g} rad/s",
+                           gain, torque[1] / gain, speed[1]));
     }
     return {gain, torque[1], speed[1]};
   }
@@ -127,19 +127,18 @@ class WheelPairReader final : private PartsReader {
   void CheckSymmetric(const std::string& name, const char* attribute, const char* meaning,
                       const mjtNum* range) {
     if (!(range[1] > 0.0 && std::abs(range[0] + range[1]) <= kExact * range[1])) {
-      Complain(name, fmt::format("{} {:.4g} {:.4g} is {} backwards and forwards, which must be "
-                                 "equal and above 0",
-                                 attribute, range[0], range[1], meaning));
+      Complain(name,
+               fmt::format("{} {:.4g} {:.4g}: {} must be equal in both directions and above 0",
+                           attribute, range[0], range[1], meaning));
     }
   }
 
   void ReadLimits() {
     // At half the track the inner wheel stands still.
     if (!(turning_radius_ >= 0.5 * params_.track_rear)) {
-      Complain("turning_radius",
-               fmt::format("must be at least half the track, {:.4g} m, or the inner wheel would "
-                           "turn backwards; found {:.4g}",
-                           0.5 * params_.track_rear, turning_radius_));
+      Complain("turning_radius", fmt::format("must be at least half the track, {:.4g} m, so that "
+                                             "the inner wheel does not reverse; found {:.4g}",
+                                             0.5 * params_.track_rear, turning_radius_));
     }
     params_.steering_limit = std::atan(params_.wheelbase / turning_radius_);
     CheckAboveZero("steering_rate", params_.steering_rate);

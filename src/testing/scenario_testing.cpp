@@ -25,7 +25,7 @@ class RunMatcher {
   bool MatchAndExplain(const RunResult& run, std::ostream* out) const {
     std::vector<std::string> failures;
     if (!run.plan.ok()) {
-      failures.push_back(fmt::format("there is no plan: {}", run.plan.reason));
+      failures.push_back(fmt::format("no plan: {}", run.plan.reason));
     } else {
       failures = failures_(run);
     }
@@ -51,11 +51,11 @@ Failures ForEveryPlant(std::function<std::string(const PlantMetrics&)> check) {
     std::vector<std::string> failures;
     for (const PlantMetrics& metrics : run.metrics) {
       if (std::string failure = check(metrics); !failure.empty()) {
-        failures.push_back(metrics.plant + " " + failure);
+        failures.push_back(metrics.plant + ": " + failure);
       }
     }
     if (run.metrics.empty()) {
-      failures.emplace_back("no plant was driven");
+      failures.emplace_back("no plant was run");
     }
     return failures;
   };
@@ -85,8 +85,8 @@ class PartsAtMostMatcher {
     return failures.empty();
   }
 
-  void DescribeTo(std::ostream* out) const { *out << "part at most " << Bounds(); }
-  void DescribeNegationTo(std::ostream* out) const { *out << "part more than " << Bounds(); }
+  void DescribeTo(std::ostream* out) const { *out << "differ by at most " << Bounds(); }
+  void DescribeNegationTo(std::ostream* out) const { *out << "differ by more than " << Bounds(); }
 
  private:
   [[nodiscard]] std::string Bounds() const {
@@ -111,7 +111,7 @@ const RunLog& LogOf(const RunResult& run, const std::string& plant) {
     driven.push_back(log.plant);
   }
   throw InputError(
-      Problem{.message = fmt::format("the run {} did not drive {}; driven: {}", run.scenario.name,
+      Problem{.message = fmt::format("the run {} has no plant {}; it has: {}", run.scenario.name,
                                      plant, fmt::join(driven, ", "))});
 }
 
@@ -130,8 +130,8 @@ PlantComparison Compare(const RunResult& first, const RunResult& second, const s
 
 void PrintTo(const PlantComparison& comparison, std::ostream* out) {
   *out << fmt::format(
-      "{} and {} from {:.4g} m to {:.4g} m: position {:.4g} m, heading {:.4g} rad, yaw rate {:.4g} "
-      "rad/s, steering {:.4g} rad at most",
+      "{} and {} from {:.4g} m to {:.4g} m: maximum difference in position {:.4g} m, heading "
+      "{:.4g} rad, yaw rate {:.4g} rad/s, steering {:.4g} rad",
       comparison.first, comparison.second, comparison.from_s, comparison.to_s,
       comparison.position.max, comparison.heading.max, comparison.yaw_rate.max,
       comparison.steering.max);
@@ -159,50 +159,51 @@ void PrintTo(const RunResult& run, std::ostream* out) {
     *out << fmt::format("{}{} {} at {:.4g} s", &metrics == &run.metrics.front() ? "" : ", ",
                         metrics.plant, ToString(metrics.status), metrics.time);
   }
-  *out << (!run.verdict.judged  ? "; its scenario expects nothing"
-           : run.verdict.passed ? "; met its expectations"
-                                : "; failed its expectations");
+  *out << (!run.verdict.judged  ? "; the scenario has no expectations"
+           : run.verdict.passed ? "; expectations met"
+                                : "; expectations not met");
 }
 
 testing::Matcher<const RunResult&> TracksWithin(double limit) {
   return RunMatcher(fmt::format("tracks its path within {} m", limit),
                     ForEveryPlant([limit](const PlantMetrics& metrics) -> std::string {
                       if (!metrics.tracking) {
-                        return "has no path to track";
+                        return "there is no path to track";
                       }
                       return FailureOf(metrics, "cross_track.max", Relation::kAtMost, limit,
-                                       "was {:.4g} m off at s = {:.4g} m, t = {:.4g} s");
+                                       "cross-track error {:.4g} m at s = {:.4g} m, t = {:.4g} s");
                     }));
 }
 
 testing::Matcher<const RunResult&> StaysWithin(const std::string& first, const std::string& second,
                                                double limit) {
-  return RunMatcher(fmt::format("keeps {} and {} within {} m of each other", first, second, limit),
-                    [=](const RunResult& run) -> std::vector<std::string> {
-                      for (const PlantComparison& c : run.comparisons) {
-                        if ((c.first == first && c.second == second) ||
-                            (c.first == second && c.second == first)) {
-                          const Check check = CheckBounds({.position_max = limit}, c).front();
-                          return check.met ? std::vector<std::string>{}
-                                 : check.reason == CheckReason::kComparable
-                                     ? std::vector{check.detail}
-                                     : std::vector{fmt::format(
-                                           "they were {:.4g} m apart at s = {:.4g} m, t = {:.4g} s",
-                                           std::get<double>(check.value), check.at.s, check.at.t)};
-                        }
-                      }
-                      return {fmt::format("the run did not drive both {} and {}", first, second)};
-                    });
+  return RunMatcher(
+      fmt::format("keeps {} and {} within {} m of each other", first, second, limit),
+      [=](const RunResult& run) -> std::vector<std::string> {
+        for (const PlantComparison& c : run.comparisons) {
+          if ((c.first == first && c.second == second) ||
+              (c.first == second && c.second == first)) {
+            const Check check = CheckBounds({.position_max = limit}, c).front();
+            return check.met ? std::vector<std::string>{}
+                   : check.reason == CheckReason::kComparable
+                       ? std::vector{check.detail}
+                       : std::vector{fmt::format(
+                             "position difference {:.4g} m at s = {:.4g} m, t = {:.4g} s",
+                             std::get<double>(check.value), check.at.s, check.at.t)};
+          }
+        }
+        return {fmt::format("the run does not have both {} and {}", first, second)};
+      });
 }
 
 testing::Matcher<const RunResult&> KeepsClearOf(double distance) {
-  return RunMatcher(fmt::format("keeps {} m clear of obstacles", distance),
+  return RunMatcher(fmt::format("keeps a clearance of {} m from obstacles", distance),
                     ForEveryPlant([distance](const PlantMetrics& metrics) -> std::string {
                       if (!metrics.clearance) {
-                        return "has no obstacles to keep clear of";
+                        return "there are no obstacles";
                       }
                       return FailureOf(metrics, "clearance_min", Relation::kAtLeast, distance,
-                                       "was {:.4g} m away at s = {:.4g} m, t = {:.4g} s");
+                                       "clearance {:.4g} m at s = {:.4g} m, t = {:.4g} s");
                     }));
 }
 
@@ -210,22 +211,23 @@ testing::Matcher<const RunResult&> ReachesGoal(double distance) {
   return RunMatcher(fmt::format("reaches its goal within {} m", distance),
                     ForEveryPlant([distance](const PlantMetrics& metrics) -> std::string {
                       if (!metrics.tracking) {
-                        return "has no goal";
+                        return "there is no goal";
                       }
                       if (!CheckMetric(metrics, "status", Relation::kEquals, "arrived").met) {
-                        return fmt::format("ended as {} {:.4g} m from it, t = {:.4g} s",
-                                           ToString(metrics.status),
-                                           metrics.tracking->goal_distance, metrics.time);
+                        return fmt::format(
+                            "did not reach the goal: {}, {:.4g} m from it, t = {:.4g} s",
+                            ToString(metrics.status), metrics.tracking->goal_distance,
+                            metrics.time);
                       }
                       return FailureOf(metrics, "goal_distance", Relation::kAtMost, distance,
-                                       "stopped {0:.4g} m from it, t = {2:.4g} s");
+                                       "stopped {0:.4g} m from the goal, t = {2:.4g} s");
                     }));
 }
 
 testing::Matcher<const RunResult&> MeetsItsExpectations() {
   return RunMatcher("meets its scenario's expectations", [](const RunResult& run) {
     return run.verdict.judged ? run.verdict.failures
-                              : std::vector<std::string>{"its scenario expects nothing"};
+                              : std::vector<std::string>{"the scenario has no expectations"};
   });
 }
 

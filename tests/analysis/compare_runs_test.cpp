@@ -70,8 +70,8 @@ TEST(CompareRun, ComparesEveryPairAsTheScenarioExpects) {
   EXPECT_FALSE(result.verdict.passed);
   EXPECT_THAT(result.verdict.failures,
               ElementsAre(testing::MatchesRegex(
-                  "kinematic and single_track: yaw rate difference expected at most 1e-06 rad/s, "
-                  "was 0\\.[0-9]+ rad/s at s = [0-9.]+ m, t = [0-9.]+ s")));
+                  "kinematic and single_track: yaw rate difference 0\\.[0-9]+ rad/s exceeds 1e-06 "
+                  "rad/s at s = [0-9.]+ m, t = [0-9.]+ s")));
   EXPECT_EQ(result.pairs[0].differences.rows() > 50, true);
 }
 
@@ -105,13 +105,13 @@ TEST(CompareRun, FailsDrivesThatDoNotEndAsExpected) {
   EXPECT_FALSE(run.verdict.passed);
   EXPECT_TRUE(CompareRun(run, {}).verdict.passed);  // of the rest only how they ended
   run.metrics[1].status = DriveStatus::kDiverged;
-  EXPECT_THAT(CompareRun(run, {}).verdict.failures,
-              ElementsAre(testing::StartsWith("single_track: expected to arrive, ended as "
-                                              "diverged")));
+  EXPECT_THAT(
+      CompareRun(run, {}).verdict.failures,
+      ElementsAre(testing::StartsWith("single_track: did not reach the goal: diverged at ")));
   run.scenario.expect.all.metrics = {{.metric = "status", .equals = "diverged"}};
   EXPECT_THAT(CompareRun(run, {}).verdict.failures,
-              ElementsAre(testing::StartsWith("kinematic: status expected to be diverged, was "
-                                              "arrived at the end, s = ")));
+              ElementsAre(testing::StartsWith("kinematic: status is arrived instead of diverged "
+                                              "at the end, s = ")));
 }
 
 TEST(CompareRun, FailsWithoutAPlan) {
@@ -135,13 +135,11 @@ TEST(CompareFolders, OfOneRunComparesItsPlants) {
   EXPECT_THAT(Names(CompareFolders({run}, {"single_track", "mujoco"}, {})),
               ElementsAre("single_track - mujoco"));
   EXPECT_EQ(Complaint([&] { CompareFolders({run}, {"mujoco"}, {}); }),
-            run.string() +
-                ": nothing to compare mujoco with; a run with two plants is needed, or "
-                "a second run");
+            run.string() + ": only mujoco; comparing needs two plants or a second run");
   EXPECT_EQ(Complaint([&] {
               CompareFolders({run}, {"mujoco", "car"}, {});
             }),
-            run.string() + ": the run did not drive car; driven: kinematic, mujoco, single_track");
+            run.string() + ": the run has no plant car; it has: kinematic, mujoco, single_track");
 }
 
 TEST(CompareFolders, OfTwoRunsComparesThePlantsThatBothHave) {
@@ -153,15 +151,14 @@ TEST(CompareFolders, OfTwoRunsComparesThePlantsThatBothHave) {
   EXPECT_EQ(result.pairs[0].comparison.position.max, 0.25);
   EXPECT_THAT(result.verdict.failures,
               ElementsAre(a.string() + "/mujoco and " + b.string() +
-                          "/mujoco: position difference expected at most 0.2 m, was 0.25 m at s = "
-                          "0 m, t = 0 s"));
+                          "/mujoco: position difference 0.25 m exceeds 0.2 m at s = 0 m, t = 0 s"));
   EXPECT_TRUE(CompareFolders({a, b}, {}, DifferenceBounds{.position_max = 0.25}).verdict.passed);
   EXPECT_THAT(Names(CompareFolders({a, b}, {"kinematic", "single_track"}, {})),
               ElementsAre(a.string() + "/kinematic - " + b.string() + "/single_track"));
   EXPECT_EQ(Complaint([&] {
               CompareFolders({a, b}, {"kinematic"}, {});
             }),
-            b.string() + ": the run did not drive kinematic; driven: mujoco, single_track");
+            b.string() + ": the run has no plant kinematic; it has: mujoco, single_track");
   const fs::path c = Line(folder, "c", 0.0, {{"kinematic", "arrived"}});
   EXPECT_EQ(Complaint([&] {
               CompareFolders({b, c}, {}, {});
@@ -178,9 +175,9 @@ TEST(CompareFolders, OfOneRunIsJudgedByWhatItsScenarioExpects) {
                "10\n");
   folder.Write("r/scenario.resolved.yaml",
                "schema: 1\nexpect: {between: [{plants: [mujoco, kinematic], position_max: 1}]}\n");
-  EXPECT_THAT(CompareFolders({run}, {}, {}).verdict.failures,
-              ElementsAre("kinematic and mujoco: position difference expected at most 1 m, was 2 m "
-                          "at s = 0 m, t = 0 s"));
+  EXPECT_THAT(
+      CompareFolders({run}, {}, {}).verdict.failures,
+      ElementsAre("kinematic and mujoco: position difference 2 m exceeds 1 m at s = 0 m, t = 0 s"));
   EXPECT_TRUE(CompareFolders({run}, {}, DifferenceBounds{.position_max = 3}).verdict.passed);
   // Two runs were not expected to do anything alike.
   EXPECT_FALSE(CompareFolders({run, run}, {}, {}).judged());
@@ -205,10 +202,12 @@ TEST(CompareFolders, NotesThatTheRunsHadDifferentPlans) {
   WritePlanAt(folder, "b", 1e-9, 3.0);
   EXPECT_THAT(notes(), IsEmpty());  // rounding
   WritePlanAt(folder, "b", 0.0, 4.0);
-  EXPECT_THAT(notes(), ElementsAre("the runs planned one path at different speeds"));
+  EXPECT_THAT(notes(), ElementsAre("the runs follow the same path at different speeds"));
   WritePlanAt(folder, "b", 2.0, 3.0);
-  EXPECT_THAT(notes(), ElementsAre("the runs planned different paths, 10 m and 10 m long and up to "
-                                   "2 m apart at s = 0 m"));
+  EXPECT_THAT(
+      notes(),
+      ElementsAre(
+          "the runs follow different paths, 10 m and 10 m long, up to 2 m apart at s = 0 m"));
 }
 
 TEST(CompareFolders, RefusesPlantsListedTwiceAndRunsThatDidNotDrive) {
@@ -224,13 +223,13 @@ TEST(CompareFolders, RefusesPlantsListedTwiceAndRunsThatDidNotDrive) {
   EXPECT_THAT(Names(CompareFolders({run, run}, {"mujoco", "mujoco"}, {})), testing::SizeIs(1));
   folder.Write("none/metrics.json", R"({"complete": true, "plants": {}})");
   EXPECT_EQ(told({folder.path() / "none"}, {}),
-            (folder.path() / "none").string() + ": the run did not drive; it had no plan");
+            (folder.path() / "none").string() + ": the run has no logs: it had no plan");
 }
 
 TEST(CompareFolders, OfDrivesThatEndedDifferentlyKeepsNoTolerance) {
   const TempFolder folder;
   const fs::path run = Line(folder, "r", 0.0, {{"kinematic", "arrived"}, {"mujoco", "collided"}});
-  const char* const ends = "kinematic ended as arrived, mujoco as collided";
+  const char* const ends = "end status differs: kinematic arrived, mujoco collided";
   const RunComparison shown = CompareFolders({run}, {}, {});
   EXPECT_TRUE(shown.verdict.passed);
   EXPECT_THAT(shown.verdict.notes, ElementsAre(ends));
@@ -258,7 +257,8 @@ TEST(ParseTolerances, RefusesEverythingElse) {
               ParseTolerances({"position=0.1", "heading=1", "position=0.2"});
             }),
             "--tolerance: position: given twice");
-  EXPECT_EQ(told("position"), "--tolerance: 'position' is not of the form position=0.1");
+  EXPECT_EQ(told("position"),
+            "--tolerance: expected NAME=VALUE such as position=0.1, found 'position'");
   for (const char* value : {"", "-1", "nan", "inf", "1m", "1,5", "1e999"}) {
     EXPECT_EQ(
         told(std::string("heading=") + value),

@@ -124,9 +124,9 @@ TEST(CompareTraces, ComparesOnlyWhatBothHaveDriven) {
   for (const Trace& other : {Line("b", {31, 40}, 0.0), Line("b", {3}, 0.0), Line("b", {}, 0.0)}) {
     const PlantComparison nothing = CompareTraces(Line("a", {0, 4, 30}, 0.0), other);
     EXPECT_FALSE(nothing.comparable());
-    EXPECT_THAT(Exceeded({.position_max = 1.0}, nothing),
-                testing::ElementsAre("a and b: expected to be compared, but they have no stretch "
-                                     "in common"));
+    EXPECT_THAT(
+        Exceeded({.position_max = 1.0}, nothing),
+        testing::ElementsAre("a and b: cannot be compared: their station ranges do not overlap"));
   }
 }
 
@@ -169,23 +169,20 @@ TEST(Exceeded, SaysWhatWasExpectedWhatWasWhereAndWhen) {
                           .steering = apart(1.0)};
   EXPECT_THAT(Exceeded({0.5, 0.25, 0.75, 1.0}, c), testing::IsEmpty());
   EXPECT_THAT(Exceeded({}, c), testing::IsEmpty());
-  EXPECT_THAT(
-      Exceeded({0.4, 0.2, 0.7, 0.9}, c),
-      testing::ElementsAre(
-          "a and b: position difference expected at most 0.4 m, was 0.5 m at s = 10 m, t = 4 s",
-          "a and b: heading difference expected at most 0.2 rad, was 0.25 rad at s = 5 m, t = 2 s",
-          "a and b: yaw rate difference expected at most 0.7 rad/s, was 0.75 rad/s at s = 15 m, t "
-          "= 6 s",
-          "a and b: steering difference expected at most 0.9 rad, was 1 rad at s = 20 m, t = 8 "
-          "s"));
+  EXPECT_THAT(Exceeded({0.4, 0.2, 0.7, 0.9}, c),
+              testing::ElementsAre(
+                  "a and b: position difference 0.5 m exceeds 0.4 m at s = 10 m, t = 4 s",
+                  "a and b: heading difference 0.25 rad exceeds 0.2 rad at s = 5 m, t = 2 s",
+                  "a and b: yaw rate difference 0.75 rad/s exceeds 0.7 rad/s at s = 15 m, t = 6 s",
+                  "a and b: steering difference 1 rad exceeds 0.9 rad at s = 20 m, t = 8 s"));
 }
 
 TEST(Exceeded, TellsApartWhatFourDigitsDoNot) {
   const PlantComparison c{
       .first = "a", .second = "b", .from_s = 0, .to_s = 1, .position = {.max = 0.0370349}};
   EXPECT_THAT(Exceeded({.position_max = 0.03703}, c),
-              testing::ElementsAre("a and b: position difference expected at most 0.03703 m, was "
-                                   "0.037035 m at s = 0 m, t = 0 s"));
+              testing::ElementsAre(
+                  "a and b: position difference 0.037035 m exceeds 0.03703 m at s = 0 m, t = 0 s"));
 }
 
 TEST(TraceOf, LeavesOutWhereTheCarDoesNotGetOn) {
@@ -241,7 +238,7 @@ std::string Complaint(const std::filesystem::path& folder) {
 TEST(ReadRunFolder, RefusesWhatIsNoRun) {
   const TempFolder folder;
   EXPECT_EQ(Complaint(folder.path()),
-            folder.path().string() + ": the folder of no finished run (it has no metrics.json)");
+            folder.path().string() + ": not the folder of a finished run (no metrics.json)");
   const auto file = folder.Write("metrics.json", "{\"plants\": {\"kinematic\": ");
   EXPECT_EQ(Complaint(folder.path()), file.string() + ": not the metrics of a run");
   folder.Write("metrics.json", R"({"plants": {"kinematic": {"status": "arrived"}}})");
@@ -251,8 +248,7 @@ TEST(ReadRunFolder, RefusesWhatIsNoRun) {
   for (const auto& [rows, count] : {std::pair("", 0), std::pair("0,0,0,0,0,0,0\n", 1)}) {
     folder.Write("kinematic.csv", header + rows);
     EXPECT_EQ(Complaint(folder.path()),
-              fmt::format("{}: the log of a drive needs at least two rows, and has {}",
-                          log.string(), count));
+              fmt::format("{}: a log needs at least two rows; found {}", log.string(), count));
   }
   folder.Write("metrics.json", R"({"plants": []})");
   EXPECT_EQ(Complaint(folder.path()), file.string() + ": not the metrics of a run");
@@ -260,9 +256,8 @@ TEST(ReadRunFolder, RefusesWhatIsNoRun) {
   EXPECT_EQ(Complaint(folder.path()),
             file.string() + ": plants: unknown '../kinematic'; did you mean 'kinematic'?");
   folder.Write("metrics.json", R"({"complete": false, "plants": {}})");
-  EXPECT_EQ(Complaint(folder.path()), folder.path().string() +
-                                          ": the run was interrupted; it has no whole drives to "
-                                          "compare");
+  EXPECT_EQ(Complaint(folder.path()),
+            folder.path().string() + ": the run was interrupted; its logs are incomplete");
 }
 
 }  // namespace

@@ -187,7 +187,7 @@ TEST(StepSteer, OfSecondOrder) {
 
 TEST(StepSteer, WithoutAStepSaysSo) {
   EXPECT_EQ(Evaluated(StepSteerOptions{}, Log(3.0, [](double, LogRow&) {})).missing,
-            "the steering does not change");
+            "the steering angle does not change");
 }
 
 /// To the left from 1 s on at 0.5 rad/s, to the right at 1.2 s, back at zero at 2.4 s. The yaw rate
@@ -234,7 +234,7 @@ TEST(SineWithDwell, FailsWhatTurnsOnOrHardlyMoves) {
   const ManoeuvreMetrics cut =
       Evaluated(SineWithDwellTestOptions{}, SineWithDwellLog(1.0, 0.5, 4.0, 4.0));
   EXPECT_EQ(cut.passed, false);
-  EXPECT_EQ(cut.missing, "the drive ends before 1.75 s after the completion of steering");
+  EXPECT_EQ(cut.missing, "the run ends less than 1.75 s after the completion of steering");
 }
 
 TEST(EveryManoeuvre, FailsACarThatTurnsOver) {
@@ -246,7 +246,7 @@ TEST(EveryManoeuvre, FailsACarThatTurnsOver) {
     const ManoeuvreMetrics metrics = Evaluated(entry.defaults, log);
     EXPECT_EQ(metrics.method, entry.name);
     EXPECT_EQ(metrics.passed, false) << entry.name;
-    EXPECT_THAT(metrics.missing, testing::EndsWith("the car turns over at 2.00 s"));
+    EXPECT_THAT(metrics.missing, testing::EndsWith("the car rolls over at 2.00 s"));
   }
 }
 
@@ -290,7 +290,7 @@ TEST(LaneChange, FindsTheSmallestMarginAndItsGate) {
   EXPECT_NEAR(Of(hit, "margin"), -0.1, Tolerance(kRounding));
   const ManoeuvreMetrics cut = Through(gates, 0.0, 0.0, 3.0);
   EXPECT_EQ(cut.passed, false);
-  EXPECT_EQ(cut.missing, "the car does not get through the last gate");
+  EXPECT_EQ(cut.missing, "the car does not pass the last gate");
 }
 
 /// Brakes at 8 m/s^2 from 24 m/s at t = 1 s on a circle of `curvature`.
@@ -326,7 +326,7 @@ TEST(Braking, GivesDistanceAndMeanDeceleration) {
   const ManoeuvreMetrics slower = Evaluated(BrakingTestOptions{.to_speed = 12.0}, BrakingLog(0, 0));
   EXPECT_NEAR(Of(slower, "distance"), (24.0 * 24.0 - 12.0 * 12.0) / 16.0, Tolerance(3e-4));
   EXPECT_EQ(Evaluated(BrakingTestOptions{}, Log(3.0, [](double, LogRow&) {})).missing,
-            "the car is not braked");
+            "the car does not brake");
 }
 
 TEST(Disturbance, GivesDeparturesAndRecovery) {
@@ -349,7 +349,7 @@ TEST(Disturbance, GivesDeparturesAndRecovery) {
   EXPECT_NEAR(Of(metrics, "recovery_time"), kTau * std::log(10.0), Tolerance(kStep));
   const ManoeuvreMetrics lost = Evaluated(DisturbanceOptions{}, log(0.1));
   EXPECT_FALSE(lost.Find("recovery_time").has_value());
-  EXPECT_EQ(lost.missing, "the yaw rate does not come back to its bound");
+  EXPECT_EQ(lost.missing, "the yaw rate does not return below its bound");
 }
 
 // --- What a scenario asks of it ------------------------------------------------------------------
@@ -379,19 +379,17 @@ TEST(MetricExpectations, AreJudgedByTheirPath) {
   const std::string overshoot = "manoeuvre.yaw_rate_overshoot";
   const std::string when = " between t = 0 s and 1 s";
   EXPECT_THAT(Failures({overshoot, 0.2, 0.3, {}}), IsEmpty());
-  EXPECT_THAT(
-      Failures({overshoot, {}, 0.2, {}}),
-      ElementsAre("mujoco: manoeuvre.yaw_rate_overshoot expected at most 0.2, was 0.25" + when));
-  EXPECT_THAT(
-      Failures({overshoot, 0.3, {}, {}}),
-      ElementsAre("mujoco: manoeuvre.yaw_rate_overshoot expected at least 0.3, was 0.25" + when));
+  EXPECT_THAT(Failures({overshoot, {}, 0.2, {}}),
+              ElementsAre("mujoco: manoeuvre.yaw_rate_overshoot 0.25 exceeds 0.2" + when));
+  EXPECT_THAT(Failures({overshoot, 0.3, {}, {}}),
+              ElementsAre("mujoco: manoeuvre.yaw_rate_overshoot 0.25 is below 0.3" + when));
   EXPECT_THAT(Failures({overshoot, {}, {}, "0.25"}), IsEmpty());
   EXPECT_THAT(Failures({"manoeuvre.passed", {}, {}, "true"}), IsEmpty());
   EXPECT_THAT(Failures({"manoeuvre.passed", {}, {}, "false"}),
-              ElementsAre("mujoco: manoeuvre.passed expected to be false, was true" + when));
+              ElementsAre("mujoco: manoeuvre.passed is true instead of false" + when));
   EXPECT_THAT(Failures({"status", {}, {}, "arrived"}), IsEmpty());
   EXPECT_THAT(Failures({"status", 1.0, {}, {}}),
-              ElementsAre("mujoco: status expected to be a number, was \"arrived\""));
+              ElementsAre("mujoco: status is not a number: \"arrived\""));
   EXPECT_THAT(Failures({"manoeuvre.yaw_rate_overshot", 1.0, {}, {}}),
               ElementsAre("mujoco: no metric 'manoeuvre.yaw_rate_overshot'; did you mean "
                           "'manoeuvre.yaw_rate_overshoot'?"));

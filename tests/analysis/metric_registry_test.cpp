@@ -95,7 +95,7 @@ std::string Refused(MetricEntry entry) {
 
 TEST(RegisterMetric, RefusesWhatIsTakenOrMalformed) {
   EXPECT_EQ(Refused({.path = "cross_track.max", .label = "A", .measure = HalfWay}),
-            "metric 'cross_track.max': there is 'cross_track.max' already");
+            "metric 'cross_track.max': conflicts with the metric 'cross_track.max'");
   for (const char* taken :
        {"cross_track", "status.text", "clearance_min_s", "turns", "manoeuvre.x"}) {
     EXPECT_THAT(Refused({.path = taken, .label = "A", .measure = HalfWay}), HasSubstr("already"))
@@ -130,14 +130,14 @@ TEST(RegisterMetric, MakesAMetricLikeAnyOther) {
   const RunResult run = RunMission(scenario);
   // 1 s at 3 m/s.
   EXPECT_EQ(run.verdict.failures,
-            std::vector<std::string>{"kinematic: test_half_way expected at most 1 m, was 1.5 m at "
-                                     "s = 1.5 m, t = 0.5 s"});
+            std::vector<std::string>{
+                "kinematic: test_half_way 1.5 m exceeds 1 m at s = 1.5 m, t = 0.5 s"});
   const nlohmann::ordered_json plant = MetricsJson(run)["plants"]["kinematic"];
   EXPECT_EQ(plant["test_half_way_t"], 0.5);
   EXPECT_EQ(OutputsOf(run).at("metrics.kinematic.test_half_way_s"), "1.5");
   EXPECT_EQ(DescribeMetric("test_half_way")->label, "Half way");
   EXPECT_THAT(Refused({.path = "test_half_way", .label = "A", .measure = HalfWay}),
-              HasSubstr("there is 'test_half_way' already"));
+              HasSubstr("conflicts with the metric 'test_half_way'"));
 }
 
 }  // namespace

@@ -107,58 +107,52 @@ std::string FailureOf(const MetricExpectation& expect) {
 
 TEST(Judge, SaysOfAnyMetricWhatWasWhereAndWhen) {
   EXPECT_EQ(FailureOf({.metric = "lateral_acceleration_max", .max = 2.0}),
-            "mujoco: lateral_acceleration_max expected at most 2 m/s^2, was 3 m/s^2 at s = 12 m, t "
-            "= 4 s");
+            "mujoco: lateral_acceleration_max 3 m/s^2 exceeds 2 m/s^2 at s = 12 m, t = 4 s");
   EXPECT_EQ(FailureOf({.metric = "cross_track.max", .max = 0.1}),
-            "mujoco: cross_track.max expected at most 0.1 m, was 0.5 m at s = 6 m, t = 2 s");
+            "mujoco: cross_track.max 0.5 m exceeds 0.1 m at s = 6 m, t = 2 s");
   EXPECT_EQ(FailureOf({.metric = "clearance_min", .min = 1.0}),
-            "mujoco: clearance_min expected at least 1 m, was 0.25 m at s = 7 m, t = 2.5 s");
+            "mujoco: clearance_min 0.25 m is below 1 m at s = 7 m, t = 2.5 s");
   EXPECT_EQ(FailureOf({.metric = "manoeuvre.distance", .max = 30.0}),
-            "mujoco: manoeuvre.distance expected at most 30 m, was 40 m between t = 1 s and 3 s");
+            "mujoco: manoeuvre.distance 40 m exceeds 30 m between t = 1 s and 3 s");
   const std::string end = " at the end, s = 20 m, t = 8 s";
-  EXPECT_EQ(FailureOf({.metric = "time", .max = 5.0}),
-            "mujoco: time expected at most 5 s, was 8 s" + end);
+  EXPECT_EQ(FailureOf({.metric = "time", .max = 5.0}), "mujoco: time 8 s exceeds 5 s" + end);
   EXPECT_EQ(FailureOf({.metric = "goal_distance", .max = 0.5}),
-            "mujoco: goal_distance expected at most 0.5 m, was 0.75 m" + end);
+            "mujoco: goal_distance 0.75 m exceeds 0.5 m" + end);
   EXPECT_EQ(FailureOf({.metric = "cross_track.final", .min = 0.0}),
-            "mujoco: cross_track.final expected at least 0 m, was -0.125 m" + end);
+            "mujoco: cross_track.final -0.125 m is below 0 m" + end);
   EXPECT_EQ(FailureOf({.metric = "status", .equals = "collided"}),
-            "mujoco: status expected to be collided, was arrived" + end);
+            "mujoco: status is arrived instead of collided" + end);
   EXPECT_EQ(
       FailureOf({.metric = "steering_rate_rms", .max = 0.1}),
-      "mujoco: steering_rate_rms expected at most 0.1 rad/s, was 0.25 rad/s over the drive to "
-      "s = 20 m, t = 8 s");
+      "mujoco: steering_rate_rms 0.25 rad/s exceeds 0.1 rad/s over the run to s = 20 m, t = 8 s");
   EXPECT_EQ(FailureOf({.metric = "plan_changes", .equals = "2"}),
-            "mujoco: plan_changes expected to be 2, was 0 over the drive to s = 20 m, t = 8 s");
+            "mujoco: plan_changes is 0 instead of 2 over the run to s = 20 m, t = 8 s");
   EXPECT_EQ(FailureOf({.metric = "obstacle_force_max", .max = 5.0}),
-            "mujoco: obstacle_force_max expected at most 5 N, was 9 N at s = 7.5 m, t = 2.75 s");
+            "mujoco: obstacle_force_max 9 N exceeds 5 N at s = 7.5 m, t = 2.75 s");
   EXPECT_EQ(FailureOf({.metric = "collision", .equals = "true"}),
-            "mujoco: collision expected to be true, was false at s = 7 m, t = 2.5 s");
-  EXPECT_EQ(
-      FailureOf({.metric = "turns[0].lateral_offset", .max = 0.5}),
-      "mujoco: turns[0].lateral_offset expected at most 0.5 m, was 0.75 m at s = 11 m, t = 4.5 "
-      "s");
+            "mujoco: collision is false instead of true at s = 7 m, t = 2.5 s");
+  EXPECT_EQ(FailureOf({.metric = "turns[0].lateral_offset", .max = 0.5}),
+            "mujoco: turns[0].lateral_offset 0.75 m exceeds 0.5 m at s = 11 m, t = 4.5 s");
   EXPECT_EQ(FailureOf({.metric = "cross_track.max_s", .max = 5.0}),
-            "mujoco: cross_track.max_s expected at most 5 m, was 6 m over the drive to s = 20 m, t "
-            "= 8 s");
+            "mujoco: cross_track.max_s 6 m exceeds 5 m over the run to s = 20 m, t = 8 s");
 }
 
 TEST(Judge, TellsApartWhatFourDigitsDoNot) {
   EXPECT_EQ(FailureOf({.metric = "steering_rate_rms", .max = 0.2499999}),
-            "mujoco: steering_rate_rms expected at most 0.2499999 rad/s, was 0.25 rad/s over the "
-            "drive to s = 20 m, t = 8 s");
+            "mujoco: steering_rate_rms 0.25 rad/s exceeds 0.2499999 rad/s over the run to s = 20 "
+            "m, t = 8 s");
   Expectations expect;
   expect.all = {.rms_cross_track = 0.0370301};
   PlantMetrics metrics = Measured("mujoco");
   metrics.tracking->cross_track_rms = 0.0370302;
   EXPECT_EQ(Judge(expect, {metrics}, {}).failures,
-            std::vector<std::string>{"mujoco: cross-track rms expected at most 0.0370301 m, was "
-                                     "0.0370302 m over the drive to s = 20 m, t = 8 s"});
+            std::vector<std::string>{"mujoco: rms cross-track error 0.0370302 m exceeds 0.0370301 "
+                                     "m over the run to s = 20 m, t = 8 s"});
 }
 
 TEST(Judge, SaysWhyAMetricIsNotThere) {
   EXPECT_EQ(FailureOf({.metric = "turns[7].lateral_offset", .max = 0.5}),
-            "mujoco: turns[7].lateral_offset expected, but the drive has 1 turns that stand alone");
+            "mujoco: turns[7].lateral_offset is not available: the run has 1 isolated turn");
   EXPECT_EQ(FailureOf({.metric = "steering_rat_max", .max = 0.5}),
             "mujoco: no metric 'steering_rat_max'; did you mean 'steering_rate_max'?");
   Expectations expect;
@@ -167,24 +161,24 @@ TEST(Judge, SaysWhyAMetricIsNotThere) {
   PlantMetrics metrics = Measured("mujoco");
   metrics.manoeuvre->missing = "the car never came there";
   metrics.recovery = RecoveryMetrics{.from = 3.0, .time = {}};
-  EXPECT_EQ(Judge(expect, {metrics}, {}).failures,
-            (std::vector<std::string>{
-                "mujoco: manoeuvre.margin expected, but not measured: the car never came there",
-                "mujoco: recovery_time expected to be a number, but the car had not recovered from "
-                "t = 3 s on at the end, s = 20 m, t = 8 s"}));
+  EXPECT_EQ(
+      Judge(expect, {metrics}, {}).failures,
+      (std::vector<std::string>{
+          "mujoco: manoeuvre.margin was not measured: the car never came there",
+          "mujoco: recovery_time is not defined: the car did not recover after t = 3 s; end of "
+          "the run at s = 20 m, t = 8 s"}));
   metrics.recovery->time = 2.0;
   expect.all.metrics = {{.metric = "recovery_time", .max = 1.0}};
   EXPECT_EQ(Judge(expect, {metrics}, {}).failures,
-            std::vector<std::string>{
-                "mujoco: recovery_time expected at most 1 s, was 2 s from t = 3 s on"});
+            std::vector<std::string>{"mujoco: recovery_time 2 s exceeds 1 s after t = 3 s"});
 }
 
 TEST(Judge, LetsAScenarioSayHowItEnds) {
   PlantMetrics metrics = Measured("mujoco");
   metrics.status = DriveStatus::kTimeLimit;
-  EXPECT_EQ(Judge({}, {metrics}, {}).failures,
-            std::vector<std::string>{
-                "mujoco: expected to arrive, ended as time_limit at s = 20 m, t = 8 s"});
+  EXPECT_EQ(
+      Judge({}, {metrics}, {}).failures,
+      std::vector<std::string>{"mujoco: did not reach the goal: time_limit at s = 20 m, t = 8 s"});
   Expectations expect;
   expect.plants = {{"mujoco", {.metrics = {{.metric = "status", .equals = "time_limit"}}}}};
   EXPECT_TRUE(Judge(expect, {metrics}, {}).passed);
@@ -201,12 +195,13 @@ TEST(Judge, HoldsPlantsAgainstEachOtherInEitherOrder) {
   expect.between = {{{"mujoco", "kinematic"}, {.position_max = 0.5}}};
   EXPECT_TRUE(Judge(expect, {}, {apart}).passed);
   expect.between[0].bounds.position_max = 0.25;
-  EXPECT_EQ(Judge(expect, {}, {apart}).failures,
-            std::vector<std::string>{"kinematic and mujoco: position difference expected at most "
-                                     "0.25 m, was 0.5 m at s = 12 m, t = 4 s"});
+  EXPECT_EQ(
+      Judge(expect, {}, {apart}).failures,
+      std::vector<std::string>{
+          "kinematic and mujoco: position difference 0.5 m exceeds 0.25 m at s = 12 m, t = 4 s"});
   EXPECT_EQ(Judge(expect, {}, {}).failures,
             std::vector<std::string>{
-                "mujoco and kinematic: expected to be compared, but were not both driven"});
+                "mujoco and kinematic: cannot be compared: not both plants were run"});
 }
 
 TEST(Measure, SaysWhereAndWhenTheLargestValuesWere) {

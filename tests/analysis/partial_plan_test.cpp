@@ -48,7 +48,7 @@ TEST(PartialPlan, IsDrivenToItsEndAndNotPassed) {
     // And that far from the mission's own goal.
     EXPECT_NEAR(metrics.tracking->goal_distance, (stands - Vec2(50.0, 0.0)).norm(),
                 Tolerance(1e-9));
-    EXPECT_THAT(run.verdict.failures.at(i), HasSubstr("expected to arrive, ended as partial at"));
+    EXPECT_THAT(run.verdict.failures.at(i), HasSubstr("did not reach the goal: partial at"));
     EXPECT_THAT(run.verdict.failures.at(i), HasSubstr("(the plan ends "));
   }
 }

@@ -329,18 +329,18 @@ TEST(Verdict, SaysWhatWasExpectedAndWhatWasWhereAndWhen) {
   EXPECT_THAT(
       result.verdict.failures,
       testing::ElementsAre(
-          testing::MatchesRegex("kinematic: distance to the goal expected at most 1e-05 m, was "
-                                "0\\.[0-9]+ m at the end, s = 138\\.[0-9]+ m, t = 47\\.[0-9]+ s"),
-          testing::MatchesRegex("kinematic: cross-track maximum expected at most 0\\.1 m, was "
-                                "0\\.2[0-9]+ m at s = [0-9.]+ m, t = [0-9.]+ s")));
+          testing::MatchesRegex("kinematic: distance to the goal 0\\.[0-9]+ m exceeds 1e-05 m at "
+                                "the end, s = 138\\.[0-9]+ m, t = 47\\.[0-9]+ s"),
+          testing::MatchesRegex("kinematic: maximum cross-track error 0\\.2[0-9]+ m exceeds 0\\.1 "
+                                "m at s = [0-9.]+ m, t = [0-9.]+ s")));
 }
 
 TEST(Verdict, FailsADriveThatDoesNotArrive) {
   const RunResult result = RunMission(
       Load("three_turns", {"drive.plants=[kinematic]", "drive.time_limit=3", "expect={}"}));
-  EXPECT_THAT(result.verdict.failures,
-              testing::ElementsAre(
-                  "kinematic: expected to arrive, ended as time_limit at s = 9 m, t = 3 s"));
+  EXPECT_THAT(
+      result.verdict.failures,
+      testing::ElementsAre("kinematic: did not reach the goal: time_limit at s = 9 m, t = 3 s"));
 }
 
 TEST(Drive, LogsCommandActuatorAndMeasurementApart) {

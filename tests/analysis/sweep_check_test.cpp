@@ -147,11 +147,10 @@ TEST(CheckStudy, NamesCarsThatLackWhatAPlantAsksOfThem) {
                                      "']\n  vehicle.tyre: [contact, magic_formula]\n"));
     });
   };
-  EXPECT_EQ(
-      error("mujoco"),
-      "bare.xml: the car small_car has no tyre coefficients; tyre: magic_formula needs them in "
-      "<custom>: p_cx1, p_dx1, p_kx1, p_cy1, p_dy1 and p_ky1, of both axles under these names "
-      "or of each with _front and _rear");
+  EXPECT_EQ(error("mujoco"),
+            "bare.xml: the model small_car has no tyre coefficients; tyre: magic_formula needs "
+            "them in <custom>: p_cx1, p_dx1, p_kx1, p_cy1, p_dy1 and p_ky1, of both axles under "
+            "these names or of each with _front and _rear");
   EXPECT_EQ(error("mujoco:contact"), "no error");
   EXPECT_EQ(error("kinematic"), "no error");
 }

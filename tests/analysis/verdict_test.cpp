@@ -62,7 +62,7 @@ TEST(Verdict, MeasuresTheDistanceFromThePathBehindItsStart) {
   EXPECT_NEAR(run.metrics[0].tracking->cross_track_max, 20.0, Tolerance(1e-9));
   EXPECT_EQ(run.logs[0].rows.front().tracking->s, 0.0);
   EXPECT_FALSE(run.verdict.passed);
-  EXPECT_THAT(run.verdict.failures, Contains(HasSubstr("left its path")));
+  EXPECT_THAT(run.verdict.failures, Contains(HasSubstr("exceeds the car's width of ")));
 }
 
 TEST(Verdict, HoldsASmallCarToItsOwnSize) {
@@ -133,11 +133,12 @@ TEST(Verdict, FailsWheelsThatTurnFasterThanTheirActuator) {
   metrics.steering_is_prescribed = true;
   const Verdict verdict = Judge({}, {metrics}, {});
   EXPECT_TRUE(verdict.failures.empty());
-  EXPECT_THAT(verdict.notes,
-              ElementsAre("mujoco: the prescribed steering reached an angle of 0.3 rad, beyond the "
-                          "car's limit of 0.25 rad",
-                          "mujoco: the prescribed steering turned at 0.11 rad/s, beyond the car's "
-                          "limit of 0.1 rad/s"));
+  EXPECT_THAT(
+      verdict.notes,
+      ElementsAre(
+          "mujoco: the prescribed steering angle of 0.3 rad exceeds the vehicle limit of 0.25 rad",
+          "mujoco: the prescribed steering rate of 0.11 rad/s exceeds the vehicle limit of 0.1 "
+          "rad/s"));
 }
 
 std::vector<std::string> Told(const Verdict& verdict) {
@@ -199,7 +200,7 @@ TEST(Verdict, SaysOnceThatACarHitAnObstacle) {
   EXPECT_EQ(std::count_if(verdict.checks.begin(), verdict.checks.end(),
                           [](const Check& check) { return !check.met; }),
             2);
-  EXPECT_THAT(verdict.failures, ElementsAre(HasSubstr("ended as collided")));
+  EXPECT_THAT(verdict.failures, ElementsAre(HasSubstr("did not complete the run: collided")));
 }
 
 TEST(Verdict, PassesACoarseTimestepOnContacts) {
@@ -225,14 +226,14 @@ TEST(Verdict, TellsOfSlowTurnsAndOfObstaclesOnThePath) {
   const RunResult slow = Drive(
       "mission: {speed: 4, waypoints: [[0, 0], [28, 0], [16, 26]]}\nplan: {method: fillet}\n"
       "drive: {plants: [kinematic]}\n");
-  EXPECT_THAT(slow.verdict.notes, Contains(HasSubstr("the plan is slowed down to")));
+  EXPECT_THAT(slow.verdict.notes, Contains(HasSubstr("plan: speed reduced to")));
   const RunResult blocked = Drive(
       "mission: {speed: 3, waypoints: [[0, 0], [20, 0], [40, 0]]}\nplan: {method: fillet}\n"
       "world: {obstacles: [{box: {x: 30, y: 0, length: 2, width: 2}}]}\n"
       "drive: {plants: [kinematic]}\n");
   // Its front is 3.625 m ahead of the rear axle, the box begins at 29 m; found to 2 cm.
   EXPECT_THAT(blocked.verdict.notes,
-              Contains(HasSubstr("the plan is led into an obstacle at s = 25.3")));
+              Contains(HasSubstr("plan: the path hits an obstacle at s = 25.3")));
 }
 
 TEST(Verdict, TellsOfAPlanThatWasSlowedDown) {
@@ -240,7 +241,7 @@ TEST(Verdict, TellsOfAPlanThatWasSlowedDown) {
       "mission: {speed: 4}\nplan: {method: lane_change, standard: iso_3888_2}\n"
       "drive: {plants: [kinematic]}\n");
   EXPECT_TRUE(run.verdict.passed);
-  EXPECT_THAT(run.verdict.notes, Contains(HasSubstr("the plan is slowed down")));
+  EXPECT_THAT(run.verdict.notes, Contains(HasSubstr("plan: speed reduced")));
   // At the car's rate, and the plan's own: nothing is left over for the wheels to catch up.
   EXPECT_LE(run.metrics[0].steering_rate_max, run.metrics[0].steering_rate_limit * (1.0 + 1e-6));
 }

@@ -41,9 +41,8 @@ TEST(Compare, ExceededToleranceIsExitCodeThree) {
   EXPECT_THAT(outcome.output, StartsWith("winding: FAILED, in c/compare.json\n"));
   EXPECT_THAT(outcome.output, HasSubstr("at most 0.0001: EXCEEDED\n"));
   EXPECT_THAT(outcome.output,
-              testing::ContainsRegex("\n  kinematic and mujoco: position difference expected at "
-                                     "most 0\\.0001 m, was 0\\.00[0-9]+ m at s = [0-9.]+ m, t = "
-                                     "[0-9.]+ s\n"));
+              testing::ContainsRegex("\n  kinematic and mujoco: position difference 0\\.00[0-9]+ m "
+                                     "exceeds 0\\.0001 m at s = [0-9.]+ m, t = [0-9.]+ s\n"));
   EXPECT_EQ(Trackbed(folder, "compare -q --tolerance position=0.0001 " + file).output, "");
   // Without tolerances the scenario's own bounds count: 0.1 m.
   EXPECT_EQ(Trackbed(folder, "compare -q " + file).code, 0);
@@ -69,7 +68,7 @@ TEST(Compare, HoldsFinishedRunsAgainstEachOther) {
   // Without tolerances nothing is judged.
   const Outcome shown = Trackbed(folder, "compare a b");
   EXPECT_EQ(shown.code, 0);
-  EXPECT_THAT(shown.output, StartsWith("a and b: compared, without a tolerance to judge by, in "));
+  EXPECT_THAT(shown.output, StartsWith("a and b: compared, no tolerances given, in "));
   // A run is itself, read back from its files.
   const Outcome same = Trackbed(
       folder, "compare a a --tolerance position=0,heading=0,yaw_rate=0,steering=0 -o same");
@@ -94,17 +93,15 @@ TEST(Compare, RefusesWhatCannotBeCompared) {
     EXPECT_EQ(outcome.code, 2) << arguments;
     return outcome.output;
   };
-  EXPECT_EQ(
-      told("--plants mujoco " + file),
-      "winding: drive.plants: only mujoco; two plants are needed to compare, such as --plants "
-      "kinematic,mujoco\n");
+  EXPECT_EQ(told("--plants mujoco " + file),
+            "winding: drive.plants: only mujoco; comparing needs two plants, such as --plants "
+            "kinematic,mujoco\n");
   EXPECT_EQ(told("--tolerance positon=1 " + file),
             "--tolerance: unknown 'positon'; did you mean 'position'?\n");
-  EXPECT_EQ(told("."), ".: the folder of no finished run (it has no metrics.json)\n");
+  EXPECT_EQ(told("."), ".: not the folder of a finished run (no metrics.json)\n");
   EXPECT_EQ(told(". " + file),
-            "compares scenarios, or one or two folders of finished runs, and not both\n");
-  EXPECT_EQ(told(". --seed 3"),
-            "--set and --seed are for scenarios; finished runs stay as they are\n");
+            "give scenario files or one or two folders of finished runs, not both\n");
+  EXPECT_EQ(told(". --seed 3"), "--set and --seed apply to scenarios, not to finished runs\n");
   EXPECT_THAT(told(file + " " + file), HasSubstr("both would write to out/compare/winding\n"));
   EXPECT_THAT(told("none.yaml"), StartsWith("cannot read none.yaml"));
   EXPECT_TRUE(folder.Names().empty());
@@ -118,8 +115,8 @@ TEST(Test, RunsManyAtOnceInTheOrderOfTheFiles) {
   const std::string options =
       " --plant kinematic --set 'expect={reach_goal: 0.5, metrics: [{metric: time, max: 48}]}'";
   const std::string lines =
-      "pass s/a.yaml: as expected\nFAIL s/c.yaml: kinematic: time expected at most 48 s, was "
-      "48.84 s at the end, s = 143.5 m, t = 48.84 s\n";
+      "pass s/a.yaml: all expectations met\nFAIL s/c.yaml: kinematic: time 48.84 s exceeds 48 s at "
+      "the end, s = 143.5 m, t = 48.84 s\n";
   for (const char* jobs : {"1", "3"}) {
     const Outcome outcome =
         Trackbed(folder, std::string("test s --jobs ") + jobs + options + " 2>errors");
@@ -144,10 +141,9 @@ TEST(Test, WritesJUnit) {
   EXPECT_EQ(suite->IntAttribute("errors"), 1);
   const auto* failed = suite->FirstChildElement("testcase");
   EXPECT_STREQ(failed->Attribute("name"), "winding");
-  EXPECT_THAT(
-      failed->FirstChildElement("failure")->Attribute("message"),
-      testing::MatchesRegex("kinematic: cross-track maximum expected at most 0\\.001 m, was "
-                            "0\\.[0-9]+ m at s = [0-9.]+ m, t = [0-9.]+ s"));
+  EXPECT_THAT(failed->FirstChildElement("failure")->Attribute("message"),
+              testing::MatchesRegex("kinematic: maximum cross-track error 0\\.[0-9]+ m exceeds "
+                                    "0\\.001 m at s = [0-9.]+ m, t = [0-9.]+ s"));
   const auto* error = failed->NextSiblingElement()->FirstChildElement("error");
   EXPECT_THAT(error->GetText(), HasSubstr("mission.sped: unknown key 'sped'"));
   // Nothing but the report is left in its folder, and where it cannot be written nothing is driven.
@@ -195,7 +191,7 @@ TEST(Test, CtrlCSkipsTheRest) {
                "test s --jobs 1 --junit j.xml >lines & n=0; until [ -s lines ] || [ "
                "$n -gt 600 ]; do n=$((n + 1)); sleep 0.1; done; kill -INT $!; wait $!");
   EXPECT_EQ(outcome.code, 130) << outcome.output;
-  EXPECT_EQ(ReadFile(folder.path() / "lines"), "pass s/a.yaml: as expected\n");
+  EXPECT_EQ(ReadFile(folder.path() / "lines"), "pass s/a.yaml: all expectations met\n");
   EXPECT_THAT(ReadFile(folder.path() / "j.xml"), HasSubstr("<skipped message=\"interrupted\"/>"));
 }
 

@@ -64,7 +64,8 @@ TEST(Program, FailedExpectationsAreExitCodeThree) {
       Trackbed(folder, "run " + ScenarioFile("winding") +
                            " --plant kinematic --set 'expect={max_cross_track: 0.001}'");
   EXPECT_EQ(outcome.code, 3);
-  EXPECT_THAT(outcome.output, HasSubstr("cross-track maximum expected at most 0.001 m"));
+  EXPECT_THAT(outcome.output,
+              testing::ContainsRegex("maximum cross-track error 0\\.[0-9]+ m exceeds 0\\.001 m"));
 }
 
 TEST(Program, MissionWithoutAPlanIsExitCodeThree) {
@@ -103,9 +104,9 @@ TEST(Program, BadInputIsExitCodeTwoAndTouchesNothing) {
   const Outcome outcome = Trackbed(folder, "run bad.yaml");
   EXPECT_EQ(outcome.code, 2);
   EXPECT_EQ(outcome.output,
-            "bad.yaml:1:1: plan: missing; the controller preview follows a plan\n"
-            "bad.yaml:3:10: mission.duration: missing; without a plan there is no goal to stop at\n"
-            "bad.yaml:3:11: mission.sped: unknown key 'sped'; did you mean 'speed'?\n");
+            "bad.yaml:1:1: plan: missing; the controller preview needs a plan\nbad.yaml:3:10: "
+            "mission.duration: missing; required without a plan\nbad.yaml:3:11: mission.sped: "
+            "unknown key 'sped'; did you mean 'speed'?\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
   const Outcome missing = Trackbed(folder, "run none.yaml");
   EXPECT_EQ(missing.code, 2);
@@ -184,9 +185,9 @@ TEST(Program, KeepsRunsOfOneNameApart) {
   folder.Write("b/w.yaml", ReadFile(ScenarioFile("winding")));
   const Outcome outcome = Trackbed(folder, "run a/w.yaml b/w.yaml -o o");
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_EQ(outcome.output,
-            "b/w.yaml: name: 'winding' is the name of an earlier file too; both would write to "
-            "o/winding\n");
+  EXPECT_EQ(
+      outcome.output,
+      "b/w.yaml: name: the scenario name 'winding' is used twice; both would write to o/winding\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "o"));
 }
 
@@ -301,8 +302,8 @@ TEST(Docs, PagesMustHaveAPlaceForEachTable) {
   const TempFolder folder;
   folder.Write("empty.md", "# Nothing\n");
   EXPECT_EQ(Trackbed(folder, "docs empty.md").output,
-            "empty.md: no place for 'verbs': add the lines '<!-- begin: verbs -->' and "
-            "'<!-- end -->', and say what they are about\n");
+            "empty.md: no markers for 'verbs'; add the lines '<!-- begin: verbs -->' and '<!-- end "
+            "-->' to the page\n");
   folder.Write("other.md", "<!-- begin: options of rum -->\n<!-- end -->\n");
   const Outcome other = Trackbed(folder, "docs other.md");
   EXPECT_EQ(other.code, 2);
@@ -320,14 +321,15 @@ TEST(Program, TestsScenariosOneLineEach) {
       Trackbed(folder, "test --plant kinematic --set 'expect={reach_goal: 0.5}' -- " +
                            ScenarioFile("winding") + " " + ScenarioFile("three_turns"));
   EXPECT_EQ(outcome.code, 0);
-  EXPECT_EQ(outcome.output, "pass " + ScenarioFile("winding") + ": as expected\npass " +
-                                ScenarioFile("three_turns") + ": as expected\n");
+  EXPECT_EQ(outcome.output, "pass " + ScenarioFile("winding") + ": all expectations met\npass " +
+                                ScenarioFile("three_turns") + ": all expectations met\n");
   const Outcome failed =
       Trackbed(folder, "test -q --plant kinematic --set 'expect={max_cross_track: 0.001}' -- " +
                            ScenarioFile("winding"));
   EXPECT_EQ(failed.code, 3);
   EXPECT_THAT(failed.output, StartsWith("FAIL " + ScenarioFile("winding") +
-                                        ": kinematic: cross-track maximum expected at most 0.001"));
+                                        ": kinematic: maximum cross-track error "));
+  EXPECT_THAT(failed.output, HasSubstr(" m exceeds 0.001 m at "));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
 
@@ -422,7 +424,7 @@ TEST(Program, CtrlCKeepsTheLogSoFar) {
                     "[ -d r/three_turns ]", signal);
     EXPECT_EQ(outcome.code, 130) << signal;
     EXPECT_THAT(outcome.output, HasSubstr("three_turns: interrupted, in r/three_turns\n"));
-    EXPECT_THAT(outcome.output, HasSubstr("interrupted: 1 of 2 scenarios not driven\n"));
+    EXPECT_THAT(outcome.output, HasSubstr("interrupted: 1 of 2 scenarios not run\n"));
     EXPECT_THAT(ReadFile(folder.path() / "r/three_turns/metrics.json"),
                 HasSubstr("\"complete\": false"));
   }
@@ -442,7 +444,7 @@ TEST(Program, CtrlCInTheFilmLeavesTheVerdict) {
   EXPECT_EQ(outcome.code, 130);
   EXPECT_THAT(ReadFile(folder.path() / "told"), StartsWith("winding: passed, in r/winding\n"));
   EXPECT_EQ(ReadFile(folder.path() / "errors"),
-            "interrupted; no film was written\ninterrupted: 1 of 2 scenarios not driven\n");
+            "interrupted; no film was written\ninterrupted: 1 of 2 scenarios not run\n");
 }
 
 }  // namespace

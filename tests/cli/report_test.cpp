@@ -64,8 +64,7 @@ TEST(Report, WritesThatOfAComparisonBesideIt) {
   const Outcome outcome = Trackbed(folder, "report moved/both");
   EXPECT_EQ(outcome.code, 2);
   EXPECT_EQ(outcome.output,
-            "moved/both: the comparison is of the run in moved/runs/b, where there is none (any "
-            "more): no metrics.json\n");
+            "moved/both: the compared run in moved/runs/b does not exist (no metrics.json)\n");
 }
 
 TEST(Report, WritesThatOfAStudyBesideItsTable) {

@@ -163,9 +163,8 @@ TEST(ReadCsv, CountsEmptyLinesAndWindowsEndings) {
 
 TEST(ReadCsv, ListsEveryProblem) {
   EXPECT_EQ(ProblemsOf("a,b\nx,y\n1\n"),
-            "t.csv:2: cell 1 (a): 'x' is not a number\n"
-            "t.csv:2: cell 2 (b): 'y' is not a number\n"
-            "t.csv:3: cell 2 (b): missing; 1 cell, where the header has 2");
+            "t.csv:2: cell 1 (a): 'x' is not a number\nt.csv:2: cell 2 (b): 'y' is not a "
+            "number\nt.csv:3: cell 2 (b): missing; 1 cell, the header has 2");
 }
 
 TEST(ReadCsv, StopsListingAfterTwenty) {
@@ -182,17 +181,16 @@ TEST(ReadCsv, StopsListingAfterTwenty) {
 }
 
 TEST(ReadCsv, RefusesRowsOfAnotherLength) {
-  EXPECT_EQ(ProblemsOf("a,b\n1,2,3\n"), "t.csv:2: 3 cells where the header has 2");
+  EXPECT_EQ(ProblemsOf("a,b\n1,2,3\n"), "t.csv:2: 3 cells, the header has 2");
   EXPECT_EQ(ProblemsOf("a,b,c,d\n1,2\n"),
-            "t.csv:2: cell 3 (c): missing; 2 cells, where the header has 4");
+            "t.csv:2: cell 3 (c): missing; 2 cells, the header has 4");
 }
 
 TEST(ReadCsv, RefusesBadHeaders) {
   EXPECT_EQ(ProblemsOf("a,a\n1,2\n"), "t.csv:1: cell 2 (a): repeated column");
-  EXPECT_EQ(ProblemsOf("a,,c\n1,2,3\n"), "t.csv:1: cell 2: a column without a name");
-  EXPECT_EQ(ProblemsOf(""), "t.csv:1: empty file where a header line of column names is expected");
-  EXPECT_EQ(ProblemsOf("\n\n"),
-            "t.csv:3: empty file where a header line of column names is expected");
+  EXPECT_EQ(ProblemsOf("a,,c\n1,2,3\n"), "t.csv:1: cell 2: the column has no name");
+  EXPECT_EQ(ProblemsOf(""), "t.csv:1: empty file; expected a header line of column names");
+  EXPECT_EQ(ProblemsOf("\n\n"), "t.csv:3: empty file; expected a header line of column names");
 }
 
 TEST(ReadCsv, RefusesAnOpenQuote) {
@@ -220,14 +218,13 @@ TEST(ReadCsvExcerpt, TakesTheColumnsAskedForAndLooksAtNoOthers) {
 
 TEST(ReadCsvExcerpt, NamesWhatIsMissing) {
   EXPECT_EQ(ProblemsOf("time,delta\n1,2\n", {"steering_rad"}),
-            "t.csv:1: no column 'steering_rad'; there are: time, delta");
+            "t.csv:1: no column 'steering_rad'; columns: time, delta");
   EXPECT_EQ(ProblemsOf("t_s,stering_rad\n1,2\n", {"t_s", "steering_rad"}),
             "t.csv:1: no column 'steering_rad'; did you mean 'stering_rad'?");
   EXPECT_EQ(ProblemsOf("a,b\n1\n", {"b"}),
-            "t.csv:2: cell 2 (b): missing; 1 cell, where the header has 2");
+            "t.csv:2: cell 2 (b): missing; 1 cell, the header has 2");
   EXPECT_EQ(ProblemsOf("a,a\n1,2\n", {"a"}), "t.csv:1: cell 2 (a): repeated column");
-  EXPECT_EQ(ProblemsOf("", {"a"}),
-            "t.csv:1: empty file where a header line of column names is expected");
+  EXPECT_EQ(ProblemsOf("", {"a"}), "t.csv:1: empty file; expected a header line of column names");
 }
 
 TEST(ReadCsvExcerpt, WantsFiniteNumbers) {

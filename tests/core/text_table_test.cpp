@@ -102,12 +102,12 @@ TEST(ReadTextCsv, NamesFileAndLineOfWhatIsWrong) {
     return "no error";
   };
   using testing::EndsWith;
-  EXPECT_THAT(error("a,b\n1,2\n\n3\n"), EndsWith("sweep.csv:4: 1 cell where the header has 2"));
+  EXPECT_THAT(error("a,b\n1,2\n\n3\n"), EndsWith("sweep.csv:4: 1 cell, the header has 2"));
   // A cell of two lines is one row.
   EXPECT_THAT(error("a,b\n\"1\n2\",2\n3,4,5\n"),
-              EndsWith("sweep.csv:4: 3 cells where the header has 2"));
+              EndsWith("sweep.csv:4: 3 cells, the header has 2"));
   EXPECT_THAT(error("a,a\n"), EndsWith("sweep.csv:1: repeated column 'a'"));
-  EXPECT_THAT(error("a,,b\n"), EndsWith("sweep.csv:1: cell 2: a column without a name"));
+  EXPECT_THAT(error("a,,b\n"), EndsWith("sweep.csv:1: cell 2: the column has no name"));
   EXPECT_THAT(error("a,b\n\"1\"2,3\n"), testing::HasSubstr("sweep.csv:2: "));
   EXPECT_THAT(error(""), testing::HasSubstr("empty file"));
   EXPECT_THROW(ReadTextCsv(folder.path() / "missing.csv"), RunError);

@@ -107,9 +107,9 @@ TEST(Registry, RejectsATakenNameATakenTypeAndNoName) {
       return error.what();
     }
   };
-  EXPECT_EQ(message_of({"walk", Fly{}}), "there is a gait of the name walk already");
+  EXPECT_EQ(message_of({"walk", Fly{}}), "a gait named walk is already registered");
   EXPECT_EQ(message_of({"stroll", Walk{}}),
-            "the gait stroll has the options of walk; give it a type of its own");
+            "the gait stroll has the options type of walk; each needs its own type");
   EXPECT_EQ(message_of({"", Fly{}}), "a gait without a name");
   EXPECT_EQ(table.entries().size(), 2U);
 }

@@ -499,7 +499,7 @@ class Reports(unittest.TestCase):
         )
         shown = self.run_in_page(
             "const i = Array.from(document.querySelectorAll('#headline thead th'))"
-            ".findIndex(e => e.textContent.startsWith('Largest cross-track'));"
+            ".findIndex(e => e.textContent.startsWith('Maximum cross-track'));"
             "return Array.from(document.querySelectorAll('#headline tbody tr'))"
             ".map(row => parseFloat(row.children[i].textContent))"
         )
@@ -562,7 +562,7 @@ class Reports(unittest.TestCase):
                     ".map(e => e.textContent.replace(/ difference .*|, [\\d.]+ m and .*/, ''))"
                 ),
                 ["failed", *[f"slow/{p} and quick/{p}: heading" for p in ("kinematic", "mujoco")],
-                 "the runs planned different paths"]
+                 "the runs follow different paths"]
                 if judged else [],
             )
             # The curve at the station that is pointed at, and the cars where the first one was.

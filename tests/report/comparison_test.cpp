@@ -120,7 +120,7 @@ TEST(Comparison, ShowsWhatAComparisonFound) {
   EXPECT_EQ(comparison["verdicts"][0]["passed"], false);
   ASSERT_EQ(comparison["verdicts"][0]["failures"].size(), 1U);
   EXPECT_THAT(comparison["verdicts"][0]["failures"][0].get<std::string>(),
-              HasSubstr("position difference expected at most 0.125 m, was 0.25 m"));
+              HasSubstr("position difference 0.25 m exceeds 0.125 m"));
   EXPECT_EQ(comparison["pairs"][1]["tolerances"].dump(),
             R"({"position_max":0.125,"heading_max":1.0})");
   // Of different plants, only that pair.
@@ -165,27 +165,27 @@ TEST(Comparison, SaysWhatIsWrong) {
   const fs::path out = folder.path() / "out";
   WriteComparison(CompareFolders({a, b}, {}, std::nullopt), out);
   const std::string text = ReadFile(out / "compare.json");
-  EXPECT_EQ(ErrorOf({out, a}),
-            out.string() + ": a comparison has a report of its own; give it alone");
+  EXPECT_EQ(ErrorOf({out, a}), out.string() + ": a comparison must be given alone");
   folder.Write("out/compare.json", "{\"pairs\": ");
   EXPECT_THAT(ErrorOf({out}), HasSubstr("compare.json: "));
   folder.Write("out/compare.json", "{\"pairs\": []}");
-  EXPECT_THAT(ErrorOf({out}), EndsWith("compare.json: does not say of which runs it is; compare "
-                                       "the runs again"));
+  EXPECT_THAT(ErrorOf({out}),
+              EndsWith("compare.json: does not name its runs; compare the runs again"));
   folder.Write("out/compare.json", text);
   EXPECT_EQ(ErrorOf({out}), "no error");
   // Another drive under the same name.
   fs::remove_all(b);
   Shifted(a, "b", "single_track", 0.5, 0.0);
-  EXPECT_THAT(ErrorOf({out}), EndsWith("compare.json: not of the logs that the runs have now; "
-                                       "compare the runs again"));
+  EXPECT_THAT(
+      ErrorOf({out}),
+      EndsWith("compare.json: does not match the runs' current logs; compare the runs again"));
   fs::remove_all(b);
   DriveCorner(folder, "b", "drive: {plants: [kinematic]}\n");
   EXPECT_THAT(ErrorOf({out}), EndsWith("compare.json: of single_track, which " + b.string() +
                                        " did not drive; compare the runs again"));
   fs::remove_all(b);
-  EXPECT_EQ(ErrorOf({out}), out.string() + ": the comparison is of the run in " + b.string() +
-                                ", where there is none (any more): no metrics.json");
+  EXPECT_EQ(ErrorOf({out}), out.string() + ": the compared run in " + b.string() +
+                                " does not exist (no metrics.json)");
 }
 
 TEST(Comparison, CallsRunsOfOneNameAfterTheirParents) {

@@ -7,13 +7,13 @@ namespace trackbed {
 namespace {
 
 TEST(NameOfMetric, SaysWhatPeopleSay) {
-  EXPECT_EQ(NameOfMetric("cross_track.max").label, "Largest cross-track error");
+  EXPECT_EQ(NameOfMetric("cross_track.max").label, "Maximum cross-track error");
   EXPECT_EQ(NameOfMetric("cross_track.max").unit, "m");
   EXPECT_TRUE(NameOfMetric("cross_track.max").headline);
   EXPECT_FALSE(NameOfMetric("cross_track.rms").headline);
   EXPECT_EQ(NameOfMetric("turns[1].heading_deficit").label, "Turn 2: heading deficit");
   EXPECT_EQ(NameOfMetric("turns[1].heading_deficit").unit, "rad");
-  EXPECT_EQ(NameOfMetric("manoeuvre.margin").label, "Maneuver: smallest margin to a gate");
+  EXPECT_EQ(NameOfMetric("manoeuvre.margin").label, "Maneuver: minimum gate margin");
   EXPECT_EQ(NameOfMetric("manoeuvre.margin").unit, "m");
   EXPECT_EQ(NameOfMetric("manoeuvre.understeer_gradient").unit, "rad s²/m");
   // What another program registered is its own label.
@@ -27,7 +27,7 @@ TEST(NameOfOutput, SaysOfWhichPlant) {
   EXPECT_EQ(NameOfOutput("metrics.kinematic.cross_track.max_s").label,
             "cross_track.max_s (kinematic)");
   EXPECT_EQ(NameOfOutput("between.kinematic.mujoco.position.max").label,
-            "Largest distance (kinematic – mujoco)");
+            "Maximum distance (kinematic – mujoco)");
   EXPECT_EQ(NameOfOutput("between.kinematic.mujoco.heading.max").unit, "rad");
   EXPECT_EQ(NameOfOutput("plan.length_m").unit, "m");
   EXPECT_EQ(NameOfOutput("verdict.passed").label, "verdict.passed");

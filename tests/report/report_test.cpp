@@ -154,15 +154,15 @@ TEST(ReportData, FindsUnmetWhatTheVerdictFinds) {
     }
   }
   EXPECT_EQ(unmet.size(), data["verdict"]["failures"].size());
-  EXPECT_THAT(
-      unmet, testing::UnorderedElementsAre(
-                 "kinematic: Largest cross-track error ≤ 1e-09",
-                 "kinematic: Cross-track error, rms ≤ 1e-09", "kinematic: Smallest clearance ≥ 100",
-                 "kinematic: Collision = true", "mujoco: Largest cross-track error ≤ 1e-09",
-                 "mujoco: Cross-track error, rms ≤ 1e-09", "mujoco: Smallest clearance ≥ 100",
-                 "mujoco: Collision = true", "mujoco: Distance to the goal ≤ 1e-09",
-                 "mujoco: Distance driven ≤ 2", "mujoco: Plans taken up on the way = 1",
-                 "mujoco: distanze ≥ 1", "kinematic – mujoco: Largest distance ≤ 1e-09"));
+  EXPECT_THAT(unmet,
+              testing::UnorderedElementsAre(
+                  "kinematic: Maximum cross-track error ≤ 1e-09",
+                  "kinematic: Cross-track error, rms ≤ 1e-09", "kinematic: Minimum clearance ≥ 100",
+                  "kinematic: Collision = true", "mujoco: Maximum cross-track error ≤ 1e-09",
+                  "mujoco: Cross-track error, rms ≤ 1e-09", "mujoco: Minimum clearance ≥ 100",
+                  "mujoco: Collision = true", "mujoco: Distance to the goal ≤ 1e-09",
+                  "mujoco: Distance traveled ≤ 2", "mujoco: Replans = 1", "mujoco: distanze ≥ 1",
+                  "kinematic – mujoco: Maximum distance ≤ 1e-09"));
   // Every bound is there, that the car arrives where nothing else is asked of its end, and that the
   // wheels turn no faster than their actuator: 6 and 1 of each plant, the arrival of one, 6 more of
   // the other, 2 of both.
@@ -191,7 +191,7 @@ TEST(ReportData, TakesChecksAsTheyAre) {
            "bound": 0.155087500001, "value": 0.12345678, "station": 1, "time": 2, "met": false}])");
   WriteFileAtomically(run / "metrics.json", metrics.dump());
   EXPECT_EQ(ReportData({run})["runs"][0]["expectations"].dump(),
-            R"([{"of":"kinematic","what":"Largest lateral acceleration over 0.1 s","unit":"m/s²",)"
+            R"([{"of":"kinematic","what":"Maximum lateral acceleration (0.1 s mean)","unit":"m/s²",)"
             R"("asked":"≤ 0.1550875","found":0.123457,"met":false}])");
 }
 
@@ -237,7 +237,7 @@ TEST(ReportData, SaysWhatIsWrong) {
   EXPECT_THAT(broken("kinematic.csv", "t_s,x_m\n0,a\n"), HasSubstr("no column 'y_m'"));
   const std::string header = "t_s,x_m,y_m,yaw_rad,speed_mps,steering_command_rad,steering_rad\n";
   EXPECT_THAT(broken("kinematic.csv", header + "0,0,0,0,0,0,0\n0,0,0,0,0,0,0\n"),
-              EndsWith("kinematic.csv:3: t_s: 0 does not come after 0"));
+              EndsWith("kinematic.csv:3: t_s: 0 must be above the previous 0"));
   EXPECT_THAT(broken("kinematic.csv", header + "0,0,nan,0,0,0,0\n"),
               HasSubstr("kinematic.csv:2: cell 3 (y_m)"));
   EXPECT_THAT(broken("kinematic.csv", header), HasSubstr("kinematic.csv: no rows"));
@@ -268,7 +268,7 @@ TEST(ReportData, HoldsTheTableOfAStudy) {
   EXPECT_THAT(kinds,
               testing::ElementsAre("parameter", "parameter", "seed", "status", "output", "output"));
   EXPECT_EQ(columns[0]["unit"], "m/s");
-  EXPECT_EQ(columns[4]["label"], "Largest cross-track error");
+  EXPECT_EQ(columns[4]["label"], "Maximum cross-track error");
   EXPECT_EQ(study["rows"].dump(),
             R"([[2.5,"[kinematic, mujoco]",7.0,"passed",0.0123457,null],)"
             R"([3.0,"[mujoco]",8.0,"no_plan",null,"no plan (<b>&), \"x\""]])");

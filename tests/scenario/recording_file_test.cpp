@@ -95,21 +95,20 @@ TEST(ReadRecording, ChoosesBetweenSpeedAndAcceleration) {
 
 TEST(ReadRecording, PlacesWhatCannotBeRead) {
   EXPECT_EQ(ProblemsOf("t_s,steering_rad\n0,\n1,x\n2,nan\n3,inf\n4\n"),
-            "r.csv:2: cell 2 (steering_rad): '' is not a number\n"
-            "r.csv:3: cell 2 (steering_rad): 'x' is not a number\n"
-            "r.csv:4: cell 2 (steering_rad): 'nan' is not a finite number\n"
-            "r.csv:5: cell 2 (steering_rad): 'inf' is not a finite number\n"
-            "r.csv:6: cell 2 (steering_rad): missing; 1 cell, where the header has 2");
+            "r.csv:2: cell 2 (steering_rad): '' is not a number\nr.csv:3: cell 2 (steering_rad): "
+            "'x' is not a number\nr.csv:4: cell 2 (steering_rad): 'nan' is not a finite "
+            "number\nr.csv:5: cell 2 (steering_rad): 'inf' is not a finite number\nr.csv:6: cell 2 "
+            "(steering_rad): missing; 1 cell, the header has 2");
   EXPECT_EQ(ProblemsOf("t_s,steering_deg\n0,0\n"),
             "r.csv:1: no column 'steering_rad'; did you mean 'steering_deg'?");
-  EXPECT_EQ(ProblemsOf("t_s,steering_rad\n"), "r.csv:1: no rows follow the header");
+  EXPECT_EQ(ProblemsOf("t_s,steering_rad\n"), "r.csv:1: no rows after the header");
   EXPECT_THROW(ReadRecording("/nonexistent/r.csv", PlaybackAxis::kTime), RunError);
 }
 
 TEST(ReadRecording, WantsTimesThatRiseStrictly) {
   EXPECT_EQ(ProblemsOf("t_s,steering_rad\n0,0\n0.5,0\n0.5,0\n\n0.25,0\n"),
-            "r.csv:4: t_s: 0.5 is not after the 0.5 of the row before\n"
-            "r.csv:6: t_s: 0.25 is not after the 0.5 of the row before");
+            "r.csv:4: t_s: 0.5 must be above the previous row's 0.5\nr.csv:6: t_s: 0.25 must be "
+            "above the previous row's 0.5");
 }
 
 TEST(ReadRecording, TellsProblemsInTheOrderOfTheFileAndNotAllOfThem) {

@@ -188,7 +188,7 @@ study.yaml:3:1: vari: unknown key 'vari'; did you mean 'vary'?
 study.yaml:4:6: set: expected a section of scenario keys, found '3'
 study.yaml:6:18: vary.mission.speed: expected a list of values, or {from, to, steps}, found '3'
 study.yaml:7:21: vary.control.distance: expected a list of values, or {from, to, steps}, found an empty list
-study.yaml:9:3: vary.drive.plants: the key is given twice
+study.yaml:9:3: vary.drive.plants: duplicate key
 study.yaml:10:3: vary.seed: expected a value, found nothing
 study.yaml:11:19: vary.world.friction.to: missing
 study.yaml:11:31: vary.world.friction.stop: unknown key 'stop'; did you mean 'to'?
@@ -206,19 +206,18 @@ study.yaml:15:35: outputs[2]: 'verdict.passed' is listed twice)");
 
 TEST_F(Studies, RefuseGridsAndBisectionsTheWrongWayRound) {
   EXPECT_EQ(ErrorsOf("vary: {mission.speed: {from: 3, to: 2, steps: 2}}\n"),
-            "study.yaml:4:30: vary.mission.speed.from: 3 is not below to: 2");
-  EXPECT_EQ(
-      ErrorsOf("vary: {mission.speed: {from: 0, to: 2, steps: 2, scale: log}}\n"),
-      "study.yaml:4:30: vary.mission.speed.from: a scale of equal ratios needs positive ends");
+            "study.yaml:4:30: vary.mission.speed.from: 3 must be below to: 2");
+  EXPECT_EQ(ErrorsOf("vary: {mission.speed: {from: 0, to: 2, steps: 2, scale: log}}\n"),
+            "study.yaml:4:30: vary.mission.speed.from: must be above 0 for a geometric scale");
   EXPECT_EQ(ErrorsOf("bisect: {key: mission.speed, from: 2, to: 2, tolerance: 0.1}\n"),
-            "study.yaml:4:36: bisect.from: 2 is not below to: 2");
+            "study.yaml:4:36: bisect.from: 2 must be below to: 2");
   EXPECT_EQ(ErrorsOf("bisect: {key: mission.speed, from: 1, to: 2, tolerance: 0}\n"),
             "study.yaml:4:57: bisect.tolerance: 0 is out of range; must be above 0");
 }
 
 TEST_F(Studies, RefuseToVaryNothingOrTooMuch) {
   EXPECT_EQ(ErrorsOf(""),
-            "study.yaml:1:1: vary: missing; a study has vary, list, repeat or bisect");
+            "study.yaml:1:1: vary: missing; a study needs vary, list, repeat or bisect");
   EXPECT_EQ(ErrorsOf("vary: {}\n"),
             "study.yaml:4:7: vary: expected a section of scenario keys, found an empty one");
   EXPECT_EQ(ErrorsOf("vary:\nset: {seed: 1}\n"),
@@ -235,11 +234,11 @@ vary: {control.distance: [2, 3]}
 list: [{mission.speed: 2}, {control: {method: schedule}}, {world.friction: 0.5}]
 bisect: {key: world.friction, from: 0.1, to: 1, tolerance: 0.1}
 )"),
-            "study.yaml:6:24: mission.speed: replaces mission.speed, which line 4 sets\n"
-            "study.yaml:6:38: control: replaces control.distance, which line 5 sets\n"
-            "study.yaml:7:9: world.friction: replaces world.friction, which line 6 sets");
+            "study.yaml:6:24: mission.speed: overwrites mission.speed, set in line "
+            "4\nstudy.yaml:6:38: control: overwrites control.distance, set in line "
+            "5\nstudy.yaml:7:9: world.friction: overwrites world.friction, set in line 6");
   EXPECT_EQ(ErrorsOf("vary: {seed: [1, 2]}\nrepeat: 3\n"),
-            "study.yaml:4:15: seed: repeat counts the seed up, so that it cannot be varied too");
+            "study.yaml:4:15: seed: cannot be varied together with repeat, which sets the seed");
   // What is set for all runs is where repeat begins, and a section may be refined.
   EXPECT_EQ(ErrorsOf("set: {seed: 5, control: {method: preview}}\nrepeat: 3\n"
                      "vary: {control.distance: [2]}\n"),
@@ -254,7 +253,7 @@ vary:
   drive.timestep: [0.002, 0.003]
   mission.waypoints[7]: [[1, 2]]
 )"),
-            "study.yaml:9:26: mission.waypoints[7]: there is no element [7]");
+            "study.yaml:9:26: mission.waypoints[7]: element [7] does not exist");
   EXPECT_EQ(ErrorsOf(R"(set: {render.camera: chas}
 vary:
   mission.sped: [1, 2]
@@ -292,7 +291,8 @@ TEST_F(Studies, AreToldFromScenariosByTheirScenario) {
   EXPECT_FALSE(IsStudy(folder_.path() / "small.yaml"));
   EXPECT_FALSE(IsStudy(folder_.Write("b.yaml", "scenario: [x\n")));
   EXPECT_FALSE(IsStudy(folder_.path() / "none.yaml"));
-  EXPECT_EQ(ErrorsOfText("- 1\n"), "study.yaml:1:1: a study is a section of 'key: value' lines");
+  EXPECT_EQ(ErrorsOfText("- 1\n"),
+            "study.yaml:1:1: a study must be a section of 'key: value' lines");
 }
 
 TEST(CellText, IsTheShortestFormOfNumbersAndYamlOfTheRest) {

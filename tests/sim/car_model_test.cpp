@@ -184,12 +184,11 @@ TEST(CarModel, RefusesSteeringWithoutLimits) {
 }
 
 TEST(CarModel, RefusesARackThatStopsBeforeTheSteering) {
-  EXPECT_EQ(
-      MessageOf(PriusWith("<joint name=\"rack\" type=\"hinge\"",
-                          "<joint name=\"rack\" type=\"hinge\" limited=\"true\" "
-                          "range=\"-0.4 0.4\"")),
-      "car.xml: rack: its range, -0.4 to 0.4 rad, stops before the -0.4869 to 0.4869 rad that "
-      "steering needs; without <compiler angle=\"radian\"/> a range is in degrees");
+  EXPECT_EQ(MessageOf(PriusWith("<joint name=\"rack\" type=\"hinge\"",
+                                "<joint name=\"rack\" type=\"hinge\" limited=\"true\" "
+                                "range=\"-0.4 0.4\"")),
+            "car.xml: rack: range -0.4 to 0.4 rad does not cover the -0.4869 to 0.4869 rad of the "
+            "steering; without <compiler angle=\"radian\"/> ranges are in degrees");
 }
 
 TEST(CarModel, RefusesAnOutlineThatIsNotTheChassis) {

@@ -170,9 +170,8 @@ TEST(Payload, IsRefusedWhereTheCarFallsOver) {
     WithPayload(own, {.mass = 2000.0, .x = -3.0});
     FAIL() << "no error";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(),
-                testing::HasSubstr("prius does not come to rest on its four wheels with a payload "
-                                   "of 2000 kg at x -3 m, y 0 m"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("prius does not come to rest on four wheels with "
+                                                 "a payload of 2000 kg at x = -3 m, y = 0 m"));
   }
 }
 

@@ -93,17 +93,16 @@ TEST(ComposeScene, NamesFileAndLineOfWhatIsWrong) {
   const std::string at = folder.path().string();
   EXPECT_EQ(MessageOf(folder.path() / "none.xml"), at + "/none.xml: no such file");
   EXPECT_EQ(MessageOf(folder.Write("a.xml", "<mujoco>\n<body>\n</mujoco>")),
-            at + "/a.xml:2: not XML: the element that begins here is not closed, or closed by "
-                 "another name");
+            at + "/a.xml:2: not XML: element not closed, or closed by another name");
   EXPECT_EQ(MessageOf(folder.Write("b.xml", "\n<robot/>")),
-            at + "/b.xml:2: the root element is <robot>; a model is a <mujoco>");
+            at + "/b.xml:2: root element is <robot>; must be <mujoco>");
   EXPECT_EQ(MessageOf(folder.Write("c.xml", "<mujoco>\n<include/></mujoco>")),
             at + "/c.xml:2: <include> without a file");
   EXPECT_EQ(MessageOf(folder.Write("d.xml", "<mujoco>\n<include file='d.xml'/></mujoco>")),
-            at + "/d.xml:2: d.xml is included a second time");
+            at + "/d.xml:2: d.xml is included twice");
   EXPECT_EQ(
       MessageOf(folder.Write("e.xml", "<mujoco><asset>\n<mesh file='x.stl'/></asset></mujoco>")),
-      at + "/e.xml:2: <mesh> refers to " + at + "/x.stl, which is no file");
+      at + "/e.xml:2: <mesh> refers to " + at + "/x.stl, which does not exist");
 }
 
 TEST(ComposeScene, SaysInPlainWordsWhatIsNoXml) {
@@ -112,19 +111,19 @@ TEST(ComposeScene, SaysInPlainWordsWhatIsNoXml) {
     const std::string file = folder.Write("a.xml", xml).string();
     return MessageOf(file).substr(file.size());
   };
-  EXPECT_EQ(message(""), ": the file is empty; a model is a <mujoco>");
-  EXPECT_EQ(message("speed: 3\n"), ":1: not XML: a text that no element follows");
+  EXPECT_EQ(message(""), ": the file is empty; expected a <mujoco> element");
+  EXPECT_EQ(message("speed: 3\n"), ":1: not XML: text without a following element");
   EXPECT_EQ(message("<mujoco>\n<=/></mujoco>"),
-            ":2: not XML: an element is not of the form <name attribute=\"value\">");
+            ":2: not XML: element not of the form <name attribute=\"value\">");
   EXPECT_EQ(message("<mujoco>\n<body name=x/></mujoco>"),
-            ":2: not XML: an attribute is not of the form name=\"value\", is given twice, or the "
-            "file ends in it");
-  EXPECT_EQ(message("<mujoco>\n<!-- </mujoco>\n"), ":2: not XML: a comment is not closed by -->");
+            ":2: not XML: attribute not of the form name=\"value\", given twice, or cut off by the "
+            "end of the file");
+  EXPECT_EQ(message("<mujoco>\n<!-- </mujoco>\n"), ":2: not XML: comment not closed by -->");
   EXPECT_EQ(message("<mujoco>\n<![CDATA[ </mujoco>\n"),
-            ":2: not XML: a CDATA section is not closed by ]]>");
+            ":2: not XML: CDATA section not closed by ]]>");
   EXPECT_EQ(message("<mujoco>\n<?x </mujoco>\n"),
-            ":2: not XML: a declaration <?...?> is not closed or not at the beginning");
-  EXPECT_EQ(message("<mujoco>\n<!x </mujoco"), ":2: not XML: a declaration <!...> is not closed");
+            ":2: not XML: declaration <?...?> not closed or not at the start");
+  EXPECT_EQ(message("<mujoco>\n<!x </mujoco"), ":2: not XML: declaration <!...> not closed");
   std::string deep = "<mujoco>";
   for (int i = 0; i < 1000; ++i) {
     deep += "<body>";

@@ -52,7 +52,7 @@ TEST(SingleTrackPlant, NeedsTyres) {
     FAIL() << "a car without tyres was driven";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "cars/bare.xml: the car prius has no tyre coefficients; the plant single_track "
+                 "cars/bare.xml: the model prius has no tyre coefficients; the plant single_track "
                  "needs them in <custom>: p_cx1, p_dx1, p_kx1, p_cy1, p_dy1 and p_ky1, of both "
                  "axles under these names or of each with _front and _rear");
   }

@@ -126,19 +126,18 @@ TEST(WheelPair, SaysAllThatAModelLacks) {
 TEST(WheelPair, RefusesARadiusOnWhichTheInnerWheelTurnsBackwards) {
   EXPECT_EQ(MessageOf(With("name=\"turning_radius\" data=\"0.4\"",
                            "name=\"turning_radius\" data=\"0.2\"")),
-            "skid.xml: turning_radius: must be at least half the track, 0.3 m, or the inner wheel "
-            "would turn backwards; found 0.2");
+            "skid.xml: turning_radius: must be at least half the track, 0.3 m, so that the inner "
+            "wheel does not reverse; found 0.2");
 }
 
 TEST(WheelPair, RefusesWhatIsNotASpeedServo) {
   EXPECT_EQ(MessageOf(With("<velocity name=\"drive_left\" joint=\"spin_left\" kv=\"60\"",
                            "<motor name=\"drive_left\" joint=\"spin_left\"")),
             "skid.xml: drive_left: must be a <velocity> of gear 1 with ctrllimited and "
-            "forcelimited: its ctrlrange is the largest speed of the wheel, its forcerange the "
-            "largest torque");
+            "forcelimited: ctrlrange is the maximum wheel speed, forcerange the maximum torque");
   EXPECT_EQ(MessageOf(With("<velocity name=\"drive_left\" joint=\"spin_left\" kv=\"60\"",
                            "<velocity name=\"drive_left\" joint=\"spin_left\" kv=\"50\"")),
-            "skid.xml: drive_right: must have the kv, ctrlrange and forcerange of drive_left");
+            "skid.xml: drive_right: kv, ctrlrange and forcerange must equal those of drive_left");
   EXPECT_THAT(MessageOf(With("<velocity name=\"drive_left\" joint=\"spin_left\"",
                              "<velocity name=\"drive_left\" joint=\"spin_right\"")),
               testing::HasSubstr("skid.xml: drive_left: must act on the joint 'spin_left'"));
@@ -146,19 +145,19 @@ TEST(WheelPair, RefusesWhatIsNotASpeedServo) {
 
 TEST(WheelPair, RefusesAServoThatIsTooSoft) {
   EXPECT_THAT(MessageOf(With("joint=\"spin_left\" kv=\"60\"", "joint=\"spin_left\" kv=\"1\"")),
-              testing::HasSubstr("skid.xml: drive_left: kv 1 is too small: forcerange/kv, the "
-                                 "difference of speed that takes all the torque, is 30 rad/s and "
-                                 "must be below the ctrlrange of 22 rad/s"));
+              testing::HasSubstr(
+                  "skid.xml: drive_left: kv 1 is too small: forcerange/kv, the speed error at "
+                  "maximum torque, is 30 rad/s; must be below the ctrlrange of 22 rad/s"));
 }
 
 TEST(WheelPair, RefusesWheelsThatAreNotAboutTheOrigin) {
   EXPECT_EQ(MessageOf(With("name=\"wheel_left\" pos=\"0 0.3 ", "name=\"wheel_left\" pos=\"0 0.4 ")),
-            "skid.xml: chassis: the driven wheels must stand as far to the left, y pointing left, "
-            "as to the right; they are at y = 0.4 and -0.3 m");
+            "skid.xml: chassis: the driven wheels must be at equal distances left and right of y = "
+            "0; found y = 0.4 and -0.3 m");
   EXPECT_THAT(
       MessageOf(With("name=\"wheel_left\" pos=\"0 0.3 ", "name=\"wheel_left\" pos=\"0.2 0.3 ")),
-      testing::HasSubstr("skid.xml: chassis: the body's origin must lie under the axle of the "
-                         "driven wheels; they are 0.1 m ahead of it"));
+      testing::HasSubstr("skid.xml: chassis: the body origin must be under the axle of the driven "
+                         "wheels; they are 0.1 m ahead of it"));
 }
 
 std::string MessageFrom(const std::function<void()>& call) {
@@ -171,8 +170,8 @@ std::string MessageFrom(const std::function<void()>& call) {
 }
 
 TEST(WheelPair, SaysWhatItLacksForWhatIsACars) {
-  const std::string needs = " needs a car with steered front wheels";
-  const std::string skid = "skid: skid turns by the speeds of its two driven wheels; ";
+  const std::string needs = " needs steered front wheels";
+  const std::string skid = "skid: skid has differential drive; ";
   EXPECT_EQ(
       MessageFrom([] { MakePlant("single_track", {.car = Skid(), .world = Calm(), .start = {}}); }),
       skid + "the plant single_track" + needs);

@@ -119,7 +119,7 @@ TEST(ObstacleAppears, TooLateForAnyWayAroundStopsTheCar) {
     // From the mission's goal, not from where the path was cut.
     EXPECT_GT(run.metrics[i].tracking->goal_distance, 40.0);
   }
-  EXPECT_THAT(run.verdict.failures.at(0), testing::HasSubstr("ended as blocked"));
+  EXPECT_THAT(run.verdict.failures.at(0), testing::HasSubstr("did not reach the goal: blocked"));
 }
 
 TEST(ObstacleAppears, TheSameRunTwiceIsTheSame) {

@@ -31,13 +31,13 @@ struct Bisection {
   std::vector<Trial> trials;  ///< in the order in which they were tried
 };
 
-/// Looks for the highest value that passes, between `from`, which should, and `to`, which should
-/// not. Both are tried before anything between them.
+/// Bisects for the highest value that passes, between `from`, which should pass, and `to`, which
+/// should fail. Both are tried first.
 ///
 /// Guarantees: with kFound, `value` passed and a value at most `tolerance` above it failed (or the
-/// next double, if that is further). Does not see that passing is not monotonic: then it finds one
-/// of the borders. Cost: at most 2 + ceil(log2((to - from)/tolerance)) trials. `passes` answers
-/// nothing when it was interrupted. InternalError unless from < to and tolerance > 0.
+/// next double, if that is further). If passing is not monotonic, it finds one of the boundaries.
+/// Cost: at most 2 + ceil(log2((to - from)/tolerance)) trials. `passes` returns nothing if
+/// interrupted. InternalError unless from < to and tolerance > 0.
 Bisection Bisect(double from, double to, double tolerance,
                  const std::function<std::optional<bool>(double value)>& passes);
 

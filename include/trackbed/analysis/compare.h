@@ -10,63 +10,61 @@
 #include "trackbed/drive/run_log.h"
 #include "trackbed/scenario/scenario.h"
 
-/// Two drives of one way, held against each other over arc length.
+/// Comparison of two runs over arc length.
 ///
-/// Symbols: s station, how far along the way [m]: that of the nearest point of the path, or without
-/// a path the distance driven; p position of the rear axle [m]; psi yaw [rad]; psi' yaw rate
-/// [rad/s]; delta steering of the road wheels as measured [rad]. Indices 1 and 2 are the first and
-/// the second drive, which are compared at equal s, whenever each of them was there. Signed
-/// differences are those of the second from the first: positive when the second one is further to
-/// the left.
+/// Symbols: s station [m]: that of the nearest point of the path, or without a path the distance
+/// traveled; p position of the rear axle [m]; psi yaw [rad]; psi' yaw rate [rad/s]; delta steering
+/// of the road wheels as measured [rad]. Indices 1 and 2 are the first and second run, compared at
+/// equal s, whatever the times. Signed differences are those of the second from the first: positive
+/// when the second one is further to the left.
 namespace trackbed {
 
-/// One drive over rising station: rows in which it did not get on are left out, so that a car which
-/// stands is where it came to a stop. All of equal length.
+/// A run over increasing station: rows without progress are left out, so that a standing car is at
+/// its stopping point. All of equal length.
 struct Trace {
-  std::string name;  ///< the plant's, or however the drive is to be called
+  std::string name;  ///< the plant's, or a label of the run
   std::vector<double> station;
   std::vector<double> time;
   std::vector<Pose2> pose;  ///< yaw is not wrapped
   std::vector<double> yaw_rate;
   std::vector<double> steering;
 
-  /// The pose at a station, linear between rows. There must be two of them at least.
+  /// The pose at a station, linear between rows. Needs at least two rows.
   [[nodiscard]] Pose2 PoseAt(double at) const;
-  /// When the drive was at a station [s], likewise.
+  /// The time at a station [s], likewise.
   [[nodiscard]] double TimeAt(double at) const;
 };
 
-/// `source` says what counts as the station of a drive with a path.
+/// `source` selects the station of a run with a path.
 Trace TraceOf(const RunLog& log, StationSource source = StationSource::kProjection);
 
 /// Reads the log `<plant>.csv` of a run. InputError as ReadCsvExcerpt, and for fewer than two rows.
 Trace ReadTrace(const std::filesystem::path& file, const std::string& name);
 
-/// How much one quantity differs over the stations that both drives have.
+/// The difference in one quantity over the stations common to both runs.
 struct Difference {
   double rms = 0.0;    ///< root of the mean square over arc length
   double max = 0.0;    ///< largest magnitude
   double max_s = 0.0;  ///< where [m]
-  double max_t = 0.0;  ///< when the first drive was there [s]
+  double max_t = 0.0;  ///< time of the first run there [s]
 };
 
-/// How far two drives part at equal station.
+/// The differences between two runs at equal station.
 struct PlantComparison {
   std::string first;
   std::string second;
-  double from_s = 0.0;  ///< where both begin to be [m]
-  double to_s = 0.0;    ///< where the first of them ends [m]
+  double from_s = 0.0;  ///< start of the common stations [m]
+  double to_s = 0.0;    ///< end of the common stations [m]
   Difference position;  ///< |p_2 - p_1| [m]
   Difference heading;   ///< |psi_2 - psi_1|, in [0, pi] [rad]
   Difference yaw_rate;  ///< |psi'_2 - psi'_1| [rad/s]
   Difference steering;  ///< |delta_2 - delta_1| [rad]
 
-  /// Whether there is a stretch that both have driven; without one nothing is known.
+  /// Whether the station ranges overlap; if not, the differences are undefined.
   [[nodiscard]] bool comparable() const { return to_s > from_s; }
 };
 
-/// One of the quantities that two drives are compared in: what compare.json, tolerances, messages
-/// and reports know of it.
+/// A compared quantity: its names in compare.json, tolerances, messages and reports.
 struct ComparedQuantity {
   const char* key;   ///< of metrics.json and of tolerances: "yaw_rate"
   const char* name;  ///< in messages: "yaw rate"
@@ -80,7 +78,7 @@ struct ComparedQuantity {
 /// Position, heading, yaw rate, steering.
 const std::vector<ComparedQuantity>& ComparedQuantities();
 
-/// Compares two drives, both taken as linear between their rows.
+/// Compares two runs, interpolated linearly between rows.
 ///
 /// Guarantees: exact for drives that are, at any spacing of the rows, equal or not; the largest
 /// differences are those at the rows of either. Exchanging the two changes `max_t` alone.
@@ -89,19 +87,19 @@ PlantComparison CompareTraces(const Trace& first, const Trace& second);
 
 PlantComparison ComparePlants(const RunLog& first, const RunLog& second);
 
-/// The signed differences over arc length, a row for every station that either drive has a row at:
-/// `s_m`, `first_t_s`, `second_t_s`, `x_m`, `y_m`, `position_m` (unsigned), `yaw_rad`,
-/// `yaw_rate_radps`, `steering_rad`.
+/// The signed differences over arc length, a row for every station of a row of either log: `s_m`,
+/// `first_t_s`, `second_t_s`, `x_m`, `y_m`, `position_m` (unsigned), `yaw_rad`, `yaw_rate_radps`,
+/// `steering_rad`.
 Table DifferencesOverArcLength(const Trace& first, const Trace& second);
 
-/// A drive of a finished run, as its folder tells of it.
+/// One plant of a finished run, read from its folder.
 struct FinishedDrive {
   std::string status;  ///< of metrics.json: "arrived", …
   Trace trace;         ///< named after the plant
 };
 
-/// Reads the drives of a run folder in the order of metrics.json. InputError when the folder holds
-/// no finished run, one that was interrupted, or logs without the columns or the rows of a drive.
+/// Reads the plants of a run folder in the order of metrics.json. InputError when the folder holds
+/// no finished run or an interrupted one, or when columns or rows are missing in its logs.
 std::vector<FinishedDrive> ReadRunFolder(const std::filesystem::path& folder);
 
 nlohmann::ordered_json ToJson(const PlantComparison& comparison);

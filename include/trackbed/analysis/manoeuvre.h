@@ -11,12 +11,12 @@
 #include "trackbed/scenario/manoeuvre.h"
 #include "trackbed/vehicle/params.h"
 
-/// What a standard maneuver reads off a drive (docs/manoeuvres.md names every number).
+/// Metrics of standard maneuvers (all described in docs/manoeuvres.md).
 ///
 /// Symbols: delta steering of the road wheels [rad], psi' yaw rate [rad/s], a_y lateral
-/// acceleration [m/s^2] and beta side-slip angle [rad] at the center of gravity, v speed [m/s], L
-/// wheelbase [m]. Signs as in docs/conventions.md; where a number is to say the same of left and
-/// right turns, it is mirrored to the left.
+/// acceleration [m/s^2] and beta sideslip angle [rad] at the center of gravity, v speed [m/s], L
+/// wheelbase [m]. Signs as in docs/conventions.md; where a metric should not depend on the
+/// direction, right turns are mirrored.
 ///
 /// steady_state_circle and slowly_increasing_steer (ISO 4138, SAE J266), by least squares:
 ///   understeer_gradient  K, slope of delta - L psi'/v over a_y [rad s^2/m]
@@ -33,8 +33,8 @@
 ///   yaw_rate_gain  steady psi' over delta [1/s]; tb  yaw_rate_peak_time times |sideslip| [s rad]
 /// sine_with_dwell (ISO 19365, FMVSS 126): the steering begins at 5 degrees of the steering wheel
 /// and is complete when it is back at zero; the peak yaw rate is that after its reversal.
-///   yaw_rate_ratio_1_00, yaw_rate_ratio_1_75  psi' so long [s] after completion over the peak;
-///   at most 0.35 and 0.20 to pass
+///   yaw_rate_ratio_1_00, yaw_rate_ratio_1_75  psi' 1.00 s and 1.75 s after completion over the
+///   peak; at most 0.35 and 0.20 to pass
 ///   lateral_displacement  of the center of gravity 1.07 s after the beginning [m]; at least 1.83
 /// lane_change (ISO 3888): the four corners of the outline between the edges of each gate.
 ///   margin  smallest distance of a corner inside an edge [m], negative outside; margin_gate the
@@ -46,8 +46,8 @@
 ///   yaw_rate_max [rad/s], heading_deviation_max [rad], lateral_deviation_max [m]
 /// disturbance, against the plan's path or else the circle or line that the rear axle was on at
 /// `at`: lateral_deviation_max [m], heading_deviation_max [rad], yaw_rate_deviation_max [rad/s]
-/// from the course's own; recovery_time [s] from the yaw rate's first leaving its bound to its
-/// last coming back, 0 when it never left.
+/// from the course's own; recovery_time [s] from the yaw rate first exceeding its bound to its last
+/// return below it, 0 if never exceeded.
 namespace trackbed {
 
 struct ManoeuvreMetrics {
@@ -57,27 +57,27 @@ struct ManoeuvreMetrics {
   /// Of the control periods in between: the actuator did not reach the command.
   double steering_saturated_fraction = 0.0;
   std::vector<std::pair<std::string, double>> values;  ///< by name; SI units
-  /// Where the standard has limits; false of every maneuver in which the car turns over.
+  /// Where the standard has limits; false for every maneuver in which the car rolls over.
   std::optional<bool> passed;
-  std::string missing;  ///< what went wrong or could not be measured; else empty
+  std::string missing;  ///< what could not be measured, and why; else empty
 
   /// A value by its name.
   [[nodiscard]] std::optional<double> Find(std::string_view name) const;
 };
 
-/// Evaluates a drive. `plan` holds the gates of a lane change. A drive that does not hold the
-/// maneuver (too short, never steered) gives fewer numbers and says why. Never throws for a log
-/// with rows. Cost O(rows).
+/// Evaluates a run. `plan` holds the gates of a lane change. A run without the complete maneuver
+/// (too short, never steered) gives fewer metrics and the reason. Never throws for a log with rows.
+/// Cost O(rows).
 ManoeuvreMetrics EvaluateManoeuvre(const ManoeuvreOptions& options, const RunLog& log,
                                    const Plan& plan, const VehicleParams& vehicle);
 
-/// All that an evaluation can hold, with every value at zero.
+/// All metrics of an evaluation, each 0.
 ManoeuvreMetrics EveryMetricOf(const ManoeuvreOptions& options);
 
 /// Every value of the section `manoeuvre` of metrics.json, by its name in there, in its order.
 std::vector<Metric> ListMetrics(const ManoeuvreMetrics& metrics);
 
-/// What a name in there is called, whatever the manoeuvre; nothing for an unknown one.
+/// The label of a name in that section, for any maneuver; none for an unknown one.
 std::optional<MetricInfo> DescribeManoeuvreMetric(std::string_view name);
 
 }  // namespace trackbed

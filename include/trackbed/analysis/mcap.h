@@ -4,23 +4,22 @@
 
 #include "trackbed/analysis/run.h"
 
-/// Runs for other programs: MCAP, the container that Foxglove and others open.
+/// Export of runs as MCAP, the container format of Foxglove and others.
 namespace trackbed {
 
 /// A run as an MCAP file (mcap.dev/spec, version 0): without chunks, index or compression; messages
 /// in JSON, in the order of their times, each schema beside its channel. Times count from the start
-/// of the drive [ns].
+/// of the run [ns].
 ///
 /// | topic | schema | |
 /// |---|---|---|
 /// | `/<plant>/tf` | foxglove.FrameTransform | `world` to `<plant>`, the rear axle on the ground |
 /// | `/<plant>/log` | trackbed.Log | a row of `<plant>.csv`: its columns by name |
-/// | `/<plant>/plan` | foxglove.PosesInFrame | each plan, when it is taken up |
+/// | `/<plant>/plan` | foxglove.PosesInFrame | each plan, when adopted |
 /// | `/<plant>/outline` | foxglove.SceneUpdate | a box as large as the car, once |
 /// | `/obstacles` | foxglove.SceneUpdate | boxes, where they are; again every 0.1 s if any moves |
 ///
-/// Poses lie in the plane: neither the ground's height nor roll and pitch are told. The same run
-/// gives the same bytes.
+/// Poses are planar: without ground height, roll and pitch. The same run gives the same bytes.
 std::string ToMcap(const RunResult& result);
 
 }  // namespace trackbed

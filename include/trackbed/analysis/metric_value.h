@@ -4,14 +4,14 @@
 #include <string>
 #include <variant>
 
-/// What one metric of a run was, and over which part of the run.
+/// The value of a metric and the part of the run that it refers to.
 namespace trackbed {
 
-/// Monostate: looked for and not found, such as the recovery of a car that never recovered; null in
+/// Monostate: undefined, such as the recovery time of a car that never recovered; null in
 /// metrics.json.
 using MetricValue = std::variant<std::monostate, bool, int, double, std::string>;
 
-/// The part of a run that a value is of.
+/// The part of a run that a value refers to.
 enum class MetricSpan {
   kRun,       ///< all of it
   kEnd,       ///< its end
@@ -27,7 +27,7 @@ struct MetricPlace {
   double from_t = 0.0;  ///< [s]
 };
 
-/// A value and where it was. The run fills in the place of its own end.
+/// A value and its place. The end of the run is filled in by the caller.
 struct MetricReading {
   MetricValue value;
   MetricPlace at;
@@ -40,16 +40,16 @@ struct Metric {
   MetricPlace at;
 };
 
-/// What people call a metric.
+/// Label and unit of a metric.
 struct MetricInfo {
-  std::string label;      ///< "Largest cross-track error"
+  std::string label;      ///< "Maximum cross-track error"
   std::string unit;       ///< SI, "m/s^2"; empty for ratios, counts and texts
   bool headline = false;  ///< shown first in a report
 };
 
 nlohmann::ordered_json ToJson(const MetricValue& value);
 
-/// As it stands in the table of a study: numbers with the digits that they need, texts as they are.
+/// As text in the table of a study: numbers with the shortest round-trip digits, texts unchanged.
 std::string ToText(const MetricValue& value);
 
 }  // namespace trackbed

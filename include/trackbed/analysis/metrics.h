@@ -14,8 +14,8 @@
 
 namespace trackbed {
 
-/// How well a drive kept to its path, up to its first contact with an obstacle. Errors are taken at
-/// the control periods.
+/// Path tracking of a run, up to the first contact with an obstacle. Errors are taken at the
+/// control periods.
 struct TrackingMetrics {
   double corridor = 0.0;           ///< bound on the cross-track error unless a scenario sets
                                    ///< one: the car's width [m]; 0: unknown, no bound
@@ -32,18 +32,18 @@ struct TrackingMetrics {
   double goal_heading_error = 0.0;  ///< [rad]
 };
 
-/// How a drive kept away from obstacles.
+/// Clearance of a run from obstacles.
 struct ClearanceMetrics {
   double min = 0.0;        ///< of the outline to the nearest obstacle [m]
   double min_s = 0.0;      ///< where [m]
   double min_t = 0.0;      ///< when [s]
-  bool collision = false;  ///< the car touched an obstacle, in whatever physics step
+  bool collision = false;  ///< the car touched an obstacle, in any physics step
   double force_max = 0.0;  ///< largest contact force with obstacles [N]
   double force_max_s = 0.0;
   double force_max_t = 0.0;
 };
 
-/// What the limited steering rate cost in one turn, and what it had to cost an open-loop drive.
+/// The effect of the limited steering rate in one turn, measured and predicted for open loop.
 struct TurnMetrics {
   int waypoint = 0;
   TurnError predicted;
@@ -74,19 +74,19 @@ struct PlantMetrics {
   bool steering_is_prescribed = false;       ///< and so not held to these limits
   double steering_rate_rms = 0.0;            ///< of its means over the control periods [rad/s]
   double steering_saturated_fraction = 0.0;  ///< of the periods: actuator did not reach the command
-  /// Of the yaw rate to v tan(delta)/L, what the kinematic model makes of the measured speed and
-  /// steering: least squares over the drive, so that turns count and straights do not. 1 / (1 + K
-  /// v^2/L) for a car of understeer gradient K that turns steadily. None for a car that never
-  /// turned faster than 1 mrad/s (root mean square).
+  /// Ratio of the yaw rate to v tan(delta)/L, the kinematic model's value for the measured speed
+  /// and steering, by least squares over the run. 1 / (1 + K v^2/L) for a car of understeer
+  /// gradient K that turns steadily. None for a car that never turned faster than 1 mrad/s (root
+  /// mean square).
   std::optional<double> yaw_rate_ratio;
   std::optional<TrackingMetrics> tracking;    ///< none without a path
   std::optional<ClearanceMetrics> clearance;  ///< none without obstacles
   std::optional<RecoveryMetrics> recovery;    ///< none without a disturbance that ends
-  int plan_changes = 0;                       ///< new plans taken up on the way
+  int plan_changes = 0;                       ///< plans adopted during the run
   std::string blocked;                        ///< why the plan ended before the goal; else empty
-  std::string partial;                        ///< why it led only part of the way; else empty
-  std::optional<ManoeuvreMetrics> manoeuvre;  ///< none when the drive is not evaluated as one
-  std::vector<TurnMetrics> turns;             ///< of the turns that stand alone and were driven
+  std::string partial;                        ///< why the plan is partial; else empty
+  std::optional<ManoeuvreMetrics> manoeuvre;  ///< none if the scenario has no manoeuvre
+  std::vector<TurnMetrics> turns;             ///< of the isolated turns that were driven
   /// Of the metrics that are measured on the log (MetricEntry::measure), by path.
   std::vector<std::pair<std::string, MetricReading>> measured;
 };

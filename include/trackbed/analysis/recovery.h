@@ -8,14 +8,14 @@
 
 namespace trackbed {
 
-/// How a drive got back to its path after what had thrown it off.
+/// Recovery of a run after a disturbance.
 struct RecoveryMetrics {
-  double from = 0.0;           ///< when the last disturbance was over that comes and goes [s]
-  std::optional<double> time;  ///< from then until it is near its path for good [s]; none: never
+  double from = 0.0;           ///< end of the last temporary disturbance [s]
+  std::optional<double> time;  ///< from then until the car stays near its path [s]; none: never
 };
 
 /// Near its path is a car within `disturb.recovered_within`; looked at once per control period.
-/// None without a path, or when nothing that comes and goes was over before the drive was.
+/// None without a path, or if no temporary disturbance ended before the run.
 std::optional<RecoveryMetrics> MeasureRecovery(const RunLog& log, const Disturbances& disturb,
                                                const Wind& wind);
 

@@ -11,7 +11,7 @@
 
 namespace trackbed {
 
-/// Wall-clock figures of one plant; they never enter any other file than timing.json.
+/// Wall-clock times of one plant, written to timing.json only.
 struct DriveTiming {
   std::string plant;
   double wall_time = 0.0;         ///< [s]
@@ -21,7 +21,7 @@ struct DriveTiming {
   double update_max = 0.0;        ///< [s]
 };
 
-/// One run of a scenario: planned once, driven on each of its plants, measured and judged.
+/// One run of a scenario: planned once, simulated on each plant, measured and judged.
 struct RunResult {
   Scenario scenario;
   Scene scene;            ///< the composed MJCF that was driven
@@ -37,7 +37,7 @@ struct RunResult {
 };
 
 struct RunHooks {
-  /// Called before each plant is driven; its drive reports to what is given back.
+  /// Called before each plant is simulated; returns the hooks of that simulation.
   std::function<DriveHooks(const std::string& plant)> drive;
 };
 
@@ -53,13 +53,13 @@ nlohmann::ordered_json MetricsJson(const RunResult& result);
 
 /// Which files a run folder has beside the usual ones.
 struct RunFolderOptions {
-  bool mcap = false;  ///< run.mcap, when anything was driven
+  bool mcap = false;  ///< run.mcap, if anything was simulated
 };
 
 /// Writes the run folder (plan.csv, plan.json, <plant>.csv, <plant>.state.csv, model.xml,
 /// timing.json, scenario.resolved.yaml, metrics.json), each file under its name only when complete,
 /// and metrics.json when all others are. Files of an earlier run of the same folder that this run
-/// does not have are removed first, so that the folder never tells of two runs. RunError when the
+/// does not have are removed first, so that the folder never mixes two runs. RunError when the
 /// folder cannot be written.
 void WriteRunFolder(const RunResult& result, const std::filesystem::path& folder,
                     const RunFolderOptions& options = {});
@@ -67,7 +67,7 @@ void WriteRunFolder(const RunResult& result, const std::filesystem::path& folder
 /// Writes plan.csv (when there is a path) and plan.json alone.
 void WritePlan(const Plan& plan, const Scenario& scenario, const std::filesystem::path& folder);
 
-/// Versions of what made a run, as they stand in metrics.json.
+/// Versions of Trackbed and its libraries, as in metrics.json.
 nlohmann::ordered_json Versions();
 
 }  // namespace trackbed

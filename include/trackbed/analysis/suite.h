@@ -10,12 +10,12 @@
 /// Many scenarios, each judged by what it expects itself: a test suite.
 namespace trackbed {
 
-/// How one scenario of a suite came out.
+/// The outcome of one scenario of a suite.
 enum class CaseStatus {
   kPassed,
-  kFailed,         ///< it ran, and not as its scenario expects
-  kNotJudged,      ///< it ran; its scenario asks nothing that could be judged
-  kBadInput,       ///< the scenario, its car or its surroundings are wrong: nothing was driven
+  kFailed,         ///< it ran and failed its expectations
+  kNotJudged,      ///< it ran; the scenario has no expectations
+  kBadInput,       ///< the scenario, its car or the environment is invalid: nothing was simulated
   kInternalError,  ///< a bug in Trackbed
   kInterrupted,    ///< the caller stopped it, or it was not begun
 };
@@ -25,7 +25,7 @@ struct SuiteCase {
   std::filesystem::path file;
   std::string name;  ///< the scenario's; that of the file when it could not be read
   CaseStatus status = CaseStatus::kInterrupted;
-  std::vector<std::string> reasons;  ///< of what is not passed: failures or problems, one line each
+  std::vector<std::string> reasons;  ///< failures or problems, one line each
   std::vector<std::string> notes;    ///< of the verdict
   double wall_time = 0.0;            ///< [s]
 };
@@ -39,8 +39,7 @@ struct SuiteOptions {
 };
 
 /// Reads, plans, drives and judges every file. `read` makes a scenario of a file, on any thread;
-/// what it throws, or the run, becomes the reasons of that case, so that one bad file spoils no
-/// other.
+/// exceptions from it or from the run become the reasons of that case and do not affect others.
 ///
 /// Guarantees: cases in the order of the files; but for `wall_time` the result does not depend on
 /// `jobs`. InternalError unless jobs is positive.

@@ -29,7 +29,7 @@ Outputs OutputsOf(const RunResult& result);
 /// The paths of everything that runs of the scenario may have, sorted.
 std::vector<std::string> PossibleOutputs(const Scenario& scenario);
 
-/// What one run came to.
+/// The result of one run.
 struct RunOutcome {
   std::string status;  ///< "passed", "failed", or "no_plan"
   bool passed = false;
@@ -39,7 +39,7 @@ struct RunOutcome {
 /// Runs a scenario, on any thread; nothing when it was interrupted.
 using RunScenarioOnce = std::function<std::optional<RunOutcome>(const Scenario& scenario)>;
 
-/// A study of which nothing is wrong that can be known before it is driven. Immutable, and shared
+/// A study that has been validated as far as possible before it is run. Immutable, and shared
 /// between threads.
 struct CheckedStudy {
   Study study;
@@ -49,9 +49,9 @@ struct CheckedStudy {
   std::map<std::tuple<std::string, double, double>, CarModel> cars;
 };
 
-/// Reads every point of the study's grid, compiles its cars, puts them on their plants, and looks
-/// whether its outputs can be had. InputError with the problems of all points, of all cars, or of
-/// all outputs with the nearest path.
+/// Reads every point of the study's grid, compiles the cars, makes the plants and checks the
+/// outputs. InputError with the problems of all points, of all cars, or of all outputs with the
+/// nearest path.
 CheckedStudy CheckStudy(Study study);
 
 /// Plans, drives, measures and judges a scenario of the study.

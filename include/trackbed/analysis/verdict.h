@@ -9,28 +9,28 @@
 #include "trackbed/analysis/metrics.h"
 #include "trackbed/scenario/scenario.h"
 
-/// Whether a run did what its scenario expects, as a list of checks.
+/// Verdict on a run: the list of checks.
 namespace trackbed {
 
-/// How a value is to stand to its bound.
+/// The required relation of a value to its bound.
 enum class Relation { kAtMost, kAtLeast, kEquals };
 
 /// "at_most", "at_least", "equals": the spelling of metrics.json.
 const char* ToString(Relation relation);
 
-/// Why something was checked.
+/// The reason for a check.
 enum class CheckReason {
   kExpected,      ///< the scenario's `expect` says so
-  kArrival,       ///< every run is to arrive
-  kNoContact,     ///< and to touch no obstacle
-  kCorridor,      ///< on a path, to stay within one car width of it
-  kSteeringRate,  ///< and no wheels turn faster than their actuator
+  kArrival,       ///< every run must arrive
+  kNoContact,     ///< and touch no obstacle
+  kCorridor,      ///< on a path, stay within one car width of it
+  kSteeringRate,  ///< steering rate within the actuator's limit
   kCollision,     ///< `expect.collision`
-  kComparable,    ///< two plants that are compared both drove some stretch
-  kSameEnd,       ///< two runs that are compared ended alike
+  kComparable,    ///< the station ranges of two compared plants overlap
+  kSameEnd,       ///< two compared runs ended with the same status
 };
 
-/// One bound and the value that was held against it.
+/// A bound and the value compared with it.
 struct Check {
   std::string plant;
   std::string other;   ///< the second one of a pair that is compared; else empty
@@ -44,15 +44,15 @@ struct Check {
   CheckReason reason = CheckReason::kExpected;
   std::string name;    ///< of the metric, in messages
   std::string unit;    ///< of bound and value; empty for none
-  std::string detail;  ///< what the message says beside that: why there is no value, why it stopped
+  std::string detail;  ///< additional text of the message: why there is no value, why it stopped
 };
 
-/// Did the run do what its scenario expects?
+/// The verdict on a run.
 struct Verdict {
-  bool judged = true;                 ///< something was asked of it
-  bool passed = true;                 ///< it was, and nothing failed
-  std::vector<std::string> failures;  ///< expected, actual, where and when; one line each
-  std::vector<std::string> notes;     ///< what to know of a run beside whether it passed
+  bool judged = true;                 ///< whether there was anything to check
+  bool passed = true;                 ///< judged, and no check failed
+  std::vector<std::string> failures;  ///< one line each, with value, bound, station and time
+  std::vector<std::string> notes;     ///< additional remarks
   std::vector<Check> checks;          ///< all that was checked, met or not
 };
 
@@ -60,12 +60,12 @@ struct Verdict {
 Check CheckMetric(const PlantMetrics& plant, const std::string& path, Relation relation,
                   const MetricValue& bound);
 
-/// A check for each bound that is given. Drives without a stretch in common have one check alone,
-/// which is not met.
+/// A check for each bound that is given. Plants without common stations have a single check, which
+/// is not met.
 std::vector<Check> CheckBounds(const DifferenceBounds& bounds, const PlantComparison& comparison);
 
-/// What is said of a check that is not met: what was expected, what was, where and when. Empty
-/// where another check says the same: a contact is part of how a run ended.
+/// The message of a check that is not met: metric, value, bound, station and time. Empty where
+/// another check reports the same: a contact also sets the end status.
 std::string FailureMessage(const Check& check);
 
 /// The messages of CheckBounds.
@@ -75,15 +75,15 @@ std::vector<std::string> Exceeded(const DifferenceBounds& bounds,
 /// Adds the check, and its message to the failures if it is not met.
 void AddCheck(Check check, Verdict& verdict);
 
-/// Asks what the scenario expects, and unless that says otherwise of every plant:
+/// Checks the scenario's expectations and, unless these say otherwise, for every plant:
 ///   * that it arrives; another `status` among the metrics or `collision: true` replaces that,
 ///   * that it touches no obstacle,
 ///   * on a path, that it stays within one car width of it (`max_cross_track` replaces that),
 ///   * that its wheels turned no faster than its actuator can, but for what their compliance adds
 ///     (3 %): faster ones mean that the timestep is too long for the car.
-/// A run without a path, obstacles and expectations has been asked nothing: it is not judged, and
-/// has not passed. Notes tell of a manoeuvre in which the steering did not reach its command for
-/// more than 2 % of the time.
+/// A run without a path, obstacles and expectations is not judged, and has not passed. A note is
+/// added for a maneuver in which the steering did not reach its command for more than 2 % of the
+/// time.
 Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plants,
               const std::vector<PlantComparison>& comparisons);
 

@@ -6,8 +6,7 @@
 
 namespace trackbed {
 
-/// The linear-quadratic regulator with preview: of all ways to steer from here on, the one with the
-/// least
+/// The linear-quadratic regulator with preview: minimizes
 ///   sum over control periods of  cross_track e^2 + heading (psi - psi_0)^2 + steering_rate w^2
 /// for the linear error model (docs/algorithms/control.md), without limits.
 ///
@@ -21,21 +20,20 @@ namespace trackbed {
 /// tyre coefficients, behind its steering actuator and lag. Gains are computed anew in each period,
 /// for the present speed and direction: nothing is scheduled between grid points.
 ///
-/// The rate turns the angle that was asked for last, from where the actuator stood at first, so
-/// that an actuator that is late, has play or gives a tenth too little is driven until it is there.
+/// The rate integrates from the last commanded angle, initially that of the actuator, so that
+/// delay, backlash or a gain error of the actuator are compensated.
 ///
-/// On a path of constant curvature without error it steers delta_0. The rate and the angle are cut
-/// to the car's limits after the fact; the regulator does not know them: see MpcOptions. But a car
-/// off its path is steered more calmly the further it is off, with a larger weight of the rate, so
-/// that its slow wheels can follow, and approaches the path at 0.6 rad at most. Reverse paths are
-/// the same model with u < 0.
+/// On a path of constant curvature without error it steers delta_0. Rate and angle are clipped to
+/// the car's limits afterwards; the regulator does not account for them: see MpcOptions. The weight
+/// of the rate grows with the distance from the path, so that the rate-limited steering can follow;
+/// the car and approaches the path at 0.6 rad at most. Reverse paths are the same model with u < 0.
 /// Cost: about 55 us with 100 periods of preview on the path, some 0.5 ms meters beside it; no heap
 /// memory.
 struct LqrOptions {
   std::optional<double> cross_track;    ///< [1/m^2], > 0; none: (2.7 m/L)^2 per m^2
   double heading = 1.0;                 ///< [1/rad^2], >= 0
   std::optional<double> steering_rate;  ///< [s^2/rad^2], > 0; none: (0.1506 rad/s over omega)^2
-  double preview = 2.0;  ///< how far ahead the path's curvature is looked at [s], >= 0
+  double preview = 2.0;                 ///< preview time of the path's curvature [s], >= 0
 };
 void Visit(KeyVisitor& keys, LqrOptions& options);
 

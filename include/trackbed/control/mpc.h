@@ -14,16 +14,15 @@ namespace trackbed {
 ///
 /// Symbols and model as in LqrOptions; N `horizon`; the steering rate w_k is held over a step. The
 /// condensed program in w_0 .. w_{N-1} is solved anew in each control period
-/// (optimize/quadratic_program.h), and its first rate is what the wheels turn with until the next.
-/// It keeps no solution from one period to the next: the search's first step is the optimum
-/// wherever it begins.
+/// (optimize/quadratic_program.h), and its first rate is applied until the next. It keeps no
+/// solution from one period to the next: the search's first step is the optimum wherever it begins.
 ///
 /// Guarantees: the wanted angle is within the limit, and within what the actuator reaches in the
 /// period from the angle asked for last (as in LqrOptions). Where no limit is active it is the LQR
-/// with the same step and a preview of N steps. Far beside its path it is as calm as the LQR, and
-/// takes as much longer. Does not foresee that the speed will change, nor that tyres saturate.
-/// Reverse paths are the same model with u < 0. Cost: about 80 us with 20 steps, twice that where a
-/// limit is active; heap memory only NLopt's, and only there.
+/// with the same step and a preview of N steps. Far from its path its rate is weighted as in the
+/// LQR. Does not account for speed changes or tyre saturation. Reverse paths are the same model
+/// with u < 0. Cost: about 80 us with 20 steps, twice that where a limit is active; heap memory
+/// only NLopt's, and only there.
 struct MpcOptions {
   static constexpr int kLongestHorizon = 40;
 

@@ -9,10 +9,10 @@
 #include "trackbed/vehicle/kinematic_car.h"
 #include "trackbed/vehicle/params.h"
 
-/// Steering found by a search at every control step (Skackauskas et al. 2017).
-/// A primary model moves as wanted; the car, the secondary one, is disturbed. While the car's
-/// deviation (9) from the primary exceeds a limit, now or after the horizon if the plan's curvature
-/// were steered, the angle is steered that minimizes
+/// Steering found by a search at every control step (Skackauskas et al. 2017). The primary model is
+/// the reference motion; the car, the secondary model, is disturbed. While the car's deviation (9)
+/// from the primary exceeds a limit, now or after the horizon if the plan's curvature were steered,
+/// the angle is steered that minimizes
 ///   (1)  F = (x_i - x_i0)^2 + (y_i - y_i0)^2 + (psi_i - psi_i0)^2,  (2)  |delta| <= delta_max
 /// over a prediction of both.
 ///
@@ -20,10 +20,10 @@
 /// [rad], positive to the left; S horizon [m]; v speed of the car, v_0 of the primary [m/s].
 namespace trackbed {
 
-/// Which of the primary's poses the car's is compared with.
+/// The primary's pose that the car's pose is compared with.
 enum class Matching {
-  kArcLength,  ///< that at the car's own station, S meters further when predicted
-  kTime,       ///< that at the same time, however far behind the car is: the published first stage
+  kArcLength,  ///< at the car's own station, S meters further when predicted
+  kTime,       ///< at the same time, however far behind the car is: the published first stage
 };
 
 /// w of the weighted (1): w_position (x_e^2 + y_e^2) + w_heading psi_e^2.
@@ -33,7 +33,7 @@ struct DeviationWeights {
 };
 void Visit(KeyVisitor& keys, DeviationWeights& weights);
 
-/// (9): where the car is, seen from the primary.
+/// (9): the pose of the car relative to the primary.
 struct Deviation {
   double x = 0.0;    ///< along the primary's heading [m]
   double y = 0.0;    ///< to its left [m]
@@ -67,10 +67,11 @@ void Visit(KeyVisitor& keys, OptimalSteeringOptions& options);
 /// draws random numbers.
 int ControlEvaluations(SearchMethod method);
 
-/// Where the rear axle of a kinematic car gets from the origin, along x, over `distance` [m] (< 0:
-/// backwards) at `speed` [m/s] > 0, while its actuator turns from `steering` to `wanted` [rad] at
-/// its rate and stays there. Closed form for the heading and on the arc, quadrature on the ramp:
-/// within 1e-9 m as long as the ramp turns the car by less than 2 rad. Cost 0.5 us.
+/// The pose that the rear axle of a kinematic car reaches from the origin, heading along x, over
+/// `distance` [m] (< 0: backwards) at `speed` [m/s] > 0, while its actuator turns from `steering`
+/// to `wanted` [rad] at its rate and stays there. Closed form for the heading and on the arc,
+/// quadrature on the ramp: within 1e-9 m as long as the ramp turns the car by less than 2 rad. Cost
+/// 0.5 us.
 Pose2 PredictPose(const VehicleParams& vehicle, double steering, double wanted, double speed,
                   double distance);
 
@@ -81,7 +82,7 @@ struct SteeringMatch {
   int evaluations = 0;
 };
 
-/// A pose that the car is to reach over a distance.
+/// A target pose to reach over a distance.
 struct SteeringProblem {
   Pose2 wanted;               ///< of the rear axle, in the frame of the car's; yaw not wrapped
   double distance = 0.0;      ///< [m], not 0, < 0 backwards
@@ -95,18 +96,18 @@ struct SteeringProblem {
 Deviation DeviationAhead(const VehicleParams& vehicle, const SteeringProblem& problem,
                          double steering);
 
-/// What the search varies: the share q of the heading that the wheels can add on the way, turning
-/// at their full rate from where they are (+-1). With R the angle they can turn by,
+/// The search variable: the fraction q of the heading change that is reachable, turning at their
+/// full rate from where they are (+-1). With R the angle they can turn by,
 ///   delta = delta_now +- R (1 - sqrt(1 - abs(q))).
 /// The pose reached is nearly linear in q; in delta it is not, since an angle that is reached late
-/// counts for next to nothing, and searches would get stuck on that plateau.
+/// has almost no effect, and searches would stall on that plateau.
 double SteeringOfShare(const VehicleParams& vehicle, const SteeringProblem& problem, double share);
 /// The inverse, +-1 for angles out of reach.
 double TurnShare(const VehicleParams& vehicle, const SteeringProblem& problem, double steering);
 
-/// The angle that leads nearest to the wanted pose, within delta_max and within what the actuator
-/// reaches on the way: angles beyond are all alike. The mirrored problem has exactly the mirrored
-/// solution. InternalError for options that make no sense.
+/// The angle whose end pose is nearest to the target, within delta_max and within what the actuator
+/// reaches over the distance: larger angles are equivalent. The mirrored problem has exactly the
+/// mirrored solution. InternalError for invalid options.
 SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem& problem,
                              const DeviationWeights& weights, const SearchOptions& search);
 

@@ -9,14 +9,14 @@
 /// Recorded inputs, replayed on any plant.
 namespace trackbed {
 
-/// What a recording runs over.
+/// The independent variable of a recording.
 enum class PlaybackAxis {
-  kTime,      ///< since the drive began [s]
+  kTime,      ///< since the start of the run [s]
   kDistance,  ///< that the car has driven [m]
 };
 
-/// The inputs of a drive; all over the same axis. At most one of speed and acceleration is there;
-/// empty signals say nothing.
+/// The inputs of a run, all over the same axis. At most one of speed and acceleration is given;
+/// empty signals have no effect.
 struct Recording {
   Signal steering{{{0.0, 0.0}}};  ///< bicycle angle [rad], positive to the left; not empty
   Signal speed;                   ///< of the rear axle [m/s], >= 0
@@ -38,9 +38,9 @@ void Visit(KeyVisitor& keys, RecordingColumns& columns);
 ///   steering      the recorded angle where the period ends, at t + T or D + abs(v) T
 ///   speed         its change over the period by T, plus gain times the speed error (SpeedAlong)
 ///   acceleration  its mean over the period
-/// so that on a car that obeys exactly what was recorded is there at every control period. Before
-/// the first row and after the last the values are held. By distance, a recorded speed of zero is
-/// where the car stays.
+/// so that a car that follows commands exactly reproduces the recording at every control period.
+/// Before the first row and after the last the values are held. By distance, the car stays where
+/// the recorded speed is zero.
 struct PlaybackOptions {
   std::string file;  ///< where the recording was read; empty for one that was filled in by hand
   PlaybackAxis by = PlaybackAxis::kTime;

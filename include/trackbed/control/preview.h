@@ -15,17 +15,16 @@ enum class PreviewLaw {
 
 /// MacAdam's preview (MacAdam 1981) with a single point: the point P of the path at distance R from
 /// the rear-axle center O, the first after the nearest one; u is the signed angle from the
-/// direction of motion to OP. Beyond its end the path goes on along its tangent. A car further than
-/// R from the path heads for the point R ahead of its nearest one.
+/// direction of motion to OP. Beyond its end the path continues along its tangent. A car further
+/// than R from the path heads for the point R ahead of its nearest one.
 ///
-/// The distance trades corners against robustness: a car cuts them by R^2/(8 r), and its wheels
-/// turn at a limited rate. Unless `distance` is given, R follows from the car, its speed and the
-/// path:
+/// The distance trades corner cutting, R^2/(8 r), against robustness to the limited steering rate.
+/// Unless `distance` is given, R follows from the car, its speed and the path:
 ///   R = max(3/4 L,  3 v T,  0.65 S + v T)
 ///   T [s]  response time: control period + steering lag + m v/(C_f + C_r), the tyres' part 0 for a
 ///          car without tyre coefficients
-///   S [m]  the ramp: how far the car rolls while its wheels turn by more than the path gives them
-///          room for, the largest v abs(delta(s_2) - delta(s_1))/omega - (s_2 - s_1) of any two
+///   S [m]  distance by which rate-limited steering lags behind the path: the largest
+///          v abs(delta(s_2) - delta(s_1))/omega - (s_2 - s_1) of any two
 ///          stations s_1 < s_2 within R, with delta = atan(L kappa) of the path
 /// with L wheelbase [m], v speed [m/s], omega steering rate [rad/s], C_f, C_r cornering stiffness
 /// of the axles [N/rad], m mass [kg]. A car and its path of another size, at the same v/(L omega)
@@ -39,9 +38,9 @@ struct PreviewOptions {
   std::optional<double> distance;  ///< shortest R [m], > 0; default: the law above
   double time = 0.0;               ///< R is at least time |v| [s]
   PreviewLaw law = PreviewLaw::kExactArc;
-  /// With the tyres' slip: u from where the rear axle really moves, and the steering that leads a
-  /// car that understeers round the circle. A given distance has to be half a second at 20 m/s,
-  /// where 0.3 s swing out for good.
+  /// Accounts for tyre slip: u is measured from the actual direction of motion of the rear axle,
+  /// and the steering includes understeer. A given distance must be at least 0.5 s at 20 m/s; 0.3 s
+  /// is unstable there.
   bool slip = false;
 };
 void Visit(KeyVisitor& keys, PreviewOptions& options);

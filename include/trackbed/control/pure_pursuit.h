@@ -11,13 +11,13 @@ namespace trackbed {
 /// from the direction of motion to that point.
 ///
 /// On a circle it steers atan(L/R) exactly. With the wheels' rate omega limited, a car at speed v
-/// needs l of about 1.5 cbrt(e L v/omega) to return from an offset e without swinging out.
+/// needs l of about 1.5 cbrt(e L v/omega) to return from an offset e without oscillation.
 /// PreviewOptions lengthens its distance for the car's offset; this law does not. Unless `distance`
 /// is given, l is the distance of PreviewOptions, and long enough for an offset of an eighth of the
 /// wheelbase: 3/4 L cbrt(v/(L omega)).
 ///
-/// Reverse paths: the point lies behind, the same circle. Beyond its end the path goes on along its
-/// tangent. Knows no slip: a car that understeers runs outside of its circle.
+/// Reverse paths: the point lies behind, the same circle. Beyond its end the path continues along
+/// its tangent. Ignores slip: an understeering car runs outside of its circle.
 struct PurePursuitOptions {
   std::optional<double> distance;  ///< shortest l [m], > 0; default: the law above
   double time = 0.0;               ///< l is at least time |v| [s], >= 0

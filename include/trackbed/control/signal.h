@@ -7,8 +7,7 @@
 namespace trackbed {
 
 /// A quantity known at some points: linear between knots (x, value), held before the first and
-/// after the last. x rises strictly. Without knots it has no
-/// values: to ask for one is an InternalError.
+/// after the last. x is strictly increasing. Evaluating a signal without knots is an InternalError.
 struct Signal {
   std::vector<Vec2> knots;
 
@@ -21,7 +20,7 @@ struct Signal {
   /// O(log knots + knots between).
   [[nodiscard]] double Mean(double from, double to) const;
 
-  /// Whether x rises strictly and everything is finite.
+  /// Whether x is strictly increasing and all values are finite.
   [[nodiscard]] bool IsStrictlyIncreasing() const;
 };
 

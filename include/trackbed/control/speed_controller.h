@@ -8,7 +8,7 @@
 
 namespace trackbed {
 
-/// Braking whatever the car does: straight, in a turn, on a path.
+/// Braking that overrides every other speed command.
 struct Braking {
   double at = 0.0;            ///< [s]; from the first control period that begins then or later
   double deceleration = 0.0;  ///< [m/s^2], >= 0, down to standstill; 0: the car coasts
@@ -37,9 +37,9 @@ void Visit(KeyVisitor& keys, SpeedControlOptions& options);
 double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& profile, double s,
                     double speed, double period, double max_deceleration = 0.0);
 
-/// Wanted acceleration [m/s^2] from `time` [s] on where the options say what the speed does over
-/// time: the braking once it has begun, else along `over_time` (SpeedAlong). Nothing limits it but
-/// the car. None where they do not say.
+/// Commanded acceleration [m/s^2] from `time` [s] on if the options prescribe the speed over time:
+/// the braking once it has begun, else along `over_time` (SpeedAlong). Limited only by the car.
+/// None if they do not prescribe it.
 std::optional<double> TimedSpeedControl(const SpeedControlOptions& options, double time,
                                         double speed, double period);
 
@@ -48,7 +48,7 @@ bool Coasts(const SpeedControlOptions& options, double time);
 
 /// Wanted acceleration [m/s^2] of a car with `speed` that follows a speed which goes from wanted(x)
 /// to wanted(x + ahead) within `period`: that change over the period, plus gain [1/s] times the
-/// speed error. A car without an error, obeying exactly, is at wanted(x + ahead) then.
+/// speed error. A car without error that follows commands exactly reaches wanted(x + ahead).
 double SpeedAlong(const Signal& wanted, double x, double ahead, double gain, double speed,
                   double period);
 

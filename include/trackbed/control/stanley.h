@@ -14,19 +14,18 @@ namespace trackbed {
 /// single-track car if it has tyre coefficients.
 ///   forwards   delta = delta_0 - (psi - psi_0) - atan(k (e + L sin(psi - psi_0))/(k_s + |v|))
 ///   backwards  delta = delta_0 + (psi - psi_0) - atan(k e/(k_s + |v|))
-/// The offset is that of the leading axle: forwards, e + L sin(psi - psi_0) is how far the front
-/// axle is off the way it takes when the rear axle is on its path. Without slip and with k_s = 0 it
-/// shrinks as exp(-k t) when it is small, and at no more than |v| when it is large. Backwards the
-/// rear axle leads but does not steer: e swings with the damping ratio sqrt((k_s + |v|)/(k L))/2,
-/// 0.6 at 3 m/s and 0.4 at 1 m/s for the Prius.
+/// The offset is that of the leading axle: forwards, e + L sin(psi - psi_0) is the distance of the
+/// front axle from the path it follows when the rear axle is on its path. Without slip and with k_s
+/// = 0 it shrinks as exp(-k t) when it is small, and at no more than |v| when it is large.
+/// Backwards the rear axle leads but does not steer: e oscillates with the damping ratio sqrt((k_s
+/// + |v|)/(k L))/2, 0.6 at 3 m/s and 0.4 at 1 m/s for the Prius.
 ///
 /// The defaults, with omega the steering rate [rad/s], are 1/s and 1 m/s for the Prius.
 ///
-/// Does not look ahead, so that it meets a step of curvature late by the time that the wheels take
-/// to turn, and has no damping of its own: at speeds where the car's yaw lags (above some 10 m/s
-/// with the default k) it swings, and the more the larger k is. Nor does it know that wheels turn
-/// slowly: the Prius at 3 m/s comes back from 1.5 m beside its path, and from 4 m swings out for
-/// good.
+/// Has no preview, so that it follows a curvature step late by the steering ramp time, and no
+/// damping: above some 10 m/s with the default k, where the yaw response lags, it oscillates, the
+/// more the larger k is. It ignores the steering rate limit: the Prius at 3 m/s returns from an
+/// offset of 1.5 m, and is unstable from 4 m.
 struct StanleyOptions {
   std::optional<double> gain;       ///< k [1/s], > 0; none: 6.64 omega
   std::optional<double> softening;  ///< k_s [m/s], >= 0; none: 2.46 L omega

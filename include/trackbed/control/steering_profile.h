@@ -6,19 +6,19 @@
 
 /// Steering over time: the open-loop maneuvers of handling tests.
 ///
-/// Symbols: t time since the drive began [s]; t0 `at`, when the maneuver begins; tau = t - t0;
-/// A `amplitude`; f frequency [Hz]; delta the wanted bicycle angle [rad], positive to the left, 0
-/// before t0. A negative amplitude mirrors the maneuver.
+/// Symbols: t time since the start of the run [s]; t0 `at`, when the maneuver begins; tau = t - t0;
+/// A `amplitude`; f frequency [Hz]; delta the commanded bicycle angle [rad], positive to the left,
+/// 0 before t0. A negative amplitude mirrors the maneuver.
 namespace trackbed {
 
-/// One angle from the start of the drive on.
+/// A constant angle from the start of the run.
 struct ConstantSteeringOptions {
   double steering = 0.0;  ///< [rad]
 };
 void Visit(KeyVisitor& keys, ConstantSteeringOptions& options);
 
-/// To A and staying there (ISO 7401, step input). With a rate r delta = A min(1, r tau/abs(A)),
-/// without one it jumps after t0, and the car's actuator is what limits it.
+/// A step to A (ISO 7401, step input). With a rate r delta = A min(1, r tau/abs(A)), without one it
+/// jumps after t0, limited by the car's actuator.
 struct StepSteeringOptions {
   double amplitude = 0.0;      ///< A [rad]
   double at = 1.0;             ///< t0 [s]
@@ -26,7 +26,7 @@ struct StepSteeringOptions {
 };
 void Visit(KeyVisitor& keys, StepSteeringOptions& options);
 
-/// Slowly increasing steer (SAE J266, ISO 4138): toward `end` at a steady rate r, staying there.
+/// Slowly increasing steer (SAE J266, ISO 4138): toward `end` at a constant rate r, then constant.
 struct RampSteeringOptions {
   double end = 0.0;    ///< [rad]
   double rate = 0.01;  ///< r [rad/s], > 0
@@ -43,8 +43,8 @@ struct SineSteeringOptions {
 };
 void Visit(KeyVisitor& keys, SineSteeringOptions& options);
 
-/// ISO 19365: one sine that stays at its second peak, -A at tau = 3/(4 f), for the dwell, then
-/// returns to 0 at tau = 1/f + dwell.
+/// ISO 19365: one sine cycle with a dwell at its second peak, -A at tau = 3/(4 f), then back to 0
+/// at tau = 1/f + dwell.
 struct SineWithDwellOptions {
   double amplitude = 0.0;  ///< A [rad]
   double frequency = 0.7;  ///< f [Hz], > 0
@@ -53,10 +53,10 @@ struct SineWithDwellOptions {
 };
 void Visit(KeyVisitor& keys, SineWithDwellOptions& options);
 
-/// How the frequency goes from f0 to f1 over the duration T.
+/// Frequency from f0 to f1 over the duration T.
 enum class Sweep {
   kLinear,       ///< f(tau) = f0 + (f1 - f0) tau/T
-  kExponential,  ///< f(tau) = f0 (f1/f0)^(tau/T): as long in every octave
+  kExponential,  ///< f(tau) = f0 (f1/f0)^(tau/T): equal time per octave
 };
 
 /// delta = A sin(phi(tau)) for 0 <= tau < T, then 0, with phi' = 2 pi f(tau), phi(0) = 0:
@@ -80,7 +80,7 @@ double SteeringAt(const SineSteeringOptions& options, double time);
 double SteeringAt(const SineWithDwellOptions& options, double time);
 double SteeringAt(const SweptSineOptions& options, double time);
 
-/// The controllers that steer by these profiles.
+/// The controllers of these profiles.
 ControllerEntry ConstantSteering();
 ControllerEntry StepSteering();
 ControllerEntry RampSteering();

@@ -7,18 +7,18 @@
 #include <utility>
 #include <vector>
 
-/// Four kinds of failure, and who has to act on each:
-///  * InputError: what the user gave is wrong (a file, an option, a model). Exit code 2.
-///  * RunError: the surroundings failed (a full disk, an unwritable folder, no encoder). Exit
+/// Four kinds of failure, by who has to act:
+///  * InputError: the user's input is wrong (a file, an option, a model). Exit code 2.
+///  * RunError: the environment failed (a full disk, an unwritable folder, no encoder). Exit
 ///  code 2.
 ///  * PreconditionError: a program called a function of the library with an argument that the
 ///  function does not take; a bug in the calling program.
-///  * InternalError: a check of our own failed; a bug in Trackbed. Exit code 1.
-/// That a plan cannot be found or a drive ends early is no error but an outcome: see PlanStatus and
-/// DriveStatus.
+///  * InternalError: an internal check failed; a bug in Trackbed. Exit code 1.
+/// A plan that is not found or a run that ends early is an outcome, not an error: see PlanStatus
+/// and DriveStatus.
 namespace trackbed {
 
-/// One thing wrong with an input, placed where the user can find it.
+/// One problem in an input, with its position.
 struct Problem {
   std::string file{};     ///< as the user named it; empty when there is no file
   int line = 0;           ///< 1-based; 0 when unknown
@@ -42,7 +42,7 @@ class InputError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
-/// The surroundings did not do what they were asked to: `what()` is one line for the user.
+/// A failure of the environment: `what()` is one line for the user.
 class RunError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -54,7 +54,7 @@ class PreconditionError : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// A bug: a condition that the program's own logic guarantees did not hold.
+/// A bug: an invariant of the program does not hold.
 class InternalError : public std::logic_error {
  public:
   using std::logic_error::logic_error;
@@ -67,8 +67,8 @@ class InternalError : public std::logic_error {
 
 }  // namespace trackbed
 
-/// Throws PreconditionError when `condition`, which concerns an argument of the caller's, is false.
-/// The rest is an fmt message.
+/// Throws PreconditionError when `condition` on a caller's argument is false. The remaining
+/// arguments are an fmt message.
 #define TRACKBED_REQUIRE(condition, ...)                              \
   do {                                                                \
     if (!(condition))                                                 \

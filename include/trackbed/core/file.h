@@ -14,15 +14,15 @@ std::string ReadFile(const std::filesystem::path& file);
 /// disk or an unwritable folder.
 void WriteFileAtomically(const std::filesystem::path& file, std::string_view content);
 
-/// Whether WriteFileAtomically could begin to write the file, to ask before long work. RunError as
-/// there: the name is a folder's, or its folder is absent or takes no files. Leaves nothing behind.
+/// Checks, before long work, that WriteFileAtomically can write the file. RunError as there: the
+/// name is a folder's, or its folder is absent or takes no files. Leaves nothing behind.
 void CheckCanWrite(const std::filesystem::path& file);
 
 /// Creates the folder and its parents. RunError when that is not possible.
 void MakeFolder(const std::filesystem::path& folder);
 
-/// A name beside `file` that a writer can use until the content is complete: the same extension, so
-/// that writers that look at it work.
+/// A temporary name in the folder of `file` for use until the content is complete. It has the same
+/// extension, for writers that depend on it.
 std::filesystem::path TemporaryNameFor(const std::filesystem::path& file);
 
 /// Renames a complete temporary to its final name, or to what a link of that name points to.

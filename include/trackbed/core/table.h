@@ -46,19 +46,18 @@ class Table {
 /// Empty lines, spaces around cells and a byte order mark are skipped.
 Table ReadCsv(const std::filesystem::path& file);
 
-/// The first twenty problems of a file, and how many more there are: a long file can be wrong in
-/// every row, and nobody reads more.
+/// The first twenty problems of a file and the number of further ones.
 std::vector<Problem> FirstProblems(std::vector<Problem> problems);
 
-/// Some columns of a CSV file that others have written.
+/// Selected columns of a CSV file from another program.
 struct CsvExcerpt {
   Table table;             ///< the columns asked for that the file has, in its own order
-  std::vector<int> lines;  ///< where the table's rows stand in the file, from 1
+  std::vector<int> lines;  ///< line numbers of the rows in the file, from 1
 };
 
-/// Reads the columns `needed`, at least one, and those of `optional` that there are; what stands in
-/// others, as names or as cells, is not looked at. InputError as ReadCsv, and for a needed column
-/// that is missing (with the nearest spelling) and a cell that is not finite.
+/// Reads the columns `needed`, at least one, and those of `optional` that are present; other
+/// columns are ignored. InputError as ReadCsv, and for a needed column that is missing (with the
+/// nearest spelling) and a cell that is not finite.
 CsvExcerpt ReadCsvExcerpt(const std::filesystem::path& file, std::vector<std::string> needed,
                           std::vector<std::string> optional = {});
 

@@ -10,12 +10,11 @@ namespace trackbed {
 /// The shortest text that reads back to the same number; a negative zero is "0".
 std::string ShortestText(double number);
 
-/// Two numbers for a sentence that tells them apart: with four digits, or with as many as it takes
-/// until they differ.
+/// Two numbers as text with four digits, or with as many as are needed for them to differ.
 std::pair<std::string, std::string> FormatDistinct(double first, double second);
 
-/// A table of texts with named columns, for results that are not all numbers. Text in, text out:
-/// an empty cell is a value that there is none of.
+/// A table of texts with named columns, for results that are not all numbers. Text in, text out: an
+/// empty cell is a missing value.
 ///
 /// Guarantees: ToCsv is one header line, then one line per row, in RFC 4180's quotes where a cell
 /// holds a comma, a quote or a line end; what it writes reads back to the same cells.

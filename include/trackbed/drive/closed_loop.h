@@ -21,7 +21,7 @@
 /// The closed loop of any plant, any steering controller and any plan.
 namespace trackbed {
 
-/// How a caller follows a run and ends it early. Each may be empty.
+/// Callbacks for following a run and ending it early. Each may be empty.
 struct DriveHooks {
   std::function<void(double fraction)> progress{};  ///< called at most 100 times, with 0 to 1
   std::function<bool()> interrupted{};              ///< asked once per control period
@@ -31,16 +31,16 @@ struct DriveHooks {
 
 /// New plans during a run. Without either, obstacles do not change the plan.
 struct ReplanningConfig {
-  std::optional<AvoiderOptions> avoid{};  ///< the local planner that leads around obstacles
+  std::optional<AvoiderOptions> avoid{};  ///< the local planner that reroutes around obstacles
   std::optional<ReplanOptions> replan{};  ///< periodic replanning along the route
   SpeedLimits limits{};                   ///< of the mission; all > 0
 };
 
-/// Everything about a run but its plant, its controller and its plan. Only `vehicle` has to be set.
-/// Values: nothing is referred to, but what the hooks refer to themselves.
+/// The configuration of a run besides its plant, controller and plan. Only `vehicle` must be set.
+/// Holds values, no references except those in the hooks.
 struct LoopConfig {
-  VehicleParams vehicle{};  ///< that the plant moves; wheelbase, length and width > 0
-  /// What planners and controllers take the vehicle for, such as the one without its payload. None:
+  VehicleParams vehicle{};  ///< of the plant; wheelbase, length and width > 0
+  /// The vehicle as assumed by planners and controllers, such as without its payload. None:
   /// `vehicle`. For the controller, `disturbances.wheelbase` scales its wheelbase as well.
   std::optional<VehicleParams> nominal_vehicle{};
   /// Obstacles for clearance, collisions and replanning, friction for the hardest braking. The
@@ -59,10 +59,10 @@ struct LoopConfig {
   std::optional<double> goal_heading_tolerance{};
 
   StationSource station_source = StationSource::kProjection;
-  /// The plan's steering schedule reaches the actuator, at every timestep; the controller's answers
-  /// are only logged. Needs StationSource::kOdometer.
+  /// The plan's steering schedule reaches the actuator, at every timestep; the controller's output
+  /// is only logged. Needs StationSource::kOdometer.
   bool follow_schedule = false;
-  /// That the plant was made with. With kPrescribed, the wheels reach the wanted angle on a ramp
+  /// As the plant was made with. With kPrescribed, the wheels reach the commanded angle on a ramp
   /// over the control period.
   SteeringInput steering_input = SteeringInput::kActuator;
   SpeedControlOptions speed{};
@@ -70,7 +70,7 @@ struct LoopConfig {
   /// Faults injected into the loop. `payload` and `recovered_within` are not used here: the payload
   /// is the plant's, the recovery is measured afterwards.
   Disturbances disturbances{};
-  std::uint64_t seed = 0;  ///< of the measurement noise, and of what is planned on the way
+  std::uint64_t seed = 0;  ///< of the measurement noise and of replanning
   std::optional<ReplanningConfig> replanning{};
 
   /// Names of the numbers of Plant::Configuration, as CarModel::configuration_columns. Empty:
@@ -80,19 +80,19 @@ struct LoopConfig {
 };
 
 /// Runs `controller` and the speed control on `plant` along `plan`. Once per control period:
-/// observe; project onto the path; take up a new plan, or the next forward or reverse segment, if
-/// one is due; end the run if it is over; steer and set the acceleration; log; step the plant.
+/// observe; project onto the path; switch to a new plan or to the next forward or reverse segment
+/// if due; end the run if it is over; steer and set the acceleration; log; step the plant.
 ///
 /// `plant` stands at the start, has not been stepped, and has the timestep, world and steering
 /// input that `config` says. Its start speed and its actuator's angle are those of the run; its
-/// odometer may begin anywhere. The log's times count from 0, and RunLog::plant is left empty.
-/// A plan without a path (length 0) is driven by its speeds alone, until the duration or the time
-/// limit. SteeringController::Accelerate goes before the plan's speeds, and
-/// SpeedControlOptions::over_time and ::braking go before both.
+/// odometer may begin anywhere. The log's times count from 0, and RunLog::plant is left empty. A
+/// plan without a path (length 0) is followed by its speeds only, until the duration or the time
+/// limit. SteeringController::Accelerate overrides the plan's speeds;
+/// SpeedControlOptions::over_time and ::braking override both.
 ///
-/// A plan that changes direction is driven segment by segment: at rest at the end of one the wheels
-/// turn to where the next one needs them, then the gear changes. A run along a path ends at rest,
-/// unless a segment or a new plan is still to come; see DriveStatus for every other end.
+/// A plan that changes direction is driven segment by segment: at rest at the end of one, the
+/// wheels turn to the initial angle of the next, then the gear changes. A run along a path ends at
+/// rest, unless a segment or a new plan is still to come; see DriveStatus for every other end.
 ///
 /// Guarantees: the same plant, controller, plan, configuration and build give the same log, bit for
 /// bit. Arguments but plant and controller are not changed. Exceptions of plant, controller and

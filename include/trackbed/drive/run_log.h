@@ -11,16 +11,16 @@
 
 namespace trackbed {
 
-/// How a drive ended.
+/// How a run ended.
 enum class DriveStatus {
   kArrived,      ///< at rest at the goal, within drive.goal_tolerance; without a path: the
                  ///< mission's duration is over
   kStopped,      ///< at rest elsewhere, and staying there
-  kBlocked,      ///< at rest before an obstacle that no way was found around
-  kPartial,      ///< at rest at the end of a plan that leads only part of the way (Plan::partial)
+  kBlocked,      ///< at rest before an obstacle without a path around it
+  kPartial,      ///< at rest at the end of a partial plan (Plan::partial)
   kTimeLimit,    ///< drive.time_limit is over
-  kDiverged,     ///< the physics failed (MuJoCo warned); the log ends before
-  kCollided,     ///< the car touched an obstacle; the log goes on for a second
+  kDiverged,     ///< the simulation diverged (MuJoCo warning); the log ends before
+  kCollided,     ///< the car touched an obstacle; the log continues for one second
   kRolledOver,   ///< the car leans by more than 60 degrees
   kInterrupted,  ///< the caller asked to stop
 };
@@ -39,28 +39,28 @@ struct LogRow {
   /// Smallest, of the outline [m], 0 when it touched; none without obstacles.
   std::optional<double> clearance;
   std::optional<Pose2> measured;   ///< what the controller saw; none without noise
-  std::vector<double> controller;  ///< what it tells of its last answer: RunLog's columns
+  std::vector<double> controller;  ///< diagnostics of its last update: RunLog's columns
 };
 
-/// A new plan that was taken up while driving.
+/// A plan adopted during the run.
 struct PlanChange {
   double time = 0.0;     ///< when it took effect [s]
   double station = 0.0;  ///< in the log, where its own stations begin [m]
   Plan plan;
 };
 
-/// One drive of one plant. The last row is the state at the end, with the command that led there.
+/// The log of one plant. The last row is the final state, with the command that led to it.
 struct RunLog {
   std::string plant;
   DriveStatus status = DriveStatus::kArrived;
   std::optional<double> contact_time;           ///< first contact with an obstacle [s]; none: never
   std::vector<std::string> controller_columns;  ///< SteeringController::Columns
-  std::vector<LogRow> rows;                     ///< stations go on over changes of plan
+  std::vector<LogRow> rows;                     ///< stations continue across plan changes
   std::vector<PlanChange> changes;
   Table configurations;  ///< `t_s` and the car's configuration (CarModel::configuration_columns)
 };
 
-/// The rows as `<plant>.csv` has them: columns that need a path or tyres are there when these are.
+/// The rows as `<plant>.csv` has them: columns that need a path or tyres are present if these are.
 Table ToTable(const RunLog& log);
 
 }  // namespace trackbed

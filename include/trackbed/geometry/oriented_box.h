@@ -6,7 +6,7 @@
 
 namespace trackbed {
 
-/// A rectangle in the plane, turned by its pose's yaw.
+/// A rectangle in the plane, rotated by the yaw of its pose.
 struct OrientedBox {
   Pose2 center;         ///< middle of the rectangle; its x axis runs along the length
   double length = 0.0;  ///< along its own x [m], > 0
@@ -16,7 +16,7 @@ struct OrientedBox {
   [[nodiscard]] std::array<Vec2, 4> Corners() const;
 };
 
-/// A rectangle that moves on as it does now, without turning.
+/// A rectangle that moves at constant velocity, without rotation.
 struct MovingBox {
   OrientedBox box;          ///< at time 0
   Vec2 velocity{0.0, 0.0};  ///< [m/s]
@@ -28,8 +28,8 @@ struct MovingBox {
 /// Whether a point lies within a rectangle or on its border.
 bool Contains(const OrientedBox& box, const Vec2& point);
 
-/// Shortest distance between two rectangles [m]; where they overlap, minus the shortest way that
-/// one would have to move to come free. Exact to rounding.
+/// Shortest distance between two rectangles [m]; negative if they overlap: minus the shortest
+/// translation that separates them. Exact to rounding.
 double Separation(const OrientedBox& a, const OrientedBox& b);
 
 /// Shortest distance between two rectangles [m]; 0 when they touch or overlap.

@@ -41,9 +41,10 @@ Vec2 ToWorld(const Pose2& X_WA, const Vec2& p_AQ);
 /// p_AQ of a point whose world coordinates are p_WQ.
 Vec2 ToLocal(const Pose2& X_WA, const Vec2& p_WQ);
 
-/// Where a frame gets that moves `distance` [m, negative backwards] along its own x axis while it
-/// turns by `turn` [rad] at a constant rate: exact for lines and arcs. `slip` [rad] is the constant
-/// angle from the x axis to the direction of motion (the side-slip angle at the moving point).
+/// The pose of a frame that has moved by `distance` [m, negative backwards] along its own x axis
+/// while turning by `turn` [rad] at a constant rate: exact for lines and arcs. `slip` [rad] is the
+/// constant angle from the x axis to the direction of motion (the sideslip angle at the moving
+/// point).
 Pose2 MoveOnArc(const Pose2& start, double distance, double turn, double slip = 0.0);
 
 }  // namespace trackbed

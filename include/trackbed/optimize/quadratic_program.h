@@ -24,21 +24,20 @@ struct QuadraticProgram {
 };
 
 struct QuadraticSolution {
-  bool ok = false;  ///< the constraints are kept
+  bool ok = false;  ///< the constraints are met
   QuadraticProgram::Vector x;
-  double violation = 0.0;  ///< largest G x - h, 0 when kept
+  double violation = 0.0;  ///< largest G x - h, 0 if met
   int solves = 0;          ///< by SLSQP; 0: the unconstrained minimum keeps the constraints
 };
 
-/// Solves by Cholesky decomposition where no constraint is in the way, else with NLopt's SLSQP on
-/// the constraints that are, taken in until none of the others is violated. SLSQP works in
-/// variables that turn H into the identity, which it takes the Hessian for at first: its first step
-/// is the solution, wherever it starts.
+/// Solves by Cholesky decomposition if no constraint is active, else with NLopt's SLSQP on an
+/// active set of constraints, extended until none is violated. SLSQP works in variables in which H
+/// is the identity, its initial Hessian: its first step is the solution, from any start.
 ///
-/// Guarantees: constraints kept to `tolerance`, absolute; the same program gives the same bits.
-/// Not ok when they contradict each other; x is then what violates them least of what was tried.
-/// InternalError unless H is positive definite, the sizes agree and all numbers are finite.
-/// Cost: 20 variables about 10 us without, 0.1 to 1 ms with active constraints.
+/// Guarantees: constraints kept to `tolerance`, absolute; the same program gives the same bits. Not
+/// ok if they are infeasible; x is then the least-violating point that was tried. InternalError
+/// unless H is positive definite, the sizes agree and all numbers are finite. Cost: 20 variables
+/// about 10 us without, 0.1 to 1 ms with active constraints.
 QuadraticSolution Solve(const QuadraticProgram& program, double tolerance = 1e-9);
 
 }  // namespace trackbed

@@ -13,12 +13,12 @@
 
 #include "trackbed/geometry/pose.h"
 
-/// How a struct of options declares its keys, once for reading, writing and listing alike.
+/// Declares the keys of an options struct, once for reading, writing and listing.
 ///
 /// Beside the struct stands a function
 ///
 ///     void Visit(KeyVisitor& keys, MyOptions& options) {
-///       keys.Field({"distance", "m", "how far ahead the car aims"}, options.distance,
+///       keys.Field({"distance", "m", "lookahead distance"}, options.distance,
 ///                  Need::kOptional, kPositive);
 ///     }
 ///
@@ -26,15 +26,15 @@
 /// and the lister of `trackbed docs` are visitors.
 namespace trackbed {
 
-/// A key, and what the docs say of it.
+/// A key and its description in the docs.
 struct Key {
   const char* name;
-  const char* unit;  ///< "m/s"; empty for what is no quantity
-  const char* text;  ///< for people, on one line
+  const char* unit;  ///< "m/s"; empty for non-quantities
+  const char* text;  ///< one line, for users
 };
 
 /// The key that selects one of several methods, each with keys of its own.
-inline constexpr Key kMethod{"method", "", "which one; each has keys of its own"};
+inline constexpr Key kMethod{"method", "", "name of the method; each has its own keys"};
 
 enum class Need { kRequired, kOptional };
 
@@ -52,7 +52,7 @@ inline constexpr Range kMap{.min = -1e5, .max = 1e5};          ///< [m]; beyond 
 inline constexpr Range kSpeedRange{.min = 0.0, .max = 100.0};  ///< [m/s]
 inline constexpr Range kSteering{.min = -1.5, .max = 1.5};     ///< [rad]
 
-/// The pairs of numbers in a list: what one is called and what many are, and the allowed values.
+/// A list of pairs of numbers: the names of one and of many pairs, and the allowed values.
 struct PairShape {
   const char* one;
   const char* many;
@@ -92,7 +92,7 @@ class KeyVisitor {
   virtual void Field(const Key& key, std::vector<Vec2>& value, Need need,
                      const PairShape& shape = kPoint) = 0;
   virtual void Field(const Key& key, std::vector<double>& value, Need need, Range range = {}) = 0;
-  /// A required name that can stand in a path: letters, digits, '_', '-', '.', none hidden.
+  /// A required name usable as a file name: letters, digits, '_', '-', '.', not starting with '.'.
   virtual void Identifier(const Key& key, std::string& value) = 0;
   /// A list of two whole numbers.
   virtual void Pair(const Key& key, int& first, int& second, Range range) = 0;
@@ -108,7 +108,7 @@ class KeyVisitor {
     VisitSection(key, need, true, [&](KeyVisitor& inner) { Visit(inner, value); });
   }
 
-  /// One whose absence has a meaning.
+  /// An optional section whose absence has a meaning.
   template <typename Struct>
   void Section(const Key& key, std::optional<Struct>& value);
 

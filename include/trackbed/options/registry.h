@@ -26,11 +26,11 @@ class Registry {
     const std::string name = entry.name;
     TRACKBED_REQUIRE(!name.empty(), "a {} without a name", kind_);
     for (const Entry& other : entries_) {
-      TRACKBED_REQUIRE(name != other.name, "there is a {} of the name {} already", kind_, name);
+      TRACKBED_REQUIRE(name != other.name, "a {} named {} is already registered", kind_, name);
       if constexpr (requires { entry.defaults; }) {
         TRACKBED_REQUIRE(!AreOfOneMethod(entry.defaults, other.defaults),
-                         "the {} {} has the options of {}; give it a type of its own", kind_, name,
-                         other.name);
+                         "the {} {} has the options type of {}; each needs its own type", kind_,
+                         name, other.name);
       }
     }
     entries_.push_back(std::move(entry));
@@ -54,7 +54,7 @@ class Registry {
     const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
       return AreOfOneMethod(entry.defaults, options);
     });
-    TRACKBED_CHECK(found != entries_.end(), "options of a {} that is not registered", kind_);
+    TRACKBED_CHECK(found != entries_.end(), "options of an unregistered {}", kind_);
     return *found;
   }
 

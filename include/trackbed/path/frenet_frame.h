@@ -4,13 +4,12 @@
 
 #include "trackbed/path/path.h"
 
-/// The frame that moves along a path (Frenet's): where a car is and how it moves, seen from the
-/// path, and back.
+/// The Frenet frame of a path: conversion of a car's pose and motion to path coordinates and back.
 ///
 /// Symbols: r(s), theta_r, kappa_r, kappa_r' point, yaw, curvature and sharpness of the path at
-/// station s; n its left normal; d = (x - r(s)) n lateral offset [m], positive to the left;
-/// d' = dd/ds and d'' = d^2d/ds^2; s_t, s_tt derivatives of s by time; Dtheta = theta - theta_r;
-/// v, a, kappa speed, acceleration and curvature of the car's own way.
+/// station s; n its left normal; d = (x - r(s)) n lateral offset [m], positive to the left; d' =
+/// dd/ds and d'' = d^2d/ds^2; s_t, s_tt derivatives of s by time; Dtheta = theta - theta_r; v, a,
+/// kappa speed, acceleration and curvature of the car's motion.
 ///   x = r + d n                            d' = (1 - kappa_r d) tan Dtheta
 ///   v = s_t (1 - kappa_r d)/cos Dtheta
 ///   d'' = -(kappa_r' d + kappa_r d') tan Dtheta
@@ -22,7 +21,7 @@
 /// d_t = d' s_t and d_tt = d'' s_t^2 + d' s_tt.
 namespace trackbed {
 
-/// A car seen from a path.
+/// The state of a car in path coordinates.
 struct FrenetState {
   double s = 0.0;               ///< [m]
   double s_rate = 0.0;          ///< s_t [m/s]

@@ -5,7 +5,7 @@
 
 #include "trackbed/geometry/pose.h"
 
-/// A path that a car is to drive: poses of its rear-axle center over arc length.
+/// A path for a car: poses of its rear-axle center over arc length.
 ///
 /// Symbols: s station, the distance along the path [m], growing in the direction of motion;
 /// yaw heading of the car [rad]; kappa = tan(steering)/wheelbase curvature [1/m], positive to the
@@ -31,7 +31,7 @@ struct Segment {
   bool operator==(const Segment&) const = default;
 };
 
-/// What a path is at one station.
+/// A point of a path at one station.
 struct PathPoint {
   double s = 0.0;          ///< [m]
   Pose2 pose;              ///< rear-axle center, heading of the car
@@ -40,14 +40,14 @@ struct PathPoint {
   double sharpness = 0.0;  ///< dkappa/ds [1/m^2]
 };
 
-/// The point of a path that is nearest to a pose, and how far the pose is from it.
+/// The point of a path nearest to a pose, and the errors of the pose against it.
 struct Projection {
   double s = 0.0;              ///< station of the nearest point [m]; see Path::Project
   double cross_track = 0.0;    ///< [m], positive left of the path
   double heading_error = 0.0;  ///< yaw of the pose minus yaw of the path [rad], in (-pi, pi]
 };
 
-/// A stretch of stations [m] within which to look.
+/// An interval of stations [m] to search.
 struct Stations {
   double from = -std::numeric_limits<double>::infinity();
   double to = std::numeric_limits<double>::infinity();
@@ -58,7 +58,7 @@ struct Stations {
 /// jump between segments. Immutable value.
 ///
 /// Before its start and after its end a path continues straight along its end tangents, with
-/// stations below 0 and above length(): a car near the end of its way still has a path to follow.
+/// stations below 0 and above length(): a car near the end of its path still has a path to follow.
 ///
 /// Does not know time or speed (see Reference), nor whether a car can follow it.
 class Path {
@@ -80,10 +80,9 @@ class Path {
   /// The nearest point to `pose` among the stations of `within`, which may reach beyond the ends.
   /// Exact for lines and arcs, to 1e-9 m along the path for other segments; only from within a
   /// tenth of the radius of their centers of curvature, from where much of them is about equally
-  /// far, may it be another point than the very nearest. Searching near the last known station
-  /// keeps a car from jumping to a later crossing or over a cusp. Of equally near points the one
-  /// with the smallest station. Cost O(segments within the stations). InternalError when `within`
-  /// is empty.
+  /// far, may it be a point other than the nearest. Searching near the last known station keeps a
+  /// car from jumping to a later crossing or over a cusp. Of equally near points the one with the
+  /// smallest station. Cost O(segments within the stations). InternalError when `within` is empty.
   [[nodiscard]] Projection Project(const Pose2& pose, Stations within = {}) const;
 
   /// Points at most `spacing` [m] apart, evenly over the whole path, both ends included.
@@ -103,9 +102,9 @@ class Path {
   double length_ = 0.0;
 };
 
-/// The stretches of a path that are driven in one go each, one after the other; between them are
-/// its cusps, where a car stops and changes gear, and the `stops` [m], where it stops as well. One
-/// of no length for a path of no length. Stops at the path's ends or beyond are none.
+/// The segments of a path between stops: its cusps, where a car stops and changes gear, and the
+/// `stops` [m]. One segment of length 0 for a path of length 0. Stops at or beyond the ends of the
+/// path are ignored.
 std::vector<Stations> LegsOf(const Path& path, const std::vector<double>& stops = {});
 
 /// A point that a curve passes through.

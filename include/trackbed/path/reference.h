@@ -6,7 +6,7 @@
 
 namespace trackbed {
 
-/// How fast a car may go and how it gets there.
+/// Speed and acceleration limits.
 struct SpeedLimits {
   double speed = 0.0;         ///< [m/s], > 0
   double acceleration = 0.0;  ///< [m/s^2], > 0
@@ -35,8 +35,8 @@ class SpeedProfile {
   /// Time [s] from the first knot to s when driven exactly; infinite where the profile stands
   /// still.
   [[nodiscard]] double TimeAt(double s) const;
-  /// Where a car is [m] that has driven the profile exactly for `time` [s] from its first knot on:
-  /// the inverse of TimeAt. Where the profile comes to rest, it stays.
+  /// The station [m] of a car that has followed the profile exactly for `time` [s] from its first
+  /// knot: the inverse of TimeAt. Where the profile comes to rest, it stays.
   [[nodiscard]] double StationAt(double time) const;
 
  private:
@@ -45,14 +45,14 @@ class SpeedProfile {
   std::vector<Knot> knots_;
 };
 
-/// A stretch of a path that is taken no faster than `speed`.
+/// A section of a path with a speed limit.
 struct SpeedCap {
   double from = 0.0;   ///< [m]
   double to = 0.0;     ///< [m]
   double speed = 0.0;  ///< [m/s], > 0
 };
 
-/// Leaves s = 0 at `start_speed`, goes as fast as limits and caps allow, and stops at s = length.
+/// Leaves s = 0 at `start_speed`, drives as fast as limits and caps allow, and stops at s = length.
 /// Where there is no length to reach the limit the profile peaks below it; where there is none to
 /// brake from the start speed at the limit's deceleration, it brakes harder, evenly. A start above
 /// the limit, or within a cap and above it, comes down at the limit's deceleration.
@@ -64,7 +64,7 @@ SpeedProfile StopAtCusps(const Path& path, double start_speed, const SpeedLimits
                          const std::vector<SpeedCap>& caps = {},
                          const std::vector<double>& stops = {});
 
-/// What a controller follows: where, and how fast.
+/// The reference of a controller: path and speed.
 struct Reference {
   Path path;
   SpeedProfile speed;
@@ -74,7 +74,7 @@ struct Reference {
 /// stay what they are.
 SpeedProfile Excerpt(const SpeedProfile& profile, Stations within);
 
-/// A stretch of a path and its speeds, likewise.
+/// A section of a path and its speeds, likewise.
 Reference Excerpt(const Reference& reference, Stations within);
 
 }  // namespace trackbed

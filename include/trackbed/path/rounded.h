@@ -6,7 +6,7 @@ namespace trackbed {
 
 /// The path averaged over `window` [m] around each of its points: where its curvature jumps (lines
 /// joined to arcs) it then changes steadily over the window, which is what motions along a path
-/// need (path/frenet_frame.h), and what a car needs that cannot turn its wheels at once.
+/// need (path/frenet_frame.h), and which a car with a limited steering rate can follow.
 ///
 /// Guarantees: continuous curvature; nowhere further from the path than window^2/24 times its
 /// largest curvature k within the window, toward the inside of bends; lines stay where they are,

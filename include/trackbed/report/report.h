@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
-/// One HTML page that shows finished runs, a comparison or a study, and needs nothing beside
-/// itself.
+/// A self-contained HTML page of finished runs, a comparison or a study.
 namespace trackbed {
 
-/// What becomes of the films (video.mp4) in the runs' folders.
+/// How the videos (video.mp4) of the runs are included.
 enum class FilmPlace {
   kEmbedded,  ///< in the page, a third larger than the files
   kBeside,    ///< the page refers to the files where they lie, relative to itself
@@ -20,13 +19,13 @@ enum class FilmPlace {
 /// of one or more run folders, or of those that one comparison (the folder of a compare.json) is
 /// of; or the table of one study (the folder of a sweep, or its CSV file).
 ///
-/// Drives are held against each other at equal station as trackbed/analysis/compare.h does: those
-/// that a comparison has judged, with its verdict and tolerances, and each plant of the first of
-/// several runs with its namesake in every other.
+/// Plants are compared at equal station as in trackbed/analysis/compare.h: those that a comparison
+/// has judged, with its verdict and tolerances, and each plant of the first of several runs with
+/// its namesake in every other.
 ///
-/// Numbers are rounded to six significant digits, those below 5e-7 to 0. Logs that have more than
-/// 20000 rows together are thinned out: rows are kept where a column has its largest or smallest
-/// value of a stretch, so that every extreme value stays. SI units and radians, as in the files.
+/// Numbers are rounded to six significant digits, those below 5e-7 to 0. Logs with more than 20000
+/// rows in total are decimated; rows with a column's local maximum or minimum are kept, so that
+/// every extreme value stays. SI units and radians, as in the files.
 ///
 /// Errors: InputError naming what is missing or broken, when a path is neither a run nor a
 /// comparison nor a study, when one of the latter is mixed with something else, when a run is given

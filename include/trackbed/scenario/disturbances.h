@@ -7,29 +7,28 @@
 #include "trackbed/vehicle/steering_faults.h"
 #include "trackbed/world/wind.h"
 
-/// What goes wrong on a drive: all that makes the car another than its controller's. Each is off
-/// unless asked for. Wind and slippery road are the world's (world/world.h).
+/// Disturbances and faults of a run: differences between the car and the controller's model of it.
+/// Each is off by default. Wind and friction patches are in world/world.h.
 namespace trackbed {
 
-/// From a moment or a place on the car is no faster than this, whatever is asked of it.
+/// Loss of speed: a speed limit from a time or station on, below any commanded speed.
 struct SpeedLoss {
-  std::optional<double> from;     ///< [s]; this or
-  std::optional<double> station;  ///< along the path, without one the distance driven [m];
-                                  ///< neither: from the start
-  double speed = 0.0;             ///< [m/s]
+  std::optional<double> from;  ///< [s]; this or
+  std::optional<double>
+      station;  ///< along the path, without one the distance traveled [m]; neither: from the start
+  double speed = 0.0;  ///< [m/s]
 };
 
-/// Standard deviations of what is measured, drawn anew at every control period, independent and
-/// normal.
+/// Standard deviations of the measured pose: independent, Gaussian, white over control periods.
 struct MeasurementNoise {
   double position = 0.0;  ///< of x and of y [m], >= 0
   double heading = 0.0;   ///< [rad], >= 0
 };
 
-/// What throws a car off sideways; positive to its left.
+/// A lateral kick, positive to the left.
 struct Kick {
   double at = 0.0;                     ///< [s]
-  std::optional<double> displacement;  ///< at once [m]; this or
+  std::optional<double> displacement;  ///< instantaneous [m]; this or
   std::optional<double> impulse;       ///< at the center of gravity [N s]
   std::optional<double> duration;      ///< of the impulse's constant force [s]; none: kKickDuration
 };
@@ -38,7 +37,7 @@ inline constexpr double kKickDuration = 0.1;  // [s]
 
 struct Disturbances {
   std::optional<SpeedLoss> speed_loss;
-  double wheelbase = 1.0;  ///< what controllers take it for, in units of what it is
+  double wheelbase = 1.0;  ///< ratio of the wheelbase assumed by controllers to the actual one
   SteeringFaults steering;
   MeasurementNoise noise;
   std::optional<Payload> payload;
@@ -46,8 +45,8 @@ struct Disturbances {
   double recovered_within = 0.05;  ///< of the path [m]
 };
 
-/// When the last disturbance is over that comes and goes, kick or gust, of those that are over by
-/// `before` [s]. None when there is none.
+/// End of the last temporary disturbance, kick or gust, that ends by `before` [s]. None if there is
+/// none.
 std::optional<double> DisturbedUntil(const Disturbances& disturbances, const Wind& wind,
                                      double before);
 

@@ -3,23 +3,23 @@
 #include <string>
 #include <vector>
 
-/// Every key that a scenario or a study can have, told by the same code that reads them.
+/// All keys of scenarios and studies, listed by the code that reads them.
 namespace trackbed {
 
 struct KeyInfo {
   std::string name;      ///< within its section
   std::string type;      ///< "number", "list of names", "section", …
-  std::string unit;      ///< "m/s"; empty for what is no quantity
-  std::string fallback;  ///< the value of a key that is not given; empty when there is none
-  std::string allowed;   ///< "above 0 and at most 10"; empty for everything of the type
-  std::string text;      ///< what it means, on one line
+  std::string unit;      ///< "m/s"; empty for non-quantities
+  std::string fallback;  ///< default value; empty when there is none
+  std::string allowed;   ///< "above 0 and at most 10"; empty for all values of the type
+  std::string text;      ///< description, one line
   bool required = false;
 };
 
 struct KeySection {
   std::string key;     ///< dotted, with N for the elements of a list; empty for the whole file
   std::string method;  ///< the method that has these keys; empty when they do not depend on one
-  std::string text;    ///< what it is about, on one line
+  std::string text;    ///< description, one line
   std::vector<KeyInfo> keys;
 };
 

@@ -3,8 +3,8 @@
 #include <variant>
 #include <vector>
 
-/// The standard maneuvers of vehicle dynamics: how a run is evaluated. What is steered and braked
-/// is the controller's; a maneuver says what is read off the drive.
+/// The standard maneuvers of vehicle dynamics: how a run is evaluated. The controller steers and
+/// brakes; a maneuver defines what is measured.
 namespace trackbed {
 
 /// ISO 4138: steady-state circular driving test. Samples count after `settle`, where the yaw rate
@@ -15,8 +15,8 @@ struct SteadyStateCircleOptions {
   double fit_to = 4.0;    ///< [m/s^2]
 };
 
-/// SAE J266, method 2: slowly increasing steer at constant speed; the same numbers, and the
-/// steering at 0.3 g.
+/// SAE J266, method 2: slowly increasing steer at constant speed; the same metrics, and the
+/// steering angle at 0.3 g.
 struct SlowlyIncreasingSteerOptions {
   double settle = 2.0;    ///< [s]
   double fit_from = 0.5;  ///< [m/s^2]
@@ -25,7 +25,7 @@ struct SlowlyIncreasingSteerOptions {
 
 /// ISO 7401: step input of the steering from straight-ahead driving.
 struct StepSteerOptions {
-  double steady = 1.0;  ///< the steady state is the mean over the last so many seconds [s], > 0
+  double steady = 1.0;  ///< averaging window of the steady state, at the end of the run [s], > 0
 };
 
 /// ISO 19365 (FMVSS 126): sine with dwell.
@@ -36,16 +36,16 @@ struct LaneChangeOptions {};
 
 /// ISO 21994 straight ahead, ISO 7975 in a turn: braking.
 struct BrakingTestOptions {
-  double to_speed = 0.0;  ///< the braking distance ends here [m/s], >= 0
+  double to_speed = 0.0;  ///< final speed of the braking distance [m/s], >= 0
 };
 
-/// What an ice patch, split friction or a gust does to the car.
+/// The response to an ice patch, split friction or a gust.
 struct DisturbanceOptions {
-  double at = 1.0;               ///< the course held then is what is departed from [s]
-  double yaw_rate_bound = 0.02;  ///< below it for good, the car has recovered [rad/s], > 0
+  double at = 1.0;               ///< time of the disturbance; reference of the deviations [s]
+  double yaw_rate_bound = 0.02;  ///< recovered once the yaw rate stays below this [rad/s], > 0
 };
 
-/// Which alternative it holds says which maneuver is meant.
+/// The alternative that it holds selects the maneuver.
 using ManoeuvreOptions = std::variant<SteadyStateCircleOptions, SlowlyIncreasingSteerOptions,
                                       StepSteerOptions, SineWithDwellTestOptions, LaneChangeOptions,
                                       BrakingTestOptions, DisturbanceOptions>;
@@ -56,7 +56,7 @@ struct ManoeuvreEntry {
   ManoeuvreOptions defaults;
 };
 
-/// Every maneuver there is.
+/// All maneuvers.
 const std::vector<ManoeuvreEntry>& Manoeuvres();
 
 /// The name of the maneuver that `options` belong to.

@@ -24,18 +24,18 @@ namespace trackbed {
 struct VehicleSpec {
   std::string model = "prius";    ///< a name under models/, or a path relative to the scenario file
   TyreLaw tyre = TyreLaw::kAuto;  ///< of the plant `mujoco`
-  std::optional<double> steering_rate;  ///< at the road wheels, instead of the car's [rad/s]
+  std::optional<double> steering_rate;  ///< at the road wheels, overrides the car's [rad/s]
 };
 
-/// Where the car starts; what is not given follows from the mission.
+/// The initial state of the car; defaults follow from the mission.
 struct StartSpec {
   std::optional<double> x;    ///< [m]; default: the first waypoint, or 0
   std::optional<double> y;    ///< [m]
   std::optional<double> yaw;  ///< [rad]; default: the first heading, along the first leg, or 0
-  /// [m/s]; default: what is recorded or given over time for the start, or the mission's speed
+  /// [m/s]; default: that of the recording or of the speed over time, or the mission's speed
   std::optional<double> speed;
-  /// Bicycle angle of wheels and actuator [rad]; default: what is recorded for the start if the
-  /// wheels' angle is prescribed, else 0
+  /// Bicycle angle of wheels and actuator [rad]; default: with prescribed steering the recorded
+  /// one, else 0
   std::optional<double> steering;
 };
 
@@ -43,16 +43,16 @@ struct MissionSpec {
   double speed = 0.0;              ///< [m/s]; 0: not given, for missions without a plan
   std::vector<Vec2> waypoints;     ///< [m]
   std::vector<double> headings;    ///< of the car at each of them [rad]; none: along the legs
-  std::optional<double> duration;  ///< [s]; ends the drive, for missions without a goal
+  std::optional<double> duration;  ///< [s]; ends the run, for missions without a goal
   StartSpec start;
 };
 
-/// How the path is made.
+/// The planner and its options.
 struct PlanSpec {
   PlannerOptions global = Planners().front().defaults;
-  std::optional<AvoiderOptions> avoid;  ///< leads it around obstacles; none: it is not led around
-  std::optional<ReplanOptions> replan;  ///< plans again on the way; none: it does not
-  /// What becomes of a plan that asks more of the car than it can do.
+  std::optional<AvoiderOptions> avoid;  ///< reroutes it around obstacles; none: no rerouting
+  std::optional<ReplanOptions> replan;  ///< replans during the run; none: no replanning
+  /// Handling of infeasible plans.
   InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
 };
 
@@ -68,12 +68,12 @@ struct DriveSpec {
   double control_period = 0.02;      ///< a whole number of timesteps [s]
   double state_period = 1.0 / 60.0;  ///< between configurations logged for the film [s]
   double time_limit = 600.0;         ///< simulated [s]
-  /// A car at rest as near as this to the goal has arrived, as a share of its length.
+  /// Distance to the goal within which a car at rest has arrived, as a fraction of its length.
   double goal_tolerance = 0.1;
   double goal_heading_tolerance = 0.2;  ///< likewise [rad]; where the mission gives headings
 };
 
-/// A bound on any number of a plant's entry in metrics.json.
+/// A bound on any metric of a plant's entry in metrics.json.
 struct MetricExpectation {
   std::string metric;  ///< its path: "manoeuvre.yaw_rate_overshoot", "turns[0].lateral_offset"
   std::optional<double> min;
@@ -81,18 +81,18 @@ struct MetricExpectation {
   std::optional<std::string> equals;  ///< "true", "arrived", "3"
 };
 
-/// Bounds that one plant's metrics must keep; what is not given is not asked.
+/// Bounds on one plant's metrics; only those given are checked.
 struct PlantExpectation {
-  std::optional<double> reach_goal;         ///< largest distance to the goal at the end [m]
+  std::optional<double> reach_goal;         ///< maximum distance to the goal at the end [m]
   std::optional<double> max_cross_track;    ///< [m]
   std::optional<double> rms_cross_track;    ///< [m]
   std::optional<double> max_heading_error;  ///< [rad]
-  std::optional<double> min_clearance;      ///< smallest distance of the outline to an obstacle [m]
-  std::optional<bool> collision;            ///< whether the car hits an obstacle
-  std::vector<MetricExpectation> metrics;   ///< of whatever else was measured
+  std::optional<double> min_clearance;      ///< minimum distance of the footprint to obstacles [m]
+  std::optional<bool> collision;            ///< whether the car must hit an obstacle
+  std::vector<MetricExpectation> metrics;   ///< bounds on other metrics
 };
 
-/// Bounds on how far two drives may part at equal station; what is not given is not asked.
+/// Bounds on the differences between two runs at equal station; only those given are checked.
 struct DifferenceBounds {
   std::optional<double> position_max;  ///< [m]
   std::optional<double> heading_max;   ///< [rad]
@@ -104,14 +104,14 @@ struct DifferenceBounds {
   }
 };
 
-/// Bounds on how far two plants may part.
+/// Bounds on the differences between two plants.
 struct BetweenExpectation {
   std::vector<std::string> plants;  ///< two of them
   DifferenceBounds bounds;
 };
 
 struct Expectations {
-  PlantExpectation all;  ///< asked of every plant
+  PlantExpectation all;  ///< for every plant
   std::vector<std::pair<std::string, PlantExpectation>> plants;
   std::vector<BetweenExpectation> between;
 };
@@ -129,8 +129,8 @@ struct Scenario {
   VehicleSpec vehicle;
   MissionSpec mission;
   World world;
-  std::optional<PlanSpec> plan;               ///< none: the mission is driven without a path
-  std::optional<ManoeuvreOptions> manoeuvre;  ///< how the drive is evaluated, if as one
+  std::optional<PlanSpec> plan;               ///< none: the mission has no path
+  std::optional<ManoeuvreOptions> manoeuvre;  ///< how the run is evaluated, if at all
   ControlSpec control;
   DriveSpec drive;
   Disturbances disturb;
@@ -141,7 +141,7 @@ struct Scenario {
 };
 
 /// `key=value`: replaces a key of the file before it is read; the value is YAML. With drive.plants,
-/// what the file expects of plants that are then not driven is not asked.
+/// the file's expectations on other plants are ignored.
 using Override = std::string;
 
 /// The paths that a plant's entry in metrics.json can have in a run of the scenario.
@@ -150,8 +150,8 @@ using MetricPaths = std::function<std::vector<std::string>(const Scenario& scena
 /// Reads a scenario file strictly. InputError with **every** problem of the file: unknown key (with
 /// the nearest known one), missing or repeated key, wrong type, NaN or infinity, out of range,
 /// unknown name; each with file, line, column and dotted key. Problems of an override name the
-/// override. `cameras` are the names that render.camera may have; none: it is not looked at.
-/// Likewise `metrics`, which is asked when nothing else is wrong, for what `expect.metrics` names.
+/// override. `cameras` are the names that render.camera may have; none: it is not checked. Likewise
+/// `metrics` for `expect.metrics`, called if there are no other problems.
 Scenario ReadScenario(const std::filesystem::path& file,
                       const std::vector<Override>& overrides = {},
                       const std::vector<std::string>& cameras = {},
@@ -165,7 +165,7 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
                        const std::vector<std::string>& cameras = {},
                        const MetricPaths& metrics = {});
 
-/// The `render` section of a scenario file alone, for films of runs whose model may be gone.
+/// The `render` section of a scenario file alone, for videos of runs whose model may be missing.
 /// InputError.
 RenderSpec ReadRenderSpec(const std::filesystem::path& file);
 
@@ -178,8 +178,8 @@ World ReadWorld(const std::filesystem::path& file);
 /// The `expect` section alone, likewise; what a report shows of it.
 Expectations ReadExpectations(const std::filesystem::path& file);
 
-/// Checks that concern more than one key; ReadScenario has made them, callers that fill the struct
-/// by hand make them here. InputError.
+/// Checks that involve several keys; ReadScenario makes them, callers that fill the struct by hand
+/// call this. InputError.
 void CheckScenario(const Scenario& scenario);
 
 /// The scenario with every default filled in, as YAML that ReadScenario reads back to an equal one
@@ -193,14 +193,14 @@ std::string OptionDefaults(const AvoiderOptions& options);
 std::string OptionDefaults(const ControllerOptions& options);
 std::string OptionDefaults(const ManoeuvreOptions& options);
 
-/// The recording that is replayed, if one is; it lives as long as the scenario.
+/// The replayed recording, if any; owned by the scenario.
 const Recording* RecordingOf(const Scenario& scenario);
 
-/// Where the car starts, with the mission's defaults filled in.
+/// The initial state of the car, with the mission's defaults filled in.
 StartState StartOf(const Scenario& scenario);
 
-/// When the drive ends [s]: the mission's duration, or without a plan the end of a recording over
-/// time. None: at the goal.
+/// End of the run [s]: the mission's duration, or without a plan the end of a recording over time.
+/// None: at the goal.
 std::optional<double> DurationOf(const Scenario& scenario);
 
 /// The speed to keep [m/s]: the mission's, or that of the start if it gives none.

@@ -7,10 +7,10 @@
 
 #include "trackbed/scenario/scenario.h"
 
-/// A study: one scenario, many runs of it, each with other values of some of its keys.
+/// A study: many runs of one scenario with different values of some keys.
 namespace trackbed {
 
-/// A key of the scenario, the value that it is to have, and where the study's file says so.
+/// A key of the scenario, its value, and the position in the study's file.
 struct Setting {
   std::string key;    ///< dotted, as for --set
   std::string value;  ///< YAML on one line
@@ -18,17 +18,17 @@ struct Setting {
   int column = 0;     ///< 1-based
 };
 
-/// Looks for the highest value of a key that still passes.
+/// Bisects for the highest passing value of a key.
 struct BisectSpec {
   std::string key;         ///< dotted; of a number
-  double from = 0.0;       ///< taken to pass
-  double to = 0.0;         ///< taken to fail; above `from`
+  double from = 0.0;       ///< expected to pass
+  double to = 0.0;         ///< expected to fail; above `from`
   double tolerance = 0.0;  ///< of the value found
   int line = 0;
   int column = 0;
 };
 
-/// A result that the study asks of every run.
+/// An output of every run.
 struct OutputSpec {
   std::string path;  ///< dotted, such as "metrics.mujoco.cross_track.max"
   int line = 0;
@@ -40,14 +40,14 @@ struct Study {
   std::string name;
   std::string file;                        ///< as the user named it
   std::filesystem::path scenario;          ///< found from the study's folder
-  std::string scenario_text;               ///< what stood there when the study was read
+  std::string scenario_text;               ///< its content when the study was read
   std::vector<Override> overrides;         ///< from the command line; they replace `set`
   std::vector<std::string> cameras;        ///< as for ReadScenario
   MetricPaths metrics;                     ///< likewise
-  std::vector<Setting> set;                ///< what is the same in every run
+  std::vector<Setting> set;                ///< the same in every run
   std::vector<std::vector<Setting>> vary;  ///< the alternatives of each key, in the file's order
   std::vector<std::vector<Setting>> list;  ///< points of several keys; empty: none
-  int repeat = 1;                          ///< runs of each point, the seed counted up
+  int repeat = 1;                          ///< runs per point, with consecutive seeds
   std::optional<BisectSpec> bisect;        ///< at every point of the grid
   std::vector<OutputSpec> outputs;
 };
@@ -55,16 +55,16 @@ struct Study {
 /// A point of a study's grid.
 struct StudyPoint {
   std::vector<Setting> settings;  ///< of `vary` and `list`
-  Scenario scenario;              ///< as they make it, with the bisected key at `from`
+  Scenario scenario;              ///< with these settings, and the bisected key at `from`
 };
 
-/// Whether the file has the key `scenario`, as studies have and scenarios have not. False when it
+/// Whether the file has the key `scenario`, which studies have and scenarios do not. False when it
 /// cannot be read.
 bool IsStudy(const std::filesystem::path& file);
 
 /// Reads a study as strictly as ReadScenario reads a scenario, and the text of its scenario.
-/// InputError with **every** problem of the study's own keys, those that replace each other among
-/// them.
+/// InputError with **every** problem of the study's own keys, including keys that overwrite each
+/// other.
 Study ReadStudy(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
                 const std::vector<std::string>& cameras = {}, const MetricPaths& metrics = {});
 
@@ -72,17 +72,17 @@ Study ReadStudy(const std::filesystem::path& file, const std::vector<Override>& 
 /// list faster than all keys of `vary`. Pure; the grid of a study without either is one point.
 std::vector<std::vector<Setting>> GridOf(const Study& study);
 
-/// The scenario at a point, with the bisected key at `bisected`. InputError as ReadScenario, a
-/// problem of what the study sets with its place there.
+/// The scenario at a point, with the bisected key at `bisected`. InputError as ReadScenario,
+/// problems of the study's settings with their position there.
 Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
                    std::optional<double> bisected = {});
 
-/// Every point of the grid, read before anything is driven. InputError with the problems of all of
-/// them, each once, and with one point that has it where not all do; bisections are tried at both
-/// ends and at a value between that is not round.
+/// All points of the grid, validated before the first run. InputError with the problems of all
+/// points, each once, with one point that has it unless all do; bisections are checked at both ends
+/// and at a value in between.
 std::vector<StudyPoint> ReadPoints(const Study& study);
 
-/// What a table shows of a value: numbers in shortest form, all else as YAML.
+/// A value as text in a table: numbers in shortest form, all else as YAML.
 std::string CellText(const std::string& value);
 
 }  // namespace trackbed

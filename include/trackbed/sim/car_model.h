@@ -21,26 +21,26 @@ namespace trackbed {
 /// The wheels of a car, in the order of every per-wheel array and column.
 inline constexpr std::array<const char*, 4> kWheels{"fl", "fr", "rl", "rr"};
 
-/// What a car's file says of its tyres.
+/// The tyre parameters in a car's file.
 struct CarTyres {
   std::array<MagicFormula, 2> axle;     ///< front, rear
   std::array<double, 2> camber_gain{};  ///< front, rear: of the left wheel, to the left, per meter
                                         ///< of spring travel up [rad/m]; mirrored on the right
-  double vertical_stiffness = 0.0;      ///< [N/m]; 0: as stiff as the contact is
+  double vertical_stiffness = 0.0;      ///< [N/m]; 0: the stiffness of the contact
   double vertical_damping = 0.0;        ///< [N s/m]
 };
 
 inline constexpr double kAirDensity = 1.225;  ///< ISO 2533 at sea level [kg/m^3]
 
-/// How the air pushes the car: 1/2 rho |v| v times an area, along and across. Zero: it does not.
+/// Aerodynamic force on the car: 1/2 rho |v| v times an area, longitudinal and lateral. Zero: none.
 struct CarAerodynamics {
   double drag_area = 0.0;                      ///< C_d A [m^2], of wind along x
   double side_area = 0.0;                      ///< C_s A [m^2], of wind along y
-  std::array<double, 2> center_of_pressure{};  ///< x and z of where it pushes [m]
+  std::array<double, 2> center_of_pressure{};  ///< x and z of its point of application [m]
 };
 
-/// Where Trackbed finds the parts of a vehicle in the compiled model (docs name the MJCF names).
-/// These are there whatever moves it.
+/// Indices of a vehicle's parts in the compiled model (MJCF names: docs/models.md). These are
+/// common to all vehicles.
 struct ChassisParts {
   int chassis = -1;       ///< body
   int chassis_qpos = -1;  ///< of its free joint
@@ -80,17 +80,16 @@ struct WheelPairParts : ChassisParts {
   std::array<int, 2> spin_dof{};
   std::array<int, 2> actuator{};  ///< index into ctrl
   double wheel_speed = 0.0;       ///< largest [rad/s]
-  double servo_slack = 0.0;       ///< the difference to its wanted speed at which a motor gives all
-                                  ///< its torque [rad/s]
-  double integral_time = 0.0;     ///< in which a servo's integral part grows as large as the
-                                  ///< difference that it is of [s]
-  double brake_torque = 0.0;      ///< largest, per wheel [N m]
+  double servo_slack =
+      0.0;  ///< the speed error at which a motor reaches its maximum torque [rad/s]
+  double integral_time = 0.0;  ///< integral time of a servo's PI controller [s]
+  double brake_torque = 0.0;   ///< largest, per wheel [N m]
 };
 
 /// A compiled vehicle with its scene. Immutable, and safe to share between threads once made.
 ///
 /// Errors: InputError naming the file and, all at once, what is missing or wrong, when the MJCF
-/// does not compile, lacks a needed name, or has a part that is not as docs/models.md asks.
+/// does not compile, lacks a needed name, or has a part that violates docs/models.md.
 class CarModel {
  public:
   CarModel(Scene scene, std::string name_for_messages);
@@ -99,7 +98,8 @@ class CarModel {
   ~CarModel();
 
   [[nodiscard]] const VehicleParams& params() const { return params_; }
-  /// Without the payload of its scene, what planners and controllers go by; else the same.
+  /// Parameters without the payload of the scene, as used by planners and controllers; else the
+  /// same.
   [[nodiscard]] const VehicleParams& unladen() const { return unladen_; }
   /// Of a vehicle of either kind.
   [[nodiscard]] const ChassisParts& chassis() const;
@@ -112,7 +112,7 @@ class CarModel {
   /// Their bodies.
   [[nodiscard]] std::span<const int> wheels() const;
   [[nodiscard]] const Scene& scene() const { return scene_; }
-  /// What messages call the car's file.
+  /// The car's file, as named in messages.
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] const mjModel_* get() const { return model_.get(); }
   [[nodiscard]] double timestep() const;

@@ -6,9 +6,9 @@
 
 namespace trackbed {
 
-/// A steering linkage as MJCF can say it: the front wheels' angles as polynomials of the rack's,
+/// A steering linkage in MJCF: the front wheels' angles as polynomials of the rack angle,
 ///   <joint joint1="steer_fl" joint2="rack" polycoef="c_0 c_1 c_2 c_3 c_4"/>.
-/// It is for MuJoCo alone and for its viewer; Trackbed's plant drives the exact curve.
+/// Used only by MuJoCo's viewer; Trackbed's plant uses the exact relation.
 struct LinkagePolynomials {
   std::array<double, 5> left{};   ///< c_0 to c_4 [1], c_0 = 0 and c_1 = 1
   std::array<double, 5> right{};  ///< the mirror image: c_2 and c_4 with the other sign

@@ -10,17 +10,17 @@
 #include "trackbed/vehicle/state.h"
 #include "trackbed/world/world.h"
 
-/// The interface of everything that can be driven, and the registry of plants.
+/// The interface of plants and their registry.
 namespace trackbed {
 
-/// Where and how a drive begins.
+/// The initial state of a run.
 struct StartState {
   Pose2 pose;             ///< rear-axle center
   double speed = 0.0;     ///< [m/s]
   double steering = 0.0;  ///< bicycle angle, wheels and actuator alike [rad]
 };
 
-/// A car that obeys commands, one physics step at a time. The drive does not know which it holds.
+/// A simulated vehicle, advanced one physics step at a time.
 class Plant {
  public:
   virtual ~Plant() = default;
@@ -28,45 +28,45 @@ class Plant {
   /// Advances by one timestep of the model.
   virtual void Step(const Command& command) = 0;
 
-  /// Sets the car aside by `left` [m], to its left, at once: as it stands and moves, on the ground
-  /// that is there.
+  /// Displaces the car instantaneously by `left` [m] to its left, keeping its motion, onto the
+  /// ground there.
   virtual void ApplyLateralOffset(double left) = 0;
 
-  /// A horizontal force to the left [N] that acts on its center of gravity during the next step
-  /// alone. Cars that know no forces do not feel it.
+  /// Applies a horizontal force to the left [N] at the center of gravity during the next step. No
+  /// effect on plants without forces.
   virtual void ApplyLateralForce(double force) = 0;
 
   /// The state now. For plants with forces, accelerations and wheel forces are those of the step
   /// that led here.
   [[nodiscard]] virtual VehicleState Observe() const = 0;
 
-  /// Two numbers of Observe() alone, for what looks at every physics step.
+  /// Two values of Observe(), for use at every physics step.
   [[nodiscard]] virtual Pose2 pose() const = 0;
   [[nodiscard]] virtual double obstacle_force() const { return 0.0; }
 
   /// The configuration now, as CarModel::configuration_columns names it.
   [[nodiscard]] virtual std::vector<double> Configuration() const = 0;
 
-  /// Whether the physics has left the numbers it can compute with; such a plant must not be
-  /// stepped.
+  /// Whether the simulation has diverged; such a plant must not be stepped.
   [[nodiscard]] virtual bool diverged() const = 0;
 };
 
-/// What holds the wheels of the MuJoCo plant to the road.
+/// The tyre model of the MuJoCo plant.
 enum class TyreLaw {
   kAuto,          ///< the Magic Formula for cars whose file has its coefficients, else contacts
-  kContact,       ///< MuJoCo's friction cone: no slip to speed of below the friction limit
+  kContact,       ///< MuJoCo's friction cone: negligible slip below the friction limit
   kMagicFormula,  ///< forces grow with slip (vehicle/magic_formula.h); contacts carry the load
                   ///< alone
 };
 
-/// How the wanted steering angle reaches the road wheels.
+/// How the commanded steering angle reaches the road wheels.
 enum class SteeringInput {
   kActuator,    ///< through the car's actuator, within its rate and angle
   kPrescribed,  ///< exactly and at once, for validation
 };
 
-/// What a plant is made of. It keeps references to car and world, which must outlive it.
+/// The arguments for making a plant. Holds references to car and world, which must outlive the
+/// plant.
 struct PlantSetup {
   const CarModel& car;
   const World& world;
@@ -75,13 +75,13 @@ struct PlantSetup {
   SteeringInput steering = SteeringInput::kActuator;
 };
 
-/// What `tyre` means for a car: never kAuto.
+/// Resolves `tyre` for a car: never kAuto.
 TyreLaw TyreLawOf(const CarModel& car, TyreLaw tyre);
 
 /// A plant in the registry.
 struct PlantEntry {
   const char* name;
-  const char* summary;  ///< for people, on one line
+  const char* summary;  ///< one line, for users
   std::unique_ptr<Plant> (*make)(const PlantSetup& setup);
 };
 
@@ -90,24 +90,25 @@ struct PlantEntry {
 /// the setup); `mujoco:contact` and `mujoco:magic_formula` have their own law whatever the setup's
 /// is.
 ///
-/// The first two obey the commanded acceleration exactly and know nothing of the world: no
-/// obstacles, friction, grades or wind. (A road's friction is no part of a tyre's stiffness, which
-/// is all that a linear tyre has.) `single_track` needs a car with tyre coefficients, else
-/// InputError names its file and what is missing there; it begins without slip, as every plant
-/// does. Where it is unstable it ends as diverged, 1e10 m or rad away.
+/// The first two follow the commanded acceleration exactly and ignore the world: obstacles,
+/// friction, grades and wind. (A linear tyre has only a stiffness, which does not depend on the
+/// road's friction.) `single_track` needs a car with tyre coefficients, else InputError names its
+/// file and what is missing there; it begins without slip, as every plant does. Where it is
+/// unstable it ends as diverged, 1e10 m or rad away.
 ///
-/// `kinematic` feels no ApplyLateralForce, and `single_track` none at rest.
+/// ApplyLateralForce has no effect on `kinematic`, nor on `single_track` at rest.
 ///
-/// The MuJoCo plant turns a wanted acceleration into drive torque on its differential, or, against
-/// the gear, into dry friction of the brakes, front to rear as the model's brake torques; both are
-/// cut at the model's limits. It reckons with the car's unladen mass. Its steering actuator's rate
-/// limit is the model's own, fed anew at every physics step.
+/// The MuJoCo plant converts a commanded acceleration to drive torque on its differential, or,
+/// against the gear, into dry friction of the brakes, front to rear as the model's brake torques;
+/// both are cut at the model's limits. It uses the car's unladen mass. Its steering actuator's rate
+/// limit is the model's own, updated at every physics step.
 ///
 /// With differential drive there are `kinematic` and `mujoco` with the tyre law kContact; for the
-/// others, for prescribed steering in MuJoCo, InputError. There MuJoCo integrates the wanted
-/// acceleration to a wanted speed, and servos of limited torque hold each wheel at its share. The
-/// measured steering angle is atan((v_R - v_L)/v) of the wheels' speeds; below 0.1 m/s what they
-/// are off counts with (v/0.1 m/s)^2 only, so that it is the actuator's at rest.
+/// others, for prescribed steering in MuJoCo, InputError. There MuJoCo integrates the commanded
+/// acceleration to a speed command, and torque-limited servos control each wheel's speed. The
+/// measured steering angle is atan((v_R - v_L)/v) of the wheels' speeds; below 0.1 m/s its
+/// difference from the actuator's angle is weighted by (v/0.1 m/s)^2, so that at rest it is the
+/// actuator's angle.
 const std::vector<PlantEntry>& Plants();
 
 /// Adds a plant to the registry, for scenarios, `trackbed list`, messages and reports. Call it at
@@ -118,7 +119,7 @@ void RegisterPlant(PlantEntry entry);
 /// InputError with the nearest spelling when there is no such plant.
 std::unique_ptr<Plant> MakePlant(const std::string& name, const PlantSetup& setup);
 
-/// `name` as it stands in file names: "mujoco:contact" is "mujoco-contact".
+/// `name` as used in file names: "mujoco:contact" is "mujoco-contact".
 std::string PlantFileName(const std::string& name);
 
 /// The kinematic plant with the reference point of your choice: with kCenterOfGravity,

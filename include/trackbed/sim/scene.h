@@ -10,7 +10,7 @@
 
 namespace trackbed {
 
-/// What a run decides about the physics, whatever the car's own file says for MuJoCo's viewer.
+/// Simulation options of a run; they override those in the car's file.
 struct SceneOptions {
   double timestep = 0.002;              ///< [s]
   std::optional<double> steering_rate;  ///< at the road wheels, instead of the car's [rad/s]
@@ -22,12 +22,12 @@ struct SceneAsset {
   std::string content;
 };
 
-/// A complete MJCF model: what is simulated is exactly this text.
+/// A complete MJCF model, exactly as simulated.
 struct Scene {
   std::string xml;
   std::vector<SceneAsset> assets;
-  /// For each element of `xml`, in the text's order, its line in the car's file, or 0 when it is
-  /// not from there. Empty when unknown.
+  /// For each element of `xml`, in document order, its line in the car's file, or 0 if it is not
+  /// from that file. Empty when unknown.
   std::vector<int> lines;
   Ground ground{};  ///< what the geom `ground` and those on it make up
 };
@@ -51,24 +51,24 @@ std::filesystem::path DataFolder();
 /// InputError with file and line when it is not XML or refers to something missing.
 Scene ComposeScene(const std::filesystem::path& car_file, const SceneOptions& options);
 
-/// Lays the ground under the car: the geom `ground` becomes the plane of the grade, and every bump
+/// Adds the ground to the scene: the geom `ground` becomes the plane of the grade, and every bump
 /// and side slope a height field `ground_0`, `ground_1`, … that stands on it, at most 5 cm from one
-/// sample to the next, or a 256th of its side. With those there is a plane `ground_fl`, … for
-/// every wheel that touches nothing; RoadContact moves them. All take friction and the like from
-/// the car's own ground. Flat ground leaves the scene as it is.
+/// sample to the next, or a 256th of its side. With those there is a plane `ground_fl`, … for every
+/// wheel that touches nothing; RoadContact moves them. All take friction and the like from the
+/// car's own ground. Flat ground leaves the scene as it is.
 Scene WithGround(const Scene& car_scene, const Ground& ground);
 
-/// Adds the world's obstacles, `obstacle_0`, `obstacle_1`, …, as boxes that cannot be moved, or
-/// that slide by the joints `obstacle_0_x` and `obstacle_0_y` where they have a velocity, and to
-/// the car a shell that only they can touch: a box geom `shell` in its body `chassis`, the outline
-/// from a hand's breadth above the ground to the roof. They stand
-/// on the world's ground. Without obstacles the scene stays as it is.
+/// Adds the world's obstacles, `obstacle_0`, `obstacle_1`, …, as fixed boxes, or as boxes moved by
+/// the joints `obstacle_0_x` and `obstacle_0_y` where they have a velocity, and to the car a shell
+/// that only they can touch: a box geom `shell` in its body `chassis`, the outline from a hand's
+/// breadth above the ground to the roof. They stand on the world's ground. Without obstacles the
+/// scene stays as it is.
 Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const World& world);
 
-/// All that the world has of these.
+/// All of these in the world.
 Scene WithWorld(const Scene& car_scene, const VehicleParams& vehicle, const World& world);
 
-/// Where the element at `line` of the composed text stands in the car's file; 0 when unknown.
+/// The line in the car's file of the element at `line` of the composed text; 0 when unknown.
 int LineInCarFile(const Scene& scene, int line);
 
 /// Writes the scene to `file` (its folder must exist) and the assets beside it.

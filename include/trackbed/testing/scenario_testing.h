@@ -10,7 +10,7 @@
 #include "trackbed/analysis/compare.h"
 #include "trackbed/analysis/run.h"
 
-/// Scenarios in your own GoogleTest: drive one, then say what must hold.
+/// Scenarios in your own GoogleTest: run one, then state expectations.
 ///
 ///     const RunResult run = trackbed::RunScenario("scenarios/three_turns.yaml");
 ///     EXPECT_THAT(run, trackbed::ReachesGoal(0.5));
@@ -19,12 +19,12 @@
 ///     EXPECT_THAT(trackbed::Compare(run, "kinematic", "mujoco"),
 ///                 trackbed::DiffersByAtMost({.position_max = 0.1, .yaw_rate_max = 0.05}));
 ///
-/// A matcher that fails says what was expected, what was, where (station) and when (time). Each
-/// matcher asks every plant of the run; a run without a plan, without the plants asked for, or
-/// without what is measured (a path, obstacles) does not match.
+/// A failing matcher prints the value, the station and the time. Each matcher checks every plant of
+/// the run; a run without a plan, without the named plants, or without the measured quantity (a
+/// path, obstacles) does not match.
 namespace trackbed {
 
-/// Plans and drives the scenario on all its plants, with `overrides` as on the command line.
+/// Plans and simulates the scenario on all its plants, with `overrides` as on the command line.
 /// InputError with every problem of the file.
 RunResult RunScenario(const std::filesystem::path& file,
                       const std::vector<Override>& overrides = {});
@@ -32,23 +32,22 @@ RunResult RunScenario(const std::filesystem::path& file,
 /// The same for a scenario that was filled in or changed in code.
 RunResult RunScenario(const Scenario& scenario);
 
-/// How far two plants of a run part. InputError when the run did not drive both.
+/// The differences between two plants of a run. InputError when the run does not have both.
 PlantComparison Compare(const RunResult& run, const std::string& first, const std::string& second);
 
-/// How far a plant parts from itself in another run, such as one with another controller; the two
-/// are named "<run>/<plant>". InputError when one of the runs did not drive it.
+/// The differences of a plant between two runs, such as with different controllers; the two are
+/// named "<run>/<plant>". InputError when one of the runs does not have it.
 PlantComparison Compare(const RunResult& first, const RunResult& second, const std::string& plant);
 
-/// What GoogleTest prints of a comparison: "kinematic and mujoco from 0 m to 138.2 m: position
-/// 0.02108 m, heading 0.01 rad, yaw rate 0.02 rad/s, steering 0.004 rad at most".
+/// What GoogleTest prints of a comparison: "kinematic and mujoco from 0 m to 138.2 m: maximum
+/// difference in position 0.02108 m, heading 0.01 rad, yaw rate 0.02 rad/s, steering 0.004 rad".
 void PrintTo(const PlantComparison& comparison, std::ostream* out);
 
-/// The two are never further apart than the bounds; two that have no stretch in common do not
-/// match.
+/// The differences never exceed the bounds; plants without common stations do not match.
 testing::Matcher<const PlantComparison&> DiffersByAtMost(const DifferenceBounds& bounds);
 
 /// What GoogleTest prints of a run: "three_turns: kinematic arrived at 47.12 s, mujoco arrived at
-/// 47.13 s; met its expectations".
+/// 47.13 s; expectations met".
 void PrintTo(const RunResult& run, std::ostream* out);
 
 /// Largest cross-track error of every plant is at most `limit` [m].

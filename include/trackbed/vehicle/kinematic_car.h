@@ -7,28 +7,28 @@
 /// behind a rate-limited steering actuator.
 ///
 /// Symbols: psi yaw [rad], delta steering [rad], v speed [m/s], L wheelbase, l_g rear axle to CG,
-/// beta = atan(l_g tan(delta)/L) side-slip angle at the CG [rad].
+/// beta = atan(l_g tan(delta)/L) sideslip angle at the CG [rad].
 ///   rear axle:          x' = v cos psi          psi' = v tan(delta)/L
 ///   center of gravity:  x' = v cos(psi + beta)  psi' = v cos(beta) tan(delta)/L
 namespace trackbed {
 
 struct MotionPiece;
 
-/// The point whose pose the car's state is, and whose speed is v.
+/// The reference point: the state's pose and speed are those of this point.
 enum class ReferencePoint { kRearAxle, kCenterOfGravity };
 
 struct KinematicState {
   Pose2 pose;             ///< of the reference point
   double speed = 0.0;     ///< v of the reference point [m/s], signed
-  double steering = 0.0;  ///< delta, where the actuator stands [rad]
+  double steering = 0.0;  ///< delta, angle of the actuator [rad]
   double distance = 0.0;  ///< integral of |v| [m]
 };
 
 /// Guarantees: exact while the steering angle is constant (to rounding, whatever the step and the
 /// acceleration); while it moves, the error of a step is that of a fourth-order method on a smooth
 /// right-hand side: below 1e-10 m for steps up to 20 ms at 3 m/s. Steps are split where the
-/// steering arrives and where the car comes to rest, so the result does not depend on how time is
-/// cut. Does not slip, roll or feel forces; acceleration is obeyed exactly.
+/// steering arrives and where the car comes to rest, so the result does not depend on the step
+/// size. Does not slip, roll or feel forces; acceleration is obeyed exactly.
 class KinematicCar {
  public:
   KinematicCar(const VehicleParams& params, ReferencePoint reference, const KinematicState& start);
@@ -36,7 +36,7 @@ class KinematicCar {
   /// Advances by `duration` [s] >= 0 under a constant command.
   void Step(const Command& command, double duration);
 
-  /// Sets the car aside by `left` [m], to its left, at once.
+  /// Displaces the car instantaneously by `left` [m] to its left.
   void ApplyLateralOffset(double left);
 
   [[nodiscard]] const KinematicState& state() const { return state_; }

@@ -18,7 +18,7 @@
 /// other slip (coefficients r_*).
 namespace trackbed {
 
-/// Coefficients under the field's names. Where one is not given it is 0, and so is its effect.
+/// Coefficients under their standard names. Those not given are 0 and have no effect.
 struct MagicFormula {
   double p_cx1 = 0.0;  ///< shape, > 0
   double p_dx1 = 0.0;  ///< friction mu_x, > 0
@@ -56,7 +56,7 @@ struct MagicFormula {
   double r_vy5 = 0.0;
   double r_vy6 = 0.0;
   double f_z0 = 0.0;                ///< nominal load F_z0 [N]; needed by p_dx2, p_dy2 and p_ky2
-  double relaxation_length = 0.3;   ///< sigma: rolled until 63 % of a slip is there [m], > 0
+  double relaxation_length = 0.3;   ///< sigma: rolling distance to 63 % of a slip change [m], > 0
   double rolling_resistance = 0.0;  ///< moment over load and radius
 };
 
@@ -73,9 +73,9 @@ const std::vector<MagicFormulaField>& MagicFormulaFields();
 struct TyreSlip {
   double ratio = 0.0;   ///< kappa
   double angle = 0.0;   ///< alpha [rad]
-  double camber = 0.0;  ///< gamma [rad]; taken as at most 0.1 either way
-  /// How much of the shifts is there, -1 to 1: they turn with the direction of rolling and a
-  /// standing tyre has none.
+  double camber = 0.0;  ///< gamma [rad]; clamped to +-0.1
+  /// Factor of the shifts, -1 to 1: they change sign with the rolling direction and vanish at
+  /// standstill.
   double shift = 1.0;
 };
 
@@ -87,12 +87,11 @@ struct TyreForce {
 /// The force at steady slip. `road` > 0 is the factor of the road on both friction coefficients; it
 /// leaves stiffness alone.
 ///
-/// Guarantees: no force without load (F_z <= 0). Turning the signs of alpha and gamma turns that of
-/// F_y, up to the r_* shifts, which are a tyre's own asymmetry. With r_* the combined force may
-/// exceed the friction ellipse by the law's own surplus (CommonRoad's BMW: 12 %); without them it
-/// is scaled onto the ellipse. The sign of gamma in the shifts is smoothed over half a mrad: a jump
-/// there would be a force without a cause. Aligning moment and turn slip are not part of it. Cost:
-/// about 0.2 us.
+/// Guarantees: no force without load (F_z <= 0). F_y is odd in (alpha, gamma), up to the r_*
+/// shifts, which are a tyre's own asymmetry. With r_* the combined force may exceed the friction
+/// ellipse, a property of the model (CommonRoad's BMW: 12 %); without them it is scaled onto the
+/// ellipse. The sign of gamma in the shifts is smoothed over half a mrad: a jump there would be an
+/// unphysical force. Aligning moment and turn slip are not part of it. Cost: about 0.2 us.
 TyreForce ForceOf(const MagicFormula& tyre, double load, double road, const TyreSlip& slip);
 
 /// The largest forces over the load, along and across, on a road of factor 1.

@@ -34,18 +34,17 @@ struct AccelerationLimit {
   [[nodiscard]] double At(double friction) const;
 };
 
-/// What planners and controllers know of a vehicle. Read from its compiled MJCF
-/// (sim/car_model.h), never written down a second time; tests may fill it by hand.
+/// What planners and controllers know of a vehicle. Read from its compiled MJCF (sim/car_model.h),
+/// not stored elsewhere; tests may fill it by hand.
 ///
 /// Vehicle frame V: origin on the ground under the center of the rear axle, or of the axle of the
 /// driven wheels; x forward, y left, z up.
 ///
 /// Steering angles are those of the bicycle model's front wheel at the middle of the front axle.
-/// With differential drive that wheel is a name for a ratio of speeds. Its L is the track b of the
-/// driven wheels, so that kappa = tan(delta)/L says
+/// With differential drive that wheel represents a ratio of wheel speeds. Its L is the track b of
+/// the driven wheels, so that kappa = tan(delta)/L says
 ///   tan(delta) = (v_R - v_L)/v,  v = (v_R + v_L)/2,
-/// a unicycle with yaw rate (v_R - v_L)/b. Everything that reckons with a bicycle angle drives
-/// both.
+/// a unicycle with yaw rate (v_R - v_L)/b. All code that uses the bicycle angle works for both.
 struct VehicleParams {
   std::string name;
   VehicleKind kind = VehicleKind::kSteered;
@@ -62,17 +61,18 @@ struct VehicleParams {
   double steering_limit = 0.0;  ///< delta_max [rad]
   double steering_rate = 0.0;   ///< omega_delta at the road wheels, of delta anyway [rad/s]
   double steering_lag = 0.0;    ///< tau: of the road wheels behind the actuator, on a ramp [s]
-  double steering_ratio = 0.0;  ///< steering-wheel angle over road-wheel angle; 0: no such wheel
-  double length = 0.0;          ///< of the outline [m]
-  double width = 0.0;           ///< of the outline [m]
-  double height = 0.0;          ///< of the outline [m]
-  double rear_overhang = 0.0;   ///< rear axle to the rear end of the outline [m]
+  double steering_ratio =
+      0.0;                     ///< steering-wheel angle over road-wheel angle; 0: no steering wheel
+  double length = 0.0;         ///< of the outline [m]
+  double width = 0.0;          ///< of the outline [m]
+  double height = 0.0;         ///< of the outline [m]
+  double rear_overhang = 0.0;  ///< rear axle to the rear end of the outline [m]
 
   // Limits straight ahead on a flat road of factor 1; 0: not known, and nothing is limited by it.
 
-  /// mu: the largest force of a tyre over its load, the least of all tyres at their static loads. A
-  /// car with tyre coefficients has two laws, contacts and Magic Formula, and a plan is for both:
-  /// the smaller counts.
+  /// mu: the largest force of a tyre over its load, the minimum over all tyres at their static
+  /// loads. For a car with tyre coefficients, the smaller value of the two tyre models, contacts
+  /// and Magic Formula, because a plan must suit both.
   double friction_longitudinal = 0.0;  ///< [1]
   double friction_lateral = 0.0;       ///< [1]
   AccelerationLimit braking;           ///< drag and rolling resistance, which help, are left out
@@ -80,7 +80,7 @@ struct VehicleParams {
   double max_deceleration = 0.0;       ///< braking.At(friction_longitudinal) [m/s^2]
   double max_acceleration = 0.0;       ///< driving.At(friction_longitudinal) [m/s^2]
   /// Where torque or power equal drag and rolling resistance in still air [m/s]; with differential
-  /// drive that of both wheels at the largest speed that leaves their servos room.
+  /// drive, that of both wheels at the largest speed with a control margin for their servos.
   double top_speed = 0.0;
 
   /// l_f: center of gravity to front axle, along x [m]. Of cars only.
@@ -99,8 +99,8 @@ double MaxAcceleration(const VehicleParams& params, double road);
 /// Likewise the largest lateral acceleration, mu_y g times `road`.
 double MaxLateralAcceleration(const VehicleParams& params, double road);
 
-/// The constant steering angle [rad] on which the rear axle of a kinematic car runs on `curvature`
-/// [1/m]: delta = atan(L kappa).
+/// The steering angle [rad] with which the rear axle of a kinematic car follows `curvature` [1/m]:
+/// delta = atan(L kappa).
 double SteeringForCurvature(const VehicleParams& params, double curvature);
 
 /// kappa = tan(delta)/L [1/m].
@@ -121,7 +121,7 @@ FrontAngles AckermannSlopes(const VehicleParams& params, double steering);
 
 /// The bicycle angle [rad] that two front wheels stand for: each wheel's own (the inverse of
 /// AckermannAngles), averaged. Unlike the mean of cotangents it stays well conditioned around zero,
-/// where a trace of toe would otherwise read as full lock.
+/// where the mean of cotangents would turn slight toe into full lock.
 double BicycleAngle(const VehicleParams& params, const FrontAngles& front);
 
 /// Speeds of the two wheels of the rear axle, or of those that a differential drive has [m/s].

@@ -27,7 +27,7 @@ struct SingleTrackState {
   double speed = 0.0;          ///< u [m/s]
   double lateral_speed = 0.0;  ///< v [m/s]; 0 at rest
   double yaw_rate = 0.0;       ///< r [rad/s]; 0 at rest
-  double steering = 0.0;       ///< delta, where the actuator stands [rad]
+  double steering = 0.0;       ///< delta, angle of the actuator [rad]
   double distance = 0.0;       ///< integral of |u| [m]
 };
 
@@ -37,11 +37,12 @@ SingleTrackState RollingWithoutSlip(const VehicleParams& params, const Kinematic
 
 /// Guarantees: steering and speed run exactly as KinematicCar's, with its rules of rest and gears.
 /// Radau IIA of fifth order over at most 2 ms at a time, in v/u and r/u. These have a finite limit
-/// where u passes through zero, where v and r themselves have infinitely fast decays: nothing is
-/// blended or switched there, and a slow car is the kinematic one to O(u^2) and O(u'). Steps are
-/// split where the steering arrives and where the car comes to rest; how time is cut matters less
-/// than 1e-9 m and rad over seconds of driving. Braking harder than tyres hold (some 50 m/s^2) is
-/// outside the model. Linear tyres know no friction limit, wheel loads, roll, wind or grades.
+/// where u passes through zero, where v and r themselves have infinitely fast decays: no blending
+/// or switching is needed, and a slow car equals the kinematic one to O(u^2) and O(u'). Steps are
+/// split where the steering arrives and where the car comes to rest; the step size changes the
+/// result by less than 1e-9 m and rad over seconds of driving. Braking harder than tyres hold (some
+/// 50 m/s^2) is outside the model. Linear tyres know no friction limit, wheel loads, roll, wind or
+/// grades.
 ///
 /// Needs mass, yaw inertia and both cornering stiffnesses above zero (InternalError).
 /// Cost: about 2 us per 2 ms.
@@ -52,11 +53,11 @@ class SingleTrackCar {
   /// Advances by `duration` [s] >= 0 under a constant command.
   void Step(const Command& command, double duration);
 
-  /// Sets the car aside by `left` [m], to its left, at once.
+  /// Displaces the car instantaneously by `left` [m] to its left.
   void ApplyLateralOffset(double left);
 
-  /// A blow to the left [N s] at the center of gravity. A car at rest, which has no lateral speed,
-  /// does not feel it.
+  /// Applies an impulse to the left [N s] at the center of gravity. No effect on a car at rest,
+  /// which has no lateral speed.
   void ApplyLateralForce(double impulse);
 
   [[nodiscard]] const SingleTrackState& state() const { return state_; }

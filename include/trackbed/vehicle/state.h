@@ -21,10 +21,10 @@ struct WheelState {
   double slip_ratio = 0.0;  ///< (Omega R - v_x)/|v_x|, driving positive
 };
 
-/// What every plant tells of its car, at one moment. Axes x forward, y left, z up; angles positive
-/// to the left (roll: right side down; pitch: nose down). Speeds along x and y are those of points
-/// on the ground, turning with the car's yaw; accelerations are those of the center of gravity
-/// itself, at its height, along the same axes: rolling and pitching are in them.
+/// The state of a car that every plant reports. Axes x forward, y left, z up; angles positive to
+/// the left (roll: right side down; pitch: nose down). Speeds along x and y are those of points on
+/// the ground, turning with the car's yaw; accelerations are those of the center of gravity itself,
+/// at its height, along the same axes: rolling and pitching are in them.
 struct VehicleState {
   double time = 0.0;           ///< [s]
   Pose2 pose;                  ///< rear-axle center on the ground, in the world; yaw is not wrapped
@@ -37,17 +37,17 @@ struct VehicleState {
   double longitudinal_acceleration = 0.0;  ///< of the center of gravity, free of gravity [m/s^2]
   double lateral_acceleration = 0.0;       ///< of the center of gravity, free of gravity [m/s^2]
   double sideslip = 0.0;                   ///< at the center of gravity [rad]
-  double steering_actuator = 0.0;          ///< where the rate-limited actuator stands [rad]
+  double steering_actuator = 0.0;          ///< angle of the rate-limited actuator [rad]
   /// Bicycle angle measured at the front wheels, or from the speeds of two driven wheels [rad].
   double steering = 0.0;
   std::optional<std::array<WheelState, 4>> wheels;  ///< fl, fr, rl, rr; none without four tyres
   double obstacle_force = 0.0;  ///< sum of the normal forces between car and obstacles [N]
 };
 
-/// What a controller asks of a car for one control period.
+/// The command to a car for one control period.
 struct Command {
-  double steering = 0.0;      ///< wanted bicycle angle [rad]
-  double acceleration = 0.0;  ///< wanted dv/dt along x [m/s^2]
+  double steering = 0.0;      ///< commanded bicycle angle [rad]
+  double acceleration = 0.0;  ///< commanded dv/dt along x [m/s^2]
   int gear =
       1;  ///< +1: never rolls backwards, -1: never forwards. Slowing down ends in standstill,
           ///< held by the brakes until the acceleration points along the gear again

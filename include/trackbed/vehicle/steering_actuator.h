@@ -4,15 +4,15 @@ namespace trackbed {
 
 /// A steering actuator that moves the road wheels at a limited rate within limited angles.
 struct SteeringLimits {
-  double angle = 0.0;  ///< [rad], > 0, both sides
-  double rate = 0.0;   ///< [rad/s], > 0, both ways
+  double angle = 0.0;  ///< [rad], > 0, to both sides
+  double rate = 0.0;   ///< [rad/s], > 0, in both directions
 };
 
-/// How the angle runs from `start` toward `wanted` (cut to the limits): at the full rate for
-/// `ramp_time`, then it rests at `end`.
+/// The angle from `start` toward `wanted` (clipped to the limits): at the full rate for
+/// `ramp_time`, then constant at `end`.
 struct SteeringMove {
   double start = 0.0;      ///< [rad]
-  double end = 0.0;        ///< where it rests once there [rad]
+  double end = 0.0;        ///< final angle [rad]
   double rate = 0.0;       ///< signed rate while it moves [rad/s]
   double ramp_time = 0.0;  ///< [s]
 

@@ -8,9 +8,9 @@
 /// Steering over distance for a car whose wheels turn at a limited rate (Skackauskas,
 /// dissertation, listing F.1, with corrected distances).
 ///
-/// Symbols: D distance driven by the rear axle [m]; d_0 neutral angle of the wheels, where they
-/// stand before, between and after turns [rad]; S_delta = v |delta - d_0|/omega_delta the distance
-/// rolled while the wheels turn from d_0 to delta.
+/// Symbols: D distance traveled by the rear axle [m]; d_0 neutral angle of the wheels before,
+/// between and after turns [rad]; S_delta = v |delta - d_0|/omega_delta the distance rolled while
+/// the wheels turn from d_0 to delta.
 namespace trackbed {
 
 /// One turn: the wheels start toward `steering` at `start` and back toward neutral at `end`.
@@ -21,9 +21,9 @@ struct TurnSteering {
 };
 
 /// delta(D) as a continuous, piecewise linear function: toward the present target at the slope
-/// omega_delta/v, then resting there. A turn that fits is a trapezoid; one whose hold is shorter
-/// than its ramp stays below its target; a turn that starts while another one returns takes over at
-/// once.
+/// omega_delta/v, then constant. A turn that fits is a trapezoid; one whose hold is shorter than
+/// its ramp stays below its target; a turn that starts while another one returns takes effect
+/// immediately.
 class SteeringSchedule {
  public:
   struct Knot {
@@ -31,7 +31,7 @@ class SteeringSchedule {
     double steering = 0.0;  ///< [rad]
   };
 
-  /// Straight on for ever.
+  /// Straight ahead.
   SteeringSchedule() = default;
 
   /// Turns in the order of their starts; `slope` = omega_delta/v [rad/m] > 0, one for all turns or
@@ -40,11 +40,11 @@ class SteeringSchedule {
   SteeringSchedule(const std::vector<TurnSteering>& turns, const std::vector<double>& slopes,
                    double neutral = 0.0);
 
-  /// Through the knots, which lie at least one, in rising order of distance. InternalError
+  /// Through the knots, at least one, in strictly increasing order of distance. InternalError
   /// otherwise.
   static SteeringSchedule Through(std::vector<Knot> knots);
 
-  /// Holds `steering` [rad] from the start on.
+  /// Constant `steering` [rad].
   static SteeringSchedule Constant(double steering);
 
   /// [rad]; constant before the first and after the last knot.
@@ -52,7 +52,7 @@ class SteeringSchedule {
 
   [[nodiscard]] const std::vector<Knot>& knots() const { return knots_; }
 
-  /// What is left of it beyond `distance` [m], which becomes D = 0.
+  /// The remainder beyond `distance` [m], which becomes D = 0.
   [[nodiscard]] SteeringSchedule From(double distance) const;
 
  private:
@@ -70,16 +70,15 @@ double RampHeading(const VehicleParams& params, double steering, double speed);
 /// by quadrature of the heading above.
 Pose2 RampPose(const VehicleParams& params, double steering, double speed);
 
-/// Where an open-loop drive gets: the kinematic car from `start` over `distance` [m], its wheels
-/// following the schedule exactly, as they do at any speed at which they turn no faster than they
-/// can. A start speed < 0 means backwards. `start` and the result are states of the reference
-/// point. Fourth order in `step` [m], split at the schedule's knots. InternalError for a start
-/// speed of 0.
+/// The end state of an open-loop run: the kinematic car from `start` over `distance` [m], its
+/// wheels following the schedule exactly, as at any speed within the steering rate limit. A start
+/// speed < 0 means backwards. `start` and the result are states of the reference point. Fourth
+/// order in `step` [m], split at the schedule's knots. InternalError for a start speed of 0.
 KinematicState RollOut(const VehicleParams& params, const KinematicState& start,
                        const SteeringSchedule& schedule, double distance, double step,
                        ReferencePoint reference = ReferencePoint::kRearAxle);
 
-/// The same, seen at several distances [m] that do not fall.
+/// The states at several nondecreasing distances [m].
 std::vector<KinematicState> RollOut(const VehicleParams& params, const KinematicState& start,
                                     const SteeringSchedule& schedule,
                                     const std::vector<double>& distances, double step,

@@ -5,7 +5,7 @@
 
 #include "trackbed/geometry/oriented_box.h"
 
-/// Wind is the velocity of the air over the ground: where it blows to, not where it comes from.
+/// Wind is the velocity of the air over the ground, in the direction toward which it blows.
 namespace trackbed {
 
 enum class GustShape {
@@ -13,25 +13,25 @@ enum class GustShape {
   kStep,            ///< 1 from the first moment to the last
 };
 
-/// Wind that comes and goes, everywhere or on one stretch.
+/// A gust, everywhere or in one area.
 struct Gust {
-  Vec2 velocity = Vec2::Zero();    ///< at its strongest, on top of all other wind [m/s]
+  Vec2 velocity = Vec2::Zero();    ///< peak velocity, added to all other wind [m/s]
   double from = 0.0;               ///< [s]
-  std::optional<double> duration;  ///< [s]; none: it never ends, which only a step can
+  std::optional<double> duration;  ///< [s]; none: unlimited, for a step only
   GustShape shape = GustShape::kOneMinusCosine;
-  std::optional<OrientedBox> area;  ///< where it blows, with sharp edges; none: everywhere
+  std::optional<OrientedBox> area;  ///< its area, with sharp edges; none: everywhere
 };
 
-/// All the wind there is: the same everywhere and always, and gusts on top of it.
+/// Constant, uniform wind, and gusts added to it.
 struct Wind {
   Vec2 velocity = Vec2::Zero();  ///< [m/s]
   std::vector<Gust> gusts{};
 };
 
-/// Share of its velocity that a gust has at `time`, in [0, 1].
+/// Fraction of its peak velocity that a gust has at `time`, in [0, 1].
 double GustStrength(const Gust& gust, double time);
 
-/// Velocity of the air at a place and moment [m/s]. Cost O(gusts).
+/// Velocity of the air at a point and time [m/s]. Cost O(gusts).
 Vec2 WindAt(const Wind& wind, const Vec2& point_W, double time);
 
 /// Whether there is ever any wind.

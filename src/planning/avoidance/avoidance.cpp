@@ -67,7 +67,7 @@ class AroundObstacles {
         break;
       }
       // Each round leaves one obstacle behind, unless the curves around two meet each other's.
-      ReplacementSearch found{std::nullopt, "the curves around others lead back to it"};
+      ReplacementSearch found{std::nullopt, "the curves around other obstacles lead back to it"};
       if (round < 2 * request_.obstacles.size()) {
         found = find_(plan_, *conflict, from);
       }
@@ -291,9 +291,9 @@ Plan PlanAroundWith(const ListingAvoidanceOptions& options, const AvoidanceReque
 
 const std::vector<AvoiderEntry>& LocalPlanners() {
   static const std::vector<AvoiderEntry> table{
-      {"bezier", "RRT* and a degree-7 Bezier curve, repaired until it can be driven (F.2)",
+      {"bezier", "RRT* and a degree-7 Bezier curve, repaired until feasible (F.2)",
        BezierAvoidanceOptions{}, true},
-      {"listing", "the curve of F.2 as printed, unchecked: to compare with",
+      {"listing", "the curve of F.2 as printed, without checks, for comparison",
        ListingAvoidanceOptions{}, false},
   };
   return table;
@@ -319,9 +319,9 @@ namespace {
 /// What every method of `plan.avoid` has.
 template <typename Options>
 void VisitAvoider(KeyVisitor& keys, Options& options) {
-  keys.Field({"safe_distance", "m", "of the car's outline from obstacles"}, options.safe_distance,
-             Need::kOptional, kNonNegative);
-  keys.Field({"delay", "s", "from learning of an obstacle to the new plan"}, options.delay,
+  keys.Field({"safe_distance", "m", "minimum distance of the car's footprint from obstacles"},
+             options.safe_distance, Need::kOptional, kNonNegative);
+  keys.Field({"delay", "s", "time from detecting an obstacle to the new plan"}, options.delay,
              Need::kOptional, kNonNegative);
 }
 
@@ -332,42 +332,42 @@ void Visit(KeyVisitor& keys, BezierAvoidanceOptions& options) {
   static const EnumNames<PassingSideChoice> rings{{PassingSideChoice::kAuto, "auto"},
                                                   {PassingSideChoice::kInner, "inner"},
                                                   {PassingSideChoice::kOuter, "outer"}};
-  keys.Field(
-      {"ring", "",
-       "on which side to pass: toward the turn's center (left on a straight), away from it, or "
-       "as RRT* finds it shorter"},
-      options.ring, Need::kOptional, rings);
-  keys.Field({"min_speed", "m/s", "no slower than this to get past"}, options.min_speed,
+  keys.Field({"ring", "",
+              "passing side: toward the turn's center (left on a straight), away from it, or the "
+              "shorter one found by RRT*"},
+             options.ring, Need::kOptional, rings);
+  keys.Field({"min_speed", "m/s", "minimum speed past an obstacle"}, options.min_speed,
              Need::kOptional, kPositive);
-  keys.Field({"max_lateral_acceleration", "m/s^2", "of the curve"},
+  keys.Field({"max_lateral_acceleration", "m/s^2", "maximum lateral acceleration of the curve"},
              options.max_lateral_acceleration, Need::kOptional, kPositive);
-  keys.Field({"steering_rate_share", "", "of the car's steering rate that the curve may ask for"},
+  keys.Field({"steering_rate_share", "",
+              "maximum fraction of the car's steering rate that the curve may use"},
              options.steering_rate_share, Need::kOptional, Range{.max = 1.0, .above = 0.0});
-  keys.Field({"comfortable_rate_share", "", "curves that ask for no more are preferred"},
+  keys.Field({"comfortable_rate_share", "",
+              "fraction of the steering rate up to which curves are preferred"},
              options.comfortable_rate_share, Need::kOptional, Range{.max = 1.0, .above = 0.0});
-  keys.Field({"rrt_iterations", "", "samples of RRT*"}, options.rrt_iterations, Need::kOptional,
-             Range{.min = 0, .max = 1e6});
-  keys.Field({"rrt_step", "m", "from a node toward a sample at most"}, options.rrt_step,
+  keys.Field({"rrt_iterations", "", "number of RRT* samples"}, options.rrt_iterations,
+             Need::kOptional, Range{.min = 0, .max = 1e6});
+  keys.Field({"rrt_step", "m", "maximum distance from a node toward a sample"}, options.rrt_step,
              Need::kOptional, kPositive);
-  keys.Section({"search", "", "how the curve's control points are moved"}, options.search);
+  keys.Section({"search", "", "optimizer of the curve's control points"}, options.search);
 }
 
 void Visit(KeyVisitor& keys, ListingAvoidanceOptions& options) {
   VisitAvoider(keys, options);
   keys.Field({"inner_width", "m",
-              "free toward the turn's center; the curve leads past on the wider side, this one of "
-              "two alike"},
+              "free width toward the turn's center; the curve passes on the wider side, on this "
+              "one if equal"},
              options.inner_width, Need::kOptional, kNonNegative);
-  keys.Field({"outer_width", "m", "free on the other side"}, options.outer_width, Need::kOptional,
-             kNonNegative);
-  keys.Field({"grid", "", "the arc in steps of 0.01 rad, as printed; else exact"},
-             options.literal.grid, Need::kOptional);
+  keys.Field({"outer_width", "m", "free width on the other side"}, options.outer_width,
+             Need::kOptional, kNonNegative);
+  keys.Field({"grid", "", "arc in steps of 0.01 rad, as printed; else exact"}, options.literal.grid,
+             Need::kOptional);
   keys.Field({"right_shift", "",
-              "P_5 of a right turn shifted, as printed; else right turns are mirrored left ones"},
+              "P_5 of a right turn shifted, as printed; else right turns mirror left turns"},
              options.literal.right_shift, Need::kOptional);
   keys.Field({"right_angle_rule", "",
-              "P_5 to P_7 of a turn of 90 degrees by rules of their own, as printed; else by that "
-              "of all other angles"},
+              "special rules for P_5 to P_7 of 90 degree turns, as printed; else the general rule"},
              options.literal.right_angle_rule, Need::kOptional);
 }
 

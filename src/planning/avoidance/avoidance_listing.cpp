@@ -77,29 +77,30 @@ TurnManoeuvre ProblemFor(const AvoidanceRequest& request, const ListingAvoidance
   return problem;
 }
 
-/// What the curve breaks, for people; none when it can be driven safely.
+/// The violated limits of the curve; empty if it is feasible.
 std::vector<std::string> NotesOn(const CurveCheck& check, const VehicleParams& vehicle,
                                  double safe_distance, const OrientedBox& obstacle) {
   std::vector<std::string> broken;
-  const auto add = [&](const char* what, double value, const char* bound, double limit,
+  const auto add = [&](const char* what, double value, const char* relation, double limit,
                        const char* unit) {
     broken.push_back(
-        fmt::format("a {} of {:.3g} {} ({} {:.3g} {})", what, value, unit, bound, limit, unit));
+        fmt::format("{} {:.3g} {} {} {:.3g} {}", what, value, unit, relation, limit, unit));
   };
   if (check.clearance < safe_distance) {
-    add("clearance", check.clearance, "safe distance", safe_distance, "m");
+    add("clearance", check.clearance, "is below the safe distance of", safe_distance, "m");
   }
   if (check.steering > vehicle.steering_limit) {
-    add("steering angle", check.steering, "limit", vehicle.steering_limit, "rad");
+    add("steering angle", check.steering, "exceeds", vehicle.steering_limit, "rad");
   }
   if (check.steering_rate > vehicle.steering_rate) {
-    add("steering rate", check.steering_rate, "limit", vehicle.steering_rate, "rad/s");
+    add("steering rate", check.steering_rate, "exceeds", vehicle.steering_rate, "rad/s");
   }
   if (broken.empty()) {
     return {};
   }
-  return {fmt::format("driven although its curve past the obstacle at ({:.4g}, {:.4g}) has {}",
-                      obstacle.center.x, obstacle.center.y, fmt::join(broken, "; "))};
+  return {
+      fmt::format("infeasible, kept anyway: the curve past the obstacle at ({:.4g}, {:.4g}): {}",
+                  obstacle.center.x, obstacle.center.y, fmt::join(broken, "; "))};
 }
 
 ListingAvoidanceDiagnostics DiagnosticsOn(const TurnManoeuvre& problem, const TurnLayout& layout,
@@ -124,7 +125,7 @@ ReplacementSearch FindListingCurve(const AvoidanceRequest& request,
   const double beside = StationBeside(path, vehicle, conflict);
   const std::optional<Turn> turn = TurnAt(path, beside);
   if (!turn || turn->sweep() >= 2.0 * kPi) {
-    return {std::nullopt, "the listing knows obstacles in turns of constant radius alone"};
+    return {std::nullopt, "the listing only handles obstacles in turns of constant radius"};
   }
   const TurnManoeuvre problem = ProblemFor(request, options, *turn, conflict.obstacle, beside);
   const TurnLayout layout = LayOutTurn(problem, vehicle);
@@ -140,10 +141,9 @@ ReplacementSearch FindListingCurve(const AvoidanceRequest& request,
   const double room_before = turn->arc.from - std::max(turn->straights.from, from);
   const double room_after = turn->straights.to - turn->arc.to;
   if (before > room_before + kRounding || after > room_after + kRounding) {
-    return {std::nullopt,
-            fmt::format("the listing takes {:.4g} m of straight before the turn and {:.4g} m after "
-                        "it; there are {:.4g} m and {:.4g} m",
-                        before, after, std::max(room_before, 0.0), room_after)};
+    return {std::nullopt, fmt::format("the listing needs straights of {:.4g} m before and {:.4g} m "
+                                      "after the turn; found {:.4g} m and {:.4g} m",
+                                      before, after, std::max(room_before, 0.0), room_after)};
   }
 
   const Pose2 X_WM = ManoeuvreFrame(problem, path.At(turn->arc.from).pose);

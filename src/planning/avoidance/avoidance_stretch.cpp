@@ -61,7 +61,7 @@ class StretchFinder {
     const std::vector<double> leaves = LeavesFor(conflict, bend, from);
     const std::vector<double> backs = BacksFor(conflict, bend);
     if (backs.empty()) {
-      return {std::nullopt, "the path ends beside it"};
+      return {std::nullopt, "the path ends beside the obstacle"};
     }
     const double full = request_.speed.speed;
     const double beside = StationBeside(path(), request_.vehicle, conflict);
@@ -114,7 +114,7 @@ class StretchFinder {
       }
     }
     const std::string why =
-        fmt::format("no curve passes it on {} at {:.3g} m/s or more ({} tried)",
+        fmt::format("no feasible curve on {} at {:.3g} m/s or more ({} tried)",
                     options_.ring == PassingSideChoice::kAuto
                         ? "either side"
                         : fmt::format("the {} side", ToString(ways.front().ring)),

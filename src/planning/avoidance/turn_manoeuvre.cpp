@@ -149,8 +149,8 @@ TurnLayout LayOutTurn(const TurnManoeuvre& manoeuvre, const VehicleParams& vehic
   if (!(layout.safe_radius > 0.0)) {
     layout.status = TurnStatus::kNoSafePoint;
     layout.reason = fmt::format(
-        "passing inside takes {:.6g} m (safe distance, obstacle's diagonal and car's width, with "
-        "the {:.6g} m kept free), the turn's radius is {:.6g} m",
+        "passing on the inside needs {:.6g} m (safe distance, obstacle diagonal, car width and the "
+        "{:.6g} m kept free); the turn radius is {:.6g} m",
         manoeuvre.radius - layout.safe_radius, manoeuvre.inner_width, manoeuvre.radius);
     return layout;
   }

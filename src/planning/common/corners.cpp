@@ -154,8 +154,8 @@ std::string SlowUntilClear(const VehicleParams& vehicle, const std::vector<Vec2>
     RoundCorner* corner = CornerToSlow(result.corners, *blocked, limits.min_speed);
     if (corner == nullptr) {
       const Vec2 at = result.path.At(*blocked).pose.position();
-      return fmt::format("rounded, the path comes too near to an obstacle at ({:.4g}, {:.4g})",
-                         at.x(), at.y());
+      return fmt::format("the rounded path is too close to an obstacle at ({:.4g}, {:.4g})", at.x(),
+                         at.y());
     }
     constexpr double kSlower = 0.8;
     *corner =
@@ -200,7 +200,7 @@ RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2
     if (lacks(limits.min_speed) > 0.0) {
       return refuse(
           PlanStatus::kTurnTooTight,
-          fmt::format("{} needs {:.3g} m of its legs even at {:.3g} m/s; there are {:.3g}",
+          fmt::format("{} needs {:.3g} m of its legs even at {:.3g} m/s; available {:.3g}",
                       PlaceOf(corner), at_speed(corner, limits.min_speed).tangent_length,
                       limits.min_speed, std::min(room_in, room_out)));
     }
@@ -215,10 +215,10 @@ RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2
       const auto slowed = SpeedAfterBraking(
           limits, speed, room_in, [&](double v) { return at_speed(corner, v).tangent_length; });
       if (!slowed) {
-        return refuse(PlanStatus::kTurnTooTight,
-                      fmt::format("{} is too near for a car that rolls at {:.3g} m/s to slow down "
-                                  "for it at {:.3g} m/s^2",
-                                  PlaceOf(corner), limits.start_speed, limits.deceleration));
+        return refuse(
+            PlanStatus::kTurnTooTight,
+            fmt::format("{} is too close to slow down for from {:.3g} m/s at {:.3g} m/s^2",
+                        PlaceOf(corner), limits.start_speed, limits.deceleration));
       }
       speed = *slowed;
     }

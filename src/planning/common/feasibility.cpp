@@ -131,15 +131,15 @@ bool EndsAtStop(const std::vector<Stations>& legs, double s) {
 
 void CheckStart(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
   const PathPoint first = plan.reference.path.At(0.0);
-  Worst place("gap between the car and the start of the path", "m", Remedy::kNone);
+  Worst place("initial position error", "m", Remedy::kNone);
   place.Take((first.pose.position() - request.start.position()).norm(), kSamePlace, 0.0);
   place.AddTo(found);
-  Worst heading("turn of the path's first heading from the car's", "rad", Remedy::kNone);
+  Worst heading("initial heading error", "rad", Remedy::kNone);
   heading.Take(std::abs(AngleDifference(first.pose.yaw, request.start.yaw)), kSameHeading, 0.0);
   heading.AddTo(found);
   if (request.start_speed > 0.0) {
     const double steering = SteeringForCurvature(request.vehicle, first.curvature);
-    Worst wheels("step of the steering at the start of a rolling car", "rad", Remedy::kNone);
+    Worst wheels("initial steering step", "rad", Remedy::kNone);
     wheels.Take(std::abs(steering - request.start_steering), kSameSteering, 0.0);
     wheels.AddTo(found);
   }
@@ -255,7 +255,7 @@ std::string Listed(const std::vector<Excess>& excesses) {
 Plan Refuse(const std::vector<Excess>& excesses, const Plan& plan) {
   Plan refused;
   refused.status = PlanStatus::kInfeasible;
-  refused.reason = "the path has " + Listed(excesses);
+  refused.reason = "the path is not feasible: " + Listed(excesses);
   refused.diagnostics = plan.diagnostics;
   return refused;
 }
@@ -274,18 +274,17 @@ SpeedLimits Gentler(const SpeedLimits& limits, const std::vector<Excess>& excess
   return gentler;
 }
 
-/// What was done to a plan: "slowed down to 2.1 m/s where needed".
+/// The changes made to a plan: "speed reduced to 2.1 m/s where needed".
 std::string Mended(const SpeedLimits& before, const SpeedLimits& after, double slowest) {
   std::vector<std::string> texts;
   if (slowest < before.speed) {
-    texts.push_back(fmt::format("slowed down to {:.3g} m/s where needed", slowest));
+    texts.push_back(fmt::format("speed reduced to {:.3g} m/s where needed", slowest));
   }
   if (after.deceleration < before.deceleration) {
-    texts.push_back(fmt::format("made to brake at no more than {:.3g} m/s^2", after.deceleration));
+    texts.push_back(fmt::format("deceleration limited to {:.3g} m/s^2", after.deceleration));
   }
   if (after.acceleration < before.acceleration) {
-    texts.push_back(
-        fmt::format("made to speed up at no more than {:.3g} m/s^2", after.acceleration));
+    texts.push_back(fmt::format("acceleration limited to {:.3g} m/s^2", after.acceleration));
   }
   return fmt::format("{}", fmt::join(texts, ", "));
 }
@@ -293,8 +292,8 @@ std::string Mended(const SpeedLimits& before, const SpeedLimits& after, double s
 }  // namespace
 
 std::string ToString(const Excess& excess) {
-  return fmt::format("a {} of {:.3g} {} at s = {:.4g} m (limit {:.3g} {})", excess.what,
-                     excess.asked, excess.unit, excess.station, excess.limit, excess.unit);
+  return fmt::format("{} {:.3g} {} exceeds {:.3g} {} at s = {:.4g} m", excess.what, excess.asked,
+                     excess.unit, excess.limit, excess.unit, excess.station);
 }
 
 void SetSpeeds(Plan& plan, double start_speed, const SpeedLimits& limits) {
@@ -328,7 +327,7 @@ Plan MakeFeasible(Plan plan, const PlanRequest& request) {
     return excess.remedy == Remedy::kNone;
   });
   if (request.infeasible == InfeasiblePolicy::kAllow) {
-    plan.notes.push_back("driven although it has " + Listed(first));
+    plan.notes.push_back("infeasible, kept anyway: " + Listed(first));
     return plan;
   }
   if (hopeless || request.infeasible == InfeasiblePolicy::kRefuse) {
@@ -356,9 +355,8 @@ Plan MakeFeasible(Plan plan, const PlanRequest& request) {
   if (!left.empty()) {
     return Refuse(left, plan);
   }
-  slower.notes.push_back(fmt::format("{}: at {:.3g} m/s the plan has {}",
-                                     Mended(request.speed, limits, slowest), request.speed.speed,
-                                     Listed(first)));
+  slower.notes.push_back(fmt::format("{}: at {:.3g} m/s {}", Mended(request.speed, limits, slowest),
+                                     request.speed.speed, Listed(first)));
   return slower;
 }
 

@@ -12,8 +12,9 @@
 namespace trackbed {
 namespace {
 
-constexpr Key kCurveRadius{"radius", "m", "of the arcs; else a tenth more than the car's smallest"};
-constexpr Key kStepSpeed{"min_speed", "m/s", "no step of curvature is taken more slowly"};
+constexpr Key kCurveRadius{"radius", "m",
+                           "radius of the arcs; default: 1.1 times the minimum turning radius"};
+constexpr Key kStepSpeed{"min_speed", "m/s", "minimum speed at curvature steps"};
 
 std::string FirstCorner(const std::vector<Vec2>& points) {
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
@@ -21,8 +22,8 @@ std::string FirstCorner(const std::vector<Vec2>& points) {
     const Vec2 out = points[i + 1] - points[i];
     const double turn = std::atan2(Cross(in, out), in.dot(out));
     if (std::abs(turn) > 1e-6) {
-      return fmt::format("the heading jumps by {:.3g} rad at ({:.4g}, {:.4g}); no car drives that",
-                         turn, points[i].x(), points[i].y());
+      return fmt::format("the heading jumps by {:.3g} rad at ({:.4g}, {:.4g})", turn, points[i].x(),
+                         points[i].y());
     }
   }
   return "";
@@ -43,16 +44,16 @@ Plan CheckRoute(const PlanRequest& request) {
   if (request.waypoints.size() < 2) {
     return Refused(
         PlanStatus::kTooFewWaypoints,
-        fmt::format("{} waypoints; a start and a goal are needed", request.waypoints.size()));
+        fmt::format("{} waypoints; must be at least a start and a goal", request.waypoints.size()));
   }
   for (std::size_t i = 1; i < request.waypoints.size(); ++i) {
     if (request.waypoints[i] == request.waypoints[i - 1]) {
       return Refused(PlanStatus::kDuplicateWaypoints,
-                     fmt::format("waypoint {} is the one before it", i));
+                     fmt::format("waypoint {} equals the previous one", i));
     }
   }
   if (request.waypoints[1] == request.start.position()) {
-    return Refused(PlanStatus::kDuplicateWaypoints, "the car stands at waypoint 1");
+    return Refused(PlanStatus::kDuplicateWaypoints, "the car starts at waypoint 1");
   }
   return {};
 }
@@ -94,8 +95,8 @@ Plan AlongPolyline(Plan plan, const PlanRequest& request, const std::vector<Vec2
 Plan CheckRadius(const VehicleParams& vehicle, const std::optional<double>& radius) {
   if (radius && *radius < vehicle.min_turning_radius()) {
     return Refused(PlanStatus::kTurnTooTight,
-                   fmt::format("a radius of {:.4g} m; the car turns on {:.4g} m or more", *radius,
-                               vehicle.min_turning_radius()));
+                   fmt::format("radius {:.4g} m is below the minimum turning radius of {:.4g} m",
+                               *radius, vehicle.min_turning_radius()));
   }
   return {};
 }
@@ -110,9 +111,9 @@ Plan CheckStops(const std::vector<Pose2>& stops, const CollisionChecker& clear) 
       const std::string place = fmt::format("({:.4g}, {:.4g})", stops[i].x, stops[i].y);
       return i == 0
                  ? Refused(PlanStatus::kStartBlocked,
-                           "the car stands too near to an obstacle at " + place)
+                           "the start is too close to an obstacle at " + place)
                  : Refused(PlanStatus::kGoalBlocked,
-                           fmt::format("an obstacle is too near to waypoint {} at {}", i, place));
+                           fmt::format("waypoint {} is too close to an obstacle at {}", i, place));
     }
   }
   return {};
@@ -150,13 +151,12 @@ void VisitCurves(KeyVisitor& keys, std::optional<double>& radius, double& safe_d
 
 void VisitCorners(KeyVisitor& keys, Corners& corners, double& safe_distance, double& corner_room) {
   static const EnumNames<Corners> names{{Corners::kRound, "round"}, {Corners::kRefuse, "refuse"}};
-  keys.Field(
-      {"corners", "",
-       "what becomes of corners: rounded by clothoids and arcs that the wheels can follow, or "
-       "no plan"},
-      corners, Need::kOptional, names);
+  keys.Field({"corners", "",
+              "handling of corners: rounded by clothoids and arcs that the steering can follow, or "
+              "refused"},
+             corners, Need::kOptional, names);
   keys.Field(kOutlineDistance, safe_distance, Need::kOptional, kNonNegative);
-  keys.Field({"corner_room", "m", "that the search keeps besides, for rounded corners"},
+  keys.Field({"corner_room", "m", "additional clearance in the search, for rounded corners"},
              corner_room, Need::kOptional, kNonNegative);
 }
 

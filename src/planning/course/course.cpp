@@ -40,8 +40,8 @@ Plan PlanWith(const CourseOptions& options, const PlanRequest& request) {
     if (steering > request.vehicle.steering_limit) {
       plan.status = PlanStatus::kTurnTooTight;
       plan.reason = fmt::format(
-          "segments[{}] has a curvature of {:.4g} 1/m, which takes {:.3f} rad of steering; the car "
-          "can steer {:.3f} rad",
+          "segments[{}]: curvature {:.4g} 1/m needs a steering angle of {:.3f} rad, which exceeds "
+          "the limit of {:.3f} rad",
           i, sharpest, steering, request.vehicle.steering_limit);
       plan.diagnostics.planner = CourseDiagnostics{.failed_segment = i, .segments = {}};
       return plan;
@@ -89,23 +89,24 @@ void Visit(DiagnosticsVisitor& out, const CourseDiagnostics& own) {
 
 void Visit(KeyVisitor& keys, CoursePiece& piece) {
   static constexpr Range kCurvature{.min = -10.0, .max = 10.0};  // [1/m]
-  keys.Field({"length", "m", "along the course"}, piece.length, Need::kRequired,
+  keys.Field({"length", "m", "length"}, piece.length, Need::kRequired,
              Range{.max = 1e6, .above = 0.0});
-  keys.Field({"curvature", "1/m", "of a straight (0) or an arc, positive to the left"},
+  keys.Field({"curvature", "1/m", "curvature of a straight (0) or arc, positive to the left"},
              piece.curvature, kCurvature);
-  keys.Field({"curvature_from", "1/m", "where a ramp begins; else where the piece before it ends"},
+  keys.Field({"curvature_from", "1/m",
+              "initial curvature of a ramp; default: end of the previous segment"},
              piece.curvature_from, kCurvature);
-  keys.Field({"curvature_to", "1/m", "where a ramp ends"}, piece.curvature_to, kCurvature);
+  keys.Field({"curvature_to", "1/m", "final curvature of a ramp"}, piece.curvature_to, kCurvature);
 }
 
 void Visit(KeyVisitor& keys, CourseOptions& options) {
-  keys.List({"segments", "", "of the course from the car's start on, at least one"},
+  keys.List({"segments", "", "segments of the course, from the car's start, at least one"},
             options.segments);
 }
 
 PlannerEntry CoursePlanner() {
   return {.name = "course",
-          .summary = "straights, arcs and curvature ramps, piece by piece as given",
+          .summary = "straights, arcs and curvature ramps as given",
           .defaults = CourseOptions{},
           .plan = PlanBy<CourseOptions, PlanWith>};
 }

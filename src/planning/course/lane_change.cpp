@@ -160,9 +160,9 @@ Plan PlanWith(const LaneChangePlannerOptions& options, const PlanRequest& reques
     if (steering > request.vehicle.steering_limit) {
       plan.gates.clear();
       plan.status = PlanStatus::kTurnTooTight;
-      plan.reason = fmt::format(
-          "between the gates the car would have to steer {:.3f} rad; it can steer {:.3f} rad",
-          steering, request.vehicle.steering_limit);
+      plan.reason =
+          fmt::format("steering angle {:.3f} rad between the gates exceeds the limit of {:.3f} rad",
+                      steering, request.vehicle.steering_limit);
       return plan;
     }
   }
@@ -211,23 +211,25 @@ void Visit(KeyVisitor& keys, LaneChangePlannerOptions& options) {
   static const EnumNames<LaneChangeStandard> standards{
       {LaneChangeStandard::kIso3888_1, "iso_3888_1"},
       {LaneChangeStandard::kIso3888_2, "iso_3888_2"}};
-  keys.Field({"standard", "", "whose gates"}, options.standard, Need::kOptional, standards);
+  keys.Field({"standard", "", "standard that defines the gates"}, options.standard, Need::kOptional,
+             standards);
   static const EnumNames<Side> sides{{Side::kLeft, "left"}, {Side::kRight, "right"}};
-  keys.Field({"first", "", "to which side the first change is"}, options.first, Need::kOptional,
-             sides);
-  keys.Field({"lead_in", "m", "from the start to the first gate"}, options.lead_in, Need::kOptional,
-             kPositive);
-  keys.Field({"lead_out", "m", "straight on after the last gate, before stopping"},
-             options.lead_out, Need::kOptional, kPositive);
-  keys.Field({"leave", "m", "the rear axle leaves a gate's middle so far before its end"},
-             options.leave, Need::kOptional, Range{.min = -5.0, .max = 5.0});
-  keys.Field({"join", "m", "and is on the next one's so far after its beginning"}, options.join,
-             Need::kOptional, Range{.min = -5.0, .max = 5.0});
+  keys.Field({"first", "", "side of the first lane change"}, options.first, Need::kOptional, sides);
+  keys.Field({"lead_in", "m", "distance from the start to the first gate"}, options.lead_in,
+             Need::kOptional, kPositive);
+  keys.Field({"lead_out", "m", "straight distance after the last gate"}, options.lead_out,
+             Need::kOptional, kPositive);
+  keys.Field(
+      {"leave", "m", "distance before a gate's end at which the rear axle leaves its center line"},
+      options.leave, Need::kOptional, Range{.min = -5.0, .max = 5.0});
+  keys.Field(
+      {"join", "m", "distance after the next gate's start at which it reaches that center line"},
+      options.join, Need::kOptional, Range{.min = -5.0, .max = 5.0});
 }
 
 PlannerEntry LaneChangePlanner() {
   return {.name = "lane_change",
-          .summary = "through the gates of a double lane change (ISO 3888)",
+          .summary = "double lane change through gates (ISO 3888)",
           .defaults = LaneChangePlannerOptions{},
           .plan = PlanBy<LaneChangePlannerOptions, PlanWith>};
 }

@@ -102,9 +102,9 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
     if (!found) {
       return Refused(
           PlanStatus::kNoPath,
-          fmt::format("none of the {} curves to waypoint {} is free of obstacles{}", all.size(), i,
-                      rolls ? " and begins as the car rolls; a car at rest "
-                              "(mission.start.speed: 0) has more"
+          fmt::format("all {} curves to waypoint {} collide with obstacles{}", all.size(), i,
+                      rolls ? " or start with a steering step; a car at rest (mission.start.speed: "
+                              "0) has more curves"
                             : ""));
     }
     segments.insert(segments.end(), found->segments.begin(), found->segments.end());
@@ -157,7 +157,7 @@ void Visit(KeyVisitor& keys, ReedsSheppOptions& options) {
 
 PlannerEntry DubinsPlanner() {
   return {.name = "dubins",
-          .summary = "the shortest curve through the waypoints with headings, forwards",
+          .summary = "shortest forward curves through waypoints with headings (Dubins)",
           .defaults = DubinsOptions{},
           .plan = PlanBy<DubinsOptions, PlanWith>,
           .min_waypoints = 2,
@@ -167,7 +167,8 @@ PlannerEntry DubinsPlanner() {
 
 PlannerEntry ReedsSheppPlanner() {
   return {.name = "reeds_shepp",
-          .summary = "the shortest curve through the waypoints with headings, either way",
+          .summary =
+              "shortest forward and reverse curves through waypoints with headings (Reeds-Shepp)",
           .defaults = ReedsSheppOptions{},
           .plan = PlanBy<ReedsSheppOptions, PlanWith>,
           .min_waypoints = 2,

@@ -72,10 +72,10 @@ FilletPlan PlanFillets(const VehicleParams& vehicle, const std::vector<Vec2>& wa
   FilletPlan plan;
   try {
     if (std::abs(options.neutral_steering) > vehicle.steering_limit) {
-      throw Refusal{PlanStatus::kTurnTooTight, -1,
-                    fmt::format("between turns the wheels would stand at {:.4g} rad; the car can "
-                                "steer {:.4g} rad",
-                                options.neutral_steering, vehicle.steering_limit)};
+      throw Refusal{
+          PlanStatus::kTurnTooTight, -1,
+          fmt::format("neutral_steering {:.4g} rad exceeds the steering limit of {:.4g} rad",
+                      options.neutral_steering, vehicle.steering_limit)};
     }
     const Route route = fillet::RouteOf(waypoints);
     plan = PlanRoute(vehicle, route, speed, options, seed);

@@ -117,7 +117,7 @@ FilletPlan SearchDriven(const VehicleParams& vehicle, const Route& route,
   SearchResult result = Search(problem, global, seed);
   if (!result.ok()) {
     throw Refusal{PlanStatus::kSearchFailed, -1,
-                  fmt::format("{} found no drivable plan in {} evaluations ({})",
+                  fmt::format("{} found no feasible plan in {} evaluations ({})",
                               SearchFor(options.search.method).name, result.evaluations,
                               ToString(result.status))};
   }

@@ -36,7 +36,7 @@ Path PathThrough(const Route& route, std::vector<FilletTurn>& turns) {
     constexpr double negligible = 1e-10;  // [m]
     if (length < -negligible) {
       throw Refusal{PlanStatus::kTurnsOverlap, waypoint,
-                    fmt::format("the arcs before waypoint {} need {:.4g} m more than their leg has",
+                    fmt::format("the arcs before waypoint {} exceed their leg by {:.4g} m",
                                 waypoint, -length)};
     }
     if (length > negligible) {
@@ -80,9 +80,9 @@ void CenterRamps(const VehicleParams& vehicle, FilletTurn& turn) {
 
 Route RouteOf(const std::vector<Vec2>& waypoints) {
   if (waypoints.size() < kMinFilletWaypoints) {
-    throw Refusal{PlanStatus::kTooFewWaypoints, static_cast<int>(waypoints.size()) - 1,
-                  fmt::format("{} waypoints; a route needs at least {}", waypoints.size(),
-                              kMinFilletWaypoints)};
+    throw Refusal{
+        PlanStatus::kTooFewWaypoints, static_cast<int>(waypoints.size()) - 1,
+        fmt::format("{} waypoints; must be at least {}", waypoints.size(), kMinFilletWaypoints)};
   }
   Route route{waypoints, {}};
   for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {
@@ -142,18 +142,16 @@ SteeringSchedule ScheduleOf(const VehicleParams& vehicle, const std::vector<Fill
   std::vector<double> slopes;
   for (const FilletTurn& turn : turns) {
     if (turn.steer_start < 0.0) {
-      throw Refusal{
-          PlanStatus::kSteersBeforeStart, turn.waypoint,
-          fmt::format("for the turn at waypoint {} the wheels would have to start turning {:.4g} m "
-                      "before the route begins",
-                      turn.waypoint, -turn.steer_start)};
+      throw Refusal{PlanStatus::kSteersBeforeStart, turn.waypoint,
+                    fmt::format("the steering for the turn at waypoint {} would have to start "
+                                "{:.4g} m before the route",
+                                turn.waypoint, -turn.steer_start)};
     }
     if (!steering.empty() && turn.steer_start < steering.back().start) {
-      throw Refusal{
-          PlanStatus::kTurnsOverlap, turn.waypoint,
-          fmt::format("for the turn at waypoint {} the wheels would have to start turning "
-                      "before those of the turn before it",
-                      turn.waypoint)};
+      throw Refusal{PlanStatus::kTurnsOverlap, turn.waypoint,
+                    fmt::format("the steering for the turn at waypoint {} would have to start "
+                                "before that of the previous turn",
+                                turn.waypoint)};
     }
     steering.push_back({turn.steer_start, turn.steer_return, turn.steering});
     slopes.push_back(vehicle.steering_rate / turn.speed);

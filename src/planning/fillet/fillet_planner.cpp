@@ -183,7 +183,7 @@ void ReplaceStretch(FilletTurnFindings& own, const Stations& replaced, double sh
       *station += shift;
     }
   } else if (turn.steer_return > replaced.from) {
-    turn.note = "led around an obstacle here";
+    turn.note = "rerouted around an obstacle here";
   }
 }
 
@@ -209,68 +209,69 @@ std::vector<double> DrivenRadii(const std::vector<double>& x) {
 }
 
 void Visit(KeyVisitor& keys, DrivenWeights& weights) {
-  keys.Field({"position", "1/m^3", "of the squared distance from the path, over its length"},
-             weights.position, Need::kOptional, kNonNegative);
-  keys.Field({"heading", "1/m", "of the squared heading error, over its length"}, weights.heading,
-             Need::kOptional, kNonNegative);
-  keys.Field({"end", "1/m^2", "of the squared distance from the goal at the end"}, weights.end,
+  keys.Field(
+      {"position", "1/m^3", "weight of the squared path deviation, integrated over the length"},
+      weights.position, Need::kOptional, kNonNegative);
+  keys.Field({"heading", "1/m", "weight of the squared heading error, integrated over the length"},
+             weights.heading, Need::kOptional, kNonNegative);
+  keys.Field({"end", "1/m^2", "weight of the squared distance to the goal at the end"}, weights.end,
              Need::kOptional, kNonNegative);
 }
 
 void Visit(KeyVisitor& keys, FilletOptions& options) {
-  keys.Field({"radius", "m", "of every turn; else the largest that the constraint allows"},
-             options.radius, kPositive);
+  keys.Field(
+      {"radius", "m", "radius of all turns; default: the largest that the constraint allows"},
+      options.radius, kPositive);
   static const EnumNames<RadiusConstraint> constraints{
       {RadiusConstraint::kSteeringRoom, "steering_room"},
       {RadiusConstraint::kHalfLeg, "half_leg"},
       {RadiusConstraint::kNone, "none"}};
-  keys.Field(
-      {"constraint", "",
-       "what a radius must leave: room to turn the wheels (C.40), half the shorter leg (C.34), "
-       "or nothing"},
-      options.constraint, Need::kOptional, constraints);
-  keys.Field(
-      {"neutral_steering", "rad",
-       "where the wheels stand between turns, start from and return to, positive to the left; "
-       "unless it is 0 a kinematic car leaves its straight legs"},
-      options.neutral_steering, Need::kOptional, kSteering);
-  keys.Field({"max_radius", "m", "upper bound of the search"}, options.max_radius, Need::kOptional,
+  keys.Field({"constraint", "",
+              "constraint on the radius: leaves room for the steering ramps (C.40), fits half the "
+              "shorter leg (C.34), or none"},
+             options.constraint, Need::kOptional, constraints);
+  keys.Field({"neutral_steering", "rad",
+              "steering angle between turns, positive to the left; unless 0, a kinematic car "
+              "leaves the straight legs"},
+             options.neutral_steering, Need::kOptional, kSteering);
+  keys.Field({"max_radius", "m", "upper bound of the radius"}, options.max_radius, Need::kOptional,
              kPositive);
   static const EnumNames<InfeasibleTurnPolicy> without_room{
       {InfeasibleTurnPolicy::kSlowDown, "slow_down"},
       {InfeasibleTurnPolicy::kHalfLeg, "half_leg"},
       {InfeasibleTurnPolicy::kRefuse, "refuse"}};
-  keys.Field({"without_room", "", "what becomes of a turn for which C.40 has no radius"},
+  keys.Field({"without_room", "", "handling of turns for which C.40 has no feasible radius"},
              options.without_room, Need::kOptional, without_room);
-  keys.Field({"min_speed", "m/s", "no turn is slowed down below this"}, options.min_speed,
-             Need::kOptional, kPositive);
+  keys.Field({"min_speed", "m/s", "minimum speed in turns"}, options.min_speed, Need::kOptional,
+             kPositive);
   static const EnumNames<RadiusObjective> objectives{{RadiusObjective::kLargest, "largest"},
                                                      {RadiusObjective::kLiteral, "literal"},
                                                      {RadiusObjective::kTurnLocal, "turn_local"},
                                                      {RadiusObjective::kDriven, "driven"}};
+  keys.Field({"objective", "",
+              "criterion for the radii: largest radius, yaw rate over a window of the route or "
+              "over the turn, or tracking error of the simulated car"},
+             options.objective, Need::kOptional, objectives);
+  keys.Section({"search", "", "optimizer of the objective; not for 'largest'"}, options.search);
   keys.Field(
-      {"objective", "",
-       "by what radii are chosen: the largest, the yaw rate over a window of the route, over "
-       "the turn, or the driven car's error"},
-      options.objective, Need::kOptional, objectives);
-  keys.Section({"search", "", "how it is minimized; not for 'largest'"}, options.search);
-  keys.Field({"resimulate_each_turn", "", "a first drive before every turn, not one for all"},
-             options.resimulate_each_turn, Need::kOptional);
+      {"resimulate_each_turn", "", "simulate the reference run before each turn, instead of once"},
+      options.resimulate_each_turn, Need::kOptional);
   static const EnumNames<ReferencePoint> references{
       {ReferencePoint::kRearAxle, "rear_axle"},
       {ReferencePoint::kCenterOfGravity, "center_of_gravity"}};
-  keys.Field({"reference", "", "the point of the car that first drives follow"}, options.reference,
-             Need::kOptional, references);
-  keys.Section({"weights", "", "of the objective 'driven'"}, options.weights);
+  keys.Field({"reference", "", "point of the car that follows the path in the reference run"},
+             options.reference, Need::kOptional, references);
+  keys.Section({"weights", "", "weights of the objective 'driven'"}, options.weights);
 }
 
 PlannerEntry FilletPlanner() {
-  return {
-      .name = "fillet",
-      .summary = "straight legs and arcs of the largest radius the steering rate allows (C.1-C.40)",
-      .defaults = FilletOptions{},
-      .plan = PlanBy<FilletOptions, PlanWith>,
-      .min_waypoints = kMinFilletWaypoints};
+  return {.name = "fillet",
+          .summary =
+              "straight legs joined by arcs of the largest radius that the steering rate allows "
+              "(C.1-C.40)",
+          .defaults = FilletOptions{},
+          .plan = PlanBy<FilletOptions, PlanWith>,
+          .min_waypoints = kMinFilletWaypoints};
 }
 
 }  // namespace trackbed

@@ -116,7 +116,7 @@ std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle
     return room;
   }
   const std::string why = fmt::format(
-      "at {:.4g} m/s no radius from {:.4g} to {:.4g} m leaves the distance to turn the wheels "
+      "at {:.4g} m/s no radius from {:.4g} to {:.4g} m leaves room for the steering ramp "
       "within half of the shorter leg, {:.4g} m (C.40)",
       speed, bounds.low, bounds.high, turn.shorter_leg / 2.0);
   if (options.without_room == InfeasibleTurnPolicy::kRefuse) {
@@ -133,7 +133,7 @@ std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle
           : std::nullopt;
   if (slower) {
     turn.speed = *slower;
-    turn.note = fmt::format("{}; taken at {:.4g} m/s", why, *slower);
+    turn.note = fmt::format("{}; speed reduced to {:.4g} m/s", why, *slower);
     return room_at(*slower);
   }
   // C.40 keeps a whole ramp on the leg, of which half lies on the arc.
@@ -147,7 +147,7 @@ std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle
                     v));
   }
   turn.speed = v;
-  turn.note = fmt::format("{}; taken at {:.4g} m/s with half a ramp on the leg", why, v);
+  turn.note = fmt::format("{}; speed reduced to {:.4g} m/s, half of the ramp on the leg", why, v);
   return room;
 }
 
@@ -163,14 +163,15 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
   };
   if (options.radius && *options.radius < r_min - tolerance) {
     throw refuse(PlanStatus::kTurnTooTight,
-                 fmt::format("the given radius of {:.4g} m is below the car's smallest, {:.4g} m",
+                 fmt::format("radius {:.4g} m is below the minimum turning radius of {:.4g} m",
                              *options.radius, r_min));
   }
   if (!options.radius && options.max_radius < r_min - tolerance) {
-    throw refuse(PlanStatus::kTurnTooTight,
-                 fmt::format("the largest radius allowed, {:.4g} m, is below the car's smallest, "
-                             "{:.4g} m",
-                             options.max_radius, r_min));
+    throw refuse(
+        PlanStatus::kTurnTooTight,
+        fmt::format(
+            "the largest radius allowed, {:.4g} m, is below the minimum turning radius of {:.4g} m",
+            options.max_radius, r_min));
   }
   turn.speed = speed;
   turn.neutral = options.neutral_steering;
@@ -182,11 +183,11 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
   }
   const auto half_leg = HalfLegRadii(turn.interior_angle, turn.shorter_leg, bounds);
   if (!half_leg) {
-    throw refuse(PlanStatus::kTurnTooTight,
-                 fmt::format("a radius of {:.4g} m needs {:.4g} m of each leg, and half of the "
-                             "shorter one is {:.4g} m",
-                             bounds.low, bounds.low / std::tan(turn.interior_angle / 2.0),
-                             turn.shorter_leg / 2.0));
+    throw refuse(
+        PlanStatus::kTurnTooTight,
+        fmt::format(
+            "radius {:.4g} m needs {:.4g} m of each leg; half of the shorter leg is {:.4g} m",
+            bounds.low, bounds.low / std::tan(turn.interior_angle / 2.0), turn.shorter_leg / 2.0));
   }
   RadiusLimits limits{*half_leg, ActiveConstraint::kMinRadius, ActiveConstraint::kHalfLeg,
                       RadiusConstraint::kHalfLeg};

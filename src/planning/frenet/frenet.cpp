@@ -194,11 +194,11 @@ std::string ReasonOf(const FrenetPlan& plan, const char* of_what, int budget) {
     return fmt::format("there are no {}", of_what);
   }
   if (plan.checked >= budget && plan.checked < plan.candidates) {
-    return fmt::format("none of the first {} of {} {} can be driven{}{}", plan.checked,
+    return fmt::format("none of the first {} of {} {} is feasible{}{}", plan.checked,
                        plan.candidates, of_what, plan.checked > 0 ? ": " : "",
                        plan.rejected.ToString());
   }
-  return fmt::format("none of {} {} can be driven: {}", plan.candidates, of_what,
+  return fmt::format("none of {} {} is feasible: {}", plan.candidates, of_what,
                      plan.rejected.ToString());
 }
 
@@ -256,54 +256,60 @@ FrenetPlan PlanFrenet(const Path& reference, const FrenetRequest& request,
 }
 
 void Visit(KeyVisitor& keys, FrenetWeights& weights) {
-  keys.Field({"k_dj", "s^5/m^2", "of lateral jerk"}, weights.k_dj, Need::kOptional, kNonNegative);
-  keys.Field({"k_d", "1/m^2", "of the offset at the end"}, weights.k_d, Need::kOptional,
+  keys.Field({"k_dj", "s^5/m^2", "weight of the lateral jerk"}, weights.k_dj, Need::kOptional,
              kNonNegative);
-  keys.Field({"k_dt", "1/s", "of time, laterally"}, weights.k_dt, Need::kOptional, kNonNegative);
-  keys.Field({"k_sj", "s^5/m^2", "of longitudinal jerk"}, weights.k_sj, Need::kOptional,
+  keys.Field({"k_d", "1/m^2", "weight of the final lateral offset"}, weights.k_d, Need::kOptional,
              kNonNegative);
-  keys.Field({"k_s", "1/m^2", "of the station missed"}, weights.k_s, Need::kOptional, kNonNegative);
-  keys.Field({"k_v", "s^2/m^2", "of the speed missed"}, weights.k_v, Need::kOptional, kNonNegative);
-  keys.Field({"k_st", "1/s", "of time, along the path"}, weights.k_st, Need::kOptional,
+  keys.Field({"k_dt", "1/s", "weight of the time, lateral"}, weights.k_dt, Need::kOptional,
              kNonNegative);
-  keys.Field({"k_lat", "", "of all that is lateral"}, weights.k_lat, Need::kOptional, kNonNegative);
-  keys.Field({"k_lon", "", "of all that is along the path"}, weights.k_lon, Need::kOptional,
+  keys.Field({"k_sj", "s^5/m^2", "weight of the longitudinal jerk"}, weights.k_sj, Need::kOptional,
              kNonNegative);
-  keys.Field(
-      {"derivative_order", "", "of the integrals: 3 is jerk (Werling et al. 2010), 2 acceleration"},
-      weights.derivative_order, Need::kOptional, Range{.min = 2, .max = 3});
+  keys.Field({"k_s", "1/m^2", "weight of the final station error"}, weights.k_s, Need::kOptional,
+             kNonNegative);
+  keys.Field({"k_v", "s^2/m^2", "weight of the final speed error"}, weights.k_v, Need::kOptional,
+             kNonNegative);
+  keys.Field({"k_st", "1/s", "weight of the time, longitudinal"}, weights.k_st, Need::kOptional,
+             kNonNegative);
+  keys.Field({"k_lat", "", "weight of the lateral cost"}, weights.k_lat, Need::kOptional,
+             kNonNegative);
+  keys.Field({"k_lon", "", "weight of the longitudinal cost"}, weights.k_lon, Need::kOptional,
+             kNonNegative);
+  keys.Field({"derivative_order", "",
+              "derivative in the cost integrals: 3 jerk (Werling et al. 2010), 2 acceleration"},
+             weights.derivative_order, Need::kOptional, Range{.min = 2, .max = 3});
 }
 
 void VisitLimits(KeyVisitor& keys, FrenetLimits& limits) {
-  keys.Field({"max_lateral_acceleration", "m/s^2", "of a motion"}, limits.max_lateral_acceleration,
-             Need::kOptional, kPositive);
-  keys.Field({"steering_rate_share", "", "of the car's steering rate that a motion may ask for"},
+  keys.Field({"max_lateral_acceleration", "m/s^2", "maximum lateral acceleration"},
+             limits.max_lateral_acceleration, Need::kOptional, kPositive);
+  keys.Field({"steering_rate_share", "",
+              "maximum fraction of the car's steering rate that a motion may use"},
              limits.steering_rate_share, Need::kOptional, Range{.max = 1.0, .above = 0.0});
-  keys.Field(
-      {"speed_tolerance", "", "by which a motion may be faster than the mission, as a share"},
-      limits.speed_tolerance, Need::kOptional, Range{.min = 0.0, .max = 1.0});
+  keys.Field({"speed_tolerance", "", "fraction by which a motion may exceed the mission speed"},
+             limits.speed_tolerance, Need::kOptional, Range{.min = 0.0, .max = 1.0});
 }
 
 void Visit(KeyVisitor& keys, FrenetOptions& options) {
-  keys.Field({"end_times", "s", "durations that are tried"}, options.end_times, Need::kOptional,
+  keys.Field({"end_times", "s", "candidate durations"}, options.end_times, Need::kOptional,
              Range{.max = 60.0, .above = 0.0});
   keys.Field(kEndOffsets, options.end_offsets, Need::kOptional, kOffsetRange);
   keys.Field(kSpeedFactors, options.speed_factors, Need::kOptional, kFactorRange);
-  keys.Field({"station_offsets", "m", "from where to stop or to follow, that are tried"},
+  keys.Field({"station_offsets", "m", "candidate station offsets when stopping or following"},
              options.station_offsets, Need::kOptional, kOffsetRange);
-  keys.Field({"horizon", "s", "until when a motion must stay clear if it goes on as it ends"},
-             options.horizon, Need::kOptional, Range{.min = 0.0, .max = 60.0});
+  keys.Field(
+      {"horizon", "s", "time until which a motion, extrapolated past its end, must stay clear"},
+      options.horizon, Need::kOptional, Range{.min = 0.0, .max = 60.0});
   static const EnumNames<LateralMotion> laterals{{LateralMotion::kAuto, "auto"},
                                                  {LateralMotion::kOverTime, "over_time"},
                                                  {LateralMotion::kOverStation, "over_station"}};
   keys.Field({"lateral", "",
-              "whether it moves aside over time, over the way, or over the way when that is slow"},
+              "lateral motion as a function of time, of station, or of station at low speed"},
              options.lateral, Need::kOptional, laterals);
-  keys.Field({"low_speed", "m/s", "below which 'auto' moves aside over the way"}, options.low_speed,
+  keys.Field({"low_speed", "m/s", "speed below which 'auto' uses the station"}, options.low_speed,
              Need::kOptional, kNonNegative);
   VisitLimits(keys, options.limits);
-  keys.Section({"weights", "", "of the cost"}, options.weights);
-  keys.Field({"budget", "", "motions checked at most"}, options.budget, Need::kOptional,
+  keys.Section({"weights", "", "weights of the cost"}, options.weights);
+  keys.Field({"budget", "", "maximum number of motions checked"}, options.budget, Need::kOptional,
              Range{.min = 0, .max = 1e9});
 }
 

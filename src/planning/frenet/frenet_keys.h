@@ -5,8 +5,8 @@
 /// Keys that the searches for motions along a path have in common.
 namespace trackbed {
 
-inline constexpr Key kEndOffsets{"end_offsets", "m", "from the route, that are tried"};
-inline constexpr Key kSpeedFactors{"speed_factors", "", "of the wanted speed, that are tried"};
+inline constexpr Key kEndOffsets{"end_offsets", "m", "candidate lateral offsets from the route"};
+inline constexpr Key kSpeedFactors{"speed_factors", "", "candidate fractions of the target speed"};
 inline constexpr Range kOffsetRange{.min = -100.0, .max = 100.0};
 inline constexpr Range kFactorRange{.min = 0.0, .max = 1.0};
 

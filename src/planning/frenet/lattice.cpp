@@ -243,14 +243,15 @@ FrenetPlan PlanLattice(const Path& reference, const FrenetRequest& request,
 }
 
 void Visit(KeyVisitor& keys, LatticeOptions& options) {
-  keys.Field({"layers", "", "of the lattice"}, options.layers, Need::kOptional,
+  keys.Field({"layers", "", "number of layers"}, options.layers, Need::kOptional,
              Range{.min = 1, .max = 100});
-  keys.Field({"spacing", "m", "between its layers"}, options.spacing, Need::kOptional, kPositive);
+  keys.Field({"spacing", "m", "distance between layers"}, options.spacing, Need::kOptional,
+             kPositive);
   keys.Field(kEndOffsets, options.end_offsets, Need::kOptional, kOffsetRange);
   keys.Field(kSpeedFactors, options.speed_factors, Need::kOptional, kFactorRange);
   VisitLimits(keys, options.limits);
-  keys.Section({"weights", "", "of the cost"}, options.weights);
-  keys.Field({"budget", "", "edges checked at most"}, options.budget, Need::kOptional,
+  keys.Section({"weights", "", "weights of the cost"}, options.weights);
+  keys.Field({"budget", "", "maximum number of edges checked"}, options.budget, Need::kOptional,
              Range{.min = 0, .max = 1e9});
 }
 

@@ -58,7 +58,7 @@ TrajectoryCheck::TrajectoryCheck(const Path& path, const FrenetRequest& request,
   const PathPoint at = path.At(request.start.s);
   const auto start = FromFrenet(at, request.start);
   if (!start) {
-    blocked_ = "the path has no frame where the car is";
+    blocked_ = "the path has no Frenet frame at the car's position";
     return;
   }
   const auto loosened = [](double limit, double at_start) {
@@ -81,7 +81,7 @@ TrajectoryCheck::TrajectoryCheck(const Path& path, const FrenetRequest& request,
   for (const MovingBox& obstacle : request.obstacles) {
     const double clearance = Separation(outline, obstacle.box);
     if (clearance <= 0.0) {
-      blocked_ = "the car stands in an obstacle";
+      blocked_ = "the car is in collision with an obstacle";
       return;
     }
     obstacles_.push_back({obstacle, std::min(limits.safe_distance, clearance) - kRounding,

@@ -140,7 +140,7 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
   const GridArea area = AreaAround(request.start, stops, request.obstacles, options.margin);
   if (CellsIn(area, options.cell) > kMaxCells) {
     return Refused(PlanStatus::kBudgetUsedUp,
-                   fmt::format("{:.3g} cells of {:.3g} m; at most {:.3g} are searched",
+                   fmt::format("{:.3g} cells of {:.3g} m; must be at most {:.3g}",
                                CellsIn(area, options.cell), options.cell, kMaxCells));
   }
   const OccupancyGrid grid = RasterOf(request.start, area, options.cell, request.obstacles,
@@ -170,8 +170,8 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
   return Refused(
       PlanStatus::kTurnTooTight,
       fmt::format(
-          "the path has {}, and none was found that begins at the car's heading "
-          "of {:.3g} rad{}",
+          "the path is not feasible: {}; no path was found that starts at the car's heading of "
+          "{:.3g} rad{}",
           ToString(*std::find_if(excesses.begin(), excesses.end(),
                                  [](const Excess& e) { return e.remedy == Remedy::kNone; })),
           request.start.yaw,
@@ -200,13 +200,13 @@ void Visit(KeyVisitor& keys, AStarOptions& options) {
   keys.Field(route::kGridCell, options.cell, Need::kOptional, route::kCellSize);
   keys.Field(route::kGridMargin, options.margin, Need::kOptional, kNonNegative);
   keys.Field(route::kCornerSpeed, options.min_speed, Need::kOptional, kPositive);
-  keys.Field({"budget", "", "cells to look at for each leg, at most"}, options.budget,
-             Need::kOptional, Range{.min = 0, .max = 1e9});
+  keys.Field({"budget", "", "maximum expanded cells per leg"}, options.budget, Need::kOptional,
+             Range{.min = 0, .max = 1e9});
 }
 
 PlannerEntry AStarPlanner() {
   return {.name = "astar",
-          .summary = "around obstacles on a grid, corners rounded or refused (Hart et al. 1968)",
+          .summary = "A* on a grid around obstacles, corners rounded or refused (Hart et al. 1968)",
           .defaults = AStarOptions{},
           .plan = PlanBy<AStarOptions, PlanWith>,
           .min_waypoints = 2,

@@ -59,10 +59,10 @@ class HybridAStar {
     }
     result.cells = static_cast<int>(grid_.size());
     if (!clear_.IsFree(problem_.start)) {
-      return Fail(result, PlanStatus::kStartBlocked, "the car stands too near to an obstacle");
+      return Fail(result, PlanStatus::kStartBlocked, "the start is too close to an obstacle");
     }
     if (!clear_.IsFree(problem_.goal)) {
-      return Fail(result, PlanStatus::kGoalBlocked, "an obstacle is too near to the goal");
+      return Fail(result, PlanStatus::kGoalBlocked, "the goal is too close to an obstacle");
     }
     const int goal_cell = grid_.CellAt(problem_.goal.position());
     distances_ = DistancesTo(grid_, static_cast<std::size_t>(goal_cell));
@@ -87,7 +87,7 @@ class HybridAStar {
       ++result.expansions;
       Expand(index, node, result.expansions);
     }
-    return Fail(result, PlanStatus::kNoPath, "no way for the car leads there");
+    return Fail(result, PlanStatus::kNoPath, "no feasible path");
   }
 
  private:
@@ -277,7 +277,7 @@ class HybridAStar {
       }
     }
     return Fail(result, PlanStatus::kBudgetUsedUp,
-                fmt::format("no way found in {} expansions", result.expansions));
+                fmt::format("no path found in {} expansions", result.expansions));
   }
 
   const HybridAStarOptions& options_;

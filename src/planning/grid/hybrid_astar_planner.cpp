@@ -30,8 +30,8 @@ Plan PlanWith(const HybridAStarOptions& options, const PlanRequest& request) {
     const CollisionChecker clear(request.vehicle, request.obstacles, options.safe_distance);
     if (!IsFree(clear, stops[0], lead.segments)) {
       return Refused(PlanStatus::kStartBlocked,
-                     fmt::format("an obstacle is too near to the first {:.3g} m, in which the "
-                                 "rolling car slows down for its first bend",
+                     fmt::format("an obstacle is too close to the first {:.3g} m, in which the car "
+                                 "slows down for its first turn",
                                  lead.length));
     }
     segments = lead.segments;
@@ -74,37 +74,38 @@ void Visit(DiagnosticsVisitor& out, const HybridAStarDiagnostics& own) {
 
 void Visit(KeyVisitor& keys, HybridAStarOptions& options) {
   route::VisitCurves(keys, options.radius, options.safe_distance, options.min_speed);
-  keys.Field({"reverse", "", "whether it may go backwards"}, options.reverse, Need::kOptional);
-  keys.Field({"reverse_cost", "", "of a meter backwards, in meters"}, options.reverse_cost,
+  keys.Field({"reverse", "", "whether the path may reverse"}, options.reverse, Need::kOptional);
+  keys.Field({"reverse_cost", "", "cost factor of reverse travel"}, options.reverse_cost,
              Need::kOptional, Range{.min = 1.0, .max = 1e3});
-  keys.Field({"switch_cost", "m", "of a change of direction"}, options.switch_cost, Need::kOptional,
-             kNonNegative);
-  keys.Field({"steering_cost", "m", "of a step of curvature from straight on to the radius"},
+  keys.Field({"switch_cost", "m", "cost of a change of direction"}, options.switch_cost,
+             Need::kOptional, kNonNegative);
+  keys.Field({"steering_cost", "m", "cost of a curvature step from straight to the radius"},
              options.steering_cost, Need::kOptional, kNonNegative);
-  keys.Field(
-      {"weight", "",
-       "of the estimate of what is left: above 1 it looks at less, and its way may cost so many "
-       "times as much"},
-      options.weight, Need::kOptional, Range{.min = 1.0, .max = 10.0});
+  keys.Field({"weight", "",
+              "weight of the heuristic: above 1, fewer expansions, and a cost of at most `weight` "
+              "times the optimum"},
+             options.weight, Need::kOptional, Range{.min = 1.0, .max = 10.0});
   keys.Field(route::kGridCell, options.cell, Need::kOptional, route::kCellSize);
-  keys.Field({"headings", "", "cells of a full turn"}, options.headings, Need::kOptional,
+  keys.Field({"headings", "", "number of heading cells"}, options.headings, Need::kOptional,
              Range{.min = 8, .max = 720});
   keys.Field(route::kGridMargin, options.margin, Need::kOptional, kNonNegative);
-  keys.Field({"budget", "", "poses to look at for each leg, at most"}, options.budget,
-             Need::kOptional, Range{.min = 0, .max = 1e7});
+  keys.Field({"budget", "", "maximum expanded poses per leg"}, options.budget, Need::kOptional,
+             Range{.min = 0, .max = 1e7});
 }
 
 PlannerEntry HybridAStarPlanner() {
-  return {.name = "hybrid_astar",
-          .summary = "around obstacles through poses that the car can drive, either way",
-          .defaults = HybridAStarOptions{},
-          .plan = PlanBy<HybridAStarOptions, PlanWith>,
-          .min_waypoints = 2,
-          .keeps_clear = true,
-          .has_headings = true,
-          .goes_backwards = true,
-          .searches = true,
-          .may_go_backwards = MayReverse};
+  return {
+      .name = "hybrid_astar",
+      .summary =
+          "hybrid A* around obstacles through kinematically feasible poses, forward and reverse",
+      .defaults = HybridAStarOptions{},
+      .plan = PlanBy<HybridAStarOptions, PlanWith>,
+      .min_waypoints = 2,
+      .keeps_clear = true,
+      .has_headings = true,
+      .goes_backwards = true,
+      .searches = true,
+      .may_go_backwards = MayReverse};
 }
 
 }  // namespace trackbed

@@ -211,9 +211,8 @@ class AlongRoute {
 
 const std::vector<AlongEntry>& AlongMethods() {
   static const std::vector<AlongEntry> table{
-      {"frenet", "one polynomial motion of the least cost in the route's Frenet frame",
-       FrenetOptions{}},
-      {"lattice", "the cheapest way through a lattice of such motions", LatticeOptions{}},
+      {"frenet", "minimum-cost polynomial motion in the route's Frenet frame", FrenetOptions{}},
+      {"lattice", "minimum-cost path through a lattice of such motions", LatticeOptions{}},
   };
   return table;
 }

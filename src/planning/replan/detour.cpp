@@ -97,7 +97,7 @@ class DetourSearch {
     detour.current = Score(WayAsItIs());
     detour.best.total = std::numeric_limits<double>::infinity();
     if (!detour.current.collides) {
-      detour.why = "nothing that stands blocks the way";
+      detour.why = "no static obstacle blocks the path";
       return detour;
     }
     const Path& path = request_.driven.reference.path;
@@ -113,7 +113,7 @@ class DetourSearch {
       }
     }
     if (leaves.empty()) {
-      detour.why = "the path ahead has no straight stretch to leave it on";
+      detour.why = "the path ahead has no straight segment for leaving it";
       return detour;
     }
     const std::vector<double> backs = Backs();
@@ -130,7 +130,7 @@ class DetourSearch {
     }
     if (detour.route && !IsBetter(detour.best, detour.current)) {
       detour.route.reset();
-      detour.why = fmt::format("the best way round scores {:.4g} m, going on as before {:.4g} m",
+      detour.why = fmt::format("the best detour scores {:.4g} m, the current path {:.4g} m",
                                detour.best.total, detour.current.total);
     }
     return detour;
@@ -214,7 +214,7 @@ class DetourSearch {
     const Pose2 from = driven.At(leave).pose;
     const Pose2 to = route.At(back).pose;
     if ((to.position() - from.position()).norm() < kLead) {
-      why = "it would leave the way where it comes back to it";
+      why = "it would leave the path where it returns to it";
       return std::nullopt;
     }
     const double speed = std::min(request_.station_speed, request_.speed.speed);
@@ -235,8 +235,8 @@ class DetourSearch {
     }
     const Plan way = MakePlan(request, planner_);
     if (!way.ok() || !way.partial.empty() || !way.stops.empty()) {
-      const std::string own = way.stops.empty() ? way.reason + way.partial
-                                                : std::string("it would have to stop on the way");
+      const std::string own =
+          way.stops.empty() ? way.reason + way.partial : std::string("it would require a stop");
       why = why.empty() ? own : why;
       return std::nullopt;
     }
@@ -245,7 +245,7 @@ class DetourSearch {
     constexpr double kAligned = 1e-6;  // [rad]
     if (std::abs(std::remainder(first.pose.yaw - from.yaw, 2.0 * M_PI)) > kAligned ||
         std::abs(std::remainder(last.pose.yaw - to.yaw, 2.0 * M_PI)) > kAligned) {
-      why = "there is no room to go straight on first and last";
+      why = "no room for straight segments at its start and end";
       return std::nullopt;
     }
     return Joined(leave, way, back, why);
@@ -271,13 +271,13 @@ class DetourSearch {
       Append(plan.caps, CapOfJoint(request_.vehicle, path, joint, request_.speed.speed));
     }
     if (!CanSlowDown(plan.caps, request_.station_speed, request_.speed)) {
-      why = "the car is too fast for its first corner";
+      why = "the car is too fast for the first corner";
       return std::nullopt;
     }
     if (!BlockedStretches(request_.vehicle, path, 0.0, request_.obstacles,
                           0.9 * request_.safe_distance)
              .empty()) {
-      why = "an obstacle is too near to where the ways are joined";
+      why = "an obstacle is too close to the junction of the paths";
       return std::nullopt;
     }
     plan.reference.speed =

@@ -218,9 +218,9 @@ class Replanning {
     diagnostics_.kind = "motion";
     plan.diagnostics.replan = diagnostics_;
     if (along.kind == ManeuverType::kStop) {
-      plan.blocked = "stops behind what stands in the way: no motion leads past it";
+      plan.blocked = "stops behind the obstacle: no feasible motion past it";
     } else if (!along.to_goal) {
-      plan.blocked = "stops where no way on was found";
+      plan.blocked = "stops: no feasible motion found";
     }
     return {ReplanKind::kMotion, std::move(plan)};
   }
@@ -278,7 +278,7 @@ class Replanning {
     Plan plan = StopAfter(way, speed, comfortable);
     plan.goal = driving_.route.goal;
     plan.blocked =
-        fmt::format("stops before the obstacle at {}: no way leads past it", Place(obstacle.box));
+        fmt::format("stops before the obstacle at {}: no path around it", Place(obstacle.box));
     diagnostics_.kind = "brake";
     diagnostics_.deceleration = braking;
     plan.diagnostics.replan = diagnostics_;
@@ -385,7 +385,7 @@ const char* ToString(ReplanKind kind) {
 Replanned Replan(const ReplanRequest& request, const Driving& driving,
                  const ReplanOptions& options) {
   TRACKBED_CHECK((options.along || options.detour) && driving.plan.ok() && driving.route.ok(),
-                 "nothing to plan with, or no plan to begin with");
+                 "needs a planner and an initial plan");
   ReplanOptions own = options;
   own.settings.look_ahead = std::max(
       own.settings.look_ahead, request.speed.speed / request.speed.deceleration + 2.0 * own.period);

@@ -38,37 +38,38 @@ std::vector<PlannerEntry> DetourPlanners() {
 }  // namespace
 
 void Visit(KeyVisitor& keys, RoadWidths& road) {
-  VisitRoadSide(keys, {"left", "m", "of the route; without it there is no end"}, road.left);
-  VisitRoadSide(keys, {"right", "m", "of the route; without it there is no end"}, road.right);
+  VisitRoadSide(keys, {"left", "m", "distance from the route; default: unlimited"}, road.left);
+  VisitRoadSide(keys, {"right", "m", "distance from the route; default: unlimited"}, road.right);
 }
 
 void Visit(KeyVisitor& keys, DetourChoice& choice) {
-  keys.Field({"attempts", "", "of a random planner, each with a seed of its own"}, choice.attempts,
-             Need::kOptional, Range{.min = 1, .max = 1000});
-  keys.Field({"collision_penalty", "m", "for a way that is blocked"},
+  keys.Field({"attempts", "", "attempts of a randomized planner, each with its own seed"},
+             choice.attempts, Need::kOptional, Range{.min = 1, .max = 1000});
+  keys.Field({"collision_penalty", "m", "penalty for a blocked path"},
              choice.comparator.collision_penalty, Need::kOptional, kNonNegative);
-  keys.Field({"wind_weight", "", "of the wind along the way, in meters for meters"},
-             choice.wind_weight, Need::kOptional, kNonNegative);
+  keys.Field({"wind_weight", "", "weight of the wind along the path"}, choice.wind_weight,
+             Need::kOptional, kNonNegative);
 }
 
 void Visit(KeyVisitor& keys, ReplanOptions& options) {
-  keys.Field({"period", "s", "between two looks at what is known"}, options.period, Need::kOptional,
+  keys.Field({"period", "s", "replanning period"}, options.period, Need::kOptional,
              Range{.min = 0.05, .max = 60.0});
-  keys.Field({"look_ahead", "s", "for which the way must be clear, or another is looked for"},
+  keys.Field({"look_ahead", "s",
+              "time horizon for which the path must be clear, else a replan is triggered"},
              options.settings.look_ahead, Need::kOptional, Range{.min = 1.0, .max = 60.0});
   keys.Field(route::kOutlineDistance, options.settings.safe_distance, Need::kOptional,
              kNonNegative);
-  keys.Section({"road", "", "how far it reaches beside the route, for the outline"},
+  keys.Section({"road", "", "drivable width left and right of the route, for the car's footprint"},
                options.settings.road);
-  keys.Field({"gap", "m", "from bumper to bumper, behind what is in the way"}, options.settings.gap,
+  keys.Field({"gap", "m", "bumper-to-bumper gap behind an obstacle"}, options.settings.gap,
              Need::kOptional, kNonNegative);
-  keys.Field({"time_gap", "s", "besides, behind what moves"}, options.settings.time_gap,
-             Need::kOptional, kNonNegative);
-  keys.Method({"along", "", "how motions along the route are found"}, options.along, AlongMethods(),
+  keys.Field({"time_gap", "s", "additional time gap behind moving obstacles"},
+             options.settings.time_gap, Need::kOptional, kNonNegative);
+  keys.Method({"along", "", "planner of motions along the route"}, options.along, AlongMethods(),
               Need::kOptional);
-  keys.Method({"detour", "", "another way to the goal, when no motion along the route leads past"},
+  keys.Method({"detour", "", "planner of a detour, when no motion along the route is feasible"},
               options.detour, DetourPlanners(), Need::kOptional);
-  keys.Section({"comparator", "", "what decides for a detour, or against it"}, options.comparator);
+  keys.Section({"comparator", "", "criterion for taking a detour"}, options.comparator);
   if (options.detour && !options.comparator) {
     options.comparator.emplace();
   }

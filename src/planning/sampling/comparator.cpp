@@ -36,7 +36,7 @@ WayScore ScoreWay(const std::vector<Vec2>& way, const Vec2& position,
                   const std::vector<OrientedBox>& obstacles, double inflation,
                   const WindScoring& wind, const ComparatorOptions& options) {
   TRACKBED_CHECK(!way.empty() && options.collision_penalty >= 0.0 && inflation >= 0.0,
-                 "a way of {} points, penalty {}, inflation {}", way.size(),
+                 "a path of {} points, penalty {}, inflation {}", way.size(),
                  options.collision_penalty, inflation);
   const std::vector<Vec2> rest = Rest(way, position);
   WayScore score;

@@ -244,7 +244,7 @@ Plan RefusedAs(const Way& way, const Forest& forest) {
   const double inflation = forest.task.inflation;
   if (way.status == RrtStatus::kGoalBlocked) {
     return route::Refused(PlanStatus::kGoalBlocked,
-                          fmt::format("an obstacle is nearer than {:.3g} m to waypoint {}",
+                          fmt::format("an obstacle is closer than {:.3g} m to waypoint {}",
                                       inflation, way.goals + 1));
   }
   return route::Refused(
@@ -291,7 +291,7 @@ void TakePart(const Forest& forest, Try& next) {
     why = why.empty() ? next.plan.reason : why;
   }
   next.plan = refused;
-  next.plan.reason += why.empty() ? "" : "; the car cannot drive there: " + why;
+  next.plan.reason += why.empty() ? "" : "; not feasible: " + why;
 }
 
 Try TryTree(const Forest& forest, std::uint64_t seed) {
@@ -323,13 +323,12 @@ RrtTreeFindings FindingsOn(const Try& each) {
 void TellBudget(const Forest& forest, const Try& best, const std::string& budget, Plan& plan,
                 RrtDiagnostics& diagnostics) {
   if (plan.status == PlanStatus::kBudgetUsedUp) {
-    plan.reason = fmt::format("not reached by {}: the nearest one {}", budget, plan.reason);
+    plan.reason = fmt::format("goal not reached by {}: the nearest path {}", budget, plan.reason);
   } else if (plan.ok() && best.is_partial()) {
     const std::size_t waypoint = best.way.goals + 1;
     plan.goal = StopsOf(forest.request).back();
-    plan.partial = fmt::format(
-        "ends {:.3g} m from waypoint {}, the nearest that {} came by a way that the car can drive",
-        best.way.left, waypoint, budget);
+    plan.partial = fmt::format("ends {:.3g} m from waypoint {}, the nearest feasible path of {}",
+                               best.way.left, waypoint, budget);
     diagnostics.partial = {waypoint, best.way.left, plan.partial};
   }
 }
@@ -343,7 +342,7 @@ Plan PlanTrees(const RrtPlannerOptions& options, const PlanRequest& request) {
   if (!IsFree(task, {0.0, 0.0}, task.lead)) {
     return route::Refused(
         PlanStatus::kStartBlocked,
-        fmt::format("an obstacle is nearer than {:.3g} m to the first {:.3g} m straight on",
+        fmt::format("an obstacle is closer than {:.3g} m to the first {:.3g} m of straight path",
                     task.inflation, task.lead.x()));
   }
   const Tangents tangents(request.vehicle, std::min(options.min_speed, request.speed.speed));
@@ -405,7 +404,7 @@ Plan PlanWith(const RrtPlannerOptions& options, const PlanRequest& request) {
 
 PlannerEntry RrtPlanner() {
   return {.name = "rrt",
-          .summary = "around obstacles along random trees (LaValle 1998), smoothed in the wind",
+          .summary = "RRT around obstacles (LaValle 1998), smoothed, wind-aware",
           .defaults = RrtPlannerOptions{},
           .plan = PlanBy<RrtPlannerOptions, PlanWith>,
           .min_waypoints = 2,

@@ -2,9 +2,9 @@
 
 const DIFFERENCES = [
   { name: 'position', title: 'Distance', unit: 'm', digits: 4 },
-  { name: 'heading', title: 'Difference of heading', unit: 'rad', digits: 4, note: 'positive: the second more to the left' },
-  { name: 'yaw_rate', title: 'Difference of yaw rate', unit: 'rad/s', digits: 4 },
-  { name: 'steering', title: 'Difference of steering', unit: 'rad', digits: 4 },
+  { name: 'heading', title: 'Heading difference', unit: 'rad', digits: 4, note: 'positive: second further left' },
+  { name: 'yaw_rate', title: 'Yaw rate difference', unit: 'rad/s', digits: 4 },
+  { name: 'steering', title: 'Steering difference', unit: 'rad', digits: 4 },
 ];
 
 function nameOfPair(first, second) {
@@ -53,7 +53,7 @@ function drawDifferences() {
     name.append('span').text(pair.label);
     if (!pair.curve) {
       line.append('td').attr('class', 'text hint').attr('colspan', DIFFERENCES.length)
-        .text('have no stretch of the way in common');
+        .text('station ranges do not overlap');
       continue;
     }
     for (const { name: quantity } of DIFFERENCES) {

@@ -1,11 +1,11 @@
 // Puts the page together.
 
 function drawDrive() {
-  const drive = section('drive', tracks.length ? 'The drive' : 'The map');
+  const drive = section('drive', tracks.length ? 'Run' : 'Map');
   drawLegend(drive);
   if (tracks.length) {
     drive.append('p').attr('class', 'hint')
-      .text('Point at a chart to move the cars. Drag in a chart to zoom in, double click for all of it.');
+      .text('Hover over a chart to move the cars. Drag in a chart to zoom, double-click to reset.');
   }
   const grid = drive.append('div').attr('class', 'drive');
   const scene = grid.append('div').attr('class', 'scene');
@@ -16,9 +16,9 @@ function drawDrive() {
     drawClock(panel);
     const charts = grid.append('div').attr('class', 'all-charts');
     if (pairs.some((pair) => pair.curve)) {
-      charts.append('h3').text('Differences over the station');
+      charts.append('h3').text('Differences over station');
       drawDifferenceCharts(charts);
-      charts.append('h3').text('Each drive over time');
+      charts.append('h3').text('Plants over time');
     }
     drawSeries(charts);
   }
@@ -37,7 +37,7 @@ if (data.study) {
     const plants = runs.flatMap((run) => run.between.map(({ plants, numbers }) => ({
       label: `${runs.length > 1 ? `${run.name}: ` : ''}${plants.join(' – ')}`, numbers,
     })));
-    if (plants.length) drawNumbers(section('between', 'How far the plants part, at equal station'), plants);
+    if (plants.length) drawNumbers(section('between', 'Difference between plants at equal station'), plants);
   }
   drawExpectations();
   drawScenarios();

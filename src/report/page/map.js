@@ -38,7 +38,7 @@ function drawMap(parent) {
   const margin = { left: 50, right: 12, top: 52, bottom: 38 };
   const frame = parent.append('div').attr('class', 'map');
   const svg = frame.append('svg').attr('tabindex', 0).attr('role', 'img')
-    .attr('aria-label', 'Map of the way, the obstacles and the cars');
+    .attr('aria-label', 'Map of path, obstacles and cars');
   const clip = svg.append('defs').append('clipPath').attr('id', 'map-area').append('rect');
   const xAxis = svg.append('g').attr('class', 'axis x');
   const yAxis = svg.append('g').attr('class', 'axis y');
@@ -152,7 +152,7 @@ function drawMap(parent) {
     .on('zoom', () => { zoomed = d3.event.transform; redraw(); });
   const fitAll = () => svg.transition().duration(250).call(zoom.transform, d3.zoomIdentity);
   svg.call(zoom).style('touch-action', 'pan-x pan-y').on('dblclick.zoom', fitAll);
-  svg.append('title').text('Drag to move. Ctrl and wheel, or two fingers, to zoom. Double click for all.');
+  svg.append('title').text('Drag to pan, Ctrl+wheel or pinch to zoom, double-click to show all.');
   const buttons = frame.append('div').attr('class', 'zoom tools').style('border', 0).style('padding', 0);
   for (const [sign, name, act] of [
     ['+', 'Zoom in', () => svg.transition().duration(200).call(zoom.scaleBy, 1.6)],
@@ -195,7 +195,7 @@ function drawMap(parent) {
 function drawClock(parent) {
   const tools = parent.append('div').attr('class', 'tools');
   const play = tools.append('button').attr('type', 'button').attr('id', 'play').text('Play');
-  const speed = tools.append('select').attr('aria-label', 'How fast');
+  const speed = tools.append('select').attr('aria-label', 'Playback speed');
   for (const factor of [1, 2, 5, 10]) speed.append('option').attr('value', factor).text(`${factor}×`);
   const slider = tools.append('input').attr('type', 'range').attr('min', 0).attr('max', duration)
     .attr('step', duration / 2000 || 1).attr('aria-label', 'Time');

@@ -31,7 +31,7 @@ function drawStudy(study) {
   }
   drawStudyTable(section('table', 'All rows'), { columns, rows, isGood, isNumber, bus });
   if (study.text) {
-    const details = section('scenario', 'The study').append('details').attr('class', 'panel');
+    const details = section('scenario', 'Study').append('details').attr('class', 'panel');
     details.append('summary').text('sweep.json');
     details.append('pre').text(study.text);
   }
@@ -52,7 +52,7 @@ function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf
   const second = varied.find((p) => p.index !== first);
   const over = choice('Over', 'over', list, first);
   const colour = list.length > 1
-    ? choice('Colors by', 'colours', [[-1, 'nothing'], ...list], second ? second.index : -1) : () => -1;
+    ? choice('Color by', 'colours', [[-1, 'nothing'], ...list], second ? second.index : -1) : () => -1;
   const legend = choices.append('div').attr('class', 'legend');
   const plots = parent.append('div').attr('class', 'plots');
   const tooltip = d3.select('body').append('div').attr('class', 'tooltip panel').attr('hidden', '');
@@ -100,7 +100,7 @@ function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf
       const sign = legend.append('span').attr('class', 'sign');
       sign.append('svg').attr('width', 12).attr('height', 12).append('circle').attr('cx', 6).attr('cy', 6)
         .attr('r', 4.5).attr('fill', 'none').attr('stroke', 'currentColor').attr('stroke-width', 1.5);
-      sign.append('span').text('hollow: did not pass');
+      sign.append('span').text('hollow: failed');
     }
     // Lines join the rows that differ in this parameter alone.
     const others = parameters.filter((p) => p !== x);

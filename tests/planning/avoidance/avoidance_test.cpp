@@ -153,7 +153,7 @@ TEST(PlanAround, StopsBeforeWhatItFindsNoWayAround) {
   options.min_speed = 2.0;
   const Plan plan = Around(global, wall, options);
   EXPECT_THAT(plan.blocked, testing::StartsWith("stops before the obstacle at ("));
-  EXPECT_THAT(plan.blocked, testing::HasSubstr("no curve passes it on either side at 2 m/s"));
+  EXPECT_THAT(plan.blocked, testing::HasSubstr("no feasible curve on either side at 2 m/s"));
   EXPECT_EQ(DiagnosticsJson(plan)["blocked"], plan.blocked);
   EXPECT_TRUE(plan.ok()) << "the way there can be driven";
   const Path& path = plan.reference.path;
@@ -267,8 +267,9 @@ TEST_P(RandomObstacles, ArePassedSafelyOrStoppedBefore) {
     options.search.evaluations = 500;
     const Plan plan = Around(global, {obstacle}, options);
     if (!plan.blocked.empty()) {
-      EXPECT_THAT(plan.blocked, testing::AnyOf(testing::HasSubstr("no curve passes it"),
-                                               testing::HasSubstr("the path ends beside it")));
+      EXPECT_THAT(plan.blocked,
+                  testing::AnyOf(testing::HasSubstr("no curve passes it"),
+                                 testing::HasSubstr("the path ends beside the obstacle")));
       EXPECT_EQ(plan.reference.speed.SpeedAt(plan.reference.path.length()), 0.0);
       continue;
     }

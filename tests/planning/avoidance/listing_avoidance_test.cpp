@@ -195,23 +195,23 @@ std::string WhyBlocked(const Course& course, const OrientedBox& box,
 
 TEST(Listing, StopsBeforeWhatItHasNoCurveFor) {
   EXPECT_EQ(WhyBlocked({}, {{20.0, 0.0, 0.0}, 2.0, 2.0}),
-            "stops before the obstacle at (20, 0): the listing knows obstacles in turns of "
-            "constant radius alone");
+            "stops before the obstacle at (20, 0): the listing only handles obstacles in turns of "
+            "constant radius");
   const Course tight{.radius = 10.0};
   EXPECT_THAT(WhyBlocked(tight, BoxAt(tight.OnArc(0.5))),
-              HasSubstr("): passing inside takes 10.2784 m (safe distance, obstacle's diagonal and "
-                        "car's width, with the 1 m kept free), the turn's radius is 10 m"));
+              HasSubstr("): passing on the inside needs 10.2784 m (safe distance, obstacle "
+                        "diagonal, car width and the 1 m kept free); the turn radius is 10 m"));
 }
 
 TEST(Listing, NeedsStraightsBeforeAndAfterTheTurn) {
   const Course early{.before = 22.0};
   EXPECT_THAT(WhyBlocked(early, BoxAt(early.OnArc(0.5))),
-              HasSubstr("): the listing takes 22.7 m of straight before the turn and 15.79 m after "
-                        "it; there are 22 m and 42.7 m"));
+              HasSubstr("): the listing needs straights of 22.7 m before and 15.79 m after the "
+                        "turn; found 22 m and 42.7 m"));
   const Course late{.turn = -1.2, .after = 20.0};
   EXPECT_THAT(WhyBlocked(late, BoxAt(late.OnArc(0.5))),
-              HasSubstr("): the listing takes 22.7 m of straight before the turn and 22.7 m after "
-                        "it; there are 42.7 m and 20 m"));
+              HasSubstr("): the listing needs straights of 22.7 m before and 22.7 m after the "
+                        "turn; found 42.7 m and 20 m"));
   // No more than it takes is enough.
   const Course enough{.before = 22.7, .turn = -1.2, .after = 22.7};
   EXPECT_EQ(Around(enough.Global(), {BoxAt(enough.OnArc(0.5))}, ListingAvoidanceOptions{}).blocked,

@@ -293,8 +293,8 @@ TEST(LayOutTurn, RefusesATurnTooTightToPassInside) {
   const TurnLayout layout = LayOutTurn(manoeuvre, ReferenceCar());
   EXPECT_EQ(layout.status, TurnStatus::kNoSafePoint);
   EXPECT_EQ(layout.reason,
-            "passing inside takes 10.2784 m (safe distance, obstacle's diagonal and car's width, "
-            "with the 1 m kept free), the turn's radius is 10 m");
+            "passing on the inside needs 10.2784 m (safe distance, obstacle diagonal, car width "
+            "and the 1 m kept free); the turn radius is 10 m");
   EXPECT_THROW(ControlPoints(manoeuvre, layout, ReferenceCar(), 0.0), InternalError);
   // There is always a way around.
   manoeuvre.outer_width = 2.0;

@@ -680,7 +680,7 @@ void ExpectRefused(const FilletPlan& plan, PlanStatus status, int waypoint,
 TEST(PlanFillets, RefusesFewerThanThreeWaypoints) {
   const std::vector<Vec2> route{{0, 0}, {40, 0}};
   ExpectRefused(PlanWith(route, RadiusConstraint::kSteeringRoom), PlanStatus::kTooFewWaypoints, 1,
-                "2 waypoints; a route needs at least 3");
+                "2 waypoints; must be at least 3");
   ExpectRefused(PlanWith({}, RadiusConstraint::kSteeringRoom), PlanStatus::kTooFewWaypoints, -1,
                 "0 waypoints");
 }
@@ -702,8 +702,8 @@ TEST(PlanFillets, RefusesTurnThatIsTooTight) {
     // 5.1 m needs 5.1 m of each leg at a right angle; half of 10 m is 5.
     ExpectRefused(PlanWith({{0, 0}, {60, 0}, {60, 60}, {50, 60}}, constraint),
                   PlanStatus::kTurnTooTight, 2,
-                  "turn of 90 deg at waypoint 2: a radius of 5.1 m needs 5.1 m of each leg, and "
-                  "half of the shorter one is 5 m");
+                  "turn of 90 deg at waypoint 2: radius 5.1 m needs 5.1 m of each leg; half of the "
+                  "shorter leg is 5 m");
   }
 }
 
@@ -715,11 +715,11 @@ TEST(PlanFillets, RefusesNearlyAUTurnAsTooTight) {
 
 TEST(PlanFillets, RefusesRadiusBelowTheCars) {
   ExpectRefused(PlanGiven(RouteA(), 5.0), PlanStatus::kTurnTooTight, 1,
-                "the given radius of 5 m is below the car's smallest, 5.1 m");
+                "radius 5 m is below the minimum turning radius of 5.1 m");
   FilletOptions options;
   options.max_radius = 5.0;
   ExpectRefused(PlanFillets(ReferenceCar(), RouteA(), kSpeed, options), PlanStatus::kTurnTooTight,
-                1, "the largest radius allowed, 5 m, is below the car's smallest, 5.1 m");
+                1, "the largest radius allowed, 5 m, is below the minimum turning radius of 5.1 m");
 }
 
 TEST(PlanFillets, RefusesRightTurnWithItsSign) {
@@ -734,8 +734,8 @@ TEST(PlanFillets, RefusesLegsWithoutSteeringRoom) {
   const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 60}, {88, 60}};
   ExpectRefused(PlanFillets(ReferenceCar(), route, kSpeed, options), PlanStatus::kNoRoomForSteering,
                 2,
-                "turn of -90 deg at waypoint 2: at 3 m/s no radius from 5.1 to 154 m leaves the "
-                "distance to turn the wheels within half of the shorter leg, 14 m (C.40)");
+                "turn of -90 deg at waypoint 2: at 3 m/s no radius from 5.1 to 154 m leaves room "
+                "for the steering ramp within half of the shorter leg, 14 m (C.40)");
 }
 
 // --- A turn for which C.40 has no radius ---------------------------------------------------------
@@ -865,7 +865,7 @@ TEST(LiteralEvents, AreAsPrinted) {
 TEST(PlanFillets, RefusesArcsThatNeedMoreThanTheirLeg) {
   // K = 25 m at right angles: twice that on legs of 40 m is 10 m too much.
   ExpectRefused(PlanGiven(RouteA(), 25.0), PlanStatus::kTurnsOverlap, 2,
-                "the arcs before waypoint 2 need 10 m more than their leg has");
+                "the arcs before waypoint 2 exceed their leg by 10 m");
   ExpectRefused(PlanGiven({{0, 0}, {20, 0}, {20, 60}}, 25.0), PlanStatus::kTurnsOverlap, 1,
                 "the arcs before waypoint 1 need 5 m more");
   ExpectRefused(PlanGiven({{0, 0}, {60, 0}, {60, 20}}, 25.0), PlanStatus::kTurnsOverlap, 2,
@@ -883,9 +883,9 @@ TEST(PlanFillets, RefusesTurnThatWouldSteerBeforeTheOneBeforeIt) {
 
 TEST(PlanFillets, RefusesToSteerBeforeTheStart) {
   // H lies at 8 - 5.1 = 2.9 m and half the ramp is 9.7012/2 = 4.8506 m.
-  ExpectRefused(PlanGiven({{0, 0}, {8, 0}, {8, 60}}, 5.1), PlanStatus::kSteersBeforeStart, 1,
-                "for the turn at waypoint 1 the wheels would have to start turning 1.951 m before "
-                "the route begins");
+  ExpectRefused(
+      PlanGiven({{0, 0}, {8, 0}, {8, 60}}, 5.1), PlanStatus::kSteersBeforeStart, 1,
+      "the steering for the turn at waypoint 1 would have to start 1.951 m before the route");
 }
 
 TEST(PlanFillets, RefusedPlanHasNoPath) {

@@ -185,8 +185,8 @@ TEST(NeutralSteering, FindingsTellIt) {
 TEST(NeutralSteering, BeyondTheCarsLimitThereIsNoPlan) {
   const FilletPlan plan = PlanFillets(ReferenceCar(), RouteA(), kSpeed, Neutral(-0.5));
   EXPECT_EQ(plan.status, PlanStatus::kTurnTooTight);
-  EXPECT_THAT(plan.reason, HasSubstr("between turns the wheels would stand at -0.5 rad; the car "
-                                     "can steer 0.4869 rad"));
+  EXPECT_THAT(plan.reason,
+              HasSubstr("neutral_steering -0.5 rad exceeds the steering limit of 0.4869 rad"));
 }
 
 TEST(NeutralSteering, EveryObjectivePlansWithIt) {

@@ -377,11 +377,11 @@ TEST(Frenet, TellsItsFindingsInWords) {
   options.end_offsets = {0.0};
   options.end_times = {4.0};
   FrenetPlan plan = PlanFrenet(StraightRoad(), request, options);
-  EXPECT_EQ(plan.reason, "none of 2 candidates can be driven: 1 speed, 1 collision");
+  EXPECT_EQ(plan.reason, "none of 2 candidates is feasible: 1 speed, 1 collision");
   EXPECT_STREQ(ToString(plan.status), "search_failed");
   options.budget = 1;
   plan = PlanFrenet(StraightRoad(), request, options);
-  EXPECT_EQ(plan.reason, "none of the first 1 of 2 candidates can be driven: 1 collision");
+  EXPECT_EQ(plan.reason, "none of the first 1 of 2 candidates is feasible: 1 collision");
 }
 
 TEST(Frenet, FindsNothingWithoutCandidatesOrBudget) {
@@ -390,7 +390,7 @@ TEST(Frenet, FindsNothingWithoutCandidatesOrBudget) {
   FrenetPlan plan = PlanFrenet(StraightRoad(), OnPath(3.0), options);
   EXPECT_EQ(plan.status, PlanStatus::kSearchFailed);
   EXPECT_EQ(plan.checked, 0);
-  EXPECT_EQ(plan.reason, "none of the first 0 of 525 candidates can be driven");
+  EXPECT_EQ(plan.reason, "none of the first 0 of 525 candidates is feasible");
   for (const auto clear :
        {&FrenetOptions::end_times, &FrenetOptions::end_offsets, &FrenetOptions::speed_factors}) {
     options = {};
@@ -406,13 +406,13 @@ TEST(Frenet, DoesNotStartInAnObstacleOrWithoutAFrame) {
   request.obstacles = {BoxAt(StraightRoad(), 1.0, 0.5)};
   FrenetPlan plan = PlanFrenet(StraightRoad(), request, {});
   EXPECT_EQ(plan.status, PlanStatus::kStartBlocked);
-  EXPECT_EQ(plan.reason, "the car stands in an obstacle");
+  EXPECT_EQ(plan.reason, "the car is in collision with an obstacle");
   EXPECT_EQ(plan.checked, 0);
   request.obstacles.clear();
   request.start.d = 8.0;
   plan = PlanFrenet(Path({0.0, 0.0, 0.0}, {{50.0, 0.125, 1}}), request, {});
   EXPECT_EQ(plan.status, PlanStatus::kStartBlocked);
-  EXPECT_EQ(plan.reason, "the path has no frame where the car is");
+  EXPECT_EQ(plan.reason, "the path has no Frenet frame at the car's position");
 }
 
 TEST(Frenet, LeavesASpotThatIsTooCloseAlready) {

@@ -197,7 +197,7 @@ TEST(PlanDetour, NeedsAWayBetweenItsEnds) {
   request.station_speed = 0.0;
   const Detour detour = PlanDetour(request, Forwards(), {});
   EXPECT_FALSE(detour.route);
-  EXPECT_EQ(detour.why, "it would leave the way where it comes back to it");
+  EXPECT_EQ(detour.why, "it would leave the path where it returns to it");
 }
 
 TEST(PlanDetour, LeadsOnFromBehindTheStartOfThePlan) {

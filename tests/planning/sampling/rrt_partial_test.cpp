@@ -111,7 +111,7 @@ TEST(PartialPlan, SaysHowFarItLeads) {
       MakePlan(request, RrtPlannerOptions{.trees = 3, .iterations = 500, .partial = true});
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_THAT(plan.partial,
-              HasSubstr("m from waypoint 1, the nearest that 3 trees of 500 samples"));
+              HasSubstr("m from waypoint 1, the nearest feasible path of 3 trees of 500 samples"));
   EXPECT_TRUE(plan.blocked.empty());
   EXPECT_EQ(DiagnosticsJson(plan)["partial"], true);
   EXPECT_EQ(DiagnosticsJson(plan)["partial_reason"], plan.partial);

@@ -55,12 +55,13 @@ Plan AlongPolyline(Plan plan, const PlanRequest& request, const std::vector<Vec2
 
 // Keys that several of them have.
 
-inline constexpr Key kOutlineDistance{"safe_distance", "m", "of the car's outline from obstacles"};
-inline constexpr Key kGridCell{"cell", "m", "side of a cell"};
+inline constexpr Key kOutlineDistance{"safe_distance", "m",
+                                      "minimum distance of the car's footprint from obstacles"};
+inline constexpr Key kGridCell{"cell", "m", "grid cell size"};
 inline constexpr Key kGridMargin{"margin", "m",
-                                 "around waypoints and obstacles, within which to look"};
+                                 "margin of the search area around waypoints and obstacles"};
 inline constexpr Range kCellSize{.min = 0.05, .max = 10.0};
-inline constexpr Key kCornerSpeed{"min_speed", "m/s", "no corner is taken more slowly"};
+inline constexpr Key kCornerSpeed{"min_speed", "m/s", "minimum speed in corners"};
 
 /// Of planners whose paths consist of arcs and straights.
 void VisitCurves(KeyVisitor& keys, std::optional<double>& radius, double& safe_distance,
