@@ -28,13 +28,13 @@ constexpr std::string_view kStateSuffix = ".state.csv";
       Problem{.file = file.string(), .key = std::move(key), .message = std::move(message)});
 }
 
-ModelHandle LoadModel(const fs::path& file) {
+MujocoModel LoadModel(const fs::path& file) {
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) {
     Reject(file, "", "missing from the run folder");
   }
   std::array<char, 1000> error{};
-  ModelHandle model(mj_loadXML(file.c_str(), nullptr, error.data(), error.size()));
+  MujocoModel model(mj_loadXML(file.c_str(), nullptr, error.data(), error.size()));
   if (!model) {
     std::string message = error.data();
     std::replace(message.begin(), message.end(), '\n', ' ');
@@ -182,7 +182,7 @@ PlantRecording::PlantRecording(const fs::path& folder, const std::string& plant,
       state_(folder / (PlantFileName(plant) + std::string(kStateSuffix))),
       log_(folder / (PlantFileName(plant) + ".csv")),
       speed_(log_.Require("speed_mps")),
-      steering_asked_(log_.Require("steering_command_rad")),
+      steering_command_(log_.Require("steering_command_rad")),
       steering_(log_.Require("steering_rad")),
       cross_track_(log_.Find("cross_track_m")) {
   for (const char* column : {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"}) {
@@ -252,7 +252,7 @@ Readings PlantRecording::ReadingsAt(double time) const {
   Readings readings;
   readings.time = time;
   readings.speed = log_.Value(place, speed_);
-  readings.steering_asked = log_.Value(place, steering_asked_);
+  readings.steering_command = log_.Value(place, steering_command_);
   readings.steering = log_.Value(place, steering_);
   if (cross_track_) {
     readings.cross_track = log_.Value(place, *cross_track_);
