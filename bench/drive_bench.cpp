@@ -2,7 +2,6 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,21 +11,16 @@
 #include "trackbed/core/file.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/common/plan.h"
+#include "trackbed/sim/mujoco_error.h"
+#include "trackbed/sim/mujoco_handles.h"
 
 namespace trackbed::bench {
 namespace {
 
-struct FreeModel {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
-struct FreeData {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-
 /// What a drive feeds to MuJoCo: where it starts and, per physics step, the actuators' controls and
 /// the joints' dry friction, which is how the plant brakes.
 struct Feed {
-  std::unique_ptr<mjModel, FreeModel> model;  // as driven: with the road's friction
+  MujocoModel model;  // as driven: with the road's friction
   std::vector<mjtNum> start_qpos;
   std::vector<mjtNum> start_qvel;
   std::vector<mjtNum> start_act;
@@ -55,7 +49,7 @@ class Listener {
   static void Hear(const mjModel& model, const mjData& data) {
     Feed& feed = *feed_;
     if (!feed.model) {
-      feed.model.reset(mj_copyModel(nullptr, &model));
+      feed.model = CopyMujocoModel(model);
       feed.start_qpos.assign(data.qpos, data.qpos + model.nq);
       feed.start_qvel.assign(data.qvel, data.qvel + model.nv);
       feed.start_act.assign(data.act, data.act + model.na);
@@ -86,8 +80,9 @@ struct Drive {
 
 /// A bare mj_step loop over what was fed.
 double StepBare(const Feed& feed) {
-  const std::unique_ptr<mjModel, FreeModel> model(mj_copyModel(nullptr, feed.model.get()));
-  const std::unique_ptr<mjData, FreeData> data(mj_makeData(model.get()));
+  const MujocoErrorScope errors;
+  const MujocoModel model = CopyMujocoModel(*feed.model);
+  const MujocoData data = MakeMujocoData(*model);
   const Stopwatch stopwatch;
   std::copy(feed.start_qpos.begin(), feed.start_qpos.end(), data->qpos);
   std::copy(feed.start_qvel.begin(), feed.start_qvel.end(), data->qvel);

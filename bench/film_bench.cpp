@@ -6,12 +6,12 @@
 
 #include "bench/in_turn.h"
 #include "bench/temp_folder.h"
-#include "render/handles.h"
 #include "render/painter.h"
 #include "render/recording.h"
 #include "trackbed/analysis/run.h"
 #include "trackbed/core/error.h"
 #include "trackbed/render/film.h"
+#include "trackbed/sim/mujoco_error.h"
 
 namespace trackbed::bench {
 namespace {
@@ -66,7 +66,7 @@ void Film(benchmark::State& state, const char* quality, double limit) {
         return seconds;
       },
       [&] {
-        const render::MuJoCoErrorsAsExceptions guard;
+        const MujocoErrorScope errors;
         render::Recording recording = render::ReadRecording(folder.run());
         render::Painter painter({&recording, 1}, Options(quality));
         painter.offscreen().Draw(painter.SceneAt(0.0));
@@ -93,7 +93,7 @@ BENCHMARK_CAPTURE(Film, draft, "draft", 2.0)
 /// without.
 void DraftOverlays(benchmark::State& state) {
   const RunFolder folder;
-  const render::MuJoCoErrorsAsExceptions guard;
+  const MujocoErrorScope errors;
   render::Recording recording = render::ReadRecording(folder.run());
   render::Painter painter({&recording, 1}, Options("draft"));
   render::Image image;

@@ -29,18 +29,18 @@ std::vector<Reading> ReadingsToShow(const Readings& readings) {
   std::vector<Reading> shown{
       {"TIME", fmt::format("{:.2f} s", readings.time), "000.00 s"},
       {"SPEED", fmt::format("{:.2f} m/s", readings.speed), "00.00 m/s"},
-      {"STEER ASKED", degrees(readings.steering_asked), "+00.0 deg"},
+      {"STEER CMD", degrees(readings.steering_command), "+00.0 deg"},
       {"STEER ACTUAL", degrees(readings.steering), "+00.0 deg"},
   };
   if (readings.cross_track) {
-    shown.push_back({"OFF PATH", Signed(*readings.cross_track, 3, " m"), "+0.000 m"});
+    shown.push_back({"CROSS-TRACK", Signed(*readings.cross_track, 3, " m"), "+0.000 m"});
   }
   return shown;
 }
 
-/// `bottom` is where the panel ends [px].
-void DrawReadings(Canvas& canvas, const Font& font, const Layout& layout, double bottom,
-                  const Readings& readings) {
+/// `bottom` is where the panel ends [px]. Returns where it begins.
+double DrawReadings(Canvas& canvas, const Font& font, const Layout& layout, double bottom,
+                    const Readings& readings) {
   const std::vector<Reading> shown = ReadingsToShow(readings);
   std::vector<double> widths;
   double total = 2.0 * layout.pad + layout.gap * static_cast<double>(shown.size() - 1);
@@ -59,18 +59,22 @@ void DrawReadings(Canvas& canvas, const Font& font, const Layout& layout, double
     canvas.Text(left, top + 0.6 * layout.pad + layout.label, shown[i].value, layout.value, kValue);
     left += widths[i] + layout.gap;
   }
+  return top;
 }
 
 /// Returns where the panel ends [px].
 double DrawLegend(Canvas& canvas, const Font& font, const Layout& layout, int width,
                   const std::vector<LegendEntry>& legend) {
   double widest = 0.0;
+  int lines = 0;
   for (const LegendEntry& entry : legend) {
-    widest = std::max(widest, font.Width(entry.text, layout.label));
+    widest = std::max(
+        {widest, font.Width(entry.text, layout.label), font.Width(entry.note, layout.label)});
+    lines += entry.note.empty() ? 1 : 2;
   }
   const double swatch = 1.3 * layout.label;
   const double total = 2.4 * layout.pad + swatch + widest;
-  const double tall = layout.label * static_cast<double>(legend.size()) + 1.2 * layout.pad;
+  const double tall = layout.label * lines + 1.2 * layout.pad;
   const double left = width - layout.margin - total;
   canvas.Fill({left, layout.margin, total, tall}, layout.round(), kPanel, kPanelAlpha);
   double top = layout.margin + 0.6 * layout.pad;
@@ -87,8 +91,12 @@ double DrawLegend(Canvas& canvas, const Font& font, const Layout& layout, int wi
           {bar.left + part * static_cast<double>(i), bar.top - 0.25 * thick, part, 1.5 * thick},
           0.0, entry.ramp[i], 1.0);
     }
-    canvas.Text(left + 1.4 * layout.pad + swatch, top, entry.text, layout.label, kValue);
-    top += layout.label;
+    for (const std::string& text : {entry.text, entry.note}) {
+      if (!text.empty()) {
+        canvas.Text(left + 1.4 * layout.pad + swatch, top, text, layout.label, kValue);
+        top += layout.label;
+      }
+    }
   }
   return layout.margin + tall;
 }
@@ -141,10 +149,30 @@ std::string Shortened(const std::string& title) {
   return title.size() <= kLongest ? title : title.substr(0, kLongest - 3) + "...";
 }
 
+class CaptionPanels : public Overlay {
+ public:
+  explicit CaptionPanels(const OverlaySetup& setup)
+      : recording_(setup.recording), caption_{setup.title, recording_.note} {}
+
+  void Draw(PictureContext& context) override {
+    caption_.legend = context.legend;
+    const Rows free =
+        DrawCaption(context.image, context.font, caption_, recording_.ReadingsAt(context.time),
+                    context.camera.azimuth, context.bottom);
+    const double gap = 0.5 * Layout(context.image.width, context.image.height).pad;
+    context.top = free.top + gap;
+    context.bottom = free.bottom - gap;
+  }
+
+ private:
+  const Recording& recording_;
+  Caption caption_;
+};
+
 }  // namespace
 
-double DrawCaption(Image& image, Font& font, const Caption& caption, const Readings& readings,
-                   double azimuth, double bottom) {
+Rows DrawCaption(Image& image, Font& font, const Caption& caption, const Readings& readings,
+                 double azimuth, double bottom) {
   Canvas canvas(image, font);
   const Layout layout(image.width, image.height);
   int line = 0;
@@ -155,8 +183,12 @@ double DrawCaption(Image& image, Font& font, const Caption& caption, const Readi
   if (readings.wind) {
     DrawWind(canvas, font, layout, line, *readings.wind, azimuth);
   }
-  DrawReadings(canvas, font, layout, bottom, readings);
-  return DrawLegend(canvas, font, layout, image.width, caption.legend);
+  const double top_of_readings = DrawReadings(canvas, font, layout, bottom, readings);
+  return {DrawLegend(canvas, font, layout, image.width, caption.legend), top_of_readings};
+}
+
+OverlayEntry CaptionOverlay() {
+  return EntryOf<CaptionPanels>("caption", "run name, wind, legend and readings");
 }
 
 }  // namespace trackbed::render

@@ -4,16 +4,10 @@
 #include <vector>
 
 #include "render/canvas.h"
+#include "render/overlay.h"
 #include "render/recording.h"
 
 namespace trackbed::render {
-
-/// What a color in the picture stands for.
-struct LegendEntry {
-  Color color;
-  std::string text;
-  std::vector<Color> ramp{};  ///< in place of the color, from left to right
-};
 
 /// What is the same in every picture of a film.
 struct Caption {
@@ -22,11 +16,20 @@ struct Caption {
   std::vector<LegendEntry> legend{};
 };
 
+/// Rows of a picture [px], from `top` to `bottom`.
+struct Rows {
+  double top = 0;
+  double bottom = 0;
+};
+
 /// Writes over the picture: the run's name (top left), under it the note and the wind if there are
-/// any, the legend (top right) and the car's numbers (left, down to `bottom` [px]). The wind's
-/// arrow points up when it blows along `azimuth`, where the camera looks [rad]. Returns where the
-/// legend ends [px].
-double DrawCaption(Image& image, Font& font, const Caption& caption, const Readings& readings,
-                   double azimuth, double bottom);
+/// any, the legend (top right) and the readings (left, down to `bottom` [px]). The wind's arrow
+/// points up when it blows along `azimuth`, where the camera looks [rad]. Returns the rows between
+/// the legend and the readings.
+Rows DrawCaption(Image& image, Font& font, const Caption& caption, const Readings& readings,
+                 double azimuth, double bottom);
+
+/// The caption of the recording, above what other panels have taken of the picture's bottom.
+OverlayEntry CaptionOverlay();
 
 }  // namespace trackbed::render

@@ -1,12 +1,64 @@
 #include "render/error_ribbon.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "render/trail.h"
 
 namespace trackbed::render {
+namespace {
 
-Color ErrorColor(double share) {
-  const double at = std::clamp(share, 0.0, 1.0) * (kErrorColors.size() - 1);
+constexpr double kWidth = 0.26;  // [m]
+
+/// "5 cm", "2 m".
+std::string Length(double metres) {
+  return metres < 1.0 ? fmt::format("{:.3g} cm", 100.0 * metres) : fmt::format("{:.3g} m", metres);
+}
+
+class ErrorRibbon : public Overlay {
+ public:
+  explicit ErrorRibbon(const OverlaySetup& setup) : scale_(setup.recording.scales.error) {
+    if (!HasErrorScale(setup.recording)) {
+      return;
+    }
+    std::vector<Color> colors;
+    for (const double fraction : ErrorFractions(setup.recording)) {
+      colors.push_back(ErrorColor(fraction));
+    }
+    trail_.emplace(setup.recording, 0, colors);
+  }
+
+  [[nodiscard]] std::size_t max_shapes() const override {
+    return trail_ ? trail_->max_shapes() : 0;
+  }
+
+  void AddShapes(SceneContext& context) override {
+    if (trail_) {
+      RibbonStyle style = TrailStyle(0, context.camera.paint_scale);
+      style.width = kWidth * context.camera.paint_scale;
+      trail_->AddShapes(context, style);
+    }
+  }
+
+  void AddLegend(std::vector<LegendEntry>& legend) const override {
+    if (trail_) {
+      legend.front().ramp.assign(kErrorColors.begin(), kErrorColors.end());
+      legend.front().note = fmt::format("cross-track error, 0 to {}", Length(scale_));
+    }
+  }
+
+ private:
+  double scale_;  // [m]
+  std::optional<Trail> trail_;
+};
+
+}  // namespace
+
+Color ErrorColor(double fraction) {
+  const double at = std::clamp(fraction, 0.0, 1.0) * (kErrorColors.size() - 1);
   const auto below = std::min(static_cast<std::size_t>(at), kErrorColors.size() - 2);
   const auto part = static_cast<float>(at - static_cast<double>(below));
   const Color& a = kErrorColors[below];
@@ -14,21 +66,29 @@ Color ErrorColor(double share) {
   return {a.r + part * (b.r - a.r), a.g + part * (b.g - a.g), a.b + part * (b.b - a.b)};
 }
 
-std::vector<double> ErrorShares(const Recording& recording) {
+bool HasErrorScale(const Recording& recording) {
+  return recording.scales.error > 0.0;
+}
+
+std::vector<double> ErrorFractions(const Recording& recording) {
   constexpr double kSteps = 16.0;
   constexpr double kHold = 0.6;  // of a step: half would change where two steps meet
   const PlantRecording& car = recording.plants.front();
-  std::vector<double> shares;
+  std::vector<double> fractions;
   double step = -1.0;
   for (const double time : car.times()) {
-    const double share =
+    const double steps =
         kSteps * std::abs(car.ReadingsAt(time).cross_track.value_or(0.0)) / recording.scales.error;
-    if (step < 0.0 || std::abs(share - step) > kHold) {
-      step = std::round(share);
+    if (step < 0.0 || std::abs(steps - step) > kHold) {
+      step = std::round(steps);
     }
-    shares.push_back(step / kSteps);
+    fractions.push_back(step / kSteps);
   }
-  return shares;
+  return fractions;
+}
+
+OverlayEntry ErrorOverlay() {
+  return EntryOf<ErrorRibbon>("error", "the car's trail colored by its cross-track error");
 }
 
 }  // namespace trackbed::render

@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "render/camera.h"
-#include "render/handles.h"
 #include "render/output.h"
 #include "render/overlays.h"
 #include "render/painter.h"
 #include "render/recording.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/sim/mujoco_error.h"
 
 namespace trackbed {
 namespace {
@@ -131,16 +131,16 @@ std::vector<FilmChoice> Cameras() {
 
 std::vector<FilmChoice> Overlays() {
   std::vector<FilmChoice> overlays;
-  for (const render::Overlay& overlay : render::OverlayTable()) {
-    overlays.push_back({std::string(overlay.name), std::string(overlay.summary)});
+  for (const render::OverlayEntry& overlay : render::OverlayTable()) {
+    overlays.push_back({overlay.name, overlay.summary});
   }
   return overlays;
 }
 
 std::vector<std::string> AllOverlays() {
   std::vector<std::string> names;
-  for (const render::Overlay& overlay : render::OverlayTable()) {
-    names.emplace_back(overlay.name);
+  for (const render::OverlayEntry& overlay : render::OverlayTable()) {
+    names.push_back(overlay.name);
   }
   return names;
 }
@@ -154,7 +154,7 @@ FilmReport RenderFilm(const fs::path& run_folder, const fs::path& output,
                       const std::function<void(double fraction)>& progress) {
   const render::FilmFormat& format = render::FormatOf(output);
   CheckOptions(options, format.even_sides);
-  const render::MuJoCoErrorsAsExceptions guard;
+  const MujocoErrorScope errors;
   std::vector<render::Recording> recordings = ReadRecordings(run_folder, options.plants);
   const auto [begin, end] = TimesAskedFor(options, TimesOf(recordings));
   render::Painter painter(recordings, options);
@@ -190,7 +190,7 @@ void RenderPicture(const fs::path& run_folder, const fs::path& output, double ti
     throw InputError(Problem{.file = output.string(), .message = "a picture is made as .png"});
   }
   CheckOptions(options, false);
-  const render::MuJoCoErrorsAsExceptions guard;
+  const MujocoErrorScope errors;
   std::vector<render::Recording> recordings = ReadRecordings(run_folder, options.plants);
   CheckTime("time", time, TimesOf(recordings));
   render::Image image;

@@ -1,44 +1,76 @@
 #include "render/overlays.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "render/caption.h"
+#include "render/error_ribbon.h"
+#include "render/ghost.h"
+#include "render/ground_paint.h"
+#include "render/plan_lines.h"
+#include "render/strip.h"
+#include "render/trail.h"
+#include "render/tyre_forces.h"
+#include "render/wind_arrows.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
 
 namespace trackbed::render {
+namespace {
 
-const std::vector<Overlay>& OverlayTable() {
-  static const std::vector<Overlay> table{
-      {"plan", "the planned path, and each new one", &Overlays::plan},
-      {"trail", "where the cars have been", &Overlays::trail},
-      {"error", "the car's trail in the color of its distance from the path", &Overlays::error},
-      {"ghosts", "the other plants as translucent cars", &Overlays::ghosts},
-      {"wind", "arrows of the wind over the ground, and the outline of where a gust blows",
-       &Overlays::wind},
-      {"forces", "the tyres' forces inside what friction allows them", &Overlays::forces},
-      {"strip", "planned curvature and steering over time", &Overlays::strip},
-      {"caption", "name, legend and the car's numbers", &Overlays::caption},
+/// InputError with the nearest name where one of these is no overlay's.
+void CheckNames(const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (const OverlayEntry& entry : OverlayTable()) {
+    known.push_back(entry.name);
+  }
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw InputError(
+          Problem{.key = "overlays", .message = "unknown overlay " + UnknownName(name, known)});
+    }
+  }
+}
+
+}  // namespace
+
+/// One line for each overlay. Later ones are drawn over earlier ones.
+const std::vector<OverlayEntry>& OverlayTable() {
+  static const std::vector<OverlayEntry> table{
+      PlanOverlay(), TrailOverlay(), ErrorOverlay(), GhostOverlay(),
+      WindOverlay(), ForceOverlay(), StripOverlay(), CaptionOverlay(),
   };
   return table;
 }
 
-Overlays OverlaysOf(const std::vector<std::string>& names) {
-  const std::vector<Overlay>& table = OverlayTable();
-  Overlays overlays;
-  for (const std::string& name : names) {
-    const auto found = std::find_if(table.begin(), table.end(),
-                                    [&](const Overlay& overlay) { return overlay.name == name; });
-    if (found == table.end()) {
-      std::vector<std::string> known;
-      for (const Overlay& overlay : table) {
-        known.emplace_back(overlay.name);
-      }
-      throw InputError(
-          Problem{.key = "overlays", .message = "unknown overlay " + UnknownName(name, known)});
+OverlayList MakeOverlays(const OverlaySetup& setup) {
+  CheckNames(setup.shown);
+  OverlayList overlays;
+  for (const OverlayEntry& entry : OverlayTable()) {
+    if (setup.Shows(entry.name)) {
+      overlays.push_back(entry.make(setup));
     }
-    overlays.*(found->shown) = true;
   }
   return overlays;
+}
+
+std::vector<LegendEntry> LegendOf(const Recording& recording, const OverlayList& overlays) {
+  std::vector<LegendEntry> legend{{CarColor(0), recording.plants.front().plant()}};
+  for (const auto& overlay : overlays) {
+    overlay->AddLegend(legend);
+  }
+  std::vector<double> factors;
+  for (const FrictionPatch& patch : recording.world.friction_patches) {
+    factors.push_back(patch.friction);
+  }
+  std::sort(factors.begin(), factors.end());
+  factors.erase(std::unique(factors.begin(), factors.end()), factors.end());
+  constexpr std::size_t kMaxFactors = 3;  // their colors could hardly be told apart
+  for (std::size_t i = 0; i < std::min(factors.size(), kMaxFactors); ++i) {
+    legend.push_back({PatchColorOnRoad(factors[i]), fmt::format("friction x{:.3g}", factors[i])});
+  }
+  return legend;
 }
 
 }  // namespace trackbed::render

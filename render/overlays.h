@@ -1,33 +1,20 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "render/overlay.h"
 
 namespace trackbed::render {
 
-/// What is drawn over the recorded world.
-struct Overlays {
-  bool plan = false;
-  bool trail = false;
-  bool error = false;
-  bool ghosts = false;
-  bool wind = false;
-  bool forces = false;
-  bool strip = false;
-  bool caption = false;
-};
+/// All overlays, in the order in which they are drawn and stand in the legend.
+const std::vector<OverlayEntry>& OverlayTable();
 
-struct Overlay {
-  std::string_view name;
-  std::string_view summary;
-  bool Overlays::*shown;
-};
+/// The overlays that `setup.shown` names; InputError with the nearest name where one of these is no
+/// overlay's.
+OverlayList MakeOverlays(const OverlaySetup& setup);
 
-/// The only list of overlays.
-const std::vector<Overlay>& OverlayTable();
-
-/// The overlays of these names; InputError with the nearest name where there is no such overlay.
-Overlays OverlaysOf(const std::vector<std::string>& names);
+/// What the colors of a picture of `recording` with these overlays stand for.
+std::vector<LegendEntry> LegendOf(const Recording& recording, const OverlayList& overlays);
 
 }  // namespace trackbed::render

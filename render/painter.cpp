@@ -1,15 +1,12 @@
 #include "render/painter.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
-#include "render/error_ribbon.h"
-#include "render/ground_paint.h"
 #include "render/layout.h"
+#include "render/overlays.h"
 #include "render/shadow.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
@@ -70,67 +67,21 @@ Font ReadFont(Offscreen& offscreen) {
 
 }  // namespace
 
-std::vector<LegendEntry> LegendOf(const Recording& recording, const Overlays& overlays) {
-  std::vector<LegendEntry> legend;
-  if (overlays.plan && !recording.plan.empty()) {
-    legend.push_back({kPlanColor, "planned path"});
-  }
-  if (overlays.plan && !recording.new_plans.empty()) {
-    legend.push_back({kNewPlanColor, "new plan"});
-  }
-  const double scale = overlays.error ? recording.scales.error : 0.0;
-  const std::string& car = recording.plants.front().plant();
-  if (scale > 0.0) {
-    legend.push_back({CarColor(0),
-                      fmt::format("{}, off path to {:.3g} m", car, scale),
-                      {kErrorColors.begin(), kErrorColors.end()}});
-  } else {
-    legend.push_back({CarColor(0), car});
-  }
-  for (std::size_t ghost = 1; overlays.ghosts && ghost < recording.plants.size(); ++ghost) {
-    legend.push_back({CarColor(ghost), recording.plants[ghost].plant() + " (ghost)"});
-  }
-  std::vector<double> factors;
-  for (const FrictionPatch& patch : recording.world.friction_patches) {
-    factors.push_back(patch.friction);
-  }
-  std::sort(factors.begin(), factors.end());
-  factors.erase(std::unique(factors.begin(), factors.end()), factors.end());
-  constexpr std::size_t kMostFactors = 3;  // their colors could hardly be told apart
-  for (std::size_t i = 0; i < std::min(factors.size(), kMostFactors); ++i) {
-    legend.push_back({PatchColorOnRoad(factors[i]), fmt::format("friction x{:.3g}", factors[i])});
-  }
-  if (overlays.wind && !IsCalm(recording.world.wind)) {
-    legend.push_back({kWindColor, "wind"});
-  }
-  if (overlays.wind &&
-      std::any_of(recording.world.wind.gusts.begin(), recording.world.wind.gusts.end(),
-                  [](const Gust& gust) { return gust.area.has_value(); })) {
-    legend.push_back({kGustColor, "gust"});
-  }
-  return legend;
-}
-
 /// One recording in a part of the picture.
 struct Painter::Part {
-  Part(Recording& a_recording, int a_left, int a_width, int a_height, const Overlays& overlays,
-       const Quality& quality, bool with_inset, const std::string& a_title, Font& font)
+  Part(const OverlaySetup& setup, Recording& a_recording, int a_left, const Quality& quality,
+       bool with_inset)
       : recording(a_recording),
         left(a_left),
-        width(a_width),
-        height(a_height),
+        width(setup.width),
+        height(setup.height),
         subject(a_recording),
-        scene(a_recording, overlays, quality.shadows),
-        caption{a_title, a_recording.note, LegendOf(a_recording, overlays)} {
+        overlays(MakeOverlays(setup)),
+        legend(LegendOf(a_recording, overlays)),
+        scene(a_recording, overlays, quality.shadows) {
     if (with_inset) {
       // Half the pixels would go into a second map of shadows, for a small picture.
       inset = std::make_unique<FilmScene>(a_recording, overlays, false);
-    }
-    if (overlays.forces) {
-      forces.emplace(a_recording);
-    }
-    if (overlays.strip) {
-      strip.emplace(a_recording, width, height, font);
     }
   }
 
@@ -143,11 +94,10 @@ struct Painter::Part {
   int width;
   int height;
   CameraSubject subject;
+  OverlayList overlays;
+  std::vector<LegendEntry> legend;
   FilmScene scene;
   std::unique_ptr<FilmScene> inset;
-  std::optional<TyreForces> forces;
-  std::optional<Strip> strip;
-  Caption caption;
 };
 
 Painter::Painter(std::span<Recording> recordings, const FilmOptions& options)
@@ -155,7 +105,6 @@ Painter::Painter(std::span<Recording> recordings, const FilmOptions& options)
       quality_(FindQuality(options.quality)),
       camera_(FindCamera(options.camera)),
       inset_(options.inset.empty() ? nullptr : &FindCamera(options.inset, "inset")),
-      overlays_(OverlaysOf(options.overlays)),
       offscreen_(
           Prepared(*recordings.front().model, quality_,
                    camera_.pose(CameraSubject(recordings.front()), recordings.front().begin(),
@@ -168,11 +117,15 @@ Painter::Painter(std::span<Recording> recordings, const FilmOptions& options)
     const int left = options.width * i / count;
     const int right = options.width * (i + 1) / count;
     Recording& recording = recordings[static_cast<std::size_t>(i)];
-    const std::string title = options.plants.empty()
-                                  ? recording.name
-                                  : recording.name + ": " + recording.plants.front().plant();
-    parts_.push_back(std::make_unique<Part>(recording, left, right - left, options.height,
-                                            overlays_, quality_, inset_ != nullptr, title, font_));
+    const OverlaySetup setup{
+        .recording = recording,
+        .shown = options_.overlays,
+        .title = options.plants.empty() ? recording.name
+                                        : recording.name + ": " + recording.plants.front().plant(),
+        .width = right - left,
+        .height = options.height,
+        .font = font_};
+    parts_.push_back(std::make_unique<Part>(setup, recording, left, quality_, inset_ != nullptr));
   }
 }
 
@@ -200,41 +153,41 @@ void Painter::Paint(Part& part, double time, Image& image) {
   const CameraPose pose = part.Pose(camera_, time);
   offscreen_.Render(part.scene.At(time, pose), image, part.width, part.height);
   const Layout layout(part.width, part.height);
-  if (part.forces && part.forces->known()) {
-    Canvas canvas(image, font_);
-    DrawTyreForces(canvas, Projection(pose, part.width, part.height),
-                   part.forces->At(time, part.scene.car()), part.forces->metres_per_newton(),
-                   layout.hairline);
-  }
-  double bottom = part.height - layout.margin;
-  if (part.strip) {
-    part.strip->Draw(image, font_, time);
-    bottom = part.strip->top() - 0.5 * layout.pad;
-  }
-  double top = layout.margin;
-  if (overlays_.caption) {
-    top = 0.5 * layout.pad + DrawCaption(image, font_, part.caption,
-                                         part.recording.ReadingsAt(time), pose.azimuth, bottom);
+  PictureContext context{.image = image,
+                         .font = font_,
+                         .time = time,
+                         .camera = pose,
+                         .car = part.scene.car(),
+                         .legend = part.legend,
+                         .top = layout.margin,
+                         .bottom = part.height - layout.margin};
+  for (const auto& overlay : part.overlays) {
+    overlay->Draw(context);
   }
   if (part.inset) {
-    PaintInset(part, time, top, image);
+    PaintInset(part, context);
   }
 }
 
-void Painter::PaintInset(Part& part, double time, double top, Image& image) {
-  constexpr double kShare = 0.3;  // of the picture's sides
+void Painter::PaintInset(Part& part, const PictureContext& context) {
+  // Of the picture's sides: as much as panels leave, but not so little that nothing can be seen.
+  constexpr double kMinShare = 0.15;
+  constexpr double kMaxShare = 0.3;
   const Layout layout(part.width, part.height);
-  const int width = std::max(1, static_cast<int>(kShare * part.width));
-  const int height = std::max(1, static_cast<int>(kShare * part.height));
-  offscreen_.Render(part.inset->At(time, part.Pose(*inset_, time)), inset_image_, width, height);
   const int frame = static_cast<int>(std::ceil(layout.hairline));
+  const double share =
+      std::clamp((context.bottom - context.top - 2 * frame) / part.height, kMinShare, kMaxShare);
+  const int width = std::max(1, static_cast<int>(share * part.width));
+  const int height = std::max(1, static_cast<int>(share * part.height));
+  offscreen_.Render(part.inset->At(context.time, part.Pose(*inset_, context.time)), inset_image_,
+                    width, height);
   const int left = static_cast<int>(part.width - layout.margin) - width - frame;
-  const int upper = static_cast<int>(top) + frame;
-  Canvas(image, font_)
+  const int upper = static_cast<int>(context.top) + frame;
+  Canvas(context.image, font_)
       .Fill({static_cast<double>(left - frame), static_cast<double>(upper - frame),
              static_cast<double>(width + 2 * frame), static_cast<double>(height + 2 * frame)},
             0.0, kValue, 0.9);
-  Paste(inset_image_, left, upper, image);
+  Paste(inset_image_, left, upper, context.image);
 }
 
 mjvScene& Painter::SceneAt(double time) {

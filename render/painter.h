@@ -1,27 +1,21 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "render/camera.h"
-#include "render/caption.h"
+#include "render/canvas.h"
 #include "render/offscreen.h"
-#include "render/overlays.h"
+#include "render/overlay.h"
 #include "render/recording.h"
 #include "render/scene.h"
-#include "render/strip.h"
-#include "render/tyre_forces.h"
 #include "trackbed/render/film.h"
 
 namespace trackbed::render {
 
 struct Quality;
-
-/// What the colors of a film of `recording` with these overlays stand for.
-std::vector<LegendEntry> LegendOf(const Recording& recording, const Overlays& overlays);
 
 /// Makes the pictures of a film: the recorded worlds, what is drawn over them, and the captions.
 class Painter {
@@ -47,13 +41,12 @@ class Painter {
   struct Part;
 
   void Paint(Part& part, double time, Image& image);
-  void PaintInset(Part& part, double time, double top, Image& image);
+  void PaintInset(Part& part, const PictureContext& context);
 
   FilmOptions options_;
   const Quality& quality_;
   const Camera& camera_;
   const Camera* inset_;
-  Overlays overlays_;
   Offscreen offscreen_;
   Font font_;
   std::vector<std::unique_ptr<Part>> parts_;

@@ -27,9 +27,9 @@ namespace fs = std::filesystem;
       Problem{.file = file.string(), .key = std::move(key), .message = std::move(message)});
 }
 
-ModelHandle LoadModel(const fs::path& file) {
+MujocoModel LoadModel(const fs::path& file) {
   std::array<char, 1000> error{};
-  ModelHandle model(
+  MujocoModel model(
       mj_loadXML(run_folder::RequireFile(file).c_str(), nullptr, error.data(), error.size()));
   if (!model) {
     std::string message = error.data();
@@ -168,7 +168,7 @@ PlantRecording::PlantRecording(const fs::path& folder, const std::string& plant,
       state_(folder / run_folder::StateCsv(plant)),
       log_(folder / run_folder::LogCsv(plant)),
       speed_(log_.Require("speed_mps")),
-      steering_asked_(log_.Require("steering_command_rad")),
+      steering_command_(log_.Require("steering_command_rad")),
       steering_(log_.Require("steering_rad")),
       cross_track_(log_.Find("cross_track_m")) {
   for (const char* column : {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"}) {
@@ -238,7 +238,7 @@ Readings PlantRecording::ReadingsAt(double time) const {
   Readings readings;
   readings.time = time;
   readings.speed = log_.Value(place, speed_);
-  readings.steering_asked = log_.Value(place, steering_asked_);
+  readings.steering_command = log_.Value(place, steering_command_);
   readings.steering = log_.Value(place, steering_);
   if (cross_track_) {
     readings.cross_track = log_.Value(place, *cross_track_);

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "render/handles.h"
 #include "render/recorded_plans.h"
 #include "render/scales.h"
 #include "trackbed/core/table.h"
+#include "trackbed/sim/mujoco_handles.h"
 #include "trackbed/sim/plant.h"
 #include "trackbed/world/world.h"
 
@@ -53,7 +53,7 @@ class TimedTable {
 struct Readings {
   double time = 0;
   double speed = 0;
-  double steering_asked = 0;
+  double steering_command = 0;
   double steering = 0;
   std::optional<double> cross_track;  ///< only when the run had a planned path
   std::optional<Vec2> wind;           ///< at the car; only when the run has wind [m/s]
@@ -97,7 +97,7 @@ class PlantRecording {
   std::vector<JointColumn> joints_;
   std::vector<double> headings_;  // per row of state_
   std::size_t speed_ = 0;
-  std::size_t steering_asked_ = 0;
+  std::size_t steering_command_ = 0;
   std::size_t steering_ = 0;
   std::optional<std::size_t> cross_track_;
 };
@@ -107,7 +107,7 @@ struct Recording {
   std::string name;  ///< of the folder
   std::string note;  ///< what to know of the run beside its name; else empty
   World world;       ///< of `scenario.resolved.yaml`; without that file, flat and calm
-  ModelHandle model;
+  MujocoModel model;
   std::vector<PlantRecording> plants;        ///< the car first, then the ghosts
   std::vector<Point> plan;                   ///< from the start; empty when there was none
   std::vector<NewPlan> new_plans;            ///< of the car alone, in the order of time

@@ -17,8 +17,8 @@ Scales ScalesOf(const Recording& recording) {
   for (const double time : car.log().times()) {
     const Readings readings = car.ReadingsAt(time);
     error = std::max(error, std::abs(readings.cross_track.value_or(0.0)));
-    scales.steering =
-        std::max({scales.steering, std::abs(readings.steering_asked), std::abs(readings.steering)});
+    scales.steering = std::max(
+        {scales.steering, std::abs(readings.steering_command), std::abs(readings.steering)});
     scales.curvature =
         std::max(scales.curvature, std::abs(recording.PlannedCurvature(time).value_or(0.0)));
   }

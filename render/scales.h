@@ -13,7 +13,7 @@ struct Scales {
   /// to 1, 2 or 5 times a power of ten, and at least 0.05 m. 0 when the car follows no path or its
   /// log does not say how far from it it is.
   double error = 0;
-  double steering = 0;   ///< largest angle asked for or done, at least a degree [rad]
+  double steering = 0;   ///< largest commanded or actual angle, at least a degree [rad]
   double curvature = 0;  ///< largest planned one where the car was [rad/m]
 };
 

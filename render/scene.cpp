@@ -7,126 +7,31 @@
 #include <cstddef>
 
 #include "render/cone.h"
-#include "render/error_ribbon.h"
-#include "render/ghost.h"
 #include "render/shadow.h"
-#include "render/wind_arrows.h"
 #include "trackbed/core/angle.h"
 
 namespace trackbed::render {
 namespace {
 
-// How far a thinned line may leave the true one [m]: a twentieth of the narrowest ribbon.
-constexpr double kLineTolerance = 0.005;
-constexpr std::size_t kMostPieces = 3000;  // per line
-// Paint farther than this from where the camera looks would be thinner than a pixel [m].
+// Patches farther than this from where the camera looks would be thinner than a pixel [m].
 constexpr double kPaintRange = 250.0;
 
 constexpr float kSunk = 0.002F;  // [m]; less than all paint is above the ground
 
-constexpr double kGustWidth = 0.16;
-constexpr double kGustHeight = 0.006;
-
-std::vector<Point> Thinned(const std::vector<Point>& line) {
-  std::vector<Point> points;
-  for (const std::size_t i : Thin(line, kLineTolerance, kMostPieces)) {
-    points.push_back(line[i]);
-  }
-  return points;
-}
-
-std::vector<GustLine> GustLines(const Recording& recording) {
-  std::vector<GustLine> lines;
-  for (const Gust& gust : recording.world.wind.gusts) {
-    if (gust.area) {
-      lines.push_back({gust, Thinned(Outline(recording, gust.area->Corners()))});
-    }
-  }
-  return lines;
-}
-
-/// A point each where the line bends and where its color changes.
-std::vector<Trail> TrailsOf(const Recording& recording, const Overlays& overlays) {
-  std::vector<Trail> trails;
-  for (std::size_t car = 0; car < recording.plants.size(); ++car) {
-    const PlantRecording& plant = recording.plants[car];
-    std::vector<Point> driven;
-    for (const double time : plant.times()) {
-      driven.push_back(recording.OnGround(plant.Position(time)));
-    }
-    std::vector<std::size_t> kept = Thin(driven, kLineTolerance, kMostPieces);
-    const bool colored = car == 0 && overlays.error && recording.scales.error > 0.0;
-    const std::vector<double> shares = colored ? ErrorShares(recording) : std::vector<double>();
-    for (std::size_t i = 1; i < shares.size(); ++i) {
-      if (shares[i] != shares[i - 1]) {
-        kept.push_back(i);
-      }
-    }
-    std::sort(kept.begin(), kept.end());
-    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
-    Trail trail;
-    for (const std::size_t i : kept) {
-      trail.points.push_back(driven[i]);
-      trail.times.push_back(plant.times()[i]);
-      if (!shares.empty()) {
-        trail.colors.push_back(ErrorColor(shares[i]));
-      }
-    }
-    trails.push_back(std::move(trail));
-  }
-  return trails;
-}
+// Nested dark layers: a soft contact shadow where the shadow map would cost half the time.
+constexpr int kShadowLayers = 6;
+constexpr float kShadowAlpha = 0.055F;  // of one layer, drawn twice like everything translucent
+constexpr double kShadowSpread = 0.09;  // one layer beyond the next [m]
+constexpr double kShadowHeight = 0.03;  // above all paint [m]
 
 int MaxGeoms(const Recording& recording, const std::vector<Tile>& patches,
-             const std::vector<GustLine>& gusts, const std::vector<Trail>& trails) {
-  std::size_t on_ground = patches.size();
-  for (const GustLine& gust : gusts) {
-    on_ground += gust.points.size();
+             const OverlayList& overlays) {
+  std::size_t count = patches.size() + kConePieces * recording.cones.size() + kShadowLayers;
+  for (const auto& overlay : overlays) {
+    count += overlay->max_shapes();
   }
-  const int cars = static_cast<int>(recording.plants.size());
-  std::size_t of_new_plans = 0;
-  for (const NewPlan& plan : recording.new_plans) {
-    of_new_plans += std::min(plan.path.size(), kMostPieces + 2);
-  }
-  for (const Trail& trail : trails) {
-    on_ground += trail.points.size();
-  }
-  return (recording.model->ngeom + recording.model->ngeom) * cars + 200 * cars +
-         static_cast<int>(on_ground) + kMostWindPieces + static_cast<int>(kMostPieces + 2) +
-         static_cast<int>(of_new_plans) + static_cast<int>(kConePieces * recording.cones.size());
-}
-
-constexpr double kErrorWidth = 0.26;
-
-constexpr double kPlanWidth = 0.48;
-constexpr double kPlanHeight = 0.008;
-// A plan that is given up fades into the asphalt, not to translucent paint: that would be darker
-// where two pieces overlap. It is narrower than the trails of ghosts, so what is left of it to see
-// is what was not driven.
-constexpr double kGivenUpWidth = 0.24;
-constexpr Color kAsphalt{0.60F, 0.62F, 0.60F};
-constexpr float kGivenUpShare = 0.35F;  // of its own color
-// A plan that was driven for less than this leaves nothing behind: planning again twice a second
-// would fill the road with fans of lines [s].
-constexpr double kBrief = 1.0;
-
-/// `newer` plans have been taken up since.
-RibbonStyle PlanStyle(const Color& color, std::size_t newer, double scale) {
-  if (newer == 0) {
-    return {color, kPlanWidth * scale, kPlanHeight};
-  }
-  const auto fade = [](float own, float asphalt) {
-    return asphalt + kGivenUpShare * (own - asphalt);
-  };
-  // Most lie on each other where they rejoin the route: the newer above the older.
-  return {{fade(color.r, kAsphalt.r), fade(color.g, kAsphalt.g), fade(color.b, kAsphalt.b)},
-          kGivenUpWidth * scale,
-          std::max(kPlanHeight - 0.001 * static_cast<double>(newer), 0.002)};
-}
-
-bool IsNear(const Point& a, const Point& b, const Point& around) {
-  const double reach = kPaintRange + std::hypot(b.x - a.x, b.y - a.y);
-  return std::hypot(a.x - around.x, a.y - around.y) < reach;
+  // Of the model: its geoms, and what MuJoCo adds to them.
+  return 2 * recording.model->ngeom + 200 + static_cast<int>(count);
 }
 
 /// Whether a camera can see beyond the ground. If not, the sky behind it need not be drawn, which
@@ -151,67 +56,40 @@ void SinkHeightFields(mjvScene& scene) {
 
 }  // namespace
 
-FilmScene::FilmScene(Recording& recording, const Overlays& overlays, bool shadows)
+FilmScene::FilmScene(Recording& recording, const OverlayList& overlays, bool shadows)
     : recording_(recording),
       overlays_(overlays),
-      trails_(TrailsOf(recording, overlays)),
       patches_(PatchTiles(recording.world)),
-      gusts_(GustLines(recording)),
-      car_data_(mj_makeData(recording.model.get())),
-      ghost_data_(mj_makeData(recording.model.get())),
-      scene_(*recording.model, MaxGeoms(recording, patches_, gusts_, trails_)),
-      ghost_scene_(*recording.model, 2 * recording.model->ngeom + 100) {
+      car_data_(MakeMujocoData(*recording.model)),
+      scene_(*recording.model, MaxGeoms(recording, patches_, overlays)) {
   mjv_defaultOption(&visible_);
   std::fill(std::begin(visible_.sitegroup), std::end(visible_.sitegroup), mjtByte{0});
   mjv_defaultFreeCamera(recording.model.get(), &camera_);
   scene_.get().flags[mjRND_SHADOW] = shadows ? 1 : 0;
   scene_.get().flags[mjRND_REFLECTION] = 0;
-
-  AddPlanLine(recording.begin(), kPlanColor, recording.plan);
-  for (const NewPlan& plan : recording.new_plans) {
-    AddPlanLine(plan.from, kNewPlanColor, plan.path);
-  }
-}
-
-void FilmScene::AddPlanLine(double from, const Color& color, const std::vector<Point>& path) {
-  std::vector<Point> points;
-  for (const Point& point : path) {
-    points.push_back(recording_.OnGround(point));
-  }
-  plans_.push_back({from, color, Thinned(points)});
 }
 
 mjvScene& FilmScene::At(double time, const CameraPose& camera) {
   mjModel& model = *recording_.model;
+  mjvScene& scene = scene_.get();
   Aim(camera);
   recording_.plants.front().Pose(time, model, *car_data_);
-  mjv_updateScene(&model, car_data_.get(), &visible_, nullptr, &camera_, mjCAT_ALL, &scene_.get());
-  SinkHeightFields(scene_.get());
-  scene_.get().flags[mjRND_SKYBOX] = SeesSky(model, recording_.world, camera) ? 1 : 0;
-  AimLamps(scene_.get(), camera);
+  mjv_updateScene(&model, car_data_.get(), &visible_, nullptr, &camera_, mjCAT_ALL, &scene);
+  SinkHeightFields(scene);
+  scene.flags[mjRND_SKYBOX] = SeesSky(model, recording_.world, camera) ? 1 : 0;
+  AimLamps(scene, camera);
   AddPatches(camera);
-  if (overlays_.wind) {
-    AddGusts(time, camera);
-    AddWindArrows(scene_.get(), recording_, time, camera);
-  }
-  if (overlays_.plan) {
-    AddPlans(time, camera);
-  }
-  for (std::size_t car = 0; car < recording_.plants.size(); ++car) {
-    if (car == 0 ? overlays_.trail || overlays_.error : overlays_.trail && overlays_.ghosts) {
-      AddTrail(car, time, camera);
-    }
-  }
   for (const Point& cone : recording_.cones) {
-    AddCone(scene_.get(), cone);
+    AddCone(scene, cone);
   }
-  if (scene_.get().flags[mjRND_SHADOW] == 0) {
+  if (scene.flags[mjRND_SHADOW] == 0) {
     AddContactShadow();
   }
-  for (std::size_t car = 1; overlays_.ghosts && car < recording_.plants.size(); ++car) {
-    AddGhost(car, time, camera);
+  SceneContext context{scene, time, camera, camera_, visible_};
+  for (const auto& overlay : overlays_) {
+    overlay->AddShapes(context);
   }
-  return scene_.get();
+  return scene;
 }
 
 void FilmScene::Aim(const CameraPose& camera) {
@@ -228,11 +106,6 @@ void FilmScene::Aim(const CameraPose& camera) {
   model.vis.map.zfar = static_cast<float>((1000.0 + 2.0 * camera.distance) / model.stat.extent);
 }
 
-void FilmScene::AddPiece(const Point& a, const Point& b, const RibbonStyle& style) {
-  AddRibbonPiece(scene_.get(), a, b, style,
-                 GroundNormal(recording_.world, {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}));
-}
-
 void FilmScene::AddPatches(const CameraPose& camera) {
   const Vec2 around(camera.target_x, camera.target_y);
   for (const Tile& tile : patches_) {
@@ -243,58 +116,41 @@ void FilmScene::AddPatches(const CameraPose& camera) {
   }
 }
 
-void FilmScene::AddGusts(double time, const CameraPose& camera) {
-  const Point around{camera.target_x, camera.target_y};
-  for (const GustLine& line : gusts_) {
-    if (GustStrength(line.gust, time) == 0.0) {
-      continue;
-    }
-    const RibbonStyle style{kGustColor, kGustWidth * camera.paint_scale, kGustHeight};
-    for (std::size_t i = 1; i < line.points.size(); ++i) {
-      if (IsNear(line.points[i - 1], line.points[i], around)) {
-        AddPiece(line.points[i - 1], line.points[i], style);
-      }
-    }
+void FilmScene::AddContactShadow() {
+  const mjModel& model = *recording_.model;
+  mjvScene& scene = scene_.get();
+  const int site = mj_name2id(&model, mjOBJ_SITE, "outline");
+  if (site < 0 || model.site_type[site] != mjGEOM_BOX) {
+    return;
   }
-}
-
-void FilmScene::AddPlans(double time, const CameraPose& camera) {
-  const Point around{camera.target_x, camera.target_y};
-  const auto held = static_cast<std::size_t>(std::count_if(
-      plans_.begin(), plans_.end(), [time](const PlanLine& line) { return line.from <= time; }));
-  for (std::size_t plan = 0; plan < held; ++plan) {
-    const bool is_new = plan > 0 && plan + 1 < held;
-    if (is_new && plans_[plan + 1].from - plans_[plan].from < kBrief) {
-      continue;
-    }
-    const std::vector<Point>& points = plans_[plan].points;
-    const RibbonStyle style = PlanStyle(plans_[plan].color, held - 1 - plan, camera.paint_scale);
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      if (IsNear(points[i - 1], points[i], around)) {
-        AddPiece(points[i - 1], points[i], style);
-      }
-    }
-  }
-}
-
-void FilmScene::AddTrail(std::size_t car, double time, const CameraPose& camera) {
-  const Point around{camera.target_x, camera.target_y};
-  const Trail& trail = trails_[car];
-  RibbonStyle style = TrailStyle(car, camera.paint_scale);
-  if (!trail.colors.empty()) {
-    style.width = kErrorWidth * camera.paint_scale;
-  }
-  for (std::size_t i = 1; i < trail.points.size() && trail.times[i - 1] < time; ++i) {
-    // The last piece grows with the car.
-    const Point end = trail.times[i] <= time
-                          ? trail.points[i]
-                          : recording_.OnGround(recording_.plants[car].Position(time));
-    if (!trail.colors.empty()) {
-      style.color = trail.colors[i - 1];
-    }
-    if (IsNear(trail.points[i - 1], end, around)) {
-      AddPiece(trail.points[i - 1], end, style);
-    }
+  const mjtNum* center = car_data_->site_xpos + 3 * site;
+  const mjtNum* rotation = car_data_->site_xmat + 9 * site;
+  // On the plane through the ground under the middles of its sides.
+  const Pose2 middle{center[0], center[1], std::atan2(rotation[3], rotation[0])};
+  const auto side = [&](double forward, double left) {
+    const Vec2 p = ToWorld(
+        middle, {forward * model.site_size[3 * site], left * model.site_size[3 * site + 1]});
+    return Eigen::Vector3d(p.x(), p.y(), GroundHeight(recording_.world, p));
+  };
+  const Eigen::Vector3d along = side(1.0, 0.0) - side(-1.0, 0.0);
+  Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor> flat;
+  flat.col(0) = along.normalized();
+  flat.col(2) = along.cross(side(0.0, 1.0) - side(0.0, -1.0)).normalized();
+  flat.col(1) = flat.col(2).cross(flat.col(0));
+  const Eigen::Vector3d place =
+      0.25 * (side(1.0, 0.0) + side(-1.0, 0.0) + side(0.0, 1.0) + side(0.0, -1.0)) +
+      kShadowHeight * flat.col(2);
+  const std::array<float, 4> rgba{0.0F, 0.0F, 0.02F, kShadowAlpha};
+  for (int layer = 0; layer < kShadowLayers && scene.ngeom < scene.maxgeom; ++layer) {
+    // From well inside the outline to as far outside.
+    const double wider = kShadowSpread * (layer - 0.5 * kShadowLayers);
+    const std::array<mjtNum, 3> size{model.site_size[3 * site] + wider,
+                                     model.site_size[3 * site + 1] + wider, 0.0005};
+    mjvGeom& geom = scene.geoms[scene.ngeom];
+    mjv_initGeom(&geom, mjGEOM_BOX, size.data(), place.data(), flat.data(), rgba.data());
+    geom.specular = 0.0F;
+    geom.category = mjCAT_DECOR;
+    ++scene.ngeom;
   }
 }
 

@@ -11,9 +11,25 @@ namespace trackbed::render {
 namespace {
 
 constexpr Color kCurvature{0.86F, 0.88F, 0.84F};
-constexpr Color kAsked{0.35F, 0.80F, 1.00F};
+constexpr Color kCommand{0.35F, 0.80F, 1.00F};
 constexpr Color kActual{1.00F, 0.55F, 0.15F};
 constexpr double kLettersToCell = 0.86;  // the labels are a little smaller than the legend's
+
+class StripPanel : public Overlay {
+ public:
+  explicit StripPanel(const OverlaySetup& setup)
+      : strip_(setup.recording, setup.width, setup.height, setup.font),
+        gap_(0.5 * Layout(setup.width, setup.height).pad) {}
+
+  void Draw(PictureContext& context) override {
+    strip_.Draw(context.image, context.font, context.time);
+    context.bottom = strip_.top() - gap_;
+  }
+
+ private:
+  Strip strip_;
+  double gap_;  // to the next panel [px]
+};
 
 }  // namespace
 
@@ -28,7 +44,7 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
   rows_ = std::max(4, static_cast<int>(panel_.top + tall - 0.5 * layout_.pad) - top_);
 
   const Scales& most = recording.scales;
-  std::vector<double> asked;
+  std::vector<double> command;
   std::vector<double> actual;
   std::vector<double> curvature;
   for (int column = 0; column < columns_; ++column) {
@@ -36,7 +52,7 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
     // Nothing after the end of the car's own drive.
     if (time <= recording.plants.front().log().end()) {
       const Readings readings = recording.plants.front().ReadingsAt(time);
-      asked.push_back(readings.steering_asked);
+      command.push_back(readings.steering_command);
       actual.push_back(readings.steering);
       curvature.push_back(recording.PlannedCurvature(time).value_or(0.0));
     }
@@ -60,7 +76,7 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
     return MaskOf(scratch);
   };
   // Where both agree each is seen: one lies on the other and is narrower.
-  asked_ = curve(asked, 2.6);
+  command_ = curve(command, 2.6);
   actual_ = curve(actual, 1.1);
   if (most.curvature > 0.0) {
     Canvas canvas = blank();
@@ -79,12 +95,12 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
   }
 
   const double degrees = most.steering * 180.0 / kPi;
-  labels_ = {{0.0, kAsked, "steering asked"},
-             {0.0, kActual, fmt::format("steering actual (axis to {:.1f} deg)", degrees)}};
+  labels_ = {{0.0, kCommand, "steering command"},
+             {0.0, kActual, fmt::format("actual steering (full scale +/-{:.1f} deg)", degrees)}};
   if (most.curvature > 0.0) {
-    labels_.insert(
-        labels_.begin(),
-        {0.0, kCurvature, fmt::format("planned curvature (axis to {:.3g} 1/m)", most.curvature)});
+    labels_.insert(labels_.begin(),
+                   {0.0, kCurvature,
+                    fmt::format("planned curvature (full scale +/-{:.3g} 1/m)", most.curvature)});
   }
   double pen = left_;
   for (Label& label : labels_) {
@@ -144,7 +160,7 @@ void Strip::Draw(Image& image, Font& font, double time) const {
   canvas.Fill(
       {static_cast<double>(left_), top_ + 0.5 * rows_ - 0.5, static_cast<double>(columns_), 1.0},
       0.0, kLabel, 0.55);
-  Blend(image, asked_, kAsked, 1.0, 0, now);
+  Blend(image, command_, kCommand, 1.0, 0, now);
   Blend(image, actual_, kActual, 1.0, 0, now);
   canvas.Fill(
       {left_ + cursor, static_cast<double>(top_), layout_.hairline, static_cast<double>(rows_)},
@@ -153,6 +169,10 @@ void Strip::Draw(Image& image, Font& font, double time) const {
     canvas.Text(label.left, panel_.top + 0.3 * layout_.pad, label.text,
                 kLettersToCell * layout_.label, label.color);
   }
+}
+
+OverlayEntry StripOverlay() {
+  return EntryOf<StripPanel>("strip", "planned curvature and steering over time");
 }
 
 }  // namespace trackbed::render

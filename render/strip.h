@@ -6,12 +6,13 @@
 
 #include "render/canvas.h"
 #include "render/layout.h"
+#include "render/overlay.h"
 #include "render/recording.h"
 
 namespace trackbed::render {
 
-/// A panel along the bottom of the picture: the curvature of the path that is planned there, and
-/// the steering asked for and done until now, over the time of the whole drive. The axes end at the
+/// A panel along the bottom of the picture: over the time of the whole run the planned curvature
+/// where the car is then, and the commanded and the actual steering until now. The axes end at the
 /// recording's scales.
 class Strip {
  public:
@@ -46,9 +47,12 @@ class Strip {
   int columns_ = 0;
   int rows_ = 0;
   Mask curvature_;
-  Mask asked_;
+  Mask command_;
   Mask actual_;
   std::vector<Label> labels_;
 };
+
+/// The strip, and panels above it leave it room.
+OverlayEntry StripOverlay();
 
 }  // namespace trackbed::render

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "render/layout.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/sim/car_model.h"
 
@@ -48,6 +49,26 @@ bool HasMagicFormula(const Recording& recording) {
   return recording.tyre == TyreLaw::kMagicFormula ||
          (recording.tyre == TyreLaw::kAuto && has_coefficients);
 }
+
+class Forces : public Overlay {
+ public:
+  explicit Forces(const OverlaySetup& setup) : forces_(setup.recording) {}
+
+  void Draw(PictureContext& context) override {
+    if (!forces_.known()) {
+      return;
+    }
+    Canvas canvas(context.image, context.font);
+    const int width = context.image.width;
+    const int height = context.image.height;
+    DrawTyreForces(canvas, Projection(context.camera, width, height),
+                   forces_.At(context.time, context.car), forces_.metres_per_newton(),
+                   Layout(width, height).hairline);
+  }
+
+ private:
+  TyreForces forces_;
+};
 
 }  // namespace
 
@@ -186,6 +207,10 @@ void DrawTyreForces(Canvas& canvas, const Projection& projection,
     const double half = kHalfHead * head / kHead;
     shape({{neck, half}, {neck, -half}, {length, 0.0}});
   }
+}
+
+OverlayEntry ForceOverlay() {
+  return EntryOf<Forces>("forces", "tyre forces inside their friction ellipses");
 }
 
 }  // namespace trackbed::render

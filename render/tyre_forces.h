@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/canvas.h"
+#include "render/overlay.h"
 #include "render/projection.h"
 #include "render/recording.h"
 
@@ -60,5 +61,8 @@ class TyreForces {
 void DrawTyreForces(Canvas& canvas, const Projection& projection,
                     const std::vector<WheelForce>& forces, double metres_per_newton,
                     double hairline);
+
+/// The forces of the car's tyres, where its log has them.
+OverlayEntry ForceOverlay();
 
 }  // namespace trackbed::render

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/ribbon.h"
-#include "render/scene.h"
+#include "render/ground_line.h"
 
 namespace trackbed::render {
 namespace {
 
+constexpr Color kGustColor{0.66F, 0.56F, 0.96F};
+constexpr double kGustWidth = 0.16;
+constexpr double kGustHeight = 0.006;
+
+constexpr Color kWindColor{0.80F, 0.76F, 1.00F};
 constexpr double kSpacing = 5.0;  // [m]
 constexpr int kHalfCount = 4;     // of places from the middle to each side: 81 in all
 constexpr double kHeight = 0.004;
@@ -36,22 +40,76 @@ void AddArrow(mjvScene& scene, const Recording& recording, const Vec2& middle, c
   }
 }
 
-}  // namespace
+/// The outline of an area in which a gust blows.
+struct GustLine {
+  Gust gust;
+  std::vector<Point> points;
+};
 
-void AddWindArrows(mjvScene& scene, const Recording& recording, double time,
-                   const CameraPose& camera) {
-  const double spacing = kSpacing * camera.paint_scale;
-  const double first_x = std::round(camera.target_x / spacing);
-  const double first_y = std::round(camera.target_y / spacing);
-  for (int row = -kHalfCount; row <= kHalfCount; ++row) {
-    for (int column = -kHalfCount; column <= kHalfCount; ++column) {
-      const Vec2 place(spacing * (first_x + column), spacing * (first_y + row));
-      const Vec2 wind = WindAt(recording.world, place, time);
-      if (wind.norm() >= kLeast) {
-        AddArrow(scene, recording, place, wind, camera.paint_scale);
+std::vector<GustLine> GustLines(const Recording& recording) {
+  std::vector<GustLine> lines;
+  for (const Gust& gust : recording.world.wind.gusts) {
+    if (gust.area) {
+      lines.push_back({gust, Thinned(Outline(recording, gust.area->Corners()))});
+    }
+  }
+  return lines;
+}
+
+class WindArrows : public Overlay {
+ public:
+  explicit WindArrows(const OverlaySetup& setup)
+      : recording_(setup.recording), gusts_(GustLines(recording_)) {}
+
+  [[nodiscard]] std::size_t max_shapes() const override {
+    constexpr std::size_t kSide = 2 * kHalfCount + 1;
+    std::size_t sum = 3 * kSide * kSide;
+    for (const GustLine& line : gusts_) {
+      sum += line.points.size();
+    }
+    return sum;
+  }
+
+  void AddShapes(SceneContext& context) override {
+    const CameraPose& camera = context.camera;
+    for (const GustLine& line : gusts_) {
+      if (GustStrength(line.gust, context.time) != 0.0) {
+        AddLine(context, recording_.world, line.points,
+                {kGustColor, kGustWidth * camera.paint_scale, kGustHeight});
+      }
+    }
+    const double spacing = kSpacing * camera.paint_scale;
+    const double first_x = std::round(camera.target_x / spacing);
+    const double first_y = std::round(camera.target_y / spacing);
+    for (int row = -kHalfCount; row <= kHalfCount; ++row) {
+      for (int column = -kHalfCount; column <= kHalfCount; ++column) {
+        const Vec2 place(spacing * (first_x + column), spacing * (first_y + row));
+        const Vec2 wind = WindAt(recording_.world, place, context.time);
+        if (wind.norm() >= kLeast) {
+          AddArrow(context.scene, recording_, place, wind, camera.paint_scale);
+        }
       }
     }
   }
+
+  void AddLegend(std::vector<LegendEntry>& legend) const override {
+    if (!IsCalm(recording_.world.wind)) {
+      legend.push_back({kWindColor, "wind"});
+    }
+    if (!gusts_.empty()) {
+      legend.push_back({kGustColor, "gust"});
+    }
+  }
+
+ private:
+  const Recording& recording_;
+  std::vector<GustLine> gusts_;
+};
+
+}  // namespace
+
+OverlayEntry WindOverlay() {
+  return EntryOf<WindArrows>("wind", "wind arrows on the ground, and outlines of gust areas");
 }
 
 }  // namespace trackbed::render

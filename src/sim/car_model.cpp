@@ -10,9 +10,9 @@
 #include <regex>
 
 #include "src/sim/car_parts.h"
-#include "src/sim/mujoco_error.h"
 #include "src/sim/upright.h"
 #include "trackbed/core/error.h"
+#include "trackbed/sim/mujoco_error.h"
 
 namespace trackbed {
 namespace {
@@ -47,8 +47,8 @@ CompileError Understand(const std::string& message) {
   return error;
 }
 
-mjModel* Compile(const Scene& scene, const std::string& name) {
-  InstallMujocoErrorHandlers();
+MujocoModel Compile(const Scene& scene, const std::string& name) {
+  const MujocoErrorScope errors;
   static_cast<void>(PhysicsVersion());
   const std::unique_ptr<mjVFS, VfsDeleter> vfs(new mjVFS);  // too large for the stack
   mj_defaultVFS(vfs.get());
@@ -64,9 +64,10 @@ mjModel* Compile(const Scene& scene, const std::string& name) {
     add(asset.name, asset.content);
   }
   std::array<char, 1000> message{};
-  mjModel* model = nullptr;
+  MujocoModel model;
   try {
-    model = mj_loadXML("model.xml", vfs.get(), message.data(), static_cast<int>(message.size()));
+    model.reset(
+        mj_loadXML("model.xml", vfs.get(), message.data(), static_cast<int>(message.size())));
   } catch (const RunError& error) {
     throw InputError(Problem{.file = name, .message = error.what()});
   }
@@ -81,11 +82,8 @@ mjModel* Compile(const Scene& scene, const std::string& name) {
 
 /// What the car would be if its payload weighed nothing.
 VehicleParams Unladen(const mjModel& laden, int payload, const std::string& name) {
-  const std::unique_ptr<mjModel, void (*)(mjModel*)> model(mj_copyModel(nullptr, &laden),
-                                                           mj_deleteModel);
-  TRACKBED_CHECK(model != nullptr, "no memory for the simulation");
-  const std::unique_ptr<mjData, void (*)(mjData*)> data(mj_makeData(model.get()), mj_deleteData);
-  TRACKBED_CHECK(data != nullptr, "no memory for mjData");
+  const MujocoModel model = CopyMujocoModel(laden);
+  const MujocoData data = MakeMujocoData(*model);
   model->body_mass[payload] = 0.0;
   mj_setConst(model.get(), data.get());
   return DescribeVehicle(*model, name).params;
@@ -128,6 +126,7 @@ CarModel::CarModel(Scene scene, std::string name_for_messages)
     : scene_(std::move(scene)),
       file_(std::move(name_for_messages)),
       model_(Compile(scene_, file_)) {
+  const MujocoErrorScope errors;
   const VehicleDescription car = DescribeVehicle(*model_, file_);
   parts_ = car.parts;
   params_ = car.params;
@@ -138,10 +137,6 @@ CarModel::CarModel(Scene scene, std::string name_for_messages)
 CarModel::CarModel(CarModel&&) noexcept = default;
 CarModel& CarModel::operator=(CarModel&&) noexcept = default;
 CarModel::~CarModel() = default;
-
-void CarModel::Deleter::operator()(mjModel_* model) const {
-  mj_deleteModel(model);
-}
 
 const ChassisParts& CarModel::chassis() const {
   return std::visit([](const ChassisParts& parts) -> const ChassisParts& { return parts; }, parts_);
@@ -262,6 +257,12 @@ std::vector<double> RollingSpeeds(const VehicleParams& params, double speed, dou
   };
   return {front_speed(front.left, 0.5 * params.track_front),
           front_speed(front.right, -0.5 * params.track_front), rear.left, rear.right};
+}
+
+std::string PhysicsVersion() {
+  TRACKBED_CHECK(mj_version() == mjVERSION_HEADER, "MuJoCo {} is loaded, built with headers of {}",
+                 mj_version(), mjVERSION_HEADER);
+  return fmt::format("MuJoCo {}", mj_versionString());
 }
 
 }  // namespace trackbed

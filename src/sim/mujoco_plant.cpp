@@ -8,6 +8,7 @@
 #include "src/sim/plants.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/sim/mujoco_error.h"
 
 namespace trackbed {
 namespace {
@@ -24,10 +25,9 @@ Vector3d Vec(const mjtNum* numbers) {
 MujocoPlant::MujocoPlant(const PlantSetup& setup)
     : car_(setup.car),
       world_(setup.world),
-      model_(mj_copyModel(nullptr, setup.car.get())),
-      data_(mj_makeData(model_.get())),
+      model_(CopyMujocoModel(*setup.car.get())),
+      data_(MakeMujocoData(*model_)),
       ground_(car_, *model_) {
-  TRACKBED_CHECK(model_ && data_, "no memory for the simulation");
   const std::span<const int> tyres = car_.tyres();
   for (std::size_t w = 0; w < tyres.size(); ++w) {
     tyre_friction_[w] = model_->geom_friction[3 * tyres[w]];
@@ -67,12 +67,14 @@ void MujocoPlant::RollWheels(std::span<const int> spin_dof, const StartState& st
 }
 
 void MujocoPlant::Begin() {
+  const MujocoErrorScope errors;
   ground_.Place(*model_, *data_);
   MoveObstacles();
   mj_forward(model_.get(), data_.get());
 }
 
 void MujocoPlant::Step(const Command& command) {
+  const MujocoErrorScope errors;
   Act(command);
   ground_.Place(*model_, *data_);
   MoveObstacles();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src/sim/road_contact.h"
+#include "trackbed/sim/mujoco_handles.h"
 #include "trackbed/sim/plant.h"
 
 namespace trackbed {
@@ -64,13 +65,6 @@ class MujocoPlant : public Plant {
   [[nodiscard]] double Drag() const;
 
  private:
-  struct ModelDeleter {
-    void operator()(mjModel* model) const { mj_deleteModel(model); }
-  };
-  struct DataDeleter {
-    void operator()(mjData* data) const { mj_deleteData(data); }
-  };
-
   /// A joint along which an obstacle moves.
   struct Slider {
     int qpos = -1;
@@ -90,8 +84,8 @@ class MujocoPlant : public Plant {
 
   const CarModel& car_;
   const World& world_;
-  std::unique_ptr<mjModel, ModelDeleter> model_;  // own copy: brakes and road change it
-  std::unique_ptr<mjData, DataDeleter> data_;
+  MujocoModel model_;  // own copy: brakes and road change it
+  MujocoData data_;
   RoadContact ground_;
   std::vector<Slider> sliders_;
   std::vector<bool> is_obstacle_;          // geom by geom

@@ -14,8 +14,7 @@ double Square(double value) {
 }  // namespace
 
 PartsReader::PartsReader(const mjModel& model, const std::string& file)
-    : m_(model), file_(file), data_(mj_makeData(&model)) {
-  TRACKBED_CHECK(data_ != nullptr, "no memory for mjData");
+    : m_(model), file_(file), data_(MakeMujocoData(model)) {
   mj_kinematics(&m_, data_.get());
   mj_comPos(&m_, data_.get());
 }

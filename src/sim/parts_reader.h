@@ -2,13 +2,13 @@
 
 #include <mujoco/mujoco.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "src/sim/tyre_reader.h"
 #include "trackbed/core/error.h"
 #include "trackbed/sim/car_model.h"
+#include "trackbed/sim/mujoco_handles.h"
 
 namespace trackbed {
 
@@ -54,10 +54,7 @@ class PartsReader {
 
   const mjModel& m_;
   std::string file_;
-  struct DataDeleter {
-    void operator()(mjData* data) const { mj_deleteData(data); }
-  };
-  std::unique_ptr<mjData, DataDeleter> data_;  // positions at qpos0
+  MujocoData data_;  // positions at qpos0
   std::vector<Problem> problems_;
   Numerics numerics_{
       m_, [this](const std::string& name, const std::string& message) { Complain(name, message); }};

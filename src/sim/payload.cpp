@@ -12,6 +12,8 @@
 #include "src/sim/car_parts.h"
 #include "src/sim/scene_xml.h"
 #include "trackbed/core/error.h"
+#include "trackbed/sim/mujoco_error.h"
+#include "trackbed/sim/mujoco_handles.h"
 
 namespace trackbed {
 namespace {
@@ -19,19 +21,11 @@ namespace {
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
 
-struct ModelDeleter {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
-struct DataDeleter {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-
 /// Lets a car sink on its springs, held by its brakes, until it stands.
 class Settling {
  public:
   explicit Settling(const CarModel& car)
-      : car_(car), model_(mj_copyModel(nullptr, car.get())), data_(mj_makeData(model_.get())) {
-    TRACKBED_CHECK(model_ && data_, "no memory for the simulation");
+      : car_(car), model_(CopyMujocoModel(*car.get())), data_(MakeMujocoData(*model_)) {
     const auto start = car.FlatPosition({}, 0.0, {});
     std::copy(start.begin(), start.end(), data_->qpos);
     for (std::size_t w = 0; w < kWheels.size(); ++w) {
@@ -42,6 +36,7 @@ class Settling {
 
   /// False when that has not happened in 30 s.
   bool Run() {
+    const MujocoErrorScope errors;
     constexpr double kLongest = 30.0;  // [s]
     // With springs of 1 Hz and more, a car this slow is less than a micrometer from where it stays.
     constexpr double kStands = 1e-6;  // [m/s], [rad/s]
@@ -109,8 +104,8 @@ class Settling {
 
  private:
   const CarModel& car_;
-  std::unique_ptr<mjModel, ModelDeleter> model_;
-  std::unique_ptr<mjData, DataDeleter> data_;
+  MujocoModel model_;
+  MujocoData data_;
 };
 
 }  // namespace

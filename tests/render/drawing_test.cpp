@@ -10,6 +10,7 @@
 #include "tests/render/run_folder.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
+#include "trackbed/sim/mujoco_error.h"
 
 namespace trackbed::render {
 namespace {
@@ -156,7 +157,7 @@ TEST(Camera, ChaseLooksTheWayTheCarGoes) {
   WritePlant(folder.path(), "mujoco", 4.0, [](double time) {
     return CarPlace{10.0 * std::sin(0.3 * time), 10.0 - 10.0 * std::cos(0.3 * time), 0.3 * time};
   });
-  const MuJoCoErrorsAsExceptions guard;
+  const MujocoErrorScope errors;
   const Recording recording = ReadRecording(folder.path());
   const CameraSubject subject(recording);
   // The mean over a window that is symmetric in time of a heading linear in time is its middle.
@@ -179,7 +180,7 @@ TEST(Camera, SideGoesAlongWithoutAJerk) {
   WritePlant(folder.path(), "mujoco", 4.0, [](double time) {
     return CarPlace{3.0 * time, 0.0, 0.5 * std::max(time - 2.0, 0.0)};
   });
-  const MuJoCoErrorsAsExceptions guard;
+  const MujocoErrorScope errors;
   const Recording recording = ReadRecording(folder.path());
   const CameraSubject subject(recording);
   const Camera& side = FindCamera("side");
@@ -202,7 +203,7 @@ TEST(Camera, SideGoesAlongWithoutAJerk) {
 }
 
 TEST(Camera, TopShowsAllOfASmallRouteAndFollowsInALargeOne) {
-  const MuJoCoErrorsAsExceptions guard;
+  const MujocoErrorScope errors;
   const auto poses = [](double length) {
     const TempFolder folder;
     CopyPrius(folder.path());

@@ -209,11 +209,12 @@ TEST_F(GroundFilm, TheLegendNamesFrictionAndGusts) {
   wind: {gusts: [{y: 10, shape: step, area: {x: 10, y: 0, length: 8, width: 4}}]}
 )");
   std::vector<std::string> texts;
-  for (const LegendEntry& entry : LegendOf(ReadRecording(folder_.path()), overlays_)) {
+  const Recording recording = ReadRecording(folder_.path());
+  for (const LegendEntry& entry : LegendOf(recording, Overlays(recording))) {
     texts.push_back(entry.text);
   }
   EXPECT_EQ(texts,
-            (std::vector<std::string>{"mujoco", "friction x0.1", "friction x0.5", "wind", "gust"}));
+            (std::vector<std::string>{"mujoco", "wind", "gust", "friction x0.1", "friction x0.5"}));
 }
 
 TEST_F(GroundFilm, TheCaptionTellsTheWindAtTheCar) {

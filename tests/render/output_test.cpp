@@ -13,12 +13,16 @@
 #include "render/caption.h"
 #include "render/layout.h"
 #include "render/offscreen.h"
+#include "render/overlays.h"
+#include "render/plan_lines.h"
 #include "render/scene.h"
+#include "render/trail.h"
 #include "tests/render/decode_png.h"
 #include "tests/render/run_folder.h"
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/render/film.h"
+#include "trackbed/sim/mujoco_error.h"
 
 namespace trackbed::render {
 namespace {
@@ -211,7 +215,7 @@ TEST_F(Frames, AreThePicturesThatAVideoIsMadeOf) {
   options_.fps = 1.0;
   options_.overlays = {"plan", "trail", "caption"};
   RenderFilm(run_, output_, options_);
-  const MuJoCoErrorsAsExceptions guard;
+  const MujocoErrorScope errors;
   Recording recording = ReadRecording(run_);
   Offscreen offscreen(*recording.model, 160, 90, 1);
   std::vector<Image> glyphs;
@@ -219,12 +223,19 @@ TEST_F(Frames, AreThePicturesThatAVideoIsMadeOf) {
     glyphs.push_back(offscreen.Glyph(character));
   }
   Font font(std::move(glyphs));
-  FilmScene scene(recording, OverlaysOf({"plan", "trail"}), false);
+  const std::vector<std::string> shown{"plan", "trail"};
+  const OverlayList overlays = MakeOverlays({.recording = recording,
+                                             .shown = shown,
+                                             .title = "run",
+                                             .width = 160,
+                                             .height = 90,
+                                             .font = font});
+  FilmScene scene(recording, overlays, false);
   const CameraSubject subject(recording);
   Image image;
   offscreen.Render(scene.At(1.0, FindCamera("chase").pose(subject, 1.0, 160.0 / 90.0)), image);
   DrawCaption(image, font,
-              {.title = "run", .legend = {{kPlanColor, "planned path"}, {CarColor(0), "mujoco"}}},
+              {.title = "run", .legend = {{CarColor(0), "mujoco"}, {kPlanColor, "planned path"}}},
               recording.ReadingsAt(1.0), 0.0, 90.0 - Layout(160, 90).margin);
   EXPECT_TRUE(DecodePng(ReadFile(FrameName(output_, 1))).rgb == image.rgb);
 }

@@ -8,6 +8,7 @@
 
 #include "render/error_ribbon.h"
 #include "render/overlays.h"
+#include "render/painter.h"
 #include "render/projection.h"
 #include "render/round_up.h"
 #include "render/strip.h"
@@ -16,19 +17,99 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/render/film.h"
 
 namespace trackbed::render {
 namespace {
 
-TEST(OverlaysOf, ShowsWhatIsNamedAndNothingElse) {
-  for (const Overlay& one : OverlayTable()) {
-    const Overlays overlays = OverlaysOf({std::string(one.name)});
-    for (const Overlay& other : OverlayTable()) {
-      EXPECT_EQ(overlays.*other.shown, one.name == other.name) << one.name << ", " << other.name;
+/// A run that has something to show for every overlay.
+class EveryOverlay : public FilmSceneTest, public testing::WithParamInterface<std::string> {
+ protected:
+  EveryOverlay() {
+    WritePlant(folder_.path(), "kinematic", 2.0, [](double time) {
+      return CarPlace{3.0 * time, 1.5 * time, 0.3};
+    });
+    WriteStraightPlan(folder_.path(), 16.0);
+    WriteNewPlans(folder_.path(), "mujoco", {{0.5, 2.0, 16.0}});
+    for (const char* wheel : {"fl", "fr", "rl", "rr"}) {
+      for (const char* force : {"normal", "longitudinal", "lateral"}) {
+        SetLogColumn(folder_.path(), "mujoco", fmt::format("{}_force_{}_N", force, wheel),
+                     [](double) { return 2000.0; });
+      }
+    }
+    WriteFileAtomically(folder_.path() / "scenario.resolved.yaml", R"(schema: 1
+name: run
+mission: {speed: 3, waypoints: [[0, 0], [20, 0]]}
+world:
+  ground: {grade: {x: 0.05}}
+  wind: {y: 9, gusts: [{y: 3, shape: step, area: {x: 6, y: 0, length: 8, width: 4}}]}
+)");
+  }
+
+  /// The picture of the run at 1 s with these overlays.
+  Image Painted(const std::vector<std::string>& overlays) const {
+    std::vector<Recording> recordings;
+    recordings.push_back(ReadRecording(folder_.path()));
+    FilmOptions options;
+    options.width = kWidth;
+    options.height = kHeight;
+    options.overlays = overlays;
+    Image image;
+    Painter(recordings, options).Paint(1.0, image);
+    return image;
+  }
+};
+
+TEST_P(EveryOverlay, ShowsSomethingOfARunThatHasItAndIsExplained) {
+  EXPECT_FALSE(Painted({GetParam()}).rgb == Painted({}).rgb);
+  const std::filesystem::path page =
+      std::filesystem::path(TRACKBED_SOURCE_DIR) / "docs" / "how-to" / "film.md";
+  EXPECT_THAT(ReadFile(page), testing::HasSubstr("\n| `" + GetParam() + "` | "));
+  const std::vector<FilmChoice> all = trackbed::Overlays();
+  EXPECT_EQ(std::count_if(all.begin(), all.end(),
+                          [](const FilmChoice& overlay) {
+                            return overlay.name == GetParam() && !overlay.summary.empty();
+                          }),
+            1);
+}
+
+TEST_P(EveryOverlay, AddsNoMoreShapesThanItSays) {
+  Recording recording = ReadRecording(folder_.path());
+  const CameraSubject subject(recording);
+  overlays_ = {GetParam()};
+  const OverlayList overlays = Overlays(recording);
+  const OverlayList none;
+  FilmScene with(recording, overlays, false);
+  FilmScene without(recording, none, false);
+  for (const char* camera : {"chase", "side", "top"}) {
+    for (const double time : {0.0, 1.0, 2.0}) {
+      const CameraPose pose = FindCamera(camera).pose(subject, time, 16.0 / 9.0);
+      const int added = with.At(time, pose).ngeom - without.At(time, pose).ngeom;
+      EXPECT_LE(added, static_cast<int>(overlays.front()->max_shapes())) << camera << " " << time;
     }
   }
+}
+
+TEST_P(EveryOverlay, DoesWithoutWhatARunMayLack) {
+  for (const char* file : {"plan.csv", "mujoco.plan.csv", "kinematic.csv", "kinematic.state.csv",
+                           "scenario.resolved.yaml"}) {
+    std::filesystem::remove(folder_.path() / file);
+  }
+  WriteFileAtomically(folder_.path() / "mujoco.csv",
+                      "t_s,speed_mps,steering_command_rad,steering_rad\n0,3,0,0\n");
+  EXPECT_EQ(Painted({GetParam()}).width, kWidth);
+}
+
+INSTANTIATE_TEST_SUITE_P(Overlays, EveryOverlay, testing::ValuesIn(AllOverlays()),
+                         [](const auto& each) { return each.param; });
+
+TEST_F(FilmSceneTest, OnlyTheNamedOverlaysAreMade) {
+  const Recording recording = ReadRecording(folder_.path());
+  overlays_ = {"strip", "plan", "strip"};
+  EXPECT_EQ(Overlays(recording).size(), 2U);
+  overlays_ = {"plan", "gosts"};
   try {
-    OverlaysOf({"plan", "gosts"});
+    Overlays(recording);
     ADD_FAILURE() << "no InputError";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "overlays: unknown overlay 'gosts'; did you mean 'ghosts'?");
@@ -81,7 +162,7 @@ class TyreForcesTest : public FilmSceneTest {
   }
   std::vector<WheelForce> ForcesAt(double time) {
     Recording recording = ReadRecording(folder_.path());
-    const DataHandle data(mj_makeData(recording.model.get()));
+    const MujocoData data = MakeMujocoData(*recording.model);
     recording.plants.front().Pose(time, *recording.model, *data);
     return TyreForces(recording).At(time, *data);
   }
@@ -139,9 +220,6 @@ world: {friction_patches: [{x: 3, y: 1, length: 20, width: 2, friction: 0.5}]}
 }
 
 TEST_F(TyreForcesTest, AreDrawnAlongTheirDirectionInTheColorOfTheirUse) {
-  Image glyph;
-  glyph.Resize(4, 8);
-  Font font(std::vector<Image>(Font::kLast - Font::kFirst + 1, glyph));
   // A wheel at the origin, seen from straight above, 1 m being 20 px, x up.
   CameraPose above;
   above.azimuth = 0.0;
@@ -152,7 +230,7 @@ TEST_F(TyreForcesTest, AreDrawnAlongTheirDirectionInTheColorOfTheirUse) {
     Image image;
     image.Resize(120, 120);
     std::fill(image.rgb.begin(), image.rgb.end(), std::uint8_t{120});
-    Canvas canvas(image, font);
+    Canvas canvas(image, font_);
     const WheelForce wheel{Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(),
                            Eigen::Vector3d::UnitY(), force, Vec2(1000.0, 2000.0)};
     DrawTyreForces(canvas, Projection(above, 120, 120), {wheel}, 0.001, 2.0);
@@ -179,7 +257,7 @@ TEST_F(FilmSceneTest, TheErrorRibbonHasTheColorOfTheDistanceFromThePath) {
   // Off by 0.18 m from x = 3 on.
   SetLogColumn(folder_.path(), "mujoco", "cross_track_m",
                [](double time) { return time < 1.0 ? 0.0 : -0.18; });
-  overlays_.error = true;
+  overlays_.emplace_back("error");
   const Recording recording = ReadRecording(folder_.path());
   EXPECT_DOUBLE_EQ(recording.scales.error, 0.2);
   const Image image = Picture("top", 2.0);
@@ -187,7 +265,7 @@ TEST_F(FilmSceneTest, TheErrorRibbonHasTheColorOfTheDistanceFromThePath) {
   const std::array<int, 3> off = At(image, 4.2, 0.0);
   EXPECT_GT(on[1], on[0] + 60);     // green: (0.10, 0.62, 0.36)
   EXPECT_GT(off[0], off[1] + 100);  // red: half way from (0.96, 0.46, 0.12) to (0.80, 0.08, 0.16)
-  overlays_.error = false;
+  overlays_.pop_back();
   EXPECT_GT(At(Picture("top", 2.0), 1.5, 0.0)[0], 200);  // the car's orange
 }
 
@@ -200,11 +278,11 @@ TEST_F(FilmSceneTest, ErrorsThatSwayByLittleKeepOneColor) {
   // A step of the scale is 0.05 / 16 m: half a step and a tenth of one to each side.
   SetLogColumn(folder_.path(), "mujoco", "cross_track_m",
                [](double time) { return 0.05 / 16.0 * (3.5 + 0.1 * std::sin(40.0 * time)); });
-  const std::vector<double> shares = ErrorShares(ReadRecording(folder_.path()));
-  EXPECT_LE(std::set<double>(shares.begin(), shares.end()).size(), 2U);
+  const std::vector<double> fractions = ErrorFractions(ReadRecording(folder_.path()));
+  EXPECT_LE(std::set<double>(fractions.begin(), fractions.end()).size(), 2U);
   int changes = 0;
-  for (std::size_t i = 1; i < shares.size(); ++i) {
-    changes += shares[i] != shares[i - 1] ? 1 : 0;
+  for (std::size_t i = 1; i < fractions.size(); ++i) {
+    changes += fractions[i] != fractions[i - 1] ? 1 : 0;
   }
   EXPECT_LE(changes, 1);
 }
@@ -215,7 +293,7 @@ TEST_F(FilmSceneTest, TheWindIsDrawnOnTheGroundWhereItBlowsTo) {
                       "schema: 1\nname: run\nmission: {speed: 3, waypoints: [[0, 0], [20, 0]]}\n"
                       "world: {wind: {y: 9}}\n");
   const Image windy = Picture("top", 0.0);
-  overlays_.wind = false;
+  overlays_.pop_back();
   EXPECT_TRUE(Picture("top", 0.0).rgb == calm.rgb);
   // Arrows of 3 m stand around places 5 m apart, times the scale of paint; all along y.
   const double spacing = 5.0 * pose_->paint_scale;
@@ -237,7 +315,7 @@ TEST_F(FilmSceneTest, TheWindIsDrawnOnTheGroundWhereItBlowsTo) {
 
 class StripTest : public FilmSceneTest {
  protected:
-  StripTest() : font_(BlankGlyphs()) {
+  StripTest() {
     // Of 2 s at 3 m/s: curved to the left from x = 3 on.
     Table plan({"s_m", "x_m", "y_m", "curvature_radpm"});
     for (int i = 0; i <= 60; ++i) {
@@ -246,11 +324,6 @@ class StripTest : public FilmSceneTest {
     WriteFileAtomically(folder_.path() / "plan.csv", plan.ToCsv());
     SetLogColumn(folder_.path(), "mujoco", "steering_command_rad", [](double) { return 0.1; });
     SetLogColumn(folder_.path(), "mujoco", "steering_rad", [](double) { return -0.1; });
-  }
-  static std::vector<Image> BlankGlyphs() {
-    Image glyph;
-    glyph.Resize(4, 8);
-    return std::vector<Image>(Font::kLast - Font::kFirst + 1, glyph);
   }
   Image DrawAt(double time) {
     const Strip strip(ReadRecording(folder_.path()), 640, 360, font_);
@@ -271,7 +344,6 @@ class StripTest : public FilmSceneTest {
     return most;
   }
 
-  Font font_;
   double top_ = 0.0;
 };
 
@@ -344,10 +416,11 @@ TEST_F(FilmSceneTest, GhostAndCarAreApartInThePictureAsInTheLogs) {
   WritePlant(folder_.path(), "kinematic", 2.0, [](double time) {
     return CarPlace{3.0 * time, std::max(0.0, time - 1.0), 0.0};
   });
-  overlays_ = OverlaysOf({"ghosts"});
+  overlays_ = {"ghosts"};
   Recording recording = ReadRecording(folder_.path());
   const CameraSubject subject(recording);
-  FilmScene scene(recording, overlays_, false);
+  const OverlayList overlays = Overlays(recording);
+  FilmScene scene(recording, overlays, false);
   for (const double time : {0.0, 0.5, 1.0, 1.5, 2.0}) {
     const CameraPose pose = FindCamera("chase").pose(subject, time, 16.0 / 9.0);
     const mjvScene& posed = scene.At(time, pose);

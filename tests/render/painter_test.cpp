@@ -66,12 +66,8 @@ int Different(const Image& a, const Image& b, int left, int right, int top, int 
 TEST_F(PainterTest, WithoutOverlaysThereIsTheWorldAlone) {
   options_.overlays.clear();
   const Image bare = Painted(options_);
-  overlays_ = {};
+  overlays_.clear();
   EXPECT_TRUE(bare.rgb == Picture("chase", 1.0).rgb);
-  for (const char* name : {"plan", "trail", "error", "ghosts", "strip", "caption"}) {
-    options_.overlays = {name};
-    EXPECT_FALSE(Painted(options_).rgb == bare.rgb) << name;
-  }
 }
 
 TEST_F(PainterTest, PlantsSideBySideAreEachAsAlone) {
@@ -126,6 +122,32 @@ TEST_F(PainterTest, TheInsetIsTheOtherCamerasPicture) {
     }
   }
   EXPECT_EQ(different, 0);
+}
+
+TEST_F(PainterTest, TheInsetLeavesTheCaptionFree) {
+  WriteFileAtomically(folder_.path() / "scenario.resolved.yaml", R"(schema: 1
+name: run
+mission: {speed: 3, waypoints: [[0, 0], [20, 0]]}
+world:
+  friction_patches:
+    - {x: 50, y: 50, length: 6, width: 2, friction: 0.5}
+    - {x: 50, y: 60, length: 6, width: 2, friction: 0.3}
+    - {x: 50, y: 70, length: 6, width: 2, friction: 0.1}
+  wind: {y: 9, gusts: [{y: 3, shape: step, area: {x: 50, y: 50, length: 8, width: 4}}]}
+)");
+  options_.width = 640;
+  options_.height = 360;
+  const Image without = Painted(options_);
+  options_.inset = "top";
+  const Image with = Painted(options_);
+  // Nine lines of 16 px and 9.6 px around them make the legend, from 10 px: the car and its scale,
+  // the path, the ghost, wind, gust and three factors. The strip takes 65.6 px of 350 and 4 px
+  // above it, and the readings 47.6 px above that.
+  const int legend_end = 10 + 9 * 16 + 9;
+  const int readings_begin = 350 - 66 - 4 - 48;
+  EXPECT_EQ(Different(with, without, 0, 640, 0, legend_end), 0);
+  EXPECT_EQ(Different(with, without, 0, 640, readings_begin, 360), 0);
+  EXPECT_GT(Different(with, without, 0, 640, legend_end, readings_begin), 54 * 96 / 2);
 }
 
 TEST_F(PainterTest, NamesWhatThereIsNot) {

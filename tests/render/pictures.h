@@ -6,12 +6,15 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "render/offscreen.h"
+#include "render/overlays.h"
 #include "render/scene.h"
 #include "render/shadow.h"
 #include "tests/render/run_folder.h"
 #include "tests/support/temp_folder.h"
+#include "trackbed/sim/mujoco_error.h"
 
 /// Pictures of made-up runs, and where things are in them.
 namespace trackbed::render {
@@ -44,6 +47,13 @@ inline Pixel Project(const CameraPose& pose, double x, double y, double z) {
           static_cast<int>(0.5 * kHeight - pixels * dot(up))};
 }
 
+/// Of half as wide letters as they are high, all blank.
+inline Font BlankFont() {
+  Image glyph;
+  glyph.Resize(4, 8);
+  return Font(std::vector<Image>(Font::kLast - Font::kFirst + 1, glyph));
+}
+
 class FilmSceneTest : public testing::Test {
  protected:
   FilmSceneTest() {
@@ -62,7 +72,8 @@ class FilmSceneTest : public testing::Test {
       FitShadowMap(*recording.model, *pose_);
     }
     Offscreen offscreen(*recording.model, kWidth, kHeight, supersampling);
-    FilmScene scene(recording, overlays_, shadows);
+    const OverlayList overlays = Overlays(recording);
+    FilmScene scene(recording, overlays, shadows);
     Image image;
     offscreen.Render(scene.At(time, *pose_), image);
     return image;
@@ -77,8 +88,19 @@ class FilmSceneTest : public testing::Test {
     return {rgb[0], rgb[1], rgb[2]};
   }
 
-  const MuJoCoErrorsAsExceptions guard_;
-  Overlays overlays_ = OverlaysOf({"plan", "trail", "ghosts", "wind"});
+  /// Those named by `overlays_`.
+  OverlayList Overlays(const Recording& recording) {
+    return MakeOverlays({.recording = recording,
+                         .shown = overlays_,
+                         .title = "run",
+                         .width = kWidth,
+                         .height = kHeight,
+                         .font = font_});
+  }
+
+  const MujocoErrorScope errors_;
+  std::vector<std::string> overlays_{"plan", "trail", "ghosts", "wind"};
+  Font font_ = BlankFont();
   TempFolder folder_;
   std::optional<CameraPose> pose_;
 };

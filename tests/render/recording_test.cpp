@@ -8,6 +8,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/sim/mujoco_error.h"
 
 namespace trackbed::render {
 namespace {
@@ -16,7 +17,7 @@ class RecordingTest : public testing::Test {
  protected:
   RecordingTest() { CopyPrius(folder_.path()); }
 
-  const MuJoCoErrorsAsExceptions guard_;
+  const MujocoErrorScope errors_;
   TempFolder folder_;
 };
 
@@ -25,7 +26,7 @@ TEST_F(RecordingTest, PosesTheCarBetweenRows) {
     return CarPlace{3.0 * time, -2.0 * time, 0.6 * time};
   });
   const Recording recording = ReadRecording(folder_.path());
-  const DataHandle data(mj_makeData(recording.model.get()));
+  const MujocoData data = MakeMujocoData(*recording.model);
   const double time = 0.5 + 1.0 / 120.0;  // half way between two rows
   recording.plants[0].Pose(time, *recording.model, *data);
   const int chassis = mj_name2id(recording.model.get(), mjOBJ_BODY, "chassis");
@@ -53,7 +54,7 @@ TEST_F(RecordingTest, TurnsTheShortWayWhenTheQuaternionChangesSign) {
       folder_.path() / "mujoco.state.csv",
       header + "\n0,0,0,0,0.8,0,0,0.6" + zeros + "\n1,0,0,0,-0.6,0,0,-0.8" + zeros + "\n");
   const Recording recording = ReadRecording(folder_.path());
-  const DataHandle data(mj_makeData(recording.model.get()));
+  const MujocoData data = MakeMujocoData(*recording.model);
   recording.plants[0].Pose(0.5, *recording.model, *data);
   // Half angles atan2(0.6, 0.8) and atan2(0.8, 0.6) average to pi / 4: the car faces north.
   const int chassis = mj_name2id(recording.model.get(), mjOBJ_BODY, "chassis");
@@ -167,7 +168,7 @@ TEST_F(RecordingTest, ReadsTheLogBetweenRows) {
   const Recording recording = ReadRecording(folder_.path());
   const Readings readings = recording.plants[0].ReadingsAt(0.25);
   EXPECT_DOUBLE_EQ(readings.speed, 1.5);
-  EXPECT_DOUBLE_EQ(readings.steering_asked, 0.375);
+  EXPECT_DOUBLE_EQ(readings.steering_command, 0.375);
   EXPECT_DOUBLE_EQ(readings.steering, 0.3 - 0.25 * 0.3);
   ASSERT_TRUE(readings.cross_track.has_value());
   EXPECT_DOUBLE_EQ(*readings.cross_track, -0.5);

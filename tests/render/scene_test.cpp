@@ -39,7 +39,8 @@ TEST_F(FilmSceneTest, PaintCastsNoShadowOnItself) {
   recording.model->vis.map.shadowclip = static_cast<float>(200.0 / recording.model->stat.extent);
   recording.model->vis.quality.shadowsize = 512;
   Offscreen offscreen(*recording.model, kWidth, kHeight, 1);
-  FilmScene scene(recording, overlays_, true);
+  const OverlayList overlays = Overlays(recording);
+  FilmScene scene(recording, overlays, true);
   pose_ =
       FindCamera("top").pose(CameraSubject(recording), 0.0, static_cast<double>(kWidth) / kHeight);
   Image image;
@@ -213,7 +214,8 @@ TEST_F(FilmSceneTest, NewPlansAreWithinTheSceneHoweverMany) {
   }
   WriteFileAtomically(folder_.path() / "mujoco.plan.csv", rows);
   Recording recording = ReadRecording(folder_.path());
-  FilmScene scene(recording, overlays_, false);
+  const OverlayList overlays = Overlays(recording);
+  FilmScene scene(recording, overlays, false);
   const CameraPose pose = FindCamera("top").pose(CameraSubject(recording), 400.0, 16.0 / 9.0);
   const mjvScene& posed = scene.At(400.0, pose);
   EXPECT_LT(posed.ngeom, posed.maxgeom);
@@ -223,7 +225,8 @@ TEST_F(FilmSceneTest, NewPlansAreWithinTheSceneHoweverMany) {
 TEST_F(FilmSceneTest, TheLegendNamesWhatThereIs) {
   const auto legend = [this] {
     std::vector<std::string> texts;
-    for (const LegendEntry& entry : LegendOf(ReadRecording(folder_.path()), overlays_)) {
+    const Recording recording = ReadRecording(folder_.path());
+    for (const LegendEntry& entry : LegendOf(recording, Overlays(recording))) {
       texts.push_back(entry.text);
     }
     return texts;
@@ -231,14 +234,14 @@ TEST_F(FilmSceneTest, TheLegendNamesWhatThereIs) {
   using Texts = std::vector<std::string>;
   EXPECT_EQ(legend(), (Texts{"mujoco"}));
   WriteStraightPlan(folder_.path(), 16.0);
-  EXPECT_EQ(legend(), (Texts{"planned path", "mujoco"}));
+  EXPECT_EQ(legend(), (Texts{"mujoco", "planned path"}));
   WriteNewPlans(folder_.path(), "mujoco", {{0.5, 2.0, 16.0}, {1.0, -2.0, 16.0}});
-  EXPECT_EQ(legend(), (Texts{"planned path", "new plan", "mujoco"}));
+  EXPECT_EQ(legend(), (Texts{"mujoco", "planned path", "replanned path"}));
   // A ghost's own plans are not shown, so they are not named.
   WritePlant(folder_.path(), "kinematic", 2.0, [](double) { return CarPlace{}; });
   WriteNewPlans(folder_.path(), "kinematic", {{0.5, 2.0, 16.0}});
   std::filesystem::remove(folder_.path() / "mujoco.plan.csv");
-  EXPECT_EQ(legend(), (Texts{"planned path", "mujoco", "kinematic (ghost)"}));
+  EXPECT_EQ(legend(), (Texts{"mujoco", "planned path", "kinematic (ghost)"}));
 }
 
 TEST_F(FilmSceneTest, WithoutAPlanTheGroundIsBare) {
@@ -307,7 +310,8 @@ TEST_F(FilmSceneTest, ALongRouteStaysWithinTheScene) {
   WritePlant(folder_.path(), "mujoco", 600.0, slalom);
   WritePlant(folder_.path(), "kinematic", 600.0, slalom);
   Recording recording = ReadRecording(folder_.path());
-  FilmScene scene(recording, overlays_, false);
+  const OverlayList overlays = Overlays(recording);
+  FilmScene scene(recording, overlays, false);
   const CameraSubject subject(recording);
   const double end = recording.end();
   mjvScene& posed = scene.At(end, FindCamera("top").pose(subject, end, 16.0 / 9.0));

@@ -18,13 +18,14 @@ TEST(WheelPair, IsSeenWhereItWasDriven) {
   const RunResult run = RunMission(scenario);
   const TempFolder folder;
   WriteRunFolder(run, folder.path());
-  const MuJoCoErrorsAsExceptions guard;
+  const MujocoErrorScope errors;
   Recording recording = ReadRecording(folder.path());
   const double time = 0.5;
   const CameraPose pose = FindCamera("side").pose(CameraSubject(recording), time,
                                                   static_cast<double>(kWidth) / kHeight);
   Offscreen offscreen(*recording.model, kWidth, kHeight, 1);
-  FilmScene scene(recording, {}, false);
+  const OverlayList none;
+  FilmScene scene(recording, none, false);
   Image image;
   offscreen.Render(scene.At(time, pose), image);
   // The green hood, in the middle of its right flank, 0.21 m out and 0.27 m high.

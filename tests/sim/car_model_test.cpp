@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <memory>
 
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
@@ -75,11 +74,10 @@ TEST(Prius, AckermannCouplingFollowsTheClosedForm) {
 TEST(Prius, OpensAndSteersInMujocoAlone) {
   // What MuJoCo's viewer does: load the file, and move the actuators' sliders.
   std::array<char, 500> message{};
-  const std::unique_ptr<mjModel, void (*)(mjModel*)> m(
-      mj_loadXML(FindModel("prius", "").c_str(), nullptr, message.data(), message.size()),
-      mj_deleteModel);
+  const MujocoModel m(
+      mj_loadXML(FindModel("prius", "").c_str(), nullptr, message.data(), message.size()));
   ASSERT_NE(m, nullptr) << message.data();
-  const std::unique_ptr<mjData, void (*)(mjData*)> d(mj_makeData(m.get()), mj_deleteData);
+  const MujocoData d = MakeMujocoData(*m);
   d->ctrl[mj_name2id(m.get(), mjOBJ_ACTUATOR, "steer")] = 10.0;  // the model cuts it to its rate
   d->ctrl[mj_name2id(m.get(), mjOBJ_ACTUATOR, "drive")] = 400.0;
   while (d->time < 2.0) {

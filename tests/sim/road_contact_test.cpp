@@ -3,16 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <vector>
 
 #include "tests/tolerance.h"
 
 namespace trackbed {
 namespace {
-
-using Data = std::unique_ptr<mjData, void (*)(mjData*)>;
-using Model = std::unique_ptr<mjModel, void (*)(mjModel*)>;
 
 CarModel PriusOn(const World& world) {
   const Scene scene = ComposeScene(FindModel("prius", ""), {});
@@ -23,10 +19,7 @@ CarModel PriusOn(const World& world) {
 class Rolling {
  public:
   Rolling(const CarModel& car, double speed)
-      : car_(car),
-        m(mj_copyModel(nullptr, car.get()), mj_deleteModel),
-        d(mj_makeData(m.get()), mj_deleteData),
-        contact_(car, *m) {
+      : car_(car), m(CopyMujocoModel(*car.get())), d(MakeMujocoData(*m)), contact_(car, *m) {
     const auto qpos = car.StandingPosition({}, 0.0, {}, car.scene().ground);
     std::copy(qpos.begin(), qpos.end(), d->qpos);
     d->qvel[car.parts().chassis_dof] = speed;
@@ -66,8 +59,8 @@ class Rolling {
   const CarModel& car_;
 
  public:
-  Model m;
-  Data d;
+  MujocoModel m;
+  MujocoData d;
 
  private:
   RoadContact contact_;

@@ -68,11 +68,10 @@ TEST(Skid, TakesTheRunsSteeringRate) {
 
 TEST(Skid, OpensAndDrivesInMujocoAlone) {
   std::array<char, 500> message{};
-  const std::unique_ptr<mjModel, void (*)(mjModel*)> m(
-      mj_loadXML(FindModel("skid", "").c_str(), nullptr, message.data(), message.size()),
-      mj_deleteModel);
+  const MujocoModel m(
+      mj_loadXML(FindModel("skid", "").c_str(), nullptr, message.data(), message.size()));
   ASSERT_NE(m, nullptr) << message.data();
-  const std::unique_ptr<mjData, void (*)(mjData*)> d(mj_makeData(m.get()), mj_deleteData);
+  const MujocoData d = MakeMujocoData(*m);
   d->ctrl[mj_name2id(m.get(), mjOBJ_ACTUATOR, "drive_left")] = 4.0;
   d->ctrl[mj_name2id(m.get(), mjOBJ_ACTUATOR, "drive_right")] = 6.0;
   while (d->time < 2.0) {

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <memory>
 
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
@@ -14,10 +13,8 @@
 namespace trackbed {
 namespace {
 
-using Data = std::unique_ptr<mjData, void (*)(mjData*)>;
-
-Data MakeData(const CarModel& car) {
-  return {mj_makeData(car.get()), mj_deleteData};
+MujocoData MakeData(const CarModel& car) {
+  return MakeMujocoData(*car.get());
 }
 
 const Scene& Prius() {
@@ -45,7 +42,7 @@ TEST(WithGround, AGradeIsThePlaneItself) {
   EXPECT_EQ(mj_name2id(&m, mjOBJ_GEOM, "ground_fl"), -1);
   const int plane = Geom(car, "ground");
   EXPECT_EQ(m.geom_type[plane], mjGEOM_PLANE);
-  const Data d = MakeData(car);
+  const MujocoData d = MakeData(car);
   mj_kinematics(&m, d.get());
   const mjtNum* R = d->geom_xmat + 9 * plane;
   const Eigen::Vector3d normal = GroundNormal(ground, {});
@@ -59,7 +56,7 @@ TEST(WithGround, AHeightFieldIsTheClosedFormAtItsSamples) {
   ground.side_slopes = {{.area = {{-30.0, 0.0, 2.0}, 20.0, 8.0}, .slope = -0.06, .run_in = 5.0}};
   const CarModel car(WithGround(Prius(), ground), "prius");
   const mjModel& m = *car.get();
-  const Data d = MakeData(car);
+  const MujocoData d = MakeData(car);
   mj_kinematics(&m, d.get());
   ASSERT_EQ(m.nhfield, 2);
   for (const char* name : {"ground_0", "ground_1"}) {
@@ -118,7 +115,7 @@ TEST(WithGround, ABallComesToRestOnTheClosedForm) {
         p.x(), p.y(), GroundHeight(ground, p) + r + 0.05, r);
     scene.xml.insert(scene.xml.rfind("</worldbody>"), ball);
     const CarModel car(scene, "prius");
-    const Data d = MakeData(car);
+    const MujocoData d = MakeData(car);
     for (int i = 0; i < 500; ++i) {
       mj_step(car.get(), d.get());
     }
@@ -144,7 +141,7 @@ TEST(WithWorld, ObstaclesStandOnTheGround) {
   world.obstacles = {{{{20.0, 3.0, kPi / 2.0}, 2.0, 1.0}, 1.5}};
   const CarModel flat(Prius(), "prius");
   const CarModel car(WithWorld(Prius(), flat.params(), world), "prius");
-  const Data d = MakeData(car);
+  const MujocoData d = MakeData(car);
   mj_kinematics(car.get(), d.get());
   const int box = Geom(car, "obstacle_0");
   const Eigen::Vector3d middle(d->geom_xpos + 3 * box);
@@ -171,7 +168,7 @@ TEST(StandingPosition, OnAGradeIsTheFlatOneTilted) {
   const Ground ground{.grade = {0.1, -0.07}};
   const CarModel car(WithGround(Prius(), ground), "prius");
   const mjModel& m = *car.get();
-  const Data d = MakeData(car);
+  const MujocoData d = MakeData(car);
   for (const double yaw : {0.0, 0.8, 2.5, -1.9}) {
     const Pose2 pose{5.0, -3.0, yaw};
     const auto qpos = car.StandingPosition(pose, 0.1, {}, ground);
@@ -202,7 +199,7 @@ TEST(StandingPosition, OnFlatGroundIsTheFlatOne) {
 TEST(StandingPosition, AcrossABumpNoWheelIsInTheGround) {
   const Ground ground{.bumps = {kBump}};
   const CarModel car(WithGround(Prius(), ground), "prius");
-  const Data d = MakeData(car);
+  const MujocoData d = MakeData(car);
   for (double x = 4.0; x < 14.0; x += 0.37) {
     const auto qpos = car.StandingPosition({x, 0.0, 0.2}, 0.0, {}, ground);
     std::copy(qpos.begin(), qpos.end(), d->qpos);

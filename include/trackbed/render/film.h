@@ -83,8 +83,8 @@ void CheckFilmName(const std::filesystem::path& output);
 ///
 /// Guarantees: the same folder and options give the same bytes. Pictures are encoded and written in
 /// a thread of their own, up to three behind the drawing; it has ended when this returns or throws.
-/// Does not: run on two threads at a time (MuJoCo's error handlers, which are set while it runs and
-/// restored after, are global). Silences libav's log for good.
+/// Does not: run on two threads at a time (the table of OpenGL's functions that MuJoCo loads is
+/// global). Silences libav's log for good.
 /// Errors: InputError for a folder that is missing, incomplete or inconsistent, for an unknown
 /// extension and for options out of range; RunError when the film cannot be encoded or written.
 /// Cost: per frame of 1280x720, on two cores that others use too, draft 0.1 to 0.15 s and film 0.3

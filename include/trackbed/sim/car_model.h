@@ -2,19 +2,17 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "trackbed/sim/mujoco_handles.h"
 #include "trackbed/sim/scene.h"
 #include "trackbed/vehicle/magic_formula.h"
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/state.h"
-
-struct mjModel_;
 
 namespace trackbed {
 
@@ -146,13 +144,9 @@ class CarModel {
                                                  const std::vector<double>& spin) const;
 
  private:
-  struct Deleter {
-    void operator()(mjModel_* model) const;
-  };
-
   Scene scene_;
   std::string file_;
-  std::unique_ptr<mjModel_, Deleter> model_;
+  MujocoModel model_;
   VehicleParams params_;
   VehicleParams unladen_;
   std::variant<CarParts, WheelPairParts> parts_;

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+namespace trackbed::render {
+
+/// mjvScene that frees itself.
+class SceneHandle {
+ public:
+  SceneHandle(const mjModel& model, int max_geoms) {
+    mjv_defaultScene(&scene_);
+    mjv_makeScene(&model, &scene_, max_geoms);
+  }
+  ~SceneHandle() { mjv_freeScene(&scene_); }
+  SceneHandle(const SceneHandle&) = delete;
+  SceneHandle& operator=(const SceneHandle&) = delete;
+
+  [[nodiscard]] mjvScene& get() { return scene_; }
+
+ private:
+  mjvScene scene_;
+};
+
+}  // namespace trackbed::render

@@ -1,0 +1,36 @@
+#include "trackbed/sim/mujoco_handles.h"
+
+#include <mujoco/mujoco.h>
+
+#include "trackbed/core/error.h"
+#include "trackbed/sim/mujoco_error.h"
+
+namespace trackbed {
+
+void MujocoDeleter::operator()(mjModel_* model) const {
+  mj_deleteModel(model);
+}
+
+void MujocoDeleter::operator()(mjData_* data) const {
+  mj_deleteData(data);
+}
+
+MujocoModel CopyMujocoModel(const mjModel_& model) {
+  const MujocoErrorScope errors;
+  MujocoModel copy(mj_copyModel(nullptr, &model));
+  if (!copy) {
+    throw RunError("no memory for a copy of the MuJoCo model");
+  }
+  return copy;
+}
+
+MujocoData MakeMujocoData(const mjModel_& model) {
+  const MujocoErrorScope errors;
+  MujocoData data(mj_makeData(&model));
+  if (!data) {
+    throw RunError("no memory for the MuJoCo simulation");
+  }
+  return data;
+}
+
+}  // namespace trackbed

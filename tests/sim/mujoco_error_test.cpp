@@ -1,0 +1,107 @@
+#include "trackbed/sim/mujoco_error.h"
+
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "trackbed/core/error.h"
+#include "trackbed/sim/car_model.h"
+#include "trackbed/sim/plant.h"
+#include "trackbed/sim/scene.h"
+
+namespace trackbed {
+namespace {
+
+struct OtherHandler {};
+
+/// What a program that uses MuJoCo beside Trackbed may have installed.
+void ThrowOther(const char* /*message*/) {
+  throw OtherHandler();
+}
+
+/// Puts MuJoCo's global handlers back as they were.
+class GlobalHandlers {
+ public:
+  GlobalHandlers() : error_(mju_user_error), warning_(mju_user_warning) {
+    mju_user_error = ThrowOther;
+    mju_user_warning = ThrowOther;
+  }
+  ~GlobalHandlers() {
+    mju_user_error = error_;
+    mju_user_warning = warning_;
+  }
+  GlobalHandlers(const GlobalHandlers&) = delete;
+  GlobalHandlers& operator=(const GlobalHandlers&) = delete;
+
+ private:
+  void (*error_)(const char*);
+  void (*warning_)(const char*);
+};
+
+/// The error that MuJoCo's own handler would wait for a key on.
+std::string ErrorMessage() {
+  try {
+    mju_error("no such thing");
+  } catch (const RunError& error) {
+    return error.what();
+  } catch (const OtherHandler&) {
+    return "the other handler";
+  }
+  return "nothing";
+}
+
+TEST(MujocoErrorScope, ThrowsWhileItLivesAndLeavesTheHandlersAsTheyWere) {
+  const GlobalHandlers others;
+  EXPECT_EQ(ErrorMessage(), "the other handler");
+  {
+    const MujocoErrorScope outer;
+    EXPECT_EQ(ErrorMessage(), "MuJoCo: no such thing");
+    EXPECT_NO_THROW(mju_warning("dropped"));
+    {
+      const MujocoErrorScope inner;
+      EXPECT_EQ(ErrorMessage(), "MuJoCo: no such thing");
+    }
+    EXPECT_EQ(ErrorMessage(), "MuJoCo: no such thing");
+  }
+  EXPECT_EQ(ErrorMessage(), "the other handler");
+  EXPECT_THROW(mju_warning("not dropped"), OtherHandler);
+}
+
+TEST(MujocoErrorScope, EndsWithTheExceptionThatLeavesIt) {
+  const GlobalHandlers others;
+  try {
+    const MujocoErrorScope scope;
+    mju_error("no such thing");
+    ADD_FAILURE() << "mju_error returned";
+  } catch (const RunError&) {
+    EXPECT_EQ(ErrorMessage(), "the other handler");
+  }
+}
+
+TEST(MujocoErrorScope, IsOfItsThreadAlone) {
+  const GlobalHandlers others;
+  const MujocoErrorScope scope;
+  std::string message;
+  std::thread([&] { message = ErrorMessage(); }).join();
+  EXPECT_EQ(message, "the other handler");
+  EXPECT_EQ(ErrorMessage(), "MuJoCo: no such thing");
+}
+
+TEST(MujocoErrorScope, IsAroundEveryStepOfThePlantAndNoLonger) {
+  const GlobalHandlers others;
+  const CarModel car(ComposeScene(FindModel("prius", ""), {}), "prius");
+  EXPECT_EQ(ErrorMessage(), "the other handler");
+  const World world;
+  // Faster than MuJoCo computes with (mjMAXVAL, 1e10): it warns, which throws without the scope.
+  const std::unique_ptr<Plant> plant =
+      MakePlant("mujoco", {.car = car, .world = world, .start = {.speed = 1e12}});
+  EXPECT_NO_THROW(plant->Step({}));
+  EXPECT_TRUE(plant->diverged());
+  EXPECT_EQ(ErrorMessage(), "the other handler");
+}
+
+}  // namespace
+}  // namespace trackbed
