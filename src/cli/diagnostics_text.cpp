@@ -81,7 +81,7 @@ class Collector : public DiagnosticsVisitor {
   void Text(const char* name, const std::string& value) override {
     if (value.find(' ') != std::string::npos) {
       fields_.remarks.push_back(fmt::format("{}: {}", name, value));
-    } else {
+    } else if (!value.empty()) {
       Add(name, value);
     }
   }
@@ -155,7 +155,7 @@ void SetHeading(Column& column) {
   column.heading.push_back(heading.unit.empty() ? "" : "[" + heading.unit + "]");
 }
 
-std::vector<Column> ColumnsOf(const NamedList& list) {
+std::vector<Column> MakeColumns(const NamedList& list) {
   std::vector<Column> columns;
   for (std::size_t row = 0; row < list.rows.size(); ++row) {
     for (const Cell& cell : list.rows[row].cells) {
@@ -176,7 +176,7 @@ std::vector<Column> ColumnsOf(const NamedList& list) {
 }
 
 std::string TableText(const NamedList& list) {
-  const std::vector<Column> columns = ColumnsOf(list);
+  const std::vector<Column> columns = MakeColumns(list);
   std::size_t height = 0;
   for (const Column& column : columns) {
     height = std::max(height, column.heading.size());
