@@ -585,7 +585,7 @@ TEST(PlanFillets, RandomRoutesKeepTheIdentitiesOrSayWhy) {
       const bool steering_room = options.constraint == RadiusConstraint::kSteeringRoom &&
                                  turn.note.find("under C.34") == std::string::npos;
       // At the lowest speed half a ramp on the leg is enough.
-      const double ramps = turn.note.find("half a ramp") == std::string::npos ? 1.0 : 0.5;
+      const double ramps = turn.note.find("half of the ramp") == std::string::npos ? 1.0 : 0.5;
       const auto need = [&](double r) {
         return r / std::tan(turn.interior_angle / 2.0) +
                (steering_room ? ramps * turn.speed * std::atan(2.7 / r) * 17.6 / 2.65 : 0.0);
@@ -781,7 +781,7 @@ TEST(PlanFillets, TakesNoTurnFasterBecauseItsLegIsShorter) {
     slowest = found.turns[0].speed;
   }
   EXPECT_EQ(slowest, 0.5);
-  EXPECT_THAT(plan(13.4).turns.at(0).note, HasSubstr("taken at 0.5 m/s with half a ramp"));
+  EXPECT_THAT(plan(13.4).turns.at(0).note, HasSubstr("speed reduced to 0.5 m/s, half of the ramp"));
   EXPECT_EQ(plan(11.8).status, PlanStatus::kNoRoomForSteering);
 }
 
@@ -878,7 +878,7 @@ TEST(PlanFillets, RefusesTurnThatWouldSteerBeforeTheOneBeforeIt) {
   const Vec2 b = Vec2{40, 0} + 5.9 * Direction(0.01);
   const Vec2 c = b + 40.0 * Direction(0.01 + kPi / 3.0);
   ExpectRefused(PlanWith({{0, 0}, {40, 0}, b, c}, RadiusConstraint::kHalfLeg),
-                PlanStatus::kTurnsOverlap, 2, "before those of the turn before it");
+                PlanStatus::kTurnsOverlap, 2, "before that of the previous turn");
 }
 
 TEST(PlanFillets, RefusesToSteerBeforeTheStart) {
