@@ -748,7 +748,7 @@ TEST(PlanFillets, SlowsDownForATurnWithoutRoomAndNoOther) {
   EXPECT_EQ(plan.turns[0].note, "");
   const FilletTurn& slow = plan.turns[1];
   EXPECT_THAT(slow.note, HasSubstr("at 3 m/s no radius from 5.1 to 154 m"));
-  EXPECT_THAT(slow.note, HasSubstr(fmt::format("taken at {:.4g} m/s", slow.speed)));
+  EXPECT_THAT(slow.note, HasSubstr(fmt::format("speed reduced to {:.4g} m/s", slow.speed)));
   // The fastest speed: there g touches zero, at the radius where it is smallest, which for a right
   // angle solves r = sqrt(K0 L - L^2) and r + K0 atan(L/r) = 14 m.
   const double per_radian = slow.speed * 17.6 / 2.65;
@@ -867,9 +867,9 @@ TEST(PlanFillets, RefusesArcsThatNeedMoreThanTheirLeg) {
   ExpectRefused(PlanGiven(RouteA(), 25.0), PlanStatus::kTurnsOverlap, 2,
                 "the arcs before waypoint 2 exceed their leg by 10 m");
   ExpectRefused(PlanGiven({{0, 0}, {20, 0}, {20, 60}}, 25.0), PlanStatus::kTurnsOverlap, 1,
-                "the arcs before waypoint 1 need 5 m more");
+                "the arcs before waypoint 1 exceed their leg by 5 m");
   ExpectRefused(PlanGiven({{0, 0}, {60, 0}, {60, 20}}, 25.0), PlanStatus::kTurnsOverlap, 2,
-                "the arcs before waypoint 2 need 5 m more");
+                "the arcs before waypoint 2 exceed their leg by 5 m");
 }
 
 TEST(PlanFillets, RefusesTurnThatWouldSteerBeforeTheOneBeforeIt) {
