@@ -111,7 +111,7 @@ TEST(SteadyStateCircle, SaysWhenThereIsNoGradient) {
       Log(20.0, [&](double, LogRow& row) { SteadyState(2.0, 10.0, 0.003, 1.0, row.state); });
   const ManoeuvreMetrics metrics = Evaluated(SteadyStateCircleOptions{}, log);
   EXPECT_FALSE(metrics.Find("understeer_gradient").has_value());
-  EXPECT_THAT(metrics.missing, testing::HasSubstr("spread by less than 0.5 m/s^2"));
+  EXPECT_THAT(metrics.missing, testing::HasSubstr("span less than 0.5 m/s^2"));
   EXPECT_NEAR(Of(metrics, "lateral_acceleration_max"), 2.0, Tolerance(kRounding));
 }
 

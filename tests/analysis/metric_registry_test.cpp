@@ -107,11 +107,12 @@ TEST(RegisterMetric, RefusesWhatIsTakenOrMalformed) {
       HasSubstr("already"));
   for (const char* malformed : {"", "Max", "a..b", "a.", "1a", "a[0]", "a b"}) {
     EXPECT_THAT(Refused({.path = malformed, .label = "A", .measure = HalfWay}),
-                HasSubstr("expected words of a-z"))
+                HasSubstr("must be words of a-z"))
         << malformed;
   }
-  EXPECT_THAT(Refused({.path = "own", .measure = HalfWay}), HasSubstr("needs a label"));
-  EXPECT_THAT(Refused({.path = "own", .label = "A"}), HasSubstr("either a function"));
+  EXPECT_THAT(Refused({.path = "own", .measure = HalfWay}), HasSubstr("the label is missing"));
+  EXPECT_THAT(Refused({.path = "own", .label = "A"}),
+              HasSubstr("exactly one of `measure` and `read`"));
 }
 
 TEST(RegisterMetric, MakesAMetricLikeAnyOther) {

@@ -21,14 +21,14 @@ TEST(CheckStudy, NamesOutputsThatNoRunCanHave) {
     return ErrorOf(folder, [&] { CheckStudy(StudyOf(folder, "repeat: 2\noutputs:\n" + keys)); });
   };
   EXPECT_EQ(error("  - metrics.mujoco.cros_track.max\n  - verdict.passed\n  - plan.length\n"),
-            "study.yaml:6:5: outputs[0]: no run can have 'metrics.mujoco.cros_track.max'; did you "
+            "study.yaml:6:5: outputs[0]: unknown metric 'metrics.mujoco.cros_track.max'; did you "
             "mean 'metrics.mujoco.cross_track.max'?\n"
-            "study.yaml:8:5: outputs[2]: no run can have 'plan.length'; did you mean "
+            "study.yaml:8:5: outputs[2]: unknown metric 'plan.length'; did you mean "
             "'plan.length_m'?");
   // There are five waypoints, so three turns; no obstacles; and nothing but winding's plants.
   EXPECT_THAT(error("  - metrics.mujoco.turns[3].lateral_offset\n"),
               testing::HasSubstr("did you mean 'metrics.mujoco.turns[0].lateral_offset'?"));
-  EXPECT_THAT(error("  - metrics.mujoco.clearance_min\n"), testing::HasSubstr("no run can have"));
+  EXPECT_THAT(error("  - metrics.mujoco.clearance_min\n"), testing::HasSubstr("unknown metric "));
   EXPECT_EQ(error("  - between.kinematic.mujoco.position.max\n  - verdict.failures\n"
                   "  - metrics.kinematic.turns[2].lateral_offset\n"),
             "no error");
@@ -41,7 +41,7 @@ TEST(CheckStudy, NamesMetricsThatNoRunCanBeExpectedToHave) {
                         "repeat: 2\n");
   study.metrics = PossibleMetrics;
   EXPECT_THAT(ErrorOf(folder, [&] { CheckStudy(study); }),
-              testing::StartsWith("study.yaml:4:23: expect.metrics[0].metric: no run can have "
+              testing::StartsWith("study.yaml:4:23: expect.metrics[0].metric: unknown metric "
                                   "'manoeuvre.passed'; allowed: status, "));
 }
 

@@ -217,7 +217,7 @@ TEST(Verdict, NotesThatContactsSlide) {
       "mission: {speed: 20, duration: 2}\ncontrol: {method: constant_steering, steering: 0, speed: "
       "{braking: {at: 0.2, deceleration: 8.5}}}\ndrive: {plants: [mujoco]}\n";
   EXPECT_THAT(Drive("vehicle: {tyre: contact}\n" + braking).verdict.notes,
-              Contains(HasSubstr("slid on bare contacts")));
+              Contains(HasSubstr("slid on MuJoCo contacts")));
   EXPECT_THAT(Drive(braking).verdict.notes, testing::IsEmpty());
 }
 

@@ -197,7 +197,7 @@ TEST(Program, NeverWritesOutsideItsFolder) {
     const Outcome outcome = Trackbed(
         folder, "run " + ScenarioFile("winding") + " --set 'name=" + std::string(name) + "'");
     EXPECT_EQ(outcome.code, 2) << name;
-    EXPECT_THAT(outcome.output, HasSubstr("cannot name a folder")) << name;
+    EXPECT_THAT(outcome.output, HasSubstr("is not a valid folder name")) << name;
   }
   EXPECT_TRUE(folder.Names().empty());
 }
@@ -366,7 +366,7 @@ TEST(Program, ChecksWhatIsExpectedOfMetrics) {
     const Outcome outcome = Trackbed(folder, std::string(verb) + " s.yaml");
     EXPECT_EQ(outcome.code, 2) << verb;
     EXPECT_THAT(outcome.output,
-                testing::MatchesRegex("s.yaml:12:22: expect.metrics.0..metric: no run can have "
+                testing::MatchesRegex("s.yaml:12:22: expect.metrics.0..metric: unknown metric "
                                       "'steering_rat_max'; did you mean 'steering_rate_max'.\n"))
         << verb;
   }

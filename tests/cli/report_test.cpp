@@ -92,7 +92,8 @@ TEST(Report, RefusesWhatIsNoRun) {
   EXPECT_EQ(outcome.output, "gone: no such folder\n");
   outcome = Trackbed(folder, "report empty");
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.output, HasSubstr("empty: neither a finished run (no metrics.json) nor"));
+  EXPECT_THAT(outcome.output,
+              HasSubstr("empty: not a finished run (no metrics.json), a comparison"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "empty/report.html"));
   outcome = Trackbed(folder, "report");
   EXPECT_EQ(outcome.code, 2);

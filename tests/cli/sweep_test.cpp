@@ -144,7 +144,7 @@ TEST(Sweep, TellsOfBadInputBeforeAnythingIsDriven) {
   const Outcome output = Trackbed(folder, "sweep study.yaml");
   EXPECT_EQ(output.code, 2);
   EXPECT_EQ(output.output,
-            "study.yaml:5:11: outputs[0]: no run can have 'metrics.mujoco.cross_trak.max'; did you "
+            "study.yaml:5:11: outputs[0]: unknown metric 'metrics.mujoco.cross_trak.max'; did you "
             "mean 'metrics.mujoco.cross_track.max'?\n");
   EXPECT_EQ(Trackbed(folder, "sweep none.yaml").output,
             "cannot read none.yaml: No such file or directory\n");

@@ -218,11 +218,12 @@ TEST(ReportData, SaysWhatIsWrong) {
     return ErrorOf([&] { ReportData(paths); });
   };
   EXPECT_THAT(error({folder.path() / "gone"}), EndsWith("gone: no such folder"));
-  EXPECT_THAT(error({folder.path()}), HasSubstr("neither a finished run (no metrics.json) nor"));
-  EXPECT_THAT(error({run / "metrics.json"}), HasSubstr("neither a finished run"));
+  EXPECT_THAT(error({folder.path()}),
+              HasSubstr("not a finished run (no metrics.json), a comparison"));
+  EXPECT_THAT(error({run / "metrics.json"}), HasSubstr("not a finished run"));
   EXPECT_THAT(error({run, folder.path() / "run/../run"}), HasSubstr("given twice"));
   const fs::path study = folder.Write("study/sweep.csv", "seed,status\n1,passed\n");
-  EXPECT_THAT(error({run, study}), HasSubstr("a study has a report of its own"));
+  EXPECT_THAT(error({run, study}), HasSubstr("a study must be given alone"));
   const auto broken = [&](const std::string& name, const std::string& text) {
     const fs::path copy = folder.path() / "copy";
     fs::remove_all(copy);

@@ -158,7 +158,8 @@ TEST(DeadEnd, StopsTheGapBeforeTheWall) {
   const RunResult run = RunScenario(Read("dead_end"));
   for (std::size_t i = 0; i < run.logs.size(); ++i) {
     EXPECT_EQ(run.logs[i].status, DriveStatus::kBlocked);
-    EXPECT_THAT(run.metrics[i].blocked, HasSubstr("stops behind the obstacle: no feasible motion past it"));
+    EXPECT_THAT(run.metrics[i].blocked,
+                HasSubstr("stops behind the obstacle: no feasible motion past it"));
     // The gap of 3 m; turned by 1.571 instead of pi/2 the wall is 0.01 m nearer 60 m out.
     EXPECT_NEAR(*run.logs[i].rows.back().clearance, 3.0, 0.05);
   }

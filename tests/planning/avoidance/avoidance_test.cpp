@@ -268,7 +268,7 @@ TEST_P(RandomObstacles, ArePassedSafelyOrStoppedBefore) {
     const Plan plan = Around(global, {obstacle}, options);
     if (!plan.blocked.empty()) {
       EXPECT_THAT(plan.blocked,
-                  testing::AnyOf(testing::HasSubstr("no curve passes it"),
+                  testing::AnyOf(testing::HasSubstr("no feasible curve on "),
                                  testing::HasSubstr("the path ends beside the obstacle")));
       EXPECT_EQ(plan.reference.speed.SpeedAt(plan.reference.path.length()), 0.0);
       continue;

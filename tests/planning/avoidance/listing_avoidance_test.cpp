@@ -111,9 +111,9 @@ TEST(Listing, IsDrivenHoweverNearItComes) {
   EXPECT_EQ(stretch["one_point_check"]["passed"], true);
   ASSERT_EQ(outer.notes.size(), 1U);
   EXPECT_THAT(outer.notes[0],
-              testing::MatchesRegex("driven although its curve past the obstacle at \\(54\\.88, "
-                                    "4\\.133\\) has a clearance of [01]\\.[0-9]* m \\(safe "
-                                    "distance 1\\.5 m\\)"));
+              testing::MatchesRegex("infeasible, kept anyway: the curve past the obstacle at "
+                                    "\\(54\\.88, 4\\.133\\): clearance [01]\\.[0-9]* m is below "
+                                    "the safe distance of 1\\.5 m"));
   const Plan inner = Around(course.Global(), {box}, OptionsFor(PassingSideChoice::kInner));
   EXPECT_GT(DiagnosticsJson(inner)["avoid"][0]["clearance_m"].get<double>(), 4.0);
   EXPECT_TRUE(inner.notes.empty());
@@ -133,9 +133,9 @@ TEST(Listing, TellsWhatTheSteeringCannotDo) {
   request.vehicle.steering_limit = 0.1;
   const Plan plan = PlanAround(request, ListingAvoidanceOptions{});
   ASSERT_EQ(plan.notes.size(), 1U);
-  EXPECT_THAT(plan.notes[0], testing::AllOf(HasSubstr(" has a steering angle of 0.1"),
-                                            HasSubstr(" rad (limit 0.1 rad); a steering rate of "),
-                                            HasSubstr(" rad/s (limit 0.01 rad/s)")));
+  EXPECT_THAT(plan.notes[0], testing::AllOf(HasSubstr(": steering angle 0.1"),
+                                            HasSubstr(" rad exceeds 0.1 rad; steering rate "),
+                                            HasSubstr(" rad/s exceeds 0.01 rad/s")));
 }
 
 TEST(Listing, TakesTheNearestSixth) {

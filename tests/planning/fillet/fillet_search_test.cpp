@@ -427,7 +427,7 @@ TEST(SearchedPlans, AreContinuousAndKeepWhatTheyClaimOrSayWhyNot) {
       EXPECT_LE(turn.radius, options.max_radius);
       const bool room =
           options.constraint == kRoom && turn.note.find("under C.34") == std::string::npos;
-      const double ramps = turn.note.find("half a ramp") == std::string::npos ? 1.0 : 0.5;
+      const double ramps = turn.note.find("half of the ramp") == std::string::npos ? 1.0 : 0.5;
       const double need = turn.tangent_length + (room ? ramps * turn.ramp_distance : 0.0);
       EXPECT_LE(need, turn.shorter_leg / 2.0 + Tolerance(2e-9));
       // The path goes where the geometry says, and along its tangents there.

@@ -585,7 +585,7 @@ TEST(PlanFillets, RandomRoutesKeepTheIdentitiesOrSayWhy) {
       const bool steering_room = options.constraint == RadiusConstraint::kSteeringRoom &&
                                  turn.note.find("under C.34") == std::string::npos;
       // At the lowest speed half a ramp on the leg is enough.
-      const double ramps = turn.note.find("half a ramp") == std::string::npos ? 1.0 : 0.5;
+      const double ramps = turn.note.find("half of the ramp") == std::string::npos ? 1.0 : 0.5;
       const auto need = [&](double r) {
         return r / std::tan(turn.interior_angle / 2.0) +
                (steering_room ? ramps * turn.speed * std::atan(2.7 / r) * 17.6 / 2.65 : 0.0);
@@ -748,7 +748,7 @@ TEST(PlanFillets, SlowsDownForATurnWithoutRoomAndNoOther) {
   EXPECT_EQ(plan.turns[0].note, "");
   const FilletTurn& slow = plan.turns[1];
   EXPECT_THAT(slow.note, HasSubstr("at 3 m/s no radius from 5.1 to 154 m"));
-  EXPECT_THAT(slow.note, HasSubstr(fmt::format("taken at {:.4g} m/s", slow.speed)));
+  EXPECT_THAT(slow.note, HasSubstr(fmt::format("speed reduced to {:.4g} m/s", slow.speed)));
   // The fastest speed: there g touches zero, at the radius where it is smallest, which for a right
   // angle solves r = sqrt(K0 L - L^2) and r + K0 atan(L/r) = 14 m.
   const double per_radian = slow.speed * 17.6 / 2.65;
@@ -781,7 +781,7 @@ TEST(PlanFillets, TakesNoTurnFasterBecauseItsLegIsShorter) {
     slowest = found.turns[0].speed;
   }
   EXPECT_EQ(slowest, 0.5);
-  EXPECT_THAT(plan(13.4).turns.at(0).note, HasSubstr("taken at 0.5 m/s with half a ramp"));
+  EXPECT_THAT(plan(13.4).turns.at(0).note, HasSubstr("speed reduced to 0.5 m/s, half of the ramp"));
   EXPECT_EQ(plan(11.8).status, PlanStatus::kNoRoomForSteering);
 }
 
@@ -867,9 +867,9 @@ TEST(PlanFillets, RefusesArcsThatNeedMoreThanTheirLeg) {
   ExpectRefused(PlanGiven(RouteA(), 25.0), PlanStatus::kTurnsOverlap, 2,
                 "the arcs before waypoint 2 exceed their leg by 10 m");
   ExpectRefused(PlanGiven({{0, 0}, {20, 0}, {20, 60}}, 25.0), PlanStatus::kTurnsOverlap, 1,
-                "the arcs before waypoint 1 need 5 m more");
+                "the arcs before waypoint 1 exceed their leg by 5 m");
   ExpectRefused(PlanGiven({{0, 0}, {60, 0}, {60, 20}}, 25.0), PlanStatus::kTurnsOverlap, 2,
-                "the arcs before waypoint 2 need 5 m more");
+                "the arcs before waypoint 2 exceed their leg by 5 m");
 }
 
 TEST(PlanFillets, RefusesTurnThatWouldSteerBeforeTheOneBeforeIt) {
@@ -878,7 +878,7 @@ TEST(PlanFillets, RefusesTurnThatWouldSteerBeforeTheOneBeforeIt) {
   const Vec2 b = Vec2{40, 0} + 5.9 * Direction(0.01);
   const Vec2 c = b + 40.0 * Direction(0.01 + kPi / 3.0);
   ExpectRefused(PlanWith({{0, 0}, {40, 0}, b, c}, RadiusConstraint::kHalfLeg),
-                PlanStatus::kTurnsOverlap, 2, "before those of the turn before it");
+                PlanStatus::kTurnsOverlap, 2, "before that of the previous turn");
 }
 
 TEST(PlanFillets, RefusesToSteerBeforeTheStart) {

@@ -240,7 +240,7 @@ TEST(TimeLimit, EndsTheTreeAndLeadsToItsNearestNode) {
   request.clock = Clock(1.0 / 1024.0);
   const Plan limited = MakePlan(request, RrtPlannerOptions{.time_limit = 64.0 / 1024.0});
   ASSERT_TRUE(limited.ok()) << limited.reason;
-  EXPECT_THAT(limited.partial, HasSubstr("the nearest that 1 tree in 0.0625 s"));
+  EXPECT_THAT(limited.partial, HasSubstr("the nearest feasible path of 1 tree in 0.0625 s"));
   // Read once at the start, then before every iteration: that after 63 is told that time is over.
   const auto leg = DiagnosticsJson(limited)["legs"].at(0);
   EXPECT_EQ(leg["status"], "stopped");

@@ -106,8 +106,7 @@ TEST(RrtPlanner, BeginsStraightOn) {
   // Without a lead-in it would begin along its first leg, whichever way the car stands.
   const Plan without = MakePlan(request, RrtPlannerOptions{.lead_in = 0.0});
   EXPECT_FALSE(without.ok());
-  EXPECT_NE(without.reason.find("turn of the path's first heading"), std::string::npos)
-      << without.reason;
+  EXPECT_NE(without.reason.find("initial heading error"), std::string::npos) << without.reason;
   // No further than half way.
   request.obstacles.clear();
   request.start.yaw = 0.0;
@@ -185,7 +184,7 @@ TEST(RrtPlanner, TellsOfTheTreeThatCameNearest) {
 TEST(RrtPlanner, SaysWhenTheFirstMetresAreBlocked) {
   const Plan plan = MakePlan(Across({{{7.0, 0.0, 0.0}, 2.0, 1.0}}), RrtPlannerOptions{});
   EXPECT_EQ(plan.status, PlanStatus::kStartBlocked);
-  EXPECT_THAT(plan.reason, HasSubstr("straight on"));
+  EXPECT_THAT(plan.reason, HasSubstr("straight path"));
 }
 
 TEST(RrtPlanner, IsClearOrSaysWhyNotInRandomFields) {
