@@ -94,7 +94,7 @@ double BareSteering(nlopt::algorithm algorithm, const VehicleParams& car,
       [](unsigned, const double* x, double*, void* pointer) {
         const Data& own = *static_cast<const Data*>(pointer);
         const double steering = SteeringOfShare(own.car, own.problem, x[0]);
-        return CostOf(DeviationAhead(own.car, own.problem, steering), {});
+        return DeviationCost(DeviationAhead(own.car, own.problem, steering), {});
       },
       &data);
   search.set_maxeval(ControlEvaluations(options.search.method));

@@ -17,7 +17,7 @@
 namespace trackbed::bench {
 namespace {
 
-/// What a drive feeds to MuJoCo: where it starts and, per physics step, the actuators' controls and
+/// What a run feeds to MuJoCo: where it starts and, per physics step, the actuators' controls and
 /// the joints' dry friction, which is how the plant brakes.
 struct Feed {
   MujocoModel model;  // as driven: with the road's friction

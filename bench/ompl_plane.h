@@ -17,7 +17,7 @@ namespace trackbed::bench {
 
 namespace ob = ompl::base;
 
-inline Vec2 PositionOf(const ob::State* state) {
+inline Vec2 StatePosition(const ob::State* state) {
   const auto* values = state->as<ob::RealVectorStateSpace::StateType>();
   return {(*values)[0], (*values)[1]};
 }
@@ -29,8 +29,8 @@ class Edges : public ob::MotionValidator {
       : ob::MotionValidator(space), problem_(problem) {}
 
   bool checkMotion(const ob::State* from, const ob::State* to) const override {
-    const Vec2 a = PositionOf(from);
-    const Vec2 b = PositionOf(to);
+    const Vec2 a = StatePosition(from);
+    const Vec2 b = StatePosition(to);
     return std::all_of(
         problem_.obstacles.begin(), problem_.obstacles.end(),
         [&](const OrientedBox& obstacle) { return Distance(a, b, obstacle) > problem_.inflation; });
@@ -45,7 +45,7 @@ class Edges : public ob::MotionValidator {
 };
 
 /// The box that is sampled, start, goal and edges of a map, which must outlive it.
-inline ob::ProblemDefinitionPtr DefinitionOf(const RrtStarProblem& problem) {
+inline ob::ProblemDefinitionPtr MakeProblem(const RrtStarProblem& problem) {
   const auto space = std::make_shared<ob::RealVectorStateSpace>(2);
   ob::RealVectorBounds bounds(2);
   for (unsigned axis = 0; axis < 2; ++axis) {

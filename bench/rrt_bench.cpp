@@ -52,7 +52,7 @@ Run Ours(const RrtStarProblem& map, int budget, std::uint64_t seed) {
 /// OMPL's, from the first sample to the last: what it sets up is not counted. Its generators draw
 /// on from the program's one seed. It asks whether to end once an iteration.
 Run Ompls(const RrtStarProblem& map, int budget) {
-  const ob::ProblemDefinitionPtr definition = DefinitionOf(map);
+  const ob::ProblemDefinitionPtr definition = MakeProblem(map);
   ompl::geometric::RRT planner(definition->getSpaceInformation());
   planner.setRange(kExpandDistance);
   planner.setGoalBias(kGoalBias);

@@ -40,7 +40,7 @@ Run Ours(const RrtStarProblem& problem, int iterations, std::uint64_t seed) {
 /// OMPL's, from the first sample to the last: what it sets up is not counted. Its generators draw
 /// on from the program's one seed.
 Run Ompls(const RrtStarProblem& problem, int iterations) {
-  const ob::ProblemDefinitionPtr definition = DefinitionOf(problem);
+  const ob::ProblemDefinitionPtr definition = MakeProblem(problem);
   const ob::SpaceInformationPtr information = definition->getSpaceInformation();
   definition->setOptimizationObjective(
       std::make_shared<ob::PathLengthOptimizationObjective>(information));

@@ -135,7 +135,7 @@ void CompareSearch(benchmark::State& state, const Compared& compared) {
       });
 }
 
-/// The three-turn route through a searched plan, first drive and verification included.
+/// The three-turn route through a searched plan, first run and verification included.
 void TimeRoute(benchmark::State& state, SearchMethod method, double limit) {
   Scenario scenario =
       ReadScenario(DataFolder() / "scenarios" / "three_turns.yaml", {"plan.objective=turn_local"});

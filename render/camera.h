@@ -24,7 +24,7 @@ struct CameraPose {
 
 /// What a camera may follow: the car's drive, smoothed, and the extent of the route.
 ///
-/// The whole drive is known, so smoothing looks both ways in time: no lag and no overshoot.
+/// The whole run is known, so smoothing looks both ways in time: no lag and no overshoot.
 class CameraSubject {
  public:
   explicit CameraSubject(const Recording& recording);

@@ -62,7 +62,7 @@ double Font::Width(std::string_view text, double size) const {
   return width;
 }
 
-const Font::Mask& Font::MaskOf(char character, double size) {
+const Font::Mask& Font::GlyphMask(char character, double size) {
   std::vector<Mask>& masks = masks_[size];
   if (masks.empty()) {
     for (const Image& glyph : glyphs_) {
@@ -99,8 +99,8 @@ void Canvas::Fill(const Rectangle& rectangle, double radius, Color color, double
       image_.width, static_cast<int>(std::floor(rectangle.left + rectangle.width - radius)) - 1);
   std::array<std::array<std::uint8_t, 256>, 3> blended;
   for (std::size_t value = 0; value < 256; ++value) {
-    const auto grey = static_cast<std::uint8_t>(value);
-    const std::array<std::uint8_t, 3> pixel = Blended({grey, grey, grey}, color, alpha);
+    const auto gray = static_cast<std::uint8_t>(value);
+    const std::array<std::uint8_t, 3> pixel = Blended({gray, gray, gray}, color, alpha);
     for (std::size_t i = 0; i < 3; ++i) {
       blended[i][value] = pixel[i];
     }
@@ -257,7 +257,7 @@ double Canvas::Text(double left, double top, std::string_view text, double size,
   double pen = left;
   const int first_row = static_cast<int>(std::lround(top));
   for (const char character : text) {
-    const Font::Mask& mask = font_.MaskOf(character, size);
+    const Font::Mask& mask = font_.GlyphMask(character, size);
     const int first_column = static_cast<int>(std::lround(pen));
     for (int y = 0; y < mask.height; ++y) {
       for (int x = 0; x < mask.width; ++x) {

@@ -31,7 +31,7 @@ class Font {
     std::vector<std::uint8_t> coverage;
   };
   /// Made at the first use of a size, kept after.
-  const Mask& MaskOf(char character, double size);
+  const Mask& GlyphMask(char character, double size);
   [[nodiscard]] double Advance(char character, double size) const;
 
  private:

@@ -14,8 +14,8 @@ namespace {
 constexpr double kWidth = 0.26;  // [m]
 
 /// "5 cm", "2 m".
-std::string Length(double metres) {
-  return metres < 1.0 ? fmt::format("{:.3g} cm", 100.0 * metres) : fmt::format("{:.3g} m", metres);
+std::string Length(double meters) {
+  return meters < 1.0 ? fmt::format("{:.3g} cm", 100.0 * meters) : fmt::format("{:.3g} m", meters);
 }
 
 class ErrorRibbon : public Overlay {

@@ -43,12 +43,12 @@ void CheckOptions(const FilmOptions& options, bool even_sides) {
                         .key = "fps",
                         .message = fmt::format("{}; allowed are 1 to 240", options.fps)});
   }
-  constexpr std::size_t kMostParts = 4;
-  if (options.plants.size() > kMostParts) {
+  constexpr std::size_t kMaxPlants = 4;
+  if (options.plants.size() > kMaxPlants) {
     problems.push_back({.file = "",
                         .key = "plants",
                         .message = fmt::format("{} side by side; allowed are 1 to {}",
-                                               options.plants.size(), kMostParts)});
+                                               options.plants.size(), kMaxPlants)});
   }
   for (auto plant = options.plants.begin(); plant != options.plants.end(); ++plant) {
     if (std::find(options.plants.begin(), plant, *plant) != plant) {
@@ -81,7 +81,7 @@ struct Times {
   double end = 0;
 };
 
-Times TimesOf(const std::vector<render::Recording>& recordings) {
+Times RecordedTimes(const std::vector<render::Recording>& recordings) {
   Times times{recordings.front().begin(), recordings.front().end()};
   for (const render::Recording& recording : recordings) {
     times.end = std::max(times.end, recording.end());
@@ -146,17 +146,17 @@ std::vector<std::string> AllOverlays() {
 }
 
 void CheckFilmName(const fs::path& output) {
-  render::FormatOf(output);
+  render::FilmFormatFor(output);
 }
 
 FilmReport RenderFilm(const fs::path& run_folder, const fs::path& output,
                       const FilmOptions& options,
                       const std::function<void(double fraction)>& progress) {
-  const render::FilmFormat& format = render::FormatOf(output);
+  const render::FilmFormat& format = render::FilmFormatFor(output);
   CheckOptions(options, format.even_sides);
   const MujocoErrorScope errors;
   std::vector<render::Recording> recordings = ReadRecordings(run_folder, options.plants);
-  const auto [begin, end] = TimesAskedFor(options, TimesOf(recordings));
+  const auto [begin, end] = TimesAskedFor(options, RecordedTimes(recordings));
   render::Painter painter(recordings, options);
   MakeParent(output);
   render::BackgroundOutput film(format.open(output, options.width, options.height, options.fps));
@@ -192,7 +192,7 @@ void RenderPicture(const fs::path& run_folder, const fs::path& output, double ti
   CheckOptions(options, false);
   const MujocoErrorScope errors;
   std::vector<render::Recording> recordings = ReadRecordings(run_folder, options.plants);
-  CheckTime("time", time, TimesOf(recordings));
+  CheckTime("time", time, RecordedTimes(recordings));
   render::Image image;
   render::Painter(recordings, options).Paint(time, image);
   MakeParent(output);

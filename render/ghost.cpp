@@ -96,7 +96,7 @@ class Ghosts : public Overlay {
 
   void AddFootprint(SceneContext& context, const RibbonStyle& style) const {
     const mjModel& model = *recording_.model;
-    const int site = mj_name2id(&model, mjOBJ_SITE, "outline");
+    const int site = mj_name2id(&model, mjOBJ_SITE, "footprint");
     if (site < 0 || model.site_type[site] != mjGEOM_BOX) {
       return;
     }

@@ -15,7 +15,7 @@ constexpr double kIce = 0.25;       // factors up to this look like ice
 constexpr float kIceAlpha = 0.45F;  // MuJoCo draws translucent surfaces twice: 1 - 0.55^2 = 0.70
 constexpr float kWetAlpha = 0.35F;
 
-float AlphaOf(double friction) {
+float FrictionAlpha(double friction) {
   return friction <= kIce ? kIceAlpha : kWetAlpha;
 }
 
@@ -128,7 +128,7 @@ Color PatchColor(double friction) {
 Color PatchColorOnRoad(double friction) {
   constexpr float kAsphalt = 0.62F;
   const Color own = PatchColor(friction);
-  const float through = 1.0F - AlphaOf(friction);
+  const float through = 1.0F - FrictionAlpha(friction);
   const auto mix = [through](float channel) {
     return through * through * kAsphalt + (1.0F - through * through) * channel;
   };
@@ -143,7 +143,7 @@ std::vector<Tile> PatchTiles(const World& world) {
   for (const FrictionPatch& patch : world.friction_patches) {
     Tile like;
     like.color = PatchColor(patch.friction);
-    like.alpha = AlphaOf(patch.friction);
+    like.alpha = FrictionAlpha(patch.friction);
     tiler.Cut(patch.area, like, above);
     above += (kHighest - kLowest) / count;
   }

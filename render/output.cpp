@@ -60,11 +60,11 @@ BackgroundOutput::BackgroundOutput(std::unique_ptr<FilmOutput> output)
     : output_(std::move(output)), thread_([this](const std::stop_token& stop) { Write(stop); }) {}
 
 void BackgroundOutput::Add(const Image& image) {
-  constexpr std::size_t kMostWaiting = 2;
+  constexpr std::size_t kMaxWaiting = 2;
   Image copy;
   {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return failure_ || waiting_.size() < kMostWaiting; });
+    changed_.wait(lock, [this] { return failure_ || waiting_.size() < kMaxWaiting; });
     Rethrow();
     if (!spare_.empty()) {
       copy = std::move(spare_.back());
@@ -118,7 +118,7 @@ void BackgroundOutput::Write(const std::stop_token& stop) {
   }
 }
 
-const FilmFormat& FormatOf(const fs::path& output) {
+const FilmFormat& FilmFormatFor(const fs::path& output) {
   const std::string extension = output.extension().string();
   std::string found =
       extension.empty() ? "no extension" : fmt::format("unknown extension '{}'", extension);

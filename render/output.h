@@ -67,7 +67,7 @@ struct FilmFormat {
 
 /// The format that the extension of `output` asks for; InputError naming every one there is when it
 /// asks for none of them, or for one that this build cannot make.
-const FilmFormat& FormatOf(const std::filesystem::path& output);
+const FilmFormat& FilmFormatFor(const std::filesystem::path& output);
 
 /// "frames/f.png" and 7 give "frames/f_00007.png".
 std::filesystem::path FrameName(const std::filesystem::path& output, int frame);

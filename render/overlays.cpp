@@ -55,7 +55,7 @@ OverlayList MakeOverlays(const OverlaySetup& setup) {
   return overlays;
 }
 
-std::vector<LegendEntry> LegendOf(const Recording& recording, const OverlayList& overlays) {
+std::vector<LegendEntry> MakeLegend(const Recording& recording, const OverlayList& overlays) {
   std::vector<LegendEntry> legend{{CarColor(0), recording.plants.front().plant()}};
   for (const auto& overlay : overlays) {
     overlay->AddLegend(legend);

@@ -15,6 +15,6 @@ const std::vector<OverlayEntry>& OverlayTable();
 OverlayList MakeOverlays(const OverlaySetup& setup);
 
 /// What the colors of a picture of `recording` with these overlays stand for.
-std::vector<LegendEntry> LegendOf(const Recording& recording, const OverlayList& overlays);
+std::vector<LegendEntry> MakeLegend(const Recording& recording, const OverlayList& overlays);
 
 }  // namespace trackbed::render

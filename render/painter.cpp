@@ -77,7 +77,7 @@ struct Painter::Part {
         height(setup.height),
         subject(a_recording),
         overlays(MakeOverlays(setup)),
-        legend(LegendOf(a_recording, overlays)),
+        legend(MakeLegend(a_recording, overlays)),
         scene(a_recording, overlays, quality.shadows) {
     if (with_inset) {
       // Half the pixels would go into a second map of shadows, for a small picture.

@@ -112,7 +112,7 @@ std::vector<Point> ReadCones(const fs::path& file) {
   if (!fs::exists(file, ignored)) {
     return cones;
   }
-  for (const Vec2& cone : ReadJson(file, ConesOf, {.key = "gates"})) {
+  for (const Vec2& cone : ReadJson(file, GateCones, {.key = "gates"})) {
     cones.push_back({cone.x(), cone.y()});
   }
   return cones;

@@ -98,7 +98,7 @@ std::vector<std::string> Chosen(const fs::path& folder, std::vector<std::string>
 }
 
 /// What the run changed of its car.
-std::string NoteOf(const VehicleSpec& vehicle) {
+std::string VehicleNote(const VehicleSpec& vehicle) {
   return vehicle.steering_rate
              ? fmt::format("steering rate set to {:.2f} rad/s", *vehicle.steering_rate)
              : "";
@@ -309,7 +309,7 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
   if (const fs::path scenario = folder / run_folder::kScenarioYaml; fs::exists(scenario, ignored)) {
     recording.world = ReadWorld(scenario);
     const VehicleSpec vehicle = ReadVehicleSpec(scenario);
-    recording.note = NoteOf(vehicle);
+    recording.note = VehicleNote(vehicle);
     recording.tyre = vehicle.tyre;
   }
   for (const Point& cone : ReadCones(folder / run_folder::kPlanJson)) {
@@ -330,7 +330,7 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
     profile.station = station ? log.Value(log.At(profile.from), *station) : 0.0;
     recording.curvatures.push_back(std::move(profile));
   }
-  recording.scales = ScalesOf(recording);
+  recording.scales = ComputeScales(recording);
   return recording;
 }
 

@@ -9,7 +9,7 @@
 
 namespace trackbed::render {
 
-Scales ScalesOf(const Recording& recording) {
+Scales ComputeScales(const Recording& recording) {
   constexpr double kLeastError = 0.05;
   const PlantRecording& car = recording.plants.front();
   Scales scales{.end = recording.end(), .steering = kPi / 180.0};

@@ -8,8 +8,8 @@ struct Recording;
 
 /// What the last color and the ends of the axes in a film stand for.
 struct Scales {
-  double end = 0;  ///< of the drive [s]
-  /// Distance from the path of the ribbon's last color [m]: the largest of the drive, rounded up
+  double end = 0;  ///< of the run [s]
+  /// Distance from the path of the ribbon's last color [m]: the largest of the run, rounded up
   /// to 1, 2 or 5 times a power of ten, and at least 0.05 m. 0 when the car follows no path or its
   /// log does not say how far from it it is.
   double error = 0;
@@ -18,7 +18,7 @@ struct Scales {
 };
 
 /// Of the recorded car alone.
-Scales ScalesOf(const Recording& recording);
+Scales ComputeScales(const Recording& recording);
 
 /// Gives recordings that are shown together the largest of their scales.
 void ShareScales(std::span<Recording> recordings);

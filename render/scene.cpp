@@ -119,7 +119,7 @@ void FilmScene::AddPatches(const CameraPose& camera) {
 void FilmScene::AddContactShadow() {
   const mjModel& model = *recording_.model;
   mjvScene& scene = scene_.get();
-  const int site = mj_name2id(&model, mjOBJ_SITE, "outline");
+  const int site = mj_name2id(&model, mjOBJ_SITE, "footprint");
   if (site < 0 || model.site_type[site] != mjGEOM_BOX) {
     return;
   }

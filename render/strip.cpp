@@ -73,7 +73,7 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
           {static_cast<double>(points.size()) + 0.5, 0.5 * rows_ - reach * value / most.steering});
     }
     blank().Stroke(points, hairlines * layout_.hairline, kValue, 1.0);
-    return MaskOf(scratch);
+    return MakeMask(scratch);
   };
   // Where both agree each is seen: one lies on the other and is narrower.
   command_ = curve(command, 2.6);
@@ -91,7 +91,7 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
                         kValue, 1.0);
       column += 1.0;
     }
-    curvature_ = MaskOf(scratch);
+    curvature_ = MakeMask(scratch);
   }
 
   const double degrees = most.steering * 180.0 / kPi;
@@ -109,12 +109,12 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
   }
 }
 
-double Strip::ColumnOf(double time) const {
+double Strip::PixelColumn(double time) const {
   return end_ > begin_ ? std::clamp((time - begin_) / (end_ - begin_), 0.0, 1.0) * (columns_ - 1)
                        : 0.0;
 }
 
-Strip::Mask Strip::MaskOf(const Image& drawn) const {
+Strip::Mask Strip::MakeMask(const Image& drawn) const {
   Mask mask;
   mask.reserve(drawn.rgb.size() / 3);
   for (std::size_t i = 0; i < drawn.rgb.size(); i += 3) {
@@ -153,7 +153,7 @@ void Strip::Blend(Image& image, const Mask& mask, Color color, double alpha, int
 void Strip::Draw(Image& image, Font& font, double time) const {
   Canvas canvas(image, font);
   canvas.Fill(panel_, layout_.round(), kPanel, kPanelAlpha);
-  const double cursor = ColumnOf(time);
+  const double cursor = PixelColumn(time);
   const int now = std::min(columns_, static_cast<int>(cursor) + 1);
   Blend(image, curvature_, kCurvature, 0.55, 0, now);
   Blend(image, curvature_, kCurvature, 0.28, now, columns_);

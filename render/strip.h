@@ -33,8 +33,8 @@ class Strip {
     std::string text;
   };
 
-  [[nodiscard]] double ColumnOf(double time) const;
-  [[nodiscard]] Mask MaskOf(const Image& drawn) const;
+  [[nodiscard]] double PixelColumn(double time) const;
+  [[nodiscard]] Mask MakeMask(const Image& drawn) const;
   void Blend(Image& image, const Mask& mask, Color color, double alpha, int first, int last) const;
 
   double begin_;  // [s]

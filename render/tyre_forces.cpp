@@ -62,7 +62,7 @@ class Forces : public Overlay {
     const int width = context.image.width;
     const int height = context.image.height;
     DrawTyreForces(canvas, Projection(context.camera, width, height),
-                   forces_.At(context.time, context.car), forces_.metres_per_newton(),
+                   forces_.At(context.time, context.car), forces_.meters_per_newton(),
                    Layout(width, height).hairline);
   }
 
@@ -92,7 +92,7 @@ TyreForces::TyreForces(const Recording& recording) : recording_(recording) {
     const double weight = model.body_subtreemass[model.body_rootid[wheels_.front().body]] *
                           std::abs(model.opt.gravity[2]);
     constexpr double kRadius = 0.72;  // [m]; half a car's track, so that neighbors just touch
-    metres_per_newton_ =
+    meters_per_newton_ =
         kRadius * static_cast<double>(wheels_.size()) / (std::max(friction, 0.1) * weight);
   }
 }
@@ -153,12 +153,12 @@ std::vector<WheelForce> TyreForces::At(double time, const mjData& data) const {
 }
 
 void DrawTyreForces(Canvas& canvas, const Projection& projection,
-                    const std::vector<WheelForce>& forces, double metres_per_newton,
+                    const std::vector<WheelForce>& forces, double meters_per_newton,
                     double hairline) {
   for (const WheelForce& tyre : forces) {
     const auto at = [&](const Vec2& force) {
       return projection(tyre.place +
-                        metres_per_newton * (force.x() * tyre.forward + force.y() * tyre.left));
+                        meters_per_newton * (force.x() * tyre.forward + force.y() * tyre.left));
     };
     constexpr int kCorners = 36;
     std::vector<CanvasPoint> ellipse;
@@ -179,7 +179,7 @@ void DrawTyreForces(Canvas& canvas, const Projection& projection,
     canvas.Stroke(ellipse, 2.0 * hairline, kUnder, 0.35);
     canvas.Stroke(ellipse, hairline, kEllipse, 0.90);
     // A shaft and a head that lie on the ground as the ellipse does; a short arrow is all head.
-    const double length = metres_per_newton * tyre.force.norm();
+    const double length = meters_per_newton * tyre.force.norm();
     if (length < 0.02) {
       continue;
     }
@@ -187,7 +187,7 @@ void DrawTyreForces(Canvas& canvas, const Projection& projection,
     constexpr double kHalfHead = 0.11;   // and to each side
     constexpr double kHalfShaft = 0.04;  // [m]
     const double head = std::min(kHead, length);
-    const Vec2 along = tyre.force.normalized() / metres_per_newton;
+    const Vec2 along = tyre.force.normalized() / meters_per_newton;
     const Vec2 across(-along.y(), along.x());
     const auto shape = [&](std::initializer_list<Vec2> corners) {
       std::vector<CanvasPoint> points;

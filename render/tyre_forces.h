@@ -37,7 +37,7 @@ class TyreForces {
   /// One per wheel that carries load. `data` is posed at `time` [s].
   [[nodiscard]] std::vector<WheelForce> At(double time, const mjData& data) const;
   /// How long a newton is in pictures [m]: a circle of friction is as wide as half the car at rest.
-  [[nodiscard]] double metres_per_newton() const { return metres_per_newton_; }
+  [[nodiscard]] double meters_per_newton() const { return meters_per_newton_; }
 
  private:
   struct Wheel {
@@ -53,13 +53,13 @@ class TyreForces {
 
   const Recording& recording_;
   std::vector<Wheel> wheels_;
-  double metres_per_newton_ = 0.0;
+  double meters_per_newton_ = 0.0;
 };
 
 /// Draws each force as an arrow inside its ellipse, flat on the ground and over what hides that.
 /// `hairline` is the thickness of the ellipse [px].
 void DrawTyreForces(Canvas& canvas, const Projection& projection,
-                    const std::vector<WheelForce>& forces, double metres_per_newton,
+                    const std::vector<WheelForce>& forces, double meters_per_newton,
                     double hairline);
 
 /// The forces of the car's tyres, where its log has them.

@@ -54,7 +54,7 @@ struct Recipe {
   std::vector<std::pair<const char*, const char*>> container_options;
 };
 
-const Recipe& RecipeOf(FilmCodec codec) {
+const Recipe& EncoderRecipe(FilmCodec codec) {
   // x264's macroblock tree reads past the end of its rows, into memory that differs from run to
   // run, unless the width is a multiple of 128 (seen with build 164 at 96, 320, 854, 960 px).
   static const Recipe h264{"libx264",
@@ -201,7 +201,7 @@ struct VideoWriter::Encoder {
 
 VideoWriter::VideoWriter(const std::filesystem::path& file, const std::filesystem::path& shown_name,
                          FilmCodec codec, int width, int height, double fps)
-    : encoder_(std::make_unique<Encoder>(RecipeOf(codec))) {
+    : encoder_(std::make_unique<Encoder>(EncoderRecipe(codec))) {
   // libav and x264 write to the terminal unless told otherwise; their failures come back as codes.
   av_log_set_level(AV_LOG_QUIET);
   encoder_->name = shown_name.string();

@@ -27,8 +27,8 @@ std::string WhyMissing(const std::string& path, const std::vector<Metric>& metri
     return fmt::format("{} is not available: the run has {} isolated turn{}", path,
                        plant.turns.size(), plant.turns.size() == 1 ? "" : "s");
   }
-  if (path.starts_with("manoeuvre.") && plant.manoeuvre && !plant.manoeuvre->missing.empty()) {
-    return fmt::format("{} was not measured: {}", path, plant.manoeuvre->missing);
+  if (path.starts_with("maneuver.") && plant.maneuver && !plant.maneuver->missing.empty()) {
+    return fmt::format("{} was not measured: {}", path, plant.maneuver->missing);
   }
   std::vector<std::string> paths;
   for (const Metric& metric : metrics) {

@@ -45,7 +45,7 @@ Pose2 PoseIn(const Trace& trace, const Place& place) {
           std::lerp(a.yaw, b.yaw, place.share)};
 }
 
-/// The second drive minus the first at one station.
+/// The second run minus the first at one station.
 struct Apart {
   double s = 0.0;
   double first_t = 0.0;
@@ -56,7 +56,7 @@ struct Apart {
   double steering = 0.0;
 };
 
-/// The drives apart at every station where either has a row and both have been.
+/// The runs apart at every station where either has a row and both have been.
 std::vector<Apart> ApartAtRows(const Trace& first, const Trace& second) {
   if (first.station.size() < 2 || second.station.size() < 2) {
     return {};
@@ -134,7 +134,7 @@ double Trace::TimeAt(double at) const {
   return PlaceAt(*this, at).Between(time);
 }
 
-Trace TraceOf(const RunLog& log, StationSource source) {
+Trace MakeTrace(const RunLog& log, StationSource source) {
   Trace trace{.name = log.plant};
   for (const LogRow& row : log.rows) {
     const VehicleState& state = row.state;
@@ -200,7 +200,7 @@ PlantComparison CompareTraces(const Trace& first, const Trace& second) {
 }
 
 PlantComparison ComparePlants(const RunLog& first, const RunLog& second) {
-  return CompareTraces(TraceOf(first), TraceOf(second));
+  return CompareTraces(MakeTrace(first), MakeTrace(second));
 }
 
 Table DifferencesOverArcLength(const Trace& first, const Trace& second) {

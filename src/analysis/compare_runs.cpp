@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Of what a scenario expects, that which says how the drives are to end, and how far off their
+/// Of what a scenario expects, that which says how the runs are to end, and how far off their
 /// path they may be.
 PlantExpectation EndOnly(const PlantExpectation& expect) {
   PlantExpectation end{.max_cross_track = expect.max_cross_track, .collision = expect.collision};
@@ -288,8 +288,8 @@ RunComparison CompareRun(const RunResult& run, const std::optional<DifferenceBou
   result.verdict.passed = result.verdict.failures.empty();
   for (std::size_t i = 0; i < run.logs.size(); ++i) {
     for (std::size_t j = i + 1; j < run.logs.size(); ++j) {
-      const Trace first = TraceOf(run.logs[i]);
-      const Trace second = TraceOf(run.logs[j]);
+      const Trace first = MakeTrace(run.logs[i]);
+      const Trace second = MakeTrace(run.logs[j]);
       result.pairs.push_back(
           Pair(first, second,
                tolerances.value_or(BoundsBetween(run.scenario.expect, first.name, second.name))));

@@ -14,7 +14,7 @@ namespace {
 class HeldCourse {
  public:
   HeldCourse(const VehicleParams& vehicle, const VehicleState& state, double length)
-      : start_yaw_(state.pose.yaw), curvature_(CurvatureOf(state)) {
+      : start_yaw_(state.pose.yaw), curvature_(MeasuredCurvature(state)) {
     // The rear axle may slip: the course is where it goes, not where it points.
     const double lateral = state.lateral_speed - state.yaw_rate * vehicle.cg_to_rear;
     const double course = state.pose.yaw + std::atan2(lateral, state.speed);
@@ -34,7 +34,7 @@ class HeldCourse {
   [[nodiscard]] double YawRate(const VehicleState& state) const { return curvature_ * state.speed; }
 
  private:
-  static double CurvatureOf(const VehicleState& state) {
+  static double MeasuredCurvature(const VehicleState& state) {
     constexpr double kSlow = 0.1;  // [m/s]
     return std::abs(state.speed) < kSlow ? 0.0 : state.yaw_rate / state.speed;
   }
@@ -58,7 +58,7 @@ struct Departure {
 
 }  // namespace
 
-std::vector<ManoeuvreMetric> MetricsOf(const BrakingTestOptions& /*options*/) {
+std::vector<ManeuverMetric> MethodMetrics(const BrakingTestOptions& /*options*/) {
   return {{"initial_speed", "initial speed", "m/s"},
           {"distance", "braking distance", "m", true},
           {"mean_fully_developed_deceleration", "mean fully developed deceleration", "m/s^2"},
@@ -67,8 +67,8 @@ std::vector<ManoeuvreMetric> MetricsOf(const BrakingTestOptions& /*options*/) {
           {"lateral_deviation_max", "maximum lateral deviation", "m"}};
 }
 
-void Evaluate(const BrakingTestOptions& options, const ManoeuvreInput& input,
-              ManoeuvreMetrics& metrics) {
+void Evaluate(const BrakingTestOptions& options, const ManeuverInput& input,
+              ManeuverMetrics& metrics) {
   constexpr double kBraking = 0.5;      // more than keeping a speed asks for [m/s^2]
   constexpr double kStandstill = 0.05;  // [m/s]; from there it is a millimeter
   const auto& rows = input.log.rows;
@@ -115,15 +115,15 @@ void Evaluate(const BrakingTestOptions& options, const ManoeuvreInput& input,
   metrics.values.emplace_back("lateral_deviation_max", departure.lateral);
 }
 
-std::vector<ManoeuvreMetric> MetricsOf(const DisturbanceOptions& /*options*/) {
+std::vector<ManeuverMetric> MethodMetrics(const DisturbanceOptions& /*options*/) {
   return {{"lateral_deviation_max", "maximum lateral deviation", "m"},
           {"heading_deviation_max", "maximum heading deviation", "rad"},
           {"yaw_rate_deviation_max", "maximum yaw rate deviation", "rad/s"},
           {"recovery_time", "yaw rate recovery time", "s", true}};
 }
 
-void Evaluate(const DisturbanceOptions& options, const ManoeuvreInput& input,
-              ManoeuvreMetrics& metrics) {
+void Evaluate(const DisturbanceOptions& options, const ManeuverInput& input,
+              ManeuverMetrics& metrics) {
   const auto& rows = input.log.rows;
   std::size_t from = 0;
   while (from < rows.size() && rows[from].state.time < options.at - 1e-9) {

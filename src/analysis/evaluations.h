@@ -2,47 +2,47 @@
 
 #include <vector>
 
-#include "trackbed/analysis/manoeuvre.h"
+#include "trackbed/analysis/maneuver_metrics.h"
 #include "trackbed/planning/common/plan.h"
 
-/// The evaluations behind EvaluateManoeuvre: each fills in values, passed, missing, begin and end.
+/// The evaluations behind EvaluateManeuver: each fills in values, passed, missing, begin and end.
 namespace trackbed {
 
-/// One of the values of a manoeuvre. Each manoeuvre lists its own beside its evaluation.
-struct ManoeuvreMetric {
+/// One of the values of a maneuver. Each maneuver lists its own beside its evaluation.
+struct ManeuverMetric {
   const char* name;
   const char* label;
   const char* unit;
   bool headline = false;
 };
 
-struct ManoeuvreInput {
+struct ManeuverInput {
   const RunLog& log;
   const Plan& plan;
   const VehicleParams& vehicle;
 };
 
-void Evaluate(const SteadyStateCircleOptions& options, const ManoeuvreInput& input,
-              ManoeuvreMetrics& metrics);
-void Evaluate(const SlowlyIncreasingSteerOptions& options, const ManoeuvreInput& input,
-              ManoeuvreMetrics& metrics);
-void Evaluate(const StepSteerOptions& options, const ManoeuvreInput& input,
-              ManoeuvreMetrics& metrics);
-void Evaluate(const SineWithDwellTestOptions& options, const ManoeuvreInput& input,
-              ManoeuvreMetrics& metrics);
-void Evaluate(const LaneChangeOptions& options, const ManoeuvreInput& input,
-              ManoeuvreMetrics& metrics);
-void Evaluate(const BrakingTestOptions& options, const ManoeuvreInput& input,
-              ManoeuvreMetrics& metrics);
-void Evaluate(const DisturbanceOptions& options, const ManoeuvreInput& input,
-              ManoeuvreMetrics& metrics);
+void Evaluate(const SteadyStateCircleOptions& options, const ManeuverInput& input,
+              ManeuverMetrics& metrics);
+void Evaluate(const SlowlyIncreasingSteerOptions& options, const ManeuverInput& input,
+              ManeuverMetrics& metrics);
+void Evaluate(const StepSteerOptions& options, const ManeuverInput& input,
+              ManeuverMetrics& metrics);
+void Evaluate(const SineWithDwellTestOptions& options, const ManeuverInput& input,
+              ManeuverMetrics& metrics);
+void Evaluate(const LaneChangeOptions& options, const ManeuverInput& input,
+              ManeuverMetrics& metrics);
+void Evaluate(const BrakingTestOptions& options, const ManeuverInput& input,
+              ManeuverMetrics& metrics);
+void Evaluate(const DisturbanceOptions& options, const ManeuverInput& input,
+              ManeuverMetrics& metrics);
 
-std::vector<ManoeuvreMetric> MetricsOf(const SteadyStateCircleOptions& options);
-std::vector<ManoeuvreMetric> MetricsOf(const SlowlyIncreasingSteerOptions& options);
-std::vector<ManoeuvreMetric> MetricsOf(const StepSteerOptions& options);
-std::vector<ManoeuvreMetric> MetricsOf(const SineWithDwellTestOptions& options);
-std::vector<ManoeuvreMetric> MetricsOf(const LaneChangeOptions& options);
-std::vector<ManoeuvreMetric> MetricsOf(const BrakingTestOptions& options);
-std::vector<ManoeuvreMetric> MetricsOf(const DisturbanceOptions& options);
+std::vector<ManeuverMetric> MethodMetrics(const SteadyStateCircleOptions& options);
+std::vector<ManeuverMetric> MethodMetrics(const SlowlyIncreasingSteerOptions& options);
+std::vector<ManeuverMetric> MethodMetrics(const StepSteerOptions& options);
+std::vector<ManeuverMetric> MethodMetrics(const SineWithDwellTestOptions& options);
+std::vector<ManeuverMetric> MethodMetrics(const LaneChangeOptions& options);
+std::vector<ManeuverMetric> MethodMetrics(const BrakingTestOptions& options);
+std::vector<ManeuverMetric> MethodMetrics(const DisturbanceOptions& options);
 
 }  // namespace trackbed

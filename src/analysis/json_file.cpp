@@ -22,7 +22,7 @@ void VisitJson(const std::filesystem::path& file,
   }
 }
 
-std::vector<Vec2> ConesOf(const ordered_json& plan) {
+std::vector<Vec2> GateCones(const ordered_json& plan) {
   std::vector<Vec2> cones;
   for (const ordered_json& gate : plan.value("gates", ordered_json::array())) {
     for (const ordered_json& cone : gate.at("cones_m")) {

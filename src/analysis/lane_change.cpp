@@ -13,7 +13,7 @@
 
 namespace trackbed {
 
-std::vector<ManoeuvreMetric> MetricsOf(const LaneChangeOptions& /*options*/) {
+std::vector<ManeuverMetric> MethodMetrics(const LaneChangeOptions& /*options*/) {
   return {{"margin", "minimum gate margin", "m", true},
           {"margin_gate", "section of the minimum margin", ""},
           {"margin_1", "margin in section 1", "m"},
@@ -23,7 +23,7 @@ std::vector<ManoeuvreMetric> MetricsOf(const LaneChangeOptions& /*options*/) {
           {"speed_loss", "speed loss", "m/s"}};
 }
 
-void Evaluate(const LaneChangeOptions&, const ManoeuvreInput& input, ManoeuvreMetrics& metrics) {
+void Evaluate(const LaneChangeOptions&, const ManeuverInput& input, ManeuverMetrics& metrics) {
   const std::vector<Gate>& gates = input.plan.gates;
   if (gates.empty()) {
     metrics.missing = "the plan has no gates";
@@ -32,14 +32,14 @@ void Evaluate(const LaneChangeOptions&, const ManoeuvreInput& input, ManoeuvreMe
   // Along the course, from the line across it at one end of a gate.
   const auto foremost = [&](const LogRow& row, const Gate& gate) {
     double x = -std::numeric_limits<double>::infinity();
-    for (const Vec2& corner : OutlineAt(input.vehicle, row.state.pose).Corners()) {
+    for (const Vec2& corner : FootprintAt(input.vehicle, row.state.pose).Corners()) {
       x = std::max(x, ToLocal(gate.lane.center, corner).x());
     }
     return x;
   };
   const auto hindmost = [&](const LogRow& row, const Gate& gate) {
     double x = std::numeric_limits<double>::infinity();
-    for (const Vec2& corner : OutlineAt(input.vehicle, row.state.pose).Corners()) {
+    for (const Vec2& corner : FootprintAt(input.vehicle, row.state.pose).Corners()) {
       x = std::min(x, ToLocal(gate.lane.center, corner).x());
     }
     return x;

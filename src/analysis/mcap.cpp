@@ -21,7 +21,7 @@ json Object(const json& properties) {
 const json kNumber{{"type", "number"}};
 const json kText{{"type", "string"}};
 
-json ListOf(const json& items) {
+json ArraySchema(const json& items) {
   return {{"type", "array"}, {"items", items}};
 }
 
@@ -36,16 +36,18 @@ const json kTransform = Object({{"timestamp", kTime},
                                 {"child_frame_id", kText},
                                 {"translation", kVector},
                                 {"rotation", kQuaternion}});
-const json kPoses = Object({{"timestamp", kTime}, {"frame_id", kText}, {"poses", ListOf(kPose)}});
+const json kPoses =
+    Object({{"timestamp", kTime}, {"frame_id", kText}, {"poses", ArraySchema(kPose)}});
 const json kScene = Object(
     {{"entities",
-      ListOf(Object(
+      ArraySchema(Object(
           {{"timestamp", kTime},
            {"frame_id", kText},
            {"id", kText},
            {"lifetime", kTime},
            {"frame_locked", {{"type", "boolean"}}},
-           {"cubes", ListOf(Object({{"pose", kPose}, {"size", kVector}, {"color", kColor}}))}}))}});
+           {"cubes",
+            ArraySchema(Object({{"pose", kPose}, {"size", kVector}, {"color", kColor}}))}}))}});
 
 json Time(double time) {
   const auto nanoseconds = std::llround(time * 1e9);
@@ -84,7 +86,7 @@ json Obstacles(const World& world, double time) {
   return {{"entities", entities}};
 }
 
-json PosesOf(const Path& path, double time) {
+json PosesMessage(const Path& path, double time) {
   constexpr double kSpacing = 0.5;  // [m]
   json poses = json::array();
   for (const PathPoint& point : path.Sample(kSpacing)) {
@@ -111,17 +113,18 @@ void AddPlant(const RunResult& result, const RunLog& log, McapWriter& writer,
   }
   const auto tf = writer.AddChannel(topic + "tf", "foxglove.FrameTransform", kTransform);
   const auto rows = writer.AddChannel(topic + "log", "trackbed.Log", Object(columns));
-  const auto outline = writer.AddChannel(topic + "outline", "foxglove.SceneUpdate", kScene);
+  const auto footprint = writer.AddChannel(topic + "footprint", "foxglove.SceneUpdate", kScene);
   messages.push_back({0.0,
-                      outline,
+                      footprint,
                       {{"entities",
-                        {Cube(OutlineAt(vehicle, {}), vehicle.height, log.plant, log.plant, 0.0,
+                        {Cube(FootprintAt(vehicle, {}), vehicle.height, log.plant, log.plant, 0.0,
                               {{"r", 0.2}, {"g", 0.45}, {"b", 0.8}, {"a", 0.8}})}}}});
   if (result.scenario.plan) {
     const auto plan = writer.AddChannel(topic + "plan", "foxglove.PosesInFrame", kPoses);
-    messages.push_back({0.0, plan, PosesOf(result.plan.reference.path, 0.0)});
+    messages.push_back({0.0, plan, PosesMessage(result.plan.reference.path, 0.0)});
     for (const PlanChange& change : log.changes) {
-      messages.push_back({change.time, plan, PosesOf(change.plan.reference.path, change.time)});
+      messages.push_back(
+          {change.time, plan, PosesMessage(change.plan.reference.path, change.time)});
     }
   }
   for (std::size_t i = 0; i < log.rows.size(); ++i) {

@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kManoeuvre = "manoeuvre";
+constexpr const char* kManeuver = "maneuver";
 constexpr const char* kTurns = "turns";
 
 /// The only list that changes after the program began: RegisterMetric adds to it.
@@ -26,7 +26,7 @@ std::vector<MetricEntry>& Registry() {
   return entries;
 }
 
-std::optional<MetricReading> ReadingOf(const MetricEntry& entry, const PlantMetrics& metrics) {
+std::optional<MetricReading> ReadMetric(const MetricEntry& entry, const PlantMetrics& metrics) {
   if (entry.read) {
     return entry.read(metrics);
   }
@@ -36,7 +36,7 @@ std::optional<MetricReading> ReadingOf(const MetricEntry& entry, const PlantMetr
 }
 
 /// The paths that an entry takes up in metrics.json.
-std::vector<std::string> PathsOf(const MetricEntry& entry) {
+std::vector<std::string> EntryPaths(const MetricEntry& entry) {
   return entry.located ? std::vector{entry.path, entry.path + "_s", entry.path + "_t"}
                        : std::vector{entry.path};
 }
@@ -72,12 +72,12 @@ void CheckEntry(const MetricEntry& entry) {
   if (static_cast<bool>(entry.read) == static_cast<bool>(entry.measure)) {
     refuse("exactly one of `measure` and `read` must be given");
   }
-  std::vector<std::string> taken{kManoeuvre, kTurns};
+  std::vector<std::string> taken{kManeuver, kTurns};
   for (const MetricEntry& other : Metrics()) {
-    const std::vector<std::string> paths = PathsOf(other);
+    const std::vector<std::string> paths = EntryPaths(other);
     taken.insert(taken.end(), paths.begin(), paths.end());
   }
-  for (const std::string& path : PathsOf(entry)) {
+  for (const std::string& path : EntryPaths(entry)) {
     for (const std::string& other : taken) {
       if (Conflict(path, other)) {
         refuse(fmt::format("conflicts with the metric '{}'", other));
@@ -147,7 +147,7 @@ std::vector<Metric> ListMetrics(const PlantMetrics& metrics) {
     all.push_back({std::move(path), std::move(value), at});
   };
   for (const MetricEntry& entry : Metrics()) {
-    const std::optional<MetricReading> reading = ReadingOf(entry, metrics);
+    const std::optional<MetricReading> reading = ReadMetric(entry, metrics);
     if (!reading) {
       continue;
     }
@@ -157,9 +157,9 @@ std::vector<Metric> ListMetrics(const PlantMetrics& metrics) {
       add(entry.path + "_t", reading->at.t, {});
     }
   }
-  if (metrics.manoeuvre) {
-    for (const Metric& own : ListMetrics(*metrics.manoeuvre)) {
-      add(fmt::format("{}.{}", kManoeuvre, own.path), own.value, own.at);
+  if (metrics.maneuver) {
+    for (const Metric& own : ListMetrics(*metrics.maneuver)) {
+      add(fmt::format("{}.{}", kManeuver, own.path), own.value, own.at);
     }
   }
   for (std::size_t i = 0; i < metrics.turns.size(); ++i) {
@@ -177,8 +177,8 @@ std::optional<MetricInfo> DescribeMetric(std::string_view path) {
   if (const auto key = InTurn(path, turn)) {
     return DescribeTurnMetric(*key, turn);
   }
-  if (const std::string section = fmt::format("{}.", kManoeuvre); path.starts_with(section)) {
-    std::optional<MetricInfo> info = DescribeManoeuvreMetric(path.substr(section.size()));
+  if (const std::string section = fmt::format("{}.", kManeuver); path.starts_with(section)) {
+    std::optional<MetricInfo> info = DescribeManeuverMetric(path.substr(section.size()));
     if (info) {
       info->label = "Maneuver: " + info->label;
     }
@@ -216,7 +216,7 @@ ordered_json ToJson(const PlantMetrics& metrics) {
   return json;
 }
 
-PlantMetrics EveryMetricOf(const Scenario& scenario, const std::string& plant) {
+PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
   PlantMetrics metrics;
   metrics.plant = plant;
   metrics.yaw_rate_ratio = 1.0;
@@ -234,8 +234,8 @@ PlantMetrics EveryMetricOf(const Scenario& scenario, const std::string& plant) {
   if (!scenario.world.obstacles.empty()) {
     metrics.clearance.emplace();
   }
-  if (scenario.manoeuvre) {
-    metrics.manoeuvre = EveryMetricOf(*scenario.manoeuvre);
+  if (scenario.maneuver) {
+    metrics.maneuver = AllMetrics(*scenario.maneuver);
   }
   for (const MetricEntry& entry : Metrics()) {
     if (entry.measure) {
@@ -247,7 +247,7 @@ PlantMetrics EveryMetricOf(const Scenario& scenario, const std::string& plant) {
 
 std::vector<std::string> PossibleMetrics(const Scenario& scenario) {
   std::vector<std::string> paths;
-  for (const Metric& metric : ListMetrics(EveryMetricOf(scenario, ""))) {
+  for (const Metric& metric : ListMetrics(AllMetrics(scenario, ""))) {
     paths.push_back(metric.path);
   }
   return paths;

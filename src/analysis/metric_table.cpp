@@ -10,13 +10,15 @@ using Reading = std::optional<MetricReading>;
 using Read = std::function<Reading(const PlantMetrics&)>;
 
 // The part of the metrics that a member belongs to; none where the run has no such part.
-const PlantMetrics* PartOf(const PlantMetrics& metrics, const PlantMetrics* /*which*/) {
+const PlantMetrics* SelectMetrics(const PlantMetrics& metrics, const PlantMetrics* /*which*/) {
   return &metrics;
 }
-const TrackingMetrics* PartOf(const PlantMetrics& metrics, const TrackingMetrics* /*which*/) {
+const TrackingMetrics* SelectMetrics(const PlantMetrics& metrics,
+                                     const TrackingMetrics* /*which*/) {
   return metrics.tracking ? &*metrics.tracking : nullptr;
 }
-const ClearanceMetrics* PartOf(const PlantMetrics& metrics, const ClearanceMetrics* /*which*/) {
+const ClearanceMetrics* SelectMetrics(const PlantMetrics& metrics,
+                                      const ClearanceMetrics* /*which*/) {
   return metrics.clearance ? &*metrics.clearance : nullptr;
 }
 
@@ -24,7 +26,7 @@ const ClearanceMetrics* PartOf(const PlantMetrics& metrics, const ClearanceMetri
 template <typename Part, typename T>
 Read Of(T Part::*value, MetricSpan span = MetricSpan::kRun) {
   return [=](const PlantMetrics& metrics) -> Reading {
-    const Part* part = PartOf(metrics, static_cast<const Part*>(nullptr));
+    const Part* part = SelectMetrics(metrics, static_cast<const Part*>(nullptr));
     return part == nullptr ? Reading() : MetricReading{part->*value, {.span = span}};
   };
 }
@@ -33,7 +35,7 @@ Read Of(T Part::*value, MetricSpan span = MetricSpan::kRun) {
 template <typename Part, typename T>
 Read At(T Part::*value, double Part::*s, double Part::*t) {
   return [=](const PlantMetrics& metrics) -> Reading {
-    const Part* part = PartOf(metrics, static_cast<const Part*>(nullptr));
+    const Part* part = SelectMetrics(metrics, static_cast<const Part*>(nullptr));
     return part == nullptr
                ? Reading()
                : MetricReading{part->*value,

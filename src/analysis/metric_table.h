@@ -25,6 +25,6 @@ const std::vector<TurnMetricEntry>& TurnMetricTable();
 void PutMetric(const Metric& metric, nlohmann::ordered_json& json);
 
 /// All that can be measured of the plant in a run of the scenario, with values that mean nothing.
-PlantMetrics EveryMetricOf(const Scenario& scenario, const std::string& plant);
+PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant);
 
 }  // namespace trackbed

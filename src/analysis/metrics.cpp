@@ -57,12 +57,12 @@ ClearanceMetrics MeasureClearance(const RunLog& log) {
   for (const LogRow& row : log.rows) {
     if (*row.clearance < metrics.min) {
       metrics.min = *row.clearance;
-      metrics.min_s = StationOf(row);
+      metrics.min_s = RowStation(row);
       metrics.min_t = row.state.time;
     }
     if (row.state.obstacle_force > metrics.force_max) {
       metrics.force_max = row.state.obstacle_force;
-      metrics.force_max_s = StationOf(row);
+      metrics.force_max_s = RowStation(row);
       metrics.force_max_t = row.state.time;
     }
   }
@@ -113,7 +113,7 @@ std::optional<double> YawRateRatio(const RunLog& log, double wheelbase) {
 std::vector<TurnMetrics> MeasureTurns(const RunLog& log, const Plan& plan,
                                       const VehicleParams& vehicle, StationSource source) {
   std::vector<TurnMetrics> turns;
-  const Trace trace = TraceOf(log, source);
+  const Trace trace = MakeTrace(log, source);
   // Wheels that are moved by forces follow their actuator late; prescribed ones do not.
   const double lag = log.rows.front().state.wheels ? vehicle.steering_lag : 0.0;
   // Beyond a change of plan, stations are those of another path.
@@ -141,7 +141,7 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
   metrics.status = log.status;
   metrics.distance = log.rows.back().state.distance;
   metrics.time = log.rows.back().state.time;
-  metrics.end_s = StationOf(log.rows.back());
+  metrics.end_s = RowStation(log.rows.back());
   const auto window = static_cast<std::size_t>(std::max(1.0, std::round(kWindow / control_period)));
   MeasureLateralAcceleration(log, window, metrics);
   MeasureSteering(log, window, metrics);

@@ -17,7 +17,7 @@ void MeasureLateralAcceleration(const RunLog& log, std::size_t window, PlantMetr
     if (i + 1 >= rows && mean > metrics.lateral_acceleration_max) {
       const LogRow& middle = log.rows[i - rows / 2];
       metrics.lateral_acceleration_max = mean;
-      metrics.lateral_acceleration_max_s = StationOf(middle);
+      metrics.lateral_acceleration_max_s = RowStation(middle);
       metrics.lateral_acceleration_max_t = middle.state.time;
     }
   }
@@ -37,7 +37,7 @@ void MeasureSteering(const RunLog& log, std::size_t window, PlantMetrics& metric
     const double rate = std::abs(state.steering - before.steering) / (state.time - before.time);
     if (rate > metrics.steering_rate_max) {
       metrics.steering_rate_max = rate;
-      metrics.steering_rate_max_s = StationOf(log.rows[i]);
+      metrics.steering_rate_max_s = RowStation(log.rows[i]);
       metrics.steering_rate_max_t = state.time;
     }
   }

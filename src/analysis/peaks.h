@@ -5,7 +5,7 @@
 namespace trackbed {
 
 /// Where a row is along the way: the path's station, or the distance driven.
-inline double StationOf(const LogRow& row) {
+inline double RowStation(const LogRow& row) {
   return row.tracking ? row.tracking->s : row.state.distance;
 }
 

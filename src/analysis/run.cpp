@@ -40,7 +40,7 @@ Table PlanTable(const Reference& reference) {
   Table table({"s_m", "x_m", "y_m", "yaw_rad", "curvature_radpm", "speed_mps", "direction"});
   // Leg by leg, so that the cusps are among the rows: of a leg's two ends, the one before it
   // counts.
-  for (const Stations& leg : LegsOf(reference.path)) {
+  for (const Stations& leg : SplitIntoLegs(reference.path)) {
     const Reference part = Excerpt(reference, leg);
     for (const PathPoint& point : part.path.Sample(kPlanSpacing)) {
       if (point.s == 0.0 && table.rows() > 0) {
@@ -172,13 +172,13 @@ double SlidingShare(const RunLog& log) {
          static_cast<double>(log.rows.size());
 }
 
-/// MuJoCo's cone of friction lifts what slides on it: the loads of such a drive are not a tyre's.
+/// MuJoCo's cone of friction lifts what slides on it: the loads of such a run are not a tyre's.
 void NoteSlidingContacts(RunResult& result, const CarModel& car) {
   constexpr double kNoticed = 0.01;
   for (const RunLog& log : result.logs) {
     const bool contact = log.plant == "mujoco:contact" ||
                          (log.plant == "mujoco" &&
-                          TyreLawOf(car, result.scenario.vehicle.tyre) == TyreLaw::kContact);
+                          SelectTyreLaw(car, result.scenario.vehicle.tyre) == TyreLaw::kContact);
     const double share = contact ? SlidingShare(log) : 0.0;
     if (share > kNoticed) {
       result.verdict.notes.push_back(fmt::format(
@@ -235,9 +235,9 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
                                      ControllerFor(scenario.control.steering).station));
     result.metrics.back().steering_is_prescribed =
         scenario.drive.steering == SteeringInput::kPrescribed;
-    if (scenario.manoeuvre) {
-      result.metrics.back().manoeuvre =
-          EvaluateManoeuvre(*scenario.manoeuvre, result.logs.back(), result.plan, car.params());
+    if (scenario.maneuver) {
+      result.metrics.back().maneuver =
+          EvaluateManeuver(*scenario.maneuver, result.logs.back(), result.plan, car.params());
     }
     result.metrics.back().recovery =
         MeasureRecovery(result.logs.back(), scenario.disturb, scenario.world.wind);

@@ -70,6 +70,9 @@ std::filesystem::path RequireFile(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file, ignored)) {
     throw InputError(Problem{.file = file.string(), .message = "missing from the run folder"});
   }
+  if (std::filesystem::is_directory(file, ignored)) {
+    throw InputError(Problem{.file = file.string(), .message = "is a folder, not a file"});
+  }
   return file;
 }
 

@@ -21,7 +21,7 @@ inline std::optional<MetricReading> LargestSideslip(const MetricInput& input) {
     const double sideslip = std::abs(row.state.sideslip);
     if (std::hypot(row.state.speed, row.state.lateral_speed) >= kSlow && sideslip > largest) {
       largest = sideslip;
-      at.s = StationOf(row);
+      at.s = RowStation(row);
       at.t = row.state.time;
     }
   }

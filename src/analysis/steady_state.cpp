@@ -95,7 +95,7 @@ double Spread(const std::vector<Sample>& samples) {
 }
 
 void EvaluateGradients(const std::vector<Sample>& samples, double from, double to, double wheelbase,
-                       ManoeuvreMetrics& metrics) {
+                       ManeuverMetrics& metrics) {
   constexpr double kLeastSpread = 0.5;  // a gradient needs something to be over [m/s^2]
   double highest = 0.0;
   for (const Sample& sample : samples) {
@@ -134,7 +134,7 @@ void EvaluateGradients(const std::vector<Sample>& samples, double from, double t
 
 }  // namespace
 
-std::vector<ManoeuvreMetric> MetricsOf(const SteadyStateCircleOptions& /*options*/) {
+std::vector<ManeuverMetric> MethodMetrics(const SteadyStateCircleOptions& /*options*/) {
   return {{"lateral_acceleration_max", "maximum quasi-steady lateral acceleration", "m/s^2"},
           {"understeer_gradient", "understeer gradient", "rad s^2/m", true},
           {"characteristic_speed", "characteristic speed", "m/s"},
@@ -144,20 +144,20 @@ std::vector<ManoeuvreMetric> MetricsOf(const SteadyStateCircleOptions& /*options
           {"sideslip_gradient", "sideslip gradient", "rad s^2/m"}};
 }
 
-std::vector<ManoeuvreMetric> MetricsOf(const SlowlyIncreasingSteerOptions& /*options*/) {
-  std::vector<ManoeuvreMetric> all = MetricsOf(SteadyStateCircleOptions{});
+std::vector<ManeuverMetric> MethodMetrics(const SlowlyIncreasingSteerOptions& /*options*/) {
+  std::vector<ManeuverMetric> all = MethodMetrics(SteadyStateCircleOptions{});
   all.push_back({"steering_at_0_3_g", "steering angle at 0.3 g", "rad"});
   return all;
 }
 
-void Evaluate(const SteadyStateCircleOptions& options, const ManoeuvreInput& input,
-              ManoeuvreMetrics& metrics) {
+void Evaluate(const SteadyStateCircleOptions& options, const ManeuverInput& input,
+              ManeuverMetrics& metrics) {
   EvaluateGradients(QuasiSteady(input.log, options.settle), options.fit_from, options.fit_to,
                     input.vehicle.wheelbase, metrics);
 }
 
-void Evaluate(const SlowlyIncreasingSteerOptions& options, const ManoeuvreInput& input,
-              ManoeuvreMetrics& metrics) {
+void Evaluate(const SlowlyIncreasingSteerOptions& options, const ManeuverInput& input,
+              ManeuverMetrics& metrics) {
   const std::vector<Sample> samples = QuasiSteady(input.log, options.settle);
   EvaluateGradients(samples, options.fit_from, options.fit_to, input.vehicle.wheelbase, metrics);
   const std::vector<Sample> used = Between(samples, 0.1 * kGravity, 0.375 * kGravity);

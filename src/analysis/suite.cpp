@@ -66,24 +66,25 @@ void RunCase(const std::function<Scenario(const fs::path&)>& read,
 }
 
 /// Tells of cases in the order of the files, as soon as all before them are finished.
-class Teller {
+class OrderedCases {
  public:
-  Teller(const std::vector<SuiteCase>& cases, const std::function<void(const SuiteCase&)>& tell)
-      : cases_(cases), tell_(tell), finished_(cases.size(), false) {}
+  OrderedCases(const std::vector<SuiteCase>& cases,
+               const std::function<void(const SuiteCase&)>& report)
+      : cases_(cases), report_(report), finished_(cases.size(), false) {}
 
   void Finished(std::size_t i) {
     const std::lock_guard lock(mutex_);
     finished_[i] = true;
     for (; next_ < cases_.size() && finished_[next_]; ++next_) {
-      if (tell_) {
-        tell_(cases_[next_]);
+      if (report_) {
+        report_(cases_[next_]);
       }
     }
   }
 
  private:
   const std::vector<SuiteCase>& cases_;
-  const std::function<void(const SuiteCase&)>& tell_;
+  const std::function<void(const SuiteCase&)>& report_;
   std::mutex mutex_;
   std::vector<bool> finished_;
   std::size_t next_ = 0;
@@ -179,7 +180,7 @@ std::vector<SuiteCase> RunSuite(const std::vector<fs::path>& files,
   for (const fs::path& file : files) {
     cases.push_back({.file = file, .name = file.stem().string()});
   }
-  Teller teller(cases, options.finished);
+  OrderedCases ordered(cases, options.finished);
   ForEachIndex(cases.size(), options.jobs, [&](std::size_t i) {
     if (options.interrupted && options.interrupted()) {
       return false;
@@ -188,7 +189,7 @@ std::vector<SuiteCase> RunSuite(const std::vector<fs::path>& files,
     if (cases[i].status == CaseStatus::kInterrupted) {
       return false;
     }
-    teller.Finished(i);
+    ordered.Finished(i);
     return true;
   });
   return cases;

@@ -52,15 +52,15 @@ std::vector<std::string> Columns(const Study& study) {
 }
 
 /// A value of YAML as one of JSON: numbers and the like as such, all else as text.
-ordered_json JsonOf(const std::string& value) {
+ordered_json SettingsJson(const std::string& value) {
   ordered_json json = ordered_json::parse(CellText(value), nullptr, false);
   return json.is_discarded() ? ordered_json(value) : json;
 }
 
-ordered_json JsonOf(const std::vector<Setting>& settings) {
+ordered_json SettingsJson(const std::vector<Setting>& settings) {
   ordered_json json = ordered_json::object();
   for (const Setting& setting : settings) {
-    json[setting.key] = JsonOf(setting.value);
+    json[setting.key] = SettingsJson(setting.value);
   }
   return json;
 }
@@ -134,7 +134,7 @@ class RowMaker {
 
   [[nodiscard]] ordered_json Describe(const StudyPoint& point, std::uint64_t seed,
                                       const Bisection& bisection) const {
-    ordered_json json{{"point", JsonOf(point.settings)}, {"seed", seed}};
+    ordered_json json{{"point", SettingsJson(point.settings)}, {"seed", seed}};
     json["status"] = ToString(bisection.status);
     if (bisection.status != BisectStatus::kFailsAtFrom) {
       json["value"] = bisection.value;
@@ -174,17 +174,17 @@ class RowMaker {
 
 ordered_json DescribeStudy(const Study& study) {
   ordered_json json{{"study", study.name}, {"scenario", study.scenario.string()}};
-  json["set"] = JsonOf(study.set);
+  json["set"] = SettingsJson(study.set);
   json["overrides"] = study.overrides;
   json["vary"] = ordered_json::object();
   for (const auto& alternatives : study.vary) {
     for (const Setting& setting : alternatives) {
-      json["vary"][setting.key].push_back(JsonOf(setting.value));
+      json["vary"][setting.key].push_back(SettingsJson(setting.value));
     }
   }
   json["list"] = ordered_json::array();
   for (const auto& point : study.list) {
-    json["list"].push_back(JsonOf(point));
+    json["list"].push_back(SettingsJson(point));
   }
   json["repeat"] = study.repeat;
   if (study.bisect) {

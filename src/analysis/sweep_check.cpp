@@ -11,7 +11,7 @@ namespace {
 using CarKey = decltype(CheckedStudy::cars)::key_type;
 
 /// What tells the bare cars of scenarios apart.
-CarKey CarOf(const Scenario& scenario) {
+CarKey MakeCarKey(const Scenario& scenario) {
   return {FindModel(scenario.vehicle.model, scenario.folder).string(), scenario.drive.timestep,
           scenario.vehicle.steering_rate.value_or(0.0)};
 }
@@ -30,7 +30,7 @@ void CompileCars(CheckedStudy& checked) {
     scenario.world.obstacles.clear();
     scenario.world.ground = {};
     scenario.disturb.payload.reset();
-    const auto car = CarOf(scenario);
+    const auto car = MakeCarKey(scenario);
     if (!tried.insert(car).second) {
       continue;
     }
@@ -51,7 +51,7 @@ void CheckPlants(const CheckedStudy& checked) {
   std::set<std::tuple<CarKey, std::string, TyreLaw>> tried;
   const World bare;
   for (const StudyPoint& point : checked.points) {
-    const auto car = CarOf(point.scenario);
+    const auto car = MakeCarKey(point.scenario);
     const TyreLaw tyre = point.scenario.vehicle.tyre;
     for (const std::string& plant : point.scenario.drive.plants) {
       if (!tried.insert({car, plant, tyre}).second) {
@@ -106,7 +106,7 @@ std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario&
   const RunHooks hooks{.drive = [&](const std::string&) {
     return DriveHooks{.progress = {}, .interrupted = interrupted};
   }};
-  const auto car = checked.cars.find(CarOf(scenario));
+  const auto car = checked.cars.find(MakeCarKey(scenario));
   const bool compiled = car != checked.cars.end() && IsBare(scenario);
   const RunResult result =
       compiled ? RunMission(scenario, car->second, hooks) : RunMission(scenario, hooks);
@@ -119,7 +119,7 @@ std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario&
                               : passed                 ? "passed"
                                                        : "failed",
                     .passed = passed,
-                    .outputs = OutputsOf(result)};
+                    .outputs = CollectOutputs(result)};
 }
 
 }  // namespace trackbed

@@ -6,7 +6,7 @@
 
 namespace trackbed {
 
-Outputs OutputsOf(const RunResult& result) {
+Outputs CollectOutputs(const RunResult& result) {
   Outputs outputs;
   for (const PlantMetrics& plant : result.metrics) {
     for (const Metric& metric : ListMetrics(plant)) {
@@ -42,10 +42,10 @@ std::vector<std::string> PossibleOutputs(const Scenario& scenario) {
     for (const PlantMetrics& other : all.metrics) {
       all.comparisons.push_back({.first = other.plant, .second = plant});
     }
-    all.metrics.push_back(EveryMetricOf(scenario, plant));
+    all.metrics.push_back(AllMetrics(scenario, plant));
   }
   std::vector<std::string> paths;
-  for (const auto& output : OutputsOf(all)) {
+  for (const auto& output : CollectOutputs(all)) {
     paths.push_back(output.first);
   }
   return paths;

@@ -65,7 +65,7 @@ std::optional<Step> FindStep(const RunLog& log, double steady) {
 /// Response time, peak time, overshoot and steady value of one quantity, under `name`_….
 template <typename Of>
 double EvaluateResponse(const RunLog& log, const Step& step, double steady_time,
-                        const std::string& name, const Of& of, ManoeuvreMetrics& metrics) {
+                        const std::string& name, const Of& of, ManeuverMetrics& metrics) {
   const double start = of(log.rows[step.row]);
   const double steady = MeanAtEnd(log, steady_time, of) - start;
   const double side = std::copysign(1.0, steady);
@@ -89,7 +89,7 @@ double EvaluateResponse(const RunLog& log, const Step& step, double steady_time,
 
 }  // namespace
 
-std::vector<ManoeuvreMetric> MetricsOf(const StepSteerOptions& /*options*/) {
+std::vector<ManeuverMetric> MethodMetrics(const StepSteerOptions& /*options*/) {
   return {{"speed", "initial speed", "m/s"},
           {"yaw_rate_steady", "steady yaw rate", "rad/s"},
           {"yaw_rate_response_time", "yaw rate response time", "s", true},
@@ -104,8 +104,8 @@ std::vector<ManoeuvreMetric> MetricsOf(const StepSteerOptions& /*options*/) {
           {"tb", "TB value", "s rad"}};
 }
 
-void Evaluate(const StepSteerOptions& options, const ManoeuvreInput& input,
-              ManoeuvreMetrics& metrics) {
+void Evaluate(const StepSteerOptions& options, const ManeuverInput& input,
+              ManeuverMetrics& metrics) {
   const RunLog& log = input.log;
   const std::optional<Step> step = FindStep(log, options.steady);
   if (!step) {
@@ -126,7 +126,7 @@ void Evaluate(const StepSteerOptions& options, const ManoeuvreInput& input,
   metrics.values.emplace_back("tb", *metrics.Find("yaw_rate_peak_time") * std::abs(sideslip));
 }
 
-std::vector<ManoeuvreMetric> MetricsOf(const SineWithDwellTestOptions& /*options*/) {
+std::vector<ManeuverMetric> MethodMetrics(const SineWithDwellTestOptions& /*options*/) {
   return {{"speed", "initial speed", "m/s"},
           {"lateral_displacement", "lateral displacement", "m", true},
           {"yaw_rate_peak", "peak yaw rate", "rad/s"},
@@ -134,8 +134,8 @@ std::vector<ManoeuvreMetric> MetricsOf(const SineWithDwellTestOptions& /*options
           {"yaw_rate_ratio_1_75", "yaw rate ratio after 1.75 s", "", true}};
 }
 
-void Evaluate(const SineWithDwellTestOptions&, const ManoeuvreInput& input,
-              ManoeuvreMetrics& metrics) {
+void Evaluate(const SineWithDwellTestOptions&, const ManeuverInput& input,
+              ManeuverMetrics& metrics) {
   const auto& rows = input.log.rows;
   // 5 degrees of the steering wheel; on a car without a ratio that of a usual one, 20.
   const double ratio = input.vehicle.steering_ratio > 0.0 ? input.vehicle.steering_ratio : 20.0;

@@ -10,7 +10,7 @@ namespace {
 /// Fraction of the actuator rate by which the measured steering rate may exceed it.
 constexpr double kWheelCompliance = 0.03;
 
-bool HasExpectationOf(std::string_view metric, const PlantExpectation& expect) {
+bool HasExpectationFor(std::string_view metric, const PlantExpectation& expect) {
   return std::any_of(expect.metrics.begin(), expect.metrics.end(),
                      [&](const MetricExpectation& own) { return own.metric == metric; });
 }
@@ -50,7 +50,7 @@ class Expected {
 
   [[nodiscard]] bool HasStatus() const {
     return std::any_of(parts_.begin(), parts_.end(), [](const PlantExpectation* part) {
-      return HasExpectationOf("status", *part);
+      return HasExpectationFor("status", *part);
     });
   }
 
@@ -131,10 +131,10 @@ void JudgeCorridor(const PlantMetrics& metrics, Verdict& verdict) {
 
 void NoteLimitedSteering(const PlantMetrics& metrics, Verdict& verdict) {
   constexpr double kNoticed = 0.02;
-  if (metrics.manoeuvre && metrics.manoeuvre->steering_saturated_fraction > kNoticed) {
+  if (metrics.maneuver && metrics.maneuver->steering_saturated_fraction > kNoticed) {
     verdict.notes.push_back(fmt::format("{}: steering limited ({:.0f} % of the time)",
                                         metrics.plant,
-                                        100.0 * metrics.manoeuvre->steering_saturated_fraction));
+                                        100.0 * metrics.maneuver->steering_saturated_fraction));
   }
 }
 

@@ -83,11 +83,11 @@ const std::vector<Kind>& Kinds() {
          }
          return lines;
        }},
-      {"manoeuvres",
+      {"maneuvers",
        [] {
-         std::vector<Line> lines = Summaries(Manoeuvres());
+         std::vector<Line> lines = Summaries(Maneuvers());
          for (std::size_t i = 0; i < lines.size(); ++i) {
-           AddDefaults(OptionDefaults(Manoeuvres()[i].defaults), lines[i]);
+           AddDefaults(OptionDefaults(Maneuvers()[i].defaults), lines[i]);
          }
          return lines;
        }},

@@ -40,7 +40,7 @@ const std::vector<Verb> kVerbs{
     {"report", "Write one HTML page about finished runs or a study", AddReport},
     {"experiment", "Repeat a published experiment and print its table", AddExperiment},
     {"list",
-     "List available planners, controllers, manoeuvres, plants, optimizers, cameras, overlays, "
+     "List available planners, controllers, maneuvers, plants, optimizers, cameras, overlays, "
      "models or scenarios",
      AddList},
     {"model", "Print the parameters of a vehicle model, or write its composed MJCF", AddModel},
@@ -81,11 +81,11 @@ int Run(int argc, char** argv) {
 namespace trackbed {
 
 int Main(int argc, char** argv) {
-  // The first Ctrl-C ends the drive and keeps its log; a second one ends the program.
+  // The first Ctrl-C ends the run and keeps its log; a second one ends the program.
   struct sigaction action {};
   action.sa_handler = [](int) { cli::interrupted = true; };
   sigaction(SIGTERM, &action, nullptr);
-  // A terminal that is closed ends the drive, too, unless nohup has said that it shall not.
+  // A terminal that is closed ends the run, too, unless nohup has said that it shall not.
   struct sigaction hang_up {};
   sigaction(SIGHUP, nullptr, &hang_up);
   if (hang_up.sa_handler != SIG_IGN) {

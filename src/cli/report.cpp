@@ -22,7 +22,7 @@ struct ReportOptions {
   bool quiet = false;
 };
 
-FilmPlace PlaceOf(const std::string& film) {
+FilmPlace ParseFilmPlace(const std::string& film) {
   const std::vector<std::pair<std::string, FilmPlace>> places{{"embedded", FilmPlace::kEmbedded},
                                                               {"beside", FilmPlace::kBeside},
                                                               {"none", FilmPlace::kAbsent}};
@@ -37,7 +37,7 @@ FilmPlace PlaceOf(const std::string& film) {
 }
 
 int Report(const ReportOptions& options) {
-  const FilmPlace film = PlaceOf(options.film);
+  const FilmPlace film = ParseFilmPlace(options.film);
   const std::vector<fs::path> paths(options.paths.begin(), options.paths.end());
   const fs::path& first = paths.front();
   // Of several runs the page is no part of one of them.

@@ -27,16 +27,16 @@ struct RunOptions {
   ScenarioOptions scenario;
 };
 
-void PrintManoeuvre(const ManoeuvreMetrics& manoeuvre) {
-  fmt::print("    {}{}\n", manoeuvre.method,
-             !manoeuvre.passed   ? ""
-             : *manoeuvre.passed ? ": passed"
-                                 : ": FAILED");
-  for (const auto& [name, value] : manoeuvre.values) {
+void PrintManeuver(const ManeuverMetrics& maneuver) {
+  fmt::print("    {}{}\n", maneuver.method,
+             !maneuver.passed   ? ""
+             : *maneuver.passed ? ": passed"
+                                : ": FAILED");
+  for (const auto& [name, value] : maneuver.values) {
     fmt::print("    {:<36} {:>10.4g}\n", name, value);
   }
-  if (!manoeuvre.missing.empty()) {
-    fmt::print("    {}\n", manoeuvre.missing);
+  if (!maneuver.missing.empty()) {
+    fmt::print("    {}\n", maneuver.missing);
   }
 }
 
@@ -50,8 +50,8 @@ void PrintSummary(const RunResult& result) {
                  tracking.cross_track_max, tracking.cross_track_rms, tracking.goal_distance);
     }
     fmt::print("\n");
-    if (plant.manoeuvre) {
-      PrintManoeuvre(*plant.manoeuvre);
+    if (plant.maneuver) {
+      PrintManeuver(*plant.maneuver);
     }
   }
   for (const PlantComparison& between : result.comparisons) {

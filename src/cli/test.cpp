@@ -23,7 +23,7 @@ struct TestOptions {
   ScenarioOptions scenario;
 };
 
-void Tell(const SuiteCase& one, bool quiet) {
+void PrintCase(const SuiteCase& one, bool quiet) {
   std::string line = one.status == CaseStatus::kPassed ? "all expectations met"
                      : one.status == CaseStatus::kNotJudged
                          ? "no expectations"
@@ -57,7 +57,7 @@ void Tell(const SuiteCase& one, bool quiet) {
 
 /// A bug outranks everything; bad input outranks a failed expectation: the suite did not say what
 /// it was to say.
-int CodeOf(const std::vector<SuiteCase>& cases) {
+int SuiteExitCode(const std::vector<SuiteCase>& cases) {
   const auto any = [&](CaseStatus status) {
     return std::any_of(cases.begin(), cases.end(),
                        [&](const SuiteCase& one) { return one.status == status; });
@@ -83,12 +83,12 @@ int Test(const TestOptions& options) {
                  return options.scenario.Read(file);
                },
                {.jobs = options.jobs > 0 ? options.jobs : threads,
-                .finished = [&](const SuiteCase& one) { Tell(one, options.scenario.quiet); },
+                .finished = [&](const SuiteCase& one) { PrintCase(one, options.scenario.quiet); },
                 .interrupted = [] { return interrupted.load(); }});
   if (!options.junit.empty()) {
     WriteFileAtomically(options.junit, ToJUnit(cases));
   }
-  return CodeOf(cases);
+  return SuiteExitCode(cases);
 }
 
 }  // namespace

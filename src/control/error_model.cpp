@@ -40,21 +40,21 @@ double TangentExcess(double steering) {
 
 }  // namespace
 
-ErrorModel ErrorModelOf(const ControlInput& input, const Tracking& tracking, double period) {
+ErrorModel MakeErrorModel(const ControlInput& input, const Tracking& tracking, double period) {
   const VehicleParams& vehicle = input.vehicle;
   const int direction = tracking.foot.direction;
   const bool tyres = HasTyres(vehicle);
   const int n = tyres ? kYawRate + 1 : kWheels + 1;
   ErrorModel model;
   model.period = period;
-  const CarScale scale = CarScaleOf(vehicle);
+  const CarScale scale = ComputeCarScale(vehicle);
   const double slowest = kSlowest * std::min(1.0, scale.length / scale.time);
   model.speed = direction * std::max(direction * input.state.speed, slowest);
   const double u = model.speed;
 
   // d/dt of (x, w, kappa, c), the last three constant.
-  using Augmented = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, ErrorModel::kMost + 3,
-                                  ErrorModel::kMost + 3>;
+  using Augmented = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
+                                  ErrorModel::kMaxStates + 3, ErrorModel::kMaxStates + 3>;
   Augmented rates = Augmented::Zero(n + 3, n + 3);
   const int rate = n;
   const int curvature = n + 1;
@@ -86,7 +86,7 @@ ErrorModel ErrorModelOf(const ControlInput& input, const Tracking& tracking, dou
   return model;
 }
 
-Vector StateOf(const ControlInput& input, const Tracking& tracking) {
+Vector ErrorState(const ControlInput& input, const Tracking& tracking) {
   const bool tyres = HasTyres(input.vehicle);
   Vector x(tyres ? kYawRate + 1 : kWheels + 1);
   x[kOffset] = tracking.cross_track;
@@ -121,7 +121,7 @@ double CommandedAngle::Turn(const ControlInput& input, double rate) {
   return *last_;
 }
 
-Regulator RegulatorOf(const ErrorModel& model, const ErrorWeights& weights) {
+Regulator SolveRegulator(const ErrorModel& model, const ErrorWeights& weights) {
   const auto n = model.a.rows();
   const Matrix identity = Matrix::Identity(n, n);
   Matrix a = model.a;
@@ -175,7 +175,7 @@ Regulator ScheduledRegulator(const ErrorModel& model, double steering_rate, Erro
   constexpr double kMaxRates = 2.0;
   constexpr int kMaxRaises = 30;
   for (int i = 0;; ++i) {
-    const Regulator regulator = RegulatorOf(model, weights);
+    const Regulator regulator = SolveRegulator(model, weights);
     const double per_offset = std::abs(regulator.gain[kOffset]);
     const double per_heading = std::abs(regulator.gain[kHeading]);
     const double most = kApproach * per_heading / per_offset;

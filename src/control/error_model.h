@@ -19,9 +19,9 @@ namespace trackbed {
 /// steady turn: the wheels act with their tangent, which is linearized there with slope 1. Thus a
 /// car on its path in a steady turn stays on it, however tight that is.
 struct ErrorModel {
-  static constexpr int kMost = 6;
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
-  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1>;
+  static constexpr int kMaxStates = 6;
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxStates, kMaxStates>;
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxStates, 1>;
 
   double speed = 0.0;   ///< u [m/s], signed, never too near 0
   double period = 0.0;  ///< of a step [s]
@@ -34,10 +34,10 @@ struct ErrorModel {
 /// The model at the speed that the car has, in the direction of the path at its foot. A car at a
 /// crawl or rolling the other way is reckoned with
 /// 2.46 L omega that way, 1 m/s at most.
-ErrorModel ErrorModelOf(const ControlInput& input, const Tracking& tracking, double period);
+ErrorModel MakeErrorModel(const ControlInput& input, const Tracking& tracking, double period);
 
 /// x of the car now.
-ErrorModel::Vector StateOf(const ControlInput& input, const Tracking& tracking);
+ErrorModel::Vector ErrorState(const ControlInput& input, const Tracking& tracking);
 
 /// The angle that is asked for, turned by a rate. It goes on from what was asked before, not from
 /// where the actuator stands: an actuator that is late, has play or gives a tenth too little would
@@ -66,7 +66,7 @@ struct ErrorWeights {
 /// of the car.
 template <typename Options>
 ErrorWeights WeightsFor(const VehicleParams& vehicle, const Options& options) {
-  const CarScale scale = CarScaleOf(vehicle);
+  const CarScale scale = ComputeCarScale(vehicle);
   return {.cross_track = options.cross_track.value_or(1.0 / (scale.length * scale.length)),
           .heading = options.heading,
           .steering_rate = options.steering_rate.value_or(scale.time * scale.time)};
@@ -75,13 +75,13 @@ ErrorWeights WeightsFor(const VehicleParams& vehicle, const Options& options) {
 /// The linear-quadratic regulator for a model: the cost of x off the path is x^T P x, and
 /// w = -K x keeps it lowest.
 struct Regulator {
-  ErrorModel::Matrix cost;                                                               ///< P
-  Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, ErrorModel::kMost> gain;  ///< K
+  ErrorModel::Matrix cost;                                                                    ///< P
+  Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, ErrorModel::kMaxStates> gain;  ///< K
   double input_cost = 0.0;  ///< R + b^T P b
 };
 
 /// P from the discrete Riccati equation, by doubling (Chu et al. 2004), to rounding.
-Regulator RegulatorOf(const ErrorModel& model, const ErrorWeights& weights);
+Regulator SolveRegulator(const ErrorModel& model, const ErrorWeights& weights);
 
 /// Diagonal of the cost of x.
 ErrorModel::Vector StateCost(const ErrorModel& model, const ErrorWeights& weights);

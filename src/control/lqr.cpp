@@ -15,10 +15,10 @@ class Lqr final : public SteeringController {
 
   double Steer(const ControlInput& input) override {
     const VehicleParams& vehicle = input.vehicle;
-    const Tracking tracking = TrackingOf(input);
-    const ErrorModel model = ErrorModelOf(input, tracking, input.period);
+    const Tracking tracking = ProjectOntoPath(input);
+    const ErrorModel model = MakeErrorModel(input, tracking, input.period);
     Ahead ahead(input, tracking, model);
-    ErrorModel::Vector z = StateOf(input, tracking) - ahead.steady();
+    ErrorModel::Vector z = ErrorState(input, tracking) - ahead.steady();
     ErrorWeights weights = WeightsFor(vehicle, options_);
     const Regulator regulator = ScheduledRegulator(model, vehicle.steering_rate, weights, z);
 

@@ -15,7 +15,7 @@ static_assert(MpcOptions::kLongestHorizon <= QuadraticProgram::kMaxVariables);
 /// z of a step as a linear function of all rates: free + reach w.
 struct Prediction {
   ErrorModel::Vector free;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, ErrorModel::kMost,
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, ErrorModel::kMaxStates,
                 MpcOptions::kLongestHorizon>
       reach;
 };
@@ -26,11 +26,11 @@ class Mpc final : public SteeringController {
 
   double Steer(const ControlInput& input) override {
     const VehicleParams& vehicle = input.vehicle;
-    const Tracking tracking = TrackingOf(input);
+    const Tracking tracking = ProjectOntoPath(input);
     const double step = std::max(options_.step, input.period);
-    const ErrorModel model = ErrorModelOf(input, tracking, step);
+    const ErrorModel model = MakeErrorModel(input, tracking, step);
     Ahead ahead(input, tracking, model);
-    Prediction z{StateOf(input, tracking) - ahead.steady(), {}};
+    Prediction z{ErrorState(input, tracking) - ahead.steady(), {}};
     ErrorWeights weights = WeightsFor(vehicle, options_);
     const Regulator regulator = ScheduledRegulator(model, vehicle.steering_rate, weights, z.free);
     z.reach.setZero(model.a.rows(), options_.horizon);

@@ -45,12 +45,12 @@ SteeringMatch Minimise(const Cost& cost, const Range& range, const SearchOptions
 
 }  // namespace
 
-Deviation DeviationOf(const Pose2& actual, const Pose2& wanted) {
+Deviation ComputeDeviation(const Pose2& actual, const Pose2& wanted) {
   const Vec2 offset = ToLocal(wanted, actual.position());
   return {offset.x(), offset.y(), actual.yaw - wanted.yaw};
 }
 
-double CostOf(const Deviation& deviation, const DeviationWeights& weights) {
+double DeviationCost(const Deviation& deviation, const DeviationWeights& weights) {
   return weights.position * (deviation.x * deviation.x + deviation.y * deviation.y) +
          weights.heading * deviation.yaw * deviation.yaw;
 }
@@ -128,7 +128,8 @@ SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem
   const double start =
       std::clamp(TurnShare(vehicle, own, side * problem.start), lower + margin, upper - margin);
   const auto cost = [&](double share) {
-    return CostOf(DeviationAhead(vehicle, own, SteeringOfShare(vehicle, own, share)), weights);
+    return DeviationCost(DeviationAhead(vehicle, own, SteeringOfShare(vehicle, own, share)),
+                         weights);
   };
   constexpr std::uint64_t kSeed = 1;  // of every update
   SteeringMatch match = Minimise(cost, {lower, upper, start}, search, kSeed);
@@ -150,7 +151,7 @@ SteeringMatch MatchSteering(const VehicleParams& vehicle, const CircleExperiment
   const Pose2 wanted = drive(experiment.primary_steering,
                              by_time ? experiment.primary_speed : experiment.speed, lap);
   const auto cost = [&](double steering) {
-    return CostOf(Difference(drive(steering, experiment.speed, lap), wanted), {});
+    return DeviationCost(Difference(drive(steering, experiment.speed, lap), wanted), {});
   };
   return Minimise(cost, {-experiment.max_steering, experiment.max_steering, 0.0}, search, seed);
 }

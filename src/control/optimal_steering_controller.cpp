@@ -18,12 +18,12 @@ class OptimalSteeringController final : public SteeringController {
   }
 
   double Steer(const ControlInput& input) override {
-    const Primary primary = PrimaryOf(input);
+    const Primary primary = PrimaryAt(input);
     const double limit = std::min(options_.max_steering.value_or(input.vehicle.steering_limit),
                                   input.vehicle.steering_limit);
     const double speed = std::max(std::abs(input.state.speed), kCrawl);
     const int direction = input.reference.path.At(input.station).direction;
-    deviation_ = DeviationOf(input.state.pose, Seen(input, primary.station));
+    deviation_ = ComputeDeviation(input.state.pose, Seen(input, primary.station));
     const double planned = std::max(options_.horizon ? *options_.horizon : PreviewDistance(input),
                                     options_.time * primary.speed.value_or(speed));
     const double horizon =
@@ -68,10 +68,10 @@ class OptimalSteeringController final : public SteeringController {
   };
 
   [[nodiscard]] bool Keeps(const Deviation& deviation) const {
-    return std::sqrt(CostOf(deviation, options_.weights)) <= options_.deviation_limit;
+    return std::sqrt(DeviationCost(deviation, options_.weights)) <= options_.deviation_limit;
   }
 
-  [[nodiscard]] Primary PrimaryOf(const ControlInput& input) const {
+  [[nodiscard]] Primary PrimaryAt(const ControlInput& input) const {
     if (options_.matching == Matching::kArcLength) {
       return {input.station, {}};
     }

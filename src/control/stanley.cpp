@@ -14,7 +14,7 @@ class Stanley final : public SteeringController {
 
   double Steer(const ControlInput& input) override {
     const VehicleParams& vehicle = input.vehicle;
-    const Tracking tracking = TrackingOf(input);
+    const Tracking tracking = ProjectOntoPath(input);
     const int direction = tracking.foot.direction;
     const double speed = std::abs(input.state.speed);
     const SteadyTurn turn = SteadyTurnOn(vehicle, tracking.foot.curvature, direction * speed);
@@ -23,7 +23,7 @@ class Stanley final : public SteeringController {
     if (direction > 0) {
       offset += vehicle.wheelbase * std::sin(heading);
     }
-    const CarScale scale = CarScaleOf(vehicle);
+    const CarScale scale = ComputeCarScale(vehicle);
     const double gain = options_.gain.value_or(1.0 / scale.time);
     const double softening = options_.softening.value_or(scale.length / scale.time);
     // atan2: at rest without softening, as far as the angle goes.

@@ -6,7 +6,7 @@
 
 namespace trackbed {
 
-Tracking TrackingOf(const ControlInput& input) {
+Tracking ProjectOntoPath(const ControlInput& input) {
   Tracking tracking;
   tracking.foot = input.reference.path.At(input.station);
   const Pose2& pose = input.state.pose;
@@ -15,7 +15,7 @@ Tracking TrackingOf(const ControlInput& input) {
   return tracking;
 }
 
-CarScale CarScaleOf(const VehicleParams& vehicle) {
+CarScale ComputeCarScale(const VehicleParams& vehicle) {
   constexpr double kWheelbase = 2.7;             // [m]
   constexpr double kSteeringRate = 2.65 / 17.6;  // [rad/s]
   return {.length = vehicle.wheelbase / kWheelbase, .time = kSteeringRate / vehicle.steering_rate};

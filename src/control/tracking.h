@@ -11,7 +11,7 @@ struct Tracking {
   double heading_error = 0.0;  ///< psi [rad], in (-pi, pi]
 };
 
-Tracking TrackingOf(const ControlInput& input);
+Tracking ProjectOntoPath(const ControlInput& input);
 
 /// Sizes of a car over those of the one that gains and weights were chosen for, the Prius. In these
 /// units all cars are alike, as far as their wheelbase and steering rate go.
@@ -20,7 +20,7 @@ struct CarScale {
   double time = 1.0;    ///< of the time the wheels need to turn: 0.1506 rad/s over omega
 };
 
-CarScale CarScaleOf(const VehicleParams& vehicle);
+CarScale ComputeCarScale(const VehicleParams& vehicle);
 
 /// Whether the car's tyres are known, so that it can be more than kinematic.
 bool HasTyres(const VehicleParams& vehicle);

@@ -42,15 +42,15 @@ struct Reader {
   int line = 1;
   std::vector<Problem> problems{};
 
-  void Complain(std::string key, std::string message) {
+  void AddError(std::string key, std::string message) {
     problems.push_back({file, line, 0, std::move(key), std::move(message)});
   }
 
   /// libcsv counts no characters, so a cell is placed by its number, from 1, and its column's name.
-  void ComplainOfCell(std::size_t cell, std::string message) {
+  void AddCellError(std::size_t cell, std::string message) {
     const std::string& column = header[cell];
     const std::string name = column.empty() ? "" : fmt::format(" ({})", column);
-    Complain(fmt::format("cell {}{}", cell + 1, name), std::move(message));
+    AddError(fmt::format("cell {}{}", cell + 1, name), std::move(message));
   }
 
   /// `ending` is the character that ended the row, or -1 at the end of the file.
@@ -60,10 +60,10 @@ struct Reader {
     } else if (header.empty()) {
       Header();
     } else if (cells.size() < header.size()) {
-      ComplainOfCell(cells.size(),
-                     fmt::format("missing; {}, the header has {}", CellCount(), header.size()));
+      AddCellError(cells.size(),
+                   fmt::format("missing; {}, the header has {}", CellCount(), header.size()));
     } else if (cells.size() > header.size()) {
-      Complain("", fmt::format("{}, the header has {}", CellCount(), header.size()));
+      AddError("", fmt::format("{}, the header has {}", CellCount(), header.size()));
     } else if (table) {
       Row();
     }
@@ -83,9 +83,9 @@ struct Reader {
         continue;
       }
       if (header[i].empty()) {
-        ComplainOfCell(i, "the column has no name");
+        AddCellError(i, "the column has no name");
       } else if (std::find(columns.begin(), columns.end(), header[i]) != columns.end()) {
-        ComplainOfCell(i, "repeated column");
+        AddCellError(i, "repeated column");
       }
       columns.push_back(header[i]);
       taken.push_back(i);
@@ -93,7 +93,7 @@ struct Reader {
     for (const std::string& name : selection.needed) {
       if (std::find(columns.begin(), columns.end(), name) == columns.end()) {
         const std::string near = NearestSpelling(name, header);
-        Complain("", fmt::format("no column '{}'; {}", name,
+        AddError("", fmt::format("no column '{}'; {}", name,
                                  near.empty() ? fmt::format("columns: {}", fmt::join(header, ", "))
                                               : fmt::format("did you mean '{}'?", near)));
       }
@@ -111,9 +111,9 @@ struct Reader {
       double value = 0.0;
       const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
       if (error != std::errc{} || end != cell.data() + cell.size()) {
-        ComplainOfCell(i, fmt::format("'{}' is not a number", cell));
+        AddCellError(i, fmt::format("'{}' is not a number", cell));
       } else if (selection.finite && !std::isfinite(value)) {
-        ComplainOfCell(i, fmt::format("'{}' is not a finite number", cell));
+        AddCellError(i, fmt::format("'{}' is not a finite number", cell));
       }
       row.push_back(value);
     }
@@ -142,10 +142,10 @@ Reader ReadThrough(const std::filesystem::path& file, Selection selection) {
   const auto row = [](int ending, void* self) { static_cast<Reader*>(self)->EndOfRow(ending); };
   const std::size_t parsed = csv_parse(&parser, text.data(), text.size(), cell, row, &reader);
   if (parsed != text.size() || csv_fini(&parser, cell, row, &reader) != 0) {
-    reader.Complain("", csv_strerror(csv_error(&parser)));
+    reader.AddError("", csv_strerror(csv_error(&parser)));
   }
   if (reader.header.empty() && reader.problems.empty()) {
-    reader.Complain("", "empty file; expected a header line of column names");
+    reader.AddError("", "empty file; expected a header line of column names");
   }
   if (!reader.problems.empty()) {
     throw InputError(FirstProblems(std::move(reader.problems)));
@@ -156,10 +156,10 @@ Reader ReadThrough(const std::filesystem::path& file, Selection selection) {
 }  // namespace
 
 std::vector<Problem> FirstProblems(std::vector<Problem> problems) {
-  constexpr std::size_t kMost = 20;
-  if (problems.size() > kMost) {
-    const std::string more = fmt::format("and {} more problems", problems.size() - kMost);
-    problems.resize(kMost);
+  constexpr std::size_t kMaxProblems = 20;
+  if (problems.size() > kMaxProblems) {
+    const std::string more = fmt::format("and {} more problems", problems.size() - kMaxProblems);
+    problems.resize(kMaxProblems);
     problems.push_back({.file = problems.back().file, .message = more});
   }
   return problems;

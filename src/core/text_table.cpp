@@ -42,7 +42,7 @@ struct TextReader {
   int endings = 0;  // of lines, in its quoted cells
   std::vector<Problem> problems{};
 
-  void Complain(std::string message) {
+  void AddError(std::string message) {
     problems.push_back({.file = file, .line = line, .message = std::move(message)});
   }
 
@@ -58,14 +58,14 @@ struct TextReader {
     } else if (!table) {
       for (auto name = cells.begin(); name != cells.end(); ++name) {
         if (name->empty()) {
-          Complain(fmt::format("cell {}: the column has no name", name - cells.begin() + 1));
+          AddError(fmt::format("cell {}: the column has no name", name - cells.begin() + 1));
         } else if (std::find(cells.begin(), name, *name) != name) {
-          Complain(fmt::format("repeated column '{}'", *name));
+          AddError(fmt::format("repeated column '{}'", *name));
         }
       }
       table.emplace(cells);
     } else if (cells.size() != table->columns().size()) {
-      Complain(fmt::format("{} {}, the header has {}", cells.size(),
+      AddError(fmt::format("{} {}, the header has {}", cells.size(),
                            cells.size() == 1 ? "cell" : "cells", table->columns().size()));
     } else {
       table->AddRow(std::move(cells));
@@ -131,10 +131,10 @@ TextTable ReadTextCsv(const std::filesystem::path& file) {
   const auto row = [](int ending, void* self) { static_cast<TextReader*>(self)->EndOfRow(ending); };
   const std::size_t parsed = csv_parse(&parser, text.data(), text.size(), cell, row, &reader);
   if (parsed != text.size() || csv_fini(&parser, cell, row, &reader) != 0) {
-    reader.Complain(csv_strerror(csv_error(&parser)));
+    reader.AddError(csv_strerror(csv_error(&parser)));
   }
   if (!reader.table && reader.problems.empty()) {
-    reader.Complain("empty file; expected a header line of column names");
+    reader.AddError("empty file; expected a header line of column names");
   }
   if (!reader.problems.empty()) {
     throw InputError(FirstProblems(std::move(reader.problems)));

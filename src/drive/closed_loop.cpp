@@ -117,7 +117,7 @@ ClosedLoop::ClosedLoop(Plant& plant, SteeringController& controller, const Plan&
                                    .seed = config.seed},
         plan);
   }
-  command_.gear = sequencer_.has_path() ? GearOf(sequencer_.plan()) : 1;
+  command_.gear = sequencer_.has_path() ? PlanGear(sequencer_.plan()) : 1;
 }
 
 RunLog ClosedLoop::Run() {
@@ -168,7 +168,7 @@ std::optional<Projection> ClosedLoop::FollowPlan(const VehicleState& state, bool
   }
   sequencer_.stationary_steer().Update(state.steering_actuator);
   if (!sequencer_.stationary_steer().InProgress()) {
-    command_.gear = GearOf(sequencer_.plan());
+    command_.gear = PlanGear(sequencer_.plan());
   }
   return tracking;
 }

@@ -7,15 +7,15 @@
 
 namespace trackbed {
 
-SpeedLimits SpeedLimitsOf(const Scenario& scenario) {
+SpeedLimits MakeSpeedLimits(const Scenario& scenario) {
   const SpeedControlOptions& speed = scenario.control.speed;
-  return {SpeedOf(scenario), speed.acceleration, speed.deceleration};
+  return {MissionSpeed(scenario), speed.acceleration, speed.deceleration};
 }
 
-ReplanningConfig ReplanningConfigOf(const Scenario& scenario) {
+ReplanningConfig MakeReplanningConfig(const Scenario& scenario) {
   return {.avoid = scenario.plan->avoid,
           .replan = scenario.plan->replan,
-          .limits = SpeedLimitsOf(scenario)};
+          .limits = MakeSpeedLimits(scenario)};
 }
 
 LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car) {
@@ -27,7 +27,7 @@ LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car) {
                     .control_period = drive.control_period,
                     .state_period = drive.state_period,
                     .time_limit = drive.time_limit,
-                    .duration = DurationOf(scenario),
+                    .duration = RunDuration(scenario),
                     .goal_tolerance = drive.goal_tolerance,
                     .station_source = ControllerFor(scenario.control.steering).station,
                     .follow_schedule = scenario.control.steering.Is<ScheduleOptions>(),
@@ -40,7 +40,7 @@ LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car) {
     config.goal_heading_tolerance = drive.goal_heading_tolerance;
   }
   if (scenario.plan && (scenario.plan->avoid || scenario.plan->replan)) {
-    config.replanning = ReplanningConfigOf(scenario);
+    config.replanning = MakeReplanningConfig(scenario);
   }
   return config;
 }
@@ -50,7 +50,7 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
   const auto controller = MakeSteeringController(scenario.control.steering);
   const auto plant = MakePlant(plant_name, {.car = car,
                                             .world = scenario.world,
-                                            .start = StartOf(scenario),
+                                            .start = InitialState(scenario),
                                             .tyre = scenario.vehicle.tyre,
                                             .steering = scenario.drive.steering});
   LoopConfig config = MakeLoopConfig(scenario, car);

@@ -51,10 +51,10 @@ CarModel LoadCar(const Scenario& scenario) {
 }
 
 Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
-  const StartState start = StartOf(scenario);
+  const StartState start = InitialState(scenario);
   if (!scenario.plan) {
     Plan plan;
-    plan.reference.speed = SpeedProfile({{0.0, SpeedOf(scenario)}});
+    plan.reference.speed = SpeedProfile({{0.0, MissionSpeed(scenario)}});
     plan.schedule_speed = plan.reference.speed;
     return plan;
   }
@@ -62,7 +62,7 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
   for (const Obstacle& obstacle : scenario.world.obstacles) {
     // What moves will be elsewhere: whoever plans again on the way reckons with that.
     const bool for_later = obstacle.moves() && scenario.plan->replan;
-    if (!for_later && IsKnown(obstacle, 0.0, OutlineAt(vehicle, start.pose))) {
+    if (!for_later && IsKnown(obstacle, 0.0, FootprintAt(vehicle, start.pose))) {
       known.push_back(obstacle.footprint);
     }
   }
@@ -76,7 +76,7 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
       .start = start.pose,
       .start_speed = start.speed,
       .start_steering = start.steering,
-      .speed = SpeedLimitsOf(scenario),
+      .speed = MakeSpeedLimits(scenario),
       .seed = scenario.seed,
       .clock =
           [begin] {
@@ -97,11 +97,11 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
     return plan;
   }
   std::erase_if(known, [&](const OrientedBox& box) {
-    return !IsForAvoider(ReplanningConfigOf(scenario), vehicle, plan.reference.path, 0.0, box);
+    return !IsForAvoider(MakeReplanningConfig(scenario), vehicle, plan.reference.path, 0.0, box);
   });
   return PlanAround({.vehicle = vehicle,
                      .plan = plan,
-                     .speed = SpeedLimitsOf(scenario),
+                     .speed = MakeSpeedLimits(scenario),
                      .obstacles = known,
                      .station = 0.0,
                      .station_speed = start.speed,

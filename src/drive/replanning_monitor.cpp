@@ -52,10 +52,10 @@ bool ReplanningMonitor::IsWaiting() const {
 }
 
 void ReplanningMonitor::UpdateKnowledge(const VehicleState& state) {
-  const OrientedBox outline = OutlineAt(options_.vehicle, state.pose);
+  const OrientedBox footprint = FootprintAt(options_.vehicle, state.pose);
   for (std::size_t i = 0; i < knowledge_.size(); ++i) {
     Knowledge& known = knowledge_[i];
-    if (!known.since && IsKnown(options_.world.obstacles[i], state.time, outline)) {
+    if (!known.since && IsKnown(options_.world.obstacles[i], state.time, footprint)) {
       known.since = state.time;
       known.avoided = state.time == 0.0;  // the mission's plan was made with it
     }
@@ -113,7 +113,7 @@ void ReplanningMonitor::SetRoute(const Plan& plan) {
   const SpeedLimits speed = options_.replanning.limits;
   const double reach = speed.speed * options_.replanning.replan->settings.look_ahead;
   driving_.route = plan;
-  driving_.frame = FrameOf(options_.vehicle, plan, speed, 2.0 * reach);
+  driving_.frame = MakeRouteFrame(options_.vehicle, plan, speed, 2.0 * reach);
   driving_.plan = plan;
   driving_.on_route = true;
   driving_.station = 0.0;
@@ -154,10 +154,10 @@ bool ReplanningMonitor::IsUrgent(const VehicleState& state, const Plan& plan,
   const double stop = speed * options.period +
                       0.5 * speed * speed / options_.replanning.limits.deceleration +
                       options_.vehicle.length;
-  const auto encounter = PredictConflict(
+  const auto conflict = PredictConflict(
       options_.vehicle, plan.reference, at.s, KnownObstacles(state, plan.reference.path, at.s),
       options.settings.safe_distance, options.settings.look_ahead, at.cross_track);
-  return encounter && encounter->station - at.s < stop;
+  return conflict && conflict->station - at.s < stop;
 }
 
 double ReplanningMonitor::HardestBraking(const Path& path, double station, double speed) const {
@@ -169,7 +169,7 @@ double ReplanningMonitor::HardestBraking(const Path& path, double station, doubl
        ahead += kSpacing) {
     const PathPoint at = path.At(station + ahead);
     double road = std::numeric_limits<double>::infinity();
-    for (const Vec2& corner : OutlineAt(options_.vehicle, at.pose).Corners()) {
+    for (const Vec2& corner : FootprintAt(options_.vehicle, at.pose).Corners()) {
       road = std::min(road, RoadFactor(options_.world, corner));
     }
     const double grip = MaxDeceleration(options_.vehicle, road);

@@ -6,9 +6,9 @@
 /// What a scenario says, as the parts of the loop take it.
 namespace trackbed {
 
-SpeedLimits SpeedLimitsOf(const Scenario& scenario);
+SpeedLimits MakeSpeedLimits(const Scenario& scenario);
 
 /// Of a scenario with a plan.
-ReplanningConfig ReplanningConfigOf(const Scenario& scenario);
+ReplanningConfig MakeReplanningConfig(const Scenario& scenario);
 
 }  // namespace trackbed

@@ -11,8 +11,8 @@
 
 namespace trackbed {
 
-std::deque<Plan> SegmentsOf(const Plan& plan) {
-  const std::vector<Stations> stretches = LegsOf(plan.reference.path, plan.stops);
+std::deque<Plan> SplitIntoSegments(const Plan& plan) {
+  const std::vector<Stations> stretches = SplitIntoLegs(plan.reference.path, plan.stops);
   if (stretches.size() == 1) {
     return {plan};
   }
@@ -27,7 +27,7 @@ std::deque<Plan> SegmentsOf(const Plan& plan) {
   return segments;
 }
 
-int GearOf(const Plan& plan) {
+int PlanGear(const Plan& plan) {
   return plan.reference.path.At(0.0).direction;
 }
 
@@ -46,7 +46,7 @@ SegmentSequencer::SegmentSequencer(const Plan& plan, const VehicleState& start,
                                    const Options& options)
     : options_(options),
       has_path_(plan.reference.path.length() > 0.0),
-      remaining_(SegmentsOf(plan)),
+      remaining_(SplitIntoSegments(plan)),
       plan_(std::move(remaining_.front())),
       start_distance_(start.distance) {
   remaining_.pop_front();

@@ -14,10 +14,10 @@
 namespace trackbed {
 
 /// A plan cut at its cusps and stops: the stretches that are driven in one go each, at least one.
-std::deque<Plan> SegmentsOf(const Plan& plan);
+std::deque<Plan> SplitIntoSegments(const Plan& plan);
 
 /// +1 for a plan that begins forwards, -1 backwards.
-int GearOf(const Plan& plan);
+int PlanGear(const Plan& plan);
 
 /// Holds a car at a cusp, or at a start on a bend, until its wheels have turned to where they are
 /// to be; then it changes gear.

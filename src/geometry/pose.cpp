@@ -10,7 +10,7 @@ Vec2 Direction(double yaw) {
 
 Vec2 ToWorld(const Pose2& X_WA, const Vec2& p_AQ) {
   const Vec2 ahead = Direction(X_WA.yaw);
-  return X_WA.position() + p_AQ.x() * ahead + p_AQ.y() * LeftOf(ahead);
+  return X_WA.position() + p_AQ.x() * ahead + p_AQ.y() * LeftNormal(ahead);
 }
 
 Vec2 ToLocal(const Pose2& X_WA, const Vec2& p_WQ) {

@@ -23,7 +23,7 @@ enum class Handling {
   kHidden,  ///< it guesses the value of points that have none from their neighbors
 };
 
-Handling HandlingOf(nlopt::algorithm algorithm) {
+Handling ConstraintHandling(nlopt::algorithm algorithm) {
   switch (algorithm) {
     case nlopt::GN_ISRES:
     case nlopt::LN_COBYLA:
@@ -36,7 +36,7 @@ Handling HandlingOf(nlopt::algorithm algorithm) {
   }
 }
 
-nlopt::algorithm AlgorithmOf(SearchMethod method) {
+nlopt::algorithm NloptAlgorithm(SearchMethod method) {
   switch (method) {
     case SearchMethod::kIsres:
       return nlopt::GN_ISRES;
@@ -287,7 +287,7 @@ void Run(nlopt::algorithm algorithm, const SearchProblem& problem, const Box& bo
   search.set_lower_bounds(box.lower);
   search.set_upper_bounds(box.upper);
   search.set_min_objective(ObjectiveCallback, &evaluator);
-  if (problem.constraint_count > 0 && HandlingOf(algorithm) == Handling::kNative) {
+  if (problem.constraint_count > 0 && ConstraintHandling(algorithm) == Handling::kNative) {
     search.add_inequality_mconstraint(ConstraintsCallback, &evaluator,
                                       std::vector<double>(problem.constraint_count, 0.0));
   }
@@ -365,8 +365,8 @@ SearchResult Search(const SearchProblem& problem, const SearchOptions& options,
   const std::size_t n = problem.lower.size();
   const int budget =
       options.evaluations > 0 ? options.evaluations : SearchFor(options.method).evaluations;
-  const nlopt::algorithm algorithm = AlgorithmOf(options.method);
-  Evaluator evaluator(problem, options, budget, HandlingOf(algorithm));
+  const nlopt::algorithm algorithm = NloptAlgorithm(options.method);
+  Evaluator evaluator(problem, options, budget, ConstraintHandling(algorithm));
 
   Box box{problem.lower, problem.upper};
   std::vector<double> start(n);

@@ -43,12 +43,12 @@ std::vector<Vec2> Hodograph(const std::vector<Vec2>& points) {
 
 }  // namespace
 
-double CurvatureOf(const Vec2& first, const Vec2& second) {
+double CurvatureFromDerivatives(const Vec2& first, const Vec2& second) {
   const double speed = first.norm();
   return Cross(first, second) / (speed * speed * speed);
 }
 
-double SharpnessOf(const Vec2& first, const Vec2& second, const Vec2& third) {
+double SharpnessFromDerivatives(const Vec2& first, const Vec2& second, const Vec2& third) {
   const double square = first.squaredNorm();
   const double by_parameter =
       (Cross(first, third) - 3.0 * Cross(first, second) * first.dot(second) / square) /
@@ -72,11 +72,11 @@ Vec2 BezierCurve::Derivative(double u, std::size_t order) const {
 }
 
 double BezierCurve::Curvature(double u) const {
-  return CurvatureOf(Derivative(u, 1), Derivative(u, 2));
+  return CurvatureFromDerivatives(Derivative(u, 1), Derivative(u, 2));
 }
 
 double BezierCurve::Sharpness(double u) const {
-  return SharpnessOf(Derivative(u, 1), Derivative(u, 2), Derivative(u, 3));
+  return SharpnessFromDerivatives(Derivative(u, 1), Derivative(u, 2), Derivative(u, 3));
 }
 
 double BezierCurve::Length(double from, double to) const {

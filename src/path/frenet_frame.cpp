@@ -59,7 +59,7 @@ std::optional<MotionState> FromFrenet(const PathPoint& at, const FrenetState& st
   }
   const double turning =
       (state.d_bend + frame.drift * frame.tangent) * frame.cosine * frame.cosine / frame.narrow;
-  const Vec2 position = at.pose.position() + state.d * LeftOf(Direction(at.pose.yaw));
+  const Vec2 position = at.pose.position() + state.d * LeftNormal(Direction(at.pose.yaw));
   return MotionState{{position.x(), position.y(), at.pose.yaw + std::atan(frame.tangent)},
                      (turning + at.curvature) * frame.cosine / frame.narrow,
                      state.s_rate * frame.narrow / frame.cosine,

@@ -210,7 +210,7 @@ std::vector<Segment> Path::Cut(Stations within) const {
   return pieces;
 }
 
-std::vector<Stations> LegsOf(const Path& path, const std::vector<double>& stops) {
+std::vector<Stations> SplitIntoLegs(const Path& path, const std::vector<double>& stops) {
   constexpr double kSame = 1e-9;  // [m]
   std::vector<double> ends = stops;
   const std::vector<Segment>& segments = path.segments();

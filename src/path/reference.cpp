@@ -19,7 +19,8 @@ struct Stretch {
 };
 
 /// The stretches into which the ends of caps cut [0, length].
-std::vector<Stretch> StretchesOf(double length, double limit, const std::vector<SpeedCap>& caps) {
+std::vector<Stretch> SplitAtSpeedCaps(double length, double limit,
+                                      const std::vector<SpeedCap>& caps) {
   std::vector<double> ends{0.0, length};
   for (const SpeedCap& cap : caps) {
     for (const double s : {cap.from, cap.to}) {
@@ -154,7 +155,7 @@ SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& lim
   if (length <= 0.0) {
     return SpeedProfile({{0.0, 0.0}});
   }
-  const std::vector<Stretch> stretches = StretchesOf(length, limits.speed, caps);
+  const std::vector<Stretch> stretches = SplitAtSpeedCaps(length, limits.speed, caps);
   const double start_squared = start_speed * start_speed;
   // Highest speeds, squared, at the ends of the stretches: backward from standstill, then forward.
   std::vector<double> squared(stretches.size() + 1, 0.0);
@@ -190,7 +191,7 @@ SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& lim
 SpeedProfile StopAtCusps(const Path& path, double start_speed, const SpeedLimits& limits,
                          const std::vector<SpeedCap>& caps, const std::vector<double>& stops) {
   std::vector<SpeedProfile::Knot> knots;
-  for (const Stations& leg : LegsOf(path, stops)) {
+  for (const Stations& leg : SplitIntoLegs(path, stops)) {
     if (!knots.empty() && leg.to - leg.from < 2.0 * kNegligible) {
       continue;
     }

@@ -115,7 +115,7 @@ void RefuseIfChanged(const Pair& pair, const PlantComparison& now) {
   }
 }
 
-ordered_json CurveOf(const Table& differences, std::size_t row_limit) {
+ordered_json CurveJson(const Table& differences, std::size_t row_limit) {
   const std::vector<std::pair<const char*, const char*>> columns{{"s", "s_m"},
                                                                  {"t", "first_t_s"},
                                                                  {"position", "position_m"},
@@ -144,8 +144,8 @@ ordered_json CurveOf(const Table& differences, std::size_t row_limit) {
   return json;
 }
 
-ordered_json DataOf(const Pair& pair, const Trace& first, const Trace& second,
-                    std::size_t row_limit) {
+ordered_json PairJson(const Pair& pair, const Trace& first, const Trace& second,
+                      std::size_t row_limit) {
   ordered_json json{{"first", pair.first.ToJson()}, {"second", pair.second.ToJson()}};
   if (!pair.file.empty()) {
     json["tolerances"] = pair.outcome.at("tolerances");
@@ -157,8 +157,8 @@ ordered_json DataOf(const Pair& pair, const Trace& first, const Trace& second,
   if (comparison.comparable()) {
     ordered_json numbers = ToJson(comparison);
     numbers.erase("plants");
-    json["numbers"] = NumbersOf(numbers, NameOfComparison);
-    json["curve"] = CurveOf(DifferencesOverArcLength(first, second), row_limit);
+    json["numbers"] = NumbersJson(numbers, NameOfComparison);
+    json["curve"] = CurveJson(DifferencesOverArcLength(first, second), row_limit);
   }
   return json;
 }
@@ -228,7 +228,7 @@ ordered_json ComparisonData(const std::vector<fs::path>& runs,
       return found->trace;
     };
     data["pairs"].push_back(
-        DataOf(pair, trace_of(pair.first), trace_of(pair.second), kCurveRows / pairs.size()));
+        PairJson(pair, trace_of(pair.first), trace_of(pair.second), kCurveRows / pairs.size()));
   }
   return data;
 }

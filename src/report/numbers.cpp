@@ -12,7 +12,7 @@ namespace trackbed {
 namespace {
 
 /// The rows where a column has its extremes in each of so many stretches, and both ends.
-std::vector<std::size_t> ExtremesOf(const Table& table, std::size_t stretches) {
+std::vector<std::size_t> ExtremeRows(const Table& table, std::size_t stretches) {
   std::set<std::size_t> rows{0, table.rows() - 1};
   for (std::size_t k = 0; k < stretches; ++k) {
     const std::size_t begin = k * table.rows() / stretches;
@@ -60,9 +60,9 @@ std::vector<std::size_t> RowsToShow(const Table& table, std::size_t limit) {
     return all;
   }
   // Columns often have their extremes in the same rows, so that there is room for more stretches.
-  std::vector<std::size_t> rows = ExtremesOf(table, 1);
+  std::vector<std::size_t> rows = ExtremeRows(table, 1);
   for (std::size_t stretches = 2; stretches < table.rows(); stretches *= 2) {
-    std::vector<std::size_t> more = ExtremesOf(table, stretches);
+    std::vector<std::size_t> more = ExtremeRows(table, stretches);
     if (more.size() > limit) {
       break;
     }

@@ -36,7 +36,7 @@ ordered_json RoundedLeaf(const ordered_json& leaf) {
   return leaf.is_number_float() ? ordered_json(Rounded(leaf.get<double>())) : leaf;
 }
 
-ordered_json NumbersOf(const ordered_json& entry, ShownName (*name_of)(const std::string& path)) {
+ordered_json NumbersJson(const ordered_json& entry, ShownName (*name_of)(const std::string& path)) {
   ordered_json rows = ordered_json::array();
   for (const auto& [path, value] : LeafValues(entry)) {
     const ShownName name = name_of(path);

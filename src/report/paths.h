@@ -19,7 +19,7 @@ nlohmann::ordered_json RoundedLeaf(const nlohmann::ordered_json& leaf);
 
 /// Every value of an entry of metrics.json as a row of a table: {path, label, value, unit,
 /// headline}, the last two where there are such.
-nlohmann::ordered_json NumbersOf(const nlohmann::ordered_json& entry,
-                                 ShownName (*name_of)(const std::string& path));
+nlohmann::ordered_json NumbersJson(const nlohmann::ordered_json& entry,
+                                   ShownName (*name_of)(const std::string& path));
 
 }  // namespace trackbed

@@ -63,7 +63,7 @@ std::string Base64(const std::string& bytes) {
 }
 
 /// A path as a relative reference: what is not plainly a name is percent-encoded.
-std::string UrlOf(const fs::path& path) {
+std::string FileUrl(const fs::path& path) {
   std::string url;
   for (const char c : path.generic_string()) {
     const auto byte = static_cast<unsigned char>(c);
@@ -76,7 +76,7 @@ std::string UrlOf(const fs::path& path) {
   return url;
 }
 
-std::string TitleOf(const ordered_json& data) {
+std::string PageTitle(const ordered_json& data) {
   if (data.contains("study")) {
     return data["study"]["name"].get<std::string>();
   }
@@ -158,7 +158,7 @@ std::vector<std::string> ShortNames(const std::vector<fs::path>& folders) {
   return {names.begin(), names.end()};
 }
 
-ordered_json DataOf(const std::vector<fs::path>& paths, const ShownRuns& shown) {
+ordered_json MakeReportData(const std::vector<fs::path>& paths, const ShownRuns& shown) {
   if (shown.folders.empty()) {
     return {{"study", StudyData(*StudyTable(paths.front()))}};
   }
@@ -191,7 +191,7 @@ void AddFilms(const ShownRuns& shown, const fs::path& file, FilmPlace place, ord
       run["film"] = {{"base64", Base64(ReadFile(video))}};
     } else {
       const fs::path from = fs::weakly_canonical(fs::absolute(file).parent_path());
-      run["film"] = {{"url", UrlOf(fs::weakly_canonical(video).lexically_relative(from))}};
+      run["film"] = {{"url", FileUrl(fs::weakly_canonical(video).lexically_relative(from))}};
     }
   }
 }
@@ -199,18 +199,18 @@ void AddFilms(const ShownRuns& shown, const fs::path& file, FilmPlace place, ord
 }  // namespace
 
 ordered_json ReportData(const std::vector<fs::path>& paths) {
-  return DataOf(paths, RunsToShow(paths));
+  return MakeReportData(paths, RunsToShow(paths));
 }
 
 std::string ReportPage(const ordered_json& data) {
   return fmt::format("{}{}{}<script type=\"application/json\" id=\"data\">{}</script>\n{}",
-                     kPageBeforeTitle, Escaped(TitleOf(data)), kPageBeforeData, ScriptJson(data),
+                     kPageBeforeTitle, Escaped(PageTitle(data)), kPageBeforeData, ScriptJson(data),
                      kPageAfterData);
 }
 
 void WriteReport(const std::vector<fs::path>& paths, const fs::path& file, FilmPlace film) {
   const ShownRuns shown = RunsToShow(paths);
-  ordered_json data = DataOf(paths, shown);
+  ordered_json data = MakeReportData(paths, shown);
   if (film != FilmPlace::kAbsent) {
     AddFilms(shown, file, film, data);
   }

@@ -45,14 +45,14 @@ constexpr std::array kChannels{Channel{"t", "t_s", true},
                                Channel{"clearance", "clearance_m", false}};
 
 /// x and y of a path.
-ordered_json LineOf(const Table& table, const std::vector<std::size_t>& rows) {
+ordered_json LineJson(const Table& table, const std::vector<std::size_t>& rows) {
   return {{"x", RoundedColumn(table, "x_m", rows)}, {"y", RoundedColumn(table, "y_m", rows)}};
 }
 
 ordered_json PlanLine(const fs::path& file) {
-  constexpr std::size_t kMost = 20000;  // of plan.csv: 2 km
+  constexpr std::size_t kMaxRows = 20000;  // of plan.csv: 2 km
   const Table table = ReadCsvExcerpt(file, {"x_m", "y_m"}).table;
-  return LineOf(table, RowsToShow(table, kMost));
+  return LineJson(table, RowsToShow(table, kMaxRows));
 }
 
 /// One plan after the other, each row with the time from which its plan holds.
@@ -66,13 +66,13 @@ ordered_json NewPlans(const fs::path& file) {
     for (; row < from.size() && from[row] == begin; ++row) {
       rows.push_back(row);
     }
-    plans.push_back(LineOf(table, rows));
+    plans.push_back(LineJson(table, rows));
     plans.back()["from"] = Rounded(begin);
   }
   return plans;
 }
 
-ordered_json LogOf(const fs::path& file, std::size_t row_limit) {
+ordered_json LogJson(const fs::path& file, std::size_t row_limit) {
   std::vector<std::string> needed;
   std::vector<std::string> optional;
   for (const Channel& channel : kChannels) {
@@ -100,15 +100,16 @@ ordered_json LogOf(const fs::path& file, std::size_t row_limit) {
   return json;
 }
 
-ordered_json PlantOf(const fs::path& folder, const std::string& plant, std::size_t row_limit) {
-  ordered_json json{{"name", plant}, {"log", LogOf(folder / run_folder::LogCsv(plant), row_limit)}};
+ordered_json PlantJson(const fs::path& folder, const std::string& plant, std::size_t row_limit) {
+  ordered_json json{{"name", plant},
+                    {"log", LogJson(folder / run_folder::LogCsv(plant), row_limit)}};
   if (const fs::path plans = folder / run_folder::NewPlansCsv(plant); fs::exists(plans)) {
     json["new_plans"] = NewPlans(plans);
   }
   return json;
 }
 
-ordered_json BoxOf(const OrientedBox& box) {
+ordered_json BoxJson(const OrientedBox& box) {
   return {{"x", Rounded(box.center.x)},
           {"y", Rounded(box.center.y)},
           {"yaw", Rounded(box.center.yaw)},
@@ -116,22 +117,22 @@ ordered_json BoxOf(const OrientedBox& box) {
           {"width", Rounded(box.width)}};
 }
 
-ordered_json WorldOf(const World& world) {
+ordered_json WorldJson(const World& world) {
   ordered_json json{{"obstacles", ordered_json::array()}, {"patches", ordered_json::array()}};
   for (const Obstacle& obstacle : world.obstacles) {
-    ordered_json box = BoxOf(obstacle.footprint);
+    ordered_json box = BoxJson(obstacle.footprint);
     box["vx"] = Rounded(obstacle.velocity.x());
     box["vy"] = Rounded(obstacle.velocity.y());
     json["obstacles"].push_back(box);
   }
   for (const FrictionPatch& patch : world.friction_patches) {
-    json["patches"].push_back(BoxOf(patch.area));
+    json["patches"].push_back(BoxJson(patch.area));
     json["patches"].back()["friction"] = Rounded(patch.friction);
   }
   return json;
 }
 
-ordered_json CarOf(const fs::path& model) {
+ordered_json CarJson(const fs::path& model) {
   const VehicleParams car =
       CarModel(ComposeScene(run_folder::RequireFile(model), {}), model.string()).params();
   return {{"name", car.name},
@@ -141,7 +142,7 @@ ordered_json CarOf(const fs::path& model) {
 }
 
 /// How the plan was found, the gates it leads through, and its line.
-ordered_json PlanOf(const fs::path& folder) {
+ordered_json PlanJson(const fs::path& folder) {
   ordered_json plan = ReadJson(folder / run_folder::kPlanJson, [](const ordered_json& file) {
     ordered_json json;
     for (const char* key : {"status", "reason", "method", "length_m", "duration_s"}) {
@@ -150,7 +151,7 @@ ordered_json PlanOf(const fs::path& folder) {
       }
     }
     json["cones"] = ordered_json::array();
-    for (const Vec2& cone : ConesOf(file)) {
+    for (const Vec2& cone : GateCones(file)) {
       json["cones"].push_back({Rounded(cone.x()), Rounded(cone.y())});
     }
     return json;
@@ -182,22 +183,22 @@ ordered_json RunData(const fs::path& folder, const std::string& name, std::size_
     }
     run["verdict"].erase("checks");
     run["expectations"] = CheckRows(metrics.at("verdict"));
-    run["car"] = CarOf(folder / run_folder::kModelXml);
-    run["world"] = WorldOf(ReadWorld(scenario));
+    run["car"] = CarJson(folder / run_folder::kModelXml);
+    run["world"] = WorldJson(ReadWorld(scenario));
     if (fs::exists(folder / run_folder::kPlanJson) || fs::exists(folder / run_folder::kPlanCsv)) {
-      run["plan"] = PlanOf(folder);
+      run["plan"] = PlanJson(folder);
     }
     run["plants"] = ordered_json::array();
     for (const auto& [plant, entry] : metrics.at("plants").items()) {
-      run["plants"].push_back(PlantOf(folder, plant, row_limit));
-      run["plants"].back()["numbers"] = NumbersOf(entry, NameOfMetric);
+      run["plants"].push_back(PlantJson(folder, plant, row_limit));
+      run["plants"].back()["numbers"] = NumbersJson(entry, NameOfMetric);
     }
     run["between"] = ordered_json::array();
     for (ordered_json pair : metrics.at("between")) {
       const ordered_json plants = pair.at("plants");
       pair.erase("plants");
       run["between"].push_back(
-          {{"plants", plants}, {"numbers", NumbersOf(pair, NameOfComparison)}});
+          {{"plants", plants}, {"numbers", NumbersJson(pair, NameOfComparison)}});
     }
     run["resolved"] = ReadFile(scenario);
     return run;

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 /// A number as one, an empty cell as null, all else as text.
-ordered_json ValueOf(const std::string& cell) {
+ordered_json CellJson(const std::string& cell) {
   if (cell.empty()) {
     return nullptr;
   }
@@ -32,7 +32,7 @@ ordered_json ValueOf(const std::string& cell) {
 }
 
 /// What stands in sweep.json beside the table; nothing when there is none.
-ordered_json DescriptionOf(const fs::path& table) {
+ordered_json StudyDescription(const fs::path& table) {
   const fs::path file = table.parent_path() / run_folder::kSweepJson;
   std::error_code ignored;
   if (table.filename() != run_folder::kSweepCsv || !fs::is_regular_file(file, ignored)) {
@@ -45,7 +45,7 @@ ordered_json DescriptionOf(const fs::path& table) {
   });
 }
 
-ordered_json ColumnsOf(const TextTable& table, const std::string& file) {
+ordered_json ColumnsJson(const TextTable& table, const std::string& file) {
   const std::vector<std::string>& names = table.columns();
   const auto status = std::find(names.begin(), names.end(), "status");
   if (status == names.end()) {
@@ -83,16 +83,16 @@ std::optional<fs::path> StudyTable(const fs::path& path) {
 
 ordered_json StudyData(const fs::path& file) {
   const TextTable table = ReadTextCsv(file);
-  ordered_json study = DescriptionOf(file);
+  ordered_json study = StudyDescription(file);
   if (!study.contains("name")) {
     study["name"] = file.stem().string();
   }
-  study["columns"] = ColumnsOf(table, file.string());
+  study["columns"] = ColumnsJson(table, file.string());
   study["rows"] = ordered_json::array();
   for (const std::vector<std::string>& row : table.rows()) {
     ordered_json cells = ordered_json::array();
     for (const std::string& cell : row) {
-      cells.push_back(ValueOf(cell));
+      cells.push_back(CellJson(cell));
     }
     study["rows"].push_back(cells);
   }

@@ -141,7 +141,7 @@ void CheckReplan(Diagnostics& c) {
   }
   if (replan.detour &&
       c.CouldRead({"plan.replan.safe_distance", "plan.replan.detour.safe_distance"})) {
-    const std::optional<double> own = SafeDistanceOf(*replan.detour);
+    const std::optional<double> own = PlannerSafeDistance(*replan.detour);
     if (own && *own < replan.settings.safe_distance) {
       c.AddError("plan.replan.detour.safe_distance",
                  fmt::format("{:.4g} m is below plan.replan.safe_distance, {:.4g} m; every detour "
@@ -224,7 +224,7 @@ void CheckMission(Diagnostics& c) {
   if (plan && mission.duration) {
     c.AddError("mission.duration", "not allowed with a plan, which ends at the goal; remove one");
   }
-  if (!plan && !DurationOf(c.scenario) &&
+  if (!plan && !RunDuration(c.scenario) &&
       c.CouldRead({"mission.duration", "control.file", "control.columns"})) {
     c.AddError("mission.duration", "missing; required without a plan");
   }

@@ -11,7 +11,7 @@ namespace trackbed {
 namespace {
 
 void CheckSpeedOverTime(Diagnostics& c) {
-  const Recording* recording = RecordingOf(c.scenario);
+  const Recording* recording = FindRecording(c.scenario);
   if (recording != nullptr && (!recording->speed.empty() || !recording->acceleration.empty())) {
     const SpeedControlOptions& speed = c.scenario.control.speed;
     const std::string message = "not allowed: the recording has speed or acceleration; remove this";
@@ -142,21 +142,21 @@ template <typename Options>
 void CheckFit(Diagnostics& c, const Options& options) {
   if constexpr (requires { options.fit_from; }) {
     if (options.fit_from >= options.fit_to) {
-      c.AddError("manoeuvre.fit_to", fmt::format("{} m/s^2 is not above fit_from, {} m/s^2",
-                                                 options.fit_to, options.fit_from));
+      c.AddError("maneuver.fit_to", fmt::format("{} m/s^2 is not above fit_from, {} m/s^2",
+                                                options.fit_to, options.fit_from));
     }
   }
 }
 
-void CheckManoeuvre(Diagnostics& c) {
+void CheckManeuver(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   const bool has_gates = plan && plan->global.Is<LaneChangePlannerOptions>();
-  if (c.scenario.manoeuvre && std::holds_alternative<LaneChangeOptions>(*c.scenario.manoeuvre) &&
+  if (c.scenario.maneuver && std::holds_alternative<LaneChangeOptions>(*c.scenario.maneuver) &&
       !has_gates && c.CouldReadPlan({"method"})) {
-    c.AddError("manoeuvre", "lane_change needs gates, given by plan: {method: lane_change}");
+    c.AddError("maneuver", "lane_change needs gates, given by plan: {method: lane_change}");
   }
-  if (c.scenario.manoeuvre && c.CouldRead({"manoeuvre.fit_from", "manoeuvre.fit_to"})) {
-    std::visit([&](const auto& options) { CheckFit(c, options); }, *c.scenario.manoeuvre);
+  if (c.scenario.maneuver && c.CouldRead({"maneuver.fit_from", "maneuver.fit_to"})) {
+    std::visit([&](const auto& options) { CheckFit(c, options); }, *c.scenario.maneuver);
   }
 }
 
@@ -174,7 +174,7 @@ std::vector<std::pair<std::string, std::string>> CrossProblems(
   CheckGusts(c);
   CheckObstacles(c);
   CheckDisturbances(c);
-  CheckManoeuvre(c);
+  CheckManeuver(c);
   CheckExpectations(c);
   return std::move(c.found);
 }

@@ -10,7 +10,7 @@
 namespace trackbed {
 
 /// Problems that concern more than one key, each with the key to change. What could not be read
-/// (`could_read` of a dotted key) is not judged: that would only cause follow-up complaints.
+/// (`could_read` of a dotted key) is not judged: that would only cause follow-up errors.
 std::vector<std::pair<std::string, std::string>> CrossProblems(
     const Scenario& scenario, const std::function<bool(const std::string& key)>& could_read);
 

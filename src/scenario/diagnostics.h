@@ -17,7 +17,7 @@ namespace trackbed {
 /// What is found wrong between keys of a scenario, each with the key that it is said of.
 struct Diagnostics {
   const Scenario& scenario;
-  /// Whether the value of a key was read: what could not be is complained about already.
+  /// Whether the value of a key was read: what could not be is an error already.
   const std::function<bool(const std::string& key)>& could_read;
   std::vector<std::pair<std::string, std::string>> found{};
 
@@ -50,7 +50,7 @@ struct Diagnostics {
 
 /// Of the mission and its plan.
 void CheckMissionAndPlan(Diagnostics& c);
-/// Of what is expected of the drive.
+/// Of what is expected of the run.
 void CheckExpectations(Diagnostics& c);
 
 }  // namespace trackbed

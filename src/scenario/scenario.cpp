@@ -204,12 +204,12 @@ void CheckScenario(const Scenario& scenario) {
   }
 }
 
-const Recording* RecordingOf(const Scenario& scenario) {
+const Recording* FindRecording(const Scenario& scenario) {
   const auto* playback = scenario.control.steering.As<PlaybackOptions>();
   return playback != nullptr ? &playback->recording : nullptr;
 }
 
-std::optional<double> DurationOf(const Scenario& scenario) {
+std::optional<double> RunDuration(const Scenario& scenario) {
   const auto* playback = scenario.control.steering.As<PlaybackOptions>();
   if (scenario.mission.duration || scenario.plan || playback == nullptr ||
       playback->by != PlaybackAxis::kTime) {
@@ -220,9 +220,9 @@ std::optional<double> DurationOf(const Scenario& scenario) {
   return end > 0.0 ? std::optional(end) : std::nullopt;
 }
 
-double SpeedOf(const Scenario& scenario) {
+double MissionSpeed(const Scenario& scenario) {
   const double speed = scenario.mission.speed;
-  return speed > 0.0 ? speed : StartOf(scenario).speed;
+  return speed > 0.0 ? speed : InitialState(scenario).speed;
 }
 
 namespace {
@@ -252,13 +252,13 @@ std::string OptionDefaults(const ControllerOptions& options) {
   return OneLine(options);
 }
 
-std::string OptionDefaults(const ManoeuvreOptions& options) {
+std::string OptionDefaults(const ManeuverOptions& options) {
   return OneLine(options);
 }
 
 std::string ResolvedYaml(const Scenario& scenario) {
   Scenario resolved = scenario;
-  const StartState start = StartOf(scenario);
+  const StartState start = InitialState(scenario);
   resolved.mission.start = {start.pose.x, start.pose.y, start.pose.yaw, start.speed,
                             start.steering};
   if (resolved.vehicle.model.find('/') != std::string::npos) {
@@ -267,7 +267,7 @@ std::string ResolvedYaml(const Scenario& scenario) {
             .lexically_normal()
             .string();
   }
-  resolved.mission.duration = DurationOf(scenario);
+  resolved.mission.duration = RunDuration(scenario);
   if (auto* playback = resolved.control.steering.As<PlaybackOptions>();
       playback != nullptr && !playback->file.empty()) {
     playback->file = std::filesystem::weakly_canonical(

@@ -22,7 +22,7 @@ double StartSteering(const Scenario& scenario) {
   if (const std::optional<double>& given = scenario.mission.start.steering) {
     return *given;
   }
-  const Recording* recording = RecordingOf(scenario);
+  const Recording* recording = FindRecording(scenario);
   if (recording != nullptr && scenario.drive.steering == SteeringInput::kPrescribed) {
     return recording->steering.At(0.0);
   }
@@ -36,7 +36,7 @@ std::optional<double> StartSpeedBesideMission(const Scenario& scenario) {
   if (scenario.mission.start.speed) {
     return scenario.mission.start.speed;
   }
-  const Recording* recording = RecordingOf(scenario);
+  const Recording* recording = FindRecording(scenario);
   if (recording != nullptr && !recording->speed.empty()) {
     return recording->speed.At(0.0);
   }
@@ -44,7 +44,7 @@ std::optional<double> StartSpeedBesideMission(const Scenario& scenario) {
   return over_time.empty() ? std::nullopt : std::optional(over_time.At(0.0));
 }
 
-StartState StartOf(const Scenario& scenario) {
+StartState InitialState(const Scenario& scenario) {
   return {.pose = StartPose(scenario.mission),
           .speed = StartSpeedBesideMission(scenario).value_or(scenario.mission.speed),
           .steering = StartSteering(scenario)};

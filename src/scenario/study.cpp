@@ -17,14 +17,14 @@ namespace {
 /// Whose problems ParseScenario ascribes to overrides, which a study's settings are for it.
 constexpr const char* kOverride = "--set";
 
-std::string KeyOf(const Override& override_text) {
+std::string OverrideKey(const Override& override_text) {
   return override_text.substr(0, override_text.find('='));
 }
 
 /// A problem of what the study sets, with its place there.
 void PlaceInStudy(const Study& study, const std::vector<Setting>& settings, Problem& problem) {
   // The key of an override that cannot be applied is its whole text.
-  const std::string key = problem.file == kOverride ? KeyOf(problem.key) : "";
+  const std::string key = problem.file == kOverride ? OverrideKey(problem.key) : "";
   for (auto setting = settings.rbegin(); setting != settings.rend(); ++setting) {
     if (!key.empty() && Replaces(setting->key, key)) {
       problem.file = study.file;
@@ -96,7 +96,7 @@ class Problems {
 void CheckOverrides(const Study& study) {
   std::vector<Problem> problems;
   for (const Override& override_text : study.overrides) {
-    const std::string key = KeyOf(override_text);
+    const std::string key = OverrideKey(override_text);
     for (const Setting& setting : Varied(study)) {
       if (Replaces(setting.key, key)) {
         problems.push_back(
@@ -117,7 +117,7 @@ class PointsReader {
   explicit PointsReader(const Study& study) : study_(study), problems_(study) {}
 
   std::vector<StudyPoint> Read() {
-    for (const std::vector<Setting>& settings : GridOf(study_)) {
+    for (const std::vector<Setting>& settings : ExpandGrid(study_)) {
       if (!study_.bisect) {
         Try(settings, std::nullopt);
         continue;
@@ -167,12 +167,12 @@ bool Replaces(const std::string& later, const std::string& earlier) {
 std::vector<Setting> AllSettings(const Study& study, const std::vector<Setting>& point,
                                  std::optional<double> bisected) {
   std::vector<Setting> all;
-  std::copy_if(study.set.begin(), study.set.end(), std::back_inserter(all),
-               [&](const Setting& setting) {
-                 return std::none_of(
-                     study.overrides.begin(), study.overrides.end(),
-                     [&](const Override& text) { return Replaces(KeyOf(text), setting.key); });
-               });
+  std::copy_if(
+      study.set.begin(), study.set.end(), std::back_inserter(all), [&](const Setting& setting) {
+        return std::none_of(
+            study.overrides.begin(), study.overrides.end(),
+            [&](const Override& text) { return Replaces(OverrideKey(text), setting.key); });
+      });
   all.insert(all.end(), point.begin(), point.end());
   if (bisected) {
     const BisectSpec& bisect = *study.bisect;
@@ -196,7 +196,7 @@ std::vector<Setting> Varied(const Study& study) {
   return varied;
 }
 
-std::vector<std::vector<Setting>> GridOf(const Study& study) {
+std::vector<std::vector<Setting>> ExpandGrid(const Study& study) {
   std::vector<std::vector<Setting>> grid(1);
   // Every point so far, with every alternative of what comes next.
   const auto multiply = [&grid](std::size_t alternatives, const auto& add) {

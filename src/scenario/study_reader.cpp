@@ -40,7 +40,7 @@ void WriteFlow(const YAML::Node& node, YAML::Emitter& out) {
   }
 }
 
-Setting SettingOf(const std::string& key, const YAML::Node& value) {
+Setting ParseSetting(const std::string& key, const YAML::Node& value) {
   YAML::Emitter out;
   WriteFlow(value, out);
   return {key, out.c_str(), value.Mark().line + 1, value.Mark().column + 1};
@@ -79,7 +79,7 @@ class StudyReader {
     Visit(reader, file);
     reader.Finish();
     study.file = context_.file;
-    ReadScenarioOf(file.scenario, study);
+    ReadBaseScenario(file.scenario, study);
     TakeBisect(file.bisect, study);
     if (context_.problems.empty()) {
       CheckStudy(study);
@@ -137,7 +137,7 @@ class StudyReader {
   std::vector<Setting> ReadSettings(const YAML::Node& node, const std::string& section) {
     std::vector<Setting> settings;
     ForEachKey(node, section, [&](const YAML::Node& key, const YAML::Node& value, const auto&) {
-      settings.push_back(SettingOf(key.Scalar(), value));
+      settings.push_back(ParseSetting(key.Scalar(), value));
     });
     return settings;
   }
@@ -160,7 +160,7 @@ class StudyReader {
       return values;
     }
     for (const auto& value : node) {
-      values.push_back(SettingOf(key, value));
+      values.push_back(ParseSetting(key, value));
     }
     return values;
   }
@@ -224,7 +224,7 @@ class StudyReader {
     }
   }
 
-  void ReadScenarioOf(const std::string& name, Study& study) {
+  void ReadBaseScenario(const std::string& name, Study& study) {
     if (name.empty()) {
       return;
     }
@@ -282,7 +282,7 @@ class StudyReader {
           return Replaces(later->key, setting.key);
         });
         if (earlier != later) {
-          ComplainOnce(*later,
+          AddErrorOnce(*later,
                        fmt::format("overwrites {}, set in line {}", earlier->key, earlier->line));
         }
       }
@@ -292,12 +292,12 @@ class StudyReader {
   void CheckSeed(const Study& study) {
     for (const Setting& setting : Varied(study)) {
       if (study.repeat > 1 && setting.key == "seed") {
-        ComplainOnce(setting, "cannot be varied together with repeat, which sets the seed");
+        AddErrorOnce(setting, "cannot be varied together with repeat, which sets the seed");
       }
     }
   }
 
-  void ComplainOnce(const Setting& at, const std::string& message) {
+  void AddErrorOnce(const Setting& at, const std::string& message) {
     const bool known = std::any_of(
         context_.problems.begin(), context_.problems.end(), [&](const Problem& problem) {
           return problem.line == at.line && problem.column == at.column &&

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "src/scenario/visit_disturb.h"
-#include "src/scenario/visit_manoeuvre.h"
+#include "src/scenario/visit_maneuver.h"
 #include "src/scenario/visit_plan.h"
 #include "src/scenario/visit_world.h"
 #include "trackbed/control/controllers.h"
@@ -106,7 +106,7 @@ inline void Visit(KeyVisitor& a, DriveSpec& drive) {
 
 inline void Visit(KeyVisitor& a, MetricExpectation& expect) {
   a.Field({"metric", "",
-           "path of the metric in the plant's entry of metrics.json, such as manoeuvre.margin"},
+           "path of the metric in the plant's entry of metrics.json, such as maneuver.margin"},
           expect.metric, Need::kRequired);
   a.Field({"min", "", "minimum, in the metric's unit"}, expect.min);
   a.Field({"max", "", "maximum, in the metric's unit"}, expect.max);
@@ -192,8 +192,8 @@ inline void Visit(KeyVisitor& a, Scenario& scenario) {
              inner.Section({"speed", "", "speed controller"}, scenario.control.speed);
            });
   scenario.control.steering = *steering;
-  a.Method({"manoeuvre", "", "standard maneuver as which the run is evaluated"}, scenario.manoeuvre,
-           Manoeuvres(), Need::kOptional);
+  a.Method({"maneuver", "", "standard maneuver as which the run is evaluated"}, scenario.maneuver,
+           Maneuvers(), Need::kOptional);
   a.Section({"drive", "", "plants, timesteps and limits of the run"}, scenario.drive);
   a.Section({"disturb", "", "disturbances and faults; default: none"}, scenario.disturb);
   a.Section(kExpectSection, scenario.expect);

@@ -51,7 +51,7 @@ inline void VisitPlan(KeyVisitor& a, std::optional<PlanSpec>& plan) {
   std::optional<AvoiderOptions> avoid = given.avoid;
   std::optional<ReplanOptions> replan = given.replan;
   InfeasiblePolicy infeasible = given.infeasible;
-  if (avoid || replan || a.HasOneOf(kPlan.name, {"global", "avoid", "replan"})) {
+  if (avoid || replan || a.HasAny(kPlan.name, {"global", "avoid", "replan"})) {
     PlanLayers layers{global, avoid, replan, infeasible};
     a.Section(kPlan, layers);
   } else {

@@ -48,8 +48,8 @@ inline void Visit(KeyVisitor& a, Superelevation& stretch) {
   Visit(a, stretch.area);
   a.Field({"slope", "", "slope toward the left; negative: toward the right"}, stretch.slope,
           Need::kRequired, kRiseOverRun);
-  a.Field({"run_in", "m", "transition length at both ends; at most half the length"},
-          stretch.run_in, Need::kOptional, kPositive);
+  a.Field({"transition_length", "m", "transition length at both ends; at most half the length"},
+          stretch.transition_length, Need::kOptional, kPositive);
 }
 
 inline void Visit(KeyVisitor& a, Ground& ground) {

@@ -40,7 +40,14 @@ bool IsTooLarge(const YAML::Node& node) {
 }
 
 /// Keys of earlier versions, and what they are called now.
-constexpr std::array kRenamedKeys{std::pair{"dead_band", "backlash"}};
+constexpr std::array kRenamedKeys{
+    std::pair{"dead_band", "backlash"},
+    std::pair{"manoeuvre", "maneuver"},
+    std::pair{"ring", "passing_side"},
+    std::pair{"run_in", "transition_length"},
+    std::pair{"steering_rate_share", "max_steering_rate_fraction"},
+    std::pair{"comfortable_rate_share", "comfortable_steering_rate_fraction"},
+};
 
 std::string UnknownKey(const std::string& name, const Names& known) {
   for (const auto& [before, now] : kRenamedKeys) {
@@ -156,7 +163,7 @@ void YamlReader::VisitMethod(const Key& key, Need need, const Methods& methods) 
   inner.Finish();
 }
 
-bool YamlReader::HasOneOf(const char* key, const Names& inner) const {
+bool YamlReader::HasAny(const char* key, const Names& inner) const {
   const YAML::Node section = static_cast<const YAML::Node&>(node_)[key];
   return section && section.IsMap() && !section[kMethod.name] &&
          std::any_of(inner.begin(), inner.end(),

@@ -42,7 +42,7 @@ class YamlReader final : public KeyVisitor {
   void Field(const Key& key, std::vector<double>& value, Need need, Range range = {}) override;
   void Identifier(const Key& key, std::string& value) override;
   void Pair(const Key& key, int& first, int& second, Range range) override;
-  [[nodiscard]] bool HasOneOf(const char* key, const Names& inner) const override;
+  [[nodiscard]] bool HasAny(const char* key, const Names& inner) const override;
 
   /// A key whose value `read` makes sense of, told its dotted key.
   template <typename Read>

@@ -117,7 +117,7 @@ Stand StandOn(const VehicleParams& params, const Pose2& pose, const Ground& grou
     deepest = std::max(deepest, z[w] - height - slope.dot(wheels[w]));
   }
   const Vec2 ahead = Direction(pose.yaw);
-  return {height + deepest, Upright(slope.x() * ahead + slope.y() * LeftOf(ahead), pose.yaw)};
+  return {height + deepest, Upright(slope.x() * ahead + slope.y() * LeftNormal(ahead), pose.yaw)};
 }
 
 }  // namespace
@@ -177,7 +177,7 @@ std::vector<std::string> CarModel::configuration_columns() const {
   return columns;
 }
 
-std::vector<double> CarModel::ConfigurationOf(std::span<const double> qpos) const {
+std::vector<double> CarModel::ExtractConfiguration(std::span<const double> qpos) const {
   const auto place = qpos.subspan(static_cast<std::size_t>(chassis().chassis_qpos), 7);
   std::vector<double> values(place.begin(), place.end());
   for (int joint = 0; joint < model_->njnt; ++joint) {
@@ -237,7 +237,7 @@ Eigen::Vector3d CarModel::AheadOnGround(const Pose2& pose, const Ground& ground)
 
 std::vector<double> CarModel::FlatConfiguration(const Pose2& pose, double steering,
                                                 const std::vector<double>& spin) const {
-  return ConfigurationOf(StandingPosition(pose, steering, spin, scene_.ground));
+  return ExtractConfiguration(StandingPosition(pose, steering, spin, scene_.ground));
 }
 
 std::vector<double> CarModel::FlatPosition(const Pose2& pose, double steering,

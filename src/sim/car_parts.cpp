@@ -26,7 +26,7 @@ class CarReader final : private PartsReader {
     CheckDrive();
     ReadWheels();
     ReadSteering();
-    ReadOutline(outline_);
+    ReadFootprint(footprint_);
     ReadTyres();
     ReadAerodynamics();
     ThrowIfAnything();
@@ -49,7 +49,7 @@ class CarReader final : private PartsReader {
         steer_[w] = Joint("steer_" + wheel, mjJNT_HINGE, "hinge joint");
       }
     }
-    outline_ = Find(mjOBJ_SITE, "box site", "outline");
+    footprint_ = Find(mjOBJ_SITE, "box site", "footprint");
     parts_.steer_actuator = Find(mjOBJ_ACTUATOR, "actuator", "steer");
     parts_.drive_actuator = Find(mjOBJ_ACTUATOR, "actuator", "drive");
     parts_.brake_torque_front = Number("brake_torque_front");
@@ -85,20 +85,20 @@ class CarReader final : private PartsReader {
     const mjtNum* range = m_.actuator_ctrlrange + 2 * parts_.drive_actuator;
     parts_.drive_limit = range[1];
     if (!m_.actuator_ctrllimited[parts_.drive_actuator]) {
-      Complain("drive", "must be ctrllimited: ctrlrange is the maximum drive torque");
+      AddError("drive", "must be ctrllimited: ctrlrange is the maximum drive torque");
     } else if (!(range[1] > 0.0)) {
-      Complain("drive", fmt::format("ctrlrange {:.4g} {:.4g}: the upper limit is the maximum drive "
+      AddError("drive", fmt::format("ctrlrange {:.4g} {:.4g}: the upper limit is the maximum drive "
                                     "torque [N m]; must be above 0",
                                     range[0], range[1]));
     }
     numerics_.Read("drive_power", parts_.drive_power);
     if (!(parts_.drive_power >= 0.0)) {
-      Complain("drive_power",
+      AddError("drive_power",
                fmt::format("must not be negative, found {:.4g}", parts_.drive_power));
     }
     if (!(parts_.brake_torque_front >= 0.0 && parts_.brake_torque_rear >= 0.0 &&
           parts_.brake_torque_front + parts_.brake_torque_rear > 0.0)) {
-      Complain("brake_torque_front", "brake torques must not be negative or both zero");
+      AddError("brake_torque_front", "brake torques must not be negative or both zero");
     }
   }
 
@@ -112,7 +112,7 @@ class CarReader final : private PartsReader {
     params_.track_rear = Wheel(2, 1) - Wheel(3, 1);
     CheckOrigin("the rear axle", "the rear wheels", parts_.wheel[2], parts_.wheel[3]);
     if (!(params_.wheelbase > 0.0)) {
-      Complain("chassis", fmt::format("the front wheels must be ahead of the rear wheels (x "
+      AddError("chassis", fmt::format("the front wheels must be ahead of the rear wheels (x "
                                       "forward); they are {:.4g} m behind",
                                       -params_.wheelbase));
     }
@@ -122,7 +122,7 @@ class CarReader final : private PartsReader {
 
   void CheckTrack(const char* axle, const char* left, const char* right, double track) {
     if (!(track > 0.0)) {
-      Complain(
+      AddError(
           "chassis",
           fmt::format("{} axle: wheel {} must be left of {} (y left); it is {:.4g} m to the right",
                       axle, left, right, -track));
@@ -136,18 +136,18 @@ class CarReader final : private PartsReader {
     params_.steering_rate = rate[1];
     params_.steering_limit = angle[1];
     if (!(params_.steering_ratio > 0.0)) {
-      Complain("steering_ratio",
+      AddError("steering_ratio",
                fmt::format("must be above 0, found {:.4g}", params_.steering_ratio));
     }
     if (m_.actuator_dyntype[steer] != mjDYN_INTEGRATOR || !m_.actuator_ctrllimited[steer] ||
         !m_.actuator_actlimited[steer]) {
-      Complain("steer",
+      AddError("steer",
                "must be an <intvelocity> with ctrllimited and actlimited: ctrlrange is the "
                "steering rate, actrange the steering angle");
       return;
     }
     if (m_.actuator_trntype[steer] != mjTRN_JOINT || m_.actuator_trnid[2 * steer] != rack_) {
-      Complain("steer", "must act on the joint 'rack'");
+      AddError("steer", "must act on the joint 'rack'");
     }
     // On a ramp a servo's joint follows by damping over stiffness of all that it turns.
     double damping = m_.dof_damping[m_.jnt_dofadr[rack_]];
@@ -158,7 +158,7 @@ class CarReader final : private PartsReader {
     CheckSymmetric("ctrlrange", "steering rate [rad/s]", rate);
     CheckSymmetric("actrange", "steering angle [rad]", angle);
     if (!(angle[1] < 1.5)) {
-      Complain("steer",
+      AddError("steer",
                fmt::format("actrange {:.4g} {:.4g} is in radians; must be below 1.5 ({:.4g} "
                            "degrees are {:.4g} rad)",
                            angle[0], angle[1], angle[1], angle[1] * std::numbers::pi / 180.0));
@@ -172,7 +172,7 @@ class CarReader final : private PartsReader {
     for (std::size_t w = 0; w < steer_.size(); ++w) {
       const mjtNum* axis_W = data_->xaxis + 3 * steer_[w];
       if (!(axis_W[2] > kUpright)) {
-        Complain(std::string("steer_") + kWheels[w],
+        AddError(std::string("steer_") + kWheels[w],
                  fmt::format("axis must point up (positive steers left), found {}", Text(axis_W)));
       }
     }
@@ -180,7 +180,7 @@ class CarReader final : private PartsReader {
 
   void CheckSymmetric(const char* attribute, const char* meaning, const mjtNum* range) {
     if (!(std::abs(range[0] + range[1]) <= kExact * std::abs(range[1]))) {
-      Complain("steer",
+      AddError("steer",
                fmt::format("{} {:.4g} {:.4g}: {} must be equal to the left and to the right",
                            attribute, range[0], range[1], meaning));
     }
@@ -193,12 +193,12 @@ class CarReader final : private PartsReader {
       return;
     }
     if (range[0] > lowest + kExact || range[1] < highest - kExact) {
-      Complain(name, fmt::format(
+      AddError(name, fmt::format(
                          "range {:.4g} to {:.4g} rad does not cover the {:.4g} to {:.4g} rad of "
                          "the steering; without <compiler angle=\"radian\"/> ranges are in degrees",
                          range[0], range[1], lowest, highest));
     } else if (range[0] < -std::numbers::pi || range[1] > std::numbers::pi) {
-      Complain(name, fmt::format("range {:.4g} to {:.4g} rad exceeds half a turn; with <compiler "
+      AddError(name, fmt::format("range {:.4g} to {:.4g} rad exceeds half a turn; with <compiler "
                                  "angle=\"radian\"/> ranges are in radians",
                                  range[0], range[1]));
     }
@@ -285,7 +285,7 @@ class CarReader final : private PartsReader {
   int rack_ = -1;
   std::array<int, 4> spin_{};
   std::array<int, 2> steer_{};
-  int outline_ = -1;  // site
+  int footprint_ = -1;  // site
 };
 
 }  // namespace
@@ -300,7 +300,7 @@ const CarParts& SteeredParts(const CarModel& car, const std::string& needed_by) 
   return car.parts();
 }
 
-const CarTyres& TyresOf(const CarModel& car, const std::string& needed_by) {
+const CarTyres& RequireTyres(const CarModel& car, const std::string& needed_by) {
   const auto& tyres = SteeredParts(car, needed_by).tyres;
   if (!tyres) {
     throw InputError(Problem{

@@ -27,7 +27,7 @@ inline constexpr const char* kLadenKeyframe = "laden";
 const CarParts& SteeredParts(const CarModel& car, const std::string& needed_by);
 
 /// The car's tyres; InputError naming its file and what is missing there when it has none.
-const CarTyres& TyresOf(const CarModel& car, const std::string& needed_by);
+const CarTyres& RequireTyres(const CarModel& car, const std::string& needed_by);
 
 /// InputError naming `file` and every part that is missing; or, when all are there, every one that
 /// is not as docs/models.md asks.

@@ -14,7 +14,7 @@ class CarPlant final : public MujocoPlant {
   explicit CarPlant(const PlantSetup& setup)
       : MujocoPlant(setup), prescribed_(setup.steering == SteeringInput::kPrescribed) {
     const CarParts& parts = car().parts();
-    if (TyreLawOf(car(), setup.tyre) == TyreLaw::kMagicFormula) {
+    if (SelectTyreLaw(car(), setup.tyre) == TyreLaw::kMagicFormula) {
       tyres_.emplace(car(), model());
     }
     linked_ = FindLinkage();

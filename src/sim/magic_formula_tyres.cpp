@@ -18,7 +18,7 @@ constexpr double kWalkingPace = 1.5;
 /// the solver could hold.
 constexpr double kRolls = 0.2;
 
-std::size_t AxleOf(std::size_t wheel) {
+std::size_t AxleIndex(std::size_t wheel) {
   return wheel < 2 ? 0 : 1;
 }
 
@@ -54,7 +54,7 @@ double SlidingSlip(double friction, double load, double stiffness) {
 
 MagicFormulaTyres::MagicFormulaTyres(const CarModel& car, mjModel& model)
     : car_(car), timestep_(model.opt.timestep), gravity_(std::abs(model.opt.gravity[2])) {
-  const CarTyres& tyres = TyresOf(car, "tyre: magic_formula");
+  const CarTyres& tyres = RequireTyres(car, "tyre: magic_formula");
   const VehicleParams& params = car.params();
   const double weight = params.mass * gravity_;
   CheckTimestep(car, weight);
@@ -74,7 +74,7 @@ MagicFormulaTyres::MagicFormulaTyres(const CarModel& car, mjModel& model)
       mjtNum* solimp = model.geom_solimp + mjNIMP * geom;
       solimp[0] = kImpedance;
       solimp[1] = kImpedance;
-      const double arm = AxleOf(w) == 0 ? params.cg_to_rear : params.cg_to_front();
+      const double arm = AxleIndex(w) == 0 ? params.cg_to_rear : params.cg_to_front();
       const double load = 0.5 * weight * arm / params.wheelbase;
       model.geom_margin[geom] = load / tyres.vertical_stiffness;
     }
@@ -87,10 +87,10 @@ void MagicFormulaTyres::CheckTimestep(const CarModel& car, double weight) const 
   const VehicleParams& params = car.params();
   double fastest = 0.0;  // [rad/s]
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
-    const double arm = AxleOf(w) == 0 ? params.cg_to_rear : params.cg_to_front();
-    fastest = std::max(
-        fastest, SpinFrequency(car.parts().tyres->axle[AxleOf(w)], weight * arm / params.wheelbase,
-                               params.wheel_radius, car.parts().spin_inertia[w]));
+    const double arm = AxleIndex(w) == 0 ? params.cg_to_rear : params.cg_to_front();
+    fastest = std::max(fastest, SpinFrequency(car.parts().tyres->axle[AxleIndex(w)],
+                                              weight * arm / params.wheelbase, params.wheel_radius,
+                                              car.parts().spin_inertia[w]));
   }
   const double longest = std::sqrt(2.0) / fastest;
   if (timestep_ > longest) {
@@ -126,7 +126,7 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     const WheelContact& contact = contacts[w];
     const CarTyres& tyres = *car_.parts().tyres;
-    const MagicFormula& tyre = tyres.axle[AxleOf(w)];
+    const MagicFormula& tyre = tyres.axle[AxleIndex(w)];
     Slip& slip = slips_[w];
     WheelState& state = states_[w];
     const double load = contact.touches ? loads[w] : 0.0;
@@ -159,13 +159,13 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
     const double side = w % 2 == 0 ? 1.0 : -1.0;
     const double lean = -std::asin(std::clamp(contact.spin_axis.dot(contact.up), -1.0, 1.0));
     const double travel = Travel(data, w);
-    const double camber = lean + side * tyres.camber_gain[AxleOf(w)] * travel;
+    const double camber = lean + side * tyres.camber_gain[AxleIndex(w)] * travel;
     const TyreForce force =
-        ForceOf(tyre, load, road[w],
-                {.ratio = kappa,
-                 .angle = side * std::atan(tangent),
-                 .camber = side * camber,
-                 .shift = std::clamp(contact.rolling_speed / kWalkingPace, -1.0, 1.0)});
+        EvaluateTyreForce(tyre, load, road[w],
+                          {.ratio = kappa,
+                           .angle = side * std::atan(tangent),
+                           .camber = side * camber,
+                           .shift = std::clamp(contact.rolling_speed / kWalkingPace, -1.0, 1.0)});
     state.longitudinal_force = force.longitudinal;
     state.lateral_force = side * force.lateral;
     state.slip_ratio = slip.x;
@@ -184,7 +184,7 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
 double MagicFormulaTyres::RollingMoment() const {
   double sum = 0.0;
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
-    sum += car_.parts().tyres->axle[AxleOf(w)].rolling_resistance * states_[w].normal_force *
+    sum += car_.parts().tyres->axle[AxleIndex(w)].rolling_resistance * states_[w].normal_force *
            car_.params().wheel_radius;
   }
   return sum;

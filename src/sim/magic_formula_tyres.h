@@ -17,8 +17,8 @@ namespace trackbed {
 class MagicFormulaTyres {
  public:
   /// Makes the wheels' contacts of `model` frictionless, with the car's vertical tyre stiffness.
-  /// InputError as TyresOf when the car has no tyre coefficients, and when its timestep is too long
-  /// for them.
+  /// InputError as RequireTyres when the car has no tyre coefficients, and when its timestep is too
+  /// long for them.
   MagicFormulaTyres(const CarModel& car, mjModel_& model);
 
   /// The forces for the step that begins now, added to what is applied to the joints in `data`;

@@ -100,7 +100,7 @@ void MujocoPlant::MoveObstacles() {
 }
 
 std::vector<double> MujocoPlant::Configuration() const {
-  return car_.ConfigurationOf({data_->qpos, static_cast<std::size_t>(model_->nq)});
+  return car_.ExtractConfiguration({data_->qpos, static_cast<std::size_t>(model_->nq)});
 }
 
 bool MujocoPlant::diverged() const {
@@ -174,7 +174,7 @@ void MujocoPlant::PushByAir() {
 void MujocoPlant::ApplyLateralOffset(double left) {
   mjtNum* at = data_->qpos + car_.chassis().chassis_qpos;
   const Vec2 from(at[0], at[1]);
-  const Vec2 to = from + left * LeftOf(Direction(Yaw()));
+  const Vec2 to = from + left * LeftNormal(Direction(Yaw()));
   at[0] = to.x();
   at[1] = to.y();
   at[2] += GroundHeight(world_, to) - GroundHeight(world_, from);
@@ -184,7 +184,7 @@ void MujocoPlant::PushAside() {
   if (push_ == 0.0) {
     return;
   }
-  const Vec2 force = push_ * LeftOf(Direction(Yaw()));
+  const Vec2 force = push_ * LeftNormal(Direction(Yaw()));
   const Vector3d force_W(force.x(), force.y(), 0.0);
   const std::array<mjtNum, 3> no_moment{};
   mj_applyFT(model_.get(), data_.get(), force_W.data(), no_moment.data(),
@@ -208,7 +208,7 @@ VehicleState MujocoPlant::Observe() const {
   const Vector3d a_cg_W = a_W + alpha_W.cross(to_cg_W) + w_W.cross(w_W.cross(to_cg_W));
 
   const Vec2 ahead = Direction(Yaw());
-  const Vec2 left = LeftOf(ahead);
+  const Vec2 left = LeftNormal(ahead);
   VehicleState state;
   state.time = data_->time;
   state.pose = {position[0], position[1], yaw_};

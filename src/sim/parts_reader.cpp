@@ -19,7 +19,7 @@ PartsReader::PartsReader(const mjModel& model, const std::string& file)
   mj_comPos(&m_, data_.get());
 }
 
-void PartsReader::Complain(std::string name, std::string message) {
+void PartsReader::AddError(std::string name, std::string message) {
   problems_.push_back({file_, 0, 0, std::move(name), std::move(message)});
 }
 
@@ -31,8 +31,11 @@ void PartsReader::ThrowIfAnything() const {
 
 int PartsReader::Find(int type, const char* kind, const std::string& name) {
   const int id = mj_name2id(&m_, type, name.c_str());
-  if (id < 0) {
-    Complain(name, fmt::format("the model has no {} of this name", kind));
+  const char* before = "outline";  // what an earlier version called the site
+  if (id < 0 && name == "footprint" && mj_name2id(&m_, type, before) >= 0) {
+    AddError(before, fmt::format("this {} is now called '{}'", kind, name));
+  } else if (id < 0) {
+    AddError(name, fmt::format("the model has no {} of this name", kind));
   }
   return id;
 }
@@ -40,7 +43,7 @@ int PartsReader::Find(int type, const char* kind, const std::string& name) {
 int PartsReader::Joint(const std::string& name, int type, const char* kind) {
   const int id = Find(mjOBJ_JOINT, kind, name);
   if (id >= 0 && m_.jnt_type[id] != type) {
-    Complain(name, fmt::format("must be a {}", kind));
+    AddError(name, fmt::format("must be a {}", kind));
     return -1;
   }
   return id;
@@ -51,7 +54,7 @@ double PartsReader::Number(const std::string& name) {
   return id < 0 ? 0.0 : m_.numeric_data[m_.numeric_adr[id]];
 }
 
-std::string PartsReader::NameOf(int type, int id) const {
+std::string PartsReader::QuotedName(int type, int id) const {
   const char* name = mj_id2name(&m_, type, id);
   return name == nullptr ? "without a name" : fmt::format("'{}'", name);
 }
@@ -66,9 +69,9 @@ std::string PartsReader::Text(const mjtNum* v) {
 
 void PartsReader::ReadChassis(int free_joint) {
   if (const int body = m_.jnt_bodyid[free_joint]; body != chassis_.chassis) {
-    Complain("chassis",
+    AddError("chassis",
              fmt::format("the free joint is in the body {}; must be in the body 'chassis'",
-                         NameOf(mjOBJ_BODY, body)));
+                         QuotedName(mjOBJ_BODY, body)));
   }
   params_.name = m_.names;  // the model's own name comes first
   chassis_.chassis_qpos = m_.jnt_qposadr[free_joint];
@@ -95,27 +98,30 @@ void PartsReader::ReadAerodynamics() {
   numerics_.Read("drag_area", air.drag_area);
   numerics_.Read("side_area", air.side_area);
   air.center_of_pressure = {params_.cg_to_rear, chassis_.cg_height};
-  if (const mjtNum* at = numerics_.Find("centre_of_pressure", 2)) {
+  if (const char* before = "centre_of_pressure"; numerics_.Has(before)) {  // of an earlier version
+    AddError(before, "it is now called 'center_of_pressure'");
+  }
+  if (const mjtNum* at = numerics_.Find("center_of_pressure", 2)) {
     air.center_of_pressure = {at[0], at[1]};
   }
   if (!(air.drag_area >= 0.0 && air.side_area >= 0.0)) {
-    Complain("drag_area", "drag_area and side_area must not be negative");
+    AddError("drag_area", "drag_area and side_area must not be negative");
   }
 }
 
-void PartsReader::ReadOutline(int site) {
+void PartsReader::ReadFootprint(int site) {
   if (m_.site_type[site] != mjGEOM_BOX) {
-    Complain("outline", "must be a box site");
+    AddError("footprint", "must be a box site");
   }
   if (const int body = m_.site_bodyid[site]; body != chassis_.chassis) {
-    Complain("outline", fmt::format("must be a site of the body 'chassis'; it is on {}",
-                                    NameOf(mjOBJ_BODY, body)));
+    AddError("footprint", fmt::format("must be a site of the body 'chassis'; it is on {}",
+                                      QuotedName(mjOBJ_BODY, body)));
   }
   const mjtNum* half = m_.site_size + 3 * site;
   const mjtNum* middle = m_.site_pos + 3 * site;
   const mjtNum* turn = m_.site_quat + 4 * site;
   if (std::abs(middle[1]) > kExact || !(std::abs(turn[0]) > 1.0 - kExact)) {
-    Complain("outline", "must be centered on y = 0 and not rotated");
+    AddError("footprint", "must be centered on y = 0 and not rotated");
   }
   params_.length = 2.0 * half[0];
   params_.width = 2.0 * half[1];
@@ -139,7 +145,7 @@ double PartsReader::Place(int body, std::size_t axis) const {
 void PartsReader::CheckOrigin(const char* axle, const char* wheels, int left, int right) {
   if (std::abs(Place(left, 0)) > kExact || std::abs(Place(right, 0)) > kExact) {
     const double ahead = 0.5 * (Place(left, 0) + Place(right, 0));
-    Complain("chassis", fmt::format("the body origin must be under {}; {} are {:.4g} m {} it", axle,
+    AddError("chassis", fmt::format("the body origin must be under {}; {} are {:.4g} m {} it", axle,
                                     wheels, std::abs(ahead), ahead < 0.0 ? "behind" : "ahead of"));
   }
 }
@@ -149,22 +155,23 @@ void PartsReader::CheckWheel(const std::string& wheel, int spin, int tyre, int f
   const mjtNum* axis = m_.jnt_axis + 3 * spin;
   const mjtNum* axis_W = data_->xaxis + 3 * spin;
   if (!(axis[1] > 1.0 - kExact)) {
-    Complain(
+    AddError(
         "spin_" + wheel,
         fmt::format("axis must be 0 1 0 (positive rotation rolls forward), found {}", Text(axis)));
   } else if (!(axis_W[1] > kUpright)) {
-    Complain("spin_" + wheel,
+    AddError("spin_" + wheel,
              fmt::format("axis must point to the vehicle's left, found {}", Text(axis_W)));
   }
   const int turned = m_.jnt_bodyid[spin];
   if (const int body = m_.geom_bodyid[tyre]; body != turned) {
-    Complain("tyre_" + wheel, fmt::format("must be in the body of spin_{}, {}; found in {}", wheel,
-                                          NameOf(mjOBJ_BODY, turned), NameOf(mjOBJ_BODY, body)));
+    AddError("tyre_" + wheel,
+             fmt::format("must be in the body of spin_{}, {}; found in {}", wheel,
+                         QuotedName(mjOBJ_BODY, turned), QuotedName(mjOBJ_BODY, body)));
   }
   const double radius = m_.geom_size[3 * tyre];
   const double wanted = m_.geom_size[3 * first];
   if (!(std::abs(radius - wanted) <= kExact * wanted)) {
-    Complain("tyre_" + wheel,
+    AddError("tyre_" + wheel,
              fmt::format("radius {:.6g} m differs from {}, {:.6g} m; {} must be equal", radius,
                          mj_id2name(&m_, mjOBJ_GEOM, first), wanted, all));
   }

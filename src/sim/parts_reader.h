@@ -23,17 +23,17 @@ class PartsReader {
 
   PartsReader(const mjModel& model, const std::string& file);
 
-  void Complain(std::string name, std::string message);
+  void AddError(std::string name, std::string message);
   void ThrowIfAnything() const;
 
-  /// Its index; -1 after a complaint when it is missing.
+  /// Its index; -1 after an error when it is missing.
   int Find(int type, const char* kind, const std::string& name);
   /// Likewise, also when it is of another type.
   int Joint(const std::string& name, int type, const char* kind);
-  /// The first number of a <custom><numeric>, or 0 after a complaint.
+  /// The first number of a <custom><numeric>, or 0 after an error.
   double Number(const std::string& name);
 
-  [[nodiscard]] std::string NameOf(int type, int id) const;
+  [[nodiscard]] std::string QuotedName(int type, int id) const;
   /// Of a point of the world, in the vehicle's frame.
   [[nodiscard]] double Offset(const mjtNum* point, std::size_t axis) const;
   /// Of a body's origin, likewise.
@@ -47,7 +47,7 @@ class PartsReader {
   /// Axis and tyre of the wheel whose joint is spin_`wheel`; its tyre must be as large as the geom
   /// `first`, "`all` must be equal".
   void CheckWheel(const std::string& wheel, int spin, int tyre, int first, const char* all);
-  void ReadOutline(int site);
+  void ReadFootprint(int site);
   /// Sliding friction between a tyre and the ground on which it stands.
   [[nodiscard]] double ContactFriction(int tyre) const;
   void ReadAerodynamics();
@@ -57,7 +57,7 @@ class PartsReader {
   MujocoData data_;  // positions at qpos0
   std::vector<Problem> problems_;
   Numerics numerics_{
-      m_, [this](const std::string& name, const std::string& message) { Complain(name, message); }};
+      m_, [this](const std::string& name, const std::string& message) { AddError(name, message); }};
   ChassisParts chassis_;
   VehicleParams params_;
 };

@@ -48,7 +48,7 @@ void RegisterPlant(PlantEntry entry) {
   Table().Add(entry);
 }
 
-TyreLaw TyreLawOf(const CarModel& car, TyreLaw tyre) {
+TyreLaw SelectTyreLaw(const CarModel& car, TyreLaw tyre) {
   if (tyre != TyreLaw::kAuto) {
     return tyre;
   }

@@ -6,7 +6,7 @@
 namespace trackbed {
 
 std::unique_ptr<Plant> MakeSingleTrackPlant(const PlantSetup& setup) {
-  static_cast<void>(TyresOf(setup.car, "the plant single_track"));
+  static_cast<void>(RequireTyres(setup.car, "the plant single_track"));
   const VehicleParams params = Steered(setup);
   const SingleTrackState start = RollingWithoutSlip(params, InPlane(setup.start));
   return std::make_unique<ExactPlant<SingleTrackCar>>(setup.car, SingleTrackCar(params, start));

@@ -15,7 +15,7 @@ namespace trackbed {
 namespace {
 
 /// The names of a coefficient: of both axles, and of each.
-std::array<std::string, 3> NamesOf(const MagicFormulaField& field) {
+std::array<std::string, 3> CoefficientNames(const MagicFormulaField& field) {
   const std::string name = field.name;
   return {name, name + "_front", name + "_rear"};
 }
@@ -24,7 +24,7 @@ std::array<std::string, 3> NamesOf(const MagicFormulaField& field) {
 void CheckNames(const Numerics& numerics) {
   std::vector<std::string> known;
   for (const MagicFormulaField& field : MagicFormulaFields()) {
-    const auto names = NamesOf(field);
+    const auto names = CoefficientNames(field);
     known.insert(known.end(), names.begin(), names.end());
   }
   const mjModel& model = numerics.model();
@@ -33,7 +33,7 @@ void CheckNames(const Numerics& numerics) {
     const bool is_coefficient = name.size() > 2 && name[1] == '_' &&
                                 std::string("pqrstl").find(name[0]) != std::string::npos;
     if (is_coefficient && std::find(known.begin(), known.end(), name) == known.end()) {
-      numerics.Tell(name, "unknown tyre coefficient " + UnknownName(name, known));
+      numerics.AddError(name, "unknown tyre coefficient " + UnknownName(name, known));
     }
   }
 }
@@ -41,8 +41,8 @@ void CheckNames(const Numerics& numerics) {
 void CheckTyre(const Numerics& numerics, const MagicFormula& tyre, const char* axle) {
   const auto need = [&](bool holds, const char* name, const char* what, double found) {
     if (!holds) {
-      numerics.Tell(fmt::format("{} ({})", name, axle),
-                    fmt::format("must be {}, found {:.4g}", what, found));
+      numerics.AddError(fmt::format("{} ({})", name, axle),
+                        fmt::format("must be {}, found {:.4g}", what, found));
     }
   };
   need(tyre.p_cx1 > 0.0, "p_cx1", "above 0", tyre.p_cx1);
@@ -73,7 +73,7 @@ bool Numerics::Has(const std::string& name) const {
 const double* Numerics::Find(const std::string& name, int count) const {
   const int id = mj_name2id(&model_, mjOBJ_NUMERIC, name.c_str());
   if (id >= 0 && model_.numeric_size[id] != count) {
-    Tell(name, fmt::format("has {} numbers; must have {}", model_.numeric_size[id], count));
+    AddError(name, fmt::format("has {} numbers; must have {}", model_.numeric_size[id], count));
     return nullptr;
   }
   return id < 0 ? nullptr : model_.numeric_data + model_.numeric_adr[id];
@@ -90,7 +90,7 @@ std::optional<CarTyres> ReadTyres(const Numerics& numerics) {
   bool any = false;
   std::vector<std::string> missing;
   for (const MagicFormulaField& field : MagicFormulaFields()) {
-    const auto [both, front, rear] = NamesOf(field);
+    const auto [both, front, rear] = CoefficientNames(field);
     const std::string own[] = {front, rear};
     for (std::size_t axle = 0; axle < tyres.axle.size(); ++axle) {
       double& value = tyres.axle[axle].*field.value;
@@ -113,7 +113,7 @@ std::optional<CarTyres> ReadTyres(const Numerics& numerics) {
     return std::nullopt;
   }
   for (const std::string& name : missing) {
-    numerics.Tell(name, std::string("missing; a tyre needs ") + kNeededCoefficients);
+    numerics.AddError(name, std::string("missing; a tyre needs ") + kNeededCoefficients);
   }
   if (missing.empty()) {
     CheckTyre(numerics, tyres.axle[0], "front");

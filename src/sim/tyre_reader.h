@@ -11,11 +11,11 @@ namespace trackbed {
 /// The numbers under a model's <custom> that need not be there.
 class Numerics {
  public:
-  /// Told what is wrong with a number of that name.
-  using Complain = std::function<void(const std::string& name, const std::string& message)>;
+  /// Called with what is wrong with the number of that name.
+  using ErrorCallback = std::function<void(const std::string& name, const std::string& message)>;
 
-  Numerics(const mjModel_& model, Complain complain)
-      : model_(model), complain_(std::move(complain)) {}
+  Numerics(const mjModel_& model, ErrorCallback add_error)
+      : model_(model), add_error_(std::move(add_error)) {}
 
   [[nodiscard]] bool Has(const std::string& name) const;
   /// `count` numbers, or null when there are none of that name.
@@ -24,11 +24,13 @@ class Numerics {
   void Read(const std::string& name, double& value) const;
 
   [[nodiscard]] const mjModel_& model() const { return model_; }
-  void Tell(const std::string& name, const std::string& message) const { complain_(name, message); }
+  void AddError(const std::string& name, const std::string& message) const {
+    add_error_(name, message);
+  }
 
  private:
   const mjModel_& model_;
-  Complain complain_;
+  ErrorCallback add_error_;
 };
 
 /// The car's tyres; none for a car without any of their coefficients.

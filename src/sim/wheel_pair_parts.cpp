@@ -29,7 +29,7 @@ class WheelPairReader final : private PartsReader {
     ReadWheels();
     ReadServos();
     ReadLimits();
-    ReadOutline(outline_);
+    ReadFootprint(footprint_);
     ReadAerodynamics();
     ThrowIfAnything();
     ReadPerformance();
@@ -48,7 +48,7 @@ class WheelPairReader final : private PartsReader {
       spin_[w] = Joint("spin_" + wheel, mjJNT_HINGE, "hinge joint");
       parts_.actuator[w] = Find(mjOBJ_ACTUATOR, "actuator", "drive_" + wheel);
     }
-    outline_ = Find(mjOBJ_SITE, "box site", "outline");
+    footprint_ = Find(mjOBJ_SITE, "box site", "footprint");
     turning_radius_ = Number("turning_radius");
     params_.steering_rate = Number("steering_rate");
     parts_.integral_time = Number("integral_time");
@@ -74,7 +74,7 @@ class WheelPairReader final : private PartsReader {
     params_.wheelbase = params_.track_rear;
     CheckOrigin("the axle of the driven wheels", "they", parts_.wheel[0], parts_.wheel[1]);
     if (!(left > 0.0 && std::abs(left + right) <= kExact)) {
-      Complain("chassis", fmt::format("the driven wheels must be at equal distances left and right "
+      AddError("chassis", fmt::format("the driven wheels must be at equal distances left and right "
                                       "of y = 0; found y = {:.4g} and {:.4g} m",
                                       left, right));
     }
@@ -86,7 +86,7 @@ class WheelPairReader final : private PartsReader {
     const bool readable = left.gain > 0.0 && right.gain > 0.0;
     if (readable &&
         (left.gain != right.gain || left.torque != right.torque || left.speed != right.speed)) {
-      Complain("drive_right", "kv, ctrlrange and forcerange must equal those of drive_left");
+      AddError("drive_right", "kv, ctrlrange and forcerange must equal those of drive_left");
     }
     parts_.wheel_speed = left.speed;
     parts_.servo_slack = left.torque / left.gain;
@@ -97,7 +97,7 @@ class WheelPairReader final : private PartsReader {
     const std::string name = std::string("drive_") + kDrivenWheels[w];
     const int a = parts_.actuator[w];
     if (m_.actuator_trntype[a] != mjTRN_JOINT || m_.actuator_trnid[2 * a] != spin_[w]) {
-      Complain(name, fmt::format("must act on the joint 'spin_{}'", kDrivenWheels[w]));
+      AddError(name, fmt::format("must act on the joint 'spin_{}'", kDrivenWheels[w]));
     }
     const double gain = m_.actuator_gainprm[mjNGAIN * a];
     const mjtNum* bias = m_.actuator_biasprm + mjNBIAS * a;
@@ -108,7 +108,7 @@ class WheelPairReader final : private PartsReader {
                              m_.actuator_biastype[a] == mjBIAS_AFFINE && bias[1] == 0.0 &&
                              bias[2] == -gain && m_.actuator_gear[6 * a] == 1.0;
     if (!limited || !is_velocity) {
-      Complain(name,
+      AddError(name,
                "must be a <velocity> of gear 1 with ctrllimited and forcelimited: ctrlrange is the "
                "maximum wheel speed, forcerange the maximum torque");
       return {};
@@ -116,7 +116,7 @@ class WheelPairReader final : private PartsReader {
     CheckSymmetric(name, "ctrlrange", "maximum wheel speed [rad/s]", speed);
     CheckSymmetric(name, "forcerange", "maximum torque [N m]", torque);
     if (!(torque[1] / gain < speed[1])) {
-      Complain(name,
+      AddError(name,
                fmt::format("kv {:.4g} is too small: forcerange/kv, the speed error at maximum "
                            "torque, is {:.4g} rad/s; must be below the ctrlrange of {:.4g} rad/s",
                            gain, torque[1] / gain, speed[1]));
@@ -127,7 +127,7 @@ class WheelPairReader final : private PartsReader {
   void CheckSymmetric(const std::string& name, const char* attribute, const char* meaning,
                       const mjtNum* range) {
     if (!(range[1] > 0.0 && std::abs(range[0] + range[1]) <= kExact * range[1])) {
-      Complain(name,
+      AddError(name,
                fmt::format("{} {:.4g} {:.4g}: {} must be equal in both directions and above 0",
                            attribute, range[0], range[1], meaning));
     }
@@ -136,7 +136,7 @@ class WheelPairReader final : private PartsReader {
   void ReadLimits() {
     // At half the track the inner wheel stands still.
     if (!(turning_radius_ >= 0.5 * params_.track_rear)) {
-      Complain("turning_radius", fmt::format("must be at least half the track, {:.4g} m, so that "
+      AddError("turning_radius", fmt::format("must be at least half the track, {:.4g} m, so that "
                                              "the inner wheel does not reverse; found {:.4g}",
                                              0.5 * params_.track_rear, turning_radius_));
     }
@@ -221,14 +221,14 @@ class WheelPairReader final : private PartsReader {
 
   void CheckAboveZero(const char* name, double value) {
     if (!(value > 0.0)) {
-      Complain(name, fmt::format("must be above 0, found {:.4g}", value));
+      AddError(name, fmt::format("must be above 0, found {:.4g}", value));
     }
   }
 
   WheelPairParts parts_;
   int free_ = -1;  // joints
   std::array<int, 2> spin_{};
-  int outline_ = -1;             // site
+  int footprint_ = -1;           // site
   double servo_torque_ = 0.0;    // largest of one motor [N m]
   double turning_radius_ = 0.0;  // smallest [m]
 };

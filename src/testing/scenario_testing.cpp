@@ -63,8 +63,8 @@ Failures ForEveryPlant(std::function<std::string(const PlantMetrics&)> check) {
 
 /// Why a number of a plant does not keep its bound, or an empty text; `format` is given the number,
 /// the station and the time.
-std::string FailureOf(const PlantMetrics& plant, const char* metric, Relation relation,
-                      double bound, const char* format) {
+std::string DescribeFailure(const PlantMetrics& plant, const char* metric, Relation relation,
+                            double bound, const char* format) {
   const Check check = CheckMetric(plant, metric, relation, bound);
   return check.met ? ""
                    : fmt::format(fmt::runtime(format), std::get<double>(check.value), check.at.s,
@@ -102,7 +102,7 @@ class PartsAtMostMatcher {
   DifferenceBounds bounds_;
 };
 
-const RunLog& LogOf(const RunResult& run, const std::string& plant) {
+const RunLog& FindLog(const RunResult& run, const std::string& plant) {
   std::vector<std::string> driven;
   for (const RunLog& log : run.logs) {
     if (log.plant == plant) {
@@ -118,11 +118,11 @@ const RunLog& LogOf(const RunResult& run, const std::string& plant) {
 }  // namespace
 
 PlantComparison Compare(const RunResult& run, const std::string& first, const std::string& second) {
-  return ComparePlants(LogOf(run, first), LogOf(run, second));
+  return ComparePlants(FindLog(run, first), FindLog(run, second));
 }
 
 PlantComparison Compare(const RunResult& first, const RunResult& second, const std::string& plant) {
-  PlantComparison comparison = ComparePlants(LogOf(first, plant), LogOf(second, plant));
+  PlantComparison comparison = ComparePlants(FindLog(first, plant), FindLog(second, plant));
   comparison.first = first.scenario.name + "/" + plant;
   comparison.second = second.scenario.name + "/" + plant;
   return comparison;
@@ -170,8 +170,9 @@ testing::Matcher<const RunResult&> TracksWithin(double limit) {
                       if (!metrics.tracking) {
                         return "there is no path to track";
                       }
-                      return FailureOf(metrics, "cross_track.max", Relation::kAtMost, limit,
-                                       "cross-track error {:.4g} m at s = {:.4g} m, t = {:.4g} s");
+                      return DescribeFailure(
+                          metrics, "cross_track.max", Relation::kAtMost, limit,
+                          "cross-track error {:.4g} m at s = {:.4g} m, t = {:.4g} s");
                     }));
 }
 
@@ -196,14 +197,14 @@ testing::Matcher<const RunResult&> StaysWithin(const std::string& first, const s
       });
 }
 
-testing::Matcher<const RunResult&> KeepsClearOf(double distance) {
+testing::Matcher<const RunResult&> KeepsClearance(double distance) {
   return RunMatcher(fmt::format("keeps a clearance of {} m from obstacles", distance),
                     ForEveryPlant([distance](const PlantMetrics& metrics) -> std::string {
                       if (!metrics.clearance) {
                         return "there are no obstacles";
                       }
-                      return FailureOf(metrics, "clearance_min", Relation::kAtLeast, distance,
-                                       "clearance {:.4g} m at s = {:.4g} m, t = {:.4g} s");
+                      return DescribeFailure(metrics, "clearance_min", Relation::kAtLeast, distance,
+                                             "clearance {:.4g} m at s = {:.4g} m, t = {:.4g} s");
                     }));
 }
 
@@ -219,8 +220,8 @@ testing::Matcher<const RunResult&> ReachesGoal(double distance) {
                             ToString(metrics.status), metrics.tracking->goal_distance,
                             metrics.time);
                       }
-                      return FailureOf(metrics, "goal_distance", Relation::kAtMost, distance,
-                                       "stopped {0:.4g} m from the goal, t = {2:.4g} s");
+                      return DescribeFailure(metrics, "goal_distance", Relation::kAtMost, distance,
+                                             "stopped {0:.4g} m from the goal, t = {2:.4g} s");
                     }));
 }
 

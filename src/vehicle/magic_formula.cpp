@@ -99,7 +99,7 @@ double SlipStiffness(const MagicFormula& tyre, double load) {
   return tyre.p_kx1 * load;
 }
 
-TyreForce ForceOf(const MagicFormula& t, double load, double road, const TyreSlip& slip) {
+TyreForce EvaluateTyreForce(const MagicFormula& t, double load, double road, const TyreSlip& slip) {
   if (!(load > 0.0)) {
     return {};
   }

@@ -155,7 +155,7 @@ void SingleTrackCar::StepByRadau(const MotionPiece& piece) {
   for (int i = 0; i < 3; ++i) {
     const Vec2 ahead = Direction(state_.pose.yaw + turn[i]);
     const double rear_slip = ratios(0, i) - params_.cg_to_rear * ratios(1, i);
-    shift += h * radau.weight(2, i) * speed[i] * (ahead + rear_slip * LeftOf(ahead));
+    shift += h * radau.weight(2, i) * speed[i] * (ahead + rear_slip * LeftNormal(ahead));
   }
   state_.distance += 0.5 * std::abs(state_.speed + piece.end_speed) * h;
   state_.pose = {state_.pose.x + shift.x(), state_.pose.y + shift.y(), state_.pose.yaw + turn[2]};

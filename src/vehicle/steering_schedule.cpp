@@ -17,8 +17,8 @@ struct Target {
   double slope;
 };
 
-std::vector<Target> TargetsOf(const std::vector<TurnSteering>& turns,
-                              const std::vector<double>& slopes, double neutral) {
+std::vector<Target> SteeringTargets(const std::vector<TurnSteering>& turns,
+                                    const std::vector<double>& slopes, double neutral) {
   std::vector<Target> targets;
   for (std::size_t k = 0; k < turns.size(); ++k) {
     const TurnSteering& turn = turns[k];
@@ -46,7 +46,7 @@ SteeringSchedule::SteeringSchedule(const std::vector<TurnSteering>& turns,
   if (turns.empty() && neutral != 0.0) {
     knots_.push_back({0.0, neutral});
   }
-  const std::vector<Target> targets = TargetsOf(turns, slopes, neutral);
+  const std::vector<Target> targets = SteeringTargets(turns, slopes, neutral);
   double steering = neutral;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const auto& [begin, target, slope] = targets[i];

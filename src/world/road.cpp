@@ -40,10 +40,10 @@ Profile ComesDownOnBothSides(double place, double half, double reach) {
 Lift Product(const Pose2& pose, double height, const Profile& along, const Profile& across) {
   const Vec2 u = Direction(pose.yaw);
   return {height * along.height * across.height,
-          height * (along.slope * across.height * u + along.height * across.slope * LeftOf(u))};
+          height * (along.slope * across.height * u + along.height * across.slope * LeftNormal(u))};
 }
 
-Lift LiftOf(const Bump& bump, const Vec2& point_W) {
+Lift ComputeLift(const Bump& bump, const Vec2& point_W) {
   const Vec2 p = ToLocal(bump.area.center, point_W);
   const double half_length = 0.5 * bump.area.length;
   const double half_width = 0.5 * bump.area.width;
@@ -52,7 +52,7 @@ Lift LiftOf(const Bump& bump, const Vec2& point_W) {
                  ComesDownOnBothSides(p.y(), half_width, std::min(bump.edge, half_width)));
 }
 
-Lift LiftOf(const Superelevation& stretch, const Vec2& point_W) {
+Lift ComputeLift(const Superelevation& stretch, const Vec2& point_W) {
   const Vec2 p = ToLocal(stretch.area.center, point_W);
   const double half_length = 0.5 * stretch.area.length;
   const double width = stretch.area.width;
@@ -65,9 +65,10 @@ Lift LiftOf(const Superelevation& stretch, const Vec2& point_W) {
   } else if (w > 0.0) {
     across = {w, up};
   }
-  return Product(stretch.area.center, std::abs(stretch.slope),
-                 ComesDownOnBothSides(p.x(), half_length, std::min(stretch.run_in, half_length)),
-                 across);
+  return Product(
+      stretch.area.center, std::abs(stretch.slope),
+      ComesDownOnBothSides(p.x(), half_length, std::min(stretch.transition_length, half_length)),
+      across);
 }
 
 /// Of the highest feature.
@@ -75,7 +76,7 @@ Lift Highest(const Ground& ground, const Vec2& point_W) {
   Lift highest;
   const auto look = [&](const auto& features) {
     for (const auto& feature : features) {
-      const Lift lift = LiftOf(feature, point_W);
+      const Lift lift = ComputeLift(feature, point_W);
       if (lift.height > highest.height) {
         highest = lift;
       }
@@ -93,11 +94,11 @@ bool IsFlat(const Ground& ground) {
 }
 
 double Rise(const Bump& bump, const Vec2& point_W) {
-  return LiftOf(bump, point_W).height;
+  return ComputeLift(bump, point_W).height;
 }
 
 double Rise(const Superelevation& side_slope, const Vec2& point_W) {
-  return LiftOf(side_slope, point_W).height;
+  return ComputeLift(side_slope, point_W).height;
 }
 
 OrientedBox Extent(const Bump& bump) {

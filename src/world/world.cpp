@@ -31,7 +31,7 @@ Vec2 WindAt(const World& world, const Vec2& point_W, double time) {
   return WindAt(world.wind, point_W, time);
 }
 
-OrientedBox OutlineAt(const VehicleParams& vehicle, const Pose2& pose) {
+OrientedBox FootprintAt(const VehicleParams& vehicle, const Pose2& pose) {
   const Vec2 middle = ToWorld(pose, {0.5 * vehicle.length - vehicle.rear_overhang, 0.0});
   return {{middle.x(), middle.y(), pose.yaw}, vehicle.length, vehicle.width};
 }
@@ -40,9 +40,9 @@ OrientedBox FootprintAt(const Obstacle& obstacle, double time) {
   return MovingBox{obstacle.footprint, obstacle.velocity}.At(time);
 }
 
-bool IsKnown(const Obstacle& obstacle, double time, const OrientedBox& outline) {
+bool IsKnown(const Obstacle& obstacle, double time, const OrientedBox& footprint) {
   if (obstacle.known_from_range) {
-    return Distance(outline, FootprintAt(obstacle, time)) <= *obstacle.known_from_range;
+    return Distance(footprint, FootprintAt(obstacle, time)) <= *obstacle.known_from_range;
   }
   return time >= obstacle.known_from_time.value_or(0.0);
 }
@@ -52,16 +52,16 @@ std::optional<double> Clearance(const World& world, const VehicleParams& vehicle
   if (world.obstacles.empty()) {
     return std::nullopt;
   }
-  const OrientedBox outline = OutlineAt(vehicle, pose);
-  const Vec2 middle = outline.center.position();
-  const double radius = 0.5 * std::hypot(outline.length, outline.width);
+  const OrientedBox footprint = FootprintAt(vehicle, pose);
+  const Vec2 middle = footprint.center.position();
+  const double radius = 0.5 * std::hypot(footprint.length, footprint.width);
   double nearest = std::numeric_limits<double>::infinity();
   for (const Obstacle& obstacle : world.obstacles) {
     const OrientedBox box = FootprintAt(obstacle, time);
     // Circles around both tell of most boxes that they are not the nearest.
     const double circles = nearest + radius + 0.5 * std::hypot(box.length, box.width);
     if ((box.center.position() - middle).squaredNorm() < circles * circles) {
-      nearest = std::min(nearest, Distance(outline, box));
+      nearest = std::min(nearest, Distance(footprint, box));
     }
   }
   return nearest;
@@ -69,7 +69,7 @@ std::optional<double> Clearance(const World& world, const VehicleParams& vehicle
 
 namespace {
 
-/// How far a point of the outline can move against an obstacle between two samples [m].
+/// How far a point of the footprint can move against an obstacle between two samples [m].
 double MostMoved(const World& world, const VehicleParams& vehicle, const ClearanceSample& from,
                  const ClearanceSample& to) {
   const double reach = std::hypot(

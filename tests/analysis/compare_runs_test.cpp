@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// A short open-loop drive of the plants, without a path.
+/// A short open-loop run of the plants, without a path.
 RunResult Turn(const std::string& plants, const std::string& more = "") {
   return RunMission(
       ParseScenario("schema: 1\nname: turn\nmission: {duration: 1, speed: 3}\n"
@@ -49,7 +49,7 @@ std::vector<std::string> Names(const RunComparison& comparison) {
 }
 
 template <typename Call>
-std::string Complaint(const Call& call) {
+std::string ErrorMessage(const Call& call) {
   try {
     call();
   } catch (const InputError& error) {
@@ -107,7 +107,7 @@ TEST(CompareRun, FailsDrivesThatDoNotEndAsExpected) {
   run.metrics[1].status = DriveStatus::kDiverged;
   EXPECT_THAT(
       CompareRun(run, {}).verdict.failures,
-      ElementsAre(testing::StartsWith("single_track: did not reach the goal: diverged at ")));
+      ElementsAre(testing::StartsWith("single_track: did not complete the run: diverged at ")));
   run.scenario.expect.all.metrics = {{.metric = "status", .equals = "diverged"}};
   EXPECT_THAT(CompareRun(run, {}).verdict.failures,
               ElementsAre(testing::StartsWith("kinematic: status is arrived instead of diverged "
@@ -134,9 +134,9 @@ TEST(CompareFolders, OfOneRunComparesItsPlants) {
       ElementsAre("kinematic - mujoco", "kinematic - single_track", "mujoco - single_track"));
   EXPECT_THAT(Names(CompareFolders({run}, {"single_track", "mujoco"}, {})),
               ElementsAre("single_track - mujoco"));
-  EXPECT_EQ(Complaint([&] { CompareFolders({run}, {"mujoco"}, {}); }),
+  EXPECT_EQ(ErrorMessage([&] { CompareFolders({run}, {"mujoco"}, {}); }),
             run.string() + ": only mujoco; comparing needs two plants or a second run");
-  EXPECT_EQ(Complaint([&] {
+  EXPECT_EQ(ErrorMessage([&] {
               CompareFolders({run}, {"mujoco", "car"}, {});
             }),
             run.string() + ": the run has no plant car; it has: kinematic, mujoco, single_track");
@@ -155,16 +155,16 @@ TEST(CompareFolders, OfTwoRunsComparesThePlantsThatBothHave) {
   EXPECT_TRUE(CompareFolders({a, b}, {}, DifferenceBounds{.position_max = 0.25}).verdict.passed);
   EXPECT_THAT(Names(CompareFolders({a, b}, {"kinematic", "single_track"}, {})),
               ElementsAre(a.string() + "/kinematic - " + b.string() + "/single_track"));
-  EXPECT_EQ(Complaint([&] {
+  EXPECT_EQ(ErrorMessage([&] {
               CompareFolders({a, b}, {"kinematic"}, {});
             }),
             b.string() + ": the run has no plant kinematic; it has: mujoco, single_track");
   const fs::path c = Line(folder, "c", 0.0, {{"kinematic", "arrived"}});
-  EXPECT_EQ(Complaint([&] {
+  EXPECT_EQ(ErrorMessage([&] {
               CompareFolders({b, c}, {}, {});
             }),
             c.string() + ": no plant in common with " + b.string() +
-                "; driven: mujoco, single_track and kinematic");
+                "; plants: mujoco, single_track and kinematic");
 }
 
 TEST(CompareFolders, OfOneRunIsJudgedByWhatItsScenarioExpects) {
@@ -214,7 +214,7 @@ TEST(CompareFolders, RefusesPlantsListedTwiceAndRunsThatDidNotDrive) {
   const TempFolder folder;
   const fs::path run = Line(folder, "r", 0.0, {{"kinematic", "arrived"}, {"mujoco", "arrived"}});
   const auto told = [&](const std::vector<fs::path>& runs, const std::vector<std::string>& plants) {
-    return Complaint([&] { CompareFolders(runs, plants, {}); });
+    return ErrorMessage([&] { CompareFolders(runs, plants, {}); });
   };
   EXPECT_EQ(told({run}, {"kinematic", "kinematic"}), "--plants: 'kinematic' is listed twice");
   EXPECT_EQ(told({run, run}, {"kinematic", "mujoco", "kinematic"}),
@@ -250,10 +250,10 @@ TEST(ParseTolerances, ReadsEachQuantity) {
 
 TEST(ParseTolerances, RefusesEverythingElse) {
   const auto told = [](const std::string& text) {
-    return Complaint([&] { ParseTolerances({text}); });
+    return ErrorMessage([&] { ParseTolerances({text}); });
   };
   EXPECT_EQ(told("positon=1"), "--tolerance: unknown 'positon'; did you mean 'position'?");
-  EXPECT_EQ(Complaint([] {
+  EXPECT_EQ(ErrorMessage([] {
               ParseTolerances({"position=0.1", "heading=1", "position=0.2"});
             }),
             "--tolerance: position: given twice");
@@ -319,7 +319,7 @@ TEST(CompareFolders, NamesThePlantsThatOneRunAloneDrove) {
       Line(folder, "both", 0.0, {{"kinematic", "arrived"}, {"mujoco", "arrived"}});
   const fs::path one = Line(folder, "one", 0.0, {{"kinematic", "arrived"}});
   EXPECT_THAT(CompareFolders({both, one}, {}, {}).verdict.notes,
-              testing::Contains("not compared: mujoco, which only " + both.string() + " drove"));
+              testing::Contains("not compared: mujoco, only in " + both.string()));
   EXPECT_THAT(CompareFolders({both, one}, {"kinematic"}, {}).verdict.notes,
               testing::Not(testing::Contains(testing::HasSubstr("not compared"))));
 }

@@ -16,7 +16,7 @@
 namespace trackbed {
 namespace {
 
-/// Rows at these stations of a drive along y = `offset` at 2 m/s.
+/// Rows at these stations of a run along y = `offset` at 2 m/s.
 Trace Line(const std::string& name, const std::vector<double>& stations, double offset) {
   Trace trace{.name = name};
   for (const double s : stations) {
@@ -62,7 +62,7 @@ TEST(CompareTraces, KnowsHowFarShiftedLinesAreApart) {
 
 TEST(CompareTraces, IntegratesOverArcLengthAndNotOverRows) {
   // Apart by 0 up to s = 6, then by up to 0.9 at s = 9: the mean square over 9 m is that of a third
-  // of the way on a line from 0 to 0.9, 0.81/3/3. Rows lie close where the drives agree.
+  // of the way on a line from 0 to 0.9, 0.81/3/3. Rows lie close where the runs agree.
   Trace bent = Line("b", {0, 1, 2, 3, 4, 5, 6, 9}, 0.0);
   bent.pose.back().y = 0.9;
   const PlantComparison c = CompareTraces(Line("a", {0, 9}, 0.0), bent);
@@ -177,7 +177,7 @@ TEST(Exceeded, SaysWhatWasExpectedWhatWasWhereAndWhen) {
                   "a and b: steering difference 1 rad exceeds 0.9 rad at s = 20 m, t = 8 s"));
 }
 
-TEST(Exceeded, TellsApartWhatFourDigitsDoNot) {
+TEST(Exceeded, DistinguishesWhatFourDigitsDoNot) {
   const PlantComparison c{
       .first = "a", .second = "b", .from_s = 0, .to_s = 1, .position = {.max = 0.0370349}};
   EXPECT_THAT(Exceeded({.position_max = 0.03703}, c),
@@ -185,7 +185,7 @@ TEST(Exceeded, TellsApartWhatFourDigitsDoNot) {
                   "a and b: position difference 0.037035 m exceeds 0.03703 m at s = 0 m, t = 0 s"));
 }
 
-TEST(TraceOf, LeavesOutWhereTheCarDoesNotGetOn) {
+TEST(MakeTrace, LeavesOutWhereTheCarDoesNotGetOn) {
   RunLog log{.plant = "made_up", .configurations = Table({"t_s"})};
   for (const double s : {0.0, 1.0, 1.0, 0.999, 2.0}) {
     LogRow row;
@@ -195,12 +195,12 @@ TEST(TraceOf, LeavesOutWhereTheCarDoesNotGetOn) {
     row.tracking = Projection{.s = s};
     log.rows.push_back(row);
   }
-  const Trace trace = TraceOf(log);
+  const Trace trace = MakeTrace(log);
   EXPECT_EQ(trace.name, "made_up");
   EXPECT_THAT(trace.station, testing::ElementsAre(0.0, 1.0, 2.0));
   EXPECT_THAT(trace.time, testing::ElementsAre(0.0, 1.0, 4.0));
   EXPECT_THAT(trace.steering, testing::ElementsAre(0.0, 0.1, 0.4));
-  EXPECT_THAT(TraceOf(log, StationSource::kOdometer).station,
+  EXPECT_THAT(MakeTrace(log, StationSource::kOdometer).station,
               testing::ElementsAre(0.0, 10.0, 20.0));
 }
 
@@ -226,7 +226,7 @@ TEST(ReadRunFolder, GivesTheDrivesThatWereLogged) {
   EXPECT_THAT(drives[1].trace.station, testing::ElementsAre(0.0));  // it did not get on
 }
 
-std::string Complaint(const std::filesystem::path& folder) {
+std::string ErrorMessage(const std::filesystem::path& folder) {
   try {
     ReadRunFolder(folder);
   } catch (const InputError& error) {
@@ -237,26 +237,26 @@ std::string Complaint(const std::filesystem::path& folder) {
 
 TEST(ReadRunFolder, RefusesWhatIsNoRun) {
   const TempFolder folder;
-  EXPECT_EQ(Complaint(folder.path()),
+  EXPECT_EQ(ErrorMessage(folder.path()),
             folder.path().string() + ": not the folder of a finished run (no metrics.json)");
   const auto file = folder.Write("metrics.json", "{\"plants\": {\"kinematic\": ");
-  EXPECT_EQ(Complaint(folder.path()), file.string() + ": not the metrics of a run");
+  EXPECT_EQ(ErrorMessage(folder.path()), file.string() + ": not the metrics of a run");
   folder.Write("metrics.json", R"({"plants": {"kinematic": {"status": "arrived"}}})");
   const auto log = folder.Write("kinematic.csv", "t_s,x_m\n0,0\n");
-  EXPECT_THAT(Complaint(folder.path()), testing::StartsWith(log.string() + ":1"));
+  EXPECT_THAT(ErrorMessage(folder.path()), testing::StartsWith(log.string() + ":1"));
   const std::string header = "t_s,x_m,y_m,yaw_rad,yaw_rate_radps,steering_rad,s_m\n";
   for (const auto& [rows, count] : {std::pair("", 0), std::pair("0,0,0,0,0,0,0\n", 1)}) {
     folder.Write("kinematic.csv", header + rows);
-    EXPECT_EQ(Complaint(folder.path()),
+    EXPECT_EQ(ErrorMessage(folder.path()),
               fmt::format("{}: a log needs at least two rows; found {}", log.string(), count));
   }
   folder.Write("metrics.json", R"({"plants": []})");
-  EXPECT_EQ(Complaint(folder.path()), file.string() + ": not the metrics of a run");
+  EXPECT_EQ(ErrorMessage(folder.path()), file.string() + ": not the metrics of a run");
   folder.Write("metrics.json", R"({"plants": {"../kinematic": {"status": "arrived"}}})");
-  EXPECT_EQ(Complaint(folder.path()),
+  EXPECT_EQ(ErrorMessage(folder.path()),
             file.string() + ": plants: unknown '../kinematic'; did you mean 'kinematic'?");
   folder.Write("metrics.json", R"({"complete": false, "plants": {}})");
-  EXPECT_EQ(Complaint(folder.path()),
+  EXPECT_EQ(ErrorMessage(folder.path()),
             folder.path().string() + ": the run was interrupted; its logs are incomplete");
 }
 

@@ -19,7 +19,7 @@ int NumberIn(const ordered_json& json) {
 class JsonFile : public testing::Test {
  protected:
   /// The error of reading NumberIn the text, without the name of the file in front.
-  std::string ErrorOf(const std::string& text, const Problem& problem = {}) {
+  std::string ErrorMessage(const std::string& text, const Problem& problem = {}) {
     const std::filesystem::path file = folder_.Write("a.json", text);
     try {
       ReadJson(file, NumberIn, problem);
@@ -49,14 +49,16 @@ TEST_F(JsonFile, KeepsTheOrderOfItsKeys) {
 }
 
 TEST_F(JsonFile, NamesItselfWhenItIsNotAsExpected) {
-  EXPECT_THAT(ErrorOf("{"), testing::StartsWith("[json.exception.parse_error"));
-  EXPECT_THAT(ErrorOf("{}"), testing::StartsWith("[json.exception.out_of_range"));
-  EXPECT_THAT(ErrorOf(R"({"number": "x"})"), testing::StartsWith("[json.exception.type_error"));
+  EXPECT_THAT(ErrorMessage("{"), testing::StartsWith("[json.exception.parse_error"));
+  EXPECT_THAT(ErrorMessage("{}"), testing::StartsWith("[json.exception.out_of_range"));
+  EXPECT_THAT(ErrorMessage(R"({"number": "x"})"),
+              testing::StartsWith("[json.exception.type_error"));
 }
 
 TEST_F(JsonFile, SaysWhatItsReaderKnows) {
-  EXPECT_THAT(ErrorOf("{}", {.key = "number"}), testing::StartsWith("number: [json.exception"));
-  EXPECT_EQ(ErrorOf("{", {.message = "not the metrics of a run"}), "not the metrics of a run");
+  EXPECT_THAT(ErrorMessage("{}", {.key = "number"}),
+              testing::StartsWith("number: [json.exception"));
+  EXPECT_EQ(ErrorMessage("{", {.message = "not the metrics of a run"}), "not the metrics of a run");
 }
 
 TEST_F(JsonFile, IsMissedByName) {
@@ -77,7 +79,7 @@ TEST_F(JsonFile, LetsOtherErrorsPass) {
 
 TEST_F(JsonFile, HasTheConesOfItsGates) {
   const auto cones_in = [&](const std::string& plan) {
-    return ReadJson(folder_.Write("plan.json", plan), ConesOf);
+    return ReadJson(folder_.Write("plan.json", plan), GateCones);
   };
   EXPECT_THAT(cones_in("{}"), testing::IsEmpty());
   EXPECT_THAT(cones_in(R"({"gates": [{"cones_m": [[1, 2], [3, 4.5]]}, {"cones_m": [[-5, 6]]}]})"),

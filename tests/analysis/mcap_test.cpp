@@ -131,7 +131,7 @@ TEST(Mcap, HoldsTheRun) {
   ASSERT_EQ(by_topic["/kinematic/tf"].size(), log.rows.size());
   ASSERT_EQ(by_topic["/kinematic/log"].size(), log.rows.size());
   ASSERT_EQ(by_topic["/kinematic/plan"].size(), log.changes.size() + 1);
-  EXPECT_EQ(by_topic["/kinematic/outline"].size(), 1U);
+  EXPECT_EQ(by_topic["/kinematic/footprint"].size(), 1U);
   const Table table = ToTable(log);
   for (const std::size_t i : {std::size_t{0}, log.rows.size() / 3, log.rows.size() - 1}) {
     const VehicleState& state = log.rows[i].state;

@@ -45,16 +45,16 @@ TEST(Metrics, EveryOneHasALabelAndAPathOfItsOwn) {
   EXPECT_FALSE(DescribeMetric("cros_track.max").has_value());
 }
 
-TEST(Metrics, EveryOneOfAManoeuvreHasALabelAndPhysicalUnit) {
-  for (const ManoeuvreEntry& manoeuvre : Manoeuvres()) {
-    ManoeuvreMetrics metrics = EveryMetricOf(manoeuvre.defaults);
+TEST(Metrics, EveryOneOfAManeuverHasALabelAndPhysicalUnit) {
+  for (const ManeuverEntry& maneuver : Maneuvers()) {
+    ManeuverMetrics metrics = AllMetrics(maneuver.defaults);
     for (const Metric& metric : ListMetrics(metrics)) {
-      SCOPED_TRACE(std::string(manoeuvre.name) + " " + metric.path);
-      EXPECT_TRUE(DescribeManoeuvreMetric(metric.path).has_value());
+      SCOPED_TRACE(std::string(maneuver.name) + " " + metric.path);
+      EXPECT_TRUE(DescribeManeuverMetric(metric.path).has_value());
     }
   }
-  EXPECT_EQ(DescribeMetric("manoeuvre.understeer_gradient")->unit, "rad s^2/m");
-  EXPECT_EQ(DescribeMetric("manoeuvre.distance")->label, "Maneuver: braking distance");
+  EXPECT_EQ(DescribeMetric("maneuver.understeer_gradient")->unit, "rad s^2/m");
+  EXPECT_EQ(DescribeMetric("maneuver.distance")->label, "Maneuver: braking distance");
   EXPECT_EQ(DescribeMetric("turns[1].lateral_offset")->label, "Turn 2: lateral offset");
 }
 
@@ -97,14 +97,15 @@ TEST(RegisterMetric, RefusesWhatIsTakenOrMalformed) {
   EXPECT_EQ(Refused({.path = "cross_track.max", .label = "A", .measure = HalfWay}),
             "metric 'cross_track.max': conflicts with the metric 'cross_track.max'");
   for (const char* taken :
-       {"cross_track", "status.text", "clearance_min_s", "turns", "manoeuvre.x"}) {
-    EXPECT_THAT(Refused({.path = taken, .label = "A", .measure = HalfWay}), HasSubstr("already"))
+       {"cross_track", "status.text", "clearance_min_s", "turns", "maneuver.x"}) {
+    EXPECT_THAT(Refused({.path = taken, .label = "A", .measure = HalfWay}),
+                HasSubstr("conflicts with"))
         << taken;
   }
   // Its station would stand where the clearance has its own.
   EXPECT_THAT(
       Refused({.path = "cross_track.max", .label = "A", .measure = HalfWay, .located = true}),
-      HasSubstr("already"));
+      HasSubstr("conflicts with"));
   for (const char* malformed : {"", "Max", "a..b", "a.", "1a", "a[0]", "a b"}) {
     EXPECT_THAT(Refused({.path = malformed, .label = "A", .measure = HalfWay}),
                 HasSubstr("must be words of a-z"))
@@ -135,7 +136,7 @@ TEST(RegisterMetric, MakesAMetricLikeAnyOther) {
                 "kinematic: test_half_way 1.5 m exceeds 1 m at s = 1.5 m, t = 0.5 s"});
   const nlohmann::ordered_json plant = MetricsJson(run)["plants"]["kinematic"];
   EXPECT_EQ(plant["test_half_way_t"], 0.5);
-  EXPECT_EQ(OutputsOf(run).at("metrics.kinematic.test_half_way_s"), "1.5");
+  EXPECT_EQ(CollectOutputs(run).at("metrics.kinematic.test_half_way_s"), "1.5");
   EXPECT_EQ(DescribeMetric("test_half_way")->label, "Half way");
   EXPECT_THAT(Refused({.path = "test_half_way", .label = "A", .measure = HalfWay}),
               HasSubstr("conflicts with the metric 'test_half_way'"));

@@ -12,7 +12,7 @@
 namespace trackbed {
 namespace {
 
-/// A drive at `speed` that steers as cos(t); a car of understeer gradient K, always in steady
+/// A run at `speed` that steers as cos(t); a car of understeer gradient K, always in steady
 /// state.
 RunLog Drive(double speed, double amplitude, double gradient, double wheelbase) {
   RunLog log{.plant = "made_up", .configurations = Table({"t_s"})};
@@ -68,7 +68,7 @@ TEST(SteeringRateRms, IsThatOfARampAndARest) {
   EXPECT_NEAR(ToJson(metrics)["steering_rate_rms"].get<double>(), 0.05, Tolerance(1e-12));
 }
 
-/// A drive that went as far as 20 m in 8 s.
+/// A run that went as far as 20 m in 8 s.
 PlantMetrics Measured(const std::string& plant) {
   PlantMetrics metrics;
   metrics.plant = plant;
@@ -90,13 +90,13 @@ PlantMetrics Measured(const std::string& plant) {
                                        .force_max_s = 7.5,
                                        .force_max_t = 2.75};
   metrics.turns = {{.measured = {.lateral_offset = 0.75}, .s = 11.0, .t = 4.5}};
-  metrics.manoeuvre = ManoeuvreMetrics{
+  metrics.maneuver = ManeuverMetrics{
       .method = "braking", .begin = 1.0, .end = 3.0, .values = {{"distance", 40.0}}};
   return metrics;
 }
 
-/// The only failure of a drive of which this is expected.
-std::string FailureOf(const MetricExpectation& expect) {
+/// The only failure of a run of which this is expected.
+std::string DescribeFailure(const MetricExpectation& expect) {
   Expectations all;
   all.all.metrics = {expect};
   const Verdict verdict = Judge(all, {Measured("mujoco")}, {});
@@ -106,39 +106,39 @@ std::string FailureOf(const MetricExpectation& expect) {
 }
 
 TEST(Judge, SaysOfAnyMetricWhatWasWhereAndWhen) {
-  EXPECT_EQ(FailureOf({.metric = "lateral_acceleration_max", .max = 2.0}),
+  EXPECT_EQ(DescribeFailure({.metric = "lateral_acceleration_max", .max = 2.0}),
             "mujoco: lateral_acceleration_max 3 m/s^2 exceeds 2 m/s^2 at s = 12 m, t = 4 s");
-  EXPECT_EQ(FailureOf({.metric = "cross_track.max", .max = 0.1}),
+  EXPECT_EQ(DescribeFailure({.metric = "cross_track.max", .max = 0.1}),
             "mujoco: cross_track.max 0.5 m exceeds 0.1 m at s = 6 m, t = 2 s");
-  EXPECT_EQ(FailureOf({.metric = "clearance_min", .min = 1.0}),
+  EXPECT_EQ(DescribeFailure({.metric = "clearance_min", .min = 1.0}),
             "mujoco: clearance_min 0.25 m is below 1 m at s = 7 m, t = 2.5 s");
-  EXPECT_EQ(FailureOf({.metric = "manoeuvre.distance", .max = 30.0}),
-            "mujoco: manoeuvre.distance 40 m exceeds 30 m between t = 1 s and 3 s");
+  EXPECT_EQ(DescribeFailure({.metric = "maneuver.distance", .max = 30.0}),
+            "mujoco: maneuver.distance 40 m exceeds 30 m between t = 1 s and 3 s");
   const std::string end = " at the end, s = 20 m, t = 8 s";
-  EXPECT_EQ(FailureOf({.metric = "time", .max = 5.0}), "mujoco: time 8 s exceeds 5 s" + end);
-  EXPECT_EQ(FailureOf({.metric = "goal_distance", .max = 0.5}),
+  EXPECT_EQ(DescribeFailure({.metric = "time", .max = 5.0}), "mujoco: time 8 s exceeds 5 s" + end);
+  EXPECT_EQ(DescribeFailure({.metric = "goal_distance", .max = 0.5}),
             "mujoco: goal_distance 0.75 m exceeds 0.5 m" + end);
-  EXPECT_EQ(FailureOf({.metric = "cross_track.final", .min = 0.0}),
+  EXPECT_EQ(DescribeFailure({.metric = "cross_track.final", .min = 0.0}),
             "mujoco: cross_track.final -0.125 m is below 0 m" + end);
-  EXPECT_EQ(FailureOf({.metric = "status", .equals = "collided"}),
+  EXPECT_EQ(DescribeFailure({.metric = "status", .equals = "collided"}),
             "mujoco: status is arrived instead of collided" + end);
   EXPECT_EQ(
-      FailureOf({.metric = "steering_rate_rms", .max = 0.1}),
+      DescribeFailure({.metric = "steering_rate_rms", .max = 0.1}),
       "mujoco: steering_rate_rms 0.25 rad/s exceeds 0.1 rad/s over the run to s = 20 m, t = 8 s");
-  EXPECT_EQ(FailureOf({.metric = "plan_changes", .equals = "2"}),
+  EXPECT_EQ(DescribeFailure({.metric = "plan_changes", .equals = "2"}),
             "mujoco: plan_changes is 0 instead of 2 over the run to s = 20 m, t = 8 s");
-  EXPECT_EQ(FailureOf({.metric = "obstacle_force_max", .max = 5.0}),
+  EXPECT_EQ(DescribeFailure({.metric = "obstacle_force_max", .max = 5.0}),
             "mujoco: obstacle_force_max 9 N exceeds 5 N at s = 7.5 m, t = 2.75 s");
-  EXPECT_EQ(FailureOf({.metric = "collision", .equals = "true"}),
+  EXPECT_EQ(DescribeFailure({.metric = "collision", .equals = "true"}),
             "mujoco: collision is false instead of true at s = 7 m, t = 2.5 s");
-  EXPECT_EQ(FailureOf({.metric = "turns[0].lateral_offset", .max = 0.5}),
+  EXPECT_EQ(DescribeFailure({.metric = "turns[0].lateral_offset", .max = 0.5}),
             "mujoco: turns[0].lateral_offset 0.75 m exceeds 0.5 m at s = 11 m, t = 4.5 s");
-  EXPECT_EQ(FailureOf({.metric = "cross_track.max_s", .max = 5.0}),
+  EXPECT_EQ(DescribeFailure({.metric = "cross_track.max_s", .max = 5.0}),
             "mujoco: cross_track.max_s 6 m exceeds 5 m over the run to s = 20 m, t = 8 s");
 }
 
-TEST(Judge, TellsApartWhatFourDigitsDoNot) {
-  EXPECT_EQ(FailureOf({.metric = "steering_rate_rms", .max = 0.2499999}),
+TEST(Judge, DistinguishesWhatFourDigitsDoNot) {
+  EXPECT_EQ(DescribeFailure({.metric = "steering_rate_rms", .max = 0.2499999}),
             "mujoco: steering_rate_rms 0.25 rad/s exceeds 0.2499999 rad/s over the run to s = 20 "
             "m, t = 8 s");
   Expectations expect;
@@ -151,20 +151,20 @@ TEST(Judge, TellsApartWhatFourDigitsDoNot) {
 }
 
 TEST(Judge, SaysWhyAMetricIsNotThere) {
-  EXPECT_EQ(FailureOf({.metric = "turns[7].lateral_offset", .max = 0.5}),
+  EXPECT_EQ(DescribeFailure({.metric = "turns[7].lateral_offset", .max = 0.5}),
             "mujoco: turns[7].lateral_offset is not available: the run has 1 isolated turn");
-  EXPECT_EQ(FailureOf({.metric = "steering_rat_max", .max = 0.5}),
+  EXPECT_EQ(DescribeFailure({.metric = "steering_rat_max", .max = 0.5}),
             "mujoco: no metric 'steering_rat_max'; did you mean 'steering_rate_max'?");
   Expectations expect;
-  expect.all.metrics = {{.metric = "manoeuvre.margin", .min = 0.0},
+  expect.all.metrics = {{.metric = "maneuver.margin", .min = 0.0},
                         {.metric = "recovery_time", .max = 1.0}};
   PlantMetrics metrics = Measured("mujoco");
-  metrics.manoeuvre->missing = "the car never came there";
+  metrics.maneuver->missing = "the car never came there";
   metrics.recovery = RecoveryMetrics{.from = 3.0, .time = {}};
   EXPECT_EQ(
       Judge(expect, {metrics}, {}).failures,
       (std::vector<std::string>{
-          "mujoco: manoeuvre.margin was not measured: the car never came there",
+          "mujoco: maneuver.margin was not measured: the car never came there",
           "mujoco: recovery_time is not defined: the car did not recover after t = 3 s; end of "
           "the run at s = 20 m, t = 8 s"}));
   metrics.recovery->time = 2.0;

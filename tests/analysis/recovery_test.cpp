@@ -60,7 +60,7 @@ TEST(RecoveryTime, IsSaidOfNothingElse) {
   const auto on_path = [](double) { return 0.0; };
   Disturbances disturb;
   EXPECT_FALSE(Recovery(disturb, on_path));
-  disturb.kicks.push_back({.at = 11.0, .displacement = 0.5});  // after the drive
+  disturb.kicks.push_back({.at = 11.0, .displacement = 0.5});  // after the run
   EXPECT_FALSE(Recovery(disturb, on_path));
   disturb.kicks.front().at = 9.0;
   EXPECT_TRUE(Recovery(disturb, on_path));

@@ -69,6 +69,12 @@ TEST(RunFolder, RequiresFilesByName) {
   } catch (const InputError& error) {
     EXPECT_EQ(error.what(), missing.string() + ": missing from the run folder");
   }
+  try {
+    run_folder::RequireFile(folder.path());
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(), folder.path().string() + ": is a folder, not a file");
+  }
 }
 
 // What a run writes and the list does not have would be left there by the next run.

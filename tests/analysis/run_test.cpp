@@ -31,7 +31,7 @@ const PlantMetrics& Of(const RunResult& result, const std::string& plant) {
   throw std::runtime_error("no plant " + plant);
 }
 
-const RunLog& LogOf(const RunResult& result, const std::string& plant) {
+const RunLog& FindLog(const RunResult& result, const std::string& plant) {
   for (const RunLog& log : result.logs) {
     if (log.plant == plant) {
       return log;
@@ -345,7 +345,7 @@ TEST(Verdict, FailsADriveThatDoesNotArrive) {
 
 TEST(Drive, LogsCommandActuatorAndMeasurementApart) {
   const RunResult result = RunMission(Load("three_turns", {"drive.time_limit=12", "expect={}"}));
-  const RunLog& log = LogOf(result, "mujoco");
+  const RunLog& log = FindLog(result, "mujoco");
   double command_ahead = 0.0;
   double measured_behind = 0.0;
   for (const LogRow& row : log.rows) {

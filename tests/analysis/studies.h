@@ -10,8 +10,8 @@
 namespace trackbed {
 
 /// A study of scenarios/winding.yaml with these keys.
-inline Study StudyOf(const TempFolder& folder, const std::string& keys,
-                     const std::vector<Override>& overrides = {}) {
+inline Study MakeStudy(const TempFolder& folder, const std::string& keys,
+                       const std::vector<Override>& overrides = {}) {
   const std::string text =
       "schema: 1\nname: study\nscenario: " TRACKBED_SOURCE_DIR "/scenarios/winding.yaml\n" + keys;
   return ReadStudy(folder.Write("study.yaml", text), overrides);
@@ -19,7 +19,7 @@ inline Study StudyOf(const TempFolder& folder, const std::string& keys,
 
 /// The error of a call, without the folder's name.
 template <typename Call>
-std::string ErrorOf(const TempFolder& folder, const Call& call) {
+std::string ErrorMessage(const TempFolder& folder, const Call& call) {
   try {
     call();
   } catch (const InputError& error) {

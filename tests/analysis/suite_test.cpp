@@ -138,7 +138,7 @@ class JUnit {
   tinyxml2::XMLDocument document_;
 };
 
-std::set<std::string> AttributesOf(const tinyxml2::XMLElement& element) {
+std::set<std::string> AttributeNames(const tinyxml2::XMLElement& element) {
   std::set<std::string> names;
   for (const auto* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
     names.insert(a->Name());
@@ -173,13 +173,13 @@ TEST(JUnit, HasTheAttributesThatJenkinsAndGitLabRead) {
   EXPECT_STREQ(xml.suites().Name(), "testsuites");
   EXPECT_EQ(xml.suite().NextSiblingElement(), nullptr);
   for (const tinyxml2::XMLElement* whole : {&xml.suites(), &xml.suite()}) {
-    EXPECT_EQ(AttributesOf(*whole),
+    EXPECT_EQ(AttributeNames(*whole),
               (std::set<std::string>{"name", "tests", "failures", "errors", "skipped", "time"}));
     EXPECT_STREQ(whole->Attribute("name"), "trackbed");
     EXPECT_STREQ(whole->Attribute("time"), "1.750");
   }
   for (int i = 0; i < 5; ++i) {
-    EXPECT_EQ(AttributesOf(xml.test(i)),
+    EXPECT_EQ(AttributeNames(xml.test(i)),
               (std::set<std::string>{"name", "classname", "file", "time"}));
   }
   EXPECT_STREQ(xml.test(0).Attribute("name"), "good");
@@ -216,7 +216,7 @@ TEST(JUnit, CountsWhatItHolds) {
   EXPECT_EQ(skipped, 1);
 }
 
-TEST(JUnit, TellsWhy) {
+TEST(JUnit, SaysWhy) {
   const JUnit xml(CasesOfEveryKind());
   EXPECT_STREQ(xml.test(0).FirstChildElement()->Name(), "system-out");
   EXPECT_STREQ(xml.test(0).FirstChildElement()->GetText(), "steering limited\nwind < 3");

@@ -18,7 +18,8 @@ namespace {
 TEST(CheckStudy, NamesOutputsThatNoRunCanHave) {
   const TempFolder folder;
   const auto error = [&](const std::string& keys) {
-    return ErrorOf(folder, [&] { CheckStudy(StudyOf(folder, "repeat: 2\noutputs:\n" + keys)); });
+    return ErrorMessage(folder,
+                        [&] { CheckStudy(MakeStudy(folder, "repeat: 2\noutputs:\n" + keys)); });
   };
   EXPECT_EQ(error("  - metrics.mujoco.cros_track.max\n  - verdict.passed\n  - plan.length\n"),
             "study.yaml:6:5: outputs[0]: unknown metric 'metrics.mujoco.cros_track.max'; did you "
@@ -36,20 +37,20 @@ TEST(CheckStudy, NamesOutputsThatNoRunCanHave) {
 
 TEST(CheckStudy, NamesMetricsThatNoRunCanBeExpectedToHave) {
   const TempFolder folder;
-  Study study = StudyOf(folder,
-                        "set: {expect.metrics: [{metric: manoeuvre.passed, equals: true}]}\n"
-                        "repeat: 2\n");
+  Study study = MakeStudy(folder,
+                          "set: {expect.metrics: [{metric: maneuver.passed, equals: true}]}\n"
+                          "repeat: 2\n");
   study.metrics = PossibleMetrics;
-  EXPECT_THAT(ErrorOf(folder, [&] { CheckStudy(study); }),
+  EXPECT_THAT(ErrorMessage(folder, [&] { CheckStudy(study); }),
               testing::StartsWith("study.yaml:4:23: expect.metrics[0].metric: unknown metric "
-                                  "'manoeuvre.passed'; allowed: status, "));
+                                  "'maneuver.passed'; allowed: status, "));
 }
 
 TEST(PossibleMetrics, AreThoseOfTheRun) {
   const Scenario scenario = ReadScenario(
       std::string(TRACKBED_SOURCE_DIR) + "/scenarios/disturbed.yaml", {"drive.plants=[kinematic]"});
   const std::vector<std::string> possible = PossibleMetrics(scenario);
-  for (const auto& [path, value] : OutputsOf(RunMission(scenario))) {
+  for (const auto& [path, value] : CollectOutputs(RunMission(scenario))) {
     const std::string start = "metrics.kinematic.";
     if (path.starts_with(start)) {
       EXPECT_THAT(possible, testing::Contains(path.substr(start.size())));
@@ -62,14 +63,14 @@ TEST(PossibleMetrics, AreThoseOfTheRun) {
 TEST(CheckStudy, KnowsTheOutputsOfEveryPoint) {
   const TempFolder folder;
   const std::string box = "[{box: {x: 20, y: 3, length: 1, width: 1}}]";
-  const CheckedStudy checked = CheckStudy(StudyOf(folder,
-                                                  "list:\n  - {drive.plants: [kinematic]}\n"
-                                                  "  - {drive.plants: [mujoco], "
-                                                  "world.obstacles: " +
-                                                      box +
-                                                      "}\n"
-                                                      "outputs: [metrics.kinematic.time, "
-                                                      "metrics.mujoco.clearance_min]\n"));
+  const CheckedStudy checked = CheckStudy(MakeStudy(folder,
+                                                    "list:\n  - {drive.plants: [kinematic]}\n"
+                                                    "  - {drive.plants: [mujoco], "
+                                                    "world.obstacles: " +
+                                                        box +
+                                                        "}\n"
+                                                        "outputs: [metrics.kinematic.time, "
+                                                        "metrics.mujoco.clearance_min]\n"));
   EXPECT_EQ(checked.points.size(), 2U);
   EXPECT_EQ(checked.cars.size(), 1U);  // one model at one timestep
 }
@@ -77,9 +78,9 @@ TEST(CheckStudy, KnowsTheOutputsOfEveryPoint) {
 TEST(CheckStudy, AStudyOfPlantsNeedsOneColumnForEachResult) {
   const TempFolder folder;
   const CheckedStudy checked = CheckStudy(
-      StudyOf(folder,
-              "vary: {drive.plants: [[kinematic], [single_track], [kinematic, single_track]]}\n"
-              "outputs: [metrics.*.cross_track.max]\n"));
+      MakeStudy(folder,
+                "vary: {drive.plants: [[kinematic], [single_track], [kinematic, single_track]]}\n"
+                "outputs: [metrics.*.cross_track.max]\n"));
   for (std::size_t i = 0; i < 2; ++i) {
     SCOPED_TRACE(i);
     const StudyPoint& point = checked.points[i];
@@ -97,7 +98,7 @@ TEST(CheckStudy, AStudyOfPlantsNeedsOneColumnForEachResult) {
 TEST(CheckStudy, TellsCarsOfDifferentSteeringRatesApart) {
   const TempFolder folder;
   const CheckedStudy checked =
-      CheckStudy(StudyOf(folder, "vary: {vehicle.steering_rate: [0.2, 0.3]}\n"));
+      CheckStudy(MakeStudy(folder, "vary: {vehicle.steering_rate: [0.2, 0.3]}\n"));
   std::set<double> rates;
   for (const auto& [key, car] : checked.cars) {
     rates.insert(car.params().steering_rate);
@@ -105,29 +106,29 @@ TEST(CheckStudy, TellsCarsOfDifferentSteeringRatesApart) {
   EXPECT_EQ(rates, (std::set<double>{0.2, 0.3}));
 }
 
-TEST(CheckStudy, KnowsWhatAManoeuvreMeasures) {
+TEST(CheckStudy, KnowsWhatAManeuverMeasures) {
   const TempFolder folder;
   const auto error = [&](const std::string& output) {
-    return ErrorOf(folder, [&] {
-      CheckStudy(StudyOf(
-          folder, "set: {manoeuvre: {method: braking}}\nrepeat: 1\noutputs: [" + output + "]\n"));
+    return ErrorMessage(folder, [&] {
+      CheckStudy(MakeStudy(
+          folder, "set: {maneuver: {method: braking}}\nrepeat: 1\noutputs: [" + output + "]\n"));
     });
   };
-  EXPECT_EQ(error("metrics.mujoco.manoeuvre.distance"), "no error");
-  EXPECT_THAT(error("metrics.mujoco.manoeuvre.distanse"),
-              testing::HasSubstr("did you mean 'metrics.mujoco.manoeuvre.distance'?"));
+  EXPECT_EQ(error("metrics.mujoco.maneuver.distance"), "no error");
+  EXPECT_THAT(error("metrics.mujoco.maneuver.distanse"),
+              testing::HasSubstr("did you mean 'metrics.mujoco.maneuver.distance'?"));
 }
 
 TEST(CheckStudy, CompilesEveryCarThatThereIs) {
   const TempFolder folder;
   folder.Write("broken.xml", "<mujoco><worldbody/></mujoco>\n");
   const std::string broken = (folder.path() / "broken.xml").string();
-  EXPECT_THAT(
-      ErrorOf(folder,
-              [&] {
-                CheckStudy(StudyOf(folder, "vary: {vehicle.model: [prius, '" + broken + "']}\n"));
-              }),
-      testing::HasSubstr("broken.xml"));
+  EXPECT_THAT(ErrorMessage(folder,
+                           [&] {
+                             CheckStudy(MakeStudy(
+                                 folder, "vary: {vehicle.model: [prius, '" + broken + "']}\n"));
+                           }),
+              testing::HasSubstr("broken.xml"));
 }
 
 /// The small car without the coefficients of its tyres.
@@ -141,10 +142,10 @@ TEST(CheckStudy, NamesCarsThatLackWhatAPlantAsksOfThem) {
   const TempFolder folder;
   const std::string car = folder.Write("bare.xml", WithoutTyres()).string();
   const auto error = [&](const std::string& plant) {
-    return ErrorOf(folder, [&] {
-      CheckStudy(StudyOf(folder, "vary:\n  drive.plants: [[" + plant +
-                                     "]]\n  vehicle.model: [prius, '" + car +
-                                     "']\n  vehicle.tyre: [contact, magic_formula]\n"));
+    return ErrorMessage(folder, [&] {
+      CheckStudy(MakeStudy(folder, "vary:\n  drive.plants: [[" + plant +
+                                       "]]\n  vehicle.model: [prius, '" + car +
+                                       "']\n  vehicle.tyre: [contact, magic_formula]\n"));
     });
   };
   EXPECT_EQ(error("mujoco"),
@@ -163,14 +164,14 @@ outputs: [metrics.kinematic.status, metrics.kinematic.cross_track.max, verdict.f
 
 TEST(DriveOnce, ComesToWhatARunOfTheScenarioComesTo) {
   const TempFolder folder;
-  const CheckedStudy checked = CheckStudy(StudyOf(folder, kShort));
+  const CheckedStudy checked = CheckStudy(MakeStudy(folder, kShort));
   for (const StudyPoint& point : checked.points) {
     const std::optional<RunOutcome> outcome = DriveOnce(checked, point.scenario);
     ASSERT_TRUE(outcome.has_value());
     const RunResult run = RunMission(point.scenario);
     EXPECT_EQ(outcome->passed, run.verdict.passed);
     EXPECT_EQ(outcome->status, run.verdict.passed ? "passed" : "failed");
-    EXPECT_EQ(outcome->outputs, OutputsOf(run));
+    EXPECT_EQ(outcome->outputs, CollectOutputs(run));
     const Outputs& outputs = outcome->outputs;
     EXPECT_EQ(outputs.at("metrics.kinematic.cross_track.max"),
               ShortestText(run.metrics[0].tracking->cross_track_max));
@@ -206,11 +207,12 @@ outputs: [metrics.mujoco.distance]
 
 TEST(DriveOnce, DrivesEveryPointAsIfItWereAlone) {
   const TempFolder folder;
-  const CheckedStudy checked = CheckStudy(StudyOf(folder, kEveryKind));
+  const CheckedStudy checked = CheckStudy(MakeStudy(folder, kEveryKind));
   std::set<Outputs> different;
   for (const StudyPoint& point : checked.points) {
     const std::optional<RunOutcome> outcome = DriveOnce(checked, point.scenario);
-    EXPECT_EQ(outcome->outputs, OutputsOf(RunMission(point.scenario))) << point.settings[0].key;
+    EXPECT_EQ(outcome->outputs, CollectOutputs(RunMission(point.scenario)))
+        << point.settings[0].key;
     different.insert(outcome->outputs);
   }
   EXPECT_EQ(different.size(), checked.points.size());  // so that a mix-up would show
@@ -219,16 +221,16 @@ TEST(DriveOnce, DrivesEveryPointAsIfItWereAlone) {
 TEST(DriveOnce, DisturbsEveryPointInItsOwnWay) {
   const TempFolder folder;
   const CheckedStudy checked = CheckStudy(
-      StudyOf(folder,
-              "set: {drive.plants: [mujoco], drive.time_limit: 3, mission.start.speed: 1}\n"
-              "list:\n  - {disturb.kicks: [{at: 1, displacement: 0.2}]}\n"
-              "  - {disturb.payload: {mass: 300}}\n  - {disturb.recovered_within: 1}\n"
-              "outputs: [metrics.mujoco.recovery_time]\n"));
+      MakeStudy(folder,
+                "set: {drive.plants: [mujoco], drive.time_limit: 3, mission.start.speed: 1}\n"
+                "list:\n  - {disturb.kicks: [{at: 1, displacement: 0.2}]}\n"
+                "  - {disturb.payload: {mass: 300}}\n  - {disturb.recovered_within: 1}\n"
+                "outputs: [metrics.mujoco.recovery_time]\n"));
   EXPECT_EQ(checked.cars.size(), 1U);  // without payload
   std::set<std::string> distances;
   for (const StudyPoint& point : checked.points) {
     const Outputs outputs = DriveOnce(checked, point.scenario)->outputs;
-    EXPECT_EQ(outputs, OutputsOf(RunMission(point.scenario)));
+    EXPECT_EQ(outputs, CollectOutputs(RunMission(point.scenario)));
     EXPECT_EQ(outputs.count("metrics.mujoco.recovery_time"), point.scenario.disturb.kicks.size());
     distances.insert(outputs.at("metrics.mujoco.distance"));
   }
@@ -238,7 +240,7 @@ TEST(DriveOnce, DisturbsEveryPointInItsOwnWay) {
 TEST(DriveOnce, TellsThatThereIsNoPlan) {
   const TempFolder folder;
   const CheckedStudy checked =
-      CheckStudy(StudyOf(folder, "list: [{mission.waypoints: [[0, 0], [10, 0], [10, 10]]}]\n"));
+      CheckStudy(MakeStudy(folder, "list: [{mission.waypoints: [[0, 0], [10, 0], [10, 10]]}]\n"));
   const std::optional<RunOutcome> outcome = DriveOnce(checked, checked.points[0].scenario);
   EXPECT_EQ(outcome->status, "no_plan");
   EXPECT_EQ(outcome->outputs.at("plan.status"), "turn_too_tight");
@@ -247,13 +249,13 @@ TEST(DriveOnce, TellsThatThereIsNoPlan) {
 
 TEST(DriveOnce, EndsWithNothingWhenItIsInterrupted) {
   const TempFolder folder;
-  const CheckedStudy checked = CheckStudy(StudyOf(folder, kShort));
+  const CheckedStudy checked = CheckStudy(MakeStudy(folder, kShort));
   EXPECT_FALSE(DriveOnce(checked, checked.points[0].scenario, [] { return true; }).has_value());
 }
 
 TEST(DriveOnce, GivesTheSameSweepOnOneThreadAndOnFour) {
   const TempFolder folder;
-  const CheckedStudy checked = CheckStudy(StudyOf(folder, R"(set: {drive.time_limit: 3}
+  const CheckedStudy checked = CheckStudy(MakeStudy(folder, R"(set: {drive.time_limit: 3}
 vary:
   drive.plants: [[kinematic], [mujoco], [kinematic, mujoco]]
   world.obstacles: [[], [{box: {x: 20, y: 3, length: 1, width: 1}}]]

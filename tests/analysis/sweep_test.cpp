@@ -14,9 +14,9 @@
 namespace trackbed {
 namespace {
 
-SweepResult SweepOf(const TempFolder& folder, const std::string& keys, const RunScenarioOnce& run,
-                    const SweepOptions& options = {}) {
-  const Study study = StudyOf(folder, keys);
+SweepResult SweepStudy(const TempFolder& folder, const std::string& keys,
+                       const RunScenarioOnce& run, const SweepOptions& options = {}) {
+  const Study study = MakeStudy(folder, keys);
   return RunSweep(study, ReadPoints(study), run, options);
 }
 
@@ -32,12 +32,12 @@ std::optional<RunOutcome> UpToASpeed(const Scenario& scenario) {
 
 TEST(Sweep, HasARowForEveryPointInTheGridsOrder) {
   const TempFolder folder;
-  const SweepResult sweep = SweepOf(folder, R"(vary:
+  const SweepResult sweep = SweepStudy(folder, R"(vary:
   mission.speed: {from: 10, to: 20, steps: 3}
   drive.plants: [[kinematic], [kinematic, mujoco]]
 outputs: [metrics.kinematic.distance, metrics.mujoco.distance]
 )",
-                                    UpToASpeed);
+                                       UpToASpeed);
   EXPECT_EQ(sweep.table.ToCsv(),
             "mission.speed,drive.plants,status,metrics.kinematic.distance,metrics.mujoco.distance\n"
             "10,[kinematic],passed,20,\n"
@@ -54,8 +54,8 @@ outputs: [metrics.kinematic.distance, metrics.mujoco.distance]
 TEST(Sweep, LeavesCellsOfAListEmptyWhereAPointSaysNothing) {
   const TempFolder folder;
   const SweepResult sweep =
-      SweepOf(folder, "list: [{mission.speed: 19, seed: 1}, {seed: 2}, {world.friction: 0.5}]\n",
-              UpToASpeed);
+      SweepStudy(folder, "list: [{mission.speed: 19, seed: 1}, {seed: 2}, {world.friction: 0.5}]\n",
+                 UpToASpeed);
   EXPECT_EQ(sweep.table.ToCsv(),
             "mission.speed,seed,world.friction,status\n"
             "19,1,,passed\n"
@@ -66,7 +66,7 @@ TEST(Sweep, LeavesCellsOfAListEmptyWhereAPointSaysNothing) {
 TEST(Sweep, CountsTheSeedUpWhereItRepeats) {
   const TempFolder folder;
   const SweepResult sweep =
-      SweepOf(folder, "set: {seed: 4}\nvary: {mission.speed: [15, 3]}\nrepeat: 3\n", UpToASpeed);
+      SweepStudy(folder, "set: {seed: 4}\nvary: {mission.speed: [15, 3]}\nrepeat: 3\n", UpToASpeed);
   EXPECT_EQ(sweep.table.ToCsv(),
             "mission.speed,seed,status\n"
             "15,4,passed\n15,5,passed\n15,6,failed\n"
@@ -77,11 +77,11 @@ TEST(Sweep, CountsTheSeedUpWhereItRepeats) {
 TEST(Sweep, BisectsAtEveryPoint) {
   const TempFolder folder;
   // Limits 20, 15 and 8: above, between and below the ends.
-  const SweepResult sweep = SweepOf(folder, R"(vary: {seed: [0, 5, 12]}
+  const SweepResult sweep = SweepStudy(folder, R"(vary: {seed: [0, 5, 12]}
 bisect: {key: mission.speed, from: 10, to: 18, tolerance: 0.5}
 outputs: [metrics.kinematic.distance]
 )",
-                                    UpToASpeed);
+                                       UpToASpeed);
   EXPECT_EQ(sweep.table.ToCsv(),
             "seed,mission.speed,status,runs,metrics.kinematic.distance\n"
             "0,18,passes_at_to,2,36\n"
@@ -102,21 +102,21 @@ outputs: [metrics.kinematic.distance]
 TEST(Sweep, BisectsEveryRepetitionWithItsOwnSeed) {
   const TempFolder folder;
   const SweepResult sweep =
-      SweepOf(folder,
-              "repeat: 2\nset: {seed: 6}\n"
-              "bisect: {key: mission.speed, from: 10, to: 18, tolerance: 1}\n",
-              UpToASpeed);
+      SweepStudy(folder,
+                 "repeat: 2\nset: {seed: 6}\n"
+                 "bisect: {key: mission.speed, from: 10, to: 18, tolerance: 1}\n",
+                 UpToASpeed);
   EXPECT_EQ(sweep.table.ToCsv(), "mission.speed,seed,status,runs\n14,6,found,5\n13,7,found,5\n");
 }
 
 TEST(Sweep, DescribesTheStudyThatWasRun) {
   const TempFolder folder;
-  const Study study = StudyOf(folder, R"(set: {drive.plants: [kinematic], world.friction: 0.5}
+  const Study study = MakeStudy(folder, R"(set: {drive.plants: [kinematic], world.friction: 0.5}
 vary: {mission.speed: [1, 2.50], control.law: [linear]}
 list: [{seed: 3}]
 outputs: [verdict.passed]
 )",
-                              {"world.friction=0.7"});
+                                {"world.friction=0.7"});
   auto json = RunSweep(study, ReadPoints(study), UpToASpeed, {}).description;
   EXPECT_EQ(json["study"], "study");
   EXPECT_EQ(json["set"].dump(), R"({"drive.plants":"[kinematic]","world.friction":0.5})");
@@ -134,7 +134,7 @@ TEST(Sweep, IsTheSameForAnyNumberOfJobs) {
   const std::string keys =
       "vary: {mission.speed: {from: 1, to: 25, steps: 40}}\nrepeat: 2\n"
       "outputs: [metrics.kinematic.distance]\n";
-  const SweepResult one = SweepOf(folder, keys, UpToASpeed, {.jobs = 1});
+  const SweepResult one = SweepStudy(folder, keys, UpToASpeed, {.jobs = 1});
   EXPECT_EQ(one.table.rows().size(), 80U);
   for (const int jobs : {2, 4, 200}) {
     // The first run ends after another one, which only another thread can bring to its end.
@@ -147,7 +147,7 @@ TEST(Sweep, IsTheSameForAnyNumberOfJobs) {
       ended.notify_all();
       return UpToASpeed(scenario);
     };
-    const SweepResult many = SweepOf(folder, keys, run, {.jobs = jobs});
+    const SweepResult many = SweepStudy(folder, keys, run, {.jobs = jobs});
     EXPECT_EQ(many.table.ToCsv(), one.table.ToCsv());
     EXPECT_EQ(many.description.dump(), one.description.dump());
   }
@@ -156,8 +156,8 @@ TEST(Sweep, IsTheSameForAnyNumberOfJobs) {
 TEST(Sweep, TellsHowFarItIs) {
   const TempFolder folder;
   std::vector<double> told;
-  SweepOf(folder, "repeat: 4\n", UpToASpeed,
-          {.jobs = 2, .progress = [&](double fraction) { told.push_back(fraction); }});
+  SweepStudy(folder, "repeat: 4\n", UpToASpeed,
+             {.jobs = 2, .progress = [&](double fraction) { told.push_back(fraction); }});
   EXPECT_THAT(told, testing::ElementsAre(0.25, 0.5, 0.75, 1.0));
 }
 
@@ -169,7 +169,7 @@ TEST(Sweep, KeepsTheRowsThatWereCompleteWhenItIsInterrupted) {
     return ++runs == 3 ? std::nullopt : UpToASpeed(scenario);
   };
   const SweepResult sweep =
-      SweepOf(folder, "vary: {mission.speed: [1, 2, 3, 4]}\n", third_is_cut_off);
+      SweepStudy(folder, "vary: {mission.speed: [1, 2, 3, 4]}\n", third_is_cut_off);
   EXPECT_EQ(sweep.table.ToCsv(), "mission.speed,status\n1,passed\n2,passed\n");
   EXPECT_FALSE(sweep.complete());
   EXPECT_EQ(sweep.description["complete"], false);
@@ -186,8 +186,8 @@ TEST(Sweep, BeginsNothingOnceItIsInterrupted) {
   };
   // A bisection whose last trials are missing has no row.
   const SweepResult sweep =
-      SweepOf(folder, "bisect: {key: mission.speed, from: 10, to: 30, tolerance: 0.1}\n", run,
-              {.interrupted = [&] { return runs == 4; }});
+      SweepStudy(folder, "bisect: {key: mission.speed, from: 10, to: 30, tolerance: 0.1}\n", run,
+                 {.interrupted = [&] { return runs == 4; }});
   EXPECT_EQ(sweep.table.rows().size(), 0U);
   EXPECT_EQ(runs, 4);
 }
@@ -200,12 +200,12 @@ TEST(Sweep, ThrowsOnWhatARunThrows) {
     }
     return UpToASpeed(scenario);
   };
-  EXPECT_THROW(SweepOf(folder, "repeat: 9\n", run, {.jobs = 3}), RunError);
+  EXPECT_THROW(SweepStudy(folder, "repeat: 9\n", run, {.jobs = 3}), RunError);
 }
 
 TEST(Sweep, WritesWholeFiles) {
   const TempFolder folder;
-  const SweepResult sweep = SweepOf(folder, "repeat: 2\n", UpToASpeed);
+  const SweepResult sweep = SweepStudy(folder, "repeat: 2\n", UpToASpeed);
   WriteSweep(sweep, folder.path() / "out");
   EXPECT_EQ(ReadFile(folder.path() / "out/sweep.csv"), "seed,status\n0,passed\n1,passed\n");
   EXPECT_EQ(nlohmann::ordered_json::parse(ReadFile(folder.path() / "out/sweep.json")),

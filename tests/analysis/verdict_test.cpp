@@ -23,7 +23,7 @@ RunResult Drive(const std::string& yaml) {
 }
 
 TEST(Verdict, FailsACarThatPassesThroughAThinWallBetweenTwoRows) {
-  // 10 m/s and a second between the rows: the wall of 0.2 m is within no row's outline.
+  // 10 m/s and a second between the rows: the wall of 0.2 m is within no row's footprint.
   const RunResult run = Drive(
       "mission: {speed: 10, waypoints: [[0, 0], [100, 0], [200, 0]]}\n"
       "world: {obstacles: [{box: {x: 65, y: 0, length: 0.2, width: 3, height: 1}}]}\n"
@@ -166,7 +166,7 @@ TEST(Verdict, ListsEveryCheckWithBoundAndValueWhereAndWhen) {
   metrics.clearance = ClearanceMetrics{.min = 0.5, .min_s = 7.0, .min_t = 2.5};
   Expectations expect;
   expect.all.rms_cross_track = 0.5;
-  expect.all.metrics = {{.metric = "manoeuvre.margin", .min = 0.0, .max = 1.0}};
+  expect.all.metrics = {{.metric = "maneuver.margin", .min = 0.0, .max = 1.0}};
   expect.between = {{{"mujoco", "kinematic"}, {.heading_max = 0.25}}};
   const PlantComparison between{.first = "kinematic",
                                 .second = "mujoco",
@@ -184,7 +184,7 @@ TEST(Verdict, ListsEveryCheckWithBoundAndValueWhereAndWhen) {
           R"("value":0.09,"station":3.0,"time":1.0,"met":true})",
           R"({"plant":"mujoco","metric":"cross_track.max","relation":"at_most","bound":2.0,)"
           R"("value":2.5,"station":6.0,"time":2.0,"met":false})",
-          R"({"plant":"mujoco","metric":"manoeuvre.margin","relation":"at_least","bound":0.0,)"
+          R"({"plant":"mujoco","metric":"maneuver.margin","relation":"at_least","bound":0.0,)"
           R"("value":null,"station":null,"time":null,"met":false})",
           R"({"plant":"mujoco","metric":"cross_track.rms","relation":"at_most","bound":0.5,)"
           R"("value":0.25,"station":null,"time":null,"met":true})",

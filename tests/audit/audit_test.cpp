@@ -65,7 +65,7 @@ struct Outcome {
 };
 
 /// The first attempt that the program does not refuse as wrong input.
-Outcome AuditOf(std::size_t index) {
+Outcome AuditCase(std::size_t index) {
   Outcome outcome;
   for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
     outcome.scenario = RandomScenario(index, attempt);
@@ -135,7 +135,7 @@ TEST_P(EveryVerdict, IsTrue) {
     if (only && index != *only) {
       continue;
     }
-    const Outcome outcome = AuditOf(index);
+    const Outcome outcome = AuditCase(index);
     Count(outcome, tally);
     Count(outcome, total_);
     if (!outcome.findings.empty()) {

@@ -65,7 +65,7 @@ std::vector<Table> PlansTakenUp(const Table& changes) {
 }
 
 /// The mission's plan and those taken up on the way, in the order of their times.
-std::vector<Driven> PlansOf(const Table& plan, const Table& changes, double beyond) {
+std::vector<Driven> DrivenPlans(const Table& plan, const Table& changes, double beyond) {
   std::vector<Driven> plans{DrivenFrom(plan, 0.0, beyond)};
   for (const Table& next : PlansTakenUp(changes)) {
     plans.push_back(DrivenFrom(next, next.Column("from_t_s").front(), beyond));
@@ -74,7 +74,7 @@ std::vector<Driven> PlansOf(const Table& plan, const Table& changes, double beyo
 }
 
 /// The chassis at every physics step.
-std::vector<TimedPose> PosesOf(const Table& steps) {
+std::vector<TimedPose> TimedPoses(const Table& steps) {
   const auto t = steps.Column("t_s"), x = steps.Column("x_m"), y = steps.Column("y_m"),
              qw = steps.Column("qw"), qx = steps.Column("qx"), qy = steps.Column("qy"),
              qz = steps.Column("qz");
@@ -134,7 +134,7 @@ class DriveCheck {
         record_(record),
         tolerances_(tolerances),
         status_(drive.metrics.at("status").get<std::string>()),
-        poses_(PosesOf(drive.steps)) {
+        poses_(TimedPoses(drive.steps)) {
     const auto t = drive.log.Column("t_s"), x = drive.log.Column("x_m"),
                y = drive.log.Column("y_m"), yaw = drive.log.Column("yaw_rad");
     for (std::size_t i = 0; i < t.size(); ++i) {
@@ -220,7 +220,7 @@ class DriveCheck {
     std::size_t which = 0;
     for (std::size_t i = 0; i < record_.mission.obstacles.size(); ++i) {
       const Nearest one =
-          SweptGap(record_.car.outline(), poses_, record_.mission.obstacles[i], 1e-3);
+          SweptGap(record_.car.footprint(), poses_, record_.mission.obstacles[i], 1e-3);
       if (one.gap < nearest.gap) {
         nearest = one;
         which = i;
@@ -247,7 +247,7 @@ class DriveCheck {
     }
     // A car about to stop at the end may stand as far beyond it as counts as arrived.
     const double beyond = tolerances_.goal_position * record_.car.length;
-    std::vector<Driven> plans = PlansOf(record_.plan, drive_.changes, beyond);
+    std::vector<Driven> plans = DrivenPlans(record_.plan, drive_.changes, beyond);
     const double told = drive_.metrics["cross_track"]["max"].get<double>();
     // What an obstacle pushes aside is not steered: errors count up to the contact that is told of.
     // That there was one is checked above.
@@ -334,7 +334,7 @@ class DriveCheck {
   void CheckArrival() {
     const TimedPose& last = rows_.back();
     const Mission& mission = record_.mission;
-    const std::vector<Driven> plans = PlansOf(record_.plan, drive_.changes, 0.0);
+    const std::vector<Driven> plans = DrivenPlans(record_.plan, drive_.changes, 0.0);
     const Point goal = mission.goal.value_or(Point{plans.back().end.x, plans.back().end.y});
     const double away = std::hypot(last.x - goal.x, last.y - goal.y);
     const double near = tolerances_.goal_position * record_.car.length;

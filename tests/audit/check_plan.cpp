@@ -15,7 +15,7 @@ struct PlanRow {
   double s, x, y, yaw, curvature, speed, direction;
 };
 
-std::vector<PlanRow> RowsOf(const trackbed::Table& table) {
+std::vector<PlanRow> PlanRows(const trackbed::Table& table) {
   const auto column = [&](const char* name) { return table.Column(name); };
   const auto s = column("s_m"), x = column("x_m"), y = column("y_m"), yaw = column("yaw_rad"),
              curvature = column("curvature_radpm"), speed = column("speed_mps"),
@@ -48,7 +48,7 @@ class PlanCheck {
  public:
   PlanCheck(const trackbed::Table& table, const Record& record, const Drive* taken_up_in,
             const Tolerances& tolerances)
-      : rows_(RowsOf(table)),
+      : rows_(PlanRows(table)),
         record_(record),
         at_start_(taken_up_in == nullptr),
         tolerances_(tolerances),
@@ -237,7 +237,7 @@ class PlanCheck {
     }
   }
 
-  /// The outline along the plan, against what was known before and stands.
+  /// The footprint along the plan, against what was known before and stands.
   void CheckObstacles() {
     std::vector<TimedPose> poses;
     double yaw = rows_.front().yaw;
@@ -247,7 +247,7 @@ class PlanCheck {
     }
     for (const std::size_t i : record_.mission.planned_around) {
       const Nearest nearest =
-          SweptGap(record_.car.outline(), poses, record_.mission.obstacles[i], 1e-3);
+          SweptGap(record_.car.footprint(), poses, record_.mission.obstacles[i], 1e-3);
       if (nearest.gap < -tolerances_.contact) {
         Report("plan_contact",
                fmt::format("leads {:.4g} m deep through the known obstacle {}", -nearest.gap, i));

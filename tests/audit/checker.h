@@ -26,7 +26,7 @@ struct Tolerances {
   double plan_heading = 1e-6;   ///< [rad]
   double plan_speed = 1e-6;     ///< [m/s]
   double plan_steering = 1e-3;  ///< [rad]; 0.02 m beside the path after 10 m at most
-  /// An overlap of outlines that counts [m]. Between steps poses are interpolated linearly, which
+  /// An overlap of footprints that counts [m]. Between steps poses are interpolated linearly, which
   /// is off by v^2 kappa dt^2/8, 0.14 mm at 15 m/s, 0.2 /m and 5 ms, and SweptGap looks every
   /// millimeter.
   double contact = 1e-3;
@@ -47,12 +47,12 @@ struct Tolerances {
 /// Every finding, in the order of the checks; none when the run is as it says.
 std::vector<Finding> Check(const Record& record, const Tolerances& tolerances = {});
 
-/// The plan alone: `rows` as plan.csv has them. `taken_up_in`: the drive in which it was taken up
+/// The plan alone: `rows` as plan.csv has them. `taken_up_in`: the run in which it was taken up
 /// on the way; null for the mission's own plan.
 std::vector<Finding> CheckPlan(const trackbed::Table& rows, const Record& record,
                                const Drive* taken_up_in, const Tolerances& tolerances);
 
-/// One drive alone.
+/// One run alone.
 std::vector<Finding> CheckDrive(const Drive& drive, const Record& record,
                                 const Tolerances& tolerances);
 

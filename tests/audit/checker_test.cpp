@@ -48,7 +48,7 @@ struct Motion {
   double t, x, y, yaw, speed, steering;
 };
 
-/// Adds a drive with the tables of a car that moves so; time at 5 m/s, then braking, in all 9.25 s.
+/// Adds a run with the tables of a car that moves so; time at 5 m/s, then braking, in all 9.25 s.
 Drive DriveAlong(const std::function<void(Motion&)>& change = {}) {
   constexpr double kUntilBraking = (kLength - 0.5 * kSpeed * kSpeed / kBrake) / kSpeed;
   const double duration = kUntilBraking + kSpeed / kBrake;

@@ -43,7 +43,7 @@ class Dice {
   bool Chance(double probability) { return Between(0.0, 1.0) < probability; }
   std::size_t Below(std::size_t count) { return static_cast<std::size_t>(engine_() % count); }
   template <typename T, std::size_t N>
-  T OneOf(const std::array<T, N>& values) {
+  T Choose(const std::array<T, N>& values) {
     return values[Below(N)];
   }
 
@@ -78,9 +78,10 @@ struct Generator {
 
   void Drive(bool with_forces) {
     DriveSpec& drive = scenario.drive;
-    drive.timestep = with_forces ? dice.OneOf(std::array{0.001, 0.002, 0.002, 0.004, 0.005})
-                                 : dice.OneOf(std::array{0.001, 0.002, 0.005});
-    const double period = dice.OneOf(std::array{0.01, 0.02, 0.02, 0.02, 0.05, 0.05, 0.1, 0.2, 0.5});
+    drive.timestep = with_forces ? dice.Choose(std::array{0.001, 0.002, 0.002, 0.004, 0.005})
+                                 : dice.Choose(std::array{0.001, 0.002, 0.005});
+    const double period =
+        dice.Choose(std::array{0.01, 0.02, 0.02, 0.02, 0.05, 0.05, 0.1, 0.2, 0.5});
     drive.control_period = drive.timestep * std::round(period / drive.timestep);
     drive.time_limit = 40.0;
     scenario.mission.speed = size < 1.0 ? dice.Logarithmic(0.2, 2.5) : dice.Logarithmic(0.5, 15.0);
@@ -130,7 +131,7 @@ struct Generator {
     } else if (dice.Chance(0.5)) {
       start.speed = scenario.mission.speed * dice.Between(0.2, 1.8);
     }
-    const StartState given = StartOf(scenario);
+    const StartState given = InitialState(scenario);
     if (dice.Chance(0.2)) {
       start.yaw =
           dice.Chance(0.7) ? given.pose.yaw + dice.Between(-0.6, 0.6) : dice.Between(-kPi, kPi);
@@ -223,7 +224,7 @@ struct Generator {
   Vec2 OnTheWay() {
     const MissionSpec& mission = scenario.mission;
     if (mission.waypoints.size() < 2) {
-      const Pose2 start = StartOf(scenario).pose;
+      const Pose2 start = InitialState(scenario).pose;
       return start.position() +
              size * dice.Between(8.0, 40.0) * Vec2(std::cos(start.yaw), std::sin(start.yaw));
     }
@@ -237,7 +238,7 @@ struct Generator {
       return;
     }
     const std::size_t count = 1 + dice.Below(3);
-    const Vec2 start = StartOf(scenario).pose.position();
+    const Vec2 start = InitialState(scenario).pose.position();
     for (std::size_t i = 0; i < count; ++i) {
       Obstacle obstacle;
       Vec2 at = OnTheWay() + size * Vec2(dice.Between(-5.0, 5.0), dice.Between(-5.0, 5.0));

@@ -23,7 +23,7 @@ struct Car {
   double friction = 0.0;          ///< largest coefficient of its tyres, either tyre law
   double brake_deceleration = 0;  ///< what all brakes together can hold [m/s^2]
 
-  [[nodiscard]] Rectangle outline() const {
+  [[nodiscard]] Rectangle footprint() const {
     return {-rear_overhang, length - rear_overhang, width};
   }
 };

@@ -21,7 +21,7 @@ const std::vector<std::string> kPlanColumns{
 /// A plan as plan.csv has it, after the time from which it is driven if that is given.
 void AddPlan(Table& table, const trackbed::Plan& plan, std::optional<double> from) {
   const trackbed::Reference& reference = plan.reference;
-  for (const trackbed::Stations& leg : trackbed::LegsOf(reference.path)) {
+  for (const trackbed::Stations& leg : trackbed::SplitIntoLegs(reference.path)) {
     const trackbed::Reference part = trackbed::Excerpt(reference, leg);
     for (const trackbed::PathPoint& point : part.path.Sample(0.1)) {
       if (point.s == 0.0 && leg.from > 0.0) {
@@ -75,7 +75,7 @@ Car CarFrom(const trackbed::CarModel& model) {
 }
 
 Mission MissionFrom(const trackbed::Scenario& scenario) {
-  const trackbed::StartState start = trackbed::StartOf(scenario);
+  const trackbed::StartState start = trackbed::InitialState(scenario);
   Mission mission{.start = {0.0, start.pose.x, start.pose.y, start.pose.yaw},
                   .start_speed = start.speed,
                   .start_steering = start.steering,

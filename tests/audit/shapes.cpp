@@ -79,14 +79,14 @@ Quad Box::CornersAt(double t) const {
       {t, center.x + passed * velocity.x, center.y + passed * velocity.y, center.yaw});
 }
 
-Nearest SweptGap(const Rectangle& outline, const std::vector<TimedPose>& poses, const Box& box,
+Nearest SweptGap(const Rectangle& footprint, const std::vector<TimedPose>& poses, const Box& box,
                  double resolution) {
   Nearest nearest{.gap = std::numeric_limits<double>::infinity()};
-  const double reach = outline.reach();
+  const double reach = footprint.reach();
   const double box_speed = std::hypot(box.velocity.x, box.velocity.y);
   double step = 0.0;
   const auto gap_at = [&](const TimedPose& pose) {
-    const double gap = Gap(CornersAt(outline, pose), box.CornersAt(pose.t));
+    const double gap = Gap(CornersAt(footprint, pose), box.CornersAt(pose.t));
     if (gap < nearest.gap) {
       nearest = {gap, pose.t, step};
     }

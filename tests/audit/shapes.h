@@ -60,7 +60,7 @@ struct Nearest {
 /// The smallest gap over a motion that is linear in position and yaw between the poses, within
 /// `resolution` [m]: no point of the body moves further than that between two evaluations near the
 /// minimum. Exact for the poses themselves.
-Nearest SweptGap(const Rectangle& outline, const std::vector<TimedPose>& poses, const Box& box,
+Nearest SweptGap(const Rectangle& footprint, const std::vector<TimedPose>& poses, const Box& box,
                  double resolution);
 
 /// Distance from a point to the segment between two others [m].

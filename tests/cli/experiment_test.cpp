@@ -73,7 +73,7 @@ TEST(Experiment, OfAnotherMotionHasNoPublishedAngles) {
   }
 }
 
-TEST(Experiment, TellsWhichSearchesMissTheAngle) {
+TEST(Experiment, ListsSearchesThatMissTheAngle) {
   // A simplex goes downhill from straight wheels; at 2.5 m/s that ends on the bound.
   const TempFolder folder;
   const Outcome outcome =

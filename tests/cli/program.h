@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "tests/support/shell.h"
@@ -13,7 +14,7 @@ inline Outcome Trackbed(const TempFolder& folder, const std::string& arguments) 
 }
 
 inline std::string ScenarioFile(const std::string& name) {
-  return std::string(TRACKBED_SOURCE_DIR) + "/scenarios/" + name + ".yaml";
+  return (std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml")).string();
 }
 
 /// Whether the program was built with video.

@@ -353,7 +353,7 @@ TEST(Program, ChecksWithoutDriving) {
   // Folders are gone through to their ends, for studies too.
   EXPECT_THAT(Trackbed(folder, "check " TRACKBED_SOURCE_DIR "/scenarios").output,
               testing::AllOf(HasSubstr("/scenarios/winding.yaml: ok\n"),
-                             HasSubstr("/scenarios/manoeuvres/gust.yaml: ok\n"),
+                             HasSubstr("/scenarios/maneuvers/gust.yaml: ok\n"),
                              HasSubstr("/scenarios/studies/validity.yaml: ok\n")));
 }
 
@@ -416,7 +416,7 @@ Outcome Interrupted(const TempFolder& folder, const std::string& arguments,
 TEST(Program, CtrlCKeepsTheLogSoFar) {
   for (const char* signal : {"INT", "TERM", "HUP"}) {
     const TempFolder folder;
-    // The output folder appears before the drive begins.
+    // The output folder appears before the run begins.
     const Outcome outcome =
         Interrupted(folder,
                     "run " + ScenarioFile("three_turns") + " " + ScenarioFile("winding") +

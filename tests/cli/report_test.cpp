@@ -14,14 +14,14 @@ namespace {
 using testing::EndsWith;
 using testing::HasSubstr;
 
-std::string RunOf(const std::string& out) {
+std::string RunArguments(const std::string& out) {
   return "run -q " + ScenarioFile("winding") +
          " --plant kinematic --set 'expect={}' --set drive.time_limit=1 -o " + out;
 }
 
 TEST(Report, WritesAPageIntoTheRunsFolder) {
   const TempFolder folder;
-  Trackbed(folder, RunOf("a"));
+  Trackbed(folder, RunArguments("a"));
   const Outcome outcome = Trackbed(folder, "report a");
   EXPECT_EQ(outcome.code, 0) << outcome.output;
   EXPECT_EQ(outcome.output, "a/report.html\n");
@@ -31,17 +31,17 @@ TEST(Report, WritesAPageIntoTheRunsFolder) {
   EXPECT_THAT(page, HasSubstr("<title>a</title>"));
   EXPECT_EQ(Trackbed(folder, "report a -q -o new/b.html").output, "");
   EXPECT_EQ(ReadFile(folder.path() / "new/b.html"), page);
-  Trackbed(folder, RunOf("a") + " --report");
+  Trackbed(folder, RunArguments("a") + " --report");
   EXPECT_EQ(ReadFile(folder.path() / "a/report.html"), page);
   // A new run of the folder takes the page of the old one away.
-  Trackbed(folder, RunOf("a"));
+  Trackbed(folder, RunArguments("a"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "a/report.html"));
 }
 
 TEST(Report, WritesThatOfSeveralRunsHere) {
   const TempFolder folder;
-  Trackbed(folder, RunOf("a"));
-  Trackbed(folder, RunOf("b"));
+  Trackbed(folder, RunArguments("a"));
+  Trackbed(folder, RunArguments("b"));
   const Outcome outcome = Trackbed(folder, "report a b/");
   EXPECT_EQ(outcome.output, "report.html\n");
   EXPECT_THAT(ReadFile(folder.path() / "report.html"), HasSubstr("<title>a · b</title>"));
@@ -50,8 +50,8 @@ TEST(Report, WritesThatOfSeveralRunsHere) {
 
 TEST(Report, WritesThatOfAComparisonBesideIt) {
   const TempFolder folder;
-  Trackbed(folder, RunOf("runs/a"));
-  Trackbed(folder, RunOf("runs/b"));
+  Trackbed(folder, RunArguments("runs/a"));
+  Trackbed(folder, RunArguments("runs/b"));
   EXPECT_EQ(Trackbed(folder, "compare -q runs/a runs/b -o both").code, 0);
   EXPECT_EQ(Trackbed(folder, "report both").output, "both/report.html\n");
   EXPECT_THAT(ReadFile(folder.path() / "both/report.html"), HasSubstr("<title>a · b</title>"));
@@ -105,7 +105,7 @@ TEST(Report, RefusesWhatIsNoRun) {
   };
   EXPECT_EQ(told("besides"), "--film: unknown 'besides'; did you mean 'beside'?\n");
   EXPECT_EQ(told("1"), "--film: unknown '1'; allowed: embedded, beside, none\n");
-  Trackbed(folder, RunOf("a"));
+  Trackbed(folder, RunArguments("a"));
   outcome = Trackbed(folder, "report a -o a/metrics.json/page.html");
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.output, HasSubstr("a/metrics.json"));

@@ -167,7 +167,7 @@ TEST(Sweep, StudiesCanBeCheckedLikeScenarios) {
 
 TEST(Sweep, CtrlCKeepsTheRowsSoFar) {
   const TempFolder folder;
-  // Rows that take minutes. The output folder appears before the first drive; the loop gives up
+  // Rows that take minutes. The output folder appears before the first run; the loop gives up
   // after a minute.
   folder.Write("study.yaml", StudyText("set: {drive.plants: [mujoco]}\n"
                                        "vary: {drive.timestep: [0.00001, 0.00002]}\n"));

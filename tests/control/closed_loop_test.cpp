@@ -98,13 +98,13 @@ std::vector<ControllerEntry> Followers() {
   return followers;
 }
 
-std::string NameOf(const testing::TestParamInfo<ControllerEntry>& test) {
+std::string CaseName(const testing::TestParamInfo<ControllerEntry>& test) {
   return test.param.name;
 }
 
 class EveryFollower : public testing::TestWithParam<ControllerEntry> {};
 
-INSTANTIATE_TEST_SUITE_P(Table, EveryFollower, testing::ValuesIn(Followers()), NameOf);
+INSTANTIATE_TEST_SUITE_P(Table, EveryFollower, testing::ValuesIn(Followers()), CaseName);
 
 // Sines and cosines of paths and poses within 200 m round at 1e-14 m/m; laws divide by a tenth of a
 // meter at the least, and MPC's program is solved to 1e-9 rad/s over 0.02 s.
@@ -193,7 +193,7 @@ TEST_P(EveryFollower, ComesBackToItsPath) {
   }
 }
 
-TEST_P(EveryFollower, ComesBackFromMetresAway) {
+TEST_P(EveryFollower, ComesBackFromMetersAway) {
   if (std::string(GetParam().name) == "pure_pursuit" || std::string(GetParam().name) == "stanley") {
     GTEST_SKIP() << "is the textbook's law: see its header";
   }
@@ -271,7 +271,7 @@ TEST_P(EveryFollower, StandsAndCrawlsWithoutTurningItsWheelsAbout) {
 
 class AnyController : public testing::TestWithParam<ControllerEntry> {};
 
-INSTANTIATE_TEST_SUITE_P(ClosedLoop, AnyController, testing::ValuesIn(Controllers()), NameOf);
+INSTANTIATE_TEST_SUITE_P(ClosedLoop, AnyController, testing::ValuesIn(Controllers()), CaseName);
 
 TEST_P(AnyController, RefusesAStateThatIsNone) {
   if (std::string(GetParam().name) == "playback") {
@@ -305,9 +305,9 @@ TEST_P(AnyController, RefusesAStateThatIsNone) {
   }
 }
 
-/// A drive beside a path with an arc.
-long AllocationsOf(const ControllerOptions& options, const VehicleParams& vehicle, double offset,
-                   double curvature) {
+/// A run beside a path with an arc.
+long CountAllocations(const ControllerOptions& options, const VehicleParams& vehicle, double offset,
+                      double curvature) {
   const auto controller = MakeSteeringController(options);
   const Reference reference{Path({}, {{20.0, 0.0, 1}, {40.0, curvature, 1}, {100.0, 0.0, 1}}),
                             SpeedProfile({{0.0, 5.0}})};
@@ -341,7 +341,7 @@ TEST_P(AnyController, TakesNoHeapMemoryAfterItsFirstStep) {
     GTEST_SKIP() << "searches, see TakeNLoptsMemoryAlone";
   }
   for (const VehicleParams& vehicle : {ReferenceCar(), ReferenceCarWithTyres()}) {
-    EXPECT_EQ(AllocationsOf(GetParam().defaults, vehicle, 0.0, 0.003), 0);
+    EXPECT_EQ(CountAllocations(GetParam().defaults, vehicle, 0.0, 0.003), 0);
   }
 }
 
@@ -351,15 +351,15 @@ constexpr long kOfOneCall = 30;
 
 TEST(ControllersThatSearch, TakeNLoptsMemoryAlone) {
   // A program with limits in the way is solved once or twice in each of the 199 periods.
-  const long of_mpc = AllocationsOf(MpcOptions{}, ReferenceCar(), 1.0, 0.05);
+  const long of_mpc = CountAllocations(MpcOptions{}, ReferenceCar(), 1.0, 0.05);
   EXPECT_GT(of_mpc, 0);
   EXPECT_LT(of_mpc, 199 * 2 * kOfOneCall);
   // One search in each period, whatever it evaluates; none on a straight.
   const OptimalSteeringOptions searching{.deviation_limit = 0.0};
-  const long of_search = AllocationsOf(searching, ReferenceCar(), 0.1, 0.05);
+  const long of_search = CountAllocations(searching, ReferenceCar(), 0.1, 0.05);
   EXPECT_GT(of_search, 0);
   EXPECT_LT(of_search, 199 * kOfOneCall);
-  EXPECT_EQ(AllocationsOf(OptimalSteeringOptions{}, ReferenceCar(), 0.0, 0.0), 0);
+  EXPECT_EQ(CountAllocations(OptimalSteeringOptions{}, ReferenceCar(), 0.0, 0.0), 0);
 }
 
 }  // namespace

@@ -81,11 +81,11 @@ TEST(ErrorModel, StaysInASteadyTurn) {
         SCOPED_TRACE(fmt::format("{} m/s, {} 1/m", speed, curvature));
         const Situation situation(car, speed, curvature);
         const ControlInput input = situation.input();
-        const Tracking tracking = TrackingOf(input);
-        const ErrorModel model = ErrorModelOf(input, tracking, 0.1);
+        const Tracking tracking = ProjectOntoPath(input);
+        const ErrorModel model = MakeErrorModel(input, tracking, 0.1);
         Ahead ahead(input, tracking, model);
         // Path headings within 500 m round at 1e-13; per stride of 0.1 m or more 1e-12.
-        EXPECT_LT((StateOf(input, tracking) - ahead.steady()).norm(), Tolerance(1e-12));
+        EXPECT_LT((ErrorState(input, tracking) - ahead.steady()).norm(), Tolerance(1e-12));
         for (int k = 0; k < 5; ++k) {
           EXPECT_LT(ahead.Next().norm(), Tolerance(1e-11));
         }
@@ -108,9 +108,9 @@ TEST(ErrorModel, RunsAsTheCarDoesNearItsPath) {
     state.lateral_speed += 1e-3;
     state.yaw_rate += 1e-3;
     const ControlInput input = situation.input();
-    const Tracking tracking = TrackingOf(input);
-    const ErrorModel model = ErrorModelOf(input, tracking, 0.1);
-    const ErrorModel::Vector x = model.a * StateOf(input, tracking) + model.b * 0.1;
+    const Tracking tracking = ProjectOntoPath(input);
+    const ErrorModel model = MakeErrorModel(input, tracking, 0.1);
+    const ErrorModel::Vector x = model.a * ErrorState(input, tracking) + model.b * 0.1;
 
     car.steering_rate = 0.1;
     SingleTrackCar driven(car, {.pose = state.pose,
@@ -118,7 +118,7 @@ TEST(ErrorModel, RunsAsTheCarDoesNearItsPath) {
                                 .lateral_speed = state.lateral_speed,
                                 .yaw_rate = state.yaw_rate});
     driven.Step({.steering = 1.0, .acceleration = 0.0, .gear = speed < 0.0 ? -1 : 1}, 0.1);
-    // The wheels' shortest lag is a millisecond: 1e-4 rad for as long as the drive.
+    // The wheels' shortest lag is a millisecond: 1e-4 rad for as long as the run.
     const double wheels = 1e-4;
     EXPECT_NEAR(x[0], driven.state().pose.y, Tolerance(1e-5 + 0.01 * wheels * std::abs(speed)));
     EXPECT_NEAR(x[1], driven.state().pose.yaw, Tolerance(1e-5 + 0.2 * wheels));
@@ -135,9 +135,9 @@ TEST(Regulator, SolvesTheRiccatiEquationAndIsStable) {
         SCOPED_TRACE(fmt::format("{} m/s, {} s", speed, period));
         const Situation situation(car, speed, 0.0);
         const ControlInput input = situation.input();
-        const ErrorModel model = ErrorModelOf(input, TrackingOf(input), period);
+        const ErrorModel model = MakeErrorModel(input, ProjectOntoPath(input), period);
         const ErrorWeights weights{.cross_track = 2.0, .heading = 0.5, .steering_rate = 3.0};
-        const Regulator regulator = RegulatorOf(model, weights);
+        const Regulator regulator = SolveRegulator(model, weights);
         const Eigen::MatrixXd a = model.a;
         const Eigen::VectorXd b = model.b;
         const Eigen::MatrixXd p = regulator.cost;
@@ -157,9 +157,9 @@ TEST(Regulator, CostsWhatItSays) {
   // Driven to the end, the sum of the costs is x^T P x.
   const Situation situation(ReferenceCarWithTyres(), 10.0, 0.0);
   const ControlInput input = situation.input();
-  const ErrorModel model = ErrorModelOf(input, TrackingOf(input), 0.05);
+  const ErrorModel model = MakeErrorModel(input, ProjectOntoPath(input), 0.05);
   const ErrorWeights weights;
-  const Regulator regulator = RegulatorOf(model, weights);
+  const Regulator regulator = SolveRegulator(model, weights);
   ErrorModel::Vector x = ErrorModel::Vector::Constant(6, 0.1);
   const double promised = x.dot(regulator.cost * x);
   double sum = 0.0;
@@ -183,8 +183,8 @@ TEST(Ahead, MovesTheSteadyTurnToTheCurvatureAhead) {
                            .state = state,
                            .station = 0.0,
                            .period = 0.1};
-  const Tracking tracking = TrackingOf(input);
-  const ErrorModel model = ErrorModelOf(input, tracking, 0.1);
+  const Tracking tracking = ProjectOntoPath(input);
+  const ErrorModel model = MakeErrorModel(input, tracking, 0.1);
   Ahead ahead(input, tracking, model);
   // 1 m a step: the tenth ends on the arc.
   for (int k = 0; k < 9; ++k) {

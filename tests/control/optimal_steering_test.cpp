@@ -30,7 +30,7 @@ constexpr double kDegree = kPi / 180.0;
 
 TEST(Deviation, IsSeenFromThePrimary) {
   // The primary at (1, 2) heads north; the car is 3 m ahead of it, 1 m to its left.
-  const Deviation e = DeviationOf({0.0, 5.0, kPi / 2.0 + 0.1}, {1.0, 2.0, kPi / 2.0});
+  const Deviation e = ComputeDeviation({0.0, 5.0, kPi / 2.0 + 0.1}, {1.0, 2.0, kPi / 2.0});
   EXPECT_NEAR(e.x, 3.0, Tolerance(kRounding));
   EXPECT_NEAR(e.y, 1.0, Tolerance(kRounding));
   EXPECT_NEAR(e.yaw, 0.1, Tolerance(kRounding));
@@ -43,7 +43,8 @@ TEST(Deviation, CostIsThatOfTheWorldsAxes) {
     const Pose2 b{random.Uniform(-9, 9), random.Uniform(-9, 9), random.Uniform(-4, 4)};
     const double by_hand =
         2.0 * (std::pow(a.x - b.x, 2) + std::pow(a.y - b.y, 2)) + 3.0 * std::pow(a.yaw - b.yaw, 2);
-    EXPECT_NEAR(CostOf(DeviationOf(a, b), {2.0, 3.0}), by_hand, Tolerance(kRounding * 10.0));
+    EXPECT_NEAR(DeviationCost(ComputeDeviation(a, b), {2.0, 3.0}), by_hand,
+                Tolerance(kRounding * 10.0));
   }
 }
 
@@ -213,7 +214,7 @@ TEST_P(EverySearch, TurnsTheWheelsAsTheBestAngleOfAGridDoes) {
     double least = std::numeric_limits<double>::infinity();
     for (int k = -4868; k <= 4868; ++k) {
       const double delta = 1e-4 * k;
-      const double cost = CostOf(DeviationAhead(car, problem, delta), weights);
+      const double cost = DeviationCost(DeviationAhead(car, problem, delta), weights);
       best = cost < least ? delta : best;
       least = std::min(least, cost);
     }

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 template <typename Function>
-std::string RunErrorOf(const Function& function) {
+std::string RunErrorMessage(const Function& function) {
   try {
     function();
   } catch (const RunError& error) {
@@ -58,10 +58,10 @@ TEST(CheckCanWrite, TellsWhatWritingWouldAndLeavesNothing) {
   const fs::path file = folder.Write("there.txt", "as it was");
   CheckCanWrite(file);
   EXPECT_EQ(ReadFile(file), "as it was");
-  EXPECT_EQ(RunErrorOf([&] { CheckCanWrite(folder.path()); }),
+  EXPECT_EQ(RunErrorMessage([&] { CheckCanWrite(folder.path()); }),
             "cannot write " + folder.path().string() + ": Is a directory");
   EXPECT_EQ(
-      RunErrorOf([&] { CheckCanWrite(folder.path() / "missing/a.txt"); }),
+      RunErrorMessage([&] { CheckCanWrite(folder.path() / "missing/a.txt"); }),
       "cannot write " + (folder.path() / "missing/a.txt").string() + ": No such file or directory");
   EXPECT_THAT(folder.Names(), ElementsAre("there.txt"));
 }
@@ -69,7 +69,7 @@ TEST(CheckCanWrite, TellsWhatWritingWouldAndLeavesNothing) {
 TEST(WriteFileAtomically, NamesAMissingFolder) {
   const TempFolder folder;
   const fs::path file = folder.path() / "missing" / "a.txt";
-  EXPECT_THAT(RunErrorOf([&] { WriteFileAtomically(file, "x"); }),
+  EXPECT_THAT(RunErrorMessage([&] { WriteFileAtomically(file, "x"); }),
               AllOf(HasSubstr("cannot write " + file.string()), HasSubstr("No such file")));
   EXPECT_THAT(folder.Names(), IsEmpty());
 }
@@ -78,7 +78,7 @@ TEST(WriteFileAtomically, LeavesNothingWhenTheTargetIsAFolder) {
   const TempFolder folder;
   const fs::path file = folder.path() / "target";
   fs::create_directory(file);
-  EXPECT_THAT(RunErrorOf([&] { WriteFileAtomically(file, "x"); }),
+  EXPECT_THAT(RunErrorMessage([&] { WriteFileAtomically(file, "x"); }),
               AllOf(HasSubstr("cannot write " + file.string()), HasSubstr("directory")));
   EXPECT_THAT(folder.Names(), ElementsAre("target"));
   EXPECT_TRUE(fs::is_empty(file));
@@ -89,7 +89,7 @@ TEST(WriteFileAtomically, SaysThatTheDiskIsFull) {
   const TempFolder folder;
   const fs::path file = folder.path() / "full.csv";
   fs::create_symlink("/dev/full", file);
-  EXPECT_THAT(RunErrorOf([&] { WriteFileAtomically(file, "x"); }),
+  EXPECT_THAT(RunErrorMessage([&] { WriteFileAtomically(file, "x"); }),
               AllOf(HasSubstr("cannot write " + file.string()), HasSubstr("No space left")));
   EXPECT_THAT(folder.Names(), ElementsAre("full.csv"));
   EXPECT_TRUE(fs::is_symlink(file));
@@ -101,7 +101,7 @@ TEST(WriteFileAtomically, KeepsTheOldFileWhenTheTemporaryCannotBeWritten) {
   const fs::path file = folder.path() / "a.txt";
   WriteFileAtomically(file, "old");
   fs::create_directory(TemporaryNameFor(file));
-  EXPECT_NE(RunErrorOf([&] { WriteFileAtomically(file, "new"); }), "no RunError");
+  EXPECT_NE(RunErrorMessage([&] { WriteFileAtomically(file, "new"); }), "no RunError");
   EXPECT_EQ(ReadFile(file), "old");
 }
 
@@ -119,9 +119,9 @@ TEST(WriteFileAtomically, WritesToADevice) {
 
 TEST(ReadFile, NamesWhatItCannotRead) {
   const TempFolder folder;
-  EXPECT_THAT(RunErrorOf([&] { ReadFile(folder.path() / "no.txt"); }),
+  EXPECT_THAT(RunErrorMessage([&] { ReadFile(folder.path() / "no.txt"); }),
               AllOf(HasSubstr("cannot read"), HasSubstr("no.txt"), HasSubstr("No such file")));
-  EXPECT_THAT(RunErrorOf([&] { ReadFile(folder.path()); }), HasSubstr("Is a directory"));
+  EXPECT_THAT(RunErrorMessage([&] { ReadFile(folder.path()); }), HasSubstr("Is a directory"));
 }
 
 TEST(TemporaryNameFor, IsBesideTheFileWithItsExtension) {
@@ -136,7 +136,7 @@ TEST(PublishFile, RemovesTheTemporaryOnFailure) {
   const TempFolder folder;
   const fs::path temporary = folder.path() / "t";
   WriteFileAtomically(temporary, "x");
-  EXPECT_THAT(RunErrorOf([&] { PublishFile(temporary, folder.path() / "missing" / "f"); }),
+  EXPECT_THAT(RunErrorMessage([&] { PublishFile(temporary, folder.path() / "missing" / "f"); }),
               HasSubstr("missing"));
   EXPECT_THAT(folder.Names(), IsEmpty());
 }
@@ -147,7 +147,8 @@ TEST(MakeFolder, MakesItsParentsToo) {
   EXPECT_TRUE(fs::is_directory(folder.path() / "a" / "b"));
   EXPECT_NO_THROW(MakeFolder(folder.path() / "a" / "b"));
   WriteFileAtomically(folder.path() / "file", "x");
-  EXPECT_THAT(RunErrorOf([&] { MakeFolder(folder.path() / "file" / "c"); }), HasSubstr("file"));
+  EXPECT_THAT(RunErrorMessage([&] { MakeFolder(folder.path() / "file" / "c"); }),
+              HasSubstr("file"));
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ Table RoundTrip(const Table& table) {
 }
 
 /// The text of the InputError that reading `content` as "t.csv" gives, without the folder.
-std::string ProblemsOf(const std::string& content, const std::vector<std::string>& needed = {}) {
+std::string ErrorMessages(const std::string& content, const std::vector<std::string>& needed = {}) {
   const TempFolder folder;
   const std::string file = (folder.path() / "t.csv").string();
   WriteFileAtomically(file, content);
@@ -151,18 +151,18 @@ TEST(ReadCsv, TakesQuotedCells) {
 }
 
 TEST(ReadCsv, PlacesACellThatIsNoNumber) {
-  EXPECT_EQ(ProblemsOf("a,b\n1,2\n3,x\n"), "t.csv:3: cell 2 (b): 'x' is not a number");
-  EXPECT_EQ(ProblemsOf("a,b\n1,\n"), "t.csv:2: cell 2 (b): '' is not a number");
-  EXPECT_EQ(ProblemsOf("a,b\n1.5m,2\n"), "t.csv:2: cell 1 (a): '1.5m' is not a number");
+  EXPECT_EQ(ErrorMessages("a,b\n1,2\n3,x\n"), "t.csv:3: cell 2 (b): 'x' is not a number");
+  EXPECT_EQ(ErrorMessages("a,b\n1,\n"), "t.csv:2: cell 2 (b): '' is not a number");
+  EXPECT_EQ(ErrorMessages("a,b\n1.5m,2\n"), "t.csv:2: cell 1 (a): '1.5m' is not a number");
 }
 
 TEST(ReadCsv, CountsEmptyLinesAndWindowsEndings) {
-  EXPECT_EQ(ProblemsOf("a\n\n\n1\nx\n"), "t.csv:5: cell 1 (a): 'x' is not a number");
-  EXPECT_EQ(ProblemsOf("a\r\n1\r\nx\r\n"), "t.csv:3: cell 1 (a): 'x' is not a number");
+  EXPECT_EQ(ErrorMessages("a\n\n\n1\nx\n"), "t.csv:5: cell 1 (a): 'x' is not a number");
+  EXPECT_EQ(ErrorMessages("a\r\n1\r\nx\r\n"), "t.csv:3: cell 1 (a): 'x' is not a number");
 }
 
 TEST(ReadCsv, ListsEveryProblem) {
-  EXPECT_EQ(ProblemsOf("a,b\nx,y\n1\n"),
+  EXPECT_EQ(ErrorMessages("a,b\nx,y\n1\n"),
             "t.csv:2: cell 1 (a): 'x' is not a number\nt.csv:2: cell 2 (b): 'y' is not a "
             "number\nt.csv:3: cell 2 (b): missing; 1 cell, the header has 2");
 }
@@ -172,7 +172,7 @@ TEST(ReadCsv, StopsListingAfterTwenty) {
   for (int i = 0; i < 1000; ++i) {
     content += "x\n";
   }
-  const std::string problems = ProblemsOf(content);
+  const std::string problems = ErrorMessages(content);
   EXPECT_EQ(std::count(problems.begin(), problems.end(), '\n'), 20);
   EXPECT_TRUE(
       problems.ends_with("t.csv:21: cell 1 (a): 'x' is not a number\n"
@@ -181,21 +181,21 @@ TEST(ReadCsv, StopsListingAfterTwenty) {
 }
 
 TEST(ReadCsv, RefusesRowsOfAnotherLength) {
-  EXPECT_EQ(ProblemsOf("a,b\n1,2,3\n"), "t.csv:2: 3 cells, the header has 2");
-  EXPECT_EQ(ProblemsOf("a,b,c,d\n1,2\n"),
+  EXPECT_EQ(ErrorMessages("a,b\n1,2,3\n"), "t.csv:2: 3 cells, the header has 2");
+  EXPECT_EQ(ErrorMessages("a,b,c,d\n1,2\n"),
             "t.csv:2: cell 3 (c): missing; 2 cells, the header has 4");
 }
 
 TEST(ReadCsv, RefusesBadHeaders) {
-  EXPECT_EQ(ProblemsOf("a,a\n1,2\n"), "t.csv:1: cell 2 (a): repeated column");
-  EXPECT_EQ(ProblemsOf("a,,c\n1,2,3\n"), "t.csv:1: cell 2: the column has no name");
-  EXPECT_EQ(ProblemsOf(""), "t.csv:1: empty file; expected a header line of column names");
-  EXPECT_EQ(ProblemsOf("\n\n"), "t.csv:3: empty file; expected a header line of column names");
+  EXPECT_EQ(ErrorMessages("a,a\n1,2\n"), "t.csv:1: cell 2 (a): repeated column");
+  EXPECT_EQ(ErrorMessages("a,,c\n1,2,3\n"), "t.csv:1: cell 2: the column has no name");
+  EXPECT_EQ(ErrorMessages(""), "t.csv:1: empty file; expected a header line of column names");
+  EXPECT_EQ(ErrorMessages("\n\n"), "t.csv:3: empty file; expected a header line of column names");
 }
 
 TEST(ReadCsv, RefusesAnOpenQuote) {
-  EXPECT_NE(ProblemsOf("a\n\"1\n"), "no InputError");
-  EXPECT_NE(ProblemsOf("a\n1\"2\n"), "no InputError");
+  EXPECT_NE(ErrorMessages("a\n\"1\n"), "no InputError");
+  EXPECT_NE(ErrorMessages("a\n1\"2\n"), "no InputError");
 }
 
 TEST(ReadCsv, OfAMissingFileIsARunError) {
@@ -217,18 +217,19 @@ TEST(ReadCsvExcerpt, TakesTheColumnsAskedForAndLooksAtNoOthers) {
 }
 
 TEST(ReadCsvExcerpt, NamesWhatIsMissing) {
-  EXPECT_EQ(ProblemsOf("time,delta\n1,2\n", {"steering_rad"}),
+  EXPECT_EQ(ErrorMessages("time,delta\n1,2\n", {"steering_rad"}),
             "t.csv:1: no column 'steering_rad'; columns: time, delta");
-  EXPECT_EQ(ProblemsOf("t_s,stering_rad\n1,2\n", {"t_s", "steering_rad"}),
+  EXPECT_EQ(ErrorMessages("t_s,stering_rad\n1,2\n", {"t_s", "steering_rad"}),
             "t.csv:1: no column 'steering_rad'; did you mean 'stering_rad'?");
-  EXPECT_EQ(ProblemsOf("a,b\n1\n", {"b"}),
+  EXPECT_EQ(ErrorMessages("a,b\n1\n", {"b"}),
             "t.csv:2: cell 2 (b): missing; 1 cell, the header has 2");
-  EXPECT_EQ(ProblemsOf("a,a\n1,2\n", {"a"}), "t.csv:1: cell 2 (a): repeated column");
-  EXPECT_EQ(ProblemsOf("", {"a"}), "t.csv:1: empty file; expected a header line of column names");
+  EXPECT_EQ(ErrorMessages("a,a\n1,2\n", {"a"}), "t.csv:1: cell 2 (a): repeated column");
+  EXPECT_EQ(ErrorMessages("", {"a"}),
+            "t.csv:1: empty file; expected a header line of column names");
 }
 
 TEST(ReadCsvExcerpt, WantsFiniteNumbers) {
-  EXPECT_EQ(ProblemsOf("a,b\n1,\nnan,2\n-inf,x\n", {"a", "b"}),
+  EXPECT_EQ(ErrorMessages("a,b\n1,\nnan,2\n-inf,x\n", {"a", "b"}),
             "t.csv:2: cell 2 (b): '' is not a number\n"
             "t.csv:3: cell 1 (a): 'nan' is not a finite number\n"
             "t.csv:4: cell 1 (a): '-inf' is not a finite number\n"

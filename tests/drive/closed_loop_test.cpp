@@ -307,8 +307,8 @@ TEST(DrivePlant, IsTheLoopOfTheScenariosParts) {
   const Plan plan = PlanMission(scenario, car.unladen());
   const RunLog driven = DrivePlant(scenario, car, plan, "kinematic");
   EXPECT_EQ(driven.plant, "kinematic");
-  const auto plant =
-      MakePlant("kinematic", {.car = car, .world = scenario.world, .start = StartOf(scenario)});
+  const auto plant = MakePlant(
+      "kinematic", {.car = car, .world = scenario.world, .start = InitialState(scenario)});
   const auto controller = MakeSteeringController(scenario.control.steering);
   const LoopConfig config = MakeLoopConfig(scenario, car);
   EXPECT_EQ(config.goal_heading_tolerance, scenario.drive.goal_heading_tolerance);

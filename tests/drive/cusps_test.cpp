@@ -43,7 +43,7 @@ class Cusps : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Cusps, AreDrivenGearByGear) {
   const auto [plan, log] = Drive(TurnRound(GetParam()));
-  const std::vector<Stations> legs = LegsOf(plan.reference.path);
+  const std::vector<Stations> legs = SplitIntoLegs(plan.reference.path);
   ASSERT_GE(legs.size(), 2U);
   EXPECT_EQ(log.status, DriveStatus::kArrived);
   // Off by what the ramps of the steering lead off, twice, and what the controller cuts.
@@ -91,7 +91,7 @@ TEST_P(Cusps, AreStoodAtUntilTheWheelsHaveTurned) {
     }
     EXPECT_GT(stood, 10U);
   }
-  EXPECT_EQ(changes, static_cast<int>(LegsOf(plan.reference.path).size()) - 1);
+  EXPECT_EQ(changes, static_cast<int>(SplitIntoLegs(plan.reference.path).size()) - 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Plants, Cusps, ::testing::Values("kinematic", "mujoco"),

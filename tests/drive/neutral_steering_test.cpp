@@ -20,7 +20,7 @@ TEST(NeutralSteering, CarDrivesWhatItsPlanPredicts) {
       "control: {method: schedule}\n"
       "drive: {plants: [kinematic], timestep: 0.001}\n",
       "test.yaml", ".");
-  EXPECT_EQ(StartOf(scenario).steering, 0.02);
+  EXPECT_EQ(InitialState(scenario).steering, 0.02);
   const CarModel car = LoadCar(scenario);
   const Plan plan = PlanMission(scenario, car.unladen());
   ASSERT_TRUE(plan.ok()) << plan.reason;

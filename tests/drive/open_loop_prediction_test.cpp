@@ -15,12 +15,12 @@
 namespace trackbed {
 namespace {
 
-/// A millimeter, over routes of some hundred meters. The drive follows the schedule and the speed
+/// A millimeter, over routes of some hundred meters. The run follows the schedule and the speed
 /// profile at every physics step of 2 ms, so that the control period, 20 ms by default, leaves
 /// nothing: where braking at a ends within a step T, at speed v, the car is up to a T^2/8 ahead of
 /// its profile and its actuator lags by omega a T^2/(8 v) over the ramp: 1e-7 rad at omega = 0.15
 /// rad/s, a = 1.5 m/s^2 and v = 1.1 m/s, or 3 um after 60 m for each ramp.
-constexpr double kMillimetre = 1e-3;
+constexpr double kMillimeter = 1e-3;
 
 std::string Number(double x) {
   return fmt::format("{:.6f}", x);
@@ -69,7 +69,7 @@ bool Agrees(const std::string& mission, const std::string& plan) {
   const VehicleState& end = log.rows.back().state;
   EXPECT_NEAR(end.speed, 0.0, 0.01);
   EXPECT_NEAR((end.pose.position() - made.goal.position()).norm(),
-              predicted["goal_distance_m"].get<double>(), Tolerance(kMillimetre));
+              predicted["goal_distance_m"].get<double>(), Tolerance(kMillimeter));
   EXPECT_NEAR(AngleDifference(end.pose.yaw, made.goal.yaw),
               predicted["goal_heading_error_rad"].get<double>(), Tolerance(1e-4));
   return true;

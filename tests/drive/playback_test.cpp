@@ -135,7 +135,7 @@ TEST(Playback, WithoutASpeedHoldsTheMissions) {
 }
 
 TEST(Playback, OfItsOwnLogIsTheSameDrive) {
-  // The commands of a drive along a path, replayed without one.
+  // The commands of a run along a path, replayed without one.
   const Scenario first = ReadScenario(std::string(TRACKBED_SOURCE_DIR) + "/scenarios/winding.yaml",
                                       {"drive.plants=[kinematic]", "expect={}"});
   const RunLog log = Drive(first);

@@ -56,7 +56,7 @@ TEST(Recorder, LogsTheFirstContactAndTheLargestForce) {
     plant.force = forces[i];
     recorder.Sample(plant, 0.1 * (i + 1));
   }
-  // What the plant feels is a contact, wherever the outline is.
+  // What the plant feels is a contact, wherever the footprint is.
   const LogRow row = recorder.BeginRow({}, {}, {});
   EXPECT_EQ(*row.clearance, 0.0);
   EXPECT_EQ(row.state.obstacle_force, 40.0);

@@ -34,25 +34,25 @@ VehicleState StateAt(double x, double distance, double time = 0.0, double steeri
 TEST(Segments, AreCutAtCuspsWithTheirSpeedsAndSchedule) {
   Plan plan = BackAndForth();
   plan.schedule = SteeringSchedule::Through({{0.0, 0.0}, {16.0, 0.16}, {19.0, 0.16}});
-  const std::deque<Plan> segments = SegmentsOf(plan);
+  const std::deque<Plan> segments = SplitIntoSegments(plan);
   ASSERT_EQ(segments.size(), 3U);
   const double lengths[] = {10.0, 6.0, 3.0};
   const double starts[] = {0.0, 10.0, 16.0};
   for (std::size_t i = 0; i < 3; ++i) {
     const Plan& own = segments[i];
     EXPECT_NEAR(own.reference.path.length(), lengths[i], Tolerance(1e-12));
-    EXPECT_EQ(GearOf(own), i == 1 ? -1 : 1);
+    EXPECT_EQ(PlanGear(own), i == 1 ? -1 : 1);
     EXPECT_EQ(own.reference.speed.SpeedAt(lengths[i]), 0.0);
     EXPECT_NEAR(own.reference.speed.SpeedAt(1.0), plan.reference.speed.SpeedAt(starts[i] + 1.0),
                 Tolerance(1e-12));
-    // 0.01 rad a metre.
+    // 0.01 rad a meter.
     EXPECT_NEAR(own.schedule.At(1.0), plan.schedule.At(starts[i] + 1.0), Tolerance(1e-12));
     EXPECT_EQ(own.goal.x, plan.goal.x);
   }
 }
 
 TEST(Segments, OfAPlanWithoutCuspsAreThePlan) {
-  const std::deque<Plan> segments = SegmentsOf(PlanAlongRoute({{.length = 10.0}}, 0.0));
+  const std::deque<Plan> segments = SplitIntoSegments(PlanAlongRoute({{.length = 10.0}}, 0.0));
   ASSERT_EQ(segments.size(), 1U);
   EXPECT_EQ(segments[0].reference.path.length(), 10.0);
 }
@@ -60,7 +60,7 @@ TEST(Segments, OfAPlanWithoutCuspsAreThePlan) {
 TEST(Segments, AreCutAtStopsToo) {
   Plan plan = PlanAlongRoute({{.length = 10.0}}, 0.0);
   plan.stops = {4.0};
-  const std::deque<Plan> segments = SegmentsOf(plan);
+  const std::deque<Plan> segments = SplitIntoSegments(plan);
   ASSERT_EQ(segments.size(), 2U);
   EXPECT_NEAR(segments[0].reference.path.length(), 4.0, Tolerance(1e-12));
   EXPECT_TRUE(segments[1].stops.empty());
@@ -85,7 +85,7 @@ TEST(StationarySteer, IsOverWhenTheWheelsRest) {
 TEST(SegmentSequencer, CountsStationsOnOverSegments) {
   SegmentSequencer sequencer(BackAndForth(), StateAt(0.0, 0.0), Options());
   EXPECT_FALSE(sequencer.stationary_steer().InProgress());  // it starts straight on
-  // The wheelbase leaves 0.75 x 2 m to look within: the car moves on metre by metre.
+  // The wheelbase leaves 0.75 x 2 m to look within: the car moves on meter by meter.
   for (double x = 1.0; x < 9.5; x += 1.0) {
     EXPECT_NEAR(sequencer.Project(StateAt(x, x))->s, x, Tolerance(1e-12));
     EXPECT_FALSE(sequencer.Advance(StateAt(x, x))) << x;
@@ -95,7 +95,7 @@ TEST(SegmentSequencer, CountsStationsOnOverSegments) {
   sequencer.Project(StateAt(9.61, 9.61));
   EXPECT_TRUE(sequencer.Advance(StateAt(9.61, 9.61, 5.0)));
   EXPECT_TRUE(sequencer.stationary_steer().InProgress());
-  EXPECT_EQ(GearOf(sequencer.plan()), -1);
+  EXPECT_EQ(PlanGear(sequencer.plan()), -1);
   EXPECT_EQ(sequencer.start_time(), 5.0);
   EXPECT_NEAR(sequencer.offset(), 10.0, Tolerance(1e-12));
   EXPECT_FALSE(sequencer.is_last());

@@ -196,7 +196,7 @@ TEST(Separation, OfOverlappingBoxesIsTheShortestWayOut) {
     bool freed = false;
     for (const double yaw : {a.center.yaw, b.center.yaw}) {
       const Vec2 along = Direction(yaw);
-      for (const Vec2& way : {along, Vec2(-along), LeftOf(along), Vec2(-LeftOf(along))}) {
+      for (const Vec2& way : {along, Vec2(-along), LeftNormal(along), Vec2(-LeftNormal(along))}) {
         freed = freed || ByBoost(a, Moved(b, 1.001 * depth * way)) > 0.0;
         EXPECT_EQ(ByBoost(a, Moved(b, 0.99 * depth * way)), 0.0);
       }
@@ -214,7 +214,7 @@ TEST(Separation, ShrinksByWhatBoxesMoveTogether) {
   // Along the gap between two parallel sides, through the touch and on.
   const OrientedBox a{{1.0, -2.0, 0.4}, 4.0, 2.0};
   for (double gap = 1.0; gap > -2.0; gap -= 0.125) {
-    const OrientedBox b = Moved(a, (2.0 + gap) * LeftOf(Direction(0.4)));
+    const OrientedBox b = Moved(a, (2.0 + gap) * LeftNormal(Direction(0.4)));
     EXPECT_NEAR(Separation(a, b), gap, Tolerance(kRounding));
   }
 }

@@ -29,9 +29,9 @@ TEST(Direction, OfNinetyDegreesIsPlusY) {
   EXPECT_NEAR((Direction(kPi / 2.0) - Vec2{0.0, 1.0}).norm(), 0.0, Tolerance(1e-16));
 }
 
-TEST(LeftOf, PlusXIsPlusY) {
-  EXPECT_EQ(LeftOf({1.0, 0.0}), Vec2(0.0, 1.0));
-  EXPECT_EQ(LeftOf({0.0, 1.0}), Vec2(-1.0, 0.0));
+TEST(LeftNormal, PlusXIsPlusY) {
+  EXPECT_EQ(LeftNormal({1.0, 0.0}), Vec2(0.0, 1.0));
+  EXPECT_EQ(LeftNormal({0.0, 1.0}), Vec2(-1.0, 0.0));
 }
 
 TEST(Cross, IsPositiveToTheLeft) {

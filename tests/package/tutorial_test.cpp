@@ -32,7 +32,7 @@ const std::map<std::string, std::string> kDoneBefore = {
      "Package.IsInstalledAndMoved has done it; $HOME/trackbed leads to what it left"},
 };
 
-Lines LinesOf(const std::string& text) {
+Lines SplitIntoLines(const std::string& text) {
   Lines lines;
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) {
@@ -56,12 +56,12 @@ struct Block {
   Lines lines;
 };
 
-std::vector<Block> BlocksOf(const std::string& page) {
+std::vector<Block> ParseBlocks(const std::string& page) {
   static const std::regex kNames("`([^`]+)`:$");
   std::vector<Block> blocks;
   bool inside = false;
   std::string last;
-  for (const std::string& line : LinesOf(page)) {
+  for (const std::string& line : SplitIntoLines(page)) {
     if (line.starts_with("```")) {
       inside = !inside;
       if (inside) {
@@ -80,7 +80,7 @@ std::vector<Block> BlocksOf(const std::string& page) {
 }
 
 /// Whether a line that the page shows is the one that came out. Words must be the same, spaces need
-/// not. Numbers may differ by one in the last digit shown: a drive repeats to the bit with the same
+/// not. Numbers may differ by one in the last digit shown: a run repeats to the bit with the same
 /// build and machine, and another processor's sines, a part in 1e15 off, can only tip the rounding.
 /// Seconds by the clock on the wall ("ms", "sec") are anybody's.
 bool Shows(const std::string& shown, const std::string& told) {
@@ -184,7 +184,7 @@ class Newcomer {
     }
     const std::string output =
         std::regex_replace(outcome.output, std::regex(home_.path().string()), "/home/you");
-    for (const std::string& told : LinesOf(output)) {
+    for (const std::string& told : SplitIntoLines(output)) {
       diagnostics_.push_back(told);
     }
   }
@@ -230,7 +230,7 @@ double AtFiveSeconds(const std::filesystem::path& log, const std::string& column
 TEST(Tutorial, EndsAsItsPageSays) {
   const std::string page = ReadFile(TRACKBED_SOURCE_DIR "/docs/tutorial.md");
   Newcomer newcomer;
-  for (const Block& block : BlocksOf(page)) {
+  for (const Block& block : ParseBlocks(page)) {
     newcomer.Do(block);
   }
   newcomer.ExpectAllShown();

@@ -89,7 +89,7 @@ TEST(Path, ReverseSegmentsRunAgainstTheHeading) {
   ExpectPose(back.At(-2.0).pose, {2.0, 0.0, 0.0});
 }
 
-TEST(Path, ClosesAfterTenKilometres) {
+TEST(Path, ClosesAfterTenKilometers) {
   // 140 laps round a square with rounded corners, 10 km: "below 1e-9 m over 10 km".
   std::vector<Segment> segments;
   for (int i = 0; i < 4 * 140; ++i) {
@@ -240,7 +240,7 @@ TEST(Project, IsTheNearestOfAllPoints) {
       // The cross-track error is the offset along the left of the path's point, and all of the
       // distance where the foot is not at an end.
       EXPECT_NEAR(projection.cross_track,
-                  LeftOf(Direction(foot.pose.yaw)).dot(car.position() - foot.pose.position()),
+                  LeftNormal(Direction(foot.pose.yaw)).dot(car.position() - foot.pose.position()),
                   Tolerance(kRounding));
       const double along = Direction(foot.pose.yaw).dot(car.position() - foot.pose.position());
       const double next = 1e-6;
@@ -631,20 +631,20 @@ TEST(SegmentsThrough, NeedRisingDistances) {
   EXPECT_THROW(SegmentsThrough({{1.0, 0.0, 0.0}, {0.5, 0.0, 0.0}}), InternalError);
 }
 
-TEST(LegsOf, EndWhereTheDirectionChanges) {
+TEST(SplitIntoLegs, EndWhereTheDirectionChanges) {
   const Path path({}, {{.length = 3.0},
                        {.length = 2.0, .curvature = 0.1},
                        {.length = 4.0, .curvature = 0.1, .direction = -1},
                        {.length = 1.0}});
-  const std::vector<Stations> legs = LegsOf(path);
+  const std::vector<Stations> legs = SplitIntoLegs(path);
   ASSERT_EQ(legs.size(), 3U);
   EXPECT_EQ(legs[0].from, 0.0);
   EXPECT_EQ(legs[0].to, 5.0);
   EXPECT_EQ(legs[1].from, 5.0);
   EXPECT_EQ(legs[1].to, 9.0);
   EXPECT_EQ(legs[2].to, path.length());
-  EXPECT_EQ(LegsOf(Path()).size(), 1U);
-  EXPECT_EQ(LegsOf(Path()).front().to, 0.0);
+  EXPECT_EQ(SplitIntoLegs(Path()).size(), 1U);
+  EXPECT_EQ(SplitIntoLegs(Path()).front().to, 0.0);
 }
 
 }  // namespace

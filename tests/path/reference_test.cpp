@@ -267,7 +267,7 @@ TEST(Excerpt, HoldsNothingOfTheLegBefore) {
   const Path path({}, segments);
   const Reference whole{path, StopAtCusps(path, 0.0, limits)};
   int direction = 1;
-  for (const Stations& leg : LegsOf(path)) {
+  for (const Stations& leg : SplitIntoLegs(path)) {
     const std::vector<Segment> own = Excerpt(whole, leg).path.segments();
     ASSERT_EQ(own.size(), 2U);
     EXPECT_EQ(own[0].direction, direction);
@@ -290,7 +290,7 @@ TEST(StopAtCusps, IsStopAtEndWithoutCusps) {
 TEST(Excerpt, IsTheReferenceOfALeg) {
   const SpeedLimits limits{.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
   const Reference whole{ThereAndBack(), StopAtCusps(ThereAndBack(), 1.0, limits)};
-  for (const Stations& leg : LegsOf(whole.path)) {
+  for (const Stations& leg : SplitIntoLegs(whole.path)) {
     const Reference own = Excerpt(whole, leg);
     EXPECT_NEAR(own.path.length(), leg.to - leg.from, Tolerance(1e-12));
     EXPECT_EQ(own.speed.knots().front().s, 0.0);

@@ -48,7 +48,7 @@ inline void ExpectDrivable(const Path& path, const FrenetRequest& request,
   const auto position_at = [&](double t) -> Vec2 {
     const FrenetState state = plan.motion.At(t);
     const Pose2 at = path.At(state.s).pose;
-    return at.position() + state.d * LeftOf(Direction(at.yaw));
+    return at.position() + state.d * LeftNormal(Direction(at.yaw));
   };
   const auto now_at = [&](double t) -> Now {
     const Vec2 velocity =
@@ -85,16 +85,16 @@ inline void ExpectDrivable(const Path& path, const FrenetRequest& request,
     }
     const double ahead = 0.5 * car.length - car.rear_overhang;
     const Vec2 middle = now.position + ahead * Direction(now.yaw);
-    const OrientedBox outline{{middle.x(), middle.y(), now.yaw}, car.length, car.width};
+    const OrientedBox footprint{{middle.x(), middle.y(), now.yaw}, car.length, car.width};
     for (const MovingBox& obstacle : request.obstacles) {
       OrientedBox box = obstacle.box;
       box.center.x += t * obstacle.velocity.x();
       box.center.y += t * obstacle.velocity.y();
-      EXPECT_GE(bg::distance(polygon_of(outline), polygon_of(box)),
+      EXPECT_GE(bg::distance(polygon_of(footprint), polygon_of(box)),
                 limits.safe_distance - 0.5 * (moves + step * obstacle.velocity.norm()));
     }
     const double s = plan.motion.At(t).s;
-    for (const Vec2& corner : outline.Corners()) {
+    for (const Vec2& corner : footprint.Corners()) {
       const double d = path.Project({corner.x(), corner.y(), 0.0}, {s - 6.0, s + 6.0}).cross_track;
       // The path is no circle over the car's length: sharpness 0.002 times 3.7^3/6.
       EXPECT_LE(d, request.road.left + 0.02 + 0.5 * moves);

@@ -37,7 +37,7 @@ inline FrenetRequest OnPath(double speed) {
 inline MovingBox BoxAt(const Path& path, double s, double d, double length = 2.0,
                        double width = 1.5) {
   const Pose2 at = path.At(s).pose;
-  const Vec2 center = at.position() + d * LeftOf(Direction(at.yaw));
+  const Vec2 center = at.position() + d * LeftNormal(Direction(at.yaw));
   return {{{center.x(), center.y(), at.yaw}, length, width}, {0.0, 0.0}};
 }
 

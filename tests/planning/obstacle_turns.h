@@ -37,8 +37,8 @@ inline double ByBoost(const OrientedBox& a, const OrientedBox& b) {
   return boost::geometry::distance(polygon_of(a), polygon_of(b));
 }
 
-/// The car on the path at a station; its outline is laid out anew from the car's numbers.
-inline OrientedBox OutlineOn(const Path& path, double s, const VehicleParams& car) {
+/// The car on the path at a station; its footprint is laid out anew from the car's numbers.
+inline OrientedBox FootprintOn(const Path& path, double s, const VehicleParams& car) {
   const Pose2 rear = path.At(s).pose;
   const double ahead = 0.5 * car.length - car.rear_overhang;
   return {{rear.x + ahead * std::cos(rear.yaw), rear.y + ahead * std::sin(rear.yaw), rear.yaw},
@@ -46,23 +46,23 @@ inline OrientedBox OutlineOn(const Path& path, double s, const VehicleParams& ca
           car.width};
 }
 
-inline double ClearanceOf(const Path& path, const std::vector<OrientedBox>& obstacles,
-                          const VehicleParams& car, Stations within) {
+inline double PathClearance(const Path& path, const std::vector<OrientedBox>& obstacles,
+                            const VehicleParams& car, Stations within) {
   double clearance = std::numeric_limits<double>::infinity();
   for (double s = std::max(within.from, 0.0); s <= std::min(within.to, path.length()); s += 0.02) {
     for (const OrientedBox& obstacle : obstacles) {
-      clearance = std::min(clearance, ByBoost(OutlineOn(path, s, car), obstacle));
+      clearance = std::min(clearance, ByBoost(FootprintOn(path, s, car), obstacle));
     }
   }
   return clearance;
 }
 
-/// Where the planner's own samples lie 0.05 m apart, the outline between them comes closer by at
+/// Where the planner's own samples lie 0.05 m apart, the footprint between them comes closer by at
 /// most what a corner 3.7 m from the rear axle moves in half of that while the heading turns at
 /// full lock, 0.025 m x 3.7/5.1, times the angle of its way to the obstacle's side; next to a
 /// minimum that angle is zero, and the loss quadratic: 0.025^2 x (1/5.1 + 1/3.7)/2.
 inline constexpr double kBetweenSamples = 2e-4;  // [m]
-/// A plan's own stretches count as clear when they miss SD by half a millimetre.
+/// A plan's own stretches count as clear when they miss SD by half a millimeter.
 inline constexpr double kTouch = 5e-4 + kBetweenSamples;
 
 /// One turn of radius r between two straights, and what stands in it.

@@ -6,7 +6,7 @@
 namespace trackbed {
 
 /// Where a curve leads from `start`, by its pieces' own arcs.
-inline Pose2 EndOf(const Pose2& start, const ShortestCurve& curve) {
+inline Pose2 EndPose(const Pose2& start, const ShortestCurve& curve) {
   Pose2 pose = start;
   for (int i = 0; i < curve.count; ++i) {
     const CurvePiece& piece = curve.pieces[static_cast<std::size_t>(i)];

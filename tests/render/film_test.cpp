@@ -70,7 +70,7 @@ std::vector<std::string> FilesIn(const fs::path& folder) {
 }
 
 template <typename Error, typename Function>
-std::string MessageOf(const Function& function) {
+std::string ErrorMessage(const Function& function) {
   try {
     function();
   } catch (const Error& error) {
@@ -99,7 +99,7 @@ class Film : public testing::Test {
 
   FilmReport Make() const { return RenderFilm(run_, output_, options_); }
   [[nodiscard]] std::string InputMessage() const {
-    return MessageOf<InputError>([this] { Make(); });
+    return ErrorMessage<InputError>([this] { Make(); });
   }
 
   TempFolder folder_;
@@ -269,9 +269,9 @@ TEST_F(Film, APictureIsWhatAFrameIs) {
   RenderFilm(run_, frames, options_);
   RenderPicture(run_, picture, 0.7, options_);
   EXPECT_TRUE(ReadFile(picture) == ReadFile(frames.parent_path() / "f_00007.png"));
-  EXPECT_EQ(MessageOf<InputError>([&] { RenderPicture(run_, picture, 1.2, options_); }),
+  EXPECT_EQ(ErrorMessage<InputError>([&] { RenderPicture(run_, picture, 1.2, options_); }),
             "time: 1.2 s; allowed are 0 to 1");
-  EXPECT_EQ(MessageOf<InputError>([&] { RenderPicture(run_, "one.jpg", 0.7, options_); }),
+  EXPECT_EQ(ErrorMessage<InputError>([&] { RenderPicture(run_, "one.jpg", 0.7, options_); }),
             "one.jpg: a picture is made as .png");
 }
 
@@ -309,7 +309,7 @@ TEST_F(Film, NamesTheNearestCamera) {
 TEST_F(Film, SaysWhatIsWrongWithTheFolder) {
   const std::string run = run_.string();
   const auto message_of = [this](const fs::path& folder) {
-    return MessageOf<InputError>([&] { RenderFilm(folder, output_, options_); });
+    return ErrorMessage<InputError>([&] { RenderFilm(folder, output_, options_); });
   };
   EXPECT_EQ(message_of(folder_.path() / "nowhere"),
             (folder_.path() / "nowhere").string() + ": no such folder");
@@ -350,7 +350,7 @@ TEST_F(Film, RefusesABrokenModelWithoutAskingForAKey) {
 TEST_F(Film, LeavesNothingWhereItCannotWrite) {
   WriteFileAtomically(folder_.path() / "file", "no folder");
   output_ = folder_.path() / "file" / "film.mp4";
-  EXPECT_THAT(MessageOf<RunError>([this] { Make(); }),
+  EXPECT_THAT(ErrorMessage<RunError>([this] { Make(); }),
               testing::HasSubstr((folder_.path() / "file").string()));
   EXPECT_EQ(ReadFile(folder_.path() / "file"), "no folder");
 }
@@ -391,7 +391,7 @@ TEST_F(Film, LeavesTheOlderFilmWhenTheDiskIsFull) {
   std::string message;
   {
     const SmallDisk disk(500);  // less than the index of any film
-    message = MessageOf<RunError>([this] { Make(); });
+    message = ErrorMessage<RunError>([this] { Make(); });
   }
   EXPECT_EQ(message, "cannot write " + output_.string() + ": File too large");
   EXPECT_EQ(ReadFile(output_), "an older film");

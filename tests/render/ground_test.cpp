@@ -153,7 +153,7 @@ TEST(PatchTiles, FollowTheGroundAndCoverThePatch) {
   world.ground.grade = {0.05, 0.0};
   world.ground.bumps = {{.area = {{10.0, 0.0, 0.3}, 4.0, 6.0}, .height = 0.1}};
   world.ground.side_slopes = {
-      {.area = {{40.0, 0.0, 0.0}, 30.0, 8.0}, .slope = 0.08, .run_in = 10.0}};
+      {.area = {{40.0, 0.0, 0.0}, 30.0, 8.0}, .slope = 0.08, .transition_length = 10.0}};
   world.friction_patches = {{{{30.0, 0.0, 0.1}, 60.0, 3.0}, 0.1}};
   const OrientedBox& area = world.friction_patches[0].area;
   const std::vector<Tile> tiles = PatchTiles(world);
@@ -210,7 +210,7 @@ TEST_F(GroundFilm, TheLegendNamesFrictionAndGusts) {
 )");
   std::vector<std::string> texts;
   const Recording recording = ReadRecording(folder_.path());
-  for (const LegendEntry& entry : LegendOf(recording, Overlays(recording))) {
+  for (const LegendEntry& entry : MakeLegend(recording, Overlays(recording))) {
     texts.push_back(entry.text);
   }
   EXPECT_EQ(texts,

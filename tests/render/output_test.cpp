@@ -63,14 +63,14 @@ std::string KnownFormats() {
              : "; a film is made as .png (frames)";
 }
 
-TEST(FormatOf, NamesTheFormatsThereAre) {
-  EXPECT_EQ(FormatOf("film.png").extension, ".png");
-  EXPECT_EQ(InputMessage([] { FormatOf("out/film.gif"); }),
+TEST(FilmFormatFor, NamesTheFormatsThereAre) {
+  EXPECT_EQ(FilmFormatFor("film.png").extension, ".png");
+  EXPECT_EQ(InputMessage([] { FilmFormatFor("out/film.gif"); }),
             "out/film.gif: unknown extension '.gif'" + KnownFormats());
-  EXPECT_EQ(InputMessage([] { FormatOf("film"); }), "film: no extension" + KnownFormats());
+  EXPECT_EQ(InputMessage([] { FilmFormatFor("film"); }), "film: no extension" + KnownFormats());
 }
 
-TEST(FormatOf, KnowsVideosOrSaysWhyNot) {
+TEST(FilmFormatFor, KnowsVideosOrSaysWhyNot) {
   const std::string message = InputMessage([] { CheckFilmName("out/film.mp4"); });
   EXPECT_EQ(message, HasVideo() ? "no InputError"
                                 : "out/film.mp4: this Trackbed was built without video "

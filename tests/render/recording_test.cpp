@@ -110,7 +110,7 @@ TEST_F(RecordingTest, TakesThePlantsThatAreAskedForByTheirNames) {
   EXPECT_EQ(message({"kinematic", "kinematic"}), where + "'kinematic' is listed twice");
 }
 
-TEST_F(RecordingTest, MissesWhatTheRunTellsOf) {
+TEST_F(RecordingTest, NamesMissingFilesOfTheRun) {
   WritePlant(folder_.path(), "mujoco", 0.1, [](double) { return CarPlace{}; });
   const auto message = [this]() -> std::string {
     try {

@@ -226,7 +226,7 @@ TEST_F(FilmSceneTest, TheLegendNamesWhatThereIs) {
   const auto legend = [this] {
     std::vector<std::string> texts;
     const Recording recording = ReadRecording(folder_.path());
-    for (const LegendEntry& entry : LegendOf(recording, Overlays(recording))) {
+    for (const LegendEntry& entry : MakeLegend(recording, Overlays(recording))) {
       texts.push_back(entry.text);
     }
     return texts;
@@ -287,7 +287,7 @@ TEST_F(FilmSceneTest, AGhostThatAgreesWithTheCarLeavesTheCarAsItIs) {
   EXPECT_EQ(At(with_ghost, 2.2, 0.0, 0.8), At(alone, 2.2, 0.0, 0.8));
 }
 
-TEST_F(FilmSceneTest, AGhostAFewCentimetresOffLeavesTheCarsDoorsAsTheyAre) {
+TEST_F(FilmSceneTest, AGhostAFewCentimetersOffLeavesTheCarsDoorsAsTheyAre) {
   const Image alone = Picture("side", 1.0);
   WritePlant(folder_.path(), "kinematic", 2.0, [](double time) {
     return CarPlace{3.0 * time, -0.05, 0.0};

@@ -13,7 +13,7 @@ namespace {
 TEST(WheelPair, IsSeenWhereItWasDriven) {
   Scenario scenario =
       ReadScenario(std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / "slalom.yaml");
-  scenario.vehicle.model = "skid";
+  scenario.vehicle.model = "diff_drive";
   scenario.drive.time_limit = 1.0;
   const RunResult run = RunMission(scenario);
   const TempFolder folder;

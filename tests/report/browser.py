@@ -75,7 +75,7 @@ class Browser:
     def picture(self, file):
         self.driver.save_screenshot(str(file))
 
-    def complaints(self):
+    def console_errors(self):
         """What the console says since the last page was opened."""
         return [entry["message"] for entry in self.driver.get_log("browser")]
 

@@ -112,7 +112,7 @@ class Reports(unittest.TestCase):
         self.browser.open(self.root / page, **screen)
 
     def tearDown(self):
-        self.assertEqual(self.browser.complaints(), [])
+        self.assertEqual(self.browser.console_errors(), [])
         for url in self.browser.loaded():
             self.assertRegex(url, r"^(file|data|blob|chrome):", url[:100])
 
@@ -310,7 +310,7 @@ class Reports(unittest.TestCase):
                 "  Array.from(document.querySelectorAll('[data-quantity=speed] .readout')).filter(shown).length]"
             )
 
-        def colours():
+        def colors():
             """How many pixels of the chart are of each plant's color."""
             return self.run_in_page(
                 "const canvas = document.querySelectorAll('[data-quantity=speed] canvas')[0];"
@@ -325,16 +325,16 @@ class Reports(unittest.TestCase):
             )
 
         self.assertEqual(shown(), [2, 2, 2])
-        blue, orange = colours()
+        blue, orange = colors()
         self.assertGreater(orange, 300)
         self.click(".legend [data-track=mujoco]")
         self.assertEqual(shown(), [1, 1, 1])
-        alone = colours()
+        alone = colors()
         self.assertEqual(alone[1], 0)
         self.assertGreater(alone[0], blue)  # what lay below
         self.click(".legend [data-track=mujoco]")
         self.assertEqual(shown(), [2, 2, 2])
-        self.assertEqual(colours(), [blue, orange])
+        self.assertEqual(colors(), [blue, orange])
 
     def test_charts_zoom_together(self):
         self.open("slow/report.html")
@@ -508,14 +508,14 @@ class Reports(unittest.TestCase):
             exact = metrics["plants"][plant]["cross_track"]["max"]
             self.assertAlmostEqual(one, exact, delta=max(5e-5, 5e-3 * exact))
         # One color each, the same in the legend, on the map and beside the readings.
-        colours = self.run_in_page(
+        colors = self.run_in_page(
             "const of = s => Array.from(document.querySelectorAll(s)).map(e => getComputedStyle(e).color);"
             "return [of('.legend button .dot'), of('.car'), of('.track'),"
             " of('[data-quantity=speed] .readout .dot'), of('#numbers thead .dot')]"
         )
-        self.assertEqual(len(set(colours[0])), 4)
-        for other in colours[1:]:
-            self.assertEqual(other, colours[0])
+        self.assertEqual(len(set(colors[0])), 4)
+        for other in colors[1:]:
+            self.assertEqual(other, colors[0])
         self.point_at("speed", 0.5)
         for run, plant in (("slow", "mujoco"), ("quick", "kinematic")):
             rows = rows_of(self.root / run / f"{plant}.csv")

@@ -41,7 +41,7 @@ fs::path Shifted(const fs::path& run, const std::string& name, const std::string
   return copy;
 }
 
-ordered_json NumberOf(const ordered_json& pair, const std::string& path) {
+ordered_json PairNumber(const ordered_json& pair, const std::string& path) {
   for (const ordered_json& number : pair["numbers"]) {
     if (number["path"] == path) {
       return number["value"];
@@ -61,7 +61,7 @@ std::vector<std::string> PairsIn(const ordered_json& data) {
   return pairs;
 }
 
-std::string ErrorOf(const std::vector<fs::path>& paths) {
+std::string ErrorMessage(const std::vector<fs::path>& paths) {
   try {
     ReportData(paths);
   } catch (const InputError& error) {
@@ -83,13 +83,13 @@ TEST(Comparison, HoldsEachPlantOfTheFirstRunAgainstItsNamesakes) {
   const auto& pairs = data["comparison"]["pairs"];
   // Shifts and turns alone: the sums are exact to a few units of the last place.
   constexpr double kExact = 1e-6;
-  EXPECT_NEAR(NumberOf(pairs[0], "position.max").get<double>(), 0.0, kExact);
-  EXPECT_NEAR(NumberOf(pairs[1], "position.max").get<double>(), 0.25, kExact);
-  EXPECT_NEAR(NumberOf(pairs[1], "position.rms").get<double>(), 0.25, kExact);
-  EXPECT_NEAR(NumberOf(pairs[1], "heading.max").get<double>(), 0.125, kExact);
-  EXPECT_NEAR(NumberOf(pairs[1], "steering.max").get<double>(), 0.0, kExact);
-  EXPECT_NEAR(NumberOf(pairs[2], "position.max").get<double>(), 2.0, kExact);
-  EXPECT_NEAR(NumberOf(pairs[3], "position.max").get<double>(), 0.0, kExact);
+  EXPECT_NEAR(PairNumber(pairs[0], "position.max").get<double>(), 0.0, kExact);
+  EXPECT_NEAR(PairNumber(pairs[1], "position.max").get<double>(), 0.25, kExact);
+  EXPECT_NEAR(PairNumber(pairs[1], "position.rms").get<double>(), 0.25, kExact);
+  EXPECT_NEAR(PairNumber(pairs[1], "heading.max").get<double>(), 0.125, kExact);
+  EXPECT_NEAR(PairNumber(pairs[1], "steering.max").get<double>(), 0.0, kExact);
+  EXPECT_NEAR(PairNumber(pairs[2], "position.max").get<double>(), 2.0, kExact);
+  EXPECT_NEAR(PairNumber(pairs[3], "position.max").get<double>(), 0.0, kExact);
   const ordered_json& curve = pairs[1]["curve"];
   const std::vector<double> stations = ReadCsv(a / "single_track.csv").Column("s_m");
   EXPECT_NEAR(curve["s"].front().get<double>(), stations.front(), kExact);
@@ -165,27 +165,27 @@ TEST(Comparison, SaysWhatIsWrong) {
   const fs::path out = folder.path() / "out";
   WriteComparison(CompareFolders({a, b}, {}, std::nullopt), out);
   const std::string text = ReadFile(out / "compare.json");
-  EXPECT_EQ(ErrorOf({out, a}), out.string() + ": a comparison must be given alone");
+  EXPECT_EQ(ErrorMessage({out, a}), out.string() + ": a comparison must be given alone");
   folder.Write("out/compare.json", "{\"pairs\": ");
-  EXPECT_THAT(ErrorOf({out}), HasSubstr("compare.json: "));
+  EXPECT_THAT(ErrorMessage({out}), HasSubstr("compare.json: "));
   folder.Write("out/compare.json", "{\"pairs\": []}");
-  EXPECT_THAT(ErrorOf({out}),
+  EXPECT_THAT(ErrorMessage({out}),
               EndsWith("compare.json: does not name its runs; compare the runs again"));
   folder.Write("out/compare.json", text);
-  EXPECT_EQ(ErrorOf({out}), "no error");
+  EXPECT_EQ(ErrorMessage({out}), "no error");
   // Another drive under the same name.
   fs::remove_all(b);
   Shifted(a, "b", "single_track", 0.5, 0.0);
   EXPECT_THAT(
-      ErrorOf({out}),
+      ErrorMessage({out}),
       EndsWith("compare.json: does not match the runs' current logs; compare the runs again"));
   fs::remove_all(b);
   DriveCorner(folder, "b", "drive: {plants: [kinematic]}\n");
-  EXPECT_THAT(ErrorOf({out}), EndsWith("compare.json: of single_track, which " + b.string() +
-                                       " did not drive; compare the runs again"));
+  EXPECT_THAT(ErrorMessage({out}), EndsWith("compare.json: of single_track, which is not in " +
+                                            b.string() + "; compare the runs again"));
   fs::remove_all(b);
-  EXPECT_EQ(ErrorOf({out}), out.string() + ": the compared run in " + b.string() +
-                                " does not exist (no metrics.json)");
+  EXPECT_EQ(ErrorMessage({out}), out.string() + ": the compared run in " + b.string() +
+                                     " does not exist (no metrics.json)");
 }
 
 TEST(Comparison, CallsRunsOfOneNameAfterTheirParents) {

@@ -13,9 +13,9 @@ TEST(NameOfMetric, SaysWhatPeopleSay) {
   EXPECT_FALSE(NameOfMetric("cross_track.rms").headline);
   EXPECT_EQ(NameOfMetric("turns[1].heading_deficit").label, "Turn 2: heading deficit");
   EXPECT_EQ(NameOfMetric("turns[1].heading_deficit").unit, "rad");
-  EXPECT_EQ(NameOfMetric("manoeuvre.margin").label, "Maneuver: minimum gate margin");
-  EXPECT_EQ(NameOfMetric("manoeuvre.margin").unit, "m");
-  EXPECT_EQ(NameOfMetric("manoeuvre.understeer_gradient").unit, "rad s²/m");
+  EXPECT_EQ(NameOfMetric("maneuver.margin").label, "Maneuver: minimum gate margin");
+  EXPECT_EQ(NameOfMetric("maneuver.margin").unit, "m");
+  EXPECT_EQ(NameOfMetric("maneuver.understeer_gradient").unit, "rad s²/m");
   // What another program registered is its own label.
   EXPECT_EQ(NameOfMetric("other.metric").label, "other.metric");
 }

@@ -49,7 +49,7 @@ std::string Markup(std::string page) {
 }
 
 template <typename Call>
-std::string ErrorOf(const Call& call) {
+std::string ErrorMessage(const Call& call) {
   try {
     call();
   } catch (const InputError& error) {
@@ -191,8 +191,8 @@ TEST(ReportData, TakesChecksAsTheyAre) {
            "bound": 0.155087500001, "value": 0.12345678, "station": 1, "time": 2, "met": false}])");
   WriteFileAtomically(run / "metrics.json", metrics.dump());
   EXPECT_EQ(ReportData({run})["runs"][0]["expectations"].dump(),
-            R"([{"of":"kinematic","what":"Maximum lateral acceleration (0.1 s mean)","unit":"m/s²",)"
-            R"("asked":"≤ 0.1550875","found":0.123457,"met":false}])");
+            R"json([{"of":"kinematic","what":"Maximum lateral acceleration (0.1 s mean)",)json"
+            R"json("unit":"m/s²","asked":"≤ 0.1550875","found":0.123457,"met":false}])json");
 }
 
 TEST(ReportData, ShowsAMissionWithoutAPlan) {
@@ -215,7 +215,7 @@ TEST(ReportData, SaysWhatIsWrong) {
   const TempFolder folder;
   const fs::path run = DriveCorner(folder, "run", "drive: {plants: [kinematic]}\n");
   const auto error = [&](const std::vector<fs::path>& paths) {
-    return ErrorOf([&] { ReportData(paths); });
+    return ErrorMessage([&] { ReportData(paths); });
   };
   EXPECT_THAT(error({folder.path() / "gone"}), EndsWith("gone: no such folder"));
   EXPECT_THAT(error({folder.path()}),
@@ -281,8 +281,9 @@ TEST(ReportData, HoldsTheTableOfAStudy) {
   EXPECT_EQ(ReportData({folder.path() / "study"})["study"]["name"], "fast");
   EXPECT_EQ(ReportData({folder.path() / "study"})["study"]["complete"], false);
   folder.Write("study/sweep.json", "{}");
-  EXPECT_THAT(ErrorOf([&] { ReportData({folder.path() / "study"}); }), HasSubstr("sweep.json: "));
-  EXPECT_THAT(ErrorOf([&] { ReportData({folder.Write("other.csv", "a,b\n1,2\n")}); }),
+  EXPECT_THAT(ErrorMessage([&] { ReportData({folder.path() / "study"}); }),
+              HasSubstr("sweep.json: "));
+  EXPECT_THAT(ErrorMessage([&] { ReportData({folder.Write("other.csv", "a,b\n1,2\n")}); }),
               HasSubstr("other.csv:1: no column 'status'"));
 }
 
@@ -338,7 +339,7 @@ TEST(ReportPage, LoadsNothing) {
 }
 
 TEST(ReportPage, StaysSmall) {
-  constexpr std::size_t kMost = 3'000'000;
+  constexpr std::size_t kMaxBytes = 3'000'000;
   const TempFolder folder;
   // A minute, with and without turns, and more than that, compared.
   const std::string minute =
@@ -356,14 +357,14 @@ TEST(ReportPage, StaysSmall) {
     EXPECT_GE(plant["log"]["t"].back().get<double>(), 60.0);
     EXPECT_GE(plant["log"]["t"].size(), 3000U);  // each period of 20 ms
   }
-  EXPECT_LT(ReportPage(data).size(), kMost / 2);
-  EXPECT_LT(ReportPage(ReportData({two, three})).size(), kMost);
+  EXPECT_LT(ReportPage(data).size(), kMaxBytes / 2);
+  EXPECT_LT(ReportPage(ReportData({two, three})).size(), kMaxBytes);
   // Rows ten times as near.
   const fs::path run = DriveCorner(folder, "run", "");
   for (const char* plant : {"kinematic", "mujoco"}) {
     LengthenLog(run / (std::string(plant) + ".csv"), 60.0, 0.002);
   }
-  EXPECT_LT(ReportPage(ReportData({run})).size(), kMost);
+  EXPECT_LT(ReportPage(ReportData({run})).size(), kMaxBytes);
   const ordered_json log = ReportData({run})["runs"][0]["plants"][0]["log"];
   EXPECT_LE(log["t"].size(), 10000U);  // half of all rows
   EXPECT_GT(log["t"].size(), 3000U);

@@ -7,7 +7,7 @@
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/registry/planners.h"
-#include "trackbed/scenario/manoeuvre.h"
+#include "trackbed/scenario/maneuver.h"
 
 namespace trackbed {
 namespace {
@@ -22,7 +22,8 @@ const KeySection* FindSection(const std::vector<KeySection>& sections, const std
   return nullptr;
 }
 
-KeyInfo KeyOf(const std::string& section, const std::string& name, const std::string& method = "") {
+KeyInfo FindKey(const std::string& section, const std::string& name,
+                const std::string& method = "") {
   const std::vector<KeySection> sections = ScenarioKeys();
   const KeySection* found = FindSection(sections, section, method);
   EXPECT_NE(found, nullptr) << section;
@@ -36,31 +37,31 @@ KeyInfo KeyOf(const std::string& section, const std::string& name, const std::st
 }
 
 TEST(ScenarioKeys, TellTypeUnitDefaultAndWhatIsAllowed) {
-  const KeyInfo speed = KeyOf("mission", "speed");
+  const KeyInfo speed = FindKey("mission", "speed");
   EXPECT_EQ(speed.type, "number");
   EXPECT_EQ(speed.unit, "m/s");
   EXPECT_FALSE(speed.required);
   EXPECT_EQ(speed.fallback, "");
   EXPECT_EQ(speed.allowed, "at least 0.1 and at most 100");
-  EXPECT_EQ(KeyOf("drive", "plants").fallback, "[kinematic, mujoco]");
-  EXPECT_EQ(KeyOf("drive", "timestep").fallback, "0.002");
-  EXPECT_EQ(KeyOf("render", "size").fallback, "[1280, 720]");
-  EXPECT_EQ(KeyOf("", "control").fallback, "{method: preview}");
-  EXPECT_EQ(KeyOf("control", "distance", "preview").fallback, "");
-  EXPECT_EQ(KeyOf("plan", "constraint", "fillet").allowed, "steering_room, half_leg, none");
-  EXPECT_EQ(KeyOf("plan", "time_limit", "rrt").unit, "s");
-  EXPECT_EQ(KeyOf("plan", "time_limit", "rrt").allowed, "above 0");
-  EXPECT_EQ(KeyOf("plan", "time_limit", "rrt").fallback, "");
-  EXPECT_EQ(KeyOf("plan", "partial", "rrt").type, "true or false");
-  EXPECT_EQ(KeyOf("plan.avoid", "inner_width", "listing").unit, "m");
-  EXPECT_EQ(KeyOf("plan.avoid", "grid", "listing").fallback, "true");
-  EXPECT_EQ(KeyOf("world.obstacles[N].box", "length").unit, "m");
-  EXPECT_TRUE(KeyOf("world.obstacles[N].box", "length").required);
-  EXPECT_EQ(KeyOf("world.wind.gusts[N]", "shape").fallback, "one_minus_cosine");
-  EXPECT_EQ(KeyOf("world.wind.gusts[N].area", "length").unit, "m");
-  EXPECT_EQ(KeyOf("control.speed", "over_time").type, "list of knots [t, v]");
-  EXPECT_TRUE(KeyOf("control.speed.braking", "deceleration").required);
-  EXPECT_FALSE(KeyOf("expect", "mujoco").required);
+  EXPECT_EQ(FindKey("drive", "plants").fallback, "[kinematic, mujoco]");
+  EXPECT_EQ(FindKey("drive", "timestep").fallback, "0.002");
+  EXPECT_EQ(FindKey("render", "size").fallback, "[1280, 720]");
+  EXPECT_EQ(FindKey("", "control").fallback, "{method: preview}");
+  EXPECT_EQ(FindKey("control", "distance", "preview").fallback, "");
+  EXPECT_EQ(FindKey("plan", "constraint", "fillet").allowed, "steering_room, half_leg, none");
+  EXPECT_EQ(FindKey("plan", "time_limit", "rrt").unit, "s");
+  EXPECT_EQ(FindKey("plan", "time_limit", "rrt").allowed, "above 0");
+  EXPECT_EQ(FindKey("plan", "time_limit", "rrt").fallback, "");
+  EXPECT_EQ(FindKey("plan", "partial", "rrt").type, "true or false");
+  EXPECT_EQ(FindKey("plan.avoid", "inner_width", "listing").unit, "m");
+  EXPECT_EQ(FindKey("plan.avoid", "grid", "listing").fallback, "true");
+  EXPECT_EQ(FindKey("world.obstacles[N].box", "length").unit, "m");
+  EXPECT_TRUE(FindKey("world.obstacles[N].box", "length").required);
+  EXPECT_EQ(FindKey("world.wind.gusts[N]", "shape").fallback, "one_minus_cosine");
+  EXPECT_EQ(FindKey("world.wind.gusts[N].area", "length").unit, "m");
+  EXPECT_EQ(FindKey("control.speed", "over_time").type, "list of knots [t, v]");
+  EXPECT_TRUE(FindKey("control.speed.braking", "deceleration").required);
+  EXPECT_FALSE(FindKey("expect", "mujoco").required);
 }
 
 TEST(ScenarioKeys, EachHasALineOfText) {
@@ -81,8 +82,8 @@ TEST(ScenarioKeys, EveryMethodHasItsSection) {
   for (const ControllerEntry& controller : Controllers()) {
     EXPECT_NE(FindSection(sections, "control", controller.name), nullptr) << controller.name;
   }
-  for (const ManoeuvreEntry& manoeuvre : Manoeuvres()) {
-    EXPECT_NE(FindSection(sections, "manoeuvre", manoeuvre.name), nullptr) << manoeuvre.name;
+  for (const ManeuverEntry& maneuver : Maneuvers()) {
+    EXPECT_NE(FindSection(sections, "maneuver", maneuver.name), nullptr) << maneuver.name;
   }
 }
 

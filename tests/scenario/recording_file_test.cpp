@@ -19,8 +19,8 @@ Recording Read(const std::string& csv, PlaybackAxis by = PlaybackAxis::kTime,
   return ReadRecording(folder.Write("r.csv", csv), by, columns);
 }
 
-std::string ProblemsOf(const std::string& csv, PlaybackAxis by = PlaybackAxis::kTime,
-                       const RecordingColumns& columns = {}) {
+std::string ErrorMessages(const std::string& csv, PlaybackAxis by = PlaybackAxis::kTime,
+                          const RecordingColumns& columns = {}) {
   const TempFolder folder;
   try {
     ReadRecording(folder.Write("r.csv", csv), by, columns);
@@ -79,14 +79,14 @@ TEST(ReadRecording, TakesFilesAsOtherProgramsWriteThem) {
 
 TEST(ReadRecording, ChoosesBetweenSpeedAndAcceleration) {
   const std::string both = "t_s,steering_rad,speed_mps,acceleration_mps2\n0,0,10,1\n";
-  EXPECT_EQ(ProblemsOf(both),
+  EXPECT_EQ(ErrorMessages(both),
             "r.csv:1: has both 'speed_mps' and 'acceleration_mps2'; choose one in control.columns");
   RecordingColumns columns;
   columns.speed = "speed_mps";
   EXPECT_TRUE(Read(both, PlaybackAxis::kTime, columns).acceleration.empty());
   EXPECT_EQ(Read(both, PlaybackAxis::kTime, columns).speed.At(0.0), 10.0);
   columns.acceleration = "acceleration_mps2";
-  EXPECT_EQ(ProblemsOf(both, PlaybackAxis::kTime, columns),
+  EXPECT_EQ(ErrorMessages(both, PlaybackAxis::kTime, columns),
             "control.columns: give speed or acceleration, not both");
   columns.speed.reset();
   EXPECT_TRUE(Read(both, PlaybackAxis::kTime, columns).speed.empty());
@@ -94,19 +94,19 @@ TEST(ReadRecording, ChoosesBetweenSpeedAndAcceleration) {
 }
 
 TEST(ReadRecording, PlacesWhatCannotBeRead) {
-  EXPECT_EQ(ProblemsOf("t_s,steering_rad\n0,\n1,x\n2,nan\n3,inf\n4\n"),
+  EXPECT_EQ(ErrorMessages("t_s,steering_rad\n0,\n1,x\n2,nan\n3,inf\n4\n"),
             "r.csv:2: cell 2 (steering_rad): '' is not a number\nr.csv:3: cell 2 (steering_rad): "
             "'x' is not a number\nr.csv:4: cell 2 (steering_rad): 'nan' is not a finite "
             "number\nr.csv:5: cell 2 (steering_rad): 'inf' is not a finite number\nr.csv:6: cell 2 "
             "(steering_rad): missing; 1 cell, the header has 2");
-  EXPECT_EQ(ProblemsOf("t_s,steering_deg\n0,0\n"),
+  EXPECT_EQ(ErrorMessages("t_s,steering_deg\n0,0\n"),
             "r.csv:1: no column 'steering_rad'; did you mean 'steering_deg'?");
-  EXPECT_EQ(ProblemsOf("t_s,steering_rad\n"), "r.csv:1: no rows after the header");
+  EXPECT_EQ(ErrorMessages("t_s,steering_rad\n"), "r.csv:1: no rows after the header");
   EXPECT_THROW(ReadRecording("/nonexistent/r.csv", PlaybackAxis::kTime), RunError);
 }
 
 TEST(ReadRecording, WantsTimesThatRiseStrictly) {
-  EXPECT_EQ(ProblemsOf("t_s,steering_rad\n0,0\n0.5,0\n0.5,0\n\n0.25,0\n"),
+  EXPECT_EQ(ErrorMessages("t_s,steering_rad\n0,0\n0.5,0\n0.5,0\n\n0.25,0\n"),
             "r.csv:4: t_s: 0.5 must be above the previous row's 0.5\nr.csv:6: t_s: 0.25 must be "
             "above the previous row's 0.5");
 }
@@ -117,20 +117,20 @@ TEST(ReadRecording, TellsProblemsInTheOrderOfTheFileAndNotAllOfThem) {
     csv += fmt::format("{},0,{}\n", i, -1 - i);
   }
   csv += "30,2,10\n";
-  const std::string told = ProblemsOf(csv);
+  const std::string told = ErrorMessages(csv);
   EXPECT_THAT(told, testing::StartsWith("r.csv:2: speed_mps: -1 is"));
   EXPECT_THAT(told, testing::HasSubstr("\nr.csv:21: speed_mps: -20 is"));
   EXPECT_THAT(told, testing::EndsWith("\nr.csv: and 11 more problems"));
 }
 
 TEST(ReadRecording, KnowsWhatACarCanBeAskedFor) {
-  EXPECT_EQ(ProblemsOf("t_s,steering_rad,speed_mps\n0,4.5,-1\n1,0,101\n"),
+  EXPECT_EQ(ErrorMessages("t_s,steering_rad,speed_mps\n0,4.5,-1\n1,0,101\n"),
             "r.csv:2: steering_rad: 4.5 is out of range; must be at least -1.5 and at most 1.5\n"
             "r.csv:2: speed_mps: -1 is out of range; must be at least 0 and at most 100\n"
             "r.csv:3: speed_mps: 101 is out of range; must be at least 0 and at most 100");
   // By distance a car that is told to stand would never get further.
   EXPECT_EQ(
-      ProblemsOf("s_m,steering_rad,speed_mps\n0,0,0\n1,0,2\n2,0,0\n", PlaybackAxis::kDistance),
+      ErrorMessages("s_m,steering_rad,speed_mps\n0,0,0\n1,0,2\n2,0,0\n", PlaybackAxis::kDistance),
       "r.csv:2: speed_mps: 0 is out of range; must be above 0 and at most 100");
 }
 

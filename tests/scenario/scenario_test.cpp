@@ -27,7 +27,7 @@ Scenario Parse(const std::string& yaml, const std::vector<Override>& overrides =
   return ParseScenario(yaml, "test.yaml", ".", overrides);
 }
 
-std::string ErrorsOf(const std::string& yaml, const std::vector<Override>& overrides = {}) {
+std::string ErrorMessages(const std::string& yaml, const std::vector<Override>& overrides = {}) {
   try {
     Parse(yaml, overrides);
   } catch (const InputError& error) {
@@ -51,13 +51,13 @@ TEST(ReadScenario, FillsInDefaults) {
 
 TEST(ReadScenario, StartsAtTheFirstWaypointAlongTheFirstLeg) {
   const StartState start =
-      StartOf(Parse(kSmall, {"mission.waypoints=[[1, 2], [1, 40], [40, 40]]"}));
+      InitialState(Parse(kSmall, {"mission.waypoints=[[1, 2], [1, 40], [40, 40]]"}));
   EXPECT_EQ(start.pose.x, 1.0);
   EXPECT_EQ(start.pose.y, 2.0);
   EXPECT_EQ(start.pose.yaw, std::atan2(38.0, 0.0));
   EXPECT_EQ(start.speed, 3.0);
   const StartState moved =
-      StartOf(Parse(kSmall, {"mission.start={x: 5, speed: 0, steering: 0.1}"}));
+      InitialState(Parse(kSmall, {"mission.start={x: 5, speed: 0, steering: 0.1}"}));
   EXPECT_EQ(moved.pose, (Pose2{5.0, 2.0, 0.0}));
   EXPECT_EQ(moved.speed, 0.0);
   EXPECT_EQ(moved.steering, 0.1);
@@ -67,15 +67,15 @@ TEST(ReadScenario, StartsWithTheSpeedThatIsGivenForThen) {
   const std::string braked =
       "schema: 1\nname: x\ncontrol: {method: sine, amplitude: 0.01, speed: {over_time: "
       "[[1, 20], [3, 5]]}}\nmission: ";
-  EXPECT_EQ(StartOf(Parse(braked + "{duration: 5}")).speed, 20.0);
-  EXPECT_EQ(SpeedOf(Parse(braked + "{duration: 5}")), 20.0);
-  EXPECT_EQ(StartOf(Parse(braked + "{speed: 7, duration: 5}")).speed, 20.0);
-  EXPECT_EQ(SpeedOf(Parse(braked + "{speed: 7, duration: 5}")), 7.0);
-  EXPECT_EQ(StartOf(Parse(braked + "{start: {speed: 3}, duration: 5}")).speed, 3.0);
+  EXPECT_EQ(InitialState(Parse(braked + "{duration: 5}")).speed, 20.0);
+  EXPECT_EQ(MissionSpeed(Parse(braked + "{duration: 5}")), 20.0);
+  EXPECT_EQ(InitialState(Parse(braked + "{speed: 7, duration: 5}")).speed, 20.0);
+  EXPECT_EQ(MissionSpeed(Parse(braked + "{speed: 7, duration: 5}")), 7.0);
+  EXPECT_EQ(InitialState(Parse(braked + "{start: {speed: 3}, duration: 5}")).speed, 3.0);
   const std::string held =
       "schema: 1\nname: x\ncontrol: {method: sine, amplitude: 0.01}\nmission: ";
-  EXPECT_EQ(SpeedOf(Parse(held + "{start: {speed: 3}, duration: 5}")), 3.0);
-  EXPECT_EQ(ErrorsOf(held + "{duration: 5}"), "test.yaml:4:10: mission.speed: missing");
+  EXPECT_EQ(MissionSpeed(Parse(held + "{start: {speed: 3}, duration: 5}")), 3.0);
+  EXPECT_EQ(ErrorMessages(held + "{duration: 5}"), "test.yaml:4:10: mission.speed: missing");
 }
 
 TEST(ReadScenario, TakesWhatTheMissionDoesNotSayFromTheRecording) {
@@ -88,26 +88,26 @@ TEST(ReadScenario, TakesWhatTheMissionDoesNotSayFromTheRecording) {
         "test.yaml", folder.path(), overrides);
   };
   const Scenario scenario = parse({});
-  EXPECT_EQ(DurationOf(scenario), 4.5);
-  EXPECT_EQ(StartOf(scenario).speed, 15.0);
-  EXPECT_EQ(SpeedOf(scenario), 15.0);
-  EXPECT_EQ(StartOf(scenario).steering, 0.0);
-  const StartState prescribed = StartOf(parse({"drive.steering=prescribed"}));
+  EXPECT_EQ(RunDuration(scenario), 4.5);
+  EXPECT_EQ(InitialState(scenario).speed, 15.0);
+  EXPECT_EQ(MissionSpeed(scenario), 15.0);
+  EXPECT_EQ(InitialState(scenario).steering, 0.0);
+  const StartState prescribed = InitialState(parse({"drive.steering=prescribed"}));
   EXPECT_NEAR(prescribed.steering, 0.15, 1e-15);
   const Scenario given = parse({"drive.steering=prescribed",
                                 "mission={speed: 3, duration: 2, start: {speed: 4, "
                                 "steering: -0.1}}"});
-  EXPECT_EQ(DurationOf(given), 2.0);
-  EXPECT_EQ(StartOf(given).speed, 4.0);
-  EXPECT_EQ(SpeedOf(given), 3.0);
-  EXPECT_EQ(StartOf(given).steering, -0.1);
+  EXPECT_EQ(RunDuration(given), 2.0);
+  EXPECT_EQ(InitialState(given).speed, 4.0);
+  EXPECT_EQ(MissionSpeed(given), 3.0);
+  EXPECT_EQ(InitialState(given).steering, -0.1);
   // Over the distance it has no end in time.
-  EXPECT_EQ(DurationOf(parse({"control.by=distance", "mission.duration=3"})), 3.0);
+  EXPECT_EQ(RunDuration(parse({"control.by=distance", "mission.duration=3"})), 3.0);
   EXPECT_THROW(parse({"control.by=distance"}), InputError);
 }
 
 TEST(ReadScenario, ReportsEveryProblemWithItsPlace) {
-  EXPECT_EQ(ErrorsOf(R"(schema: 1
+  EXPECT_EQ(ErrorMessages(R"(schema: 1
 name: broken
 sed: 7
 vehicle: {model: pruis, tyre: contakt}
@@ -143,17 +143,17 @@ test.yaml:13:44: expect.between[0].plants: expected a list of names, found 'kine
 }
 
 TEST(ReadScenario, NamesMissingKeys) {
-  EXPECT_EQ(ErrorsOf("name: x\nmission: {}\n"),
+  EXPECT_EQ(ErrorMessages("name: x\nmission: {}\n"),
             "test.yaml:1:1: schema: missing\ntest.yaml:1:1: plan: missing; the controller preview "
             "needs a plan\ntest.yaml:2:10: mission.speed: missing\ntest.yaml:2:10: "
             "mission.duration: missing; required without a plan");
 }
 
 TEST(ReadScenario, RefusesWhatIsNoScenario) {
-  EXPECT_EQ(ErrorsOf(""), "test.yaml:1:1: a scenario must be a section of 'key: value' lines");
-  EXPECT_EQ(ErrorsOf("- 1\n- 2\n"),
+  EXPECT_EQ(ErrorMessages(""), "test.yaml:1:1: a scenario must be a section of 'key: value' lines");
+  EXPECT_EQ(ErrorMessages("- 1\n- 2\n"),
             "test.yaml:1:1: a scenario must be a section of 'key: value' lines");
-  EXPECT_EQ(ErrorsOf("a: [1, 2\nb: 3"),
+  EXPECT_EQ(ErrorMessages("a: [1, 2\nb: 3"),
             "test.yaml:1:4: '[' is not closed, or a ',' is missing before line 2, column 2");
   std::string bomb = "a: &a [1,1,1,1,1,1,1,1,1]\n";
   for (char c = 'b'; c < 'l'; ++c) {
@@ -164,21 +164,21 @@ TEST(ReadScenario, RefusesWhatIsNoScenario) {
     }
     bomb += "]\n";
   }
-  EXPECT_EQ(ErrorsOf(bomb), "test.yaml:6:8: more than 100000 values, aliases ('*') expanded");
+  EXPECT_EQ(ErrorMessages(bomb), "test.yaml:6:8: more than 100000 values, aliases ('*') expanded");
 }
 
 TEST(ReadScenario, RefusesKeysThatDoNotGoTogether) {
-  EXPECT_EQ(ErrorsOf("schema: 1\nname: x\nmission: {speed: 3}\nplan: {method: fillet}\n"),
+  EXPECT_EQ(ErrorMessages("schema: 1\nname: x\nmission: {speed: 3}\nplan: {method: fillet}\n"),
             "test.yaml:3:10: mission.waypoints: none given; the planner fillet needs at least 3");
-  EXPECT_EQ(ErrorsOf("schema: 1\nname: x\nmission: {speed: 3}\n"),
+  EXPECT_EQ(ErrorMessages("schema: 1\nname: x\nmission: {speed: 3}\n"),
             "test.yaml:1:1: plan: missing; the controller preview needs a plan\ntest.yaml:3:10: "
             "mission.duration: missing; required without a plan");
-  EXPECT_EQ(ErrorsOf(kSmall, {"drive.control_period=0.003"}),
+  EXPECT_EQ(ErrorMessages(kSmall, {"drive.control_period=0.003"}),
             "--set: drive.control_period: 0.003 s is not a whole number of timesteps of 0.002 s");
-  EXPECT_EQ(ErrorsOf(kSmall, {"plan.constraint=none"}),
+  EXPECT_EQ(ErrorMessages(kSmall, {"plan.constraint=none"}),
             "--set: plan.constraint: 'none' requires plan.radius");
-  EXPECT_EQ(ErrorsOf(std::string(kSmall) + "drive: {plants: [mujoco]}\n",
-                     {"expect={kinematic: {reach_goal: 1}}"}),
+  EXPECT_EQ(ErrorMessages(std::string(kSmall) + "drive: {plants: [mujoco]}\n",
+                          {"expect={kinematic: {reach_goal: 1}}"}),
             "--set: expect.kinematic: not in drive.plants: mujoco");
 }
 
@@ -212,18 +212,18 @@ TEST(Override, OfThePlantsDropsWhatWasExpectedOfOthers) {
 }
 
 TEST(Override, SaysWhatIsWrong) {
-  EXPECT_EQ(ErrorsOf(kSmall, {"mission.speed"}), "--set: mission.speed: expected key=value");
-  EXPECT_EQ(ErrorsOf(kSmall, {"mission.sped=3"}),
+  EXPECT_EQ(ErrorMessages(kSmall, {"mission.speed"}), "--set: mission.speed: expected key=value");
+  EXPECT_EQ(ErrorMessages(kSmall, {"mission.sped=3"}),
             "--set: mission.sped: unknown key 'sped'; did you mean 'speed'?");
-  EXPECT_EQ(ErrorsOf(kSmall, {"mission.speed=-1"}),
+  EXPECT_EQ(ErrorMessages(kSmall, {"mission.speed=-1"}),
             "--set: mission.speed: -1 is out of range; must be at least 0.1 and at most 100");
-  EXPECT_EQ(ErrorsOf(kSmall, {"mission.waypoints[9]=[1, 2]"}),
+  EXPECT_EQ(ErrorMessages(kSmall, {"mission.waypoints[9]=[1, 2]"}),
             "--set: mission.waypoints[9]=[1, 2]: element [9] does not exist");
-  EXPECT_EQ(ErrorsOf(kSmall, {"name.first=x"}),
+  EXPECT_EQ(ErrorMessages(kSmall, {"name.first=x"}),
             "--set: name.first=x: no section for the key 'first'");
-  EXPECT_EQ(ErrorsOf(kSmall, {"mission.waypoints=[[1, 2], [3, 4]"}),
+  EXPECT_EQ(ErrorMessages(kSmall, {"mission.waypoints=[[1, 2], [3, 4]"}),
             "--set: mission.waypoints=[[1, 2], [3, 4]: '[' is not closed");
-  EXPECT_EQ(ErrorsOf(kSmall, {"name=c\xF6rner"}),
+  EXPECT_EQ(ErrorMessages(kSmall, {"name=c\xF6rner"}),
             "--set: name=c\xF6rner: byte 0xF6 is not valid UTF-8");
 }
 
@@ -254,19 +254,19 @@ TEST(ResolvedYaml, KeepsTheTimeLimitOfTrees) {
   EXPECT_EQ(once, ResolvedYaml(Parse(once)));
 }
 
-TEST(ResolvedYaml, KeepsManoeuvresAndWhatIsAskedOfThem) {
+TEST(ResolvedYaml, KeepsManeuversAndWhatIsAskedOfThem) {
   const std::string once = ResolvedYaml(
-      Parse(kSmall, {"vehicle.steering_rate=0.25", "manoeuvre={method: step_steer, steady: 0.5}",
-                     "expect.metrics=[{metric: manoeuvre.tb, min: 0.125, max: 2}, "
-                     "{metric: manoeuvre.passed, equals: true}]"}));
+      Parse(kSmall, {"vehicle.steering_rate=0.25", "maneuver={method: step_steer, steady: 0.5}",
+                     "expect.metrics=[{metric: maneuver.tb, min: 0.125, max: 2}, "
+                     "{metric: maneuver.passed, equals: true}]"}));
   const Scenario scenario = Parse(once);
   EXPECT_EQ(once, ResolvedYaml(scenario));
   EXPECT_EQ(scenario.vehicle.steering_rate, 0.25);
-  ASSERT_TRUE(scenario.manoeuvre.has_value());
-  EXPECT_EQ(std::get<StepSteerOptions>(*scenario.manoeuvre).steady, 0.5);
+  ASSERT_TRUE(scenario.maneuver.has_value());
+  EXPECT_EQ(std::get<StepSteerOptions>(*scenario.maneuver).steady, 0.5);
   const auto& metrics = scenario.expect.all.metrics;
   ASSERT_EQ(metrics.size(), 2U);
-  EXPECT_EQ(metrics[0].metric, "manoeuvre.tb");
+  EXPECT_EQ(metrics[0].metric, "maneuver.tb");
   EXPECT_EQ(metrics[0].min, 0.125);
   EXPECT_EQ(metrics[0].max, 2.0);
   EXPECT_FALSE(metrics[0].equals.has_value());
@@ -281,7 +281,7 @@ constexpr const char* kWorld = R"(world:
   ground:
     grade: {x: 0.05, y: -0.02}
     bumps: [{x: 15, y: 0, length: 4, width: 6, height: 0.08, edge: 0.4}]
-    side_slopes: [{x: 50, y: 0, yaw: 1.5, length: 40, width: 8, slope: -0.06, run_in: 12}]
+    side_slopes: [{x: 50, y: 0, yaw: 1.5, length: 40, width: 8, slope: -0.06, transition_length: 12}]
   wind:
     x: 1.5
     y: -2
@@ -306,7 +306,7 @@ void ExpectWorld(const World& world) {
   ASSERT_EQ(world.ground.side_slopes.size(), 1U);
   EXPECT_EQ(world.ground.side_slopes[0].area.center, (Pose2{50.0, 0.0, 1.5}));
   EXPECT_EQ(world.ground.side_slopes[0].slope, -0.06);
-  EXPECT_EQ(world.ground.side_slopes[0].run_in, 12.0);
+  EXPECT_EQ(world.ground.side_slopes[0].transition_length, 12.0);
   EXPECT_EQ(world.wind.velocity, Vec2(1.5, -2.0));
   ASSERT_EQ(world.wind.gusts.size(), 2U);
   EXPECT_EQ(world.wind.gusts[0].velocity, Vec2(0.0, 12.0));
@@ -353,7 +353,7 @@ TEST(ReadExpectations, ReadsThatSectionAlone) {
   EXPECT_THROW(ReadExpectations(folder.Write("c.yaml", "expect: {reach: 1}\n")), InputError);
 }
 
-TEST(ResolvedYaml, KeepsManoeuvres) {
+TEST(ResolvedYaml, KeepsManeuvers) {
   const std::string once = ResolvedYaml(
       Parse("schema: 1\nname: x\nmission: {duration: 5}\n"
             "control: {method: step, amplitude: 0.1, rate: 0.4, speed: {over_time: [[0, 20], [2, "
@@ -417,10 +417,10 @@ TEST(ParseScenario, AsksForMetricsThatARunCanHave) {
   EXPECT_EQ(told("time"), "none");
   EXPECT_EQ(told("turns[1].at"), "none");
   EXPECT_EQ(told("tine"),
-            "s.yaml:6:31: expect.mujoco.metrics[0].metric: no run can have 'tine'; did you mean "
+            "s.yaml:6:31: expect.mujoco.metrics[0].metric: unknown metric 'tine'; did you mean "
             "'time'?");
   EXPECT_EQ(told("distance"),
-            "s.yaml:6:31: expect.mujoco.metrics[0].metric: no run can have 'distance'; allowed: "
+            "s.yaml:6:31: expect.mujoco.metrics[0].metric: unknown metric 'distance'; allowed: "
             "time, turns[0].at");
 }
 
@@ -428,7 +428,7 @@ class ScenarioFiles : public testing::TestWithParam<std::filesystem::path> {};
 
 std::vector<std::filesystem::path> AllScenarioFiles() {
   std::vector<std::filesystem::path> files;
-  for (const char* folder : {"/scenarios", "/scenarios/manoeuvres"}) {
+  for (const char* folder : {"/scenarios", "/scenarios/maneuvers"}) {
     for (const auto& entry :
          std::filesystem::directory_iterator(std::string(TRACKBED_SOURCE_DIR) + folder)) {
       if (entry.path().extension() == ".yaml") {

@@ -29,7 +29,7 @@ TEST(StartState, IsWherePathsAlongTheRouteBegin) {
                                               random.Uniform(-90.0, 90.0));
     }
     SCOPED_TRACE(fmt::format("route {}", i));
-    const Pose2 start = StartOf(scenario).pose;
+    const Pose2 start = InitialState(scenario).pose;
     const FilletPlan fillets =
         PlanFillets(ReferenceCar(), scenario.mission.waypoints, 3.0, options);
     const RoundedCorners rounded =
@@ -67,7 +67,7 @@ TEST(StartState, HasTheSpeedThatReplacesTheMissions) {
     SCOPED_TRACE(keys);
     const std::string yaml = std::string("schema: 1\nname: x\n") + keys + "\n";
     if (speed) {
-      EXPECT_EQ(StartOf(ParseScenario(yaml, "x.yaml", folder.path())).speed, *speed);
+      EXPECT_EQ(InitialState(ParseScenario(yaml, "x.yaml", folder.path())).speed, *speed);
     } else {
       EXPECT_THROW(ParseScenario(yaml, "x.yaml", folder.path()), InputError);
     }

@@ -33,8 +33,8 @@ class StudyFiles : public testing::Test {
   }
 
   /// What a user is told of a study and its points, without the folder.
-  [[nodiscard]] std::string ErrorsOf(const std::string& keys,
-                                     const std::vector<Override>& overrides = {}) const {
+  [[nodiscard]] std::string ErrorMessages(const std::string& keys,
+                                          const std::vector<Override>& overrides = {}) const {
     return ErrorsOfText(kHead + keys, overrides);
   }
 
@@ -71,14 +71,14 @@ std::vector<std::string> Written(const std::vector<std::vector<Setting>>& grid) 
 using Grid = StudyFiles;
 
 TEST_F(Grid, IsEveryCombinationWithTheLastKeyFastest) {
-  EXPECT_THAT(Written(GridOf(Read("vary: {mission.speed: [3, 2.5], seed: [1, 2, 7]}\n"))),
+  EXPECT_THAT(Written(ExpandGrid(Read("vary: {mission.speed: [3, 2.5], seed: [1, 2, 7]}\n"))),
               testing::ElementsAre("mission.speed=3 seed=1", "mission.speed=3 seed=2",
                                    "mission.speed=3 seed=7", "mission.speed=2.5 seed=1",
                                    "mission.speed=2.5 seed=2", "mission.speed=2.5 seed=7"));
 }
 
 TEST_F(Grid, TakesPointsOfAListAtEachOfItsOwn) {
-  EXPECT_THAT(Written(GridOf(Read(R"(vary: {mission.speed: [3, 2]}
+  EXPECT_THAT(Written(ExpandGrid(Read(R"(vary: {mission.speed: [3, 2]}
 list:
   - {control.method: preview, control.distance: 4}
   - {control.method: schedule}
@@ -87,29 +87,29 @@ list:
                                    "mission.speed=3 control.method=schedule",
                                    "mission.speed=2 control.method=preview control.distance=4",
                                    "mission.speed=2 control.method=schedule"));
-  EXPECT_THAT(Written(GridOf(Read("list: [{seed: 4}, {seed: 3}]\n"))),
+  EXPECT_THAT(Written(ExpandGrid(Read("list: [{seed: 4}, {seed: 3}]\n"))),
               testing::ElementsAre("seed=4", "seed=3"));
 }
 
 TEST_F(Grid, IsOnePointWhereNothingVaries) {
-  EXPECT_THAT(Written(GridOf(Read("repeat: 5\n"))), testing::ElementsAre(""));
+  EXPECT_THAT(Written(ExpandGrid(Read("repeat: 5\n"))), testing::ElementsAre(""));
 }
 
 TEST_F(Grid, DividesARangeEvenlyAndEndsOnItsEnds) {
-  EXPECT_THAT(Written(GridOf(Read("vary: {world.friction: {from: 0.2, to: 1.0, steps: 5}}\n"))),
+  EXPECT_THAT(Written(ExpandGrid(Read("vary: {world.friction: {from: 0.2, to: 1.0, steps: 5}}\n"))),
               testing::ElementsAre("world.friction=0.2", "world.friction=0.4", "world.friction=0.6",
                                    "world.friction=0.8", "world.friction=1"));
-  EXPECT_THAT(Written(GridOf(Read("vary: {mission.speed: {from: 0.1, to: 0.3, steps: 3}}\n"))),
+  EXPECT_THAT(Written(ExpandGrid(Read("vary: {mission.speed: {from: 0.1, to: 0.3, steps: 3}}\n"))),
               testing::ElementsAre("mission.speed=0.1", "mission.speed=0.2", "mission.speed=0.3"));
-  EXPECT_THAT(
-      Written(GridOf(Read("vary: {control.distance: {from: 0.1, to: 100, steps: 4, scale: log}}"))),
-      testing::ElementsAre("control.distance=0.1", "control.distance=1", "control.distance=10",
-                           "control.distance=100"));
+  EXPECT_THAT(Written(ExpandGrid(
+                  Read("vary: {control.distance: {from: 0.1, to: 100, steps: 4, scale: log}}"))),
+              testing::ElementsAre("control.distance=0.1", "control.distance=1",
+                                   "control.distance=10", "control.distance=100"));
 }
 
 TEST_F(Grid, KeepsValuesAsTheyWereWritten) {
   EXPECT_THAT(
-      Written(GridOf(Read(R"(vary:
+      Written(ExpandGrid(Read(R"(vary:
   drive.plants: [[kinematic], [kinematic, "mujoco"]]
   mission.start: [{x: 1, yaw: -0.5}]
   vehicle.model: [prius, 'pri: us', "2"]
@@ -141,9 +141,9 @@ TEST_F(Points, TakeWhatTheCommandLineSetsInPlaceOfTheStudysOwn) {
   const auto points = ReadPoints(
       Read("set: {mission.speed: 2}\nvary: {control.distance: [3]}\n", {"mission.speed=1.5"}));
   EXPECT_EQ(points[0].scenario.mission.speed, 1.5);
-  EXPECT_EQ(ErrorsOf("set: {mission.speed: 2}\nrepeat: 2\n", {"mission.speed=-1"}),
+  EXPECT_EQ(ErrorMessages("set: {mission.speed: 2}\nrepeat: 2\n", {"mission.speed=-1"}),
             "--set: mission.speed: -1 is out of range; must be at least 0.1 and at most 100");
-  EXPECT_EQ(ErrorsOf("vary: {control.distance: [3]}\n", {"control.distance=2"}),
+  EXPECT_EQ(ErrorMessages("vary: {control.distance: [3]}\n", {"control.distance=2"}),
             "--set: control.distance: the study varies control.distance (study.yaml:4)");
 }
 
@@ -151,7 +151,7 @@ TEST_F(Points, HaveTheBisectedKeyWhereItIsAsked) {
   const Study study =
       Read("bisect: {key: mission.speed, from: 1, to: 4, tolerance: 0.1}\nvary: {seed: [3]}\n");
   EXPECT_EQ(ReadPoints(study)[0].scenario.mission.speed, 1.0);
-  const Scenario scenario = ReadPoint(study, GridOf(study)[0], 2.25);
+  const Scenario scenario = ReadPoint(study, ExpandGrid(study)[0], 2.25);
   EXPECT_EQ(scenario.mission.speed, 2.25);
   EXPECT_EQ(scenario.seed, 3U);
 }
@@ -205,31 +205,31 @@ study.yaml:15:35: outputs[2]: 'verdict.passed' is listed twice)");
 }
 
 TEST_F(Studies, RefuseGridsAndBisectionsTheWrongWayRound) {
-  EXPECT_EQ(ErrorsOf("vary: {mission.speed: {from: 3, to: 2, steps: 2}}\n"),
+  EXPECT_EQ(ErrorMessages("vary: {mission.speed: {from: 3, to: 2, steps: 2}}\n"),
             "study.yaml:4:30: vary.mission.speed.from: 3 must be below to: 2");
-  EXPECT_EQ(ErrorsOf("vary: {mission.speed: {from: 0, to: 2, steps: 2, scale: log}}\n"),
+  EXPECT_EQ(ErrorMessages("vary: {mission.speed: {from: 0, to: 2, steps: 2, scale: log}}\n"),
             "study.yaml:4:30: vary.mission.speed.from: must be above 0 for a geometric scale");
-  EXPECT_EQ(ErrorsOf("bisect: {key: mission.speed, from: 2, to: 2, tolerance: 0.1}\n"),
+  EXPECT_EQ(ErrorMessages("bisect: {key: mission.speed, from: 2, to: 2, tolerance: 0.1}\n"),
             "study.yaml:4:36: bisect.from: 2 must be below to: 2");
-  EXPECT_EQ(ErrorsOf("bisect: {key: mission.speed, from: 1, to: 2, tolerance: 0}\n"),
+  EXPECT_EQ(ErrorMessages("bisect: {key: mission.speed, from: 1, to: 2, tolerance: 0}\n"),
             "study.yaml:4:57: bisect.tolerance: 0 is out of range; must be above 0");
 }
 
 TEST_F(Studies, RefuseToVaryNothingOrTooMuch) {
-  EXPECT_EQ(ErrorsOf(""),
+  EXPECT_EQ(ErrorMessages(""),
             "study.yaml:1:1: vary: missing; a study needs vary, list, repeat or bisect");
-  EXPECT_EQ(ErrorsOf("vary: {}\n"),
+  EXPECT_EQ(ErrorMessages("vary: {}\n"),
             "study.yaml:4:7: vary: expected a section of scenario keys, found an empty one");
-  EXPECT_EQ(ErrorsOf("vary:\nset: {seed: 1}\n"),
+  EXPECT_EQ(ErrorMessages("vary:\nset: {seed: 1}\n"),
             "study.yaml:4:1: vary: expected a section, found nothing");
-  EXPECT_EQ(ErrorsOf("list: []\n"),
+  EXPECT_EQ(ErrorMessages("list: []\n"),
             "study.yaml:4:7: list: expected a list of points, found an empty one");
-  EXPECT_EQ(ErrorsOf("vary: {control.distance: {from: 1, to: 2, steps: 1001}}\nrepeat: 100\n"),
+  EXPECT_EQ(ErrorMessages("vary: {control.distance: {from: 1, to: 2, steps: 1001}}\nrepeat: 100\n"),
             "study.yaml:1:1: vary: 100100 runs; at most 100000");
 }
 
 TEST_F(Studies, RefuseToSetWhatIsThenReplaced) {
-  EXPECT_EQ(ErrorsOf(R"(set: {mission.speed: 3}
+  EXPECT_EQ(ErrorMessages(R"(set: {mission.speed: 3}
 vary: {control.distance: [2, 3]}
 list: [{mission.speed: 2}, {control: {method: schedule}}, {world.friction: 0.5}]
 bisect: {key: world.friction, from: 0.1, to: 1, tolerance: 0.1}
@@ -237,16 +237,16 @@ bisect: {key: world.friction, from: 0.1, to: 1, tolerance: 0.1}
             "study.yaml:6:24: mission.speed: overwrites mission.speed, set in line "
             "4\nstudy.yaml:6:38: control: overwrites control.distance, set in line "
             "5\nstudy.yaml:7:9: world.friction: overwrites world.friction, set in line 6");
-  EXPECT_EQ(ErrorsOf("vary: {seed: [1, 2]}\nrepeat: 3\n"),
+  EXPECT_EQ(ErrorMessages("vary: {seed: [1, 2]}\nrepeat: 3\n"),
             "study.yaml:4:15: seed: cannot be varied together with repeat, which sets the seed");
   // What is set for all runs is where repeat begins, and a section may be refined.
-  EXPECT_EQ(ErrorsOf("set: {seed: 5, control: {method: preview}}\nrepeat: 3\n"
-                     "vary: {control.distance: [2]}\n"),
+  EXPECT_EQ(ErrorMessages("set: {seed: 5, control: {method: preview}}\nrepeat: 3\n"
+                          "vary: {control.distance: [2]}\n"),
             "no error");
 }
 
 TEST_F(Studies, TellOfEveryPointsProblemsBeforeAnythingIsDriven) {
-  EXPECT_EQ(ErrorsOf(R"(set: {render.camera: chas}
+  EXPECT_EQ(ErrorMessages(R"(set: {render.camera: chas}
 vary:
   mission.sped: [1, 2]
   mission.speed: [3, -1, fast]
@@ -254,7 +254,7 @@ vary:
   mission.waypoints[7]: [[1, 2]]
 )"),
             "study.yaml:9:26: mission.waypoints[7]: element [7] does not exist");
-  EXPECT_EQ(ErrorsOf(R"(set: {render.camera: chas}
+  EXPECT_EQ(ErrorMessages(R"(set: {render.camera: chas}
 vary:
   mission.sped: [1, 2]
   mission.speed: [3, -1, fast]
@@ -271,17 +271,17 @@ vary:
 
 TEST_F(Studies, TellOfTheirScenariosOwnProblemsOnce) {
   folder_.Write("small.yaml", std::string(kScenario) + "extra: 1\n");
-  EXPECT_EQ(ErrorsOf("vary: {mission.speed: [1, 2]}\n"),
+  EXPECT_EQ(ErrorMessages("vary: {mission.speed: [1, 2]}\n"),
             "small.yaml:8:1: extra: unknown key 'extra'; allowed: schema, name, seed, vehicle, "
-            "mission, world, plan, control, manoeuvre, drive, disturb, expect, render");
+            "mission, world, plan, control, maneuver, drive, disturb, expect, render");
 }
 
 TEST_F(Studies, TryBisectionsAtBothEndsAndBetween) {
-  EXPECT_EQ(ErrorsOf("bisect: {key: mission.speed, from: 1, to: 400, tolerance: 0.1}\n"),
+  EXPECT_EQ(ErrorMessages("bisect: {key: mission.speed, from: 1, to: 400, tolerance: 0.1}\n"),
             "study.yaml:4:9: mission.speed: 400 is out of range; must be at least 0.1 and at most "
             "100");
   // A whole number cannot be halved.
-  EXPECT_EQ(ErrorsOf("bisect: {key: seed, from: 0, to: 8, tolerance: 1}\n"),
+  EXPECT_EQ(ErrorMessages("bisect: {key: seed, from: 0, to: 8, tolerance: 1}\n"),
             "study.yaml:4:9: seed: expected a whole number from 0 to 18446744073709551615, found "
             "'3.055728090000841'");
 }

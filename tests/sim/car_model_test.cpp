@@ -129,7 +129,7 @@ TEST(CarModel, RollingSpeedsAreRigidBodyMotion) {
   EXPECT_NEAR(speeds[3], yaw_rate * (radius + 0.5 * p.track_rear), Tolerance(1e-12));
 }
 
-std::string MessageOf(const std::string& xml) {
+std::string ErrorMessage(const std::string& xml) {
   try {
     const CarModel car({.xml = xml, .assets = {}}, "car.xml");
   } catch (const InputError& error) {
@@ -147,19 +147,19 @@ std::string PriusWith(const std::string& from, const std::string& to) {
 }
 
 TEST(CarModel, SaysWhatAModelLacks) {
-  EXPECT_EQ(MessageOf(PriusWith("<site name=\"outline\"", "<site name=\"shape\"")),
-            "car.xml: outline: the model has no box site of this name");
-  const std::string bare = MessageOf("<mujoco/>");
+  EXPECT_EQ(ErrorMessage(PriusWith("<site name=\"footprint\"", "<site name=\"shape\"")),
+            "car.xml: footprint: the model has no box site of this name");
+  const std::string bare = ErrorMessage("<mujoco/>");
   for (const char* name : {"chassis", "rack", "ground", "tyre_fl", "spin_rr", "steer_fr", "steer",
-                           "drive", "brake_torque_front", "outline", "steering_ratio"}) {
+                           "drive", "brake_torque_front", "footprint", "steering_ratio"}) {
     EXPECT_THAT(bare, testing::HasSubstr(std::string("car.xml: ") + name + ": "));
   }
 }
 
 TEST(CarModel, TellsWhatDoesNotCompileInOneLine) {
-  EXPECT_EQ(MessageOf("<mujoco><worldbody><body/><oops/></worldbody></mujoco>"),
+  EXPECT_EQ(ErrorMessage("<mujoco><worldbody><body/><oops/></worldbody></mujoco>"),
             "car.xml: does not compile: unrecognized element (<oops>)");
-  EXPECT_EQ(MessageOf("<mujoco><worldbody><body name='a'><joint/></body></worldbody></mujoco>"),
+  EXPECT_EQ(ErrorMessage("<mujoco><worldbody><body name='a'><joint/></body></worldbody></mujoco>"),
             "car.xml: does not compile: mass and inertia of moving bodies must be larger than "
             "mjMINVAL ('a')");
   const TempFolder folder;
@@ -176,32 +176,33 @@ TEST(CarModel, TellsWhatDoesNotCompileInOneLine) {
 }
 
 TEST(CarModel, RefusesSteeringWithoutLimits) {
-  EXPECT_THAT(MessageOf(PriusWith("kp=\"200000\" ctrllimited=\"true\"",
-                                  "kp=\"200000\" ctrllimited=\"false\"")),
+  EXPECT_THAT(ErrorMessage(PriusWith("kp=\"200000\" ctrllimited=\"true\"",
+                                     "kp=\"200000\" ctrllimited=\"false\"")),
               testing::HasSubstr("car.xml: steer: must be an <intvelocity>"));
 }
 
 TEST(CarModel, RefusesARackThatStopsBeforeTheSteering) {
-  EXPECT_EQ(MessageOf(PriusWith("<joint name=\"rack\" type=\"hinge\"",
-                                "<joint name=\"rack\" type=\"hinge\" limited=\"true\" "
-                                "range=\"-0.4 0.4\"")),
+  EXPECT_EQ(ErrorMessage(PriusWith("<joint name=\"rack\" type=\"hinge\"",
+                                   "<joint name=\"rack\" type=\"hinge\" limited=\"true\" "
+                                   "range=\"-0.4 0.4\"")),
             "car.xml: rack: range -0.4 to 0.4 rad does not cover the -0.4869 to 0.4869 rad of the "
             "steering; without <compiler angle=\"radian\"/> ranges are in degrees");
 }
 
-TEST(CarModel, RefusesAnOutlineThatIsNotTheChassis) {
-  std::string xml = PriusWith("<site name=\"outline\"", "<site name=\"shape\"");
+TEST(CarModel, RefusesAFootprintThatIsNotTheChassis) {
+  std::string xml = PriusWith("<site name=\"footprint\"", "<site name=\"shape\"");
   const std::string rack = "<body name=\"rack\"";
   const std::size_t inside = xml.find('>', xml.find(rack)) + 1;
-  xml.insert(inside, "<site name=\"outline\" type=\"box\" size=\"2 1 1\"/>");
-  EXPECT_EQ(MessageOf(xml),
-            "car.xml: outline: must be a site of the body 'chassis'; it is on 'rack'");
+  xml.insert(inside, "<site name=\"footprint\" type=\"box\" size=\"2 1 1\"/>");
+  EXPECT_EQ(ErrorMessage(xml),
+            "car.xml: footprint: must be a site of the body 'chassis'; it is on 'rack'");
 }
 
 TEST(CarModel, RefusesAFrameThatIsNotUnderTheRearAxle) {
   std::string xml =
       PriusWith("<body name=\"knuckle_rl\" pos=\"0 ", "<body name=\"knuckle_rl\" pos=\"0.5 ");
-  EXPECT_THAT(MessageOf(xml), testing::HasSubstr("car.xml: chassis: the body's origin must lie"));
+  EXPECT_THAT(ErrorMessage(xml),
+              testing::HasSubstr("car.xml: chassis: the body origin must be under the rear axle"));
 }
 
 // --- Limits on a flat road
@@ -339,7 +340,7 @@ TEST(VehicleLimits, TopSpeedIsWhereDragTakesAll) {
 }
 
 TEST(VehicleLimits, OfDifferentialDriveAreThoseOfItsMotorsAndOfTheDrivenAxle) {
-  const VehicleParams params = Load("skid").params();
+  const VehicleParams params = Load("diff_drive").params();
   // 80 kg, two wheels with 0.26 kg m^2; 30 N m a motor, 0.3 N m in the bearings.
   const double rolling_mass = 80.0 + 2.0 * 0.26 / (0.165 * 0.165);
   const double force = 60.0 / 0.165;
@@ -350,7 +351,7 @@ TEST(VehicleLimits, OfDifferentialDriveAreThoseOfItsMotorsAndOfTheDrivenAxle) {
   EXPECT_EQ(params.friction_lateral, 0.8);
   // With half the grip the tyres slide first: m a = mu m (g 0.44 - a 0.26)/0.62, the caster 0.62 m
   // ahead gaining what they lose.
-  std::string xml = ReadFile(FindModel("skid", ""));
+  std::string xml = ReadFile(FindModel("diff_drive", ""));
   const std::string friction = "friction=\"0.8 ";
   xml.replace(xml.find(friction), friction.size(), "friction=\"0.4 ");
   const CarModel slippery({.xml = xml, .assets = {}}, "car.xml");

@@ -127,7 +127,7 @@ class CommonRoad : public testing::TestWithParam<std::tuple<Kind, bool>> {
   static Numerics numerics() { return std::get<1>(GetParam()) ? Numerics{} : kStillAir; }
 };
 
-std::string NameOf(const testing::TestParamInfo<std::tuple<Kind, bool>>& given) {
+std::string CaseName(const testing::TestParamInfo<std::tuple<Kind, bool>>& given) {
   const std::string kind =
       std::get<0>(given.param) == Kind::kPublished ? "Published" : "Consistent";
   return kind + (std::get<1>(given.param) ? "WithAerodynamics" : "");
@@ -136,9 +136,9 @@ std::string NameOf(const testing::TestParamInfo<std::tuple<Kind, bool>>& given) 
 INSTANTIATE_TEST_SUITE_P(References, CommonRoad,
                          testing::Combine(testing::Values(Kind::kPublished, Kind::kConsistent),
                                           testing::Bool()),
-                         NameOf);
+                         CaseName);
 
-TEST_P(CommonRoad, SteeringManoeuvres) {
+TEST_P(CommonRoad, SteeringManeuvers) {
   for (const char* name : {"step_steer_bmw320i_20mps", "lane_change_bmw320i_15mps"}) {
     const Deviation found = Compare(kind(), name, numerics());
     EXPECT_LE(found.yaw_rate, Tolerance(0.03)) << name;

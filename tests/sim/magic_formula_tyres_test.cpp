@@ -42,7 +42,7 @@ TEST(MagicFormulaTyres, NeedCoefficients) {
     FAIL() << "a car without tyres was driven";
   } catch (const InputError& error) {
     EXPECT_THAT(error.problems().front().message,
-                testing::HasSubstr("the car prius has no tyre coefficients"));
+                testing::HasSubstr("the model prius has no tyre coefficients"));
   }
 }
 
@@ -168,7 +168,7 @@ TEST(MagicFormulaTyres, LockedWheelsSlideAsTheLawSays) {
       });
   EXPECT_LE(slip, 5e-3);  // locked, but for what the brakes give
   const double sliding =
-      -ForceOf(car.parts().tyres->axle[0], 1.0, 1.0, {.ratio = -1.0}).longitudinal;
+      -EvaluateTyreForce(car.parts().tyres->axle[0], 1.0, 1.0, {.ratio = -1.0}).longitudinal;
   const double distance = 0.5 * 20.0 * 20.0 / (sliding * kGravity);
   EXPECT_NEAR(state.pose.x / distance, 1.0, Tolerance(0.05));
 }

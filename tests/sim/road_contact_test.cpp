@@ -33,7 +33,7 @@ class Rolling {
     mj_step(m.get(), d.get());
   }
 
-  [[nodiscard]] int ContactsOf(std::size_t wheel) const {
+  [[nodiscard]] int CountContacts(std::size_t wheel) const {
     int count = 0;
     for (int i = 0; i < d->ncon; ++i) {
       const int tyre = car_.parts().tyre[wheel];
@@ -87,7 +87,7 @@ TEST(RoadContact, WheelsFollowTheClosedFormOverABump) {
   while (rolling.d->qpos[car.parts().chassis_qpos] < 18.0) {
     rolling.Step();
     for (std::size_t w = 0; w < 4; ++w) {
-      EXPECT_EQ(rolling.ContactsOf(w), 1);
+      EXPECT_EQ(rolling.CountContacts(w), 1);
       // Hubs of the last step's beginning: where its contacts were found.
       const mjtNum* hub = rolling.d->geom_xpos + 3 * car.parts().tyre[w];
       const double above = hub[2] - HubHeight(kHump, hub[0], hub[1], 0.31075);
@@ -188,7 +188,8 @@ TEST(RoadContact, TyresStillTouchObstacles) {
 TEST(RoadContact, ASideSlopeRollsTheCar) {
   // The car stands in the middle of a wide stretch that rises to its left.
   const Ground ground{
-      .side_slopes = {{.area = {{0.0, 0.0, 0.0}, 80.0, 10.0}, .slope = 0.08, .run_in = 10.0}}};
+      .side_slopes = {
+          {.area = {{0.0, 0.0, 0.0}, 80.0, 10.0}, .slope = 0.08, .transition_length = 10.0}}};
   const CarModel car = PriusOn({.ground = ground});
   Rolling rolling(car, 0.0);
   for (const int spin : car.parts().spin_dof) {

@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-std::string MessageOf(const std::filesystem::path& file) {
+std::string ErrorMessage(const std::filesystem::path& file) {
   try {
     ComposeScene(file, {});
   } catch (const InputError& error) {
@@ -91,17 +91,17 @@ TEST(ComposeScene, TakesAssetsAlong) {
 TEST(ComposeScene, NamesFileAndLineOfWhatIsWrong) {
   const TempFolder folder;
   const std::string at = folder.path().string();
-  EXPECT_EQ(MessageOf(folder.path() / "none.xml"), at + "/none.xml: no such file");
-  EXPECT_EQ(MessageOf(folder.Write("a.xml", "<mujoco>\n<body>\n</mujoco>")),
+  EXPECT_EQ(ErrorMessage(folder.path() / "none.xml"), at + "/none.xml: no such file");
+  EXPECT_EQ(ErrorMessage(folder.Write("a.xml", "<mujoco>\n<body>\n</mujoco>")),
             at + "/a.xml:2: not XML: element not closed, or closed by another name");
-  EXPECT_EQ(MessageOf(folder.Write("b.xml", "\n<robot/>")),
+  EXPECT_EQ(ErrorMessage(folder.Write("b.xml", "\n<robot/>")),
             at + "/b.xml:2: root element is <robot>; must be <mujoco>");
-  EXPECT_EQ(MessageOf(folder.Write("c.xml", "<mujoco>\n<include/></mujoco>")),
+  EXPECT_EQ(ErrorMessage(folder.Write("c.xml", "<mujoco>\n<include/></mujoco>")),
             at + "/c.xml:2: <include> without a file");
-  EXPECT_EQ(MessageOf(folder.Write("d.xml", "<mujoco>\n<include file='d.xml'/></mujoco>")),
+  EXPECT_EQ(ErrorMessage(folder.Write("d.xml", "<mujoco>\n<include file='d.xml'/></mujoco>")),
             at + "/d.xml:2: d.xml is included twice");
   EXPECT_EQ(
-      MessageOf(folder.Write("e.xml", "<mujoco><asset>\n<mesh file='x.stl'/></asset></mujoco>")),
+      ErrorMessage(folder.Write("e.xml", "<mujoco><asset>\n<mesh file='x.stl'/></asset></mujoco>")),
       at + "/e.xml:2: <mesh> refers to " + at + "/x.stl, which does not exist");
 }
 
@@ -109,7 +109,7 @@ TEST(ComposeScene, SaysInPlainWordsWhatIsNoXml) {
   const TempFolder folder;
   const auto message = [&](const std::string& xml) {
     const std::string file = folder.Write("a.xml", xml).string();
-    return MessageOf(file).substr(file.size());
+    return ErrorMessage(file).substr(file.size());
   };
   EXPECT_EQ(message(""), ": the file is empty; expected a <mujoco> element");
   EXPECT_EQ(message("speed: 3\n"), ":1: not XML: text without a following element");

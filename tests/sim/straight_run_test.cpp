@@ -189,7 +189,7 @@ TEST(Acceleration, IsThatOfTheCenterOfGravityAtItsHeight) {
     const VehicleState state = plant->Observe();
     if (i > 50) {
       const Vec2 acceleration = (next - 2.0 * now + before).head<2>() / (kStep * kStep);
-      const double lateral = LeftOf(Direction(pose.yaw)).dot(acceleration);
+      const double lateral = LeftNormal(Direction(pose.yaw)).dot(acceleration);
       largest = std::max(largest, std::abs(lateral));
       // The log's is of the step that led here; a second difference is of its middle, and the body
       // turns by up to 0.5 rad/s 2 ms meanwhile: 1e-3 of 8 m/s^2, and as much of what changes over

@@ -15,9 +15,9 @@
 namespace trackbed {
 namespace {
 
-const CarModel& Skid() {
-  static const CarModel skid(ComposeScene(FindModel("skid", ""), {}), "skid");
-  return skid;
+const CarModel& DiffDrive() {
+  static const CarModel diff_drive(ComposeScene(FindModel("diff_drive", ""), {}), "diff_drive");
+  return diff_drive;
 }
 
 const World& Calm() {
@@ -27,7 +27,7 @@ const World& Calm() {
 
 /// Holds speed and steering for `duration` [s].
 VehicleState Hold(Plant& plant, double steering, double speed, double duration,
-                  const CarModel& car = Skid()) {
+                  const CarModel& car = DiffDrive()) {
   return Drive(
       car, plant, duration,
       [&](double, const VehicleState& state) {
@@ -37,39 +37,40 @@ VehicleState Hold(Plant& plant, double steering, double speed, double duration,
 }
 
 std::unique_ptr<Plant> Mujoco(const StartState& start, const World& world = Calm(),
-                              const CarModel& car = Skid()) {
+                              const CarModel& car = DiffDrive()) {
   return MakePlant("mujoco", {.car = car, .world = world, .start = start});
 }
 
 // --- The model -----------------------------------------------------------------------------------
 
-TEST(Skid, IsReadFromItsFile) {
-  const VehicleParams& params = Skid().params();
-  EXPECT_EQ(params.name, "skid");
+TEST(DiffDrive, IsReadFromItsFile) {
+  const VehicleParams& params = DiffDrive().params();
+  EXPECT_EQ(params.name, "diff_drive");
   EXPECT_EQ(params.kind, VehicleKind::kDifferential);
   const double rounding = Tolerance(1e-12);
   EXPECT_NEAR(params.wheelbase, 0.6, rounding);
   EXPECT_NEAR(params.track_rear, 0.6, rounding);
   EXPECT_NEAR(params.cg_to_rear, 0.18, rounding);
-  EXPECT_NEAR(Skid().chassis().cg_height, 0.26, rounding);
+  EXPECT_NEAR(DiffDrive().chassis().cg_height, 0.26, rounding);
   EXPECT_NEAR(params.mass, 80.0, rounding);
   EXPECT_NEAR(params.min_turning_radius(), 0.4, rounding);
   EXPECT_EQ(params.steering_rate, 1.0);
   EXPECT_EQ(params.wheel_radius, 0.165);
   EXPECT_NEAR(params.rear_overhang, 0.28, rounding);
-  EXPECT_EQ(Skid().wheel_pair().wheel_speed, 22.0);
-  EXPECT_EQ(Skid().wheel_pair().servo_slack, 30.0 / 60.0);
+  EXPECT_EQ(DiffDrive().wheel_pair().wheel_speed, 22.0);
+  EXPECT_EQ(DiffDrive().wheel_pair().servo_slack, 30.0 / 60.0);
 }
 
-TEST(Skid, TakesTheRunsSteeringRate) {
-  const CarModel slower(ComposeScene(FindModel("skid", ""), {.steering_rate = 0.3}), "skid");
+TEST(DiffDrive, TakesTheRunsSteeringRate) {
+  const CarModel slower(ComposeScene(FindModel("diff_drive", ""), {.steering_rate = 0.3}),
+                        "diff_drive");
   EXPECT_EQ(slower.params().steering_rate, 0.3);
 }
 
-TEST(Skid, OpensAndDrivesInMujocoAlone) {
+TEST(DiffDrive, OpensAndDrivesInMujocoAlone) {
   std::array<char, 500> message{};
   const MujocoModel m(
-      mj_loadXML(FindModel("skid", "").c_str(), nullptr, message.data(), message.size()));
+      mj_loadXML(FindModel("diff_drive", "").c_str(), nullptr, message.data(), message.size()));
   ASSERT_NE(m, nullptr) << message.data();
   const MujocoData d = MakeMujocoData(*m);
   d->ctrl[mj_name2id(m.get(), mjOBJ_ACTUATOR, "drive_left")] = 4.0;
@@ -81,18 +82,18 @@ TEST(Skid, OpensAndDrivesInMujocoAlone) {
   EXPECT_GT(d->qpos[1], 0.0);  // and to the left
 }
 
-TEST(Skid, PosesOnTheScenesGround) {
-  const auto columns = Skid().configuration_columns();
+TEST(DiffDrive, PosesOnTheScenesGround) {
+  const auto columns = DiffDrive().configuration_columns();
   EXPECT_THAT(columns, testing::ElementsAre("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz",
                                             "spin_left_rad", "spin_right_rad"));
   EXPECT_THAT(
-      Skid().FlatConfiguration({1.0, 2.0, 0.5}, 0.2, {0.1, 0.3}),
+      DiffDrive().FlatConfiguration({1.0, 2.0, 0.5}, 0.2, {0.1, 0.3}),
       testing::ElementsAre(1.0, 2.0, 0.0, std::cos(0.25), 0.0, 0.0, std::sin(0.25), 0.1, 0.3));
 }
 
-std::string MessageOf(const std::string& xml) {
+std::string ErrorMessage(const std::string& xml) {
   try {
-    const CarModel car({.xml = xml, .assets = {}}, "skid.xml");
+    const CarModel car({.xml = xml, .assets = {}}, "diff_drive.xml");
   } catch (const InputError& error) {
     return error.what();
   }
@@ -101,21 +102,21 @@ std::string MessageOf(const std::string& xml) {
 
 /// The file with one piece of text replaced.
 std::string With(const std::string& from, const std::string& to) {
-  std::string xml = ReadFile(FindModel("skid", ""));
+  std::string xml = ReadFile(FindModel("diff_drive", ""));
   const std::size_t at = xml.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return xml.replace(at, from.size(), to);
 }
 
 TEST(WheelPair, SaysAllThatAModelLacks) {
-  const std::string one_drive = MessageOf(
+  const std::string one_drive = ErrorMessage(
       "<mujoco><worldbody><body name='chassis'><freejoint name='chassis'/><geom size='1'/>"
       "<body><joint name='spin_left' axis='0 1 0'/><geom size='1'/></body></body></worldbody>"
       "<actuator><velocity name='drive_left' joint='spin_left'/></actuator></mujoco>");
   for (const char* name :
-       {"ground", "tyre_left", "tyre_right", "spin_right", "drive_right", "outline",
+       {"ground", "tyre_left", "tyre_right", "spin_right", "drive_right", "footprint",
         "turning_radius", "steering_rate", "integral_time", "brake_torque"}) {
-    EXPECT_THAT(one_drive, testing::HasSubstr(std::string("skid.xml: ") + name + ": "));
+    EXPECT_THAT(one_drive, testing::HasSubstr(std::string("diff_drive.xml: ") + name + ": "));
   }
   for (const char* name : {"rack", "spin_left: ", "tyre_fl", "steering_ratio"}) {
     EXPECT_THAT(one_drive, testing::Not(testing::HasSubstr(name)));
@@ -123,40 +124,45 @@ TEST(WheelPair, SaysAllThatAModelLacks) {
 }
 
 TEST(WheelPair, RefusesARadiusOnWhichTheInnerWheelTurnsBackwards) {
-  EXPECT_EQ(MessageOf(With("name=\"turning_radius\" data=\"0.4\"",
-                           "name=\"turning_radius\" data=\"0.2\"")),
-            "skid.xml: turning_radius: must be at least half the track, 0.3 m, so that the inner "
-            "wheel does not reverse; found 0.2");
+  EXPECT_EQ(
+      ErrorMessage(
+          With("name=\"turning_radius\" data=\"0.4\"", "name=\"turning_radius\" data=\"0.2\"")),
+      "diff_drive.xml: turning_radius: must be at least half the track, 0.3 m, so that the inner "
+      "wheel does not reverse; found 0.2");
 }
 
 TEST(WheelPair, RefusesWhatIsNotASpeedServo) {
-  EXPECT_EQ(MessageOf(With("<velocity name=\"drive_left\" joint=\"spin_left\" kv=\"60\"",
-                           "<motor name=\"drive_left\" joint=\"spin_left\"")),
-            "skid.xml: drive_left: must be a <velocity> of gear 1 with ctrllimited and "
+  EXPECT_EQ(ErrorMessage(With("<velocity name=\"drive_left\" joint=\"spin_left\" kv=\"60\"",
+                              "<motor name=\"drive_left\" joint=\"spin_left\"")),
+            "diff_drive.xml: drive_left: must be a <velocity> of gear 1 with ctrllimited and "
             "forcelimited: ctrlrange is the maximum wheel speed, forcerange the maximum torque");
-  EXPECT_EQ(MessageOf(With("<velocity name=\"drive_left\" joint=\"spin_left\" kv=\"60\"",
-                           "<velocity name=\"drive_left\" joint=\"spin_left\" kv=\"50\"")),
-            "skid.xml: drive_right: kv, ctrlrange and forcerange must equal those of drive_left");
-  EXPECT_THAT(MessageOf(With("<velocity name=\"drive_left\" joint=\"spin_left\"",
-                             "<velocity name=\"drive_left\" joint=\"spin_right\"")),
-              testing::HasSubstr("skid.xml: drive_left: must act on the joint 'spin_left'"));
+  EXPECT_EQ(
+      ErrorMessage(With("<velocity name=\"drive_left\" joint=\"spin_left\" kv=\"60\"",
+                        "<velocity name=\"drive_left\" joint=\"spin_left\" kv=\"50\"")),
+      "diff_drive.xml: drive_right: kv, ctrlrange and forcerange must equal those of drive_left");
+  EXPECT_THAT(ErrorMessage(With("<velocity name=\"drive_left\" joint=\"spin_left\"",
+                                "<velocity name=\"drive_left\" joint=\"spin_right\"")),
+              testing::HasSubstr("diff_drive.xml: drive_left: must act on the joint 'spin_left'"));
 }
 
 TEST(WheelPair, RefusesAServoThatIsTooSoft) {
-  EXPECT_THAT(MessageOf(With("joint=\"spin_left\" kv=\"60\"", "joint=\"spin_left\" kv=\"1\"")),
-              testing::HasSubstr(
-                  "skid.xml: drive_left: kv 1 is too small: forcerange/kv, the speed error at "
-                  "maximum torque, is 30 rad/s; must be below the ctrlrange of 22 rad/s"));
+  EXPECT_THAT(
+      ErrorMessage(With("joint=\"spin_left\" kv=\"60\"", "joint=\"spin_left\" kv=\"1\"")),
+      testing::HasSubstr(
+          "diff_drive.xml: drive_left: kv 1 is too small: forcerange/kv, the speed error at "
+          "maximum torque, is 30 rad/s; must be below the ctrlrange of 22 rad/s"));
 }
 
 TEST(WheelPair, RefusesWheelsThatAreNotAboutTheOrigin) {
-  EXPECT_EQ(MessageOf(With("name=\"wheel_left\" pos=\"0 0.3 ", "name=\"wheel_left\" pos=\"0 0.4 ")),
-            "skid.xml: chassis: the driven wheels must be at equal distances left and right of y = "
-            "0; found y = 0.4 and -0.3 m");
+  EXPECT_EQ(
+      ErrorMessage(With("name=\"wheel_left\" pos=\"0 0.3 ", "name=\"wheel_left\" pos=\"0 0.4 ")),
+      "diff_drive.xml: chassis: the driven wheels must be at equal distances left and right of y = "
+      "0; found y = 0.4 and -0.3 m");
   EXPECT_THAT(
-      MessageOf(With("name=\"wheel_left\" pos=\"0 0.3 ", "name=\"wheel_left\" pos=\"0.2 0.3 ")),
-      testing::HasSubstr("skid.xml: chassis: the body origin must be under the axle of the driven "
-                         "wheels; they are 0.1 m ahead of it"));
+      ErrorMessage(With("name=\"wheel_left\" pos=\"0 0.3 ", "name=\"wheel_left\" pos=\"0.2 0.3 ")),
+      testing::HasSubstr(
+          "diff_drive.xml: chassis: the body origin must be under the axle of the driven "
+          "wheels; they are 0.1 m ahead of it"));
 }
 
 std::string MessageFrom(const std::function<void()>& call) {
@@ -170,31 +176,32 @@ std::string MessageFrom(const std::function<void()>& call) {
 
 TEST(WheelPair, SaysWhatItLacksForWhatIsACars) {
   const std::string needs = " needs steered front wheels";
-  const std::string skid = "skid: skid has differential drive; ";
-  EXPECT_EQ(
-      MessageFrom([] { MakePlant("single_track", {.car = Skid(), .world = Calm(), .start = {}}); }),
-      skid + "the plant single_track" + needs);
+  const std::string diff_drive = "diff_drive: diff_drive has differential drive; ";
   EXPECT_EQ(MessageFrom([] {
-              MakePlant("mujoco:magic_formula", {.car = Skid(), .world = Calm(), .start = {}});
+              MakePlant("single_track", {.car = DiffDrive(), .world = Calm(), .start = {}});
             }),
-            skid + "tyre: magic_formula" + needs);
-  EXPECT_EQ(
-      MessageFrom([] {
-        MakePlant(
-            "mujoco",
-            {.car = Skid(), .world = Calm(), .start = {}, .steering = SteeringInput::kPrescribed});
-      }),
-      skid + "drive.steering: prescribed on the plant mujoco" + needs);
-  EXPECT_EQ(MessageFrom([] { WithPayload(Skid(), {.mass = 10.0}); }),
-            skid + "disturb.payload" + needs);
+            diff_drive + "the plant single_track" + needs);
+  EXPECT_EQ(MessageFrom([] {
+              MakePlant("mujoco:magic_formula", {.car = DiffDrive(), .world = Calm(), .start = {}});
+            }),
+            diff_drive + "tyre: magic_formula" + needs);
+  EXPECT_EQ(MessageFrom([] {
+              MakePlant("mujoco", {.car = DiffDrive(),
+                                   .world = Calm(),
+                                   .start = {},
+                                   .steering = SteeringInput::kPrescribed});
+            }),
+            diff_drive + "drive.steering: prescribed on the plant mujoco" + needs);
+  EXPECT_EQ(MessageFrom([] { WithPayload(DiffDrive(), {.mass = 10.0}); }),
+            diff_drive + "disturb.payload" + needs);
 }
 
 // --- Driven --------------------------------------------------------------------------------------
 
 TEST(WheelPair, StartsAsAsked) {
   for (const char* name : {"kinematic", "mujoco"}) {
-    const auto plant =
-        MakePlant(name, {.car = Skid(), .world = Calm(), .start = {{3.0, -2.0, 1.0}, 2.0, 0.3}});
+    const auto plant = MakePlant(
+        name, {.car = DiffDrive(), .world = Calm(), .start = {{3.0, -2.0, 1.0}, 2.0, 0.3}});
     const VehicleState state = plant->Observe();
     EXPECT_NEAR(state.pose.x, 3.0, Tolerance(1e-12)) << name;
     EXPECT_NEAR(state.pose.yaw, 1.0, Tolerance(1e-12)) << name;
@@ -256,9 +263,9 @@ TEST(WheelPair, MirrorsWithTheSteering) {
 TEST(WheelPair, ChangesItsRatioWithinRateAndLimit) {
   const auto plant = Mujoco({.speed = 0.5});
   EXPECT_NEAR(Hold(*plant, 9.0, 0.5, 0.5).steering_actuator, 0.5, Tolerance(1e-12));
-  EXPECT_EQ(Hold(*plant, 9.0, 0.5, 1.0).steering_actuator, Skid().params().steering_limit);
+  EXPECT_EQ(Hold(*plant, 9.0, 0.5, 1.0).steering_actuator, DiffDrive().params().steering_limit);
   // The inner wheel still rolls forwards: at 1 - 0.3/0.4 of the speed.
-  EXPECT_NEAR(plant->Observe().steering, Skid().params().steering_limit, Tolerance(2e-3));
+  EXPECT_NEAR(plant->Observe().steering, DiffDrive().params().steering_limit, Tolerance(2e-3));
 }
 
 TEST(WheelPair, AtTheMotorsLargestSpeedSlowsDownAndKeepsItsCurve) {
@@ -274,7 +281,7 @@ TEST(WheelPair, SpeedsUpAndSlowsDownAsAsked) {
   const auto plant = Mujoco({.speed = 1.0});
   const auto drive = [&](double acceleration, double duration) {
     return Drive(
-        Skid(), *plant, duration,
+        DiffDrive(), *plant, duration,
         [&](double, const VehicleState&) { return Command{.acceleration = acceleration}; },
         [](double, const VehicleState&) {});
   };
@@ -289,7 +296,7 @@ TEST(WheelPair, SpeedsUpAndSlowsDownAsAsked) {
 TEST(WheelPair, DrivesBackwards) {
   const auto plant = Mujoco({});
   const VehicleState state = Drive(
-      Skid(), *plant, 3.0,
+      DiffDrive(), *plant, 3.0,
       [](double, const VehicleState& now) {
         return Command{.steering = 0.3, .acceleration = 2.0 * (-1.0 - now.speed), .gear = -1};
       },
@@ -302,7 +309,7 @@ TEST(WheelPair, DrivesBackwards) {
 TEST(WheelPair, HoldsStillOnASlope) {
   World world;
   world.ground.grade = {0.1, 0.0};
-  const CarModel car(WithWorld(Skid().scene(), Skid().params(), world), "skid");
+  const CarModel car(WithWorld(DiffDrive().scene(), DiffDrive().params(), world), "diff_drive");
   for (const double yaw : {0.0, 1.5707963, 3.1415927, 0.8}) {
     const auto plant = Mujoco({.pose = {0.0, 0.0, yaw}}, world, car);
     const VehicleState state = Drive(
@@ -316,7 +323,7 @@ TEST(WheelPair, HoldsStillOnASlope) {
 TEST(WheelPair, ClimbsAtItsSpeed) {
   World world;
   world.ground.grade = {0.1, 0.0};
-  const CarModel car(WithWorld(Skid().scene(), Skid().params(), world), "skid");
+  const CarModel car(WithWorld(DiffDrive().scene(), DiffDrive().params(), world), "diff_drive");
   const auto plant = Mujoco({.speed = 1.0}, world, car);
   // The servos' integrals take the slope; what is left is slip, some mm/s.
   EXPECT_NEAR(Hold(*plant, 0.0, 1.0, 4.0, car).speed, 1.0, Tolerance(0.01));
@@ -325,7 +332,7 @@ TEST(WheelPair, ClimbsAtItsSpeed) {
 TEST(WheelPair, SteersAtACrawlAsWanted) {
   const auto plant = Mujoco({});
   Drive(
-      Skid(), *plant, 4.0,
+      DiffDrive(), *plant, 4.0,
       [](double, const VehicleState& now) {
         return Command{.steering = 0.4, .acceleration = 2.0 * (0.02 - now.speed)};
       },
@@ -339,7 +346,7 @@ TEST(WheelPair, SlidesOnIce) {
   const World ice{.friction = 0.02};
   const auto plant = Mujoco({.speed = 2.0}, ice);
   const VehicleState state = Drive(
-      Skid(), *plant, 1.0,
+      DiffDrive(), *plant, 1.0,
       [](double, const VehicleState&) { return Command{.acceleration = -3.0}; },
       [](double, const VehicleState&) {});
   // Two tyres of 0.8 x 0.02 under 71 % of the weight: 0.0114 g.
@@ -360,7 +367,7 @@ TEST(WheelPair, FeelsAPush) {
 TEST(WheelPair, RollsOverABump) {
   World world;
   world.ground.bumps = {{.area = {{3.0, 0.0, 0.0}, 2.0, 3.0}, .height = 0.1}};
-  const CarModel car(WithWorld(Skid().scene(), Skid().params(), world), "skid");
+  const CarModel car(WithWorld(DiffDrive().scene(), DiffDrive().params(), world), "diff_drive");
   const auto plant = Mujoco({.speed = 1.0}, world, car);
   double highest = 0.0;
   const VehicleState state = Drive(

@@ -58,7 +58,8 @@ INSTANTIATE_TEST_SUITE_P(Wind, OnBothTyres, testing::Values("contact", "magic_fo
 TEST_P(OnBothTyres, AStandingCarIsPushedByHalfRhoVSquaredWhereItsPressureIs) {
   // 20 m/s: 12 along the car and 16 across it, whose heading is 0.7.
   const double yaw = 0.7;
-  const World world{.wind = {.velocity = 12.0 * Direction(yaw) + 16.0 * LeftOf(Direction(yaw))}};
+  const World world{
+      .wind = {.velocity = 12.0 * Direction(yaw) + 16.0 * LeftNormal(Direction(yaw))}};
   const auto plant = At(world, {.pose = {3.0, -2.0, yaw}});
   Held mean;
   const double seconds = 1.0;

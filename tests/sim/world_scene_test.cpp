@@ -53,7 +53,8 @@ TEST(WithGround, AGradeIsThePlaneItself) {
 
 TEST(WithGround, AHeightFieldIsTheClosedFormAtItsSamples) {
   Ground ground{.grade = {0.03, 0.02}, .bumps = {kBump}};
-  ground.side_slopes = {{.area = {{-30.0, 0.0, 2.0}, 20.0, 8.0}, .slope = -0.06, .run_in = 5.0}};
+  ground.side_slopes = {
+      {.area = {{-30.0, 0.0, 2.0}, 20.0, 8.0}, .slope = -0.06, .transition_length = 5.0}};
   const CarModel car(WithGround(Prius(), ground), "prius");
   const mjModel& m = *car.get();
   const MujocoData d = MakeData(car);

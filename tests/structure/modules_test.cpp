@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 const fs::path kRoot = TRACKBED_SOURCE_DIR;
 
-std::string TextOf(const fs::path& file) {
+std::string ReadText(const fs::path& file) {
   std::ostringstream text;
   text << std::ifstream(file).rdbuf();
   return text.str();
@@ -43,7 +43,7 @@ struct Module {
 /// The modules as CMakeLists.txt declares them, from the bottom up.
 std::vector<Module> Modules() {
   std::vector<Module> modules;
-  const std::string build = TextOf(kRoot / "CMakeLists.txt");
+  const std::string build = ReadText(kRoot / "CMakeLists.txt");
   const std::regex declaration(R"(\btrackbed_module\(([^)]*)\))");
   for (std::sregex_iterator it(build.begin(), build.end(), declaration), end; it != end; ++it) {
     std::istringstream words((*it)[1]);
@@ -71,7 +71,7 @@ struct Include {
   std::string name;
 };
 
-std::vector<Include> IncludesOf(const Module& module) {
+std::vector<Include> FindIncludes(const Module& module) {
   std::vector<Include> includes;
   const std::regex line_pattern(R"re(^\s*#include\s+[<"]([^>"]+)[>"])re");
   for (const fs::path& folder : module.folders()) {
@@ -99,7 +99,7 @@ std::vector<Include> IncludesOf(const Module& module) {
 TEST(Modules, OnlySimAndRenderIncludeMujoco) {
   std::size_t seen = 0;
   for (const Module& module : Modules()) {
-    for (const Include& include : IncludesOf(module)) {
+    for (const Include& include : FindIncludes(module)) {
       if (include.name.starts_with("mujoco/")) {
         ++seen;
         EXPECT_TRUE(module.path == "sim" || module.path == "render") << include.file;
@@ -120,8 +120,9 @@ TEST(Modules, EveryPublicHeaderHasASourceOfTheSameName) {
     for (const auto& entry : fs::directory_iterator(folders[0])) {
       // Folders are modules of their own; what has templates or plain values needs no code, and the
       // version is written by the build.
-      static const std::vector<std::string> kNoCode{
-          "state", "version", "registry", "planner", "plan", "method_options", "metric_value"};
+      static const std::vector<std::string> kNoCode{"state",        "version",    "registry",
+                                                    "planner",      "plan",       "method_options",
+                                                    "metric_value", "diagnostics"};
       const std::string name = entry.path().stem().string();
       if (entry.is_directory() ||
           std::find(kNoCode.begin(), kNoCode.end(), name) != kNoCode.end()) {
@@ -133,7 +134,7 @@ TEST(Modules, EveryPublicHeaderHasASourceOfTheSameName) {
 }
 
 TEST(Modules, AreDrawnAsTheBuildLinksThem) {
-  const std::string page = TextOf(kRoot / "docs/architecture.md");
+  const std::string page = ReadText(kRoot / "docs/architecture.md");
   const std::size_t begin = page.find("flowchart TD", page.find("## Modules"));
   ASSERT_NE(begin, std::string::npos) << "docs/architecture.md has no diagram of the modules";
   std::istringstream diagram(page.substr(begin, page.find("```", begin) - begin));
@@ -162,7 +163,7 @@ TEST(RunFolder, ItsFilesAreNamedInOnePlaceAlone) {
   std::vector<std::string> names;  // in quotation marks: "plan.csv", ".state.csv"
   const std::regex name(R"re("\.?\w+\.[\w.]+")re");
   for (const fs::path& owner : owners) {
-    std::istringstream text(TextOf(owner));
+    std::istringstream text(ReadText(owner));
     for (std::string line; std::getline(text, line);) {
       if (std::smatch match; !line.starts_with("#") && std::regex_search(line, match, name)) {
         names.push_back(match[0]);
@@ -182,7 +183,7 @@ TEST(RunFolder, ItsFilesAreNamedInOnePlaceAlone) {
             std::find(owners.begin(), owners.end(), entry.path()) != owners.end()) {
           continue;
         }
-        const std::string text = TextOf(entry.path());
+        const std::string text = ReadText(entry.path());
         for (const std::string& literal : names) {
           EXPECT_EQ(text.find(literal), std::string::npos)
               << entry.path() << " has " << literal << "; run_folder.h names it";
@@ -202,7 +203,7 @@ std::string Cell(const std::vector<std::string>& words) {
 }
 
 TEST(Modules, AreComponentsThatLinkWhatTheirPageSays) {
-  const std::string page = TextOf(kRoot / "docs/how-to/embed.md");
+  const std::string page = ReadText(kRoot / "docs/how-to/embed.md");
   std::size_t rows = 0;
   for (const Module& module : Modules()) {
     std::vector<std::string> uses;
@@ -229,9 +230,9 @@ TEST(Pages, ShowTheirExamplesAsTheyAreBuilt) {
       {"add-a-controller.md", {"own-methods/main.cpp", "own-methods/feedforward.cpp"}},
       {"add-a-plant.md", {"own-plant/own_plant.cpp"}}};
   for (const Shown& shown : all) {
-    const std::string page = TextOf(kRoot / "docs/how-to" / shown.page);
+    const std::string page = ReadText(kRoot / "docs/how-to" / shown.page);
     for (const char* file : shown.files) {
-      const std::string example = TextOf(kRoot / "docs/examples" / file);
+      const std::string example = ReadText(kRoot / "docs/examples" / file);
       ASSERT_FALSE(example.empty()) << file;
       EXPECT_NE(page.find("```cpp\n" + example + "```\n"), std::string::npos)
           << shown.page << " does not show " << file;

@@ -20,7 +20,8 @@ std::filesystem::path ScenarioFile(const std::string& name) {
 
 class DrivenRoundObstacle : public testing::TestWithParam<ObstacleCase> {};
 
-INSTANTIATE_TEST_SUITE_P(Cases, DrivenRoundObstacle, testing::ValuesIn(AllObstacleCases()), NameOf);
+INSTANTIATE_TEST_SUITE_P(Cases, DrivenRoundObstacle, testing::ValuesIn(AllObstacleCases()),
+                         CaseName);
 
 /// The listing's turns: 20 m of radius, S = 22.7 m of straight before and behind, a box of 2 m.
 TEST_P(DrivenRoundObstacle, KeepsToThePlanAndClearOnBothPlants) {
@@ -38,7 +39,7 @@ TEST_P(DrivenRoundObstacle, KeepsToThePlanAndClearOnBothPlants) {
   Obstacle& obstacle = scenario.world.obstacles.at(0);
   obstacle.footprint.center = {kStraight + kRadius * std::sin(swept),
                                c.side * kRadius * (1.0 - std::cos(swept)), 0.0};
-  std::get<BezierAvoidanceOptions>(*scenario.plan->avoid).ring = c.ring;
+  std::get<BezierAvoidanceOptions>(*scenario.plan->avoid).passing_side = c.passing_side;
 
   const RunResult run = RunScenario(scenario);
   ASSERT_EQ(run.logs.size(), 2U);
@@ -46,7 +47,7 @@ TEST_P(DrivenRoundObstacle, KeepsToThePlanAndClearOnBothPlants) {
   // The path's curvature changes at up to 0.9 of the steering rate; a preview over 2.5 m cuts it
   // by some centimeters (0.034 m seen), and the plan is 1.5 m clear.
   EXPECT_THAT(run, TracksWithin(0.15));
-  EXPECT_THAT(run, KeepsClearOf(1.4));
+  EXPECT_THAT(run, KeepsClearance(1.4));
   EXPECT_THAT(run, StaysWithin("kinematic", "mujoco", 0.05));
   for (const PlantMetrics& plant : run.metrics) {
     EXPECT_FALSE(plant.clearance->collision);
@@ -63,12 +64,12 @@ TEST(ObstacleAppears, IsPassedOnANewPlanAfterTheDelay) {
     SCOPED_TRACE(log.plant);
     ASSERT_EQ(log.changes.size(), 1U);
     const PlanChange& change = log.changes[0];
-    // The first row whose outline is within range of the obstacle.
+    // The first row whose footprint is within range of the obstacle.
     double seen = 0.0;
     const OrientedBox& box = scenario.world.obstacles[0].footprint;
     const VehicleParams vehicle = LoadCar(scenario).params();
     for (const LogRow& row : log.rows) {
-      if (Distance(OutlineAt(vehicle, row.state.pose), box) <= 25.0) {
+      if (Distance(FootprintAt(vehicle, row.state.pose), box) <= 25.0) {
         seen = row.state.time;
         break;
       }

@@ -1,4 +1,4 @@
-// Controllers at speeds where tyres slip: whole drives on Magic Formula tyres.
+// Controllers at speeds where tyres slip: whole runs on Magic Formula tyres.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Cars, SCourse,
                                               std::get<2>(test.param), std::get<1>(test.param));
                          });
 
-TEST_P(SCourse, IsDrivenWithin30Centimetres) {
+TEST_P(SCourse, IsDrivenWithin30Centimeters) {
   // Two opposed arcs of 0.4 g joined by 15 m ramps. The bound is what a lane leaves; what was
   // measured stands in docs/algorithms/control.md.
   const auto& [car, speed, controller] = GetParam();

@@ -144,7 +144,7 @@ TEST_P(OptimallySteeredAfter, ComesBackToItsPathAndStaysThere) {
 class PaperSpeeds : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Paper, PaperSpeeds, testing::Values(2.5, 2.0, 1.5, 1.0));
 
-/// The mean of the angle steered over the second quarter of the drive [rad].
+/// The mean of the angle steered over the second quarter of the run [rad].
 double MeanSteering(const RunLog& log) {
   double sum = 0.0;
   const std::size_t n = log.rows.size();

@@ -28,16 +28,16 @@ Scenario Read(const std::string& name) {
   return ReadScenario(std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml"));
 }
 
-std::string KindOf(const PlanChange& change) {
+std::string ChangeKind(const PlanChange& change) {
   return !change.plan.diagnostics.avoided.empty() && !change.plan.diagnostics.replan.has_value()
              ? "avoid"
              : DiagnosticsJson(change.plan).at("replan").at("kind").get<std::string>();
 }
 
-std::set<std::string> KindsOf(const RunLog& log) {
+std::set<std::string> ChangeKinds(const RunLog& log) {
   std::set<std::string> kinds;
   for (const PlanChange& change : log.changes) {
-    kinds.insert(KindOf(change));
+    kinds.insert(ChangeKind(change));
   }
   return kinds;
 }
@@ -135,7 +135,7 @@ TEST(BlockedRoad, TakesADetour) {
   const Scenario scenario = Read("blocked_road");
   const RunResult run = RunScenario(scenario);
   for (const RunLog& log : run.logs) {
-    EXPECT_THAT(KindsOf(log), testing::Contains("detour"));
+    EXPECT_THAT(ChangeKinds(log), testing::Contains("detour"));
     const auto told = DiagnosticsJson(log.changes.front().plan).at("replan").at("detour");
     EXPECT_TRUE(told.at("current").at("collides").get<bool>());
     EXPECT_FALSE(told.at("best").at("collides").get<bool>());

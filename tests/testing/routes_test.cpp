@@ -54,7 +54,7 @@ TEST(Routes, MeetAGoalWithItsHeading) {
   const RunResult either = RunScenario(File("heading_goal"), {"plan.method=reeds_shepp"});
   EXPECT_THAT(either, MeetsItsExpectations());
   EXPECT_LT(either.plan.reference.path.length(), forwards.plan.reference.path.length());
-  EXPECT_GT(LegsOf(either.plan.reference.path).size(), 1U);
+  EXPECT_GT(SplitIntoLegs(either.plan.reference.path).size(), 1U);
 }
 
 }  // namespace

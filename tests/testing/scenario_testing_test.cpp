@@ -19,7 +19,7 @@ fs::path File(const std::string& name) {
 
 /// What the matcher says of a run that it does not match.
 template <typename Matcher>
-std::string Complaint(const RunResult& run, const Matcher& matcher) {
+std::string ErrorMessage(const RunResult& run, const Matcher& matcher) {
   testing::StringMatchResultListener listener;
   EXPECT_FALSE(testing::ExplainMatchResult(matcher, run, &listener));
   return listener.str();
@@ -50,7 +50,7 @@ TEST_P(Scenarios, DriveAsTheyExpectKinematicAgainstContactDynamics) {
   const Scenario scenario = ReadScenario(File(GetParam()));
   const RunResult run = RunScenario(scenario);
   EXPECT_THAT(run, MeetsItsExpectations());
-  // Where the two drive the same plan at 3 m/s they part by the servo's lag and the tyres' slip,
+  // Where the two run the same plan at 3 m/s they part by the servo's lag and the tyres' slip,
   // which a controller holds to centimeters, and an open loop, ice or a collision to the stated
   // bound.
   if (!scenario.expect.between.empty()) {
@@ -85,7 +85,7 @@ TEST(Slalom, HasSixTurnsOfMoreThanSixtyDegreesBothWaysWithinTheSteeringLimit) {
   EXPECT_GE(right, 2);
 }
 
-TEST(Slalom, IsTrackedWithinFifteenCentimetresOnBothPlants) {
+TEST(Slalom, IsTrackedWithinFifteenCentimetersOnBothPlants) {
   const RunResult run = RunScenario(File("slalom"));
   EXPECT_THAT(run, TracksWithin(0.15));
   EXPECT_THAT(run, ReachesGoal(0.5));
@@ -103,7 +103,7 @@ TEST(TracksWithin, SaysHowFarOffWhereAndWhen) {
   const RunResult run =
       RunScenario(File("winding"), {"drive.plants=[kinematic]", "control.distance=4", "expect={}"});
   EXPECT_EQ(Description(TracksWithin(0.01)), "tracks its path within 0.01 m");
-  EXPECT_THAT(Complaint(run, TracksWithin(0.01)),
+  EXPECT_THAT(ErrorMessage(run, TracksWithin(0.01)),
               testing::MatchesRegex(
                   "kinematic: cross-track error 0\\.07[0-9]* m at s = [0-9.]+ m, t = [0-9.]+ s"));
   EXPECT_THAT(run, TracksWithin(0.15));
@@ -115,13 +115,13 @@ TEST(StaysWithin, SaysHowFarApartWhereAndWhen) {
   EXPECT_EQ(Description(StaysWithin("kinematic", "mujoco", 1e-5)),
             "keeps kinematic and mujoco within 1e-05 m of each other");
   EXPECT_THAT(
-      Complaint(run, StaysWithin("mujoco", "kinematic", 1e-5)),
+      ErrorMessage(run, StaysWithin("mujoco", "kinematic", 1e-5)),
       testing::MatchesRegex("position difference 0\\.00[0-9]+ m at s = [0-9.]+ m, t = [0-9.]+ s"));
-  EXPECT_EQ(Complaint(run, StaysWithin("mujoco", "single_track", 1.0)),
+  EXPECT_EQ(ErrorMessage(run, StaysWithin("mujoco", "single_track", 1.0)),
             "the run does not have both mujoco and single_track");
 }
 
-/// Two drives that part by 0.5 of each quantity at s = 12 m.
+/// Two runs that part by 0.5 of each quantity at s = 12 m.
 PlantComparison HalfApart() {
   const Difference half{.rms = 0.1, .max = 0.5, .max_s = 12.0, .max_t = 4.0};
   return {.first = "kinematic",
@@ -158,7 +158,7 @@ TEST(DiffersByAtMost, DoesNotMatchDrivesWithNothingInCommon) {
   EXPECT_EQ(listener.str(), "a and b: cannot be compared: their station ranges do not overlap");
   RunResult run;
   run.comparisons = {nothing};
-  EXPECT_EQ(Complaint(run, StaysWithin("a", "b", 1.0)), "their station ranges do not overlap");
+  EXPECT_EQ(ErrorMessage(run, StaysWithin("a", "b", 1.0)), "their station ranges do not overlap");
 }
 
 TEST(PlantComparison, PrintsItsLargestDifferences) {
@@ -202,15 +202,15 @@ TEST(ThreeTurns, IsDrivenOnContactsAsTheKinematicModelSays) {
                        .steering_max = Tolerance(0.0023)}));
 }
 
-TEST(KeepsClearOf, SaysHowNearWhereAndWhen) {
+TEST(KeepsClearance, SaysHowNearWhereAndWhen) {
   const RunResult run = RunScenario(File("obstacle_course"), {"drive.plants=[kinematic]"});
-  EXPECT_EQ(Description(KeepsClearOf(1.5)), "keeps a clearance of 1.5 m from obstacles");
-  EXPECT_THAT(run, KeepsClearOf(0.8));
-  EXPECT_THAT(Complaint(run, KeepsClearOf(1.5)),
+  EXPECT_EQ(Description(KeepsClearance(1.5)), "keeps a clearance of 1.5 m from obstacles");
+  EXPECT_THAT(run, KeepsClearance(0.8));
+  EXPECT_THAT(ErrorMessage(run, KeepsClearance(1.5)),
               testing::MatchesRegex(
                   "kinematic: clearance [01]\\.[0-9]+ m at s = [0-9.]+ m, t = [0-9.]+ s"));
-  EXPECT_EQ(Complaint(RunScenario(File("winding"), {"drive.plants=[kinematic]", "expect={}"}),
-                      KeepsClearOf(1.0)),
+  EXPECT_EQ(ErrorMessage(RunScenario(File("winding"), {"drive.plants=[kinematic]", "expect={}"}),
+                         KeepsClearance(1.0)),
             "kinematic: there are no obstacles");
 }
 
@@ -218,12 +218,12 @@ TEST(ReachesGoal, SaysHowItEnded) {
   const RunResult collided = RunScenario(File("hit_the_box"), {"drive.plants=[kinematic]"});
   EXPECT_EQ(Description(ReachesGoal(0.5)), "reaches its goal within 0.5 m");
   EXPECT_THAT(
-      Complaint(collided, ReachesGoal(0.5)),
+      ErrorMessage(collided, ReachesGoal(0.5)),
       testing::MatchesRegex(
           "kinematic: did not reach the goal: collided, 3[0-9.]+ m from it, t = 1[0-9.]+ s"));
   const RunResult open_loop =
       RunScenario(File("three_turns"), {"drive.plants=[kinematic]", "control={method: schedule}"});
-  EXPECT_EQ(Complaint(open_loop, ReachesGoal(0.05)),
+  EXPECT_EQ(ErrorMessage(open_loop, ReachesGoal(0.05)),
             "kinematic: stopped 0.1285 m from the goal, t = 47.12 s");
 }
 
@@ -241,14 +241,14 @@ TEST(RunResult, PrintsHowItWent) {
 TEST(Matchers, SayThatThereIsNoPlan) {
   const RunResult run =
       RunScenario(File("winding"), {"mission.waypoints=[[0, 0], [9, 0], [0, 0]]"});
-  EXPECT_EQ(Complaint(run, TracksWithin(1.0)),
+  EXPECT_EQ(ErrorMessage(run, TracksWithin(1.0)),
             "no plan: the route turns back on itself at waypoint 1");
 }
 
 TEST(MeetsItsExpectations, ListsWhatFailed) {
   const RunResult run =
       RunScenario(File("winding"), {"drive.plants=[kinematic]", "expect={max_cross_track: 0.001}"});
-  EXPECT_THAT(Complaint(run, MeetsItsExpectations()),
+  EXPECT_THAT(ErrorMessage(run, MeetsItsExpectations()),
               testing::MatchesRegex("kinematic: maximum cross-track error 0\\.[0-9]+ m exceeds "
                                     "0\\.001 m at .*"));
 }

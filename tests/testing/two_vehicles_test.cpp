@@ -20,7 +20,7 @@ std::filesystem::path File(const std::string& name) {
 class SlalomByEither : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
 
 INSTANTIATE_TEST_SUITE_P(TwoVehicles, SlalomByEither,
-                         testing::Combine(testing::Values("prius", "skid"),
+                         testing::Combine(testing::Values("prius", "diff_drive"),
                                           testing::Values("preview", "lqr")),
                          [](const auto& pair) {
                            return std::string(std::get<0>(pair.param)) + "_" +
@@ -38,22 +38,22 @@ TEST_P(SlalomByEither, IsCompletedOnBothPlants) {
   EXPECT_THAT(run, ReachesGoal(0.5));
 }
 
-TEST(Skid, TurnsTighterThanACarCan) {
+TEST(DiffDrive, TurnsTighterThanACarCan) {
   // Turns of 120 degrees between legs of 6 m: the Prius, that needs 5.1 m and the way to steer, has
   // no plan.
   const std::vector<std::string> tight{
       "mission.waypoints=[[0, 0], [6, 0], [3, 5.2], [9, 5.2], [6, 10.4], [12, 10.4]]",
       "mission.speed=1", "control={method: preview, distance: 0.6}"};
-  std::vector<std::string> skid = tight;
-  skid.emplace_back("vehicle.model=skid");
+  std::vector<std::string> diff_drive = tight;
+  diff_drive.emplace_back("vehicle.model=diff_drive");
   EXPECT_FALSE(RunScenario(File("slalom"), tight).plan.ok());
-  const RunResult run = RunScenario(File("slalom"), skid);
+  const RunResult run = RunScenario(File("slalom"), diff_drive);
   ASSERT_TRUE(run.plan.ok());
   EXPECT_THAT(run, MeetsItsExpectations());
 }
 
-TEST(Skid, FeelsTheObstacleThatItHits) {
-  const RunResult run = RunScenario(File("hit_the_box"), {"vehicle.model=skid"});
+TEST(DiffDrive, FeelsTheObstacleThatItHits) {
+  const RunResult run = RunScenario(File("hit_the_box"), {"vehicle.model=diff_drive"});
   for (const PlantMetrics& metrics : run.metrics) {
     ASSERT_TRUE(metrics.clearance.has_value());
     EXPECT_TRUE(metrics.clearance->collision);
@@ -62,11 +62,11 @@ TEST(Skid, FeelsTheObstacleThatItHits) {
   }
 }
 
-TEST(Skid, IsDisturbedAsCarsAre) {
+TEST(DiffDrive, IsDisturbedAsCarsAre) {
   // The angle that the disturbances act on is the ratio of its wheels' speeds.
   const RunResult run = RunScenario(
       File("slalom"),
-      {"vehicle.model=skid", "drive.time_limit=20", "expect={}",
+      {"vehicle.model=diff_drive", "drive.time_limit=20", "expect={}",
        "disturb={steering: {factor: 0.9, delay: 0.1, backlash: 0.01}, kicks: [{at: 5, impulse: "
        "20}, {at: 8, displacement: 0.2}]}"});
   ASSERT_EQ(run.logs.size(), 2U);

@@ -72,11 +72,11 @@ TEST(MagicFormula, SlopesAtZeroAreTheStiffnesses) {
                               return sensitive;
                             }()}) {
     for (const double load : {500.0, 3000.0, 8000.0}) {
-      const double along = (ForceOf(tyre, load, 1.0, {.ratio = kStep}).longitudinal -
-                            ForceOf(tyre, load, 1.0, {.ratio = -kStep}).longitudinal) /
+      const double along = (EvaluateTyreForce(tyre, load, 1.0, {.ratio = kStep}).longitudinal -
+                            EvaluateTyreForce(tyre, load, 1.0, {.ratio = -kStep}).longitudinal) /
                            (2.0 * kStep);
-      const double across = (ForceOf(tyre, load, 1.0, {.angle = kStep}).lateral -
-                             ForceOf(tyre, load, 1.0, {.angle = -kStep}).lateral) /
+      const double across = (EvaluateTyreForce(tyre, load, 1.0, {.angle = kStep}).lateral -
+                             EvaluateTyreForce(tyre, load, 1.0, {.angle = -kStep}).lateral) /
                             (2.0 * kStep);
       EXPECT_NEAR(along / SlipStiffness(tyre, load), 1.0, Tolerance(1e-6));
       EXPECT_NEAR(-across / CorneringStiffness(tyre, load), 1.0, Tolerance(1e-6));
@@ -92,8 +92,9 @@ TEST(MagicFormula, PeaksAtTheFrictionOfTheRoad) {
     double across = 0.0;
     for (int i = 0; i <= 20000; ++i) {
       const double slip = 1e-4 * i;
-      along = std::max(along, ForceOf(tyre, 3000.0, road, {.ratio = slip}).longitudinal);
-      across = std::max(across, -ForceOf(tyre, 3000.0, road, {.angle = 0.75 * slip}).lateral);
+      along = std::max(along, EvaluateTyreForce(tyre, 3000.0, road, {.ratio = slip}).longitudinal);
+      across =
+          std::max(across, -EvaluateTyreForce(tyre, 3000.0, road, {.angle = 0.75 * slip}).lateral);
     }
     // Between two samples the sine is flat to (B C 5e-5)^2/2 < 2e-5 even on the slipperiest road.
     EXPECT_NEAR(along / (road * 1.1 * 3000.0), 1.0, Tolerance(2e-5));
@@ -103,8 +104,9 @@ TEST(MagicFormula, PeaksAtTheFrictionOfTheRoad) {
 
 TEST(MagicFormula, SignsAreThoseOfIso8855) {
   const MagicFormula tyre = Plain();
-  EXPECT_GT(ForceOf(tyre, 3000.0, 1.0, {.ratio = 0.05}).longitudinal, 0.0);  // driving pushes
-  EXPECT_LT(ForceOf(tyre, 3000.0, 1.0, {.angle = 0.05}).lateral,
+  EXPECT_GT(EvaluateTyreForce(tyre, 3000.0, 1.0, {.ratio = 0.05}).longitudinal,
+            0.0);  // driving pushes
+  EXPECT_LT(EvaluateTyreForce(tyre, 3000.0, 1.0, {.angle = 0.05}).lateral,
             0.0);  // sliding left: to the right
 }
 
@@ -113,7 +115,7 @@ TEST(MagicFormula, SlidesAsTheLawSays) {
   const MagicFormula tyre = Plain();
   const double b = 20.0 / (1.6 * 1.1);
   const double phi = -b - 0.4 * (-b - std::atan(-b));
-  EXPECT_NEAR(ForceOf(tyre, 3000.0, 1.0, {.ratio = -1.0}).longitudinal,
+  EXPECT_NEAR(EvaluateTyreForce(tyre, 3000.0, 1.0, {.ratio = -1.0}).longitudinal,
               1.1 * 3000.0 * std::sin(1.6 * std::atan(phi)), kRounding);
 }
 
@@ -122,8 +124,8 @@ TEST(MagicFormula, CombinedForceStaysOnTheEllipseOrWithinTheLawsSurplus) {
     double norm = 0.0;
     for (int k = -100; k <= 100; ++k) {
       for (int a = -78; a <= 78; ++a) {
-        const TyreForce force =
-            ForceOf(tyre, 3000.0, 1.0, {.ratio = 0.01 * k, .angle = 0.02 * a, .shift = 1.0});
+        const TyreForce force = EvaluateTyreForce(
+            tyre, 3000.0, 1.0, {.ratio = 0.01 * k, .angle = 0.02 * a, .shift = 1.0});
         norm = std::max(norm, std::hypot(force.longitudinal / (mu_x * 3000.0),
                                          force.lateral / (mu_y * 3000.0)));
       }
@@ -138,7 +140,8 @@ TEST(MagicFormula, CombinedForceStaysOnTheEllipseOrWithinTheLawsSurplus) {
 
 TEST(MagicFormula, PullsNothingWithoutLoad) {
   for (const double load : {0.0, -100.0}) {
-    const TyreForce force = ForceOf(Bmw(), load, 1.0, {.ratio = 0.1, .angle = 0.1, .camber = 0.05});
+    const TyreForce force =
+        EvaluateTyreForce(Bmw(), load, 1.0, {.ratio = 0.1, .angle = 0.1, .camber = 0.05});
     EXPECT_EQ(force.longitudinal, 0.0);
     EXPECT_EQ(force.lateral, 0.0);
   }
@@ -151,9 +154,9 @@ TEST(MagicFormula, MirrorsWithSlipAngleAndCamber) {
   for (const double kappa : {-0.2, 0.0, 0.1}) {
     for (const double alpha : {0.01, 0.1, 0.5}) {
       const TyreForce left =
-          ForceOf(tyre, 3000.0, 0.8, {.ratio = kappa, .angle = alpha, .camber = 0.03});
+          EvaluateTyreForce(tyre, 3000.0, 0.8, {.ratio = kappa, .angle = alpha, .camber = 0.03});
       const TyreForce right =
-          ForceOf(tyre, 3000.0, 0.8, {.ratio = kappa, .angle = -alpha, .camber = -0.03});
+          EvaluateTyreForce(tyre, 3000.0, 0.8, {.ratio = kappa, .angle = -alpha, .camber = -0.03});
       EXPECT_NEAR(left.longitudinal, right.longitudinal, kRounding);
       EXPECT_NEAR(left.lateral, -right.lateral, kRounding);
     }
@@ -161,7 +164,7 @@ TEST(MagicFormula, MirrorsWithSlipAngleAndCamber) {
 }
 
 TEST(MagicFormula, StandingTyresHaveNoShifts) {
-  const TyreForce force = ForceOf(Bmw(), 3000.0, 1.0, {.camber = 0.05, .shift = 0.0});
+  const TyreForce force = EvaluateTyreForce(Bmw(), 3000.0, 1.0, {.camber = 0.05, .shift = 0.0});
   EXPECT_EQ(force.longitudinal, 0.0);
   EXPECT_NEAR(force.lateral, 0.0, kRounding);
 }
@@ -179,7 +182,8 @@ TEST(MagicFormula, LoadSensitivityIsPacejkas) {
   // The friction falls by p_dy2 per change of load.
   double heaviest = 0.0;
   for (int i = 0; i < 10000; ++i) {
-    heaviest = std::max(heaviest, -ForceOf(tyre, 6000.0, 1.0, {.angle = 1e-4 * i}).lateral);
+    heaviest =
+        std::max(heaviest, -EvaluateTyreForce(tyre, 6000.0, 1.0, {.angle = 1e-4 * i}).lateral);
   }
   EXPECT_NEAR(heaviest / 6000.0, 0.9 - 0.1 * 0.5, Tolerance(2e-5));
 }

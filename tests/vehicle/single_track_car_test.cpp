@@ -375,9 +375,9 @@ TEST(SingleTrackCar, AccelerationsAreThoseOfTheCenterOfGravity) {
     const double tolerance = Tolerance(kH * kH / 12.0 * 800.0);
     const Vec2 ahead = Direction(state.pose.yaw);
     EXPECT_NEAR(state.longitudinal_acceleration, acceleration.dot(ahead), tolerance);
-    EXPECT_NEAR(state.lateral_acceleration, acceleration.dot(LeftOf(ahead)), tolerance);
+    EXPECT_NEAR(state.lateral_acceleration, acceleration.dot(LeftNormal(ahead)), tolerance);
     EXPECT_NEAR(state.speed, velocity.dot(ahead), tolerance);
-    EXPECT_NEAR(state.lateral_speed, velocity.dot(LeftOf(ahead)), tolerance);
+    EXPECT_NEAR(state.lateral_speed, velocity.dot(LeftNormal(ahead)), tolerance);
     EXPECT_NEAR(state.sideslip, std::atan(state.lateral_speed / state.speed), Tolerance(1e-14));
     EXPECT_EQ(state.steering, state.steering_actuator);
     EXPECT_FALSE(state.wheels.has_value());

@@ -17,15 +17,17 @@ namespace {
 constexpr double kRounding = 1e-13;
 
 const Bump kBump{.area = {{10.0, 0.0, 0.0}, 4.0, 6.0}, .height = 0.1, .edge = 0.5};
-const Superelevation kStretch{.area = {{0.0, 0.0, 0.0}, 60.0, 8.0}, .slope = 0.05, .run_in = 10.0};
+const Superelevation kStretch{
+    .area = {{0.0, 0.0, 0.0}, 60.0, 8.0}, .slope = 0.05, .transition_length = 10.0};
 
 /// One of each, turned and not.
 Ground Hilly() {
   Ground ground;
   ground.grade = {0.03, -0.02};
   ground.bumps = {kBump, {.area = {{-20.0, 9.0, 0.7}, 6.0, 3.0}, .height = 0.3, .edge = 9.0}};
-  ground.side_slopes = {kStretch,
-                        {.area = {{5.0, -40.0, -2.0}, 30.0, 10.0}, .slope = -0.1, .run_in = 99.0}};
+  ground.side_slopes = {
+      kStretch,
+      {.area = {{5.0, -40.0, -2.0}, 30.0, 10.0}, .slope = -0.1, .transition_length = 99.0}};
   return ground;
 }
 

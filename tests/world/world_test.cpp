@@ -10,16 +10,16 @@
 namespace trackbed {
 namespace {
 
-TEST(OutlineAt, ReachesFromTheRearBumperToTheFront) {
+TEST(FootprintAt, ReachesFromTheRearBumperToTheFront) {
   const VehicleParams car = ReferenceCar();
-  const OrientedBox outline = OutlineAt(car, {10.0, 5.0, 0.0});
-  const auto corners = outline.Corners();
+  const OrientedBox footprint = FootprintAt(car, {10.0, 5.0, 0.0});
+  const auto corners = footprint.Corners();
   EXPECT_NEAR(corners[0].x(), 10.0 + 4.45 - car.rear_overhang, Tolerance(1e-12));
   EXPECT_NEAR(corners[1].x(), 10.0 - car.rear_overhang, Tolerance(1e-12));
   EXPECT_NEAR(corners[0].y(), 5.0 + 0.5 * 1.725, Tolerance(1e-12));
 }
 
-TEST(Clearance, IsMeasuredFromTheOutlineToTheNearestObstacle) {
+TEST(Clearance, IsMeasuredFromTheFootprintToTheNearestObstacle) {
   const VehicleParams car = ReferenceCar();
   World world;
   EXPECT_FALSE(Clearance(world, car, {}, 0.0).has_value());
@@ -41,9 +41,9 @@ TEST(Obstacles, MoveOnWithoutTurning) {
   EXPECT_EQ(later.center.x, 18.0);
   EXPECT_EQ(later.center.y, 4.0);
   EXPECT_EQ(later.center.yaw, 0.5);
-  EXPECT_EQ(*Clearance(world, car, {}, 4.0), Distance(OutlineAt(car, {}), later));
+  EXPECT_EQ(*Clearance(world, car, {}, 4.0), Distance(FootprintAt(car, {}), later));
   EXPECT_EQ(*Clearance(world, car, {}, 0.0),
-            Distance(OutlineAt(car, {}), world.obstacles[0].footprint));
+            Distance(FootprintAt(car, {}), world.obstacles[0].footprint));
 }
 
 TEST(Obstacles, AreSeenWhereTheyAreByThen) {
@@ -53,8 +53,8 @@ TEST(Obstacles, AreSeenWhereTheyAreByThen) {
   // From the front bumper to its near side: 38 - front - 5 t.
   const double front = car.length - car.rear_overhang;
   const double seen = (38.0 - front - 10.0) / 5.0;
-  EXPECT_FALSE(IsKnown(obstacle, seen - 1e-6, OutlineAt(car, {})));
-  EXPECT_TRUE(IsKnown(obstacle, seen + 1e-6, OutlineAt(car, {})));
+  EXPECT_FALSE(IsKnown(obstacle, seen - 1e-6, FootprintAt(car, {})));
+  EXPECT_TRUE(IsKnown(obstacle, seen + 1e-6, FootprintAt(car, {})));
 }
 
 }  // namespace

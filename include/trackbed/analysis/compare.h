@@ -36,7 +36,7 @@ struct Trace {
 };
 
 /// `source` selects the station of a run with a path.
-Trace TraceOf(const RunLog& log, StationSource source = StationSource::kProjection);
+Trace MakeTrace(const RunLog& log, StationSource source = StationSource::kProjection);
 
 /// Reads the log `<plant>.csv` of a run. InputError as ReadCsvExcerpt, and for fewer than two rows.
 Trace ReadTrace(const std::filesystem::path& file, const std::string& name);

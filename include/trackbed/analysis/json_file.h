@@ -36,6 +36,6 @@ auto ReadJson(const std::filesystem::path& file, const Read& read, Problem probl
 
 /// The cones of the gates in plan.json; none without gates. For use within VisitJson, as it throws
 /// nlohmann::json::exception.
-std::vector<Vec2> ConesOf(const nlohmann::ordered_json& plan);
+std::vector<Vec2> GateCones(const nlohmann::ordered_json& plan);
 
 }  // namespace trackbed

@@ -16,7 +16,7 @@ namespace trackbed {
 /// | `/<plant>/tf` | foxglove.FrameTransform | `world` to `<plant>`, the rear axle on the ground |
 /// | `/<plant>/log` | trackbed.Log | a row of `<plant>.csv`: its columns by name |
 /// | `/<plant>/plan` | foxglove.PosesInFrame | each plan, when adopted |
-/// | `/<plant>/outline` | foxglove.SceneUpdate | a box as large as the car, once |
+/// | `/<plant>/footprint` | foxglove.SceneUpdate | a box as large as the car, once |
 /// | `/obstacles` | foxglove.SceneUpdate | boxes, where they are; again every 0.1 s if any moves |
 ///
 /// Poses are planar: without ground height, roll and pitch. The same run gives the same bytes.

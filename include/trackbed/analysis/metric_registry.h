@@ -11,8 +11,8 @@
 #include "trackbed/analysis/metrics.h"
 
 /// The table of metrics: the single source of paths, labels and units for metrics.json,
-/// `expect.metrics`, messages, study outputs and reports. The metrics of a manoeuvre are listed
-/// where it is evaluated (trackbed/analysis/manoeuvre.h), those of a comparison in
+/// `expect.metrics`, messages, study outputs and reports. The metrics of a maneuver are listed
+/// where it is evaluated (trackbed/analysis/maneuver_metrics.h), those of a comparison in
 /// ComparedQuantities().
 namespace trackbed {
 

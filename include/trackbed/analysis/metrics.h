@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "trackbed/analysis/manoeuvre.h"
+#include "trackbed/analysis/maneuver_metrics.h"
 #include "trackbed/analysis/metric_value.h"
 #include "trackbed/analysis/recovery.h"
 #include "trackbed/drive/run_log.h"
@@ -34,7 +34,7 @@ struct TrackingMetrics {
 
 /// Clearance of a run from obstacles.
 struct ClearanceMetrics {
-  double min = 0.0;        ///< of the outline to the nearest obstacle [m]
+  double min = 0.0;        ///< of the footprint to the nearest obstacle [m]
   double min_s = 0.0;      ///< where [m]
   double min_t = 0.0;      ///< when [s]
   bool collision = false;  ///< the car touched an obstacle, in any physics step
@@ -85,7 +85,7 @@ struct PlantMetrics {
   int plan_changes = 0;                       ///< plans adopted during the run
   std::string blocked;                        ///< why the plan ended before the goal; else empty
   std::string partial;                        ///< why the plan is partial; else empty
-  std::optional<ManoeuvreMetrics> manoeuvre;  ///< none if the scenario has no manoeuvre
+  std::optional<ManeuverMetrics> maneuver;    ///< none if the scenario has no maneuver
   std::vector<TurnMetrics> turns;             ///< of the isolated turns that were driven
   /// Of the metrics that are measured on the log (MetricEntry::measure), by path.
   std::vector<std::pair<std::string, MetricReading>> measured;

@@ -24,7 +24,7 @@ namespace trackbed {
 /// of plants needs one column for each result.
 using Outputs = std::map<std::string, std::string>;
 
-Outputs OutputsOf(const RunResult& result);
+Outputs CollectOutputs(const RunResult& result);
 
 /// The paths of everything that runs of the scenario may have, sorted.
 std::vector<std::string> PossibleOutputs(const Scenario& scenario);

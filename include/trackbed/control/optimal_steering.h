@@ -41,10 +41,10 @@ struct Deviation {
 };
 
 /// q_e = R(psi_0)^T (q - q_0).
-Deviation DeviationOf(const Pose2& actual, const Pose2& wanted);
+Deviation ComputeDeviation(const Pose2& actual, const Pose2& wanted);
 
 /// The weighted (1) of a deviation; its root is the norm that `deviation_limit` bounds.
-double CostOf(const Deviation& deviation, const DeviationWeights& weights);
+double DeviationCost(const Deviation& deviation, const DeviationWeights& weights);
 
 /// The controller. `search.evaluations` 0 stands for ControlEvaluations. Random searches draw the
 /// same numbers at every update.

@@ -36,7 +36,7 @@ struct LogRow {
   /// Distance and heading error against the path as it is, without extensions (but for a car that
   /// stops a little beyond its end); none without a path.
   std::optional<Projection> tracking;
-  /// Smallest, of the outline [m], 0 when it touched; none without obstacles.
+  /// Smallest, of the footprint [m], 0 when it touched; none without obstacles.
   std::optional<double> clearance;
   std::optional<Pose2> measured;   ///< what the controller saw; none without noise
   std::vector<double> controller;  ///< diagnostics of its last update: RunLog's columns

@@ -22,7 +22,7 @@ struct Pose2 {
 Vec2 Direction(double yaw);
 
 /// `vector` turned left by 90 degrees.
-inline Vec2 LeftOf(const Vec2& vector) {
+inline Vec2 LeftNormal(const Vec2& vector) {
   return {-vector.y(), vector.x()};
 }
 

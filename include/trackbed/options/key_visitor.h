@@ -127,7 +127,7 @@ class KeyVisitor {
   virtual void Mention(const Key&, const char* /*type*/) {}
 
   /// In mode kRead: whether `key` is a section that has one of `inner` and no method of its own.
-  [[nodiscard]] virtual bool HasOneOf(const char* /*key*/, const Names& /*inner*/) const {
+  [[nodiscard]] virtual bool HasAny(const char* /*key*/, const Names& /*inner*/) const {
     return false;
   }
 

@@ -41,7 +41,7 @@ class BezierCurve {
 
 /// kappa [1/m] and dkappa/ds [1/m^2] of a curve with the derivatives P', P'', P''' by any
 /// parameter.
-double CurvatureOf(const Vec2& first, const Vec2& second);
-double SharpnessOf(const Vec2& first, const Vec2& second, const Vec2& third);
+double CurvatureFromDerivatives(const Vec2& first, const Vec2& second);
+double SharpnessFromDerivatives(const Vec2& first, const Vec2& second, const Vec2& third);
 
 }  // namespace trackbed

@@ -105,7 +105,7 @@ class Path {
 /// The segments of a path between stops: its cusps, where a car stops and changes gear, and the
 /// `stops` [m]. One segment of length 0 for a path of length 0. Stops at or beyond the ends of the
 /// path are ignored.
-std::vector<Stations> LegsOf(const Path& path, const std::vector<double>& stops = {});
+std::vector<Stations> SplitIntoLegs(const Path& path, const std::vector<double>& stops = {});
 
 /// A point that a curve passes through.
 struct CurvePoint {

@@ -15,7 +15,7 @@
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/planning/replan/replan.h"
 #include "trackbed/scenario/disturbances.h"
-#include "trackbed/scenario/manoeuvre.h"
+#include "trackbed/scenario/maneuver.h"
 #include "trackbed/sim/plant.h"
 
 /// A scenario: one file, one reproducible experiment. SI units and radians throughout.
@@ -75,7 +75,7 @@ struct DriveSpec {
 
 /// A bound on any metric of a plant's entry in metrics.json.
 struct MetricExpectation {
-  std::string metric;  ///< its path: "manoeuvre.yaw_rate_overshoot", "turns[0].lateral_offset"
+  std::string metric;  ///< its path: "maneuver.yaw_rate_overshoot", "turns[0].lateral_offset"
   std::optional<double> min;
   std::optional<double> max;
   std::optional<std::string> equals;  ///< "true", "arrived", "3"
@@ -129,8 +129,8 @@ struct Scenario {
   VehicleSpec vehicle;
   MissionSpec mission;
   World world;
-  std::optional<PlanSpec> plan;               ///< none: the mission has no path
-  std::optional<ManoeuvreOptions> manoeuvre;  ///< how the run is evaluated, if at all
+  std::optional<PlanSpec> plan;             ///< none: the mission has no path
+  std::optional<ManeuverOptions> maneuver;  ///< how the run is evaluated, if at all
   ControlSpec control;
   DriveSpec drive;
   Disturbances disturb;
@@ -191,19 +191,19 @@ std::string ResolvedYaml(const Scenario& scenario);
 std::string OptionDefaults(const PlannerOptions& options);
 std::string OptionDefaults(const AvoiderOptions& options);
 std::string OptionDefaults(const ControllerOptions& options);
-std::string OptionDefaults(const ManoeuvreOptions& options);
+std::string OptionDefaults(const ManeuverOptions& options);
 
 /// The replayed recording, if any; owned by the scenario.
-const Recording* RecordingOf(const Scenario& scenario);
+const Recording* FindRecording(const Scenario& scenario);
 
 /// The initial state of the car, with the mission's defaults filled in.
-StartState StartOf(const Scenario& scenario);
+StartState InitialState(const Scenario& scenario);
 
 /// End of the run [s]: the mission's duration, or without a plan the end of a recording over time.
 /// None: at the goal.
-std::optional<double> DurationOf(const Scenario& scenario);
+std::optional<double> RunDuration(const Scenario& scenario);
 
 /// The speed to keep [m/s]: the mission's, or that of the start if it gives none.
-double SpeedOf(const Scenario& scenario);
+double MissionSpeed(const Scenario& scenario);
 
 }  // namespace trackbed

@@ -70,7 +70,7 @@ Study ReadStudy(const std::filesystem::path& file, const std::vector<Override>& 
 
 /// The settings of every point in the grid's order: the last key changes fastest, points of the
 /// list faster than all keys of `vary`. Pure; the grid of a study without either is one point.
-std::vector<std::vector<Setting>> GridOf(const Study& study);
+std::vector<std::vector<Setting>> ExpandGrid(const Study& study);
 
 /// The scenario at a point, with the bisected key at `bisected`. InputError as ReadScenario,
 /// problems of the study's settings with their position there.

@@ -120,13 +120,13 @@ class CarModel {
   [[nodiscard]] std::vector<std::string> configuration_columns() const;
 
   /// A configuration out of a full qpos.
-  [[nodiscard]] std::vector<double> ConfigurationOf(std::span<const double> qpos) const;
+  [[nodiscard]] std::vector<double> ExtractConfiguration(std::span<const double> qpos) const;
 
   /// qpos of the car standing on `ground`, its rear-axle center at `pose` as seen from above, its
   /// wheels at `steering` (bicycle angle) and turned by `spin` [rad], one for each of wheels() or
   /// none. Its frame V lies on the plane that fits the heights under the four wheels best, moved up
   /// until no wheel is in the ground; a payload's weight on the springs moves it from there. With
-  /// differential drive, the front corners of its outline take the front wheels' place.
+  /// differential drive, the front corners of its footprint take the front wheels' place.
   [[nodiscard]] std::vector<double> StandingPosition(const Pose2& pose, double steering,
                                                      const std::vector<double>& spin,
                                                      const Ground& ground) const;

@@ -76,7 +76,7 @@ struct PlantSetup {
 };
 
 /// Resolves `tyre` for a car: never kAuto.
-TyreLaw TyreLawOf(const CarModel& car, TyreLaw tyre);
+TyreLaw SelectTyreLaw(const CarModel& car, TyreLaw tyre);
 
 /// A plant in the registry.
 struct PlantEntry {

@@ -57,8 +57,8 @@ testing::Matcher<const RunResult&> TracksWithin(double limit);
 testing::Matcher<const RunResult&> StaysWithin(const std::string& first, const std::string& second,
                                                double limit);
 
-/// The outline of every plant's car stays at least `distance` [m] from every obstacle.
-testing::Matcher<const RunResult&> KeepsClearOf(double distance);
+/// The footprint of every plant's car stays at least `distance` [m] from every obstacle.
+testing::Matcher<const RunResult&> KeepsClearance(double distance);
 
 /// Every plant arrives, at most `distance` [m] from the end of the path.
 testing::Matcher<const RunResult&> ReachesGoal(double distance);

@@ -92,7 +92,8 @@ struct TyreForce {
 /// ellipse, a property of the model (CommonRoad's BMW: 12 %); without them it is scaled onto the
 /// ellipse. The sign of gamma in the shifts is smoothed over half a mrad: a jump there would be an
 /// unphysical force. Aligning moment and turn slip are not part of it. Cost: about 0.2 us.
-TyreForce ForceOf(const MagicFormula& tyre, double load, double road, const TyreSlip& slip);
+TyreForce EvaluateTyreForce(const MagicFormula& tyre, double load, double road,
+                            const TyreSlip& slip);
 
 /// The largest forces over the load, along and across, on a road of factor 1.
 struct TyreFriction {

@@ -63,10 +63,10 @@ struct VehicleParams {
   double steering_lag = 0.0;    ///< tau: of the road wheels behind the actuator, on a ramp [s]
   double steering_ratio =
       0.0;                     ///< steering-wheel angle over road-wheel angle; 0: no steering wheel
-  double length = 0.0;         ///< of the outline [m]
-  double width = 0.0;          ///< of the outline [m]
-  double height = 0.0;         ///< of the outline [m]
-  double rear_overhang = 0.0;  ///< rear axle to the rear end of the outline [m]
+  double length = 0.0;         ///< of the footprint [m]
+  double width = 0.0;          ///< of the footprint [m]
+  double height = 0.0;         ///< of the footprint [m]
+  double rear_overhang = 0.0;  ///< rear axle to the rear end of the footprint [m]
 
   // Limits straight ahead on a flat road of factor 1; 0: not known, and nothing is limited by it.
 

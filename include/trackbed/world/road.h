@@ -16,7 +16,7 @@ struct FrictionPatch {
   double friction = 1.0;  ///< factor on the tyres' own friction coefficient, > 0
 };
 
-/// A bump across the road, above the plane by
+/// A bump across the road, above the plane, with l the transition length, by
 ///   height C(2 |u| / L) C((|v| - W/2 + e) / e)     with e = min(edge, W/2).
 struct Bump {
   OrientedBox area;     ///< its length is along the road
@@ -26,13 +26,14 @@ struct Bump {
 
 /// A superelevated (banked) section: it rises from its lower edge, on the plane, to the other edge,
 /// behind which an embankment of the same width descends. With w = W/2 + v for a section that rises
-/// to the left, W/2 - v for one that rises to the right, it is above the plane by
-///   |slope| C((|u| - L/2 + r) / r) w               for 0 <= w <= W,     r = min(run_in, L/2),
+/// to the left, W/2 - v for one that rises to the right, it is above the plane, with l the
+/// transition length, by
+///   |slope| C((|u| - L/2 + r) / r) w               for 0 <= w <= W,     r = min(l, L/2),
 ///   |slope| C((|u| - L/2 + r) / r) W C((w - W)/W)  beyond.
 struct Superelevation {
-  OrientedBox area;      ///< of the section, without the embankment
-  double slope = 0.0;    ///< slope toward the left; negative: toward the right
-  double run_in = 10.0;  ///< transition length at both ends [m], > 0
+  OrientedBox area;                 ///< of the section, without the embankment
+  double slope = 0.0;               ///< slope toward the left; negative: toward the right
+  double transition_length = 10.0;  ///< transition length at both ends [m], > 0
 };
 
 /// A plane through the origin with features on it. Where they overlap, the highest counts.

@@ -45,13 +45,13 @@ Eigen::Vector3d GroundNormal(const World& world, const Vec2& point_W);
 Vec2 WindAt(const World& world, const Vec2& point_W, double time);
 
 /// The car's footprint when its rear-axle center is at `pose`.
-OrientedBox OutlineAt(const VehicleParams& vehicle, const Pose2& pose);
+OrientedBox FootprintAt(const VehicleParams& vehicle, const Pose2& pose);
 
 /// The footprint of an obstacle at `time` [s].
 OrientedBox FootprintAt(const Obstacle& obstacle, double time);
 
 /// Whether planners that do not know the obstacle yet learn of it now.
-bool IsKnown(const Obstacle& obstacle, double time, const OrientedBox& outline);
+bool IsKnown(const Obstacle& obstacle, double time, const OrientedBox& footprint);
 
 /// Shortest distance from the car's footprint to any obstacle at `time` [m]; 0 when they touch or
 /// overlap, which counts as a collision on every plant. None without obstacles. Cost O(obstacles).

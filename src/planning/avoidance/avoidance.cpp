@@ -88,7 +88,7 @@ class AroundObstacles {
 
   /// What lies ahead of the car, in stations from there.
   void StartAtCar() {
-    plan_ = RestOf(plan_, request_.station, request_.station_speed, request_.speed);
+    plan_ = RemainingPlan(plan_, request_.station, request_.station_speed, request_.speed);
     plan_.diagnostics.avoided.clear();  // of stations that no longer count
     plan_.tree.clear();
     MoveDiagnostics({-1.0, -1.0}, -request_.station);
@@ -159,7 +159,7 @@ class AroundObstacles {
   void PredictOpenLoop() {
     const double stop = plan_.schedule_speed.knots().back().s;
     plan_.diagnostics.stop_distance = stop;
-    plan_.diagnostics.open_loop = DriveOpenLoop(request_.vehicle, path(), plan_.schedule, stop);
+    plan_.diagnostics.open_loop = SimulateOpenLoop(request_.vehicle, path(), plan_.schedule, stop);
   }
 
   /// Adds what there is to know of the replaced stretch to the plan.
@@ -185,7 +185,7 @@ class AroundObstacles {
     plan_.diagnostics.avoided.push_back(
         {.method = replacement.diagnostics(plan_, curve),
          .obstacle = obstacle.center.position(),
-         .ring = replacement.ring,
+         .passing_side = replacement.passing_side,
          .stations = curve,
          .speed = replacement.speed,
          .length = check.length,
@@ -247,11 +247,13 @@ BezierAvoidanceDiagnostics DiagnosticsOn(const Stretch& stretch, const Avoidance
 
 Plan PlanAroundWith(const BezierAvoidanceOptions& options, const AvoidanceRequest& request) {
   TRACKBED_CHECK(options.safe_distance >= 0.0 && options.delay >= 0.0 && options.min_speed > 0.0 &&
-                     options.max_lateral_acceleration > 0.0 && options.steering_rate_share > 0.0 &&
-                     options.steering_rate_share <= 1.0 && options.comfortable_rate_share > 0.0,
+                     options.max_lateral_acceleration > 0.0 &&
+                     options.max_steering_rate_fraction > 0.0 &&
+                     options.max_steering_rate_fraction <= 1.0 &&
+                     options.comfortable_steering_rate_fraction > 0.0,
                  "safe distance {}, delay {}, minimum speed {}, lateral acceleration {}, share {}",
                  options.safe_distance, options.delay, options.min_speed,
-                 options.max_lateral_acceleration, options.steering_rate_share);
+                 options.max_lateral_acceleration, options.max_steering_rate_fraction);
   const auto find = [&](const Plan& plan, const Conflict& conflict, double from) {
     StretchSearch found = FindStretch(request, options, plan, conflict, from);
     if (!found.stretch) {
@@ -264,7 +266,7 @@ Plan PlanAroundWith(const BezierAvoidanceOptions& options, const AvoidanceReques
                     .curve = stretch.repair.curve,
                     .check = stretch.repair.check,
                     .speed = stretch.problem.speed,
-                    .ring = stretch.ring,
+                    .passing_side = stretch.passing_side,
                     .tree = stretch.tree.nodes,
                     .notes = {},
                     .diagnostics =
@@ -302,7 +304,7 @@ const std::vector<AvoiderEntry>& LocalPlanners() {
 bool IsInTheWay(const VehicleParams& vehicle, const Path& path, double station,
                 const OrientedBox& obstacle, double distance) {
   for (double s = station; s <= path.length(); s += kLook) {
-    if (Separation(OutlineAt(vehicle, path.At(s).pose), obstacle) < distance) {
+    if (Separation(FootprintAt(vehicle, path.At(s).pose), obstacle) < distance) {
       return true;
     }
   }
@@ -329,23 +331,24 @@ void VisitAvoider(KeyVisitor& keys, Options& options) {
 
 void Visit(KeyVisitor& keys, BezierAvoidanceOptions& options) {
   VisitAvoider(keys, options);
-  static const EnumNames<PassingSideChoice> rings{{PassingSideChoice::kAuto, "auto"},
+  static const EnumNames<PassingSideChoice> sides{{PassingSideChoice::kAuto, "auto"},
                                                   {PassingSideChoice::kInner, "inner"},
                                                   {PassingSideChoice::kOuter, "outer"}};
-  keys.Field({"ring", "",
+  keys.Field({"passing_side", "",
               "passing side: toward the turn's center (left on a straight), away from it, or the "
               "shorter one found by RRT*"},
-             options.ring, Need::kOptional, rings);
+             options.passing_side, Need::kOptional, sides);
   keys.Field({"min_speed", "m/s", "minimum speed past an obstacle"}, options.min_speed,
              Need::kOptional, kPositive);
   keys.Field({"max_lateral_acceleration", "m/s^2", "maximum lateral acceleration of the curve"},
              options.max_lateral_acceleration, Need::kOptional, kPositive);
-  keys.Field({"steering_rate_share", "",
+  keys.Field({"max_steering_rate_fraction", "",
               "maximum fraction of the car's steering rate that the curve may use"},
-             options.steering_rate_share, Need::kOptional, Range{.max = 1.0, .above = 0.0});
-  keys.Field({"comfortable_rate_share", "",
+             options.max_steering_rate_fraction, Need::kOptional, Range{.max = 1.0, .above = 0.0});
+  keys.Field({"comfortable_steering_rate_fraction", "",
               "fraction of the steering rate up to which curves are preferred"},
-             options.comfortable_rate_share, Need::kOptional, Range{.max = 1.0, .above = 0.0});
+             options.comfortable_steering_rate_fraction, Need::kOptional,
+             Range{.max = 1.0, .above = 0.0});
   keys.Field({"rrt_iterations", "", "number of RRT* samples"}, options.rrt_iterations,
              Need::kOptional, Range{.min = 0, .max = 1e6});
   keys.Field({"rrt_step", "m", "maximum distance from a node toward a sample"}, options.rrt_step,

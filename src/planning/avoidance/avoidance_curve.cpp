@@ -57,7 +57,7 @@ class EndConditions {
 
   [[nodiscard]] double scale() const { return scale_; }
 
-  [[nodiscard]] Points PointsOf(Variables x) const {
+  [[nodiscard]] Points ToPoints(Variables x) const {
     constexpr double kOffset = static_cast<double>(kDegree) / (kDegree - 1.0);
     const double a = scale_ * x[kStartFirst];
     const double b = scale_ * x[kStartSecond];
@@ -69,12 +69,12 @@ class EndConditions {
             Vec2{a + b, kOffset * start_curvature_ * a * a},
             scale_ * Vec2{x[kX3], x[kY3]},
             scale_ * Vec2{x[kX4], x[kY4]},
-            last - c * forward_ + kOffset * end_curvature_ * d * d * LeftOf(forward_),
+            last - c * forward_ + kOffset * end_curvature_ * d * d * LeftNormal(forward_),
             last,
             end_};
   }
 
-  [[nodiscard]] std::array<double, kVariables> VariablesOf(const Points& p) const {
+  [[nodiscard]] std::array<double, kVariables> ToVariables(const Points& p) const {
     return {p[1].x() / scale_,
             (p[2] - p[1]).x() / scale_,
             p[3].x() / scale_,
@@ -137,8 +137,8 @@ class Evaluation {
   explicit Evaluation(const CurveProblem& problem)
       : problem_(problem),
         ends_(problem),
-        gate_(problem.Frame().In(problem.gate.frame.position())),
-        along_gate_(Direction(problem.Frame().In(problem.gate.frame.yaw))),
+        passage_(problem.Frame().In(problem.passage.frame.position())),
+        along_passage_(Direction(problem.Frame().In(problem.passage.frame.yaw))),
         wanted_(problem.safe_distance + kClearanceMargin) {
     const VehicleParams& vehicle = problem.vehicle;
     for (const OrientedBox& box : problem.obstacles) {
@@ -167,7 +167,7 @@ class Evaluation {
     }
     std::copy(x.begin(), x.end(), x_.begin());
     evaluated_ = true;
-    const Points points = ends_.PointsOf(x);
+    const Points points = ends_.ToPoints(x);
     Eigen::Matrix<double, kDegree + 1, 2> control;
     for (std::size_t i = 0; i < points.size(); ++i) {
       control.row(static_cast<Eigen::Index>(i)) = points[i].transpose();
@@ -184,28 +184,28 @@ class Evaluation {
     double steering = 0.0;
     double acceleration = 0.0;
     double slowest = std::numeric_limits<double>::infinity();
-    double on_side = std::numeric_limits<double>::infinity();  // where it crosses the gate
-    Vec2 last_at_gate{0.0, 0.0};
+    double on_side = std::numeric_limits<double>::infinity();  // where it crosses the passage
+    Vec2 last_at_passage{0.0, 0.0};
     constraints_.fill(-1.0);
     for (Eigen::Index k = 0; k < Basis::kSamples; ++k) {
       const Vec2 first = curve[1].row(k);
       const Vec2 second = curve[2].row(k);
       const Vec2 third = curve[3].row(k);
       const double parameter_speed = first.norm();
-      const double curvature = CurvatureOf(first, second);
-      const double sharpness = SharpnessOf(first, second, third);
+      const double curvature = CurvatureFromDerivatives(first, second);
+      const double sharpness = SharpnessFromDerivatives(first, second, third);
       // Trapezia over the samples; the same for every curve, so that rounding does not jump.
       length += k == 0 ? 0.0 : 0.5 * (parameter_speed + last_speed) / (Basis::kSamples - 1);
       last_speed = parameter_speed;
       slowest = std::min(slowest, parameter_speed);
       const Vec2 position = curve[0].row(k);
-      const Vec2 from_gate = position - gate_;
-      const Vec2 at_gate{along_gate_.dot(from_gate), Cross(along_gate_, from_gate)};
-      if (k > 0 && (at_gate.x() < 0.0) != (last_at_gate.x() < 0.0)) {
-        on_side = std::min(on_side,
-                           problem_.gate.side * problem_.mirror * CrossingY(last_at_gate, at_gate));
+      const Vec2 from_passage = position - passage_;
+      const Vec2 at_passage{along_passage_.dot(from_passage), Cross(along_passage_, from_passage)};
+      if (k > 0 && (at_passage.x() < 0.0) != (last_at_passage.x() < 0.0)) {
+        on_side = std::min(on_side, problem_.passage.side * problem_.mirror *
+                                        CrossingY(last_at_passage, at_passage));
       }
-      last_at_gate = at_gate;
+      last_at_passage = at_passage;
       const double weight = k == 0 || k == Basis::kSamples - 1 ? 0.5 : 1.0;
       variation += weight * sharpness * sharpness * parameter_speed / (Basis::kSamples - 1);
 
@@ -230,8 +230,8 @@ class Evaluation {
     objective_ = variation * scale * scale * scale;
   }
 
-  /// The separation of the outline on a point of the curve from the nearest obstacle, or kFar more
-  /// than is wanted where the boxes' circles tell that it is at least that.
+  /// The separation of the footprint on a point of the curve from the nearest obstacle, or kFar
+  /// more than is wanted where the boxes' circles tell that it is at least that.
   [[nodiscard]] double NearestObstacle(const Vec2& rear_axle, const Vec2& forward) const {
     const VehicleParams& vehicle = problem_.vehicle;
     const Vec2 middle = rear_axle + (0.5 * vehicle.length - vehicle.rear_overhang) * forward;
@@ -239,10 +239,10 @@ class Evaluation {
     for (const Near& near : obstacles_) {
       const double reach = nearest + near.radius;
       if ((middle - near.box.center.position()).squaredNorm() < reach * reach) {
-        const OrientedBox outline{{middle.x(), middle.y(), std::atan2(forward.y(), forward.x())},
-                                  vehicle.length,
-                                  vehicle.width};
-        nearest = std::min(nearest, Separation(outline, near.box));
+        const OrientedBox footprint{{middle.x(), middle.y(), std::atan2(forward.y(), forward.x())},
+                                    vehicle.length,
+                                    vehicle.width};
+        nearest = std::min(nearest, Separation(footprint, near.box));
       }
     }
     return nearest;
@@ -252,8 +252,8 @@ class Evaluation {
 
   const CurveProblem& problem_;
   EndConditions ends_;
-  Vec2 gate_{0.0, 0.0};  // in the frame of the start
-  Vec2 along_gate_{1.0, 0.0};
+  Vec2 passage_{0.0, 0.0};  // in the frame of the start
+  Vec2 along_passage_{1.0, 0.0};
   double wanted_;  // clearance [m]
   /// An obstacle in the frame of the start, and how far apart the middles of it and the car can be
   /// while they touch.
@@ -296,7 +296,7 @@ std::vector<Vec2> Evenly(const std::vector<Vec2>& polyline, std::size_t count) {
   return points;
 }
 
-double LengthOf(const std::vector<Vec2>& polyline) {
+double PolylineLength(const std::vector<Vec2>& polyline) {
   double length = 0.0;
   for (std::size_t i = 1; i < polyline.size(); ++i) {
     length += (polyline[i] - polyline[i - 1]).norm();
@@ -334,19 +334,19 @@ CurveCheck Check(const CurveProblem& problem, const BezierCurve& curve) {
         std::max(check.lateral_acceleration, std::abs(point.curvature) * speed * speed);
     for (const OrientedBox& obstacle : problem.obstacles) {
       check.clearance =
-          std::min(check.clearance, Distance(OutlineAt(vehicle, point.pose), obstacle));
+          std::min(check.clearance, Distance(FootprintAt(vehicle, point.pose), obstacle));
     }
   }
   return check;
 }
 
-bool GoesThrough(const Gate& gate, const std::vector<Vec2>& polyline) {
+bool GoesThrough(const PassageConstraint& passage, const std::vector<Vec2>& polyline) {
   int crossings = 0;
   for (std::size_t i = 1; i < polyline.size(); ++i) {
-    const Vec2 a = ToLocal(gate.frame, polyline[i - 1]);
-    const Vec2 b = ToLocal(gate.frame, polyline[i]);
+    const Vec2 a = ToLocal(passage.frame, polyline[i - 1]);
+    const Vec2 b = ToLocal(passage.frame, polyline[i]);
     if ((a.x() < 0.0) != (b.x() < 0.0)) {
-      crossings += gate.side * CrossingY(a, b) > 0.0 ? 1 : 0;
+      crossings += passage.side * CrossingY(a, b) > 0.0 ? 1 : 0;
     }
   }
   return crossings % 2 == 1;
@@ -355,9 +355,9 @@ bool GoesThrough(const Gate& gate, const std::vector<Vec2>& polyline) {
 BezierCurve Fit(const CurveProblem& problem, const std::vector<Vec2>& polyline) {
   TRACKBED_CHECK(polyline.size() >= 2, "{} points", polyline.size());
   const EndConditions ends(problem);
-  const double seventh = LengthOf(polyline) / kDegree / ends.scale();
+  const double seventh = PolylineLength(polyline) / kDegree / ends.scale();
   std::array<double, kVariables> x{seventh, seventh, 0.0, 0.0, 0.0, 0.0, seventh, seventh};
-  Points points = ends.PointsOf(x);
+  Points points = ends.ToPoints(x);
   // The rest of the polyline, after what the known control points give, is for P_3 and P_4.
   constexpr Eigen::Index kSamples = Basis::kSamples;
   const auto& bernstein = TheBasis().of_order[0];
@@ -384,7 +384,7 @@ std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve
   for (std::size_t i = 0; i < points.size(); ++i) {
     points[i] = problem.Frame().In(guess.control_points()[i]);
   }
-  const std::array<double, kVariables> start = evaluation.ends().VariablesOf(points);
+  const std::array<double, kVariables> start = evaluation.ends().ToVariables(points);
   // End lengths from a fiftieth of the way to all of it; P_3 and P_4 anywhere near.
   SearchProblem moved{
       .lower = {0.02, 0.02, -1.0, -1.5, -1.0, -1.5, 0.02, 0.02},
@@ -421,7 +421,7 @@ std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve
   if (!result.ok()) {
     return std::nullopt;
   }
-  BezierCurve curve = InWorld(problem, evaluation.ends().PointsOf(result.x));
+  BezierCurve curve = InWorld(problem, evaluation.ends().ToPoints(result.x));
   const CurveCheck check = Check(problem, curve);
   if (!check.Keeps(problem)) {
     return std::nullopt;

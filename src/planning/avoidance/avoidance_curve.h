@@ -38,7 +38,7 @@ struct CurveEnd {
 };
 
 /// The side on which an obstacle is to be passed.
-struct Gate {
+struct PassageConstraint {
   Pose2 frame;        ///< at the obstacle, along the way past it
   double side = 1.0;  ///< +1: across the frame's y axis on the left, -1: on the right
 };
@@ -47,7 +47,7 @@ struct CurveProblem {
   VehicleParams vehicle;
   CurveEnd start;
   CurveEnd end;
-  Gate gate;
+  PassageConstraint passage;
   double mirror = 1.0;  ///< -1: looked at in a mirror (see MirrorFrame)
   std::vector<OrientedBox> obstacles;
   double safe_distance = 0.0;         ///< SD [m]
@@ -65,7 +65,7 @@ struct CurveProblem {
 /// What a curve asks of the car, and how close it comes.
 struct CurveCheck {
   double length = 0.0;                ///< [m]
-  double clearance = 0.0;             ///< of the outline; infinite without obstacles [m]
+  double clearance = 0.0;             ///< of the footprint; infinite without obstacles [m]
   double steering = 0.0;              ///< largest magnitude [rad]
   double steering_rate = 0.0;         ///< likewise [rad/s]
   double lateral_acceleration = 0.0;  ///< likewise [m/s^2]
@@ -87,12 +87,12 @@ struct Repair {
   SearchResult search;
 };
 
-/// Whether a polyline goes through the gate: an odd number of times across its side.
-bool GoesThrough(const Gate& gate, const std::vector<Vec2>& polyline);
+/// Whether a polyline goes through the passage: an odd number of times across its side.
+bool GoesThrough(const PassageConstraint& passage, const std::vector<Vec2>& polyline);
 
 /// Moves P_3, P_4 and the end lengths from those of `guess` for the least curvature variation,
-/// the integral of (dkappa/ds)^2 ds, that goes through the gate and keeps distance and limits. None
-/// when the search found no such curve.
+/// the integral of (dkappa/ds)^2 ds, that goes through the passage and keeps distance and limits.
+/// None when the search found no such curve.
 std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve& guess,
                                   const SearchOptions& search, std::uint64_t seed);
 

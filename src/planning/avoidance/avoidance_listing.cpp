@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "trackbed/core/angle.h"
-#include "trackbed/planning/avoidance/turn_manoeuvre.h"
+#include "trackbed/planning/avoidance/turn_maneuver.h"
 #include "trackbed/planning/common/plan.h"
 
 namespace trackbed::avoidance {
@@ -54,9 +54,9 @@ std::optional<Turn> TurnAt(const Path& path, double s) {
 }
 
 /// The listing's problem. Its arc counts from a right angle, whatever the turn's is.
-TurnManoeuvre ProblemFor(const AvoidanceRequest& request, const ListingAvoidanceOptions& options,
-                         const Turn& turn, const OrientedBox& obstacle, double beside) {
-  TurnManoeuvre problem;
+TurnManeuver ProblemFor(const AvoidanceRequest& request, const ListingAvoidanceOptions& options,
+                        const Turn& turn, const OrientedBox& obstacle, double beside) {
+  TurnManeuver problem;
   problem.radius = 1.0 / std::abs(turn.curvature);
   problem.speed = request.speed.speed;
   problem.delay = options.delay;
@@ -103,11 +103,11 @@ std::vector<std::string> NotesOn(const CurveCheck& check, const VehicleParams& v
                   obstacle.center.x, obstacle.center.y, fmt::join(broken, "; "))};
 }
 
-ListingAvoidanceDiagnostics DiagnosticsOn(const TurnManoeuvre& problem, const TurnLayout& layout,
+ListingAvoidanceDiagnostics DiagnosticsOn(const TurnManeuver& problem, const TurnLayout& layout,
                                           const LiteralTree& tree, const VehicleParams& vehicle,
                                           const std::array<Vec2, 8>& points) {
-  const ManoeuvreDrive drive =
-      DriveManoeuvre(problem, layout, vehicle, BezierCurve({points.begin(), points.end()}));
+  const ManeuverRun drive =
+      SimulateManeuver(problem, layout, vehicle, BezierCurve({points.begin(), points.end()}));
   return {.obstacle_sixth = problem.obstacle_sixth,
           .tree_nodes = tree.nodes.size(),
           .goal_distance = tree.goal_distance,
@@ -127,7 +127,7 @@ ReplacementSearch FindListingCurve(const AvoidanceRequest& request,
   if (!turn || turn->sweep() >= 2.0 * kPi) {
     return {std::nullopt, "the listing only handles obstacles in turns of constant radius"};
   }
-  const TurnManoeuvre problem = ProblemFor(request, options, *turn, conflict.obstacle, beside);
+  const TurnManeuver problem = ProblemFor(request, options, *turn, conflict.obstacle, beside);
   const TurnLayout layout = LayOutTurn(problem, vehicle);
   if (!layout.ok()) {
     return {std::nullopt, layout.reason};
@@ -146,7 +146,7 @@ ReplacementSearch FindListingCurve(const AvoidanceRequest& request,
                                       before, after, std::max(room_before, 0.0), room_after)};
   }
 
-  const Pose2 X_WM = ManoeuvreFrame(problem, path.At(turn->arc.from).pose);
+  const Pose2 X_WM = ManeuverFrame(problem, path.At(turn->arc.from).pose);
   std::vector<Vec2> control;
   for (const Vec2& point : points) {
     control.push_back(ToWorld(X_WM, point));
@@ -169,7 +169,7 @@ ReplacementSearch FindListingCurve(const AvoidanceRequest& request,
               .curve = curve,
               .check = check,
               .speed = problem.speed,
-              .ring = problem.ring(),
+              .passing_side = problem.passing_side(),
               .tree = nodes,
               .notes = NotesOn(check, vehicle, options.safe_distance, conflict.obstacle),
               .diagnostics = [own = DiagnosticsOn(problem, layout, tree, vehicle, points)](

@@ -40,7 +40,7 @@ struct Bend {
 
 /// One side of an obstacle, and the way that RRT* found there.
 struct Way {
-  PassingSide ring = PassingSide::kInner;
+  PassingSide passing_side = PassingSide::kInner;
   RrtStarResult tree;
 };
 
@@ -57,7 +57,7 @@ class StretchFinder {
       : request_(request), options_(options), plan_(plan) {}
 
   [[nodiscard]] StretchSearch Find(const Conflict& conflict, double from) const {
-    const Bend bend = BendOf(conflict);
+    const Bend bend = BendAt(conflict);
     const std::vector<double> leaves = LeavesFor(conflict, bend, from);
     const std::vector<double> backs = BacksFor(conflict, bend);
     if (backs.empty()) {
@@ -77,8 +77,8 @@ class StretchFinder {
           // Of the curve that leaves here, taken this fast.
           const auto problem_to = [&, speed = speed, share = share](double back) {
             CurveProblem problem = ProblemFor(leave, back, {speed, share}, from);
-            problem.gate = {SideFrame(conflict), SideOf(bend, way.ring)};
-            problem.mirror = SideOf(bend, PassingSide::kInner);
+            problem.passage = {SideFrame(conflict), LateralSign(bend, way.passing_side)};
+            problem.mirror = LateralSign(bend, PassingSide::kInner);
             return problem;
           };
           std::optional<Stretch> stretch;
@@ -88,8 +88,8 @@ class StretchFinder {
             std::optional<Repair> repair =
                 RepairCurve(problem, guess, options_.search, request_.seed);
             if (repair) {
-              stretch = Stretch{problem,  std::move(*repair), way.ring, leave, back,
-                                way.tree, conflict.obstacle,  beside,   0};
+              stretch = Stretch{problem,  std::move(*repair), way.passing_side, leave, back,
+                                way.tree, conflict.obstacle,  beside,           0};
             }
             return repair.has_value();
           };
@@ -115,9 +115,9 @@ class StretchFinder {
     }
     const std::string why =
         fmt::format("no feasible curve on {} at {:.3g} m/s or more ({} tried)",
-                    options_.ring == PassingSideChoice::kAuto
+                    options_.passing_side == PassingSideChoice::kAuto
                         ? "either side"
-                        : fmt::format("the {} side", ToString(ways.front().ring)),
+                        : fmt::format("the {} side", ToString(ways.front().passing_side)),
                     std::min(full, options_.min_speed), tried);
     return {std::nullopt, why};
   }
@@ -126,7 +126,7 @@ class StretchFinder {
   [[nodiscard]] const Path& path() const { return plan_.reference.path; }
 
   /// The bend on which a conflict lies, or the conflict itself on a straight.
-  [[nodiscard]] Bend BendOf(const Conflict& conflict) const {
+  [[nodiscard]] Bend BendAt(const Conflict& conflict) const {
     Bend bend{conflict.from, conflict.to, 0.0};
     for (const PathPoint& point : Looks(path(), conflict.from, conflict.to)) {
       if (std::abs(point.curvature) > std::abs(bend.curvature)) {
@@ -153,13 +153,13 @@ class StretchFinder {
   [[nodiscard]] double ShiftLength(const OrientedBox& obstacle) const {
     const double aside =
         HalfDiagonal(obstacle) + options_.safe_distance + 0.5 * request_.vehicle.width;
-    const double sharpness = options_.steering_rate_share * request_.vehicle.steering_rate /
+    const double sharpness = options_.max_steering_rate_fraction * request_.vehicle.steering_rate /
                              (request_.vehicle.wheelbase * request_.speed.speed);
     return std::cbrt(60.0 * aside / sharpness);
   }
 
   /// S: before and after the bend; on a straight, what moving aside takes.
-  [[nodiscard]] double LeadOf(const Bend& bend, const OrientedBox& obstacle) const {
+  [[nodiscard]] double LeadDistance(const Bend& bend, const OrientedBox& obstacle) const {
     const double delay = request_.speed.speed * options_.delay;
     return bend.curvature != 0.0 ? 1.0 / std::abs(bend.curvature) + delay
                                  : ShiftLength(obstacle) + delay;
@@ -188,7 +188,7 @@ class StretchFinder {
   [[nodiscard]] std::vector<double> LeavesFor(const Conflict& conflict, const Bend& bend,
                                               double from) const {
     std::vector<double> leaves;
-    const double lead = LeadOf(bend, conflict.obstacle);
+    const double lead = LeadDistance(bend, conflict.obstacle);
     for (const double share : {1.0, 1.5, 2.25}) {
       const double wanted = bend.from - share * lead;
       // The car leaves from where it is, however its wheels stand.
@@ -204,7 +204,7 @@ class StretchFinder {
 
   /// The stations at which it may be back, the first one first.
   [[nodiscard]] std::vector<double> BacksFor(const Conflict& conflict, const Bend& bend) const {
-    const double lead = LeadOf(bend, conflict.obstacle);
+    const double lead = LeadDistance(bend, conflict.obstacle);
     const double last = std::min(path().length(), std::max(bend.to, conflict.to) + 2.0 * lead);
     std::vector<double> backs;
     for (double s = conflict.to + kReturnStep; s < last;
@@ -246,9 +246,9 @@ class StretchFinder {
   }
 
   /// Across the path at the obstacle, to the left if it passes the obstacle there.
-  [[nodiscard]] static double SideOf(const Bend& bend, PassingSide ring) {
+  [[nodiscard]] static double LateralSign(const Bend& bend, PassingSide passing_side) {
     const double inner = bend.curvature < 0.0 ? -1.0 : 1.0;
-    return ring == PassingSide::kInner ? inner : -inner;
+    return passing_side == PassingSide::kInner ? inner : -inner;
   }
 
   /// The frame in which sides are told: at the obstacle, along the path beside it.
@@ -259,10 +259,10 @@ class StretchFinder {
 
   /// From the most comfortable on: at the mission's speed, then slower down to the slowest allowed.
   [[nodiscard]] std::vector<Demand> Demands() const {
-    const double most = options_.steering_rate_share;
+    const double most = options_.max_steering_rate_fraction;
     std::vector<Demand> demands;
-    if (options_.comfortable_rate_share < most) {
-      demands.push_back({request_.speed.speed, options_.comfortable_rate_share});
+    if (options_.comfortable_steering_rate_fraction < most) {
+      demands.push_back({request_.speed.speed, options_.comfortable_steering_rate_fraction});
     }
     for (double v = request_.speed.speed; v > options_.min_speed; v *= kSlower) {
       demands.push_back({v, most});
@@ -288,25 +288,25 @@ class StretchFinder {
     return tree;
   }
 
-  /// A wall from the obstacle outward closes one side of a gate.
-  [[nodiscard]] static OrientedBox WallOn(const Gate& gate, double length) {
+  /// A wall from the obstacle outward closes one side of a passage.
+  [[nodiscard]] static OrientedBox WallOn(const PassageConstraint& passage, double length) {
     constexpr double kThin = 1e-3;  // [m]
-    const Vec2 middle = ToWorld(gate.frame, {0.0, gate.side * 0.5 * length});
-    return {{middle.x(), middle.y(), gate.frame.yaw}, kThin, length};
+    const Vec2 middle = ToWorld(passage.frame, {0.0, passage.side * 0.5 * length});
+    return {{middle.x(), middle.y(), passage.frame.yaw}, kThin, length};
   }
 
   /// The sides that may be tried, with the way that RRT* found on each; the shorter one first.
   [[nodiscard]] std::vector<Way> WaysFor(const Conflict& conflict, const Bend& bend,
                                          const CurveProblem& problem) const {
     const Pose2 beside = SideFrame(conflict);
-    const MirrorFrame frame{problem.start.pose, SideOf(bend, PassingSide::kInner)};
+    const MirrorFrame frame{problem.start.pose, LateralSign(bend, PassingSide::kInner)};
     const auto grow = [&](std::optional<PassingSide> only) {
       RrtStarProblem tree = TreeProblem(frame, problem, conflict);
       if (only) {
         const PassingSide closed =
             *only == PassingSide::kInner ? PassingSide::kOuter : PassingSide::kInner;
         const double length = (tree.high - tree.low).norm();
-        tree.obstacles.push_back(frame.In(WallOn({beside, SideOf(bend, closed)}, length)));
+        tree.obstacles.push_back(frame.In(WallOn({beside, LateralSign(bend, closed)}, length)));
       }
       RrtStarResult result = PlanRrtStar(
           tree, {.iterations = options_.rrt_iterations, .step = options_.rrt_step}, request_.seed);
@@ -318,19 +318,21 @@ class StretchFinder {
       }
       return result;
     };
-    if (options_.ring != PassingSideChoice::kAuto) {
-      const PassingSide ring =
-          options_.ring == PassingSideChoice::kInner ? PassingSide::kInner : PassingSide::kOuter;
-      return {{ring, grow(ring)}};
+    if (options_.passing_side != PassingSideChoice::kAuto) {
+      const PassingSide passing_side = options_.passing_side == PassingSideChoice::kInner
+                                           ? PassingSide::kInner
+                                           : PassingSide::kOuter;
+      return {{passing_side, grow(passing_side)}};
     }
     Way first{PassingSide::kInner, grow(std::nullopt)};
     if (first.tree.ok()) {
       const bool left = GoesThrough({beside, 1.0}, first.tree.path);
-      first.ring = (left ? 1.0 : -1.0) == SideOf(bend, PassingSide::kInner) ? PassingSide::kInner
-                                                                            : PassingSide::kOuter;
+      first.passing_side = (left ? 1.0 : -1.0) == LateralSign(bend, PassingSide::kInner)
+                               ? PassingSide::kInner
+                               : PassingSide::kOuter;
     }
     const PassingSide other =
-        first.ring == PassingSide::kInner ? PassingSide::kOuter : PassingSide::kInner;
+        first.passing_side == PassingSide::kInner ? PassingSide::kOuter : PassingSide::kInner;
     return {first, {other, grow(other)}};
   }
 
@@ -349,7 +351,7 @@ class StretchFinder {
       const double aside =
           HalfDiagonal(conflict.obstacle) + options_.safe_distance + request_.vehicle.width;
       guide = {problem.start.pose.position(),
-               ToWorld(SideFrame(conflict), {0.0, SideOf(bend, way.ring) * aside})};
+               ToWorld(SideFrame(conflict), {0.0, LateralSign(bend, way.passing_side) * aside})};
     }
     guide.push_back(end);
     return guide;
@@ -366,10 +368,10 @@ std::optional<Conflict> FirstConflict(const AvoidanceRequest& request, double sa
                                       const Path& path, double from) {
   std::optional<Conflict> conflict;
   for (const PathPoint& point : Looks(path, from, path.length())) {
-    const OrientedBox outline = OutlineAt(request.vehicle, point.pose);
+    const OrientedBox footprint = FootprintAt(request.vehicle, point.pose);
     const auto in_the_way = std::find_if(
         request.obstacles.begin(), request.obstacles.end(), [&](const OrientedBox& obstacle) {
-          return Separation(outline, obstacle) < safe_distance - kTouch;
+          return Separation(footprint, obstacle) < safe_distance - kTouch;
         });
     if (in_the_way != request.obstacles.end()) {
       if (!conflict) {

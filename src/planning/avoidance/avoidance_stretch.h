@@ -35,7 +35,7 @@ struct Replacement {
   BezierCurve curve;
   CurveCheck check;
   double speed = 0.0;  ///< at most, on the curve [m/s]
-  PassingSide ring = PassingSide::kInner;
+  PassingSide passing_side = PassingSide::kInner;
   std::vector<TreeNode> tree;  ///< that was searched for it
   std::vector<std::string> notes;
   /// Of the method, given the new plan and the curve's stations on it.
@@ -51,7 +51,7 @@ struct ReplacementSearch {
 struct Stretch {
   CurveProblem problem;
   Repair repair;
-  PassingSide ring = PassingSide::kInner;
+  PassingSide passing_side = PassingSide::kInner;
   double leave = 0.0;  ///< station [m]
   double back = 0.0;   ///< station [m]
   RrtStarResult tree;
@@ -65,8 +65,8 @@ struct StretchSearch {
   std::string why;  ///< there is none, for people
 };
 
-/// Looks for the stretch, first on the ring that RRT* prefers, at full speed, back on the plan as
-/// early as can be; then on the other ring, then more slowly. `from` is where the plan, which may
+/// Looks for the stretch, first on the side that RRT* prefers, at full speed, back on the plan as
+/// early as can be; then on the other side, then more slowly. `from` is where the plan, which may
 /// have been led around other obstacles already, can be left.
 StretchSearch FindStretch(const AvoidanceRequest& request, const BezierAvoidanceOptions& options,
                           const Plan& plan, const Conflict& conflict, double from);

@@ -76,12 +76,12 @@ double CollisionChecker::Clearance(const Pose2& pose) const {
   if (near == nullptr) {
     return room;
   }
-  const OrientedBox outline{{middle.x(), middle.y(), pose.yaw}, vehicle_.length, vehicle_.width};
+  const OrientedBox footprint{{middle.x(), middle.y(), pose.yaw}, vehicle_.length, vehicle_.width};
   for (const int i : *near) {
     const OrientedBox& box = boxes_[static_cast<std::size_t>(i)];
     const double circles = radii_[static_cast<std::size_t>(i)] + radius_ + distance_ + room;
     if ((box.center.position() - middle).squaredNorm() < circles * circles) {
-      room = std::min(room, Separation(outline, box) - distance_);
+      room = std::min(room, Separation(footprint, box) - distance_);
     }
   }
   return room;
@@ -94,7 +94,7 @@ std::optional<double> CollisionChecker::FirstBlocked(const Path& path) const {
                          std::abs(segment.CurvatureAt(segment.length)),
                          std::abs(segment.CurvatureAt(0.5 * segment.length))});
   }
-  const double moved = 1.0 + sharpest * reach_;  // by the outline, per meter of path
+  const double moved = 1.0 + sharpest * reach_;  // by the footprint, per meter of path
   for (double s = 0.0;;) {
     const double room = Clearance(path.At(s).pose);
     if (room < 0.0) {

@@ -18,7 +18,7 @@ namespace {
 constexpr double kStraight = 1e-9;
 
 /// The curve's segments, turned to its side.
-std::vector<Segment> SegmentsOf(const RoundCorner& corner) {
+std::vector<Segment> ToSegments(const RoundCorner& corner) {
   const double side = std::copysign(1.0, corner.heading_change);
   const double ramp = corner.curvature / corner.sharpness;
   const double arc = std::abs(corner.heading_change) / corner.curvature - ramp;
@@ -53,7 +53,7 @@ Path LayOut(const std::vector<Vec2>& polyline, std::vector<RoundCorner>& corners
       RoundCorner& corner = corners[i];
       corner.from = station;
       if (corner.tangent_length > 0.0) {
-        for (const Segment& segment : SegmentsOf(corner)) {
+        for (const Segment& segment : ToSegments(corner)) {
           add(segment);
         }
       }
@@ -87,7 +87,7 @@ std::optional<double> SpeedAfterBraking(const CornerLimits& limits, double highe
   return std::nullopt;
 }
 
-std::string PlaceOf(const RoundCorner& corner) {
+std::string DescribePlace(const RoundCorner& corner) {
   return fmt::format("the corner of {:.3g} rad at ({:.4g}, {:.4g})", corner.heading_change,
                      corner.at.x(), corner.at.y());
 }
@@ -119,7 +119,7 @@ RoundCorner CornerAt(const VehicleParams& vehicle, double heading_change, double
   corner.sharpness = vehicle.steering_rate / (vehicle.wheelbase * speed);
   corner.curvature = std::min(std::sqrt(h * corner.sharpness), max_curvature);
   // The middle of the curve lies on the corner's bisector.
-  std::vector<Segment> half = SegmentsOf(corner);
+  std::vector<Segment> half = ToSegments(corner);
   const bool has_arc = half.size() == 3;
   half.pop_back();
   if (has_arc) {
@@ -190,7 +190,7 @@ RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2
       continue;
     }
     if (std::abs(corner.heading_change) > kPi - kStraight) {
-      return refuse(PlanStatus::kUTurn, PlaceOf(corner) + " turns back on itself");
+      return refuse(PlanStatus::kUTurn, DescribePlace(corner) + " turns back on itself");
     }
     const double room_out = out.norm() * (i + 2 == polyline.size() ? 1.0 : 0.5);
     const double room_in = in.norm() * (i == 1 ? 1.0 : 0.5);
@@ -201,7 +201,7 @@ RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2
       return refuse(
           PlanStatus::kTurnTooTight,
           fmt::format("{} needs {:.3g} m of its legs even at {:.3g} m/s; available {:.3g}",
-                      PlaceOf(corner), at_speed(corner, limits.min_speed).tangent_length,
+                      DescribePlace(corner), at_speed(corner, limits.min_speed).tangent_length,
                       limits.min_speed, std::min(room_in, room_out)));
     }
     double speed = limits.speed;
@@ -218,7 +218,7 @@ RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2
         return refuse(
             PlanStatus::kTurnTooTight,
             fmt::format("{} is too close to slow down for from {:.3g} m/s at {:.3g} m/s^2",
-                        PlaceOf(corner), limits.start_speed, limits.deceleration));
+                        DescribePlace(corner), limits.start_speed, limits.deceleration));
       }
       speed = *slowed;
     }

@@ -17,7 +17,8 @@ struct Step {
   bool cusp;        // the direction changes
 };
 
-std::vector<Step> StepsOf(const VehicleParams& vehicle, const std::vector<Segment>& segments) {
+std::vector<Step> CurvatureSteps(const VehicleParams& vehicle,
+                                 const std::vector<Segment>& segments) {
   std::vector<Step> steps;
   double joint = 0.0;
   for (std::size_t i = 0; i + 1 < segments.size(); ++i) {
@@ -40,7 +41,7 @@ double RoomSpeed(const VehicleParams& vehicle, const Step& step) {
   return vehicle.steering_rate * step.room / step.steering;
 }
 
-bool IsOneOf(const std::vector<double>& stations, double s) {
+bool ContainsStation(const std::vector<double>& stations, double s) {
   constexpr double kSame = 1e-9;  // [m]
   return std::any_of(stations.begin(), stations.end(),
                      [&](double station) { return std::abs(station - s) < kSame; });
@@ -62,8 +63,8 @@ std::vector<SteeringRamp> RampsOfSteps(const VehicleParams& vehicle,
                                        const std::vector<SpeedCap>& caps,
                                        const std::vector<double>& stops) {
   std::vector<SteeringRamp> ramps;
-  for (const Step& step : StepsOf(vehicle, segments)) {
-    if (step.cusp || IsOneOf(stops, step.joint)) {
+  for (const Step& step : CurvatureSteps(vehicle, segments)) {
+    if (step.cusp || ContainsStation(stops, step.joint)) {
       continue;
     }
     double at = std::min(speed, RoomSpeed(vehicle, step));
@@ -81,7 +82,7 @@ std::vector<SteeringRamp> RampsOfSteps(const VehicleParams& vehicle,
 StepSpeeds PlanSteps(const VehicleParams& vehicle, const std::vector<Segment>& segments,
                      double min_speed) {
   StepSpeeds speeds;
-  for (const Step& step : StepsOf(vehicle, segments)) {
+  for (const Step& step : CurvatureSteps(vehicle, segments)) {
     const double room = RoomSpeed(vehicle, step);
     if (step.cusp) {
       continue;

@@ -87,7 +87,7 @@ double SteeringSlope(const VehicleParams& vehicle, double curvature, double shar
 
 /// Each segment divided into equal pieces of at most kSpacing, so that short segments are checked
 /// too.
-std::vector<Piece> PiecesOf(const Path& path, const VehicleParams& vehicle) {
+std::vector<Piece> SplitIntoPieces(const Path& path, const VehicleParams& vehicle) {
   std::vector<Piece> pieces;
   double start = 0.0;
   for (const Segment& segment : path.segments()) {
@@ -152,7 +152,7 @@ void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>
   Worst speed("speed", "m/s", Remedy::kLowerSpeed);
   Worst rate("steering rate along the path", "rad/s", Remedy::kLowerSpeed);
   const Path& path = plan.reference.path;
-  for (const Piece& piece : PiecesOf(path, vehicle)) {
+  for (const Piece& piece : SplitIntoPieces(path, vehicle)) {
     const double s = piece.stations.from;
     const double v =
         std::max(plan.reference.speed.SpeedAt(s), plan.reference.speed.SpeedAt(piece.stations.to));
@@ -170,7 +170,7 @@ void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>
 
 void CheckSteeringRate(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
   Worst rate("steering rate", "rad/s", Remedy::kLowerSpeed);
-  const std::vector<Stations> legs = LegsOf(plan.reference.path, plan.stops);
+  const std::vector<Stations> legs = SplitIntoLegs(plan.reference.path, plan.stops);
   ForEachRamp(plan.schedule, [&](double from, double to, double slope) {
     if (EndsAtStop(legs, to)) {
       return;
@@ -226,7 +226,7 @@ std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
       caps.push_back({piece.from, piece.to, speed});
     }
   };
-  for (const Piece& piece : PiecesOf(path, vehicle)) {
+  for (const Piece& piece : SplitIntoPieces(path, vehicle)) {
     double speed = vehicle.steering_rate / piece.slope;
     if (vehicle.friction_lateral > 0.0) {
       const double road = RoadOver(request, path, piece.stations);
@@ -234,7 +234,7 @@ std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
     }
     add(piece.stations, speed);  // infinite on a straight
   }
-  const std::vector<Stations> legs = LegsOf(path, plan.stops);
+  const std::vector<Stations> legs = SplitIntoLegs(path, plan.stops);
   ForEachRamp(plan.schedule, [&](double from, double to, double slope) {
     const double speed = vehicle.steering_rate / slope;
     if (speed < wanted * (1.0 - kRounding) && !EndsAtStop(legs, to)) {
@@ -306,7 +306,7 @@ void SetSpeeds(Plan& plan, double start_speed, const SpeedLimits& limits) {
                             : StopAtEnd(stop, start_speed, limits, plan.caps);
 }
 
-std::vector<Excess> ExcessesOf(const Plan& plan, const PlanRequest& request) {
+std::vector<Excess> FindExcesses(const Plan& plan, const PlanRequest& request) {
   std::vector<Excess> found;
   CheckStart(plan, request, found);
   CheckPath(plan, request, found);
@@ -319,7 +319,7 @@ Plan MakeFeasible(Plan plan, const PlanRequest& request) {
   if (!plan.ok()) {
     return plan;
   }
-  const std::vector<Excess> first = ExcessesOf(plan, request);
+  const std::vector<Excess> first = FindExcesses(plan, request);
   if (first.empty()) {
     return plan;
   }
@@ -350,7 +350,7 @@ Plan MakeFeasible(Plan plan, const PlanRequest& request) {
   for (int i = 0; i < kTries && !left.empty(); ++i) {
     limits = Gentler(limits, left);
     SetSpeeds(slower, request.start_speed, limits);
-    left = ExcessesOf(slower, request);
+    left = FindExcesses(slower, request);
   }
   if (!left.empty()) {
     return Refuse(left, plan);

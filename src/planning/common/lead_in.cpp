@@ -31,7 +31,7 @@ std::vector<Segment> Straightening(const PlanRequest& request) {
 
 }  // namespace
 
-LeadIn LeadInOf(const PlanRequest& request, double speed, double beyond) {
+LeadIn ComputeLeadIn(const PlanRequest& request, double speed, double beyond) {
   LeadIn lead{.segments = {}, .end = request.start};
   if (request.start_speed <= 0.0) {
     return lead;

@@ -14,14 +14,14 @@ Vec2 FirstCell(const GridArea& area, double cell) {
 }
 
 /// Columns and rows.
-Vec2 CountOf(const GridArea& area, double cell) {
+Vec2 CellCounts(const GridArea& area, double cell) {
   const Vec2 last{std::ceil(area.high.x() / cell), std::ceil(area.high.y() / cell)};
   return last - FirstCell(area, cell) + Vec2::Ones();
 }
 
 }  // namespace
 
-Vec2 OccupancyGrid::MiddleOf(std::size_t index) const {
+Vec2 OccupancyGrid::CellCenter(std::size_t index) const {
   const auto width = static_cast<std::size_t>(columns);
   return ToWorld(
       X_WG, {cell * static_cast<double>(index % width), cell * static_cast<double>(index / width)});
@@ -55,14 +55,14 @@ GridArea AreaAround(const Pose2& X_WF, const std::vector<Vec2>& points_W,
 }
 
 double CellsIn(const GridArea& area, double cell) {
-  return CountOf(area, cell).prod();
+  return CellCounts(area, cell).prod();
 }
 
-OccupancyGrid RasterOf(const Pose2& X_WF, const GridArea& area, double cell,
-                       const std::vector<OrientedBox>& boxes_W, double inflation) {
+OccupancyGrid Rasterize(const Pose2& X_WF, const GridArea& area, double cell,
+                        const std::vector<OrientedBox>& boxes_W, double inflation) {
   TRACKBED_CHECK(cell > 0.0 && inflation >= 0.0, "cells of {} m, inflation {} m", cell, inflation);
   const Vec2 first = FirstCell(area, cell);
-  const Vec2 count = CountOf(area, cell);
+  const Vec2 count = CellCounts(area, cell);
   TRACKBED_CHECK(count.minCoeff() >= 1.0 && count.prod() <= kMaxCells, "{} x {} cells", count.x(),
                  count.y());
   OccupancyGrid grid;

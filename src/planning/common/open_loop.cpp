@@ -7,15 +7,15 @@
 
 namespace trackbed {
 
-OpenLoopDrive DriveOpenLoop(const VehicleParams& vehicle, const Path& path,
-                            const SteeringSchedule& schedule, double stop_distance,
-                            ReferencePoint reference) {
+OpenLoopRun SimulateOpenLoop(const VehicleParams& vehicle, const Path& path,
+                             const SteeringSchedule& schedule, double stop_distance,
+                             ReferencePoint reference) {
   constexpr double kSpacing = 0.5;  // [m]; deviations bend over meters
   constexpr double kStep = 0.05;    // [m]; of the roll-out, whose error is of fourth order
   constexpr double kSearch = 2.0;   // [m]
-  OpenLoopDrive drive;
+  OpenLoopRun drive;
   KinematicState state{.pose = path.At(0.0).pose};
-  const std::vector<Stations> legs = LegsOf(path);
+  const std::vector<Stations> legs = SplitIntoLegs(path);
   for (const Stations& leg : legs) {
     const double end = &leg == &legs.back() ? std::max(stop_distance, leg.from) : leg.to;
     state.speed = path.At(0.5 * (leg.from + leg.to)).direction;
@@ -41,7 +41,7 @@ OpenLoopDrive DriveOpenLoop(const VehicleParams& vehicle, const Path& path,
   return drive;
 }
 
-void Visit(DiagnosticsVisitor& out, const OpenLoopDrive& drive) {
+void Visit(DiagnosticsVisitor& out, const OpenLoopRun& drive) {
   out.Number("goal_distance_m", drive.goal_distance);
   out.Number("goal_heading_error_rad", drive.goal_heading);
   out.Number("deviation_max_m", drive.deviation_max);

@@ -56,7 +56,7 @@ class JsonWriter : public DiagnosticsVisitor {
   json& object_;
 };
 
-/// The end of an open-loop drive along a stretch.
+/// The end of an open-loop run along a stretch.
 struct StretchEnd {
   double distance = 0.0;
   double heading_error = 0.0;
@@ -69,13 +69,13 @@ void Visit(DiagnosticsVisitor& out, const StretchEnd& end) {
 
 }  // namespace
 
-const char* ToString(PassingSide ring) {
-  return ring == PassingSide::kInner ? "inner" : "outer";
+const char* ToString(PassingSide passing_side) {
+  return passing_side == PassingSide::kInner ? "inner" : "outer";
 }
 
 void Visit(DiagnosticsVisitor& out, const AvoidedStretch& stretch) {
   out.Point("obstacle_m", stretch.obstacle);
-  out.Text("ring", ToString(stretch.ring));
+  out.Text("passing_side", ToString(stretch.passing_side));
   out.Number("clearance_m", stretch.clearance);
   out.Number("leave_s_m", stretch.stations.from);
   out.Number("return_s_m", stretch.stations.to);

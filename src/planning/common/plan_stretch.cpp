@@ -52,7 +52,7 @@ std::vector<Segment> SegmentsBetween(const Path& path, Stations within) {
   return segments;
 }
 
-Plan RestOf(const Plan& plan, double station, double start_speed, const SpeedLimits& speed) {
+Plan RemainingPlan(const Plan& plan, double station, double start_speed, const SpeedLimits& speed) {
   Plan rest = plan;
   const Path& path = plan.reference.path;
   const Stations ahead{station, path.length()};

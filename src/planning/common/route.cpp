@@ -64,7 +64,7 @@ void Complete(Plan& plan, const PlanRequest& request) {
   plan.schedule =
       CourseSchedule(request.vehicle, path.segments(), request.speed.speed, plan.caps, plan.stops);
   plan.goal = path.At(path.length()).pose;
-  plan.diagnostics.direction_changes = LegsOf(path).size() - 1;
+  plan.diagnostics.direction_changes = SplitIntoLegs(path).size() - 1;
 }
 
 Plan AlongPolyline(Plan plan, const PlanRequest& request, const std::vector<Vec2>& points,
@@ -137,15 +137,16 @@ bool IsFree(const CollisionChecker& clear, const Pose2& pose,
 LeadIn LeadInForCurves(const PlanRequest& request, double radius, double min_speed) {
   const double curvature = 1.0 / radius;
   const double speed = std::max(StepSpeed(request.vehicle, 0.0, curvature), min_speed);
-  return LeadInOf(request, std::min(speed, request.start_speed),
-                  0.5 * SteeringDistance(request.vehicle,
-                                         SteeringForCurvature(request.vehicle, curvature), speed));
+  return ComputeLeadIn(
+      request, std::min(speed, request.start_speed),
+      0.5 * SteeringDistance(request.vehicle, SteeringForCurvature(request.vehicle, curvature),
+                             speed));
 }
 
 void VisitCurves(KeyVisitor& keys, std::optional<double>& radius, double& safe_distance,
                  double& min_speed) {
   keys.Field(kCurveRadius, radius, kPositive);
-  keys.Field(kOutlineDistance, safe_distance, Need::kOptional, kNonNegative);
+  keys.Field(kFootprintDistance, safe_distance, Need::kOptional, kNonNegative);
   keys.Field(kStepSpeed, min_speed, Need::kOptional, kPositive);
 }
 
@@ -155,14 +156,14 @@ void VisitCorners(KeyVisitor& keys, Corners& corners, double& safe_distance, dou
               "handling of corners: rounded by clothoids and arcs that the steering can follow, or "
               "refused"},
              corners, Need::kOptional, names);
-  keys.Field(kOutlineDistance, safe_distance, Need::kOptional, kNonNegative);
+  keys.Field(kFootprintDistance, safe_distance, Need::kOptional, kNonNegative);
   keys.Field({"corner_room", "m", "additional clearance in the search, for rounded corners"},
              corner_room, Need::kOptional, kNonNegative);
 }
 
 }  // namespace route
 
-std::vector<Pose2> StopsOf(const PlanRequest& request) {
+std::vector<Pose2> PlannedStops(const PlanRequest& request) {
   const std::vector<Vec2>& points = request.waypoints;
   std::vector<Pose2> stops{request.start};
   for (std::size_t i = 1; i < points.size(); ++i) {

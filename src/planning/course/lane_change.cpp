@@ -21,7 +21,7 @@ struct Course {
   std::array<double, 3> offsets;
 };
 
-Course CourseOf(LaneChangeStandard standard, double width) {
+Course MakeCourse(LaneChangeStandard standard, double width) {
   const double first = 1.1 * width + 0.25;
   if (standard == LaneChangeStandard::kIso3888_1) {
     const double second = 1.2 * width + 0.25;
@@ -58,7 +58,7 @@ void AddChange(double length, double offset, std::vector<Segment>& path) {
 
 std::vector<Gate> LaneChangeGates(LaneChangeStandard standard, Side first, double vehicle_width,
                                   const Pose2& start) {
-  const Course course = CourseOf(standard, vehicle_width);
+  const Course course = MakeCourse(standard, vehicle_width);
   const double side = first == Side::kLeft ? 1.0 : -1.0;
   std::vector<Gate> gates;
   double x = 0.0;
@@ -75,7 +75,7 @@ std::vector<Gate> LaneChangeGates(LaneChangeStandard standard, Side first, doubl
   return gates;
 }
 
-std::vector<Vec2> ConesOf(const Gate& gate) {
+std::vector<Vec2> GateCones(const Gate& gate) {
   constexpr int kPairs = 5;
   constexpr double kRadius = 0.15;  // [m]
   const OrientedBox& lane = gate.lane;
@@ -124,7 +124,7 @@ std::vector<double> GateMargins(const std::vector<Gate>& gates, const VehiclePar
     };
     std::array<Vec2, 4> before{};
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      const std::array<Vec2, 4> corners = OutlineAt(vehicle, poses[i]).Corners();
+      const std::array<Vec2, 4> corners = FootprintAt(vehicle, poses[i]).Corners();
       for (std::size_t c = 0; c < corners.size(); ++c) {
         const Vec2 corner = ToLocal(lane.center, corners[c]);
         if (std::abs(corner.x()) <= 0.5 * lane.length) {
@@ -185,7 +185,7 @@ Plan PlanWith(const LaneChangePlannerOptions& options, const PlanRequest& reques
   const std::vector<double> margins = GateMargins(plan.gates, request.vehicle, poses);
   for (std::size_t i = 0; i < plan.gates.size(); ++i) {
     found.gates.push_back(
-        {.gate = plan.gates[i], .cones = ConesOf(plan.gates[i]), .planned_margin = margins[i]});
+        {.gate = plan.gates[i], .cones = GateCones(plan.gates[i]), .planned_margin = margins[i]});
   }
   plan.diagnostics.planner = std::move(found);
   return plan;

@@ -37,7 +37,7 @@ std::optional<FoundCurve> FirstFree(const PlanRequest& request, const CollisionC
   constexpr double kStop = 5.0;  // [m]; as changes of direction cost hybrid A*
   std::vector<FoundCurve> candidates;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    std::vector<Segment> own = SegmentsOf(words[i]);
+    std::vector<Segment> own = ToSegments(words[i]);
     if (may_begin(own)) {
       const auto stops =
           static_cast<double>(PlanSteps(request.vehicle, own, min_speed).stops.size());
@@ -63,7 +63,7 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
   }
   const double radius = RadiusFor(request.vehicle, options.radius);
   const CollisionChecker clear(request.vehicle, request.obstacles, options.safe_distance);
-  const std::vector<Pose2> stops = StopsOf(request);
+  const std::vector<Pose2> stops = PlannedStops(request);
   if (Plan refused = CheckStops(stops, clear); !refused.ok()) {
     return refused;
   }
@@ -108,7 +108,7 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
                             : ""));
     }
     segments.insert(segments.end(), found->segments.begin(), found->segments.end());
-    found_curves.curves.push_back({.word = WordOf(found->curve),
+    found_curves.curves.push_back({.word = CurveWord(found->curve),
                                    .length = found->curve.length,
                                    .radius = radius,
                                    .shorter_ones_blocked = found->shorter_ones_blocked});

@@ -89,15 +89,15 @@ constexpr std::array<Family, 3> kFamilies{{
     {LeftRightLeft, Bend::kRight, Bend::kLeft},
 }};
 
-Bend BendOf(Bend bend, bool mirrored) {
+Bend MirroredBend(Bend bend, bool mirrored) {
   return mirrored ? static_cast<Bend>(-static_cast<int>(bend)) : bend;
 }
 
-ShortestCurve CurveOf(const Family& family, bool mirrored, const Sweeps& sweeps, double radius) {
+ShortestCurve MakeCurve(const Family& family, bool mirrored, const Sweeps& sweeps, double radius) {
   return {.radius = radius,
-          .pieces = {{{BendOf(Bend::kLeft, mirrored), sweeps.first},
-                      {BendOf(family.middle, mirrored), sweeps.middle},
-                      {BendOf(family.last, mirrored), sweeps.last}}},
+          .pieces = {{{MirroredBend(Bend::kLeft, mirrored), sweeps.first},
+                      {MirroredBend(family.middle, mirrored), sweeps.middle},
+                      {MirroredBend(family.last, mirrored), sweeps.last}}},
           .count = 3,
           .length = radius * sweeps.Sum()};
 }
@@ -120,7 +120,7 @@ ShortestCurve Dubins(const Pose2& from, const Pose2& to, double radius) {
       }
     }
   }
-  return CurveOf(*best_family, best_mirrored, best, radius);
+  return MakeCurve(*best_family, best_mirrored, best, radius);
 }
 
 std::vector<ShortestCurve> DubinsWords(const Pose2& from, const Pose2& to, double radius) {
@@ -130,7 +130,7 @@ std::vector<ShortestCurve> DubinsWords(const Pose2& from, const Pose2& to, doubl
     for (const bool mirrored : {false, true}) {
       const Sweeps sweeps = family.word(mirrored ? goal.Mirrored() : goal, kNone);
       if (sweeps.Sum() < kNone) {
-        words.push_back(CurveOf(family, mirrored, sweeps, radius));
+        words.push_back(MakeCurve(family, mirrored, sweeps, radius));
       }
     }
   }

@@ -214,7 +214,7 @@ struct Word {
   Sweeps sweeps;
 };
 
-double SweepOf(Part part, const Sweeps& sweeps) {
+double PartSweep(Part part, const Sweeps& sweeps) {
   switch (part) {
     case Part::kT:
       return sweeps.t;
@@ -230,7 +230,7 @@ double SweepOf(Part part, const Sweeps& sweeps) {
   return 0.0;
 }
 
-ShortestCurve CurveOf(const Word& word, double radius) {
+ShortestCurve MakeCurve(const Word& word, double radius) {
   ShortestCurve curve{.radius = radius,
                       .pieces = {},
                       .count = word.family->count,
@@ -238,7 +238,7 @@ ShortestCurve CurveOf(const Word& word, double radius) {
   const auto count = static_cast<std::size_t>(curve.count);
   for (std::size_t i = 0; i < count; ++i) {
     const int bend = static_cast<int>(word.family->bends[i]);
-    const double sweep = SweepOf(word.family->parts[i], word.sweeps);
+    const double sweep = PartSweep(word.family->parts[i], word.sweeps);
     curve.pieces[word.from_its_end ? count - 1 - i : i] = {
         static_cast<Bend>(word.mirrored ? -bend : bend), word.reversed ? -sweep : sweep};
   }
@@ -277,7 +277,7 @@ Word ShortestWord(const CurveGoal& goal) {
 }  // namespace
 
 ShortestCurve ReedsShepp(const Pose2& from, const Pose2& to, double radius) {
-  return CurveOf(ShortestWord(CurveGoal(from, to, radius)), radius);
+  return MakeCurve(ShortestWord(CurveGoal(from, to, radius)), radius);
 }
 
 double ReedsSheppLength(const Pose2& from, const Pose2& to, double radius) {
@@ -288,7 +288,7 @@ std::vector<ShortestCurve> ReedsSheppWords(const Pose2& from, const Pose2& to, d
   std::vector<ShortestCurve> words;
   ForEachWord(
       CurveGoal(from, to, radius), [] { return kNone; },
-      [&](const Word& word) { words.push_back(CurveOf(word, radius)); });
+      [&](const Word& word) { words.push_back(MakeCurve(word, radius)); });
   std::stable_sort(words.begin(), words.end(), [](const ShortestCurve& a, const ShortestCurve& b) {
     return a.length < b.length;
   });

@@ -14,7 +14,7 @@ bool IsThere(const CurvePiece& piece) {
 
 }  // namespace
 
-std::string WordOf(const ShortestCurve& curve) {
+std::string CurveWord(const ShortestCurve& curve) {
   std::string word;
   for (int i = 0; i < curve.count; ++i) {
     const CurvePiece& piece = curve.pieces[static_cast<std::size_t>(i)];
@@ -26,7 +26,7 @@ std::string WordOf(const ShortestCurve& curve) {
   return word;
 }
 
-std::vector<Segment> SegmentsOf(const ShortestCurve& curve) {
+std::vector<Segment> ToSegments(const ShortestCurve& curve) {
   std::vector<Segment> segments;
   for (int i = 0; i < curve.count; ++i) {
     const CurvePiece& piece = curve.pieces[static_cast<std::size_t>(i)];

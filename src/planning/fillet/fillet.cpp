@@ -18,7 +18,7 @@ using fillet::Route;
 
 FilletPlan PlanRoute(const VehicleParams& vehicle, const Route& route, double speed,
                      const FilletOptions& options, std::uint64_t seed) {
-  std::vector<FilletTurn> turns = fillet::CornersOf(route);
+  std::vector<FilletTurn> turns = fillet::FindTurns(route);
   std::vector<RadiusLimits> limits;
   for (FilletTurn& turn : turns) {
     limits.push_back(fillet::LimitRadius(vehicle, speed, options, turn));
@@ -31,7 +31,7 @@ FilletPlan PlanRoute(const VehicleParams& vehicle, const Route& route, double sp
   }
   FilletPlan plan = fillet::LayOut(vehicle, route, std::move(turns));
   plan.schedule = plan.turns.empty() ? SteeringSchedule({}, {}, options.neutral_steering)
-                                     : fillet::ScheduleOf(vehicle, plan.turns);
+                                     : fillet::MakeSchedule(vehicle, plan.turns);
   if (options.objective == RadiusObjective::kDriven && !plan.turns.empty()) {
     plan = fillet::SearchDriven(vehicle, route, options, seed, limits, plan);
   }
@@ -77,10 +77,10 @@ FilletPlan PlanFillets(const VehicleParams& vehicle, const std::vector<Vec2>& wa
           fmt::format("neutral_steering {:.4g} rad exceeds the steering limit of {:.4g} rad",
                       options.neutral_steering, vehicle.steering_limit)};
     }
-    const Route route = fillet::RouteOf(waypoints);
+    const Route route = fillet::MakeRoute(waypoints);
     plan = PlanRoute(vehicle, route, speed, options, seed);
     plan.verification =
-        DriveOpenLoop(vehicle, plan.path, plan.schedule, plan.stop_distance, options.reference);
+        SimulateOpenLoop(vehicle, plan.path, plan.schedule, plan.stop_distance, options.reference);
   } catch (const Refusal& refusal) {
     plan = {};
     plan.status = refusal.status;

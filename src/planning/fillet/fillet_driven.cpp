@@ -26,7 +26,7 @@ class DrivenProblem {
   }
 
   /// The plan that x stands for. Refusal when its turns are out of order.
-  [[nodiscard]] FilletPlan PlanOf(std::span<const double> x) const {
+  [[nodiscard]] FilletPlan PlanAt(std::span<const double> x) const {
     std::vector<FilletTurn> turns = start_.turns;
     for (std::size_t k = 0; k < turns.size(); ++k) {
       turns[k].radius = x[kDrivenVariables * k];
@@ -43,11 +43,11 @@ class DrivenProblem {
       }
     }
     plan.stop_distance = plan.path.length() + x.back() * ramps_;
-    plan.schedule = ScheduleOf(vehicle_, plan.turns);
+    plan.schedule = MakeSchedule(vehicle_, plan.turns);
     return plan;
   }
 
-  /// J of the plan's open-loop drive.
+  /// J of the plan's open-loop run.
   [[nodiscard]] double Cost(const FilletPlan& plan) const {
     const double end = plan.stop_distance;
     const auto intervals = static_cast<std::size_t>(std::ceil(end / kSpacing));
@@ -88,7 +88,7 @@ class DrivenProblem {
     problem.start.push_back(0.0);
     problem.objective = [this](std::span<const double> x) {
       try {
-        return Cost(PlanOf(x));
+        return Cost(PlanAt(x));
       } catch (const Refusal&) {
         return std::numeric_limits<double>::quiet_NaN();
       }
@@ -136,7 +136,7 @@ FilletPlan SearchDriven(const VehicleParams& vehicle, const Route& route,
     result.x = polished.x;
     result.value = polished.value;
   }
-  FilletPlan plan = driven.PlanOf(result.x);
+  FilletPlan plan = driven.PlanAt(result.x);
   plan.search = std::move(result);
   return plan;
 }

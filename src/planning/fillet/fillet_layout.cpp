@@ -78,7 +78,7 @@ void CenterRamps(const VehicleParams& vehicle, FilletTurn& turn) {
 
 }  // namespace
 
-Route RouteOf(const std::vector<Vec2>& waypoints) {
+Route MakeRoute(const std::vector<Vec2>& waypoints) {
   if (waypoints.size() < kMinFilletWaypoints) {
     throw Refusal{
         PlanStatus::kTooFewWaypoints, static_cast<int>(waypoints.size()) - 1,
@@ -99,7 +99,7 @@ Route RouteOf(const std::vector<Vec2>& waypoints) {
   return route;
 }
 
-std::vector<FilletTurn> CornersOf(const Route& route) {
+std::vector<FilletTurn> FindTurns(const Route& route) {
   std::vector<FilletTurn> turns;
   for (std::size_t i = 0; i + 1 < route.legs.size(); ++i) {
     const Leg& in = route.legs[i];
@@ -137,7 +137,7 @@ FilletPlan LayOut(const VehicleParams& vehicle, const Route& route, std::vector<
   return plan;
 }
 
-SteeringSchedule ScheduleOf(const VehicleParams& vehicle, const std::vector<FilletTurn>& turns) {
+SteeringSchedule MakeSchedule(const VehicleParams& vehicle, const std::vector<FilletTurn>& turns) {
   std::vector<TurnSteering> steering;
   std::vector<double> slopes;
   for (const FilletTurn& turn : turns) {

@@ -26,10 +26,10 @@ struct Route {
   std::vector<Leg> legs;
 };
 
-Route RouteOf(const std::vector<Vec2>& waypoints);
+Route MakeRoute(const std::vector<Vec2>& waypoints);
 
 /// The route's corners: waypoint, angles and shorter leg of every turn.
-std::vector<FilletTurn> CornersOf(const Route& route);
+std::vector<FilletTurn> FindTurns(const Route& route);
 
 /// Within what a turn's radius is chosen, and what lies at either end.
 struct RadiusLimits {
@@ -55,7 +55,7 @@ double ConstraintAt(const VehicleParams& vehicle, RadiusConstraint constraint,
 FilletPlan LayOut(const VehicleParams& vehicle, const Route& route, std::vector<FilletTurn> turns);
 
 /// The schedule of a plan's turns as they stand. Refusal when they are out of order.
-SteeringSchedule ScheduleOf(const VehicleParams& vehicle, const std::vector<FilletTurn>& turns);
+SteeringSchedule MakeSchedule(const VehicleParams& vehicle, const std::vector<FilletTurn>& turns);
 
 /// Runs the two-pass search (kLiteral, kTurnLocal) over all turns; fills in radii and findings.
 void SearchTurns(const VehicleParams& vehicle, const Route& route, double speed,

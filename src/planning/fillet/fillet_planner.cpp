@@ -76,7 +76,7 @@ double ReturnEnd(const FilletTurn& turn) {
   return turn.steer_return + turn.ramp_distance;
 }
 
-std::vector<IsolatedTurn> IsolatedTurnsOf(const FilletPlan& plan) {
+std::vector<IsolatedTurn> FindIsolatedTurns(const FilletPlan& plan) {
   std::vector<IsolatedTurn> lone;
   double straight_from = 0.0;
   for (const FilletTurn& turn : plan.turns) {
@@ -91,7 +91,7 @@ std::vector<IsolatedTurn> IsolatedTurnsOf(const FilletPlan& plan) {
 }
 
 /// A turn is slow from where its wheels begin to turn to where they are straight again.
-std::vector<SpeedCap> CapsOf(const FilletPlan& plan, double speed) {
+std::vector<SpeedCap> MakeSpeedCaps(const FilletPlan& plan, double speed) {
   std::vector<SpeedCap> caps;
   for (const FilletTurn& turn : plan.turns) {
     if (turn.speed < speed) {
@@ -113,8 +113,8 @@ Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
   }
   plan.reference.path = fillets.path;
   plan.schedule = fillets.schedule;
-  plan.turns = IsolatedTurnsOf(fillets);
-  plan.caps = CapsOf(fillets, request.speed.speed);
+  plan.turns = FindIsolatedTurns(fillets);
+  plan.caps = MakeSpeedCaps(fillets, request.speed.speed);
   plan.goal = fillets.path.At(fillets.path.length()).pose;
   plan.reference.speed =
       StopAtEnd(fillets.path.length(), request.start_speed, request.speed, plan.caps);

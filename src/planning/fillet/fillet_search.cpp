@@ -15,7 +15,7 @@ constexpr double kStep = 0.1;
 /// A car that turned by less in its window did not turn [rad]: the rest is rounding.
 constexpr double kNoHeading = 1e-9;
 
-/// What the first drive says of one turn: from where to where, and how far the car turned.
+/// What the first run says of one turn: from where to where, and how far the car turned.
 struct Window {
   double distance;
   double heading;
@@ -35,7 +35,7 @@ std::vector<double> YawsAtEvents(const VehicleParams& vehicle, const FilletPlan&
     distances.push_back(turn.steer_start);
     distances.push_back(turn.steer_return);
   }
-  const SteeringSchedule schedule = ScheduleOf(vehicle, turns);
+  const SteeringSchedule schedule = MakeSchedule(vehicle, turns);
   // An event may lie before the return of the turn before it: look at each on its own.
   std::vector<double> rising = distances;
   std::sort(rising.begin(), rising.end());
@@ -88,7 +88,7 @@ TurnSearch SearchTurn(const VehicleParams& vehicle, double speed, const FilletOp
   SearchProblem problem;
   problem.lower = {vehicle.min_turning_radius()};
   problem.upper = {std::max(problem.lower[0], options.max_radius)};
-  // For the downhill methods; the first drive's radius lies on the bound, where a simplex is flat.
+  // For the downhill methods; the first run's radius lies on the bound, where a simplex is flat.
   problem.start = {0.5 * (limits.radii.low + limits.radii.high)};
   problem.objective = [&](std::span<const double> r) {
     const double yaw_rate = sign * speed / std::hypot(r[0], l_g);  // C.25

@@ -21,7 +21,7 @@ constexpr double kShort = 0.05;
 /// s(t) to every end of one duration.
 std::vector<FrenetPiece> AlongPath(const FrenetRequest& request, const FrenetOptions& options,
                                    double duration) {
-  const LineMotion from = AlongOf(request.start);
+  const LineMotion from = LongitudinalMotion(request.start);
   const FrenetTarget target = TargetAt(request.goal, request.vehicle, duration);
   std::vector<FrenetPiece> pieces;
   if (!target.station) {
@@ -59,7 +59,7 @@ bool IsOverStation(const FrenetPiece& piece, const FrenetOptions& options) {
 
 }  // namespace
 
-LineMotion AlongOf(const FrenetState& state) {
+LineMotion LongitudinalMotion(const FrenetState& state) {
   return {state.s, state.s_rate, state.s_acceleration};
 }
 
@@ -94,8 +94,8 @@ FrenetTarget TargetAt(const FrenetGoal& goal, const VehicleParams& vehicle, doub
           leader.speed};
 }
 
-FrenetCost CostOf(const FrenetPiece& piece, const FrenetTarget& target,
-                  const FrenetWeights& weights) {
+FrenetCost PieceCost(const FrenetPiece& piece, const FrenetTarget& target,
+                     const FrenetWeights& weights) {
   const auto order = static_cast<std::size_t>(weights.derivative_order);
   const double duration = piece.duration;
   const double station = piece.s.At(duration);
@@ -135,7 +135,7 @@ std::vector<FrenetCandidate> FrenetCandidates(const FrenetRequest& request,
         } else if (!AddOverStation(request.start, offset, piece)) {
           break;
         }
-        candidates.push_back({piece, CostOf(piece, target, options.weights)});
+        candidates.push_back({piece, PieceCost(piece, target, options.weights)});
       }
     }
   }
@@ -189,7 +189,7 @@ std::string RejectionCounts::ToString() const {
   return text;
 }
 
-std::string ReasonOf(const FrenetPlan& plan, const char* of_what, int budget) {
+std::string ExplainFailure(const FrenetPlan& plan, const char* of_what, int budget) {
   if (plan.candidates == 0) {
     return fmt::format("there are no {}", of_what);
   }
@@ -251,7 +251,7 @@ FrenetPlan PlanFrenet(const Path& reference, const FrenetRequest& request,
     plan.cost = candidate.cost.total;
     return plan;
   }
-  plan.reason = ReasonOf(plan, "candidates", options.budget);
+  plan.reason = ExplainFailure(plan, "candidates", options.budget);
   return plan;
 }
 
@@ -282,9 +282,9 @@ void Visit(KeyVisitor& keys, FrenetWeights& weights) {
 void VisitLimits(KeyVisitor& keys, FrenetLimits& limits) {
   keys.Field({"max_lateral_acceleration", "m/s^2", "maximum lateral acceleration"},
              limits.max_lateral_acceleration, Need::kOptional, kPositive);
-  keys.Field({"steering_rate_share", "",
+  keys.Field({"max_steering_rate_fraction", "",
               "maximum fraction of the car's steering rate that a motion may use"},
-             limits.steering_rate_share, Need::kOptional, Range{.max = 1.0, .above = 0.0});
+             limits.max_steering_rate_fraction, Need::kOptional, Range{.max = 1.0, .above = 0.0});
   keys.Field({"speed_tolerance", "", "fraction by which a motion may exceed the mission speed"},
              limits.speed_tolerance, Need::kOptional, Range{.min = 0.0, .max = 1.0});
 }

@@ -12,8 +12,8 @@ namespace {
 constexpr double kShortest = 1e-3;
 
 /// Into how many equal times a piece is cut; none where it has no frame.
-std::optional<int> IntervalsOf(const Path& path, const FrenetPiece& piece, double time_step,
-                               double spacing) {
+std::optional<int> CountIntervals(const Path& path, const FrenetPiece& piece, double time_step,
+                                  double spacing) {
   constexpr int kProbes = 16;
   double fastest = 0.0;
   for (int i = 0; i <= kProbes; ++i) {
@@ -72,7 +72,7 @@ std::optional<std::vector<TrajectoryPoint>> SampleMotion(const Path& path,
   std::vector<TrajectoryPoint> points;
   double began = 0.0;
   for (const FrenetPiece& piece : motion.pieces) {
-    const auto intervals = IntervalsOf(path, piece, time_step, spacing);
+    const auto intervals = CountIntervals(path, piece, time_step, spacing);
     if (!intervals) {
       return std::nullopt;
     }

@@ -66,7 +66,7 @@ class Lattice {
       plan_.candidates += node.edges;
     }
     if (!plan_.ok()) {
-      plan_.reason = ReasonOf(plan_, "edges", options_.budget);
+      plan_.reason = ExplainFailure(plan_, "edges", options_.budget);
     }
     return plan_;
   }
@@ -118,7 +118,8 @@ class Lattice {
     if (!(root >= 0.0) || !(duration > 0.0) || !std::isfinite(duration)) {
       return std::nullopt;
     }
-    FrenetPiece piece{duration, QuarticBetween(AlongOf(from), AlongOf(to), duration), {}};
+    FrenetPiece piece{
+        duration, QuarticBetween(LongitudinalMotion(from), LongitudinalMotion(to), duration), {}};
     AddOverStation(from, to.d, piece);
     return piece;
   }
@@ -138,7 +139,7 @@ class Lattice {
       if (std::holds_alternative<FollowLeader>(request_.goal)) {
         target = TargetAt(request_.goal, request_.vehicle, nodes_[i].time + piece->duration);
       }
-      const double cost = nodes_[i].cost + CostOf(*piece, target, options_.weights).total;
+      const double cost = nodes_[i].cost + PieceCost(*piece, target, options_.weights).total;
       edges_.push_back({cost, i, *piece});
     }
     ranks_.resize(edges_.size());

@@ -41,7 +41,7 @@ PathPoint PathTable::At(double s) const {
   const double ahead = u * (1.0 - k * u * u * (k / 6.0 + u * k_rate / 8.0));
   const double left = u * u * (k / 2.0 + u * (k_rate / 6.0 - k * k * k * u / 24.0));
   const Vec2 position =
-      node.point.pose.position() + ahead * node.forward + left * LeftOf(node.forward);
+      node.point.pose.position() + ahead * node.forward + left * LeftNormal(node.forward);
   return {s,
           {position.x(), position.y(), node.point.pose.yaw + u * (k + 0.5 * u * k_rate)},
           k + u * k_rate,
@@ -73,25 +73,25 @@ TrajectoryCheck::TrajectoryCheck(const Path& path, const FrenetRequest& request,
   lateral_acceleration_ =
       loosened(limits.max_lateral_acceleration, v * v * std::abs(start->curvature));
   curvature_ = loosened(1.0 / request.vehicle.min_turning_radius(), std::abs(start->curvature));
-  steering_rate_ = loosened(limits.steering_rate_share * request.vehicle.steering_rate, 0.0);
-  const Reach reach = ReachOf(at, request.start);
+  steering_rate_ = loosened(limits.max_steering_rate_fraction * request.vehicle.steering_rate, 0.0);
+  const Reach reach = ComputeReach(at, request.start);
   left_ = loosened(request.road.left, reach.left);
   right_ = loosened(request.road.right, reach.right);
-  const OrientedBox outline = OutlineAt(request.vehicle, start->pose);
+  const OrientedBox footprint = FootprintAt(request.vehicle, start->pose);
   for (const MovingBox& obstacle : request.obstacles) {
-    const double clearance = Separation(outline, obstacle.box);
+    const double clearance = Separation(footprint, obstacle.box);
     if (clearance <= 0.0) {
       blocked_ = "the car is in collision with an obstacle";
       return;
     }
     obstacles_.push_back({obstacle, std::min(limits.safe_distance, clearance) - kRounding,
-                          HalfDiagonal(outline) + HalfDiagonal(obstacle.box) +
+                          HalfDiagonal(footprint) + HalfDiagonal(obstacle.box) +
                               std::min(limits.safe_distance, clearance)});
   }
 }
 
-TrajectoryCheck::Reach TrajectoryCheck::ReachOf(const PathPoint& at,
-                                                const FrenetState& frenet) const {
+TrajectoryCheck::Reach TrajectoryCheck::ComputeReach(const PathPoint& at,
+                                                     const FrenetState& frenet) const {
   const VehicleParams& car = request_.vehicle;
   const double k = at.curvature;
   const double tangent = frenet.d_slope / (1.0 - k * frenet.d);
@@ -114,12 +114,12 @@ TrajectoryCheck::Reach TrajectoryCheck::ReachOf(const PathPoint& at,
 }
 
 bool TrajectoryCheck::Collides(double time, const Pose2& pose) const {
-  const OrientedBox outline = OutlineAt(request_.vehicle, pose);
+  const OrientedBox footprint = FootprintAt(request_.vehicle, pose);
   return std::any_of(obstacles_.begin(), obstacles_.end(), [&](const Obstacle& obstacle) {
     const OrientedBox box = obstacle.box.At(time);
-    const Vec2 apart = box.center.position() - outline.center.position();
+    const Vec2 apart = box.center.position() - footprint.center.position();
     return apart.squaredNorm() < obstacle.reach * obstacle.reach &&
-           Separation(outline, box) < obstacle.margin;
+           Separation(footprint, box) < obstacle.margin;
   });
 }
 
@@ -143,7 +143,7 @@ std::optional<Rejection> TrajectoryCheck::CheckPoint(double time, const PathPoin
     return Rejection::kSteeringRate;
   }
   before = {time, steering};
-  const Reach reach = ReachOf(at, frenet);
+  const Reach reach = ComputeReach(at, frenet);
   if (reach.left > left_ || reach.right > right_) {
     return Rejection::kRoad;
   }

@@ -55,13 +55,13 @@ class TrajectoryCheck {
                                                     const FrenetState& frenet,
                                                     const MotionState& motion,
                                                     std::optional<Before>& before) const;
-  /// How far the outline reaches to either side of the path, as seen along the circle that the path
-  /// follows there.
+  /// How far the footprint reaches to either side of the path, as seen along the circle that the
+  /// path follows there.
   struct Reach {
     double left;
     double right;
   };
-  [[nodiscard]] Reach ReachOf(const PathPoint& at, const FrenetState& frenet) const;
+  [[nodiscard]] Reach ComputeReach(const PathPoint& at, const FrenetState& frenet) const;
   [[nodiscard]] bool Collides(double time, const Pose2& pose) const;
 
   const Path& path_;

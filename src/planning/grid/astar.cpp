@@ -110,7 +110,7 @@ constexpr std::size_t kPocket = 64;
 /// How many cells can be reached from one that is in a pocket without the other; else 0. Looked at
 /// first: it takes microseconds, and what the search itself sets up takes longer; without it, a
 /// goal in a pocket would be found out only when all else has been looked at.
-std::size_t PocketOf(const OccupancyGrid& grid, std::size_t cell, std::size_t other) {
+std::size_t PocketSize(const OccupancyGrid& grid, std::size_t cell, std::size_t other) {
   const auto free = [&](int x, int y) {
     return x >= 0 && y >= 0 && x < grid.columns && y < grid.rows &&
            grid.occupied[static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.columns) +
@@ -200,7 +200,7 @@ GridPath SearchGrid(const OccupancyGrid& grid, std::size_t start, std::size_t go
     return result;
   }
   for (const auto& [cell, other] : {std::pair(start, goal), std::pair(goal, start)}) {
-    const auto pocket = start == goal ? 0L : static_cast<long>(PocketOf(grid, cell, other));
+    const auto pocket = start == goal ? 0L : static_cast<long>(PocketSize(grid, cell, other));
     if (pocket > 0 && pocket <= budget) {
       result.expansions = pocket;
       return result;

@@ -15,7 +15,7 @@ namespace {
 using route::CheckRoute;
 using route::Refused;
 
-PlanStatus StatusOf(GridStatus status) {
+PlanStatus ToPlanStatus(GridStatus status) {
   switch (status) {
     case GridStatus::kFound:
       return PlanStatus::kOk;
@@ -38,10 +38,11 @@ double OverACell(const AStarOptions& options) {
 }
 
 /// The middles of the cells, with the stops themselves at the ends.
-std::vector<Vec2> PointsOf(const OccupancyGrid& grid, const GridPath& way, const Vec2& goal) {
+std::vector<Vec2> WaypointsOnGrid(const OccupancyGrid& grid, const GridPath& way,
+                                  const Vec2& goal) {
   std::vector<Vec2> points;
   for (const std::size_t cell : way.cells) {
-    points.push_back(grid.MiddleOf(cell));
+    points.push_back(grid.CellCenter(cell));
   }
   if ((points.back() - goal).norm() > 1e-9 * grid.cell) {
     points.push_back(goal);
@@ -64,13 +65,13 @@ Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const Occ
     const GridPath way = SearchGrid(grid, static_cast<std::size_t>(from),
                                     static_cast<std::size_t>(to), options.budget);
     if (!way.ok()) {
-      return Refused(StatusOf(way.status),
+      return Refused(ToPlanStatus(way.status),
                      fmt::format("from waypoint {} to {}: {}, after {} cells of {:.3g} m; "
                                  "obstacles are inflated by {:.3g} m",
                                  i - 1, i, ToString(way.status), way.expansions, options.cell,
                                  inflation + OverACell(options)));
     }
-    std::vector<Vec2> leg = PointsOf(grid, way, goal);
+    std::vector<Vec2> leg = WaypointsOnGrid(grid, way, goal);
     leg.front() = points.back();
     found.legs.push_back({.cost = way.cost * options.cell,
                           .expansions = way.expansions,
@@ -105,7 +106,7 @@ std::vector<std::vector<Vec2>> WaysOut(const PlanRequest& request) {
     for (const double side : {1.0, -1.0}) {
       // A quarter turn; and half a turn, by two of them.
       const Vec2 corner = from + (braking + radii * radius) * ahead;
-      const Vec2 beside = corner + 2.0 * side * radii * radius * LeftOf(ahead);
+      const Vec2 beside = corner + 2.0 * side * radii * radius * LeftNormal(ahead);
       ways.push_back({from, corner, beside});
       ways.push_back({from, corner, beside, beside - 2.0 * radii * radius * ahead});
     }
@@ -143,11 +144,11 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
                    fmt::format("{:.3g} cells of {:.3g} m; must be at most {:.3g}",
                                CellsIn(area, options.cell), options.cell, kMaxCells));
   }
-  const OccupancyGrid grid = RasterOf(request.start, area, options.cell, request.obstacles,
-                                      inflation + OverACell(options));
+  const OccupancyGrid grid = Rasterize(request.start, area, options.cell, request.obstacles,
+                                       inflation + OverACell(options));
   Plan direct = PlanGrid(options, request, grid, inflation, {request.start.position()});
   const std::vector<Excess> excesses =
-      direct.ok() ? ExcessesOf(direct, request) : std::vector<Excess>{};
+      direct.ok() ? FindExcesses(direct, request) : std::vector<Excess>{};
   // What slowing down mends is not a matter of how the path begins.
   const bool begins_right = std::all_of(excesses.begin(), excesses.end(), [](const Excess& excess) {
     return excess.remedy != Remedy::kNone;

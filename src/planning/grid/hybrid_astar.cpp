@@ -49,7 +49,7 @@ class HybridAStar {
         problem_(problem),
         radius_(options.radius.value_or(1.1 * vehicle.min_turning_radius())),
         clear_(vehicle, problem.obstacles, options.safe_distance),
-        grid_(GridOf(vehicle)) {}
+        grid_(MakeGrid(vehicle)) {}
 
   HybridAStarResult Run() {
     HybridAStarResult result;
@@ -78,7 +78,7 @@ class HybridAStar {
         return Found(result, index);
       }
       open_.pop();
-      if (node.parent >= 0 && best_.at(KeyOf(node)) < node.cost) {
+      if (node.parent >= 0 && best_.at(NodeKey(node)) < node.cost) {
         continue;  // a cheaper way to this cell has been found since
       }
       if (result.expansions >= options_.budget) {
@@ -99,8 +99,8 @@ class HybridAStar {
   }
 
   /// Occupied are cells that the rear axle's center surely cannot be in: nearer to an obstacle than
-  /// the outline's nearest side, all over the cell. Empty for an area of too many.
-  [[nodiscard]] OccupancyGrid GridOf(const VehicleParams& vehicle) const {
+  /// the footprint's nearest side, all over the cell. Empty for an area of too many.
+  [[nodiscard]] OccupancyGrid MakeGrid(const VehicleParams& vehicle) const {
     const GridArea area =
         AreaAround(problem_.start, {problem_.start.position(), problem_.goal.position()},
                    problem_.obstacles, options_.margin);
@@ -111,8 +111,8 @@ class HybridAStar {
         {0.5 * vehicle.width, vehicle.rear_overhang, vehicle.length - vehicle.rear_overhang});
     const double inflation =
         nearest_side + options_.safe_distance - 0.5 * std::sqrt(2.0) * options_.cell;
-    return RasterOf(problem_.start, area, options_.cell, problem_.obstacles,
-                    std::max(inflation, 0.0));
+    return Rasterize(problem_.start, area, options_.cell, problem_.obstacles,
+                     std::max(inflation, 0.0));
   }
 
   /// What is left on the grid [m].
@@ -133,7 +133,7 @@ class HybridAStar {
   }
 
   /// The cell of position, heading and direction.
-  [[nodiscard]] std::int64_t KeyOf(const Node& node) const {
+  [[nodiscard]] std::int64_t NodeKey(const Node& node) const {
     const std::int64_t cell = grid_.CellAt(node.pose.position());
     const double turn = WrapAngle(node.pose.yaw - problem_.start.yaw) / (2.0 * kPi);
     std::int64_t heading = std::llround(turn * options_.headings);
@@ -142,7 +142,7 @@ class HybridAStar {
   }
 
   /// What a segment costs after another.
-  [[nodiscard]] double CostOf(const Segment& before, const Segment& segment) const {
+  [[nodiscard]] double StepCost(const Segment& before, const Segment& segment) const {
     double cost = segment.length * (segment.direction > 0 ? 1.0 : options_.reverse_cost);
     if (before.length > 0.0) {
       cost += before.direction != segment.direction ? options_.switch_cost : 0.0;
@@ -170,13 +170,13 @@ class HybridAStar {
         const Segment step{.length = length, .curvature = bend / radius_, .direction = direction};
         const double along = direction * length;
         Node child{.pose = MoveOnArc(node.pose, along, step.curvature * along),
-                   .cost = node.cost + CostOf(node.step, step),
+                   .cost = node.cost + StepCost(node.step, step),
                    .parent = index,
                    .step = step};
         if (!std::isfinite(LeftOnGrid(child.pose))) {
           continue;
         }
-        const auto [best, is_new] = best_.try_emplace(KeyOf(child), child.cost);
+        const auto [best, is_new] = best_.try_emplace(NodeKey(child), child.cost);
         if ((!is_new && best->second <= child.cost) || !clear_.IsFree(node.pose, step)) {
           if (is_new) {
             best_.erase(best);
@@ -205,10 +205,10 @@ class HybridAStar {
     for (const ShortestCurve& word : options_.reverse
                                          ? ReedsSheppWords(node.pose, problem_.goal, radius_)
                                          : DubinsWords(node.pose, problem_.goal, radius_)) {
-      Curve curve{node.cost, SegmentsOf(word)};
+      Curve curve{node.cost, ToSegments(word)};
       const Segment* before = &node.step;
       for (const Segment& segment : curve.segments) {
-        curve.cost += CostOf(*before, segment);
+        curve.cost += StepCost(*before, segment);
         before = &segment;
       }
       const bool backwards = !curve.segments.empty() && curve.segments.front().direction < 0;

@@ -19,7 +19,7 @@ Plan PlanWith(const HybridAStarOptions& options, const PlanRequest& request) {
       return refused;
     }
   }
-  std::vector<Pose2> stops = StopsOf(request);
+  std::vector<Pose2> stops = PlannedStops(request);
   Plan plan;
   HybridAStarDiagnostics diagnostics;
   const bool rolls = request.start_speed > 0.0;

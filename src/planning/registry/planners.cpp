@@ -58,7 +58,7 @@ bool MayBePartial(const PlannerOptions& options) {
   return entry.may_be_partial != nullptr && entry.may_be_partial(options);
 }
 
-std::optional<double> SafeDistanceOf(const PlannerOptions& options) {
+std::optional<double> PlannerSafeDistance(const PlannerOptions& options) {
   PlannerOptions own = options;
   return FindNumber("safe_distance", [&](KeyVisitor& keys) { Visit(keys, own); });
 }
@@ -85,8 +85,8 @@ Plan MakePlan(const PlanRequest& request, const PlannerOptions& options) {
   Plan plan = PlannerFor(options).plan(request, options);
   plan = MakeFeasible(std::move(plan), request);
   if (plan.ok() && !plan.diagnostics.open_loop) {
-    plan.diagnostics.open_loop = DriveOpenLoop(request.vehicle, plan.reference.path, plan.schedule,
-                                               plan.schedule_speed.knots().back().s);
+    plan.diagnostics.open_loop = SimulateOpenLoop(
+        request.vehicle, plan.reference.path, plan.schedule, plan.schedule_speed.knots().back().s);
   }
   return plan;
 }

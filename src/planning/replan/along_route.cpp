@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "trackbed/core/error.h"
-#include "trackbed/path/rounded.h"
+#include "trackbed/path/smooth_curvature.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/vehicle/state.h"
 #include "trackbed/world/world.h"
@@ -55,7 +55,7 @@ double StopReach(const LatticeOptions& options, double) {
   return options.layers * options.spacing;
 }
 
-const FrenetLimits& LimitsOf(const AlongOptions& options) {
+const FrenetLimits& MotionLimits(const AlongOptions& options) {
   return std::visit([](const auto& own) -> const FrenetLimits& { return own.limits; }, options);
 }
 
@@ -156,7 +156,7 @@ class AlongRoute {
                                Polynomial{{end.s, end.s_rate, -0.5 * braking}}, Polynomial{{end.d}},
                                true});
     }
-    const FrenetLimits& limits = LimitsOf(options_);
+    const FrenetLimits& limits = MotionLimits(options_);
     auto points = SampleMotion(frame_.path, motion, limits.time_step, limits.spacing);
     // Where the frame does not reach so far, the motion alone.
     return points ? std::move(*points) : found_.points;
@@ -166,17 +166,17 @@ class AlongRoute {
     constexpr double kTouch = 1e-2;  // [m], what motions may fall short by between their samples
     const double began = found_.motion.duration();
     // A start that is nearer than the safe distance may stay as near.
-    const OrientedBox outline = OutlineAt(request_.vehicle, points_.front().motion.pose);
+    const OrientedBox footprint = FootprintAt(request_.vehicle, points_.front().motion.pose);
     std::vector<double> margins;
     for (const MovingBox& obstacle : request_.obstacles) {
-      margins.push_back(std::min(settings_.safe_distance, Separation(outline, obstacle.box)) -
+      margins.push_back(std::min(settings_.safe_distance, Separation(footprint, obstacle.box)) -
                         kTouch);
     }
     return std::all_of(points_.begin(), points_.end(), [&](const TrajectoryPoint& point) {
       if (point.t <= began) {
         return true;
       }
-      const OrientedBox there = OutlineAt(request_.vehicle, point.motion.pose);
+      const OrientedBox there = FootprintAt(request_.vehicle, point.motion.pose);
       for (std::size_t i = 0; i < margins.size(); ++i) {
         if (Separation(there, request_.obstacles[i].At(point.t)) < margins[i]) {
           return false;
@@ -233,8 +233,8 @@ const char* ToString(ManeuverType kind) {
   return "none";
 }
 
-RouteFrame FrameOf(const VehicleParams& vehicle, const Plan& route, const SpeedLimits& speed,
-                   double beyond) {
+RouteFrame MakeRouteFrame(const VehicleParams& vehicle, const Plan& route, const SpeedLimits& speed,
+                          double beyond) {
   const Path& path = route.reference.path;
   // The wheels need the longest way for the step of curvature from straight on to a bend.
   constexpr double kLook = 0.5;  // [m]
@@ -251,7 +251,7 @@ RouteFrame FrameOf(const VehicleParams& vehicle, const Plan& route, const SpeedL
   }
   std::vector<Segment> segments = path.segments();
   segments.push_back({.length = beyond});
-  RouteFrame frame{Rounded(Path(path.At(0.0).pose, std::move(segments)), window), 0.0};
+  RouteFrame frame{SmoothCurvature(Path(path.At(0.0).pose, std::move(segments)), window), 0.0};
   const double length = frame.path.length();
   frame.goal =
       frame.path.Project(path.At(path.length()).pose, {length - beyond - window, length}).s;

@@ -69,7 +69,7 @@ std::vector<SpeedCap> CapOfJoint(const VehicleParams& vehicle, const Path& path,
   return {{std::max(s - half, 0.0), std::min(s + half, path.length()), joint}};
 }
 
-std::vector<Vec2> PointsOf(const Path& path) {
+std::vector<Vec2> SamplePoints(const Path& path) {
   constexpr double kSpacing = 0.25;  // [m]
   std::vector<Vec2> points;
   for (const PathPoint& point : path.Sample(kSpacing)) {
@@ -149,7 +149,7 @@ class DetourSearch {
       ++detour.tried;
       std::optional<JoinedPlan> found = Between(leave, back, straight_on, attempt, detour.why);
       if (found) {
-        const WayScore score = Score(PointsOf(found->plan.reference.path));
+        const PathScore score = Score(SamplePoints(found->plan.reference.path));
         if (IsBetter(score, detour.best)) {
           detour.best = score;
           detour.route = std::move(found->plan);
@@ -165,22 +165,22 @@ class DetourSearch {
 
   [[nodiscard]] std::vector<Vec2> WayAsItIs() const {
     const Path& path = request_.route.reference.path;
-    return PointsOf(Path(path.At(request_.route_station).pose,
-                         path.Cut({request_.route_station, path.length()})));
+    return SamplePoints(Path(path.At(request_.route_station).pose,
+                             path.Cut({request_.route_station, path.length()})));
   }
 
   /// A way from the car on. Its center line keeps as far from what does not block it as the
-  /// outline's sides do.
-  [[nodiscard]] WayScore Score(const std::vector<Vec2>& way) const {
+  /// footprint's sides do.
+  [[nodiscard]] PathScore Score(const std::vector<Vec2>& way) const {
     const VehicleParams& car = request_.vehicle;
     const double inflation =
         std::min(0.5 * car.width, car.rear_overhang) + 0.9 * request_.safe_distance;
-    return ScoreWay(way, way.front(), request_.obstacles, inflation,
-                    {.wind = request_.wind,
-                     .time = request_.time,
-                     .speed = request_.speed.speed,
-                     .weight = choice_.wind_weight},
-                    choice_.comparator);
+    return ScorePath(way, way.front(), request_.obstacles, inflation,
+                     {.wind = request_.wind,
+                      .time = request_.time,
+                      .speed = request_.speed.speed,
+                      .weight = choice_.wind_weight},
+                     choice_.comparator);
   }
 
   /// Where to come back to the route: straight, and with some of it left.
@@ -304,10 +304,10 @@ std::vector<Stations> BlockedStretches(const VehicleParams& vehicle, const Path&
   std::vector<Stations> stretches;
   bool blocked = false;
   for (double s = station; s <= path.length(); s += kLook) {
-    const OrientedBox outline = OutlineAt(vehicle, path.At(s).pose);
+    const OrientedBox footprint = FootprintAt(vehicle, path.At(s).pose);
     const bool here = std::any_of(
         obstacles.begin(), obstacles.end(),
-        [&](const OrientedBox& obstacle) { return Separation(outline, obstacle) < distance; });
+        [&](const OrientedBox& obstacle) { return Separation(footprint, obstacle) < distance; });
     if (here && !blocked) {
       stretches.push_back({s, s});
     }

@@ -19,9 +19,9 @@ std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
       Excerpt(reference.speed, {station, std::max(station, reference.path.length())});
   const auto station_at = [&](double time) { return station + ahead.StationAt(time); };
   const auto too_near = [&](double time, const MovingBox& obstacle) {
-    const OrientedBox outline =
-        OutlineAt(vehicle, Compose(reference.path.At(station_at(time)).pose, {0.0, offset, 0.0}));
-    return Separation(outline, obstacle.At(time)) < distance - kTouch;
+    const OrientedBox footprint =
+        FootprintAt(vehicle, Compose(reference.path.At(station_at(time)).pose, {0.0, offset, 0.0}));
+    return Separation(footprint, obstacle.At(time)) < distance - kTouch;
   };
   const auto steps = static_cast<int>(std::ceil(look_ahead / kStep));
   for (int i = 0; i <= steps; ++i) {
@@ -66,9 +66,9 @@ bool MightClear(const VehicleParams& vehicle, const Path& path, double station,
       continue;
     }
     for (double s = station; s <= std::min(station + kAhead, path.length()); s += kStep) {
-      const OrientedBox outline = OutlineAt(vehicle, path.At(s).pose);
+      const OrientedBox footprint = FootprintAt(vehicle, path.At(s).pose);
       for (double time = 0.0; time <= kWithin; time += kStep) {
-        if (Separation(outline, obstacle.At(time)) < distance) {
+        if (Separation(footprint, obstacle.At(time)) < distance) {
           return true;
         }
       }

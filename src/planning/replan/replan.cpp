@@ -59,15 +59,15 @@ class Replanning {
       : request_(request), driving_(driving), options_(options) {}
 
   Replanned Run() {
-    auto encounter = EncounterOf(driving_.plan.reference, driving_.station);
-    if (request_.strayed && !encounter) {
+    auto conflict = NextConflict(driving_.plan.reference, driving_.station);
+    if (request_.strayed && !conflict) {
       // Beside the plan as far as the car is.
       const Pose2 beside = driving_.plan.reference.path.At(driving_.station).pose;
-      encounter = EncounterOf(driving_.plan.reference, driving_.station,
+      conflict = NextConflict(driving_.plan.reference, driving_.station,
                               ToLocal(beside, request_.car.pose.position()).y());
     }
     const bool stuck = !driving_.plan.blocked.empty();
-    if (!encounter && !stuck && !request_.strayed && (driving_.on_route || NearlyThere())) {
+    if (!conflict && !stuck && !request_.strayed && (driving_.on_route || NearlyThere())) {
       return Keep();
     }
     AlongPlan along;
@@ -84,7 +84,7 @@ class Replanning {
       return Follow(along);
     }
     // Another start has other candidates: what is driven may lead past what none of them do.
-    const bool is_free = !encounter && !request_.strayed;
+    const bool is_free = !conflict && !request_.strayed;
     if (is_free && !stuck) {
       return Keep();
     }
@@ -92,7 +92,7 @@ class Replanning {
       Detour detour = FindDetour();
       diagnostics_.detour = FindingsOn(detour);
       // Detours know only what stands.
-      if (detour.route && !EncounterOf(detour.route->reference, 0.0)) {
+      if (detour.route && !NextConflict(detour.route->reference, 0.0)) {
         diagnostics_.kind = "detour";
         detour.route->diagnostics.replan = diagnostics_;
         return {ReplanKind::kRoute, std::move(*detour.route)};
@@ -104,18 +104,18 @@ class Replanning {
     if (along.ok()) {
       return Follow(along);
     }
-    if (!encounter && request_.strayed) {
-      encounter = AheadOfTheCar();
+    if (!conflict && request_.strayed) {
+      conflict = AheadOfTheCar();
     }
-    return encounter ? Brake(*encounter) : Keep();
+    return conflict ? Brake(*conflict) : Keep();
   }
 
  private:
   [[nodiscard]] Replanned Keep() const { return {ReplanKind::kKeep, driving_.plan}; }
 
-  [[nodiscard]] std::optional<PredictedConflict> EncounterOf(const Reference& reference,
-                                                             double station,
-                                                             double offset = 0.0) const {
+  [[nodiscard]] std::optional<PredictedConflict> NextConflict(const Reference& reference,
+                                                              double station,
+                                                              double offset = 0.0) const {
     return PredictConflict(request_.vehicle, reference, station, request_.obstacles,
                            options_.settings.safe_distance, options_.settings.look_ahead, offset);
   }
@@ -125,11 +125,11 @@ class Replanning {
     const double speed = request_.car.speed;
     const Plan plan = StopAfter(
         std::max(LeftToDrive(), 0.0) + 0.5 * speed * speed / ComfortableBraking(), speed, true);
-    std::optional<PredictedConflict> encounter = EncounterOf(plan.reference, 0.0);
-    if (encounter) {
-      encounter->station += driving_.station;
+    std::optional<PredictedConflict> conflict = NextConflict(plan.reference, 0.0);
+    if (conflict) {
+      conflict->station += driving_.station;
     }
-    return encounter;
+    return conflict;
   }
 
   /// Of the plan that is driven [m].
@@ -171,8 +171,8 @@ class Replanning {
         std::abs(steering - on_route) > kBackSteering) {
       return std::nullopt;
     }
-    Plan rest = RestOf(driving_.route, at.s, start.speed, request_.speed);
-    if (EncounterOf(rest.reference, 0.0)) {
+    Plan rest = RemainingPlan(driving_.route, at.s, start.speed, request_.speed);
+    if (NextConflict(rest.reference, 0.0)) {
       return std::nullopt;
     }
     rest.diagnostics.replan = ReplanDiagnostics{.kind = "back_on_route"};
@@ -261,12 +261,12 @@ class Replanning {
     return found;
   }
 
-  /// Along the plan that is driven, to rest before the place of the encounter: comfortably if that
+  /// Along the plan that is driven, to rest before the place of the conflict: comfortably if that
   /// is in time, else as hard as it takes, else as hard as the car can.
-  Replanned Brake(const PredictedConflict& encounter) {
-    const MovingBox& obstacle = request_.obstacles[encounter.obstacle];
+  Replanned Brake(const PredictedConflict& conflict) {
+    const MovingBox& obstacle = request_.obstacles[conflict.obstacle];
     const double speed = std::max(Start().speed, request_.car.speed);
-    const double room = encounter.station - driving_.station - kBrakeRoom;
+    const double room = conflict.station - driving_.station - kBrakeRoom;
     const double braking = Stands(obstacle) ? BrakingWithin(room, speed) : BrakingFor(speed);
     const double shortest = speed * speed / (2.0 * braking);
     const bool comfortable = braking <= ComfortableBraking();
@@ -310,7 +310,7 @@ class Replanning {
       const double braking =
           std::lerp(ComfortableBraking(), hardest, static_cast<double>(i) / kSteps);
       const Plan plan = StopAfter(0.5 * speed * speed / braking, speed, i == 0);
-      if (!EncounterOf(plan.reference, 0.0)) {
+      if (!NextConflict(plan.reference, 0.0)) {
         return braking;
       }
     }

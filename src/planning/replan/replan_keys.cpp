@@ -57,7 +57,7 @@ void Visit(KeyVisitor& keys, ReplanOptions& options) {
   keys.Field({"look_ahead", "s",
               "time horizon for which the path must be clear, else a replan is triggered"},
              options.settings.look_ahead, Need::kOptional, Range{.min = 1.0, .max = 60.0});
-  keys.Field(route::kOutlineDistance, options.settings.safe_distance, Need::kOptional,
+  keys.Field(route::kFootprintDistance, options.settings.safe_distance, Need::kOptional,
              kNonNegative);
   keys.Section({"road", "", "drivable width left and right of the route, for the car's footprint"},
                options.settings.road);

@@ -32,14 +32,14 @@ std::vector<Vec2> Rest(const std::vector<Vec2>& way, const Vec2& position) {
 
 }  // namespace
 
-WayScore ScoreWay(const std::vector<Vec2>& way, const Vec2& position,
-                  const std::vector<OrientedBox>& obstacles, double inflation,
-                  const WindScoring& wind, const ComparatorOptions& options) {
+PathScore ScorePath(const std::vector<Vec2>& way, const Vec2& position,
+                    const std::vector<OrientedBox>& obstacles, double inflation,
+                    const WindScoring& wind, const ComparatorOptions& options) {
   TRACKBED_CHECK(!way.empty() && options.collision_penalty >= 0.0 && inflation >= 0.0,
                  "a path of {} points, penalty {}, inflation {}", way.size(),
                  options.collision_penalty, inflation);
   const std::vector<Vec2> rest = Rest(way, position);
-  WayScore score;
+  PathScore score;
   score.length = (position - rest.front()).norm();
   for (std::size_t i = 1; i < rest.size(); ++i) {
     score.length += (rest[i] - rest[i - 1]).norm();
@@ -55,7 +55,7 @@ WayScore ScoreWay(const std::vector<Vec2>& way, const Vec2& position,
   return score;
 }
 
-void Visit(DiagnosticsVisitor& out, const WayScore& score) {
+void Visit(DiagnosticsVisitor& out, const PathScore& score) {
   out.Number("length_m", score.length);
   out.Number("wind_m", score.wind);
   out.Flag("collides", score.collides);

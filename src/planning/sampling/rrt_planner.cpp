@@ -47,7 +47,7 @@ struct Task {
   WindScoring wind;
 };
 
-Task TaskOf(const RrtPlannerOptions& options, const PlanRequest& request) {
+Task MakeTask(const RrtPlannerOptions& options, const PlanRequest& request) {
   const Pose2& frame = request.start;
   Task task;
   for (std::size_t i = 1; i < request.waypoints.size(); ++i) {
@@ -214,7 +214,7 @@ Way GrowWay(const Forest& forest, std::uint64_t seed) {
 struct Try {
   Way way;
   Plan plan;
-  WayScore score;
+  PathScore score;
 
   [[nodiscard]] bool is_partial() const { return way.status != RrtStatus::kReached; }
 };
@@ -233,7 +233,7 @@ bool IsBetterTry(const Try& other, const Try& current) {
 }
 
 /// What there was to look with: "10 trees of 10000 samples", "1 tree in 0.5 s".
-std::string BudgetOf(const RrtPlannerOptions& options, std::size_t trees, bool time_is_over) {
+std::string DescribeBudget(const RrtPlannerOptions& options, std::size_t trees, bool time_is_over) {
   return fmt::format("{} {} ", trees, trees == 1 ? "tree" : "trees") +
          (time_is_over ? fmt::format("in {:.4g} s", *options.time_limit)
                        : fmt::format("of {} samples", options.iterations));
@@ -305,8 +305,8 @@ Try TryTree(const Forest& forest, std::uint64_t seed) {
     next.plan = RefusedAs(next.way, forest);
   }
   if (!next.is_partial() || next.plan.ok()) {
-    next.score = ScoreWay(InPieces(next.way.points), {0.0, 0.0}, forest.task.obstacles,
-                          forest.task.inflation, forest.task.wind, {});
+    next.score = ScorePath(InPieces(next.way.points), {0.0, 0.0}, forest.task.obstacles,
+                           forest.task.inflation, forest.task.wind, {});
   }
   return next;
 }
@@ -320,13 +320,13 @@ RrtTreeFindings FindingsOn(const Try& each) {
 }
 
 /// Says of a plan that leads nowhere, or part of the way, how far trees came with what they had.
-void TellBudget(const Forest& forest, const Try& best, const std::string& budget, Plan& plan,
-                RrtDiagnostics& diagnostics) {
+void RecordBudget(const Forest& forest, const Try& best, const std::string& budget, Plan& plan,
+                  RrtDiagnostics& diagnostics) {
   if (plan.status == PlanStatus::kBudgetUsedUp) {
     plan.reason = fmt::format("goal not reached by {}: the nearest path {}", budget, plan.reason);
   } else if (plan.ok() && best.is_partial()) {
     const std::size_t waypoint = best.way.goals + 1;
-    plan.goal = StopsOf(forest.request).back();
+    plan.goal = PlannedStops(forest.request).back();
     plan.partial = fmt::format("ends {:.3g} m from waypoint {}, the nearest feasible path of {}",
                                best.way.left, waypoint, budget);
     diagnostics.partial = {waypoint, best.way.left, plan.partial};
@@ -338,7 +338,7 @@ void TellBudget(const Forest& forest, const Try& best, const std::string& budget
 namespace {
 
 Plan PlanTrees(const RrtPlannerOptions& options, const PlanRequest& request) {
-  const Task task = TaskOf(options, request);
+  const Task task = MakeTask(options, request);
   if (!IsFree(task, {0.0, 0.0}, task.lead)) {
     return route::Refused(
         PlanStatus::kStartBlocked,
@@ -370,8 +370,8 @@ Plan PlanTrees(const RrtPlannerOptions& options, const PlanRequest& request) {
                    (i + 1 < options.trees && forest.time_is_over && forest.time_is_over());
   }
   Plan plan = std::move(best->plan);
-  TellBudget(forest, *best, BudgetOf(options, diagnostics.trees.size(), time_is_over), plan,
-             diagnostics);
+  RecordBudget(forest, *best, DescribeBudget(options, diagnostics.trees.size(), time_is_over), plan,
+               diagnostics);
   diagnostics.legs = std::move(best->way.legs);
   plan.diagnostics.planner = std::move(diagnostics);
   if (plan.ok()) {

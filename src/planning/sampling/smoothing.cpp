@@ -12,7 +12,7 @@ namespace {
 constexpr double kSame = 1e-9;
 
 /// Of one straight way.
-double ScoreOf(const Vec2& from, const Vec2& to, const WindScoring& scoring) {
+double SegmentScore(const Vec2& from, const Vec2& to, const WindScoring& scoring) {
   const Vec2 wind = WindAt(scoring.wind, 0.5 * (from + to), scoring.time);
   return scoring.weight * wind.dot(to - from) / scoring.speed;
 }
@@ -67,7 +67,7 @@ class Smoother {
   }
 
   [[nodiscard]] double Score(const Vec2& before, const Vec2& at, const Vec2& after) const {
-    return ScoreOf(before, at, wind_) + ScoreOf(at, after, wind_);
+    return SegmentScore(before, at, wind_) + SegmentScore(at, after, wind_);
   }
 
   const std::vector<Vec2>& given_;
@@ -90,7 +90,7 @@ double WindScore(const std::vector<Vec2>& path, const WindScoring& scoring) {
   CheckSpeed(scoring);
   double score = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) {
-    score += ScoreOf(path[i - 1], path[i], scoring);
+    score += SegmentScore(path[i - 1], path[i], scoring);
   }
   return score;
 }

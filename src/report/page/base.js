@@ -50,20 +50,20 @@ const tracks = runs.flatMap((run, r) => run.plants.map((plant) => ({
   numbers: plant.numbers,
   visible: true,
 })));
-(function giveColours() {
+(function assignColors() {
   const free = d3.range(8);
-  const take = (colour) => {
-    const at = free.indexOf(colour);
+  const take = (color) => {
+    const at = free.indexOf(color);
     return at < 0 ? undefined : free.splice(at, 1)[0];
   };
   for (const track of tracks) {
-    if (track.plant === 'kinematic') track.colour = take(0);
-    else if (track.plant.startsWith('mujoco')) track.colour = take(1);
+    if (track.plant === 'kinematic') track.color = take(0);
+    else if (track.plant.startsWith('mujoco')) track.color = take(1);
   }
   tracks.forEach((track, i) => {
     track.id = i;
-    if (track.colour === undefined) track.colour = free.length ? free.shift() : i % 8;
-    track.css = `var(--track-${track.colour})`;
+    if (track.color === undefined) track.color = free.length ? free.shift() : i % 8;
+    track.css = `var(--track-${track.color})`;
   });
 })();
 
@@ -120,6 +120,6 @@ window.matchMedia('(prefers-color-scheme: dark)')
   .addEventListener('change', () => bus.call('scheme'));
 
 /** A color of the style sheet, as a canvas needs it. */
-function colourOf(name) {
+function cssColor(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }

@@ -30,9 +30,9 @@ function drawCharts(list, key, axis, charts) {
   };
 
   const look = (lines) => ({
-    colors: lines.map((line) => colourOf(`--track-${line.colour}`)),
-    axisLineColor: colourOf('--line'),
-    gridLineColor: colourOf('--grid'),
+    colors: lines.map((line) => cssColor(`--track-${line.color}`)),
+    axisLineColor: cssColor('--line'),
+    gridLineColor: cssColor('--grid'),
   });
 
   for (const { name, title, unit, note, lines, readouts } of charts) {

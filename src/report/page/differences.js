@@ -77,14 +77,14 @@ function drawDifferenceCharts(parent) {
   const values = Array.from(new Set(own.flatMap((pair) => pair.curve.s))).sort(d3.ascending);
   const spread = ({ curve }, name) => values.map((at) => (
     at < curve.s[0] || at > curve.s[curve.s.length - 1] ? null : interpolated(curve.s, curve[name], at)));
-  // Of all first drives the moments are nearly the same.
+  // Of all first runs the moments are nearly the same.
   const { s, t } = own[0].curve;
   const axis = { values, unit: 'm', at: (time) => interpolated(t, s, time), timeOf: (at) => interpolated(s, t, at) };
   drawCharts(parent.append('div').attr('class', 'series'), 'differences', axis, DIFFERENCES.map((quantity) => ({
     ...quantity,
     name: `difference_${quantity.name}`,
     lines: own.map((pair) => ({
-      label: pair.label, colour: pair.second.colour, tracks: [pair.first, pair.second],
+      label: pair.label, color: pair.second.color, tracks: [pair.first, pair.second],
       values: spread(pair, quantity.name), pattern: pair.pattern, width: 1.6,
     })),
     readouts: own.map((pair) => ({

@@ -51,13 +51,13 @@ function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf
   const first = (varied.find(isNumber) || varied[0] || parameters[0]).index;
   const second = varied.find((p) => p.index !== first);
   const over = choice('Over', 'over', list, first);
-  const colour = list.length > 1
-    ? choice('Color by', 'colours', [[-1, 'nothing'], ...list], second ? second.index : -1) : () => -1;
+  const color = list.length > 1
+    ? choice('Color by', 'colors', [[-1, 'nothing'], ...list], second ? second.index : -1) : () => -1;
   const legend = choices.append('div').attr('class', 'legend');
   const plots = parent.append('div').attr('class', 'plots');
   const tooltip = d3.select('body').append('div').attr('class', 'tooltip panel').attr('hidden', '');
   over();
-  colour();
+  color();
   draw();
   new ResizeObserver(draw).observe(plots.node());
   bus.on('choose.plots', (row) => plots.selectAll('circle').classed('chosen', (d) => d === row));
@@ -80,19 +80,19 @@ function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf
 
   function draw() {
     const x = parameters.find((p) => p.index === over());
-    const by = parameters.find((p) => p.index === colour() && p !== x);
+    const by = parameters.find((p) => p.index === color() && p !== x);
     const kinds = by ? Array.from(new Set(rows.map((row) => row.cells[by.index]))) : [null];
     if (by && isNumber(by)) kinds.sort(d3.ascending);
     // A few values have colors of their own, many a scale of them.
-    const colours = kinds.map((kind, i) => (kinds.length <= 8 || !isNumber(by)
+    const colors = kinds.map((kind, i) => (kinds.length <= 8 || !isNumber(by)
       ? `var(--track-${i % 8})` : d3.interpolateViridis(0.9 * i / (kinds.length - 1))));
-    const cssOf = (row) => colours[by ? kinds.indexOf(row.cells[by.index]) : 0];
+    const cssOf = (row) => colors[by ? kinds.indexOf(row.cells[by.index]) : 0];
     legend.text('');
     if (by) {
       const step = kinds.length <= 12 ? 1 : (kinds.length - 1) / 4;
       for (const i of d3.range(0, kinds.length - 1e-9, step).map(Math.round)) {
         const sign = legend.append('span').attr('class', 'sign');
-        sign.append('span').attr('class', 'dot').style('color', colours[i]);
+        sign.append('span').attr('class', 'dot').style('color', colors[i]);
         sign.append('span').text(shown(kinds[i]));
       }
     }

@@ -19,7 +19,7 @@ namespace {
 
 /// The rate at which an ideal drive of the path turns its wheels, from differences of the angle
 /// over stretches of 0.1 m, in the mean over each of which the rate cannot be larger than within.
-double SteeringRateOf(const Plan& plan, const VehicleParams& car, Stations within) {
+double MaxSteeringRate(const Plan& plan, const VehicleParams& car, Stations within) {
   const Path& path = plan.reference.path;
   double fastest = 0.0;
   for (double s = within.from; s + 0.1 <= within.to; s += 0.1) {
@@ -35,12 +35,12 @@ void ExpectSafe(const Plan& plan, const Plan& global, const std::vector<Oriented
                 const BezierAvoidanceOptions& options) {
   const VehicleParams car = ReferenceCar();
   const Path& path = plan.reference.path;
-  EXPECT_GE(ClearanceOf(path, obstacles, car, {}), options.safe_distance - Tolerance(kTouch));
+  EXPECT_GE(PathClearance(path, obstacles, car, {}), options.safe_distance - Tolerance(kTouch));
   ASSERT_FALSE(plan.diagnostics.avoided.empty());
   const nlohmann::json stretches = DiagnosticsJson(plan)["avoid"];
   for (const nlohmann::json& stretch : stretches) {
     const Stations curve{stretch["leave_s_m"].get<double>(), stretch["return_s_m"].get<double>()};
-    EXPECT_GE(ClearanceOf(path, obstacles, car, curve),
+    EXPECT_GE(PathClearance(path, obstacles, car, curve),
               options.safe_distance - Tolerance(kBetweenSamples));
     // The curvature between two pieces of the path is that of the curve: joined without a jump.
     for (const double s : {curve.from, curve.to}) {
@@ -58,7 +58,7 @@ void ExpectSafe(const Plan& plan, const Plan& global, const std::vector<Oriented
     for (double s = curve.from; s < curve.to; s += 0.05) {
       EXPECT_LE(std::abs(SteeringForCurvature(car, path.At(s).curvature)), car.steering_limit);
     }
-    EXPECT_LE(SteeringRateOf(plan, car, curve), car.steering_rate);
+    EXPECT_LE(MaxSteeringRate(plan, car, curve), car.steering_rate);
   }
   // The rest of the way moves by what the curve's pieces of path miss: see SegmentsThrough.
   const Vec2 end = path.At(path.length()).pose.position();
@@ -68,7 +68,7 @@ void ExpectSafe(const Plan& plan, const Plan& global, const std::vector<Oriented
 
 class ObstacleInTurn : public testing::TestWithParam<ObstacleCase> {};
 
-INSTANTIATE_TEST_SUITE_P(Cases, ObstacleInTurn, testing::ValuesIn(AllObstacleCases()), NameOf);
+INSTANTIATE_TEST_SUITE_P(Cases, ObstacleInTurn, testing::ValuesIn(AllObstacleCases()), CaseName);
 
 TEST_P(ObstacleInTurn, IsPassedSafelyOnTheSideAskedFor) {
   const ObstacleCase& c = GetParam();
@@ -78,7 +78,7 @@ TEST_P(ObstacleInTurn, IsPassedSafelyOnTheSideAskedFor) {
   const Pose2 at = course.OnArc(c.sixth / 6.0);
   const OrientedBox obstacle{{at.x, at.y, 0.0}, 2.0, 2.0};  // along the axes, as in the listing
   BezierAvoidanceOptions options;
-  options.ring = c.ring;
+  options.passing_side = c.passing_side;
 
   const Plan plan = Around(global, {obstacle}, options);
   ASSERT_EQ(plan.blocked, "");
@@ -99,7 +99,7 @@ TEST_P(ObstacleInTurn, IsPassedSafelyOnTheSideAskedFor) {
       beside = p.norm();
     }
   }
-  EXPECT_EQ(c.ring == PassingSideChoice::kInner, beside < course.radius) << beside;
+  EXPECT_EQ(c.passing_side == PassingSideChoice::kInner, beside < course.radius) << beside;
 }
 
 TEST(PlanAround, AMirroredRouteGetsTheMirroredPlan) {
@@ -136,10 +136,10 @@ TEST(PlanAround, TakesTheOnlyRingThatIsFree) {
   // To the left is the turn's center.
   const Plan outer = Around(global, WithWall(course, 0.5, 1.0));
   ASSERT_EQ(outer.blocked, "");
-  EXPECT_EQ(DiagnosticsJson(outer)["avoid"][0]["ring"], "outer");
+  EXPECT_EQ(DiagnosticsJson(outer)["avoid"][0]["passing_side"], "outer");
   const Plan inner = Around(global, WithWall(course, 0.5, -1.0));
   ASSERT_EQ(inner.blocked, "");
-  EXPECT_EQ(DiagnosticsJson(inner)["avoid"][0]["ring"], "inner");
+  EXPECT_EQ(DiagnosticsJson(inner)["avoid"][0]["passing_side"], "inner");
 }
 
 TEST(PlanAround, StopsBeforeWhatItFindsNoWayAround) {
@@ -157,8 +157,8 @@ TEST(PlanAround, StopsBeforeWhatItFindsNoWayAround) {
   EXPECT_EQ(DiagnosticsJson(plan)["blocked"], plan.blocked);
   EXPECT_TRUE(plan.ok()) << "the way there can be driven";
   const Path& path = plan.reference.path;
-  EXPECT_GE(ClearanceOf(path, wall, ReferenceCar(), {}), kDistance - Tolerance(kTouch));
-  EXPECT_LE(ClearanceOf(path, wall, ReferenceCar(), {}), kDistance + 0.3);
+  EXPECT_GE(PathClearance(path, wall, ReferenceCar(), {}), kDistance - Tolerance(kTouch));
+  EXPECT_LE(PathClearance(path, wall, ReferenceCar(), {}), kDistance + 0.3);
   EXPECT_EQ(plan.reference.speed.SpeedAt(path.length()), 0.0);
   EXPECT_EQ(plan.goal, global.goal);
 }
@@ -274,7 +274,7 @@ TEST_P(RandomObstacles, ArePassedSafelyOrStoppedBefore) {
       continue;
     }
     if (plan.diagnostics.avoided.empty()) {
-      EXPECT_GE(ClearanceOf(plan.reference.path, {obstacle}, ReferenceCar(), {}),
+      EXPECT_GE(PathClearance(plan.reference.path, {obstacle}, ReferenceCar(), {}),
                 options.safe_distance - Tolerance(kTouch));
       continue;
     }

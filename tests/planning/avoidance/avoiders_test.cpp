@@ -108,7 +108,7 @@ TEST_P(EveryAvoider, TellsHowNearItsCurveComes) {
   const Stations curve{stretch["leave_s_m"].get<double>(), stretch["return_s_m"].get<double>()};
   // Looked at every 0.05 m there, every 0.02 m here.
   EXPECT_NEAR(stretch["clearance_m"].get<double>(),
-              ClearanceOf(plan.reference.path, {box}, ReferenceCar(), curve),
+              PathClearance(plan.reference.path, {box}, ReferenceCar(), curve),
               Tolerance(kBetweenSamples));
   if (GetParam().keeps_clear) {
     EXPECT_GE(stretch["clearance_m"].get<double>(), kDistance);

@@ -13,7 +13,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
-#include "trackbed/planning/avoidance/turn_manoeuvre.h"
+#include "trackbed/planning/avoidance/turn_maneuver.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/registry/planners.h"
@@ -24,14 +24,14 @@ namespace {
 
 using testing::HasSubstr;
 
-ListingAvoidanceOptions OptionsFor(PassingSideChoice ring) {
+ListingAvoidanceOptions OptionsFor(PassingSideChoice passing_side) {
   ListingAvoidanceOptions options;
-  options.inner_width = ring == PassingSideChoice::kInner ? 1.0 : 0.0;
-  options.outer_width = ring == PassingSideChoice::kInner ? 0.0 : 1.0;
+  options.inner_width = passing_side == PassingSideChoice::kInner ? 1.0 : 0.0;
+  options.outer_width = passing_side == PassingSideChoice::kInner ? 0.0 : 1.0;
   return options;
 }
 
-std::vector<Vec2> ControlPointsOf(const nlohmann::json& stretch) {
+std::vector<Vec2> ReadControlPoints(const nlohmann::json& stretch) {
   std::vector<Vec2> points;
   for (const nlohmann::json& point : stretch["control_points_m"]) {
     points.emplace_back(point[0].get<double>(), point[1].get<double>());
@@ -45,17 +45,17 @@ OrientedBox BoxAt(const Pose2& pose) {
 
 class ListedObstacle : public testing::TestWithParam<ObstacleCase> {};
 
-INSTANTIATE_TEST_SUITE_P(Cases, ListedObstacle, testing::ValuesIn(AllObstacleCases()), NameOf);
+INSTANTIATE_TEST_SUITE_P(Cases, ListedObstacle, testing::ValuesIn(AllObstacleCases()), CaseName);
 
 TEST_P(ListedObstacle, IsPassedOnTheCurveOfTheListing) {
   const ObstacleCase& c = GetParam();
   const Course course{.turn = c.side * (0.5 * kPi - c.reduction)};
   const OrientedBox box = BoxAt(course.OnArc(c.sixth / 6.0));
-  const ListingAvoidanceOptions options = OptionsFor(c.ring);
+  const ListingAvoidanceOptions options = OptionsFor(c.passing_side);
   const Plan plan = Around(course.Global(), {box}, options);
   ASSERT_EQ(plan.blocked, "");
 
-  TurnManoeuvre problem;  // its defaults are the course's
+  TurnManeuver problem;  // its defaults are the course's
   problem.reduction = c.reduction;
   problem.side = c.side > 0.0 ? TurnSide::kLeft : TurnSide::kRight;
   problem.obstacle_sixth = c.sixth;
@@ -68,7 +68,7 @@ TEST_P(ListedObstacle, IsPassedOnTheCurveOfTheListing) {
 
   ASSERT_EQ(plan.diagnostics.avoided.size(), 1U);
   const nlohmann::json stretch = DiagnosticsJson(plan)["avoid"][0];
-  const std::vector<Vec2> points = ControlPointsOf(stretch);
+  const std::vector<Vec2> points = ReadControlPoints(stretch);
   ASSERT_EQ(points.size(), 8U);
   for (std::size_t k = 0; k < 8; ++k) {
     // M begins S = 22.7 m before the arc, 20 m from the start. Sums of lengths up to 100 m.
@@ -76,7 +76,8 @@ TEST_P(ListedObstacle, IsPassedOnTheCurveOfTheListing) {
     EXPECT_NEAR(points[k].y(), expected[k].y(), Tolerance(1e-9)) << k;
   }
   EXPECT_NEAR(stretch["leave_s_m"].get<double>(), 20.0, Tolerance(1e-9));
-  EXPECT_EQ(stretch["ring"], c.ring == PassingSideChoice::kInner ? "inner" : "outer");
+  EXPECT_EQ(stretch["passing_side"],
+            c.passing_side == PassingSideChoice::kInner ? "inner" : "outer");
   EXPECT_EQ(stretch["obstacle_sixth"], c.sixth);
   EXPECT_EQ(stretch["rrt_star"]["final_y_m"], tree.final_y);
   ASSERT_EQ(plan.tree.size(), tree.nodes.size());
@@ -89,7 +90,7 @@ TEST(Listing, PassesOnThePrintedPoints) {
   const Course course{.turn = 75.0 * kPi / 180.0};
   const Plan plan = Around(course.Global(), {BoxAt(course.OnArc(0.5))}, ListingAvoidanceOptions{});
   const nlohmann::json stretch = DiagnosticsJson(plan)["avoid"][0];
-  const std::vector<Vec2> points = ControlPointsOf(stretch);
+  const std::vector<Vec2> points = ReadControlPoints(stretch);
   const double final_y = stretch["rrt_star"]["final_y_m"].get<double>();
   const std::array<Vec2, 8> printed{Vec2{0.0, 0.0},         Vec2{7.6266, 0.0},
                                     Vec2{15.2533, 0.0008},  Vec2{22.8799, final_y},
@@ -169,14 +170,14 @@ TEST(Listing, MendedTurnsMirrorEachOther) {
   const Course right{.turn = -1.2};
   ListingAvoidanceOptions options = OptionsFor(PassingSideChoice::kOuter);
   const auto points_of = [&](const Course& course) {
-    return ControlPointsOf(
+    return ReadControlPoints(
         DiagnosticsJson(Around(course.Global(), {BoxAt(course.OnArc(0.5))}, options))["avoid"][0]);
   };
   // P_5 of the right turn is shifted along x by the cosine of its angle (L9).
   EXPECT_NEAR(points_of(right)[5].x() - points_of(left)[5].x(), std::cos(1.2), Tolerance(1e-9));
   options.literal = {};
   for (std::size_t k = 0; k < 8; ++k) {
-    if (k != 3) {  // rounding down to whole metres has no mirror image
+    if (k != 3) {  // rounding down to whole meters has no mirror image
       EXPECT_NEAR(points_of(right)[k].x(), points_of(left)[k].x(), Tolerance(1e-9)) << k;
       EXPECT_NEAR(points_of(right)[k].y(), -points_of(left)[k].y(), Tolerance(1e-9)) << k;
     }
@@ -219,7 +220,7 @@ TEST(Listing, NeedsStraightsBeforeAndAfterTheTurn) {
 }
 
 TEST(Listing, TurnsWithItsRoute) {
-  // The same problem, moved and turned: the same curve in the frame of the manoeuvre.
+  // The same problem, moved and turned: the same curve in the frame of the maneuver.
   const Course course;
   const OrientedBox box = BoxAt(course.OnArc(0.6));
   const Pose2 X_WN{-30.0, 12.0, 2.1};
@@ -238,10 +239,10 @@ TEST(Listing, TurnsWithItsRoute) {
                                fillets);
   ASSERT_TRUE(global.ok()) << global.reason;
   const OrientedBox moved{Compose(X_WN, box.center), box.length, box.width};
-  const auto points = ControlPointsOf(
+  const auto points = ReadControlPoints(
       DiagnosticsJson(Around(course.Global(), {box}, ListingAvoidanceOptions{}))["avoid"][0]);
   const Plan plan = Around(global, {moved}, ListingAvoidanceOptions{});
-  const auto elsewhere = ControlPointsOf(DiagnosticsJson(plan)["avoid"][0]);
+  const auto elsewhere = ReadControlPoints(DiagnosticsJson(plan)["avoid"][0]);
   for (std::size_t k = 0; k < 8; ++k) {
     EXPECT_LE((elsewhere[k] - ToWorld(X_WN, points[k])).norm(), Tolerance(1e-9)) << k;
   }

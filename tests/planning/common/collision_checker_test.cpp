@@ -29,7 +29,7 @@ TEST(CollisionChecker, TellsTheRoomOfEveryPose) {
     const Pose2 pose = RandomPose(random, 80.0);
     double nearest = CollisionChecker::kFarthest;
     for (const OrientedBox& box : boxes) {
-      nearest = std::min(nearest, Separation(OutlineAt(ReferenceCar(), pose), box) - 0.4);
+      nearest = std::min(nearest, Separation(FootprintAt(ReferenceCar(), pose), box) - 0.4);
     }
     ASSERT_NEAR(clear.Clearance(pose), nearest, Tolerance(1e-12));
   }

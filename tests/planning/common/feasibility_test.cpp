@@ -44,7 +44,7 @@ Plan Course(const PlanRequest& request, const std::vector<CoursePiece>& pieces) 
 
 std::vector<std::string> Kinds(const Plan& plan, const PlanRequest& request) {
   std::vector<std::string> kinds;
-  for (const Excess& excess : ExcessesOf(plan, request)) {
+  for (const Excess& excess : FindExcesses(plan, request)) {
     kinds.push_back(excess.what);
   }
   return kinds;
@@ -64,7 +64,7 @@ TEST(Feasibility, SlowsACurveDownToWhatTheTyresHold) {
   EXPECT_EQ(plan.notes.size(), 1U);
   const double limit = std::sqrt(0.9 * 9.81 * 20.0);
   EXPECT_NEAR(plan.reference.speed.SpeedAt(275.0), limit, Tolerance(1e-9));
-  EXPECT_TRUE(ExcessesOf(plan, request).empty());
+  EXPECT_TRUE(FindExcesses(plan, request).empty());
   // On half the friction, by 1/sqrt(2).
   request.friction = 0.5;
   const Plan wet = Course(request, pieces);
@@ -102,7 +102,7 @@ TEST(Feasibility, SlowsDownWhereTheWheelsTurnTooSlowly) {
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_NEAR(plan.reference.speed.SpeedAt(21.0),
               request.vehicle.steering_rate * 2.0 / std::atan(0.27), 0.03 * 1.14);
-  EXPECT_TRUE(ExcessesOf(plan, request).empty());
+  EXPECT_TRUE(FindExcesses(plan, request).empty());
 }
 
 TEST(Feasibility, RefusesAStartOnABendForACarThatRolls) {

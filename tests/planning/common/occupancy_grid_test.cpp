@@ -19,9 +19,9 @@ TEST(OccupancyGrid, OccupiesWhatIsNearABoxAndNothingElse) {
          random.Uniform(0.2, 5.0),
          random.Uniform(0.2, 5.0)});
   }
-  const OccupancyGrid grid = RasterOf(frame, {{-15.0, -13.0}, {14.0, 12.0}}, 0.5, boxes, 0.8);
+  const OccupancyGrid grid = Rasterize(frame, {{-15.0, -13.0}, {14.0, 12.0}}, 0.5, boxes, 0.8);
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    const Vec2 middle = grid.MiddleOf(i);
+    const Vec2 middle = grid.CellCenter(i);
     bool near = false;
     for (const OrientedBox& box : boxes) {
       near = near || Distance(middle, middle, box) <= 0.8;
@@ -33,11 +33,11 @@ TEST(OccupancyGrid, OccupiesWhatIsNearABoxAndNothingElse) {
 
 TEST(OccupancyGrid, HasACellInTheMiddleOfItsFrame) {
   const Pose2 frame{7.0, 1.0, 2.0};
-  const OccupancyGrid grid = RasterOf(frame, {{-3.3, -1.2}, {4.1, 2.6}}, 0.5, {}, 0.0);
+  const OccupancyGrid grid = Rasterize(frame, {{-3.3, -1.2}, {4.1, 2.6}}, 0.5, {}, 0.0);
   const int cell = grid.CellAt(frame.position());
   ASSERT_GE(cell, 0);
   // Rounding of coordinates of a few meters.
-  EXPECT_NEAR((grid.MiddleOf(static_cast<std::size_t>(cell)) - frame.position()).norm(), 0.0,
+  EXPECT_NEAR((grid.CellCenter(static_cast<std::size_t>(cell)) - frame.position()).norm(), 0.0,
               Tolerance(1e-14));
   EXPECT_EQ(grid.columns, 7 + 9 + 1);
   EXPECT_EQ(grid.rows, 3 + 6 + 1);
@@ -52,7 +52,7 @@ TEST(OccupancyGrid, IsLaidAroundEverything) {
   EXPECT_NEAR((area.low - Vec2(-9.0, -8.0)).norm(), 0.0, Tolerance(1e-14));
   EXPECT_NEAR((area.high - Vec2(16.0, 8.0)).norm(), 0.0, Tolerance(1e-14));
   EXPECT_EQ(CellsIn(area, 1.0), 26.0 * 17.0);
-  EXPECT_THROW(RasterOf(frame, {{0.0, 0.0}, {1e6, 1e6}}, 0.1, {}, 0.0), InternalError);
+  EXPECT_THROW(Rasterize(frame, {{0.0, 0.0}, {1e6, 1e6}}, 0.1, {}, 0.0), InternalError);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kSpeed = 3.0;
 
-Plan PlanOf(const std::vector<Vec2>& route, double radius) {
+Plan MakeFilletPlan(const std::vector<Vec2>& route, double radius) {
   FilletOptions options;
   options.radius = radius;
   options.constraint = RadiusConstraint::kNone;
@@ -30,7 +30,7 @@ Plan PlanOf(const std::vector<Vec2>& route, double radius) {
 
 TEST(PredictTurn, DeficitIsTheClosedForm) {
   for (const double radius : {8.0, 12.0, 16.0}) {
-    const Plan plan = PlanOf(RouteA(), radius);
+    const Plan plan = MakeFilletPlan(RouteA(), radius);
     ASSERT_EQ(plan.turns.size(), 3U);
     const double delta = std::atan(2.7 / radius);
     const double ramp = kSpeed * delta * 17.6 / 2.65;
@@ -49,7 +49,7 @@ TEST(PredictTurn, DeficitIsTheClosedForm) {
 }
 
 TEST(PredictTurn, IsWhatTheRateLimitedCarDoes) {
-  const Plan plan = PlanOf(RouteB(), 12.0);
+  const Plan plan = MakeFilletPlan(RouteB(), 12.0);
   ASSERT_EQ(plan.turns.size(), 3U);
   const IsolatedTurn& turn = plan.turns[0];
   const Pose2 start = plan.reference.path.At(0.0).pose;
@@ -66,7 +66,7 @@ TEST(PredictTurn, OffsetIsThatOfACenterdRampOnGentleTurns) {
   // kappa S^2/24 to the inside, for angles small enough that the ramp's heading is quadratic.
   const double radius = 60.0;
   const std::vector<Vec2> route{{0, 0}, {80, 0}, {150, 40}};
-  const Plan plan = PlanOf(route, radius);
+  const Plan plan = MakeFilletPlan(route, radius);
   ASSERT_EQ(plan.turns.size(), 1U);
   const double ramp = SteeringDistance(ReferenceCar(), std::atan(2.7 / radius), kSpeed);
   // At the end of the ramp; further on the heading deficit carries the car out again.
@@ -77,9 +77,10 @@ TEST(PredictTurn, OffsetIsThatOfACenterdRampOnGentleTurns) {
   EXPECT_NEAR(error.lateral_offset, expected, Tolerance(0.01 * expected));
 }
 
-TEST(LoneTurns, LeaveOutTurnsOfWhichNothingCanBeTold) {
-  EXPECT_TRUE(PlanOf(RouteA(), 5.1).turns.empty()) << "ramps that do not fit their arcs";
-  EXPECT_EQ(PlanOf(RouteA(), 20.0).turns.size(), 1U) << "the wheels come back from the one before";
+TEST(IsolatedTurns, LeaveOutTurnsThatCannotBePredicted) {
+  EXPECT_TRUE(MakeFilletPlan(RouteA(), 5.1).turns.empty()) << "ramps that do not fit their arcs";
+  EXPECT_EQ(MakeFilletPlan(RouteA(), 20.0).turns.size(), 1U)
+      << "the wheels come back from the one before";
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ TEST(LaneChangeGates, AreThoseOfPart2Mirrored) {
 
 TEST(LaneChangeGates, HaveConesOutsideTheirEdges) {
   const Gate gate{3, {{10.0, 2.0, 0.5 * kPi}, 12.0, 3.0}};
-  const std::vector<Vec2> cones = ConesOf(gate);
+  const std::vector<Vec2> cones = GateCones(gate);
   ASSERT_EQ(cones.size(), 10U);
   // Along y from -4 to 8, 1.5 m and half a cone to either side.
   EXPECT_NEAR(cones[0].x(), 10.0 - 1.65, Tolerance(kRounding));

@@ -26,8 +26,8 @@ TEST(Dubins, ReachesEveryPoseByEveryWord) {
     ASSERT_FALSE(words.empty());
     EXPECT_EQ(Dubins(from, to, radius).length, words.front().length);
     for (const ShortestCurve& word : words) {
-      ASSERT_LE(Apart(EndOf(from, word), to), Tolerance(kEnd)) << WordOf(word);
-      for (const Segment& segment : SegmentsOf(word)) {
+      ASSERT_LE(Apart(EndPose(from, word), to), Tolerance(kEnd)) << CurveWord(word);
+      for (const Segment& segment : ToSegments(word)) {
         ASSERT_EQ(segment.direction, 1);
       }
     }
@@ -37,8 +37,8 @@ TEST(Dubins, ReachesEveryPoseByEveryWord) {
 TEST(Dubins, ReachesPosesWhereTangentsTouch) {
   for (const Pose2& to : DegeneratePoses()) {
     const ShortestCurve curve = Dubins({}, to, 1.0);
-    ASSERT_LE(Apart(EndOf({}, curve), to), Tolerance(kEnd))
-        << WordOf(curve) << " to " << to.x << ", " << to.y << ", " << to.yaw;
+    ASSERT_LE(Apart(EndPose({}, curve), to), Tolerance(kEnd))
+        << CurveWord(curve) << " to " << to.x << ", " << to.y << ", " << to.yaw;
     // No shorter than the straight, and never two full circles longer.
     EXPECT_GE(curve.length, to.position().norm() - Tolerance(1e-12));
     EXPECT_LE(curve.length, to.position().norm() + 4.0 * kPi);
@@ -56,7 +56,7 @@ TEST(Dubins, FindsWhatIsPlain) {
   EXPECT_NEAR(length({-1e-3, 0.0, 0.0}), 4.0 * pi, 1e-2);    // a hair back: a full circle
   // Turning round on the spot: pi/3, 5 pi/3 and pi/3 on three circles that touch.
   EXPECT_NEAR(length({0.0, 0.0, pi}), 2.0 * pi * 7.0 / 3.0, rounding);
-  EXPECT_EQ(WordOf(Dubins({}, {0.0, 0.0, pi}, 2.0)).size(), 6U);
+  EXPECT_EQ(CurveWord(Dubins({}, {0.0, 0.0, pi}, 2.0)).size(), 6U);
 }
 
 TEST(Dubins, MirrorsAndRunsBackwards) {

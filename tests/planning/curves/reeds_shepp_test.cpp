@@ -30,11 +30,11 @@ TEST(ReedsShepp, ReachesEveryPoseByEveryWord) {
     const ShortestCurve curve = ReedsShepp(from, to, radius);
     EXPECT_EQ(curve.length, words.front().length);
     EXPECT_EQ(ReedsSheppLength(from, to, radius), curve.length);
-    shortest.insert(WordOf(curve));
+    shortest.insert(CurveWord(curve));
     for (const ShortestCurve& word : words) {
-      ASSERT_LE(Apart(EndOf(from, word), to), Tolerance(kEnd)) << WordOf(word);
+      ASSERT_LE(Apart(EndPose(from, word), to), Tolerance(kEnd)) << CurveWord(word);
       double sum = 0.0;
-      for (const Segment& segment : SegmentsOf(word)) {
+      for (const Segment& segment : ToSegments(word)) {
         sum += segment.length;
       }
       ASSERT_NEAR(sum, word.length, Tolerance(1e-9));
@@ -47,8 +47,8 @@ TEST(ReedsShepp, ReachesEveryPoseByEveryWord) {
 TEST(ReedsShepp, ReachesPosesWhereTangentsTouch) {
   for (const Pose2& to : DegeneratePoses()) {
     const ShortestCurve curve = ReedsShepp({}, to, 1.0);
-    ASSERT_LE(Apart(EndOf({}, curve), to), Tolerance(kEnd))
-        << WordOf(curve) << " to " << to.x << ", " << to.y << ", " << to.yaw;
+    ASSERT_LE(Apart(EndPose({}, curve), to), Tolerance(kEnd))
+        << CurveWord(curve) << " to " << to.x << ", " << to.y << ", " << to.yaw;
   }
 }
 
@@ -85,7 +85,7 @@ TEST(ReedsShepp, FindsWhatIsPlain) {
   EXPECT_NEAR(length({-7.0, 0.0, 0.0}), 7.0, rounding);         // straight back
   EXPECT_NEAR(length({-2.0, 2.0, -0.5 * kPi}), kPi, rounding);  // a quarter back
   EXPECT_NEAR(length({0.0, 0.0, kPi}), 2.0 * kPi, rounding);    // three arcs of pi/3
-  EXPECT_EQ(WordOf(ReedsShepp({}, {0.0, 0.0, kPi}, 2.0)).size(), 6U);
+  EXPECT_EQ(CurveWord(ReedsShepp({}, {0.0, 0.0, kPi}, 2.0)).size(), 6U);
   // Sideways into a gap: 4 arcs whose sweeps the offset tells, y = 4 r (1 - cos u).
   const double u = std::acos(1.0 - 0.5 / (4.0 * 2.0));
   EXPECT_LE(length({0.0, 0.5, 0.0}), 2.0 * 4.0 * u);

@@ -20,16 +20,16 @@ ShortestCurve Parking() {
 }
 
 TEST(ShortestCurve, IsSpelledWithItsDirections) {
-  EXPECT_EQ(WordOf(Parking()), "L+R-S-");
-  EXPECT_EQ(WordOf({}), "");
+  EXPECT_EQ(CurveWord(Parking()), "L+R-S-");
+  EXPECT_EQ(CurveWord({}), "");
 }
 
 TEST(ShortestCurve, IsAPathOfTheSameLengthAndEnd) {
   const Pose2 start{3.0, -2.0, 0.4};
-  const Path path(start, SegmentsOf(Parking()));
+  const Path path(start, ToSegments(Parking()));
   // Rounding of sums of a few tens of meters.
   EXPECT_NEAR(path.length(), Parking().length, Tolerance(1e-12));
-  EXPECT_NEAR(Apart(path.At(path.length()).pose, EndOf(start, Parking())), 0.0, Tolerance(1e-12));
+  EXPECT_NEAR(Apart(path.At(path.length()).pose, EndPose(start, Parking())), 0.0, Tolerance(1e-12));
   ASSERT_EQ(path.segments().size(), 3U);
   EXPECT_EQ(path.segments()[1].direction, -1);
   EXPECT_EQ(path.segments()[1].curvature, -0.2);
@@ -40,8 +40,8 @@ TEST(ShortestCurve, IsAPathOfTheSameLengthAndEnd) {
 TEST(ShortestCurve, LeavesOutWhatIsOnlyRounding) {
   ShortestCurve curve = Parking();
   curve.pieces[1].sweep = 1e-14;
-  EXPECT_EQ(SegmentsOf(curve).size(), 2U);
-  EXPECT_EQ(WordOf(curve), "L+S-");
+  EXPECT_EQ(ToSegments(curve).size(), 2U);
+  EXPECT_EQ(CurveWord(curve), "L+S-");
 }
 
 }  // namespace

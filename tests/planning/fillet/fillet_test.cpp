@@ -813,7 +813,7 @@ struct LiteralEvents {
   double route_end = 0.0;            ///< D_0 [m]; half a ramp of the first turn before the goal
 };
 
-LiteralEvents LiteralEventsOf(const FilletPlan& plan) {
+LiteralEvents FindLiteralEvents(const FilletPlan& plan) {
   LiteralEvents events;
   const double carried = 0.5 * plan.turns.front().ramp_distance;
   for (const FilletTurn& turn : plan.turns) {
@@ -850,7 +850,7 @@ TEST(LiteralEvents, AreAsPrinted) {
                                  {},
                                  142.2432}};
   for (const Case& c : cases) {
-    const LiteralEvents literal = LiteralEventsOf(c.plan);
+    const LiteralEvents literal = FindLiteralEvents(c.plan);
     for (std::size_t k = 0; k < 3; ++k) {
       EXPECT_NEAR(literal.start[k], c.events[2 * k], Tolerance(Printed(4))) << "D_" << 2 * k + 1;
       EXPECT_NEAR(literal.end[k], c.events[2 * k + 1], Tolerance(Printed(4))) << "D_" << 2 * k + 2;
@@ -901,7 +901,7 @@ TEST(PlanFillets, ChecksItsCaller) {
                InternalError);
 }
 
-// --- Open-loop drives of the plans ---------------------------------------------------------------
+// --- Open-loop runs of the plans ---------------------------------------------------------------
 
 /// Drives `distance` of a plan; its first waypoint is where the reference point starts.
 KinematicState Drive(const std::vector<Vec2>& route, const FilletPlan& plan, double distance,

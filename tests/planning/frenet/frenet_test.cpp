@@ -29,7 +29,7 @@ double Minimum(const Function& function, double from, double to) {
 FrenetCost CostOfShift(double from, double to, double duration, const FrenetWeights& weights) {
   const FrenetPiece piece{duration, Polynomial{{0.0, 5.0}},
                           QuinticBetween({from, 0.0, 0.0}, {to, 0.0, 0.0}, duration)};
-  return CostOf(piece, {std::nullopt, 5.0}, weights);
+  return PieceCost(piece, {std::nullopt, 5.0}, weights);
 }
 
 // --- C
@@ -68,7 +68,7 @@ TEST(FrenetCost, IsTheSumOfItsTerms) {
                           QuinticBetween({1.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}, 4.0)};
   // It gets to 10 + 4 (3 + 4.5)/2 = 25 m.
   const FrenetTarget target{27.0, 5.5};
-  FrenetCost cost = CostOf(piece, target, weights);
+  FrenetCost cost = PieceCost(piece, target, weights);
   const double lateral = 0.2 * 720.0 * 4.0 / 1024.0 + 0.3 * 1.0 + 0.4 * 4.0;
   const double longitudinal = 0.5 * 12.0 * 2.25 / 64.0 + 0.6 * 4.0 + 0.7 * 1.0 + 0.8 * 4.0;
   EXPECT_NEAR(cost.lateral, lateral, Tolerance(1e-12));
@@ -76,13 +76,13 @@ TEST(FrenetCost, IsTheSumOfItsTerms) {
   EXPECT_NEAR(cost.total, 0.9 * lateral + 1.1 * longitudinal, Tolerance(1e-12));
   // The literal one: accelerations.
   weights.derivative_order = 2;
-  cost = CostOf(piece, target, weights);
+  cost = PieceCost(piece, target, weights);
   EXPECT_NEAR(cost.lateral, lateral + 0.2 * (120.0 / 7.0 * 4.0 / 64.0 - 720.0 * 4.0 / 1024.0),
               Tolerance(1e-12));
   EXPECT_NEAR(cost.longitudinal, longitudinal + 0.5 * (1.2 * 2.25 / 4.0 - 12.0 * 2.25 / 64.0),
               Tolerance(1e-12));
   // Without a wanted station K_s does not count.
-  EXPECT_NEAR(CostOf(piece, {std::nullopt, 5.5}, weights).longitudinal,
+  EXPECT_NEAR(PieceCost(piece, {std::nullopt, 5.5}, weights).longitudinal,
               cost.longitudinal - 0.6 * 4.0, Tolerance(1e-12));
 }
 
@@ -94,8 +94,8 @@ TEST(FrenetCost, IsTheSameOverTimeAndOverStationAtConstantSpeed) {
     const FrenetPiece over_time{5.0, s, QuinticBetween({1.0, 0.3, 0.0}, {2.0, 0.0, 0.0}, 5.0)};
     const FrenetPiece over_station{5.0, s, QuinticBetween({1.0, 0.1, 0.0}, {2.0, 0.0, 0.0}, 15.0),
                                    true};
-    EXPECT_NEAR(CostOf(over_time, {std::nullopt, 3.0}, weights).total,
-                CostOf(over_station, {std::nullopt, 3.0}, weights).total, Tolerance(1e-12));
+    EXPECT_NEAR(PieceCost(over_time, {std::nullopt, 3.0}, weights).total,
+                PieceCost(over_station, {std::nullopt, 3.0}, weights).total, Tolerance(1e-12));
   }
 }
 
@@ -110,7 +110,7 @@ TEST(FrenetCandidates, AreAllEndsByTheirCost) {
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const FrenetCandidate& candidate = candidates[i];
     EXPECT_EQ(candidate.cost.total,
-              CostOf(candidate.piece, {std::nullopt, 5.0}, options.weights).total);
+              PieceCost(candidate.piece, {std::nullopt, 5.0}, options.weights).total);
     if (i > 0) {
       EXPECT_GE(candidate.cost.total, candidates[i - 1].cost.total);
     }
@@ -310,7 +310,8 @@ TEST(Frenet, StaysWhereItStands) {
 }
 
 /// The counts when only one end is tried and rejected.
-RejectionCounts RejectedOf(const Path& path, const FrenetRequest& request, FrenetOptions options) {
+RejectionCounts CountRejected(const Path& path, const FrenetRequest& request,
+                              FrenetOptions options) {
   options.end_offsets.resize(1);
   options.speed_factors = {1.0};
   const FrenetPlan plan = PlanFrenet(path, request, options);
@@ -328,22 +329,22 @@ TEST(Frenet, SaysWhyItRejects) {
   {
     FrenetRequest request = OnPath(3.0);
     request.goal = KeepSpeed{4.0};
-    EXPECT_EQ(RejectedOf(road, request, options).Of(Rejection::kSpeed), 1);
+    EXPECT_EQ(CountRejected(road, request, options).Of(Rejection::kSpeed), 1);
     request.speed = {5.0, 0.2, 3.0};  // 1 m/s in 4 s takes up to 0.375 m/s^2
-    EXPECT_EQ(RejectedOf(road, request, options).Of(Rejection::kAcceleration), 1);
+    EXPECT_EQ(CountRejected(road, request, options).Of(Rejection::kAcceleration), 1);
   }
   {
     FrenetOptions aside = options;
     aside.end_offsets = {3.0};
     aside.limits.max_lateral_acceleration = 0.5;  // 5.77 times 3/16 m/s^2 at most
-    EXPECT_EQ(RejectedOf(road, OnPath(8.0), aside).Of(Rejection::kAcceleration), 1);
+    EXPECT_EQ(CountRejected(road, OnPath(8.0), aside).Of(Rejection::kAcceleration), 1);
     // 60 L D/(T^3 v^2) = 0.84 rad/s.
     aside.limits.max_lateral_acceleration = 3.0;
-    EXPECT_EQ(RejectedOf(road, OnPath(3.0), aside).Of(Rejection::kSteeringRate), 1);
+    EXPECT_EQ(CountRejected(road, OnPath(3.0), aside).Of(Rejection::kSteeringRate), 1);
     aside.end_times = {8.0};
     FrenetRequest narrow = OnPath(5.0);
     narrow.road.left = 3.9;
-    EXPECT_EQ(RejectedOf(road, narrow, aside).Of(Rejection::kRoad), 1);
+    EXPECT_EQ(CountRejected(road, narrow, aside).Of(Rejection::kRoad), 1);
     // 3 m, half a car, and 0.09 m that the front swings out before the rear gets there.
     narrow.road.left = 4.0;
     EXPECT_TRUE(PlanFrenet(road, narrow, aside).ok());
@@ -356,16 +357,16 @@ TEST(Frenet, SaysWhyItRejects) {
     FrenetRequest request = OnPath(1.0);
     request.speed = {5.0, 10.0, 10.0};
     request.vehicle.steering_rate = 10.0;
-    EXPECT_EQ(RejectedOf(road, request, tight).Of(Rejection::kCurvature), 1);
+    EXPECT_EQ(CountRejected(road, request, tight).Of(Rejection::kCurvature), 1);
   }
   {
     const Path cusp({0.0, 0.0, 0.0}, {{6.0, 0.0, 1}, {50.0, 0.0, -1}});
-    EXPECT_EQ(RejectedOf(cusp, OnPath(3.0), options).Of(Rejection::kFrame), 1);
+    EXPECT_EQ(CountRejected(cusp, OnPath(3.0), options).Of(Rejection::kFrame), 1);
   }
   {
     FrenetRequest request = OnPath(3.0);
     request.obstacles = {BoxAt(road, 12.0, 0.0)};
-    EXPECT_EQ(RejectedOf(road, request, options).Of(Rejection::kCollision), 1);
+    EXPECT_EQ(CountRejected(road, request, options).Of(Rejection::kCollision), 1);
   }
 }
 

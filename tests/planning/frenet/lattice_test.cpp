@@ -149,9 +149,9 @@ TEST(Lattice, PlansOnlyWhatCanBeDriven) {
       // What it paid is the sum of its edges.
       double cost = 0.0;
       for (const FrenetPiece& piece : plan.motion.pieces) {
-        cost +=
-            CostOf(piece, {std::nullopt, std::get<KeepSpeed>(request.goal).speed}, options.weights)
-                .total;
+        cost += PieceCost(piece, {std::nullopt, std::get<KeepSpeed>(request.goal).speed},
+                          options.weights)
+                    .total;
       }
       EXPECT_NEAR(plan.cost, cost, Tolerance(1e-9));
     }
@@ -256,7 +256,7 @@ TEST(Lattice, MeasuresEachEdgeByWhereTheLeaderIsThen) {
   double time = 0.0;
   for (const FrenetPiece& piece : plan.motion.pieces) {
     time += piece.duration;
-    cost += CostOf(piece, TargetAt(request.goal, request.vehicle, time), options.weights).total;
+    cost += PieceCost(piece, TargetAt(request.goal, request.vehicle, time), options.weights).total;
   }
   EXPECT_NEAR(plan.cost, cost, Tolerance(1e-9));
 }

@@ -220,12 +220,12 @@ TEST(AStar, GoesRoundTheOtherSideForASmallShift) {
   // A box on the straight way, 5 m long: the way leads around it where it reaches out less. Half a
   // cell of shift is enough to go round the other side.
   const auto side = [](double box_y, double start_y) {
-    const OccupancyGrid grid = RasterOf({0.0, 0.0, 0.0}, {{-2.0, -10.0}, {32.0, 10.0}}, 0.5,
-                                        {{{15.0, box_y, 0.0}, 5.0, 5.0}}, 1.0);
+    const OccupancyGrid grid = Rasterize({0.0, 0.0, 0.0}, {{-2.0, -10.0}, {32.0, 10.0}}, 0.5,
+                                         {{{15.0, box_y, 0.0}, 5.0, 5.0}}, 1.0);
     const GridPath path = SearchGrid(grid, static_cast<std::size_t>(grid.CellAt({0.0, start_y})),
                                      static_cast<std::size_t>(grid.CellAt({30.0, 0.0})));
     for (const std::size_t cell : path.cells) {
-      const Vec2 middle = grid.MiddleOf(cell);
+      const Vec2 middle = grid.CellCenter(cell);
       if (std::abs(middle.x() - 15.0) < 0.25) {
         return middle.y() > box_y ? 1 : -1;
       }

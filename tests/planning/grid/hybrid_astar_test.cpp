@@ -32,9 +32,9 @@ void ExpectGood(const HybridAStarProblem& problem, const HybridAStarOptions& opt
   // The farthest corner moves by up to 1 + 3.7/5.6 per meter: 1.7 cm in a step's half.
   const double missed = Tolerance(0.017);
   for (double s = 0.0; s <= path.length(); s += 0.02) {
-    const OrientedBox outline = OutlineAt(ReferenceCar(), path.At(s).pose);
+    const OrientedBox footprint = FootprintAt(ReferenceCar(), path.At(s).pose);
     for (const OrientedBox& box : problem.obstacles) {
-      ASSERT_GE(Separation(outline, box), options.safe_distance - missed) << "at " << s;
+      ASSERT_GE(Separation(footprint, box), options.safe_distance - missed) << "at " << s;
     }
   }
 }

@@ -44,7 +44,7 @@ PlanRequest Request(std::vector<Vec2> waypoints) {
 // --- What every planner of the table owes its caller ---------------------------------------------
 
 /// The defaults, and a course for the one that cannot do without.
-PlannerOptions OptionsOf(const PlannerEntry& entry) {
+PlannerOptions DefaultOptions(const PlannerEntry& entry) {
   PlannerOptions options = entry.defaults;
   if (auto* course = options.As<CourseOptions>()) {
     course->segments = {{.length = 10.0, .curvature = 0.0},
@@ -69,15 +69,15 @@ TEST_P(EveryPlanner, NeedsItsFewestWaypointsAndNoMore) {
   route.resize(fewest);
   PlanRequest request = Request(RouteA());
   request.waypoints = route;
-  EXPECT_TRUE(MakePlan(request, OptionsOf(GetParam())).ok());
+  EXPECT_TRUE(MakePlan(request, DefaultOptions(GetParam())).ok());
   if (fewest > 0) {
     request.waypoints.pop_back();
-    EXPECT_EQ(MakePlan(request, OptionsOf(GetParam())).status, PlanStatus::kTooFewWaypoints);
+    EXPECT_EQ(MakePlan(request, DefaultOptions(GetParam())).status, PlanStatus::kTooFewWaypoints);
   }
 }
 
 TEST_P(EveryPlanner, StartsWhereTheCarIsAndEndsAtGoal) {
-  const Plan plan = MakePlan(Request(RouteA()), OptionsOf(GetParam()));
+  const Plan plan = MakePlan(Request(RouteA()), DefaultOptions(GetParam()));
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_EQ(plan.reason, "");
   const Path& path = plan.reference.path;
@@ -91,7 +91,7 @@ TEST_P(EveryPlanner, StartsWhereTheCarIsAndEndsAtGoal) {
 }
 
 TEST_P(EveryPlanner, StaysWithinTheCarsSteering) {
-  const Plan plan = MakePlan(Request(RouteA()), OptionsOf(GetParam()));
+  const Plan plan = MakePlan(Request(RouteA()), DefaultOptions(GetParam()));
   ASSERT_TRUE(plan.ok()) << plan.reason;
   for (const Segment& segment : plan.reference.path.segments()) {
     for (const double d : {0.0, segment.length}) {
@@ -108,7 +108,7 @@ TEST_P(EveryPlanner, StaysWithinTheCarsSteering) {
 TEST_P(EveryPlanner, StopsAtTheEndOfItsPath) {
   PlanRequest request = Request(RouteA());
   request.start_speed = 1.25;
-  const Plan plan = MakePlan(request, OptionsOf(GetParam()));
+  const Plan plan = MakePlan(request, DefaultOptions(GetParam()));
   ASSERT_TRUE(plan.ok()) << plan.reason;
   const auto& knots = plan.reference.speed.knots();
   ASSERT_GE(knots.size(), 2U);
@@ -122,8 +122,8 @@ TEST_P(EveryPlanner, StopsAtTheEndOfItsPath) {
 }
 
 TEST_P(EveryPlanner, IsAFunctionOfItsRequest) {
-  const Plan a = MakePlan(Request(RouteB()), OptionsOf(GetParam()));
-  const Plan b = MakePlan(Request(RouteB()), OptionsOf(GetParam()));
+  const Plan a = MakePlan(Request(RouteB()), DefaultOptions(GetParam()));
+  const Plan b = MakePlan(Request(RouteB()), DefaultOptions(GetParam()));
   EXPECT_EQ(DiagnosticsJson(a), DiagnosticsJson(b));
   EXPECT_EQ(a.reference.path.segments(), b.reference.path.segments());
   EXPECT_EQ(a.caps.size(), b.caps.size());
@@ -131,7 +131,7 @@ TEST_P(EveryPlanner, IsAFunctionOfItsRequest) {
 
 TEST_P(EveryPlanner, IsAsLongAsItsSteps) {
   for (const std::vector<Vec2>& route : {RouteA(), RouteB()}) {
-    const Plan plan = MakePlan(Request(route), OptionsOf(GetParam()));
+    const Plan plan = MakePlan(Request(route), DefaultOptions(GetParam()));
     ASSERT_TRUE(plan.ok()) << plan.reason;
     const Path& path = plan.reference.path;
     constexpr double kStep = 0.01;  // [m]
@@ -148,7 +148,7 @@ TEST_P(EveryPlanner, IsAsLongAsItsSteps) {
     }
     // A chord of an arc is short of it by kappa^2 step^3/24: 1.6e-7 of a length of 160 m or less;
     // a cusp folds one step.
-    const double cusps = static_cast<double>(LegsOf(path).size() - 1);
+    const double cusps = static_cast<double>(SplitIntoLegs(path).size() - 1);
     EXPECT_NEAR(length, path.length(), Tolerance(1.6e-7 * 160.0) + cusps * step);
   }
 }
@@ -157,14 +157,14 @@ TEST_P(EveryPlanner, PlansWithEverySeed) {
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
     PlanRequest request = Request(RouteB());
     request.seed = seed;
-    const Plan plan = MakePlan(request, OptionsOf(GetParam()));
+    const Plan plan = MakePlan(request, DefaultOptions(GetParam()));
     ASSERT_TRUE(plan.ok()) << plan.reason;
     const Path& path = plan.reference.path;
     EXPECT_NEAR((path.At(path.length()).pose.position() - plan.goal.position()).norm(), 0.0,
                 Tolerance(1e-9));
     if (!GetParam().is_random) {
       request.seed = 0;
-      EXPECT_EQ(MakePlan(request, OptionsOf(GetParam())).reference.path.segments(),
+      EXPECT_EQ(MakePlan(request, DefaultOptions(GetParam())).reference.path.segments(),
                 path.segments());
     }
   }
@@ -177,8 +177,8 @@ TEST_P(EveryPlanner, IsMovedWithItsMission) {
     waypoint = ToWorld(by, waypoint);
   }
   moved.start = Compose(by, moved.start);
-  const Plan here = MakePlan(Request(RouteB()), OptionsOf(GetParam()));
-  const Plan there = MakePlan(moved, OptionsOf(GetParam()));
+  const Plan here = MakePlan(Request(RouteB()), DefaultOptions(GetParam()));
+  const Plan there = MakePlan(moved, DefaultOptions(GetParam()));
   ASSERT_TRUE(here.ok() && there.ok()) << there.reason;
   const Path& path = here.reference.path;
   // Rounding of coordinates of some 250 m, carried through a search.
@@ -195,7 +195,7 @@ TEST_P(EveryPlanner, IsNeverFasterThanTheMissionAndEndsAtRest) {
   for (const double speed : {0.7, 2.0, 5.0}) {
     PlanRequest request = Request(RouteA());
     request.speed.speed = speed;
-    const Plan plan = MakePlan(request, OptionsOf(GetParam()));
+    const Plan plan = MakePlan(request, DefaultOptions(GetParam()));
     ASSERT_TRUE(plan.ok()) << plan.reason;
     const double length = plan.reference.path.length();
     for (double s = 0.0; s <= length; s += 0.1) {
@@ -213,7 +213,7 @@ TEST_P(EveryPlanner, RefusesWithAReasonAndNoPath) {
   } else {
     request.vehicle.steering_limit = 1e-3;  // a car that needs 2.7 km to turn
   }
-  const Plan plan = MakePlan(request, OptionsOf(GetParam()));
+  const Plan plan = MakePlan(request, DefaultOptions(GetParam()));
   EXPECT_FALSE(plan.ok());
   EXPECT_NE(plan.reason, "");
   EXPECT_EQ(plan.reference.path.length(), 0.0);
@@ -228,22 +228,24 @@ TEST_P(EveryPlanner, ThrowsForNumbersThatAreNone) {
     SCOPED_TRACE(bad);
     PlanRequest waypoint = Request(RouteA());
     waypoint.waypoints[2].y() = bad;
-    EXPECT_THROW(MakePlan(waypoint, OptionsOf(GetParam())), InternalError);
+    EXPECT_THROW(MakePlan(waypoint, DefaultOptions(GetParam())), InternalError);
     PlanRequest start = Request(RouteA());
     start.start.yaw = bad;
-    EXPECT_THROW(MakePlan(start, OptionsOf(GetParam())), InternalError) << "start";
+    EXPECT_THROW(MakePlan(start, DefaultOptions(GetParam())), InternalError) << "start";
     PlanRequest start_speed = Request(RouteA());
     start_speed.start_speed = bad;
-    EXPECT_THROW(MakePlan(start_speed, OptionsOf(GetParam())), InternalError) << "start speed";
+    EXPECT_THROW(MakePlan(start_speed, DefaultOptions(GetParam())), InternalError) << "start speed";
     PlanRequest speed = Request(RouteA());
     speed.speed.speed = bad;
-    EXPECT_THROW(MakePlan(speed, OptionsOf(GetParam())), InternalError) << "speed";
+    EXPECT_THROW(MakePlan(speed, DefaultOptions(GetParam())), InternalError) << "speed";
     PlanRequest acceleration = Request(RouteA());
     acceleration.speed.acceleration = bad;
-    EXPECT_THROW(MakePlan(acceleration, OptionsOf(GetParam())), InternalError) << "acceleration";
+    EXPECT_THROW(MakePlan(acceleration, DefaultOptions(GetParam())), InternalError)
+        << "acceleration";
     PlanRequest deceleration = Request(RouteA());
     deceleration.speed.deceleration = bad;
-    EXPECT_THROW(MakePlan(deceleration, OptionsOf(GetParam())), InternalError) << "deceleration";
+    EXPECT_THROW(MakePlan(deceleration, DefaultOptions(GetParam())), InternalError)
+        << "deceleration";
   }
 }
 
@@ -262,8 +264,8 @@ TEST(Planners, HaveNamesAndOptionsOfTheirOwn) {
 }
 
 TEST(Planners, KeepTheDistanceThatTheirOptionsName) {
-  EXPECT_EQ(SafeDistanceOf(DubinsOptions{.safe_distance = 0.7}), 0.7);
-  EXPECT_FALSE(SafeDistanceOf(CourseOptions{}).has_value());
+  EXPECT_EQ(PlannerSafeDistance(DubinsOptions{.safe_distance = 0.7}), 0.7);
+  EXPECT_FALSE(PlannerSafeDistance(CourseOptions{}).has_value());
 }
 
 // --- The fillet planner

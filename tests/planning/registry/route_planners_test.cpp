@@ -82,9 +82,9 @@ class EveryRoutePlanner : public ::testing::TestWithParam<PlannerEntry> {
 void ExpectClear(const PlanRequest& request, const Plan& plan) {
   const Path& path = plan.reference.path;
   for (double s = 0.0; s <= path.length(); s += 0.02) {
-    const OrientedBox outline = OutlineAt(request.vehicle, path.At(s).pose);
+    const OrientedBox footprint = FootprintAt(request.vehicle, path.At(s).pose);
     for (const OrientedBox& box : request.obstacles) {
-      ASSERT_GE(Separation(outline, box), kSafe - Tolerance(0.018)) << "at " << s;
+      ASSERT_GE(Separation(footprint, box), kSafe - Tolerance(0.018)) << "at " << s;
     }
   }
 }
@@ -323,7 +323,7 @@ TEST_P(EveryRoutePlanner, StopsWhereItChangesDirection) {
   }
   const Plan plan = Make(Between({0.0, 0.0, 0.0}, {0.0, 6.0, 3.0}, {}));
   ASSERT_TRUE(plan.ok()) << plan.reason;
-  const std::vector<Stations> legs = LegsOf(plan.reference.path);
+  const std::vector<Stations> legs = SplitIntoLegs(plan.reference.path);
   ASSERT_GT(legs.size(), 1U);
   EXPECT_EQ(DiagnosticsJson(plan)["changes_of_direction"], legs.size() - 1);
   for (const Stations& leg : legs) {
@@ -356,18 +356,18 @@ TEST(CurvePlanners, RefuseRadiiThatTheCarCannotTurnOn) {
   EXPECT_EQ(MakePlan(Aisle(), HybridAStarOptions{.radius = 5.0}).status, PlanStatus::kTurnTooTight);
 }
 
-TEST(StopsOf, TakesHeadingsFromTheLegsIfThereAreNone) {
+TEST(PlannedStops, TakesHeadingsFromTheLegsIfThereAreNone) {
   PlanRequest request = Between({0.0, 0.0, 0.1}, {10.0, 0.0, 0.0}, {});
   request.waypoints = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}};
   request.headings = {};
-  const std::vector<Pose2> stops = StopsOf(request);
+  const std::vector<Pose2> stops = PlannedStops(request);
   ASSERT_EQ(stops.size(), 3U);
   EXPECT_EQ(stops[0], request.start);
   EXPECT_NEAR(stops[1].yaw, 0.25 * kPi, Tolerance(1e-12));  // from the start to the goal
   EXPECT_NEAR(stops[2].yaw, 0.5 * kPi, Tolerance(1e-12));
   request.headings = {7.0, 1.0, 2.0};
-  EXPECT_EQ(StopsOf(request)[0].yaw, 0.1);  // where the car stands
-  EXPECT_EQ(StopsOf(request)[1].yaw, 1.0);
+  EXPECT_EQ(PlannedStops(request)[0].yaw, 0.1);  // where the car stands
+  EXPECT_EQ(PlannedStops(request)[1].yaw, 1.0);
   request.headings.pop_back();
   EXPECT_THROW(MakePlan(request, DubinsOptions{}), InternalError);
 }

@@ -28,7 +28,8 @@ Plan PlanOn(const Path& path, double speed) {
 
 /// A car on a straight route of 200 m, 40 m from its start.
 struct Scene {
-  RouteFrame frame = FrameOf(ReferenceCar(), PlanOn(StraightRoad(), 3.0), {3.0, 2.0, 3.0}, kBeyond);
+  RouteFrame frame =
+      MakeRouteFrame(ReferenceCar(), PlanOn(StraightRoad(), 3.0), {3.0, 2.0, 3.0}, kBeyond);
   AlongRequest request{.vehicle = ReferenceCar(),
                        .speed = {3.0, 2.0, 3.0},
                        .wanted = 3.0,
@@ -251,19 +252,19 @@ TEST(LeaderIn, IsTheNearestInTheLane) {
 
 // --- the frame
 
-TEST(FrameOf, OfAStraightRouteIsTheRouteAndGoesOn) {
+TEST(MakeRouteFrame, OfAStraightRouteIsTheRouteAndGoesOn) {
   const Scene scene;
   EXPECT_NEAR(scene.frame.goal, 200.0, Tolerance(1e-9));
   EXPECT_NEAR(scene.frame.path.length(), 200.0 + kBeyond, Tolerance(1e-9));
   EXPECT_EQ(scene.frame.path.At(137.0).pose.y, 0.0);
 }
 
-TEST(FrameOf, OfArcsAsksNoMoreOfTheWheelsThanTheyCan) {
+TEST(MakeRouteFrame, OfArcsAsksNoMoreOfTheWheelsThanTheyCan) {
   // A quarter turn of 12 m radius between straights: kappa 1/12, steering atan(2.7/12).
   const double speed = 2.0;
   const Path path({0.0, 0.0, 0.0}, {{60.0, 0.0}, {6.0 * M_PI, 1.0 / 12.0}, {60.0, 0.0}});
   const SpeedLimits limits{speed, 2.0, 3.0};
-  const RouteFrame frame = FrameOf(ReferenceCar(), PlanOn(path, speed), limits, kBeyond);
+  const RouteFrame frame = MakeRouteFrame(ReferenceCar(), PlanOn(path, speed), limits, kBeyond);
   const double steering = SteeringForCurvature(ReferenceCar(), 1.0 / 12.0);
   const double window = speed * steering / ReferenceCar().steering_rate;
   double before = 0.0;
@@ -285,12 +286,12 @@ TEST(FrameOf, OfArcsAsksNoMoreOfTheWheelsThanTheyCan) {
   EXPECT_LE((frame.path.At(frame.goal).pose.position() - end).norm(), deviation);
 }
 
-TEST(FrameOf, IsSharperWhereTheRouteIsSlow) {
+TEST(MakeRouteFrame, IsSharperWhereTheRouteIsSlow) {
   const Path path({0.0, 0.0, 0.0}, {{60.0, 0.0}, {8.0 * M_PI, 1.0 / 8.0}, {60.0, 0.0}});
   Plan plan = PlanOn(path, 6.0);
   // Between a tenth and nine tenths of the bend's curvature: eight tenths of the window.
   const auto ramp = [&] {
-    const RouteFrame frame = FrameOf(ReferenceCar(), plan, {6.0, 2.0, 3.0}, kBeyond);
+    const RouteFrame frame = MakeRouteFrame(ReferenceCar(), plan, {6.0, 2.0, 3.0}, kBeyond);
     const auto reaches = [&](double curvature) {
       double s = 0.0;
       while (frame.path.At(s).curvature < curvature) {

@@ -45,7 +45,7 @@ PlannerOptions Forwards() {
   return options;
 }
 
-TEST(BlockedStretches, AreWhereTheOutlineIsTooNear) {
+TEST(BlockedStretches, AreWhereTheFootprintIsTooNear) {
   // The front is 3.625 m ahead of the rear axle, the rear 0.825 m behind it.
   const Path path({0.0, 0.0, 0.0}, {{120.0, 0.0}});
   const std::vector<OrientedBox> boxes{{{50.0, 0.0, 0.0}, 4.0, 1.0}, {{80.0, 1.9, 0.0}, 2.0, 1.0}};
@@ -91,7 +91,7 @@ TEST_P(EveryDetour, LeadsRoundAndBack) {
   // Keeps the planner's distance of 0.3 m, less 1 cm between its samples.
   for (double s = 0.0; s < path.length(); s += 0.02) {
     const PathPoint at = path.At(s);
-    EXPECT_GE(Separation(OutlineAt(ReferenceCar(), at.pose), request.obstacles[0]), 0.28) << s;
+    EXPECT_GE(Separation(FootprintAt(ReferenceCar(), at.pose), request.obstacles[0]), 0.28) << s;
     EXPECT_LE(std::abs(at.curvature), 1.0 / 5.1 + 1e-9);
     EXPECT_GT(at.direction, 0);
   }

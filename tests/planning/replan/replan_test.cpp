@@ -36,7 +36,7 @@ struct Scene {
 
   Scene() {
     driving.route = StraightPlan(150.0, 3.0);
-    driving.frame = FrameOf(ReferenceCar(), driving.route, kSpeed, 80.0);
+    driving.frame = MakeRouteFrame(ReferenceCar(), driving.route, kSpeed, 80.0);
     driving.plan = driving.route;
     driving.station = 30.0;
     driving.route_station = 30.0;
@@ -65,7 +65,7 @@ struct Scene {
   }
 };
 
-// --- encounters
+// --- conflicts
 
 TEST(PredictConflict, WithWhatStandsIsWhenTheFrontGetsNear) {
   const Reference reference{Path({0.0, 0.0, 0.0}, {{150.0, 0.0}}), SpeedProfile({{0.0, 3.0}})};
@@ -163,7 +163,7 @@ TEST(Replan, LeadsPastAndBackOntoTheRoute) {
     EXPECT_NEAR(start.curvature, scene.request.car.curvature, Tolerance(1e-5));
     EXPECT_NEAR(next.plan.reference.speed.SpeedAt(0.0), scene.request.car.speed, Tolerance(1e-6));
     scene.Drive(next, 1.5);
-    nearest = std::min(nearest, Separation(OutlineAt(ReferenceCar(), scene.request.car.pose),
+    nearest = std::min(nearest, Separation(FootprintAt(ReferenceCar(), scene.request.car.pose),
                                            scene.request.obstacles[0].box));
     const Replanned now = scene.Go();
     if (now.kind == ReplanKind::kKeep) {
@@ -205,7 +205,7 @@ TEST(Replan, BrakesAsHardAsItMustWhereNoMotionIsLeft) {
 
 /// Distance from the front to the place of the obstacle, less what is to be kept of it.
 double RoomBefore(const Scene& scene, double ahead) {
-  // Half a meter before the encounter, which is a centimeter inside the safe distance.
+  // Half a meter before the conflict, which is a centimeter inside the safe distance.
   return ahead - scene.options.settings.safe_distance + 0.01 - 0.5;
 }
 
@@ -216,7 +216,7 @@ TEST(Replan, BrakesNoHarderThanTheObstacleNeeds) {
     scene.request.max_deceleration = 8.0;
     const Replanned next = scene.Go();
     ASSERT_EQ(next.kind, ReplanKind::kStop);
-    // The encounter is found to 0.1 ms, that is 0.3 mm.
+    // The conflict is found to 0.1 ms, that is 0.3 mm.
     const double room = RoomBefore(scene, ahead);
     EXPECT_NEAR(next.plan.reference.path.length(), room, Tolerance(5e-4));
     EXPECT_NEAR(next.plan.reference.speed.AccelerationAt(0.0), -std::max(2.0, 4.5 / room),
@@ -332,7 +332,7 @@ TEST(Replan, StartsFromTheCarThatHasStrayed) {
   EXPECT_NEAR(next.plan.reference.speed.SpeedAt(0.0), 2.5, Tolerance(1e-9));
 }
 
-TEST(Replan, KeepsItsLastMetresToTheGoal) {
+TEST(Replan, KeepsItsLastMetersToTheGoal) {
   Scene scene;
   scene.driving.on_route = false;
   scene.driving.station = 149.5;

@@ -15,10 +15,10 @@ std::vector<Vec2> Over(double height) {
   return {{0.0, 0.0}, {5.0, height}, {10.0, 0.0}};
 }
 
-WayScore Score(const std::vector<Vec2>& way, const Vec2& position,
-               const std::vector<OrientedBox>& obstacles = {}, const WindScoring& wind = {},
-               const ComparatorOptions& options = {}) {
-  return ScoreWay(way, position, obstacles, 0.5, wind, options);
+PathScore Score(const std::vector<Vec2>& way, const Vec2& position,
+                const std::vector<OrientedBox>& obstacles = {}, const WindScoring& wind = {},
+                const ComparatorOptions& options = {}) {
+  return ScorePath(way, position, obstacles, 0.5, wind, options);
 }
 
 TEST(Comparator, CountsWhatIsLeft) {
@@ -42,8 +42,8 @@ TEST(Comparator, KeepsTheCurrentWayOnATie) {
 
 TEST(Comparator, APenaltyTurnsTheChoice) {
   const std::vector<OrientedBox> boxes{{{5.0, 0.5, 0.0}, 1.0, 1.0}};
-  const WayScore through = Score(Over(0.0), {0, 0}, boxes);
-  const WayScore around = Score(Over(4.0), {0, 0}, boxes);
+  const PathScore through = Score(Over(0.0), {0, 0}, boxes);
+  const PathScore around = Score(Over(4.0), {0, 0}, boxes);
   EXPECT_TRUE(through.collides);
   EXPECT_FALSE(around.collides);
   EXPECT_TRUE(IsBetter(around, through));
@@ -56,8 +56,8 @@ TEST(Comparator, APenaltyTurnsTheChoice) {
 
 TEST(Comparator, UniformWindDoesNotMatter) {
   const WindScoring wind{.wind = {.velocity = {-2.0, 1.0}}, .speed = 3.0};
-  const WayScore low = Score(Over(1.0), {0, 0}, {}, wind);
-  const WayScore high = Score(Over(3.0), {0, 0}, {}, wind);
+  const PathScore low = Score(Over(1.0), {0, 0}, {}, wind);
+  const PathScore high = Score(Over(3.0), {0, 0}, {}, wind);
   EXPECT_NEAR(low.wind, high.wind, Tolerance(1e-12));
   EXPECT_TRUE(IsBetter(low, high));
 }

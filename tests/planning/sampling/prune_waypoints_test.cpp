@@ -68,7 +68,7 @@ Case RandomCase(Random& random) {
 }
 
 /// Sums up a way from the page; a corner without room counts a million meters.
-double CostOf(const Case& one, const std::vector<Vec2>& few) {
+double PathCost(const Case& one, const std::vector<Vec2>& few) {
   double cost = -WindScore(InPieces(few), one.wind);
   std::vector<Vec2> all = few;
   if (one.before) {
@@ -91,7 +91,7 @@ double CostOf(const Case& one, const std::vector<Vec2>& few) {
 }
 
 /// Every choice of points, one after the other.
-double CheapestOf(const Case& one) {
+double LowestCost(const Case& one) {
   double cheapest = std::numeric_limits<double>::infinity();
   const std::size_t inner = one.way.size() - 2;
   for (std::size_t choice = 0; choice < (std::size_t{1} << inner); ++choice) {
@@ -111,7 +111,7 @@ double CheapestOf(const Case& one) {
       last = i;
     }
     if (free) {
-      cheapest = std::min(cheapest, CostOf(one, few));
+      cheapest = std::min(cheapest, PathCost(one, few));
     }
   }
   return cheapest;
@@ -126,7 +126,7 @@ TEST(FewCorners, AreTheCheapestOfAllChoices) {
     ASSERT_EQ(few.front(), one.way.front());
     ASSERT_EQ(few.back(), one.way.back());
     // Sums of up to 1e7 m, in another order.
-    ASSERT_NEAR(CostOf(one, few), CheapestOf(one), Tolerance(1e-7)) << "case " << i;
+    ASSERT_NEAR(PathCost(one, few), LowestCost(one), Tolerance(1e-7)) << "case " << i;
     fewer += few.size() < one.way.size() ? 1 : 0;
   }
   EXPECT_GT(fewer, 300);

@@ -38,7 +38,7 @@ PlanRequest BeforeAWall() {
   return To({{50.0, 0.0}}, {{{30.0, 0.0, 0.0}, 1.0, 200.0}});
 }
 
-Vec2 EndOf(const Plan& plan) {
+Vec2 EndPoint(const Plan& plan) {
   return plan.reference.path.At(plan.reference.path.length()).pose.position();
 }
 
@@ -68,15 +68,15 @@ std::optional<int> NodesBefore(const std::vector<TreeNode>& tree, std::size_t no
   }
 }
 
-/// By the exact distance of boxes alone, every 2 cm, of which the outline's farthest corner moves
+/// By the exact distance of boxes alone, every 2 cm, of which the footprint's farthest corner moves
 /// by 1 + 3.7/5.1 times as much.
 void ExpectClear(const PlanRequest& request, const Plan& plan) {
   const Path& path = plan.reference.path;
   for (double s = 0.0; s < path.length() + 0.02; s += 0.02) {
-    const OrientedBox outline =
-        OutlineAt(request.vehicle, path.At(std::min(s, path.length())).pose);
+    const OrientedBox footprint =
+        FootprintAt(request.vehicle, path.At(std::min(s, path.length())).pose);
     for (const OrientedBox& box : request.obstacles) {
-      ASSERT_GE(Separation(outline, box), 0.3 - Tolerance(0.018)) << "at " << s;
+      ASSERT_GE(Separation(footprint, box), 0.3 - Tolerance(0.018)) << "at " << s;
     }
   }
 }
@@ -95,10 +95,10 @@ TEST(PartialPlan, EndsAtTheNodeNearestToTheGoal) {
     }
     const Vec2 goal = request.waypoints.back();
     const std::size_t nearest = NearestNode(plan.tree, goal);
-    const auto before = NodesBefore(plan.tree, nearest, EndOf(plan));
+    const auto before = NodesBefore(plan.tree, nearest, EndPoint(plan));
     ASSERT_TRUE(before) << seed;
     at_the_nearest += *before == 0 ? 1 : 0;
-    EXPECT_NEAR(DiagnosticsJson(plan)["left_m"], (EndOf(plan) - goal).norm(), Tolerance(1e-9));
+    EXPECT_NEAR(DiagnosticsJson(plan)["left_m"], (EndPoint(plan) - goal).norm(), Tolerance(1e-9));
     EXPECT_EQ(plan.reference.speed.SpeedAt(plan.reference.path.length()), 0.0);
   }
   // Not where the way there has a corner that is too sharp for the car.
@@ -130,9 +130,9 @@ TEST(PartialPlan, KeepsClearOfWhatStoppedTheTree) {
     ASSERT_TRUE(plan.ok()) << plan.reason;
     ExpectClear(request, plan);
     const std::size_t nearest = NearestNode(plan.tree, request.waypoints.back());
-    EXPECT_TRUE(NodesBefore(plan.tree, nearest, EndOf(plan)));
-    EXPECT_LE(EndOf(plan).x(), plan.tree[nearest].position.x());
-    EXPECT_GT(EndOf(plan).x(), 20.0);
+    EXPECT_TRUE(NodesBefore(plan.tree, nearest, EndPoint(plan)));
+    EXPECT_LE(EndPoint(plan).x(), plan.tree[nearest].position.x());
+    EXPECT_GT(EndPoint(plan).x(), 20.0);
   }
 }
 
@@ -172,8 +172,8 @@ TEST(PartialPlan, LeadsThroughTheWaypointsThatAreReached) {
   EXPECT_EQ(legs[0]["status"], "reached");
   const std::size_t nearest =
       NearestNode(plan.tree, request.waypoints[2], legs[0]["nodes"].get<std::size_t>());
-  EXPECT_TRUE(NodesBefore(plan.tree, nearest, EndOf(plan)));
-  EXPECT_NEAR(DiagnosticsJson(plan)["left_m"], (EndOf(plan) - request.waypoints[2]).norm(),
+  EXPECT_TRUE(NodesBefore(plan.tree, nearest, EndPoint(plan)));
+  EXPECT_NEAR(DiagnosticsJson(plan)["left_m"], (EndPoint(plan) - request.waypoints[2]).norm(),
               Tolerance(1e-9));
   // Its corner there is rounded: by no more than the car's radius allows it to cut off.
   EXPECT_LT(

@@ -181,7 +181,7 @@ TEST(RrtPlanner, TellsOfTheTreeThatCameNearest) {
   EXPECT_LT(left.back(), left.front());
 }
 
-TEST(RrtPlanner, SaysWhenTheFirstMetresAreBlocked) {
+TEST(RrtPlanner, SaysWhenTheFirstMetersAreBlocked) {
   const Plan plan = MakePlan(Across({{{7.0, 0.0, 0.0}, 2.0, 1.0}}), RrtPlannerOptions{});
   EXPECT_EQ(plan.status, PlanStatus::kStartBlocked);
   EXPECT_THAT(plan.reason, HasSubstr("straight path"));
@@ -211,8 +211,8 @@ TEST(RrtPlanner, IsClearOrSaysWhyNotInRandomFields) {
       const PathPoint point = path.At(s);
       ASSERT_LE(std::abs(point.curvature), 1.0 / ReferenceCar().min_turning_radius() + 1e-12);
       for (const OrientedBox& box : request.obstacles) {
-        // Between its own checks the outline's farthest corner may come 1.8 cm nearer.
-        ASSERT_GE(Separation(OutlineAt(ReferenceCar(), point.pose), box), 0.3 - Tolerance(0.018));
+        // Between its own checks the footprint's farthest corner may come 1.8 cm nearer.
+        ASSERT_GE(Separation(FootprintAt(ReferenceCar(), point.pose), box), 0.3 - Tolerance(0.018));
       }
     }
   }

@@ -127,7 +127,7 @@ double ShortestWay(const RrtStarProblem& problem) {
   return std::numeric_limits<double>::infinity();
 }
 
-double LengthOf(const std::vector<Vec2>& way) {
+double PolylineLength(const std::vector<Vec2>& way) {
   double length = 0.0;
   for (std::size_t i = 1; i < way.size(); ++i) {
     length += (way[i] - way[i - 1]).norm();
@@ -197,7 +197,7 @@ TEST_P(RrtStarIn, PathIsAFreeWayOfTheTree) {
   EXPECT_EQ(result.iterations, 4000);
   EXPECT_EQ(result.path.front(), problem.start);
   EXPECT_EQ(result.path.back(), problem.goal);
-  EXPECT_NEAR(result.cost, LengthOf(result.path), Tolerance(1e-12));
+  EXPECT_NEAR(result.cost, PolylineLength(result.path), Tolerance(1e-12));
   const Surroundings surroundings(problem);
   for (std::size_t i = 1; i < result.path.size(); ++i) {
     EXPECT_TRUE(surroundings.IsFreeBySamples(result.path[i - 1], result.path[i]));

@@ -40,7 +40,7 @@ bool IsFreeDensely(const Vec2& from, const Vec2& to, const RrtProblem& problem) 
   return true;
 }
 
-double LengthOf(const std::vector<Vec2>& path) {
+double PathLength(const std::vector<Vec2>& path) {
   double length = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) {
     length += (path[i] - path[i - 1]).norm();
@@ -58,7 +58,7 @@ TEST_P(RrtSeeds, LeadsFromStartToGoalOnFreeShortEdges) {
   ASSERT_TRUE(result.ok());
   EXPECT_EQ(result.path.front(), problem.start);
   EXPECT_EQ(result.path.back(), problem.goal);
-  EXPECT_NEAR(result.length, LengthOf(result.path), Tolerance(1e-9));
+  EXPECT_NEAR(result.length, PathLength(result.path), Tolerance(1e-9));
   for (const RrtNode& node : result.nodes) {
     const Vec2& parent = result.nodes.at(node.parent).position;
     EXPECT_LE((node.position - parent).norm(), options.expand_distance + 1e-12);

@@ -9,7 +9,7 @@
 
 #include "trackbed/geometry/oriented_box.h"
 #include "trackbed/optimize/search.h"
-#include "trackbed/planning/avoidance/turn_manoeuvre.h"
+#include "trackbed/planning/avoidance/turn_maneuver.h"
 #include "trackbed/planning/common/plan_diagnostics.h"
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/sampling/rrt_star.h"
@@ -21,7 +21,7 @@
 /// (Skackauskas, dissertation, listing F.2), as printed: a curve that nothing checks, to compare
 /// with.
 ///
-/// Symbols: SD safe distance, from the car's outline to an obstacle [m]; t_d system delay [s];
+/// Symbols: SD safe distance, from the car's footprint to an obstacle [m]; t_d system delay [s];
 /// S = r + v t_d the distance before and after a turn of radius r within which the car leaves its
 /// path and is back on it [m].
 namespace trackbed {
@@ -35,11 +35,11 @@ enum class PassingSideChoice {
 struct BezierAvoidanceOptions {
   double safe_distance = 1.5;  ///< SD [m], >= 0
   double delay = 0.9;          ///< t_d [s], >= 0: until then the old plan is driven
-  PassingSideChoice ring = PassingSideChoice::kAuto;  ///< on a straight, inner means left
+  PassingSideChoice passing_side = PassingSideChoice::kAuto;  ///< on a straight, inner means left
   double min_speed = 0.5;  ///< the car is not made slower than this to get past [m/s]
-  double max_lateral_acceleration = 3.0;  ///< of the curve [m/s^2]
-  double steering_rate_share = 0.9;       ///< of the car's steering rate that the curve may ask for
-  double comfortable_rate_share = 0.5;    ///< curves that ask for no more are preferred
+  double max_lateral_acceleration = 3.0;            ///< of the curve [m/s^2]
+  double max_steering_rate_fraction = 0.9;          ///< of the car's steering rate
+  double comfortable_steering_rate_fraction = 0.5;  ///< curves that ask for no more are preferred
   int rrt_iterations = 2000;
   double rrt_step = 5.0;  ///< [m]
   /// Of the control points; one curve may take a few such searches.
@@ -48,8 +48,8 @@ struct BezierAvoidanceOptions {
 void Visit(KeyVisitor& keys, BezierAvoidanceOptions& options);
 
 /// The turn of the plan in which an obstacle stands is taken as the listing's problem
-/// (turn_manoeuvre.h): its arc and the straights before and after it, the mission's speed, the box
-/// along the axes of the manoeuvre's frame and on the nearest sixth of the arc. Where there is no
+/// (turn_maneuver.h): its arc and the straights before and after it, the mission's speed, the box
+/// along the axes of the maneuver's frame and on the nearest sixth of the arc. Where there is no
 /// such turn the plan ends before the obstacle. The curve is driven as it is, however near it comes
 /// and whatever it asks of the steering, also where `plan.infeasible` refuses other plans.
 struct ListingAvoidanceOptions {
@@ -89,7 +89,7 @@ struct ListingAvoidanceDiagnostics {
   int obstacle_sixth = 0;  ///< of the arc, at which the obstacle is taken to stand
   std::size_t tree_nodes = 0;
   double goal_distance = 0.0;  ///< from the tree to its goal [m]
-  double final_y = 0.0;        ///< of the tree's path, see turn_manoeuvre.h [m]
+  double final_y = 0.0;        ///< of the tree's path, see turn_maneuver.h [m]
   OnePointCheck one_point_check;
 };
 void Visit(DiagnosticsVisitor& out, const ListingAvoidanceDiagnostics& own);
@@ -135,7 +135,7 @@ bool IsInTheWay(const VehicleParams& vehicle, const Path& path, double station,
 /// before it and says why (Plan::blocked).
 ///
 /// Guarantees: position and heading are continuous. Without a car, the plan up to where it is left
-/// is unchanged. Every stretch that `bezier` replaced keeps the outline at least SD from every
+/// is unchanged. Every stretch that `bezier` replaced keeps the footprint at least SD from every
 /// known obstacle (sampled every 0.05 m), the steering within the car's limit, its rate at the
 /// planned speed within the given share, and has the curvature of the rest at its ends: at its
 /// start that of the plan, or of the car's actual steering. `listing` guarantees none of this; a

@@ -9,24 +9,25 @@
 
 namespace trackbed {
 
-/// Whether a car's outline keeps a distance from boxes, asked many thousand times. Immutable.
+/// Whether a car's footprint keeps a distance from boxes, asked many thousand times. Immutable.
 class CollisionChecker {
  public:
   /// No room beyond this is told apart [m].
   static constexpr double kFarthest = 4.0;
 
-  /// `distance` [m], >= 0, is what the outline keeps from every box.
+  /// `distance` [m], >= 0, is what the footprint keeps from every box.
   CollisionChecker(const VehicleParams& vehicle, std::vector<OrientedBox> boxes, double distance);
 
-  /// What is left between the outline and the nearest box beyond the distance [m]: exact, negative
-  /// when it is too near, kFarthest when it is more. Cost: the boxes near by, about 50 ns each.
+  /// What is left between the footprint and the nearest box beyond the distance [m]: exact,
+  /// negative when it is too near, kFarthest when it is more. Cost: the boxes near by, about 50 ns
+  /// each.
   [[nodiscard]] double Clearance(const Pose2& pose) const;
 
   [[nodiscard]] bool IsFree(const Pose2& pose) const { return Clearance(pose) >= 0.0; }
 
   /// The first station at which the car is too near to a box, or none. Goes forward by as much as
   /// the room surely allows, and by 2 cm where there is none: what is found free is off by 1 cm
-  /// times the turn of the outline's farthest corner at most.
+  /// times the turn of the footprint's farthest corner at most.
   [[nodiscard]] std::optional<double> FirstBlocked(const Path& path) const;
 
   /// Whether an arc or a line is free from its start to its end; the same, without a path.
@@ -37,11 +38,11 @@ class CollisionChecker {
   std::vector<OrientedBox> boxes_;
   std::vector<double> radii_;  // of circles around the boxes
   double distance_;
-  double middle_;  // of the outline, ahead of the rear axle
-  double radius_;  // of the circle around the outline
-  double reach_;   // from the rear axle to the outline's farthest corner
+  double middle_;  // of the footprint, ahead of the rear axle
+  double radius_;  // of the circle around the footprint
+  double reach_;   // from the rear axle to the footprint's farthest corner
 
-  // Which boxes matter for a car whose outline's middle is in a bin of the plane.
+  // Which boxes matter for a car whose footprint's middle is in a bin of the plane.
   [[nodiscard]] const std::vector<int>* Near(const Vec2& middle) const;
   Vec2 low_{0.0, 0.0};
   int columns_ = 0;

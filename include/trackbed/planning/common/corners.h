@@ -62,10 +62,10 @@ RoundCorner CornerAt(const VehicleParams& vehicle, double heading_change, double
 /// Rounds a polyline of at least two points, none the same as the one before. A corner may use half
 /// of each of its legs, at the ends of the polyline all of it, but for what a rolling car needs to
 /// slow down for it. It is taken as fast as that allows;
-/// one at which the outline is too near to a box, more slowly, which leads nearer to the corner.
+/// one at which the footprint is too near to a box, more slowly, which leads nearer to the corner.
 /// Guarantees when ok: the path starts at the first point along the first leg and ends at the last,
 /// continuous in curvature; no curvature above the limit; the steering rate kept at the caps; the
-/// outline free (CollisionChecker). Else the reason names the corner.
+/// footprint free (CollisionChecker). Else the reason names the corner.
 RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2>& polyline,
                             const CornerLimits& limits, const CollisionChecker& clear);
 

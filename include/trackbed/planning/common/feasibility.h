@@ -19,7 +19,7 @@
 ///   * v^2 |kappa| <= mu_y g,
 ///   * it brakes no harder than twice the deceleration of the speed limits, which is what the speed
 ///     controller gives at most, nor than the tyres and brakes hold, and accelerates no harder than
-///     the drive and its tyres,
+///     the run and its tyres,
 ///   * v is at most the car's top speed.
 namespace trackbed {
 
@@ -43,7 +43,7 @@ struct Excess {
 
 /// Everything that the plan asks too much of, one entry for each quantity, at its worst place.
 /// Limits that the vehicle's parameters do not know (0) are not checked. Cost: 5 us a meter.
-std::vector<Excess> ExcessesOf(const Plan& plan, const PlanRequest& request);
+std::vector<Excess> FindExcesses(const Plan& plan, const PlanRequest& request);
 
 /// The plan as the request wants it where it asks too much: slowed down there, refused
 /// (kInfeasible), or left as it is; Plan::notes tell. A plan that is not ok is left as it is.

@@ -17,6 +17,6 @@ struct LeadIn {
 
 /// The wheels turn straight at the start speed; then the car goes on straight for as long as it
 /// takes to slow down comfortably to `speed` [m/s] and for another `beyond` [m].
-LeadIn LeadInOf(const PlanRequest& request, double speed, double beyond);
+LeadIn ComputeLeadIn(const PlanRequest& request, double speed, double beyond);
 
 }  // namespace trackbed

@@ -21,7 +21,7 @@ struct OccupancyGrid {
   [[nodiscard]] std::size_t size() const { return occupied.size(); }
 
   /// The middle of a cell, in the world.
-  [[nodiscard]] Vec2 MiddleOf(std::size_t index) const;
+  [[nodiscard]] Vec2 CellCenter(std::size_t index) const;
 
   /// The cell around a point of the world, or -1 outside.
   [[nodiscard]] int CellAt(const Vec2& point_W) const;
@@ -46,7 +46,7 @@ double CellsIn(const GridArea& area, double cell);
 /// A grid over an area of the frame X_WF, one cell's middle on the frame's origin. A cell is
 /// occupied when its middle is not further than `inflation` [m] from a box. Cost: the cells of the
 /// inflated boxes. InternalError for more than kMaxCells.
-OccupancyGrid RasterOf(const Pose2& X_WF, const GridArea& area, double cell,
-                       const std::vector<OrientedBox>& boxes_W, double inflation);
+OccupancyGrid Rasterize(const Pose2& X_WF, const GridArea& area, double cell,
+                        const std::vector<OrientedBox>& boxes_W, double inflation);
 
 }  // namespace trackbed

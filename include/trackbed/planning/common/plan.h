@@ -45,10 +45,10 @@ enum class InfeasiblePolicy {
 struct PlanRequest {
   VehicleParams vehicle;
   std::vector<Vec2> waypoints;  ///< [m]
-  /// Of the car at each waypoint [rad]; none: along the legs, see StopsOf.
+  /// Of the car at each waypoint [rad]; none: along the legs, see PlannedStops.
   std::vector<double> headings{};
   std::vector<OrientedBox> obstacles{};  ///< that are known
-  Wind wind{};                           ///< as it blows when the drive begins
+  Wind wind{};                           ///< as it blows when the run begins
   Pose2 start;                           ///< where the car is
   double start_speed = 0.0;              ///< [m/s]
   double start_steering = 0.0;           ///< of wheels and actuator there [rad]
@@ -79,7 +79,7 @@ struct Plan {
   /// empty when it leads to the goal. Whatever plans again on the way leads no further either.
   std::string partial;
   std::vector<Gate> gates;          ///< that it leads through
-  std::vector<IsolatedTurn> turns;  ///< whose cost to an open-loop drive can be told
+  std::vector<IsolatedTurn> turns;  ///< whose cost to an open-loop run can be told
   std::vector<std::string> notes;   ///< what to know of it, for people: that it was slowed down
   PlanDiagnostics diagnostics;      ///< how it was found, for plan.json
   std::vector<TreeNode> tree;       ///< of every RRT or RRT* that was used, one after the other

@@ -18,17 +18,17 @@ struct Plan;
 enum class PassingSide { kInner, kOuter };
 
 /// "inner" or "outer".
-const char* ToString(PassingSide ring);
+const char* ToString(PassingSide passing_side);
 
 /// A stretch of the path that a local planner replaced to pass an obstacle.
 struct AvoidedStretch {
   MethodDiagnostics method;  ///< of the local planner
   Vec2 obstacle{0.0, 0.0};   ///< its center [m]
-  PassingSide ring = PassingSide::kInner;
+  PassingSide passing_side = PassingSide::kInner;
   Stations stations;                      ///< of the new path [m]
   double speed = 0.0;                     ///< at most [m/s]
   double length = 0.0;                    ///< [m]
-  double clearance = 0.0;                 ///< of the car's outline from known obstacles [m]
+  double clearance = 0.0;                 ///< of the car's footprint from known obstacles [m]
   double steering_max = 0.0;              ///< of the bicycle angle [rad]
   double steering_rate_max = 0.0;         ///< at `speed` [rad/s]
   double lateral_acceleration_max = 0.0;  ///< at `speed` [m/s^2]
@@ -39,14 +39,14 @@ struct AvoidedStretch {
 };
 void Visit(DiagnosticsVisitor& out, const AvoidedStretch& stretch);
 
-/// How a plan was found and what it asks of an open-loop drive. Nothing here is needed to drive it.
+/// How a plan was found and what it asks of an open-loop run. Nothing here is needed to drive it.
 struct PlanDiagnostics {
   MethodDiagnostics planner;             ///< of the planner, such as RrtDiagnostics
   std::vector<MethodDiagnostics> turns;  ///< with an open-loop schedule: FilletTurnFindings
   std::optional<std::vector<RoundCorner>> corners;  ///< that were rounded
   std::optional<std::size_t> direction_changes;     ///< cusps on the path
   std::optional<double> stop_distance;              ///< D_end, where the schedule has one [m]
-  std::optional<OpenLoopDrive> open_loop;           ///< of the schedule, by the kinematic car
+  std::optional<OpenLoopRun> open_loop;             ///< of the schedule, by the kinematic car
   std::vector<AvoidedStretch> avoided;              ///< that were replaced to pass obstacles
   MethodDiagnostics replan;                         ///< ReplanDiagnostics of a plan made on the way
 };

@@ -30,6 +30,6 @@ void Append(std::vector<T>& list, const std::vector<T>& more) {
 
 /// What lies ahead of `station`, its stations counted from there, left at `start_speed` [m/s]. What
 /// the method told of its turns stays as it was.
-Plan RestOf(const Plan& plan, double station, double start_speed, const SpeedLimits& speed);
+Plan RemainingPlan(const Plan& plan, double station, double start_speed, const SpeedLimits& speed);
 
 }  // namespace trackbed

@@ -16,7 +16,7 @@ namespace trackbed {
 /// Where a route leads through: the car's start, then every waypoint but the first, with its
 /// heading; without given ones along the last leg at the goal, and from the stop before to the stop
 /// after on the way.
-std::vector<Pose2> StopsOf(const PlanRequest& request);
+std::vector<Pose2> PlannedStops(const PlanRequest& request);
 
 namespace route {
 
@@ -55,8 +55,8 @@ Plan AlongPolyline(Plan plan, const PlanRequest& request, const std::vector<Vec2
 
 // Keys that several of them have.
 
-inline constexpr Key kOutlineDistance{"safe_distance", "m",
-                                      "minimum distance of the car's footprint from obstacles"};
+inline constexpr Key kFootprintDistance{"safe_distance", "m",
+                                        "minimum distance of the car's footprint from obstacles"};
 inline constexpr Key kGridCell{"cell", "m", "grid cell size"};
 inline constexpr Key kGridMargin{"margin", "m",
                                  "margin of the search area around waypoints and obstacles"};

@@ -3,7 +3,7 @@
 #include "trackbed/path/path.h"
 #include "trackbed/vehicle/params.h"
 
-/// What the limited steering rate must cost in a turn of an open-loop drive.
+/// What the limited steering rate must cost in a turn of an open-loop run.
 namespace trackbed {
 
 /// A turn that stands alone: its wheels are straight before, and reach their angle by the middle.

@@ -46,7 +46,7 @@ std::vector<Gate> LaneChangeGates(LaneChangeStandard standard, Side first, doubl
                                   const Pose2& start);
 
 /// Where its cones stand [m]: five along either edge, from end to end, their inner sides on it.
-std::vector<Vec2> ConesOf(const Gate& gate);
+std::vector<Vec2> GateCones(const Gate& gate);
 
 /// From `start` along the middles of the gates, in between by y = h (10 u^3 - 15 u^4 + 6 u^5): its
 /// curvature has no jumps, is 0 at both ends and at most 5.77 h/length^2 (in arcs of at most 0.1 m,
@@ -56,8 +56,8 @@ std::vector<Segment> LaneChangePath(const LaneChangePlannerOptions& options,
                                     const std::vector<Gate>& gates, const Pose2& start,
                                     double stop);
 
-/// The smallest distance [m] by which a corner of the car's outline was inside an edge while it was
-/// between a gate's ends; one per gate, negative outside, infinite for a gate that no corner
+/// The smallest distance [m] by which a corner of the car's footprint was inside an edge while it
+/// was between a gate's ends; one per gate, negative outside, infinite for a gate that no corner
 /// reached. The car moves through the poses of its rear axle, straight in between.
 std::vector<double> GateMargins(const std::vector<Gate>& gates, const VehicleParams& vehicle,
                                 const std::vector<Pose2>& poses);

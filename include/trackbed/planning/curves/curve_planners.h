@@ -13,7 +13,7 @@ namespace trackbed {
 /// The shortest curves between the stops of a route, of Dubins (dubins.h).
 struct DubinsOptions {
   std::optional<double> radius;  ///< of every arc [m]; none: a tenth more than the car's smallest
-  double safe_distance = 0.3;    ///< of the outline from obstacles [m], >= 0
+  double safe_distance = 0.3;    ///< of the footprint from obstacles [m], >= 0
   double min_speed = 0.3;        ///< no step of curvature is taken more slowly [m/s]
 };
 void Visit(KeyVisitor& keys, DubinsOptions& options);

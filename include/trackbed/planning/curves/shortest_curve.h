@@ -30,9 +30,9 @@ struct ShortestCurve {
 };
 
 /// L, S or R for each piece of some length, each followed by + forwards and - backwards.
-std::string WordOf(const ShortestCurve& curve);
+std::string CurveWord(const ShortestCurve& curve);
 
 /// Its pieces as segments of a path; those below 1e-12 r are left out.
-std::vector<Segment> SegmentsOf(const ShortestCurve& curve);
+std::vector<Segment> ToSegments(const ShortestCurve& curve);
 
 }  // namespace trackbed

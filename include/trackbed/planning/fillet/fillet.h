@@ -53,7 +53,7 @@ enum class InfeasibleTurnPolicy {
 enum class RadiusObjective {
   /// The largest that keeps the constraint. Closed form; no search.
   kLargest,
-  /// The two passes of Skackauskas, dissertation, listing F.1: a first drive on the smallest radii
+  /// The two passes of Skackauskas, dissertation, listing F.1: a first run on the smallest radii
   /// tells the time t and the heading dpsi from the return of one turn to the return of the next;
   /// the search minimizes (psi'(r) t - dpsi)^2. That time holds the straight before the turn too,
   /// so the optimum of a first turn always lies on the constraint.
@@ -87,8 +87,8 @@ struct FilletOptions {
   double min_speed = 0.5;  ///< no turn is taken more slowly [m/s]
   RadiusObjective objective = RadiusObjective::kLargest;
   SearchOptions search;               ///< of every objective but kLargest
-  bool resimulate_each_turn = false;  ///< kLiteral, kTurnLocal: a first drive before every turn
-  /// The point of the car that drives along the path in first drives and verification.
+  bool resimulate_each_turn = false;  ///< kLiteral, kTurnLocal: a first run before every turn
+  /// The point of the car that drives along the path in first runs and verification.
   ReferencePoint reference = ReferencePoint::kRearAxle;
   DrivenWeights weights;  ///< of kDriven
 };
@@ -109,8 +109,8 @@ const char* ToString(ActiveConstraint constraint);
 
 /// How the radius of one turn was found.
 struct TurnSearch {
-  double first_radius = 0.0;  ///< of the first drive [m]
-  double time = 0.0;          ///< t: over the window of the first drive [s]
+  double first_radius = 0.0;  ///< of the first run [m]
+  double time = 0.0;          ///< t: over the window of the first run [s]
   double heading = 0.0;       ///< dpsi: turned in it [rad], signed
   /// r*: where the objective is zero [m]; infinite for a car that did not turn in the window.
   double free_radius = 0.0;
@@ -151,7 +151,7 @@ struct FilletPlan {
   Path path;
   SteeringSchedule schedule;
   double stop_distance = 0.0;          ///< D_end [m]; the path's length unless optimized
-  OpenLoopDrive verification;          ///< the final drive
+  OpenLoopRun verification;            ///< the final drive
   std::optional<SearchResult> search;  ///< of kDriven
 };
 

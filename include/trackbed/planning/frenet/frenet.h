@@ -44,14 +44,14 @@ void Visit(KeyVisitor& keys, FrenetWeights& weights);
 /// What a motion must keep to. Where the start breaks one of these already, or is closer to an
 /// obstacle than the safe distance, the motion may do so as far as the start does, and no further.
 struct FrenetLimits {
-  double safe_distance = 0.5;  ///< from the car's outline to every obstacle [m], >= 0
+  double safe_distance = 0.5;  ///< from the car's footprint to every obstacle [m], >= 0
   /// Of the speed limit, that v may be above it: a car that keeps its speed along the path is
   /// faster than that as it moves aside.
   double speed_tolerance = 0.05;
-  double max_lateral_acceleration = 3.0;  ///< v^2 |kappa| [m/s^2]
-  double steering_rate_share = 1.0;       ///< of the car's steering rate
-  double time_step = 0.2;                 ///< between the points of the first check [s], > 0
-  double spacing = 0.1;                   ///< between those of the last one, the result's [m], > 0
+  double max_lateral_acceleration = 3.0;    ///< v^2 |kappa| [m/s^2]
+  double max_steering_rate_fraction = 1.0;  ///< of the car's steering rate
+  double time_step = 0.2;                   ///< between the points of the first check [s], > 0
+  double spacing = 0.1;  ///< between those of the last one, the result's [m], > 0
 };
 
 /// Reach or keep a speed.
@@ -76,7 +76,7 @@ struct StopAt {
 
 using FrenetGoal = std::variant<KeepSpeed, FollowLeader, StopAt>;
 
-/// How far the road reaches from the reference path to either side [m], for the car's outline.
+/// How far the road reaches from the reference path to either side [m], for the car's footprint.
 struct RoadWidths {
   double left = std::numeric_limits<double>::infinity();
   double right = std::numeric_limits<double>::infinity();
@@ -136,8 +136,8 @@ FrenetTarget TargetAt(const FrenetGoal& goal, const VehicleParams& vehicle, doub
 /// C of one piece. Over the station, the integral of d is that of a car which drives the piece at
 /// its mean speed v: v^5 int d'''^2 ds (of order 2: v^3 int d''^2 ds). Both forms are one at
 /// constant speed.
-FrenetCost CostOf(const FrenetPiece& piece, const FrenetTarget& target,
-                  const FrenetWeights& weights);
+FrenetCost PieceCost(const FrenetPiece& piece, const FrenetTarget& target,
+                     const FrenetWeights& weights);
 
 struct FrenetCandidate {
   FrenetPiece piece;
@@ -155,8 +155,8 @@ enum class Rejection {
   kCurvature,     ///< tighter than the car can steer
   kSteeringRate,  ///< the steering would have to turn faster than it can
   kFrame,         ///< the path is bent too much, or driven backwards, for a frame there
-  kRoad,          ///< the outline leaves the road
-  kCollision,     ///< the outline comes closer than the safe distance to an obstacle, now or later
+  kRoad,          ///< the footprint leaves the road
+  kCollision,  ///< the footprint comes closer than the safe distance to an obstacle, now or later
 };
 
 /// "speed", "acceleration", "curvature", "steering_rate", "frame", "road", "collision".

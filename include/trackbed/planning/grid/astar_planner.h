@@ -11,7 +11,7 @@ namespace trackbed {
 /// A* from waypoint to waypoint (astar.h), its corners rounded or refused (corners.h).
 struct AStarOptions {
   Corners corners = Corners::kRound;
-  double safe_distance = 0.3;  ///< of the outline from obstacles [m], >= 0
+  double safe_distance = 0.3;  ///< of the footprint from obstacles [m], >= 0
   double corner_room = 1.0;    ///< that the search keeps besides, for rounded corners [m], >= 0
   double cell = 0.5;           ///< [m], > 0
   double margin = 10.0;        ///< around waypoints and obstacles [m], within which to look

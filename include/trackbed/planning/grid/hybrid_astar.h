@@ -25,7 +25,7 @@ namespace trackbed {
 
 struct HybridAStarOptions {
   std::optional<double> radius;  ///< r [m]; none: a tenth more than the car's smallest
-  double safe_distance = 0.3;    ///< of the outline from obstacles [m], >= 0
+  double safe_distance = 0.3;    ///< of the footprint from obstacles [m], >= 0
   bool reverse = true;           ///< whether it may go backwards
   double reverse_cost = 2.0;     ///< of a meter backwards, >= 1
   double switch_cost = 5.0;      ///< of a change of direction [m], >= 0
@@ -59,7 +59,7 @@ struct HybridAStarResult {
 };
 
 /// Guarantees when ok: leads from the start to the goal pose within 1e-9 m and rad (the last leg is
-/// a Reeds-Shepp curve, forwards alone a Dubins one); no curvature above 1/r; the outline free
+/// a Reeds-Shepp curve, forwards alone a Dubins one); no curvature above 1/r; the footprint free
 /// (CollisionChecker); the same for the same input. Not the cheapest way there is, but the cheapest
 /// of those that the cells tell apart and a last curve ends. When the budget ends, the best found
 /// by then. kNoPath when every pose has been looked at. InternalError for options out of range.

@@ -28,7 +28,7 @@ bool MayBePartial(const PlannerOptions& options);
 
 /// The distance [m] that plans with these options keep between car and obstacles: their key
 /// `safe_distance`. None for planners without it.
-std::optional<double> SafeDistanceOf(const PlannerOptions& options);
+std::optional<double> PlannerSafeDistance(const PlannerOptions& options);
 
 /// Plans with the planner that `options` belong to, and makes the plan feasible (feasibility.h).
 /// Never throws for a mission that cannot be planned; InternalError for one that the caller should

@@ -33,7 +33,7 @@ struct AlongEntry {
 const std::vector<AlongEntry>& AlongMethods();
 
 struct AlongSettings {
-  double safe_distance = 0.3;  ///< of the car's outline from obstacles [m], >= 0
+  double safe_distance = 0.3;  ///< of the car's footprint from obstacles [m], >= 0
   RoadWidths road;
   double gap = 3.0;       ///< from bumper to bumper behind what is in the way, at rest [m]
   double time_gap = 1.5;  ///< besides, behind what moves [s]
@@ -43,16 +43,16 @@ struct AlongSettings {
 };
 
 /// The route as motions take it: with a curvature that changes no faster than the wheels can turn
-/// at the speeds it is driven at (path/rounded.h), and straight on beyond its end as far as motions
-/// may reach, `beyond` [m].
+/// at the speeds it is driven at (path/smooth_curvature.h), and straight on beyond its end as far
+/// as motions may reach, `beyond` [m].
 struct RouteFrame {
   Path path;
   double goal = 0.0;  ///< station of the route's end [m]
 };
 
 /// Cost: 10 us a meter. InternalError for a route with cusps.
-RouteFrame FrameOf(const VehicleParams& vehicle, const Plan& route, const SpeedLimits& speed,
-                   double beyond);
+RouteFrame MakeRouteFrame(const VehicleParams& vehicle, const Plan& route, const SpeedLimits& speed,
+                          double beyond);
 
 struct AlongRequest {
   VehicleParams vehicle;
@@ -85,8 +85,8 @@ struct AlongPlan {
 };
 void Visit(DiagnosticsVisitor& out, const AlongPlan& along);
 
-/// What is nearest ahead in the car's way along the path: an obstacle whose outline, seen from the
-/// path, comes closer to the car's lane on the path than the safe distance.
+/// What is nearest ahead in the car's way along the path: an obstacle whose footprint, seen from
+/// the path, comes closer to the car's lane on the path than the safe distance.
 struct Leader {
   std::size_t obstacle = 0;  ///< of the request's
   double rear = 0.0;         ///< station of its nearest point now [m]

@@ -39,8 +39,8 @@ struct DetourRequest {
 struct Detour {
   std::optional<Plan> route;  ///< from the car's station on, to the goal; none: stay
   Stations replaced;  ///< of the new route: where it leaves the driven path, and is back [m]
-  WayScore current;   ///< of the way as it is
-  WayScore best;      ///< of the best other one; its total is infinite if there is none
+  PathScore current;  ///< of the way as it is
+  PathScore best;     ///< of the best other one; its total is infinite if there is none
   int tried = 0;      ///< times the planner was asked
   std::string why;    ///< there is none, for people
 };
@@ -49,8 +49,8 @@ struct Detour {
 struct DetourFindings {
   std::string planner;                 ///< its name
   int tried = 0;                       ///< times it was asked
-  WayScore current;                    ///< of the path as it is
-  std::optional<WayScore> best;        ///< of the best other one
+  PathScore current;                   ///< of the path as it is
+  std::optional<PathScore> best;       ///< of the best other one
   std::optional<Stations> replaced{};  ///< of the new route; none: there is no detour [m]
   std::string why;                     ///< there is none, for people
 };

@@ -29,7 +29,7 @@ void Visit(KeyVisitor& keys, ReplanOptions& options);
 /// What is being driven.
 struct Driving {
   Plan route;                  ///< to the goal
-  RouteFrame frame;            ///< of the route; see FrameOf
+  RouteFrame frame;            ///< of the route; see MakeRouteFrame
   Plan plan;                   ///< that is driven: the route or what leads along it
   bool on_route = true;        ///< the plan is the route
   double station = 0.0;        ///< of the car on the plan [m]
@@ -107,7 +107,7 @@ bool MightClear(const VehicleParams& vehicle, const Path& path, double station,
 /// prefers, a motion that comes to rest or goes on for now, what is driven if it is clear, braking.
 ///
 /// Braking, before what stands: at the speed limits' deceleration to rest half a meter before the
-/// encounter if that is in time; else at once and evenly, as hard as that takes; else at
+/// conflict if that is in time; else at once and evenly, as hard as that takes; else at
 /// `max_deceleration`. What moves may come nearer: at once, with the mildest deceleration, in
 /// eighths of the way from the limits' to the hardest, that keeps clear of it; else the hardest.
 /// `max_deceleration` is never exceeded, even where the comfortable deceleration is above it.

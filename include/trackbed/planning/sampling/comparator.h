@@ -14,24 +14,24 @@ struct ComparatorOptions {
 };
 
 /// What a way has left for a car.
-struct WayScore {
+struct PathScore {
   double length = 0.0;    ///< L: to the way's nearest point, and along it from there [m]
   bool collides = false;  ///< what is left of it comes too close to an obstacle
   double wind = 0.0;      ///< W of what is left of it [m]
   double total = 0.0;     ///< L - W, and the penalty [m]
 };
 
-void Visit(DiagnosticsVisitor& out, const WayScore& score);
+void Visit(DiagnosticsVisitor& out, const PathScore& score);
 
 /// The score of a way for a car at `position`. That listing counts from the way's nearest corner,
 /// which may lie behind the car or far ahead; here it is the nearest point. `inflation` [m]: how
 /// close to an obstacle is too close. InternalError for a way without points.
-WayScore ScoreWay(const std::vector<Vec2>& way, const Vec2& position,
-                  const std::vector<OrientedBox>& obstacles, double inflation,
-                  const WindScoring& wind, const ComparatorOptions& options);
+PathScore ScorePath(const std::vector<Vec2>& way, const Vec2& position,
+                    const std::vector<OrientedBox>& obstacles, double inflation,
+                    const WindScoring& wind, const ComparatorOptions& options);
 
 /// Whether to leave the current way for another: if that is better; on ties it is kept.
-inline bool IsBetter(const WayScore& other, const WayScore& current) {
+inline bool IsBetter(const PathScore& other, const PathScore& current) {
   return other.total < current.total;
 }
 

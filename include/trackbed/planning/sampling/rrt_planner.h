@@ -20,7 +20,7 @@ namespace trackbed {
 /// because its front reaches further than its rear axle, to the last node before at which it can.
 struct RrtPlannerOptions {
   Corners corners = Corners::kRound;
-  double safe_distance = 0.3;      ///< of the outline from obstacles [m], >= 0
+  double safe_distance = 0.3;      ///< of the footprint from obstacles [m], >= 0
   double corner_room = 1.0;        ///< that the trees keep besides, for rounded corners [m], >= 0
   double margin = 10.0;            ///< around waypoints and obstacles [m], within which to sample
   double lead_in = 4.0;            ///< straight on from the start, at most [m], >= 0; 0: none
@@ -57,7 +57,7 @@ void Visit(DiagnosticsVisitor& out, const RrtLeg& leg);
 struct RrtTreeFindings {
   PlanStatus status = PlanStatus::kOk;
   std::string reason;               ///< for people; empty when ok
-  WayScore score;                   ///< of its path
+  PathScore score;                  ///< of its path
   std::optional<double> remaining;  ///< of a partial path: to the waypoint not reached [m]
 };
 void Visit(DiagnosticsVisitor& out, const RrtTreeFindings& own);

@@ -1,0 +1,138 @@
+#include "trackbed/analysis/maneuver_metrics.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "src/analysis/evaluations.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/planning/common/plan.h"
+
+namespace trackbed {
+namespace {
+
+double SaturatedFraction(const RunLog& log, double begin, double end) {
+  constexpr double kReached = 1e-6;  // [rad]; as in PlantMetrics
+  double saturated = 0.0;
+  double periods = 0.0;
+  for (std::size_t i = 0; i + 1 < log.rows.size(); ++i) {
+    const LogRow& row = log.rows[i];
+    if (row.state.time >= begin && log.rows[i + 1].state.time <= end) {
+      const double short_by = row.command.steering - log.rows[i + 1].state.steering_actuator;
+      saturated += std::abs(short_by) > kReached ? 1.0 : 0.0;
+      periods += 1.0;
+    }
+  }
+  return periods > 0.0 ? saturated / periods : 0.0;
+}
+
+/// What every evaluation says beside its own values.
+const std::vector<ManeuverMetric>& CommonMetrics() {
+  static const std::vector<ManeuverMetric> metrics{
+      {"method", "method", ""},
+      {"passed", "passed", "", true},
+      {"begin", "evaluated from", "s"},
+      {"end", "evaluated until", "s"},
+      {"steering_saturated_fraction", "fraction of time at the steering rate limit", ""},
+      {"missing", "not measured", ""}};
+  return metrics;
+}
+
+std::vector<ManeuverMetric> ListMethodMetrics(const ManeuverOptions& options) {
+  return std::visit([](const auto& own) { return MethodMetrics(own); }, options);
+}
+
+/// Whatever else was measured, a car on its side has failed.
+void CheckRoll(const RunLog& log, ManeuverMetrics& metrics) {
+  constexpr double kTippedOver = 0.25 * kPi;  // far beyond where a car comes back by itself [rad]
+  for (const LogRow& row : log.rows) {
+    if (std::abs(row.state.roll) > kTippedOver) {
+      metrics.passed = false;
+      metrics.missing += metrics.missing.empty() ? "" : "; ";
+      metrics.missing += fmt::format("the car rolls over at {:.2f} s", row.state.time);
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<double> ManeuverMetrics::Find(std::string_view name) const {
+  for (const auto& [own, value] : values) {
+    if (own == name) {
+      return value;
+    }
+  }
+  return std::nullopt;
+}
+
+ManeuverMetrics EvaluateManeuver(const ManeuverOptions& options, const RunLog& log,
+                                 const Plan& plan, const VehicleParams& vehicle) {
+  TRACKBED_CHECK(!log.rows.empty(), "the log of {} is empty", log.plant);
+  ManeuverMetrics metrics;
+  metrics.method = ManeuverName(options);
+  metrics.begin = log.rows.front().state.time;
+  metrics.end = log.rows.back().state.time;
+  const ManeuverInput input{log, plan, vehicle};
+  std::visit([&](const auto& own) { Evaluate(own, input, metrics); }, options);
+  for (const auto& [name, value] : metrics.values) {
+    TRACKBED_CHECK(AllMetrics(options).Find(name), "a value that is not in the list: {}", name);
+  }
+  CheckRoll(log, metrics);
+  metrics.steering_saturated_fraction = SaturatedFraction(log, metrics.begin, metrics.end);
+  return metrics;
+}
+
+ManeuverMetrics AllMetrics(const ManeuverOptions& options) {
+  ManeuverMetrics metrics;
+  metrics.method = ManeuverName(options);
+  metrics.passed = false;
+  metrics.missing = "why";
+  for (const ManeuverMetric& own : ListMethodMetrics(options)) {
+    metrics.values.emplace_back(own.name, 0.0);
+  }
+  return metrics;
+}
+
+std::vector<Metric> ListMetrics(const ManeuverMetrics& metrics) {
+  std::vector<Metric> all;
+  const auto add = [&](const std::string& name, MetricValue value) {
+    all.push_back({name,
+                   std::move(value),
+                   {.span = MetricSpan::kInterval, .t = metrics.end, .from_t = metrics.begin}});
+  };
+  add("method", metrics.method);
+  if (metrics.passed) {
+    add("passed", *metrics.passed);
+  }
+  for (const auto& [name, value] : metrics.values) {
+    add(name, value);
+  }
+  add("begin", metrics.begin);
+  add("end", metrics.end);
+  add("steering_saturated_fraction", metrics.steering_saturated_fraction);
+  if (!metrics.missing.empty()) {
+    add("missing", metrics.missing);
+  }
+  return all;
+}
+
+std::optional<MetricInfo> DescribeManeuverMetric(std::string_view name) {
+  const auto find = [&](const std::vector<ManeuverMetric>& metrics) -> std::optional<MetricInfo> {
+    for (const ManeuverMetric& metric : metrics) {
+      if (name == metric.name) {
+        return MetricInfo{metric.label, metric.unit, metric.headline};
+      }
+    }
+    return std::nullopt;
+  };
+  std::optional<MetricInfo> info = find(CommonMetrics());
+  for (const ManeuverEntry& maneuver : Maneuvers()) {
+    info = info ? info : find(ListMethodMetrics(maneuver.defaults));
+  }
+  return info;
+}
+
+}  // namespace trackbed
