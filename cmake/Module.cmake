@@ -58,7 +58,8 @@ function(trackbed_module path)
     PUBLIC $<BUILD_INTERFACE:${public}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
     PRIVATE ${private})
   target_compile_features(trackbed_${name} PUBLIC cxx_std_20)
-  set_target_properties(trackbed_${name} PROPERTIES EXPORT_NAME ${name})
+  set_target_properties(trackbed_${name} PROPERTIES EXPORT_NAME ${name}
+                        UNITY_BUILD ${TRACKBED_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 8)
   target_link_libraries(
     trackbed_${name}
     PUBLIC ${ARG_MODULES} ${ARG_LIBRARIES}

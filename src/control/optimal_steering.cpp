@@ -12,7 +12,7 @@ namespace trackbed {
 namespace {
 
 /// Bounds of the one variable of a search, and where it begins.
-struct Range {
+struct SteeringInterval {
   double lower = 0.0;
   double upper = 0.0;
   double start = 0.0;
@@ -30,7 +30,7 @@ Deviation Difference(const Pose2& actual, const Pose2& wanted) {
 
 /// The variable that minimizes its cost, in place of the steering.
 template <typename Cost>
-SteeringMatch Minimise(const Cost& cost, const Range& range, const SearchOptions& search,
+SteeringMatch Minimise(const Cost& cost, const SteeringInterval& range, const SearchOptions& search,
                        std::uint64_t seed) {
   const SearchProblem problem{.lower = {range.lower},
                               .upper = {range.upper},

@@ -10,6 +10,7 @@
 #include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/registry/planners.h"
+#include "trackbed/sim/payload.h"
 
 namespace trackbed {
 namespace {

@@ -6,6 +6,7 @@
 #include "trackbed/control/optimal_steering.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/course/lane_change.h"
+#include "trackbed/control/playback.h"
 
 namespace trackbed {
 namespace {

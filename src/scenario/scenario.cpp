@@ -11,10 +11,13 @@
 #include "src/scenario/yaml_reader.h"
 #include "src/scenario/yaml_writer.h"
 #include "trackbed/control/playback.h"
+#include "trackbed/control/preview.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/registry/planners.h"
 #include "trackbed/scenario/recording_file.h"
+#include "trackbed/sim/scene.h"
 
 namespace trackbed {
 namespace {
@@ -218,6 +221,14 @@ std::optional<double> RunDuration(const Scenario& scenario) {
   const Signal& steering = playback->recording.steering;
   const double end = steering.empty() ? 0.0 : steering.knots.back().x();
   return end > 0.0 ? std::optional(end) : std::nullopt;
+}
+
+PlannerOptions DefaultPlanner() {
+  return Planners().front().defaults;
+}
+
+ControllerOptions DefaultController() {
+  return PreviewOptions{};
 }
 
 double MissionSpeed(const Scenario& scenario) {

@@ -9,6 +9,7 @@
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/scenario/scenario.h"
+#include "trackbed/sim/plant.h"
 
 /// The keys of a scenario, each named once for reading, writing and listing alike.
 namespace trackbed {

@@ -4,6 +4,7 @@
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/scenario/scenario.h"
+#include "trackbed/planning/avoidance/avoidance.h"
 
 /// The keys of `plan`.
 namespace trackbed {

@@ -16,6 +16,8 @@
 #include "trackbed/planning/grid/hybrid_astar.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/planning/sampling/rrt_planner.h"
+#include "trackbed/planning/avoidance/avoidance.h"
+#include "trackbed/planning/replan/along_route.h"
 
 namespace audit {
 namespace {

@@ -171,7 +171,8 @@ TEST(Test, GoesThroughFoldersAndTakesEveryScenarioOnce) {
   const std::string options = "test --jobs 1 --plant kinematic --set 'expect={}' --junit j.xml -- ";
   const Outcome outcome = Trackbed(folder, options + "empty ./s/b.yaml s s/a/../b.yaml 2>errors");
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_EQ(outcome.output, "pass ./s/b.yaml: all expectations met\npass s/a/deep/c.yml: all expectations met\n");
+  EXPECT_EQ(outcome.output,
+            "pass ./s/b.yaml: all expectations met\npass s/a/deep/c.yml: all expectations met\n");
   EXPECT_EQ(ReadFile(folder.path() / "errors"),
             "empty: the folder has no scenarios (*.yaml, *.yml)\n");
   EXPECT_THAT(ReadFile(folder.path() / "j.xml"),

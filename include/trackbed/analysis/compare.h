@@ -9,6 +9,7 @@
 #include "trackbed/core/table.h"
 #include "trackbed/drive/run_log.h"
 #include "trackbed/scenario/scenario.h"
+#include "trackbed/control/steering_controller.h"
 
 /// Comparison of two runs over arc length.
 ///

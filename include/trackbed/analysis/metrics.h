@@ -11,6 +11,7 @@
 #include "trackbed/analysis/recovery.h"
 #include "trackbed/drive/run_log.h"
 #include "trackbed/scenario/scenario.h"
+#include "trackbed/control/steering_controller.h"
 
 namespace trackbed {
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "trackbed/control/controller_options.h"
 #include "trackbed/control/speed_controller.h"
 #include "trackbed/options/method_options.h"
 #include "trackbed/path/reference.h"
@@ -45,9 +46,6 @@ class SteeringController {
   [[nodiscard]] virtual std::vector<std::string> Columns() const;
   [[nodiscard]] virtual std::vector<double> Values() const;
 };
-
-/// The options of a controller. The type of the struct that it holds identifies the controller.
-using ControllerOptions = MethodOptions<SteeringController>;
 
 /// The source of a controller's station.
 enum class StationSource {

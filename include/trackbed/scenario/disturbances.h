@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "trackbed/sim/payload.h"
+#include "trackbed/sim/payload_options.h"
 #include "trackbed/vehicle/steering_faults.h"
 #include "trackbed/world/wind.h"
 

@@ -8,18 +8,24 @@
 #include <utility>
 #include <vector>
 
-#include "trackbed/control/playback.h"
-#include "trackbed/control/preview.h"
-#include "trackbed/control/speed_controller.h"
-#include "trackbed/planning/avoidance/avoidance.h"
-#include "trackbed/planning/registry/planners.h"
-#include "trackbed/planning/replan/replan.h"
+#include "trackbed/control/controller_options.h"
+#include "trackbed/control/speed_control_options.h"
+#include "trackbed/planning/avoidance/avoidance_options.h"
+#include "trackbed/planning/common/planner_options.h"
+#include "trackbed/planning/replan/replan_options.h"
 #include "trackbed/scenario/disturbances.h"
 #include "trackbed/scenario/maneuver.h"
-#include "trackbed/sim/plant.h"
+#include "trackbed/sim/plant_options.h"
+#include "trackbed/world/world.h"
 
 /// A scenario: one file, one reproducible experiment. SI units and radians throughout.
 namespace trackbed {
+
+struct Recording;
+
+/// The planner and the controller of a scenario that names none: fillet and preview.
+PlannerOptions DefaultPlanner();
+ControllerOptions DefaultController();
 
 struct VehicleSpec {
   std::string model = "prius";    ///< a name under models/, or a path relative to the scenario file
@@ -49,7 +55,7 @@ struct MissionSpec {
 
 /// The planner and its options.
 struct PlanSpec {
-  PlannerOptions global = Planners().front().defaults;
+  PlannerOptions global = DefaultPlanner();
   std::optional<AvoiderOptions> avoid;  ///< reroutes it around obstacles; none: no rerouting
   std::optional<ReplanOptions> replan;  ///< replans during the run; none: no replanning
   /// Handling of infeasible plans.
@@ -57,7 +63,7 @@ struct PlanSpec {
 };
 
 struct ControlSpec {
-  ControllerOptions steering = PreviewOptions{};
+  ControllerOptions steering = DefaultController();
   SpeedControlOptions speed;
 };
 

@@ -6,19 +6,13 @@
 #include <vector>
 
 #include "trackbed/sim/car_model.h"
+#include "trackbed/sim/plant_options.h"
 #include "trackbed/vehicle/kinematic_car.h"
 #include "trackbed/vehicle/state.h"
 #include "trackbed/world/world.h"
 
 /// The interface of plants and their registry.
 namespace trackbed {
-
-/// The initial state of a run.
-struct StartState {
-  Pose2 pose;             ///< rear-axle center
-  double speed = 0.0;     ///< [m/s]
-  double steering = 0.0;  ///< bicycle angle, wheels and actuator alike [rad]
-};
 
 /// A simulated vehicle, advanced one physics step at a time.
 class Plant {
@@ -49,20 +43,6 @@ class Plant {
 
   /// Whether the simulation has diverged; such a plant must not be stepped.
   [[nodiscard]] virtual bool diverged() const = 0;
-};
-
-/// The tyre model of the MuJoCo plant.
-enum class TyreLaw {
-  kAuto,          ///< the Magic Formula for cars whose file has its coefficients, else contacts
-  kContact,       ///< MuJoCo's friction cone: negligible slip below the friction limit
-  kMagicFormula,  ///< forces grow with slip (vehicle/magic_formula.h); contacts carry the load
-                  ///< alone
-};
-
-/// How the commanded steering angle reaches the road wheels.
-enum class SteeringInput {
-  kActuator,    ///< through the car's actuator, within its rate and angle
-  kPrescribed,  ///< exactly and at once, for validation
 };
 
 /// The arguments for making a plant. Holds references to car and world, which must outlive the

@@ -55,7 +55,7 @@ void CheckRanges(const TurnManeuver& m, const VehicleParams& vehicle) {
 }
 
 /// SD + IS_k + w_a, twice [m].
-double Need(const TurnManeuver& maneuver, double vehicle_width) {
+double RequiredWidth(const TurnManeuver& maneuver, double vehicle_width) {
   const double half_diagonal = 0.5 * std::hypot(maneuver.obstacle_width, maneuver.obstacle_length);
   return 2.0 * maneuver.safe_distance + 2.0 * half_diagonal + 2.0 * vehicle_width;
 }
@@ -124,7 +124,7 @@ Vec2 TestCorner(const TurnManeuver& maneuver, const OrientedBox& obstacle) {
 }  // namespace
 
 double SafeRadius(const TurnManeuver& maneuver, double vehicle_width, PassingSide passing_side) {
-  const double need = Need(maneuver, vehicle_width);
+  const double need = RequiredWidth(maneuver, vehicle_width);
   return passing_side == PassingSide::kInner
              ? maneuver.radius - need - maneuver.inner_width
              : 1.5 * (maneuver.radius + need + maneuver.outer_width);

@@ -14,7 +14,7 @@ namespace trackbed {
 namespace {
 
 constexpr double kRounding = 1e-6;      // of a limit
-constexpr double kSpacing = 0.1;        // between the stations that are looked at [m]
+constexpr double kCheckSpacing = 0.1;   // between the stations that are looked at [m]
 constexpr double kSlowest = 0.1;        // no plan is slowed down below this [m/s]
 constexpr double kSamePlace = 1e-3;     // [m]
 constexpr double kSameHeading = 1e-3;   // [rad]
@@ -85,13 +85,13 @@ double SteeringSlope(const VehicleParams& vehicle, double curvature, double shar
   return vehicle.wheelbase * std::abs(sharpness) / (1.0 + tangent * tangent);
 }
 
-/// Each segment divided into equal pieces of at most kSpacing, so that short segments are checked
-/// too.
+/// Each segment divided into equal pieces of at most kCheckSpacing, so that short segments are
+/// checked too.
 std::vector<Piece> SplitIntoPieces(const Path& path, const VehicleParams& vehicle) {
   std::vector<Piece> pieces;
   double start = 0.0;
   for (const Segment& segment : path.segments()) {
-    const auto count = static_cast<int>(std::ceil(segment.length / kSpacing));
+    const auto count = static_cast<int>(std::ceil(segment.length / kCheckSpacing));
     for (int i = 0; i < count; ++i) {
       const double from = segment.length * i / count;
       const double to = segment.length * (i + 1) / count;

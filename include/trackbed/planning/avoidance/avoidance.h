@@ -9,6 +9,7 @@
 
 #include "trackbed/geometry/oriented_box.h"
 #include "trackbed/optimize/search.h"
+#include "trackbed/planning/avoidance/avoidance_options.h"
 #include "trackbed/planning/avoidance/turn_maneuver.h"
 #include "trackbed/planning/common/plan_diagnostics.h"
 #include "trackbed/planning/common/planner.h"
@@ -25,41 +26,6 @@
 /// S = r + v t_d the distance before and after a turn of radius r within which the car leaves its
 /// path and is back on it [m].
 namespace trackbed {
-
-enum class PassingSideChoice {
-  kAuto,   ///< that of the RRT* path; the other one if it cannot be had
-  kInner,  ///< this one alone
-  kOuter,
-};
-
-struct BezierAvoidanceOptions {
-  double safe_distance = 1.5;  ///< SD [m], >= 0
-  double delay = 0.9;          ///< t_d [s], >= 0: until then the old plan is driven
-  PassingSideChoice passing_side = PassingSideChoice::kAuto;  ///< on a straight, inner means left
-  double min_speed = 0.5;  ///< the car is not made slower than this to get past [m/s]
-  double max_lateral_acceleration = 3.0;            ///< of the curve [m/s^2]
-  double max_steering_rate_fraction = 0.9;          ///< of the car's steering rate
-  double comfortable_steering_rate_fraction = 0.5;  ///< curves that ask for no more are preferred
-  int rrt_iterations = 2000;
-  double rrt_step = 5.0;  ///< [m]
-  /// Of the control points; one curve may take a few such searches.
-  SearchOptions search{.method = SearchMethod::kSlsqp, .evaluations = 2000, .tolerance = 1e-6};
-};
-void Visit(KeyVisitor& keys, BezierAvoidanceOptions& options);
-
-/// The turn of the plan in which an obstacle stands is taken as the listing's problem
-/// (turn_maneuver.h): its arc and the straights before and after it, the mission's speed, the box
-/// along the axes of the maneuver's frame and on the nearest sixth of the arc. Where there is no
-/// such turn the plan ends before the obstacle. The curve is driven as it is, however near it comes
-/// and whatever it asks of the steering, also where `plan.infeasible` refuses other plans.
-struct ListingAvoidanceOptions {
-  double safe_distance = 1.5;          ///< SD [m], >= 0
-  double delay = 0.9;                  ///< t_d [s], >= 0: until then the old plan is driven
-  double inner_width = 1.0;            ///< free toward the turn's center [m], >= 0
-  double outer_width = 0.0;            ///< free on the other side [m], >= 0; the wider one is taken
-  LiteralTurn literal = kLiteralTurn;  ///< what is followed to the letter
-};
-void Visit(KeyVisitor& keys, ListingAvoidanceOptions& options);
 
 /// The listing's check, for comparison (Salyga_2): a single point of the path, two meters before it
 /// is beside the obstacle, against the obstacle's corners.
@@ -93,9 +59,6 @@ struct ListingAvoidanceDiagnostics {
   OnePointCheck one_point_check;
 };
 void Visit(DiagnosticsVisitor& out, const ListingAvoidanceDiagnostics& own);
-
-/// The options of one way to avoid obstacles.
-using AvoiderOptions = std::variant<BezierAvoidanceOptions, ListingAvoidanceOptions>;
 
 struct AvoiderEntry {
   const char* name;

@@ -9,6 +9,7 @@
 #include "trackbed/geometry/oriented_box.h"
 #include "trackbed/geometry/pose.h"
 #include "trackbed/path/bezier.h"
+#include "trackbed/planning/avoidance/avoidance_options.h"
 #include "trackbed/planning/sampling/rrt_star.h"
 #include "trackbed/vehicle/params.h"
 
@@ -25,22 +26,6 @@
 namespace trackbed {
 
 enum class TurnSide { kLeft, kRight };
-
-/// Where the listing is followed to the letter instead of being mended. All off: a right turn is
-/// the exact mirror of a left one, and nothing jumps when a parameter changes a little.
-struct LiteralTurn {
-  /// The arc sampled from theta_turn_dec upwards in steps of 0.01 rad, which miss theta_turn, and
-  /// the obstacle on the nearest of these points: the arc starts up to 0.01 rad late, the safe
-  /// point lies up to 0.01 rad before the obstacle. Swept angles are pi/2 less the listing's, so
-  /// that only a theta_turn of pi/2 starts at A. Off: from end to end, the obstacle exact.
-  bool grid = false;
-  /// P_5 of a right turn is shifted along x by cos(pi/2 - theta_turn_dec) meters (L9).
-  bool right_shift = false;
-  /// P_5 to P_7 have rules of their own where theta_turn_dec is 0 exactly (L18). Off: the rule of
-  /// all other angles.
-  bool right_angle_rule = false;
-};
-inline constexpr LiteralTurn kLiteralTurn{true, true, true};
 
 /// The problem. Defaults are those of the listing.
 struct TurnManeuver {

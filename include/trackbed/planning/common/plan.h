@@ -10,6 +10,7 @@
 #include "trackbed/path/reference.h"
 #include "trackbed/planning/common/plan_diagnostics.h"
 #include "trackbed/planning/common/plan_status.h"
+#include "trackbed/planning/common/planner_options.h"
 #include "trackbed/planning/common/turn_prediction.h"
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/steering_schedule.h"
@@ -30,13 +31,6 @@ struct TreeNode {
   Vec2 position{0.0, 0.0};  ///< [m]
   std::size_t parent = 0;   ///< index in the tree
   double cost = 0.0;        ///< length of the path from the start along the tree [m]
-};
-
-/// What becomes of a plan that asks more of the car than it can do; see feasibility.h.
-enum class InfeasiblePolicy {
-  kSlowDown,  ///< driven more slowly where that helps, else refused
-  kRefuse,    ///< no plan
-  kAllow,     ///< driven as it is, to see what happens
 };
 
 /// What is to be reached, by whatever method. Planners keep no state and have no clock of their

@@ -4,12 +4,10 @@
 
 #include "trackbed/options/method_options.h"
 #include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/planner_options.h"
 
 /// The interface of everything that plans a whole path.
 namespace trackbed {
-
-/// The options of a planner. The type of the struct that it holds identifies the planner.
-using PlannerOptions = MethodOptions<Plan>;
 
 /// A planner in the registry (planners.h).
 struct PlannerEntry {

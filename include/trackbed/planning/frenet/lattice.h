@@ -4,6 +4,7 @@
 
 #include "trackbed/options/key_visitor.h"
 #include "trackbed/planning/frenet/frenet.h"
+#include "trackbed/planning/frenet/frenet_options.h"
 
 /// Motions along a reference path through a lattice of stations, offsets and speeds (the Frenet
 /// lecture's third variant): the edges are motions of planning/frenet.h, the cheapest way is found
@@ -15,20 +16,6 @@
 /// T = 2 S/(b + sqrt(b^2 + a_0 S/3)) with b = (v_0 + v_1)/2 and S the way. Its weight is C; a way
 /// costs the sum of its edges.
 namespace trackbed {
-
-struct LatticeOptions {
-  FrenetWeights weights;
-  FrenetLimits limits;
-  int layers = 4;         ///< >= 0
-  double spacing = 12.0;  ///< between layers [m], > 0
-  /// d_k [m].
-  std::vector<double> end_offsets{0.0, 0.5,  -0.5, 1.0,  -1.0, 1.5, -1.5,
-                                  2.0, -2.0, 2.5,  -2.5, 3.0,  -3.0};
-  /// v_m over the goal's speed, that of the limits when it stops.
-  std::vector<double> speed_factors{1.0, 0.75, 0.5};
-  int budget = 100000;  ///< edges checked at most, >= 0
-};
-void Visit(KeyVisitor& keys, LatticeOptions& options);
 
 /// The cheapest way to the last layer that can be driven. With StopAt the last layer is at its
 /// station, if that lies within the lattice, and the speed there 0; the layers before are closer to

@@ -9,6 +9,7 @@
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/frenet/frenet.h"
 #include "trackbed/planning/frenet/lattice.h"
+#include "trackbed/planning/replan/replan_options.h"
 
 /// The next stretch of the way along a route, in its Frenet frame: past what stands in the way if
 /// that can be, else behind it.
@@ -19,10 +20,6 @@ namespace trackbed {
 /// Slower than this, an obstacle stands: nobody follows it, ways are looked for round it [m/s].
 inline constexpr double kStandsBelow = 0.3;
 
-/// How motions are found: PlanFrenet or PlanLattice. Their safe distance is not looked at: that of
-/// AlongSettings holds.
-using AlongOptions = std::variant<FrenetOptions, LatticeOptions>;
-
 struct AlongEntry {
   const char* name;
   const char* summary;
@@ -31,16 +28,6 @@ struct AlongEntry {
 
 /// Every way to find motions along a route.
 const std::vector<AlongEntry>& AlongMethods();
-
-struct AlongSettings {
-  double safe_distance = 0.3;  ///< of the car's footprint from obstacles [m], >= 0
-  RoadWidths road;
-  double gap = 3.0;       ///< from bumper to bumper behind what is in the way, at rest [m]
-  double time_gap = 1.5;  ///< besides, behind what moves [s]
-  /// For how long the way must be clear, if the car goes on as its motion ends [s]: a method's own
-  /// horizon is made no shorter.
-  double look_ahead = 12.0;
-};
 
 /// The route as motions take it: with a curvature that changes no faster than the wheels can turn
 /// at the speeds it is driven at (path/smooth_curvature.h), and straight on beyond its end as far

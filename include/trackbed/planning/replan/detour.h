@@ -6,19 +6,12 @@
 
 #include "trackbed/options/key_visitor.h"
 #include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/replan/replan_options.h"
 #include "trackbed/planning/sampling/comparator.h"
 
 /// Another way to the goal, by any planner that keeps clear of obstacles itself: off the plan that
 /// is driven before what blocks it, and back on the route behind that.
 namespace trackbed {
-
-/// How one is chosen.
-struct DetourChoice {
-  int attempts = 4;          ///< of a random planner, with seeds of their own, >= 1
-  double wind_weight = 1.0;  ///< k_w, see WindScoring
-  ComparatorOptions comparator;
-};
-void Visit(KeyVisitor& keys, DetourChoice& choice);
 
 struct DetourRequest {
   VehicleParams vehicle;

@@ -7,6 +7,7 @@
 #include "trackbed/options/key_visitor.h"
 #include "trackbed/planning/replan/along_route.h"
 #include "trackbed/planning/replan/detour.h"
+#include "trackbed/planning/replan/replan_options.h"
 
 /// Planning again while driving, on what is known by then: motions along the route (along_route.h),
 /// a detour when those lead past nothing (detour.h), and to rest before what stands in the way when
@@ -16,15 +17,6 @@
 /// the curvature, speed and acceleration planned there, so that nothing jumps when it is taken up;
 /// or with the car's own pose, steering and speed if it has strayed from its plan.
 namespace trackbed {
-
-struct ReplanOptions {
-  double period = 0.5;     ///< between two looks [s], > 0
-  AlongSettings settings;  ///< its look-ahead, at the planned speeds, for plans that are kept too
-  std::optional<AlongOptions> along;
-  std::optional<PlannerOptions> detour;      ///< a planner that fits PlanDetour
-  std::optional<DetourChoice> comparator{};  ///< none: the defaults
-};
-void Visit(KeyVisitor& keys, ReplanOptions& options);
 
 /// What is being driven.
 struct Driving {

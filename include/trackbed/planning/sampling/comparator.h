@@ -3,15 +3,12 @@
 #include <vector>
 
 #include "trackbed/planning/common/diagnostics.h"
+#include "trackbed/planning/sampling/comparator_options.h"
 #include "trackbed/planning/sampling/smoothing.h"
 
 /// Which of two ways to go on with ("Comparator" of the wind-aware RRT): the shorter one, where a
 /// collision and the wind count in meters.
 namespace trackbed {
-
-struct ComparatorOptions {
-  double collision_penalty = 1000.0;  ///< [m], >= 0: added to a way that runs into something
-};
 
 /// What a way has left for a car.
 struct PathScore {

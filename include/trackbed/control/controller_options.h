@@ -1,0 +1,12 @@
+#pragma once
+
+#include "trackbed/options/method_options.h"
+
+namespace trackbed {
+
+class SteeringController;
+
+/// The options of a controller. The type of the struct that it holds identifies the controller.
+using ControllerOptions = MethodOptions<SteeringController>;
+
+}  // namespace trackbed

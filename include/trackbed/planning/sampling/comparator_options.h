@@ -1,0 +1,9 @@
+#pragma once
+
+namespace trackbed {
+
+struct ComparatorOptions {
+  double collision_penalty = 1000.0;  ///< [m], >= 0: added to a way that runs into something
+};
+
+}  // namespace trackbed
