@@ -144,8 +144,8 @@ void WriteUnlessEmpty(const Table& table, const fs::path& file) {
   }
 }
 
-std::string Pretty(const ordered_json& json) {
-  return json.dump(2) + "\n";
+std::string Pretty(const ordered_json& content) {
+  return content.dump(2) + "\n";
 }
 
 /// Removes what an earlier run may have left under names that a run writes, and nothing else.
@@ -283,16 +283,16 @@ ordered_json MetricsJson(const RunResult& result) {
 }
 
 void WritePlan(const Plan& plan, const Scenario& scenario, const fs::path& folder) {
-  ordered_json json{{"status", ToString(plan.status)}};
+  ordered_json content{{"status", ToString(plan.status)}};
   if (!plan.ok()) {
-    json["reason"] = plan.reason;
+    content["reason"] = plan.reason;
   }
-  json["method"] = PlannerFor(scenario.plan->global).name;
-  json["seed"] = scenario.seed;
+  content["method"] = PlannerFor(scenario.plan->global).name;
+  content["seed"] = scenario.seed;
   if (plan.ok()) {
     const double length = plan.reference.path.length();
-    json["length_m"] = length;
-    json["duration_s"] = plan.reference.speed.TimeAt(length);
+    content["length_m"] = length;
+    content["duration_s"] = plan.reference.speed.TimeAt(length);
     WriteFileAtomically(folder / run_folder::kPlanCsv, PlanTable(plan.reference).ToCsv());
     WriteFileAtomically(folder / run_folder::kScheduleCsv, ScheduleTable(plan.schedule).ToCsv());
     WriteUnlessEmpty(ConvergenceTable(plan.diagnostics), folder / run_folder::kConvergenceCsv);
@@ -300,9 +300,9 @@ void WritePlan(const Plan& plan, const Scenario& scenario, const fs::path& folde
   }
   const nlohmann::json diagnostics = DiagnosticsJson(plan);
   for (const auto& [key, value] : diagnostics.items()) {
-    json[key] = value;
+    content[key] = value;
   }
-  WriteFileAtomically(folder / run_folder::kPlanJson, Pretty(json));
+  WriteFileAtomically(folder / run_folder::kPlanJson, Pretty(content));
 }
 
 void WriteRunFolder(const RunResult& result, const fs::path& folder,

@@ -48,14 +48,14 @@ Heading HeadingFor(std::string_view name) {
 }
 
 /// A field as text.
-struct Cell {
+struct TextCell {
   std::string name;  ///< with the names of the sections around it
   std::string text;
 };
 
 /// What a list element or the plan itself consists of.
 struct Fields {
-  std::vector<Cell> cells;
+  std::vector<TextCell> cells;
   Texts remarks;  ///< sentences, which are too long for a column
 };
 
@@ -158,7 +158,7 @@ void SetHeading(Column& column) {
 std::vector<Column> MakeColumns(const NamedList& list) {
   std::vector<Column> columns;
   for (std::size_t row = 0; row < list.rows.size(); ++row) {
-    for (const Cell& cell : list.rows[row].cells) {
+    for (const TextCell& cell : list.rows[row].cells) {
       auto column = std::find_if(columns.begin(), columns.end(),
                                  [&](const Column& each) { return each.name == cell.name; });
       if (column == columns.end()) {
@@ -215,7 +215,7 @@ std::string DiagnosticsText(const Plan& plan) {
   for (const NamedList& list : lists) {
     text += TableText(list);
   }
-  for (const Cell& cell : fields.cells) {
+  for (const TextCell& cell : fields.cells) {
     const Heading heading = HeadingFor(cell.name);
     text += fmt::format("  {}: {}{}{}\n", fmt::join(heading.words, " "), cell.text,
                         heading.unit.empty() ? "" : " ", heading.unit);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kGrid = 0.01;       // [rad]
 constexpr double kTestAhead = 2.0;   // [m]
-constexpr double kStep = 1.0;        // EPS [m]
+constexpr double kTreeStep = 1.0;    // EPS [m]
 constexpr double kNeighbors = 10.0;  // r [m]
 constexpr std::size_t kIntervals = 500;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -233,7 +233,7 @@ LiteralTree LiteralRrtStar(const TurnManeuver& maneuver, const TurnLayout& layou
     }
     const double distance = (sample - from).norm();
     const Vec2 position =
-        distance < kStep ? sample : Vec2(from + (sample - from) * (kStep / distance));
+        distance < kTreeStep ? sample : Vec2(from + (sample - from) * (kTreeStep / distance));
     const double near_cost = nodes[near].cost + (position - from).norm();
     std::size_t parent = near;
     double cheapest = near_cost;

@@ -23,9 +23,9 @@ using Entry = std::pair<Point, std::size_t>;
 constexpr double kNeighbors = 1.1 * 12.0 * 2.718281828459045;
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-class Tree {
+class RrtStarTree {
  public:
-  Tree(const RrtStarProblem& problem, const RrtStarOptions& options, std::uint64_t seed)
+  RrtStarTree(const RrtStarProblem& problem, const RrtStarOptions& options, std::uint64_t seed)
       : problem_(problem), options_(options), random_(seed) {
     Add(problem.start, 0, 0.0);
   }
@@ -232,7 +232,7 @@ RrtStarResult PlanRrtStar(const RrtStarProblem& problem, const RrtStarOptions& o
   if (options.step == 0.0) {
     filled.step = 0.2 * (problem.high - problem.low).norm();
   }
-  return Tree(problem, filled, seed).Grow();
+  return RrtStarTree(problem, filled, seed).Grow();
 }
 
 }  // namespace trackbed
