@@ -65,7 +65,7 @@ void CheckAllAreThere(const fs::path& folder, const std::vector<std::string>& pl
     for (const auto& item : told.at("plants").items()) {
       if (std::find(plants.begin(), plants.end(), item.key()) == plants.end()) {
         Reject(folder / run_folder::StateCsv(item.key()), "",
-               fmt::format("missing from the run folder, whose metrics.json tells of a drive of {}",
+               fmt::format("missing from the run folder, whose metrics.json lists a run on {}",
                            item.key()));
       }
     }

@@ -43,7 +43,7 @@ double PreviewDistance(const ControlInput& input, double delay = 0.0);
 
 /// The shortest preview [m] that the steering rate can act on, for a car at `speed` that is
 /// `offset` [m] beside its path: on wheels that turn at their full rate the curvature changes by
-/// c = omega/(L v) per meter, and swinging back over an offset e takes a way in proportion to
+/// c = omega/(L v) per meter, and swinging back over an offset e takes a distance in proportion to
 /// cbrt(e/c). At no less than the speed 5/4 L omega.
 double ReturnDistance(const VehicleParams& vehicle, double speed, double offset);
 

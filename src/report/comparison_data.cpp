@@ -49,7 +49,7 @@ void TakeJudged(const fs::path& folder, const std::vector<fs::path>& runs, std::
   VisitJson(file, [&](const ordered_json& json) {
     const std::size_t last = ComparedRuns(folder).size() - 1;
     for (const ordered_json& pair : json.at("pairs")) {
-      // Of two runs, a drive is called after its folder and its plant.
+      // Of two runs, a run is named after its folder and its plant.
       const auto drive = [&](std::size_t which, std::size_t run) {
         return Drive{run, fs::path(pair.at("plants").at(which).get<std::string>()).filename()};
       };

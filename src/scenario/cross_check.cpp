@@ -4,9 +4,9 @@
 
 #include "src/scenario/diagnostics.h"
 #include "trackbed/control/optimal_steering.h"
+#include "trackbed/control/playback.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/course/lane_change.h"
-#include "trackbed/control/playback.h"
 
 namespace trackbed {
 namespace {

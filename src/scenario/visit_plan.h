@@ -1,10 +1,10 @@
 #pragma once
 
+#include "trackbed/planning/avoidance/avoidance.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/scenario/scenario.h"
-#include "trackbed/planning/avoidance/avoidance.h"
 
 /// The keys of `plan`.
 namespace trackbed {

@@ -71,11 +71,11 @@ std::string DescribeFailure(const PlantMetrics& plant, const char* metric, Relat
                                  check.at.t);
 }
 
-class PartsAtMostMatcher {
+class DifferenceBoundsMatcher {
  public:
   using is_gtest_matcher = void;
 
-  explicit PartsAtMostMatcher(const DifferenceBounds& bounds) : bounds_(bounds) {}
+  explicit DifferenceBoundsMatcher(const DifferenceBounds& bounds) : bounds_(bounds) {}
 
   bool MatchAndExplain(const PlantComparison& comparison, std::ostream* out) const {
     const std::vector<std::string> failures = Exceeded(bounds_, comparison);
@@ -138,7 +138,7 @@ void PrintTo(const PlantComparison& comparison, std::ostream* out) {
 }
 
 testing::Matcher<const PlantComparison&> DiffersByAtMost(const DifferenceBounds& bounds) {
-  return PartsAtMostMatcher(bounds);
+  return DifferenceBoundsMatcher(bounds);
 }
 
 RunResult RunScenario(const std::filesystem::path& file, const std::vector<Override>& overrides) {

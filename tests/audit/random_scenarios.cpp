@@ -9,15 +9,15 @@
 
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
+#include "trackbed/planning/avoidance/avoidance.h"
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/course/course.h"
 #include "trackbed/planning/course/lane_change.h"
 #include "trackbed/planning/grid/astar_planner.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
 #include "trackbed/planning/registry/planners.h"
-#include "trackbed/planning/sampling/rrt_planner.h"
-#include "trackbed/planning/avoidance/avoidance.h"
 #include "trackbed/planning/replan/along_route.h"
+#include "trackbed/planning/sampling/rrt_planner.h"
 
 namespace audit {
 namespace {

@@ -124,7 +124,7 @@ TEST_F(RecordingTest, NamesMissingFilesOfTheRun) {
   WriteFileAtomically(in_folder("metrics.json"),
                       R"({"plants": {"mujoco": {}, "mujoco:magic_formula": {}}})");
   EXPECT_EQ(message(), in_folder("mujoco-magic_formula.state.csv") +
-                           ": missing from the run folder, whose metrics.json tells of a drive of "
+                           ": missing from the run folder, whose metrics.json lists a run on "
                            "mujoco:magic_formula");
   WriteFileAtomically(in_folder("metrics.json"), "{}");
   EXPECT_THAT(message(), testing::StartsWith(in_folder("metrics.json") + ": plants: "));

@@ -120,8 +120,8 @@ TEST(Modules, EveryPublicHeaderHasASourceOfTheSameName) {
     for (const auto& entry : fs::directory_iterator(folders[0])) {
       // Folders are modules of their own; what has templates or plain values needs no code, and the
       // version is written by the build.
-      static const std::vector<std::string> kNoCode{"state", "version",      "registry",   "planner",
-                                                    "plan",  "metric_value", "diagnostics"};
+      static const std::vector<std::string> kNoCode{
+          "state", "version", "registry", "planner", "plan", "metric_value", "diagnostics"};
       const std::string name = entry.path().stem().string();
       if (entry.is_directory() || name.ends_with("_options") ||
           std::find(kNoCode.begin(), kNoCode.end(), name) != kNoCode.end()) {

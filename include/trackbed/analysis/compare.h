@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "trackbed/control/steering_controller.h"
 #include "trackbed/core/table.h"
 #include "trackbed/drive/run_log.h"
 #include "trackbed/scenario/scenario.h"
-#include "trackbed/control/steering_controller.h"
 
 /// Comparison of two runs over arc length.
 ///

@@ -9,9 +9,9 @@
 #include "trackbed/analysis/maneuver_metrics.h"
 #include "trackbed/analysis/metric_value.h"
 #include "trackbed/analysis/recovery.h"
+#include "trackbed/control/steering_controller.h"
 #include "trackbed/drive/run_log.h"
 #include "trackbed/scenario/scenario.h"
-#include "trackbed/control/steering_controller.h"
 
 namespace trackbed {
 

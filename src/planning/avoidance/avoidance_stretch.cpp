@@ -271,7 +271,7 @@ class StretchFinder {
     return demands;
   }
 
-  /// Where RRT* looks for a way from start to end.
+  /// Where RRT* looks for a path from start to end.
   [[nodiscard]] RrtStarProblem TreeProblem(const MirrorFrame& frame, const CurveProblem& problem,
                                            const Conflict& conflict) const {
     RrtStarProblem tree{.start = {0.0, 0.0},

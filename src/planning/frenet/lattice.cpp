@@ -20,7 +20,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // Closer than this to its stop the car has arrived [m].
 constexpr double kArrived = 0.05;
 
-/// A place in the lattice, and the cheapest way to it that was found.
+/// A place in the lattice, and the cheapest path to it that was found.
 struct Node {
   FrenetState state;
   FrenetTarget target;  // of the edges that end here, but for a leader's station
@@ -32,7 +32,7 @@ struct Node {
 };
 
 struct Edge {
-  double cost;  // of the whole way
+  double cost;  // of the whole path
   std::size_t from;
   FrenetPiece piece;
 };
@@ -57,7 +57,7 @@ class Lattice {
       plan_.reason = *check.blocked();
       return plan_;
     }
-    // A way whose edges pass the first check may fail the last one: then without that edge.
+    // A path whose edges pass the first check may fail the last one: then without that edge.
     std::size_t layer = 1;
     while (!plan_.ok() && Label(check, layer)) {
       layer = Finish(check);
@@ -124,7 +124,7 @@ class Lattice {
     return piece;
   }
 
-  /// All edges to a node from where ways are known, ranked by the cost of the way.
+  /// All edges to a node from where paths are known, ranked by the cost of the path.
   void EdgesTo(const Node& node, std::size_t before) {
     edges_.clear();
     for (std::size_t i = 0; i < before; ++i) {
@@ -149,7 +149,7 @@ class Lattice {
     });
   }
 
-  /// Finds the cheapest way to every node from `layer` on; whether one reaches the last layer.
+  /// Finds the cheapest path to every node from `layer` on; whether one reaches the last layer.
   bool Label(const TrajectoryCheck& check, std::size_t layer) {
     for (; layer + 1 < layers_.size(); ++layer) {
       for (std::size_t to = layers_[layer]; to < layers_[layer + 1]; ++to) {
@@ -188,7 +188,7 @@ class Lattice {
     return static_cast<std::ptrdiff_t>(layers_[layers_.size() - 2]);
   }
 
-  /// Looks at the cheapest way closely: takes it, or bans the edge that does not do and returns the
+  /// Checks the cheapest path: takes it, or bans the edge that fails and returns the
   /// layer to which that leads.
   std::size_t Finish(const TrajectoryCheck& check) {
     const auto end = std::min_element(nodes_.begin() + Last(), nodes_.end(),

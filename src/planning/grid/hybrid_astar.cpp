@@ -19,7 +19,7 @@
 namespace trackbed {
 namespace {
 
-/// Most by which a way between eight neighbors is longer than the straight: 1/cos(pi/8).
+/// Most by which a path between eight neighbors is longer than the straight: 1/cos(pi/8).
 constexpr double kOctileOverStraight = 1.0823922002923940;
 
 /// A pose that was come to.

@@ -23,7 +23,7 @@ namespace {
 constexpr double kLook = 0.1;
 /// Less curvature than this is straight [1/m].
 constexpr double kStraight = 1e-4;
-/// Lengths that a way with corners goes straight on first and last [m]: long ones leave room for
+/// Lengths that a path with corners goes straight on first and last [m]: long ones leave room for
 /// gentle corners, short ones fit before what is near.
 constexpr std::array<double, 3> kStraightOn{10.0, 6.0, 3.0};
 /// Between the places at which to come back [m], and how many of them.
@@ -143,7 +143,7 @@ class DetourSearch {
     Stations replaced;  ///< [m]
   };
 
-  /// Asks the planner for a way between two stations, and keeps it if it is the best so far.
+  /// Asks the planner for a path between two stations, and keeps it if it is the best so far.
   void Try(double leave, double back, std::uint64_t attempt, Detour& detour) const {
     for (const double straight_on : kStraightOn) {
       ++detour.tried;
@@ -169,7 +169,7 @@ class DetourSearch {
                              path.Cut({request_.route_station, path.length()})));
   }
 
-  /// A way from the car on. Its center line keeps as far from what does not block it as the
+  /// A path from the car on. Its center line keeps as far from what does not block it as the
   /// footprint's sides do.
   [[nodiscard]] PathScore Score(const std::vector<Vec2>& way) const {
     const VehicleParams& car = request_.vehicle;
@@ -251,7 +251,7 @@ class DetourSearch {
     return Joined(leave, way, back, why);
   }
 
-  /// The driven path up to `leave`, the way, the route from `back` on.
+  /// The driven path up to `leave`, the detour, the route from `back` on.
   std::optional<JoinedPlan> Joined(double leave, const Plan& way, double back,
                                    std::string& why) const {
     const Path& driven = request_.driven.reference.path;

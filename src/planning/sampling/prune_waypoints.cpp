@@ -28,7 +28,7 @@ double CornerCost(const PruningProblem& problem, const Vec2& from, const Vec2& a
   return problem.tangent(turn) > room ? kTooTight : 0.0;
 }
 
-/// The cheapest way whose last line leads from one point to another.
+/// The cheapest path whose last line leads from one point to another.
 struct Line {
   double cost = kInfinity;
   std::size_t before = 0;  ///< where the line before it begins

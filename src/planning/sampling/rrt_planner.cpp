@@ -103,7 +103,7 @@ class Tangents {
   std::array<double, kCount> lengths_{};  // straight on needs none
 };
 
-/// A way through all goals, or how far it got.
+/// A path through all goals, or how far it got.
 struct Way {
   std::vector<Vec2> points;   ///< from the start on through the goals reached, in the car's frame
   std::size_t goals = 0;      ///< reached
@@ -210,7 +210,7 @@ Way GrowWay(const Forest& forest, std::uint64_t seed) {
   return way;
 }
 
-/// One try: the plan along a way, and what the comparator says of it.
+/// One try: the plan along a path, and what the comparator says of it.
 struct Try {
   Way way;
   Plan plan;
@@ -261,7 +261,7 @@ Plan PlanAlongRoute(const Forest& forest, const std::vector<Vec2>& points) {
   return tested.ok() ? plan : tested;
 }
 
-/// Plans along a way that does not reach its next goal: to the node nearest to that or, where the
+/// Plans along a path that does not reach its next goal: to the node nearest to that or, where the
 /// car cannot get there or stand there, as its nose reaches further than the node, to the last one
 /// before it where it can.
 void TakePart(const Forest& forest, Try& next) {

@@ -8,7 +8,7 @@
 namespace trackbed {
 namespace {
 
-/// In uniform wind all ways score alike, but for rounding [m].
+/// In uniform wind all paths score alike, but for rounding [m].
 constexpr double kSame = 1e-9;
 
 /// Of one straight way.

@@ -16,7 +16,7 @@ function nameOfPair(first, second) {
   return `${runs.length > 1 ? `${one}: ` : ''}${first.plant} – ${second.plant}`;
 }
 
-/** A pair has the color of its second drive; where several have that, their dashes differ. */
+/** A pair has the color of its second run; where several have it, their dashes differ. */
 const pairs = (() => {
   const times = new Map();
   const patterns = [null, [6, 3], [2, 3], [9, 3, 2, 3]];

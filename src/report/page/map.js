@@ -191,7 +191,7 @@ function drawMap(parent) {
   }));
 }
 
-/** Plays the drive, and says what moment is shown. */
+/** Plays the run and shows the current time. */
 function drawClock(parent) {
   const tools = parent.append('div').attr('class', 'tools');
   const play = tools.append('button').attr('type', 'button').attr('id', 'play').text('Play');

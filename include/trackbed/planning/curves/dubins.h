@@ -4,7 +4,7 @@
 
 #include "trackbed/planning/curves/shortest_curve.h"
 
-/// The shortest way of a car that turns on a radius of r or more and only goes forwards, between
+/// The shortest path of a car that turns on a radius of r or more and only goes forwards, between
 /// two poses and without obstacles (Dubins 1957): one of the six words LSL, RSR, LSR, RSL, LRL and
 /// RLR, of which the middle arc of the last two turns by more than pi.
 namespace trackbed {

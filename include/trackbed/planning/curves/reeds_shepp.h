@@ -4,7 +4,7 @@
 
 #include "trackbed/planning/curves/shortest_curve.h"
 
-/// The shortest way of a car that turns on a radius of r or more and goes forwards and backwards,
+/// The shortest path of a car that turns on a radius of r or more and goes forwards and backwards,
 /// between two poses and without obstacles (Reeds and Shepp 1990): one of 48 words of at most five
 /// pieces, the families CSC, C|C|C, CC|C, C|CC, CC|CC, C|CC|C, C|CSC, CSC|C and C|CSC|C, where C is
 /// an arc, S a straight and | a change of direction.

@@ -13,7 +13,7 @@
 /// both in cells: 1 straight, sqrt(2) across. A step across needs both cells beside it to be free.
 namespace trackbed {
 
-/// max(|dx|, |dy|) + (sqrt(2) - 1) min(|dx|, |dy|): the cost of a way without obstacles. Never
+/// max(|dx|, |dy|) + (sqrt(2) - 1) min(|dx|, |dy|): the cost of a path without obstacles. Never
 /// above the true cost (admissible), and h(m) <= c(m, n) + h(n) for neighbors (consistent).
 double OctileDistance(int dx, int dy);
 
@@ -37,7 +37,7 @@ struct GridPath {
   [[nodiscard]] bool ok() const { return status == GridStatus::kFound; }
 };
 
-/// The cheapest way between two cells of the grid (InternalError for others), looking at no more
+/// The cheapest path between two cells of the grid (InternalError for others), looking at no more
 /// than `budget` cells. Cost: some 30 ns a cell, of those that h does not rule out.
 GridPath SearchGrid(const OccupancyGrid& grid, std::size_t start, std::size_t goal,
                     long budget = std::numeric_limits<long>::max());

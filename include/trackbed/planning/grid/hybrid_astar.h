@@ -16,10 +16,10 @@
 /// to in one direction, only the cheapest is kept.
 ///
 /// Symbols: r radius of the sharpest arcs [m]; a step is an arc of curvature 0, +-1/(2r) or +-1/r.
-/// The cost of a way is its length [m], that of stretches backwards times `reverse_cost`, plus
+/// The cost of a path is its length [m], that of stretches backwards times `reverse_cost`, plus
 /// `switch_cost` for every change of direction, plus `steering_cost` times the change of curvature
 /// over 1/r at every joint. What is left to the goal is estimated by the greater of the shortest
-/// Reeds-Shepp curve and the length of the way on a grid around the obstacles, over 1.0824, the
+/// Reeds-Shepp curve and the length of the path on a grid around the obstacles, over 1.0824, the
 /// most by which steps between eight neighbors lengthen a straight.
 namespace trackbed {
 
@@ -60,10 +60,10 @@ struct HybridAStarResult {
 
 /// Guarantees when ok: leads from the start to the goal pose within 1e-9 m and rad (the last leg is
 /// a Reeds-Shepp curve, forwards alone a Dubins one); no curvature above 1/r; the footprint free
-/// (CollisionChecker); the same for the same input. Not the cheapest way there is, but the cheapest
-/// of those that the cells tell apart and a last curve ends. When the budget ends, the best found
-/// by then. kNoPath when every pose has been looked at. InternalError for options out of range.
-/// Cost: about 10 us an expansion.
+/// (CollisionChecker); the same for the same input. Not the cheapest path there is, but the
+/// cheapest of those that the cells tell apart and a last curve ends. When the budget ends, the
+/// best found by then. kNoPath when every pose has been looked at. InternalError for options out of
+/// range. Cost: about 10 us an expansion.
 HybridAStarResult SearchHybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
                                     const HybridAStarOptions& options);
 

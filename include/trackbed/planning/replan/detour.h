@@ -19,10 +19,10 @@ struct DetourRequest {
   Plan driven;                         ///< the plan that is driven
   double station = 0.0;                ///< of the car on it [m]
   double station_speed = 0.0;          ///< there [m/s]
-  Plan route;                          ///< to the goal; the driven one, or what that leads along
+  Plan route;                          ///< to the goal; the driven one, or the one it follows
   double route_station = 0.0;          ///< of the car on it [m]
   std::vector<OrientedBox> obstacles;  ///< that are known and stand
-  double safe_distance = 0.3;          ///< from them, that makes a way blocked [m]
+  double safe_distance = 0.3;          ///< from them, nearer ones block a path [m]
   Wind wind;
   double time = 0.0;  ///< [s]
   std::uint64_t seed = 0;
@@ -32,7 +32,7 @@ struct DetourRequest {
 struct Detour {
   std::optional<Plan> route;  ///< from the car's station on, to the goal; none: stay
   Stations replaced;  ///< of the new route: where it leaves the driven path, and is back [m]
-  PathScore current;  ///< of the way as it is
+  PathScore current;  ///< of the path as it is
   PathScore best;     ///< of the best other one; its total is infinite if there is none
   int tried = 0;      ///< times the planner was asked
   std::string why;    ///< there is none, for people
@@ -49,7 +49,7 @@ struct DetourFindings {
 };
 void Visit(DiagnosticsVisitor& out, const DetourFindings& own);
 
-/// Looks for a way only where something that stands blocks the route. Leaves the driven path where
+/// Looks for a path only where something that stands blocks the route. Leaves the driven path where
 /// it is straight, as early as the car can, and comes back on straight stretches of the route
 /// behind the last of what blocks it or at its end. Of all that is found the comparator takes the
 /// best, and that only if it is better than going on as before.

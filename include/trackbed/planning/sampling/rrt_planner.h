@@ -31,8 +31,8 @@ struct RrtPlannerOptions {
   double goal_bias = 0.05;         ///< share of samples at the goal, 0 to 1
   double data_weight = 0.1;        ///< alpha of the smoothing
   double smoothness_weight = 0.4;  ///< beta; 0 < alpha + 2 beta < 1
-  double corner_cost = 5.0;        ///< of a corner, in meters of way [m], >= 0
-  double wind_weight = 1.0;        ///< k_w: how much wind counts, in meters of way, >= 0
+  double corner_cost = 5.0;        ///< of a corner, in meters of path [m], >= 0
+  double wind_weight = 1.0;        ///< k_w: how much wind counts, in meters of path, >= 0
   /// After this time by PlanRequest::clock [s] no tree grows any more, > 0; none: no limit.
   /// Smoothing and rounding come on top of it.
   std::optional<double> time_limit{};

@@ -54,7 +54,7 @@ struct RrtStarResult {
 };
 
 /// Guarantees: every edge of the tree stays further than the inflation from every obstacle, over
-/// its whole length and not only at its ends; the cost of every node is the length of its way; a
+/// its whole length and not only at its ends; the cost of every node is the length of its path; a
 /// run with more iterations begins as the one with fewer, so that its cost is never higher; the
 /// same problem, options and seed give the same tree. Neighbors of a new node are its
 /// 1.1 x 12 e ln n nearest, more than the 2^(d+1) e (1 + 1/d) ln n with which the k-nearest form

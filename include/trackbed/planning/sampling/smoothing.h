@@ -6,7 +6,7 @@
 #include "trackbed/geometry/pose.h"
 #include "trackbed/world/wind.h"
 
-/// Smoothing of a way with corners ("Smoothing" of the wind-aware RRT; Thrun 2012): each inner
+/// Smoothing of a path with corners ("Smoothing" of the wind-aware RRT; Thrun 2012): each inner
 /// point is drawn toward where it was and toward the middle of its neighbors, as long as nothing
 /// stands in the way and the wind does not get worse.
 ///
@@ -14,7 +14,7 @@
 /// weight of smoothness; w wind [m/s]; V speed through the air [m/s].
 namespace trackbed {
 
-/// How wind counts in the length of a way.
+/// How wind counts in the length of a path.
 struct WindScoring {
   Wind wind;
   double time = 0.0;    ///< the moment of its gusts [s]
@@ -44,7 +44,7 @@ struct SmoothingResult {
 /// by coordinate. A move is taken if both edges at the point keep further than `inflation` [m] from
 /// every obstacle, and the wind score of the two does not fall.
 ///
-/// Guarantees: ends do not move; a way that is free stays free; without obstacles and wind it
+/// Guarantees: ends do not move; a path that is free stays free; without obstacles and wind it
 /// converges to (alpha + 2 beta) y_i - beta (y_{i-1} + y_{i+1}) = alpha x_i. Obstacles may stop a
 /// point in one coordinate and not in the other. Rounds no corners: points stay points.
 /// Errors: InternalError for options out of range. Cost O(sweeps x points x obstacles).
