@@ -33,6 +33,9 @@ namespace trackbed {
 /// Slower cars are taken for as fast as this where something is divided by the speed [m/s].
 inline constexpr double kCrawl = 0.5;
 
+/// The offset from the path that default distances bring back a car from, over its wheelbase.
+inline constexpr double kReturnOffset = 0.125;
+
 /// T [s] of a car at `speed`, asked once per `period`. Without tyre coefficients none of theirs.
 double ResponseTime(const VehicleParams& vehicle, double speed, double period);
 

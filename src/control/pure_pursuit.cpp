@@ -10,11 +10,8 @@
 namespace trackbed {
 namespace {
 
-/// The offset that the default lookahead brings back a car from, over its wheelbase.
-constexpr double kOffset = 0.125;
-
 double Lookahead(const ControlInput& input) {
-  const double offset = kOffset * input.vehicle.wheelbase;
+  const double offset = kReturnOffset * input.vehicle.wheelbase;
   return std::max(PreviewDistance(input), ReturnDistance(input.vehicle, input.state.speed, offset));
 }
 
