@@ -9,6 +9,7 @@
 #include "trackbed/control/preview.h"
 #include "trackbed/control/preview_integral.h"
 #include "trackbed/control/pure_pursuit.h"
+#include "trackbed/control/rear_axle_feedback.h"
 #include "trackbed/control/schedule.h"
 #include "trackbed/control/stanley.h"
 #include "trackbed/control/steering_profile.h"
@@ -26,6 +27,7 @@ Registry<ControllerEntry>& Table() {
                                                            OptimalSteering(),
                                                            PurePursuitController(),
                                                            StanleyController(),
+                                                           RearAxleFeedbackController(),
                                                            LqrController(),
                                                            MpcController(),
                                                            ConstantSteering(),

@@ -1,0 +1,68 @@
+#include "trackbed/control/rear_axle_feedback.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/control/control_keys.h"
+#include "src/control/preview_distance.h"
+#include "src/control/tracking.h"
+
+namespace trackbed {
+namespace {
+
+/// 1 - kappa e is taken for no less: the center of the path's curvature is not approached.
+constexpr double kNearCenter = 0.1;
+
+double Sinc(double angle) {
+  return std::abs(angle) < 1e-8 ? 1.0 : std::sin(angle) / angle;
+}
+
+double DefaultDistance(const ControlInput& input, double cross_track) {
+  const double speed = input.state.speed;
+  const double offset = std::max(std::abs(cross_track), kReturnOffset * input.vehicle.wheelbase);
+  const double response = ResponseTime(input.vehicle, speed, input.period);
+  return std::max(ReturnDistance(input.vehicle, speed, offset), 3.0 * std::abs(speed) * response);
+}
+
+class RearAxleFeedback final : public SteeringController {
+ public:
+  explicit RearAxleFeedback(const RearAxleFeedbackOptions& options) : options_(options) {}
+
+  double Steer(const ControlInput& input) override {
+    const VehicleParams& vehicle = input.vehicle;
+    const Tracking tracking = ProjectOntoPath(input);
+    const int direction = tracking.foot.direction;
+    const double speed = direction * std::abs(input.state.speed);
+    const double curvature = tracking.foot.curvature;
+    const double e = tracking.cross_track;
+    const double psi =
+        tracking.heading_error - SteadyTurnOn(vehicle, curvature, speed).heading_error;
+    const double d = options_.distance ? *options_.distance : DefaultDistance(input, e);
+    const double parallel = curvature * std::cos(psi) / std::max(1.0 - curvature * e, kNearCenter);
+    const double feedback = direction * 2.0 * psi / d + e * Sinc(psi) / (d * d);
+    const double steering = SteadyTurnOn(vehicle, parallel - feedback, speed).steering;
+    return std::clamp(steering, -vehicle.steering_limit, vehicle.steering_limit);
+  }
+
+ private:
+  RearAxleFeedbackOptions options_;
+};
+
+}  // namespace
+
+ControllerEntry RearAxleFeedbackController() {
+  return {.name = "rear_axle_feedback",
+          .summary = "Lyapunov feedback of the rear axle's heading and cross-track error",
+          .defaults = RearAxleFeedbackOptions{},
+          .station = StationSource::kProjection,
+          .needs_plan = true,
+          .make = MakeBy<RearAxleFeedbackOptions, RearAxleFeedback>};
+}
+
+void Visit(KeyVisitor& keys, RearAxleFeedbackOptions& options) {
+  keys.Field({"distance", "m",
+              "distance over which errors decay by 1/e; default: from car, speed and offset"},
+             options.distance, kAhead);
+}
+
+}  // namespace trackbed
