@@ -32,8 +32,8 @@ std::array<std::uint8_t, 3> Blended(const std::array<std::uint8_t, 3>& under, Co
   std::array<std::uint8_t, 3> blended{};
   for (std::size_t i = 0; i < 3; ++i) {
     // Rounds what is never negative: std::lround takes ten times as long.
-    blended[i] = static_cast<std::uint8_t>(
-        under[i] + alpha * (255.0 * static_cast<double>(rgb[i]) - under[i]) + 0.5);
+    const double value = under[i] + alpha * (255.0 * static_cast<double>(rgb[i]) - under[i]);
+    blended[i] = static_cast<std::uint8_t>(value + 0.5);  // NOLINT(bugprone-incorrect-roundings)
   }
   return blended;
 }
@@ -144,8 +144,10 @@ void Canvas::Arrow(double middle_x, double middle_y, double length, double direc
     for (int x = static_cast<int>(middle_x - reach); x <= middle_x + reach; ++x) {
       int inside = 0;
       for (int i = 0; i < kSamples * kSamples; ++i) {
-        const double right = (x + (i % kSamples + 0.5) / kSamples - middle_x) / length;
-        const double up = (middle_y - y - (i / kSamples + 0.5) / kSamples) / length;
+        const int column = i % kSamples;
+        const int row = i / kSamples;
+        const double right = (x + (column + 0.5) / kSamples - middle_x) / length;
+        const double up = (middle_y - y - (row + 0.5) / kSamples) / length;
         inside += is_inside(right * cosine + up * sine, up * cosine - right * sine) ? 1 : 0;
       }
       if (inside > 0) {

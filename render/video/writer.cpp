@@ -88,6 +88,8 @@ struct VideoWriter::Encoder {
   AVStream* stream = nullptr;  // owned by format
   std::int64_t next = 0;
 
+  explicit Encoder(const Recipe& of) : recipe(of) {}
+
   [[noreturn]] void Fail(const std::string& why) const {
     throw RunError(fmt::format("cannot write {}: {}", name, why));
   }

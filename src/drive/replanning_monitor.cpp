@@ -65,9 +65,9 @@ void ReplanningMonitor::UpdateKnowledge(const VehicleState& state) {
 std::optional<Plan> ReplanningMonitor::Avoid(const VehicleState& state, const Plan& plan,
                                              double station) {
   const ReplanningConfig& config = options_.replanning;
-  const auto [delay, distance] = std::visit(
-      [](const auto& options) { return std::pair(options.delay, options.safe_distance); },
-      *config.avoid);
+  const double delay = std::visit([](const auto& options) { return options.delay; }, *config.avoid);
+  const double distance =
+      std::visit([](const auto& options) { return options.safe_distance; }, *config.avoid);
   const auto is_due = [&](const Knowledge& known) {
     return known.since && !known.avoided && state.time >= *known.since + delay - kSameTime;
   };

@@ -60,8 +60,8 @@ std::string UnknownKey(const std::string& name, const Names& known) {
 
 }  // namespace
 
-YamlReader::YamlReader(ReaderContext& context, YAML::Node node, std::string key)
-    : context_(context), node_(std::move(node)), key_(std::move(key)) {}
+YamlReader::YamlReader(ReaderContext& context, const YAML::Node& node, std::string key)
+    : context_(context), node_(node), key_(std::move(key)) {}
 
 std::string YamlReader::Dotted(const char* key) const {
   return key_.empty() ? key : key_ + "." + key;

@@ -22,7 +22,7 @@ namespace trackbed {
 /// Finish adds the problems of unknown and repeated keys.
 class YamlReader final : public KeyVisitor {
  public:
-  YamlReader(ReaderContext& context, YAML::Node node, std::string key);
+  YamlReader(ReaderContext& context, const YAML::Node& node, std::string key);
 
   [[nodiscard]] Mode mode() const override { return Mode::kRead; }
 

@@ -23,8 +23,9 @@ Vec2 CellCounts(const GridArea& area, double cell) {
 
 Vec2 OccupancyGrid::CellCenter(std::size_t index) const {
   const auto width = static_cast<std::size_t>(columns);
-  return ToWorld(
-      X_WG, {cell * static_cast<double>(index % width), cell * static_cast<double>(index / width)});
+  const std::size_t row = index / width;
+  return ToWorld(X_WG,
+                 {cell * static_cast<double>(index % width), cell * static_cast<double>(row)});
 }
 
 int OccupancyGrid::CellAt(const Vec2& point_W) const {
