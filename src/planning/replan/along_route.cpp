@@ -123,7 +123,7 @@ class AlongRoute {
   }
 
  private:
-  /// Whether there is a motion, and braking after it that is clear.
+  /// Whether there is a motion, and braking after it that is clear and that the wheels can follow.
   bool Try(const FrenetGoal& goal, const std::vector<double>& factors = {1.0}) {
     const FrenetRequest request{.vehicle = request_.vehicle,
                                 .speed = request_.speed,
@@ -144,7 +144,7 @@ class AlongRoute {
       return false;  // the lattice does not reach so far
     }
     points_ = WithBraking(end);
-    return BrakingIsClear();
+    return BrakingIsClear() && BrakingIsDrivable();
   }
 
   [[nodiscard]] std::vector<TrajectoryPoint> WithBraking(const FrenetState& end) const {
@@ -184,6 +184,31 @@ class AlongRoute {
       }
       return true;
     });
+  }
+
+  /// A motion may end too fast for a bend behind it.
+  [[nodiscard]] bool BrakingIsDrivable() const {
+    constexpr double kRounding = 1.0 + 1e-9;
+    const VehicleParams& car = request_.vehicle;
+    const double rate =
+        kRounding * MotionLimits(options_).max_steering_rate_fraction * car.steering_rate;
+    const double angle = kRounding * car.steering_limit;
+    const double began = found_.motion.duration();
+    const auto steering = [&](const TrajectoryPoint& point) {
+      return SteeringForCurvature(car, point.motion.curvature);
+    };
+    for (std::size_t i = 1; i < points_.size(); ++i) {
+      const TrajectoryPoint& before = points_[i - 1];
+      const TrajectoryPoint& point = points_[i];
+      if (before.t < began) {
+        continue;
+      }
+      const double turned = std::abs(steering(point) - steering(before));
+      if (std::abs(steering(point)) > angle || turned > rate * (point.t - before.t)) {
+        return false;
+      }
+    }
+    return true;
   }
 
   /// Whether the motion's last offset is beside the obstacle's, or its end beyond.

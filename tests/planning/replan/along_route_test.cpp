@@ -159,6 +159,39 @@ TEST_P(EveryAlongMethod, NeverLeadsToWhereItCannotStop) {
   EXPECT_GE(found, 10);
 }
 
+TEST_P(EveryAlongMethod, BrakesNoFasterThroughABendThanTheWheelsTurn) {
+  // At 5 m/s the wheels would have to turn at 2.7 m * 5 m/s * 0.025 /m^2 = 0.34 rad/s of 0.15
+  // rad/s. From these starts some motions at 5 m/s end before the bend, and the braking after them
+  // is in it.
+  int found = 0;
+  for (double start = 20.0; start <= 55.0; start += 2.5) {
+    Scene scene;
+    scene.frame.path = Path({}, {{.length = 60.0},
+                                 {.length = 4.0, .sharpness = 0.025},
+                                 {.length = 150.0, .curvature = 0.1}});
+    scene.frame.goal = scene.frame.path.length() - kBeyond;
+    scene.request.speed = {5.0, 2.0, 3.0};
+    scene.request.wanted = 5.0;
+    scene.request.start.s = start;
+    scene.request.start.s_rate = 5.0;
+    const AlongPlan plan =
+        PlanAlongRoute(scene.frame, scene.request, scene.settings, GetParam().defaults);
+    if (!plan.ok()) {
+      continue;
+    }
+    ++found;
+    for (std::size_t i = 1; i < plan.points.size(); ++i) {
+      const auto steering = [&](std::size_t j) {
+        return std::atan(ReferenceCar().wheelbase * plan.points[j].motion.curvature);
+      };
+      EXPECT_LE(std::abs(steering(i) - steering(i - 1)),
+                1.000001 * ReferenceCar().steering_rate * (plan.points[i].t - plan.points[i - 1].t))
+          << "from " << start << " at " << plan.points[i].frenet.s;
+    }
+  }
+  EXPECT_GT(found, 0);
+}
+
 TEST_P(EveryAlongMethod, FollowsWhatMovesSlowlyInANarrowRoad) {
   Scene scene;
   scene.settings.road = {1.5, 1.5};
