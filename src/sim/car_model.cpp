@@ -10,6 +10,7 @@
 #include <regex>
 
 #include "src/sim/car_parts.h"
+#include "src/sim/scene_xml.h"
 #include "src/sim/upright.h"
 #include "trackbed/core/error.h"
 #include "trackbed/sim/mujoco_error.h"
@@ -59,7 +60,7 @@ MujocoModel Compile(const Scene& scene, const std::string& name) {
     const int slot = mj_findFileVFS(vfs.get(), file.c_str());
     std::memcpy(vfs->filedata[slot], content.data(), content.size());
   };
-  add("model.xml", scene.xml);
+  add("model.xml", DiscardLooks(scene.xml));
   for (const SceneAsset& asset : scene.assets) {
     add(asset.name, asset.content);
   }

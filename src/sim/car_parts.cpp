@@ -40,10 +40,10 @@ class CarReader final : private PartsReader {
     chassis_.chassis = Find(mjOBJ_BODY, "body", "chassis");
     free_ = Joint("chassis", mjJNT_FREE, "free joint");
     rack_ = Joint("rack", mjJNT_HINGE, "hinge joint");
-    Find(mjOBJ_GEOM, "geom", "ground");
+    Find(mjOBJ_GEOM, "colliding geom", "ground");
     for (std::size_t w = 0; w < kWheels.size(); ++w) {
       const std::string wheel = kWheels[w];
-      parts_.tyre[w] = Find(mjOBJ_GEOM, "geom", "tyre_" + wheel);
+      parts_.tyre[w] = Find(mjOBJ_GEOM, "colliding geom", "tyre_" + wheel);
       spin_[w] = Joint("spin_" + wheel, mjJNT_HINGE, "hinge joint");
       if (w < steer_.size()) {
         steer_[w] = Joint("steer_" + wheel, mjJNT_HINGE, "hinge joint");

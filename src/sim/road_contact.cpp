@@ -21,11 +21,6 @@ constexpr double kTouching = 5e-4;
 /// What it is taken for then [m]: a contact, but for rounding without depth.
 constexpr double kTouch = -1e-9;
 
-/// Bits of contype and conaffinity that cars have no use for: one for each tyre and its plane, and
-/// one for what all tyres touch besides.
-constexpr int kPlaneBit = 1 << 24;
-constexpr int kOthersBit = 1 << 28;
-
 bool IsRoad(const mjModel& model, int geom) {
   const char* name = mj_id2name(&model, mjOBJ_GEOM, geom);
   return name != nullptr &&
@@ -39,6 +34,10 @@ Vector3d HalfAxes(const mjModel& model, int geom) {
          : model.geom_type[geom] == mjGEOM_SPHERE  ? Vector3d::Constant(size.x()).eval()
                                                    : Vector3d(size.x(), size.x(), 0.0);
 }
+
+/// The bit of contype and conaffinity of what all tyres touch besides their planes; cars have no
+/// use for it.
+constexpr int kOthersBit = 1 << 28;
 
 }  // namespace
 
@@ -66,9 +65,8 @@ RoadContact::RoadContact(const CarModel& car, mjModel& model)
         model.geom_conaffinity[geom] |= kOthersBit;
       }
     }
-    contype = kOthersBit | (kPlaneBit << w);
+    contype = kOthersBit | WheelPlaneBit(w);
     conaffinity = 0;
-    model.geom_conaffinity[plane_[w]] = kPlaneBit << w;
   }
 }
 

@@ -8,6 +8,11 @@
 
 namespace trackbed {
 
+/// The bit of conaffinity of the plane under a wheel, of those that cars have no use for.
+constexpr int WheelPlaneBit(std::size_t wheel) {
+  return 1 << (24 + wheel);
+}
+
 /// Lets tyres roll on the ground itself, not on the facets of its height fields.
 ///
 /// MuJoCo touches a height field prism by prism. A tyre as stiff as a wheel's is thrown from facet

@@ -40,4 +40,12 @@ XMLElement* FindInWorld(XMLElement& parent, std::string_view kind, std::string_v
   return nullptr;
 }
 
+std::string DiscardLooks(const std::string& xml) {
+  tinyxml2::XMLDocument document;
+  ParseComposed(xml, document);
+  // Of several <compiler> elements the last one that sets an attribute wins.
+  document.RootElement()->InsertNewChildElement("compiler")->SetAttribute("discardvisual", true);
+  return Print(document);
+}
+
 }  // namespace trackbed

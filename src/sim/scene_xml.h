@@ -22,4 +22,8 @@ std::string Numbers(std::initializer_list<double> values);
 tinyxml2::XMLElement* FindInWorld(tinyxml2::XMLElement& parent, std::string_view kind,
                                   std::string_view name);
 
+/// The composed model without its looks: MuJoCo discards geoms that collide with nothing and that
+/// nothing else in the model refers to. Lines of the text stay the same.
+std::string DiscardLooks(const std::string& xml);
+
 }  // namespace trackbed

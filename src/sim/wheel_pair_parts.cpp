@@ -41,10 +41,10 @@ class WheelPairReader final : private PartsReader {
   void FindNames() {
     chassis_.chassis = Find(mjOBJ_BODY, "body", "chassis");
     free_ = Joint("chassis", mjJNT_FREE, "free joint");
-    Find(mjOBJ_GEOM, "geom", "ground");
+    Find(mjOBJ_GEOM, "colliding geom", "ground");
     for (std::size_t w = 0; w < kDrivenWheels.size(); ++w) {
       const std::string wheel = kDrivenWheels[w];
-      parts_.tyre[w] = Find(mjOBJ_GEOM, "geom", "tyre_" + wheel);
+      parts_.tyre[w] = Find(mjOBJ_GEOM, "colliding geom", "tyre_" + wheel);
       spin_[w] = Joint("spin_" + wheel, mjJNT_HINGE, "hinge joint");
       parts_.actuator[w] = Find(mjOBJ_ACTUATOR, "actuator", "drive_" + wheel);
     }

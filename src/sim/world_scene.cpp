@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "src/sim/road_contact.h"
 #include "src/sim/scene_xml.h"
 #include "src/sim/upright.h"
 #include "trackbed/core/error.h"
@@ -130,13 +131,16 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
     add(side_slope, nullptr);
   }
   if (count > 0) {
-    for (const char* wheel : {"fl", "fr", "rl", "rr", "left", "right"}) {
+    // A car has four wheels, or two.
+    for (const auto& [wheel, index] :
+         {std::pair("fl", 0), std::pair("fr", 1), std::pair("rl", 2), std::pair("rr", 3),
+          std::pair("left", 0), std::pair("right", 1)}) {
       if (FindInWorld(root, "geom", fmt::format("tyre_{}", wheel)) == nullptr) {
         continue;
       }
       XMLElement& geom = AddLike(*plane, fmt::format("ground_{}", wheel));
       geom.SetAttribute("contype", 0);
-      geom.SetAttribute("conaffinity", 0);
+      geom.SetAttribute("conaffinity", WheelPlaneBit(static_cast<std::size_t>(index)));
       geom.SetAttribute("group", 4);  // not drawn
     }
   }

@@ -71,6 +71,38 @@ TEST(Prius, AckermannCouplingFollowsTheClosedForm) {
   }
 }
 
+/// Steers, drives and rolls for 2 s; the positions after it.
+std::vector<mjtNum> Roll(const mjModel& model) {
+  const MujocoData d = MakeMujocoData(model);
+  for (int step = 0; step < 1000; ++step) {
+    for (int i = 0; i < model.nu; ++i) {
+      // In fractions of what the actuator can do, slowly.
+      d->ctrl[i] = 0.5 * model.actuator_ctrlrange[2 * i + 1] * std::sin(0.01 * step);
+    }
+    mj_step(&model, d.get());
+  }
+  return {d->qpos, d->qpos + model.nq};
+}
+
+TEST(CarModel, IsSteppedWithoutItsLooks) {
+  for (const char* name : {"prius", "bmw320i", "diff_drive"}) {
+    SCOPED_TRACE(name);
+    const Scene scene = ComposeScene(FindModel(name, ""), {});
+    const CarModel car(scene, name);
+    const TempFolder folder;
+    WriteScene(scene, folder.path() / "model.xml");
+    std::array<char, 500> message{};
+    const MujocoModel whole(
+        mj_loadXML((folder.path() / "model.xml").c_str(), nullptr, message.data(), message.size()));
+    ASSERT_NE(whole, nullptr) << message.data();
+    EXPECT_GT(whole->ngeom, car.get()->ngeom);
+    for (int geom = 0; geom < car.get()->ngeom; ++geom) {
+      EXPECT_NE(car.get()->geom_contype[geom] | car.get()->geom_conaffinity[geom], 0) << geom;
+    }
+    EXPECT_EQ(Roll(*whole), Roll(*car.get()));
+  }
+}
+
 TEST(Prius, OpensAndSteersInMujocoAlone) {
   // What MuJoCo's viewer does: load the file, and move the actuators' sliders.
   std::array<char, 500> message{};

@@ -132,7 +132,12 @@ TEST(WithGround, WheelPlanesTouchNothingByThemselves) {
   for (const char* wheel : kWheels) {
     const int geom = Geom(car, std::string("ground_") + wheel);
     EXPECT_EQ(car.get()->geom_type[geom], mjGEOM_PLANE);
-    EXPECT_EQ(car.get()->geom_contype[geom] | car.get()->geom_conaffinity[geom], 0);
+    const mjModel& m = *car.get();
+    for (int other = 0; other < m.ngeom; ++other) {
+      EXPECT_EQ((m.geom_contype[other] & m.geom_conaffinity[geom]) |
+                    (m.geom_contype[geom] & m.geom_conaffinity[other]),
+                0);
+    }
   }
 }
 

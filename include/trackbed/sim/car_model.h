@@ -86,6 +86,11 @@ struct WheelPairParts : ChassisParts {
 
 /// A compiled vehicle with its scene. Immutable, and safe to share between threads once made.
 ///
+/// The model is compiled without its looks (MuJoCo's `discardvisual`): geoms that collide with
+/// nothing and that nothing in the MJCF refers to are in scene() alone. Masses and motion are those
+/// of the whole model, to the last bit; a step takes less time. Not so for a model that has a
+/// density of the medium and ellipsoid fluid forces on such geoms: these are lost.
+///
 /// Errors: InputError naming the file and, all at once, what is missing or wrong, when the MJCF
 /// does not compile, lacks a needed name, or has a part that violates docs/models.md.
 class CarModel {
