@@ -161,14 +161,13 @@ void CompareSteering(benchmark::State& state, const Compared& compared) {
 
 bool RegisterControl() {
   for (const ControllerEntry& controller : Controllers()) {
-    benchmark::RegisterBenchmark((std::string("ControlUpdate/") + controller.name).c_str(),
-                                 TimeUpdate, controller.defaults)
+    RegisterGuarded(std::string("ControlUpdate/") + controller.name, TimeUpdate,
+                    controller.defaults)
         ->Unit(benchmark::kMicrosecond);
   }
   for (const SearchEntry& search : Searches()) {
     const std::string name = std::string("ControlUpdate/optimal_steering/") + search.name;
-    benchmark::RegisterBenchmark(name.c_str(), TimeUpdate, Searching(search.method))
-        ->Unit(benchmark::kMicrosecond);
+    RegisterGuarded(name, TimeUpdate, Searching(search.method))->Unit(benchmark::kMicrosecond);
   }
   for (const Compared& compared : {Compared{SearchMethod::kIsres, nlopt::GN_ISRES},
                                    Compared{SearchMethod::kEsch, nlopt::GN_ESCH},
@@ -177,7 +176,7 @@ bool RegisterControl() {
                                    Compared{SearchMethod::kNelderMead, nlopt::LN_NELDERMEAD}}) {
     const std::string name =
         std::string("OptimalSteeringOverNlopt/") + SearchFor(compared.method).name;
-    benchmark::RegisterBenchmark(name.c_str(), CompareSteering, compared)
+    RegisterGuarded(name, CompareSteering, compared)
         ->UseManualTime()
         ->Iterations(15)
         ->Unit(benchmark::kMillisecond);

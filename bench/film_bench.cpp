@@ -80,14 +80,6 @@ void Film(benchmark::State& state, const char* quality, double limit) {
         return seconds;
       });
 }
-BENCHMARK_CAPTURE(Film, film, "film", 1.15)
-    ->Iterations(3)
-    ->UseManualTime()
-    ->Unit(benchmark::kSecond);
-BENCHMARK_CAPTURE(Film, draft, "draft", 2.0)
-    ->Iterations(3)
-    ->UseManualTime()
-    ->Unit(benchmark::kSecond);
 
 /// A picture of draft quality with everything that is drawn over the world, against the same one
 /// without.
@@ -118,7 +110,21 @@ void DraftOverlays(benchmark::State& state) {
         return stopwatch.Seconds();
       });
 }
-BENCHMARK(DraftOverlays)->Iterations(2 * kFrames)->UseManualTime()->Unit(benchmark::kMillisecond);
+
+bool RegisterFilm() {
+  for (const auto& [quality, limit] : {std::pair("film", 1.15), std::pair("draft", 2.0)}) {
+    RegisterGuarded(std::string("Film/") + quality, Film, quality, limit)
+        ->Iterations(3)
+        ->UseManualTime()
+        ->Unit(benchmark::kSecond);
+  }
+  RegisterGuarded("DraftOverlays", DraftOverlays)
+      ->Iterations(2 * kFrames)
+      ->UseManualTime()
+      ->Unit(benchmark::kMillisecond);
+  return true;
+}
+[[maybe_unused]] const bool registered = RegisterFilm();
 
 }  // namespace
 }  // namespace trackbed::bench

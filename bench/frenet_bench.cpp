@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "bench/in_turn.h"
 #include "tests/planning/frenet_scenes.h"
 #include "trackbed/planning/frenet/lattice.h"
 
@@ -37,26 +38,22 @@ void Report(benchmark::State& state, const FrenetPlan& plan) {
 
 bool RegisterFrenet() {
   for (const Scene& scene : Scenes()) {
-    benchmark::RegisterBenchmark(("FrenetCycle/" + scene.name).c_str(),
-                                 [scene](benchmark::State& state) {
-                                   const Path path = BentRoad();
-                                   FrenetPlan plan;
-                                   for (auto _ : state) {
-                                     plan = PlanFrenet(path, scene.request, {});
-                                   }
-                                   Report(state, plan);
-                                 })
-        ->Unit(benchmark::kMicrosecond);
-    benchmark::RegisterBenchmark(("LatticeCycle/" + scene.name).c_str(),
-                                 [scene](benchmark::State& state) {
-                                   const Path path = BentRoad();
-                                   FrenetPlan plan;
-                                   for (auto _ : state) {
-                                     plan = PlanLattice(path, scene.request, {});
-                                   }
-                                   Report(state, plan);
-                                 })
-        ->Unit(benchmark::kMicrosecond);
+    RegisterGuarded("FrenetCycle/" + scene.name, [scene](benchmark::State& state) {
+      const Path path = BentRoad();
+      FrenetPlan plan;
+      for (auto _ : state) {
+        plan = PlanFrenet(path, scene.request, {});
+      }
+      Report(state, plan);
+    })->Unit(benchmark::kMicrosecond);
+    RegisterGuarded("LatticeCycle/" + scene.name, [scene](benchmark::State& state) {
+      const Path path = BentRoad();
+      FrenetPlan plan;
+      for (auto _ : state) {
+        plan = PlanLattice(path, scene.request, {});
+      }
+      Report(state, plan);
+    })->Unit(benchmark::kMicrosecond);
   }
   return true;
 }

@@ -1,16 +1,20 @@
 #include "bench/in_turn.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 namespace trackbed::bench {
 namespace {
 
-double Median(std::vector<double> values) {
+/// The value below which a share of the values is; between two of them linearly.
+double Quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+  const double place = share * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return std::lerp(values[below], values[above], place - static_cast<double>(below));
 }
 
 }  // namespace
@@ -30,10 +34,16 @@ double CompareInTurn(benchmark::State& state, double limit, const Timed& ours, c
     bare_first = !bare_first;
     state.SetIterationTime(ours_s.back());
   }
-  const double median = Median(ours_s);
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < ours_s.size(); ++i) {
+    ratios.push_back(ours_s[i] / bare_s[i]);
+  }
+  const double median = Quantile(ours_s, 0.5);
   state.counters["ours_s"] = median;
-  state.counters["bare_s"] = Median(bare_s);
-  state.counters["ratio"] = median / Median(bare_s);
+  state.counters["bare_s"] = Quantile(bare_s, 0.5);
+  state.counters["ratio"] = Quantile(ratios, 0.5);
+  state.counters["ratio_q1"] = Quantile(ratios, 0.25);
+  state.counters["ratio_q3"] = Quantile(ratios, 0.75);
   state.counters["limit"] = limit;
   return median;
 }

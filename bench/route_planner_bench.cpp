@@ -83,9 +83,6 @@ void ReedsSheppOverOmpl(benchmark::State& state) {
   });
 }
 
-BENCHMARK(DubinsOverOmpl)->UseManualTime()->Iterations(21)->Unit(benchmark::kNanosecond);
-BENCHMARK(ReedsSheppOverOmpl)->UseManualTime()->Iterations(21)->Unit(benchmark::kNanosecond);
-
 OccupancyGrid Clutter(int side, double share, std::uint64_t seed) {
   Random random(seed);
   OccupancyGrid grid;
@@ -211,13 +208,16 @@ bool RegisterSearches() {
         {"clutter_35_percent", Clutter(kSide, 0.35, 1)},
         {"empty", Clutter(kSide, 0.0, 1)},
         {"trap", Trap(kSide)}}) {
-    benchmark::RegisterBenchmark(("AStarOverDijkstra/" + name).c_str(), CompareAStar, grid,
-                                 std::size_t{0}, all - 1)
+    RegisterGuarded("AStarOverDijkstra/" + name, CompareAStar, grid, std::size_t{0}, all - 1)
         ->UseManualTime()
         ->Iterations(21)
         ->Unit(benchmark::kMillisecond);
   }
-  benchmark::RegisterBenchmark("HybridAStar/rows", TimeHybridAStar, Rows(), HybridAStarOptions{})
+  for (const auto& [name, compare] : {std::pair("DubinsOverOmpl", &DubinsOverOmpl),
+                                      std::pair("ReedsSheppOverOmpl", &ReedsSheppOverOmpl)}) {
+    RegisterGuarded(name, compare)->UseManualTime()->Iterations(21)->Unit(benchmark::kNanosecond);
+  }
+  RegisterGuarded("HybridAStar/rows", TimeHybridAStar, Rows(), HybridAStarOptions{})
       ->Unit(benchmark::kMillisecond);
   return true;
 }

@@ -114,13 +114,12 @@ RrtStarProblem WalledIn(RrtStarProblem map) {
 bool RegisterRrt() {
   ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
   for (const Map& map : Maps()) {
-    benchmark::RegisterBenchmark(("RrtOverOmpl/" + map.name).c_str(), CompareRrt, map.problem,
-                                 kBudget)
+    RegisterGuarded("RrtOverOmpl/" + map.name, CompareRrt, map.problem, kBudget)
         ->UseManualTime()
         ->Iterations(301)
         ->Unit(benchmark::kMicrosecond);
-    benchmark::RegisterBenchmark(("RrtOverOmpl/" + map.name + "/walled_in").c_str(), CompareRrt,
-                                 WalledIn(map.problem), 5000)
+    RegisterGuarded("RrtOverOmpl/" + map.name + "/walled_in", CompareRrt, WalledIn(map.problem),
+                    5000)
         ->UseManualTime()
         ->Iterations(41)
         ->Unit(benchmark::kMicrosecond);

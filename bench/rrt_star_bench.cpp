@@ -92,7 +92,7 @@ bool RegisterRrtStar() {
   for (const Map& map : Maps()) {
     for (const auto& [iterations, seeds] : {std::pair{2000, 41}, std::pair{10000, 11}}) {
       const std::string name = "RrtStarOverOmpl/" + map.name + "/" + std::to_string(iterations);
-      benchmark::RegisterBenchmark(name.c_str(), CompareRrtStar, map.problem, iterations)
+      RegisterGuarded(name, CompareRrtStar, map.problem, iterations)
           ->UseManualTime()
           ->Iterations(seeds)
           ->Unit(benchmark::kMillisecond);

@@ -156,14 +156,14 @@ bool RegisterSearches() {
         Compared{SearchMethod::kCobyla, nlopt::LN_COBYLA, Miss, 1000},
         Compared{SearchMethod::kNelderMead, nlopt::LN_NELDERMEAD, Ranked, 1000}}) {
     const std::string name = std::string("SearchOverNlopt/") + SearchFor(compared.method).name;
-    benchmark::RegisterBenchmark(name.c_str(), CompareSearch, compared)
+    RegisterGuarded(name, CompareSearch, compared)
         ->UseManualTime()
         ->Iterations(15)
         ->Unit(benchmark::kMillisecond);
   }
-  benchmark::RegisterBenchmark("ThreeTurns/isres", TimeRoute, SearchMethod::kIsres, 0.090)
+  RegisterGuarded("ThreeTurns/isres", TimeRoute, SearchMethod::kIsres, 0.090)
       ->Unit(benchmark::kMillisecond);
-  benchmark::RegisterBenchmark("ThreeTurns/direct", TimeRoute, SearchMethod::kDirect, 0.0015)
+  RegisterGuarded("ThreeTurns/direct", TimeRoute, SearchMethod::kDirect, 0.0015)
       ->Unit(benchmark::kMillisecond);
   return true;
 }

@@ -69,13 +69,7 @@ void TimeSearch(benchmark::State& state, SearchMethod method) {
 }
 
 void Register(const std::string& name, const std::function<void(benchmark::State&)>& function) {
-  benchmark::RegisterBenchmark(name.c_str(), [function](benchmark::State& state) {
-    try {
-      function(state);
-    } catch (const std::exception& error) {
-      state.SkipWithError(error.what());
-    }
-  })->Unit(benchmark::kMillisecond);
+  RegisterGuarded(name, function)->Unit(benchmark::kMillisecond);
 }
 
 /// One benchmark for everything in the tables, so that none is forgotten. Entries that need more

@@ -34,14 +34,17 @@ void TyreStep(benchmark::State& state, const std::string& model) {
   state.counters["step_us"] = 1e6 * median * kTimestep / kDuration;
   state.counters["real_time_factor"] = kDuration / median;
 }
-BENCHMARK_CAPTURE(TyreStep, prius, "prius")
-    ->Iterations(9)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(TyreStep, bmw320i, "bmw320i")
-    ->Iterations(9)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
+
+bool RegisterTyreStep() {
+  for (const std::string model : {"prius", "bmw320i"}) {
+    RegisterGuarded("TyreStep/" + model, TyreStep, model)
+        ->Iterations(9)
+        ->UseManualTime()
+        ->Unit(benchmark::kMillisecond);
+  }
+  return true;
+}
+[[maybe_unused]] const bool registered = RegisterTyreStep();
 
 }  // namespace
 }  // namespace trackbed::bench
