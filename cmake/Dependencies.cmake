@@ -2,6 +2,21 @@
 include_guard()
 include(LibraryDependencies)
 
+# Loaded at run time: only their headers are needed, and by tests and benchmarks the libraries.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(osmesa REQUIRED IMPORTED_TARGET osmesa)
+add_library(osmesa::osmesa ALIAS PkgConfig::osmesa)
+if(TRACKBED_VIDEO)
+  pkg_check_modules(ffmpeg REQUIRED IMPORTED_TARGET libavformat libavcodec libswscale libavutil)
+  add_library(ffmpeg::ffmpeg ALIAS PkgConfig::ffmpeg)
+endif()
+
+# trackbed_headers_of(TARGET LIBRARY): the headers of the library for the target, which does not link it.
+function(trackbed_headers_of target library)
+  target_include_directories(${target}
+                             PRIVATE $<BUILD_INTERFACE:$<TARGET_PROPERTY:${library},INTERFACE_INCLUDE_DIRECTORIES>>)
+endfunction()
+
 find_package(CLI11 2 REQUIRED)
 
 # The module testing is a library of GoogleTest matchers; without GoogleTest there is none.

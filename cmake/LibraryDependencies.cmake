@@ -1,6 +1,5 @@
 # What Trackbed's libraries are made of: for its own build, and for projects that link the installed
-# package. TRACKBED_VIDEO says whether render links FFmpeg. Projects that link shared libraries,
-# trackbed_SHARED, need only what public headers include.
+# package. Projects that link shared libraries, trackbed_SHARED, need only what public headers include.
 find_package(fmt REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(Boost 1.74 REQUIRED)
@@ -13,16 +12,6 @@ find_package(tinyxml2 REQUIRED)
 find_package(NLopt REQUIRED)
 find_package(Threads REQUIRED)
 find_package(PNG REQUIRED)
-find_package(PkgConfig REQUIRED)
-if(NOT TARGET osmesa::osmesa)
-  pkg_check_modules(osmesa REQUIRED IMPORTED_TARGET osmesa)
-  add_library(osmesa::osmesa ALIAS PkgConfig::osmesa)
-endif()
-if(TRACKBED_VIDEO AND NOT TARGET ffmpeg::ffmpeg)
-  pkg_check_modules(ffmpeg REQUIRED IMPORTED_TARGET libavformat libavcodec libswscale libavutil)
-  add_library(ffmpeg::ffmpeg ALIAS PkgConfig::ffmpeg)
-endif()
-
 find_package(mujoco REQUIRED CONFIG)
 # Debian's 2.2.2 exports an include directory of libqhull, which it only needs to be built itself.
 set_target_properties(mujoco::mujoco PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")

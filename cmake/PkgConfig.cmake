@@ -2,8 +2,7 @@
 # A program that links static modules must link all that they use; one that links shared modules, and
 # its compiler, need only what public headers include.
 
-# Names of pkg-config's, or options for the linker: libcsv and MuJoCo have no .pc file; FFmpeg has,
-# but with `pkg-config --static` names all that FFmpeg itself may be built from. Boost is headers.
+# Names of pkg-config's, or options for the linker: libcsv and MuJoCo have no .pc file. Boost is headers.
 set(pkg_config_names
     fmt::fmt=fmt
     Eigen3::Eigen=eigen3
@@ -12,12 +11,10 @@ set(pkg_config_names
     yaml-cpp=yaml-cpp
     tinyxml2::tinyxml2=tinyxml2
     PNG::PNG=libpng
-    osmesa::osmesa=osmesa
     Boost::headers=
     Threads::Threads=-pthread
     csv::csv=-lcsv
-    mujoco::mujoco=-lmujoco
-    "ffmpeg::ffmpeg=-lavformat -lavcodec -lswscale -lavutil")
+    mujoco::mujoco=-lmujoco)
 
 set(requires "")
 set(external_libs "")

@@ -1,6 +1,6 @@
 # BUILD_SHARED_LIBS=ON makes every module a shared library of its own, libtrackbed_NAME.so, so that a
-# program loads only the modules that it links, and FFmpeg and OSMesa only with render. All symbols
-# are exported (default visibility): registries, exceptions and types are then one per process.
+# program loads only the modules that it links, and MuJoCo only with sim. All symbols are exported
+# (default visibility): registries, exceptions and types are then one per process.
 # The soname has the minor version, as the package version has: before 1.0 each may break the ABI.
 option(BUILD_SHARED_LIBS "Modules as shared libraries, not as static ones" OFF)
 

@@ -4,10 +4,30 @@
 #include <array>
 #include <cstddef>
 
+#include "render/runtime_library.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed::render {
 namespace {
+
+/// The functions of OSMesa, loaded when something is drawn.
+struct MesaFunctions {
+  decltype(&OSMesaCreateContextExt) create;
+  decltype(&OSMesaDestroyContext) destroy;
+  decltype(&OSMesaMakeCurrent) make_current;
+};
+
+const MesaFunctions& Mesa() {
+  static const MesaFunctions mesa = [] {
+    // MuJoCo looks for OSMesa among the symbols of the process.
+    const RuntimeLibrary library("libOSMesa.so.8", "libosmesa6", RuntimeLibrary::Symbols::kGlobal);
+    return MesaFunctions{
+        .create = library.Find<decltype(OSMesaCreateContextExt)>("OSMesaCreateContextExt"),
+        .destroy = library.Find<decltype(OSMesaDestroyContext)>("OSMesaDestroyContext"),
+        .make_current = library.Find<decltype(OSMesaMakeCurrent)>("OSMesaMakeCurrent")};
+  }();
+  return mesa;
+}
 
 constexpr int kWindowSize = 64;
 // The buffer is at least this large [px], so that a glyph of the largest font fits in.
@@ -48,14 +68,18 @@ void AverageFlipped(const std::vector<std::uint8_t>& from, int side, Image& to) 
 
 }  // namespace
 
+void Offscreen::FreeMesa::operator()(osmesa_context* context) const {
+  Mesa().destroy(context);
+}
+
 Offscreen::Offscreen(mjModel& model, int width, int height, int supersampling)
     : width_(width),
       height_(height),
       supersampling_(supersampling),
       window_(4 * kWindowSize * kWindowSize) {
-  mesa_.reset(OSMesaCreateContextExt(OSMESA_RGBA, 24, 8, 0, nullptr));
-  if (!mesa_ || OSMesaMakeCurrent(mesa_.get(), window_.data(), GL_UNSIGNED_BYTE, kWindowSize,
-                                  kWindowSize) != GL_TRUE) {
+  mesa_.reset(Mesa().create(OSMESA_RGBA, 24, 8, 0, nullptr));
+  if (!mesa_ || Mesa().make_current(mesa_.get(), window_.data(), GL_UNSIGNED_BYTE, kWindowSize,
+                                    kWindowSize) != GL_TRUE) {
     throw RunError("cannot start off-screen OpenGL (OSMesa)");
   }
   model.vis.global.offwidth = std::max(supersampling * width, kSmallestBuffer);
@@ -74,7 +98,7 @@ Offscreen::Offscreen(mjModel& model, int width, int height, int supersampling)
 
 Offscreen::~Offscreen() {
   mjr_freeContext(&context_);
-  OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
+  Mesa().make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
 }
 
 void Offscreen::Draw(mjvScene& scene, int width, int height) {

@@ -37,7 +37,7 @@ class Offscreen {
 
  private:
   struct FreeMesa {
-    void operator()(osmesa_context* context) const { OSMesaDestroyContext(context); }
+    void operator()(osmesa_context* context) const;
   };
 
   void Draw(mjvScene& scene, int width, int height);

@@ -1,13 +1,10 @@
-extern "C" {
-#include <libavcodec/avcodec.h>
-}
-
 #include <fmt/format.h>
 
 #include <system_error>
 #include <utility>
 
 #include "render/video.h"
+#include "render/video/libav.h"
 #include "render/video/writer.h"
 #include "trackbed/core/file.h"
 #include "trackbed/render/film.h"
@@ -73,7 +70,7 @@ OpenOutput ApngOpener() {
 }  // namespace render
 
 std::string VideoEncoder() {
-  const unsigned version = avcodec_version();
+  const unsigned version = render::Libav().avcodec_version();
   return fmt::format("H.264 (libavcodec {}.{}.{})", AV_VERSION_MAJOR(version),
                      AV_VERSION_MINOR(version), AV_VERSION_MICRO(version));
 }

@@ -1,19 +1,12 @@
 #include "render/video/writer.h"
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libavutil/imgutils.h>
-#include <libavutil/opt.h>
-#include <libswscale/swscale.h>
-}
-
 #include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "render/video/libav.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed::render {
@@ -21,26 +14,26 @@ namespace {
 
 struct FreeFormat {
   void operator()(AVFormatContext* format) const {
-    avio_closep(&format->pb);
-    avformat_free_context(format);
+    Libav().avio_closep(&format->pb);
+    Libav().avformat_free_context(format);
   }
 };
 struct FreeCodec {
-  void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
+  void operator()(AVCodecContext* codec) const { Libav().avcodec_free_context(&codec); }
 };
 struct FreeFrame {
-  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+  void operator()(AVFrame* frame) const { Libav().av_frame_free(&frame); }
 };
 struct FreePacket {
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+  void operator()(AVPacket* packet) const { Libav().av_packet_free(&packet); }
 };
 struct FreeScaler {
-  void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
+  void operator()(SwsContext* scaler) const { Libav().sws_freeContext(scaler); }
 };
 
 std::string Describe(int error) {
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
-  av_strerror(error, text.data(), text.size());
+  Libav().av_strerror(error, text.data(), text.size());
   return text.data();
 }
 
@@ -109,14 +102,14 @@ struct VideoWriter::Encoder {
   }
 
   void OpenCodec(int width, int height, double fps) {
-    const AVCodec* found = avcodec_find_encoder_by_name(recipe.encoder);
+    const AVCodec* found = Libav().avcodec_find_encoder_by_name(recipe.encoder);
     if (found == nullptr) {
       Fail(fmt::format("this libavcodec has no encoder {}", recipe.encoder));
     }
-    codec.reset(Check(avcodec_alloc_context3(found)));
+    codec.reset(Check(Libav().avcodec_alloc_context3(found)));
     codec->width = width;
     codec->height = height;
-    codec->framerate = av_d2q(fps, 1001000);
+    codec->framerate = Libav().av_d2q(fps, 1001000);
     codec->time_base = av_inv_q(codec->framerate);
     codec->pix_fmt = recipe.pixels;
     if (recipe.bt709) {
@@ -129,38 +122,38 @@ struct VideoWriter::Encoder {
     codec->flags |= AV_CODEC_FLAG_BITEXACT | AV_CODEC_FLAG_GLOBAL_HEADER;
     for (const auto& [key, value] : recipe.encoder_options) {
       // Some are the encoder's own, some every encoder's.
-      Check(av_opt_set(codec.get(), key, value, AV_OPT_SEARCH_CHILDREN));
+      Check(Libav().av_opt_set(codec.get(), key, value, AV_OPT_SEARCH_CHILDREN));
     }
-    Check(avcodec_open2(codec.get(), found, nullptr));
+    Check(Libav().avcodec_open2(codec.get(), found, nullptr));
   }
 
   void OpenFile(const std::filesystem::path& file) {
     AVFormatContext* made = nullptr;
     // The protocol keeps a name with a colon from being read as another one.
     const std::string url = "file:" + file.string();
-    Check(avformat_alloc_output_context2(&made, nullptr, recipe.container, url.c_str()));
+    Check(Libav().avformat_alloc_output_context2(&made, nullptr, recipe.container, url.c_str()));
     format.reset(made);
     format->flags |= AVFMT_FLAG_BITEXACT;
-    stream = Check(avformat_new_stream(format.get(), nullptr));
+    stream = Check(Libav().avformat_new_stream(format.get(), nullptr));
     stream->time_base = codec->time_base;
     stream->avg_frame_rate = codec->framerate;
-    Check(avcodec_parameters_from_context(stream->codecpar, codec.get()));
-    Check(avio_open(&format->pb, url.c_str(), AVIO_FLAG_WRITE));
+    Check(Libav().avcodec_parameters_from_context(stream->codecpar, codec.get()));
+    Check(Libav().avio_open(&format->pb, url.c_str(), AVIO_FLAG_WRITE));
     AVDictionary* options = nullptr;
     for (const auto& [key, value] : recipe.container_options) {
-      av_dict_set(&options, key, value, 0);
+      Libav().av_dict_set(&options, key, value, 0);
     }
-    const int result = avformat_write_header(format.get(), &options);
-    av_dict_free(&options);
+    const int result = Libav().avformat_write_header(format.get(), &options);
+    Libav().av_dict_free(&options);
     Check(result);
   }
 
   [[nodiscard]] std::unique_ptr<AVFrame, FreeFrame> NewFrame(AVPixelFormat pixels) const {
-    std::unique_ptr<AVFrame, FreeFrame> made(Check(av_frame_alloc()));
+    std::unique_ptr<AVFrame, FreeFrame> made(Check(Libav().av_frame_alloc()));
     made->format = pixels;
     made->width = codec->width;
     made->height = codec->height;
-    Check(av_frame_get_buffer(made.get(), 0));
+    Check(Libav().av_frame_get_buffer(made.get(), 0));
     return made;
   }
 
@@ -171,31 +164,31 @@ struct VideoWriter::Encoder {
     frame->colorspace = codec->colorspace;
     frame->color_primaries = codec->color_primaries;
     frame->color_trc = codec->color_trc;
-    packet.reset(Check(av_packet_alloc()));
-    scaler.reset(Check(sws_getContext(
+    packet.reset(Check(Libav().av_packet_alloc()));
+    scaler.reset(Check(Libav().sws_getContext(
         codec->width, codec->height, AV_PIX_FMT_RGB24, codec->width, codec->height, codec->pix_fmt,
         SWS_BILINEAR | SWS_ACCURATE_RND | SWS_BITEXACT, nullptr, nullptr, nullptr)));
     if (recipe.bt709) {
       // Without this swscale converts by BT.601, whatever the film says of itself.
-      const int* bt709 = sws_getCoefficients(SWS_CS_ITU709);
+      const int* bt709 = Libav().sws_getCoefficients(SWS_CS_ITU709);
       constexpr int kOne = 1 << 16;
-      Check(sws_setColorspaceDetails(scaler.get(), bt709, 1, bt709, 0, 0, kOne, kOne));
+      Check(Libav().sws_setColorspaceDetails(scaler.get(), bt709, 1, bt709, 0, 0, kOne, kOne));
     }
   }
 
   /// Hands a frame to the encoder (null: the end) and writes what it gives back.
   void Encode(const AVFrame* next_frame) {
-    Check(avcodec_send_frame(codec.get(), next_frame));
+    Check(Libav().avcodec_send_frame(codec.get(), next_frame));
     for (;;) {
-      const int result = avcodec_receive_packet(codec.get(), packet.get());
+      const int result = Libav().avcodec_receive_packet(codec.get(), packet.get());
       if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) {
         return;
       }
       Check(result);
       packet->duration = 1;
-      av_packet_rescale_ts(packet.get(), codec->time_base, stream->time_base);
+      Libav().av_packet_rescale_ts(packet.get(), codec->time_base, stream->time_base);
       packet->stream_index = stream->index;
-      Check(av_interleaved_write_frame(format.get(), packet.get()));
+      Check(Libav().av_interleaved_write_frame(format.get(), packet.get()));
       Check(format->pb->error);
     }
   }
@@ -205,7 +198,7 @@ VideoWriter::VideoWriter(const std::filesystem::path& file, const std::filesyste
                          FilmCodec codec, int width, int height, double fps)
     : encoder_(std::make_unique<Encoder>(EncoderRecipe(codec))) {
   // libav and x264 write to the terminal unless told otherwise; their failures come back as codes.
-  av_log_set_level(AV_LOG_QUIET);
+  Libav().av_log_set_level(AV_LOG_QUIET);
   encoder_->name = shown_name.string();
   encoder_->OpenCodec(width, height, fps);
   encoder_->OpenFile(file);
@@ -219,12 +212,12 @@ void VideoWriter::Add(const Image& image) {
   TRACKBED_CHECK(image.width == encoder.codec->width && image.height == encoder.codec->height,
                  "a picture of {}x{} in a film of {}x{}", image.width, image.height,
                  encoder.codec->width, encoder.codec->height);
-  encoder.Check(av_frame_make_writable(encoder.frame.get()));
+  encoder.Check(Libav().av_frame_make_writable(encoder.frame.get()));
   AVFrame& picture = *encoder.picture;
-  av_image_copy_plane(picture.data[0], picture.linesize[0], image.rgb.data(), 3 * image.width,
-                      3 * image.width, image.height);
-  encoder.Check(sws_scale(encoder.scaler.get(), picture.data, picture.linesize, 0, image.height,
-                          encoder.frame->data, encoder.frame->linesize));
+  Libav().av_image_copy_plane(picture.data[0], picture.linesize[0], image.rgb.data(),
+                              3 * image.width, 3 * image.width, image.height);
+  encoder.Check(Libav().sws_scale(encoder.scaler.get(), picture.data, picture.linesize, 0,
+                                  image.height, encoder.frame->data, encoder.frame->linesize));
   encoder.frame->pts = encoder.next++;
   encoder.Encode(encoder.frame.get());
 }
@@ -232,9 +225,9 @@ void VideoWriter::Add(const Image& image) {
 void VideoWriter::Finish() {
   Encoder& encoder = *encoder_;
   encoder.Encode(nullptr);
-  encoder.Check(av_write_trailer(encoder.format.get()));
+  encoder.Check(Libav().av_write_trailer(encoder.format.get()));
   // Only closing tells whether the last bytes found room.
-  encoder.Check(avio_closep(&encoder.format->pb));
+  encoder.Check(Libav().avio_closep(&encoder.format->pb));
 }
 
 }  // namespace trackbed::render

@@ -10,6 +10,12 @@ execute_process(
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${folder} COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${folder}/pose COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ldd ${folder}/pose OUTPUT_VARIABLE loaded COMMAND_ERROR_IS_FATAL ANY)
-if(loaded MATCHES "mujoco|OSMesa|avcodec")
+if(loaded MATCHES "mujoco")
   message(FATAL_ERROR "a program of trackbed::geometry loads\n${loaded}")
+endif()
+# What draws and encodes is loaded when something is drawn, or every verb would wait for it.
+execute_process(COMMAND ldd ${WORK}/installed/${BINDIR}/trackbed OUTPUT_VARIABLE loaded
+                COMMAND_ERROR_IS_FATAL ANY)
+if(loaded MATCHES "OSMesa|LLVM|avcodec|x264")
+  message(FATAL_ERROR "the program loads at its start\n${loaded}")
 endif()
