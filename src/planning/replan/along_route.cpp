@@ -17,6 +17,9 @@ namespace {
 /// A car comes smoothly to rest over this share of speed times duration, or less.
 constexpr double kStopShare = 0.55;
 
+/// Motions that stop at the goal do so within this [m]; the lattice counts as there below 0.05 m.
+constexpr double kGoalTolerance = 0.05;
+
 double Front(const VehicleParams& vehicle) {
   return vehicle.length - vehicle.rear_overhang;
 }
@@ -74,7 +77,8 @@ class AlongRoute {
     const double speed = std::max(request_.wanted, request_.start.s_rate);
     const double reach =
         std::visit([&](const auto& own) { return StopReach(own, speed); }, options_);
-    if (frame_.goal - request_.start.s <= reach && Try(StopAt{frame_.goal})) {
+    goal_in_reach_ = frame_.goal - request_.start.s <= reach;
+    if (goal_in_reach_ && Try(StopAt{frame_.goal})) {
       AlongPlan plan = Taken(ManeuverType::kProceed);
       plan.to_goal = true;
       return plan;
@@ -124,6 +128,8 @@ class AlongRoute {
 
  private:
   /// Whether there is a motion, and braking after it that is clear and that the wheels can follow.
+  /// A car that cannot stop at a goal in reach is better off with what it drives than with a motion
+  /// past the goal, after which none would lead back.
   bool Try(const FrenetGoal& goal, const std::vector<double>& factors = {1.0}) {
     const FrenetRequest request{.vehicle = request_.vehicle,
                                 .speed = request_.speed,
@@ -144,7 +150,9 @@ class AlongRoute {
       return false;  // the lattice does not reach so far
     }
     points_ = WithBraking(end);
-    return BrakingIsClear() && BrakingIsDrivable();
+    const bool passes_goal =
+        goal_in_reach_ && points_.back().frenet.s > frame_.goal + kGoalTolerance;
+    return !passes_goal && BrakingIsClear() && BrakingIsDrivable();
   }
 
   [[nodiscard]] std::vector<TrajectoryPoint> WithBraking(const FrenetState& end) const {
@@ -228,6 +236,7 @@ class AlongRoute {
   const AlongRequest& request_;
   const AlongSettings& settings_;
   const AlongOptions& options_;
+  bool goal_in_reach_ = false;
   FrenetPlan found_;                     // by the last try
   std::vector<TrajectoryPoint> points_;  // of that, and of the braking after it
 };
@@ -261,7 +270,10 @@ const char* ToString(ManeuverType kind) {
 RouteFrame MakeRouteFrame(const VehicleParams& vehicle, const Plan& route, const SpeedLimits& speed,
                           double beyond) {
   const Path& path = route.reference.path;
-  // The wheels need the longest way for the step of curvature from straight on to a bend.
+  // The wheels need the longest distance for a step of curvature k from straight on to a bend.
+  // While the curvature rises by k over the window w, |d(steering)/dt| <= v L k/w: steering =
+  // atan(L curvature) rises fastest where it begins. Smoothing makes the bend itself tighter, by
+  // (k w)^2/24.
   constexpr double kLook = 0.5;  // [m]
   double window = 0.1;           // [m]
   for (const PathPoint& point : path.Sample(kLook)) {
@@ -271,8 +283,9 @@ RouteFrame MakeRouteFrame(const VehicleParams& vehicle, const Plan& route, const
         v = std::min(v, cap.speed);
       }
     }
-    const double steering = std::abs(SteeringForCurvature(vehicle, point.curvature));
-    window = std::max(window, v * steering / vehicle.steering_rate);
+    const double curvature = std::abs(point.curvature);
+    const double turning = v * vehicle.wheelbase * curvature / vehicle.steering_rate;
+    window = std::max(window, turning * (1.0 + std::pow(curvature * turning, 2) / 24.0));
   }
   std::vector<Segment> segments = path.segments();
   segments.push_back({.length = beyond});
