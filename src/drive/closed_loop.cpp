@@ -155,7 +155,8 @@ std::optional<Projection> ClosedLoop::FollowPlan(const VehicleState& state, bool
   if (!tracking) {
     return std::nullopt;
   }
-  if (monitor_) {
+  // A car that was struck goes where no planner sent it.
+  if (monitor_ && !recorder_.contact_time()) {
     const Projection at{sequencer_.station(), tracking->cross_track, tracking->heading_error};
     if (std::optional<Plan> next = monitor_->Update(state, sequencer_.plan(), at)) {
       sequencer_.Replace(std::move(*next), state);

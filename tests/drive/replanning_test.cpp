@@ -21,5 +21,25 @@ TEST(Replanning, KeepsAMotionThatLeadsPastWhatNewOnesDoNot) {
   EXPECT_GE(log.changes.size(), 1u);
 }
 
+TEST(Replanning, EndsWithACollision) {
+  // A box at 60 m/s comes from the side and strikes a car at 3 m/s, which would brake for it.
+  const Scenario scenario = ParseScenario(
+      "schema: 1\nname: struck\n"
+      "mission: {speed: 3, waypoints: [[0, 0], [30, 0], [60, 1]]}\n"
+      "world: {obstacles: [{box: {x: 12, y: -240, length: 4, width: 2}, velocity: {x: 0, y: 60}, "
+      "known_from: {range: 90}}]}\n"
+      "plan: {global: {method: fillet}, replan: {period: 0.2, along: {method: frenet}}}\n"
+      "control: {method: preview}\ndrive: {plants: [mujoco]}\n",
+      "struck.yaml", ".");
+  const CarModel car = LoadCar(scenario);
+  const RunLog log = DrivePlant(scenario, car, PlanMission(scenario, car.unladen()), "mujoco");
+  EXPECT_EQ(log.status, DriveStatus::kCollided);
+  ASSERT_TRUE(log.contact_time);
+  EXPECT_GE(log.changes.size(), 1u);
+  for (const PlanChange& change : log.changes) {
+    EXPECT_LT(change.time, *log.contact_time);
+  }
+}
+
 }  // namespace
 }  // namespace trackbed
