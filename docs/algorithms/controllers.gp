@@ -1,11 +1,11 @@
 # The figure of the tournament in control.md; made by scripts/figures, which drives the study first: `table` has
 # plant, controller, disturbance (by number) and the worse of both routes' cross-track RMS [m].
-set terminal pngcairo size 1250,1000 font "sans,12" background "white"
+set terminal pngcairo size 1280,1000 font "sans,12" background "white"
 set output images . "/controllers.png"
 plants = "kinematic single_track mujoco:contact mujoco:magic_formula"
 methods = "schedule preview preview_integral optimal_steering pure_pursuit stanley rear_axle_feedback lqr mpc"
 set datafile separator ","
-set multiplot layout 2,2 margins 0.125,0.90,0.13,0.95 spacing 0.015,0.06
+set multiplot layout 2,2 margins 0.155,0.90,0.13,0.95 spacing 0.015,0.06
 set logscale cb
 set cbrange [0.005:2]
 set palette defined (0 "#1a9850", 1 "#a6d96a", 2 "#ffffbf", 3 "#fdae61", 4 "#d73027")
