@@ -82,8 +82,9 @@ TEST(Recorder, SeesAThinWallBetweenTwoSteps) {
 }
 
 TEST(Recorder, HasNoClearanceWithoutObstacles) {
+  const LoopConfig config = Config();
   Unicycle plant({});
-  Recorder recorder(Config(), {});
+  Recorder recorder(config, {});
   recorder.Sample(plant, 0.0);
   EXPECT_FALSE(recorder.BeginRow({}, {}, {}).clearance);
 }
