@@ -49,7 +49,7 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
   const double end = profile.knots().empty() ? 0.0 : profile.knots().back().s;
   if (stops && s >= end) {
     const double last = LastDeceleration(profile);
-    return -(on_purpose(last) ? std::min(last, limit) : options.deceleration);
+    return -std::min(on_purpose(last) ? last : options.deceleration, limit);
   }
   // A car that stands a hair behind the start leaves like one that stands at it.
   const double from = profile.knots().empty() ? s : std::max(s, profile.knots().front().s);
@@ -65,9 +65,9 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
   const double feed_forward =
       ends ? at_middle : MeanAcceleration(profile, from, ahead, period, at_middle);
   const double error = profile.SpeedAt(s) - speed;
-  const double hard = on_purpose(-feed_forward) ? std::min(-kCatchUp * feed_forward, limit) : 0.0;
-  return std::clamp(feed_forward + options.gain * error,
-                    -std::max(2.0 * options.deceleration, hard), options.acceleration);
+  const double hard = on_purpose(-feed_forward) ? -kCatchUp * feed_forward : 0.0;
+  const double hardest = std::min(std::max(2.0 * options.deceleration, hard), limit);
+  return std::clamp(feed_forward + options.gain * error, -hardest, options.acceleration);
 }
 
 namespace {

@@ -51,6 +51,15 @@ TEST(SpeedControl, StaysWithinItsLimits) {
   EXPECT_EQ(SpeedControl(kOptions, profile, 50.0, 30.0, kPeriod), -3.0);
 }
 
+TEST(SpeedControl, BrakesNoHarderThanTheRoadLets) {
+  constexpr double kOnIce = 0.5;  // [m/s^2]
+  const SpeedProfile profile = StopAtEnd(100.0, 0.0, kLimits);
+  // Ever faster than the profile, before its braking, in it, and past its end.
+  for (const double s : {50.0, 98.5, 99.9, 100.5}) {
+    EXPECT_EQ(SpeedControl(kOptions, profile, s, 20.0, kPeriod, kOnIce), -kOnIce) << s;
+  }
+}
+
 TEST(SpeedControl, FollowsAProfileThatBrakesHardOnPurpose) {
   // 8 m/s down to rest within 8 m: 4 m/s^2, where 1.5 is comfortable.
   const SpeedProfile profile = StopAtEnd(8.0, 8.0, kLimits);
