@@ -209,6 +209,21 @@ class CarReader final : private PartsReader {
     if (!parts_.tyres) {
       return;
     }
+    double& stiffness = parts_.tyres->vertical_stiffness;
+    if (!(stiffness >= 0.0)) {
+      AddError("tyre_vertical_stiffness",
+               fmt::format("must not be negative, found {:.4g}", stiffness));
+    }
+    if (!(parts_.tyres->vertical_damping >= 0.0)) {
+      AddError("tyre_vertical_damping",
+               fmt::format("must not be negative, found {:.4g}", parts_.tyres->vertical_damping));
+    }
+    if (stiffness == 0.0) {
+      constexpr double kDeflection = 0.06;  // of the radius, usual for a car's tyre at its pressure
+      const int payload = mj_name2id(&m_, mjOBJ_BODY, kPayloadBody);
+      const double mass = params_.mass - (payload < 0 ? 0.0 : m_.body_mass[payload]);
+      stiffness = 0.25 * mass * std::abs(m_.opt.gravity[2]) / (kDeflection * params_.wheel_radius);
+    }
     const double load = 0.5 * params_.mass * std::abs(m_.opt.gravity[2]) / params_.wheelbase;
     params_.cornering_stiffness_front =
         2.0 * CorneringStiffness(parts_.tyres->axle[0], load * params_.cg_to_rear);

@@ -9,23 +9,41 @@
 namespace trackbed {
 namespace {
 
+/// Armature that keeps a joint at its speed: against it, what a car does to a wheel is nothing
+/// [kg m^2].
+constexpr double kLocked = 1e8;
+
+/// Magic Formula tyres are springs to the ground; tyres of MuJoCo's contacts are held up by these.
+TyreSupport SupportFor(const PlantSetup& setup) {
+  return SelectTyreLaw(setup.car, setup.tyre) == TyreLaw::kMagicFormula ? TyreSupport::kSprings
+                                                                        : TyreSupport::kContacts;
+}
+
 class CarPlant final : public MujocoPlant {
  public:
   explicit CarPlant(const PlantSetup& setup)
-      : MujocoPlant(setup), prescribed_(setup.steering == SteeringInput::kPrescribed) {
+      : MujocoPlant(setup, SupportFor(setup)),
+        prescribed_(setup.steering == SteeringInput::kPrescribed) {
     const CarParts& parts = car().parts();
-    if (SelectTyreLaw(car(), setup.tyre) == TyreLaw::kMagicFormula) {
-      tyres_.emplace(car(), model());
-    }
-    linked_ = FindLinkage();
-    RollWheels(parts.spin_dof, setup.start);
     for (std::size_t w = 0; w < kWheels.size(); ++w) {
       bearing_friction_[w] = model().dof_frictionloss[parts.spin_dof[w]];
     }
+    dry_friction_ = bearing_friction_;
+    if (SupportFor(setup) == TyreSupport::kSprings) {
+      tyres_.emplace(car(), model());
+      for (const int spin : parts.spin_dof) {
+        model().dof_frictionloss[spin] = 0.0;  // HoldWheels has it
+      }
+    }
+    linked_ = ReleaseLinkage();
+    if (linked_) {
+      FollowRack();
+    }
+    RollWheels(parts.spin_dof, setup.start);
     data().act[parts.steer_state] = setup.start.steering;
     Begin();
     if (tyres_) {
-      tyres_->Stand(RoadLoads(car(), model(), data()));
+      tyres_->Stand(data());
     }
   }
 
@@ -36,14 +54,16 @@ class CarPlant final : public MujocoPlant {
     } else {
       Steer(command.steering);
     }
-    Link();
     Propel(command);
-    loads_ = RoadLoads(car(), model(), data());  // of the last solve
   }
 
   void PushWheels(const Road& road) override {
     if (tyres_) {
-      tyres_->Apply(model(), data(), loads_, road);
+      tyres_->Apply(model(), data(), road);
+      HoldWheels();
+    }
+    if (linked_ && !prescribed_) {
+      LoadRack();
     }
   }
 
@@ -60,15 +80,16 @@ class CarPlant final : public MujocoPlant {
     return {
         .actuator = data().act[car().parts().steer_state],
         .steering = BicycleAngle(car().params(), {data().qpos[steer[0]], data().qpos[steer[1]]}),
-        .forces = tyres_ ? tyres_->wheels() : ContactWheels()};
+        .forces = tyres_ ? tyres_->Observe() : ContactWheels()};
   }
 
   void Steer(double wanted);
-  [[nodiscard]] std::optional<std::array<int, 2>> FindLinkage();
-  void Link();
+  [[nodiscard]] bool ReleaseLinkage();
+  void LoadRack();
   void FollowRack();
   void Propel(const Command& command);
   void Brake(double torque, bool hold);
+  void HoldWheels();
   [[nodiscard]] double DriveLimit() const;
   [[nodiscard]] double Resistance(int gear) const;
   [[nodiscard]] double Grade() const;
@@ -78,10 +99,11 @@ class CarPlant final : public MujocoPlant {
 
   bool prescribed_;                           // steering
   bool hold_ = false;                         // stands on its brakes
-  std::optional<std::array<int, 2>> linked_;  // equalities of the wheels to the rack, fl and fr
+  bool linked_ = false;                       // the front wheels follow the rack
+  FrontAngles slopes_;                        // of the wheels' angles over the rack's
   std::optional<MagicFormulaTyres> tyres_;    // none: contacts hold the wheels
-  std::array<double, 4> loads_{};             // [N]
   std::array<double, 4> bearing_friction_{};  // [N m]
+  std::array<double, 4> dry_friction_{};      // with the brakes' [N m]
 };
 
 void CarPlant::Steer(double wanted) {
@@ -92,57 +114,57 @@ void CarPlant::Steer(double wanted) {
       std::clamp(rate, -params.steering_rate, params.steering_rate);
 }
 
-/// The equality constraints that couple the front wheels to the rack; none where something else
-/// does.
-std::optional<std::array<int, 2>> CarPlant::FindLinkage() {
+/// Takes the file's coupling of the front wheels to the rack out of the model: its polynomial is an
+/// approximation, and what it is off, the front tyres would push against each other. FollowRack
+/// puts the wheels on Ackermann's curve instead. False where something else steers the wheels.
+bool CarPlant::ReleaseLinkage() {
+  const CarParts& parts = car().parts();
   const auto follows_rack = [&](int joint_dof) {
     for (int i = 0; i < model().neq; ++i) {
       if (model().eq_type[i] == mjEQ_JOINT &&
           model().jnt_dofadr[model().eq_obj1id[i]] == joint_dof && model().eq_obj2id[i] >= 0 &&
-          model().jnt_dofadr[model().eq_obj2id[i]] == car().parts().rack_dof) {
+          model().jnt_dofadr[model().eq_obj2id[i]] == parts.rack_dof) {
         return i;
       }
     }
     return -1;
   };
-  const std::array<int, 2> found{follows_rack(car().parts().steer_dof[0]),
-                                 follows_rack(car().parts().steer_dof[1])};
-  return found[0] < 0 || found[1] < 0 ? std::nullopt : std::optional(found);
-}
-
-/// Couples the wheels to the rack as Ackermann's linkage does about where it stands. The file's
-/// polynomial is an approximation: what it is off, the front tyres would push against each other.
-void CarPlant::Link() {
-  if (!linked_) {
-    return;
+  const std::array<int, 2> coupling{follows_rack(parts.steer_dof[0]),
+                                    follows_rack(parts.steer_dof[1])};
+  if (coupling[0] < 0 || coupling[1] < 0) {
+    return false;
   }
-  const CarParts& parts = car().parts();
-  const double rack = data().qpos[parts.rack_qpos];
-  const FrontAngles at = AckermannAngles(car().params(), rack);
-  const FrontAngles slope = AckermannSlopes(car().params(), rack);
-  const auto set = [&](std::size_t wheel, double angle, double per_rack) {
-    const int equality = (*linked_)[wheel];
-    mjtNum* coefficients = model().eq_data + mjNEQDATA * equality;
-    std::fill_n(coefficients, 5, 0.0);
-    coefficients[0] = angle - model().qpos0[parts.steer_qpos[wheel]] -
-                      per_rack * (rack - model().qpos0[parts.rack_qpos]);
-    coefficients[1] = per_rack;
-  };
-  set(0, at.left, slope.left);
-  set(1, at.right, slope.right);
+  for (std::size_t w = 0; w < coupling.size(); ++w) {
+    model().eq_active[coupling[w]] = 0;
+    const int dof = parts.steer_dof[w];
+    // The rack turns the wheels' inertia, about 1 to 1.
+    model().dof_armature[parts.rack_dof] += model().dof_M0[dof];
+    model().dof_damping[parts.rack_dof] += model().dof_damping[dof];
+    model().dof_damping[dof] = 0.0;
+    model().dof_armature[dof] = kLocked;
+  }
+  return true;
 }
 
-/// The constraints are a little soft; the linkage is not.
+/// What turns the wheels about their steering axes, by the last step, turns the rack.
+void CarPlant::LoadRack() {
+  const CarParts& parts = car().parts();
+  const mjtNum* acceleration = data().qacc;
+  data().qfrc_applied[parts.rack_dof] +=
+      kLocked * (slopes_.left * acceleration[parts.steer_dof[0]] +
+                 slopes_.right * acceleration[parts.steer_dof[1]]);
+}
+
 void CarPlant::FollowRack() {
   const CarParts& parts = car().parts();
   const double rack = data().qpos[parts.rack_qpos];
   const double rate = data().qvel[parts.rack_dof];
   const FrontAngles at = AckermannAngles(car().params(), rack);
-  const FrontAngles slope = AckermannSlopes(car().params(), rack);
+  slopes_ = AckermannSlopes(car().params(), rack);
   data().qpos[parts.steer_qpos[0]] = at.left;
   data().qpos[parts.steer_qpos[1]] = at.right;
-  data().qvel[parts.steer_dof[0]] = slope.left * rate;
-  data().qvel[parts.steer_dof[1]] = slope.right * rate;
+  data().qvel[parts.steer_dof[0]] = slopes_.left * rate;
+  data().qvel[parts.steer_dof[1]] = slopes_.right * rate;
 }
 
 void CarPlant::Propel(const Command& command) {
@@ -185,7 +207,24 @@ void CarPlant::Brake(double torque, bool hold) {
   const double share = hold ? 1.0 : std::clamp(torque / all, 0.0, 1.0);
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     const double largest = w < 2 ? parts.brake_torque_front : parts.brake_torque_rear;
-    model().dof_frictionloss[parts.spin_dof[w]] = bearing_friction_[w] + share * largest;
+    dry_friction_[w] = bearing_friction_[w] + share * largest;
+    if (!tyres_) {
+      model().dof_frictionloss[parts.spin_dof[w]] = dry_friction_[w];
+    }
+  }
+}
+
+/// Dry friction of bearings and brakes: what brings a wheel to rest by the end of the step and
+/// holds it there, at most what they have.
+void CarPlant::HoldWheels() {
+  for (std::size_t w = 0; w < kWheels.size(); ++w) {
+    const int dof = car().parts().spin_dof[w];
+    // The drive's torque is that of the last step: it is little where brakes act.
+    const double torque = data().qfrc_applied[dof] + data().qfrc_passive[dof] -
+                          data().qfrc_bias[dof] + data().qfrc_actuator[dof];
+    const double inertia = car().parts().spin_inertia[w] + model().dof_armature[dof];
+    const double stop = -inertia * data().qvel[dof] / model().opt.timestep - torque;
+    data().qfrc_applied[dof] += std::clamp(stop, -dry_friction_[w], dry_friction_[w]);
   }
 }
 

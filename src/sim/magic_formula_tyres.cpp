@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "src/sim/car_parts.h"
+#include "src/sim/joint_forces.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {
@@ -22,14 +23,27 @@ std::size_t AxleIndex(std::size_t wheel) {
   return wheel < 2 ? 0 : 1;
 }
 
-/// One timestep of sigma s' = slip_speed - speed s, exactly; then s + tau s'.
-double Relax(double& s, double slip_speed, double speed, double sigma, double tau,
-             double timestep) {
-  const double x = speed * timestep / sigma;
-  const double grown = x > 1e-9 ? -std::expm1(-x) / x : 1.0;
-  s = s * std::exp(-x) + slip_speed * timestep / sigma * grown;
-  return s + tau / sigma * (slip_speed - speed * s);
-}
+/// One timestep of sigma s' = slip_speed - speed s, exactly, for both slips of a wheel.
+class Relaxation {
+ public:
+  Relaxation(double speed, double sigma, double timestep)
+      : speed_(speed), sigma_(sigma), lost_(-std::expm1(-speed * timestep / sigma)) {
+    const double x = speed * timestep / sigma;
+    gain_ = timestep / sigma * (x > 1e-9 ? lost_ / x : 1.0);
+  }
+
+  /// Moves `s` on and gives s + tau s'.
+  [[nodiscard]] double Step(double& s, double slip_speed, double tau) const {
+    s += gain_ * slip_speed - lost_ * s;
+    return s + tau / sigma_ * (slip_speed - speed_ * s);
+  }
+
+ private:
+  double speed_;
+  double sigma_;
+  double lost_;  // of the slip
+  double gain_;  // of slip per slip speed [s/m]
+};
 
 /// tau that damps an oscillation of angular frequency `omega` critically. In steps of W = omega dt,
 /// a mass on a spring damped by tau has the eigenvalues of
@@ -52,38 +66,24 @@ double SlidingSlip(double friction, double load, double stiffness) {
 
 }  // namespace
 
-MagicFormulaTyres::MagicFormulaTyres(const CarModel& car, mjModel& model)
+MagicFormulaTyres::MagicFormulaTyres(const CarModel& car, const mjModel& model)
     : car_(car), timestep_(model.opt.timestep), gravity_(std::abs(model.opt.gravity[2])) {
-  const CarTyres& tyres = RequireTyres(car, "tyre: magic_formula");
+  static_cast<void>(RequireTyres(car, "tyre: magic_formula"));
   const VehicleParams& params = car.params();
   const double weight = params.mass * gravity_;
-  CheckTimestep(car, weight);
+  CheckTimestep(car, weight, model);
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
-    const int geom = car.parts().tyre[w];
-    model.geom_condim[geom] = 1;
-    if (tyres.vertical_stiffness > 0.0) {
-      // A contact whose impedance d is constant is a spring of stiffness k/((1 - d) A) with A the
-      // inverse inertia that MuJoCo reckons with; a small d leaves the wheel's own mass alone. It
-      // begins above the road by what the car's weight presses it in, so that it stands as it did.
-      constexpr double kImpedance = 0.05;
-      const double inverse_inertia = model.body_invweight0[2 * car.parts().wheel[w]];
-      const double scale = (1.0 - kImpedance) * inverse_inertia;
-      mjtNum* solref = model.geom_solref + mjNREF * geom;
-      solref[0] = -tyres.vertical_stiffness * scale;
-      solref[1] = -std::max(tyres.vertical_damping, mjMINVAL) * scale;
-      mjtNum* solimp = model.geom_solimp + mjNIMP * geom;
-      solimp[0] = kImpedance;
-      solimp[1] = kImpedance;
-      const double arm = AxleIndex(w) == 0 ? params.cg_to_rear : params.cg_to_front();
-      const double load = 0.5 * weight * arm / params.wheelbase;
-      model.geom_margin[geom] = load / tyres.vertical_stiffness;
-    }
+    const double arm = AxleIndex(w) == 0 ? params.cg_to_rear : params.cg_to_front();
+    load_at_rest_[w] = 0.5 * weight * arm / params.wheelbase;
+    shape_[w] = TyreShape(model, car.parts().tyre[w]);
   }
 }
 
 /// Damping keeps a wheel's spin on its tyre stable up to omega dt = sqrt(2), with all that an axle
-/// carries on one of its wheels.
-void MagicFormulaTyres::CheckTimestep(const CarModel& car, double weight) const {
+/// carries on one of its wheels. A wheel of mass m that hops on its tyre of stiffness k and damping
+/// c is stable up to k/m dt^2 + 2 c/m dt = 4.
+void MagicFormulaTyres::CheckTimestep(const CarModel& car, double weight,
+                                      const mjModel& model) const {
   const VehicleParams& params = car.params();
   double fastest = 0.0;  // [rad/s]
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
@@ -92,14 +92,24 @@ void MagicFormulaTyres::CheckTimestep(const CarModel& car, double weight) const 
                                               weight * arm / params.wheelbase, params.wheel_radius,
                                               car.parts().spin_inertia[w]));
   }
-  const double longest = std::sqrt(2.0) / fastest;
-  if (timestep_ > longest) {
-    throw InputError(
-        Problem{.key = "drive.timestep",
-                .message = fmt::format("{:.4g} s is too long for the tyres of {}: wheel spin would "
-                                       "be unstable; must be at most {:.4g} s",
-                                       timestep_, car.file(), longest)});
+  const auto check = [&](double longest, const char* motion) {
+    if (timestep_ > longest) {
+      throw InputError(
+          Problem{.key = "drive.timestep",
+                  .message = fmt::format("{:.4g} s is too long for the tyres of {}: {} would be "
+                                         "unstable; must be at most {:.4g} s",
+                                         timestep_, car.file(), motion, longest)});
+    }
+  };
+  check(std::sqrt(2.0) / fastest, "wheel spin");
+  const CarTyres& tyres = *car.parts().tyres;
+  double lightest = car.params().mass;  // corner [kg]
+  for (const int carrier : car.parts().carrier) {
+    lightest = std::min(lightest, model.body_subtreemass[carrier]);
   }
+  const double damping = tyres.vertical_damping / lightest;
+  check(4.0 / (damping + std::sqrt(damping * damping + 4.0 * tyres.vertical_stiffness / lightest)),
+        "wheel hop");
 }
 
 double MagicFormulaTyres::Travel(const mjData& data, std::size_t w) const {
@@ -111,25 +121,42 @@ double MagicFormulaTyres::Travel(const mjData& data, std::size_t w) const {
   return up.dot(hub - chassis) - parts.hub_height[w];
 }
 
-void MagicFormulaTyres::Stand(const std::array<double, 4>& loads) {
+TyreTouch MagicFormulaTyres::Touch(const mjData& data, std::size_t w) const {
+  const int geom = car_.parts().tyre[w];
+  return shape_[w].On(
+      car_.scene().ground, Eigen::Vector3d(data.geom_xpos + 3 * geom),
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data.geom_xmat + 9 * geom));
+}
+
+double MagicFormulaTyres::Load(std::size_t w, double gap, double opening) const {
+  const CarTyres& tyres = *car_.parts().tyres;
+  const double pressed = load_at_rest_[w] - tyres.vertical_stiffness * gap;
+  // Damping neither holds a tyre that lifts off on the road nor presses one that is in the air.
+  return pressed <= 0.0 ? 0.0 : std::max(0.0, pressed - tyres.vertical_damping * opening);
+}
+
+void MagicFormulaTyres::Stand(const mjData& data) {
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     slips_[w] = {};
-    states_[w] = {.normal_force = loads[w]};
+    states_[w] = {.normal_force = Load(w, Touch(data, w).gap, 0.0)};
   }
 }
 
 void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
-                              const std::array<double, 4>& loads,
                               const std::array<double, 4>& road) {
   const double radius = car_.params().wheel_radius;
-  const auto contacts = FindWheelContacts(car_, model, data);
+  const CarTyres& tyres = *car_.parts().tyres;
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
-    const WheelContact& contact = contacts[w];
-    const CarTyres& tyres = *car_.parts().tyres;
+    const TyreTouch touch = Touch(data, w);
+    const Eigen::Vector3d on_road = touch.lowest_W - touch.gap * touch.normal_W;
+    const WheelContact contact = ContactAt(car_, model, data, w, on_road, touch.normal_W);
+    const Eigen::Map<const Eigen::Vector3d> hub(data.xipos + 3 * car_.parts().wheel[w]);
+    const double opening = touch.normal_W.dot(contact.hub_velocity +
+                                              contact.angular_velocity.cross(touch.lowest_W - hub));
     const MagicFormula& tyre = tyres.axle[AxleIndex(w)];
     Slip& slip = slips_[w];
     WheelState& state = states_[w];
-    const double load = contact.touches ? loads[w] : 0.0;
+    const double load = Load(w, touch.gap, opening);
     const double speed = std::abs(contact.rolling_speed);
     state = {.normal_force = load};
     if (load <= 0.0) {
@@ -143,12 +170,13 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
     const double spin_omega = SpinFrequency(tyre, load, radius, car_.parts().spin_inertia[w]);
     const double side_omega = std::sqrt(c_alpha * gravity_ / (sigma * load));
     // Where the slip follows faster than the damping wants, the damping must not run ahead of it.
-    const double tau_x = speed * Damping(spin_omega, timestep_) > sigma
-                             ? sigma / speed
-                             : Damping(spin_omega, timestep_);
-    const double tau_y = Damping(side_omega, timestep_) * std::max(0.0, 1.0 - speed / kWalkingPace);
-    double kappa = Relax(slip.x, contact.slip_speed_x, speed, sigma, tau_x, timestep_);
-    double tangent = Relax(slip.y, contact.slip_speed_y, speed, sigma, tau_y, timestep_);
+    const double damping = Damping(spin_omega, timestep_);
+    const double tau_x = speed * damping > sigma ? sigma / speed : damping;
+    const double tau_y =
+        speed < kWalkingPace ? Damping(side_omega, timestep_) * (1.0 - speed / kWalkingPace) : 0.0;
+    const Relaxation relaxation(speed, sigma, timestep_);
+    const double kappa = relaxation.Step(slip.x, contact.slip_speed_x, tau_x);
+    const double tangent = relaxation.Step(slip.y, contact.slip_speed_y, tau_y);
     // A tyre that comes to rest sliding keeps no more deflection than it can hold.
     const double most_x = SlidingSlip(road[w] * tyre.p_dx1, load, c_kappa) + speed / kWalkingPace;
     const double most_y = SlidingSlip(road[w] * tyre.p_dy1, load, c_alpha) + speed / kWalkingPace;
@@ -168,17 +196,27 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
                            .shift = std::clamp(contact.rolling_speed / kWalkingPace, -1.0, 1.0)});
     state.longitudinal_force = force.longitudinal;
     state.lateral_force = side * force.lateral;
-    state.slip_ratio = slip.x;
-    state.slip_angle = std::atan(slip.y);
 
     const double rolling = tyre.rolling_resistance * load * radius *
                            std::clamp(contact.spin * radius / kRolls, -1.0, 1.0);
-    const Eigen::Vector3d push =
-        state.longitudinal_force * contact.forward + state.lateral_force * contact.left;
-    const Eigen::Vector3d moment = -rolling * contact.spin_axis;
-    mj_applyFT(&model, &data, push.data(), moment.data(), contact.point.data(),
-               car_.parts().wheel[w], data.qfrc_applied);
+    const Eigen::Vector3d push = load * contact.up + state.longitudinal_force * contact.forward +
+                                 state.lateral_force * contact.left;
+    // The slip is that of a wheel of radius R, wherever the hub is: with another arm than R about
+    // the spin axis the road would do work on a wheel that does not slip.
+    const double arm = contact.up.dot(hub - contact.point);
+    const Eigen::Vector3d moment =
+        -(rolling + state.longitudinal_force * (radius - arm)) * contact.spin_axis;
+    AddForce(model, data, car_.parts().wheel[w], contact.point, push, moment);
   }
+}
+
+std::array<WheelState, 4> MagicFormulaTyres::Observe() const {
+  std::array<WheelState, 4> wheels = states_;
+  for (std::size_t w = 0; w < kWheels.size(); ++w) {
+    wheels[w].slip_ratio = slips_[w].x;
+    wheels[w].slip_angle = std::atan(slips_[w].y);
+  }
+  return wheels;
 }
 
 double MagicFormulaTyres::RollingMoment() const {

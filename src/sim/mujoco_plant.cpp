@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "src/sim/joint_forces.h"
 #include "src/sim/plants.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
@@ -20,14 +21,31 @@ Vector3d Vec(const mjtNum* numbers) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
+/// Whether any two geoms of bodies that move against each other may touch.
+bool AnythingCollides(const mjModel& model) {
+  const auto may_touch = [&](int a, int b) {
+    return model.body_weldid[model.geom_bodyid[a]] != model.body_weldid[model.geom_bodyid[b]] &&
+           ((model.geom_contype[a] & model.geom_conaffinity[b]) != 0 ||
+            (model.geom_contype[b] & model.geom_conaffinity[a]) != 0);
+  };
+  for (int a = 0; a < model.ngeom; ++a) {
+    for (int b = 0; b < a; ++b) {
+      if (may_touch(a, b)) {
+        return true;
+      }
+    }
+  }
+  return model.npair > 0;
+}
+
 }  // namespace
 
-MujocoPlant::MujocoPlant(const PlantSetup& setup)
+MujocoPlant::MujocoPlant(const PlantSetup& setup, TyreSupport support)
     : car_(setup.car),
       world_(setup.world),
       model_(CopyMujocoModel(*setup.car.get())),
       data_(MakeMujocoData(*model_)),
-      ground_(car_, *model_) {
+      ground_(car_, support, *model_) {
   const std::span<const int> tyres = car_.tyres();
   for (std::size_t w = 0; w < tyres.size(); ++w) {
     tyre_friction_[w] = model_->geom_friction[3 * tyres[w]];
@@ -68,6 +86,9 @@ void MujocoPlant::RollWheels(std::span<const int> spin_dof, const StartState& st
 
 void MujocoPlant::Begin() {
   const MujocoErrorScope errors;
+  if (!AnythingCollides(*model_)) {
+    model_->opt.disableflags |= mjDSBL_CONTACT;  // the search for contacts takes 11 % of a step
+  }
   ground_.Place(*model_, *data_);
   MoveObstacles();
   mj_forward(model_.get(), data_.get());
@@ -126,8 +147,15 @@ double MujocoPlant::Yaw() const {
   return std::atan2(2.0 * (q[0] * q[3] + q[1] * q[2]), 1.0 - 2.0 * (q[2] * q[2] + q[3] * q[3]));
 }
 
+/// Direction(Yaw()).
+Vec2 MujocoPlant::Ahead() const {
+  const mjtNum* q = ChassisPosition() + 3;
+  return Vec2(1.0 - 2.0 * (q[2] * q[2] + q[3] * q[3]), 2.0 * (q[0] * q[3] + q[1] * q[2]))
+      .normalized();
+}
+
 double MujocoPlant::Speed() const {
-  const Vec2 ahead = Direction(Yaw());
+  const Vec2 ahead = Ahead();
   const mjtNum* v = ChassisVelocity();
   return ahead.x() * v[0] + ahead.y() * v[1];
 }
@@ -166,15 +194,13 @@ void MujocoPlant::PushByAir() {
                                            pressure * air_V.y() * car.side_area, 0.0);
   const Vector3d at_W = Vec(ChassisPosition()) +
                         R_WV * Vector3d(car.center_of_pressure[0], 0.0, car.center_of_pressure[1]);
-  const std::array<mjtNum, 3> no_moment{};
-  mj_applyFT(model_.get(), data_.get(), force_W.data(), no_moment.data(), at_W.data(),
-             car_.chassis().chassis, data_->qfrc_applied);
+  AddForce(*model_, *data_, car_.chassis().chassis, at_W, force_W);
 }
 
 void MujocoPlant::ApplyLateralOffset(double left) {
   mjtNum* at = data_->qpos + car_.chassis().chassis_qpos;
   const Vec2 from(at[0], at[1]);
-  const Vec2 to = from + left * LeftNormal(Direction(Yaw()));
+  const Vec2 to = from + left * LeftNormal(Ahead());
   at[0] = to.x();
   at[1] = to.y();
   at[2] += GroundHeight(world_, to) - GroundHeight(world_, from);
@@ -184,12 +210,10 @@ void MujocoPlant::PushAside() {
   if (push_ == 0.0) {
     return;
   }
-  const Vec2 force = push_ * LeftNormal(Direction(Yaw()));
+  const Vec2 force = push_ * LeftNormal(Ahead());
   const Vector3d force_W(force.x(), force.y(), 0.0);
-  const std::array<mjtNum, 3> no_moment{};
-  mj_applyFT(model_.get(), data_.get(), force_W.data(), no_moment.data(),
-             data_->subtree_com + 3 * car_.chassis().chassis, car_.chassis().chassis,
-             data_->qfrc_applied);
+  const int chassis = car_.chassis().chassis;
+  AddForce(*model_, *data_, chassis, Vec(data_->subtree_com + 3 * chassis), force_W);
   push_ = 0.0;
 }
 
@@ -207,7 +231,7 @@ VehicleState MujocoPlant::Observe() const {
   const Vector3d to_cg_W = R_WV * Vector3d(params.cg_to_rear, 0.0, car_.chassis().cg_height);
   const Vector3d a_cg_W = a_W + alpha_W.cross(to_cg_W) + w_W.cross(w_W.cross(to_cg_W));
 
-  const Vec2 ahead = Direction(Yaw());
+  const Vec2 ahead = Ahead();
   const Vec2 left = LeftNormal(ahead);
   VehicleState state;
   state.time = data_->time;

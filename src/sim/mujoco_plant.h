@@ -27,6 +27,8 @@ class MujocoPlant : public Plant {
   [[nodiscard]] double obstacle_force() const final;
   [[nodiscard]] std::vector<double> Configuration() const final;
   [[nodiscard]] bool diverged() const final;
+  /// Of the last step: contacts, joint limits, dry friction and couplings.
+  [[nodiscard]] int constraint_rows() const { return data_->nefc; }
 
  protected:
   /// The factor of the road under each wheel; as many count as the vehicle has.
@@ -39,7 +41,7 @@ class MujocoPlant : public Plant {
   };
 
   /// The vehicle stands and moves as `setup.start` says, but for its wheels' spin.
-  explicit MujocoPlant(const PlantSetup& setup);
+  explicit MujocoPlant(const PlantSetup& setup, TyreSupport support = TyreSupport::kContacts);
   /// Sets the speeds of the wheels' spin joints, in the order of CarModel::wheels(): they roll
   /// without slip.
   void RollWheels(std::span<const int> spin_dof, const StartState& start);
@@ -77,6 +79,7 @@ class MujocoPlant : public Plant {
   [[nodiscard]] const mjtNum* ChassisVelocity() const;
   [[nodiscard]] Eigen::Matrix3d ChassisRotation() const;
   [[nodiscard]] double Yaw() const;
+  [[nodiscard]] Vec2 Ahead() const;
   [[nodiscard]] Road LayRoad();
   [[nodiscard]] Eigen::Vector3d AirSpeed() const;
   void PushByAir();

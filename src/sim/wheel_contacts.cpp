@@ -40,55 +40,56 @@ void ForEachRoadContact(const CarModel& car, const mjModel& model, const mjData&
 
 }  // namespace
 
+WheelContact ContactAt(const CarModel& car, const mjModel& model, const mjData& data, std::size_t w,
+                       const Vector3d& point, const Vector3d& up) {
+  const double radius = car.params().wheel_radius;
+  const int body = car.parts().wheel[w];
+  const mjtNum* rotation = data.xmat + 9 * body;
+  std::array<mjtNum, 6> velocity{};  // angular, linear
+  mj_objectVelocity(&model, &data, mjOBJ_BODY, body, velocity.data(), 0);
+  WheelContact wheel;
+  wheel.touches = true;
+  wheel.point = point;
+  wheel.up = up;
+  wheel.spin_axis = Vector3d(rotation[1], rotation[4], rotation[7]);
+  wheel.forward = wheel.spin_axis.cross(up).normalized();
+  wheel.left = up.cross(wheel.forward);
+  wheel.angular_velocity = Vec(velocity.data());
+  wheel.hub_velocity = Vec(velocity.data() + 3);
+  wheel.rolling_speed = wheel.forward.dot(wheel.hub_velocity);
+  wheel.spin = wheel.angular_velocity.dot(wheel.spin_axis);
+  wheel.slip_speed_x = wheel.spin * radius - wheel.rolling_speed;
+  wheel.slip_speed_y =
+      wheel.left.dot(wheel.hub_velocity + wheel.angular_velocity.cross(-radius * up));
+  return wheel;
+}
+
 std::array<WheelContact, 4> FindWheelContacts(const CarModel& car, const mjModel& model,
                                               const mjData& data) {
-  const double radius = car.params().wheel_radius;
-  std::array<WheelContact, 4> wheels;
+  std::array<Vector3d, 4> up;
+  std::array<Vector3d, 4> point;
+  up.fill(Vector3d::Zero());
+  point.fill(Vector3d::Zero());
   std::array<double, 4> weight{};
-  for (WheelContact& wheel : wheels) {
-    wheel.up.setZero();
-    wheel.point.setZero();
-  }
   // On a rough road a wheel may touch at several points: they count by how deep they are.
   ForEachRoadContact(car, model, data,
                      [&](std::size_t w, const mjContact& contact, int, double sign) {
                        const double depth = std::max(contact.includemargin - contact.dist, 1e-9);
-                       wheels[w].up += depth * sign * Vec(contact.frame);
-                       wheels[w].point += depth * Vec(contact.pos);
+                       up[w] += depth * sign * Vec(contact.frame);
+                       point[w] += depth * Vec(contact.pos);
                        weight[w] += depth;
                      });
+  std::array<WheelContact, 4> wheels;
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
-    WheelContact& wheel = wheels[w];
-    const int body = car.parts().wheel[w];
-    const mjtNum* rotation = data.xmat + 9 * body;
-    wheel.touches = weight[w] > 0.0;
-    wheel.up = wheel.touches ? wheel.up.normalized() : Vector3d::UnitZ();
-    const Vector3d hub = Vec(data.xipos + 3 * body);
-    wheel.point =
-        wheel.touches ? Vector3d(wheel.point / weight[w]) : Vector3d(hub - radius * wheel.up);
-    wheel.spin_axis = Vector3d(rotation[1], rotation[4], rotation[7]);
-    wheel.forward = wheel.spin_axis.cross(wheel.up).normalized();
-    wheel.left = wheel.up.cross(wheel.forward);
-    std::array<mjtNum, 6> velocity{};  // angular, linear
-    mj_objectVelocity(&model, &data, mjOBJ_BODY, body, velocity.data(), 0);
-    const Vector3d omega = Vec(velocity.data());
-    const Vector3d hub_velocity = Vec(velocity.data() + 3);
-    wheel.rolling_speed = wheel.forward.dot(hub_velocity);
-    wheel.spin = omega.dot(wheel.spin_axis);
-    wheel.slip_speed_x = wheel.spin * radius - wheel.rolling_speed;
-    wheel.slip_speed_y = wheel.left.dot(hub_velocity + omega.cross(-radius * wheel.up));
+    const bool touches = weight[w] > 0.0;
+    const Vector3d hub = Vec(data.xipos + 3 * car.parts().wheel[w]);
+    wheels[w] =
+        touches ? ContactAt(car, model, data, w, point[w] / weight[w], up[w].normalized())
+                : ContactAt(car, model, data, w,
+                            hub - car.params().wheel_radius * Vector3d::UnitZ(), Vector3d::UnitZ());
+    wheels[w].touches = touches;
   }
   return wheels;
-}
-
-std::array<double, 4> RoadLoads(const CarModel& car, const mjModel& model, const mjData& data) {
-  std::array<double, 4> loads{};
-  ForEachRoadContact(car, model, data, [&](std::size_t w, const mjContact&, int i, double) {
-    std::array<mjtNum, 6> force{};
-    mj_contactForce(&model, &data, i, force.data());
-    loads[w] += force[0];  // the normal's row comes first
-  });
-  return loads;
 }
 
 std::array<Vector3d, 4> RoadForces(const CarModel& car, const mjModel& model, const mjData& data) {

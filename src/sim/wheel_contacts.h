@@ -18,20 +18,23 @@ struct WheelContact {
   Eigen::Vector3d forward;
   Eigen::Vector3d left;
   Eigen::Vector3d up;
-  Eigen::Vector3d spin_axis;   ///< to the left
-  double rolling_speed = 0.0;  ///< v_x: of the hub, forward [m/s]
-  double spin = 0.0;           ///< Omega about the spin axis, forward positive [rad/s]
-  double slip_speed_x = 0.0;   ///< Omega R - v_x: against the patch's motion over the road [m/s]
-  double slip_speed_y = 0.0;   ///< v_y: of the patch over the road, to the left [m/s]
+  Eigen::Vector3d spin_axis;         ///< to the left
+  Eigen::Vector3d hub_velocity;      ///< [m/s]
+  Eigen::Vector3d angular_velocity;  ///< of the wheel [rad/s]
+  double rolling_speed = 0.0;        ///< v_x: of the hub, forward [m/s]
+  double spin = 0.0;                 ///< Omega about the spin axis, forward positive [rad/s]
+  double slip_speed_x = 0.0;  ///< Omega R - v_x: against the patch's motion over the road [m/s]
+  double slip_speed_y = 0.0;  ///< v_y: of the patch over the road, to the left [m/s]
 };
 
-/// Where the wheels touch and how they move, from the positions and velocities now. A wheel in the
-/// air counts as standing on a level road.
+/// How a wheel moves that touches at `point`, where the road's normal is `up`, from the positions
+/// and velocities now.
+WheelContact ContactAt(const CarModel& car, const mjModel_& model, const mjData_& data,
+                       std::size_t wheel, const Eigen::Vector3d& point, const Eigen::Vector3d& up);
+
+/// That of all wheels, by MuJoCo's contacts. A wheel in the air counts as standing on a level road.
 std::array<WheelContact, 4> FindWheelContacts(const CarModel& car, const mjModel_& model,
                                               const mjData_& data);
-
-/// What presses the wheels on the road [N], >= 0, of the last solve.
-std::array<double, 4> RoadLoads(const CarModel& car, const mjModel_& model, const mjData_& data);
 
 /// The road's contact forces on the wheels [N], world frame, of the last solve.
 std::array<Eigen::Vector3d, 4> RoadForces(const CarModel& car, const mjModel_& model,

@@ -20,7 +20,13 @@ double Shape(double c, double e, double u) {
 
 /// What a force under its own slip keeps under the other one, `slip`; 1 at zero slip.
 double Weight(double b, double c, double e, double shift, double slip) {
-  return std::cos(Shape(c, e, b * (slip + shift))) / std::cos(Shape(c, e, b * shift));
+  const double kept = std::cos(Shape(c, e, b * (slip + shift)));
+  return shift == 0.0 ? kept : kept / std::cos(Shape(c, e, b * shift));
+}
+
+/// cos(atan(x)).
+double CosAtan(double x) {
+  return 1.0 / std::sqrt(1.0 + x * x);
 }
 
 /// (F_z - F_z0)/F_z0.
@@ -90,9 +96,11 @@ TyreFriction PeakFriction(const MagicFormula& t, double load) {
 }
 
 double CorneringStiffness(const MagicFormula& tyre, double load) {
-  return tyre.p_ky2 > 0.0
-             ? -tyre.p_ky1 * tyre.f_z0 * std::sin(2.0 * std::atan(load / (tyre.p_ky2 * tyre.f_z0)))
-             : -tyre.p_ky1 * load;
+  if (!(tyre.p_ky2 > 0.0)) {
+    return -tyre.p_ky1 * load;
+  }
+  const double x = load / (tyre.p_ky2 * tyre.f_z0);
+  return -tyre.p_ky1 * tyre.f_z0 * 2.0 * x / (1.0 + x * x);  // sin(2 atan(x))
 }
 
 double SlipStiffness(const MagicFormula& tyre, double load) {
@@ -104,7 +112,8 @@ TyreForce EvaluateTyreForce(const MagicFormula& t, double load, double road, con
     return {};
   }
   const double gamma = std::clamp(slip.camber, -kMaxCamber, kMaxCamber);
-  const double side = slip.shift * gamma / std::hypot(gamma, kCamberSign);  // sgn gamma
+  const double side =
+      slip.shift * gamma / std::sqrt(gamma * gamma + kCamberSign * kCamberSign);  // sgn gamma
   const double lean = std::abs(gamma);
   const double load_change = LoadChange(t, load);
 
@@ -128,11 +137,11 @@ TyreForce EvaluateTyreForce(const MagicFormula& t, double load, double road, con
     const double norm = std::hypot(f_x0 / d_x, f_y0 / d_y);
     return {f_x0 / std::max(1.0, norm), f_y0 / std::max(1.0, norm)};
   }
-  const double b_xa = t.r_bx1 * std::cos(std::atan(t.r_bx2 * slip.ratio));
-  const double b_yk = t.r_by1 * std::cos(std::atan(t.r_by2 * (slip.angle - t.r_by3)));
-  const double d_vyk =
-      mu_y * load * (t.r_vy1 + t.r_vy3 * gamma) * std::cos(std::atan(t.r_vy4 * slip.angle));
-  const double s_vyk = d_vyk * std::sin(t.r_vy5 * std::atan(t.r_vy6 * slip.ratio));
+  const double b_xa = t.r_bx1 * CosAtan(t.r_bx2 * slip.ratio);
+  const double b_yk = t.r_by1 * CosAtan(t.r_by2 * (slip.angle - t.r_by3));
+  const double d_vyk = mu_y * load * (t.r_vy1 + t.r_vy3 * gamma) * CosAtan(t.r_vy4 * slip.angle);
+  const double s_vyk =
+      d_vyk == 0.0 ? 0.0 : d_vyk * std::sin(t.r_vy5 * std::atan(t.r_vy6 * slip.ratio));
   return {Weight(b_xa, t.r_cx1, t.r_ex1, t.r_hx1, slip.angle) * f_x0,
           Weight(b_yk, t.r_cy1, t.r_ey1, t.r_hy1, slip.ratio) * f_y0 + s_vyk};
 }

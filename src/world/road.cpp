@@ -90,7 +90,11 @@ Lift Highest(const Ground& ground, const Vec2& point_W) {
 }  // namespace
 
 bool IsFlat(const Ground& ground) {
-  return ground.grade.isZero(0.0) && ground.bumps.empty() && ground.side_slopes.empty();
+  return ground.grade.isZero(0.0) && IsPlane(ground);
+}
+
+bool IsPlane(const Ground& ground) {
+  return ground.bumps.empty() && ground.side_slopes.empty();
 }
 
 double Rise(const Bump& bump, const Vec2& point_W) {

@@ -42,7 +42,7 @@ class GlobalHandlers {
 };
 
 /// The error that MuJoCo's own handler would wait for a key on.
-std::string ErrorMessage() {
+std::string MujocoErrorMessage() {
   try {
     mju_error("no such thing");
   } catch (const RunError& error) {
@@ -55,18 +55,18 @@ std::string ErrorMessage() {
 
 TEST(MujocoErrorScope, ThrowsWhileItLivesAndLeavesTheHandlersAsTheyWere) {
   const GlobalHandlers others;
-  EXPECT_EQ(ErrorMessage(), "the other handler");
+  EXPECT_EQ(MujocoErrorMessage(), "the other handler");
   {
     const MujocoErrorScope outer;
-    EXPECT_EQ(ErrorMessage(), "MuJoCo: no such thing");
+    EXPECT_EQ(MujocoErrorMessage(), "MuJoCo: no such thing");
     EXPECT_NO_THROW(mju_warning("dropped"));
     {
       const MujocoErrorScope inner;
-      EXPECT_EQ(ErrorMessage(), "MuJoCo: no such thing");
+      EXPECT_EQ(MujocoErrorMessage(), "MuJoCo: no such thing");
     }
-    EXPECT_EQ(ErrorMessage(), "MuJoCo: no such thing");
+    EXPECT_EQ(MujocoErrorMessage(), "MuJoCo: no such thing");
   }
-  EXPECT_EQ(ErrorMessage(), "the other handler");
+  EXPECT_EQ(MujocoErrorMessage(), "the other handler");
   EXPECT_THROW(mju_warning("not dropped"), OtherHandler);
 }
 
@@ -77,7 +77,7 @@ TEST(MujocoErrorScope, EndsWithTheExceptionThatLeavesIt) {
     mju_error("no such thing");
     ADD_FAILURE() << "mju_error returned";
   } catch (const RunError&) {
-    EXPECT_EQ(ErrorMessage(), "the other handler");
+    EXPECT_EQ(MujocoErrorMessage(), "the other handler");
   }
 }
 
@@ -85,22 +85,22 @@ TEST(MujocoErrorScope, IsOfItsThreadAlone) {
   const GlobalHandlers others;
   const MujocoErrorScope scope;
   std::string message;
-  std::thread([&] { message = ErrorMessage(); }).join();
+  std::thread([&] { message = MujocoErrorMessage(); }).join();
   EXPECT_EQ(message, "the other handler");
-  EXPECT_EQ(ErrorMessage(), "MuJoCo: no such thing");
+  EXPECT_EQ(MujocoErrorMessage(), "MuJoCo: no such thing");
 }
 
 TEST(MujocoErrorScope, IsAroundEveryStepOfThePlantAndNoLonger) {
   const GlobalHandlers others;
   const CarModel car(ComposeScene(FindModel("prius", ""), {}), "prius");
-  EXPECT_EQ(ErrorMessage(), "the other handler");
+  EXPECT_EQ(MujocoErrorMessage(), "the other handler");
   const World world;
   // Faster than MuJoCo computes with (mjMAXVAL, 1e10): it warns, which throws without the scope.
   const std::unique_ptr<Plant> plant =
       MakePlant("mujoco", {.car = car, .world = world, .start = {.speed = 1e12}});
   EXPECT_NO_THROW(plant->Step({}));
   EXPECT_TRUE(plant->diverged());
-  EXPECT_EQ(ErrorMessage(), "the other handler");
+  EXPECT_EQ(MujocoErrorMessage(), "the other handler");
 }
 
 }  // namespace

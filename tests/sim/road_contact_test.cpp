@@ -19,7 +19,10 @@ CarModel PriusOn(const World& world) {
 class Rolling {
  public:
   Rolling(const CarModel& car, double speed)
-      : car_(car), m(CopyMujocoModel(*car.get())), d(MakeMujocoData(*m)), contact_(car, *m) {
+      : car_(car),
+        m(CopyMujocoModel(*car.get())),
+        d(MakeMujocoData(*m)),
+        contact_(car, TyreSupport::kContacts, *m) {
     const auto qpos = car.StandingPosition({}, 0.0, {}, car.scene().ground);
     std::copy(qpos.begin(), qpos.end(), d->qpos);
     d->qvel[car.parts().chassis_dof] = speed;

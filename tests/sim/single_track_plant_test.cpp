@@ -278,12 +278,14 @@ TEST(SingleTrackPlant, WeavesAsTheMagicFormulaCarDoes) {
   constexpr double kSpeed = 20.0;
   constexpr double kFront = 15.0;
   constexpr double kRear = 25.0;
+  constexpr double kSteering = 0.01;  // largest [rad]
   const CarModel car = OnTyres(kFront, kRear);
   const double share = SlipShare(car.params(), kFront, kRear, kSpeed);
   for (const double frequency : {0.125, 0.25, 0.5}) {
     SCOPED_TRACE(fmt::format("{} Hz", frequency));
     const double omega = 2.0 * kPi * frequency;
-    const Two two = Both(car, kSpeed, 8.0, [&](double t) { return 0.01 * std::sin(omega * t); });
+    const Two two =
+        Both(car, kSpeed, 8.0, [&](double t) { return kSteering * std::sin(omega * t); });
     double yaw_rate = 0.0;  // largest
     double acceleration = 0.0;
     double roll = 0.0;
@@ -303,11 +305,19 @@ TEST(SingleTrackPlant, WeavesAsTheMagicFormulaCarDoes) {
     // What MuJoCo's car has and the single-track car has not changes the tyres' forces, and with
     // them the share of the steering that is slip: rolling moves the body by h roll, so that its
     // acceleration is another by omega^2 of that; forces follow the slip by the relaxation length
-    // over u later, a quarter of a period out of step with the former; the softening.
+    // over u later, a quarter of a period out of step with the former; the softening. Wheels whose
+    // angular momentum H the body rolls at omega roll yaw it by M = H omega roll, as much as a
+    // steering angle of M (1/C_f + 1/C_r)/L does.
     const MagicFormula& tyre = car.parts().tyres->axle[0];
+    const VehicleParams& params = car.params();
     const double rolls = omega * omega * car.parts().cg_height * roll / acceleration;
     const double late = omega * tyre.relaxation_length / kSpeed;
-    const double part = share * (std::hypot(rolls, late) + Softening(tyre, acceleration));
+    const double momentum = 4.0 * car.parts().spin_inertia[0] * kSpeed / params.wheel_radius;
+    const double yaws =
+        momentum * omega * roll / params.wheelbase *
+        (1.0 / params.cornering_stiffness_front + 1.0 / params.cornering_stiffness_rear);
+    const double part =
+        share * (std::hypot(rolls, late) + Softening(tyre, acceleration)) + yaws / kSteering;
     EXPECT_LT(rms, Tolerance(part * yaw_rate));
     // The heading is off by its integral, which keeps to one side: 1/omega of it on average.
     EXPECT_LT(apart, Tolerance(part * yaw_rate / omega * kSpeed * 8.0));

@@ -81,8 +81,8 @@ TEST_P(Linkage, PointsBothWheelsAtOneCenter) {
     plant->Step({.steering = wanted, .acceleration = 2.0 - plant->Observe().speed});
     const std::vector<double> at = plant->Configuration();
     const FrontAngles exact = AckermannAngles(params, at[column("rack_rad")]);
-    ASSERT_NEAR(at[column("steer_fl_rad")], exact.left, Tolerance(1e-9)) << t;
-    ASSERT_NEAR(at[column("steer_fr_rad")], exact.right, Tolerance(1e-9)) << t;
+    ASSERT_EQ(at[column("steer_fl_rad")], exact.left) << t;
+    ASSERT_EQ(at[column("steer_fr_rad")], exact.right) << t;
     largest = std::max(largest, std::abs(at[column("rack_rad")]));
   }
   EXPECT_NEAR(largest, params.steering_limit, Tolerance(0.005));

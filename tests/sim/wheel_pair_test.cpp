@@ -91,7 +91,7 @@ TEST(DiffDrive, PosesOnTheScenesGround) {
       testing::ElementsAre(1.0, 2.0, 0.0, std::cos(0.25), 0.0, 0.0, std::sin(0.25), 0.1, 0.3));
 }
 
-std::string ErrorMessage(const std::string& xml) {
+std::string WheelPairError(const std::string& xml) {
   try {
     const CarModel car({.xml = xml, .assets = {}}, "diff_drive.xml");
   } catch (const InputError& error) {
@@ -109,7 +109,7 @@ std::string With(const std::string& from, const std::string& to) {
 }
 
 TEST(WheelPair, SaysAllThatAModelLacks) {
-  const std::string one_drive = ErrorMessage(
+  const std::string one_drive = WheelPairError(
       "<mujoco><worldbody><body name='chassis'><freejoint name='chassis'/><geom size='1'/>"
       "<body><joint name='spin_left' axis='0 1 0'/><geom size='1'/></body></body></worldbody>"
       "<actuator><velocity name='drive_left' joint='spin_left'/></actuator></mujoco>");
@@ -125,29 +125,29 @@ TEST(WheelPair, SaysAllThatAModelLacks) {
 
 TEST(WheelPair, RefusesARadiusOnWhichTheInnerWheelTurnsBackwards) {
   EXPECT_EQ(
-      ErrorMessage(
+      WheelPairError(
           With("name=\"turning_radius\" data=\"0.4\"", "name=\"turning_radius\" data=\"0.2\"")),
       "diff_drive.xml: turning_radius: must be at least half the track, 0.3 m, so that the inner "
       "wheel does not reverse; found 0.2");
 }
 
 TEST(WheelPair, RefusesWhatIsNotASpeedServo) {
-  EXPECT_EQ(ErrorMessage(With("<velocity name=\"drive_left\" joint=\"spin_left\" kv=\"60\"",
-                              "<motor name=\"drive_left\" joint=\"spin_left\"")),
+  EXPECT_EQ(WheelPairError(With("<velocity name=\"drive_left\" joint=\"spin_left\" kv=\"60\"",
+                                "<motor name=\"drive_left\" joint=\"spin_left\"")),
             "diff_drive.xml: drive_left: must be a <velocity> of gear 1 with ctrllimited and "
             "forcelimited: ctrlrange is the maximum wheel speed, forcerange the maximum torque");
   EXPECT_EQ(
-      ErrorMessage(With("<velocity name=\"drive_left\" joint=\"spin_left\" kv=\"60\"",
-                        "<velocity name=\"drive_left\" joint=\"spin_left\" kv=\"50\"")),
+      WheelPairError(With("<velocity name=\"drive_left\" joint=\"spin_left\" kv=\"60\"",
+                          "<velocity name=\"drive_left\" joint=\"spin_left\" kv=\"50\"")),
       "diff_drive.xml: drive_right: kv, ctrlrange and forcerange must equal those of drive_left");
-  EXPECT_THAT(ErrorMessage(With("<velocity name=\"drive_left\" joint=\"spin_left\"",
-                                "<velocity name=\"drive_left\" joint=\"spin_right\"")),
+  EXPECT_THAT(WheelPairError(With("<velocity name=\"drive_left\" joint=\"spin_left\"",
+                                  "<velocity name=\"drive_left\" joint=\"spin_right\"")),
               testing::HasSubstr("diff_drive.xml: drive_left: must act on the joint 'spin_left'"));
 }
 
 TEST(WheelPair, RefusesAServoThatIsTooSoft) {
   EXPECT_THAT(
-      ErrorMessage(With("joint=\"spin_left\" kv=\"60\"", "joint=\"spin_left\" kv=\"1\"")),
+      WheelPairError(With("joint=\"spin_left\" kv=\"60\"", "joint=\"spin_left\" kv=\"1\"")),
       testing::HasSubstr(
           "diff_drive.xml: drive_left: kv 1 is too small: forcerange/kv, the speed error at "
           "maximum torque, is 30 rad/s; must be below the ctrlrange of 22 rad/s"));
@@ -155,14 +155,14 @@ TEST(WheelPair, RefusesAServoThatIsTooSoft) {
 
 TEST(WheelPair, RefusesWheelsThatAreNotAboutTheOrigin) {
   EXPECT_EQ(
-      ErrorMessage(With("name=\"wheel_left\" pos=\"0 0.3 ", "name=\"wheel_left\" pos=\"0 0.4 ")),
+      WheelPairError(With("name=\"wheel_left\" pos=\"0 0.3 ", "name=\"wheel_left\" pos=\"0 0.4 ")),
       "diff_drive.xml: chassis: the driven wheels must be at equal distances left and right of y = "
       "0; found y = 0.4 and -0.3 m");
-  EXPECT_THAT(
-      ErrorMessage(With("name=\"wheel_left\" pos=\"0 0.3 ", "name=\"wheel_left\" pos=\"0.2 0.3 ")),
-      testing::HasSubstr(
-          "diff_drive.xml: chassis: the body origin must be under the axle of the driven "
-          "wheels; they are 0.1 m ahead of it"));
+  EXPECT_THAT(WheelPairError(
+                  With("name=\"wheel_left\" pos=\"0 0.3 ", "name=\"wheel_left\" pos=\"0.2 0.3 ")),
+              testing::HasSubstr(
+                  "diff_drive.xml: chassis: the body origin must be under the axle of the driven "
+                  "wheels; they are 0.1 m ahead of it"));
 }
 
 std::string MessageFrom(const std::function<void()>& call) {

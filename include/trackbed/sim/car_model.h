@@ -24,7 +24,7 @@ struct CarTyres {
   std::array<MagicFormula, 2> axle;     ///< front, rear
   std::array<double, 2> camber_gain{};  ///< front, rear: of the left wheel, to the left, per meter
                                         ///< of spring travel up [rad/m]; mirrored on the right
-  double vertical_stiffness = 0.0;      ///< [N/m]; 0: the stiffness of the contact
+  double vertical_stiffness = 0.0;      ///< [N/m]
   double vertical_damping = 0.0;        ///< [N s/m]
 };
 

@@ -46,6 +46,9 @@ struct Ground {
 /// Whether the ground is the plane z = 0.
 bool IsFlat(const Ground& ground);
 
+/// Whether it is a plane, level or not.
+bool IsPlane(const Ground& ground);
+
 /// Height above the plane at a point of the world [m]; 0 outside.
 double Rise(const Bump& bump, const Vec2& point_W);
 double Rise(const Superelevation& side_slope, const Vec2& point_W);

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+
+struct mjModel_;
+struct mjData_;
+
+namespace trackbed {
+
+/// Adds a force [N] on `body` at a point and a moment [N m], all in the world frame, to
+/// qfrc_applied. As mj_applyFT does, but only along the body's chain of joints: some 200
+/// instructions instead of 2000.
+void AddForce(const mjModel_& model, mjData_& data, int body, const Eigen::Vector3d& point_W,
+              const Eigen::Vector3d& force_W,
+              const Eigen::Vector3d& moment_W = Eigen::Vector3d::Zero());
+
+}  // namespace trackbed
