@@ -18,6 +18,7 @@ namespace trackbed {
 namespace {
 
 constexpr double kStandardGravity = 9.81;
+const World kLevel;  // plants refer to their world
 
 std::unique_ptr<Plant> OnTyres(const CarModel& car, const World& world,
                                const StartState& start = {}) {
@@ -78,11 +79,11 @@ TEST(TyreSprings, AreRefusedWhenNegative) {
 TEST(TyreSprings, NeedATimestepThatWheelsDoNotHopAt) {
   // A corner of 36 kg at the front, 30 kg at the rear: dt = 2 sqrt(m/k) = 2 sqrt(30/4e7) = 1.73 ms.
   const CarModel car = CarWith("prius", {{"tyre_vertical_stiffness", 4e7}});
-  EXPECT_THAT([&] { OnTyres(car, {}); },
+  EXPECT_THAT([&] { OnTyres(car, kLevel); },
               testing::ThrowsMessage<InputError>(
                   testing::HasSubstr("wheel hop would be unstable; must be at most 0.001732 s")));
   const CarModel finer = CarWith("prius", {{"tyre_vertical_stiffness", 4e7}}, 0.0015);
-  const auto plant = OnTyres(finer, {}, {.speed = 10.0});
+  const auto plant = OnTyres(finer, kLevel, {.speed = 10.0});
   const VehicleState state = Drive(
       finer, *plant, 2.0, [](double, const VehicleState&) { return Command{}; },
       [](double, const VehicleState&) {});
