@@ -155,7 +155,7 @@ std::optional<Projection> ClosedLoop::FollowPlan(const VehicleState& state, bool
   if (!tracking) {
     return std::nullopt;
   }
-  // A car that was struck goes where no planner sent it.
+  // After a collision the plan stays as it is: the car no longer follows it.
   if (monitor_ && !recorder_.contact_time()) {
     const Projection at{sequencer_.station(), tracking->cross_track, tracking->heading_error};
     if (std::optional<Plan> next = monitor_->Update(state, sequencer_.plan(), at)) {

@@ -9,11 +9,10 @@
 namespace trackbed {
 namespace {
 
-/// Armature that keeps a joint at its speed: against it, what a car does to a wheel is nothing
-/// [kg m^2].
+/// Armature so large that no torque of a car changes the speed of a joint [kg m^2].
 constexpr double kLocked = 1e8;
 
-/// Magic Formula tyres are springs to the ground; tyres of MuJoCo's contacts are held up by these.
+/// Magic Formula tyres carry the car by springs of the plant, contact tyres by MuJoCo's contacts.
 TyreSupport SupportFor(const PlantSetup& setup) {
   return SelectTyreLaw(setup.car, setup.tyre) == TyreLaw::kMagicFormula ? TyreSupport::kSprings
                                                                         : TyreSupport::kContacts;
@@ -114,9 +113,9 @@ void CarPlant::Steer(double wanted) {
       std::clamp(rate, -params.steering_rate, params.steering_rate);
 }
 
-/// Takes the file's coupling of the front wheels to the rack out of the model: its polynomial is an
-/// approximation, and what it is off, the front tyres would push against each other. FollowRack
-/// puts the wheels on Ackermann's curve instead. False where something else steers the wheels.
+/// Switches off the file's coupling of the front wheels to the rack: its polynomial is an
+/// approximation, whose error would make the front tyres push against each other. FollowRack puts
+/// the wheels on Ackermann's curve instead. False if the model couples them in another way.
 bool CarPlant::ReleaseLinkage() {
   const CarParts& parts = car().parts();
   const auto follows_rack = [&](int joint_dof) {
@@ -137,7 +136,7 @@ bool CarPlant::ReleaseLinkage() {
   for (std::size_t w = 0; w < coupling.size(); ++w) {
     model().eq_active[coupling[w]] = 0;
     const int dof = parts.steer_dof[w];
-    // The rack turns the wheels' inertia, about 1 to 1.
+    // The rack moves the wheels' inertia, at a ratio of about 1.
     model().dof_armature[parts.rack_dof] += model().dof_M0[dof];
     model().dof_damping[parts.rack_dof] += model().dof_damping[dof];
     model().dof_damping[dof] = 0.0;
@@ -146,7 +145,7 @@ bool CarPlant::ReleaseLinkage() {
   return true;
 }
 
-/// What turns the wheels about their steering axes, by the last step, turns the rack.
+/// Applies the wheels' torques about their steering axes, those of the last step, to the rack.
 void CarPlant::LoadRack() {
   const CarParts& parts = car().parts();
   const mjtNum* acceleration = data().qacc;

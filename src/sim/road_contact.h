@@ -28,7 +28,7 @@ enum class TyreSupport {
 /// tyre touches one plane, `ground_fl` and so on, that is laid tangent to the ground under it
 /// before every step. Contacts, friction and forces stay MuJoCo's.
 ///
-/// Tyres that springs of the plant support touch no ground at all.
+/// With TyreSupport::kSprings tyres do not collide with the ground.
 class RoadContact {
  public:
   /// Readies the model, a copy of the car's own: its tyres touch their planes, or nothing, in place

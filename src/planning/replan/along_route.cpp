@@ -17,7 +17,7 @@ namespace {
 /// A car comes smoothly to rest over this share of speed times duration, or less.
 constexpr double kStopShare = 0.55;
 
-/// Motions that stop at the goal do so within this [m]; the lattice counts as there below 0.05 m.
+/// Tolerance of a stop at the goal [m], that of the lattice.
 constexpr double kGoalTolerance = 0.05;
 
 double Front(const VehicleParams& vehicle) {
@@ -128,8 +128,7 @@ class AlongRoute {
 
  private:
   /// Whether there is a motion, and braking after it that is clear and that the wheels can follow.
-  /// A car that cannot stop at a goal in reach is better off with what it drives than with a motion
-  /// past the goal, after which none would lead back.
+  /// No motion that passes a goal in reach: none leads back.
   bool Try(const FrenetGoal& goal, const std::vector<double>& factors = {1.0}) {
     const FrenetRequest request{.vehicle = request_.vehicle,
                                 .speed = request_.speed,
