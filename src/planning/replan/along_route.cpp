@@ -77,8 +77,8 @@ class AlongRoute {
     const double speed = std::max(request_.wanted, request_.start.s_rate);
     const double reach =
         std::visit([&](const auto& own) { return StopReach(own, speed); }, options_);
-    goal_in_reach_ = frame_.goal - request_.start.s <= reach;
-    if (goal_in_reach_ && Try(StopAt{frame_.goal})) {
+    const bool goal_in_reach = frame_.goal - request_.start.s <= reach;
+    if (goal_in_reach && Try(StopAt{frame_.goal})) {
       AlongPlan plan = Taken(ManeuverType::kProceed);
       plan.to_goal = true;
       return plan;
@@ -114,7 +114,7 @@ class AlongRoute {
     if (on(all)) {
       return Taken(ManeuverType::kProceed);
     }
-    for (auto factor = falling.begin() + 1; leader && factor != falling.end(); ++factor) {
+    for (auto factor = falling.begin() + 1; factor != falling.end(); ++factor) {
       if (on({*factor})) {
         return Taken(ManeuverType::kProceed);
       }
@@ -128,7 +128,7 @@ class AlongRoute {
 
  private:
   /// Whether there is a motion, and braking after it that is clear and that the wheels can follow.
-  /// No motion that passes a goal in reach: none leads back.
+  /// No motion that passes the goal, braking included, or stops beside it: none leads back.
   bool Try(const FrenetGoal& goal, const std::vector<double>& factors = {1.0}) {
     const FrenetRequest request{.vehicle = request_.vehicle,
                                 .speed = request_.speed,
@@ -149,9 +149,16 @@ class AlongRoute {
       return false;  // the lattice does not reach so far
     }
     points_ = WithBraking(end);
-    const bool passes_goal =
-        goal_in_reach_ && points_.back().frenet.s > frame_.goal + kGoalTolerance;
-    return !passes_goal && BrakingIsClear() && BrakingIsDrivable();
+    return EndsBeforeGoal(points_.back().frenet) && BrakingIsClear() && BrakingIsDrivable();
+  }
+
+  /// Whether two opposite turns, the tightest, lead from a stop to the route at its goal or before.
+  [[nodiscard]] bool EndsBeforeGoal(const FrenetState& stop) const {
+    const VehicleParams& car = request_.vehicle;
+    const double radius = car.wheelbase / std::tan(car.steering_limit);
+    const double offset = std::max(std::abs(stop.d) - kGoalTolerance, 0.0);
+    const double back = std::sqrt(offset * std::max(4.0 * radius - offset, 0.0));
+    return stop.s + back <= frame_.goal + kGoalTolerance;
   }
 
   [[nodiscard]] std::vector<TrajectoryPoint> WithBraking(const FrenetState& end) const {
@@ -235,7 +242,6 @@ class AlongRoute {
   const AlongRequest& request_;
   const AlongSettings& settings_;
   const AlongOptions& options_;
-  bool goal_in_reach_ = false;
   FrenetPlan found_;                     // by the last try
   std::vector<TrajectoryPoint> points_;  // of that, and of the braking after it
 };

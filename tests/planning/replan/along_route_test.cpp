@@ -176,6 +176,35 @@ TEST_P(EveryAlongMethod, DoesNotLeadPastANearGoal) {
   }
 }
 
+TEST_P(EveryAlongMethod, LeavesRoomToReturnToTheRouteBeforeTheGoal) {
+  // Two turns of the tightest radius r shift a car by d over the length sqrt(d (4 r - d)). At
+  // 12 m/s and 2 m/s^2 braking takes 36 m, more than motions that stop at the goal are long: those
+  // that keep a speed must leave the room.
+  const double radius = ReferenceCar().wheelbase / std::tan(ReferenceCar().steering_limit);
+  int found = 0;
+  for (double left = 80.0; left >= 0.0; left -= 4.0) {
+    for (const double offset : {0.0, 1.0, -2.0}) {
+      Scene scene;
+      scene.settings.road = {4.0, 4.0};
+      scene.request.speed = {12.0, 2.0, 2.0};
+      scene.request.wanted = 12.0;
+      scene.request.start = {.s = scene.frame.goal - left, .s_rate = 12.0, .d = offset};
+      scene.request.obstacles = {BoxAt(scene.frame.path, scene.frame.goal - 30.0, 0.0)};
+      const AlongPlan plan =
+          PlanAlongRoute(scene.frame, scene.request, scene.settings, GetParam().defaults);
+      if (!plan.ok()) {
+        continue;
+      }
+      const FrenetState stop = plan.points.back().frenet;
+      const double beside = std::max(std::abs(stop.d) - 0.05, 0.0);
+      EXPECT_LE(stop.s + std::sqrt(beside * (4.0 * radius - beside)), scene.frame.goal + 0.05)
+          << left << " m left, offset " << offset;
+      found += plan.to_goal ? 0 : 1;
+    }
+  }
+  EXPECT_GE(found, 5);
+}
+
 TEST_P(EveryAlongMethod, BrakesNoFasterThroughABendThanTheWheelsTurn) {
   // At 5 m/s the wheels would have to turn at 2.7 m * 5 m/s * 0.025 /m^2 = 0.34 rad/s of 0.15
   // rad/s. From these starts some motions at 5 m/s end before the bend, and the braking after them

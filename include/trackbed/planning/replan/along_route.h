@@ -92,9 +92,11 @@ std::optional<Leader> LeaderIn(const Path& path, const AlongRequest& request,
 /// offset above a lower speed: slowing down before what stands leads nowhere.
 ///
 /// Guarantees: those of PlanFrenet or PlanLattice for the motion. The braking after it keeps the
-/// limits but for the steering rate, and the safe distance too, every 0.1 s. Same input, same
-/// bytes. Does not change route or frame. Errors: InternalError without speed factors, for a wanted
-/// speed or gaps out of range, and those of the method. Cost: a few times that of the method.
+/// limits, and the safe distance too, every 0.1 s. Within 0.05 m, it ends no farther than the goal,
+/// and beside the route only where two opposite turns of the tightest radius lead back to it before
+/// the goal. Same input, same bytes. Does not change route or frame. Errors: InternalError without
+/// speed factors, for a wanted speed or gaps out of range, and those of the method. Cost: a few
+/// times that of the method.
 AlongPlan PlanAlongRoute(const RouteFrame& frame, const AlongRequest& request,
                          const AlongSettings& settings, const AlongOptions& options);
 
