@@ -22,7 +22,7 @@ class OptimalSteeringController final : public SteeringController {
     const double limit = std::min(options_.max_steering.value_or(input.vehicle.steering_limit),
                                   input.vehicle.steering_limit);
     const double speed = std::max(std::abs(input.state.speed), kCrawl);
-    const int direction = input.reference.path.At(input.station).direction;
+    const int direction = input.reference.path.BendAt(input.station).direction;
     deviation_ = ComputeDeviation(input.state.pose, Seen(input, primary.station));
     const double planned = std::max(options_.horizon ? *options_.horizon : PreviewDistance(input),
                                     options_.time * primary.speed.value_or(speed));
@@ -40,9 +40,9 @@ class OptimalSteeringController final : public SteeringController {
         .max_steering = limit,
         .start = last_.value_or(input.state.steering_actuator)};
     const double ahead = primary.station + std::abs(input.state.speed) * input.period;
-    const double feed_forward =
-        std::clamp(SteeringForCurvature(input.vehicle, input.reference.path.At(ahead).curvature),
-                   -limit, limit);
+    const double feed_forward = std::clamp(
+        SteeringForCurvature(input.vehicle, input.reference.path.BendAt(ahead).curvature), -limit,
+        limit);
     match_ = Keeps(deviation_) && Keeps(DeviationAhead(input.vehicle, problem, feed_forward))
                  ? SteeringMatch{.steering = feed_forward}
                  : SearchSteering(input.vehicle, problem, options_.weights, options_.search);

@@ -26,7 +26,7 @@ class Preview final : public SteeringController {
     const double shortest = options_.distance ? *options_.distance : PreviewDistance(input);
     const double distance =
         std::max({shortest, options_.time * std::abs(input.state.speed), ReturnDistance(input)});
-    const int direction = input.reference.path.At(input.station).direction;
+    const int direction = input.reference.path.BendAt(input.station).direction;
     const double u = PreviewAngle(input.reference.path, input.state.pose, input.station, distance) -
                      (options_.slip ? RearSlip(input) : 0.0);
     // Backwards, wheels to the right turn the motion to the left.
@@ -75,7 +75,7 @@ double PreviewStation(const Path& path, const Vec2& p, double station, double di
 double PreviewAngle(const Path& path, const Pose2& pose, double station, double distance) {
   const double s = PreviewStation(path, pose.position(), station, distance);
   // Backwards, the direction of motion is against the heading.
-  const Vec2 to_point = path.At(station).direction * ToLocal(pose, path.At(s).pose.position());
+  const Vec2 to_point = path.BendAt(station).direction * ToLocal(pose, path.At(s).pose.position());
   return std::atan2(to_point.y(), to_point.x());
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "src/control/tracking.h"
 
@@ -50,12 +51,19 @@ double RampPreview(const ControlInput& input, double speed, double response, dou
   const Path& path = input.reference.path;
   const VehicleParams& vehicle = input.vehicle;
   const double way = speed / vehicle.steering_rate;  // [m/rad]
-  const auto turned = [&](const PathPoint& point) {
-    return way * std::clamp(SteeringForCurvature(vehicle, point.curvature), -vehicle.steering_limit,
-                            vehicle.steering_limit);
+  // Most stations lie on the same line or arc as the one before.
+  std::optional<double> last_curvature;
+  double last_turned = 0.0;
+  const auto turned = [&](const PathBend& bend) {
+    if (bend.curvature != last_curvature) {
+      last_curvature = bend.curvature;
+      last_turned = way * std::clamp(SteeringForCurvature(vehicle, bend.curvature),
+                                     -vehicle.steering_limit, vehicle.steering_limit);
+    }
+    return last_turned;
   };
   const double longest = kRampShare * way * 2.0 * vehicle.steering_limit + response;
-  const PathPoint here = path.At(input.station);
+  const PathBend here = path.BendAt(input.station);
   RampScan scan(turned(here));
   double preview = shortest;
   bool ahead = true;
@@ -74,12 +82,12 @@ double RampPreview(const ControlInput& input, double speed, double response, dou
       if (s <= near) {
         continue;
       }
-      const PathPoint point = path.At(goes_on ? input.station + side * s : end);
-      if (point.direction != here.direction) {
+      const PathBend bend = path.BendAt(goes_on ? input.station + side * s : end);
+      if (bend.direction != here.direction) {
         goes_on = false;  // at a cusp the wheels turn while the car stands
         continue;
       }
-      scan.Extend(turned(point), side * s, s - near);
+      scan.Extend(turned(bend), side * s, s - near);
     }
     const double distance = kRampShare * scan.ramp() + response;
     if (distance >= near) {

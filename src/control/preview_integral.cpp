@@ -52,7 +52,7 @@ class PreviewIntegral final : public SteeringController {
   double Steer(const ControlInput& input) override {
     const VehicleParams& vehicle = input.vehicle;
     const Path& path = input.reference.path;
-    const int direction = path.At(input.station).direction;
+    const int direction = path.BendAt(input.station).direction;
     const double speed = std::abs(input.state.speed);
     const double spread = std::sqrt(OffsetGain());
     const double shortest =

@@ -27,7 +27,7 @@ class PurePursuit final : public SteeringController {
     const double steering = std::atan(2.0 * input.vehicle.wheelbase * std::sin(u) / distance);
     const double limit = input.vehicle.steering_limit;
     // Backwards, wheels to the right turn the motion to the left.
-    return path.At(input.station).direction * std::clamp(steering, -limit, limit);
+    return path.BendAt(input.station).direction * std::clamp(steering, -limit, limit);
   }
 
  private:

@@ -147,6 +147,17 @@ PathPoint Path::At(double s) const {
           segment.sharpness + d * segment.sharpness_rate};
 }
 
+PathBend Path::BendAt(double s) const {
+  if (segments_.empty()) {
+    return {};
+  }
+  if (s < 0.0 || s > length_) {
+    return {0.0, (s < 0.0 ? segments_.front() : segments_.back()).direction};
+  }
+  const std::size_t i = SegmentAt(s);
+  return {segments_[i].CurvatureAt(s - stations_[i]), segments_[i].direction};
+}
+
 Projection Path::Project(const Pose2& pose, Stations within) const {
   TRACKBED_CHECK(within.from <= within.to, "no station is within [{}, {}]", within.from, within.to);
   const Vec2 p = pose.position();

@@ -246,18 +246,18 @@ std::vector<double> CarModel::FlatPosition(const Pose2& pose, double steering,
   return StandingPosition(pose, steering, spin, {});
 }
 
-std::vector<double> RollingSpeeds(const VehicleParams& params, double speed, double steering) {
+WheelSpeeds RollingSpeeds(const VehicleParams& params, double speed, double steering) {
   const AxleSpeeds rear = AxleSpeedsFor(params, speed, steering);
   if (params.kind == VehicleKind::kDifferential) {
-    return {rear.left, rear.right};
+    return WheelSpeeds{{rear.left, rear.right}};
   }
   const double yaw_rate = speed * CurvatureForSteering(params, steering);
-  const FrontAngles front = AckermannAngles(params, steering);
-  const auto front_speed = [&](double angle, double y) {
-    return (speed - yaw_rate * y) * std::cos(angle) + yaw_rate * params.wheelbase * std::sin(angle);
+  // Wheels at Ackermann's angles point where their hubs move.
+  const auto front_speed = [&](double y) {
+    return std::copysign(std::hypot(speed - yaw_rate * y, yaw_rate * params.wheelbase), speed);
   };
-  return {front_speed(front.left, 0.5 * params.track_front),
-          front_speed(front.right, -0.5 * params.track_front), rear.left, rear.right};
+  return WheelSpeeds{{front_speed(0.5 * params.track_front), front_speed(-0.5 * params.track_front),
+                      rear.left, rear.right}};
 }
 
 std::string PhysicsVersion() {

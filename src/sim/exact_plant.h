@@ -19,36 +19,40 @@ KinematicState InPlane(const StartState& start);
 template <typename Car>
 class ExactPlant final : public Plant {
  public:
-  ExactPlant(const CarModel& model, const Car& car) : model_(model), car_(car) {}
+  ExactPlant(const CarModel& model, const Car& car)
+      : model_(model), car_(car), state_(car.FullState()) {}
 
   void Step(const Command& command) override {
     const double timestep = model_.timestep();
-    const VehicleState before = car_.FullState();
+    const VehicleState before = state_;
     car_.Step(command, timestep);
-    const VehicleState after = car_.FullState();
-    const auto speeds = RollingSpeeds(model_.params(), 0.5 * (before.speed + after.speed),
-                                      0.5 * (before.steering + after.steering));
-    spin_.resize(speeds.size());
-    for (std::size_t w = 0; w < speeds.size(); ++w) {
-      spin_[w] += speeds[w] / model_.params().wheel_radius * timestep;
+    state_ = car_.FullState();
+    const WheelSpeeds speeds = RollingSpeeds(model_.params(), 0.5 * (before.speed + state_.speed),
+                                             0.5 * (before.steering + state_.steering));
+    spin_.resize(static_cast<std::size_t>(speeds.size()));
+    for (std::size_t w = 0; w < spin_.size(); ++w) {
+      spin_[w] += speeds[static_cast<Eigen::Index>(w)] / model_.params().wheel_radius * timestep;
     }
   }
 
-  void ApplyLateralOffset(double left) override { car_.ApplyLateralOffset(left); }
+  void ApplyLateralOffset(double left) override {
+    car_.ApplyLateralOffset(left);
+    state_ = car_.FullState();
+  }
 
   void ApplyLateralForce(double force) override {
     if constexpr (requires { car_.ApplyLateralForce(force); }) {
       car_.ApplyLateralForce(force * model_.timestep());
+      state_ = car_.FullState();
     }
   }
 
-  [[nodiscard]] VehicleState Observe() const override { return car_.FullState(); }
+  [[nodiscard]] VehicleState Observe() const override { return state_; }
 
-  [[nodiscard]] Pose2 pose() const override { return car_.FullState().pose; }
+  [[nodiscard]] Pose2 pose() const override { return state_.pose; }
 
   [[nodiscard]] std::vector<double> Configuration() const override {
-    const VehicleState state = car_.FullState();
-    return model_.FlatConfiguration(state.pose, state.steering, spin_);
+    return model_.FlatConfiguration(state_.pose, state_.steering, spin_);
   }
 
   /// An unstable car spins ever faster. The limit is that of MuJoCo's numbers.
@@ -62,6 +66,7 @@ class ExactPlant final : public Plant {
  private:
   const CarModel& model_;
   Car car_;
+  VehicleState state_;  // of the car now
   std::vector<double> spin_;
 };
 

@@ -78,9 +78,9 @@ MujocoPlant::MujocoPlant(const PlantSetup& setup, TyreSupport support)
 }
 
 void MujocoPlant::RollWheels(std::span<const int> spin_dof, const StartState& start) {
-  const auto rolling = RollingSpeeds(car_.params(), start.speed, start.steering);
+  const WheelSpeeds rolling = RollingSpeeds(car_.params(), start.speed, start.steering);
   for (std::size_t w = 0; w < spin_dof.size(); ++w) {
-    data_->qvel[spin_dof[w]] = rolling[w] / car_.params().wheel_radius;
+    data_->qvel[spin_dof[w]] = rolling[static_cast<Eigen::Index>(w)] / car_.params().wheel_radius;
   }
 }
 

@@ -38,9 +38,9 @@ class WheelPairPlant final : public MujocoPlant {
       return;
     }
     wanted_speed_ = hold ? 0.0 : command.gear * NextSpeed(command.gear, along_gear, speed);
-    const auto speeds = RollingSpeeds(params, wanted_speed_, ratio_);
-    for (std::size_t w = 0; w < speeds.size(); ++w) {
-      const double wanted = speeds[w] / params.wheel_radius;
+    const WheelSpeeds speeds = RollingSpeeds(params, wanted_speed_, ratio_);
+    for (std::size_t w = 0; w < parts.spin_dof.size(); ++w) {
+      const double wanted = speeds[static_cast<Eigen::Index>(w)] / params.wheel_radius;
       const double missing = wanted - data().qvel[parts.spin_dof[w]];
       // It never asks for more than all the torque there is.
       integral_[w] = hold ? 0.0

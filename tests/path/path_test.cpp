@@ -89,6 +89,18 @@ TEST(Path, ReverseSegmentsRunAgainstTheHeading) {
   ExpectPose(back.At(-2.0).pose, {2.0, 0.0, 0.0});
 }
 
+TEST(Path, BendsAsItsPointsDo) {
+  const Path path({1.0, 2.0, 0.5},
+                  {{3.0, 0.1}, {2.0, -0.2, 1, 0.05, 0.01}, {4.0, 0.3, -1}, {1.0, 0.0, -1}});
+  for (double s = -2.0; s < 12.0; s += 0.25) {
+    const PathPoint point = path.At(s);
+    const PathBend bend = path.BendAt(s);
+    EXPECT_EQ(bend.curvature, point.curvature) << s;
+    EXPECT_EQ(bend.direction, point.direction) << s;
+  }
+  EXPECT_EQ(Path().BendAt(1.0).direction, 1);
+}
+
 TEST(Path, ClosesAfterTenKilometers) {
   // 140 laps round a square with rounded corners, 10 km: "below 1e-9 m over 10 km".
   std::vector<Segment> segments;

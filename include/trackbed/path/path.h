@@ -40,6 +40,12 @@ struct PathPoint {
   double sharpness = 0.0;  ///< dkappa/ds [1/m^2]
 };
 
+/// How a path bends at one station.
+struct PathBend {
+  double curvature = 0.0;  ///< [1/m]
+  int direction = 1;
+};
+
 /// The point of a path nearest to a pose, and the errors of the pose against it.
 struct Projection {
   double s = 0.0;              ///< station of the nearest point [m]; see Path::Project
@@ -76,6 +82,9 @@ class Path {
   /// The point at station s. At a joint, the curvature and direction are those of the segment that
   /// begins there; on the straight continuations the curvature is 0. Cost O(log n).
   [[nodiscard]] PathPoint At(double s) const;
+
+  /// The curvature and direction of At(s), in a third of its time.
+  [[nodiscard]] PathBend BendAt(double s) const;
 
   /// The nearest point to `pose` among the stations of `within`, which may reach beyond the ends.
   /// Exact for lines and arcs, to 1e-9 m along the path for other segments; only from within a

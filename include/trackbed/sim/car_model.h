@@ -157,9 +157,12 @@ class CarModel {
   std::variant<CarParts, WheelPairParts> parts_;
 };
 
-/// Speed [m/s] along each wheel's own direction when the car's rear axle moves at `speed` with its
-/// wheels at `steering` and does not slip; one for each of CarModel::wheels().
-std::vector<double> RollingSpeeds(const VehicleParams& params, double speed, double steering);
+/// One for each of CarModel::wheels() [m/s]; takes no heap memory.
+using WheelSpeeds = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kWheels.size(), 1>;
+
+/// Speed along each wheel's own direction when the car's rear axle moves at `speed` with its wheels
+/// at `steering` and does not slip.
+WheelSpeeds RollingSpeeds(const VehicleParams& params, double speed, double steering);
 
 /// "MuJoCo 2.2.2"; InternalError when the library is not the one the headers were made for.
 std::string PhysicsVersion();
