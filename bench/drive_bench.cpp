@@ -2,17 +2,21 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/in_turn.h"
 #include "bench/temp_folder.h"
+#include "trackbed/control/controllers.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/sim/mujoco_error.h"
 #include "trackbed/sim/mujoco_handles.h"
+#include "trackbed/sim/plant.h"
 
 namespace trackbed::bench {
 namespace {
@@ -79,12 +83,66 @@ struct Drive {
         car(LoadCar(scenario)),
         plan(PlanMission(scenario, car.params())) {}
 
-  [[nodiscard]] RunLog Run() const { return DrivePlant(scenario, car, plan, "mujoco"); }
+  [[nodiscard]] std::unique_ptr<Plant> MakePlant() const {
+    return trackbed::MakePlant("mujoco", {.car = car,
+                                          .world = scenario.world,
+                                          .start = InitialState(scenario),
+                                          .tyre = scenario.vehicle.tyre,
+                                          .steering = scenario.drive.steering});
+  }
+  [[nodiscard]] RunLog Run(Plant& plant) const {
+    const auto controller = MakeSteeringController(scenario.control.steering);
+    return SimulateClosedLoop(plant, *controller, plan, MakeLoopConfig(scenario, car));
+  }
 
   Scenario scenario;
   CarModel car;
   Plan plan;
 };
+
+/// Notes the commands that another plant is stepped with.
+class NotingPlant final : public Plant {
+ public:
+  explicit NotingPlant(Plant& plant) : plant_(plant) {}
+
+  [[nodiscard]] const std::vector<Command>& commands() const { return commands_; }
+
+  void Step(const Command& command) override {
+    commands_.push_back(command);
+    plant_.Step(command);
+  }
+  void ApplyLateralOffset(double left) override { plant_.ApplyLateralOffset(left); }
+  void ApplyLateralForce(double force) override { plant_.ApplyLateralForce(force); }
+  [[nodiscard]] VehicleState Observe() const override { return plant_.Observe(); }
+  [[nodiscard]] Pose2 pose() const override { return plant_.pose(); }
+  [[nodiscard]] double obstacle_force() const override { return plant_.obstacle_force(); }
+  [[nodiscard]] std::vector<double> Configuration() const override {
+    return plant_.Configuration();
+  }
+  [[nodiscard]] bool diverged() const override { return plant_.diverged(); }
+
+ private:
+  Plant& plant_;
+  std::vector<Command> commands_;
+};
+
+void StepAlong(Plant& plant, const std::vector<Command>& commands) {
+  for (const Command& command : commands) {
+    plant.Step(command);
+  }
+}
+
+/// The commands of a run; that they alone lead to the same end is checked.
+std::vector<Command> CommandsOf(const Drive& drive) {
+  const auto driven = drive.MakePlant();
+  NotingPlant noting(*driven);
+  static_cast<void>(drive.Run(noting));
+  const auto stepped = drive.MakePlant();
+  StepAlong(*stepped, noting.commands());
+  TRACKBED_CHECK(stepped->Configuration() == driven->Configuration(),
+                 "the plant's steps alone differ from the run");
+  return noting.commands();
+}
 
 /// A bare mj_step loop over what was fed. The plant sets joints between steps, as the angles of the
 /// steered wheels: all but the chassis' own are set here as well.
@@ -116,15 +174,38 @@ double StepBare(const Feed& feed, const CarModel& car) {
   return stopwatch.Seconds();
 }
 
-/// The closed loop with preview, logged and written as a run does, against the same steps alone.
+/// The closed loop with preview, logged and written as a run does, against the plant's steps alone.
 void ClosedLoop(benchmark::State& state, const std::string& scenario) {
   const Drive drive(scenario);
   const TempFolder folder;
+  const std::vector<Command> commands = CommandsOf(drive);
+  const double median = CompareInTurn(
+      state, 1.10,
+      [&] {
+        const Stopwatch stopwatch;
+        const RunLog log = drive.Run(*drive.MakePlant());
+        WriteFileAtomically(folder.path() / "mujoco.csv", ToTable(log).ToCsv());
+        WriteFileAtomically(folder.path() / "mujoco.state.csv", log.configurations.ToCsv());
+        return stopwatch.Seconds();
+      },
+      [&] {
+        const Stopwatch stopwatch;
+        StepAlong(*drive.MakePlant(), commands);
+        return stopwatch.Seconds();
+      });
+  state.counters["real_time_factor"] =
+      static_cast<double>(commands.size()) * drive.car.timestep() / median;
+}
+
+/// The plant's steps against those of MuJoCo on the same model under the same forces.
+void PlantSteps(benchmark::State& state, const std::string& scenario) {
+  const Drive drive(scenario);
+  const std::vector<Command> commands = CommandsOf(drive);
   Feed feed;
-  const RunLog log = [&] {
+  {
     const Listener listener(feed);
-    return drive.Run();
-  }();
+    StepAlong(*drive.MakePlant(), commands);
+  }
   Feed repeated;
   {
     const Listener listener(repeated);
@@ -134,31 +215,31 @@ void ClosedLoop(benchmark::State& state, const std::string& scenario) {
   const std::size_t last = feed.qpos.size() - static_cast<std::size_t>(feed.model->nq);
   TRACKBED_CHECK(repeated.qpos.size() == last &&
                      std::equal(repeated.qpos.begin(), repeated.qpos.end(), feed.qpos.begin()),
-                 "the bare loop differs from the run");
-
+                 "MuJoCo's steps alone differ from the plant's");
   const double median = CompareInTurn(
-      state, 1.25,
+      state, 1.5,
       [&] {
         const Stopwatch stopwatch;
-        const RunLog driven = drive.Run();
-        WriteFileAtomically(folder.path() / "mujoco.csv", ToTable(driven).ToCsv());
-        WriteFileAtomically(folder.path() / "mujoco.state.csv", driven.configurations.ToCsv());
+        StepAlong(*drive.MakePlant(), commands);
         return stopwatch.Seconds();
       },
       [&] { return StepBare(feed, drive.car); });
-  state.counters["real_time_factor"] = log.rows.back().state.time / median;
+  CountStep(state, median / static_cast<double>(commands.size()), drive.car.timestep());
 }
 
-bool RegisterClosedLoop() {
+bool RegisterDrives() {
   for (const std::string scenario : {"three_turns", "obstacle_course"}) {
-    RegisterGuarded("ClosedLoop/" + scenario, ClosedLoop, scenario)
-        ->Iterations(7)
-        ->UseManualTime()
-        ->Unit(benchmark::kMillisecond);
+    for (const auto& [name, function] :
+         {std::pair{"ClosedLoop/", &ClosedLoop}, std::pair{"PlantSteps/", &PlantSteps}}) {
+      RegisterGuarded(name + scenario, function, scenario)
+          ->Iterations(7)
+          ->UseManualTime()
+          ->Unit(benchmark::kMillisecond);
+    }
   }
   return true;
 }
-[[maybe_unused]] const bool registered = RegisterClosedLoop();
+[[maybe_unused]] const bool registered = RegisterDrives();
 
 }  // namespace
 }  // namespace trackbed::bench

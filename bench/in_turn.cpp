@@ -48,4 +48,10 @@ double CompareInTurn(benchmark::State& state, double limit, const Timed& ours, c
   return median;
 }
 
+void CountStep(benchmark::State& state, double seconds, double timestep) {
+  state.counters["step_us"] = 1e6 * seconds;
+  state.counters["step_cycles"] = seconds * benchmark::CPUInfo::Get().cycles_per_second;
+  state.counters["real_time_factor"] = timestep / seconds;
+}
+
 }  // namespace trackbed::bench

@@ -32,6 +32,10 @@ using Timed = std::function<double()>;
 /// Returns the median of `ours` [s].
 double CompareInTurn(benchmark::State& state, double limit, const Timed& ours, const Timed& bare);
 
+/// Counters of a physics step that takes `seconds` and advances by `timestep` [s]: its `step_us`,
+/// `step_cycles` at the processor's nominal frequency, and the `real_time_factor`.
+void CountStep(benchmark::State& state, double seconds, double timestep);
+
 /// A benchmark that reports an exception as its error, so that the others go on.
 template <typename Function>
 auto Guarded(Function function) {

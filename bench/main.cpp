@@ -4,10 +4,13 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <exception>
 #include <fstream>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "bench/record.h"
 #include "trackbed/core/version.h"
 #include "trackbed/optimize/search.h"
 #include "trackbed/render/film.h"
@@ -41,10 +44,33 @@ std::string OpenGlVersion() {
   return text;
 }
 
+/// `trackbed_bench table RECORD` and `trackbed_bench against BEFORE AFTER`.
+int PrintRecords(const std::vector<std::string>& words) {
+  try {
+    if (words.size() == 2 && words[0] == "table") {
+      fmt::print("{}", trackbed::bench::RatioTable(words[1]));
+      return 0;
+    }
+    if (words.size() == 3 && words[0] == "against") {
+      fmt::print("{}", trackbed::bench::ChangeTable(words[1], words[2]));
+      return 0;
+    }
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
+  }
+  fmt::print(stderr, "usage: trackbed_bench table RECORD | against BEFORE AFTER | OPTION...\n");
+  return 2;
+}
+
 }  // namespace
 
-/// Google Benchmark's own main, with what a record of numbers must say to be worth keeping.
+/// Google Benchmark's own main, with what a record of numbers must say to be worth keeping; or
+/// tables of such records.
 int main(int argc, char** argv) {
+  if (argc > 1 && argv[1][0] != '-') {
+    return PrintRecords({argv + 1, argv + argc});
+  }
   benchmark::AddCustomContext("cpu", CpuModel());
   benchmark::AddCustomContext("cores", std::to_string(std::thread::hardware_concurrency()));
   benchmark::AddCustomContext("compiler", kCompiler);

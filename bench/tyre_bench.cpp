@@ -31,8 +31,7 @@ void TyreStep(benchmark::State& state, const std::string& model) {
   const double median = CompareInTurn(
       state, 1.15, [&] { return DriveSlalom(car, world, "mujoco:magic_formula"); },
       [&] { return DriveSlalom(car, world, "mujoco:contact"); });
-  state.counters["step_us"] = 1e6 * median * kTimestep / kDuration;
-  state.counters["real_time_factor"] = kDuration / median;
+  CountStep(state, median * kTimestep / kDuration, kTimestep);
 }
 
 bool RegisterTyreStep() {
