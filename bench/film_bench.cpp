@@ -91,7 +91,7 @@ void DraftOverlays(benchmark::State& state) {
   render::Image image;
   int frame = 0;
   CompareInTurn(
-      state, 1.3,
+      state, 1.2,
       [&] {
         frame = frame % kFrames + 1;
         const Stopwatch stopwatch;
@@ -112,7 +112,7 @@ void DraftOverlays(benchmark::State& state) {
 }
 
 bool RegisterFilm() {
-  for (const auto& [quality, limit] : {std::pair("film", 1.15), std::pair("draft", 2.0)}) {
+  for (const auto& [quality, limit] : {std::pair("film", 1.10), std::pair("draft", 1.25)}) {
     RegisterGuarded(std::string("Film/") + quality, Film, quality, limit)
         ->Iterations(3)
         ->UseManualTime()

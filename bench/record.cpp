@@ -147,10 +147,14 @@ std::string ChangeTable(const std::filesystem::path& before, const std::filesyst
     table += old_entry != nullptr ? ChangeRow(*old_entry, entry, times)
                                   : Row(entry.name, "", "new", entry.error);
   }
+  std::vector<std::string> left_out;
   for (const Entry& entry : old_record.entries) {
     if (new_record.Find(entry.name) == nullptr) {
-      table += Row(entry.name, "", "not run", "");
+      left_out.push_back(entry.name);
     }
+  }
+  if (!left_out.empty()) {
+    table += fmt::format("\nnot run now: {}\n", fmt::join(left_out, ", "));
   }
   return table;
 }

@@ -159,7 +159,10 @@ FilmReport RenderFilm(const fs::path& run_folder, const fs::path& output,
   const auto [begin, end] = TimesAskedFor(options, RecordedTimes(recordings));
   render::Painter painter(recordings, options);
   MakeParent(output);
-  render::BackgroundOutput film(format.open(output, options.width, options.height, options.fps));
+  render::BackgroundOutput film(format.open(output, {.width = options.width,
+                                                     .height = options.height,
+                                                     .fps = options.fps,
+                                                     .quick = painter.quality().quick}));
 
   FilmReport report;
   // The small surplus keeps a last frame that falls on the end but for rounding.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 
 #include "render/runtime_library.h"
@@ -41,28 +42,36 @@ void CopyFlipped(const std::vector<std::uint8_t>& from, Image& to) {
   }
 }
 
-/// Each pixel the mean of a square of `side` by `side` samples.
+/// Each pixel the mean of a square of `side` by `side` samples, a power of two.
 void AverageFlipped(const std::vector<std::uint8_t>& from, int side, Image& to) {
   const auto step = static_cast<std::size_t>(side);
   const auto width = static_cast<std::size_t>(to.width);
   const std::size_t row = 3 * width * step;
   const auto samples = static_cast<unsigned>(side * side);
-  std::vector<unsigned> sums(3 * width);
+  const int shift = std::countr_zero(samples);  // a division takes longer than all the rest
+  std::vector<std::uint16_t> columns(row);      // the sums of `side` lines
   for (int y = 0; y < to.height; ++y) {
-    std::fill(sums.begin(), sums.end(), samples / 2);  // rounds
+    std::fill(columns.begin(), columns.end(), std::uint16_t{0});
     const auto first = static_cast<std::size_t>(to.height - 1 - y) * step;
     for (std::size_t line = first; line < first + step; ++line) {
       const std::uint8_t* sample = from.data() + row * line;
-      for (std::size_t x = 0; x < sums.size(); x += 3) {
-        for (std::size_t i = 0; i < step; ++i, sample += 3) {
-          sums[x] += sample[0];
-          sums[x + 1] += sample[1];
-          sums[x + 2] += sample[2];
-        }
+      for (std::size_t x = 0; x < row; ++x) {
+        columns[x] = static_cast<std::uint16_t>(columns[x] + sample[x]);
       }
     }
-    std::transform(sums.begin(), sums.end(), to.Pixel(0, y),
-                   [&](unsigned sum) { return static_cast<std::uint8_t>(sum / samples); });
+    const std::uint16_t* column = columns.data();
+    std::uint8_t* pixel = to.Pixel(0, y);
+    for (std::size_t x = 0; x < width; ++x, pixel += 3) {
+      std::array<unsigned, 3> sums{samples / 2, samples / 2, samples / 2};  // rounds
+      for (std::size_t i = 0; i < step; ++i, column += 3) {
+        sums[0] += column[0];
+        sums[1] += column[1];
+        sums[2] += column[2];
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        pixel[i] = static_cast<std::uint8_t>(sums[i] >> shift);
+      }
+    }
   }
 }
 
@@ -77,6 +86,8 @@ Offscreen::Offscreen(mjModel& model, int width, int height, int supersampling)
       height_(height),
       supersampling_(supersampling),
       window_(4 * kWindowSize * kWindowSize) {
+  TRACKBED_CHECK(supersampling == 1 || supersampling == 2 || supersampling == 4,
+                 "{} by {} samples a pixel", supersampling, supersampling);
   mesa_.reset(Mesa().create(OSMESA_RGBA, 24, 8, 0, nullptr));
   if (!mesa_ || Mesa().make_current(mesa_.get(), window_.data(), GL_UNSIGNED_BYTE, kWindowSize,
                                     kWindowSize) != GL_TRUE) {

@@ -48,8 +48,9 @@ const std::array<FilmFormat, 4>& FormatTable() {
       {".webp", "animation", false, WebpOpener()},
       {".apng", "animation", false, ApngOpener()},
       {".png", "frames", false,
-       [](const fs::path& output, int /*width*/, int /*height*/, double /*fps*/)
-           -> std::unique_ptr<FilmOutput> { return std::make_unique<FrameOutput>(output); }},
+       [](const fs::path& output, const FilmPictures& /*pictures*/) -> std::unique_ptr<FilmOutput> {
+         return std::make_unique<FrameOutput>(output);
+       }},
   }};
   return table;
 }

@@ -53,9 +53,16 @@ class BackgroundOutput : public FilmOutput {
   std::jthread thread_;  // last: it is asked to stop and awaited before the rest goes
 };
 
-/// Opens an output for pictures of a size [px] at frames per second.
-using OpenOutput = std::unique_ptr<FilmOutput> (*)(const std::filesystem::path& output, int width,
-                                                   int height, double fps);
+/// The pictures that a film consists of.
+struct FilmPictures {
+  int width = 0;   ///< [px]
+  int height = 0;  ///< [px]
+  double fps = 0.0;
+  bool quick = false;  ///< a video is encoded in a third of the time, into a larger file
+};
+
+using OpenOutput = std::unique_ptr<FilmOutput> (*)(const std::filesystem::path& output,
+                                                   const FilmPictures& pictures);
 
 /// A kind of file that a film can be.
 struct FilmFormat {

@@ -15,7 +15,13 @@
 
 namespace trackbed::render {
 
-struct Quality;
+/// What a picture may cost.
+struct Quality {
+  const char* name;
+  int supersampling;  ///< samples per pixel, along each side
+  bool shadows;
+  bool quick;  ///< videos: FilmPictures::quick
+};
 
 /// Makes the pictures of a film: the recorded worlds, what is drawn over them, and the captions.
 class Painter {
@@ -36,6 +42,7 @@ class Painter {
   /// over it, and where; valid until the next call.
   mjvScene& SceneAt(double time);
   [[nodiscard]] Offscreen& offscreen() { return offscreen_; }
+  [[nodiscard]] const Quality& quality() const { return quality_; }
 
  private:
   struct Part;

@@ -18,10 +18,10 @@ namespace fs = std::filesystem;
 /// A film in one file, under a temporary name until it is complete.
 class VideoOutput : public FilmOutput {
  public:
-  VideoOutput(fs::path output, FilmCodec codec, int width, int height, double fps)
+  VideoOutput(fs::path output, FilmCodec codec, const FilmPictures& pictures)
       : output_(std::move(output)),
         temporary_(TemporaryNameFor(output_)),
-        writer_(temporary_.path, output_, codec, width, height, fps) {}
+        writer_(temporary_.path, output_, codec, pictures) {}
 
   void Add(const Image& image) override { writer_.Add(image); }
   void Finish() override {
@@ -49,8 +49,8 @@ class VideoOutput : public FilmOutput {
 };
 
 template <FilmCodec codec>
-std::unique_ptr<FilmOutput> Open(const fs::path& output, int width, int height, double fps) {
-  return std::make_unique<VideoOutput>(output, codec, width, height, fps);
+std::unique_ptr<FilmOutput> Open(const fs::path& output, const FilmPictures& pictures) {
+  return std::make_unique<VideoOutput>(output, codec, pictures);
 }
 
 }  // namespace

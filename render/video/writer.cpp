@@ -44,6 +44,7 @@ struct Recipe {
   AVPixelFormat pixels;
   bool bt709;  // else the pictures' own red, green and blue
   std::vector<std::pair<const char*, const char*>> encoder_options;
+  std::vector<std::pair<const char*, const char*>> quick_options;  // instead of those
   std::vector<std::pair<const char*, const char*>> container_options;
 };
 
@@ -55,15 +56,17 @@ const Recipe& EncoderRecipe(FilmCodec codec) {
                            AV_PIX_FMT_YUV420P,
                            true,
                            {{"preset", "veryfast"}, {"crf", "23"}, {"mbtree", "0"}},
+                           {{"preset", "ultrafast"}},
                            {{"movflags", "+faststart"}}};
   static const Recipe webp{"libwebp_anim",
                            "webp",
                            AV_PIX_FMT_BGRA,
                            false,
                            {{"quality", "80"}, {"compression_level", "4"}},
+                           {},
                            {{"loop", "0"}}};
-  static const Recipe apng{"apng",          "apng", AV_PIX_FMT_RGB24, false, {{"pred", "mixed"}},
-                           {{"plays", "0"}}};
+  static const Recipe apng{"apng", "apng",          AV_PIX_FMT_RGB24, false, {{"pred", "mixed"}},
+                           {},     {{"plays", "0"}}};
   return codec == FilmCodec::kH264 ? h264 : codec == FilmCodec::kWebp ? webp : apng;
 }
 
@@ -101,15 +104,15 @@ struct VideoWriter::Encoder {
     return made;
   }
 
-  void OpenCodec(int width, int height, double fps) {
+  void OpenCodec(const FilmPictures& pictures) {
     const AVCodec* found = Libav().avcodec_find_encoder_by_name(recipe.encoder);
     if (found == nullptr) {
       Fail(fmt::format("this libavcodec has no encoder {}", recipe.encoder));
     }
     codec.reset(Check(Libav().avcodec_alloc_context3(found)));
-    codec->width = width;
-    codec->height = height;
-    codec->framerate = Libav().av_d2q(fps, 1001000);
+    codec->width = pictures.width;
+    codec->height = pictures.height;
+    codec->framerate = Libav().av_d2q(pictures.fps, 1001000);
     codec->time_base = av_inv_q(codec->framerate);
     codec->pix_fmt = recipe.pixels;
     if (recipe.bt709) {
@@ -120,11 +123,18 @@ struct VideoWriter::Encoder {
     }
     codec->thread_count = 1;
     codec->flags |= AV_CODEC_FLAG_BITEXACT | AV_CODEC_FLAG_GLOBAL_HEADER;
-    for (const auto& [key, value] : recipe.encoder_options) {
+    SetOptions(recipe.encoder_options);
+    if (pictures.quick) {
+      SetOptions(recipe.quick_options);
+    }
+    Check(Libav().avcodec_open2(codec.get(), found, nullptr));
+  }
+
+  void SetOptions(const std::vector<std::pair<const char*, const char*>>& options) const {
+    for (const auto& [key, value] : options) {
       // Some are the encoder's own, some every encoder's.
       Check(Libav().av_opt_set(codec.get(), key, value, AV_OPT_SEARCH_CHILDREN));
     }
-    Check(Libav().avcodec_open2(codec.get(), found, nullptr));
   }
 
   void OpenFile(const std::filesystem::path& file) {
@@ -195,12 +205,12 @@ struct VideoWriter::Encoder {
 };
 
 VideoWriter::VideoWriter(const std::filesystem::path& file, const std::filesystem::path& shown_name,
-                         FilmCodec codec, int width, int height, double fps)
+                         FilmCodec codec, const FilmPictures& pictures)
     : encoder_(std::make_unique<Encoder>(EncoderRecipe(codec))) {
   // libav and x264 write to the terminal unless told otherwise; their failures come back as codes.
   Libav().av_log_set_level(AV_LOG_QUIET);
   encoder_->name = shown_name.string();
-  encoder_->OpenCodec(width, height, fps);
+  encoder_->OpenCodec(pictures);
   encoder_->OpenFile(file);
   encoder_->OpenConversion();
 }

@@ -4,12 +4,14 @@
 #include <memory>
 
 #include "render/image.h"
+#include "render/output.h"
 
 namespace trackbed::render {
 
 /// What a film is in.
 enum class FilmCodec {
-  kH264,  ///< MP4: libx264, veryfast, crf 23, yuv420p, BT.709, the index in front
+  kH264,  ///< MP4: libx264, veryfast (quick: ultrafast), crf 23, yuv420p, BT.709, the index in
+          ///< front
   kWebp,  ///< animated WebP: libwebp_anim, quality 80, played for ever
   kApng,  ///< animated PNG: without loss, played for ever
 };
@@ -18,14 +20,14 @@ enum class FilmCodec {
 /// give equal bytes.
 ///
 /// The file is complete only after Finish; without it, the destructor leaves what there is. About
-/// 25 ms per picture at 1280x720 on a busy machine. RunError, naming `shown_name`, when encoder or
-/// disk refuse.
+/// 25 ms per picture at 1280x720 on a busy machine, 8 ms if quick. RunError, naming `shown_name`,
+/// when encoder or disk refuse.
 class VideoWriter {
  public:
-  /// For H.264 `width` and `height` must be even. `shown_name` is what messages call the file,
+  /// For H.264 width and height must be even. `shown_name` is what messages call the file,
   /// which may be a temporary.
   VideoWriter(const std::filesystem::path& file, const std::filesystem::path& shown_name,
-              FilmCodec codec, int width, int height, double fps);
+              FilmCodec codec, const FilmPictures& pictures);
   ~VideoWriter();
   VideoWriter(const VideoWriter&) = delete;
   VideoWriter& operator=(const VideoWriter&) = delete;

@@ -1,6 +1,7 @@
 #include "trackbed/core/table.h"
 
 #include <csv.h>
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -199,8 +200,8 @@ std::string Table::ToCsv() const {
   for (std::size_t row = 0; row < rows(); ++row) {
     for (std::size_t column = 0; column < width; ++column) {
       // `+ 0.0` turns a negative zero into zero: the sign of nothing is noise in a log.
-      fmt::format_to(std::back_inserter(out), "{}{}", at(row, column) + 0.0,
-                     column + 1 < width ? ',' : '\n');
+      fmt::format_to(fmt::appender(out), FMT_COMPILE("{}"), at(row, column) + 0.0);
+      out.push_back(column + 1 < width ? ',' : '\n');
     }
   }
   return fmt::to_string(out);
