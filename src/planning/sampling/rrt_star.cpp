@@ -87,17 +87,50 @@ class RrtStarTree {
             std::lerp(problem_.low.y(), problem_.high.y(), y)};
   }
 
-  /// The nearest nodes, in no order.
-  void Nearest(const Vec2& p, std::size_t count) {
+  [[nodiscard]] std::size_t Nearest(const Vec2& p) {
     near_.clear();
-    index_.query(index::nearest(Point(p.x(), p.y()), static_cast<unsigned>(count)),
-                 std::back_inserter(near_));
+    index_.query(index::nearest(Point(p.x(), p.y()), 1), std::back_inserter(near_));
+    return near_.front().second;
+  }
+
+  /// The `count` nearest nodes, or all if there are no more, into neighbors_, in no order and
+  /// without costs. The index finds hundreds in a box several times faster than as nearest ones.
+  void FindNearest(const Vec2& p, std::size_t count) {
+    // A circle that holds a quarter more than the count if nodes are spread evenly.
+    const double area = (problem_.high - problem_.low).prod();
+    const double share = static_cast<double>(count) / static_cast<double>(nodes_.size());
+    for (double radius = std::sqrt(1.25 * share * area / M_PI);; radius *= 1.5) {
+      FindWithin(p, radius);
+      if (neighbors_.size() >= std::min(count, nodes_.size())) {
+        break;
+      }
+    }
+    if (neighbors_.size() > count) {
+      const auto end = neighbors_.begin() + static_cast<std::ptrdiff_t>(count);
+      std::nth_element(
+          neighbors_.begin(), end, neighbors_.end(),
+          [](const Neighbor& a, const Neighbor& b) { return a.distance < b.distance; });
+      neighbors_.erase(end, neighbors_.end());
+    }
+  }
+
+  void FindWithin(const Vec2& p, double radius) {
+    near_.clear();
+    neighbors_.clear();
+    const boost::geometry::model::box<Point> box(Point(p.x() - radius, p.y() - radius),
+                                                 Point(p.x() + radius, p.y() + radius));
+    index_.query(index::intersects(box), std::back_inserter(near_));
+    for (const auto& [at, node] : near_) {
+      const double distance = (Vec2(at.x(), at.y()) - p).norm();
+      if (distance <= radius) {
+        neighbors_.push_back({node, distance, 0.0});
+      }
+    }
   }
 
   void Iterate() {
     const Vec2 sample = Sample();
-    Nearest(sample, 1);
-    const std::size_t from = near_.front().second;
+    const std::size_t from = Nearest(sample);
     const Vec2 nearest = nodes_[from].position;
     const Vec2 offset = sample - nearest;
     const double distance = offset.norm();
@@ -128,34 +161,46 @@ class RrtStarTree {
   std::size_t Join(const Vec2& position, std::size_t reached_from) {
     const double count = static_cast<double>(nodes_.size());
     const double nearest = std::ceil(kNeighbors * std::log(count + 1.0));
-    Nearest(position, static_cast<std::size_t>(nearest));
-    neighbors_.clear();
-    const auto consider = [&](std::size_t node) {
-      const double distance = (nodes_[node].position - position).norm();
-      neighbors_.push_back({node, distance, nodes_[node].cost + distance});
-    };
-    for (const Entry& entry : near_) {
-      if (entry.second != reached_from) {
-        consider(entry.second);
-      }
+    FindNearest(position, static_cast<std::size_t>(nearest));
+    if (std::none_of(neighbors_.begin(), neighbors_.end(),
+                     [&](const Neighbor& other) { return other.node == reached_from; })) {
+      neighbors_.push_back({reached_from, (nodes_[reached_from].position - position).norm(), 0.0});
     }
-    consider(reached_from);
-    // Cheapest first: the first free edge is the best one, and few have to be looked at.
-    std::sort(neighbors_.begin(), neighbors_.end(), [](const Neighbor& a, const Neighbor& b) {
-      return a.cost < b.cost || (a.cost == b.cost && a.node < b.node);
-    });
-    const Neighbor& parent =
-        *std::find_if(neighbors_.begin(), neighbors_.end(), [&](const Neighbor& other) {
-          return other.node == reached_from || IsFree(nodes_[other.node].position, position);
-        });
+    for (Neighbor& other : neighbors_) {
+      other.cost = nodes_[other.node].cost + other.distance;
+    }
+    const Neighbor parent = Cheapest(position, reached_from);
     const std::size_t node = Add(position, parent.node, parent.cost);
-    for (const Neighbor& other : neighbors_) {
-      const double cost = nodes_[node].cost + other.distance;
-      if (cost < nodes_[other.node].cost && IsFree(position, nodes_[other.node].position)) {
-        Rejoin(other.node, node, cost);
+    // Leading one node through the new one makes others cheaper, never dearer.
+    const auto last = std::remove_if(neighbors_.begin(), neighbors_.end(), [&](const Neighbor& of) {
+      return parent.cost + of.distance >= nodes_[of.node].cost;
+    });
+    std::sort(neighbors_.begin(), last, CostsLess);
+    for (auto other = neighbors_.begin(); other != last; ++other) {
+      const double cost = parent.cost + other->distance;
+      if (cost < nodes_[other->node].cost && IsFree(position, nodes_[other->node].position)) {
+        Rejoin(other->node, node, cost);
       }
     }
     return node;
+  }
+
+  static bool CostsLess(const Neighbor& a, const Neighbor& b) {
+    return a.cost < b.cost || (a.cost == b.cost && a.node < b.node);
+  }
+
+  /// The cheapest neighbor with a free edge; reorders them. Few edges have to be looked at, and a
+  /// heap gives the first few of hundreds without sorting the rest.
+  Neighbor Cheapest(const Vec2& position, std::size_t reached_from) {
+    const auto costs_more = [](const Neighbor& a, const Neighbor& b) { return CostsLess(b, a); };
+    std::make_heap(neighbors_.begin(), neighbors_.end(), costs_more);
+    for (auto end = neighbors_.end();; --end) {
+      const Neighbor cheapest = neighbors_.front();
+      if (cheapest.node == reached_from || IsFree(nodes_[cheapest.node].position, position)) {
+        return cheapest;
+      }
+      std::pop_heap(neighbors_.begin(), end, costs_more);
+    }
   }
 
   std::size_t Add(const Vec2& position, std::size_t parent, double cost) {
