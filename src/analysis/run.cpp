@@ -201,6 +201,11 @@ RunResult RunMission(const Scenario& scenario, const RunHooks& hooks) {
   return RunMission(scenario, LoadCar(scenario), hooks);
 }
 
+RunResult RunMission(const Scenario& scenario, CarCache& cars, const RunHooks& hooks) {
+  CheckScenario(scenario);
+  return RunMission(scenario, *cars.Load(scenario), hooks);
+}
+
 RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHooks& hooks) {
   RunResult result;
   result.scenario = scenario;

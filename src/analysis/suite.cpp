@@ -29,10 +29,10 @@ std::vector<std::string> Lines(const std::string& text) {
 }
 
 void Drive(const std::function<Scenario(const fs::path&)>& read,
-           const std::function<bool()>& interrupted, SuiteCase& one) {
+           const std::function<bool()>& interrupted, CarCache& cars, SuiteCase& one) {
   const Scenario scenario = read(one.file);
   one.name = scenario.name;
-  const RunResult run = RunMission(scenario, {.drive = [&](const std::string&) {
+  const RunResult run = RunMission(scenario, cars, {.drive = [&](const std::string&) {
                                      return DriveHooks{.interrupted = interrupted};
                                    }});
   one.status = run.interrupted       ? CaseStatus::kInterrupted
@@ -46,14 +46,14 @@ void Drive(const std::function<Scenario(const fs::path&)>& read,
 }
 
 void RunCase(const std::function<Scenario(const fs::path&)>& read,
-             const std::function<bool()>& interrupted, SuiteCase& one) {
+             const std::function<bool()>& interrupted, CarCache& cars, SuiteCase& one) {
   const auto start = std::chrono::steady_clock::now();
   const auto went_wrong = [&](CaseStatus status, const std::exception& error) {
     one.status = status;
     one.reasons = Lines(error.what());
   };
   try {
-    Drive(read, interrupted, one);
+    Drive(read, interrupted, cars, one);
   } catch (const InputError& error) {
     went_wrong(CaseStatus::kBadInput, error);
   } catch (const RunError& error) {
@@ -181,11 +181,12 @@ std::vector<SuiteCase> RunSuite(const std::vector<fs::path>& files,
     cases.push_back({.file = file, .name = file.stem().string()});
   }
   OrderedCases ordered(cases, options.finished);
+  CarCache cars;
   ForEachIndex(cases.size(), options.jobs, [&](std::size_t i) {
     if (options.interrupted && options.interrupted()) {
       return false;
     }
-    RunCase(read, options.interrupted, cases[i]);
+    RunCase(read, options.interrupted, cars, cases[i]);
     if (cases[i].status == CaseStatus::kInterrupted) {
       return false;
     }

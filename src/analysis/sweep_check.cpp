@@ -8,7 +8,7 @@
 namespace trackbed {
 namespace {
 
-using CarKey = decltype(CheckedStudy::cars)::key_type;
+using CarKey = std::tuple<std::string, double, double>;
 
 /// What tells the bare cars of scenarios apart.
 CarKey MakeCarKey(const Scenario& scenario) {
@@ -16,26 +16,23 @@ CarKey MakeCarKey(const Scenario& scenario) {
           scenario.vehicle.steering_rate.value_or(0.0)};
 }
 
-/// Whether nothing is put into the car's scene.
-bool IsBare(const Scenario& scenario) {
-  return scenario.world.obstacles.empty() && IsFlat(scenario.world.ground) &&
-         !scenario.disturb.payload;
+/// The scenario with nothing put into the car's scene.
+Scenario Bare(Scenario scenario) {
+  scenario.world.obstacles.clear();
+  scenario.world.ground = {};
+  scenario.disturb.payload.reset();
+  return scenario;
 }
 
 void CompileCars(CheckedStudy& checked) {
   std::vector<Problem> problems;
   std::set<CarKey> tried;
   for (const StudyPoint& point : checked.points) {
-    Scenario scenario = point.scenario;
-    scenario.world.obstacles.clear();
-    scenario.world.ground = {};
-    scenario.disturb.payload.reset();
-    const auto car = MakeCarKey(scenario);
-    if (!tried.insert(car).second) {
+    if (!tried.insert(MakeCarKey(point.scenario)).second) {
       continue;
     }
     try {
-      checked.cars.emplace(car, LoadCar(scenario));
+      checked.cars->Load(Bare(point.scenario));
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
@@ -58,7 +55,8 @@ void CheckPlants(const CheckedStudy& checked) {
         continue;
       }
       try {
-        MakePlant(plant, {.car = checked.cars.at(car), .world = bare, .start = {}, .tyre = tyre});
+        const auto compiled = checked.cars->Load(Bare(point.scenario));
+        MakePlant(plant, {.car = *compiled, .world = bare, .start = {}, .tyre = tyre});
       } catch (const InputError& error) {
         problems.insert(problems.end(), error.problems().begin(), error.problems().end());
       }
@@ -93,7 +91,8 @@ void CheckOutputs(const CheckedStudy& checked) {
 }  // namespace
 
 CheckedStudy CheckStudy(Study study) {
-  CheckedStudy checked{.study = std::move(study), .points = {}, .cars = {}};
+  CheckedStudy checked{
+      .study = std::move(study), .points = {}, .cars = std::make_unique<CarCache>()};
   checked.points = ReadPoints(checked.study);
   CompileCars(checked);
   CheckPlants(checked);
@@ -106,10 +105,7 @@ std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario&
   const RunHooks hooks{.drive = [&](const std::string&) {
     return DriveHooks{.progress = {}, .interrupted = interrupted};
   }};
-  const auto car = checked.cars.find(MakeCarKey(scenario));
-  const bool compiled = car != checked.cars.end() && IsBare(scenario);
-  const RunResult result =
-      compiled ? RunMission(scenario, car->second, hooks) : RunMission(scenario, hooks);
+  const RunResult result = RunMission(scenario, *checked.cars, hooks);
   if (result.interrupted) {
     return std::nullopt;
   }

@@ -35,13 +35,13 @@ void ConfigurationLog::Record(const Plant& plant, double time) {
   if (time + 5e-7 < period_ * static_cast<double>(next_)) {
     return;
   }
-  std::vector<double> row{time};
   const std::vector<double> configuration = plant.Configuration();
-  row.insert(row.end(), configuration.begin(), configuration.end());
+  row_.assign(1, time);
+  row_.insert(row_.end(), configuration.begin(), configuration.end());
   for (const auto& [column, speed] : moving_) {
-    row[column] = speed * time;
+    row_[column] = speed * time;
   }
-  table_.AddRow(row);
+  table_.AddRow(row_);
   next_ = static_cast<long>(std::floor((time + 5e-7) / period_)) + 1;
 }
 

@@ -27,6 +27,7 @@ class ConfigurationLog {
   double period_;
   long next_ = 0;
   Table table_;
+  std::vector<double> row_;                             // the last one
   std::vector<std::pair<std::size_t, double>> moving_;  // column and speed [m/s] of obstacles
 };
 

@@ -10,7 +10,6 @@
 #include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/registry/planners.h"
-#include "trackbed/sim/payload.h"
 
 namespace trackbed {
 namespace {
@@ -36,20 +35,6 @@ void NoteObstacle(Plan& plan, const VehicleParams& vehicle, const std::vector<Or
 }
 
 }  // namespace
-
-CarModel LoadCar(const Scenario& scenario) {
-  const auto file = FindModel(scenario.vehicle.model, scenario.folder);
-  CarModel car(ComposeScene(file, {.timestep = scenario.drive.timestep,
-                                   .steering_rate = scenario.vehicle.steering_rate}),
-               file.string());
-  if (scenario.disturb.payload) {
-    car = {WithPayload(car, *scenario.disturb.payload), file.string()};
-  }
-  if (scenario.world.obstacles.empty() && IsFlat(scenario.world.ground)) {
-    return car;
-  }
-  return {WithWorld(car.scene(), car.params(), scenario.world), file.string()};
-}
 
 Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
   const StartState start = InitialState(scenario);

@@ -131,6 +131,7 @@ CarModel::CarModel(Scene scene, std::string name_for_messages)
   const VehicleDescription car = DescribeVehicle(*model_, file_);
   parts_ = car.parts;
   params_ = car.params;
+  laden_keyframe_ = mj_name2id(model_.get(), mjOBJ_KEY, kLadenKeyframe);
   const int payload = mj_name2id(model_.get(), mjOBJ_BODY, kPayloadBody);
   unladen_ = payload >= 0 ? Unladen(*model_, payload, file_) : params_;
 }
@@ -180,7 +181,9 @@ std::vector<std::string> CarModel::configuration_columns() const {
 
 std::vector<double> CarModel::ExtractConfiguration(std::span<const double> qpos) const {
   const auto place = qpos.subspan(static_cast<std::size_t>(chassis().chassis_qpos), 7);
-  std::vector<double> values(place.begin(), place.end());
+  std::vector<double> values;
+  values.reserve(place.size() + static_cast<std::size_t>(model_->njnt));
+  values.assign(place.begin(), place.end());
   for (int joint = 0; joint < model_->njnt; ++joint) {
     const int type = model_->jnt_type[joint];
     if (type == mjJNT_HINGE || type == mjJNT_SLIDE) {
@@ -194,8 +197,8 @@ std::vector<double> CarModel::StandingPosition(const Pose2& pose, double steerin
                                                const std::vector<double>& spin,
                                                const Ground& ground) const {
   const Stand stand = StandOn(params_, pose, ground);
-  const int laden = mj_name2id(model_.get(), mjOBJ_KEY, kLadenKeyframe);
-  const mjtNum* level = laden < 0 ? model_->qpos0 : model_->key_qpos + laden * model_->nq;
+  const bool laden = laden_keyframe_ >= 0;
+  const mjtNum* level = laden ? model_->key_qpos + laden_keyframe_ * model_->nq : model_->qpos0;
   std::vector<double> qpos(level, level + model_->nq);
   const auto set = [&](int address, double value) {
     qpos[static_cast<std::size_t>(address)] = value;
@@ -204,11 +207,11 @@ std::vector<double> CarModel::StandingPosition(const Pose2& pose, double steerin
   set(chassis_qpos, pose.x);
   set(chassis_qpos + 1, pose.y);
   const mjtNum sag = level[chassis_qpos + 2];  // across the ground
-  const double upright = laden < 0 ? 1.0 : (stand.turn * Eigen::Vector3d::UnitZ()).z();
+  const double upright = laden ? (stand.turn * Eigen::Vector3d::UnitZ()).z() : 1.0;
   set(chassis_qpos + 2, sag / upright + stand.height);
   const mjtNum* lean = level + chassis_qpos + 3;
   const Eigen::Quaterniond turn =
-      laden < 0 ? stand.turn : stand.turn * Eigen::Quaterniond(lean[0], lean[1], lean[2], lean[3]);
+      laden ? stand.turn * Eigen::Quaterniond(lean[0], lean[1], lean[2], lean[3]) : stand.turn;
   set(chassis_qpos + 3, turn.w());
   set(chassis_qpos + 4, turn.x());
   set(chassis_qpos + 5, turn.y());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace trackbed {
 
@@ -11,9 +12,11 @@ FaultySteering::FaultySteering(const SteeringFaults& faults, double timestep, do
       given_(start) {}
 
 double FaultySteering::Pass(double wanted) {
-  on_the_way_.push_back(faults_.factor * wanted);
-  const double arrived = on_the_way_.front();
-  on_the_way_.pop_front();
+  double arrived = faults_.factor * wanted;
+  if (!on_the_way_.empty()) {
+    std::swap(arrived, on_the_way_[oldest_]);
+    oldest_ = (oldest_ + 1) % on_the_way_.size();
+  }
   const double play = 0.5 * faults_.backlash;
   given_ = std::clamp(given_, arrived - play, arrived + play);
   return given_;

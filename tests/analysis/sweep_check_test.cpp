@@ -72,7 +72,7 @@ TEST(CheckStudy, KnowsTheOutputsOfEveryPoint) {
                                                         "outputs: [metrics.kinematic.time, "
                                                         "metrics.mujoco.clearance_min]\n"));
   EXPECT_EQ(checked.points.size(), 2U);
-  EXPECT_EQ(checked.cars.size(), 1U);  // one model at one timestep
+  EXPECT_EQ(checked.cars->compiled(), 1U);  // one model at one timestep
 }
 
 TEST(CheckStudy, AStudyOfPlantsNeedsOneColumnForEachResult) {
@@ -99,11 +99,13 @@ TEST(CheckStudy, TellsCarsOfDifferentSteeringRatesApart) {
   const TempFolder folder;
   const CheckedStudy checked =
       CheckStudy(MakeStudy(folder, "vary: {vehicle.steering_rate: [0.2, 0.3]}\n"));
+  EXPECT_EQ(checked.cars->compiled(), 2U);
   std::set<double> rates;
-  for (const auto& [key, car] : checked.cars) {
-    rates.insert(car.params().steering_rate);
+  for (const StudyPoint& point : checked.points) {
+    rates.insert(checked.cars->Load(point.scenario)->params().steering_rate);
   }
   EXPECT_EQ(rates, (std::set<double>{0.2, 0.3}));
+  EXPECT_EQ(checked.cars->compiled(), 2U);
 }
 
 TEST(CheckStudy, KnowsWhatAManeuverMeasures) {
@@ -226,7 +228,7 @@ TEST(DriveOnce, DisturbsEveryPointInItsOwnWay) {
                 "list:\n  - {disturb.kicks: [{at: 1, displacement: 0.2}]}\n"
                 "  - {disturb.payload: {mass: 300}}\n  - {disturb.recovered_within: 1}\n"
                 "outputs: [metrics.mujoco.recovery_time]\n"));
-  EXPECT_EQ(checked.cars.size(), 1U);  // without payload
+  EXPECT_EQ(checked.cars->compiled(), 1U);  // without payload
   std::set<std::string> distances;
   for (const StudyPoint& point : checked.points) {
     const Outputs outputs = DriveOnce(checked, point.scenario)->outputs;
@@ -235,6 +237,7 @@ TEST(DriveOnce, DisturbsEveryPointInItsOwnWay) {
     distances.insert(outputs.at("metrics.mujoco.distance"));
   }
   EXPECT_EQ(distances.size(), 3U);
+  EXPECT_EQ(checked.cars->compiled(), 2U);
 }
 
 TEST(DriveOnce, TellsThatThereIsNoPlan) {

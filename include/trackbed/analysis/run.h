@@ -7,6 +7,7 @@
 
 #include "trackbed/analysis/metrics.h"
 #include "trackbed/analysis/verdict.h"
+#include "trackbed/drive/car_cache.h"
 #include "trackbed/drive/drive.h"
 
 namespace trackbed {
@@ -44,6 +45,9 @@ struct RunHooks {
 /// Plans, drives, measures, judges. A mission that cannot be planned is a failed verdict with the
 /// reason and no logs. Errors: InputError from the scenario's model.
 RunResult RunMission(const Scenario& scenario, const RunHooks& hooks = {});
+
+/// The same with a car of the cache.
+RunResult RunMission(const Scenario& scenario, CarCache& cars, const RunHooks& hooks = {});
 
 /// The same for a scenario that has been checked, with its car as LoadCar would give it.
 RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHooks& hooks = {});

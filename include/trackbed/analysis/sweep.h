@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -44,9 +44,7 @@ using RunScenarioOnce = std::function<std::optional<RunOutcome>(const Scenario& 
 struct CheckedStudy {
   Study study;
   std::vector<StudyPoint> points;
-  /// By the model's file, the timestep and the steering rate (0: the car's own): compiled once, for
-  /// scenarios on flat ground without obstacles.
-  std::map<std::tuple<std::string, double, double>, CarModel> cars;
+  std::unique_ptr<CarCache> cars;  ///< never null
 };
 
 /// Reads every point of the study's grid, compiles the cars, makes the plants and checks the

@@ -154,6 +154,7 @@ class CarModel {
   MujocoModel model_;
   VehicleParams params_;
   VehicleParams unladen_;
+  int laden_keyframe_ = -1;  // of the car with its payload; -1: none
   std::variant<CarParts, WheelPairParts> parts_;
 };
 

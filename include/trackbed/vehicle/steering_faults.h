@@ -1,6 +1,7 @@
 #pragma once
 
-#include <deque>
+#include <cstddef>
+#include <vector>
 
 /// Faults between a steering controller and its actuator.
 namespace trackbed {
@@ -29,7 +30,8 @@ class FaultySteering {
 
  private:
   SteeringFaults faults_;
-  std::deque<double> on_the_way_;  // oldest first
+  std::vector<double> on_the_way_;  // a ring
+  std::size_t oldest_ = 0;
   double given_;
 };
 

@@ -1,0 +1,126 @@
+#include "trackbed/drive/car_cache.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "trackbed/drive/drive.h"
+#include "trackbed/sim/payload.h"
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+
+SceneOptions OptionsOf(const Scenario& scenario) {
+  return {.timestep = scenario.drive.timestep, .steering_rate = scenario.vehicle.steering_rate};
+}
+
+CarModel LoadBareCar(const Scenario& scenario, const fs::path& file) {
+  return {ComposeScene(file, OptionsOf(scenario)), file.string()};
+}
+
+/// The car's scene with its payload; none without one.
+std::optional<Scene> LadenScene(const Scenario& scenario, const CarModel& car) {
+  const std::optional<Payload>& payload = scenario.disturb.payload;
+  return payload ? std::optional(WithPayload(car, *payload)) : std::nullopt;
+}
+
+/// The car's scene in the scenario's world; none on flat ground without obstacles.
+std::optional<Scene> SceneInWorld(const Scenario& scenario, const CarModel& car) {
+  const World& world = scenario.world;
+  const bool empty = world.obstacles.empty() && IsFlat(world.ground);
+  return empty ? std::nullopt : std::optional(WithWorld(car.scene(), car.params(), world));
+}
+
+/// Everything that a model is compiled from.
+std::string KeyOf(const Scene& scene, const fs::path& file) {
+  std::string key = fmt::format("{}\n{}", file.string(), scene.xml);
+  for (const SceneAsset& asset : scene.assets) {
+    key += fmt::format("\n{} of {} bytes\n{}", asset.name, asset.content.size(), asset.content);
+  }
+  return key;
+}
+
+}  // namespace
+
+CarModel LoadCar(const Scenario& scenario) {
+  const fs::path file = FindModel(scenario.vehicle.model, scenario.folder);
+  CarModel car = LoadBareCar(scenario, file);
+  if (std::optional<Scene> laden = LadenScene(scenario, car)) {
+    car = {std::move(*laden), file.string()};
+  }
+  if (std::optional<Scene> scene = SceneInWorld(scenario, car)) {
+    car = {std::move(*scene), file.string()};
+  }
+  return car;
+}
+
+CarCache::CarCache(std::size_t most) : most_(most) {}
+
+CarCache::Car CarCache::Load(const Scenario& scenario) {
+  const fs::path file = FindModel(scenario.vehicle.model, scenario.folder);
+  const auto compiled = [&](Scene scene) {
+    return Find(KeyOf(scene, file), [&] { return CarModel(std::move(scene), file.string()); });
+  };
+  const SceneOptions options = OptionsOf(scenario);
+  Car car = Find(
+      fmt::format("{} {} {}", options.timestep, options.steering_rate.value_or(0.0), file.string()),
+      [&] { return LoadBareCar(scenario, file); });
+  if (std::optional<Scene> laden = LadenScene(scenario, *car)) {
+    car = compiled(std::move(*laden));
+  }
+  if (std::optional<Scene> scene = SceneInWorld(scenario, *car)) {
+    car = compiled(std::move(*scene));
+  }
+  return car;
+}
+
+std::size_t CarCache::compiled() const {
+  const std::lock_guard lock(mutex_);
+  return compiled_;
+}
+
+CarCache::Car CarCache::Find(const std::string& key, const std::function<CarModel()>& compile) {
+  std::promise<Car> promise;
+  std::shared_future<Car> car;
+  bool is_new = false;
+  {
+    const std::lock_guard lock(mutex_);
+    Slot& slot = slots_[key];
+    slot.last_use = ++uses_;
+    is_new = !slot.car.valid();
+    if (is_new) {
+      slot.car = promise.get_future().share();
+    }
+    car = slot.car;
+    ForgetOldest();
+  }
+  if (!is_new) {
+    return car.get();
+  }
+  try {
+    promise.set_value(std::make_shared<const CarModel>(compile()));
+    const std::lock_guard lock(mutex_);
+    ++compiled_;
+  } catch (...) {
+    promise.set_exception(std::current_exception());
+    const std::lock_guard lock(mutex_);
+    slots_.erase(key);
+  }
+  return car.get();
+}
+
+void CarCache::ForgetOldest() {
+  if (slots_.size() > most_) {
+    slots_.erase(std::min_element(slots_.begin(), slots_.end(), [](const auto& a, const auto& b) {
+      return a.second.last_use < b.second.last_use;
+    }));
+  }
+}
+
+}  // namespace trackbed

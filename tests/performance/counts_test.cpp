@@ -1,0 +1,154 @@
+// Work that is counted and not timed: the same on every machine but for rounding.
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "tests/planning/frenet_scenes.h"
+#include "trackbed/drive/drive.h"
+#include "trackbed/planning/frenet/lattice.h"
+#include "trackbed/scenario/scenario.h"
+#include "trackbed/sim/plant.h"
+
+namespace {
+
+long allocations = 0;  // NOLINT: counted behind everyone's back
+
+}  // namespace
+
+// The linker lets malloc, which Eigen calls, and operator new end here (--wrap) for all of our own
+// code, not for what shared libraries take for themselves.
+extern "C" {
+void* __real_malloc(std::size_t size);   // NOLINT: the linker's names
+void* __wrap_malloc(std::size_t size) {  // NOLINT
+  ++allocations;
+  return __real_malloc(size);
+}
+void* __real__Znwm(std::size_t size);   // NOLINT
+void* __wrap__Znwm(std::size_t size) {  // NOLINT
+  ++allocations;
+  return __real__Znwm(size);
+}
+}
+
+namespace trackbed {
+namespace {
+
+constexpr double kTimestep = 0.002;  // [s]
+
+/// Plants in a slalom at 15 m/s, up to 3 m/s^2 to either side.
+class Slalom {
+ public:
+  Slalom(const std::string& model, const std::string& plant)
+      : car_(ComposeScene(FindModel(model, ""), {.timestep = kTimestep}), model),
+        plant_(MakePlant(plant, {.car = car_, .world = world_, .start = {.speed = 15.0}})) {}
+
+  void Steps(int count) {
+    const double steering = std::atan(3.0 / (15.0 * 15.0) * car_.params().wheelbase);
+    for (const int end = step_ + count; step_ < end; ++step_) {
+      plant_->Step({.steering = steering * std::sin(1.5 * step_ * kTimestep)});
+    }
+  }
+
+ private:
+  World world_;
+  CarModel car_;
+  std::unique_ptr<Plant> plant_;
+  int step_ = 0;
+};
+
+TEST(Allocations, PlantsStepWithoutAny) {
+  for (const PlantEntry& entry : Plants()) {
+    Slalom slalom("bmw320i", entry.name);
+    slalom.Steps(10);
+    const long before = allocations;
+    slalom.Steps(1000);
+    EXPECT_EQ(allocations - before, 0) << entry.name;
+  }
+}
+
+/// Of a run of three_turns, without its model and plan.
+long AllocationsOfRun(const std::string& plant, double duration) {
+  Scenario scenario = ReadScenario(DataFolder() / "scenarios" / "three_turns.yaml");
+  scenario.drive.time_limit = duration;
+  const CarModel car = LoadCar(scenario);
+  const Plan plan = PlanMission(scenario, car.params());
+  const long before = allocations;
+  static_cast<void>(DrivePlant(scenario, car, plan, plant));
+  return allocations - before;
+}
+
+TEST(Allocations, ControlPeriodsTakeMemoryForTheirLogOnly) {
+  // In 10 s 600 configurations are logged. For each the plant makes a vector; those that obey
+  // exactly make one of MuJoCo's positions first. The two logs double from 100 rows on to 700 at
+  // most three times each.
+  constexpr long kSamples = 600;
+  constexpr long kGrowth = 6;
+  for (const auto& [plant, vectors] :
+       {std::pair("kinematic", 2), std::pair("single_track", 2), std::pair("mujoco", 1)}) {
+    const long added = AllocationsOfRun(plant, 12.0) - AllocationsOfRun(plant, 2.0);
+    EXPECT_LE(added, vectors * kSamples + kGrowth) << plant;
+    EXPECT_GE(added, vectors * kSamples) << plant << ": lower the bound";
+  }
+}
+
+long iterations = 0;  // NOLINT: MuJoCo's callbacks are plain functions
+long rows = 0;        // NOLINT
+
+/// Sums up, while it lives, what MuJoCo's solver did in the steps before each.
+class SolverWatch {
+ public:
+  SolverWatch() {
+    iterations = 0;
+    rows = 0;
+    mjcb_control = [](const mjModel* /*model*/, mjData* data) {
+      iterations += data->solver_iter;
+      rows += data->nefc;
+    };
+  }
+  ~SolverWatch() { mjcb_control = nullptr; }
+  SolverWatch(const SolverWatch&) = delete;
+  SolverWatch& operator=(const SolverWatch&) = delete;
+};
+
+TEST(Solver, HasNothingToDoOnMagicFormulaTyres) {
+  for (const std::string model : {"prius", "bmw320i"}) {
+    Slalom slalom(model, "mujoco:magic_formula");
+    const SolverWatch watch;
+    slalom.Steps(500);
+    EXPECT_EQ(rows, 0) << model;
+    EXPECT_EQ(iterations, 0) << model;
+  }
+}
+
+TEST(Solver, IteratesAFewTimesOnContacts) {
+  Slalom slalom("bmw320i", "mujoco:contact");
+  slalom.Steps(100);
+  const SolverWatch watch;
+  slalom.Steps(500);
+  // Four tyres with three rows each, and the dry friction of four wheels. Iterations as counted, to
+  // an eighth: rounding decides when the solver is content.
+  EXPECT_NEAR(static_cast<double>(rows), 500 * 16, 500);
+  EXPECT_NEAR(static_cast<double>(iterations), 1585, 1585 / 8);
+}
+
+TEST(CollisionChecks, OfMotionsAmongBoxes) {
+  FrenetRequest request = OnPath(5.0);
+  request.start.d = 0.2;
+  request.road = {4.0, 4.0};
+  request.obstacles = {BoxAt(BentRoad(), 25.0, 0.3), BoxAt(BentRoad(), 40.0, -3.0),
+                       BoxAt(BentRoad(), 50.0, 2.0)};
+  request.obstacles.back().velocity = {-0.5, 0.2};
+  const FrenetPlan motion = PlanFrenet(BentRoad(), request, {});
+  const FrenetPlan lattice = PlanLattice(BentRoad(), request, {});
+  ASSERT_TRUE(motion.ok() && lattice.ok());
+  // Candidates are checked from the cheapest on until one is free.
+  EXPECT_NEAR(motion.checked, 173, 173 / 8);
+  EXPECT_NEAR(lattice.checked, 761, 761 / 8);
+}
+
+}  // namespace
+}  // namespace trackbed
