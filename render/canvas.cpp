@@ -240,16 +240,42 @@ void Canvas::FillConvex(const std::vector<CanvasPoint>& corners, Color color, do
       edges.push_back({across_x, across_y, across_x * a.x + across_y * a.y});
     }
   }
+  const auto inside = [&](int x, int y) {
+    double share = 1.0;
+    for (const Edge& edge : edges) {
+      share = std::min(share,
+                       edge.across_x * (x + 0.5) + edge.across_y * (y + 0.5) - edge.offset + 0.5);
+    }
+    return share;
+  };
   const Box box = BoxAround(corners, 0.5);
   for (int y = box.top; y < box.bottom; ++y) {
-    for (int x = box.left; x < box.right; ++x) {
-      double inside = 1.0;
-      for (const Edge& edge : edges) {
-        inside = std::min(
-            inside, edge.across_x * (x + 0.5) + edge.across_y * (y + 0.5) - edge.offset + 0.5);
+    // The columns that every edge leaves a share of, and those that it leaves whole, with a pixel
+    // to spare for rounding: few pixels have to be compared with all edges.
+    double left = box.left;
+    double right = box.right;
+    double whole_left = box.left;
+    double whole_right = box.right;
+    for (const Edge& edge : edges) {
+      if (std::abs(edge.across_x) < 1e-9) {
+        const double share = edge.across_y * (y + 0.5) - edge.offset + 0.5;
+        whole_right = share < 1.0 + 1e-6 * box.right ? whole_left : whole_right;
+        continue;
       }
-      if (inside > 0.0) {
-        Blend(x, y, color, alpha * inside);
+      const double at_half = (edge.offset - edge.across_y * (y + 0.5)) / edge.across_x - 0.5;
+      const double fade = 0.5 / std::abs(edge.across_x) + 1.0;
+      if (edge.across_x > 0.0) {
+        left = std::max(left, at_half - fade);
+        whole_left = std::max(whole_left, at_half + fade);
+      } else {
+        right = std::min(right, at_half + fade);
+        whole_right = std::min(whole_right, at_half - fade);
+      }
+    }
+    for (int x = static_cast<int>(left); x < right; ++x) {
+      const double share = x >= whole_left && x < whole_right ? 1.0 : inside(x, y);
+      if (share > 0.0) {
+        Blend(x, y, color, alpha * share);
       }
     }
   }

@@ -83,7 +83,7 @@ class Path {
   /// begins there; on the straight continuations the curvature is 0. Cost O(log n).
   [[nodiscard]] PathPoint At(double s) const;
 
-  /// The curvature and direction of At(s), in a third of its time.
+  /// The curvature and direction of At(s), without the cost of its pose.
   [[nodiscard]] PathBend BendAt(double s) const;
 
   /// The nearest point to `pose` among the stations of `within`, which may reach beyond the ends.
