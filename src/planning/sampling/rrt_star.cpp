@@ -96,10 +96,12 @@ class RrtStarTree {
   /// The `count` nearest nodes, or all if there are no more, into neighbors_, in no order and
   /// without costs. The index finds hundreds in a box several times faster than as nearest ones.
   void FindNearest(const Vec2& p, std::size_t count) {
-    // A circle that holds a quarter more than the count if nodes are spread evenly.
-    const double area = (problem_.high - problem_.low).prod();
+    // A circle that holds a quarter more than the count if nodes are spread evenly; larger where
+    // the sampled box is a line.
+    const Vec2 box = problem_.high - problem_.low;
     const double share = static_cast<double>(count) / static_cast<double>(nodes_.size());
-    for (double radius = std::sqrt(1.25 * share * area / M_PI);; radius *= 1.5) {
+    const double even = std::sqrt(1.25 * share * box.prod() / M_PI);
+    for (double radius = std::max(even, 1e-3 * box.norm());; radius *= 1.5) {
       FindWithin(p, radius);
       if (neighbors_.size() >= std::min(count, nodes_.size())) {
         break;

@@ -297,6 +297,19 @@ TEST(RrtStar, InAnOpenFieldGoesStraight) {
   }
 }
 
+TEST(RrtStar, SamplesALineToo) {
+  RrtStarProblem problem;
+  problem.goal = {30.0, 0.0};
+  problem.low = {-5.0, 0.0};
+  problem.high = {35.0, 0.0};
+  const RrtStarResult result = PlanRrtStar(problem, {.iterations = 300, .step = 2.0}, 1);
+  ASSERT_TRUE(result.ok());
+  EXPECT_NEAR(result.cost, 30.0, Tolerance(1e-9));
+  // And a point.
+  problem = {};
+  EXPECT_EQ(PlanRrtStar(problem, {.iterations = 300}, 1).cost, 0.0);
+}
+
 TEST(RrtStar, GoalWithinAStepIsReachedAtOnce) {
   RrtStarProblem problem = Nothing();
   problem.goal = {4.0, 5.0};
