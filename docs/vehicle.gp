@@ -4,7 +4,7 @@ set encoding utf8
 set grid lt 1 lw 1 lc rgb "#d8d8d8"
 set key opaque
 
-reference(name) = "tests/data/commonroad/" . name . "_bmw320i_" . (name eq "lane_change" ? "15" : "20") . "mps.csv"
+reference(name) = "scenarios/validation/" . name . "_bmw320i_" . (name eq "lane_change" ? "15" : "20") . "mps.csv"
 car(name, plant) = runs . "/" . name . "/" . plant . ".csv"
 
 set terminal pngcairo noenhanced size 1200,760 font "sans,12" background "white"

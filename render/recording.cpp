@@ -15,7 +15,9 @@
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/scenario/scenario.h"
+#include "trackbed/sim/compile_scene.h"
 #include "trackbed/sim/plant.h"
+#include "trackbed/sim/scene.h"
 
 namespace trackbed::render {
 namespace {
@@ -28,15 +30,7 @@ namespace fs = std::filesystem;
 }
 
 MujocoModel LoadModel(const fs::path& file) {
-  std::array<char, 1000> error{};
-  MujocoModel model(
-      mj_loadXML(run_folder::RequireFile(file).c_str(), nullptr, error.data(), error.size()));
-  if (!model) {
-    std::string message = error.data();
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    Reject(file, "", message);
-  }
-  return model;
+  return CompileScene(ComposeScene(run_folder::RequireFile(file), {}), file.string(), Looks::kKept);
 }
 
 /// The plants whose states lie in the folder.

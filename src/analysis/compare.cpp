@@ -236,8 +236,9 @@ std::vector<FinishedDrive> ReadRunFolder(const fs::path& folder) {
                                  .key = "plants",
                                  .message = "unknown " + UnknownName(plant, known)});
       }
-      drives.push_back({metrics.at("status").get<std::string>(),
-                        ReadTrace(folder / run_folder::LogCsv(plant), plant)});
+      drives.push_back(
+          {metrics.at("status").get<std::string>(),
+           ReadTrace(run_folder::RequireFile(folder / run_folder::LogCsv(plant)), plant)});
     }
   };
   VisitJson(file, visit, {.message = "not the metrics of a run"});

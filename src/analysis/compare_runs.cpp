@@ -233,8 +233,8 @@ void NoteOtherPlan(const fs::path& first, const fs::path& second, Verdict& verdi
         fmt::format("only {} followed a plan", (has_first ? first : second).string()));
     return;
   }
-  const Table plan_1 = ReadCsv(first / run_folder::kPlanCsv);
-  const Table plan_2 = ReadCsv(second / run_folder::kPlanCsv);
+  const Table plan_1 = ReadCsv(run_folder::RequireFile(first / run_folder::kPlanCsv));
+  const Table plan_2 = ReadCsv(run_folder::RequireFile(second / run_folder::kPlanCsv));
   if (AreAlike(plan_1, plan_2)) {
     return;
   }

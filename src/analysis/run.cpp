@@ -9,6 +9,7 @@
 #include "trackbed/analysis/mcap.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/control/controllers.h"
+#include "trackbed/control/playback.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/version.h"
@@ -16,6 +17,7 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/registry/planners.h"
+#include "trackbed/scenario/recording_file.h"
 
 namespace trackbed {
 namespace {
@@ -315,6 +317,9 @@ void WriteRunFolder(const RunResult& result, const fs::path& folder,
   MakeFolder(folder);
   RemoveEarlierRun(folder);
   WriteFileAtomically(folder / run_folder::kScenarioYaml, ResolvedYaml(result.scenario));
+  if (const auto* playback = result.scenario.control.steering.As<PlaybackOptions>()) {
+    WriteFileAtomically(folder / kRecordingCsv, RecordingCsv(playback->recording, playback->by));
+  }
   WriteScene(result.scene, folder / run_folder::kModelXml);
   if (result.scenario.plan) {
     WritePlan(result.plan, result.scenario, folder);

@@ -5,6 +5,8 @@
 #include <system_error>
 
 #include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+#include "trackbed/scenario/recording_file.h"
 #include "trackbed/sim/plant.h"
 
 namespace trackbed::run_folder {
@@ -12,7 +14,11 @@ namespace {
 
 constexpr std::string_view kStateEnding = ".state.csv";
 
+/// The names of plants come from files, too, and must not lead out of the folder.
 std::string Name(const std::string& plant, std::string_view ending) {
+  if (plant.empty() || plant.front() == '.' || plant.find('/') != std::string::npos) {
+    throw InputError(Problem{.message = fmt::format("'{}' is no name of a plant", plant)});
+  }
   return PlantFileName(plant).append(ending);
 }
 
@@ -56,6 +62,7 @@ std::vector<std::string> AllNames() {
   std::vector<std::string> names{kScenarioYaml, kModelXml,   kPlanJson,   kTimingJson,
                                  kMetricsJson,  kMcap,       kVideo,      kPicture,
                                  kReport,       kCompareCsv, kCompareJson};
+  names.emplace_back(kRecordingCsv);
   names.insert(names.end(), kPathFiles.begin(), kPathFiles.end());
   for (const PlantEntry& plant : Plants()) {
     for (const auto name_of : {LogCsv, StateCsv, NewPlansCsv, NewPlansJson, NewPlansTreeCsv}) {
@@ -72,6 +79,9 @@ std::filesystem::path RequireFile(const std::filesystem::path& file) {
   }
   if (std::filesystem::is_directory(file, ignored)) {
     throw InputError(Problem{.file = file.string(), .message = "is a folder, not a file"});
+  }
+  if (!WhyUnreadable(file.filename(), file.parent_path(), {}).empty()) {
+    throw InputError(Problem{.file = file.string(), .message = "is a link out of the run folder"});
   }
   return file;
 }

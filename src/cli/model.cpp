@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "src/cli/scenario_options.h"
 #include "src/cli/verbs.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
@@ -95,6 +96,7 @@ void AddModel(const Command& command) {
     std::string name;
     std::string save;
     bool linkage = false;
+    std::vector<std::string> asset_folders;
   };
   const auto options = std::make_shared<Options>();
   command.AddPositional("name", options->name, "A model by name, or the path of an MJCF file")
@@ -107,9 +109,11 @@ void AddModel(const Command& command) {
   command.AddFlag(
       "--linkage", options->linkage,
       "Print joint couplings fitted to the steering linkage, to paste into the model file");
+  AddAllowAssets(command, options->asset_folders);
   command.OnRun([options] {
     const auto file = FindModel(options->name, "");
-    const CarModel car(ComposeScene(file, {}), file.string());
+    const CarModel car(ComposeScene(file, {.asset_folders = Paths(options->asset_folders)}),
+                       file.string());
     if (options->linkage && car.params().kind != VehicleKind::kSteered) {
       throw InputError(
           Problem{.file = "--linkage", .message = options->name + " has no steered front wheels"});

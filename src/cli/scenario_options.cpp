@@ -60,6 +60,19 @@ void AddFilesIn(const fs::path& folder, FolderContent content, std::vector<fs::p
 
 }  // namespace
 
+void AddAllowAssets(const Command& command, std::vector<std::string>& folders) {
+  command
+      .AddOption("--allow-assets", folders,
+                 "Let models and scenarios name files in this folder, too, beside those in their "
+                 "own")
+      .OneWord()
+      .TypeName("DIR");
+}
+
+std::vector<fs::path> Paths(const std::vector<std::string>& names) {
+  return {names.begin(), names.end()};
+}
+
 void ScenarioOptions::AddTo(const Command& command) {
   command.AddOption("--plant", plants, "Run these plants instead of the scenario's")
       .TypeName("NAME...");
@@ -70,6 +83,7 @@ void ScenarioOptions::AddKeysTo(const Command& command) {
   command.AddOption("--set", overrides, "Override keys of the scenario, such as mission.speed=2")
       .TypeName("KEY=VALUE...");
   command.AddOption("--seed", seed, "Override the scenario's seed").TypeName("N");
+  AddAllowAssets(command, asset_folders);
   command.AddFlag("-q,--quiet", quiet, "Print errors only");
 }
 
@@ -85,11 +99,11 @@ std::vector<Override> ScenarioOptions::Overrides() const {
 }
 
 Scenario ScenarioOptions::Read(const fs::path& file) const {
-  return ReadScenario(file, Overrides(), CameraNames(), PossibleMetrics);
+  return ReadScenario(file, Overrides(), CameraNames(), PossibleMetrics, Paths(asset_folders));
 }
 
 Study ScenarioOptions::ReadStudyFile(const fs::path& file) const {
-  return ReadStudy(file, Overrides(), CameraNames(), PossibleMetrics);
+  return ReadStudy(file, Overrides(), CameraNames(), PossibleMetrics, Paths(asset_folders));
 }
 
 std::vector<fs::path> ScenarioFiles(const std::vector<std::string>& paths, FolderContent content) {

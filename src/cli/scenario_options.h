@@ -15,12 +15,14 @@ struct ScenarioOptions {
   std::vector<std::string> plants;
   std::vector<std::string> overrides;
   std::string seed;
+  std::vector<std::string> asset_folders;
   bool quiet = false;
 
-  /// Adds --plant, --set, --seed and --quiet.
+  /// Adds --plant, and what AddKeysTo adds.
   void AddTo(const Command& command);
 
-  /// Adds --set, --seed and --quiet, for verbs that ask for plants in their own way.
+  /// Adds --set, --seed, --allow-assets and --quiet, for verbs that ask for plants in their own
+  /// way.
   void AddKeysTo(const Command& command);
 
   /// The scenario as these options change it. InputError as ReadScenario.
@@ -33,6 +35,11 @@ struct ScenarioOptions {
   /// All of them as overrides.
   [[nodiscard]] std::vector<Override> Overrides() const;
 };
+
+/// Adds --allow-assets, which may be given several times.
+void AddAllowAssets(const Command& command, std::vector<std::string>& folders);
+
+std::vector<std::filesystem::path> Paths(const std::vector<std::string>& names);
 
 /// What to take from folders.
 enum class FolderContent { kScenarios, kScenariosAndStudies };

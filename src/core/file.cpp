@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -157,6 +158,40 @@ void MakeFolder(const fs::path& folder) {
     throw RunError(
         fmt::format("cannot create the folder {}: {}", folder.string(), error.message()));
   }
+}
+
+namespace {
+
+/// Without links and dots, also when the last parts of it do not exist.
+fs::path RealPath(const fs::path& path) {
+  std::error_code error;
+  const fs::path absolute = fs::absolute(path.empty() ? "." : path, error);
+  fs::path real = fs::weakly_canonical(absolute, error);
+  return error ? absolute.lexically_normal() : real;
+}
+
+bool LiesIn(const fs::path& real_file, const fs::path& folder) {
+  const fs::path real_folder = RealPath(folder / "");
+  const auto [of_folder, of_file] =
+      std::mismatch(real_folder.begin(), real_folder.end(), real_file.begin(), real_file.end());
+  // A folder's path may end in an empty part, after the slash.
+  return of_folder == real_folder.end() || of_folder->empty();
+}
+
+}  // namespace
+
+std::string WhyUnreadable(const fs::path& name, const fs::path& own,
+                          const std::vector<fs::path>& others) {
+  const fs::path real = RealPath(own / name);
+  if ((name.is_relative() && LiesIn(real, own)) ||
+      std::any_of(others.begin(), others.end(),
+                  [&](const fs::path& folder) { return LiesIn(real, folder); })) {
+    return "";
+  }
+  return fmt::format(
+      "{} the folder of the file that names it; --allow-assets DIR allows a folder whose files may "
+      "be read",
+      name.is_absolute() ? "is an absolute path, not one below" : "lies outside of");
 }
 
 }  // namespace trackbed

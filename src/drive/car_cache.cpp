@@ -17,7 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 SceneOptions OptionsOf(const Scenario& scenario) {
-  return {.timestep = scenario.drive.timestep, .steering_rate = scenario.vehicle.steering_rate};
+  return {.timestep = scenario.drive.timestep,
+          .steering_rate = scenario.vehicle.steering_rate,
+          .asset_folders = scenario.asset_folders};
 }
 
 CarModel LoadBareCar(const Scenario& scenario, const fs::path& file) {

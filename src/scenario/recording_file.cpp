@@ -117,4 +117,28 @@ Recording ReadRecording(const std::filesystem::path& file, PlaybackAxis by,
   return recording;
 }
 
+std::string RecordingCsv(const Recording& recording, PlaybackAxis by) {
+  std::vector<std::pair<const char*, const Signal*>> signals{
+      {"steering_rad", &recording.steering},
+      {"speed_mps", &recording.speed},
+      {"acceleration_mps2", &recording.acceleration}};
+  std::erase_if(signals, [](const auto& signal) { return signal.second->empty(); });
+  std::vector<std::string> columns{by == PlaybackAxis::kDistance ? "s_m" : "t_s"};
+  for (const auto& [name, signal] : signals) {
+    columns.emplace_back(name);
+  }
+  const std::vector<Vec2>& knots = recording.steering.knots;
+  Table table(columns);
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    std::vector<double> row{knots[i].x()};
+    for (const auto& [name, signal] : signals) {
+      TRACKBED_REQUIRE(signal->knots.size() == knots.size() && signal->knots[i].x() == row[0],
+                       "RecordingCsv: row {} of {} is not over the steering's axis", i, name);
+      row.push_back(signal->knots[i].y());
+    }
+    table.AddRow(row);
+  }
+  return table.ToCsv();
+}
+
 }  // namespace trackbed

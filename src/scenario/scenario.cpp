@@ -13,6 +13,7 @@
 #include "trackbed/control/playback.h"
 #include "trackbed/control/preview.h"
 #include "trackbed/control/steering_controller.h"
+#include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/registry/planners.h"
@@ -89,6 +90,12 @@ std::vector<Problem> ReadInputs(Scenario& scenario, const ReaderContext& context
   if (playback == nullptr || !context.Read("control.file") || !context.Read("control.columns")) {
     return {};
   }
+  if (const std::string why =
+          WhyUnreadable(playback->file, scenario.folder, scenario.asset_folders);
+      !why.empty()) {
+    add_error("control.file", fmt::format("{} {}", playback->file, why));
+    return {};
+  }
   try {
     playback->recording =
         ReadRecording(scenario.folder / playback->file, playback->by, playback->columns);
@@ -108,7 +115,8 @@ std::vector<Problem> ReadInputs(Scenario& scenario, const ReaderContext& context
 
 Scenario ParseScenario(const std::string& yaml, const std::string& name,
                        const std::filesystem::path& folder, const std::vector<Override>& overrides,
-                       const std::vector<std::string>& cameras, const MetricPaths& metrics) {
+                       const std::vector<std::string>& cameras, const MetricPaths& metrics,
+                       const std::vector<std::filesystem::path>& asset_folders) {
   YAML::Node root = LoadYaml(yaml, name);
   ReaderContext context{.file = name, .overridden = {}, .problems = {}};
   for (const Override& override_text : overrides) {
@@ -116,6 +124,7 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
   }
   Scenario scenario;
   scenario.folder = folder;
+  scenario.asset_folders = asset_folders;
   YamlReader reader(context, root, "");
   Visit(reader, scenario);
   reader.Finish();
@@ -160,9 +169,10 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
 }
 
 Scenario ReadScenario(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                      const std::vector<std::string>& cameras, const MetricPaths& metrics) {
+                      const std::vector<std::string>& cameras, const MetricPaths& metrics,
+                      const std::vector<std::filesystem::path>& asset_folders) {
   return ParseScenario(ReadInput(file), file.string(), file.parent_path(), overrides, cameras,
-                       metrics);
+                       metrics, asset_folders);
 }
 
 namespace {
@@ -279,11 +289,9 @@ std::string ResolvedYaml(const Scenario& scenario) {
             .string();
   }
   resolved.mission.duration = RunDuration(scenario);
-  if (auto* playback = resolved.control.steering.As<PlaybackOptions>();
-      playback != nullptr && !playback->file.empty()) {
-    playback->file = std::filesystem::weakly_canonical(
-                         std::filesystem::absolute(scenario.folder / playback->file))
-                         .string();
+  if (auto* playback = resolved.control.steering.As<PlaybackOptions>()) {
+    playback->file = kRecordingCsv;
+    playback->columns = {};  // RecordingCsv has the default names
   }
   YAML::Emitter out;
   out << YAML::BeginMap;

@@ -235,7 +235,7 @@ Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
   std::for_each(own, all.end(), add);
   try {
     return ParseScenario(study.scenario_text, study.scenario.string(), study.scenario.parent_path(),
-                         overrides, study.cameras, study.metrics);
+                         overrides, study.cameras, study.metrics, study.asset_folders);
   } catch (const InputError& error) {
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems) {

@@ -325,11 +325,13 @@ bool IsStudy(const std::filesystem::path& file) {
 }
 
 Study ReadStudy(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                const std::vector<std::string>& cameras, const MetricPaths& metrics) {
+                const std::vector<std::string>& cameras, const MetricPaths& metrics,
+                const std::vector<std::filesystem::path>& asset_folders) {
   Study study = StudyReader(file, LoadYaml(ReadInput(file), file.string(), "a study")).Read();
   study.overrides = overrides;
   study.cameras = cameras;
   study.metrics = metrics;
+  study.asset_folders = asset_folders;
   return study;
 }
 

@@ -6,80 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <regex>
 
 #include "src/sim/car_parts.h"
-#include "src/sim/scene_xml.h"
 #include "src/sim/upright.h"
 #include "trackbed/core/error.h"
+#include "trackbed/sim/compile_scene.h"
 #include "trackbed/sim/mujoco_error.h"
 
 namespace trackbed {
 namespace {
-
-struct VfsDeleter {
-  void operator()(mjVFS* vfs) const {
-    mj_deleteVFS(vfs);
-    delete vfs;
-  }
-};
-
-struct CompileError {
-  std::string text;  ///< one line
-  int line = 0;      ///< in the composed model; 0 when unknown
-};
-
-/// MuJoCo's message is followed by lines on where it arose: "Element 'joint', line 46", or
-/// "Object name = rack, id = 1, line = 63, column = -1".
-CompileError Understand(const std::string& message) {
-  static const std::regex kind("^(XML )?Error: (Schema violation: )?");
-  static const std::regex place(
-      R"re(\s+(Element '([^']*)'|Object name = (.*), id = )[^\n]*line (= )?(-?\d+))re");
-  CompileError error{std::regex_replace(message, kind, "")};
-  if (std::smatch found; std::regex_search(error.text, found, place)) {
-    error.line = std::max(0, std::stoi(found[5]));
-    const std::string where = found[2].matched        ? fmt::format(" (<{}>)", found[2].str())
-                              : found[3].length() > 0 ? fmt::format(" ('{}')", found[3].str())
-                                                      : "";
-    error.text = error.text.substr(0, static_cast<std::size_t>(found.position())) + where;
-  }
-  std::replace(error.text.begin(), error.text.end(), '\n', ' ');
-  return error;
-}
-
-MujocoModel Compile(const Scene& scene, const std::string& name) {
-  const MujocoErrorScope errors;
-  static_cast<void>(PhysicsVersion());
-  const std::unique_ptr<mjVFS, VfsDeleter> vfs(new mjVFS);  // too large for the stack
-  mj_defaultVFS(vfs.get());
-  const auto add = [&](const std::string& file, const std::string& content) {
-    const int status =
-        mj_makeEmptyFileVFS(vfs.get(), file.c_str(), static_cast<int>(content.size()));
-    TRACKBED_CHECK(status == 0, "cannot hand {} to MuJoCo", file);
-    const int slot = mj_findFileVFS(vfs.get(), file.c_str());
-    std::memcpy(vfs->filedata[slot], content.data(), content.size());
-  };
-  add("model.xml", DiscardLooks(scene.xml));
-  for (const SceneAsset& asset : scene.assets) {
-    add(asset.name, asset.content);
-  }
-  std::array<char, 1000> message{};
-  MujocoModel model;
-  try {
-    model.reset(
-        mj_loadXML("model.xml", vfs.get(), message.data(), static_cast<int>(message.size())));
-  } catch (const RunError& error) {
-    throw InputError(Problem{.file = name, .message = error.what()});
-  }
-  if (model == nullptr) {
-    const CompileError error = Understand(message.data());
-    throw InputError(Problem{.file = name,
-                             .line = LineInCarFile(scene, error.line),
-                             .message = "does not compile: " + error.text});
-  }
-  return model;
-}
 
 /// What the car would be if its payload weighed nothing.
 VehicleParams Unladen(const mjModel& laden, int payload, const std::string& name) {
@@ -126,7 +61,7 @@ Stand StandOn(const VehicleParams& params, const Pose2& pose, const Ground& grou
 CarModel::CarModel(Scene scene, std::string name_for_messages)
     : scene_(std::move(scene)),
       file_(std::move(name_for_messages)),
-      model_(Compile(scene_, file_)) {
+      model_(CompileScene(scene_, file_, Looks::kDiscarded)) {
   const MujocoErrorScope errors;
   const VehicleDescription car = DescribeVehicle(*model_, file_);
   parts_ = car.parts;

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "src/sim/asset_check.h"
 #include "src/sim/scene_xml.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
@@ -53,7 +54,8 @@ std::string PlainWords(const XMLDocument& document) {
 }
 
 void Load(const fs::path& file, XMLDocument& document) {
-  if (!fs::is_regular_file(file)) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) {
     Fail(file, 0, "no such file");
   }
   const std::string text = ReadFile(file);
@@ -71,9 +73,39 @@ void Load(const fs::path& file, XMLDocument& document) {
   }
 }
 
-/// Replaces every <include file="…"/> below `parent` by what the file's root holds. As in MuJoCo,
-/// names are relative to the main file and a file may be included once.
-void ResolveIncludes(XMLElement& parent, const fs::path& file, const fs::path& folder,
+/// The car's file, and the folders whose files it may name.
+struct Origin {
+  fs::path file;
+  fs::path folder;  ///< the file's own
+  const std::vector<fs::path>& others;
+};
+
+/// The file that `name`, from the folder of the car's file, stands for. InputError with the place
+/// of `element`, in `file`, when it may not be read.
+fs::path Find(const fs::path& name, const Origin& origin, const fs::path& file,
+              const XMLElement& element) {
+  fs::path found = origin.folder / name;
+  const auto fail = [&](const std::string& why) {
+    Fail(file, element.GetLineNum(),
+         fmt::format("<{}> refers to {}, which {}", element.Name(), found.string(), why));
+  };
+  if (const std::string why = WhyUnreadable(name, origin.folder, origin.others); !why.empty()) {
+    fail(why);
+  }
+  std::error_code error;
+  if (!fs::is_regular_file(found, error)) {
+    fail("does not exist");
+  }
+  if (fs::file_size(found, error) > kMostAssetBytes) {
+    fail(fmt::format("has more than {} MB", kMostAssetBytes >> 20));
+  }
+  return found;
+}
+
+/// Replaces every <include file="…"/> below `parent`, which is in `file`, by what the included
+/// file's root holds. As in MuJoCo, names are relative to the main file and a file may be included
+/// once.
+void ResolveIncludes(XMLElement& parent, const fs::path& file, const Origin& origin,
                      std::set<fs::path>& included) {
   for (XMLElement* child = parent.FirstChildElement(); child != nullptr;) {
     XMLElement* next = child->NextSiblingElement();
@@ -82,13 +114,13 @@ void ResolveIncludes(XMLElement& parent, const fs::path& file, const fs::path& f
       if (name == nullptr) {
         Fail(file, child->GetLineNum(), "<include> without a file");
       }
-      const fs::path other = folder / name;
+      const fs::path other = Find(name, origin, file, *child);
       if (!included.insert(fs::weakly_canonical(other)).second) {
         Fail(file, child->GetLineNum(), fmt::format("{} is included twice", name));
       }
       XMLDocument document;
       Load(other, document);
-      ResolveIncludes(*document.RootElement(), other, folder, included);
+      ResolveIncludes(*document.RootElement(), other, origin, included);
       tinyxml2::XMLNode* last = child;
       for (const XMLElement* element = document.RootElement()->FirstChildElement();
            element != nullptr; element = element->NextSiblingElement()) {
@@ -96,7 +128,7 @@ void ResolveIncludes(XMLElement& parent, const fs::path& file, const fs::path& f
       }
       parent.DeleteChild(child);
     } else {
-      ResolveIncludes(*child, file, folder, included);
+      ResolveIncludes(*child, file, origin, included);
     }
     child = next;
   }
@@ -126,9 +158,9 @@ std::string CompilerAttribute(const XMLElement& root, const char* name) {
 
 /// Gathers the files that assets refer to and renames the references to plain names, so that the
 /// composed model and its assets can lie together in any folder.
-void GatherAssets(XMLElement& root, const fs::path& file, const fs::path& folder, Scene& scene) {
-  const fs::path mesh_folder = folder / CompilerAttribute(root, "meshdir");
-  const fs::path texture_folder = folder / CompilerAttribute(root, "texturedir");
+void GatherAssets(XMLElement& root, const Origin& origin, Scene& scene) {
+  const fs::path mesh_folder = CompilerAttribute(root, "meshdir");
+  const fs::path texture_folder = CompilerAttribute(root, "texturedir");
   static constexpr std::array kFileAttributes{"file",     "fileright", "fileup",  "fileleft",
                                               "filedown", "filefront", "fileback"};
   for (XMLElement* section = root.FirstChildElement("asset"); section != nullptr;
@@ -142,10 +174,11 @@ void GatherAssets(XMLElement& root, const fs::path& file, const fs::path& folder
         if (value == nullptr) {
           continue;
         }
-        const fs::path source = from / value;
-        if (!fs::is_regular_file(source)) {
-          Fail(file, asset->GetLineNum(),
-               fmt::format("<{}> refers to {}, which does not exist", kind, source.string()));
+        const fs::path source = Find(from / value, origin, origin.file, *asset);
+        std::string content = ReadFile(source);
+        if (const std::string why = WhyNoAsset(kind, source, content); !why.empty()) {
+          Fail(origin.file, asset->GetLineNum(),
+               fmt::format("<{}> refers to {}, which {}", kind, source.string(), why));
         }
         // A number in front keeps equal file names from different folders apart.
         const std::string name =
@@ -154,8 +187,12 @@ void GatherAssets(XMLElement& root, const fs::path& file, const fs::path& folder
         if (std::string_view(attribute) == "file" && asset->Attribute("name") == nullptr) {
           asset->SetAttribute("name", source.stem().c_str());
         }
-        scene.assets.push_back({name, ReadFile(source)});
+        scene.assets.push_back({name, std::move(content)});
         asset->SetAttribute(attribute, name.c_str());
+        if (scene.assets.size() > kMostAssets) {
+          Fail(origin.file, asset->GetLineNum(),
+               fmt::format("more than {} files of assets", kMostAssets));
+        }
       }
     }
   }
@@ -164,6 +201,16 @@ void GatherAssets(XMLElement& root, const fs::path& file, const fs::path& folder
     compiler->DeleteAttribute("meshdir");
     compiler->DeleteAttribute("texturedir");
   }
+}
+
+/// Refuses what MuJoCo would take time or memory for without end, or copy into a buffer that is
+/// too small for it.
+void CheckElements(const XMLElement& root, const fs::path& file) {
+  ForEachElement(root, [&](const XMLElement& element) {
+    if (const std::string why = WhyNoElement(element); !why.empty()) {
+      Fail(file, element.GetLineNum(), fmt::format("<{}>: {}", element.Name(), why));
+    }
+  });
 }
 
 /// The first element below the root's children `section` that has this name.
@@ -224,7 +271,8 @@ std::vector<std::string> ModelNames() {
 fs::path FindModel(const std::string& model, const fs::path& base) {
   const bool is_name = model.find('/') == std::string::npos && fs::path(model).extension().empty();
   const fs::path file = is_name ? DataFolder() / "models" / model / (model + ".xml") : base / model;
-  if (fs::is_regular_file(file)) {
+  std::error_code error;
+  if (fs::is_regular_file(file, error)) {
     return file;
   }
   throw InputError(Problem{.message = is_name ? "unknown model " + UnknownName(model, ModelNames())
@@ -239,12 +287,14 @@ Scene ComposeScene(const fs::path& car_file, const SceneOptions& options) {
     Fail(car_file, root.GetLineNum(),
          fmt::format("root element is <{}>; must be <mujoco>", root.Name()));
   }
-  const fs::path folder = car_file.parent_path();
+  const Origin origin{car_file, car_file.parent_path(), options.asset_folders};
   std::set<fs::path> included{fs::weakly_canonical(car_file)};
-  ResolveIncludes(root, car_file, folder, included);
+  ResolveIncludes(root, car_file, origin, included);
+  CheckElements(root, car_file);
 
   Scene scene;
-  GatherAssets(root, car_file, folder, scene);
+  scene.trusted = WhyUnreadable(fs::absolute(car_file), "", {DataFolder() / "models"}).empty();
+  GatherAssets(root, origin, scene);
   if (options.steering_rate) {
     SetSteeringRate(root, *options.steering_rate);
   }

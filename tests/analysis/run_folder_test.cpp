@@ -1,5 +1,6 @@
 #include "trackbed/analysis/run_folder.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +8,7 @@
 #include "trackbed/analysis/compare_runs.h"
 #include "trackbed/analysis/run.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
 #include "trackbed/sim/plant.h"
 
 namespace trackbed {
@@ -29,6 +31,7 @@ TEST(RunFolder, NamesItsFilesAsDocumented) {
                                                              "tree.csv",
                                                              "timing.json",
                                                              "run.mcap",
+                                                             "recording.csv",
                                                              "metrics.json",
                                                              "video.mp4",
                                                              "picture.png",
@@ -41,10 +44,50 @@ TEST(RunFolder, NamesItsFilesAsDocumented) {
                                                              "kinematic.plan.json",
                                                              "kinematic.tree.csv",
                                                              "mujoco-magic_formula.state.csv"}));
-  // Five of each plant, and the fifteen others.
-  EXPECT_EQ(run_folder::AllNames().size(), 5 * Plants().size() + 15);
+  // Five of each plant, and the sixteen others.
+  EXPECT_EQ(run_folder::AllNames().size(), 5 * Plants().size() + 16);
   EXPECT_STREQ(run_folder::kSweepCsv, "sweep.csv");
   EXPECT_STREQ(run_folder::kSweepJson, "sweep.json");
+}
+
+std::string MessageOf(const auto& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RunFolder, IsNotLeftThroughNamesOrLinks) {
+  for (const char* plant : {"../../secret", "/etc/passwd", "", ".hidden", "a/b"}) {
+    EXPECT_EQ(MessageOf([&] { run_folder::LogCsv(plant); }),
+              fmt::format("'{}' is no name of a plant", plant));
+  }
+  const TempFolder folder;
+  const fs::path secret = folder.Write("secret.csv", "t_s\n0\n");
+  const fs::path own = folder.Write("run/own.csv", "t_s\n0\n");
+  const fs::path link = folder.path() / "run/mujoco.csv";
+  fs::create_symlink(secret, link);
+  EXPECT_EQ(MessageOf([&] { run_folder::RequireFile(link); }),
+            link.string() + ": is a link out of the run folder");
+  EXPECT_EQ(MessageOf([&] { run_folder::RequireFile(own); }), "");
+  // The folder itself may be reached through a link.
+  fs::create_symlink(folder.path() / "run", folder.path() / "latest");
+  EXPECT_EQ(MessageOf([&] { run_folder::RequireFile(folder.path() / "latest/own.csv"); }), "");
+}
+
+TEST(RunFolder, RepeatsAPlaybackFromItsOwnRecording) {
+  const TempFolder folder;
+  const auto out = [&](const char* name) { return folder.path() / name; };
+  const auto run = [&](const Scenario& scenario, const char* name) {
+    WriteRunFolder(RunMission(scenario), out(name));
+    return ReadFile(out(name) / "kinematic.csv");
+  };
+  const std::string first =
+      run(Read("playback_lane_change", {"drive.plants=[kinematic]", "expect={}"}), "first");
+  EXPECT_EQ(run(ReadScenario(out("first") / run_folder::kScenarioYaml), "again"), first);
+  EXPECT_EQ(ReadFile(out("first") / "recording.csv"), ReadFile(out("again") / "recording.csv"));
 }
 
 TEST(RunFolder, TellsWhosePlantAStateIs) {

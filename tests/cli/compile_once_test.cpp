@@ -18,7 +18,7 @@ int compiled = 0;
 
 }  // namespace
 
-// This executable's own mj_loadXML comes before that of MuJoCo's shared library, which it calls.
+// This executable's own functions come before those of MuJoCo's shared library, which they call.
 // Declared here, as only sim and render see MuJoCo's headers.
 struct mjModel_;
 struct mjVFS_;
@@ -27,6 +27,14 @@ extern "C" mjModel_* mj_loadXML(const char* file, const mjVFS_* vfs, char* error
   static const auto load = reinterpret_cast<Load>(dlsym(RTLD_NEXT, "mj_loadXML"));
   ++compiled;
   return load(file, vfs, error, error_size);
+}
+
+// A model that is compiled in a process of its own is loaded here.
+extern "C" mjModel_* mj_loadModel(const char* file, const mjVFS_* vfs) {
+  using Load = mjModel_* (*)(const char*, const mjVFS_*);
+  static const auto load = reinterpret_cast<Load>(dlsym(RTLD_NEXT, "mj_loadModel"));
+  ++compiled;
+  return load(file, vfs);
 }
 
 namespace trackbed {

@@ -344,7 +344,8 @@ TEST_F(Film, NamesTheJointThatTheStatesLack) {
 
 TEST_F(Film, RefusesABrokenModelWithoutAskingForAKey) {
   WriteFileAtomically(run_ / "model.xml", "<mujoco><worldbody><geom/></worldbody></mujoco>");
-  EXPECT_THAT(InputMessage(), testing::StartsWith(run_.string() + "/model.xml: "));
+  EXPECT_THAT(InputMessage(),
+              testing::StartsWith(run_.string() + "/model.xml:1: does not compile: "));
 }
 
 TEST_F(Film, LeavesNothingWhereItCannotWrite) {

@@ -372,17 +372,20 @@ TEST(ResolvedYaml, FindsAModelGivenByPathFromAnywhere) {
   EXPECT_THAT(ResolvedYaml(scenario), testing::HasSubstr("model: " + car.string()));
 }
 
-TEST(ResolvedYaml, FindsARecordingFromAnywhere) {
+TEST(ResolvedYaml, HasItsRecordingBesideIt) {
   const TempFolder folder;
-  const auto file = folder.Write("inputs/r.csv", "time,steering_rad,speed_mps\n0,0,9\n2,0.1,9\n");
-  const std::string once = ResolvedYaml(ParseScenario(
+  folder.Write("inputs/r.csv", "time,steering_rad,speed_mps\n0,0,9\n2,0.1,9\n");
+  const Scenario scenario = ParseScenario(
       "schema: 1\nname: x\nmission: {}\ncontrol: {method: playback, file: inputs/../inputs/r.csv, "
       "columns: {time: time}}\n",
-      "test.yaml", folder.path()));
-  EXPECT_THAT(once, testing::HasSubstr("file: " + file.string() + "\n"));
+      "test.yaml", folder.path());
+  const std::string once = ResolvedYaml(scenario);
+  EXPECT_THAT(once, testing::HasSubstr("file: recording.csv\n"));
   EXPECT_THAT(once, testing::HasSubstr("duration: 2\n"));
   EXPECT_THAT(once, testing::HasSubstr("speed: 9\n"));
-  EXPECT_EQ(once, ResolvedYaml(Parse(once)));
+  const TempFolder elsewhere;
+  elsewhere.Write("recording.csv", RecordingCsv(*FindRecording(scenario), PlaybackAxis::kTime));
+  EXPECT_EQ(once, ResolvedYaml(ParseScenario(once, "resolved.yaml", elsewhere.path())));
 }
 
 TEST(PlaybackLaneChange, IsOnePeriodOfASine) {

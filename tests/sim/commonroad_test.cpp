@@ -15,14 +15,14 @@
 namespace trackbed {
 namespace {
 
-/// Recordings of the model as it is published, or with one center of gravity throughout; see the
-/// README of either.
+/// Recordings of the model as it is published, which scenarios replay, too, or with one center of
+/// gravity throughout; see the READMEs.
 enum class Kind { kPublished, kConsistent };
 
 std::filesystem::path Reference(Kind kind, const std::string& name) {
-  const std::filesystem::path folder =
-      std::filesystem::path(TRACKBED_SOURCE_DIR) / "tests/data/commonroad";
-  return (kind == Kind::kPublished ? folder : folder / "consistent") / (name + ".csv");
+  const char* folder =
+      kind == Kind::kPublished ? "scenarios/validation" : "tests/data/commonroad/consistent";
+  return std::filesystem::path(TRACKBED_SOURCE_DIR) / folder / (name + ".csv");
 }
 
 /// The reference has no aerodynamics; the car's file has, assumed ones.

@@ -25,6 +25,11 @@ std::string ErrorMessage(const std::filesystem::path& file) {
   return "no error";
 }
 
+/// A binary STL file: a header, the count of triangles, and one with all its points in one place.
+std::string Triangle() {
+  return std::string(80, ' ') + std::string("\1\0\0\0", 4) + std::string(50, '\0');
+}
+
 TEST(FindModel, KnowsNamesAndPaths) {
   const std::filesystem::path prius = FindModel("prius", "");
   EXPECT_TRUE(std::filesystem::is_regular_file(prius));
@@ -74,18 +79,19 @@ TEST(ComposeScene, TakesAssetsAlong) {
   const auto file = folder.Write("car.xml",
                                  "<mujoco><compiler meshdir='shapes'/><asset>"
                                  "<mesh file='body.stl'/></asset></mujoco>");
-  folder.Write("shapes/body.stl", "solid");
+  const std::string stl = Triangle();
+  folder.Write("shapes/body.stl", stl);
   const Scene scene = ComposeScene(file, {});
   ASSERT_EQ(scene.assets.size(), 1U);
   EXPECT_EQ(scene.assets[0].name, "asset0_body.stl");
-  EXPECT_EQ(scene.assets[0].content, "solid");
+  EXPECT_EQ(scene.assets[0].content, stl);
   EXPECT_THAT(scene.xml, HasSubstr("file=\"asset0_body.stl\""));
   EXPECT_THAT(scene.xml, HasSubstr("name=\"body\""));  // what MuJoCo would have called it
   EXPECT_THAT(scene.xml, Not(HasSubstr("meshdir")));
 
   WriteScene(scene, folder.path() / "model.xml");
   EXPECT_EQ(ReadFile(folder.path() / "model.xml"), scene.xml);
-  EXPECT_EQ(ReadFile(folder.path() / "asset0_body.stl"), "solid");
+  EXPECT_EQ(ReadFile(folder.path() / "asset0_body.stl"), stl);
 }
 
 TEST(ComposeScene, NamesFileAndLineOfWhatIsWrong) {

@@ -38,7 +38,8 @@ inline constexpr const char* kSweepJson = "sweep.json";
 /// What a plan with a path may have beside plan.json.
 inline constexpr std::array kPathFiles{kPlanCsv, kScheduleCsv, kConvergenceCsv, kTreeCsv};
 
-// Of a plant, by its name in the registry: "mujoco:contact" has "mujoco-contact.csv".
+// Of a plant, by its name in the registry: "mujoco:contact" has "mujoco-contact.csv". InputError
+// for a name that would lead to another folder.
 
 std::string LogCsv(const std::string& plant);    ///< <plant>.csv
 std::string StateCsv(const std::string& plant);  ///< <plant>.state.csv
@@ -54,7 +55,8 @@ std::optional<std::string> PlantOfStateCsv(const std::string& file_name);
 /// Every name that the folder of a run may have, with those of the plants in the registry.
 std::vector<std::string> AllNames();
 
-/// `file` itself. InputError naming it if it does not exist.
+/// `file` itself, of a run folder. InputError naming it if it does not exist, is a folder, or is a
+/// link to something outside of the run folder, whose content must not come into a report.
 std::filesystem::path RequireFile(const std::filesystem::path& file);
 
 }  // namespace trackbed::run_folder

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace trackbed {
 
@@ -29,5 +30,11 @@ std::filesystem::path TemporaryNameFor(const std::filesystem::path& file);
 /// RunError (the temporary is removed) on failure, and when the name is taken by something that is
 /// no regular file.
 void PublishFile(const std::filesystem::path& temporary, const std::filesystem::path& file);
+
+/// Why an input that lies in `own` may not have the file `name` read, which is relative to `own`,
+/// as the end of a sentence ("lies outside of ..."); empty when it may: it lies in `own`, in one of
+/// `others` or below, wherever links lead. An absolute name must lie in one of `others`.
+std::string WhyUnreadable(const std::filesystem::path& name, const std::filesystem::path& own,
+                          const std::vector<std::filesystem::path>& others);
 
 }  // namespace trackbed

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "trackbed/control/playback.h"
 
@@ -18,5 +19,12 @@ namespace trackbed {
 /// RunError when the file cannot be read.
 Recording ReadRecording(const std::filesystem::path& file, PlaybackAxis by,
                         const RecordingColumns& columns = {});
+
+/// The name of a recording beside the resolved scenario of a run.
+inline constexpr const char* kRecordingCsv = "recording.csv";
+
+/// The recording as a CSV file that ReadRecording reads back to an equal one, with the default
+/// names of columns. PreconditionError when the signals are not over the same values of the axis.
+std::string RecordingCsv(const Recording& recording, PlaybackAxis by);
 
 }  // namespace trackbed

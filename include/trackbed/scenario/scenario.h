@@ -143,7 +143,11 @@ struct Scenario {
   Expectations expect;
   RenderSpec render;
 
-  std::filesystem::path folder;  ///< relative paths start here; not a key
+  // Not keys.
+  std::filesystem::path folder;  ///< relative paths start here
+  /// Whose files may be read, too, when a recording or the assets of a model lie there: without
+  /// them a recording must lie in `folder` or below, and a model's assets in the model's.
+  std::vector<std::filesystem::path> asset_folders{};
 };
 
 /// `key=value`: replaces a key of the file before it is read; the value is YAML. With drive.plants,
@@ -157,11 +161,12 @@ using MetricPaths = std::function<std::vector<std::string>(const Scenario& scena
 /// the nearest known one), missing or repeated key, wrong type, NaN or infinity, out of range,
 /// unknown name; each with file, line, column and dotted key. Problems of an override name the
 /// override. `cameras` are the names that render.camera may have; none: it is not checked. Likewise
-/// `metrics` for `expect.metrics`, called if there are no other problems.
+/// `metrics` for `expect.metrics`, called if there are no other problems. `asset_folders` become
+/// the scenario's.
 Scenario ReadScenario(const std::filesystem::path& file,
                       const std::vector<Override>& overrides = {},
-                      const std::vector<std::string>& cameras = {},
-                      const MetricPaths& metrics = {});
+                      const std::vector<std::string>& cameras = {}, const MetricPaths& metrics = {},
+                      const std::vector<std::filesystem::path>& asset_folders = {});
 
 /// The same from text; `name` stands for the file in messages, `folder` is where relative paths
 /// start.
@@ -169,7 +174,8 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
                        const std::filesystem::path& folder,
                        const std::vector<Override>& overrides = {},
                        const std::vector<std::string>& cameras = {},
-                       const MetricPaths& metrics = {});
+                       const MetricPaths& metrics = {},
+                       const std::vector<std::filesystem::path>& asset_folders = {});
 
 /// The `render` section of a scenario file alone, for videos of runs whose model may be missing.
 /// InputError.
@@ -189,8 +195,8 @@ Expectations ReadExpectations(const std::filesystem::path& file);
 void CheckScenario(const Scenario& scenario);
 
 /// The scenario with every default filled in, as YAML that ReadScenario reads back to an equal one
-/// from any folder: a model given by its path and a recording are written with their absolute
-/// paths.
+/// from any folder: a model given by its path is written with its absolute path, and a recording is
+/// `recording.csv`, which must lie beside the YAML with the content of RecordingCsv.
 std::string ResolvedYaml(const Scenario& scenario);
 
 /// The keys of a method's options with their values, on one line: "distance: 2.5, law: exact_arc".

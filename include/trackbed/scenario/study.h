@@ -38,13 +38,14 @@ struct OutputSpec {
 /// Every run of a grid sets one alternative of each key of `vary` and one point of `list`.
 struct Study {
   std::string name;
-  std::string file;                        ///< as the user named it
-  std::filesystem::path scenario;          ///< found from the study's folder
-  std::string scenario_text;               ///< its content when the study was read
-  std::vector<Override> overrides;         ///< from the command line; they replace `set`
-  std::vector<std::string> cameras;        ///< as for ReadScenario
-  MetricPaths metrics;                     ///< likewise
-  std::vector<Setting> set;                ///< the same in every run
+  std::string file;                                  ///< as the user named it
+  std::filesystem::path scenario;                    ///< found from the study's folder
+  std::string scenario_text;                         ///< its content when the study was read
+  std::vector<Override> overrides;                   ///< from the command line; they replace `set`
+  std::vector<std::string> cameras;                  ///< as for ReadScenario
+  MetricPaths metrics;                               ///< likewise
+  std::vector<std::filesystem::path> asset_folders;  ///< likewise
+  std::vector<Setting> set;                          ///< the same in every run
   std::vector<std::vector<Setting>> vary;  ///< the alternatives of each key, in the file's order
   std::vector<std::vector<Setting>> list;  ///< points of several keys; empty: none
   int repeat = 1;                          ///< runs per point, with consecutive seeds
@@ -66,7 +67,8 @@ bool IsStudy(const std::filesystem::path& file);
 /// InputError with **every** problem of the study's own keys, including keys that overwrite each
 /// other.
 Study ReadStudy(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
-                const std::vector<std::string>& cameras = {}, const MetricPaths& metrics = {});
+                const std::vector<std::string>& cameras = {}, const MetricPaths& metrics = {},
+                const std::vector<std::filesystem::path>& asset_folders = {});
 
 /// The settings of every point in the grid's order: the last key changes fastest, points of the
 /// list faster than all keys of `vary`. Pure; the grid of a study without either is one point.

@@ -14,6 +14,8 @@ namespace trackbed {
 struct SceneOptions {
   double timestep = 0.002;              ///< [s]
   std::optional<double> steering_rate;  ///< at the road wheels, instead of the car's [rad/s]
+  /// Whose files the car's file may name, beside those in its own folder and below.
+  std::vector<std::filesystem::path> asset_folders{};
 };
 
 /// A file the composed model refers to, under the name it is referred to by.
@@ -30,6 +32,8 @@ struct Scene {
   /// from that file. Empty when unknown.
   std::vector<int> lines;
   Ground ground{};  ///< what the geom `ground` and those on it make up
+  /// From the models folder, and so compiled in this process; see CompileScene.
+  bool trusted = false;
 };
 
 /// The MJCF file of a car: `model` is a name under the models folder ("prius" is
@@ -48,7 +52,15 @@ std::vector<std::string> ModelNames();
 std::filesystem::path DataFolder();
 
 /// Reads a car's MJCF, resolves its includes, gathers the files it refers to, and sets the options.
-/// InputError with file and line when it is not XML or refers to something missing.
+///
+/// The files that it names, includes and assets, must lie in its own folder, in one of
+/// `asset_folders` or below, where links lead included. Assets are checked before MuJoCo reads
+/// them: meshes are .obj or binary .stl, textures .png, height fields .png or MuJoCo's binary
+/// format, none larger than 64 MB; pictures have at most 8192 x 8192 pixels, height fields 4096 x
+/// 4096 samples. Skins from files are refused.
+///
+/// Errors: InputError with file and line when it is not XML, refers to something missing, or breaks
+/// these rules.
 Scene ComposeScene(const std::filesystem::path& car_file, const SceneOptions& options);
 
 /// Adds the ground to the scene: the geom `ground` becomes the plane of the grade, and every bump

@@ -1,0 +1,168 @@
+#include "src/sim/asset_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+
+namespace trackbed {
+namespace {
+
+constexpr std::uint32_t kMostPixels = 8192;   // along a side
+constexpr std::uint32_t kMostSamples = 4096;  // likewise, of a height field
+constexpr std::uint32_t kMostFaces = 200000;  // MuJoCo's own limit of an STL file
+/// MuJoCo's texts of errors have room for about 500 characters.
+constexpr std::size_t kLongestWord = 200;
+
+std::string LowerExtension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+template <typename Number>
+std::optional<Number> ReadNumber(std::string_view content, std::size_t offset) {
+  Number number{};
+  if (content.size() < offset + sizeof number) {
+    return std::nullopt;
+  }
+  std::memcpy(&number, content.data() + offset, sizeof number);
+  return number;
+}
+
+/// A picture's size in its header is in network order.
+std::optional<std::uint32_t> ReadBigEndian(std::string_view content, std::size_t offset) {
+  if (content.size() < offset + 4) {
+    return std::nullopt;
+  }
+  std::uint32_t number = 0;
+  for (const char byte : content.substr(offset, 4)) {
+    number = number << 8U | static_cast<unsigned char>(byte);
+  }
+  return number;
+}
+
+/// W3C, Portable Network Graphics (Second Edition), sections 5.2 and 11.2.2.
+std::string WhyNoPng(std::string_view content) {
+  constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
+  if (!content.starts_with(kSignature) || content.substr(12, 4) != "IHDR") {
+    return "is no PNG picture";
+  }
+  const auto width = ReadBigEndian(content, 16);
+  const auto height = ReadBigEndian(content, 20);
+  if (!width || !height || *width == 0 || *height == 0) {
+    return "is a PNG picture without a size";
+  }
+  if (*width > kMostPixels || *height > kMostPixels) {
+    return fmt::format("has {} x {} pixels; must have at most {} on a side", *width, *height,
+                       kMostPixels);
+  }
+  return "";
+}
+
+/// 80 bytes of anything, the count of triangles, 50 bytes for each.
+std::string WhyNoStl(std::string_view content) {
+  constexpr std::size_t kHeader = 84;
+  constexpr std::size_t kFace = 50;
+  const auto faces = ReadNumber<std::uint32_t>(content, 80);
+  if (!faces || *faces == 0 || *faces > kMostFaces || content.size() != kHeader + kFace * *faces) {
+    return fmt::format("is no binary STL file of 1 to {} triangles", kMostFaces);
+  }
+  return "";
+}
+
+/// MuJoCo's own format: rows and columns, then the heights.
+std::string WhyNoHeights(std::string_view content) {
+  const auto rows = ReadNumber<std::int32_t>(content, 0);
+  const auto columns = ReadNumber<std::int32_t>(content, 4);
+  const auto bad = [](const std::optional<std::int32_t>& count) {
+    return !count || *count < 2 || *count > static_cast<std::int32_t>(kMostSamples);
+  };
+  if (bad(rows) || bad(columns)) {
+    return fmt::format("is no height field of 2 to {} rows and columns", kMostSamples);
+  }
+  const std::size_t samples = static_cast<std::size_t>(*rows) * static_cast<std::size_t>(*columns);
+  if (content.size() != 8 + 4 * samples) {
+    return fmt::format("has {} bytes; {} x {} heights take {}", content.size(), *rows, *columns,
+                       8 + 4 * samples);
+  }
+  for (std::size_t i = 0; i < samples; ++i) {
+    if (!std::isfinite(*ReadNumber<float>(content, 8 + 4 * i))) {
+      return fmt::format("has a height that is not finite, in row {}",
+                         i / static_cast<std::size_t>(*columns) + 1);
+    }
+  }
+  return "";
+}
+
+/// The longest word of an attribute: numbers stand in lists, names alone.
+std::size_t LongestWord(std::string_view text) {
+  std::size_t longest = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(" \t\r\n"), text.size());
+    longest = std::max(longest, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return longest;
+}
+
+}  // namespace
+
+std::string WhyNoAsset(std::string_view kind, const std::filesystem::path& file,
+                       std::string_view content) {
+  const std::string extension = LowerExtension(file);
+  if (content.empty()) {
+    return "is empty";
+  }
+  if (kind == "texture") {
+    return extension == ".png" ? WhyNoPng(content) : "must be a .png file";
+  }
+  if (kind == "hfield") {
+    return extension == ".png" ? WhyNoPng(content) : WhyNoHeights(content);
+  }
+  if (kind == "mesh") {
+    return extension == ".stl"   ? WhyNoStl(content)
+           : extension == ".obj" ? ""
+                                 : "must be a .obj or binary .stl file";
+  }
+  return fmt::format("is not read: files of <{}> are not supported", kind);
+}
+
+std::string WhyNoElement(const tinyxml2::XMLElement& element) {
+  for (const tinyxml2::XMLAttribute* attribute = element.FirstAttribute(); attribute != nullptr;
+       attribute = attribute->Next()) {
+    const std::string_view value = attribute->Value();
+    const bool is_file = std::string_view(attribute->Name()).starts_with("file");
+    const std::size_t length = is_file ? value.size() : LongestWord(value);
+    if (length > kLongestWord) {
+      return fmt::format("a word of {} has {} characters; must have at most {}", attribute->Name(),
+                         length, kLongestWord);
+    }
+  }
+  const auto check = [&](const char* attribute, std::uint32_t most) -> std::string {
+    std::int64_t count = 0;
+    if (element.QueryInt64Attribute(attribute, &count) == tinyxml2::XML_SUCCESS &&
+        (count < 0 || count > most)) {
+      return fmt::format("{} is {}; must be from 0 to {}", attribute, count, most);
+    }
+    return "";
+  };
+  const std::string_view kind = element.Name();
+  if (kind == "texture") {
+    const std::string width = check("width", kMostPixels);
+    return width.empty() ? check("height", kMostPixels) : width;
+  }
+  if (kind == "hfield") {
+    const std::string rows = check("nrow", kMostSamples);
+    return rows.empty() ? check("ncol", kMostSamples) : rows;
+  }
+  return "";
+}
+
+}  // namespace trackbed

@@ -1,0 +1,165 @@
+#include "trackbed/sim/compile_scene.h"
+
+#include <fmt/format.h>
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <regex>
+
+#include "src/sim/scene_xml.h"
+#include "src/sim/sub_process.h"
+#include "trackbed/core/error.h"
+#include "trackbed/sim/car_model.h"
+#include "trackbed/sim/mujoco_error.h"
+
+namespace trackbed {
+namespace {
+
+constexpr std::size_t kGigabyte = std::size_t{1} << 30;
+/// Of a compilation in a process of its own.
+constexpr std::size_t kMemory = 2 * kGigabyte;  // [bytes]
+constexpr int kSeconds = 60;                    // [s] of processor time
+/// Of the compiled model.
+constexpr std::size_t kMostBytes = kGigabyte;
+
+struct VfsDeleter {
+  void operator()(mjVFS* vfs) const {
+    mj_deleteVFS(vfs);
+    delete vfs;
+  }
+};
+using Vfs = std::unique_ptr<mjVFS, VfsDeleter>;
+
+Vfs MakeVfs() {
+  Vfs vfs(new mjVFS);  // too large for the stack
+  mj_defaultVFS(vfs.get());
+  return vfs;
+}
+
+void Add(mjVFS& vfs, const std::string& file, const std::string& content) {
+  const int status = mj_makeEmptyFileVFS(&vfs, file.c_str(), static_cast<int>(content.size()));
+  TRACKBED_CHECK(status == 0, "cannot hand {} to MuJoCo", file);
+  const int slot = mj_findFileVFS(&vfs, file.c_str());
+  std::memcpy(vfs.filedata[slot], content.data(), content.size());
+}
+
+/// A model, or why there is none.
+struct Compiled {
+  MujocoModel model;
+  std::string error;
+};
+
+Compiled CompileHere(const std::string& xml, const std::vector<SceneAsset>& assets) {
+  const Vfs vfs = MakeVfs();
+  Add(*vfs, "model.xml", xml);
+  for (const SceneAsset& asset : assets) {
+    Add(*vfs, asset.name, asset.content);
+  }
+  std::array<char, 1000> message{};
+  Compiled compiled;
+  try {
+    compiled.model.reset(
+        mj_loadXML("model.xml", vfs.get(), message.data(), static_cast<int>(message.size())));
+    if (compiled.model == nullptr) {
+      compiled.error = message.data();
+    }
+  } catch (const RunError& error) {
+    compiled.error = error.what();
+  }
+  return compiled;
+}
+
+// What comes from the other process: one of these, and the model's bytes or the text of an error.
+constexpr char kModelFollows = 'M';
+constexpr char kErrorFollows = 'E';
+
+/// In the other process. What MuJoCo would crash on later is tried there, too.
+std::string CompileAndTry(const std::string& xml, const std::vector<SceneAsset>& assets) try {
+  const Compiled compiled = CompileHere(xml, assets);
+  const auto fail = [](const std::string& text) { return kErrorFollows + text; };
+  if (compiled.model == nullptr) {
+    return fail(compiled.error);
+  }
+  const int size = mj_sizeModel(compiled.model.get());  // negative beyond 2 GB
+  const auto bytes = static_cast<std::size_t>(size);
+  if (size < 0 || bytes > kMostBytes) {
+    return fail(fmt::format("the compiled model takes more than {} MB", kMostBytes >> 20));
+  }
+  const MujocoData data = MakeMujocoData(*compiled.model);
+  mj_forward(compiled.model.get(), data.get());
+  std::string result(1 + bytes, kModelFollows);
+  mj_saveModel(compiled.model.get(), nullptr, result.data() + 1, size);
+  return result;
+} catch (const std::bad_alloc&) {
+  return kErrorFollows + fmt::format("takes more than {} MB of memory", kMemory >> 20);
+} catch (const std::exception& error) {
+  return kErrorFollows + std::string(error.what());
+}
+
+Compiled CompileApart(const std::string& xml, const std::vector<SceneAsset>& assets) {
+  const SubProcessOutcome outcome =
+      InSubProcess([&] { return CompileAndTry(xml, assets); }, kMemory, kSeconds);
+  if (!outcome.finished) {
+    return {nullptr, fmt::format("MuJoCo's compiler failed: {}", outcome.cause)};
+  }
+  const std::string content = outcome.result.substr(1);
+  if (outcome.result.front() == kErrorFollows) {
+    return {nullptr, content};
+  }
+  const Vfs vfs = MakeVfs();
+  Add(*vfs, "model.mjb", content);
+  MujocoModel model(mj_loadModel("model.mjb", vfs.get()));
+  TRACKBED_CHECK(model != nullptr, "a compiled model of {} bytes does not load", content.size());
+  return {std::move(model), ""};
+}
+
+struct CompileError {
+  std::string text;  ///< one line
+  int line = 0;      ///< in the composed model; 0 when unknown
+};
+
+/// MuJoCo's message is followed by lines on where it arose: "Element 'joint', line 46", or
+/// "Object name = rack, id = 1, line = 63, column = -1".
+CompileError Understand(const std::string& message) {
+  static const std::regex kind("^(XML )?Error: (Schema violation: )?");
+  static const std::regex place(
+      R"re(\s+(Element '([^']*)'|Object name = (.*), id = )[^\n]*line (= )?(-?\d+))re");
+  CompileError error{std::regex_replace(message, kind, "")};
+  if (std::smatch found; std::regex_search(error.text, found, place)) {
+    error.line = std::max(0, std::stoi(found[5]));
+    const std::string where = found[2].matched        ? fmt::format(" (<{}>)", found[2].str())
+                              : found[3].length() > 0 ? fmt::format(" ('{}')", found[3].str())
+                                                      : "";
+    error.text = error.text.substr(0, static_cast<std::size_t>(found.position())) + where;
+  }
+  std::replace(error.text.begin(), error.text.end(), '\n', ' ');
+  return error;
+}
+
+}  // namespace
+
+MujocoModel CompileScene(const Scene& scene, const std::string& name, Looks looks) {
+  static_cast<void>(PhysicsVersion());  // of the library that is loaded, and of the headers
+  const std::string xml = looks == Looks::kDiscarded ? DiscardLooks(scene.xml) : scene.xml;
+  // A process that is copied while another thread compiles would wait for MuJoCo's lock for ever.
+  static std::mutex compiling;
+  const std::lock_guard lock(compiling);
+  const MujocoErrorScope errors;
+  Compiled compiled =
+      scene.trusted ? CompileHere(xml, scene.assets) : CompileApart(xml, scene.assets);
+  if (compiled.model == nullptr) {
+    const CompileError error = Understand(compiled.error);
+    throw InputError(Problem{.file = name,
+                             .line = LineInCarFile(scene, error.line),
+                             .message = "does not compile: " + error.text});
+  }
+  return std::move(compiled.model);
+}
+
+}  // namespace trackbed
