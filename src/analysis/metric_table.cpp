@@ -89,6 +89,7 @@ std::vector<MetricEntry> OwnMetrics() {
   constexpr MetricSpan kEnd = MetricSpan::kEnd;
   return {
       {"status", "End status", "", Status},
+      {"cause", "Cause of the end", "", TextUnlessEmpty(&P::cause)},
       {"distance", "Distance traveled", "m", Of(&P::distance, kEnd)},
       Headline({"time", "Time", "s", Of(&P::time, kEnd)}),
       {"cross_track.rms", "Cross-track error, rms", "m", Of(&T::cross_track_rms)},

@@ -139,6 +139,7 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
   PlantMetrics metrics;
   metrics.plant = log.plant;
   metrics.status = log.status;
+  metrics.cause = log.cause;
   metrics.distance = log.rows.back().state.distance;
   metrics.time = log.rows.back().state.time;
   metrics.end_s = RowStation(log.rows.back());

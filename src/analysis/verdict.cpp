@@ -31,6 +31,7 @@ bool AsksAnything(const Expectations& expect) {
 std::string WhyNotAtGoal(const PlantMetrics& metrics) {
   return !metrics.blocked.empty()   ? fmt::format(" (it {})", metrics.blocked)
          : !metrics.partial.empty() ? fmt::format(" (the plan {})", metrics.partial)
+         : !metrics.cause.empty()   ? fmt::format(" ({})", metrics.cause)
                                     : "";
 }
 

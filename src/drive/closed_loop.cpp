@@ -130,11 +130,11 @@ RunLog ClosedLoop::Run() {
         tick > 0 && !sequencer_.stationary_steer().InProgress() && IsAtRest(state, command_);
     row.tracking = FollowPlan(state, at_rest);
     if (const std::optional<DriveStatus> status = Ending(state, at_rest)) {
-      if (*status != DriveStatus::kDiverged) {
+      if (*status != DriveStatus::kDiverged || tick == 0) {
         recorder_.AddRow(row);  // with the command that led here
       }
       progress_.Report(1.0);
-      return recorder_.Finish(*status);
+      return recorder_.Finish(*status, termination_.cause());
     }
     const ControlInput input = Control(state, row);
     recorder_.AddRow(row);
@@ -179,11 +179,12 @@ std::optional<DriveStatus> ClosedLoop::Ending(const VehicleState& state, bool at
   const bool waits = monitor_ && monitor_->IsWaiting();
   return termination_.Update(
       {.state = state,
+       .plant = plant_,
        .segment = sequencer_.plan(),
        .is_last_segment = sequencer_.is_last(),
-       .diverged = plant_.diverged(),
        .interrupted = config_.hooks.interrupted && config_.hooks.interrupted(),
        .at_rest = at_rest,
+       .to_move = command_.acceleration * command_.gear > 0.0 && !steers,
        .will_go_on = steers || waits,
        .contact_time = recorder_.contact_time()});
 }

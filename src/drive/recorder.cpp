@@ -33,8 +33,9 @@ LogRow Recorder::BeginRow(const VehicleState& state, const Command& command,
   return row;
 }
 
-RunLog Recorder::Finish(DriveStatus status) {
+RunLog Recorder::Finish(DriveStatus status, std::string cause) {
   log_.status = status;
+  log_.cause = std::move(cause);
   log_.contact_time = contact_time();
   log_.configurations = configurations_.Take();
   return std::move(log_);

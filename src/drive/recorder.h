@@ -32,7 +32,7 @@ class Recorder {
   }
 
   /// The log, which this recorder then no longer has.
-  RunLog Finish(DriveStatus status);
+  RunLog Finish(DriveStatus status, std::string cause = "");
 
  private:
   RunLog log_;

@@ -20,6 +20,12 @@ const char* ToString(DriveStatus status) {
       return "time_limit";
     case DriveStatus::kDiverged:
       return "diverged";
+    case DriveStatus::kSunk:
+      return "sunk";
+    case DriveStatus::kAirborne:
+      return "airborne";
+    case DriveStatus::kStuck:
+      return "stuck";
     case DriveStatus::kRolledOver:
       return "rolled_over";
     case DriveStatus::kCollided:

@@ -1,5 +1,7 @@
 #include "src/drive/termination.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -18,6 +20,12 @@ bool HasRolledOver(const VehicleState& state) {
   return std::cos(state.roll) * std::cos(state.pitch) < kUpright;
 }
 
+// How long a car may be in the air, as over a bump, or not move although it should [s].
+constexpr double kLongestJump = 1.0;
+constexpr double kLongestStandstill = 10.0;
+/// Less than this is no motion: 1 mm/s [m].
+constexpr double kNoMotion = 0.01;
+
 double DistanceBetween(const Pose2& a, const Pose2& b) {
   return (a.position() - b.position()).norm();
 }
@@ -35,17 +43,15 @@ Termination::Termination(const LoopConfig& config, const Plan& plan)
       goal_heading_tolerance_(config.goal_heading_tolerance),
       duration_(config.duration),
       half_timestep_(0.5 * config.timestep),
-      end_time_(std::min(config.time_limit, config.duration.value_or(config.time_limit))) {}
+      end_time_(std::min(config.time_limit, config.duration.value_or(config.time_limit))),
+      wheel_radius_(config.vehicle.wheel_radius) {}
 
 std::optional<DriveStatus> Termination::Update(const LoopStatus& now) {
   if (now.contact_time) {
     end_time_ = std::min(end_time_, *now.contact_time + kAfterCollision);
   }
-  if (now.diverged) {
-    return DriveStatus::kDiverged;
-  }
-  if (HasRolledOver(now.state)) {
-    return DriveStatus::kRolledOver;
+  if (const std::optional<DriveStatus> fault = Fault(now)) {
+    return fault;
   }
   const bool time_over = now.state.time >= end_time_ - half_timestep_;
   const bool stays = has_path_ && now.at_rest && !now.will_go_on;
@@ -53,6 +59,48 @@ std::optional<DriveStatus> Termination::Update(const LoopStatus& now) {
     return StatusAtEnd(now);
   }
   return std::nullopt;
+}
+
+std::optional<DriveStatus> Termination::Fault(const LoopStatus& now) {
+  if (now.plant.diverged()) {
+    cause_ = now.plant.divergence();
+    return DriveStatus::kDiverged;
+  }
+  if (HasRolledOver(now.state)) {
+    constexpr double kDegrees = 180.0 / kPi;
+    cause_ = fmt::format("roll {:.0f} deg, pitch {:.0f} deg", now.state.roll * kDegrees,
+                         now.state.pitch * kDegrees);
+    return DriveStatus::kRolledOver;
+  }
+  const double gap = now.plant.wheel_gap();
+  if (gap < -wheel_radius_) {
+    cause_ = fmt::format("a wheel reaches {:.3g} m below the road", -gap);
+    return DriveStatus::kSunk;
+  }
+  if (gap <= wheel_radius_) {
+    airborne_since_.reset();
+  } else if (!airborne_since_) {
+    airborne_since_ = now.state.time;
+  } else if (now.state.time - *airborne_since_ > kLongestJump) {
+    cause_ = fmt::format("all wheels are {:.3g} m or more above the road", gap);
+    return DriveStatus::kAirborne;
+  }
+  if (IsStuck(now)) {
+    cause_ =
+        fmt::format("has not moved since {:.2f} s, although it was to drive", still_since_->time);
+    return DriveStatus::kStuck;
+  }
+  return std::nullopt;
+}
+
+bool Termination::IsStuck(const LoopStatus& now) {
+  const Vec2 place = now.state.pose.position();
+  if (!now.to_move) {
+    still_since_.reset();
+  } else if (!still_since_ || (place - still_since_->place).norm() > kNoMotion) {
+    still_since_ = {now.state.time, place};
+  }
+  return still_since_ && now.state.time - still_since_->time > kLongestStandstill;
 }
 
 DriveStatus Termination::StatusAtEnd(const LoopStatus& now) const {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "src/sim/car_parts.h"
+#include "src/sim/model_check.h"
 #include "src/sim/upright.h"
 #include "trackbed/core/error.h"
 #include "trackbed/sim/compile_scene.h"
@@ -63,6 +64,7 @@ CarModel::CarModel(Scene scene, std::string name_for_messages)
       file_(std::move(name_for_messages)),
       model_(CompileScene(scene_, file_, Looks::kDiscarded)) {
   const MujocoErrorScope errors;
+  CheckModel(*model_, file_);
   const VehicleDescription car = DescribeVehicle(*model_, file_);
   parts_ = car.parts;
   params_ = car.params;

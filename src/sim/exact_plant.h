@@ -63,6 +63,10 @@ class ExactPlant final : public Plant {
              std::abs(pose.yaw) < kLargest);
   }
 
+  [[nodiscard]] std::string divergence() const override {
+    return diverged() ? "the car's motion is unstable: its position or yaw is beyond 1e10" : "";
+  }
+
  private:
   const CarModel& model_;
   Car car_;

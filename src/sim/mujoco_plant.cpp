@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 #include "src/sim/joint_forces.h"
@@ -127,6 +128,25 @@ std::vector<double> MujocoPlant::Configuration() const {
 bool MujocoPlant::diverged() const {
   return std::any_of(std::begin(data_->warning), std::end(data_->warning),
                      [](const mjWarningStat& warning) { return warning.number > 0; });
+}
+
+std::string MujocoPlant::divergence() const {
+  for (int kind = 0; kind < mjNWARNING; ++kind) {
+    const mjWarningStat& warning = data_->warning[kind];
+    if (warning.number > 0) {
+      return fmt::format("MuJoCo: {}", mju_warningText(kind, warning.lastinfo));
+    }
+  }
+  return "";
+}
+
+double MujocoPlant::wheel_gap() const {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const int wheel : car_.wheels()) {
+    const mjtNum* hub_W = data_->xpos + 3 * wheel;
+    lowest = std::min(lowest, hub_W[2] - GroundHeight(world_, {hub_W[0], hub_W[1]}));
+  }
+  return lowest - car_.params().wheel_radius;
 }
 
 const mjtNum* MujocoPlant::ChassisPosition() const {

@@ -27,6 +27,8 @@ class MujocoPlant : public Plant {
   [[nodiscard]] double obstacle_force() const final;
   [[nodiscard]] std::vector<double> Configuration() const final;
   [[nodiscard]] bool diverged() const final;
+  [[nodiscard]] std::string divergence() const final;
+  [[nodiscard]] double wheel_gap() const final;
   /// Of the last step: contacts, joint limits, dry friction and couplings.
   [[nodiscard]] int constraint_rows() const { return data_->nefc; }
 

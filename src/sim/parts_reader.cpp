@@ -150,6 +150,18 @@ void PartsReader::CheckOrigin(const char* axle, const char* wheels, int left, in
   }
 }
 
+void PartsReader::CheckStand(const std::string& wheel, const mjtNum* hub_W, double radius) {
+  const int ground = mj_name2id(&m_, mjOBJ_GEOM, "ground");
+  const bool level = m_.geom_type[ground] == mjGEOM_PLANE && m_.geom_quat[4 * ground] == 1.0;
+  const double gap = hub_W[2] - radius - m_.geom_pos[3 * ground + 2];
+  if (level && !(std::abs(gap) <= 0.5 * radius)) {
+    AddError("tyre_" + wheel,
+             fmt::format("its lowest point is {:.4g} m {} the ground at qpos0; the car must stand "
+                         "on the ground",
+                         std::abs(gap), gap < 0.0 ? "below" : "above"));
+  }
+}
+
 void PartsReader::CheckWheel(const std::string& wheel, int spin, int tyre, int first,
                              const char* all) {
   const mjtNum* axis = m_.jnt_axis + 3 * spin;
@@ -169,6 +181,7 @@ void PartsReader::CheckWheel(const std::string& wheel, int spin, int tyre, int f
                          QuotedName(mjOBJ_BODY, turned), QuotedName(mjOBJ_BODY, body)));
   }
   const double radius = m_.geom_size[3 * tyre];
+  CheckStand(wheel, data_->xpos + 3 * turned, radius);
   const double wanted = m_.geom_size[3 * first];
   if (!(std::abs(radius - wanted) <= kExact * wanted)) {
     AddError("tyre_" + wheel,

@@ -27,6 +27,7 @@ PlantMetrics All() {
   metrics.yaw_rate_ratio = 1.0;
   metrics.blocked = "waits";
   metrics.partial = "ends early";
+  metrics.cause = "MuJoCo: huge value";
   metrics.turns.resize(2);
   return metrics;
 }

@@ -24,11 +24,12 @@ class TerminationTest : public ::testing::Test {
 
   std::optional<DriveStatus> Ask(Termination& termination) {
     return termination.Update({.state = state_,
+                               .plant = plant_,
                                .segment = plan_,
                                .is_last_segment = is_last_segment_,
-                               .diverged = diverged_,
                                .interrupted = interrupted_,
                                .at_rest = at_rest_,
+                               .to_move = to_move_,
                                .will_go_on = will_go_on_,
                                .contact_time = contact_time_});
   }
@@ -42,7 +43,8 @@ class TerminationTest : public ::testing::Test {
   Plan plan_ = PlanAlongRoute({{.length = 10.0}}, 0.0);
   VehicleState state_;
   bool is_last_segment_ = true;
-  bool diverged_ = false;
+  Unicycle plant_{StartState{}};
+  bool to_move_ = false;
   bool interrupted_ = false;
   bool at_rest_ = true;
   bool will_go_on_ = false;
@@ -172,6 +174,54 @@ TEST_F(TerminationTest, EndsRolledOverBeyondSixtyDegrees) {
   EXPECT_EQ(Ask(), DriveStatus::kRolledOver);
 }
 
+TEST_F(TerminationTest, IsSunkWhereAHubIsBelowTheRoad) {
+  at_rest_ = false;
+  config_.vehicle.wheel_radius = 0.3;
+  plant_.gap = -0.299;
+  EXPECT_EQ(Ask(), std::nullopt);
+  plant_.gap = -0.301;
+  EXPECT_EQ(Ask(), DriveStatus::kSunk);
+}
+
+TEST_F(TerminationTest, IsAirborneAfterASecondWithoutTheRoad) {
+  at_rest_ = false;
+  config_.vehicle.wheel_radius = 0.3;
+  Termination termination(config_, plan_);
+  const auto ask = [&](double time, double gap) {
+    state_.time = time;
+    plant_.gap = gap;
+    return Ask(termination);
+  };
+  EXPECT_EQ(ask(5.0, 0.31), std::nullopt);
+  EXPECT_EQ(ask(5.99, 0.31), std::nullopt);
+  EXPECT_EQ(ask(6.0, 0.29), std::nullopt);  // a wheel has come near
+  EXPECT_EQ(ask(6.01, 5.0), std::nullopt);
+  EXPECT_EQ(ask(7.0, 9.0), std::nullopt);
+  EXPECT_EQ(ask(7.02, 12.5), DriveStatus::kAirborne);
+  EXPECT_EQ(termination.cause(), "all wheels are 12.5 m or more above the road");
+}
+
+TEST_F(TerminationTest, IsStuckAfterTenSecondsInPlaceAlthoughItIsToMove) {
+  at_rest_ = false;
+  to_move_ = true;
+  Termination termination(config_, plan_);
+  const auto ask = [&](double time, double x) {
+    state_.time = time;
+    state_.pose.x = x;
+    return Ask(termination);
+  };
+  EXPECT_EQ(ask(1.0, 0.0), std::nullopt);
+  EXPECT_EQ(ask(10.9, 0.009), std::nullopt);
+  EXPECT_EQ(ask(11.0, 0.011), std::nullopt);  // it moves, if slowly
+  EXPECT_EQ(ask(20.9, 0.011), std::nullopt);
+  to_move_ = false;
+  EXPECT_EQ(ask(21.1, 0.011), std::nullopt);
+  to_move_ = true;
+  EXPECT_EQ(ask(21.2, 0.011), std::nullopt);
+  EXPECT_EQ(ask(31.3, 0.011), DriveStatus::kStuck);
+  EXPECT_EQ(termination.cause(), "has not moved since 21.20 s, although it was to drive");
+}
+
 TEST_F(TerminationTest, TellsTheWorstFirst) {
   plan_.blocked = "stops before the obstacle";
   EXPECT_EQ(Ask(), DriveStatus::kBlocked);
@@ -181,7 +231,7 @@ TEST_F(TerminationTest, TellsTheWorstFirst) {
   EXPECT_EQ(Ask(), DriveStatus::kInterrupted);
   state_.roll = 3.0;
   EXPECT_EQ(Ask(), DriveStatus::kRolledOver);
-  diverged_ = true;
+  plant_.is_diverged = true;
   EXPECT_EQ(Ask(), DriveStatus::kDiverged);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "trackbed/control/steering_controller.h"
@@ -67,12 +68,15 @@ class Unicycle : public Plant {
     return {state_.pose.x, state_.pose.y};
   }
   [[nodiscard]] bool diverged() const override { return is_diverged; }
+  [[nodiscard]] std::string divergence() const override { return "as asked for"; }
+  [[nodiscard]] double wheel_gap() const override { return gap; }
 
   [[nodiscard]] VehicleState& state() { return state_; }
 
   std::vector<Command> commands;  ///< of every step
   double force = 0.0;             ///< of obstacles [N]
   bool is_diverged = false;
+  double gap = 0.0;  ///< wheel_gap [m]
 
  private:
   double timestep_;

@@ -56,6 +56,7 @@ struct TurnMetrics {
 struct PlantMetrics {
   std::string plant;
   DriveStatus status = DriveStatus::kArrived;
+  std::string cause;      ///< of a status that a fault of the physics has: RunLog::cause
   double distance = 0.0;  ///< driven [m]
   double time = 0.0;      ///< simulated [s]
   double end_s = 0.0;     ///< where it ended [m]

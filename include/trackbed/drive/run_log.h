@@ -20,6 +20,9 @@ enum class DriveStatus {
   kPartial,      ///< at rest at the end of a partial plan (Plan::partial)
   kTimeLimit,    ///< drive.time_limit is over
   kDiverged,     ///< the simulation diverged (MuJoCo warning); the log ends before
+  kSunk,         ///< a wheel is below the road by more than its radius
+  kAirborne,     ///< all wheels are above the road by more than their radius, for a second
+  kStuck,        ///< for ten seconds it was to drive, and moved by less than a centimeter
   kCollided,     ///< the car touched an obstacle; the log continues for one second
   kRolledOver,   ///< the car leans by more than 60 degrees
   kInterrupted,  ///< the caller asked to stop
@@ -53,6 +56,7 @@ struct PlanChange {
 struct RunLog {
   std::string plant;
   DriveStatus status = DriveStatus::kArrived;
+  std::string cause;  ///< of a run that a fault of the physics ended, for people; else empty
   std::optional<double> contact_time;           ///< first contact with an obstacle [s]; none: never
   std::vector<std::string> controller_columns;  ///< SteeringController::Columns
   std::vector<LogRow> rows;                     ///< stations continue across plan changes

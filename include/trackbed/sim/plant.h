@@ -43,6 +43,14 @@ class Plant {
 
   /// Whether the simulation has diverged; such a plant must not be stepped.
   [[nodiscard]] virtual bool diverged() const = 0;
+
+  /// What made it diverge, for people; empty where that is not known.
+  [[nodiscard]] virtual std::string divergence() const { return ""; }
+
+  /// Height of the lowest wheel's lowest point over the road under it [m], of a tyre that is not
+  /// deformed: minus its deflection while it carries the car. 0 for plants that cannot leave the
+  /// road.
+  [[nodiscard]] virtual double wheel_gap() const { return 0.0; }
 };
 
 /// The arguments for making a plant. Holds references to car and world, which must outlive the
