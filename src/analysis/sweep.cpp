@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <system_error>
 
 #include "src/analysis/parallel.h"
@@ -48,6 +49,7 @@ std::vector<std::string> Columns(const Study& study) {
   for (const OutputSpec& output : study.outputs) {
     columns.push_back(output.path);
   }
+  columns.emplace_back("reason");
   return columns;
 }
 
@@ -69,6 +71,8 @@ ordered_json SettingsJson(const std::vector<Setting>& settings) {
 struct Row {
   std::vector<std::string> cells;
   bool passed = false;
+  bool refused = false;
+  bool error = false;
   std::size_t runs = 1;
   ordered_json bisection;
 };
@@ -80,10 +84,46 @@ class RowMaker {
 
   /// The row of a point's `repetition`; nothing when it was interrupted.
   [[nodiscard]] std::optional<Row> Make(const StudyPoint& point, std::uint64_t repetition) const {
-    return study_.bisect ? BisectAt(point, repetition) : RunAt(point, repetition);
+    if (!point.refused.empty()) {
+      return WithoutResult(point, repetition, kRefused, point.refused);
+    }
+    try {
+      return study_.bisect ? BisectAt(point, repetition) : RunAt(point, repetition);
+    } catch (const InputError& error) {
+      return WithoutResult(point, repetition, kRefused, error.problems().front().WithoutPlace());
+    } catch (const RunError&) {
+      throw;
+    } catch (const std::exception& error) {
+      return WithoutResult(point, repetition, kError, error.what());
+    }
   }
 
  private:
+  static constexpr const char* kRefused = "refused";
+  static constexpr const char* kError = "error";
+
+  [[nodiscard]] Row WithoutResult(const StudyPoint& point, std::uint64_t repetition,
+                                  std::string_view status, std::string reason) const {
+    const std::uint64_t seed = point.scenario.seed + repetition;
+    Row row{.cells = Parameters(point),
+            .refused = status == kRefused,
+            .error = status == kError,
+            .runs = 0,
+            .bisection = {}};
+    if (study_.bisect) {
+      row.cells.emplace_back();
+      row.bisection = {{"point", SettingsJson(point.settings)}, {"seed", seed}, {"status", status}};
+    }
+    AddSeed(seed, row);
+    row.cells.emplace_back(status);
+    if (study_.bisect) {
+      row.cells.push_back(std::to_string(row.runs));
+    }
+    AddOutputs({}, row);
+    row.cells.push_back(std::move(reason));
+    return row;
+  }
+
   [[nodiscard]] std::optional<Row> RunAt(const StudyPoint& point, std::uint64_t repetition) const {
     Scenario scenario = point.scenario;
     scenario.seed += repetition;
@@ -95,6 +135,7 @@ class RowMaker {
     AddSeed(scenario.seed, row);
     row.cells.push_back(outcome->status);
     AddOutputs(outcome->outputs, row);
+    row.cells.push_back(outcome->reason);
     return row;
   }
 
@@ -129,6 +170,7 @@ class RowMaker {
     row.cells.emplace_back(ToString(bisection.status));
     row.cells.push_back(std::to_string(row.runs));
     AddOutputs(best, row);
+    row.cells.emplace_back();
     return row;
   }
 
@@ -233,6 +275,8 @@ SweepResult RunSweep(const Study& study, const std::vector<StudyPoint>& points,
     sweep.table.AddRow(std::move(row->cells));
     sweep.runs += row->runs;
     sweep.passed += row->passed ? 1U : 0U;
+    sweep.refused += row->refused ? 1U : 0U;
+    sweep.errors += row->error ? 1U : 0U;
     if (study.bisect) {
       bisections.push_back(std::move(row->bisection));
     }
@@ -241,6 +285,8 @@ SweepResult RunSweep(const Study& study, const std::vector<StudyPoint>& points,
   sweep.description["rows"] = sweep.table.rows().size();
   sweep.description["rows_expected"] = sweep.rows_expected;
   sweep.description["runs"] = sweep.runs;
+  sweep.description["refused"] = sweep.refused;
+  sweep.description["errors"] = sweep.errors;
   if (study.bisect) {
     sweep.description["bisections"] = std::move(bisections);
   }

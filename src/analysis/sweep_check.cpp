@@ -1,3 +1,8 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <functional>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -24,42 +29,47 @@ Scenario Bare(Scenario scenario) {
   return scenario;
 }
 
-void CompileCars(CheckedStudy& checked) {
+/// Does something for each point that is a scenario, and refuses those for which that throws an
+/// InputError. `check` is called once for points of one key.
+template <typename Key>
+void CheckPoints(CheckedStudy& checked, BadPoints bad_points,
+                 const std::function<Key(const Scenario& scenario)>& key_of,
+                 const std::function<void(const Scenario& scenario)>& check) {
   std::vector<Problem> problems;
-  std::set<CarKey> tried;
-  for (const StudyPoint& point : checked.points) {
-    if (!tried.insert(MakeCarKey(point.scenario)).second) {
+  std::map<Key, std::string> refusals;
+  bool any_good = false;
+  for (StudyPoint& point : checked.points) {
+    if (!point.refused.empty()) {
       continue;
     }
-    try {
-      checked.cars->Load(Bare(point.scenario));
-    } catch (const InputError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    const auto [at, is_new] = refusals.try_emplace(key_of(point.scenario));
+    if (is_new) {
+      try {
+        check(point.scenario);
+      } catch (const InputError& error) {
+        problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+        at->second = error.problems().front().WithoutPlace();
+      }
     }
+    point.refused = at->second;
+    any_good = any_good || point.refused.empty();
   }
-  if (!problems.empty()) {
+  if (!problems.empty() && (bad_points == BadPoints::kThrow || !any_good)) {
     throw InputError(problems);
   }
 }
 
 /// Puts every car once on each of its plants: not every car has what every plant asks of it.
-void CheckPlants(const CheckedStudy& checked) {
+void CheckPlants(const CheckedStudy& checked, const Scenario& scenario) {
   std::vector<Problem> problems;
-  std::set<std::tuple<CarKey, std::string, TyreLaw>> tried;
   const World bare;
-  for (const StudyPoint& point : checked.points) {
-    const auto car = MakeCarKey(point.scenario);
-    const TyreLaw tyre = point.scenario.vehicle.tyre;
-    for (const std::string& plant : point.scenario.drive.plants) {
-      if (!tried.insert({car, plant, tyre}).second) {
-        continue;
-      }
-      try {
-        const auto compiled = checked.cars->Load(Bare(point.scenario));
-        MakePlant(plant, {.car = *compiled, .world = bare, .start = {}, .tyre = tyre});
-      } catch (const InputError& error) {
-        problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-      }
+  const auto compiled = checked.cars->Load(Bare(scenario));
+  for (const std::string& plant : scenario.drive.plants) {
+    try {
+      MakePlant(plant,
+                {.car = *compiled, .world = bare, .start = {}, .tyre = scenario.vehicle.tyre});
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   }
   if (!problems.empty()) {
@@ -70,8 +80,10 @@ void CheckPlants(const CheckedStudy& checked) {
 void CheckOutputs(const CheckedStudy& checked) {
   std::set<std::string> possible;
   for (const StudyPoint& point : checked.points) {
-    const std::vector<std::string> own = PossibleOutputs(point.scenario);
-    possible.insert(own.begin(), own.end());
+    if (point.refused.empty()) {
+      const std::vector<std::string> own = PossibleOutputs(point.scenario);
+      possible.insert(own.begin(), own.end());
+    }
   }
   std::vector<Problem> problems;
   const std::vector<OutputSpec>& outputs = checked.study.outputs;
@@ -90,12 +102,19 @@ void CheckOutputs(const CheckedStudy& checked) {
 
 }  // namespace
 
-CheckedStudy CheckStudy(Study study) {
+CheckedStudy CheckStudy(Study study, BadPoints bad_points) {
   CheckedStudy checked{
       .study = std::move(study), .points = {}, .cars = std::make_unique<CarCache>()};
-  checked.points = ReadPoints(checked.study);
-  CompileCars(checked);
-  CheckPlants(checked);
+  checked.points = ReadPoints(checked.study, bad_points);
+  CheckPoints<CarKey>(checked, bad_points, MakeCarKey,
+                      [&](const Scenario& scenario) { checked.cars->Load(Bare(scenario)); });
+  using PlantsKey = std::tuple<CarKey, std::vector<std::string>, TyreLaw>;
+  CheckPoints<PlantsKey>(
+      checked, bad_points,
+      [](const Scenario& scenario) {
+        return PlantsKey{MakeCarKey(scenario), scenario.drive.plants, scenario.vehicle.tyre};
+      },
+      [&](const Scenario& scenario) { CheckPlants(checked, scenario); });
   CheckOutputs(checked);
   return checked;
 }
@@ -110,11 +129,13 @@ std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario&
     return std::nullopt;
   }
   const bool passed = result.verdict.passed;
+  // Without a plan the verdict has one failure, which tells of it.
   return RunOutcome{.status = !result.plan.ok()        ? "no_plan"
                               : !result.verdict.judged ? "driven"
                               : passed                 ? "passed"
                                                        : "failed",
                     .passed = passed,
+                    .reason = fmt::format("{}", fmt::join(result.verdict.failures, "; ")),
                     .outputs = CollectOutputs(result)};
 }
 

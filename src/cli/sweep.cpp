@@ -26,7 +26,8 @@ struct SweepVerbOptions {
 };
 
 int Sweep(const SweepVerbOptions& options) {
-  const CheckedStudy checked = CheckStudy(options.scenario.ReadStudyFile(options.file));
+  const CheckedStudy checked =
+      CheckStudy(options.scenario.ReadStudyFile(options.file), BadPoints::kKeep);
   const std::string& name = checked.study.name;
   const fs::path out = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
   MakeFolder(out);  // before the work, not after it
@@ -51,7 +52,13 @@ int Sweep(const SweepVerbOptions& options) {
             : fmt::format("interrupted after {} of {} rows", rows, sweep.rows_expected);
     fmt::print("{}: {}, in {}\n", name, how, (out / run_folder::kSweepCsv).string());
   }
-  return sweep.complete() ? kOk : kInterrupted;
+  if (sweep.refused + sweep.errors > 0) {
+    fmt::print(stderr,
+               "{}: {} rows without a run: {} refused, {} with an internal error; see the "
+               "column reason\n",
+               name, sweep.refused + sweep.errors, sweep.refused, sweep.errors);
+  }
+  return sweep.errors > 0 ? kInternal : sweep.complete() ? kOk : kInterrupted;
 }
 
 }  // namespace

@@ -18,6 +18,10 @@ std::string Join(const std::vector<Problem>& problems) {
 
 }  // namespace
 
+std::string Problem::WithoutPlace() const {
+  return key.empty() ? message : key + ": " + message;
+}
+
 std::string Problem::ToString() const {
   std::string text = file;
   if (line > 0) {

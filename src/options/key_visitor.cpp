@@ -3,9 +3,41 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 namespace trackbed {
+namespace {
+
+/// Without many zeros.
+std::string Number(double number) {
+  constexpr double kManyDigits = 1e9;
+  return std::abs(number) <= kManyDigits ? fmt::format("{}", number) : fmt::format("{:g}", number);
+}
+
+}  // namespace
+
+Range WithinReason(const Key& key, Range range) {
+  struct Bound {
+    std::string_view unit;
+    double largest;
+  };
+  constexpr std::array kBounds{Bound{"m", 1e5},     Bound{"s", 1e6},   Bound{"m/s", 1e3},
+                               Bound{"m/s^2", 1e3}, Bound{"rad", 1e3}, Bound{"rad/s", 1e3},
+                               Bound{"1/s", 1e4}};
+  const auto* found = std::find_if(kBounds.begin(), kBounds.end(),
+                                   [&](const Bound& bound) { return bound.unit == key.unit; });
+  const double largest = found == kBounds.end() ? 1e12 : found->largest;
+  if (!std::isfinite(range.max)) {
+    range.max = largest;
+  }
+  if (!std::isfinite(range.above) && !std::isfinite(range.min)) {
+    range.min = -largest;
+  }
+  return range;
+}
 
 std::string AllowedBy(Range range) {
   std::vector<std::string> parts;
@@ -13,10 +45,10 @@ std::string AllowedBy(Range range) {
     parts.push_back(fmt::format("above {}", range.above));
   }
   if (std::isfinite(range.min)) {
-    parts.push_back(fmt::format("at least {}", range.min));
+    parts.push_back("at least " + Number(range.min));
   }
   if (std::isfinite(range.max)) {
-    parts.push_back(fmt::format("at most {}", range.max));
+    parts.push_back("at most " + Number(range.max));
   }
   return fmt::format("{}", fmt::join(parts, " and "));
 }

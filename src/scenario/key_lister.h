@@ -25,10 +25,10 @@ class KeyLister final : public KeyVisitor {
 
   using KeyVisitor::Field;
   void Field(const Key& key, double& value, Need need, Range range = {}) override {
-    Add(key, "number", need, fmt::format("{:.6g}", value), AllowedBy(range));
+    Add(key, "number", need, fmt::format("{:.6g}", value), AllowedBy(WithinReason(key, range)));
   }
   void Field(const Key& key, std::optional<double>&, Range range = {}) override {
-    Add(key, "number", Need::kOptional, "", AllowedBy(range));
+    Add(key, "number", Need::kOptional, "", AllowedBy(WithinReason(key, range)));
   }
   void Field(const Key& key, std::optional<bool>&) override {
     Add(key, "true or false", Need::kOptional, "", "");
@@ -61,7 +61,7 @@ class KeyLister final : public KeyVisitor {
     Add(key, fmt::format("list of {}", shape.many), need, "", "");
   }
   void Field(const Key& key, std::vector<double>&, Need need, Range range = {}) override {
-    Add(key, "list of numbers", need, "", AllowedBy(range));
+    Add(key, "list of numbers", need, "", AllowedBy(WithinReason(key, range)));
   }
   void Pair(const Key& key, int& first, int& second, Range range) override {
     Add(key, "two whole numbers", Need::kOptional, fmt::format("[{}, {}]", first, second),

@@ -116,8 +116,9 @@ class PointsReader {
  public:
   explicit PointsReader(const Study& study) : study_(study), problems_(study) {}
 
-  std::vector<StudyPoint> Read() {
+  std::vector<StudyPoint> Read(BadPoints bad_points) {
     for (const std::vector<Setting>& settings : ExpandGrid(study_)) {
+      points_.push_back({settings, {}});
       if (!study_.bisect) {
         Try(settings, std::nullopt);
         continue;
@@ -129,25 +130,32 @@ class PointsReader {
         Try(settings, bisect.from + 0.3819660112501051 * (bisect.to - bisect.from));
       }
     }
-    problems_.ThrowIfAny();
+    const bool any_good = std::any_of(points_.begin(), points_.end(), [](const StudyPoint& point) {
+      return point.refused.empty();
+    });
+    if (bad_points == BadPoints::kThrow || !any_good) {
+      problems_.ThrowIfAny();
+    }
     return std::move(points_);
   }
 
  private:
   bool Try(const std::vector<Setting>& settings, std::optional<double> bisected) {
     problems_.CountPoint();
+    StudyPoint& point = points_.back();
     try {
       Scenario scenario = ReadPoint(study_, settings, bisected);
       if (!bisected || *bisected == study_.bisect->from) {
-        points_.push_back({settings, std::move(scenario)});
+        point.scenario = std::move(scenario);
       }
       return true;
     } catch (const InputError& error) {
-      std::vector<Setting> point = settings;
+      point.refused = error.problems().front().WithoutPlace();
+      std::vector<Setting> own = settings;
       if (bisected) {
-        point.push_back({study_.bisect->key, ShortestText(*bisected)});
+        own.push_back({study_.bisect->key, ShortestText(*bisected)});
       }
-      problems_.Add(point, error.problems());
+      problems_.Add(own, error.problems());
       return false;
     }
   }
@@ -245,9 +253,9 @@ Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
   }
 }
 
-std::vector<StudyPoint> ReadPoints(const Study& study) {
+std::vector<StudyPoint> ReadPoints(const Study& study, BadPoints bad_points) {
   CheckOverrides(study);
-  return PointsReader(study).Read();
+  return PointsReader(study).Read(bad_points);
 }
 
 std::string CellText(const std::string& value) {

@@ -47,7 +47,7 @@ inline void Visit(KeyVisitor& a, StartSpec& start) {
   a.Field({"y", "m", "likewise"}, start.y, kMap);
   a.Field({"yaw", "rad",
            "initial heading; default: the first of `headings`, along the first leg, or 0"},
-          start.yaw);
+          start.yaw, kDirection);
   a.Field({"speed", "m/s",
            "initial speed; default: that of the recording, of control.speed.over_time, or of the "
            "mission"},
@@ -71,7 +71,7 @@ inline void Visit(KeyVisitor& a, MissionSpec& mission) {
   a.Field({"headings", "rad",
            "heading of the car at each waypoint; default: along the last leg at the goal, from the "
            "previous to the next stop at stops in between"},
-          mission.headings, Need::kOptional);
+          mission.headings, Need::kOptional, kDirection);
   a.Field({"duration", "s",
            "end of the run; required without a plan unless a recording over time ends it, not "
            "allowed with a plan"},

@@ -15,7 +15,7 @@ inline constexpr Key kWorldSection{"world", "", "environment of the car"};
 inline void Visit(KeyVisitor& a, OrientedBox& box) {
   a.Field({"x", "m", "center of the rectangle"}, box.center.x, Need::kRequired, kMap);
   a.Field({"y", "m", "likewise"}, box.center.y, Need::kRequired, kMap);
-  a.Field({"yaw", "rad", "direction of its length"}, box.center.yaw, Need::kOptional);
+  a.Field({"yaw", "rad", "direction of its length"}, box.center.yaw, Need::kOptional, kDirection);
   a.Field({"length", "m", "along its own x axis"}, box.length, Need::kRequired, kSize);
   a.Field({"width", "m", "along its own y axis"}, box.width, Need::kRequired, kSize);
 }

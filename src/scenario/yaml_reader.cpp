@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "trackbed/core/angle.h"
 #include "trackbed/core/spelling.h"
 
 namespace trackbed {
@@ -208,20 +209,20 @@ bool YamlReader::ReadNumber(const YAML::Node& node, const std::string& dotted, R
     AddError(node, dotted, fmt::format("{} is out of range; must be {}", number, AllowedBy(range)));
     return false;
   }
-  value = number;
+  value = range.is_direction ? WrapAngle(number) : number;
   return true;
 }
 
 void YamlReader::Field(const Key& key, double& value, Need need, Range range) {
   if (const auto node = Take(key.name, need)) {
-    ReadNumber(*node, Dotted(key.name), range, value);
+    ReadNumber(*node, Dotted(key.name), WithinReason(key, range), value);
   }
 }
 
 void YamlReader::Field(const Key& key, std::optional<double>& value, Range range) {
   if (const auto node = Take(key.name, Need::kOptional)) {
     double number = 0.0;
-    if (ReadNumber(*node, Dotted(key.name), range, number)) {
+    if (ReadNumber(*node, Dotted(key.name), WithinReason(key, range), number)) {
       value = number;
     }
   }
@@ -391,7 +392,8 @@ void YamlReader::Field(const Key& key, std::vector<double>& value, Need need, Ra
   value.clear();
   for (std::size_t i = 0; i < node->size(); ++i) {
     double number = 0.0;
-    if (ReadNumber((*node)[i], fmt::format("{}[{}]", Dotted(key.name), i), range, number)) {
+    if (ReadNumber((*node)[i], fmt::format("{}[{}]", Dotted(key.name), i), WithinReason(key, range),
+                   number)) {
       value.push_back(number);
     }
   }

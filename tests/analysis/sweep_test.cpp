@@ -39,13 +39,14 @@ outputs: [metrics.kinematic.distance, metrics.mujoco.distance]
 )",
                                        UpToASpeed);
   EXPECT_EQ(sweep.table.ToCsv(),
-            "mission.speed,drive.plants,status,metrics.kinematic.distance,metrics.mujoco.distance\n"
-            "10,[kinematic],passed,20,\n"
-            "10,\"[kinematic, mujoco]\",passed,20,\n"
-            "15,[kinematic],passed,30,\n"
-            "15,\"[kinematic, mujoco]\",passed,30,\n"
-            "20,[kinematic],passed,40,\n"
-            "20,\"[kinematic, mujoco]\",passed,40,\n");
+            "mission.speed,drive.plants,status,metrics.kinematic.distance,metrics.mujoco.distance,"
+            "reason\n"
+            "10,[kinematic],passed,20,,\n"
+            "10,\"[kinematic, mujoco]\",passed,20,,\n"
+            "15,[kinematic],passed,30,,\n"
+            "15,\"[kinematic, mujoco]\",passed,30,,\n"
+            "20,[kinematic],passed,40,,\n"
+            "20,\"[kinematic, mujoco]\",passed,40,,\n");
   EXPECT_TRUE(sweep.complete());
   EXPECT_EQ(sweep.runs, 6U);
   EXPECT_EQ(sweep.passed, 6U);
@@ -57,10 +58,10 @@ TEST(Sweep, LeavesCellsOfAListEmptyWhereAPointSaysNothing) {
       SweepStudy(folder, "list: [{mission.speed: 19, seed: 1}, {seed: 2}, {world.friction: 0.5}]\n",
                  UpToASpeed);
   EXPECT_EQ(sweep.table.ToCsv(),
-            "mission.speed,seed,world.friction,status\n"
-            "19,1,,passed\n"
-            ",2,,passed\n"
-            ",,0.5,passed\n");
+            "mission.speed,seed,world.friction,status,reason\n"
+            "19,1,,passed,\n"
+            ",2,,passed,\n"
+            ",,0.5,passed,\n");
 }
 
 TEST(Sweep, CountsTheSeedUpWhereItRepeats) {
@@ -68,9 +69,9 @@ TEST(Sweep, CountsTheSeedUpWhereItRepeats) {
   const SweepResult sweep =
       SweepStudy(folder, "set: {seed: 4}\nvary: {mission.speed: [15, 3]}\nrepeat: 3\n", UpToASpeed);
   EXPECT_EQ(sweep.table.ToCsv(),
-            "mission.speed,seed,status\n"
-            "15,4,passed\n15,5,passed\n15,6,failed\n"
-            "3,4,passed\n3,5,passed\n3,6,passed\n");
+            "mission.speed,seed,status,reason\n"
+            "15,4,passed,\n15,5,passed,\n15,6,failed,\n"
+            "3,4,passed,\n3,5,passed,\n3,6,passed,\n");
   EXPECT_EQ(sweep.passed, 5U);
 }
 
@@ -83,10 +84,10 @@ outputs: [metrics.kinematic.distance]
 )",
                                        UpToASpeed);
   EXPECT_EQ(sweep.table.ToCsv(),
-            "seed,mission.speed,status,runs,metrics.kinematic.distance\n"
-            "0,18,passes_at_to,2,36\n"
-            "5,15,found,6,30\n"
-            "12,,fails_at_from,1,\n");
+            "seed,mission.speed,status,runs,metrics.kinematic.distance,reason\n"
+            "0,18,passes_at_to,2,36,\n"
+            "5,15,found,6,30,\n"
+            "12,,fails_at_from,1,,\n");
   EXPECT_EQ(sweep.runs, 9U);
   EXPECT_EQ(sweep.passed, 2U);
   const auto& bisection = sweep.description["bisections"][1];
@@ -106,7 +107,8 @@ TEST(Sweep, BisectsEveryRepetitionWithItsOwnSeed) {
                  "repeat: 2\nset: {seed: 6}\n"
                  "bisect: {key: mission.speed, from: 10, to: 18, tolerance: 1}\n",
                  UpToASpeed);
-  EXPECT_EQ(sweep.table.ToCsv(), "mission.speed,seed,status,runs\n14,6,found,5\n13,7,found,5\n");
+  EXPECT_EQ(sweep.table.ToCsv(),
+            "mission.speed,seed,status,runs,reason\n14,6,found,5,\n13,7,found,5,\n");
 }
 
 TEST(Sweep, DescribesTheStudyThatWasRun) {
@@ -170,7 +172,7 @@ TEST(Sweep, KeepsTheRowsThatWereCompleteWhenItIsInterrupted) {
   };
   const SweepResult sweep =
       SweepStudy(folder, "vary: {mission.speed: [1, 2, 3, 4]}\n", third_is_cut_off);
-  EXPECT_EQ(sweep.table.ToCsv(), "mission.speed,status\n1,passed\n2,passed\n");
+  EXPECT_EQ(sweep.table.ToCsv(), "mission.speed,status,reason\n1,passed,\n2,passed,\n");
   EXPECT_FALSE(sweep.complete());
   EXPECT_EQ(sweep.description["complete"], false);
   EXPECT_EQ(sweep.description["rows_expected"], 4);
@@ -203,11 +205,58 @@ TEST(Sweep, ThrowsOnWhatARunThrows) {
   EXPECT_THROW(SweepStudy(folder, "repeat: 9\n", run, {.jobs = 3}), RunError);
 }
 
+TEST(Sweep, HasARowWithAReasonForAPointThatIsRefused) {
+  const TempFolder folder;
+  const Study study = MakeStudy(folder, "vary: {mission.speed: [1, 1000, 2]}\n");
+  EXPECT_THROW(ReadPoints(study), InputError);
+  const SweepResult sweep =
+      RunSweep(study, ReadPoints(study, BadPoints::kKeep), UpToASpeed, {.jobs = 2});
+  EXPECT_EQ(
+      sweep.table.ToCsv(),
+      "mission.speed,status,reason\n1,passed,\n"
+      "1000,refused,mission.speed: 1000 is out of range; must be at least 0.1 and at most 100\n"
+      "2,passed,\n");
+  EXPECT_TRUE(sweep.complete());
+  EXPECT_EQ(sweep.runs, 2U);
+  EXPECT_EQ(sweep.refused, 1U);
+  // A study of nothing but refused points is wrong input.
+  const Study bad = MakeStudy(folder, "vary: {mission.speed: [1000, 2000]}\n");
+  EXPECT_THROW(ReadPoints(bad, BadPoints::kKeep), InputError);
+}
+
+TEST(Sweep, HasARowWithAReasonForARunThatThrows) {
+  const TempFolder folder;
+  const RunScenarioOnce run = [](const Scenario& scenario) -> std::optional<RunOutcome> {
+    if (scenario.seed == 1) {
+      throw InputError(Problem{.key = "drive.timestep", .message = "too long"});
+    }
+    if (scenario.seed == 2) {
+      throw InternalError("no matrix");
+    }
+    RunOutcome outcome = *UpToASpeed(scenario);
+    outcome.reason = "as told";
+    return outcome;
+  };
+  const SweepResult sweep = SweepStudy(folder, "vary: {seed: [0, 1, 2]}\n", run);
+  EXPECT_EQ(sweep.table.ToCsv(),
+            "seed,status,reason\n0,passed,as told\n1,refused,drive.timestep: too long\n"
+            "2,error,no matrix\n");
+  EXPECT_EQ(sweep.refused, 1U);
+  EXPECT_EQ(sweep.errors, 1U);
+  EXPECT_EQ(sweep.description["errors"], 1);
+  const SweepResult bisected = SweepStudy(
+      folder, "vary: {seed: [1]}\nbisect: {key: mission.speed, from: 10, to: 18, tolerance: 1}\n",
+      run);
+  EXPECT_EQ(bisected.table.ToCsv(),
+            "seed,mission.speed,status,runs,reason\n1,,refused,0,drive.timestep: too long\n");
+}
+
 TEST(Sweep, WritesWholeFiles) {
   const TempFolder folder;
   const SweepResult sweep = SweepStudy(folder, "repeat: 2\n", UpToASpeed);
   WriteSweep(sweep, folder.path() / "out");
-  EXPECT_EQ(ReadFile(folder.path() / "out/sweep.csv"), "seed,status\n0,passed\n1,passed\n");
+  EXPECT_EQ(ReadFile(folder.path() / "out/sweep.csv"),
+            "seed,status,reason\n0,passed,\n1,passed,\n");
   EXPECT_EQ(nlohmann::ordered_json::parse(ReadFile(folder.path() / "out/sweep.json")),
             sweep.description);
   EXPECT_THROW(WriteSweep(sweep, folder.path() / "study.yaml" / "x"), RunError);

@@ -34,8 +34,9 @@ TEST(Sweep, WritesATableAndWhereItComesFrom) {
   EXPECT_EQ(outcome.output, "study: 3 rows from 3 runs, 2 passed, in out/study/sweep.csv\n");
   const std::string csv = ReadFile(folder.path() / "out/study/sweep.csv");
   EXPECT_THAT(csv, testing::MatchesRegex(
-                       "control\\.distance,status,metrics\\.kinematic\\.cross_track\\.max\n"
-                       "1,passed,0\\.[0-9]+\n2\\.5,passed,0\\.[0-9]+\n10,failed,[0-9.]+\n"));
+                       "control\\.distance,status,metrics\\.kinematic\\.cross_track\\.max,reason\n"
+                       "1,passed,0\\.[0-9]+,\n2\\.5,passed,0\\.[0-9]+,\n"
+                       "10,failed,[0-9.]+,\"kinematic: maximum cross-track error .*\"\n"));
   EXPECT_THAT(ReadFile(folder.path() / "out/study/sweep.json"), HasSubstr("\"complete\": true"));
   EXPECT_EQ(Trackbed(folder, "sweep study.yaml -q -o again --jobs 4").output, "");
   for (const char* name : {"sweep.csv", "sweep.json"}) {
@@ -80,12 +81,17 @@ TEST(Sweep, LeavesCellsEmptyThatARunHasNoValueFor) {
   const Outcome outcome = Trackbed(folder, "sweep study.yaml");
   EXPECT_EQ(outcome.code, 0);  // runs that fail are results
   EXPECT_EQ(outcome.output, "study: 3 rows from 3 runs, 0 passed, in out/study/sweep.csv\n");
-  EXPECT_EQ(ReadFile(folder.path() / "out/study/sweep.csv"),
-            "drive.plants,mission.speed,plan.radius,status,metrics.kinematic.status,"
-            "metrics.mujoco.status,plan.status\n"
-            "[mujoco],2,20,failed,,time_limit,ok\n"
-            "[kinematic],,10,failed,time_limit,,ok\n"
-            "\"[kinematic, mujoco]\",3,40,no_plan,,,turn_too_tight\n");
+  EXPECT_EQ(
+      ReadFile(folder.path() / "out/study/sweep.csv"),
+      "drive.plants,mission.speed,plan.radius,status,metrics.kinematic.status,"
+      "metrics.mujoco.status,plan.status,reason\n"
+      "[mujoco],2,20,failed,,time_limit,ok,\"mujoco: did not reach the goal: time_limit at "
+      "s = 2 m, t = 1 s\"\n"
+      "[kinematic],,10,failed,time_limit,,ok,\"kinematic: did not reach the goal: time_limit "
+      "at s = 3 m, t = 1 s\"\n"
+      "\"[kinematic, mujoco]\",3,40,no_plan,,,turn_too_tight,no plan (turn_too_tight): turn of "
+      "56.31 deg at waypoint 2: radius 40 m needs 21.41 m of each leg; half of the shorter leg is "
+      "18.03 m\n");
 }
 
 TEST(Sweep, FindsTheHighestValueThatPasses) {
@@ -98,8 +104,8 @@ TEST(Sweep, FindsTheHighestValueThatPasses) {
   const std::string csv = ReadFile(folder.path() / "out/study/sweep.csv");
   // Eight meters are halved five times before they are no longer than 0.3 m; and the two ends.
   std::smatch found;
-  ASSERT_TRUE(std::regex_match(csv, found,
-                               std::regex("control\\.distance,status,runs\n([0-9.]+),found,7\n")))
+  ASSERT_TRUE(std::regex_match(
+      csv, found, std::regex("control\\.distance,status,runs,reason\n([0-9.]+),found,7,\n")))
       << csv;
   // `run` says so too: what was found passes, and what is a tolerance above it does not.
   const double highest = std::stod(found[1]);
@@ -179,7 +185,7 @@ TEST(Sweep, CtrlCKeepsTheRowsSoFar) {
   EXPECT_EQ(outcome.code, 130);
   EXPECT_EQ(outcome.output, "study: interrupted after 0 of 2 rows, in " + out + "/sweep.csv\n");
   EXPECT_THAT(ReadFile(folder.path() / "r/sweep.json"), HasSubstr("\"complete\": false"));
-  EXPECT_EQ(ReadFile(folder.path() / "r/sweep.csv"), "drive.timestep,status\n");
+  EXPECT_EQ(ReadFile(folder.path() / "r/sweep.csv"), "drive.timestep,status,reason\n");
 }
 
 }  // namespace

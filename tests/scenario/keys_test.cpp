@@ -50,7 +50,7 @@ TEST(ScenarioKeys, TellTypeUnitDefaultAndWhatIsAllowed) {
   EXPECT_EQ(FindKey("control", "distance", "preview").fallback, "");
   EXPECT_EQ(FindKey("plan", "constraint", "fillet").allowed, "steering_room, half_leg, none");
   EXPECT_EQ(FindKey("plan", "time_limit", "rrt").unit, "s");
-  EXPECT_EQ(FindKey("plan", "time_limit", "rrt").allowed, "above 0");
+  EXPECT_EQ(FindKey("plan", "time_limit", "rrt").allowed, "above 0 and at most 1000000");
   EXPECT_EQ(FindKey("plan", "time_limit", "rrt").fallback, "");
   EXPECT_EQ(FindKey("plan", "partial", "rrt").type, "true or false");
   EXPECT_EQ(FindKey("plan.avoid", "inner_width", "listing").unit, "m");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/temp_folder.h"
+#include "tests/tolerance.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/playback.h"
 #include "trackbed/control/steering_profile.h"
@@ -129,7 +130,7 @@ test.yaml:7:23: mission.waypoints[1]: expected a point [x, y], found 1 number
 test.yaml:7:34: mission.waypoints[2][1]: expected a finite number, found '.nan'
 test.yaml:7:41: mission.waypoints[3]: expected a point [x, y], found 'here'
 test.yaml:8:3: mission.sped: unknown key 'sped'; did you mean 'speed'?
-test.yaml:9:32: plan.radius: 0 is out of range; must be above 0
+test.yaml:9:32: plan.radius: 0 is out of range; must be above 0 and at most 100000
 test.yaml:9:47: plan.constraint: unknown 'halfleg'; did you mean 'half_leg'?
 test.yaml:9:56: plan.curvature: unknown key 'curvature'; allowed: method, radius, constraint, neutral_steering, max_radius, without_room, min_speed, objective, search, resimulate_each_turn, reference, weights, infeasible
 test.yaml:10:19: control.method: unknown 'previw'; did you mean 'preview'?
@@ -140,6 +141,19 @@ test.yaml:12:1: drive: duplicate key
 test.yaml:13:10: expect.kinematik: unknown key 'kinematik'; did you mean 'kinematic'?
 test.yaml:13:35: expect.between[0]: no bound given; give position_max, heading_max, yaw_rate_max or steering_max
 test.yaml:13:44: expect.between[0].plants: expected a list of names, found 'kinematic')");
+}
+
+TEST(ReadScenario, TakesAnyTurnOfADirection) {
+  const auto heading = [](const std::string& yaw) {
+    return Parse(kSmall, {"mission.start={yaw: " + yaw + "}"}).mission.start.yaw.value_or(99.0);
+  };
+  EXPECT_EQ(heading("3.1"), 3.1);
+  EXPECT_EQ(heading("-3.141592653589793"), 3.141592653589793);  // the same direction
+  // 7 rad is a turn and 7 - 2 pi; the reduction is exact to an ulp of 7.
+  EXPECT_NEAR(heading("7"), 0.71681469282041377, Tolerance(1e-15));
+  EXPECT_EQ(ErrorMessages(kSmall, {"mission.start={yaw: 1e300}"}),
+            "--set: mission.start.yaw: 1e+300 is out of range; must be at least -1000 and "
+            "at most 1000");
 }
 
 TEST(ReadScenario, NamesMissingKeys) {

@@ -211,8 +211,9 @@ TEST_F(Studies, RefuseGridsAndBisectionsTheWrongWayRound) {
             "study.yaml:4:30: vary.mission.speed.from: must be above 0 for a geometric scale");
   EXPECT_EQ(ErrorMessages("bisect: {key: mission.speed, from: 2, to: 2, tolerance: 0.1}\n"),
             "study.yaml:4:36: bisect.from: 2 must be below to: 2");
-  EXPECT_EQ(ErrorMessages("bisect: {key: mission.speed, from: 1, to: 2, tolerance: 0}\n"),
-            "study.yaml:4:57: bisect.tolerance: 0 is out of range; must be above 0");
+  EXPECT_EQ(
+      ErrorMessages("bisect: {key: mission.speed, from: 1, to: 2, tolerance: 0}\n"),
+      "study.yaml:4:57: bisect.tolerance: 0 is out of range; must be above 0 and at most 1e+12");
 }
 
 TEST_F(Studies, RefuseToVaryNothingOrTooMuch) {

@@ -31,8 +31,9 @@ std::vector<std::string> PossibleOutputs(const Scenario& scenario);
 
 /// The result of one run.
 struct RunOutcome {
-  std::string status;  ///< "passed", "failed", or "no_plan"
+  std::string status;  ///< "passed", "failed", "driven" (nothing was expected), or "no_plan"
   bool passed = false;
+  std::string reason{};  ///< of one that failed or has no plan
   Outputs outputs;
 };
 
@@ -50,7 +51,10 @@ struct CheckedStudy {
 /// Reads every point of the study's grid, compiles the cars, makes the plants and checks the
 /// outputs. InputError with the problems of all points, of all cars, or of all outputs with the
 /// nearest path.
-CheckedStudy CheckStudy(Study study);
+///
+/// With BadPoints::kKeep the points that have such a problem are refused (StudyPoint), and others
+/// are not affected, unless there are none.
+CheckedStudy CheckStudy(Study study, BadPoints bad_points = BadPoints::kThrow);
 
 /// Plans, drives, measures and judges a scenario of the study.
 std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario& scenario,
@@ -63,11 +67,13 @@ struct SweepOptions {
 };
 
 struct SweepResult {
-  TextTable table{{"status"}};         ///< sweep.csv: parameters, seed, status, runs, outputs
+  TextTable table{{"status"}};  ///< sweep.csv: parameters, seed, status, runs, outputs, reason
   nlohmann::ordered_json description;  ///< sweep.json: the study as it was run, and bisections
   std::size_t rows_expected = 0;       ///< more than the table has when it was interrupted
   std::size_t runs = 0;                ///< of the table's rows
   std::size_t passed = 0;              ///< rows that passed, or whose bisection found a value
+  std::size_t refused = 0;             ///< rows whose scenario is wrong
+  std::size_t errors = 0;              ///< rows whose run met a bug of the program
 
   [[nodiscard]] bool complete() const { return table.rows().size() == rows_expected; }
 };
@@ -75,8 +81,12 @@ struct SweepResult {
 /// Runs the points of a study, each `repeat` times with its seed counted up, or bisects at each.
 /// Rows are in the grid's order, those that an interruption left unfinished absent.
 ///
-/// Guarantees: the result does not depend on `jobs`. An exception of `run` stops the sweep and is
-/// thrown on. InternalError unless jobs is positive.
+/// A point that is refused, and a run that throws an InputError, have a row with the status
+/// `refused` and the first problem as the reason; a run that throws what tells of a bug, one with
+/// the status `error`. The other runs are not affected.
+///
+/// Guarantees: the result does not depend on `jobs`. A RunError of `run` (a full disk, no memory)
+/// stops the sweep and is thrown on. InternalError unless jobs is positive.
 SweepResult RunSweep(const Study& study, const std::vector<StudyPoint>& points,
                      const RunScenarioOnce& run, const SweepOptions& options);
 

@@ -28,6 +28,8 @@ struct Problem {
 
   /// "file:line:column: key: message", leaving out what is unknown.
   [[nodiscard]] std::string ToString() const;
+  /// "key: message", the same wherever the file lies.
+  [[nodiscard]] std::string WithoutPlace() const;
 };
 
 /// Bad input. `what()` lists every problem, one line each.

@@ -38,16 +38,19 @@ inline constexpr Key kMethod{"method", "", "name of the method; each has its own
 
 enum class Need { kRequired, kOptional };
 
-/// Allowed values of a number. `above` is exclusive, the others are inclusive.
+/// Allowed values of a number. `above` is exclusive, the others are inclusive. Where there is no
+/// bound, readers set one by the unit: see WithinReason.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   double above = -std::numeric_limits<double>::infinity();
+  bool is_direction = false;  ///< [rad]; whole turns do not matter: read as within (-pi, pi]
 };
 
 inline constexpr Range kPositive{.above = 0.0};
 inline constexpr Range kNonNegative{.min = 0.0};
 
+inline constexpr Range kDirection{.is_direction = true};       ///< [rad]
 inline constexpr Range kMap{.min = -1e5, .max = 1e5};          ///< [m]; beyond any route
 inline constexpr Range kSpeedRange{.min = 0.0, .max = 100.0};  ///< [m/s]
 inline constexpr Range kSteering{.min = -1.5, .max = 1.5};     ///< [rad]
@@ -61,6 +64,10 @@ struct PairShape {
 };
 
 inline constexpr PairShape kPoint{"a point [x, y]", "points [x, y]", kMap, kMap};
+
+/// The range with a bound on either side: where it has none, one for the key's unit that is beyond
+/// anything a car meets, such as 1e5 m, 1e6 s or 1e3 m/s, and 1e12 for other units.
+Range WithinReason(const Key& key, Range range);
 
 /// "above 0 and at most 10"; empty when everything is allowed.
 std::string AllowedBy(Range range);

@@ -57,6 +57,13 @@ struct Study {
 struct StudyPoint {
   std::vector<Setting> settings;  ///< of `vary` and `list`
   Scenario scenario;              ///< with these settings, and the bisected key at `from`
+  std::string refused{};          ///< why there is no such scenario; empty: there is
+};
+
+/// What happens to a study some of whose points are no scenarios.
+enum class BadPoints {
+  kThrow,  ///< it is refused
+  kKeep,   ///< it is read, unless all of its points are bad; see StudyPoint::refused
 };
 
 /// Whether the file has the key `scenario`, which studies have and scenarios do not. False when it
@@ -80,9 +87,9 @@ Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
                    std::optional<double> bisected = {});
 
 /// All points of the grid, validated before the first run. InputError with the problems of all
-/// points, each once, with one point that has it unless all do; bisections are checked at both ends
-/// and at a value in between.
-std::vector<StudyPoint> ReadPoints(const Study& study);
+/// points, each once, with one point that has it unless all do, unless bad points are to be kept
+/// and others are good; bisections are checked at both ends and at a value in between.
+std::vector<StudyPoint> ReadPoints(const Study& study, BadPoints bad_points = BadPoints::kThrow);
 
 /// A value as text in a table: numbers in shortest form, all else as YAML.
 std::string CellText(const std::string& value);
