@@ -16,9 +16,26 @@ function(put part text)
       PARENT_SCOPE)
 endfunction()
 
+# The source that lets a browser take exactly this text, for the page's Content-Security-Policy.
+function(allow source text)
+  string(SHA256 digest "${text}")
+  string(TOUPPER ${digest} digest)
+  execute_process(
+    COMMAND ${CMAKE_COMMAND} -E echo_append ${digest}
+    COMMAND basenc --base16 --decode
+    COMMAND basenc --base64
+    OUTPUT_VARIABLE encoded
+    OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  set(${source}
+      "'sha256-${encoded}'"
+      PARENT_SCOPE)
+endfunction()
+
 file(READ ${DYGRAPHS_STYLE} library_style)
 file(READ ${PAGE}/page.css style)
-put(style "<style>\n${library_style}\n${style}</style>")
+set(style "\n${library_style}\n${style}")
+allow(style_source "${style}")
+put(style "<style>${style}</style>")
 
 file(READ ${D3_LICENSE} d3_license)
 file(READ ${DYGRAPHS_LICENSE} dygraphs_license)
@@ -28,14 +45,19 @@ put(licenses
 
 file(READ ${D3_SCRIPT} d3)
 file(READ ${DYGRAPHS_SCRIPT} dygraphs)
+allow(d3_source "${d3}")
+allow(dygraphs_source "${dygraphs}")
 put(libraries "<script>${d3}</script>\n<script>${dygraphs}</script>")
 
-set(script "")
+set(script "\n\"use strict\";\n")
 foreach(part IN ITEMS base map charts series differences film tables study main)
   file(READ ${PAGE}/${part}.js text)
   string(APPEND script "${text}\n")
 endforeach()
-put(script "<script>\n\"use strict\";\n${script}</script>")
+allow(script_source "${script}")
+put(script "<script>${script}</script>")
+put("style source" "${style_source}")
+put("script sources" "${d3_source} ${dygraphs_source} ${script_source}")
 
 # What changes from report to report divides the page.
 foreach(cut IN ITEMS title data)

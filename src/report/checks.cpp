@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <string>
+#include <vector>
+
 #include "src/report/names.h"
 #include "src/report/paths.h"
 
@@ -36,9 +39,21 @@ ordered_json CheckRows(const ordered_json& verdict) {
                     {"unit", name.unit},
                     {"asked", AskedText(check)},
                     {"found", RoundedLeaf(check.at("value"))},
-                    {"met", check.at("met")}});
+                    {"met", check.at("met").get<bool>()}});
   }
   return rows;
+}
+
+ordered_json VerdictJson(const ordered_json& verdict) {
+  const ordered_json& passed = verdict.at("passed");
+  ordered_json shown{{"passed", nullptr}};
+  if (!passed.is_null()) {
+    shown["passed"] = passed.get<bool>();
+  }
+  for (const char* list : {"failures", "notes"}) {
+    shown[list] = verdict.at(list).get<std::vector<std::string>>();
+  }
+  return shown;
 }
 
 }  // namespace trackbed

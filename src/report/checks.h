@@ -8,4 +8,7 @@ namespace trackbed {
 /// asked, found, met}. None for a run of an older Trackbed, whose verdict has failures alone.
 nlohmann::ordered_json CheckRows(const nlohmann::ordered_json& verdict);
 
+/// What the page says of a verdict beside its checks: {passed, failures, notes}.
+nlohmann::ordered_json VerdictJson(const nlohmann::ordered_json& verdict);
+
 }  // namespace trackbed

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "src/report/checks.h"
 #include "src/report/names.h"
 #include "src/report/numbers.h"
 #include "src/report/paths.h"
@@ -55,8 +56,7 @@ void TakeJudged(const fs::path& folder, const std::vector<fs::path>& runs, std::
       };
       pairs.push_back({drive(0, at), drive(1, at + last), file, pair});
     }
-    verdicts.push_back(json.at("verdict"));
-    verdicts.back().erase("checks");
+    verdicts.push_back(VerdictJson(json.at("verdict")));
     if (runs.size() > 1 && last == 0) {
       verdicts.back()["run"] = at;
     }

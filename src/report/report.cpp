@@ -10,6 +10,7 @@
 
 #include "src/report/comparison_data.h"
 #include "src/report/page_text.h"
+#include "src/report/readable.h"
 #include "src/report/run_data.h"
 #include "src/report/study_data.h"
 #include "trackbed/analysis/run_folder.h"
@@ -33,14 +34,10 @@ std::string Escaped(const std::string& text) {
   return markup;
 }
 
-/// What is no UTF-8 becomes U+FFFD.
-std::string Dumped(const ordered_json& json) {
-  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-}
-
 /// JSON that can stand in a script element: nothing in it ends the element.
 std::string ScriptJson(const ordered_json& json) {
-  const std::string text = Dumped(json);
+  // Names of entries, which no page shows, may be anything.
+  const std::string text = json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
   std::string safe;
   safe.reserve(text.size());
   for (const char c : text) {
@@ -84,7 +81,7 @@ std::string PageTitle(const ordered_json& data) {
   for (const ordered_json& run : data["runs"]) {
     title += (title.empty() ? "" : " · ") + run["name"].get<std::string>();
   }
-  return ordered_json::parse(Dumped(title)).get<std::string>();
+  return title;
 }
 
 void RefuseOthers(const std::vector<fs::path>& paths) {
@@ -203,9 +200,10 @@ ordered_json ReportData(const std::vector<fs::path>& paths) {
 }
 
 std::string ReportPage(const ordered_json& data) {
+  const ordered_json shown = WithReadableTexts(data);
   return fmt::format("{}{}{}<script type=\"application/json\" id=\"data\">{}</script>\n{}",
-                     kPageBeforeTitle, Escaped(PageTitle(data)), kPageBeforeData, ScriptJson(data),
-                     kPageAfterData);
+                     kPageBeforeTitle, Escaped(PageTitle(shown)), kPageBeforeData,
+                     ScriptJson(shown), kPageAfterData);
 }
 
 void WriteReport(const std::vector<fs::path>& paths, const fs::path& file, FilmPlace film) {

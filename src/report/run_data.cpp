@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "src/report/checks.h"
 #include "src/report/names.h"
@@ -145,9 +149,14 @@ ordered_json CarJson(const fs::path& model) {
 ordered_json PlanJson(const fs::path& folder) {
   ordered_json plan = ReadJson(folder / run_folder::kPlanJson, [](const ordered_json& file) {
     ordered_json json;
-    for (const char* key : {"status", "reason", "method", "length_m", "duration_s"}) {
+    for (const char* key : {"status", "reason", "method"}) {
       if (file.contains(key)) {
-        json[key] = RoundedLeaf(file.at(key));
+        json[key] = file.at(key).get<std::string>();
+      }
+    }
+    for (const char* key : {"length_m", "duration_s"}) {
+      if (file.contains(key)) {
+        json[key] = Rounded(file.at(key).get<double>());
       }
     }
     json["cones"] = ordered_json::array();
@@ -177,11 +186,12 @@ std::size_t PlantCount(const fs::path& folder) {
 ordered_json RunData(const fs::path& folder, const std::string& name, std::size_t row_limit) {
   const fs::path scenario = run_folder::RequireFile(folder / run_folder::kScenarioYaml);
   return ReadJson(folder / run_folder::kMetricsJson, [&](const ordered_json& metrics) {
-    ordered_json run{{"name", name}};
-    for (const char* key : {"scenario", "complete", "seed", "versions", "verdict"}) {
-      run[key] = metrics.at(key);
-    }
-    run["verdict"].erase("checks");
+    ordered_json run{{"name", name},
+                     {"scenario", metrics.at("scenario").get<std::string>()},
+                     {"complete", metrics.at("complete").get<bool>()},
+                     {"seed", metrics.at("seed").get<std::uint64_t>()},
+                     {"versions", metrics.at("versions").get<std::map<std::string, std::string>>()},
+                     {"verdict", VerdictJson(metrics.at("verdict"))}};
     run["expectations"] = CheckRows(metrics.at("verdict"));
     run["car"] = CarJson(folder / run_folder::kModelXml);
     run["world"] = WorldJson(ReadWorld(scenario));
@@ -195,7 +205,7 @@ ordered_json RunData(const fs::path& folder, const std::string& name, std::size_
     }
     run["between"] = ordered_json::array();
     for (ordered_json pair : metrics.at("between")) {
-      const ordered_json plants = pair.at("plants");
+      const auto plants = pair.at("plants").get<std::vector<std::string>>();
       pair.erase("plants");
       run["between"].push_back(
           {{"plants", plants}, {"numbers", NumbersJson(pair, NameOfComparison)}});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "src/report/names.h"
@@ -39,9 +40,12 @@ ordered_json StudyDescription(const fs::path& table) {
     return ordered_json::object();
   }
   return ReadJson(file, [](const ordered_json& json) -> ordered_json {
-    return {{"name", json.at("study")},        {"scenario", json.at("scenario")},
-            {"complete", json.at("complete")}, {"rows_expected", json.at("rows_expected")},
-            {"versions", json.at("versions")}, {"text", json.dump(2)}};
+    return {{"name", json.at("study").get<std::string>()},
+            {"scenario", json.at("scenario").get<std::string>()},
+            {"complete", json.at("complete").get<bool>()},
+            {"rows_expected", json.at("rows_expected").get<std::size_t>()},
+            {"versions", json.at("versions").get<std::map<std::string, std::string>>()},
+            {"text", json.dump(2)}};
   });
 }
 

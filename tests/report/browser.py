@@ -80,13 +80,17 @@ class Browser:
         return [entry["message"] for entry in self.driver.get_log("browser")]
 
     def loaded(self):
-        """Every address that was asked for since the last call."""
-        urls = []
+        """Every address that was asked for since the last call, and that no policy of the page kept
+        from being asked."""
+        urls = {}
         for entry in self.driver.get_log("performance"):
             message = json.loads(entry["message"])["message"]
+            params = message["params"]
             if message["method"] == "Network.requestWillBeSent":
-                urls.append(message["params"]["request"]["url"])
-        return urls
+                urls[params["requestId"]] = params["request"]["url"]
+            elif message["method"] == "Network.loadingFailed" and params.get("blockedReason") == "csp":
+                urls.pop(params["requestId"], None)
+        return list(urls.values())
 
 
 def main():

@@ -33,7 +33,9 @@ enum class FilmPlace {
 /// Cost: proportional to the size of the logs; 60 s on two plants take a fifth of a second.
 nlohmann::ordered_json ReportData(const std::vector<std::filesystem::path>& paths);
 
-/// The whole page of some data. Text from files never becomes markup or script, whatever is in it.
+/// The whole page of some data. Text from files never becomes markup or script, whatever is in it:
+/// it is escaped, and the page's Content-Security-Policy lets a browser run nothing but the page's
+/// own scripts, which it knows by their hashes. Characters that cannot be seen are named.
 std::string ReportPage(const nlohmann::ordered_json& data);
 
 /// Makes the report of `paths` and writes it to `file`, which is either what it was or complete;

@@ -1,5 +1,9 @@
 // Charts one below the other, with one cursor at the moment that all of the page shows.
 
+// Titles and readouts are the page's own, and dygraphs' legend would set a style attribute, which the
+// Content-Security-Policy forbids.
+Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
+
 /** Round numbers, about so many pixels apart. */
 function ticksEvery(pixels, name) {
   return (from, to, length) => d3.ticks(from, to, Math.max(2, Math.round(length / pixels)))
@@ -56,7 +60,6 @@ function drawCharts(list, key, axis, charts) {
       labels: ['at', ...labels],
       series: Object.fromEntries(lines.map(({ pattern, width }, i) => [labels[i],
         { strokePattern: pattern || null, strokeWidth: width }])),
-      legend: 'never',
       connectSeparatedPoints: true,
       hideOverlayOnMouseOut: false,
       highlightCircleSize: 3,

@@ -1,0 +1,76 @@
+#include "src/report/readable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/locale/utf.hpp>
+
+namespace trackbed {
+namespace {
+
+using boost::locale::utf::code_point;
+using nlohmann::ordered_json;
+
+struct Range {
+  code_point first;
+  code_point last;
+};
+
+constexpr std::array kUnseen{Range{0x00, 0x08},      Range{0x0B, 0x1F},     Range{0x7F, 0x9F},
+                             Range{0xAD, 0xAD},      Range{0x061C, 0x061C}, Range{0x180E, 0x180E},
+                             Range{0x200B, 0x200B},  Range{0x200E, 0x200F}, Range{0x2028, 0x202E},
+                             Range{0x2060, 0x206F},  Range{0xFEFF, 0xFEFF}, Range{0xFFF9, 0xFFFB},
+                             Range{0xE0000, 0xE007F}};
+
+bool IsUnseen(code_point c) {
+  return std::any_of(kUnseen.begin(), kUnseen.end(),
+                     [c](const Range& range) { return range.first <= c && c <= range.last; });
+}
+
+bool IsPlain(char c) {
+  return (c >= ' ' && c <= '~') || c == '\n' || c == '\t';
+}
+
+bool Continues(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+}
+
+void MakeReadable(ordered_json& json) {
+  if (json.is_string()) {
+    json = Readable(json.get_ref<const std::string&>());
+  } else if (json.is_structured()) {
+    std::for_each(json.begin(), json.end(), MakeReadable);
+  }
+}
+
+}  // namespace
+
+std::string Readable(const std::string& text) {
+  using Utf8 = boost::locale::utf::utf_traits<char>;
+  if (std::all_of(text.begin(), text.end(), IsPlain)) {
+    return text;  // films among others, which are long
+  }
+  std::string readable;
+  for (auto at = text.begin(); at != text.end();) {
+    const auto begin = at;
+    const code_point c = Utf8::decode(at, text.end());
+    if (c == boost::locale::utf::illegal || c == boost::locale::utf::incomplete) {
+      // What is left of a character of several bytes is no character either.
+      at = std::find_if_not(begin + 1, text.end(), Continues);
+      readable += "\xEF\xBF\xBD";
+    } else if (IsUnseen(c)) {
+      readable += fmt::format("<U+{:04X}>", c);
+    } else {
+      readable.append(begin, at);
+    }
+  }
+  return readable;
+}
+
+ordered_json WithReadableTexts(ordered_json json) {
+  MakeReadable(json);
+  return json;
+}
+
+}  // namespace trackbed
