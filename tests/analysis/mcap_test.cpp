@@ -1,17 +1,20 @@
 #include "trackbed/analysis/mcap.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "tests/support/shell.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/file.h"
@@ -69,20 +72,18 @@ class Bytes {
   std::size_t at_ = 0;
 };
 
-Contents Read(const std::string& file) {
-  Contents contents;
-  EXPECT_TRUE(file.starts_with(kMagic) && file.ends_with(kMagic));
-  Bytes bytes(file.substr(kMagic.size(), file.size() - 2 * kMagic.size()));
+void ReadRecords(Bytes& bytes, Contents& contents) {
   while (bytes.left() > 0) {
     const auto code = bytes.Take<std::uint8_t>();
     Bytes record(bytes.Take(bytes.Take<std::uint64_t>()));
     contents.codes.push_back(code);
-    if (code == 0x03) {
+    const bool is_summary = std::count(contents.codes.begin(), contents.codes.end(), 0x0F) > 0;
+    if (code == 0x03 && !is_summary) {
       const auto id = record.Take<std::uint16_t>();
       contents.schemas[id] = record.Text();
       EXPECT_EQ(record.Text(), "jsonschema");
       EXPECT_EQ(json::parse(record.Text()).at("type"), "object");
-    } else if (code == 0x04) {
+    } else if (code == 0x04 && !is_summary) {
       const auto id = record.Take<std::uint16_t>();
       const auto schema = record.Take<std::uint16_t>();
       contents.channels[id] = {record.Text(), contents.schemas.at(schema)};
@@ -96,19 +97,31 @@ Contents Read(const std::string& file) {
       contents.messages.push_back({contents.channels.at(channel).topic, sequence, time,
                                    json::parse(record.Take(record.left()))});
       continue;
+    } else if (code == 0x06) {
+      record.Take(8 + 8 + 8 + 4);  // times, size, checksum
+      EXPECT_EQ(record.Text(), "");
+      Bytes records(record.Take(record.Take<std::uint64_t>()));
+      ReadRecords(records, contents);
     } else {
       continue;
     }
     EXPECT_EQ(record.left(), 0U);
   }
+}
+
+Contents Read(const std::string& file) {
+  Contents contents;
+  EXPECT_TRUE(file.starts_with(kMagic) && file.ends_with(kMagic));
+  Bytes bytes(file.substr(kMagic.size(), file.size() - 2 * kMagic.size()));
+  ReadRecords(bytes, contents);
   return contents;
 }
 
-RunResult DriveAndPass() {
+RunResult DriveAndPass(const std::vector<std::string>& plants = {"kinematic"}) {
   Scenario scenario =
       ReadScenario(std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / "overtake.yaml");
   scenario.mission.waypoints = {{0.0, 0.0}, {120.0, 0.0}};
-  scenario.drive.plants = {"kinematic"};
+  scenario.drive.plants = plants;
   scenario.expect = {};
   return RunMission(scenario);
 }
@@ -118,7 +131,7 @@ TEST(Mcap, HoldsTheRun) {
   const RunLog& log = run.logs.at(0);
   const Contents contents = Read(ToMcap(run));
   EXPECT_EQ(contents.codes.front(), 0x01);
-  EXPECT_EQ(contents.codes.at(contents.codes.size() - 2), 0x0F);
+  EXPECT_EQ(std::count(contents.codes.begin(), contents.codes.end(), 0x0F), 1);
   EXPECT_EQ(contents.codes.back(), 0x02);
   std::map<std::string, std::vector<const Contents::Message*>> by_topic;
   std::uint64_t before = 0;
@@ -175,22 +188,112 @@ TEST(Mcap, IsTheSameEveryTime) {
   EXPECT_EQ(ToMcap(run), ToMcap(run));
 }
 
-TEST(Mcap, IsReadByTheOfficialReader) {
-  if (std::system("python3 -c 'import mcap' 2>/dev/null") != 0) {
-    GTEST_SKIP() << "python3 has no module mcap";
+/// What the official reader (npm's @mcap/core) finds in a file, by tests/mcap/read.js; nothing when
+/// it is not installed.
+std::optional<json> ReadOfficially(const TempFolder& folder, const std::string& file) {
+  WriteFileAtomically(folder.path() / "run.mcap", file);
+  const Outcome outcome =
+      Shell(folder, "node '" TRACKBED_SOURCE_DIR "/tests/mcap/read.js' '" TRACKBED_MCAP_READER
+                    "' run.mcap > found.json");
+  if (outcome.code == 77 || outcome.code == 127) {
+    return std::nullopt;
   }
-  TempFolder folder;
-  const RunResult run = DriveAndPass();
-  WriteFileAtomically(folder.path() / "run.mcap", ToMcap(run));
-  const std::string script =
-      "import sys; from mcap.stream_reader import StreamReader; "
-      "n = sum(type(r).__name__ == 'Message' for r in StreamReader(open(sys.argv[1], "
-      "'rb')).records);"
-      " sys.exit(0 if n > " +
-      std::to_string(2 * run.logs[0].rows.size()) + " else 1)";
-  const std::string command =
-      "python3 -c \"" + script + "\" " + (folder.path() / "run.mcap").string();
-  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  return json::parse(ReadFile(folder.path() / "found.json"));
+}
+
+#define SKIP_WITHOUT_READER(found) \
+  if (!(found))                    \
+  GTEST_SKIP() << "the official reader is not here; scripts/setup mcap installs it"
+
+TEST(Mcap, IsReadByTheOfficialReader) {
+  const TempFolder folder;
+  const RunResult run = DriveAndPass({"kinematic", "mujoco"});
+  const std::string file = ToMcap(run);
+  const std::optional<json> found = ReadOfficially(folder, file);
+  SKIP_WITHOUT_READER(found);
+  // By our own reader, from the first record to the last.
+  const Contents contents = Read(file);
+  std::map<std::string, std::size_t> counts;
+  for (const Contents::Message& message : contents.messages) {
+    ++counts[message.topic];
+  }
+  ASSERT_EQ(counts.at("/kinematic/log"), run.logs[0].rows.size());
+  const auto chunks = std::count(contents.codes.begin(), contents.codes.end(), 0x06);
+  EXPECT_GE(chunks, 2) << "the run is too short to show that chunks follow each other";
+  // In the order of the file, and by its index: the same, and all that is there.
+  for (const char* way : {"stream", "indexed"}) {
+    const json& read = found->at(way);
+    EXPECT_EQ(read.at("messages"), contents.messages.size()) << way;
+    EXPECT_EQ(read.at("in_order"), true) << way;
+    EXPECT_EQ(read.at("counts"), json(counts)) << way;
+    EXPECT_EQ(read.at("digest"), found->at("stream").at("digest")) << way;
+  }
+  for (const auto& [id, channel] : contents.channels) {
+    EXPECT_EQ(found->at("channels").at(channel.topic), (json{{"schema", channel.schema},
+                                                             {"encoding", "json"},
+                                                             {"schema_encoding", "jsonschema"}}));
+  }
+  EXPECT_EQ(found->at("channels").size(), contents.channels.size());
+  EXPECT_EQ(found->at("schemas"), contents.schemas.size());
+  // The log of a car with wheels has more columns, and a schema of its own.
+  EXPECT_EQ(found->at("undescribed"), json::array());
+  EXPECT_EQ(found->at("chunks"), chunks);
+  EXPECT_EQ(found->at("checksums"), (json{{"data", true}, {"summary", true}, {"chunks", chunks}}));
+  EXPECT_EQ(found->at("statistics"),
+            (json{{"messages", contents.messages.size()},
+                  {"schemas", contents.schemas.size()},
+                  {"channels", contents.channels.size()},
+                  {"chunks", chunks},
+                  {"first", std::to_string(contents.messages.front().time)},
+                  {"last", std::to_string(contents.messages.back().time)},
+                  {"counts", counts}}));
+  EXPECT_EQ(found->at("header"), (json{{"profile", ""}, {"library", "trackbed"}}));
+  // A second in the middle, which only an index finds without the rest.
+  std::size_t within = 0;
+  for (const Contents::Message& message : contents.messages) {
+    within += message.time >= 5'000'000'000 && message.time <= 6'000'000'000 ? 1 : 0;
+  }
+  EXPECT_EQ(found->at("from_5_to_6_s"), within);
+}
+
+TEST(Mcap, ABrokenByteIsFoundByTheOfficialReader) {
+  const TempFolder folder;
+  const std::string file = ToMcap(DriveAndPass());
+  SKIP_WITHOUT_READER(ReadOfficially(folder, file));
+  // In a digit of a message, and in the last length that the summary tells.
+  for (const std::size_t at : {file.find("\"x_m\":", file.size() / 2) + 7, file.size() - 45}) {
+    std::string broken = file;
+    broken[at] = static_cast<char>(broken[at] ^ 0x01);
+    WriteFileAtomically(folder.path() / "broken.mcap", broken);
+    const Outcome outcome =
+        Shell(folder, "node '" TRACKBED_SOURCE_DIR "/tests/mcap/read.js' '" TRACKBED_MCAP_READER
+                      "' broken.mcap");
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.output, testing::HasSubstr("Incorrect")) << at;
+  }
+}
+
+TEST(Mcap, KeepsAnyName) {
+  // Plants of a program of one's own may be called anything.
+  RunResult run = DriveAndPass();
+  run.logs[0].rows.resize(20);
+  const std::string name = "</script>\"'\\{}\n\xE2\x80\xAE\xD7\xA9\xF0\x9F\x9A\x80\x01/../x";
+  run.logs[0].plant = name;
+  const std::string file = ToMcap(run);
+  const Contents contents = Read(file);
+  EXPECT_EQ(contents.channels.at(0).topic, "/" + name + "/tf");
+  const TempFolder folder;
+  const std::optional<json> found = ReadOfficially(folder, file);
+  SKIP_WITHOUT_READER(found);
+  for (const char* channel : {"tf", "log", "footprint", "plan"}) {
+    EXPECT_TRUE(found->at("channels").contains("/" + name + "/" + channel)) << channel;
+  }
+  EXPECT_EQ(found->at("frames"), (json{"world", name}));
+  // What is no UTF-8 is replaced, and the file can be read.
+  run.logs[0].plant = "latin \xE9";
+  EXPECT_EQ(ReadOfficially(folder, ToMcap(run))->at("frames"),
+            (json{"world", "latin \xEF\xBF\xBD"}));
 }
 
 }  // namespace

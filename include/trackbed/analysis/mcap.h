@@ -7,9 +7,9 @@
 /// Export of runs as MCAP, the container format of Foxglove and others.
 namespace trackbed {
 
-/// A run as an MCAP file (mcap.dev/spec, version 0): without chunks, index or compression; messages
-/// in JSON, in the order of their times, each schema beside its channel. Times count from the start
-/// of the run [ns].
+/// A run as an MCAP file (mcap.dev/spec, version 0): chunks of 1 MB with index, statistics and
+/// checksums, without compression; messages in JSON, in the order of their times. Times count from
+/// the start of the run [ns].
 ///
 /// | topic | schema | |
 /// |---|---|---|
