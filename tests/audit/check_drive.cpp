@@ -149,7 +149,13 @@ class DriveCheck {
     }
     CheckTime();
     if (status_ == "diverged") {
+      if (record_.passed) {
+        Report("verdict", "passed, but diverged");
+      }
       return findings_;  // what the others would look at are no longer numbers of a car
+    }
+    if (!CheckNumbers()) {
+      return findings_;  // the others compare, and no comparison with NaN is true
     }
     CheckRows();
     CheckObstacles();
@@ -160,6 +166,8 @@ class DriveCheck {
     } else if (record_.passed) {
       Report("verdict", fmt::format("passed, but ended as {}", status_));
     }
+    CheckExpectations();
+    CheckFailure();
     return findings_;
   }
 
@@ -168,8 +176,28 @@ class DriveCheck {
     findings_.push_back({kind, drive_.plant + ": " + text});
   }
 
+  /// Whether all that is looked at are numbers.
+  bool CheckNumbers() {
+    const auto finite = [](const TimedPose& pose) {
+      return std::isfinite(pose.t) && std::isfinite(pose.x) && std::isfinite(pose.y) &&
+             std::isfinite(pose.yaw);
+    };
+    bool good = std::all_of(rows_.begin(), rows_.end(), finite) &&
+                std::all_of(poses_.begin(), poses_.end(), finite);
+    for (const char* name : {"speed_mps", "steering_actuator_rad", "steering_rad"}) {
+      const std::vector<double> column = drive_.log.Column(name);
+      good = good && std::all_of(column.begin(), column.end(),
+                                 [](double value) { return std::isfinite(value); });
+    }
+    if (!good) {
+      Report("numbers", fmt::format("rows with NaN or infinity; it says {}", status_));
+    }
+    return good;
+  }
+
   /// The log and the steps are of the same drive.
   void CheckRows() {
+    const double same_yaw = record_.mission.leans_on_slope ? 0.05 * 0.1 : 1e-6;  // [rad]
     std::size_t step = 0;
     for (const TimedPose& row : rows_) {
       while (step + 1 < poses_.size() && poses_[step].t < row.t - kSameTime) {
@@ -178,7 +206,7 @@ class DriveCheck {
       const TimedPose& pose = poses_[step];
       const double away = std::hypot(pose.x - row.x, pose.y - row.y);
       const double turned = std::abs(std::remainder(pose.yaw - row.yaw, kTurn));
-      if (std::abs(pose.t - row.t) < kSameTime && (away > 1e-6 || turned > 1e-6)) {
+      if (std::abs(pose.t - row.t) < kSameTime && (away > 1e-6 || turned > same_yaw)) {
         Report("log", fmt::format("at {:.4g} s the log and the physics are {:.4g} m and {:.4g} rad "
                                   "apart",
                                   row.t, away, turned));
@@ -227,6 +255,7 @@ class DriveCheck {
       }
     }
     touched_ = nearest.gap <= tolerances_.contact;
+    gap_ = nearest.gap;
     if (nearest.gap < -tolerances_.contact && (!told_collision || record_.passed)) {
       Report("contact",
              fmt::format("overlaps obstacle {} by {:.4g} m at {:.5g} s; it says {}{}", which,
@@ -235,6 +264,7 @@ class DriveCheck {
     // The smallest distance may lie between two steps, in which the two move so much against each
     // other; where it is looked at at the steps, at most half of that is missed.
     const double missed = 0.5 * nearest.step + 1e-6;
+    missed_ = missed;
     if (told > std::max(nearest.gap, 0.0) + missed) {
       Report("clearance", fmt::format("says {:.5g} m, was {:.5g} m from obstacle {} at {:.5g} s",
                                       told, std::max(nearest.gap, 0.0), which, nearest.t));
@@ -264,9 +294,10 @@ class DriveCheck {
                                         "{:.5g} s",
                                         told, logged.distance, logged.t));
     }
+    const double corridor = record_.mission.max_cross_track.value_or(record_.car.width);
+    const Furthest driven = FurthestFrom(plans, poses_);
+    inside_ = driven.distance < corridor - tolerance;
     if (record_.passed) {
-      const double corridor = record_.mission.max_cross_track.value_or(record_.car.width);
-      const Furthest driven = FurthestFrom(plans, poses_);
       if (driven.distance > corridor + tolerance) {
         Report("corridor",
                fmt::format("passed, {:.5g} m from its path at {:.5g} s, with a corridor "
@@ -292,6 +323,7 @@ class DriveCheck {
     const bool judged = !soft || record_.passed;
     const double rate = CheckColumn("steering_rad", judged ? car.steering_limit + angle : free,
                                     judged ? more : free);
+    slow_wheels_ = rate < record_.car.steering_rate * (1.0 + tolerances_.wheel_rate) - 1e-9;
     if (rate > told + 1e-9) {
       Report("steering_metric",
              fmt::format("says {:.5g} rad/s at most, was {:.5g} rad/s", told, rate));
@@ -360,13 +392,47 @@ class DriveCheck {
     }
   }
 
+  /// What the scenario expects besides, of a run that passed.
+  void CheckExpectations() {
+    const Mission& mission = record_.mission;
+    if (!record_.passed) {
+      return;
+    }
+    if (mission.min_clearance && std::max(gap_, 0.0) + missed_ < *mission.min_clearance) {
+      Report("expected_clearance", fmt::format("passed, {:.5g} m from an obstacle where {:.5g} m "
+                                               "are expected",
+                                               gap_, *mission.min_clearance));
+    }
+    if (mission.max_time && rows_.back().t > *mission.max_time + kSameTime) {
+      Report("expected_time", fmt::format("passed after {:.6g} s where {:.6g} s are expected",
+                                          rows_.back().t, *mission.max_time));
+    }
+  }
+
+  /// A run that failed has done so for a reason: what is checked is not met, or nearly not.
+  void CheckFailure() {
+    const Mission& mission = record_.mission;
+    if (record_.passed || record_.drives.size() > 1 || status_ != "arrived" || touched_) {
+      return;
+    }
+    const bool clear = !mission.min_clearance || gap_ > *mission.min_clearance + missed_;
+    const bool in_time = !mission.max_time || rows_.back().t < *mission.max_time - kSameTime;
+    if (inside_ && slow_wheels_ && clear && in_time) {
+      Report("verdict", "failed, but arrived and kept all that is checked");
+    }
+  }
+
   const Drive& drive_;
   const Record& record_;
   const Tolerances& tolerances_;
   std::string status_;
   std::vector<TimedPose> rows_;
   std::vector<TimedPose> poses_;
-  bool touched_ = false;  ///< the car an obstacle, or all but
+  bool touched_ = false;                                  ///< the car an obstacle, or all but
+  bool inside_ = false;                                   ///< of its corridor, all the way
+  bool slow_wheels_ = false;                              ///< they turned no faster than is allowed
+  double gap_ = std::numeric_limits<double>::infinity();  ///< to the nearest obstacle [m]
+  double missed_ = 0.0;  ///< by which a gap may be smaller between two steps [m]
   std::vector<Finding> findings_;
 };
 

@@ -217,8 +217,46 @@ TEST(Checker, FindsTimesThatAreNotThoseOfTheRows) {
   EXPECT_THAT(KindsIn(record), ElementsAre("time"));
 }
 
+TEST(Checker, FindsRowsThatAreNoNumbers) {
+  for (const double bad : {std::nan(""), HUGE_VAL}) {
+    Record record = GoodRun();
+    record.drives[0] = DriveAlong([bad](Motion& m) { m.y = m.t > 9.0 ? bad : 0.0; });
+    EXPECT_THAT(KindsIn(record), ElementsAre("numbers"));
+    record.drives[0] = DriveAlong([bad](Motion& m) { m.steering = m.t > 9.0 ? bad : 0.0; });
+    EXPECT_THAT(KindsIn(record), ElementsAre("numbers"));
+  }
+}
+
+TEST(Checker, FindsAFailureWithoutAReason) {
+  Record record = GoodRun();
+  record.passed = false;
+  EXPECT_THAT(KindsIn(record), ElementsAre("verdict"));
+  // Each of these is a reason.
+  record.mission.max_time = 5.0;
+  EXPECT_THAT(Check(record), IsEmpty());
+  record.mission.max_time.reset();
+  record.drives[0] = DriveAlong([](Motion& m) { m.y = std::abs(m.t - 4.0) < 1.0 ? 2.0 : 0.0; });
+  record.drives[0].metrics["cross_track"]["max"] = 2.0;
+  EXPECT_THAT(Check(record), IsEmpty());
+}
+
+TEST(Checker, FindsExpectationsThatAreNotMet) {
+  Record record = GoodRun();
+  AddObstacle(record, {{0.0, 20.0, 4.0, 0.0}, 2.0, 2.0, {}}, 3.0 - 0.88);
+  record.mission.min_clearance = 2.0;
+  record.mission.max_time = 9.3;
+  EXPECT_THAT(Check(record), IsEmpty());
+  record.mission.min_clearance = 2.2;
+  EXPECT_THAT(KindsIn(record), ElementsAre("expected_clearance"));
+  record.mission.min_clearance.reset();
+  record.mission.max_time = 9.2;
+  EXPECT_THAT(KindsIn(record), ElementsAre("expected_time"));
+}
+
 TEST(Checker, FindsAVerdictThatItsStatusContradicts) {
   Record record = GoodRun();
+  record.drives[0].metrics["status"] = "diverged";
+  EXPECT_THAT(KindsIn(record), ElementsAre("verdict"));
   record.drives[0].metrics["status"] = "stopped";
   EXPECT_THAT(KindsIn(record), ElementsAre("verdict"));
   record = GoodRun();

@@ -18,6 +18,7 @@
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/planning/replan/along_route.h"
 #include "trackbed/planning/sampling/rrt_planner.h"
+#include "trackbed/scenario/disturbances.h"
 
 namespace audit {
 namespace {
@@ -274,6 +275,108 @@ struct Generator {
       }
     }
   }
+
+  /// A grade, or a bump or a banked section where the car drives. Moving obstacles need flat
+  /// ground, and are let stand.
+  void Ground() {
+    if (!dice.Chance(0.15)) {
+      return;
+    }
+    trackbed::Ground& ground = scenario.world.ground;
+    const double chance = dice.Between(0.0, 1.0);
+    if (chance < 0.4) {
+      ground.grade = {dice.Between(-0.1, 0.1), dice.Between(-0.1, 0.1)};
+    }
+    const Vec2 at = OnTheWay();
+    const Pose2 place{at.x(), at.y(), dice.Between(-kPi, kPi)};
+    if (chance >= 0.3 && chance < 0.7) {
+      ground.bumps.push_back({.area = {place, 4.0 * size, 6.0 * size},
+                              .height = size * dice.Between(0.02, 0.15),
+                              .edge = 2.0 * size});
+    }
+    if (chance >= 0.6) {
+      ground.side_slopes.push_back({.area = {place, 30.0 * size, 8.0 * size},
+                                    .slope = dice.Between(-0.1, 0.1),
+                                    .transition_length = 10.0 * size});
+    }
+    for (Obstacle& obstacle : scenario.world.obstacles) {
+      obstacle.velocity = Vec2::Zero();
+    }
+  }
+
+  void Weather() {
+    if (dice.Chance(0.15)) {
+      scenario.world.wind.velocity = {dice.Between(-15.0, 15.0), dice.Between(-15.0, 15.0)};
+      scenario.world.wind.gusts.push_back(
+          {.velocity = {dice.Between(-15.0, 15.0), dice.Between(-15.0, 15.0)},
+           .from = dice.Between(0.0, 5.0),
+           .duration = dice.Between(0.5, 5.0)});
+    }
+    if (dice.Chance(0.1)) {
+      const Vec2 at = OnTheWay();
+      scenario.world.friction_patches.push_back(
+          {{{at.x(), at.y(), dice.Between(-kPi, kPi)}, 20.0 * size, 10.0 * size},
+           dice.Between(0.2, 1.2)});
+    }
+  }
+
+  /// What the car and its driver do not know of.
+  void Disturbances() {
+    trackbed::Disturbances& disturb = scenario.disturb;
+    if (!dice.Chance(0.35)) {
+      return;
+    }
+    if (dice.Chance(0.3)) {
+      disturb.steering = {.factor = dice.Between(0.8, 1.25),
+                          .delay = dice.Between(0.0, 0.2),
+                          .backlash = dice.Between(0.0, 0.03)};
+    }
+    if (dice.Chance(0.3)) {
+      disturb.noise = {.position = size * dice.Between(0.0, 0.1),
+                       .heading = dice.Between(0.0, 0.03)};
+    }
+    if (dice.Chance(0.2)) {
+      disturb.wheelbase = dice.Between(0.8, 1.25);
+    }
+    if (dice.Chance(0.2)) {
+      disturb.speed_loss = SpeedLoss{.from = dice.Between(0.0, 8.0),
+                                     .station = {},
+                                     .speed = scenario.mission.speed * dice.Between(0.2, 0.9)};
+    }
+    if (dice.Chance(0.3)) {
+      disturb.payload = Payload{.mass = {},
+                                .share = dice.Between(0.05, 0.3),
+                                .x = size * dice.Between(0.0, 2.0),
+                                .y = size * dice.Between(-0.3, 0.3),
+                                .z = {}};
+    }
+    if (dice.Chance(0.3)) {
+      const double at = dice.Between(0.5, 8.0);
+      const double side = dice.Between(-1.0, 1.0);
+      // A displaced car was nowhere in between, where an obstacle may be.
+      if (scenario.world.obstacles.empty() && dice.Chance(0.5)) {
+        disturb.kicks.push_back(
+            {.at = at, .displacement = 0.8 * size * side, .impulse = {}, .duration = {}});
+      } else {
+        // Up to 1 m/s of a car of 1300 kg; mass goes with the cube of the size.
+        disturb.kicks.push_back({.at = at,
+                                 .displacement = {},
+                                 .impulse = 1300.0 * size * size * size * side,
+                                 .duration = {}});
+      }
+    }
+  }
+
+  void Expectations() {
+    PlantExpectation& expect = scenario.expect.all;
+    if (!scenario.world.obstacles.empty() && dice.Chance(0.2)) {
+      expect.min_clearance = size * dice.Between(0.0, 1.0);
+    }
+    if (dice.Chance(0.1)) {
+      expect.metrics.push_back(
+          {.metric = "time", .min = {}, .max = dice.Between(5.0, 30.0), .equals = {}});
+    }
+  }
 };
 
 }  // namespace
@@ -308,6 +411,10 @@ Scenario RandomScenario(std::size_t index, int attempt) {
   if (generator.dice.Chance(0.2)) {
     scenario.expect.all.max_cross_track = generator.size * generator.dice.Between(0.1, 1.0);
   }
+  generator.Ground();
+  generator.Weather();
+  generator.Disturbances();
+  generator.Expectations();
   return scenario;
 }
 

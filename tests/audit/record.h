@@ -40,7 +40,12 @@ struct Mission {
   double timestep = 0.0;                    ///< [s]
   double control_period = 0.0;              ///< [s]
   std::optional<double> max_cross_track{};  ///< expected [m]
-  double road_friction = 1.0;               ///< largest factor on the tyres' coefficient
+  std::optional<double> min_clearance{};    ///< likewise [m]
+  std::optional<double> max_time{};         ///< likewise [s]
+  /// A payload beside the middle leans the car, by 0.05 rad at most, and what leans on a slope of
+  /// 0.1 looks another way from above than it is told to.
+  bool leans_on_slope = false;
+  double road_friction = 1.0;  ///< largest factor on the tyres' coefficient
   std::vector<Box> obstacles{};
   std::vector<std::size_t> planned_around{};  ///< of them, those that the plan has to keep clear of
 };

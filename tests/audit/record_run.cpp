@@ -53,7 +53,8 @@ Table Changes(const trackbed::RunLog& log) {
 }
 
 Car CarFrom(const trackbed::CarModel& model) {
-  const trackbed::VehicleParams& params = model.params();
+  // Plans are made for the car without its payload, whose mass only slows it down.
+  const trackbed::VehicleParams& params = model.unladen();
   Car car{.length = params.length,
           .width = params.width,
           .rear_overhang = params.rear_overhang,
@@ -84,6 +85,9 @@ Mission MissionFrom(const trackbed::Scenario& scenario) {
                   .timestep = scenario.drive.timestep,
                   .control_period = scenario.drive.control_period,
                   .max_cross_track = scenario.expect.all.max_cross_track,
+                  .min_clearance = scenario.expect.all.min_clearance,
+                  .leans_on_slope = scenario.disturb.payload.has_value() &&
+                                    !trackbed::IsFlat(scenario.world.ground),
                   .road_friction = scenario.world.friction};
   if (!scenario.mission.waypoints.empty()) {
     const trackbed::Vec2& goal = scenario.mission.waypoints.back();
@@ -91,6 +95,11 @@ Mission MissionFrom(const trackbed::Scenario& scenario) {
   }
   if (!scenario.mission.headings.empty()) {
     mission.goal_heading = scenario.mission.headings.back();
+  }
+  for (const trackbed::MetricExpectation& metric : scenario.expect.all.metrics) {
+    if (metric.metric == "time") {
+      mission.max_time = metric.max;
+    }
   }
   for (const trackbed::FrictionPatch& patch : scenario.world.friction_patches) {
     mission.road_friction = std::max(mission.road_friction, patch.friction);
