@@ -10,7 +10,7 @@
 
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/file.h"
+#include "trackbed/core/file_set.h"
 #include "trackbed/core/spelling.h"
 
 namespace trackbed {
@@ -375,11 +375,6 @@ DifferenceBounds ParseTolerances(const std::vector<std::string>& texts) {
 }
 
 void WriteComparison(const RunComparison& comparison, const fs::path& folder) {
-  MakeFolder(folder);
-  std::error_code ignored;  // what cannot be removed cannot be replaced either: that will tell
-  fs::remove(folder / run_folder::kCompareJson, ignored);
-  fs::remove(folder / run_folder::kReport, ignored);
-
   std::vector<std::string> columns{"pair"};
   const Table any = DifferencesOverArcLength({}, {});
   columns.insert(columns.end(), any.columns().begin(), any.columns().end());
@@ -406,8 +401,10 @@ void WriteComparison(const RunComparison& comparison, const fs::path& folder) {
     json["verdict"]["passed"] = nullptr;
   }
   json["versions"] = Versions();
-  WriteFileAtomically(folder / run_folder::kCompareCsv, table.ToCsv());
-  WriteFileAtomically(folder / run_folder::kCompareJson, json.dump(2) + "\n");
+  FileSet files(folder);
+  files.Add(run_folder::kCompareCsv, table.ToCsv());
+  files.Add(run_folder::kCompareJson, json.dump(2) + "\n");
+  files.Commit({run_folder::kReport}, run_folder::kCompareJson);
 }
 
 }  // namespace trackbed

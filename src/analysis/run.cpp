@@ -11,7 +11,7 @@
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/playback.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/file.h"
+#include "trackbed/core/file_set.h"
 #include "trackbed/core/version.h"
 #include "trackbed/optimize/search.h"
 #include "trackbed/planning/common/plan.h"
@@ -136,26 +136,14 @@ ordered_json ChangesJson(const RunLog& log) {
   return changes;
 }
 
-/// Without rows, removes what an earlier plan may have left.
-void WriteUnlessEmpty(const Table& table, const fs::path& file) {
+void AddUnlessEmpty(const Table& table, const std::string& name, FileSet& files) {
   if (table.rows() > 0) {
-    WriteFileAtomically(file, table.ToCsv());
-  } else {
-    std::error_code ignored;
-    fs::remove(file, ignored);
+    files.Add(name, table.ToCsv());
   }
 }
 
 std::string Pretty(const ordered_json& content) {
   return content.dump(2) + "\n";
-}
-
-/// Removes what an earlier run may have left under names that a run writes, and nothing else.
-void RemoveEarlierRun(const fs::path& folder) {
-  for (const std::string& name : run_folder::AllNames()) {
-    std::error_code ignored;  // what cannot be removed cannot be replaced either: that will tell
-    fs::remove(folder / name, ignored);
-  }
 }
 
 /// Share of the rows in which a loaded tyre slides.
@@ -289,7 +277,9 @@ ordered_json MetricsJson(const RunResult& result) {
   return metrics;
 }
 
-void WritePlan(const Plan& plan, const Scenario& scenario, const fs::path& folder) {
+namespace {
+
+void AddPlan(const Plan& plan, const Scenario& scenario, FileSet& files) {
   ordered_json content{{"status", ToString(plan.status)}};
   if (!plan.ok()) {
     content["reason"] = plan.reason;
@@ -300,40 +290,30 @@ void WritePlan(const Plan& plan, const Scenario& scenario, const fs::path& folde
     const double length = plan.reference.path.length();
     content["length_m"] = length;
     content["duration_s"] = plan.reference.speed.TimeAt(length);
-    WriteFileAtomically(folder / run_folder::kPlanCsv, PlanTable(plan.reference).ToCsv());
-    WriteFileAtomically(folder / run_folder::kScheduleCsv, ScheduleTable(plan.schedule).ToCsv());
-    WriteUnlessEmpty(ConvergenceTable(plan.diagnostics), folder / run_folder::kConvergenceCsv);
-    WriteUnlessEmpty(TreeTable(plan.tree), folder / run_folder::kTreeCsv);
+    files.Add(run_folder::kPlanCsv, PlanTable(plan.reference).ToCsv());
+    files.Add(run_folder::kScheduleCsv, ScheduleTable(plan.schedule).ToCsv());
+    AddUnlessEmpty(ConvergenceTable(plan.diagnostics), run_folder::kConvergenceCsv, files);
+    AddUnlessEmpty(TreeTable(plan.tree), run_folder::kTreeCsv, files);
   }
   const nlohmann::json diagnostics = DiagnosticsJson(plan);
   for (const auto& [key, value] : diagnostics.items()) {
     content[key] = value;
   }
-  WriteFileAtomically(folder / run_folder::kPlanJson, Pretty(content));
+  files.Add(run_folder::kPlanJson, Pretty(content));
 }
 
-void WriteRunFolder(const RunResult& result, const fs::path& folder,
-                    const RunFolderOptions& options) {
-  MakeFolder(folder);
-  RemoveEarlierRun(folder);
-  WriteFileAtomically(folder / run_folder::kScenarioYaml, ResolvedYaml(result.scenario));
-  if (const auto* playback = result.scenario.control.steering.As<PlaybackOptions>()) {
-    WriteFileAtomically(folder / kRecordingCsv, RecordingCsv(playback->recording, playback->by));
+void AddLog(const RunLog& log, FileSet& files) {
+  files.Add(run_folder::LogCsv(log.plant), ToTable(log).ToCsv());
+  files.Add(run_folder::StateCsv(log.plant), log.configurations.ToCsv());
+  if (!log.changes.empty()) {
+    files.Add(run_folder::NewPlansCsv(log.plant), ChangesTable(log).ToCsv());
+    files.Add(run_folder::NewPlansJson(log.plant), Pretty(ChangesJson(log)));
+    AddUnlessEmpty(TreeTable(log.changes.back().plan.tree), run_folder::NewPlansTreeCsv(log.plant),
+                   files);
   }
-  WriteScene(result.scene, folder / run_folder::kModelXml);
-  if (result.scenario.plan) {
-    WritePlan(result.plan, result.scenario, folder);
-  }
-  for (const RunLog& log : result.logs) {
-    WriteFileAtomically(folder / run_folder::LogCsv(log.plant), ToTable(log).ToCsv());
-    WriteFileAtomically(folder / run_folder::StateCsv(log.plant), log.configurations.ToCsv());
-    if (!log.changes.empty()) {
-      WriteFileAtomically(folder / run_folder::NewPlansCsv(log.plant), ChangesTable(log).ToCsv());
-      WriteFileAtomically(folder / run_folder::NewPlansJson(log.plant), Pretty(ChangesJson(log)));
-      WriteUnlessEmpty(TreeTable(log.changes.back().plan.tree),
-                       folder / run_folder::NewPlansTreeCsv(log.plant));
-    }
-  }
+}
+
+ordered_json TimingJson(const RunResult& result) {
   ordered_json timing{{"planning_s", result.planning_time}};
   for (const DriveTiming& plant : result.timing) {
     timing["plants"][plant.plant] = {
@@ -342,12 +322,41 @@ void WriteRunFolder(const RunResult& result, const fs::path& folder,
         {"steering",
          {{"updates", plant.updates}, {"mean_s", plant.update_mean}, {"max_s", plant.update_max}}}};
   }
-  WriteFileAtomically(folder / run_folder::kTimingJson, Pretty(timing));
-  if (options.mcap && !result.logs.empty()) {
-    WriteFileAtomically(folder / run_folder::kMcap, ToMcap(result));
-  }
+  return timing;
+}
 
-  WriteFileAtomically(folder / run_folder::kMetricsJson, Pretty(MetricsJson(result)));
+}  // namespace
+
+void WritePlan(const Plan& plan, const Scenario& scenario, const fs::path& folder) {
+  FileSet files(folder);
+  AddPlan(plan, scenario, files);
+  files.Commit({run_folder::kPathFiles.begin(), run_folder::kPathFiles.end()},
+               run_folder::kPlanJson);
+}
+
+void WriteRunFolder(const RunResult& result, const fs::path& folder,
+                    const RunFolderOptions& options) {
+  FileSet files(folder);
+  files.Add(run_folder::kScenarioYaml, ResolvedYaml(result.scenario));
+  if (const auto* playback = result.scenario.control.steering.As<PlaybackOptions>()) {
+    files.Add(kRecordingCsv, RecordingCsv(playback->recording, playback->by));
+  }
+  files.Add(run_folder::kModelXml, result.scene.xml);
+  for (const SceneAsset& asset : result.scene.assets) {
+    files.Add(asset.name, asset.content);
+  }
+  if (result.scenario.plan) {
+    AddPlan(result.plan, result.scenario, files);
+  }
+  for (const RunLog& log : result.logs) {
+    AddLog(log, files);
+  }
+  files.Add(run_folder::kTimingJson, Pretty(TimingJson(result)));
+  if (options.mcap && !result.logs.empty()) {
+    files.Add(run_folder::kMcap, ToMcap(result));
+  }
+  files.Add(run_folder::kMetricsJson, Pretty(MetricsJson(result)));
+  files.Commit(run_folder::AllNames(), run_folder::kMetricsJson);
 }
 
 }  // namespace trackbed

@@ -10,7 +10,7 @@
 #include "trackbed/analysis/bisect.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/file.h"
+#include "trackbed/core/file_set.h"
 
 namespace trackbed {
 namespace {
@@ -295,12 +295,10 @@ SweepResult RunSweep(const Study& study, const std::vector<StudyPoint>& points,
 }
 
 void WriteSweep(const SweepResult& sweep, const fs::path& folder) {
-  MakeFolder(folder);
-  std::error_code ignored;  // what cannot be removed cannot be replaced either: that will tell
-  fs::remove(folder / run_folder::kSweepJson, ignored);
-  fs::remove(folder / run_folder::kReport, ignored);
-  WriteFileAtomically(folder / run_folder::kSweepCsv, sweep.table.ToCsv());
-  WriteFileAtomically(folder / run_folder::kSweepJson, sweep.description.dump(2) + "\n");
+  FileSet files(folder);
+  files.Add(run_folder::kSweepCsv, sweep.table.ToCsv());
+  files.Add(run_folder::kSweepJson, sweep.description.dump(2) + "\n");
+  files.Commit({run_folder::kReport}, run_folder::kSweepJson);
 }
 
 }  // namespace trackbed

@@ -10,6 +10,8 @@
 #include "trackbed/analysis/compare_runs.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+#include "trackbed/core/folder_lock.h"
 #include "trackbed/core/text_table.h"
 
 namespace trackbed::cli {
@@ -85,12 +87,14 @@ int CompareFinished(const CompareOptions& options) {
   const RunComparison result =
       CompareFolders(folders, options.scenario.plants, Tolerances(options));
   const fs::path out = options.out.empty() ? "out/compare" : options.out;
+  MakeFolder(out);
+  const FolderLock lock(out, FolderLock::Access::kWrite);
   return Finish(fmt::format("{}", fmt::join(options.files, " and ")), result, out,
                 options.scenario.quiet);
 }
 
 int CompareScenario(const ScenarioRun& run, const CompareOptions& options) {
-  const RunResult result = DriveScenario(run, options.scenario.quiet);
+  const auto [lock, result] = DriveScenario(run, options.scenario.quiet);
   WriteRunFolder(result, run.folder);
   if (result.interrupted) {
     if (!options.scenario.quiet) {

@@ -14,6 +14,7 @@
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/core/folder_lock.h"
 
 namespace trackbed::cli {
 namespace {
@@ -34,14 +35,9 @@ int PlanOne(const PlanOptions& options) {
   const fs::path out =
       options.out.empty() ? fs::path("out") / scenario.name : fs::path(options.out);
   MakeFolder(out);
+  const FolderLock lock(out, FolderLock::Access::kWrite);
   const CarModel car = LoadCar(scenario);
   const Plan plan = PlanMission(scenario, car.unladen());
-  if (!plan.ok()) {
-    std::error_code ignored;
-    for (const char* name : run_folder::kPathFiles) {
-      fs::remove(out / name, ignored);  // of an earlier plan
-    }
-  }
   WritePlan(plan, scenario, out);
   if (!plan.ok()) {
     fmt::print(stderr, "{}: no plan ({}): {}\n", scenario.name, ToString(plan.status), plan.reason);

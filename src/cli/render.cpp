@@ -9,6 +9,8 @@
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+#include "trackbed/core/folder_lock.h"
 #include "trackbed/scenario/scenario.h"
 
 namespace trackbed::cli {
@@ -58,6 +60,7 @@ std::string Listed(const std::vector<FilmChoice>& choices) {
 
 int RenderOne(const RenderOptions& options) {
   const fs::path folder = options.folder;
+  const FolderLock lock(folder, FolderLock::Access::kRead);
   FilmOptions film;
   // What the command does not say, the scenario of the run does.
   if (const fs::path resolved = folder / run_folder::kScenarioYaml; fs::exists(resolved)) {
@@ -82,6 +85,7 @@ int RenderOne(const RenderOptions& options) {
   }
   const char* name = options.at ? run_folder::kPicture : run_folder::kVideo;
   const fs::path out = options.out.empty() ? folder / name : fs::path(options.out);
+  RemoveAbandonedTemporaries(out.parent_path());
   if (options.at) {
     RenderPicture(folder, out, *options.at, film);
   } else {

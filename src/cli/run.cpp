@@ -69,7 +69,7 @@ void PrintSummary(const RunResult& result) {
 int RunOne(const ScenarioRun& run, const RunOptions& options) {
   const Scenario& scenario = run.scenario;
   const fs::path& out = run.folder;
-  const RunResult result = DriveScenario(run, options.scenario.quiet);
+  const auto [lock, result] = DriveScenario(run, options.scenario.quiet);
   WriteRunFolder(result, out, {.mcap = options.mcap});
   if (!options.scenario.quiet) {
     fmt::print("{}: {}, in {}\n", scenario.name,

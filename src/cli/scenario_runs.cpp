@@ -57,17 +57,19 @@ int ForEachRun(const std::vector<ScenarioRun>& runs,
   return worst;
 }
 
-RunResult DriveScenario(const ScenarioRun& run, bool quiet) {
+DrivenScenario DriveScenario(const ScenarioRun& run, bool quiet) {
   const CarModel car = LoadCar(run.scenario);
   MakeFolder(run.folder);
+  FolderLock lock(run.folder, FolderLock::Access::kWrite);
   std::unique_ptr<ProgressBar> bar;
-  return RunMission(run.scenario, car, {.drive = [&](const std::string& plant) {
-                      bar.reset();
-                      bar = std::make_unique<ProgressBar>(
-                          fmt::format("{} {}", run.scenario.name, plant), quiet);
-                      return DriveHooks{.progress = [&](double fraction) { bar->Show(fraction); },
-                                        .interrupted = [] { return interrupted.load(); }};
-                    }});
+  return {std::move(lock),
+          RunMission(run.scenario, car, {.drive = [&](const std::string& plant) {
+                       bar.reset();
+                       bar = std::make_unique<ProgressBar>(
+                           fmt::format("{} {}", run.scenario.name, plant), quiet);
+                       return DriveHooks{.progress = [&](double fraction) { bar->Show(fraction); },
+                                         .interrupted = [] { return interrupted.load(); }};
+                     }})};
 }
 
 }  // namespace trackbed::cli

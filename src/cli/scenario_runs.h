@@ -7,6 +7,7 @@
 
 #include "src/cli/scenario_options.h"
 #include "trackbed/analysis/run.h"
+#include "trackbed/core/folder_lock.h"
 
 namespace trackbed::cli {
 
@@ -28,8 +29,14 @@ std::vector<ScenarioRun> ReadScenarioRuns(const std::vector<std::string>& files,
 int ForEachRun(const std::vector<ScenarioRun>& runs,
                const std::function<int(const ScenarioRun& run)>& work);
 
+/// A run, and the lock on its folder, to be held until everything is written there.
+struct DrivenScenario {
+  FolderLock lock;
+  RunResult result;
+};
+
 /// Runs the scenario with a progress bar until Ctrl-C. The folder is made before the work, not
 /// after it, and not at all for a model that cannot be used; nothing is written to it yet.
-RunResult DriveScenario(const ScenarioRun& run, bool quiet);
+DrivenScenario DriveScenario(const ScenarioRun& run, bool quiet);
 
 }  // namespace trackbed::cli

@@ -12,6 +12,7 @@
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/file.h"
+#include "trackbed/core/folder_lock.h"
 
 namespace trackbed::cli {
 namespace {
@@ -31,6 +32,7 @@ int Sweep(const SweepVerbOptions& options) {
   const std::string& name = checked.study.name;
   const fs::path out = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
   MakeFolder(out);  // before the work, not after it
+  const FolderLock lock(out, FolderLock::Access::kWrite);
 
   const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const auto is_interrupted = [] { return interrupted.load(); };

@@ -1,6 +1,7 @@
 #include "trackbed/core/file.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -8,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <regex>
 #include <system_error>
 
 #include "trackbed/core/error.h"
@@ -143,12 +145,34 @@ void WriteFileAtomically(const fs::path& file, std::string_view content) {
     }
     return;
   }
+  WriteTemporary(file, content);
+  PublishFile(TemporaryNameFor(file), file);
+}
+
+void WriteTemporary(const fs::path& file, std::string_view content) {
   const fs::path temporary = TemporaryNameFor(file);
   if (const int error = WriteAll(temporary, content); error != 0) {
     ::unlink(temporary.c_str());
     Fail("write", file, error);
   }
-  PublishFile(temporary, file);
+}
+
+void RemoveAbandonedTemporaries(const fs::path& folder) {
+  static const std::regex temporary(R"re(\..*\.([0-9]{1,9})\.partial(\..*)?)re");
+  std::error_code ignored;
+  std::vector<fs::path> abandoned;
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, ignored), end;
+       !ignored && entry != end; entry.increment(ignored)) {
+    const std::string name = entry->path().filename().string();
+    std::smatch found;
+    if (std::regex_match(name, found, temporary) && ::kill(std::stoi(found[1]), 0) != 0 &&
+        errno == ESRCH) {
+      abandoned.push_back(entry->path());
+    }
+  }
+  for (const fs::path& file : abandoned) {
+    fs::remove(file, ignored);
+  }
 }
 
 void MakeFolder(const fs::path& folder) {

@@ -57,35 +57,42 @@ void ExpectWhole(const fs::path& folder, const fs::path& complete) {
   }
 }
 
+/// What the files take on a tmpfs.
+std::uintmax_t KilobytesOf(const fs::path& folder) {
+  std::uintmax_t kilobytes = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    kilobytes += entry.is_regular_file() ? (entry.file_size() + 4095) / 4096 * 4 : 0;
+  }
+  return kilobytes;
+}
+
 std::string Winding() {
   return ScenarioFile("winding") + " --set drive.time_limit=1 'expect={}'";
 }
 
-TEST_F(FullDisk, EndsARunInOneLineWithWholeFilesOnly) {
-  // Room for some files of the run, but not for its plan.csv of 127 kB.
-  const Outcome outcome = WithDisk("64k", TRACKBED_PROGRAM " run -o disk/r " + Winding());
+TEST_F(FullDisk, EndsARunInOneLineAndLeavesTheEarlierOneAsItWas) {
+  const std::string run = TRACKBED_PROGRAM " run -q -o disk/r ";
+  const std::string earlier =
+      ScenarioFile("three_turns") + " --set drive.time_limit=0.1 'expect={}' ";
+  Trackbed(folder, "run -q -o whole " + earlier);
+  // Room for a run of a tenth of a second, but not for a plan.csv of 127 kB beside it.
+  const Outcome outcome = WithDisk(std::to_string(KilobytesOf(folder.path() / "whole") + 100) + "k",
+                                   run + earlier + "; cp -r disk/r before; " + run + Winding());
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.output,
               MatchesRegex("cannot write disk/r/[a-z.]+: No space left on device\n"));
-  const auto left = NamesIn(folder.path() / "left/r");
-  EXPECT_THAT(left, Contains("scenario.resolved.yaml"));
-  EXPECT_THAT(left, Not(Contains("metrics.json")));
-  Trackbed(folder, "run -q -o whole " + Winding());
-  ExpectWhole(folder.path() / "left/r", folder.path() / "whole");
+  ExpectWhole(folder.path() / "left/r", folder.path() / "before");
+  EXPECT_THAT(NamesIn(folder.path() / "left/r"), Contains("metrics.json"));
 }
 
-TEST_F(FullDisk, LeavesNoMetricsOfARunWhoseMcapFoundNoRoom) {
+TEST_F(FullDisk, LeavesNothingOfARunWhoseMcapFoundNoRoom) {
   Trackbed(folder, "run -q -o whole " + Winding());
-  std::uintmax_t kilobytes = 8;  // to spare
-  for (const auto& entry : fs::recursive_directory_iterator(folder.path() / "whole")) {
-    kilobytes += entry.is_regular_file() ? (entry.file_size() + 4095) / 4096 * 4 : 0;
-  }
+  const std::uintmax_t kilobytes = KilobytesOf(folder.path() / "whole") + 8;  // to spare
   const Outcome outcome = WithDisk(std::to_string(kilobytes) + "k",
                                    TRACKBED_PROGRAM " run --mcap -o disk/r " + Winding());
   EXPECT_EQ(outcome.code, 2);
   EXPECT_EQ(outcome.output, "cannot write disk/r/run.mcap: No space left on device\n");
-  EXPECT_THAT(NamesIn(folder.path() / "left/r"), Contains("timing.json"));
-  EXPECT_THAT(NamesIn(folder.path() / "left/r"), Not(Contains("metrics.json")));
+  EXPECT_THAT(NamesIn(folder.path() / "left/r"), IsEmpty());
 }
 
 TEST_F(FullDisk, LeavesAnEarlierPlanAsItWas) {
@@ -107,22 +114,18 @@ TEST_F(FullDisk, LeavesNoPieceOfASweep) {
                                  "vary: {mission.speed: [1, 2]}\n"
                                  "outputs: [metrics.kinematic.distance]\n");
   Trackbed(folder, "sweep -q study.yaml -o whole");
-  // Of the two pages that the sweep takes there is room for one: its sweep.json, written last, does
-  // not tell of a sweep that is not there.
+  // Of the two pages that the sweep takes there is room for one.
   const std::string sweep = TRACKBED_PROGRAM " sweep -q study.yaml -o disk/s";
   const Outcome half = WithDisk("4k", sweep);
   EXPECT_EQ(half.code, 2);
   EXPECT_EQ(half.output, "cannot write disk/s/sweep.json: No space left on device\n");
-  EXPECT_THAT(NamesIn(folder.path() / "left/s"), UnorderedElementsAre("sweep.csv"));
-  ExpectWhole(folder.path() / "left/s", folder.path() / "whole");
+  EXPECT_THAT(NamesIn(folder.path() / "left/s"), IsEmpty());
   fs::remove_all(folder.path() / "left");
-  // And no room for the rows: those of an earlier sweep stay as they were.
-  fs::remove_all(folder.path() / "left");
-  const Outcome none = WithDisk("8k", sweep + " && mv disk/s/sweep.json disk/fill && " + sweep +
-                                          " --set drive.time_limit=0.2");
+  // And none for another sweep: the earlier one stays as it was.
+  const Outcome none = WithDisk("8k", sweep + " && " + sweep + " --set drive.time_limit=0.2");
   EXPECT_EQ(none.code, 2);
   EXPECT_EQ(none.output, "cannot write disk/s/sweep.csv: No space left on device\n");
-  EXPECT_THAT(NamesIn(folder.path() / "left/s"), UnorderedElementsAre("sweep.csv"));
+  EXPECT_THAT(NamesIn(folder.path() / "left/s"), UnorderedElementsAre("sweep.csv", "sweep.json"));
   ExpectWhole(folder.path() / "left/s", folder.path() / "whole");
 }
 

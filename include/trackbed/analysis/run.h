@@ -61,14 +61,13 @@ struct RunFolderOptions {
 };
 
 /// Writes the run folder (plan.csv, plan.json, <plant>.csv, <plant>.state.csv, model.xml,
-/// timing.json, scenario.resolved.yaml, metrics.json), each file under its name only when complete,
-/// and metrics.json when all others are. Files of an earlier run of the same folder that this run
-/// does not have are removed first, so that the folder never mixes two runs. RunError when the
-/// folder cannot be written.
+/// timing.json, scenario.resolved.yaml, metrics.json) as a FileSet with metrics.json as its last
+/// file: all of it, or the files of an earlier run stay as they were. RunError when the folder
+/// cannot be written. Does not lock the folder; see FolderLock.
 void WriteRunFolder(const RunResult& result, const std::filesystem::path& folder,
                     const RunFolderOptions& options = {});
 
-/// Writes plan.csv (when there is a path) and plan.json alone.
+/// Writes the files of a plan alone, likewise, with plan.json as the last one.
 void WritePlan(const Plan& plan, const Scenario& scenario, const std::filesystem::path& folder);
 
 /// Versions of Trackbed and its libraries, as in metrics.json.

@@ -90,8 +90,8 @@ struct SweepResult {
 SweepResult RunSweep(const Study& study, const std::vector<StudyPoint>& points,
                      const RunScenarioOnce& run, const SweepOptions& options);
 
-/// Writes sweep.csv, then sweep.json, each under its name only when complete; a sweep.json and
-/// a report.html of an earlier sweep go first. RunError.
+/// Writes sweep.csv and sweep.json as a FileSet, with sweep.json as its last file; a report.html of
+/// an earlier sweep goes. RunError.
 void WriteSweep(const SweepResult& sweep, const std::filesystem::path& folder);
 
 }  // namespace trackbed

@@ -23,8 +23,16 @@ void CheckCanWrite(const std::filesystem::path& file);
 void MakeFolder(const std::filesystem::path& folder);
 
 /// A temporary name in the folder of `file` for use until the content is complete. It has the same
-/// extension, for writers that depend on it.
+/// extension, for writers that depend on it, and the number of this process.
 std::filesystem::path TemporaryNameFor(const std::filesystem::path& file);
+
+/// Writes `content` under TemporaryNameFor(file). RunError (the temporary is removed) naming
+/// `file`.
+void WriteTemporary(const std::filesystem::path& file, std::string_view content);
+
+/// Removes the temporaries in a folder whose process is no more: it was killed. What cannot be
+/// removed stays.
+void RemoveAbandonedTemporaries(const std::filesystem::path& folder);
 
 /// Renames a complete temporary to its final name, or to what a link of that name points to.
 /// RunError (the temporary is removed) on failure, and when the name is taken by something that is
