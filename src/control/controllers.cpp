@@ -98,6 +98,8 @@ const ControllerEntry& ControllerFor(const ControllerOptions& options) {
 }
 
 std::unique_ptr<SteeringController> MakeSteeringController(const ControllerOptions& options) {
+  ControllerOptions own = options;
+  RequireInRange("MakeSteeringController", [&](KeyVisitor& keys) { Visit(keys, own); });
   return std::make_unique<ValidatingController>(ControllerFor(options).make(options));
 }
 

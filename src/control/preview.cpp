@@ -62,6 +62,9 @@ double PreviewStation(const Path& path, const Vec2& p, double station, double di
   const double stride = distance / 8.0;
   double inside = station;
   while (beyond(inside + stride) < 0.0) {
+    if (inside + stride == inside) {
+      return station + distance;  // a distance below the rounding of the station
+    }
     inside += stride;
   }
   std::uintmax_t iterations = 100;
@@ -73,6 +76,9 @@ double PreviewStation(const Path& path, const Vec2& p, double station, double di
 }  // namespace
 
 double PreviewAngle(const Path& path, const Pose2& pose, double station, double distance) {
+  TRACKBED_REQUIRE(distance > 0.0 && std::isfinite(distance) && std::isfinite(station),
+                   "PreviewAngle: {} m ahead of station {} m; must be finite, ahead", distance,
+                   station);
   const double s = PreviewStation(path, pose.position(), station, distance);
   // Backwards, the direction of motion is against the heading.
   const Vec2 to_point = path.BendAt(station).direction * ToLocal(pose, path.At(s).pose.position());

@@ -13,6 +13,7 @@
 #include "src/drive/segment_sequencer.h"
 #include "src/drive/termination.h"
 #include "trackbed/control/steering_controller.h"
+#include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
 
 namespace trackbed {
@@ -207,6 +208,10 @@ ControlInput ClosedLoop::Control(const VehicleState& state, LogRow& row) {
   }
   command_.steering = Steer(input);
   command_.acceleration = Accelerate(input, row);
+  TRACKBED_REQUIRE(std::isfinite(command_.steering) && std::isfinite(command_.acceleration),
+                   "SimulateClosedLoop: at {} s the controller asks for a steering angle of {} rad "
+                   "and an acceleration of {} m/s^2; must be finite",
+                   state.time, command_.steering, command_.acceleration);
   command_.coast = Coasts(config_.speed, state.time);
   row.command = command_;
   row.controller = controller_.Values();

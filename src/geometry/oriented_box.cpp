@@ -49,6 +49,11 @@ double Separation(const OrientedBox& a, const OrientedBox& b) {
   const double c = std::cos(turn);
   const double s = std::sin(turn);
   const Vec2 a_in_b{-c * b_in_a.x() - s * b_in_a.y(), s * b_in_a.x() - c * b_in_a.y()};
+  // A maximum drops NaN that is not its first.
+  const double all = b_in_a.x() + b_in_a.y() + turn + half_a.x + half_a.y + half_b.x + half_b.y;
+  if (std::isnan(all)) {
+    return all;
+  }
   const double along = std::abs(c);
   const double across = std::abs(s);
   // Gaps along the axes of either box: they are apart if any is positive.

@@ -93,7 +93,11 @@ double BezierCurve::Length(double from, double to) const {
 }
 
 std::vector<CurvePoint> BezierCurve::Points(double spacing, double start_yaw) const {
+  constexpr double kMostPoints = 1e6;
   TRACKBED_CHECK(spacing > 0.0, "spacing {}", spacing);
+  TRACKBED_REQUIRE(Length() / spacing <= kMostPoints,
+                   "BezierCurve::Points: {} m every {} m; must be at most {} points", Length(),
+                   spacing, kMostPoints);
   double fastest = 0.0;  // |P'| lies within the hull of its control points
   for (const Vec2& velocity : polygons_[1]) {
     fastest = std::max(fastest, velocity.norm());

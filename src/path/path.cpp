@@ -108,6 +108,9 @@ double NearestDistance(const Pose2& start, const Segment& segment, const Vec2& p
 }  // namespace
 
 Path::Path(const Pose2& start, std::vector<Segment> segments) : segments_(std::move(segments)) {
+  TRACKBED_REQUIRE(start.position().allFinite() && std::isfinite(start.yaw),
+                   "Path: the start is {}, {}, yaw {}; must be finite", start.x, start.y,
+                   start.yaw);
   starts_.reserve(segments_.size() + 1);
   stations_.reserve(segments_.size() + 1);
   starts_.push_back(start);
@@ -119,6 +122,14 @@ Path::Path(const Pose2& start, std::vector<Segment> segments) : segments_(std::m
                    "segment of length {}, curvature {}, sharpness {} and {}, direction {}",
                    segment.length, segment.curvature, segment.sharpness, segment.sharpness_rate,
                    segment.direction);
+    // Quadrature takes as many pieces as it turns half radians.
+    constexpr double kMostTurned = 1e4;
+    TRACKBED_REQUIRE(
+        IsLineOrArc(segment) || MostTurned(segment, segment.length) <= kMostTurned,
+        "Path: a segment of {} m, curvature {}, sharpness {} and {} may turn by {} rad; "
+        "must be at most {}",
+        segment.length, segment.curvature, segment.sharpness, segment.sharpness_rate,
+        MostTurned(segment, segment.length), kMostTurned);
     starts_.push_back(Along(starts_.back(), segment, segment.length));
     length_ += segment.length;
     stations_.push_back(length_);
@@ -160,6 +171,9 @@ PathBend Path::BendAt(double s) const {
 
 Projection Path::Project(const Pose2& pose, Stations within) const {
   TRACKBED_CHECK(within.from <= within.to, "no station is within [{}, {}]", within.from, within.to);
+  TRACKBED_REQUIRE(pose.position().allFinite() && std::isfinite(pose.yaw),
+                   "Path::Project: the pose {}, {}, yaw {} is not finite", pose.x, pose.y,
+                   pose.yaw);
   const Vec2 p = pose.position();
   double best_s = within.from;
   double best_distance = std::numeric_limits<double>::infinity();
@@ -190,7 +204,11 @@ Projection Path::Project(const Pose2& pose, Stations within) const {
 }
 
 std::vector<PathPoint> Path::Sample(double spacing) const {
+  constexpr double kMostPoints = 2e7;
   TRACKBED_CHECK(spacing > 0.0, "spacing {}", spacing);
+  TRACKBED_REQUIRE(length_ / spacing <= kMostPoints,
+                   "Path::Sample: {} m every {} m; must be at most {} points", length_, spacing,
+                   kMostPoints);
   const auto intervals =
       std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(length_ / spacing)));
   std::vector<PathPoint> points;
@@ -204,6 +222,8 @@ std::vector<PathPoint> Path::Sample(double spacing) const {
 }
 
 std::vector<Segment> Path::Cut(Stations within) const {
+  TRACKBED_REQUIRE(!std::isnan(within.from) && !std::isnan(within.to),
+                   "Path::Cut: stations {} and {}; must be numbers", within.from, within.to);
   std::vector<Segment> pieces;
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const Segment& whole = segments_[i];
@@ -223,6 +243,9 @@ std::vector<Segment> Path::Cut(Stations within) const {
 
 std::vector<Stations> SplitIntoLegs(const Path& path, const std::vector<double>& stops) {
   constexpr double kSame = 1e-9;  // [m]
+  for (const double stop : stops) {
+    TRACKBED_REQUIRE(!std::isnan(stop), "SplitIntoLegs: a stop at {}; must be a number", stop);
+  }
   std::vector<double> ends = stops;
   const std::vector<Segment>& segments = path.segments();
   double station = 0.0;

@@ -72,12 +72,28 @@ void AddInnerKnots(const Stretch& stretch, double in_squared, double out_squared
   }
 }
 
+void CheckArguments(double length, double start_speed, const SpeedLimits& limits,
+                    const std::vector<SpeedCap>& caps) {
+  TRACKBED_REQUIRE(
+      std::isfinite(length) && std::isfinite(start_speed) && std::isfinite(limits.speed) &&
+          std::isfinite(limits.acceleration) && std::isfinite(limits.deceleration),
+      "StopAtEnd: length {} m, start speed {} m/s, limits {} m/s, {} and {} m/s^2; must "
+      "be finite",
+      length, start_speed, limits.speed, limits.acceleration, limits.deceleration);
+  for (const SpeedCap& cap : caps) {
+    TRACKBED_REQUIRE(!std::isnan(cap.from) && !std::isnan(cap.to) && !std::isnan(cap.speed),
+                     "StopAtEnd: a cap from {} to {} m of {} m/s; must be numbers", cap.from,
+                     cap.to, cap.speed);
+  }
+}
+
 }  // namespace
 
 SpeedProfile::SpeedProfile(std::vector<Knot> knots) : knots_(std::move(knots)) {
   for (std::size_t i = 0; i < knots_.size(); ++i) {
     TRACKBED_CHECK(knots_[i].speed >= 0.0 && std::isfinite(knots_[i].speed), "speed {}",
                    knots_[i].speed);
+    TRACKBED_CHECK(std::isfinite(knots_[i].s), "station {}", knots_[i].s);
     TRACKBED_CHECK(i == 0 || knots_[i].s > knots_[i - 1].s, "stations {} and {} do not rise",
                    knots_[i - 1].s, knots_[i].s);
   }
@@ -93,8 +109,8 @@ std::size_t SpeedProfile::IntervalAt(double s) const {
 }
 
 double SpeedProfile::SpeedAt(double s) const {
-  if (knots_.empty()) {
-    return 0.0;
+  if (knots_.empty() || std::isnan(s)) {
+    return knots_.empty() ? 0.0 : s;
   }
   if (s <= knots_.front().s) {
     return knots_.front().speed;
@@ -110,6 +126,9 @@ double SpeedProfile::SpeedAt(double s) const {
 }
 
 double SpeedProfile::AccelerationAt(double s) const {
+  if (std::isnan(s)) {
+    return s;
+  }
   if (knots_.size() < 2 || s < knots_.front().s || s >= knots_.back().s) {
     return 0.0;
   }
@@ -120,7 +139,7 @@ double SpeedProfile::AccelerationAt(double s) const {
 }
 
 double SpeedProfile::TimeAt(double s) const {
-  double time = 0.0;
+  double time = std::isnan(s) ? s : 0.0;
   for (std::size_t i = 0; i + 1 < knots_.size() && knots_[i].s < s; ++i) {
     const double end = std::min(s, knots_[i + 1].s);
     const double end_speed = end == knots_[i + 1].s ? knots_[i + 1].speed : SpeedAt(end);
@@ -152,6 +171,7 @@ double SpeedProfile::StationAt(double time) const {
 
 SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& limits,
                        const std::vector<SpeedCap>& caps) {
+  CheckArguments(length, start_speed, limits, caps);
   if (length <= 0.0) {
     return SpeedProfile({{0.0, 0.0}});
   }
@@ -214,6 +234,8 @@ SpeedProfile StopAtCusps(const Path& path, double start_speed, const SpeedLimits
 }
 
 SpeedProfile Excerpt(const SpeedProfile& profile, Stations within) {
+  TRACKBED_REQUIRE(!std::isnan(within.from) && !std::isnan(within.to),
+                   "Excerpt: stations {} and {}; must be numbers", within.from, within.to);
   std::vector<SpeedProfile::Knot> knots{{0.0, profile.SpeedAt(within.from)}};
   for (const SpeedProfile::Knot& knot : profile.knots()) {
     // Stations near the ends may fall together with them where they are counted from `from`.

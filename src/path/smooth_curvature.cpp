@@ -31,8 +31,9 @@ Vec2 MeanAtStart(const Path& path, double window) {
 }  // namespace
 
 Path SmoothCurvature(const Path& path, double window) {
-  TRACKBED_CHECK(window > 0.0 && path.length() > 0.0, "window {}, path of {} m", window,
-                 path.length());
+  constexpr double kLongest = 1e6;  // [m]; of any path
+  TRACKBED_CHECK(window > 0.0 && window <= kLongest && path.length() > 0.0,
+                 "window {}, path of {} m", window, path.length());
   for (const Segment& segment : path.segments()) {
     TRACKBED_CHECK(segment.direction == 1, "a segment of direction {}", segment.direction);
   }

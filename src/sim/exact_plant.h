@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "trackbed/core/error.h"
 #include "trackbed/sim/plant.h"
 
 namespace trackbed {
@@ -41,6 +42,7 @@ class ExactPlant final : public Plant {
   }
 
   void ApplyLateralForce(double force) override {
+    TRACKBED_REQUIRE(std::isfinite(force), "ApplyLateralForce: {} N; must be finite", force);
     if constexpr (requires { car_.ApplyLateralForce(force); }) {
       car_.ApplyLateralForce(force * model_.timestep());
       state_ = car_.FullState();

@@ -96,6 +96,9 @@ void MujocoPlant::Begin() {
 }
 
 void MujocoPlant::Step(const Command& command) {
+  TRACKBED_REQUIRE(std::isfinite(command.steering) && std::isfinite(command.acceleration),
+                   "Step: steering {}, acceleration {}; must be finite", command.steering,
+                   command.acceleration);
   const MujocoErrorScope errors;
   Act(command);
   ground_.Place(*model_, *data_);
@@ -217,7 +220,13 @@ void MujocoPlant::PushByAir() {
   AddForce(*model_, *data_, car_.chassis().chassis, at_W, force_W);
 }
 
+void MujocoPlant::ApplyLateralForce(double force) {
+  TRACKBED_REQUIRE(std::isfinite(force), "ApplyLateralForce: {} N; must be finite", force);
+  push_ = force;
+}
+
 void MujocoPlant::ApplyLateralOffset(double left) {
+  TRACKBED_REQUIRE(std::isfinite(left), "ApplyLateralOffset: {} m; must be finite", left);
   mjtNum* at = data_->qpos + car_.chassis().chassis_qpos;
   const Vec2 from(at[0], at[1]);
   const Vec2 to = from + left * LeftNormal(Ahead());

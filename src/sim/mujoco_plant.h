@@ -21,7 +21,7 @@ class MujocoPlant : public Plant {
  public:
   void Step(const Command& command) final;
   void ApplyLateralOffset(double left) final;
-  void ApplyLateralForce(double force) final { push_ = force; }
+  void ApplyLateralForce(double force) final;
   [[nodiscard]] VehicleState Observe() const final;
   [[nodiscard]] Pose2 pose() const final;
   [[nodiscard]] double obstacle_force() const final;

@@ -1,6 +1,7 @@
 #include "trackbed/sim/plant.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "src/sim/plants.h"
 #include "trackbed/core/error.h"
@@ -58,6 +59,11 @@ TyreLaw SelectTyreLaw(const CarModel& car, TyreLaw tyre) {
 }
 
 std::unique_ptr<Plant> MakePlant(const std::string& name, const PlantSetup& setup) {
+  const StartState& start = setup.start;
+  TRACKBED_REQUIRE(start.pose.position().allFinite() && std::isfinite(start.pose.yaw) &&
+                       std::isfinite(start.speed) && std::isfinite(start.steering),
+                   "MakePlant: the start is at {}, {}, yaw {}, {} m/s, steering {}; must be finite",
+                   start.pose.x, start.pose.y, start.pose.yaw, start.speed, start.steering);
   return Table().Find(name).make(setup);
 }
 

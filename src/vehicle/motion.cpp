@@ -1,13 +1,21 @@
 #include "src/vehicle/motion.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "trackbed/core/error.h"
 #include "trackbed/vehicle/steering_actuator.h"
 
 namespace trackbed {
 
 Motion MotionUnder(const Command& command, const VehicleParams& params, double steering,
                    double speed, double duration) {
+  TRACKBED_REQUIRE(
+      std::isfinite(command.steering) && std::isfinite(command.acceleration) && duration >= 0.0 &&
+          std::isfinite(duration),
+      "Step: steering {}, acceleration {}, duration {} s; must be finite, the duration "
+      "at least 0",
+      command.steering, command.acceleration, duration);
   const SteeringMove move =
       MoveSteering({params.steering_limit, params.steering_rate}, steering, command.steering);
   // A car slows down to rest, not through it, and leaves rest only along its gear.

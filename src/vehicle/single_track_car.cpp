@@ -74,12 +74,14 @@ void SingleTrackCar::Step(const Command& command, double duration) {
 }
 
 void SingleTrackCar::ApplyLateralOffset(double left) {
+  TRACKBED_REQUIRE(std::isfinite(left), "ApplyLateralOffset: {} m; must be finite", left);
   const Vec2 to = ToWorld(state_.pose, {0.0, left});
   state_.pose.x = to.x();
   state_.pose.y = to.y();
 }
 
 void SingleTrackCar::ApplyLateralForce(double impulse) {
+  TRACKBED_REQUIRE(std::isfinite(impulse), "ApplyLateralForce: {} N s; must be finite", impulse);
   if (state_.speed != 0.0) {
     state_.lateral_speed += impulse / params_.mass;
   }

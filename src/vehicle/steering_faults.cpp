@@ -4,14 +4,33 @@
 #include <cmath>
 #include <utility>
 
+#include "trackbed/core/error.h"
+
 namespace trackbed {
 
+namespace {
+
+/// Of the ring that the delay needs.
+std::size_t StepsOf(const SteeringFaults& faults, double timestep, double start) {
+  TRACKBED_REQUIRE(std::isfinite(faults.factor) && faults.backlash >= 0.0 &&
+                       std::isfinite(faults.backlash) && std::isfinite(start),
+                   "FaultySteering: factor {}, backlash {} rad, start {} rad; must be finite",
+                   faults.factor, faults.backlash, start);
+  constexpr double kMostSteps = 1e7;
+  const double steps = faults.delay / timestep;
+  TRACKBED_REQUIRE(timestep > 0.0 && faults.delay >= 0.0 && steps <= kMostSteps,
+                   "FaultySteering: a delay of {} s in timesteps of {} s; must be at most {} steps",
+                   faults.delay, timestep, kMostSteps);
+  return static_cast<std::size_t>(std::lround(steps));
+}
+
+}  // namespace
+
 FaultySteering::FaultySteering(const SteeringFaults& faults, double timestep, double start)
-    : faults_(faults),
-      on_the_way_(static_cast<std::size_t>(std::lround(faults.delay / timestep)), start),
-      given_(start) {}
+    : faults_(faults), on_the_way_(StepsOf(faults, timestep, start), start), given_(start) {}
 
 double FaultySteering::Pass(double wanted) {
+  TRACKBED_REQUIRE(std::isfinite(wanted), "FaultySteering::Pass: {} rad; must be finite", wanted);
   double arrived = faults_.factor * wanted;
   if (!on_the_way_.empty()) {
     std::swap(arrived, on_the_way_[oldest_]);

@@ -24,6 +24,9 @@ std::vector<Target> SteeringTargets(const std::vector<TurnSteering>& turns,
     const TurnSteering& turn = turns[k];
     TRACKBED_CHECK(turn.end > turn.start && turn.start >= (k == 0 ? 0.0 : turns[k - 1].start),
                    "turn {} from {} m to {} m is out of order", k, turn.start, turn.end);
+    TRACKBED_REQUIRE(std::isfinite(turn.steering) && std::isfinite(neutral),
+                     "SteeringSchedule: steering {} and {} rad; must be finite", turn.steering,
+                     neutral);
     targets.push_back({turn.start, turn.steering, slopes[k]});
     // The turn that started last has the say: it also ends an earlier one.
     if (k + 1 == turns.size() || turn.end < turns[k + 1].start) {
@@ -72,6 +75,11 @@ SteeringSchedule::SteeringSchedule(const std::vector<TurnSteering>& turns,
 
 SteeringSchedule SteeringSchedule::Through(std::vector<Knot> knots) {
   TRACKBED_CHECK(!knots.empty(), "no knots");
+  for (const Knot& knot : knots) {
+    TRACKBED_REQUIRE(std::isfinite(knot.distance) && std::isfinite(knot.steering),
+                     "SteeringSchedule: a knot at {} m of {} rad; must be finite", knot.distance,
+                     knot.steering);
+  }
   for (std::size_t i = 1; i < knots.size(); ++i) {
     TRACKBED_CHECK(knots[i].distance > knots[i - 1].distance, "knots at {} and {} m do not rise",
                    knots[i - 1].distance, knots[i].distance);
@@ -88,6 +96,9 @@ SteeringSchedule SteeringSchedule::Constant(double steering) {
 }
 
 double SteeringSchedule::At(double distance) const {
+  if (std::isnan(distance)) {
+    return distance;
+  }
   if (knots_.empty()) {
     return 0.0;
   }
@@ -115,6 +126,10 @@ SteeringSchedule SteeringSchedule::From(double distance) const {
   return rest;
 }
 
+namespace {
+constexpr double kLongestRamp = 1e6;  // [m]
+}  // namespace
+
 double SteeringDistance(const VehicleParams& params, double steering, double speed) {
   return speed * std::abs(steering) / params.steering_rate;
 }
@@ -126,6 +141,10 @@ double RampHeading(const VehicleParams& params, double steering, double speed) {
 
 Pose2 RampPose(const VehicleParams& params, double steering, double speed) {
   const double distance = SteeringDistance(params, steering, speed);
+  TRACKBED_REQUIRE(distance <= kLongestRamp,
+                   "RampPose: a ramp of {} m to {} rad at {} m/s; must be "
+                   "at most {} m",
+                   distance, steering, speed, kLongestRamp);
   if (distance == 0.0) {
     return {};
   }
@@ -161,6 +180,7 @@ std::vector<KinematicState> RollOut(const VehicleParams& params, const Kinematic
   std::vector<KinematicState> states;
   states.reserve(distances.size());
   for (const double distance : distances) {
+    TRACKBED_REQUIRE(std::isfinite(distance), "RollOut: {} m; must be finite", distance);
     while (done < distance) {
       while (knot != knots.end() && knot->distance <= done) {
         ++knot;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
 
 namespace trackbed {
 namespace {
@@ -121,6 +122,8 @@ double GroundHeight(const Ground& ground, const Vec2& point_W) {
 }
 
 Vec2 GroundSlope(const Ground& ground, const Vec2& point_W) {
+  TRACKBED_REQUIRE(point_W.allFinite(), "GroundSlope: the point {}, {} is not finite", point_W.x(),
+                   point_W.y());
   return ground.grade + Highest(ground, point_W).slope;
 }
 

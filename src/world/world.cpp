@@ -13,6 +13,8 @@ double RoadFactor(const World& world, const Vec2& point_W) {
 }
 
 double RoadFactor(double friction, const std::vector<FrictionPatch>& patches, const Vec2& point_W) {
+  TRACKBED_REQUIRE(point_W.allFinite(), "RoadFactor: the point {}, {} is not finite", point_W.x(),
+                   point_W.y());
   const auto on_top =
       std::find_if(patches.rbegin(), patches.rend(),
                    [&](const FrictionPatch& patch) { return Contains(patch.area, point_W); });
@@ -82,17 +84,20 @@ double MostMoved(const World& world, const VehicleParams& vehicle, const Clearan
          reach * std::abs(to.pose.yaw - from.pose.yaw) + fastest * (to.time - from.time);
 }
 
+/// More than any motion of a car takes, far fewer than the way of one that diverges.
+constexpr long kMostLooks = 100000;
+
 /// Bisects the motion between two samples, over which the clearance changes by at most `moved` [m],
 /// until it cannot be smaller than the best one by more than a tolerance.
 void Approach(const World& world, const VehicleParams& vehicle, const ClearanceSample& from,
-              const ClearanceSample& to, double moved, ClosestApproach& best) {
+              const ClearanceSample& to, double moved, long& looks, ClosestApproach& best) {
   constexpr double kTolerance = 5e-3;  // [m]
   constexpr double kShare = 1e-2;
   constexpr double kDepth = 1e-3;  // [m]
   const double least = 0.5 * (from.clearance + to.clearance - moved);
   const double near = best.clearance - std::max(kTolerance, kShare * best.clearance);
   // Below the tolerance it matters whether they touch.
-  if (best.clearance == 0.0 || moved < kDepth || (least > 0.0 && least >= near)) {
+  if (best.clearance == 0.0 || moved < kDepth || (least > 0.0 && least >= near) || --looks < 0) {
     return;
   }
   ClearanceSample middle{
@@ -103,8 +108,8 @@ void Approach(const World& world, const VehicleParams& vehicle, const ClearanceS
   if (middle.clearance < best.clearance) {
     best = {middle.clearance, middle.time};
   }
-  Approach(world, vehicle, from, middle, 0.5 * moved, best);
-  Approach(world, vehicle, middle, to, 0.5 * moved, best);
+  Approach(world, vehicle, from, middle, 0.5 * moved, looks, best);
+  Approach(world, vehicle, middle, to, 0.5 * moved, looks, best);
 }
 
 }  // namespace
@@ -112,9 +117,15 @@ void Approach(const World& world, const VehicleParams& vehicle, const ClearanceS
 ClosestApproach ApproachBetween(const World& world, const VehicleParams& vehicle,
                                 const ClearanceSample& from, const ClearanceSample& to) {
   TRACKBED_CHECK(!world.obstacles.empty(), "no obstacles");
+  const double moved = MostMoved(world, vehicle, from, to);
+  TRACKBED_REQUIRE(std::isfinite(moved) && from.clearance >= 0.0 && to.clearance >= 0.0,
+                   "ApproachBetween: {} m moved between clearances of {} and {} m; must be finite, "
+                   "the clearances at least 0",
+                   moved, from.clearance, to.clearance);
+  long looks = kMostLooks;
   ClosestApproach best = from.clearance <= to.clearance ? ClosestApproach{from.clearance, from.time}
                                                         : ClosestApproach{to.clearance, to.time};
-  Approach(world, vehicle, from, to, MostMoved(world, vehicle, from, to), best);
+  Approach(world, vehicle, from, to, moved, looks, best);
   return best;
 }
 

@@ -284,6 +284,19 @@ TEST(SimulateClosedLoop, RefusesBadArguments) {
   EXPECT_EQ(MessageFor([](LoopConfig&, Plan&) {}), "");
 }
 
+TEST(SimulateClosedLoop, StopsAtAnAnswerThatIsNoNumber) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), HUGE_VAL}) {
+    Unicycle plant({});
+    ConstantController steers(bad);
+    EXPECT_THROW(SimulateClosedLoop(plant, steers, PlanAtSpeed(3.0), ConfigFor(1.0)),
+                 PreconditionError);
+    ConstantController accelerates(0.0, bad);
+    EXPECT_THROW(SimulateClosedLoop(plant, accelerates, PlanAtSpeed(3.0), ConfigFor(1.0)),
+                 PreconditionError);
+    EXPECT_TRUE(plant.commands.empty());
+  }
+}
+
 TEST(LoopConfig, HasTheDefaultsOfScenarios) {
   const LoopConfig config;
   const DriveSpec drive;

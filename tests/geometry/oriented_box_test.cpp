@@ -267,6 +267,17 @@ TEST(DistanceOfALine, IsZeroWithinAcrossAndAtTheTouch) {
   EXPECT_NEAR(Distance({1.0, 3.0}, {3.0, 1.0}, box), std::sqrt(0.5), Tolerance(kRounding));
 }
 
+TEST(Separation, IsNoNumberOfABoxThatIsNone) {
+  const OrientedBox box{{1.0, 2.0, 0.3}, 3.0, 2.0};
+  const double nan = std::nan("");
+  for (const OrientedBox& other :
+       {OrientedBox{{9.0, 0.0, nan}, 1.0, 1.0}, OrientedBox{{9.0, nan, 0.0}, 1.0, 1.0},
+        OrientedBox{{9.0, 0.0, 0.0}, nan, 1.0}, OrientedBox{{9.0, 0.0, 0.0}, 1.0, nan}}) {
+    EXPECT_TRUE(std::isnan(Separation(box, other)));
+    EXPECT_TRUE(std::isnan(Distance(other, box)));
+  }
+}
+
 TEST(MovingBox, GoesOnWithoutTurning) {
   const MovingBox box{{{1.0, 2.0, 0.5}, 4.0, 2.0}, {3.0, -1.0}};
   const OrientedBox later = box.At(2.0);

@@ -122,6 +122,11 @@ TEST(Path, ChecksItsSegments) {
   EXPECT_THROW(Path({}, {{1.0, HUGE_VAL, 1}}), InternalError);
   EXPECT_THROW(Path({}, {{1.0, 0.0, 0}}), InternalError);
   EXPECT_THROW(Path({}, {{1.0, 0.0, 2}}), InternalError);
+  EXPECT_THROW(Path({0.0, std::nan(""), 0.0}, {}), PreconditionError);
+  EXPECT_THROW(Path({0.0, 0.0, HUGE_VAL}, {{1.0, 0.0, 1}}), PreconditionError);
+  // 10^20 half radians would take the quadrature years; an arc has none.
+  EXPECT_THROW(Path({}, {{1e10, 0.0, 1, 1.0}}), PreconditionError);
+  EXPECT_NO_THROW(Path({}, {{1e10, 1e10, 1}}));
 }
 
 // --- Project
@@ -207,6 +212,7 @@ TEST(Project, EndsOfTheWindowAreStations) {
   EXPECT_EQ(path.Project({4.0, 0.0, 0.0}, {-9.0, -8.0}).s, -8.0);
   EXPECT_EQ(path.Project({4.0, 0.0, 0.0}, {50.0, 60.0}).s, 50.0);
   EXPECT_THROW((void)path.Project({}, {1.0, 0.0}), InternalError);
+  EXPECT_THROW((void)path.Project({0.0, std::nan(""), 0.0}), PreconditionError);
 }
 
 TEST(Project, IsTheNearestOfAllPoints) {
@@ -300,6 +306,7 @@ TEST(Sample, IsEvenAndHasBothEnds) {
     }
   }
   EXPECT_THROW((void)path.Sample(0.0), InternalError);
+  EXPECT_THROW((void)path.Sample(1e-300), PreconditionError);
 }
 
 // --- Segments of changing curvature

@@ -7,6 +7,7 @@
 
 #include "tests/geometry/random.h"
 #include "tests/tolerance.h"
+#include "trackbed/core/error.h"
 
 namespace trackbed {
 namespace {
@@ -85,6 +86,15 @@ TEST(FaultySteering, StaysWithinTheDeadBand) {
   for (const double given : PassAll({.backlash = 0.017}, wanted, 0.1)) {
     EXPECT_EQ(given, 0.1);
   }
+}
+
+TEST(FaultySteering, RefusesFaultsAndAnglesThatAreNoNumbers) {
+  const double nan = std::nan("");
+  EXPECT_THROW(FaultySteering({.delay = nan}, 0.01, 0.0), PreconditionError);
+  EXPECT_THROW(FaultySteering({.delay = 1e9}, 0.01, 0.0), PreconditionError);
+  EXPECT_THROW(FaultySteering({.factor = nan}, 0.01, 0.0), PreconditionError);
+  EXPECT_THROW(FaultySteering({.backlash = nan}, 0.01, 0.0), PreconditionError);
+  EXPECT_THROW(FaultySteering({}, 0.01, 0.0).Pass(nan), PreconditionError);
 }
 
 TEST(FaultySteering, TakesItsFaultsInOrder) {

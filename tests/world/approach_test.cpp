@@ -73,6 +73,18 @@ TEST(ApproachBetween, IsTheSmallestOfManySamples) {
   EXPECT_LT(hits, 190);
 }
 
+TEST(ApproachBetween, EndsForMotionsOfACarThatDiverges) {
+  const World world{.obstacles = {{.footprint = {{30.0, 5.0, 0.3}, 2.0, 1.0}}}};
+  const ClosestApproach far =
+      ApproachBetween(world, ReferenceCar(), {{}, 0.0, 20.0}, {{1e10, 0.0, 1e10}, 1.0, 1e10});
+  EXPECT_LE(far.clearance, 20.0);
+  for (const double bad : {std::nan(""), HUGE_VAL}) {
+    EXPECT_THROW(
+        ApproachBetween(world, ReferenceCar(), {{}, 0.0, 20.0}, {{bad, 0.0, 0.0}, 1.0, 20.0}),
+        PreconditionError);
+  }
+}
+
 TEST(ApproachBetween, NeedsObstacles) {
   EXPECT_THROW(ApproachBetween({}, ReferenceCar(), {}, {}), InternalError);
 }

@@ -20,7 +20,7 @@ void RegisterController(ControllerEntry entry);
 const ControllerEntry& ControllerFor(const ControllerOptions& options);
 
 /// The controller that `options` select. Its Steer rejects a state with NaN or infinity:
-/// InternalError.
+/// InternalError. PreconditionError for options out of their keys' ranges.
 std::unique_ptr<SteeringController> MakeSteeringController(const ControllerOptions& options);
 
 }  // namespace trackbed

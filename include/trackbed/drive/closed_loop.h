@@ -101,7 +101,7 @@ struct LoopConfig {
 /// vehicle's parameters say.
 /// Errors: PreconditionError for a plan that is not ok, or a value of the configuration out of the
 /// range that is given with it; it names the value and what is allowed. The plant is then
-/// unchanged.
+/// unchanged. PreconditionError too when the controller's answer is not finite.
 /// Cost: that of plant and controller, and 10 us and 0.5 kB of log a control period.
 RunLog SimulateClosedLoop(Plant& plant, SteeringController& controller, const Plan& plan,
                           const LoopConfig& config);

@@ -29,7 +29,7 @@ struct MovingBox {
 bool Contains(const OrientedBox& box, const Vec2& point);
 
 /// Shortest distance between two rectangles [m]; negative if they overlap: minus the shortest
-/// translation that separates them. Exact to rounding.
+/// translation that separates them. Exact to rounding; NaN if one of their numbers is.
 double Separation(const OrientedBox& a, const OrientedBox& b);
 
 /// Shortest distance between two rectangles [m]; 0 when they touch or overlap.

@@ -167,6 +167,11 @@ class KeyVisitor {
 /// The number at `key` among the keys that `visit` declares; none if there is no such key.
 std::optional<double> FindNumber(const std::string& key, const KeyVisitor::Inside& visit);
 
+/// PreconditionError unless every number among the keys is finite and within the range of its key;
+/// it names the key after `owner`, the function that was called. For options that a program filled
+/// in by hand: what is read from files has been checked.
+void RequireInRange(const std::string& owner, const KeyVisitor::Inside& visit);
+
 /// Whether two options are of the same method, and their keys, for variants of options; types that
 /// hold the options of registered methods have functions of the same names (method_options.h).
 template <typename... Options>

@@ -33,6 +33,7 @@ class BezierCurve {
   /// The curve as points at most `spacing` [m] apart along it, both ends included, headings
   /// followed without jumps from `start_yaw`, that of the first one's tangent up to full turns.
   /// InternalError if one of them has no direction; a cusp between two of them is not seen.
+  /// PreconditionError for more than 10^6.
   [[nodiscard]] std::vector<CurvePoint> Points(double spacing, double start_yaw) const;
 
  private:

@@ -73,7 +73,8 @@ class Path {
   Path() : Path(Pose2{}, {}) {}
 
   /// InternalError unless every length is positive and finite, every curvature and sharpness
-  /// finite, every direction +1 or -1.
+  /// finite, every direction +1 or -1. PreconditionError unless the start is finite and no segment
+  /// with sharpness turns by more than 1e4 rad.
   Path(const Pose2& start, std::vector<Segment> segments);
 
   [[nodiscard]] double length() const { return length_; }
@@ -91,10 +92,12 @@ class Path {
   /// tenth of the radius of their centers of curvature, from where much of them is about equally
   /// far, may it be a point other than the nearest. Searching near the last known station keeps a
   /// car from jumping to a later crossing or over a cusp. Of equally near points the one with the
-  /// smallest station. Cost O(segments within the stations). InternalError when `within` is empty.
+  /// smallest station. Cost O(segments within the stations). InternalError when `within` is empty,
+  /// PreconditionError for a pose that is not finite.
   [[nodiscard]] Projection Project(const Pose2& pose, Stations within = {}) const;
 
   /// Points at most `spacing` [m] apart, evenly over the whole path, both ends included.
+  /// PreconditionError for more than 2e7.
   [[nodiscard]] std::vector<PathPoint> Sample(double spacing) const;
 
   /// The segments between two stations, cut at them: what a path from At(from).pose needs to lead

@@ -23,10 +23,12 @@ class SpeedProfile {
   };
 
   SpeedProfile() = default;
-  /// InternalError unless stations rise strictly and speeds are >= 0 and finite.
+  /// InternalError unless stations are finite and rise strictly, speeds are >= 0 and finite.
   explicit SpeedProfile(std::vector<Knot> knots);
 
   [[nodiscard]] const std::vector<Knot>& knots() const { return knots_; }
+
+  // Of a station or time that is NaN they are NaN.
 
   /// [m/s]; before the first knot its speed, after the last one its speed.
   [[nodiscard]] double SpeedAt(double s) const;
@@ -56,6 +58,7 @@ struct SpeedCap {
 /// Where there is no length to reach the limit the profile peaks below it; where there is none to
 /// brake from the start speed at the limit's deceleration, it brakes harder, evenly. A start above
 /// the limit, or within a cap and above it, comes down at the limit's deceleration.
+/// PreconditionError for numbers that are not finite; those of a cap may be infinite.
 SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& limits,
                        const std::vector<SpeedCap>& caps = {});
 

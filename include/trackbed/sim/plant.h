@@ -14,7 +14,8 @@
 /// The interface of plants and their registry.
 namespace trackbed {
 
-/// A simulated vehicle, advanced one physics step at a time.
+/// A simulated vehicle, advanced one physics step at a time. Those of Trackbed refuse commands,
+/// displacements and forces that are not finite, and are as they were: PreconditionError.
 class Plant {
  public:
   virtual ~Plant() = default;
@@ -104,7 +105,8 @@ const std::vector<PlantEntry>& Plants();
 /// PreconditionError when the name is taken.
 void RegisterPlant(PlantEntry entry);
 
-/// InputError with the nearest spelling when there is no such plant.
+/// InputError with the nearest spelling when there is no such plant, PreconditionError for a start
+/// that is not finite.
 std::unique_ptr<Plant> MakePlant(const std::string& name, const PlantSetup& setup);
 
 /// `name` as used in file names: "mujoco:contact" is "mujoco-contact".

@@ -33,7 +33,8 @@ class KinematicCar {
  public:
   KinematicCar(const VehicleParams& params, ReferencePoint reference, const KinematicState& start);
 
-  /// Advances by `duration` [s] >= 0 under a constant command.
+  /// Advances by `duration` [s] >= 0 under a constant command. PreconditionError unless all of it
+  /// is finite.
   void Step(const Command& command, double duration);
 
   /// Displaces the car instantaneously by `left` [m] to its left.

@@ -50,7 +50,8 @@ class SingleTrackCar {
  public:
   SingleTrackCar(const VehicleParams& params, const SingleTrackState& start);
 
-  /// Advances by `duration` [s] >= 0 under a constant command.
+  /// Advances by `duration` [s] >= 0 under a constant command. PreconditionError unless all of it
+  /// is finite.
   void Step(const Command& command, double duration);
 
   /// Displaces the car instantaneously by `left` [m] to its left.

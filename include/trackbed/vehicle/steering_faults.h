@@ -18,7 +18,8 @@ struct SteeringFaults {
 };
 
 /// Guarantees: without faults, output equals input, bit for bit. The delay is the whole number of
-/// timesteps nearest to it, whatever the control period is. Cost O(1).
+/// timesteps nearest to it, whatever the control period is. Cost O(1). PreconditionError for
+/// numbers that are not finite, or a delay of more than 10^7 timesteps.
 class FaultySteering {
  public:
   /// Wheels and actuator start at `start` [rad], in the middle of the play, as if it had always

@@ -41,13 +41,13 @@ class SteeringSchedule {
                    double neutral = 0.0);
 
   /// Through the knots, at least one, in strictly increasing order of distance. InternalError
-  /// otherwise.
+  /// otherwise, PreconditionError unless they are finite.
   static SteeringSchedule Through(std::vector<Knot> knots);
 
   /// Constant `steering` [rad].
   static SteeringSchedule Constant(double steering);
 
-  /// [rad]; constant before the first and after the last knot.
+  /// [rad]; constant before the first and after the last knot, NaN of NaN.
   [[nodiscard]] double At(double distance) const;
 
   [[nodiscard]] const std::vector<Knot>& knots() const { return knots_; }

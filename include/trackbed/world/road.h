@@ -61,7 +61,7 @@ OrientedBox Extent(const Superelevation& side_slope);
 double GroundHeight(const Ground& ground, const Vec2& point_W);
 
 /// dz/dx and dz/dy of the ground. Where it has an edge (the long sides of a side slope, or where
-/// two features meet), that of one of its sides.
+/// two features meet), that of one of its sides. PreconditionError for a point that is not finite.
 Vec2 GroundSlope(const Ground& ground, const Vec2& point_W);
 
 /// The upward normal, of length 1.

@@ -33,7 +33,8 @@ struct World {
 };
 
 /// The road's factor on the tyres' friction coefficient at a point: that of the last patch in the
-/// list that contains it, else `friction`. Cost O(patches).
+/// list that contains it, else `friction`. Cost O(patches). PreconditionError for a point that is
+/// not finite.
 double RoadFactor(const World& world, const Vec2& point_W);
 
 /// The same of its parts.
@@ -76,7 +77,9 @@ struct ClosestApproach {
 ///
 /// Guarantees: no contact deeper than 1 mm is missed; the clearance is at most 5 mm, or a hundredth
 /// of it, above the smallest one. Cost: none when the samples are further from every obstacle than
-/// anything moves in between, else some Clearance() calls. InternalError without obstacles.
+/// anything moves in between, else some Clearance() calls, 10^5 at most: a motion of kilometers may
+/// need more, and is looked at no further. InternalError without obstacles, PreconditionError for
+/// samples that are not finite.
 ClosestApproach ApproachBetween(const World& world, const VehicleParams& vehicle,
                                 const ClearanceSample& from, const ClearanceSample& to);
 

@@ -9,10 +9,17 @@
 namespace trackbed {
 namespace {
 
-/// Side of a bin [m]: about a car.
+/// Side of a bin [m]: about a car, or more where the boxes are so far apart that there would be
+/// more bins than this.
 constexpr double kBin = 4.0;
+constexpr double kMostBins = 250000.0;
 /// Shortest step along a path [m].
 constexpr double kStep = 0.02;
+
+bool IsBox(const OrientedBox& box) {
+  return box.center.position().allFinite() && std::isfinite(box.center.yaw) && box.length >= 0.0 &&
+         std::isfinite(box.length) && box.width >= 0.0 && std::isfinite(box.width);
+}
 
 double CircleAround(const OrientedBox& box) {
   return 0.5 * std::hypot(box.length, box.width);
@@ -28,7 +35,13 @@ CollisionChecker::CollisionChecker(const VehicleParams& vehicle, std::vector<Ori
       middle_(0.5 * vehicle.length - vehicle.rear_overhang),
       radius_(0.5 * std::hypot(vehicle.length, vehicle.width)),
       reach_(std::hypot(vehicle.length - vehicle.rear_overhang, 0.5 * vehicle.width)) {
-  TRACKBED_CHECK(distance >= 0.0, "distance {}", distance);
+  TRACKBED_CHECK(distance >= 0.0 && std::isfinite(distance), "distance {}", distance);
+  for (const OrientedBox& box : boxes_) {
+    TRACKBED_REQUIRE(IsBox(box),
+                     "CollisionChecker: a box of {} x {} m at {}, {}, yaw {}; must be "
+                     "finite, not smaller than 0",
+                     box.length, box.width, box.center.x, box.center.y, box.center.yaw);
+  }
   if (boxes_.empty()) {
     return;
   }
@@ -41,16 +54,21 @@ CollisionChecker::CollisionChecker(const VehicleParams& vehicle, std::vector<Ori
     low_ = low_.cwiseMin(box.center.position() - reach);
     high = high.cwiseMax(box.center.position() + reach);
   }
-  columns_ = static_cast<int>((high.x() - low_.x()) / kBin) + 1;
-  rows_ = static_cast<int>((high.y() - low_.y()) / kBin) + 1;
+  const Vec2 size = high - low_;
+  // The longer of the two alone, for boxes in a row; their area, for others.
+  bin_ = std::max({kBin, size.maxCoeff() / kMostBins, std::sqrt(size.prod() / kMostBins)});
+  TRACKBED_REQUIRE(std::isfinite(bin_), "CollisionChecker: boxes over {} x {} m; must be less",
+                   size.x(), size.y());
+  columns_ = static_cast<int>(size.x() / bin_) + 1;
+  rows_ = static_cast<int>(size.y() / bin_) + 1;
   bins_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     const Vec2 center = boxes_[i].center.position();
     const auto first = [&](int axis) {
-      return static_cast<int>((center[axis] - reach_of(i) - low_[axis]) / kBin);
+      return static_cast<int>((center[axis] - reach_of(i) - low_[axis]) / bin_);
     };
     const auto last = [&](int axis) {
-      return static_cast<int>((center[axis] + reach_of(i) - low_[axis]) / kBin);
+      return static_cast<int>((center[axis] + reach_of(i) - low_[axis]) / bin_);
     };
     for (int row = first(1); row <= std::min(last(1), rows_ - 1); ++row) {
       for (int column = first(0); column <= std::min(last(0), columns_ - 1); ++column) {
@@ -61,8 +79,8 @@ CollisionChecker::CollisionChecker(const VehicleParams& vehicle, std::vector<Ori
 }
 
 const std::vector<int>* CollisionChecker::Near(const Vec2& middle) const {
-  const Vec2 bin = (middle - low_) / kBin;
-  if (bin.x() < 0.0 || bin.y() < 0.0 || bin.x() >= columns_ || bin.y() >= rows_) {
+  const Vec2 bin = (middle - low_) / bin_;
+  if (!(bin.x() >= 0.0 && bin.y() >= 0.0 && bin.x() < columns_ && bin.y() < rows_)) {
     return nullptr;
   }
   return &bins_[static_cast<std::size_t>(static_cast<int>(bin.y()) * columns_ +
@@ -74,6 +92,9 @@ double CollisionChecker::Clearance(const Pose2& pose) const {
   const std::vector<int>* near = Near(middle);
   double room = kFarthest;
   if (near == nullptr) {
+    // Far from every box, or nowhere.
+    TRACKBED_REQUIRE(middle.allFinite(), "CollisionChecker: the pose {}, {}, yaw {} is not finite",
+                     pose.x, pose.y, pose.yaw);
     return room;
   }
   const OrientedBox footprint{{middle.x(), middle.y(), pose.yaw}, vehicle_.length, vehicle_.width};

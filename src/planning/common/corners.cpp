@@ -113,6 +113,7 @@ RoundCorner CornerAt(const VehicleParams& vehicle, double heading_change, double
   const double h = std::abs(heading_change);
   TRACKBED_CHECK(h > 0.0 && h < kPi && speed > 0.0, "a corner of {} rad at {} m/s", heading_change,
                  speed);
+  TRACKBED_CHECK(max_curvature > 0.0, "a corner of {} 1/m at most", max_curvature);
   RoundCorner corner;
   corner.heading_change = heading_change;
   corner.speed = speed;

@@ -16,7 +16,7 @@ namespace {
 constexpr double kRounding = 1e-6;      // of a limit
 constexpr double kCheckSpacing = 0.1;   // between the stations that are looked at [m]
 constexpr double kSlowest = 0.1;        // no plan is slowed down below this [m/s]
-constexpr double kSamePlace = 1e-3;     // [m]
+constexpr double kSamePlace = 1e-3;     // [m]; of the wheelbase where that is less than 1 m
 constexpr double kSameHeading = 1e-3;   // [rad]
 constexpr double kSameSteering = 1e-3;  // [rad]
 
@@ -85,16 +85,16 @@ double SteeringSlope(const VehicleParams& vehicle, double curvature, double shar
   return vehicle.wheelbase * std::abs(sharpness) / (1.0 + tangent * tangent);
 }
 
-/// Each segment divided into equal pieces of at most kCheckSpacing, so that short segments are
-/// checked too.
-std::vector<Piece> SplitIntoPieces(const Path& path, const VehicleParams& vehicle) {
-  std::vector<Piece> pieces;
+/// Calls with each segment divided into equal pieces of at most kCheckSpacing, so that short
+/// segments are checked too.
+template <typename Call>
+void ForEachPiece(const Path& path, const VehicleParams& vehicle, const Call& call) {
   double start = 0.0;
   for (const Segment& segment : path.segments()) {
-    const auto count = static_cast<int>(std::ceil(segment.length / kCheckSpacing));
-    for (int i = 0; i < count; ++i) {
-      const double from = segment.length * i / count;
-      const double to = segment.length * (i + 1) / count;
+    const auto count = static_cast<long>(std::ceil(segment.length / kCheckSpacing));
+    for (long i = 0; i < count; ++i) {
+      const double from = segment.length * static_cast<double>(i) / static_cast<double>(count);
+      const double to = segment.length * static_cast<double>(i + 1) / static_cast<double>(count);
       Piece piece{{start + from, start + to}};
       const auto take = [&](double d) {
         const double curvature = segment.CurvatureAt(d);
@@ -109,11 +109,10 @@ std::vector<Piece> SplitIntoPieces(const Path& path, const VehicleParams& vehicl
       if (vertex > from && vertex < to) {
         take(vertex);
       }
-      pieces.push_back(piece);
+      call(piece);
     }
     start += segment.length;
   }
-  return pieces;
 }
 
 /// The road's factor over a piece.
@@ -132,7 +131,8 @@ bool EndsAtStop(const std::vector<Stations>& legs, double s) {
 void CheckStart(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
   const PathPoint first = plan.reference.path.At(0.0);
   Worst place("initial position error", "m", Remedy::kNone);
-  place.Take((first.pose.position() - request.start.position()).norm(), kSamePlace, 0.0);
+  place.Take((first.pose.position() - request.start.position()).norm(),
+             kSamePlace * std::min(1.0, request.vehicle.wheelbase), 0.0);
   place.AddTo(found);
   Worst heading("initial heading error", "rad", Remedy::kNone);
   heading.Take(std::abs(AngleDifference(first.pose.yaw, request.start.yaw)), kSameHeading, 0.0);
@@ -152,7 +152,7 @@ void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>
   Worst speed("speed", "m/s", Remedy::kLowerSpeed);
   Worst rate("steering rate along the path", "rad/s", Remedy::kLowerSpeed);
   const Path& path = plan.reference.path;
-  for (const Piece& piece : SplitIntoPieces(path, vehicle)) {
+  ForEachPiece(path, vehicle, [&](const Piece& piece) {
     const double s = piece.stations.from;
     const double v =
         std::max(plan.reference.speed.SpeedAt(s), plan.reference.speed.SpeedAt(piece.stations.to));
@@ -161,7 +161,7 @@ void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>
     lateral.Take(v * v * piece.curvature,
                  MaxLateralAcceleration(vehicle, RoadOver(request, path, piece.stations)), s);
     speed.Take(v, vehicle.top_speed, s);
-  }
+  });
   steering.AddTo(found);
   lateral.AddTo(found);
   rate.AddTo(found);
@@ -226,14 +226,14 @@ std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
       caps.push_back({piece.from, piece.to, speed});
     }
   };
-  for (const Piece& piece : SplitIntoPieces(path, vehicle)) {
+  ForEachPiece(path, vehicle, [&](const Piece& piece) {
     double speed = vehicle.steering_rate / piece.slope;
     if (vehicle.friction_lateral > 0.0) {
       const double road = RoadOver(request, path, piece.stations);
       speed = std::min(speed, std::sqrt(MaxLateralAcceleration(vehicle, road) / piece.curvature));
     }
     add(piece.stations, speed);  // infinite on a straight
-  }
+  });
   const std::vector<Stations> legs = SplitIntoLegs(path, plan.stops);
   ForEachRamp(plan.schedule, [&](double from, double to, double slope) {
     const double speed = vehicle.steering_rate / slope;

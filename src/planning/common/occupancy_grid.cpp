@@ -75,21 +75,26 @@ OccupancyGrid Rasterize(const Pose2& X_WF, const GridArea& area, double cell,
   grid.occupied.assign(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows),
                        0);
   for (const OrientedBox& box : boxes_W) {
+    TRACKBED_REQUIRE(box.center.position().allFinite() && std::isfinite(box.center.yaw) &&
+                         std::isfinite(box.length) && std::isfinite(box.width),
+                     "Rasterize: a box of {} x {} m at {}, {}, yaw {}; must be finite", box.length,
+                     box.width, box.center.x, box.center.y, box.center.yaw);
     const Vec2 middle = ToLocal(grid.X_WG, box.center.position());
     const double turn = box.center.yaw - X_WF.yaw;
     const Vec2 along = Direction(turn);
     const Vec2 half{0.5 * box.length, 0.5 * box.width};
     const Vec2 reach{std::abs(along.x()) * half.x() + std::abs(along.y()) * half.y() + inflation,
                      std::abs(along.y()) * half.x() + std::abs(along.x()) * half.y() + inflation};
-    const auto from = [&](int axis) {
-      return static_cast<int>(std::max(0.0, std::ceil((middle[axis] - reach[axis]) / cell)));
+    const auto from = [&](int axis, int most) {
+      return static_cast<int>(
+          std::clamp(std::ceil((middle[axis] - reach[axis]) / cell), 0.0, 1.0 * most));
     };
     const auto to = [&](int axis, int most) {
       return static_cast<int>(
-          std::min(most - 1.0, std::floor((middle[axis] + reach[axis]) / cell)));
+          std::clamp(std::floor((middle[axis] + reach[axis]) / cell), -1.0, most - 1.0));
     };
-    for (int row = from(1); row <= to(1, grid.rows); ++row) {
-      for (int column = from(0); column <= to(0, grid.columns); ++column) {
+    for (int row = from(1, grid.rows); row <= to(1, grid.rows); ++row) {
+      for (int column = from(0, grid.columns); column <= to(0, grid.columns); ++column) {
         const Vec2 offset = Vec2{cell * column, cell * row} - middle;
         const double x = std::max(std::abs(along.dot(offset)) - half.x(), 0.0);
         const double y = std::max(std::abs(Cross(along, offset)) - half.y(), 0.0);

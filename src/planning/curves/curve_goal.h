@@ -20,6 +20,10 @@ struct CurveGoal {
   CurveGoal(const Pose2& from, const Pose2& to, double radius) {
     TRACKBED_CHECK(radius > 0.0 && std::isfinite(radius), "radius {}", radius);
     const Vec2 local = ToLocal(from, to.position()) / radius;
+    constexpr double kFarthest = 1e100;  // [radii]; their squares are numbers
+    TRACKBED_REQUIRE(local.norm() <= kFarthest && std::isfinite(to.yaw - from.yaw),
+                     "a curve from {}, {}, yaw {} to {}, {}, yaw {}; must be finite", from.x,
+                     from.y, from.yaw, to.x, to.y, to.yaw);
     x = local.x();
     y = local.y();
     yaw = to.yaw - from.yaw;

@@ -34,6 +34,59 @@ Registry<PlannerEntry>& Table() {
   return table;
 }
 
+void CheckVehicle(const VehicleParams& vehicle) {
+  for (const double number :
+       {vehicle.wheelbase, vehicle.length, vehicle.width, vehicle.rear_overhang,
+        vehicle.steering_limit, vehicle.steering_rate, vehicle.friction_longitudinal,
+        vehicle.friction_lateral, vehicle.max_deceleration, vehicle.max_acceleration,
+        vehicle.top_speed}) {
+    TRACKBED_CHECK(std::isfinite(number), "vehicle {}: a parameter is {}", vehicle.name, number);
+  }
+}
+
+void CheckBox(const char* what, const OrientedBox& box) {
+  TRACKBED_CHECK(box.center.position().allFinite() && std::isfinite(box.center.yaw) &&
+                     std::isfinite(box.length) && std::isfinite(box.width),
+                 "{} of {} x {} m at {}, {}, yaw {}", what, box.length, box.width, box.center.x,
+                 box.center.y, box.center.yaw);
+}
+
+void CheckWorld(const PlanRequest& request) {
+  for (const OrientedBox& box : request.obstacles) {
+    CheckBox("obstacle", box);
+  }
+  TRACKBED_CHECK(std::isfinite(request.friction), "friction {}", request.friction);
+  for (const FrictionPatch& patch : request.friction_patches) {
+    CheckBox("friction patch", patch.area);
+    TRACKBED_CHECK(std::isfinite(patch.friction), "friction {}", patch.friction);
+  }
+  TRACKBED_CHECK(request.wind.velocity.allFinite(), "wind {}, {}", request.wind.velocity.x(),
+                 request.wind.velocity.y());
+}
+
+void CheckRequest(const PlanRequest& request) {
+  const SpeedLimits& speed = request.speed;
+  TRACKBED_CHECK(std::isfinite(request.start_speed) && std::isfinite(speed.speed) &&
+                     std::isfinite(request.start_steering) && std::isfinite(speed.acceleration) &&
+                     std::isfinite(speed.deceleration) && speed.speed > 0.0 &&
+                     speed.acceleration > 0.0 && speed.deceleration > 0.0,
+                 "start speed {}, speed {}, acceleration {}, deceleration {}", request.start_speed,
+                 speed.speed, speed.acceleration, speed.deceleration);
+  const Pose2& start = request.start;
+  TRACKBED_CHECK(std::isfinite(start.x) && std::isfinite(start.y) && std::isfinite(start.yaw),
+                 "start at {}, {}, {}", start.x, start.y, start.yaw);
+  for (const Vec2& point : request.waypoints) {
+    TRACKBED_CHECK(point.allFinite(), "waypoint {}, {}", point.x(), point.y());
+  }
+  TRACKBED_CHECK(request.headings.empty() || request.headings.size() == request.waypoints.size(),
+                 "{} headings for {} waypoints", request.headings.size(), request.waypoints.size());
+  for (const double heading : request.headings) {
+    TRACKBED_CHECK(std::isfinite(heading), "heading {}", heading);
+  }
+  CheckVehicle(request.vehicle);
+  CheckWorld(request);
+}
+
 }  // namespace
 
 const std::vector<PlannerEntry>& Planners() {
@@ -64,24 +117,9 @@ std::optional<double> PlannerSafeDistance(const PlannerOptions& options) {
 }
 
 Plan MakePlan(const PlanRequest& request, const PlannerOptions& options) {
-  const SpeedLimits& speed = request.speed;
-  TRACKBED_CHECK(std::isfinite(request.start_speed) && std::isfinite(speed.speed) &&
-                     std::isfinite(request.start_steering) && std::isfinite(speed.acceleration) &&
-                     std::isfinite(speed.deceleration) && speed.speed > 0.0 &&
-                     speed.acceleration > 0.0 && speed.deceleration > 0.0,
-                 "start speed {}, speed {}, acceleration {}, deceleration {}", request.start_speed,
-                 speed.speed, speed.acceleration, speed.deceleration);
-  const Pose2& start = request.start;
-  TRACKBED_CHECK(std::isfinite(start.x) && std::isfinite(start.y) && std::isfinite(start.yaw),
-                 "start at {}, {}, {}", start.x, start.y, start.yaw);
-  for (const Vec2& point : request.waypoints) {
-    TRACKBED_CHECK(point.allFinite(), "waypoint {}, {}", point.x(), point.y());
-  }
-  TRACKBED_CHECK(request.headings.empty() || request.headings.size() == request.waypoints.size(),
-                 "{} headings for {} waypoints", request.headings.size(), request.waypoints.size());
-  for (const double heading : request.headings) {
-    TRACKBED_CHECK(std::isfinite(heading), "heading {}", heading);
-  }
+  CheckRequest(request);
+  PlannerOptions own = options;
+  RequireInRange("MakePlan", [&](KeyVisitor& keys) { Visit(keys, own); });
   Plan plan = PlannerFor(options).plan(request, options);
   plan = MakeFeasible(std::move(plan), request);
   if (plan.ok() && !plan.diagnostics.open_loop) {

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/planning/poses.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/reference_car.h"
+#include "trackbed/core/error.h"
 #include "trackbed/world/world.h"
 
 namespace trackbed {
@@ -60,6 +62,32 @@ TEST(CollisionChecker, FindsTheFirstPlaceThatIsTooNear) {
   }
   EXPECT_GT(blocked_ones, 50);
   EXPECT_LT(blocked_ones, 190);
+}
+
+TEST(CollisionChecker, TakesBoxesThousandsOfKilometersApart) {
+  // Bins of 4 m all over would be 10^11.
+  const std::vector<OrientedBox> boxes{{{0.0, 0.0, 0.0}, 2.0, 2.0}, {{1e6, 1e6, 0.5}, 2.0, 2.0}};
+  const CollisionChecker clear(ReferenceCar(), boxes, 0.5);
+  for (const OrientedBox& box : boxes) {
+    EXPECT_FALSE(clear.IsFree(box.center));
+    EXPECT_TRUE(clear.IsFree({box.center.x + 20.0, box.center.y, 0.0}));
+  }
+  EXPECT_EQ(clear.Clearance({5e5, 5e5, 0.0}), CollisionChecker::kFarthest);
+}
+
+TEST(CollisionChecker, RefusesPosesAndBoxesThatAreNoNumbers) {
+  const OrientedBox box{{10.0, 0.0, 0.0}, 2.0, 2.0};
+  const CollisionChecker clear(ReferenceCar(), {box}, 0.5);
+  for (const double bad : {std::nan(""), HUGE_VAL}) {
+    EXPECT_THROW((void)clear.IsFree(Pose2{bad, 0.0, 0.0}), PreconditionError);
+    EXPECT_THROW((void)clear.IsFree(Pose2{0.0, 0.0, bad}), PreconditionError);
+    OrientedBox other = box;
+    other.center.y = bad;
+    EXPECT_THROW(CollisionChecker(ReferenceCar(), {box, other}, 0.5), PreconditionError);
+    other = box;
+    other.width = bad;
+    EXPECT_THROW(CollisionChecker(ReferenceCar(), {box, other}, 0.5), PreconditionError);
+  }
 }
 
 TEST(CollisionChecker, IsFreeWithoutBoxes) {

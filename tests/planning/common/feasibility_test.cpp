@@ -1,5 +1,6 @@
 #include "trackbed/planning/common/feasibility.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -103,6 +104,19 @@ TEST(Feasibility, SlowsDownWhereTheWheelsTurnTooSlowly) {
   EXPECT_NEAR(plan.reference.speed.SpeedAt(21.0),
               request.vehicle.steering_rate * 2.0 / std::atan(0.27), 0.03 * 1.14);
   EXPECT_TRUE(FindExcesses(plan, request).empty());
+}
+
+TEST(Feasibility, RefusesAPathThatBeginsCarLengthsFromASmallCar) {
+  // A model of 2.7 um and a path 45 um beside it: less than a millimeter.
+  PlanRequest request = Request(0.0, {{0.0, 0.0}, {1e-3, 0.0}, {2e-3, 0.0}});
+  request.vehicle.wheelbase *= 1e-6;
+  request.speed.speed = 1e-5;
+  request.start.y = 4.5e-5;
+  EXPECT_THAT(Kinds(Course(request, {{.length = 1e-3, .curvature = 0.0}}), request),
+              testing::IsEmpty());
+  Plan plan = Course(request, {{.length = 1e-3, .curvature = 0.0}});
+  request.start.y = 0.0;
+  EXPECT_THAT(Kinds(plan, request), testing::ElementsAre("initial position error"));
 }
 
 TEST(Feasibility, RefusesAStartOnABendForACarThatRolls) {

@@ -8,6 +8,9 @@
 #include "tests/planning/shortest_curves.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/planning/curves/dubins.h"
+#include "trackbed/planning/curves/reeds_shepp.h"
 
 namespace trackbed {
 namespace {
@@ -17,6 +20,14 @@ ShortestCurve Parking() {
           .pieces = {{{Bend::kLeft, 0.5}, {Bend::kRight, -0.7}, {Bend::kNone, -2.0}}},
           .count = 3,
           .length = 16.0};
+}
+
+TEST(ShortestCurve, IsRefusedToAndFromPosesThatAreNoNumbers) {
+  for (const double bad : {std::nan(""), HUGE_VAL, 1e308}) {
+    EXPECT_THROW(ReedsShepp({}, {9.0, 1.0, bad == 1e308 ? HUGE_VAL : bad}, 5.0), PreconditionError);
+    EXPECT_THROW(ReedsShepp({bad, 0.0, 0.0}, {}, 5.0), PreconditionError);
+    EXPECT_THROW(Dubins({}, {bad, 1.0, 0.0}, 5.0), PreconditionError);
+  }
 }
 
 TEST(ShortestCurve, IsSpelledWithItsDirections) {

@@ -220,7 +220,7 @@ TEST(RrtPlanner, IsClearOrSaysWhyNotInRandomFields) {
 }
 
 TEST(RrtPlanner, RefusesOptionsThatMakeNoSense) {
-  EXPECT_THROW(MakePlan(Across({}), RrtPlannerOptions{.trees = 0}), InternalError);
+  EXPECT_THROW(MakePlan(Across({}), RrtPlannerOptions{.trees = 0}), PreconditionError);
   EXPECT_THROW(
       MakePlan(Across({}), RrtPlannerOptions{.data_weight = 0.5, .smoothness_weight = 0.25}),
       InternalError);

@@ -15,12 +15,13 @@ class CollisionChecker {
   /// No room beyond this is told apart [m].
   static constexpr double kFarthest = 4.0;
 
-  /// `distance` [m], >= 0, is what the footprint keeps from every box.
+  /// `distance` [m], >= 0, is what the footprint keeps from every box. PreconditionError unless the
+  /// boxes are finite. Takes no more memory the farther apart they are, from 2 km on.
   CollisionChecker(const VehicleParams& vehicle, std::vector<OrientedBox> boxes, double distance);
 
   /// What is left between the footprint and the nearest box beyond the distance [m]: exact,
-  /// negative when it is too near, kFarthest when it is more. Cost: the boxes near by, about 50 ns
-  /// each.
+  /// negative when it is too near, kFarthest when it is more. PreconditionError for a pose that is
+  /// not finite. Cost: the boxes near by, about 50 ns each.
   [[nodiscard]] double Clearance(const Pose2& pose) const;
 
   [[nodiscard]] bool IsFree(const Pose2& pose) const { return Clearance(pose) >= 0.0; }
@@ -44,6 +45,7 @@ class CollisionChecker {
 
   // Which boxes matter for a car whose footprint's middle is in a bin of the plane.
   [[nodiscard]] const std::vector<int>* Near(const Vec2& middle) const;
+  double bin_ = 0.0;  // side of a bin [m]
   Vec2 low_{0.0, 0.0};
   int columns_ = 0;
   int rows_ = 0;

@@ -12,8 +12,9 @@
 /// road under the car.
 ///
 /// A plan is feasible if
-///   * it begins where the car is (1 mm, 1 mrad), at the car's speed, and for a car that rolls with
-///     the curvature of its steering angle (1 mrad),
+///   * it begins where the car is (1 mm, of a small car a thousandth of its wheelbase, and 1 mrad),
+///     at the car's speed, and for a car that rolls with the curvature of its steering angle
+///     (1 mrad),
 ///   * |delta| <= delta_max,
 ///   * v |d delta/ds| <= omega_delta over the steering schedule,
 ///   * v^2 |kappa| <= mu_y g,

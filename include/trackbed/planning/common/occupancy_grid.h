@@ -45,7 +45,8 @@ double CellsIn(const GridArea& area, double cell);
 
 /// A grid over an area of the frame X_WF, one cell's middle on the frame's origin. A cell is
 /// occupied when its middle is not further than `inflation` [m] from a box. Cost: the cells of the
-/// inflated boxes. InternalError for more than kMaxCells.
+/// inflated boxes. InternalError for more than kMaxCells, PreconditionError for boxes
+/// that are not finite.
 OccupancyGrid Rasterize(const Pose2& X_WF, const GridArea& area, double cell,
                         const std::vector<OrientedBox>& boxes_W, double inflation);
 

@@ -9,7 +9,8 @@
 /// RLR, of which the middle arc of the last two turns by more than pi.
 namespace trackbed {
 
-/// The shortest of the six. There always is one. `radius` [m] > 0 (InternalError). Exact: the end
+/// The shortest of the six. There always is one. `radius` [m] > 0 (InternalError), poses
+/// finite (PreconditionError). Exact: the end
 /// is met to 1e-9 m. Mirrored poses give the mirrored word; poses that change places and are turned
 /// by pi give the word backwards: the same length. Cost: a third of a microsecond.
 ShortestCurve Dubins(const Pose2& from, const Pose2& to, double radius);

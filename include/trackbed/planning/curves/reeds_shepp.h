@@ -10,7 +10,8 @@
 /// an arc, S a straight and | a change of direction.
 namespace trackbed {
 
-/// The shortest of all. There always is one. `radius` [m] > 0 (InternalError). Exact: the end is
+/// The shortest of all. There always is one. `radius` [m] > 0 (InternalError), poses
+/// finite (PreconditionError). Exact: the end is
 /// met to 1e-9 m. Mirrored poses give the mirrored word; poses that change places, the word from
 /// its end to its start with every direction turned: the same length. Never longer than Dubins'.
 /// Cost: about a microsecond.
