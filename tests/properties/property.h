@@ -1,0 +1,104 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "trackbed/core/error.h"
+
+/// Properties that hold for every input of a kind, checked with RapidCheck on random ones.
+///
+/// The environment variable RC_PARAMS sets the number of cases and the seed, as RapidCheck's guide
+/// says: RC_PARAMS="max_success=10000 seed=7". Properties with dearer cases take a share of that
+/// number. Without it the seed is fixed.
+namespace properties {
+
+/// Checks `property`, a function that picks its input with `*generator` and asserts with RC_ASSERT;
+/// `share` of the configured number of cases. A failure prints the smallest input found and how to
+/// repeat it.
+template <typename Property>
+void Check(double share, Property&& property) {
+  using namespace rc::detail;
+  Configuration defaults;
+  defaults.testParams.seed = 1;
+  defaults.testParams.maxDiscardRatio = 100;
+  const char* given = std::getenv("RC_PARAMS");
+  TestParams params = configFromString(given == nullptr ? "" : given, defaults).testParams;
+  params.maxSuccess =
+      std::max(1, static_cast<int>(std::lround(share * static_cast<double>(params.maxSuccess))));
+  const testing::TestInfo* info = testing::UnitTest::GetInstance()->current_test_info();
+  TestMetadata metadata;
+  metadata.id = std::string(info->test_suite_name()) + "." + info->name();
+  metadata.description = info->name();
+  const TestResult result = checkTestable(std::forward<Property>(property), metadata, params);
+  if (result.is<SuccessResult>()) {
+    if (!result.get<SuccessResult>().distribution.empty()) {
+      printResultMessage(result, std::cout);
+      std::cout << std::endl;
+    }
+  } else {
+    std::ostringstream message;
+    printResultMessage(result, message);
+    ADD_FAILURE() << message.str();
+  }
+}
+
+/// A real number from a range that shrinks toward its lower end.
+inline rc::Gen<double> Between(double low, double high) {
+  constexpr int kSteps = 1 << 20;
+  return rc::gen::map(rc::gen::resize(kSteps, rc::gen::inRange(0, kSteps + 1)),
+                      [=](int i) { return low + (high - low) * i / kSteps; });
+}
+
+/// Likewise, shrinking toward 0 from both sides.
+inline rc::Gen<double> Within(double reach) {
+  constexpr int kSteps = 1 << 20;
+  return rc::gen::map(rc::gen::resize(kSteps, rc::gen::inRange(-kSteps, kSteps + 1)),
+                      [=](int i) { return reach * i / kSteps; });
+}
+
+/// Ten to a whole power; shrinks toward 1.
+inline rc::Gen<double> PowerOfTen(int low, int high) {
+  return rc::gen::map(rc::gen::resize(1000, rc::gen::inRange(low, high + 1)),
+                      [](int power) { return std::pow(10.0, power); });
+}
+
+/// A whole number; shrinks toward the lower end.
+inline int Pick(int low, int high) {
+  return *rc::gen::resize(1000, rc::gen::inRange(low, high + 1));
+}
+
+/// True once in `times`; shrinks toward false.
+inline bool OnceIn(int times) {
+  return Pick(0, times - 1) == times - 1;
+}
+
+/// With which of the errors of error.h a call refuses its input; empty if it returns. Whatever else
+/// it throws passes through and fails the property.
+template <typename Call>
+std::string Refusal(const Call& call) {
+  try {
+    call();
+    return "";
+  } catch (const trackbed::InputError&) {
+    return "InputError";
+  } catch (const trackbed::PreconditionError&) {
+    return "PreconditionError";
+  } catch (const trackbed::InternalError& error) {
+    return std::string("InternalError: ") + error.what();
+  }
+}
+
+template <typename Call>
+bool Refuses(const Call& call) {
+  return !Refusal(call).empty();
+}
+
+}  // namespace properties
