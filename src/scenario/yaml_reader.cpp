@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "trackbed/core/angle.h"
+#include "trackbed/core/classic_locale.h"
 #include "trackbed/core/spelling.h"
 
 namespace trackbed {
@@ -21,6 +22,7 @@ bool IsQuoted(const YAML::Node& node) {
 /// Reads a value of type T; what stands in quotes is text, whatever it looks like.
 template <typename T>
 bool Decode(const YAML::Node& node, T& value) {
+  const ClassicLocale locale;  // yaml-cpp reads numbers through the global one
   return node.IsScalar() && !IsQuoted(node) && YAML::convert<T>::decode(node, value);
 }
 
@@ -34,6 +36,7 @@ bool IsTooLarge(const YAML::Node& node) {
   if (!node.IsScalar() || IsQuoted(node)) {
     return false;
   }
+  const ClassicLocale locale;
   char* end = nullptr;
   const std::string& text = node.Scalar();
   const double number = std::strtod(text.c_str(), &end);

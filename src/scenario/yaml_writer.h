@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "trackbed/core/classic_locale.h"
 #include "trackbed/options/key_visitor.h"
 
 namespace trackbed {
@@ -124,6 +125,7 @@ class YamlWriter final : public KeyVisitor {
 
  private:
   YAML::Emitter& out_;
+  ClassicLocale locale_;  ///< yaml-cpp writes integers through the global one
 };
 
 }  // namespace trackbed

@@ -14,6 +14,7 @@
 
 #include "src/sim/scene_xml.h"
 #include "src/sim/sub_process.h"
+#include "trackbed/core/classic_locale.h"
 #include "trackbed/core/error.h"
 #include "trackbed/sim/car_model.h"
 #include "trackbed/sim/mujoco_error.h"
@@ -56,6 +57,7 @@ struct Compiled {
 };
 
 Compiled CompileHere(const std::string& xml, const std::vector<SceneAsset>& assets) {
+  const ClassicLocale locale;  // MuJoCo reads numbers through the global one
   const Vfs vfs = MakeVfs();
   Add(*vfs, "model.xml", xml);
   for (const SceneAsset& asset : assets) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <locale>
+
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
 #include "trackbed/control/controllers.h"
@@ -439,6 +441,21 @@ TEST(ParseScenario, AsksForMetricsThatARunCanHave) {
   EXPECT_EQ(told("distance"),
             "s.yaml:6:31: expect.mujoco.metrics[0].metric: unknown metric 'distance'; allowed: "
             "time, turns[0].at");
+}
+
+/// As in German: a comma before decimals, a dot between thousands.
+class GermanNumbers : public std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+TEST(ReadScenario, ReadsNumbersAlikeInAnyLocale) {
+  const std::locale german(std::locale::classic(), new GermanNumbers);
+  const std::locale before = std::locale::global(german);
+  const double speed = Parse(kSmall, {"mission.speed=1.500"}).mission.speed;
+  std::locale::global(before);
+  EXPECT_EQ(speed, 1.5);
 }
 
 class ScenarioFiles : public testing::TestWithParam<std::filesystem::path> {};
