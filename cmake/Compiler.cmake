@@ -18,7 +18,7 @@ target_compile_options(
             -Wimplicit-fallthrough
             # Designated initializers leave out what keeps its default; that is their point.
             -Wno-missing-field-initializers
-            # The same bytes on every machine: no fused multiply-add behind the source's back.
+            # The same arithmetic on every machine: no fused multiply-add behind the source's back.
             -ffp-contract=off
             $<$<BOOL:${TRACKBED_WARNINGS_AS_ERRORS}>:-Werror>)
 if(TRACKBED_SANITIZE)

@@ -1,0 +1,83 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/support/temp_folder.h"
+#include "tests/tolerance.h"
+#include "trackbed/analysis/run.h"
+#include "trackbed/analysis/run_folder.h"
+#include "trackbed/core/file.h"
+#include "trackbed/core/text_table.h"
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const fs::path kScenarios = fs::path(TRACKBED_SOURCE_DIR) / "scenarios";
+const fs::path kGolden = fs::path(TRACKBED_SOURCE_DIR) / "tests/data/golden/metrics";
+
+/// What lies in a folder and below, without extensions: "maneuvers/gust".
+std::vector<std::string> NamesBelow(const fs::path& folder, const std::string& extension) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const fs::path place = entry.path().lexically_relative(folder);
+    if (place.extension() == extension && *place.begin() != "studies") {
+      names.push_back(fs::path(place).replace_extension().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class Golden : public testing::TestWithParam<std::string> {};
+
+// The tolerances are measured, each for its metric; scripts/golden and docs/reproducibility.md say
+// how.
+TEST_P(Golden, MetricsAreWithinTheirTolerances) {
+  const TempFolder folder;
+  WriteRunFolder(RunMission(ReadScenario(kScenarios / (GetParam() + ".yaml"))), folder.path());
+  const json metrics = json::parse(ReadFile(folder.path() / run_folder::kMetricsJson));
+  const TextTable golden = ReadTextCsv(kGolden / (GetParam() + ".csv"));
+  ASSERT_EQ(golden.columns(), (std::vector<std::string>{"metric", "value", "tolerance"}));
+  std::vector<std::string> plants;
+  for (const std::vector<std::string>& row : golden.rows()) {
+    const json::json_pointer metric(row[0]);
+    ASSERT_TRUE(metrics.contains(metric)) << row[0];
+    const json& value = metrics.at(metric);
+    if (row[2].empty()) {
+      EXPECT_EQ(value.is_string() ? value.get<std::string>() : value.dump(), row[1]) << row[0];
+    } else {
+      EXPECT_NEAR(value.get<double>(), std::stod(row[1]), Tolerance(std::stod(row[2]))) << row[0];
+    }
+    if (metric.back() == "status") {
+      plants.push_back(metric.parent_pointer().back());
+    }
+  }
+  for (const auto& [plant, entry] : metrics.at("plants").items()) {
+    EXPECT_THAT(plants, testing::Contains(plant));
+  }
+}
+
+std::string TestName(const testing::TestParamInfo<std::string>& tested) {
+  std::string name = tested.param;
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, Golden, testing::ValuesIn(NamesBelow(kGolden, ".csv")),
+                         TestName);
+
+TEST(GoldenMetrics, AreThereForEveryScenario) {
+  EXPECT_EQ(NamesBelow(kGolden, ".csv"), NamesBelow(kScenarios, ".yaml"))
+      << "scripts/golden makes them";
+}
+
+}  // namespace
+}  // namespace trackbed
