@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "trackbed/path/path.h"
+
+/// Calls of public functions, for entries_test.cpp.
+namespace properties {
+
+/// A call with one number of its own choice, all else good. What it returns is finite exactly if
+/// the call says that all is well.
+struct Entry {
+  std::string name;
+  std::function<double(double number)> call;
+};
+
+inline constexpr double kWell = 0.0;
+inline const double kNone = std::numeric_limits<double>::quiet_NaN();
+
+inline double SumOf(const trackbed::Pose2& pose) {
+  return pose.x + pose.y + pose.yaw;
+}
+inline double SumOf(const trackbed::Vec2& point) {
+  return point.x() + point.y();
+}
+
+/// A straight, a clothoid and an arc.
+const trackbed::Path& Bend();
+
+std::vector<Entry> OfGeometry();
+std::vector<Entry> OfPaths();
+std::vector<Entry> OfSpeeds();
+std::vector<Entry> OfCurves();
+std::vector<Entry> OfVehicles();
+std::vector<Entry> OfWorlds();
+std::vector<Entry> OfPlanning();
+std::vector<Entry> OfOptimizers();
+
+}  // namespace properties
