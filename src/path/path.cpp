@@ -132,6 +132,8 @@ Path::Path(const Pose2& start, std::vector<Segment> segments) : segments_(std::m
         MostTurned(segment, segment.length), kMostTurned);
     starts_.push_back(Along(starts_.back(), segment, segment.length));
     length_ += segment.length;
+    constexpr double kLongest = 1e12;  // [m]; stations are rounded by 0.1 mm there
+    TRACKBED_REQUIRE(length_ <= kLongest, "Path: {} m; must be at most {} m", length_, kLongest);
     stations_.push_back(length_);
   }
 }

@@ -126,6 +126,7 @@ TEST(Path, ChecksItsSegments) {
   EXPECT_THROW(Path({0.0, 0.0, HUGE_VAL}, {{1.0, 0.0, 1}}), PreconditionError);
   // 10^20 half radians would take the quadrature years; an arc has none.
   EXPECT_THROW(Path({}, {{1e10, 0.0, 1, 1.0}}), PreconditionError);
+  EXPECT_THROW(Path({}, {{1e254, 0.0, 1, 1e-300}}), PreconditionError);
   EXPECT_NO_THROW(Path({}, {{1e10, 1e10, 1}}));
 }
 

@@ -105,8 +105,10 @@ class Measurement {
     }
     const Pose2 last = path_.At(path_.length()).pose;
     const double missed = (last.position() - request_.waypoints.back()).norm();
-    // Planners end at their goals to a billionth of a meter, small cars to one of their size.
-    if (!(missed <= 1e-9 * std::min(1.0, request_.vehicle.wheelbase) + 16.0 * rounding_)) {
+    // Planners end at their goals to a billionth of a meter, small cars to one of their size. Where
+    // they take corners below 1e-9 rad for straight on, a leg leads off by that share of it.
+    const double small = std::min(1.0, request_.vehicle.wheelbase) + path_.length();
+    if (!(missed <= 1e-9 * small + 16.0 * rounding_)) {
       return fmt::format("ends {} m from the last waypoint", missed);
     }
     if (entry_.has_headings && !request_.headings.empty() &&

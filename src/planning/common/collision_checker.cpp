@@ -13,7 +13,7 @@ namespace {
 /// more bins than this.
 constexpr double kBin = 4.0;
 constexpr double kMostBins = 250000.0;
-/// Shortest step along a path [m].
+/// Shortest step along a path, per meter of the car's length, and at most [m].
 constexpr double kStep = 0.02;
 
 bool IsBox(const OrientedBox& box) {
@@ -34,6 +34,7 @@ CollisionChecker::CollisionChecker(const VehicleParams& vehicle, std::vector<Ori
       distance_(distance),
       middle_(0.5 * vehicle.length - vehicle.rear_overhang),
       radius_(0.5 * std::hypot(vehicle.length, vehicle.width)),
+      step_(kStep * std::min(1.0, vehicle.length)),
       reach_(std::hypot(vehicle.length - vehicle.rear_overhang, 0.5 * vehicle.width)) {
   TRACKBED_CHECK(distance >= 0.0 && std::isfinite(distance), "distance {}", distance);
   for (const OrientedBox& box : boxes_) {
@@ -124,7 +125,7 @@ std::optional<double> CollisionChecker::FirstBlocked(const Path& path) const {
     if (s == path.length()) {
       return std::nullopt;
     }
-    s = std::min(s + std::max(room / moved, kStep), path.length());
+    s = std::min(s + std::max(room / moved, step_), path.length());
   }
 }
 
@@ -139,7 +140,7 @@ bool CollisionChecker::IsFree(const Pose2& start, const Segment& segment) const 
     if (d == segment.length) {
       return true;
     }
-    d = std::min(d + std::max(room / moved, kStep), segment.length);
+    d = std::min(d + std::max(room / moved, step_), segment.length);
   }
 }
 

@@ -90,6 +90,17 @@ TEST(CollisionChecker, RefusesPosesAndBoxesThatAreNoNumbers) {
   }
 }
 
+TEST(CollisionChecker, FindsABoxInTheWayOfACarOfAMillimeter) {
+  VehicleParams car = ReferenceCar();
+  for (double* length : {&car.wheelbase, &car.length, &car.width, &car.rear_overhang}) {
+    *length *= 1e-4;
+  }
+  // Less than 2 cm of way, with the box in the middle of it.
+  const CollisionChecker clear(car, {{{5e-3, 0.0, 0.0}, 1e-3, 1e-3}}, 3e-5);
+  EXPECT_TRUE(clear.FirstBlocked(Path({}, {{.length = 1e-2}})).has_value());
+  EXPECT_FALSE(clear.IsFree(Pose2{}, Segment{.length = 1e-2}));
+}
+
 TEST(CollisionChecker, IsFreeWithoutBoxes) {
   const CollisionChecker clear(ReferenceCar(), {}, 0.5);
   EXPECT_EQ(clear.Clearance({}), CollisionChecker::kFarthest);

@@ -27,8 +27,9 @@ class CollisionChecker {
   [[nodiscard]] bool IsFree(const Pose2& pose) const { return Clearance(pose) >= 0.0; }
 
   /// The first station at which the car is too near to a box, or none. Goes forward by as much as
-  /// the room surely allows, and by 2 cm where there is none: what is found free is off by 1 cm
-  /// times the turn of the footprint's farthest corner at most.
+  /// the room surely allows, and by 2 cm where there is none, a car shorter than 1 m by a
+  /// fiftieth of its length: what is found free is off by half of that times the turn of the
+  /// footprint's farthest corner at most.
   [[nodiscard]] std::optional<double> FirstBlocked(const Path& path) const;
 
   /// Whether an arc or a line is free from its start to its end; the same, without a path.
@@ -41,6 +42,7 @@ class CollisionChecker {
   double distance_;
   double middle_;  // of the footprint, ahead of the rear axle
   double radius_;  // of the circle around the footprint
+  double step_;    // along a path at least
   double reach_;   // from the rear axle to the footprint's farthest corner
 
   // Which boxes matter for a car whose footprint's middle is in a bin of the plane.
