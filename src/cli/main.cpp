@@ -95,7 +95,9 @@ int Main(int argc, char** argv) {
   sigaction(SIGINT, &action, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
   // Plain stdio: where stderr is closed there is nobody to tell, and telling must not fail.
-  const auto say = [](const std::string& text) { std::fputs((text + "\n").c_str(), stderr); };
+  const auto say = [](const std::string& text) {
+    std::fputs((WithoutControls(text) + "\n").c_str(), stderr);
+  };
   int code = cli::kInternal;
   try {
     code = cli::Run(argc, argv);

@@ -33,7 +33,17 @@ std::string Problem::ToString() const {
   if (!key.empty()) {
     text += key + ": ";
   }
-  return text + message;
+  return WithoutControls(text + message);
+}
+
+std::string WithoutControls(std::string_view text) {
+  std::string shown;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_control = (byte < 0x20 && c != '\t' && c != '\n') || byte == 0x7f;
+    shown += is_control ? fmt::format("<U+{:04X}>", byte) : std::string(1, c);
+  }
+  return shown;
 }
 
 InputError::InputError(std::vector<Problem> problems)

@@ -31,6 +31,12 @@ TEST(Problem, LeavesOutAnUnknownColumn) {
   EXPECT_EQ((Problem{.file = "a.csv", .line = 2, .message = "what"}.ToString()), "a.csv:2: what");
 }
 
+TEST(Problem, NamesControlCharactersOfOtherPeoplesNames) {
+  EXPECT_EQ((Problem{.file = "\x1b[31mred\x7f", .message = "tab\tand\nline"}.ToString()),
+            "<U+001B>[31mred<U+007F>: tab\tand\nline");
+  EXPECT_EQ(WithoutControls("Prüfstrecke"), "Prüfstrecke");
+}
+
 TEST(InputError, ListsEveryProblemOnItsLine) {
   const InputError error(std::vector<Problem>{
       {.key = "a", .message = "one"}, {.file = "f", .line = 1, .column = 2, .message = "two"}});

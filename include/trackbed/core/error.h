@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -26,7 +27,7 @@ struct Problem {
   std::string key{};      ///< dotted key, such as "mission.waypoints[2]"; may be empty
   std::string message{};  ///< what was found and what is allowed
 
-  /// "file:line:column: key: message", leaving out what is unknown.
+  /// "file:line:column: key: message", leaving out what is unknown, WithoutControls.
   [[nodiscard]] std::string ToString() const;
   /// "key: message", the same wherever the file lies.
   [[nodiscard]] std::string WithoutPlace() const;
@@ -61,6 +62,10 @@ class InternalError : public std::logic_error {
  public:
   using std::logic_error::logic_error;
 };
+
+/// The text as a terminal may be given it: control characters but tabs and line feeds are named,
+/// "<U+001B>". Names of files and keys come from anybody.
+std::string WithoutControls(std::string_view text);
 
 [[noreturn]] void ThrowPreconditionError(const std::string& message);
 
