@@ -11,6 +11,7 @@ find_package(yaml-cpp REQUIRED)
 find_package(tinyxml2 REQUIRED)
 find_package(NLopt REQUIRED)
 find_package(Threads REQUIRED)
+find_package(OpenSSL 3 REQUIRED COMPONENTS Crypto)
 find_package(PNG REQUIRED)
 find_package(mujoco REQUIRED CONFIG)
 # Debian's 2.2.2 exports an include directory of libqhull, which it only needs to be built itself.

@@ -13,6 +13,7 @@ set(pkg_config_names
     PNG::PNG=libpng
     Boost::headers=
     Threads::Threads=-pthread
+    OpenSSL::Crypto=libcrypto
     csv::csv=-lcsv
     mujoco::mujoco=-lmujoco)
 

@@ -9,6 +9,7 @@
 #include "render/overlays.h"
 #include "render/painter.h"
 #include "render/recording.h"
+#include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/sim/mujoco_error.h"
@@ -66,12 +67,14 @@ void CheckOptions(const FilmOptions& options, bool even_sides) {
 std::vector<render::Recording> ReadRecordings(const fs::path& folder,
                                               const std::vector<std::string>& plants) {
   std::vector<render::Recording> recordings;
+  const run_folder::Reading reading({folder});
   for (const std::string& plant : plants) {
     recordings.push_back(render::ReadRecording(folder, {plant}));
   }
   if (plants.empty()) {
     recordings.push_back(render::ReadRecording(folder));
   }
+  reading.RequireUnchanged();
   return recordings;
 }
 
@@ -180,7 +183,12 @@ FilmReport RenderFilm(const fs::path& run_folder, const fs::path& output,
     painter.Paint(time, image);
     film.Add(image);
     if (progress) {
-      progress((frame + 1.0) / report.frames);
+      try {
+        progress((frame + 1.0) / report.frames);
+      } catch (...) {
+        film.Keep();
+        throw;
+      }
     }
   }
   film.Finish();

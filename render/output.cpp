@@ -14,30 +14,55 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One PNG per picture, each of which appears when it is complete. In the end the frames that an
-/// older and longer film left beyond its own last one are gone: numbered on without a gap, regular
-/// files, nothing else.
+/// One PNG per picture, in a hidden folder until all are complete. Then the frames of an earlier
+/// film of that name go first: numbered without a gap, regular files, nothing else. So there are
+/// never frames of both. Without Finish or Keep the earlier film stays; where there is none, the
+/// frames so far are kept.
 class FrameOutput : public FilmOutput {
  public:
-  explicit FrameOutput(fs::path output) : output_(std::move(output)) {}
-
-  void Add(const Image& image) override {
-    WriteFileAtomically(FrameName(output_, next_++), EncodePng(image));
-  }
-  void Finish() override {
-    std::error_code error;
-    fs::path left = FrameName(output_, next_);
-    for (int frame = next_; fs::is_regular_file(fs::symlink_status(left, error));
-         left = FrameName(output_, ++frame)) {
-      if (!fs::remove(left, error)) {
-        throw RunError(fmt::format("cannot remove {}, a frame of an older film: {}", left.string(),
-                                   error.message()));
+  explicit FrameOutput(fs::path output) : output_(std::move(output)), frames_(output_) {}
+  FrameOutput(const FrameOutput&) = delete;
+  FrameOutput& operator=(const FrameOutput&) = delete;
+  ~FrameOutput() override {
+    std::error_code ignored;
+    if (!fs::exists(FrameName(output_, 0), ignored)) {
+      try {
+        Finish();
+      } catch (const RunError&) {
+        // Another one is being told already.
       }
     }
   }
 
+  void Add(const Image& image) override {
+    const fs::path frame = FrameName(output_, next_);
+    WriteNewFile(frames_.path() / frame.filename(), EncodePng(image), frame);
+    ++next_;
+  }
+  void Finish() override {
+    const int frames = std::exchange(next_, 0);
+    std::error_code error;
+    fs::path old = FrameName(output_, 0);
+    for (int frame = 0; frames > 0 && fs::is_regular_file(fs::symlink_status(old, error));
+         old = FrameName(output_, ++frame)) {
+      if (!fs::remove(old, error)) {
+        throw RunError(fmt::format("cannot remove {}, a frame of an older film: {}", old.string(),
+                                   error.message()));
+      }
+    }
+    for (int frame = 0; frame < frames; ++frame) {
+      const fs::path name = FrameName(output_, frame);
+      fs::rename(frames_.path() / name.filename(), name, error);
+      if (error) {
+        throw RunError(fmt::format("cannot write {}: {}", name.string(), error.message()));
+      }
+    }
+  }
+  void Keep() override { Finish(); }
+
  private:
   fs::path output_;
+  TemporaryFolder frames_;
   int next_ = 0;
 };
 
@@ -82,9 +107,19 @@ void BackgroundOutput::Add(const Image& image) {
 
 void BackgroundOutput::Finish() {
   std::unique_lock lock(mutex_);
+  Await(lock);
+  output_->Finish();
+}
+
+void BackgroundOutput::Keep() {
+  std::unique_lock lock(mutex_);
+  Await(lock);
+  output_->Keep();
+}
+
+void BackgroundOutput::Await(std::unique_lock<std::mutex>& lock) {
   changed_.wait(lock, [this] { return failure_ || (waiting_.empty() && !writing_); });
   Rethrow();
-  output_->Finish();
 }
 
 void BackgroundOutput::Rethrow() {

@@ -26,6 +26,8 @@ class FilmOutput {
   virtual void Add(const Image& image) = 0;
   /// Call after the last picture: only then is what was written of worth.
   virtual void Finish() = 0;
+  /// Instead of Finish, when no more pictures come: keeps what is of worth alone.
+  virtual void Keep() {}
 };
 
 /// Writes to another output in a thread of its own: while pictures are written, the next one is
@@ -38,8 +40,10 @@ class BackgroundOutput : public FilmOutput {
 
   void Add(const Image& image) override;
   void Finish() override;
+  void Keep() override;
 
  private:
+  void Await(std::unique_lock<std::mutex>& lock);
   void Write(const std::stop_token& stop);
   void Rethrow();
 

@@ -301,7 +301,7 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
     recording.plants.emplace_back(folder, plant, *recording.model);
   }
   if (const fs::path scenario = folder / run_folder::kScenarioYaml; fs::exists(scenario, ignored)) {
-    recording.world = ReadWorld(scenario);
+    recording.world = ReadWorld(run_folder::RequireFile(scenario));
     const VehicleSpec vehicle = ReadVehicleSpec(scenario);
     recording.note = VehicleNote(vehicle);
     recording.tyre = vehicle.tyre;

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <system_error>
 #include <utility>
 
 #include "render/video.h"
@@ -20,31 +19,18 @@ class VideoOutput : public FilmOutput {
  public:
   VideoOutput(fs::path output, FilmCodec codec, const FilmPictures& pictures)
       : output_(std::move(output)),
-        temporary_(TemporaryNameFor(output_)),
-        writer_(temporary_.path, output_, codec, pictures) {}
+        temporary_(output_),
+        writer_(temporary_.path(), output_, codec, pictures) {}
 
   void Add(const Image& image) override { writer_.Add(image); }
   void Finish() override {
     writer_.Finish();
-    PublishFile(temporary_.path, output_);
+    temporary_.Publish();
   }
 
  private:
-  /// Removed on every way out; after Finish there is none.
-  struct Temporary {
-    explicit Temporary(fs::path name) : path(std::move(name)) {}
-    ~Temporary() {
-      std::error_code ignored;
-      fs::remove(path, ignored);
-    }
-    Temporary(const Temporary&) = delete;
-    Temporary& operator=(const Temporary&) = delete;
-
-    fs::path path;
-  };
-
   fs::path output_;
-  Temporary temporary_;  // before the writer, so that it outlives it
+  TemporaryFile temporary_;  // before the writer, so that it outlives it
   VideoWriter writer_;
 };
 

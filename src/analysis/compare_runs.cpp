@@ -10,7 +10,6 @@
 
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/file_set.h"
 #include "trackbed/core/spelling.h"
 
 namespace trackbed {
@@ -105,7 +104,7 @@ FinishedRun ReadRun(const fs::path& folder) {
         Problem{.file = folder.string(), .message = "the run has no logs: it had no plan"});
   }
   if (const fs::path scenario = folder / run_folder::kScenarioYaml; fs::exists(scenario)) {
-    run.expect = ReadExpectations(scenario);
+    run.expect = ReadExpectations(run_folder::RequireFile(scenario));
   }
   return run;
 }
@@ -306,6 +305,7 @@ RunComparison CompareFolders(const std::vector<fs::path>& folders,
   if (folders.size() == 1 || plants.size() != 2) {
     RefuseTwice(plants);
   }
+  const run_folder::Reading reading(folders);
   std::vector<FinishedRun> runs;
   for (const fs::path& folder : folders) {
     runs.push_back(ReadRun(folder));
@@ -319,6 +319,7 @@ RunComparison CompareFolders(const std::vector<fs::path>& folders,
       NoteLeftOut(runs[0], runs[1], result.verdict);
     }
   }
+  reading.RequireUnchanged();
   for (const auto& [first, second, expected] : candidates) {
     const DifferenceBounds bounds = tolerances.value_or(expected);
     Check ends{.plant = first.trace.name,
@@ -374,14 +375,15 @@ DifferenceBounds ParseTolerances(const std::vector<std::string>& texts) {
   return bounds;
 }
 
-void WriteComparison(const RunComparison& comparison, const fs::path& folder) {
+void WriteComparison(const RunComparison& comparison, const OutputFolder& folder) {
   std::vector<std::string> columns{"pair"};
   const Table any = DifferencesOverArcLength({}, {});
   columns.insert(columns.end(), any.columns().begin(), any.columns().end());
   Table table(columns);
   ordered_json json{{"status", comparison.status()}};
   for (const fs::path& run : comparison.runs) {
-    json["runs"].push_back((run.is_absolute() ? run : fs::relative(run, folder)).generic_string());
+    json["runs"].push_back(
+        (run.is_absolute() ? run : fs::relative(run, folder.path())).generic_string());
   }
   json["pairs"] = ordered_json::array();
   for (std::size_t pair = 0; pair < comparison.pairs.size(); ++pair) {
@@ -401,10 +403,10 @@ void WriteComparison(const RunComparison& comparison, const fs::path& folder) {
     json["verdict"]["passed"] = nullptr;
   }
   json["versions"] = Versions();
-  FileSet files(folder);
-  files.Add(run_folder::kCompareCsv, table.ToCsv());
-  files.Add(run_folder::kCompareJson, json.dump(2) + "\n");
-  files.Commit({run_folder::kReport}, run_folder::kCompareJson);
+  ResultWriter writer(folder);
+  writer.Add(run_folder::kCompareCsv, table.ToCsv());
+  writer.Add(run_folder::kCompareJson, json.dump(2) + "\n");
+  writer.Commit(run_folder::kComparison, {run_folder::kReport});
 }
 
 }  // namespace trackbed

@@ -4,14 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <system_error>
 
 #include "trackbed/analysis/mcap.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/playback.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/file_set.h"
 #include "trackbed/core/version.h"
 #include "trackbed/optimize/search.h"
 #include "trackbed/planning/common/plan.h"
@@ -136,9 +134,9 @@ ordered_json ChangesJson(const RunLog& log) {
   return changes;
 }
 
-void AddUnlessEmpty(const Table& table, const std::string& name, FileSet& files) {
+void AddUnlessEmpty(const Table& table, const std::string& name, ResultWriter& writer) {
   if (table.rows() > 0) {
-    files.Add(name, table.ToCsv());
+    writer.Add(name, table.ToCsv());
   }
 }
 
@@ -279,7 +277,7 @@ ordered_json MetricsJson(const RunResult& result) {
 
 namespace {
 
-void AddPlan(const Plan& plan, const Scenario& scenario, FileSet& files) {
+void AddPlan(const Plan& plan, const Scenario& scenario, ResultWriter& writer) {
   ordered_json content{{"status", ToString(plan.status)}};
   if (!plan.ok()) {
     content["reason"] = plan.reason;
@@ -290,26 +288,26 @@ void AddPlan(const Plan& plan, const Scenario& scenario, FileSet& files) {
     const double length = plan.reference.path.length();
     content["length_m"] = length;
     content["duration_s"] = plan.reference.speed.TimeAt(length);
-    files.Add(run_folder::kPlanCsv, PlanTable(plan.reference).ToCsv());
-    files.Add(run_folder::kScheduleCsv, ScheduleTable(plan.schedule).ToCsv());
-    AddUnlessEmpty(ConvergenceTable(plan.diagnostics), run_folder::kConvergenceCsv, files);
-    AddUnlessEmpty(TreeTable(plan.tree), run_folder::kTreeCsv, files);
+    writer.Add(run_folder::kPlanCsv, PlanTable(plan.reference).ToCsv());
+    writer.Add(run_folder::kScheduleCsv, ScheduleTable(plan.schedule).ToCsv());
+    AddUnlessEmpty(ConvergenceTable(plan.diagnostics), run_folder::kConvergenceCsv, writer);
+    AddUnlessEmpty(TreeTable(plan.tree), run_folder::kTreeCsv, writer);
   }
   const nlohmann::json diagnostics = DiagnosticsJson(plan);
   for (const auto& [key, value] : diagnostics.items()) {
     content[key] = value;
   }
-  files.Add(run_folder::kPlanJson, Pretty(content));
+  writer.Add(run_folder::kPlanJson, Pretty(content));
 }
 
-void AddLog(const RunLog& log, FileSet& files) {
-  files.Add(run_folder::LogCsv(log.plant), ToTable(log).ToCsv());
-  files.Add(run_folder::StateCsv(log.plant), log.configurations.ToCsv());
+void AddLog(const RunLog& log, ResultWriter& writer) {
+  writer.Add(run_folder::LogCsv(log.plant), ToTable(log).ToCsv());
+  writer.Add(run_folder::StateCsv(log.plant), log.configurations.ToCsv());
   if (!log.changes.empty()) {
-    files.Add(run_folder::NewPlansCsv(log.plant), ChangesTable(log).ToCsv());
-    files.Add(run_folder::NewPlansJson(log.plant), Pretty(ChangesJson(log)));
+    writer.Add(run_folder::NewPlansCsv(log.plant), ChangesTable(log).ToCsv());
+    writer.Add(run_folder::NewPlansJson(log.plant), Pretty(ChangesJson(log)));
     AddUnlessEmpty(TreeTable(log.changes.back().plan.tree), run_folder::NewPlansTreeCsv(log.plant),
-                   files);
+                   writer);
   }
 }
 
@@ -327,36 +325,35 @@ ordered_json TimingJson(const RunResult& result) {
 
 }  // namespace
 
-void WritePlan(const Plan& plan, const Scenario& scenario, const fs::path& folder) {
-  FileSet files(folder);
-  AddPlan(plan, scenario, files);
-  files.Commit({run_folder::kPathFiles.begin(), run_folder::kPathFiles.end()},
-               run_folder::kPlanJson);
+void WritePlan(const Plan& plan, const Scenario& scenario, const OutputFolder& folder) {
+  ResultWriter writer(folder);
+  AddPlan(plan, scenario, writer);
+  writer.Commit(run_folder::kPlan, {run_folder::kPathFiles.begin(), run_folder::kPathFiles.end()});
 }
 
-void WriteRunFolder(const RunResult& result, const fs::path& folder,
+void WriteRunFolder(const RunResult& result, const OutputFolder& folder,
                     const RunFolderOptions& options) {
-  FileSet files(folder);
-  files.Add(run_folder::kScenarioYaml, ResolvedYaml(result.scenario));
+  ResultWriter writer(folder);
+  writer.Add(run_folder::kScenarioYaml, ResolvedYaml(result.scenario));
   if (const auto* playback = result.scenario.control.steering.As<PlaybackOptions>()) {
-    files.Add(kRecordingCsv, RecordingCsv(playback->recording, playback->by));
+    writer.Add(kRecordingCsv, RecordingCsv(playback->recording, playback->by));
   }
-  files.Add(run_folder::kModelXml, result.scene.xml);
+  writer.Add(run_folder::kModelXml, result.scene.xml);
   for (const SceneAsset& asset : result.scene.assets) {
-    files.Add(asset.name, asset.content);
+    writer.Add(asset.name, asset.content);
   }
   if (result.scenario.plan) {
-    AddPlan(result.plan, result.scenario, files);
+    AddPlan(result.plan, result.scenario, writer);
   }
   for (const RunLog& log : result.logs) {
-    AddLog(log, files);
+    AddLog(log, writer);
   }
-  files.Add(run_folder::kTimingJson, Pretty(TimingJson(result)));
+  writer.Add(run_folder::kTimingJson, Pretty(TimingJson(result)));
   if (options.mcap && !result.logs.empty()) {
-    files.Add(run_folder::kMcap, ToMcap(result));
+    writer.Add(run_folder::kMcap, ToMcap(result));
   }
-  files.Add(run_folder::kMetricsJson, Pretty(MetricsJson(result)));
-  files.Commit(run_folder::AllNames(), run_folder::kMetricsJson);
+  writer.Add(run_folder::kMetricsJson, Pretty(MetricsJson(result)));
+  writer.Commit(run_folder::kRun, run_folder::AllNames());
 }
 
 }  // namespace trackbed

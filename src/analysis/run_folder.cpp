@@ -1,9 +1,12 @@
 #include "trackbed/analysis/run_folder.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
+#include "src/analysis/manifest.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/scenario/recording_file.h"
@@ -59,9 +62,9 @@ std::optional<std::string> PlantOfStateCsv(const std::string& file_name) {
 }
 
 std::vector<std::string> AllNames() {
-  std::vector<std::string> names{kScenarioYaml, kModelXml,   kPlanJson,   kTimingJson,
-                                 kMetricsJson,  kMcap,       kVideo,      kPicture,
-                                 kReport,       kCompareCsv, kCompareJson};
+  std::vector<std::string> names{kManifest,   kScenarioYaml, kModelXml,   kPlanJson,
+                                 kTimingJson, kMetricsJson,  kMcap,       kVideo,
+                                 kPicture,    kReport,       kCompareCsv, kCompareJson};
   names.emplace_back(kRecordingCsv);
   names.insert(names.end(), kPathFiles.begin(), kPathFiles.end());
   for (const PlantEntry& plant : Plants()) {
@@ -83,7 +86,31 @@ std::filesystem::path RequireFile(const std::filesystem::path& file) {
   if (!WhyUnreadable(file.filename(), file.parent_path(), {}).empty()) {
     throw InputError(Problem{.file = file.string(), .message = "is a link out of the run folder"});
   }
+  RequireInManifest(file);
   return file;
+}
+
+namespace {
+
+std::string ManifestText(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / kManifest;
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored) ? ReadFile(file) : "";
+}
+
+}  // namespace
+
+Reading::Reading(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {
+  std::transform(folders_.begin(), folders_.end(), std::back_inserter(manifests_), ManifestText);
+}
+
+void Reading::RequireUnchanged() const {
+  for (std::size_t i = 0; i < folders_.size(); ++i) {
+    if (ManifestText(folders_[i]) != manifests_[i]) {
+      throw InputError(Problem{.file = folders_[i].string(),
+                               .message = "its result was replaced while it was read; try again"});
+    }
+  }
 }
 
 }  // namespace trackbed::run_folder

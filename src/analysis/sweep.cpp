@@ -10,7 +10,6 @@
 #include "trackbed/analysis/bisect.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/file_set.h"
 
 namespace trackbed {
 namespace {
@@ -294,11 +293,11 @@ SweepResult RunSweep(const Study& study, const std::vector<StudyPoint>& points,
   return sweep;
 }
 
-void WriteSweep(const SweepResult& sweep, const fs::path& folder) {
-  FileSet files(folder);
-  files.Add(run_folder::kSweepCsv, sweep.table.ToCsv());
-  files.Add(run_folder::kSweepJson, sweep.description.dump(2) + "\n");
-  files.Commit({run_folder::kReport}, run_folder::kSweepJson);
+void WriteSweep(const SweepResult& sweep, const OutputFolder& folder) {
+  ResultWriter writer(folder);
+  writer.Add(run_folder::kSweepCsv, sweep.table.ToCsv());
+  writer.Add(run_folder::kSweepJson, sweep.description.dump(2) + "\n");
+  writer.Commit(run_folder::kStudy, {run_folder::kReport});
 }
 
 }  // namespace trackbed

@@ -10,8 +10,6 @@
 #include "trackbed/analysis/compare_runs.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/file.h"
-#include "trackbed/core/folder_lock.h"
 #include "trackbed/core/text_table.h"
 
 namespace trackbed::cli {
@@ -65,10 +63,11 @@ void Print(const std::string& name, const RunComparison& result, const fs::path&
   }
 }
 
-int Finish(const std::string& name, const RunComparison& result, const fs::path& out, bool quiet) {
+int Finish(const std::string& name, const RunComparison& result, const OutputFolder& out,
+           bool quiet) {
   WriteComparison(result, out);
   if (!quiet) {
-    Print(name, result, out);
+    Print(name, result, out.path());
   }
   return result.verdict.passed ? kOk : kFailedExpectations;
 }
@@ -86,23 +85,21 @@ int CompareFinished(const CompareOptions& options) {
   const std::vector<fs::path> folders(options.files.begin(), options.files.end());
   const RunComparison result =
       CompareFolders(folders, options.scenario.plants, Tolerances(options));
-  const fs::path out = options.out.empty() ? "out/compare" : options.out;
-  MakeFolder(out);
-  const FolderLock lock(out, FolderLock::Access::kWrite);
+  const OutputFolder out(options.out.empty() ? "out/compare" : options.out);
   return Finish(fmt::format("{}", fmt::join(options.files, " and ")), result, out,
                 options.scenario.quiet);
 }
 
 int CompareScenario(const ScenarioRun& run, const CompareOptions& options) {
-  const auto [lock, result] = DriveScenario(run, options.scenario.quiet);
-  WriteRunFolder(result, run.folder);
+  const auto [folder, result] = DriveScenario(run, options.scenario.quiet);
+  WriteRunFolder(result, folder);
   if (result.interrupted) {
     if (!options.scenario.quiet) {
       fmt::print("{}: interrupted, in {}\n", run.scenario.name, run.folder.string());
     }
     return kInterrupted;
   }
-  return Finish(run.scenario.name, CompareRun(result, Tolerances(options)), run.folder,
+  return Finish(run.scenario.name, CompareRun(result, Tolerances(options)), folder,
                 options.scenario.quiet);
 }
 

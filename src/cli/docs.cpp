@@ -153,6 +153,7 @@ void AddDocs(const Command& command) {
   const auto page = std::make_shared<std::string>();
   command.AddPositional("page", *page, "Markdown file to update").Required().TypeName("FILE");
   command.OnRun([page, command] {
+    RemoveAbandonedTemporaries(std::filesystem::path(*page).parent_path());
     WriteFileAtomically(*page, Filled(*page, ReadFile(*page), Blocks(command.VisibleVerbs())));
     return kOk;
   });

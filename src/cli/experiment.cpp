@@ -197,7 +197,7 @@ int Experiment(const ExperimentOptions& options) {
   const fs::path file = FindModel(options.vehicle, "");
   const CarModel car(ComposeScene(file, {}), file.string());
   if (!options.out.empty()) {
-    MakeFolder((fs::path(".") / options.out).parent_path());  // before the work, not after it
+    PrepareToWrite(options.out);  // before the work, not after it
   }
   const std::vector<Match> matches = MatchAll(car.params(), options, searches);
   if (!options.out.empty()) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "src/cli/scenario_options.h"
@@ -123,6 +124,7 @@ void AddModel(const Command& command) {
     } else if (options->save.empty()) {
       Print(car, file.string());
     } else {
+      RemoveAbandonedTemporaries(std::filesystem::path(options->save).parent_path());
       WriteScene(car.scene(), options->save);
     }
     return kOk;

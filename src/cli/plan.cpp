@@ -11,10 +11,7 @@
 #include "src/cli/scenario_options.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run.h"
-#include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/file.h"
-#include "trackbed/core/folder_lock.h"
 
 namespace trackbed::cli {
 namespace {
@@ -34,11 +31,10 @@ int PlanOne(const PlanOptions& options) {
   }
   const fs::path out =
       options.out.empty() ? fs::path("out") / scenario.name : fs::path(options.out);
-  MakeFolder(out);
-  const FolderLock lock(out, FolderLock::Access::kWrite);
   const CarModel car = LoadCar(scenario);
+  const OutputFolder folder(out);
   const Plan plan = PlanMission(scenario, car.unladen());
-  WritePlan(plan, scenario, out);
+  WritePlan(plan, scenario, folder);
   if (!plan.ok()) {
     fmt::print(stderr, "{}: no plan ({}): {}\n", scenario.name, ToString(plan.status), plan.reason);
     return kFailedExpectations;

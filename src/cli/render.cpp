@@ -7,10 +7,9 @@
 #include "src/cli/film_of_run.h"
 #include "src/cli/progress_bar.h"
 #include "src/cli/verbs.h"
+#include "trackbed/analysis/output_folder.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/file.h"
-#include "trackbed/core/folder_lock.h"
 #include "trackbed/scenario/scenario.h"
 
 namespace trackbed::cli {
@@ -60,11 +59,10 @@ std::string Listed(const std::vector<FilmChoice>& choices) {
 
 int RenderOne(const RenderOptions& options) {
   const fs::path folder = options.folder;
-  const FolderLock lock(folder, FolderLock::Access::kRead);
   FilmOptions film;
   // What the command does not say, the scenario of the run does.
   if (const fs::path resolved = folder / run_folder::kScenarioYaml; fs::exists(resolved)) {
-    const RenderSpec render = ReadRenderSpec(resolved);
+    const RenderSpec render = ReadRenderSpec(run_folder::RequireFile(resolved));
     film = {
         .width = render.width, .height = render.height, .fps = render.fps, .camera = render.camera};
   }
@@ -85,7 +83,7 @@ int RenderOne(const RenderOptions& options) {
   }
   const char* name = options.at ? run_folder::kPicture : run_folder::kVideo;
   const fs::path out = options.out.empty() ? folder / name : fs::path(options.out);
-  RemoveAbandonedTemporaries(out.parent_path());
+  const std::optional<OutputFolder> in_use = UseFolderOf(out, folder);
   if (options.at) {
     RenderPicture(folder, out, *options.at, film);
   } else {

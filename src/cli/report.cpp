@@ -4,12 +4,12 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "src/cli/verbs.h"
+#include "trackbed/analysis/output_folder.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/file.h"
-#include "trackbed/core/folder_lock.h"
 #include "trackbed/core/spelling.h"
 
 namespace trackbed::cli {
@@ -47,12 +47,7 @@ int Report(const ReportOptions& options) {
                           : fs::is_directory(first) ? first
                                                     : first.parent_path();
   const fs::path file = options.out.empty() ? folder / run_folder::kReport : fs::path(options.out);
-  std::vector<FolderLock> locks;
-  for (const fs::path& path : paths) {
-    locks.emplace_back(fs::is_directory(path) ? path : path.parent_path(),
-                       FolderLock::Access::kRead);
-  }
-  RemoveAbandonedTemporaries(file.parent_path());
+  const std::optional<OutputFolder> in_use = UseFolderOf(file, folder);
   WriteReport(paths, file, film);
   if (!options.quiet) {
     fmt::print("{}\n", file.string());

@@ -69,8 +69,8 @@ void PrintSummary(const RunResult& result) {
 int RunOne(const ScenarioRun& run, const RunOptions& options) {
   const Scenario& scenario = run.scenario;
   const fs::path& out = run.folder;
-  const auto [lock, result] = DriveScenario(run, options.scenario.quiet);
-  WriteRunFolder(result, out, {.mcap = options.mcap});
+  const auto [folder, result] = DriveScenario(run, options.scenario.quiet);
+  WriteRunFolder(result, folder, {.mcap = options.mcap});
   if (!options.scenario.quiet) {
     fmt::print("{}: {}, in {}\n", scenario.name,
                result.interrupted       ? "interrupted"

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "src/cli/progress_bar.h"
 #include "src/cli/verbs.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/file.h"
 
 namespace trackbed::cli {
 
@@ -59,17 +59,16 @@ int ForEachRun(const std::vector<ScenarioRun>& runs,
 
 DrivenScenario DriveScenario(const ScenarioRun& run, bool quiet) {
   const CarModel car = LoadCar(run.scenario);
-  MakeFolder(run.folder);
-  FolderLock lock(run.folder, FolderLock::Access::kWrite);
+  OutputFolder folder(run.folder);
   std::unique_ptr<ProgressBar> bar;
-  return {std::move(lock),
-          RunMission(run.scenario, car, {.drive = [&](const std::string& plant) {
-                       bar.reset();
-                       bar = std::make_unique<ProgressBar>(
-                           fmt::format("{} {}", run.scenario.name, plant), quiet);
-                       return DriveHooks{.progress = [&](double fraction) { bar->Show(fraction); },
-                                         .interrupted = [] { return interrupted.load(); }};
-                     }})};
+  RunResult result = RunMission(
+      run.scenario, car, {.drive = [&](const std::string& plant) {
+        bar.reset();
+        bar = std::make_unique<ProgressBar>(fmt::format("{} {}", run.scenario.name, plant), quiet);
+        return DriveHooks{.progress = [&](double fraction) { bar->Show(fraction); },
+                          .interrupted = [] { return interrupted.load(); }};
+      }});
+  return {std::move(folder), std::move(result)};
 }
 
 }  // namespace trackbed::cli

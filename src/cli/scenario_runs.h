@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "src/cli/scenario_options.h"
+#include "trackbed/analysis/output_folder.h"
 #include "trackbed/analysis/run.h"
-#include "trackbed/core/folder_lock.h"
 
 namespace trackbed::cli {
 
@@ -29,14 +29,14 @@ std::vector<ScenarioRun> ReadScenarioRuns(const std::vector<std::string>& files,
 int ForEachRun(const std::vector<ScenarioRun>& runs,
                const std::function<int(const ScenarioRun& run)>& work);
 
-/// A run, and the lock on its folder, to be held until everything is written there.
+/// A run that is yet to be written to its folder, which is this process's alone.
 struct DrivenScenario {
-  FolderLock lock;
+  OutputFolder folder;
   RunResult result;
 };
 
-/// Runs the scenario with a progress bar until Ctrl-C. The folder is made before the work, not
-/// after it, and not at all for a model that cannot be used; nothing is written to it yet.
+/// Runs the scenario with a progress bar until Ctrl-C. The folder is made and locked before the
+/// work, not after it, and not at all for a model that cannot be used.
 DrivenScenario DriveScenario(const ScenarioRun& run, bool quiet);
 
 }  // namespace trackbed::cli

@@ -11,8 +11,6 @@
 #include "src/cli/scenario_options.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run_folder.h"
-#include "trackbed/core/file.h"
-#include "trackbed/core/folder_lock.h"
 
 namespace trackbed::cli {
 namespace {
@@ -31,8 +29,7 @@ int Sweep(const SweepVerbOptions& options) {
       CheckStudy(options.scenario.ReadStudyFile(options.file), BadPoints::kKeep);
   const std::string& name = checked.study.name;
   const fs::path out = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
-  MakeFolder(out);  // before the work, not after it
-  const FolderLock lock(out, FolderLock::Access::kWrite);
+  const OutputFolder folder(out);  // before the work, not after it
 
   const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const auto is_interrupted = [] { return interrupted.load(); };
@@ -45,7 +42,7 @@ int Sweep(const SweepVerbOptions& options) {
          .progress = [&](double fraction) { bar.Show(fraction); },
          .interrupted = is_interrupted});
   }();
-  WriteSweep(sweep, out);
+  WriteSweep(sweep, folder);
   if (!options.scenario.quiet) {
     const std::size_t rows = sweep.table.rows().size();
     const std::string how =

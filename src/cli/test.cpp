@@ -73,8 +73,7 @@ int Test(const TestOptions& options) {
   const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const std::vector<fs::path> files = ScenarioFiles(options.paths, FolderContent::kScenarios);
   if (!options.junit.empty()) {  // before the work, not after it
-    MakeFolder((fs::path(".") / options.junit).parent_path());
-    CheckCanWrite(options.junit);
+    PrepareToWrite(options.junit);
   }
   const std::vector<SuiteCase> cases =
       RunSuite(files,

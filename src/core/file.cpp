@@ -1,7 +1,7 @@
 #include "trackbed/core/file.h"
 
 #include <fcntl.h>
-#include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,7 +9,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <regex>
 #include <system_error>
 
 #include "trackbed/core/error.h"
@@ -24,36 +23,10 @@ namespace fs = std::filesystem;
       fmt::format("cannot {} {}: {}", what, file.string(), std::generic_category().message(error)));
 }
 
-/// A file descriptor that closes itself.
-class Descriptor {
- public:
-  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (descriptor_ >= 0) {
-      ::close(descriptor_);
-    }
-  }
-  [[nodiscard]] int get() const { return descriptor_; }
-  int Close() {
-    const int result = ::close(descriptor_);
-    descriptor_ = -1;
-    return result;
-  }
-
- private:
-  int descriptor_;
-};
-
 /// Returns 0 or an errno.
-int WriteAll(const fs::path& file, std::string_view content) {
-  Descriptor out(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (out.get() < 0) {
-    return errno;
-  }
+int WriteAll(int out, std::string_view content) {
   while (!content.empty()) {
-    const ssize_t written = ::write(out.get(), content.data(), content.size());
+    const ssize_t written = ::write(out, content.data(), content.size());
     if (written < 0) {
       if (errno == EINTR) {
         continue;
@@ -62,7 +35,7 @@ int WriteAll(const fs::path& file, std::string_view content) {
     }
     content.remove_prefix(static_cast<std::size_t>(written));
   }
-  return out.Close() == 0 ? 0 : errno;
+  return 0;
 }
 
 /// Devices and pipes (/dev/stdout, /dev/full) can be written but not replaced.
@@ -96,30 +69,159 @@ std::string ReadFile(const fs::path& file) {
   }
 }
 
-fs::path TemporaryNameFor(const fs::path& file) {
+Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
+  if (this != &other) {
+    Close();
+    descriptor_ = std::exchange(other.descriptor_, -1);
+  }
+  return *this;
+}
+
+Descriptor::~Descriptor() {
+  Close();
+}
+
+int Descriptor::Close() {
+  const int descriptor = std::exchange(descriptor_, -1);
+  return descriptor < 0 || ::close(descriptor) == 0 ? 0 : errno;
+}
+
+namespace {
+
+constexpr std::string_view kTemporary = ".trackbed";
+
+fs::path TemporaryName(const fs::path& file, int number) {
   fs::path name = file;
-  name.replace_filename(
-      fmt::format(".{}.{}.partial{}", file.stem().string(), ::getpid(), file.extension().string()));
+  name.replace_filename(fmt::format(".{}.{}-{}{}{}", file.stem().string(), ::getpid(), number,
+                                    kTemporary, file.extension().string()));
   return name;
 }
 
-void PublishFile(const fs::path& temporary, const fs::path& file) {
+/// Whether `name` is one of TemporaryName.
+bool IsTemporaryName(std::string_view name) {
+  const std::size_t mark = name.rfind(kTemporary);
+  if (mark == std::string_view::npos || !name.starts_with('.')) {
+    return false;
+  }
+  const std::string_view extension = name.substr(mark + kTemporary.size());
+  const auto take_digits = [&] {
+    const std::size_t other = name.find_last_not_of("0123456789");
+    const bool any = other != std::string_view::npos && other + 1 < name.size();
+    const char before = any ? name[other] : '\0';
+    name = any ? name.substr(0, other) : "";
+    return before;
+  };
+  name = name.substr(0, mark);
+  return (extension.empty() || (extension.starts_with('.') && extension.rfind('.') == 0)) &&
+         take_digits() == '-' && take_digits() == '.';
+}
+
+/// Locks a new temporary, unless another process has taken it for abandoned before that.
+bool IsOurs(int descriptor) {
+  const bool taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  struct stat status {};
+  return !taken && ::fstat(descriptor, &status) == 0 && status.st_nlink > 0;
+}
+
+}  // namespace
+
+TemporaryFile::TemporaryFile(fs::path file) : file_(std::move(file)) {
+  // The number keeps apart the threads of a process, and a process from a killed one of its id.
+  for (int number = 0;; ++number) {
+    path_ = TemporaryName(file_, number);
+    descriptor_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (descriptor_.get() < 0) {
+      if (errno == EEXIST) {
+        continue;
+      }
+      Fail("write", file_, errno);
+    }
+    if (IsOurs(descriptor_.get())) {
+      return;
+    }
+  }
+}
+
+TemporaryFile::~TemporaryFile() {
+  if (!path_.empty()) {
+    ::unlink(path_.c_str());
+  }
+}
+
+void TemporaryFile::Write(std::string_view content) {
+  if (const int error = WriteAll(descriptor_.get(), content); error != 0) {
+    Fail("write", file_, error);
+  }
+}
+
+void TemporaryFile::Publish() {
+  const Descriptor still_locked(::dup(descriptor_.get()));
+  if (const int error = descriptor_.Close(); error != 0) {
+    Fail("write", file_, error);
+  }
   // A link stays a link: what it points to is replaced. A device or pipe must not be replaced.
   std::error_code error_code;
-  const fs::path real = fs::is_symlink(file) ? fs::weakly_canonical(file, error_code) : file;
+  const fs::path real = fs::is_symlink(file_) ? fs::weakly_canonical(file_, error_code) : file_;
   if (fs::is_directory(real, error_code)) {
-    ::unlink(temporary.c_str());
-    Fail("write", file, EISDIR);
+    Fail("write", file_, EISDIR);
   }
   if (fs::exists(real, error_code) && !fs::is_regular_file(real, error_code)) {
-    ::unlink(temporary.c_str());
-    throw RunError(fmt::format("cannot write {}: it is not a regular file", file.string()));
+    throw RunError(fmt::format("cannot write {}: it is not a regular file", file_.string()));
   }
-  if (::rename(temporary.c_str(), real.c_str()) != 0) {
-    const int error = errno;
-    ::unlink(temporary.c_str());
-    Fail("write", file, error);
+  if (::rename(path_.c_str(), real.c_str()) != 0) {
+    Fail("write", file_, errno);
   }
+  path_.clear();
+}
+
+TemporaryFolder::TemporaryFolder(const fs::path& file) {
+  for (int number = 0;; ++number) {
+    path_ = TemporaryName(file, number);
+    if (::mkdir(path_.c_str(), 0777) != 0) {
+      if (errno == EEXIST) {
+        continue;
+      }
+      Fail("write", file, errno);
+    }
+    descriptor_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (descriptor_.get() < 0 && errno != ENOENT) {
+      const int error = errno;
+      ::rmdir(path_.c_str());
+      Fail("write", file, error);
+    }
+    if (IsOurs(descriptor_.get())) {
+      return;
+    }
+  }
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+void RemoveAbandonedTemporaries(const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator at(folder.empty() ? "." : folder, error), end; !error && at != end;
+       at.increment(error)) {
+    if (!IsTemporaryName(at->path().filename().string())) {
+      continue;
+    }
+    const bool is_folder = fs::is_directory(at->symlink_status(error));
+    const Descriptor own(::open(at->path().c_str(), (is_folder ? O_RDONLY : O_WRONLY) | O_NOFOLLOW |
+                                                        O_NONBLOCK | O_CLOEXEC));
+    if (own.get() >= 0 && ::flock(own.get(), LOCK_EX | LOCK_NB) == 0) {
+      std::error_code ignored;
+      fs::remove_all(at->path(), ignored);
+    }
+  }
+}
+
+void PrepareToWrite(const fs::path& file) {
+  const fs::path folder = (fs::path(".") / file).parent_path();
+  MakeFolder(folder);
+  RemoveAbandonedTemporaries(folder);
+  CheckCanWrite(file);
 }
 
 void CheckCanWrite(const fs::path& file) {
@@ -127,52 +229,33 @@ void CheckCanWrite(const fs::path& file) {
   if (fs::is_directory(file, ignored)) {
     Fail("write", file, EISDIR);
   }
-  if (IsDevice(file)) {
-    return;
+  if (!IsDevice(file)) {
+    const TemporaryFile temporary(file);
   }
-  const fs::path temporary = TemporaryNameFor(file);
-  const int error = WriteAll(temporary, "");
-  ::unlink(temporary.c_str());
+}
+
+void WriteNewFile(const fs::path& file, std::string_view content, const fs::path& shown) {
+  Descriptor out(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  int error = out.get() < 0 ? errno : WriteAll(out.get(), content);
+  error = error != 0 ? error : out.Close();
   if (error != 0) {
-    Fail("write", file, error);
+    Fail("write", shown, error);
   }
 }
 
 void WriteFileAtomically(const fs::path& file, std::string_view content) {
   if (IsDevice(file)) {
-    if (const int error = WriteAll(file, content); error != 0) {
+    Descriptor out(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
+    int error = out.get() < 0 ? errno : WriteAll(out.get(), content);
+    error = error != 0 ? error : out.Close();
+    if (error != 0) {
       Fail("write", file, error);
     }
     return;
   }
-  WriteTemporary(file, content);
-  PublishFile(TemporaryNameFor(file), file);
-}
-
-void WriteTemporary(const fs::path& file, std::string_view content) {
-  const fs::path temporary = TemporaryNameFor(file);
-  if (const int error = WriteAll(temporary, content); error != 0) {
-    ::unlink(temporary.c_str());
-    Fail("write", file, error);
-  }
-}
-
-void RemoveAbandonedTemporaries(const fs::path& folder) {
-  static const std::regex temporary(R"re(\..*\.([0-9]{1,9})\.partial(\..*)?)re");
-  std::error_code ignored;
-  std::vector<fs::path> abandoned;
-  for (fs::directory_iterator entry(folder.empty() ? "." : folder, ignored), end;
-       !ignored && entry != end; entry.increment(ignored)) {
-    const std::string name = entry->path().filename().string();
-    std::smatch found;
-    if (std::regex_match(name, found, temporary) && ::kill(std::stoi(found[1]), 0) != 0 &&
-        errno == ESRCH) {
-      abandoned.push_back(entry->path());
-    }
-  }
-  for (const fs::path& file : abandoned) {
-    fs::remove(file, ignored);
-  }
+  TemporaryFile temporary(file);
+  temporary.Write(content);
+  temporary.Publish();
 }
 
 void MakeFolder(const fs::path& folder) {

@@ -208,10 +208,12 @@ std::string ReportPage(const ordered_json& data) {
 
 void WriteReport(const std::vector<fs::path>& paths, const fs::path& file, FilmPlace film) {
   const ShownRuns shown = RunsToShow(paths);
+  const run_folder::Reading reading(shown.folders);
   ordered_json data = MakeReportData(paths, shown);
   if (film != FilmPlace::kAbsent) {
     AddFilms(shown, file, film, data);
   }
+  reading.RequireUnchanged();
   const std::string page = ReportPage(data);
   if (file.has_parent_path()) {
     MakeFolder(file.parent_path());

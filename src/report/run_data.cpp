@@ -108,7 +108,7 @@ ordered_json PlantJson(const fs::path& folder, const std::string& plant, std::si
   ordered_json json{{"name", plant},
                     {"log", LogJson(folder / run_folder::LogCsv(plant), row_limit)}};
   if (const fs::path plans = folder / run_folder::NewPlansCsv(plant); fs::exists(plans)) {
-    json["new_plans"] = NewPlans(plans);
+    json["new_plans"] = NewPlans(run_folder::RequireFile(plans));
   }
   return json;
 }

@@ -86,7 +86,8 @@ std::optional<fs::path> StudyTable(const fs::path& path) {
 }
 
 ordered_json StudyData(const fs::path& file) {
-  const TextTable table = ReadTextCsv(file);
+  const bool is_own = file.filename() == run_folder::kSweepCsv;  // not a copy under another name
+  const TextTable table = ReadTextCsv(is_own ? run_folder::RequireFile(file) : file);
   ordered_json study = StudyDescription(file);
   if (!study.contains("name")) {
     study["name"] = file.stem().string();

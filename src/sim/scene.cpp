@@ -328,10 +328,10 @@ int LineInCarFile(const Scene& scene, int line) {
 }
 
 void WriteScene(const Scene& scene, const fs::path& file) {
-  WriteFileAtomically(file, scene.xml);
   for (const SceneAsset& asset : scene.assets) {
     WriteFileAtomically(file.parent_path() / asset.name, asset.content);
   }
+  WriteFileAtomically(file, scene.xml);  // last: what it names is there
 }
 
 }  // namespace trackbed

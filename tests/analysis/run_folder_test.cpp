@@ -31,6 +31,7 @@ TEST(RunFolder, NamesItsFilesAsDocumented) {
                                                              "tree.csv",
                                                              "timing.json",
                                                              "run.mcap",
+                                                             "manifest.json",
                                                              "recording.csv",
                                                              "metrics.json",
                                                              "video.mp4",
@@ -44,8 +45,8 @@ TEST(RunFolder, NamesItsFilesAsDocumented) {
                                                              "kinematic.plan.json",
                                                              "kinematic.tree.csv",
                                                              "mujoco-magic_formula.state.csv"}));
-  // Five of each plant, and the sixteen others.
-  EXPECT_EQ(run_folder::AllNames().size(), 5 * Plants().size() + 16);
+  // Five of each plant, and the seventeen others.
+  EXPECT_EQ(run_folder::AllNames().size(), 5 * Plants().size() + 17);
   EXPECT_STREQ(run_folder::kSweepCsv, "sweep.csv");
   EXPECT_STREQ(run_folder::kSweepJson, "sweep.json");
 }
@@ -148,7 +149,7 @@ TEST(RunFolder, LosesEveryFileOfAnEarlierRun) {
   EXPECT_THAT(folder.Names(),
               testing::UnorderedElementsAre("scenario.resolved.yaml", "model.xml", "kinematic.csv",
                                             "kinematic.state.csv", "timing.json", "metrics.json",
-                                            "notes.txt"));
+                                            "manifest.json", "notes.txt"));
 }
 
 }  // namespace

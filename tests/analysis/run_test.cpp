@@ -173,10 +173,10 @@ TEST(WriteRunFolder, GivesTheSameBytesEveryTime) {
   for (const auto& [name, content] : a) {
     names.push_back(name);
   }
-  EXPECT_THAT(names, testing::ElementsAre("kinematic.csv", "kinematic.state.csv", "metrics.json",
-                                          "model.xml", "mujoco.csv", "mujoco.state.csv", "plan.csv",
-                                          "plan.json", "scenario.resolved.yaml", "schedule.csv",
-                                          "timing.json"));
+  EXPECT_THAT(names, testing::ElementsAre("kinematic.csv", "kinematic.state.csv", "manifest.json",
+                                          "metrics.json", "model.xml", "mujoco.csv",
+                                          "mujoco.state.csv", "plan.csv", "plan.json",
+                                          "scenario.resolved.yaml", "schedule.csv", "timing.json"));
   a.erase("timing.json");
   b.erase("timing.json");
   EXPECT_EQ(a, b);

@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 using testing::Contains;
 using testing::IsEmpty;
 using testing::MatchesRegex;
-using testing::Not;
 using testing::UnorderedElementsAre;
+using testing::UnorderedElementsAreArray;
 
 /// Runs the program with its output on a file system of a few kilobytes, which only a namespace of
 /// our own may mount.
@@ -57,7 +57,7 @@ void ExpectWhole(const fs::path& folder, const fs::path& complete) {
   }
 }
 
-/// What the files take on a tmpfs.
+/// What the files in `folder` take of a disk with pages of 4 kB.
 std::uintmax_t KilobytesOf(const fs::path& folder) {
   std::uintmax_t kilobytes = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -70,25 +70,34 @@ std::string Winding() {
   return ScenarioFile("winding") + " --set drive.time_limit=1 'expect={}'";
 }
 
-TEST_F(FullDisk, EndsARunInOneLineAndLeavesTheEarlierOneAsItWas) {
-  const std::string run = TRACKBED_PROGRAM " run -q -o disk/r ";
-  const std::string earlier =
-      ScenarioFile("three_turns") + " --set drive.time_limit=0.1 'expect={}' ";
-  Trackbed(folder, "run -q -o whole " + earlier);
-  // Room for a run of a tenth of a second, but not for a plan.csv of 127 kB beside it.
-  const Outcome outcome = WithDisk(std::to_string(KilobytesOf(folder.path() / "whole") + 100) + "k",
-                                   run + earlier + "; cp -r disk/r before; " + run + Winding());
+TEST_F(FullDisk, EndsARunInOneLineWithNothing) {
+  // Room for some files of the run, but not for its plan.csv of 127 kB. A run that has not all its
+  // files is none.
+  const Outcome outcome = WithDisk("64k", TRACKBED_PROGRAM " run -o disk/r " + Winding());
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.output,
               MatchesRegex("cannot write disk/r/[a-z.]+: No space left on device\n"));
-  ExpectWhole(folder.path() / "left/r", folder.path() / "before");
-  EXPECT_THAT(NamesIn(folder.path() / "left/r"), Contains("metrics.json"));
+  EXPECT_THAT(NamesIn(folder.path() / "left/r"), IsEmpty());
+}
+
+TEST_F(FullDisk, LeavesAnEarlierRunAsItWas) {
+  Trackbed(folder, "run -q -o whole " + Winding());
+  // Room for one run, but not for another one beside it.
+  const Outcome outcome = WithDisk(std::to_string(KilobytesOf(folder.path() / "whole") + 8) + "k",
+                                   TRACKBED_PROGRAM " run -q -o disk/r " + Winding() +
+                                       "; cp disk/r/timing.json whole; " +
+                                       TRACKBED_PROGRAM " run -q -o disk/r --mcap " + Winding());
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.output,
+              MatchesRegex("cannot write disk/r/[a-z.]+: No space left on device\n"));
+  EXPECT_THAT(NamesIn(folder.path() / "left/r"),
+              UnorderedElementsAreArray(NamesIn(folder.path() / "whole")));
+  ExpectWhole(folder.path() / "left/r", folder.path() / "whole");
 }
 
 TEST_F(FullDisk, LeavesNothingOfARunWhoseMcapFoundNoRoom) {
   Trackbed(folder, "run -q -o whole " + Winding());
-  const std::uintmax_t kilobytes = KilobytesOf(folder.path() / "whole") + 8;  // to spare
-  const Outcome outcome = WithDisk(std::to_string(kilobytes) + "k",
+  const Outcome outcome = WithDisk(std::to_string(KilobytesOf(folder.path() / "whole") + 8) + "k",
                                    TRACKBED_PROGRAM " run --mcap -o disk/r " + Winding());
   EXPECT_EQ(outcome.code, 2);
   EXPECT_EQ(outcome.output, "cannot write disk/r/run.mcap: No space left on device\n");
@@ -103,7 +112,7 @@ TEST_F(FullDisk, LeavesAnEarlierPlanAsItWas) {
   EXPECT_EQ(outcome.code, 2);
   EXPECT_EQ(outcome.output, "cannot write disk/plan.csv: No space left on device\n");
   EXPECT_THAT(NamesIn(folder.path() / "left"),
-              UnorderedElementsAre("plan.csv", "plan.json", "schedule.csv"));
+              UnorderedElementsAre("plan.csv", "plan.json", "schedule.csv", "manifest.json"));
   Trackbed(folder, "plan -q -o whole " + ScenarioFile("winding") + route);
   ExpectWhole(folder.path() / "left", folder.path() / "whole");
 }
@@ -114,18 +123,20 @@ TEST_F(FullDisk, LeavesNoPieceOfASweep) {
                                  "vary: {mission.speed: [1, 2]}\n"
                                  "outputs: [metrics.kinematic.distance]\n");
   Trackbed(folder, "sweep -q study.yaml -o whole");
-  // Of the two pages that the sweep takes there is room for one.
+  // Of the three pages that the sweep takes there is room for one.
   const std::string sweep = TRACKBED_PROGRAM " sweep -q study.yaml -o disk/s";
-  const Outcome half = WithDisk("4k", sweep);
-  EXPECT_EQ(half.code, 2);
-  EXPECT_EQ(half.output, "cannot write disk/s/sweep.json: No space left on device\n");
+  const Outcome part = WithDisk("4k", sweep);
+  EXPECT_EQ(part.code, 2);
+  EXPECT_EQ(part.output, "cannot write disk/s/sweep.json: No space left on device\n");
   EXPECT_THAT(NamesIn(folder.path() / "left/s"), IsEmpty());
   fs::remove_all(folder.path() / "left");
-  // And none for another sweep: the earlier one stays as it was.
-  const Outcome none = WithDisk("8k", sweep + " && " + sweep + " --set drive.time_limit=0.2");
-  EXPECT_EQ(none.code, 2);
-  EXPECT_EQ(none.output, "cannot write disk/s/sweep.csv: No space left on device\n");
-  EXPECT_THAT(NamesIn(folder.path() / "left/s"), UnorderedElementsAre("sweep.csv", "sweep.json"));
+  // Room for one sweep and its list of files to remove, but not for another sweep beside it: the
+  // earlier one stays as it was.
+  const Outcome second = WithDisk("16k", sweep + " && " + sweep + " --set drive.time_limit=0.2");
+  EXPECT_EQ(second.code, 2);
+  EXPECT_EQ(second.output, "cannot write disk/s/sweep.json: No space left on device\n");
+  EXPECT_THAT(NamesIn(folder.path() / "left/s"),
+              UnorderedElementsAre("sweep.csv", "sweep.json", "manifest.json"));
   ExpectWhole(folder.path() / "left/s", folder.path() / "whole");
 }
 
@@ -150,6 +161,20 @@ TEST_F(FullDisk, KeepsTheFramesThatFoundRoom) {
               MatchesRegex("cannot write disk/f_0000[0-9].png: No space left on device\n"));
   EXPECT_THAT(NamesIn(folder.path() / "left"), Contains("f_00000.png"));
   Trackbed(folder, film + "whole/f.png");
+  ExpectWhole(folder.path() / "left", folder.path() / "whole");
+}
+
+TEST_F(FullDisk, KeepsTheFramesOfAnEarlierFilm) {
+  Trackbed(folder, "run -q -o r " + Winding());
+  const std::string film = "render r --size 128x72 -o ";
+  const Outcome outcome = WithDisk("24k", TRACKBED_PROGRAM " " + film +
+                                              "disk/f.png -q --fps 1 && " TRACKBED_PROGRAM " " +
+                                              film + "disk/f.png --fps 5");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.output,
+              MatchesRegex("cannot write disk/f_0000[0-9].png: No space left on device\n"));
+  Trackbed(folder, film + "whole/f.png --fps 1");
+  EXPECT_THAT(NamesIn(folder.path() / "left"), UnorderedElementsAre("f_00000.png", "f_00001.png"));
   ExpectWhole(folder.path() / "left", folder.path() / "whole");
 }
 

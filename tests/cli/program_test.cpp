@@ -191,32 +191,6 @@ TEST(Program, KeepsRunsOfOneNameApart) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "o"));
 }
 
-TEST(Program, RefusesAFolderInWhichAnotherProcessWrites) {
-  const TempFolder folder;
-  Trackbed(folder, "run -q -o r " + ScenarioFile("three_turns") + " --set drive.time_limit=0.1");
-  // The lock of another process, held while the verbs run.
-  const std::string locked = "flock -x r ";
-  for (const std::string& verb :
-       {"run -q -o r " + ScenarioFile("three_turns"), "plan -q -o r " + ScenarioFile("three_turns"),
-        std::string("report r"), std::string("render r --at 0"), std::string("compare r r -o r")}) {
-    const Outcome outcome = Shell(folder, locked + TRACKBED_PROGRAM " " + verb);
-    EXPECT_EQ(outcome.code, 2) << verb;
-    EXPECT_THAT(outcome.output, testing::MatchesRegex("r is in use: another process .* it\n"))
-        << verb;
-  }
-  EXPECT_EQ(Trackbed(folder, "report r -q").code, 0);
-}
-
-TEST(Program, RemovesWhatKilledProcessesLeft) {
-  const TempFolder folder;
-  // A shell that has ended, and so is no process any more.
-  Shell(folder, "mkdir r && sh -c 'touch r/.video.$$.partial.mp4 r/.plan.$$.partial.csv'");
-  Trackbed(folder, "plan -q -o r " + ScenarioFile("three_turns"));
-  for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "r")) {
-    EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
-  }
-}
-
 TEST(Program, NeverWritesOutsideItsFolder) {
   const TempFolder folder;
   for (const char* name : {"../escaped", "/tmp/escaped", ".", "a/b", ".hidden"}) {

@@ -89,7 +89,7 @@ TEST_P(Repeats, ToTheSameBytes) {
   }
   ASSERT_EQ(other.code, 0) << other.output;
   const auto bytes = BytesOf(folder.path() / "first");
-  EXPECT_EQ(bytes.size(), 69U);
+  EXPECT_EQ(bytes.size(), 74U);
   EXPECT_EQ(Differing(bytes, BytesOf(folder.path() / "other")), "");
 }
 

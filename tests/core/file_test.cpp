@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/error.h"
@@ -96,12 +97,11 @@ TEST(WriteFileAtomically, SaysThatTheDiskIsFull) {
 }
 
 TEST(WriteFileAtomically, KeepsTheOldFileWhenTheTemporaryCannotBeWritten) {
-  // The temporary's name is taken by a folder, so opening it fails.
+  // A name has at most 255 bytes: the file's has 250, so that the temporary's, with the process id
+  // in it, has too many.
   const TempFolder folder;
-  const fs::path file = folder.path() / "a.txt";
-  WriteFileAtomically(file, "old");
-  fs::create_directory(TemporaryNameFor(file));
-  EXPECT_NE(RunErrorMessage([&] { WriteFileAtomically(file, "new"); }), "no RunError");
+  const fs::path file = folder.Write(std::string(250, 'a'), "old");
+  EXPECT_THAT(RunErrorMessage([&] { WriteFileAtomically(file, "new"); }), HasSubstr("too long"));
   EXPECT_EQ(ReadFile(file), "old");
 }
 
@@ -124,21 +124,67 @@ TEST(ReadFile, NamesWhatItCannotRead) {
   EXPECT_THAT(RunErrorMessage([&] { ReadFile(folder.path()); }), HasSubstr("Is a directory"));
 }
 
-TEST(TemporaryNameFor, IsBesideTheFileWithItsExtension) {
-  const fs::path name = TemporaryNameFor("some/where/film.mp4");
-  EXPECT_EQ(name.parent_path(), "some/where");
-  EXPECT_EQ(name.extension(), ".mp4");
-  EXPECT_NE(name.filename(), "film.mp4");
-  EXPECT_EQ(TemporaryNameFor("plain").parent_path(), "");
+TEST(TemporaryFile, IsBesideItsFileWithItsExtension) {
+  const TempFolder folder;
+  {
+    TemporaryFile film(folder.path() / "film.mp4");
+    const TemporaryFile other(folder.path() / "film.mp4");  // of another thread
+    EXPECT_NE(film.path(), other.path());
+    EXPECT_EQ(film.path().parent_path(), folder.path());
+    EXPECT_EQ(film.path().extension(), ".mp4");
+    film.Write("a ");
+    film.Write("film");
+    EXPECT_FALSE(fs::exists(folder.path() / "film.mp4"));
+    film.Publish();
+  }
+  EXPECT_EQ(ReadFile(folder.path() / "film.mp4"), "a film");
+  EXPECT_THAT(folder.Names(), ElementsAre("film.mp4"));
 }
 
-TEST(PublishFile, RemovesTheTemporaryOnFailure) {
+TEST(TemporaryFile, IsGoneAfterAFailure) {
   const TempFolder folder;
-  const fs::path temporary = folder.path() / "t";
-  WriteFileAtomically(temporary, "x");
-  EXPECT_THAT(RunErrorMessage([&] { PublishFile(temporary, folder.path() / "missing" / "f"); }),
-              HasSubstr("missing"));
-  EXPECT_THAT(folder.Names(), IsEmpty());
+  fs::create_directory(folder.path() / "target");
+  EXPECT_THAT(RunErrorMessage([&] { TemporaryFile(folder.path() / "target").Publish(); }),
+              HasSubstr("Is a directory"));
+  EXPECT_THAT(folder.Names(), ElementsAre("target"));
+}
+
+// What killed processes leave has their names, but nobody holds the lock.
+TEST(RemoveAbandonedTemporaries, TakesThoseOfKilledProcessesAlone) {
+  const TempFolder folder;
+  for (const char* name :
+       {".film.123-0.trackbed.mp4", ".plain.1-12.trackbed", ".my.plan.4-0.trackbed.csv"}) {
+    folder.Write(name, "half");
+  }
+  folder.Write(".f.12-0.trackbed.png/f_00000.png", "a frame");
+  const std::vector<std::string> others{"film.mp4",
+                                        ".film.mp4",
+                                        ".film.123.mp4",
+                                        ".trackbed.mp4",
+                                        ".film.123.partial",
+                                        ".film.x-0.trackbed.mp4",
+                                        "film.1-0.trackbed.a",
+                                        ".film.1-0.trackbed.tar.gz"};
+  for (const std::string& name : others) {
+    folder.Write(name, "not ours");
+  }
+  const TemporaryFile alive(folder.path() / "alive.csv");
+  const TemporaryFolder frames(folder.path() / "frames.png");
+  RemoveAbandonedTemporaries(folder.path());
+  std::vector<std::string> left = others;
+  left.push_back(alive.path().filename());
+  left.push_back(frames.path().filename());
+  EXPECT_THAT(folder.Names(), ::testing::UnorderedElementsAreArray(left));
+  RemoveAbandonedTemporaries(folder.path() / "missing");  // no error
+}
+
+TEST(PrepareToWrite, MakesTheFolderAndClearsIt) {
+  const TempFolder folder;
+  folder.Write("a/.b.1-0.trackbed.xml", "half");
+  PrepareToWrite(folder.path() / "a/b.xml");
+  EXPECT_TRUE(fs::is_empty(folder.path() / "a"));
+  PrepareToWrite(folder.path() / "c/d/e.xml");
+  EXPECT_TRUE(fs::is_empty(folder.path() / "c/d"));
 }
 
 TEST(MakeFolder, MakesItsParentsToo) {

@@ -74,6 +74,14 @@ def visible(text):
     return text
 
 
+def copy_of_a_result(source, target):
+    """To be edited: without the manifest, which would tell of it."""
+    shutil.copytree(source, target)
+    manifest = os.path.join(target, os.fsencode("manifest.json") if isinstance(target, bytes) else "manifest.json")
+    if os.path.exists(manifest):
+        os.remove(manifest)
+
+
 class HostileReports(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -111,7 +119,7 @@ class HostileReports(unittest.TestCase):
     def hostile_run(self, folder):
         """A run whose every text is hostile; the texts, as a page should show them."""
         run = self.root / folder
-        shutil.copytree(self.root / "plain", run)
+        copy_of_a_result(self.root / "plain", run)
         texts = {}
 
         def text(place, slash=True):
@@ -213,7 +221,7 @@ class HostileReports(unittest.TestCase):
         first, _ = self.hostile_run("first " + file_name(3))
         second, _ = self.hostile_run("second " + file_name(3))
         compared = self.root / file_name(4)
-        shutil.copytree(self.root / "compared", compared)
+        copy_of_a_result(self.root / "compared", compared)
         texts = {"failure": hostile(1), "note": hostile(2), "first": first.name, "second": second.name}
         content = json.loads((compared / "compare.json").read_text())
         content["runs"] = [f"../{first.name}", f"../{second.name}"]
@@ -224,7 +232,7 @@ class HostileReports(unittest.TestCase):
 
     def test_study(self):
         study = self.root / file_name(5)
-        shutil.copytree(self.root / "study", study)
+        copy_of_a_result(self.root / "study", study)
         texts = {name: hostile(i) for i, name in enumerate(("study", "scenario", "trackbed", "physics"))}
         self.change(
             study / "sweep.json", study=texts["study"], scenario=texts["scenario"],
@@ -261,7 +269,7 @@ class HostileReports(unittest.TestCase):
 
     def test_bytes_that_are_no_text(self):
         run = os.path.join(os.fsencode(self.root), b"latin \xe9 \xff\xc0\xaf<b>")
-        shutil.copytree(os.fsencode(self.root / "plain"), run)
+        copy_of_a_result(os.fsencode(self.root / "plain"), run)
         with open(os.path.join(run, b"metrics.json"), "rb") as file:
             text = file.read()
         # JSON with such bytes is no JSON, and says so.
@@ -282,7 +290,7 @@ class HostileReports(unittest.TestCase):
             self.skipTest("built without video")
         run, _ = self.hostile_run(file_name(8))
         shutil.rmtree(run)
-        shutil.copytree(self.root / "plain", run)
+        copy_of_a_result(self.root / "plain", run)
         self.trackbed("render", "-q", run.name, "--size", "64x64", "--fps", "5")
         self.trackbed("report", run.name, "--film", "beside", "-o", "beside.html")
         self.browser.open(self.root / "beside.html")
@@ -297,9 +305,9 @@ class HostileReports(unittest.TestCase):
         """All texts that stand in the data of a page, also those that the program would not let
         through, such as names of plants that are none."""
         for name in ("first", "second"):
-            shutil.copytree(self.root / "plain", self.root / "every" / name)
+            copy_of_a_result(self.root / "plain", self.root / "every" / name)
         judged = self.root / "every/judged"
-        shutil.copytree(self.root / "compared", judged)
+        copy_of_a_result(self.root / "compared", judged)
         self.change(judged / "compare.json", runs=["../first", "../second"])
         for path in ("plain", "every/judged", "study"):
             self.trackbed("report", path, "-o", "every.html")

@@ -182,6 +182,29 @@ TEST(ReportData, OpensARunWithoutChecks) {
   EXPECT_EQ(data["verdict"]["failures"][0], "kinematic: as it was");
 }
 
+TEST(ReportData, RefusesFilesOfTwoRuns) {
+  const TempFolder folder;
+  const auto run = [&](const std::string& speed) {
+    WriteRunFolder(
+        RunMission(ParseScenario("schema: 1\nname: s\nmission: {speed: " + speed +
+                                     ", waypoints: [[0, 0], [20, 0], [20, 20]]}\nplan: {method: "
+                                     "fillet}\ndrive: {plants: [kinematic]}\n",
+                                 "s.yaml", ".")),
+        folder.path() / speed);
+    return folder.path() / speed;
+  };
+  const fs::path first = run("3");
+  const fs::path second = run("4");
+  EXPECT_NO_THROW(ReportData({first}));
+  fs::copy_file(second / "plan.csv", first / "plan.csv", fs::copy_options::overwrite_existing);
+  try {
+    ReportData({first});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("plan.csv: does not belong to this run"));
+  }
+}
+
 TEST(ReportData, TakesChecksAsTheyAre) {
   const TempFolder folder;
   const fs::path run = DriveCorner(folder, "run", "drive: {plants: [kinematic]}\n");

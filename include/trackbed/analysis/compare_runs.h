@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trackbed/analysis/compare.h"
+#include "trackbed/analysis/output_folder.h"
 #include "trackbed/analysis/run.h"
 
 /// Comparisons of the plants of one run, or of two finished runs, with a verdict.
@@ -51,9 +52,10 @@ RunComparison CompareFolders(const std::vector<std::filesystem::path>& folders,
 DifferenceBounds ParseTolerances(const std::vector<std::string>& texts);
 
 /// Writes compare.csv (the differences over arc length, with the number of the `pair` in front),
-/// then compare.json, each under its name only when complete; a report.html of an earlier
-/// comparison is removed first. Without tolerances, the verdict is neither passed nor failed. Run
-/// folders are stored relative to its own, unless given as absolute paths. RunError.
-void WriteComparison(const RunComparison& comparison, const std::filesystem::path& folder);
+/// compare.json and manifest.json, all at once (ResultWriter), and removes the report.html of an
+/// earlier comparison. Without tolerances, the verdict is neither passed nor failed. Run folders
+/// are stored relative to its own, unless given as absolute paths. RunError: the earlier comparison
+/// is still there then.
+void WriteComparison(const RunComparison& comparison, const OutputFolder& folder);
 
 }  // namespace trackbed

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "trackbed/analysis/metrics.h"
+#include "trackbed/analysis/output_folder.h"
 #include "trackbed/analysis/verdict.h"
 #include "trackbed/drive/car_cache.h"
 #include "trackbed/drive/drive.h"
@@ -61,14 +61,15 @@ struct RunFolderOptions {
 };
 
 /// Writes the run folder (plan.csv, plan.json, <plant>.csv, <plant>.state.csv, model.xml,
-/// timing.json, scenario.resolved.yaml, metrics.json) as a FileSet with metrics.json as its last
-/// file: all of it, or the files of an earlier run stay as they were. RunError when the folder
-/// cannot be written. Does not lock the folder; see FolderLock.
-void WriteRunFolder(const RunResult& result, const std::filesystem::path& folder,
+/// timing.json, scenario.resolved.yaml, metrics.json, manifest.json), all at once (ResultWriter).
+/// Files of an earlier run of the same folder that this run does not have are removed then, so that
+/// the folder never mixes two runs. RunError when the folder cannot be written: the earlier run is
+/// still there then.
+void WriteRunFolder(const RunResult& result, const OutputFolder& folder,
                     const RunFolderOptions& options = {});
 
-/// Writes the files of a plan alone, likewise, with plan.json as the last one.
-void WritePlan(const Plan& plan, const Scenario& scenario, const std::filesystem::path& folder);
+/// Writes plan.csv and other tables (when there is a path) and plan.json alone, likewise.
+void WritePlan(const Plan& plan, const Scenario& scenario, const OutputFolder& folder);
 
 /// Versions of Trackbed and its libraries, as in metrics.json.
 nlohmann::ordered_json Versions();

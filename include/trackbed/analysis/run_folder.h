@@ -10,6 +10,18 @@
 /// writes or reads one. docs/cli.md says what each file holds.
 namespace trackbed::run_folder {
 
+// Of every result: the sizes and SHA-256 of its files.
+inline constexpr const char* kManifest = "manifest.json";
+// Hidden folders in it, while a result is written: see output_folder.h.
+inline constexpr const char* kPartial = ".trackbed.partial";  ///< not complete yet
+inline constexpr const char* kComplete =
+    ".trackbed.complete";  ///< complete, being moved into place
+// What the manifest calls the results.
+inline constexpr const char* kRun = "run";
+inline constexpr const char* kPlan = "plan";
+inline constexpr const char* kComparison = "comparison";
+inline constexpr const char* kStudy = "study";
+
 // Of a run.
 inline constexpr const char* kScenarioYaml = "scenario.resolved.yaml";
 inline constexpr const char* kModelXml = "model.xml";
@@ -56,7 +68,22 @@ std::optional<std::string> PlantOfStateCsv(const std::string& file_name);
 std::vector<std::string> AllNames();
 
 /// `file` itself, of a run folder. InputError naming it if it does not exist, is a folder, or is a
-/// link to something outside of the run folder, whose content must not come into a report.
+/// link to something outside of the run folder, whose content must not come into a report; and if
+/// the folder has a manifest, which folders of older versions have not, unless the file is the one
+/// that it names. Reads the file for that.
 std::filesystem::path RequireFile(const std::filesystem::path& file);
+
+/// Made before the files of some folders are read, asked when all are: whether they are of one
+/// result each, and not some of the one before and some of one that took its place meanwhile.
+class Reading {
+ public:
+  explicit Reading(std::vector<std::filesystem::path> folders);
+  /// InputError naming a folder whose manifest has changed.
+  void RequireUnchanged() const;
+
+ private:
+  std::vector<std::filesystem::path> folders_;
+  std::vector<std::string> manifests_;
+};
 
 }  // namespace trackbed::run_folder

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -10,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "trackbed/analysis/output_folder.h"
 #include "trackbed/analysis/run.h"
 #include "trackbed/core/text_table.h"
 #include "trackbed/scenario/study.h"
@@ -90,8 +90,8 @@ struct SweepResult {
 SweepResult RunSweep(const Study& study, const std::vector<StudyPoint>& points,
                      const RunScenarioOnce& run, const SweepOptions& options);
 
-/// Writes sweep.csv and sweep.json as a FileSet, with sweep.json as its last file; a report.html of
-/// an earlier sweep goes. RunError.
-void WriteSweep(const SweepResult& sweep, const std::filesystem::path& folder);
+/// Writes sweep.csv, sweep.json and manifest.json, all at once (ResultWriter), and removes the
+/// report.html of an earlier sweep. RunError: the earlier sweep is still there then.
+void WriteSweep(const SweepResult& sweep, const OutputFolder& folder);
 
 }  // namespace trackbed

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace trackbed {
@@ -11,9 +12,16 @@ namespace trackbed {
 std::string ReadFile(const std::filesystem::path& file);
 
 /// Writes `content` beside `file` under a temporary name and renames it, so that `file` is either
-/// what it was or complete. RunError (the temporary is removed) when any step fails, such as a full
-/// disk or an unwritable folder.
+/// what it was or complete, also when the process is killed. RunError (the temporary is removed)
+/// when any step fails, such as a full disk or an unwritable folder. The content is not forced to
+/// the disk (fsync), which takes up to tens of milliseconds per file: after a power failure a file
+/// may be empty, which the hashes of manifest.json (analysis/output_folder.h) tell.
 void WriteFileAtomically(const std::filesystem::path& file, std::string_view content);
+
+/// Writes a file that is not there yet, in a folder that no one reads. RunError naming `shown`,
+/// what the file will be called; what was written may be left.
+void WriteNewFile(const std::filesystem::path& file, std::string_view content,
+                  const std::filesystem::path& shown);
 
 /// Checks, before long work, that WriteFileAtomically can write the file. RunError as there: the
 /// name is a folder's, or its folder is absent or takes no files. Leaves nothing behind.
@@ -22,22 +30,68 @@ void CheckCanWrite(const std::filesystem::path& file);
 /// Creates the folder and its parents. RunError when that is not possible.
 void MakeFolder(const std::filesystem::path& folder);
 
-/// A temporary name in the folder of `file` for use until the content is complete. It has the same
-/// extension, for writers that depend on it, and the number of this process.
-std::filesystem::path TemporaryNameFor(const std::filesystem::path& file);
+/// A file descriptor that closes itself.
+class Descriptor {
+ public:
+  explicit Descriptor(int descriptor = -1) : descriptor_(descriptor) {}
+  Descriptor(Descriptor&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept;
+  ~Descriptor();
+  [[nodiscard]] int get() const { return descriptor_; }
+  /// Returns 0 or an errno: only closing tells whether everything found room.
+  int Close();
 
-/// Writes `content` under TemporaryNameFor(file). RunError (the temporary is removed) naming
-/// `file`.
-void WriteTemporary(const std::filesystem::path& file, std::string_view content);
+ private:
+  int descriptor_;
+};
 
-/// Removes the temporaries in a folder whose process is no more: it was killed. What cannot be
-/// removed stays.
+/// A new, empty file beside `file`, for use until the content is complete: ".STEM.PID-N.trackbed",
+/// with the extension of `file`, for writers that depend on it. It is locked (flock) as long as the
+/// object lives, which tells it from one that a killed process left, and removed with it.
+class TemporaryFile {
+ public:
+  /// RunError naming `file` when its folder is absent or takes no files.
+  explicit TemporaryFile(std::filesystem::path file);
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile();
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// Writes to its end. RunError naming `file`.
+  void Write(std::string_view content);
+  /// Renames it, complete, to `file`, or to what a link of that name points to. RunError on
+  /// failure, and when the name is taken by something that is no regular file. Call once.
+  void Publish();
+
+ private:
+  std::filesystem::path file_;
+  std::filesystem::path path_;
+  Descriptor descriptor_;
+};
+
+/// A new, empty folder beside `file` for its parts, named, locked and removed like a TemporaryFile.
+class TemporaryFolder {
+ public:
+  /// RunError naming `file` when its folder is absent or takes no folders.
+  explicit TemporaryFolder(const std::filesystem::path& file);
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder();
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  Descriptor descriptor_;
+};
+
+/// Removes the TemporaryFiles and TemporaryFolders that killed processes left in the folder; those
+/// of living ones stay. Where files cannot be locked all stay. No errors.
 void RemoveAbandonedTemporaries(const std::filesystem::path& folder);
 
-/// Renames a complete temporary to its final name, or to what a link of that name points to.
-/// RunError (the temporary is removed) on failure, and when the name is taken by something that is
-/// no regular file.
-void PublishFile(const std::filesystem::path& temporary, const std::filesystem::path& file);
+/// For a file that long work ends with: makes its folder, removes what killed processes left there,
+/// and checks that it can be written. RunError as MakeFolder and CheckCanWrite.
+void PrepareToWrite(const std::filesystem::path& file);
 
 /// Why an input that lies in `own` may not have the file `name` read, which is relative to `own`,
 /// as the end of a sentence ("lies outside of ..."); empty when it may: it lies in `own`, in one of
