@@ -21,6 +21,13 @@ target_compile_options(
             # The same arithmetic on every machine: no fused multiply-add behind the source's back.
             -ffp-contract=off
             $<$<BOOL:${TRACKBED_WARNINGS_AS_ERRORS}>:-Werror>)
+if(TRACKBED_FUZZ)
+  # Of Clang: counts which branches were taken.
+  target_compile_options(
+    trackbed_compiler INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
+                                -fno-omit-frame-pointer)
+  target_link_options(trackbed_compiler INTERFACE -fsanitize=address,undefined)
+endif()
 if(TRACKBED_SANITIZE)
   target_compile_options(
     trackbed_compiler

@@ -1,0 +1,19 @@
+#include "tests/fuzz/target.h"
+#include "trackbed/scenario/study.h"
+
+/// A study of a scenario that is good.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace trackbed;
+  static const std::filesystem::path scenario = fuzz::Write(
+      "scenario.yaml",
+      "schema: 1\nname: corner\nmission: {speed: 3, waypoints: [[0, 0], [40, 0], [40, 40]]}\n"
+      "plan: {method: fillet}\n");
+  const std::filesystem::path file = fuzz::Write("study.yaml", fuzz::Text(data, size));
+  return fuzz::Expect([&] {
+    const Study study = ReadStudy(file);
+    constexpr std::size_t kFewPoints = 50;  // of thousands, each takes as long as the first
+    if (ExpandGrid(study).size() <= kFewPoints) {
+      static_cast<void>(ReadPoints(study, BadPoints::kKeep));
+    }
+  });
+}

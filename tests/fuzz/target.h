@@ -1,0 +1,55 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "trackbed/core/error.h"
+
+/// What every target has: libFuzzer calls it with bytes. An error of the user or of the environment
+/// is what bad input deserves; everything else that is thrown is a finding.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace trackbed::fuzz {
+
+inline std::string Text(const std::uint8_t* data, std::size_t size) {
+  return {data, data + size};
+}
+
+/// Calls the reader; passes by what bad input deserves.
+template <typename Read>
+int Expect(const Read& read) {
+  try {
+    read();
+  } catch (const InputError&) {
+  } catch (const RunError&) {
+  }
+  return 0;
+}
+
+/// A folder of this process in memory.
+inline const std::filesystem::path& Folder() {
+  static const std::filesystem::path folder = [] {
+    const std::filesystem::path memory = "/dev/shm";
+    std::error_code ignored;
+    const std::filesystem::path parent = std::filesystem::is_directory(memory, ignored)
+                                             ? memory
+                                             : std::filesystem::temp_directory_path();
+    const std::filesystem::path own = parent / ("trackbed_fuzz_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(own);
+    return own;
+  }();
+  return folder;
+}
+
+inline std::filesystem::path Write(const std::string& name, const std::string& content) {
+  const std::filesystem::path file = Folder() / name;
+  std::ofstream(file, std::ios::binary) << content;
+  return file;
+}
+
+}  // namespace trackbed::fuzz
