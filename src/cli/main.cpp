@@ -1,6 +1,8 @@
 #include "trackbed/cli/main.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
@@ -80,7 +82,24 @@ int Run(int argc, char** argv) {
 
 namespace trackbed {
 
+namespace {
+
+/// Where a standard stream is closed, the next file to be opened would take its number, and be
+/// written to by whoever prints. What takes it here can be read, with no content, but not written.
+void OccupyClosedStreams() {
+  int descriptor = 0;
+  do {
+    descriptor = ::open("/dev/null", O_RDONLY);
+  } while (descriptor >= 0 && descriptor <= STDERR_FILENO);
+  if (descriptor > STDERR_FILENO) {
+    ::close(descriptor);
+  }
+}
+
+}  // namespace
+
 int Main(int argc, char** argv) {
+  OccupyClosedStreams();
   // The first Ctrl-C ends the run and keeps its log; a second one ends the program.
   struct sigaction action {};
   action.sa_handler = [](int) { cli::interrupted = true; };
@@ -113,7 +132,7 @@ int Main(int argc, char** argv) {
   } catch (const std::system_error& error) {
     // What fmt could not print is told as what could not be flushed.
     say(std::ferror(stdout) != 0 ? "cannot write to standard output" : error.what());
-    code = cli::kBadInput;
+    code = cli::interrupted ? cli::kInterrupted : cli::kBadInput;
   } catch (const std::exception& error) {
     say(std::string("internal error: ") + error.what());
   }

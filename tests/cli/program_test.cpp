@@ -213,6 +213,37 @@ TEST(Program, SaysSoWhenNobodyCanReadItsOutput) {
   EXPECT_EQ(Trackbed(folder, "run none.yaml 2>&-").code, 2);
 }
 
+// The file that is opened next would have the number of the closed stream, and what is printed in
+// it.
+TEST(Program, WritesFilesOnlyWhereStreamsAreClosed) {
+  const TempFolder folder;
+  Trackbed(folder, "run -q -o r --set drive.time_limit=0.1 -- " + ScenarioFile("winding"));
+  ASSERT_EQ(Trackbed(folder, "report r -o page.html").code, 0);
+  const std::string page = ReadFile(folder.path() / "page.html");
+  for (const char* closed : {"<&-", ">&-", "2>&-", "<&- >&-", "<&- >&- 2>&-"}) {
+    const bool is_told = std::string(closed).find(" >&-") == std::string::npos && closed[0] != '>';
+    EXPECT_EQ(Trackbed(folder, "report r -o page.html " + std::string(closed)).code,
+              is_told ? 0 : 2)
+        << closed;
+    EXPECT_TRUE(ReadFile(folder.path() / "page.html") == page) << closed;
+  }
+}
+
+TEST(Program, RefusesASecondWriterOfAFolder) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder.path() / "r");
+  for (const char* verb : {"run", "plan", "compare"}) {
+    // flock(1) holds the lock as another trackbed would.
+    const Outcome second = Shell(folder, std::string("flock r " TRACKBED_PROGRAM " ") + verb +
+                                             " -o r " + ScenarioFile("winding"));
+    EXPECT_EQ(second.code, 2) << verb;
+    EXPECT_THAT(second.output,
+                testing::MatchesRegex("r is being written by another trackbed( .process "
+                                      "[0-9]+.)?\n"))
+        << verb;
+  }
+}
+
 TEST(Program, RefusesSeedsThatAreNone) {
   const TempFolder folder;
   EXPECT_EQ(Trackbed(folder, "check " + ScenarioFile("winding") + " --seed=-1").output,
