@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -58,6 +59,8 @@ std::size_t AddressSpace() {
 
 [[noreturn]] void BeSubProcess(const std::function<std::string()>& compute, std::size_t space,
                                int seconds, int pipe) {
+  // What kills the program kills this process, which has its locks.
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   // Libraries that call exit() flush what this process has buffered, and some write why.
   const int nowhere = ::open("/dev/null", O_RDWR);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
