@@ -42,11 +42,15 @@ class FrameOutput : public FilmOutput {
   void Finish() override {
     const int frames = std::exchange(next_, 0);
     std::error_code error;
-    fs::path old = FrameName(output_, 0);
-    for (int frame = 0; frames > 0 && fs::is_regular_file(fs::symlink_status(old, error));
-         old = FrameName(output_, ++frame)) {
-      if (!fs::remove(old, error)) {
-        throw RunError(fmt::format("cannot remove {}, a frame of an older film: {}", old.string(),
+    int old = 0;
+    while (frames > 0 && fs::is_regular_file(fs::symlink_status(FrameName(output_, old), error))) {
+      ++old;
+    }
+    // From the last one on: what is left on the way can be told and removed by the next film.
+    while (old > 0) {
+      const fs::path name = FrameName(output_, --old);
+      if (!fs::remove(name, error)) {
+        throw RunError(fmt::format("cannot remove {}, a frame of an older film: {}", name.string(),
                                    error.message()));
       }
     }
