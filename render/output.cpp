@@ -27,7 +27,7 @@ class FrameOutput : public FilmOutput {
     std::error_code ignored;
     if (!fs::exists(FrameName(output_, 0), ignored)) {
       try {
-        Finish();
+        FrameOutput::Finish();
       } catch (const RunError&) {
         // Another one is being told already.
       }

@@ -24,6 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kLongestRun = 1e6;  // s, the longest time limit of a drive
+
 [[noreturn]] void Reject(const fs::path& file, std::string key, std::string message) {
   throw InputError(
       Problem{.file = file.string(), .key = std::move(key), .message = std::move(message)});
@@ -113,6 +115,11 @@ TimedTable::TimedTable(const fs::path& file) : file_(file), table_(ReadRunTable(
     Reject(file_, "", "no rows");
   }
   for (std::size_t row = 0; row < times_.size(); ++row) {
+    if (!(std::abs(times_[row]) <= kLongestRun)) {
+      Reject(file_, "t_s",
+             fmt::format("row {}: {} is out of range; must be at least {} and at most {}", row + 1,
+                         times_[row], -kLongestRun, kLongestRun));
+    }
     if (row > 0 && !(times_[row] > times_[row - 1])) {
       Reject(
           file_, "t_s",

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
@@ -55,7 +56,7 @@ std::optional<Manifest> ReadManifest(const fs::path& folder) {
   }
   try {
     Manifest manifest;
-    const ordered_json json = ordered_json::parse(ReadFile(file));
+    const ordered_json json = ParseJson(file);
     for (const auto& [result, files] : json.at("results").items()) {
       for (const auto& [name, entry] : files.items()) {
         manifest.results[result][name] = {entry.at("bytes").get<std::size_t>(),
@@ -63,8 +64,8 @@ std::optional<Manifest> ReadManifest(const fs::path& folder) {
       }
     }
     return manifest;
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(Problem{.file = file.string(), .message = error.what()});
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(Problem{.file = file.string(), .message = "not the manifest of a folder"});
   }
 }
 
@@ -111,9 +112,11 @@ void RequireInManifest(const fs::path& file) {
     }
     told_of = true;
     if (const auto entry = files->second.find(name); entry != files->second.end()) {
-      own = own ? own : EntryOf(ReadFile(file));
-      if (entry->second == *own) {
-        return;
+      if (fs::file_size(file, ignored) == entry->second.size) {
+        own = own ? own : EntryOf(ReadFile(file));
+        if (entry->second == *own) {
+          return;
+        }
       }
     }
   }

@@ -83,6 +83,9 @@ std::filesystem::path RequireFile(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, ignored)) {
     throw InputError(Problem{.file = file.string(), .message = "is a folder, not a file"});
   }
+  if (!std::filesystem::is_regular_file(file, ignored)) {
+    throw InputError(Problem{.file = file.string(), .message = "is no regular file"});
+  }
   if (!WhyUnreadable(file.filename(), file.parent_path(), {}).empty()) {
     throw InputError(Problem{.file = file.string(), .message = "is a link out of the run folder"});
   }

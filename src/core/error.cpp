@@ -1,5 +1,6 @@
 #include "trackbed/core/error.h"
 
+#include <boost/locale/utf.hpp>
 #include <filesystem>
 
 namespace trackbed {
@@ -16,32 +17,52 @@ std::string Join(const std::vector<Problem>& problems) {
   return text;
 }
 
+/// A file may have a word of a million letters.
+std::string Cut(const std::string& text) {
+  constexpr std::size_t kLongest = 4000;
+  if (text.size() <= kLongest) {
+    return text;
+  }
+  std::size_t end = kLongest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
+    --end;  // within a character of UTF-8
+  }
+  return text.substr(0, end) + " ...";
+}
+
 }  // namespace
 
 std::string Problem::WithoutPlace() const {
-  return key.empty() ? message : key + ": " + message;
+  return WithoutControls(key.empty() ? Cut(message) : Cut(key) + ": " + Cut(message));
 }
 
 std::string Problem::ToString() const {
-  std::string text = file;
+  std::string place = file;
   if (line > 0) {
-    text += column > 0 ? fmt::format(":{}:{}", line, column) : fmt::format(":{}", line);
+    place += column > 0 ? fmt::format(":{}:{}", line, column) : fmt::format(":{}", line);
   }
-  if (!text.empty()) {
-    text += ": ";
+  if (!place.empty()) {
+    place += ": ";
   }
-  if (!key.empty()) {
-    text += key + ": ";
-  }
-  return WithoutControls(text + message);
+  return WithoutControls(place) + WithoutPlace();
 }
 
 std::string WithoutControls(std::string_view text) {
+  using Utf8 = boost::locale::utf::utf_traits<char>;
   std::string shown;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool is_control = (byte < 0x20 && c != '\t' && c != '\n') || byte == 0x7f;
-    shown += is_control ? fmt::format("<U+{:04X}>", byte) : std::string(1, c);
+  const char* const end = text.data() + text.size();
+  const char* at = text.data();
+  while (at != end) {
+    const char* const begin = at;
+    const boost::locale::utf::code_point c = Utf8::decode(at, end);
+    if (c == boost::locale::utf::illegal || c == boost::locale::utf::incomplete) {
+      at = begin + 1;
+      shown += fmt::format("<0x{:02X}>", static_cast<unsigned char>(*begin));
+    } else if ((c < 0x20 && c != '\t' && c != '\n') || (c >= 0x7f && c < 0xa0)) {
+      shown += fmt::format("<U+{:04X}>", c);
+    } else {
+      shown.append(begin, at);
+    }
   }
   return shown;
 }

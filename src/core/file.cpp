@@ -47,10 +47,23 @@ bool IsDevice(const fs::path& file) {
 
 }  // namespace
 
-std::string ReadFile(const fs::path& file) {
+namespace {
+
+[[noreturn]] void FailAsTooLarge(const fs::path& file, std::size_t largest) {
+  throw RunError(
+      fmt::format("cannot read {}: it has more than {} MiB", file.string(), largest >> 20U));
+}
+
+}  // namespace
+
+std::string ReadFile(const fs::path& file, std::size_t largest) {
   Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
   if (in.get() < 0) {
     Fail("read", file, errno);
+  }
+  struct stat status {};
+  if (::fstat(in.get(), &status) == 0 && static_cast<std::size_t>(status.st_size) > largest) {
+    FailAsTooLarge(file, largest);
   }
   std::string content;
   std::array<char, 65536> block{};
@@ -66,6 +79,9 @@ std::string ReadFile(const fs::path& file) {
       Fail("read", file, errno);
     }
     content.append(block.data(), static_cast<std::size_t>(got));
+    if (content.size() > largest) {  // a pipe, or a file that grows
+      FailAsTooLarge(file, largest);
+    }
   }
 }
 

@@ -1,6 +1,5 @@
 #include "trackbed/core/table.h"
 
-#include <csv.h>
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
@@ -8,11 +7,10 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
-#include <memory>
 #include <optional>
 
+#include "src/core/csv_reader.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
 
 namespace trackbed {
@@ -31,7 +29,7 @@ struct Selection {
   }
 };
 
-/// Collects what libcsv calls back with.
+/// Turns rows of text into a table.
 struct Reader {
   std::string file;
   Selection selection;
@@ -39,12 +37,12 @@ struct Reader {
   std::vector<int> lines{};           // of the table's rows
   std::vector<std::string> header{};  // every name in the file
   std::vector<std::size_t> taken{};   // indices into it, of the table's columns
-  std::vector<std::string> cells{};
-  int line = 1;
-  std::vector<Problem> problems{};
+  std::vector<std::string> cells{};   // of the row that is read
+  int line = 1;                       // where it begins
+  ProblemList problems{};
 
   void AddError(std::string key, std::string message) {
-    problems.push_back({file, line, 0, std::move(key), std::move(message)});
+    problems.Add({file, line, 0, std::move(key), std::move(message)});
   }
 
   /// libcsv counts no characters, so a cell is placed by its number, from 1, and its column's name.
@@ -54,11 +52,8 @@ struct Reader {
     AddError(fmt::format("cell {}{}", cell + 1, name), std::move(message));
   }
 
-  /// `ending` is the character that ended the row, or -1 at the end of the file.
-  void EndOfRow(int ending) {
-    if (cells.empty()) {
-      // an empty line
-    } else if (header.empty()) {
+  void TakeRow() {
+    if (header.empty()) {
       Header();
     } else if (cells.size() < header.size()) {
       AddCellError(cells.size(),
@@ -68,8 +63,6 @@ struct Reader {
     } else if (table) {
       Row();
     }
-    cells.clear();
-    line += ending == '\n' ? 1 : 0;  // a carriage return before it ends the row, not the line
   }
 
   [[nodiscard]] std::string CellCount() const {
@@ -125,45 +118,42 @@ struct Reader {
 
 /// The whole file; InputError unless everything in it can be read.
 Reader ReadThrough(const std::filesystem::path& file, Selection selection) {
-  const std::string content = ReadFile(file);
-  std::string_view text = content;
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.starts_with(kByteOrderMark)) {
-    text.remove_prefix(kByteOrderMark.size());
-  }
+  constexpr std::size_t kMostCells = 50'000'000;  // 400 MB
   Reader reader{.file = file.string(), .selection = std::move(selection)};
-
-  csv_parser parser{};
-  TRACKBED_CHECK(csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI | CSV_REPALL_NL) == 0,
-                 "libcsv did not start");
-  const std::unique_ptr<csv_parser, void (*)(csv_parser*)> guard(&parser, csv_free);
-  const auto cell = [](void* data, std::size_t size, void* self) {
-    static_cast<Reader*>(self)->cells.emplace_back(static_cast<const char*>(data), size);
-  };
-  const auto row = [](int ending, void* self) { static_cast<Reader*>(self)->EndOfRow(ending); };
-  const std::size_t parsed = csv_parse(&parser, text.data(), text.size(), cell, row, &reader);
-  if (parsed != text.size() || csv_fini(&parser, cell, row, &reader) != 0) {
-    reader.AddError("", csv_strerror(csv_error(&parser)));
-  }
-  if (reader.header.empty() && reader.problems.empty()) {
-    reader.AddError("", "empty file; expected a header line of column names");
-  }
-  if (!reader.problems.empty()) {
-    throw InputError(FirstProblems(std::move(reader.problems)));
-  }
+  ReadCsvRows(file, kMostCells, reader.problems, [&](std::vector<std::string>& cells, int line) {
+    reader.cells.swap(cells);
+    reader.line = line;
+    reader.TakeRow();
+    reader.cells.swap(cells);
+  });
+  reader.problems.ThrowIfAny();
   return reader;
 }
 
 }  // namespace
 
-std::vector<Problem> FirstProblems(std::vector<Problem> problems) {
-  constexpr std::size_t kMaxProblems = 20;
-  if (problems.size() > kMaxProblems) {
-    const std::string more = fmt::format("and {} more problems", problems.size() - kMaxProblems);
-    problems.resize(kMaxProblems);
-    problems.push_back({.file = problems.back().file, .message = more});
+void ProblemList::Add(Problem problem) {
+  constexpr std::size_t kMost = 20;
+  const auto after =
+      std::upper_bound(problems_.begin(), problems_.end(), problem.line,
+                       [](int line, const Problem& other) { return line < other.line; });
+  problems_.insert(after, std::move(problem));
+  if (problems_.size() > kMost) {
+    problems_.pop_back();
+    ++further_;
   }
-  return problems;
+}
+
+void ProblemList::ThrowIfAny() const {
+  if (problems_.empty()) {
+    return;
+  }
+  std::vector<Problem> problems = problems_;
+  if (further_ > 0) {
+    problems.push_back(
+        {.file = problems.back().file, .message = fmt::format("and {} more problems", further_)});
+  }
+  throw InputError(std::move(problems));
 }
 
 Table::Table(std::vector<std::string> columns) : columns_(std::move(columns)) {

@@ -1,15 +1,13 @@
 #include "trackbed/core/text_table.h"
 
-#include <csv.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <utility>
 
+#include "src/core/csv_reader.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/file.h"
 #include "trackbed/core/table.h"
 
 namespace trackbed {
@@ -32,49 +30,6 @@ void AddLine(const std::vector<std::string>& cells, std::string& csv) {
   }
   csv += '\n';
 }
-
-/// Collects what libcsv calls back with.
-struct TextReader {
-  std::string file;
-  std::optional<TextTable> table{};
-  std::vector<std::string> cells{};
-  int line = 1;     // where the row begins
-  int endings = 0;  // of lines, in its quoted cells
-  std::vector<Problem> problems{};
-
-  void AddError(std::string message) {
-    problems.push_back({.file = file, .line = line, .message = std::move(message)});
-  }
-
-  void Cell(std::string cell) {
-    endings += static_cast<int>(std::count(cell.begin(), cell.end(), '\n'));
-    cells.push_back(std::move(cell));
-  }
-
-  /// `ending` is the character that ended the row, or -1 at the end of the file.
-  void EndOfRow(int ending) {
-    if (cells.empty()) {
-      // an empty line
-    } else if (!table) {
-      for (auto name = cells.begin(); name != cells.end(); ++name) {
-        if (name->empty()) {
-          AddError(fmt::format("cell {}: the column has no name", name - cells.begin() + 1));
-        } else if (std::find(cells.begin(), name, *name) != name) {
-          AddError(fmt::format("repeated column '{}'", *name));
-        }
-      }
-      table.emplace(cells);
-    } else if (cells.size() != table->columns().size()) {
-      AddError(fmt::format("{} {}, the header has {}", cells.size(),
-                           cells.size() == 1 ? "cell" : "cells", table->columns().size()));
-    } else {
-      table->AddRow(std::move(cells));
-    }
-    cells.clear();
-    // A carriage return before it ends the row, not the line.
-    line += std::exchange(endings, 0) + (ending == '\n' ? 1 : 0);
-  }
-};
 
 }  // namespace
 
@@ -114,32 +69,31 @@ std::string TextTable::ToCsv() const {
 }
 
 TextTable ReadTextCsv(const std::filesystem::path& file) {
-  const std::string content = ReadFile(file);
-  std::string_view text = content;
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.starts_with(kByteOrderMark)) {
-    text.remove_prefix(kByteOrderMark.size());
-  }
-  TextReader reader{.file = file.string()};
-  csv_parser parser{};
-  TRACKBED_CHECK(csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI | CSV_REPALL_NL) == 0,
-                 "libcsv did not start");
-  const std::unique_ptr<csv_parser, void (*)(csv_parser*)> guard(&parser, csv_free);
-  const auto cell = [](void* data, std::size_t size, void* self) {
-    static_cast<TextReader*>(self)->Cell({static_cast<const char*>(data), size});
-  };
-  const auto row = [](int ending, void* self) { static_cast<TextReader*>(self)->EndOfRow(ending); };
-  const std::size_t parsed = csv_parse(&parser, text.data(), text.size(), cell, row, &reader);
-  if (parsed != text.size() || csv_fini(&parser, cell, row, &reader) != 0) {
-    reader.AddError(csv_strerror(csv_error(&parser)));
-  }
-  if (!reader.table && reader.problems.empty()) {
-    reader.AddError("empty file; expected a header line of column names");
-  }
-  if (!reader.problems.empty()) {
-    throw InputError(FirstProblems(std::move(reader.problems)));
-  }
-  return std::move(*reader.table);
+  constexpr std::size_t kMostCells = 10'000'000;  // of at least 32 bytes each
+  ProblemList problems;
+  std::optional<TextTable> table;
+  ReadCsvRows(file, kMostCells, problems, [&](std::vector<std::string>& cells, int line) {
+    const auto add_error = [&](std::string message) {
+      problems.Add({.file = file.string(), .line = line, .message = std::move(message)});
+    };
+    if (!table) {
+      for (auto name = cells.begin(); name != cells.end(); ++name) {
+        if (name->empty()) {
+          add_error(fmt::format("cell {}: the column has no name", name - cells.begin() + 1));
+        } else if (std::find(cells.begin(), name, *name) != name) {
+          add_error(fmt::format("repeated column '{}'", *name));
+        }
+      }
+      table.emplace(cells);
+    } else if (cells.size() != table->columns().size()) {
+      add_error(fmt::format("{} {}, the header has {}", cells.size(),
+                            cells.size() == 1 ? "cell" : "cells", table->columns().size()));
+    } else {
+      table->AddRow(std::move(cells));
+    }
+  });
+  problems.ThrowIfAny();
+  return *std::move(table);
 }
 
 }  // namespace trackbed

@@ -20,6 +20,9 @@
 namespace trackbed {
 namespace {
 
+constexpr std::size_t kLargestFilm = std::size_t{128}
+                                     << 20U;  // in a page, which a browser keeps in memory
+
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
@@ -185,7 +188,7 @@ void AddFilms(const ShownRuns& shown, const fs::path& file, FilmPlace place, ord
     }
     ordered_json& run = data["runs"][i];
     if (place == FilmPlace::kEmbedded) {
-      run["film"] = {{"base64", Base64(ReadFile(run_folder::RequireFile(video)))}};
+      run["film"] = {{"base64", Base64(ReadFile(run_folder::RequireFile(video), kLargestFilm))}};
     } else {
       const fs::path from = fs::weakly_canonical(fs::absolute(file).parent_path());
       run["film"] = {{"url", FileUrl(fs::weakly_canonical(video).lexically_relative(from))}};

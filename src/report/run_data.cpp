@@ -28,6 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
+constexpr std::size_t kLargestScenario = std::size_t{1} << 20U;
+
 /// What the page calls a column, and whether every log has it.
 struct Channel {
   const char* name;
@@ -148,8 +150,8 @@ ordered_json CarJson(const fs::path& model) {
 /// How the plan was found, the gates it leads through, and its line.
 ordered_json PlanJson(const fs::path& folder) {
   ordered_json plan = ReadJson(folder / run_folder::kPlanJson, [](const ordered_json& file) {
-    ordered_json json;
-    for (const char* key : {"status", "reason", "method"}) {
+    ordered_json json{{"status", file.at("status").get<std::string>()}};
+    for (const char* key : {"reason", "method"}) {
       if (file.contains(key)) {
         json[key] = file.at(key).get<std::string>();
       }
@@ -210,7 +212,7 @@ ordered_json RunData(const fs::path& folder, const std::string& name, std::size_
       run["between"].push_back(
           {{"plants", plants}, {"numbers", NumbersJson(pair, NameOfComparison)}});
     }
-    run["resolved"] = ReadFile(scenario);
+    run["resolved"] = ReadFile(scenario, kLargestScenario);
     return run;
   });
 }

@@ -19,7 +19,7 @@ class RecordingExcerpt {
       : file_(file.string()), excerpt_(std::move(excerpt)), axis_name_(std::move(axis)) {
     axis_ = excerpt_.table.Column(axis_name_);
     if (axis_.empty()) {
-      problems_.push_back({.file = file_, .line = 1, .message = "no rows after the header"});
+      problems_.Add({.file = file_, .line = 1, .message = "no rows after the header"});
     }
     for (std::size_t row = 1; row < axis_.size(); ++row) {
       if (axis_[row] <= axis_[row - 1]) {
@@ -34,7 +34,7 @@ class RecordingExcerpt {
   }
 
   /// Empty when there is no such column. The last row may lie in another range.
-  Signal Column(const std::string& column, Range range, Range last) {
+  Signal Column(const std::string& column, const Range& range, const Range& last) {
     Signal signal;
     if (!Has(column)) {
       return signal;
@@ -51,28 +51,23 @@ class RecordingExcerpt {
     return signal;
   }
 
-  Signal Column(const std::string& column, Range range) { return Column(column, range, range); }
+  Signal Column(const std::string& column, const Range& range) {
+    return Column(column, range, range);
+  }
 
   /// InputError unless all is well, in the order of the file.
-  void Finish() {
-    if (problems_.empty()) {
-      return;
-    }
-    std::stable_sort(problems_.begin(), problems_.end(),
-                     [](const Problem& a, const Problem& b) { return a.line < b.line; });
-    throw InputError(FirstProblems(std::move(problems_)));
-  }
+  void Finish() const { problems_.ThrowIfAny(); }
 
  private:
   void AddError(std::size_t row, const std::string& column, std::string message) {
-    problems_.push_back({file_, excerpt_.lines[row], 0, column, std::move(message)});
+    problems_.Add({file_, excerpt_.lines[row], 0, column, std::move(message)});
   }
 
   std::string file_;
   CsvExcerpt excerpt_;
   std::string axis_name_;
   std::vector<double> axis_;
-  std::vector<Problem> problems_;
+  ProblemList problems_;
 };
 
 }  // namespace

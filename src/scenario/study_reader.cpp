@@ -91,7 +91,7 @@ class StudyReader {
                        });
       throw InputError(context_.problems);
     }
-    return std::move(study);
+    return std::move(file.study);
   }
 
  private:

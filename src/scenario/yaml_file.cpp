@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::size_t kDeepest = 64;
 constexpr std::size_t kMaxValues = 100000;
+constexpr std::size_t kLargestText = std::size_t{16} << 20U;
 
 [[noreturn]] void Fail(const std::string& file, const YAML::Mark& mark, std::string message) {
   throw InputError(Problem{file, mark.line + 1, mark.column + 1, "", std::move(message)});
@@ -287,7 +288,7 @@ bool EndsInQuotes(const std::string& text) {
 
 std::string ReadInput(const std::filesystem::path& file) {
   try {
-    return ReadFile(file);
+    return ReadFile(file, kLargestText);
   } catch (const RunError& error) {
     throw InputError(Problem{.message = error.what()});
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "src/sim/plants.h"
 #include "trackbed/core/error.h"
@@ -46,7 +47,7 @@ const std::vector<PlantEntry>& Plants() {
 }
 
 void RegisterPlant(PlantEntry entry) {
-  Table().Add(entry);
+  Table().Add(std::move(entry));
 }
 
 TyreLaw SelectTyreLaw(const CarModel& car, TyreLaw tyre) {

@@ -58,7 +58,8 @@ void Load(const fs::path& file, XMLDocument& document) {
   if (!fs::is_regular_file(file, error)) {
     Fail(file, 0, "no such file");
   }
-  const std::string text = ReadFile(file);
+  constexpr std::size_t kLargest = std::size_t{16} << 20U;  // takes 400 MB as a document
+  const std::string text = ReadFile(file, kLargest);
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     if (document.ErrorID() == tinyxml2::XML_ERROR_EMPTY_DOCUMENT) {
       Fail(file, 0, "the file is empty; expected a <mujoco> element");

@@ -239,7 +239,10 @@ TEST(ReadRunFolder, RefusesWhatIsNoRun) {
   const TempFolder folder;
   EXPECT_EQ(ErrorMessage(folder.path()),
             folder.path().string() + ": not the folder of a finished run (no metrics.json)");
-  const auto file = folder.Write("metrics.json", "{\"plants\": {\"kinematic\": ");
+  auto file = folder.Write("metrics.json", "{\"plants\": {\"kinematic\": ");
+  EXPECT_THAT(ErrorMessage(folder.path()),
+              testing::StartsWith(file.string() + ":1:26: not JSON: "));
+  file = folder.Write("metrics.json", R"({"plants": {"kinematic": 3}})");
   EXPECT_EQ(ErrorMessage(folder.path()), file.string() + ": not the metrics of a run");
   folder.Write("metrics.json", R"({"plants": {"kinematic": {"status": "arrived"}}})");
   const auto log = folder.Write("kinematic.csv", "t_s,x_m\n0,0\n");

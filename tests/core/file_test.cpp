@@ -117,6 +117,20 @@ TEST(WriteFileAtomically, WritesToADevice) {
   EXPECT_THAT(folder.Names(), ElementsAre("device"));
 }
 
+TEST(ReadFile, ReadsNothingOfWhatIsTooLarge) {
+  const TempFolder folder;
+  const std::filesystem::path file = folder.Write("sparse.csv", "t_s");
+  std::filesystem::resize_file(file, 100'000'000'000);
+  EXPECT_EQ(RunErrorMessage([&] { ReadFile(file); }),
+            "cannot read " + file.string() + ": it has more than 512 MiB");
+  // What tells no size is read until it is too much.
+  EXPECT_EQ(RunErrorMessage([&] { ReadFile("/dev/zero", 1U << 20U); }),
+            "cannot read /dev/zero: it has more than 1 MiB");
+  const std::filesystem::path just = folder.Write("just.csv", std::string(1000, 'x'));
+  EXPECT_EQ(ReadFile(just, 1000).size(), 1000U);
+  EXPECT_THAT(RunErrorMessage([&] { ReadFile(just, 999); }), HasSubstr("more than"));
+}
+
 TEST(ReadFile, NamesWhatItCannotRead) {
   const TempFolder folder;
   EXPECT_THAT(RunErrorMessage([&] { ReadFile(folder.path() / "no.txt"); }),

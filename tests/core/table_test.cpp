@@ -1,5 +1,6 @@
 #include "trackbed/core/table.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -196,6 +197,30 @@ TEST(ReadCsv, RefusesBadHeaders) {
 TEST(ReadCsv, RefusesAnOpenQuote) {
   EXPECT_NE(ErrorMessages("a\n\"1\n"), "no InputError");
   EXPECT_NE(ErrorMessages("a\n1\"2\n"), "no InputError");
+}
+
+// Within a moment: nothing is read beyond what is too much.
+TEST(ReadCsv, RefusesAMillionColumnsAndEndlessCells) {
+  std::string wide;
+  for (int i = 0; i < 1'000'000; ++i) {
+    wide += fmt::format("{}{}", i == 0 ? "" : ",", i);
+  }
+  EXPECT_EQ(ErrorMessages(wide + "\n"), "t.csv:1: more than 4096 cells in a row");
+  EXPECT_EQ(ErrorMessages("a\n" + std::string(100'000'000, 'x')),
+            "t.csv:2: a cell of more than 65536 characters");
+  EXPECT_EQ(ErrorMessages("a\n" + std::string(65'537, 'x') + "\n"),
+            "t.csv:2: a cell of more than 65536 characters");
+}
+
+TEST(ReadCsv, CutsCellsInMessages) {
+  const std::string message = ErrorMessages("a\n" + std::string(60'000, 'x') + "\n");
+  EXPECT_LT(message.size(), 4100U);
+  EXPECT_TRUE(message.ends_with("x ...")) << message;
+}
+
+TEST(ReadCsv, NamesBytesThatAreNoText) {
+  EXPECT_EQ(ErrorMessages("a\n\xff\x1b\n"),
+            "t.csv:2: cell 1 (a): '<0xFF><U+001B>' is not a number");
 }
 
 TEST(ReadCsv, OfAMissingFileIsARunError) {

@@ -265,9 +265,9 @@ TEST(ReportData, SaysWhatIsWrong) {
   EXPECT_THAT(broken("kinematic.csv", header + "0,0,nan,0,0,0,0\n"),
               HasSubstr("kinematic.csv:2: cell 3 (y_m)"));
   EXPECT_THAT(broken("kinematic.csv", header), HasSubstr("kinematic.csv: no rows"));
-  EXPECT_THAT(broken("metrics.json", "{\"plants\": "), HasSubstr("metrics.json: "));
+  EXPECT_THAT(broken("metrics.json", "{\"plants\": "), HasSubstr("metrics.json:1:12: not JSON"));
   EXPECT_THAT(broken("metrics.json", "{}"), HasSubstr("metrics.json: "));
-  EXPECT_THAT(broken("plan.json", "[1"), HasSubstr("plan.json: "));
+  EXPECT_THAT(broken("plan.json", "[1"), HasSubstr("plan.json:1:3: not JSON"));
   EXPECT_THAT(broken("plan.json", ""), EndsWith("plan.json: missing from the run folder"));
   EXPECT_THAT(broken("plan.csv", ""), EndsWith("plan.csv: missing from the run folder"));
   EXPECT_THAT(broken("scenario.resolved.yaml", ""), HasSubstr("missing from the run folder"));

@@ -240,7 +240,7 @@ TEST(Override, SaysWhatIsWrong) {
   EXPECT_EQ(ErrorMessages(kSmall, {"mission.waypoints=[[1, 2], [3, 4]"}),
             "--set: mission.waypoints=[[1, 2], [3, 4]: '[' is not closed");
   EXPECT_EQ(ErrorMessages(kSmall, {"name=c\xF6rner"}),
-            "--set: name=c\xF6rner: byte 0xF6 is not valid UTF-8");
+            "--set: name=c<0xF6>rner: byte 0xF6 is not valid UTF-8");
 }
 
 TEST(ResolvedYaml, ReadsBackToItself) {

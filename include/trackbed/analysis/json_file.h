@@ -14,12 +14,16 @@
 /// Reads the JSON files of a run folder, as Trackbed writes them.
 namespace trackbed {
 
+/// The JSON in a file. InputError with file, line and column where it is not JSON, and when it is
+/// nested deeper than 64 levels; RunError as ReadFile, or of more than 16 MiB.
+nlohmann::ordered_json ParseJson(const std::filesystem::path& file);
+
 /// Calls `visit` with the JSON in `file`.
 ///
-/// Errors: InputError naming the file when it is missing, is not JSON, or is not as `visit` takes
-/// it to be, which may throw nlohmann::json::exception. For the last two, `problem` may name a key,
-/// and have a message instead of that of the JSON library. Other exceptions of `visit` pass
-/// through.
+/// Errors: InputError naming the file when it is missing from its run folder
+/// (run_folder::RequireFile), as ParseJson, and when it is not as `visit` takes it to be, which may
+/// throw nlohmann::json::exception. For the last, `problem` may name a key, and have a message
+/// instead of that of the JSON library. Other exceptions of `visit` pass through.
 void VisitJson(const std::filesystem::path& file,
                const std::function<void(const nlohmann::ordered_json&)>& visit,
                Problem problem = {});

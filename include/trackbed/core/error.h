@@ -27,9 +27,10 @@ struct Problem {
   std::string key{};      ///< dotted key, such as "mission.waypoints[2]"; may be empty
   std::string message{};  ///< what was found and what is allowed
 
-  /// "file:line:column: key: message", leaving out what is unknown, WithoutControls.
+  /// "file:line:column: key: message", leaving out what is unknown, WithoutControls. Of a key or
+  /// message of more than 4000 bytes the rest is left out.
   [[nodiscard]] std::string ToString() const;
-  /// "key: message", the same wherever the file lies.
+  /// "key: message" likewise, the same wherever the file lies.
   [[nodiscard]] std::string WithoutPlace() const;
 };
 
@@ -63,8 +64,9 @@ class InternalError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-/// The text as a terminal may be given it: control characters but tabs and line feeds are named,
-/// "<U+001B>". Names of files and keys come from anybody.
+/// The text as a terminal and a file of text may be given it: control characters but tabs and line
+/// feeds are named, "<U+001B>", and bytes that are not UTF-8, "<0xFF>". Names of files and keys
+/// come from anybody.
 std::string WithoutControls(std::string_view text);
 
 [[noreturn]] void ThrowPreconditionError(const std::string& message);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -8,8 +9,13 @@
 
 namespace trackbed {
 
-/// The whole file as bytes. RunError naming the file when it cannot be read (missing, a folder, …).
-std::string ReadFile(const std::filesystem::path& file);
+/// The most bytes that are read of a file unless a reader asks for fewer: an hour of a run at 100
+/// rows a second takes half of it.
+inline constexpr std::size_t kLargestFile = std::size_t{512} << 20U;
+
+/// The whole file as bytes. RunError naming the file when it cannot be read (missing, a folder, …)
+/// or has more than `largest` bytes, of which no more are read then.
+std::string ReadFile(const std::filesystem::path& file, std::size_t largest = kLargestFile);
 
 /// Writes `content` beside `file` under a temporary name and renames it, so that `file` is either
 /// what it was or complete, also when the process is killed. RunError (the temporary is removed)

@@ -42,12 +42,23 @@ class Table {
 
 /// Reads a CSV file with a header line (RFC 4180 through libcsv). InputError with file and line for
 /// a cell that is not a number or a repeated or empty column name (each with the number of its
-/// cell), a row of the wrong length, or an empty file; of more than twenty problems the first.
-/// Empty lines, spaces around cells and a byte order mark are skipped.
+/// cell), a row of the wrong length, an empty file, more than 4096 columns, 5e7 cells or 64 KiB in
+/// a cell; of more than twenty problems the first. RunError as ReadFile. Empty lines, spaces around
+/// cells and a byte order mark are skipped.
 Table ReadCsv(const std::filesystem::path& file);
 
-/// The first twenty problems of a file and the number of further ones.
-std::vector<Problem> FirstProblems(std::vector<Problem> problems);
+/// The problems of a file: the twenty that come first in it, and how many more there are.
+class ProblemList {
+ public:
+  void Add(Problem problem);
+  [[nodiscard]] bool empty() const { return problems_.empty(); }
+  /// InputError of them, in the order of their lines; nothing when there are none.
+  void ThrowIfAny() const;
+
+ private:
+  std::vector<Problem> problems_;  // in the order of their lines
+  std::size_t further_ = 0;
+};
 
 /// Selected columns of a CSV file from another program.
 struct CsvExcerpt {

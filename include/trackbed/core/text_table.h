@@ -37,8 +37,9 @@ class TextTable {
 
 /// Reads a CSV file with a header line as text (RFC 4180 through libcsv), cells as ToCsv wrote
 /// them. InputError with file and line for a row of the wrong length, a repeated or empty column
-/// name, or an empty file; of more than twenty problems the first. Empty lines, spaces around cells
-/// and a byte order mark are skipped.
+/// name, an empty file, more than 4096 columns, 1e7 cells or 64 KiB in a cell; of more than twenty
+/// problems the first. RunError as ReadFile. Empty lines, spaces around cells and a byte order mark
+/// are skipped.
 TextTable ReadTextCsv(const std::filesystem::path& file);
 
 }  // namespace trackbed

@@ -1,0 +1,106 @@
+#include "src/core/csv_reader.h"
+
+#include <csv.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+
+namespace trackbed {
+namespace {
+
+constexpr std::size_t kMostColumns = 4096;
+constexpr std::size_t kLongestCell = std::size_t{1} << 16U;
+
+/// Collects what libcsv calls back with.
+struct RowReader {
+  const std::filesystem::path& file;
+  std::size_t most_cells;
+  ProblemList& problems;
+  const TakeCsvRow& take;
+  std::vector<std::string> cells{};
+  std::size_t all_cells = 0;
+  bool any_row = false;
+  bool stopped = false;
+  int line = 1;     // where the row begins
+  int endings = 0;  // of lines, in its quoted cells
+
+  void Stop(std::string message) {
+    if (!stopped) {
+      problems.Add({.file = file.string(), .line = line, .message = std::move(message)});
+    }
+    stopped = true;
+  }
+
+  void Cell(std::string_view cell) {
+    if (cell.size() > kLongestCell) {
+      Stop(fmt::format("a cell of more than {} characters", kLongestCell));
+    } else if (cells.size() == kMostColumns) {
+      Stop(fmt::format("more than {} cells in a row", kMostColumns));
+    } else if (++all_cells > most_cells) {
+      Stop(fmt::format("more than {} cells in the file", most_cells));
+    }
+    if (stopped) {
+      return;
+    }
+    endings += static_cast<int>(std::count(cell.begin(), cell.end(), '\n'));
+    cells.emplace_back(cell);
+  }
+
+  /// `ending` is the character that ended the row, or -1 at the end of the file.
+  void EndOfRow(int ending) {
+    if (stopped) {
+      return;
+    }
+    if (!cells.empty()) {
+      any_row = true;
+      take(cells, line);
+    }
+    cells.clear();
+    // A carriage return before it ends the row, not the line.
+    line += std::exchange(endings, 0) + (ending == '\n' ? 1 : 0);
+  }
+};
+
+}  // namespace
+
+void ReadCsvRows(const std::filesystem::path& file, std::size_t most_cells, ProblemList& problems,
+                 const TakeCsvRow& take) {
+  const std::string content = ReadFile(file);
+  std::string_view text = content;
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) {
+    text.remove_prefix(kByteOrderMark.size());
+  }
+  RowReader reader{.file = file, .most_cells = most_cells, .problems = problems, .take = take};
+  csv_parser parser{};
+  TRACKBED_CHECK(csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI | CSV_REPALL_NL) == 0,
+                 "libcsv did not start");
+  const std::unique_ptr<csv_parser, void (*)(csv_parser*)> guard(&parser, csv_free);
+  const auto cell = [](void* data, std::size_t size, void* self) {
+    static_cast<RowReader*>(self)->Cell({static_cast<const char*>(data), size});
+  };
+  const auto row = [](int ending, void* self) { static_cast<RowReader*>(self)->EndOfRow(ending); };
+  // In parts: libcsv cannot be stopped, and keeps a cell whole until it ends.
+  while (!text.empty() && !reader.stopped) {
+    const std::string_view part = text.substr(0, kLongestCell);
+    text.remove_prefix(part.size());
+    if (csv_parse(&parser, part.data(), part.size(), cell, row, &reader) != part.size()) {
+      reader.Stop(csv_strerror(csv_error(&parser)));
+    } else if (parser.entry_pos > kLongestCell) {
+      reader.Stop(fmt::format("a cell of more than {} characters", kLongestCell));
+    }
+  }
+  if (!reader.stopped && csv_fini(&parser, cell, row, &reader) != 0) {
+    reader.Stop(csv_strerror(csv_error(&parser)));
+  }
+  if (!reader.any_row && problems.empty()) {
+    reader.Stop("empty file; expected a header line of column names");
+  }
+}
+
+}  // namespace trackbed
