@@ -28,13 +28,18 @@ if(TRACKBED_FUZZ)
                                 -fno-omit-frame-pointer)
   target_link_options(trackbed_compiler INTERFACE -fsanitize=address,undefined)
 endif()
+set(TRACKBED_SANITIZER_FLAGS "")
 if(TRACKBED_SANITIZE)
+  if(NOT TRACKBED_SANITIZE MATCHES "^(address|thread)$")
+    message(FATAL_ERROR "TRACKBED_SANITIZE is '${TRACKBED_SANITIZE}'; must be OFF, address or thread")
+  endif()
+  string(REPLACE address address,undefined TRACKBED_SANITIZER_FLAGS -fsanitize=${TRACKBED_SANITIZE})
   target_compile_options(
     trackbed_compiler
-    INTERFACE -fsanitize=address,undefined
+    INTERFACE ${TRACKBED_SANITIZER_FLAGS}
               -fno-sanitize-recover=all
               -fno-omit-frame-pointer
               # GCC 12 takes instrumented std::regex for uninitialized.
               -Wno-maybe-uninitialized)
-  target_link_options(trackbed_compiler INTERFACE -fsanitize=address,undefined)
+  target_link_options(trackbed_compiler INTERFACE ${TRACKBED_SANITIZER_FLAGS})
 endif()
