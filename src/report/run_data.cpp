@@ -195,7 +195,6 @@ ordered_json RunData(const fs::path& folder, const std::string& name, std::size_
                      {"versions", metrics.at("versions").get<std::map<std::string, std::string>>()},
                      {"verdict", VerdictJson(metrics.at("verdict"))}};
     run["expectations"] = CheckRows(metrics.at("verdict"));
-    run["car"] = CarJson(folder / run_folder::kModelXml);
     run["world"] = WorldJson(ReadWorld(scenario));
     if (fs::exists(folder / run_folder::kPlanJson) || fs::exists(folder / run_folder::kPlanCsv)) {
       run["plan"] = PlanJson(folder);
@@ -213,6 +212,7 @@ ordered_json RunData(const fs::path& folder, const std::string& name, std::size_
           {{"plants", plants}, {"numbers", NumbersJson(pair, NameOfComparison)}});
     }
     run["resolved"] = ReadFile(scenario, kLargestScenario);
+    run["car"] = CarJson(folder / run_folder::kModelXml);  // last: takes longest
     return run;
   });
 }

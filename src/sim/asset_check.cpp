@@ -51,7 +51,7 @@ std::optional<std::uint32_t> ReadBigEndian(std::string_view content, std::size_t
 /// W3C, Portable Network Graphics (Second Edition), sections 5.2 and 11.2.2.
 std::string WhyNoPng(std::string_view content) {
   constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
-  if (!content.starts_with(kSignature) || content.substr(12, 4) != "IHDR") {
+  if (!content.starts_with(kSignature) || content.size() < 16 || content.substr(12, 4) != "IHDR") {
     return "is no PNG picture";
   }
   const auto width = ReadBigEndian(content, 16);

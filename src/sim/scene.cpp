@@ -53,6 +53,20 @@ std::string PlainWords(const XMLDocument& document) {
   }
 }
 
+/// MJCF is all elements and attributes. What stands between them has no meaning, and tinyxml2 does
+/// not read back what it prints of text behind the root element.
+void RemoveText(tinyxml2::XMLNode& parent) {
+  for (tinyxml2::XMLNode *node = parent.FirstChild(), *next = nullptr; node != nullptr;
+       node = next) {
+    next = node->NextSibling();
+    if (node->ToText() != nullptr) {
+      parent.DeleteChild(node);
+    } else {
+      RemoveText(*node);
+    }
+  }
+}
+
 void Load(const fs::path& file, XMLDocument& document) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) {
@@ -72,6 +86,7 @@ void Load(const fs::path& file, XMLDocument& document) {
   if (document.RootElement() == nullptr) {
     Fail(file, 1, "no root element");
   }
+  RemoveText(document);
 }
 
 /// The car's file, and the folders whose files it may name.

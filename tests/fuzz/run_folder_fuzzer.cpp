@@ -5,48 +5,72 @@
 #include "trackbed/analysis/compare_runs.h"
 #include "trackbed/analysis/run.h"
 #include "trackbed/analysis/run_folder.h"
+#include "trackbed/analysis/sweep.h"
 #include "trackbed/report/report.h"
+#include "trackbed/scenario/study.h"
 
 namespace trackbed {
 namespace {
 
-constexpr std::array kFiles{run_folder::kMetricsJson, run_folder::kPlanJson, run_folder::kPlanCsv,
-                            run_folder::kScenarioYaml, "kinematic.csv"};
+namespace fs = std::filesystem;
 
-/// The folder of a run of a second.
-const std::filesystem::path& RunOfASecond() {
-  static const std::filesystem::path folder = [] {
-    const std::filesystem::path own = fuzz::Folder() / "run";
-    WriteRunFolder(
-        RunMission(ParseScenario("schema: 1\nname: corner\n"
-                                 "mission: {speed: 3, waypoints: [[0, 0], [20, 0], [20, 20]]}\n"
-                                 "plan: {method: fillet}\n"
-                                 "drive: {plants: [kinematic], time_limit: 1}\n",
-                                 "corner.yaml", fuzz::Folder())),
-        own);
-    std::filesystem::remove(own / run_folder::kManifest);  // it tells of every change
-    return own;
-  }();
-  return folder;
+constexpr const char* kRun = "run";
+constexpr const char* kComparison = "comparison";
+constexpr const char* kStudy = "study";
+
+struct ResultFile {
+  const char* folder;
+  const char* name;
+};
+
+constexpr std::array kFiles{
+    ResultFile{kRun, run_folder::kMetricsJson}, ResultFile{kRun, run_folder::kPlanJson},
+    ResultFile{kRun, run_folder::kPlanCsv},     ResultFile{kRun, run_folder::kScenarioYaml},
+    ResultFile{kRun, "kinematic.csv"},          ResultFile{kComparison, run_folder::kCompareJson},
+    ResultFile{kStudy, run_folder::kSweepCsv},  ResultFile{kStudy, run_folder::kSweepJson}};
+
+/// A run of a second, its comparison with itself and a study of two points. Without manifests,
+/// which tell of every change.
+void WriteFolders() {
+  const fs::path scenario = fuzz::Write(
+      "corner.yaml",
+      "schema: 1\nname: corner\nmission: {speed: 3, waypoints: [[0, 0], [20, 0], [20, 20]]}\n"
+      "plan: {method: fillet}\ndrive: {plants: [kinematic], time_limit: 1}\n");
+  WriteRunFolder(RunMission(ReadScenario(scenario)), fuzz::Folder() / kRun);
+  WriteComparison(CompareFolders({fuzz::Folder() / kRun, fuzz::Folder() / kRun}, {}, {}),
+                  fuzz::Folder() / kComparison);
+  const CheckedStudy study = CheckStudy(ReadStudy(
+      fuzz::Write("study.yaml",
+                  "schema: 1\nname: study\nscenario: corner.yaml\nvary: {mission.speed: [1, 2]}\n"
+                  "outputs: [metrics.kinematic.distance]\n")));
+  WriteSweep(RunSweep(study.study, study.points,
+                      [&](const Scenario& point) { return DriveOnce(study, point); }, {}),
+             fuzz::Folder() / kStudy);
+  for (const char* folder : {kRun, kComparison, kStudy}) {
+    fs::remove(fuzz::Folder() / folder / run_folder::kManifest);
+  }
 }
 
 }  // namespace
 }  // namespace trackbed
 
-/// A file of a finished run, for its report and a comparison with itself: the first byte says
-/// which.
+/// A file of a result, for its report and, if it is of a run, a comparison with itself: the first
+/// byte says which.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trackbed;
   if (size == 0) {
     return 0;
   }
-  const std::filesystem::path& run = RunOfASecond();
-  const char* name = kFiles[data[0] % kFiles.size()];
-  const std::filesystem::path kept = fuzz::Folder() / "kept";
-  std::filesystem::rename(run / name, kept);
-  fuzz::Write(std::string("run/") + name, fuzz::Text(data + 1, size - 1));
-  fuzz::Expect([&] { static_cast<void>(ReportPage(ReportData({run}))); });
-  fuzz::Expect([&] { static_cast<void>(CompareFolders({run}, {}, {})); });
-  std::filesystem::rename(kept, run / name);
+  [[maybe_unused]] static const bool written = (WriteFolders(), true);
+  const ResultFile& file = kFiles[data[0] % kFiles.size()];
+  const fs::path folder = fuzz::Folder() / file.folder;
+  const fs::path kept = fuzz::Folder() / "kept";
+  fs::rename(folder / file.name, kept);
+  fuzz::Write(std::string(file.folder) + "/" + file.name, fuzz::Text(data + 1, size - 1));
+  fuzz::Expect([&] { static_cast<void>(ReportPage(ReportData({folder}))); });
+  if (file.folder == kRun) {
+    fuzz::Expect([&] { static_cast<void>(CompareFolders({folder}, {}, {})); });
+  }
+  fs::rename(kept, folder / file.name);
   return 0;
 }
