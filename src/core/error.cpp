@@ -30,21 +30,33 @@ std::string Cut(const std::string& text) {
   return text.substr(0, end) + " ...";
 }
 
+/// A name with a line feed must not look like another message.
+std::string OneLine(const std::string& text) {
+  std::string line;
+  for (const char c : WithoutControls(text)) {
+    line += c == '\n' ? "<U+000A>" : std::string(1, c);
+  }
+  return line;
+}
+
 }  // namespace
 
 std::string Problem::WithoutPlace() const {
-  return WithoutControls(key.empty() ? Cut(message) : Cut(key) + ": " + Cut(message));
+  return OneLine(key.empty() ? Cut(message) : Cut(key) + ": " + Cut(message));
 }
 
 std::string Problem::ToString() const {
   std::string place = file;
   if (line > 0) {
-    place += column > 0 ? fmt::format(":{}:{}", line, column) : fmt::format(":{}", line);
+    place += ':' + std::to_string(line);
+  }
+  if (line > 0 && column > 0) {
+    place += ':' + std::to_string(column);
   }
   if (!place.empty()) {
     place += ": ";
   }
-  return WithoutControls(place) + WithoutPlace();
+  return OneLine(place) + WithoutPlace();
 }
 
 std::string WithoutControls(std::string_view text) {

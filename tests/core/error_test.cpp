@@ -33,7 +33,7 @@ TEST(Problem, LeavesOutAnUnknownColumn) {
 
 TEST(Problem, NamesControlCharactersOfOtherPeoplesNames) {
   EXPECT_EQ((Problem{.file = "\x1b[31mred\x7f", .message = "tab\tand\nline"}.ToString()),
-            "<U+001B>[31mred<U+007F>: tab\tand\nline");
+            "<U+001B>[31mred<U+007F>: tab\tand<U+000A>line");  // a problem has one line
   EXPECT_EQ(WithoutControls("Prüfstrecke"), "Prüfstrecke");
 }
 

@@ -74,7 +74,7 @@ TEST(CheckModel, RefusesJointsThatCannotBeColumnsOfLogs) {
   EXPECT_EQ(ErrorWithJoint("a load: 1.5-t_x"), "");
   EXPECT_EQ(ErrorWithJoint("a,b"), "car.xml: a,b" + refused);
   EXPECT_EQ(ErrorWithJoint("a&quot;b"), "car.xml: a\"b" + refused);
-  EXPECT_EQ(ErrorWithJoint("a&#10;b"), "car.xml: a\nb" + refused);
+  EXPECT_EQ(ErrorWithJoint("a&#10;b"), "car.xml: a<U+000A>b" + refused);
   EXPECT_EQ(ErrorWithJoint("x"),
             "car.xml: x: the joint's column would be that of the chassis' position; rename it");
 }

@@ -27,8 +27,8 @@ struct Problem {
   std::string key{};      ///< dotted key, such as "mission.waypoints[2]"; may be empty
   std::string message{};  ///< what was found and what is allowed
 
-  /// "file:line:column: key: message", leaving out what is unknown, WithoutControls. Of a key or
-  /// message of more than 4000 bytes the rest is left out.
+  /// "file:line:column: key: message", leaving out what is unknown, WithoutControls, on one line.
+  /// Of a key or message of more than 4000 bytes the rest is left out.
   [[nodiscard]] std::string ToString() const;
   /// "key: message" likewise, the same wherever the file lies.
   [[nodiscard]] std::string WithoutPlace() const;
