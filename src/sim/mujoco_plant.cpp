@@ -51,9 +51,12 @@ MujocoPlant::MujocoPlant(const PlantSetup& setup, TyreSupport support)
   for (std::size_t w = 0; w < tyres.size(); ++w) {
     tyre_friction_[w] = model_->geom_friction[3 * tyres[w]];
   }
+  const int chassis = model_->dof_bodyid[car_.chassis().chassis_dof];
   for (int geom = 0; geom < model_->ngeom; ++geom) {
     const char* name = mj_id2name(model_.get(), mjOBJ_GEOM, geom);
     is_obstacle_.push_back(name != nullptr && std::string_view(name).starts_with("obstacle_"));
+    is_of_car_.push_back(model_->body_rootid[model_->geom_bodyid[geom]] ==
+                         model_->body_rootid[chassis]);
   }
   const StartState& start = setup.start;
   const Ground& ground = car_.scene().ground;
@@ -294,8 +297,13 @@ double MujocoPlant::obstacle_force() const {
   double sum = 0.0;
   for (int i = 0; i < data_->ncon; ++i) {
     const mjContact& contact = data_->contact[i];
-    if (is_obstacle_[static_cast<std::size_t>(contact.geom1)] ||
-        is_obstacle_[static_cast<std::size_t>(contact.geom2)]) {
+    const auto is = [&](const std::vector<bool>& kind, int geom) {
+      return kind[static_cast<std::size_t>(geom)];
+    };
+    // What an obstacle and the ground, or two obstacles, do to each other is no collision of the
+    // car.
+    if ((is(is_obstacle_, contact.geom1) && is(is_of_car_, contact.geom2)) ||
+        (is(is_obstacle_, contact.geom2) && is(is_of_car_, contact.geom1))) {
       std::array<mjtNum, 6> force{};
       mj_contactForce(model_.get(), data_.get(), i, force.data());
       sum += force[0];

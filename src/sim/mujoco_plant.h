@@ -94,6 +94,7 @@ class MujocoPlant : public Plant {
   RoadContact ground_;
   std::vector<Slider> sliders_;
   std::vector<bool> is_obstacle_;          // geom by geom
+  std::vector<bool> is_of_car_;            // likewise
   std::array<double, 4> tyre_friction_{};  // of the contacts, on a road of factor 1
   double yaw_ = 0.0;                       // unwrapped [rad]
   double distance_ = 0.0;                  // [m]

@@ -172,6 +172,26 @@ XMLElement* InsertSlider(XMLElement& bodies, const std::string& name, const Vec2
   return body;
 }
 
+/// Obstacles that move touch the car alone: neither the ground, on which they stand exactly, nor
+/// what stands there, nor each other.
+void ExcludeContacts(XMLElement& root, const std::vector<std::string>& sliders) {
+  if (sliders.empty()) {
+    return;
+  }
+  XMLElement* contact = root.InsertNewChildElement("contact");
+  const auto exclude = [&](const std::string& first, const std::string& second) {
+    XMLElement* pair = contact->InsertNewChildElement("exclude");
+    pair->SetAttribute("body1", first.c_str());
+    pair->SetAttribute("body2", second.c_str());
+  };
+  for (auto one = sliders.begin(); one != sliders.end(); ++one) {
+    exclude("world", *one);
+    for (auto other = one + 1; other != sliders.end(); ++other) {
+      exclude(*one, *other);
+    }
+  }
+}
+
 /// New joints come last: keyframes have them where they were made.
 void ExtendKeyframes(XMLElement& root, int joints) {
   for (XMLElement* frame = root.FirstChildElement("keyframe"); frame != nullptr;
@@ -220,7 +240,7 @@ Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const 
   shell->SetAttribute("rgba", "0 0 0 0");
 
   XMLElement* bodies = root.InsertNewChildElement("worldbody");
-  int moving = 0;
+  std::vector<std::string> sliders;
   for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
     const Obstacle& obstacle = world.obstacles[i];
     const OrientedBox& box = obstacle.footprint;
@@ -233,7 +253,7 @@ Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const 
     if (obstacle.moves()) {
       parent = InsertSlider(*bodies, name, place);
       origin = place;
-      ++moving;
+      sliders.push_back(name);
     }
     XMLElement* geom = parent->InsertNewChildElement("geom");
     if (obstacle.moves()) {
@@ -253,7 +273,8 @@ Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const 
     geom->SetAttribute("group", 0);
     geom->SetAttribute("rgba", "0.78 0.15 0.20 1");
   }
-  ExtendKeyframes(root, 2 * moving);
+  ExcludeContacts(root, sliders);
+  ExtendKeyframes(root, 2 * static_cast<int>(sliders.size()));
   Scene scene = car_scene;
   scene.xml = Print(document);
   scene.lines.clear();

@@ -8,6 +8,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/sim/car_model.h"
+#include "trackbed/sim/plant.h"
 #include "trackbed/sim/scene.h"
 
 namespace trackbed {
@@ -158,6 +159,48 @@ TEST(WithWorld, ObstaclesStandOnTheGround) {
   EXPECT_NEAR((Eigen::Vector3d(R[2], R[5], R[8]) - normal).norm(), 0.0, Tolerance(1e-12));
   // Its length points north, across the grade.
   EXPECT_NEAR(R[3], 1.0, Tolerance(1e-12));
+}
+
+/// What obstacles do to anything at `start` and for a second after it: the largest force [N].
+double LargestForce(const std::vector<Obstacle>& obstacles, const StartState& start) {
+  World world;
+  world.obstacles = obstacles;
+  const CarModel flat(Prius(), "prius");
+  const CarModel car(WithWorld(Prius(), flat.params(), world), "prius");
+  const std::unique_ptr<Plant> plant =
+      MakePlant("mujoco", {.car = car, .world = world, .start = start});
+  double largest = plant->obstacle_force();
+  for (double t = 0.0; t < 1.0; t += car.timestep()) {
+    plant->Step({});
+    largest = std::max(largest, plant->obstacle_force());
+  }
+  return largest;
+}
+
+// A box that stands exactly on the ground touches it or not by the rounding of its corners.
+TEST(WithWorld, MovingObstaclesDoNotTouchTheGround) {
+  for (int i = 0; i < 31; ++i) {
+    const OrientedBox box{{60.0, 30.0, 0.05 + 0.1 * i}, 4.0, 2.0};
+    EXPECT_EQ(LargestForce({{.footprint = box, .height = 1.5, .velocity = {0.0, 0.5}}}, {}), 0.0)
+        << box.center.yaw;
+  }
+}
+
+TEST(WithWorld, MovingObstaclesDoNotTouchEachOther) {
+  const Obstacle still{.footprint = {{60.0, 30.0, 0.0}, 4.0, 2.0}};
+  Obstacle moving = still;
+  moving.velocity = {1.0, 0.0};
+  Obstacle oncoming = still;
+  oncoming.velocity = {-1.0, 0.0};
+  EXPECT_EQ(LargestForce({still, moving, oncoming}, {}), 0.0);
+}
+
+TEST(WithWorld, ObstaclesTouchTheCar) {
+  Obstacle obstacle{.footprint = {{5.5, 0.0, 0.0}, 2.0, 2.0}};
+  EXPECT_EQ(LargestForce({obstacle}, {}), 0.0);  // the car stands, a meter away
+  EXPECT_GT(LargestForce({obstacle}, {.speed = 5.0}), 1000.0);
+  obstacle.velocity = {-5.0, 0.0};
+  EXPECT_GT(LargestForce({obstacle}, {}), 1000.0);
 }
 
 /// The distances of the tyres' centers from the plane of a grade.
