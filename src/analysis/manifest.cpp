@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <openssl/sha.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +12,7 @@
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/core/hash.h"
 
 namespace trackbed {
 
@@ -20,9 +20,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 ManifestEntry EntryOf(std::string_view content) {
-  std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
-  SHA256(reinterpret_cast<const unsigned char*>(content.data()), content.size(), digest.data());
-  return {content.size(), fmt::format("{:02x}", fmt::join(digest, ""))};
+  return {content.size(), Sha256(content)};
 }
 
 void Manifest::Take(const std::string& result, ResultFiles files,
@@ -51,8 +49,12 @@ std::string Manifest::ToJson() const {
 std::optional<Manifest> ReadManifest(const fs::path& folder) {
   const fs::path file = folder / run_folder::kManifest;
   std::error_code ignored;
-  if (!fs::exists(file, ignored)) {
+  const fs::file_status status = fs::symlink_status(file, ignored);
+  if (!fs::exists(status)) {
     return std::nullopt;
+  }
+  if (!fs::is_regular_file(status)) {
+    throw InputError(Problem{.file = file.string(), .message = "is no regular file"});
   }
   try {
     Manifest manifest;

@@ -16,6 +16,7 @@ namespace {
 constexpr std::uint32_t kMostPixels = 8192;   // along a side
 constexpr std::uint32_t kMostSamples = 4096;  // likewise, of a height field
 constexpr std::uint32_t kMostFaces = 200000;  // MuJoCo's own limit of an STL file
+constexpr std::uint32_t kMostFacets = 256;    // of a drawn sphere or plane, along a side
 /// MuJoCo's texts of errors have room for about 500 characters.
 constexpr std::size_t kLongestWord = 200;
 
@@ -145,22 +146,23 @@ std::string WhyNoElement(const tinyxml2::XMLElement& element) {
                          length, kLongestWord);
     }
   }
-  const auto check = [&](const char* attribute, std::uint32_t most) -> std::string {
-    std::int64_t count = 0;
-    if (element.QueryInt64Attribute(attribute, &count) == tinyxml2::XML_SUCCESS &&
-        (count < 0 || count > most)) {
-      return fmt::format("{} is {}; must be from 0 to {}", attribute, count, most);
-    }
-    return "";
+  struct Count {
+    std::string_view element;
+    const char* attribute;
+    std::uint32_t most;
   };
-  const std::string_view kind = element.Name();
-  if (kind == "texture") {
-    const std::string width = check("width", kMostPixels);
-    return width.empty() ? check("height", kMostPixels) : width;
-  }
-  if (kind == "hfield") {
-    const std::string rows = check("nrow", kMostSamples);
-    return rows.empty() ? check("ncol", kMostSamples) : rows;
+  static constexpr std::array kCounts{
+      Count{"texture", "width", kMostPixels},     Count{"texture", "height", kMostPixels},
+      Count{"hfield", "nrow", kMostSamples},      Count{"hfield", "ncol", kMostSamples},
+      Count{"quality", "numslices", kMostFacets}, Count{"quality", "numstacks", kMostFacets},
+      Count{"quality", "numquads", kMostFacets}};
+  for (const Count& own : kCounts) {
+    std::int64_t count = 0;
+    if (own.element == element.Name() &&
+        element.QueryInt64Attribute(own.attribute, &count) == tinyxml2::XML_SUCCESS &&
+        (count < 0 || count > own.most)) {
+      return fmt::format("{} is {}; must be from 0 to {}", own.attribute, count, own.most);
+    }
   }
   return "";
 }

@@ -1,6 +1,7 @@
 #include "trackbed/sim/scene.h"
 
 #include <fmt/format.h>
+#include <strings.h>
 #include <tinyxml2.h>
 
 #include <algorithm>
@@ -8,10 +9,12 @@
 #include <cstdlib>
 #include <set>
 
+#include "shipped_models.h"
 #include "src/sim/asset_check.h"
 #include "src/sim/scene_xml.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/core/hash.h"
 #include "trackbed/core/spelling.h"
 
 namespace trackbed {
@@ -67,13 +70,21 @@ void RemoveText(tinyxml2::XMLNode& parent) {
   }
 }
 
-void Load(const fs::path& file, XMLDocument& document) {
+/// Whether a file of this content comes with Trackbed, wherever it lies.
+bool IsShipped(std::string_view content) {
+  const std::string hash = Sha256(content);
+  return std::find(kShippedHashes.begin(), kShippedHashes.end(), hash) != kShippedHashes.end();
+}
+
+/// `shipped` becomes false where the file does not come with Trackbed.
+void Load(const fs::path& file, XMLDocument& document, bool& shipped) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) {
     Fail(file, 0, "no such file");
   }
   constexpr std::size_t kLargest = std::size_t{16} << 20U;  // takes 400 MB as a document
   const std::string text = ReadFile(file, kLargest);
+  shipped = shipped && IsShipped(text);
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     if (document.ErrorID() == tinyxml2::XML_ERROR_EMPTY_DOCUMENT) {
       Fail(file, 0, "the file is empty; expected a <mujoco> element");
@@ -94,7 +105,22 @@ struct Origin {
   fs::path file;
   fs::path folder;  ///< the file's own
   const std::vector<fs::path>& others;
+  bool& shipped;  ///< whether all that was read comes with Trackbed
 };
+
+/// As a file of a run folder, and of MuJoCo's list of files, may be called.
+std::string PlainName(std::string name) {
+  for (char& c : name) {
+    const bool is_plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
+                          (c >= 'a' && c <= 'z') || c == '.' || c == '_' || c == '-';
+    c = is_plain ? c : '_';
+  }
+  return name;
+}
+
+bool IsSameButForCase(std::string_view a, std::string_view b) {
+  return a.size() == b.size() && ::strncasecmp(a.data(), b.data(), a.size()) == 0;
+}
 
 /// The file that `name`, from the folder of the car's file, stands for. InputError with the place
 /// of `element`, in `file`, when it may not be read.
@@ -118,6 +144,8 @@ fs::path Find(const fs::path& name, const Origin& origin, const fs::path& file,
   return found;
 }
 
+constexpr std::string_view kInclude = "include";
+
 /// Replaces every <include file="…"/> below `parent`, which is in `file`, by what the included
 /// file's root holds. As in MuJoCo, names are relative to the main file and a file may be included
 /// once.
@@ -125,7 +153,11 @@ void ResolveIncludes(XMLElement& parent, const fs::path& file, const Origin& ori
                      std::set<fs::path>& included) {
   for (XMLElement* child = parent.FirstChildElement(); child != nullptr;) {
     XMLElement* next = child->NextSiblingElement();
-    if (std::string_view(child->Name()) == "include") {
+    if (child->Name() != kInclude && IsSameButForCase(child->Name(), kInclude)) {
+      // MuJoCo would open its file.
+      Fail(file, child->GetLineNum(), fmt::format("<{}> must be written <include>", child->Name()));
+    }
+    if (child->Name() == kInclude) {
       const char* name = child->Attribute("file");
       if (name == nullptr) {
         Fail(file, child->GetLineNum(), "<include> without a file");
@@ -135,7 +167,7 @@ void ResolveIncludes(XMLElement& parent, const fs::path& file, const Origin& ori
         Fail(file, child->GetLineNum(), fmt::format("{} is included twice", name));
       }
       XMLDocument document;
-      Load(other, document);
+      Load(other, document, origin.shipped);
       ResolveIncludes(*document.RootElement(), other, origin, included);
       tinyxml2::XMLNode* last = child;
       for (const XMLElement* element = document.RootElement()->FirstChildElement();
@@ -192,13 +224,14 @@ void GatherAssets(XMLElement& root, const Origin& origin, Scene& scene) {
         }
         const fs::path source = Find(from / value, origin, origin.file, *asset);
         std::string content = ReadFile(source);
+        origin.shipped = origin.shipped && IsShipped(content);
         if (const std::string why = WhyNoAsset(kind, source, content); !why.empty()) {
           Fail(origin.file, asset->GetLineNum(),
                fmt::format("<{}> refers to {}, which {}", kind, source.string(), why));
         }
         // A number in front keeps equal file names from different folders apart.
         const std::string name =
-            fmt::format("asset{}_{}", scene.assets.size(), source.filename().string());
+            fmt::format("asset{}_{}", scene.assets.size(), PlainName(source.filename().string()));
         // MuJoCo names an asset after its file when it has no name of its own.
         if (std::string_view(attribute) == "file" && asset->Attribute("name") == nullptr) {
           asset->SetAttribute("name", source.stem().c_str());
@@ -297,20 +330,21 @@ fs::path FindModel(const std::string& model, const fs::path& base) {
 
 Scene ComposeScene(const fs::path& car_file, const SceneOptions& options) {
   XMLDocument document;
-  Load(car_file, document);
+  bool shipped = true;
+  Load(car_file, document, shipped);
   XMLElement& root = *document.RootElement();
   if (std::string_view(root.Name()) != "mujoco") {
     Fail(car_file, root.GetLineNum(),
          fmt::format("root element is <{}>; must be <mujoco>", root.Name()));
   }
-  const Origin origin{car_file, car_file.parent_path(), options.asset_folders};
+  const Origin origin{car_file, car_file.parent_path(), options.asset_folders, shipped};
   std::set<fs::path> included{fs::weakly_canonical(car_file)};
   ResolveIncludes(root, car_file, origin, included);
   CheckElements(root, car_file);
 
   Scene scene;
-  scene.trusted = WhyUnreadable(fs::absolute(car_file), "", {DataFolder() / "models"}).empty();
   GatherAssets(root, origin, scene);
+  scene.trusted = shipped;
   if (options.steering_rate) {
     SetSteeringRate(root, *options.steering_rate);
   }

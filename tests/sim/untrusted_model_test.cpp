@@ -197,6 +197,25 @@ TEST(ModelFiles, AreNotReadBeyondAnySize) {
   EXPECT_THAT(Refusal(folder, Model(many)), EndsWith("more than 190 files of assets"));
 }
 
+// MuJoCo takes <Include> for <include>.
+TEST(ModelFiles, AreIncludedInOneSpellingAlone) {
+  const TempFolder folder;
+  folder.Write("other.xml", "<mujoco/>");
+  for (const char* name : {"Include", "INCLUDE"}) {
+    EXPECT_EQ(Refusal(folder, fmt::format("<mujoco>\n<{} file='../other.xml'/></mujoco>", name)),
+              fmt::format("own/car.xml:2: <{}> must be written <include>", name));
+  }
+}
+
+TEST(ModelFiles, HavePlainNamesInRunFolders) {
+  const TempFolder folder;
+  folder.Write("own/a b\\c\"\n.stl", Stl(1));
+  const fs::path file = folder.Write("own/car.xml", Model("<mesh file='a b\\c&quot;&#10;.stl'/>"));
+  const Scene scene = ComposeScene(file, {});
+  ASSERT_EQ(scene.assets.size(), 1U);
+  EXPECT_EQ(scene.assets[0].name, "asset0_a_b_c__.stl");
+}
+
 TEST(ModelElements, HaveBounds) {
   const TempFolder folder;
   const std::string name(600, 'a');
@@ -215,6 +234,8 @@ TEST(ModelElements, HaveBounds) {
             "own/car.xml:2: <texture>: height is -1; must be from 0 to 8192");
   EXPECT_EQ(Refusal(folder, Model("<hfield name='h' nrow='1000000' ncol='1000000'/>")),
             "own/car.xml:2: <hfield>: nrow is 1000000; must be from 0 to 4096");
+  EXPECT_EQ(Refusal(folder, "<mujoco>\n<visual><quality numslices='100000'/></visual></mujoco>"),
+            "own/car.xml:2: <quality>: numslices is 100000; must be from 0 to 256");
 }
 
 std::string CompileError(const std::string& xml, const std::vector<SceneAsset>& assets = {}) {
@@ -271,10 +292,15 @@ TEST(CompileScene, GivesTheSameModelFromBothProcesses) {
   }
 }
 
-TEST(CompileScene, TrustsTheModelsFolderAlone) {
+// By content: what a user puts beside the shipped models is somebody's own all the same.
+TEST(CompileScene, TrustsFilesThatComeWithTrackbedAlone) {
   const TempFolder folder;
-  const fs::path copy = folder.Write("prius.xml", ReadFile(FindModel("prius", "")));
-  EXPECT_FALSE(ComposeScene(copy, {}).trusted);
+  const std::string prius = ReadFile(FindModel("prius", ""));
+  EXPECT_TRUE(ComposeScene(folder.Write("copy.xml", prius), {}).trusted);
+  EXPECT_FALSE(ComposeScene(folder.Write("changed.xml", prius + " "), {}).trusted);
+  folder.Write("part.xml", "<mujoco/>");
+  const std::string car = "<mujoco><include file='part.xml'/></mujoco>";
+  EXPECT_FALSE(ComposeScene(folder.Write("car.xml", car), {}).trusted);
 }
 
 }  // namespace

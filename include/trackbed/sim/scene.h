@@ -32,7 +32,7 @@ struct Scene {
   /// from that file. Empty when unknown.
   std::vector<int> lines;
   Ground ground{};  ///< what the geom `ground` and those on it make up
-  /// From the models folder, and so compiled in this process; see CompileScene.
+  /// Of files that come with Trackbed alone, and so compiled in this process; see CompileScene.
   bool trusted = false;
 };
 
