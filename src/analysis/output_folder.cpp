@@ -1,6 +1,7 @@
 #include "trackbed/analysis/output_folder.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -23,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Lists the files to remove, one a line.
+/// Lists the files to remove, as JSON.
 constexpr const char* kObsolete = ".obsolete";
 
 [[noreturn]] void FailToWrite(const fs::path& file, const std::error_code& error) {
@@ -61,6 +63,27 @@ int TryLock(int descriptor, int how) {
   return ::flock(descriptor, how | LOCK_NB) != 0 && errno == EWOULDBLOCK ? EWOULDBLOCK : 0;
 }
 
+/// Whether it is a folder itself, and not a link to one: a run folder may come from anybody, and
+/// what a link points to must stay there.
+bool IsFolder(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_directory(fs::symlink_status(path, ignored));
+}
+
+/// The list of files to remove; none where there is no such list.
+std::vector<std::string> ObsoleteNames(const fs::path& complete) {
+  std::error_code ignored;
+  const fs::path file = complete / kObsolete;
+  if (!fs::is_regular_file(fs::symlink_status(file, ignored))) {
+    return {};
+  }
+  const auto list = nlohmann::json::parse(ReadFile(file), nullptr, false);
+  return list.is_array() && std::all_of(list.begin(), list.end(),
+                                        [](const auto& name) { return name.is_string(); })
+             ? list.get<std::vector<std::string>>()
+             : std::vector<std::string>();
+}
+
 /// Removes the names that the list in `complete` has, moves its files into the folder, and the
 /// manifest last. What was done before is not done again.
 void MoveIntoPlace(const fs::path& folder) {
@@ -74,8 +97,7 @@ void MoveIntoPlace(const fs::path& folder) {
     }
   };
   std::error_code error;
-  std::ifstream obsolete(complete / kObsolete);
-  for (std::string name; std::getline(obsolete, name);) {
+  for (const std::string& name : ObsoleteNames(complete)) {
     // A name from an old manifest must not lead out of the folder.
     if (!name.empty() && name.find('/') == std::string::npos &&
         !fs::is_directory(fs::symlink_status(folder / name, error))) {
@@ -85,7 +107,10 @@ void MoveIntoPlace(const fs::path& folder) {
   }
   std::vector<std::string> names;
   for (fs::directory_iterator at(complete, error), end; !error && at != end; at.increment(error)) {
-    names.push_back(at->path().filename());
+    // Only what a ResultWriter has put there.
+    if (fs::is_regular_file(at->symlink_status(error))) {
+      names.push_back(at->path().filename());
+    }
   }
   check(complete, error);
   for (const std::string& name : names) {
@@ -103,17 +128,45 @@ void MoveIntoPlace(const fs::path& folder) {
 }
 
 bool NeedsRecovery(const fs::path& folder) {
-  std::error_code ignored;
-  return fs::exists(folder / run_folder::kPartial, ignored) ||
-         fs::exists(folder / run_folder::kComplete, ignored);
+  return IsFolder(folder / run_folder::kPartial) || IsFolder(folder / run_folder::kComplete);
 }
 
 /// What a process that was killed left there. Only with the lock.
 void Recover(const fs::path& folder) {
   std::error_code error;
   fs::remove_all(folder / run_folder::kPartial, error);
-  if (fs::exists(folder / run_folder::kComplete, error)) {
+  if (IsFolder(folder / run_folder::kComplete)) {
     MoveIntoPlace(folder);
+  }
+}
+
+/// Whether the folder has the manifest of a result. InputError as ReadManifest.
+bool HasManifest(const fs::path& folder) {
+  return ReadManifest(folder).has_value();
+}
+
+/// RunError when there are files of names that results have, but no manifest that tells of any:
+/// they are somebody's own.
+void RequireNoForeignFiles(const fs::path& folder) {
+  if (HasManifest(folder)) {
+    return;
+  }
+  std::vector<std::string> names = run_folder::AllNames();
+  for (const char* name : {run_folder::kSweepCsv, run_folder::kSweepJson}) {
+    names.emplace_back(name);
+  }
+  std::vector<std::string> found;
+  std::error_code ignored;
+  for (const std::string& name : names) {
+    if (fs::exists(fs::symlink_status(folder / name, ignored))) {
+      found.push_back(name);
+    }
+  }
+  if (!found.empty()) {
+    throw RunError(
+        fmt::format("{} has files that are of no result, as there is no {}: {}; choose "
+                    "another folder, or remove them",
+                    folder.string(), run_folder::kManifest, fmt::join(found, ", ")));
   }
 }
 
@@ -132,6 +185,9 @@ OutputFolder::OutputFolder(fs::path path, For use) : path_(std::move(path)) {
   }
   Lock(use);
   RemoveAbandonedTemporaries(path_);
+  if (use == For::kResult) {
+    RequireNoForeignFiles(path_);
+  }
 }
 
 void OutputFolder::Lock(For use) {
@@ -166,6 +222,13 @@ std::optional<OutputFolder> UseFolderOf(const fs::path& file, const fs::path& re
   const fs::path beside = (fs::path(".") / file).parent_path();
   std::error_code ignored;
   if (fs::equivalent(beside, fs::path(".") / result, ignored)) {
+    // A run folder may come from anybody; a link in it must not choose what is overwritten.
+    const fs::file_status status = fs::symlink_status(file, ignored);
+    if (fs::exists(status) && !fs::is_regular_file(status)) {
+      throw RunError(fmt::format("cannot write {}: it is {}; remove it, or give another place",
+                                 file.string(),
+                                 fs::is_symlink(status) ? "a link" : "not a regular file"));
+    }
     return OutputFolder(beside, OutputFolder::For::kAddition);
   }
   RemoveAbandonedTemporaries(beside);
@@ -208,11 +271,10 @@ void ResultWriter::Add(const std::string& name, std::string_view content) {
 }
 
 void ResultWriter::Commit(const std::string& result, std::vector<std::string> obsolete) {
-  Manifest manifest;
-  try {
-    manifest = ReadManifest(folder_).value_or(Manifest{});
-  } catch (const InputError&) {
-    // Not one of ours: replaced.
+  const std::optional<Manifest> before = ReadManifest(folder_);
+  Manifest manifest = before.value_or(Manifest{});
+  if (!before) {
+    obsolete.clear();  // what is there is of nobody's result
   }
   if (const auto earlier = manifest.results.find(result); earlier != manifest.results.end()) {
     for (const auto& file : earlier->second) {
@@ -227,8 +289,10 @@ void ResultWriter::Commit(const std::string& result, std::vector<std::string> ob
   });
   manifest.Take(result, files_, obsolete);
   Add(run_folder::kManifest, manifest.ToJson());
-  WriteNewFile(folder_ / run_folder::kPartial / kObsolete,
-               fmt::format("{}\n", fmt::join(obsolete, "\n")), folder_ / kObsolete);
+  WriteNewFile(
+      folder_ / run_folder::kPartial / kObsolete,
+      nlohmann::json(obsolete).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace),
+      folder_ / kObsolete);
   // The commit point: from here on the new result is moved into place, if not by this process then
   // by the next one.
   fs::rename(folder_ / run_folder::kPartial, folder_ / run_folder::kComplete, error);

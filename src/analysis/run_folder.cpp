@@ -98,7 +98,9 @@ namespace {
 std::string ManifestText(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / kManifest;
   std::error_code ignored;
-  return std::filesystem::exists(file, ignored) ? ReadFile(file) : "";
+  return std::filesystem::is_regular_file(std::filesystem::symlink_status(file, ignored))
+             ? ReadFile(file)
+             : "";
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -42,6 +43,7 @@ TEST(ResultWriter, ReplacesAResultAsAWhole) {
   const TempFolder folder;
   folder.Write("notes.txt", "mine");
   Write(folder.path(), "run", {"metrics.json", "model.xml", "tree.csv"}, "old");
+  folder.Write("report.html", "of the old one");
   Write(folder.path(), "run", {"metrics.json", "model.xml"}, "new", {"report.html"});
   EXPECT_THAT(folder.Names(),
               UnorderedElementsAre("metrics.json", "model.xml", "manifest.json", "notes.txt"));
@@ -70,6 +72,7 @@ TEST(ResultWriter, ChangesNothingWithoutCommit) {
 
 TEST(ResultWriter, TellsBeforeItCommitsWhatIsInItsWay) {
   const TempFolder folder;
+  Write(folder.path(), "run", {"metrics.json"}, "old");
   fs::create_directory(folder.path() / "model.xml");
   fs::create_symlink("/dev/null", folder.path() / "plan.csv");
   ResultWriter writer(folder.path());
@@ -136,7 +139,7 @@ TEST(OutputFolder, MovesIntoPlaceWhatAKilledWriterHadCompleted) {
     const fs::path complete = run / run_folder::kComplete;
     fs::copy(folder.path() / "whole", complete);
     folder.Write(run.filename().string() + "/.trackbed.complete/.obsolete",
-                 "tree.csv\nreport.html\n../notes.txt\n");
+                 R"(["tree.csv", "report.html", "../notes.txt"])");
     const fs::path notes = folder.Write("notes.txt", "mine");
     for (std::size_t i = 0; i < moved; ++i) {
       const std::string name = i < names.size() ? names[i] : "manifest.json";
@@ -160,6 +163,46 @@ TEST(OutputFolder, MovesIntoPlaceWhatAKilledWriterHadCompleted) {
   }
 }
 
+// A run folder may come from anybody.
+TEST(OutputFolder, MovesNothingOutOfWhatALinkPointsTo) {
+  const TempFolder folder;
+  folder.Write("mine/notes.txt", "mine");
+  folder.Write("mine/.obsolete", R"(["mine.txt"])");
+  folder.Write("r/mine.txt", "mine");
+  fs::create_symlink(folder.path() / "mine", folder.path() / "r" / run_folder::kComplete);
+  const OutputFolder next(folder.path() / "r", OutputFolder::For::kAddition);
+  EXPECT_TRUE(fs::exists(folder.path() / "mine/notes.txt"));
+  EXPECT_TRUE(fs::exists(folder.path() / "r/mine.txt"));
+}
+
+TEST(OutputFolder, IsNotWrittenThroughLinks) {
+  const TempFolder folder;
+  const fs::path notes = folder.Write("notes.txt", "mine");
+  const fs::path run = folder.path() / "r";
+  Write(run, "run", {"metrics.json"}, "a");
+  fs::create_symlink(notes, run / "report.html");
+  ASSERT_EQ(::mkfifo((run / "video.mp4").c_str(), 0600), 0);
+  EXPECT_EQ(Refusal([&] { UseFolderOf(run / "report.html", run); }),
+            "cannot write " + (run / "report.html").string() +
+                ": it is a link; remove it, or give another place");
+  EXPECT_THAT(Refusal([&] { UseFolderOf(run / "video.mp4", run); }),
+              HasSubstr(": it is not a regular file"));
+  EXPECT_EQ(Refusal([&] { UseFolderOf(run / "picture.png", run); }), "");
+}
+
+TEST(OutputFolder, OfSomebodyElsesFilesIsRefused) {
+  const TempFolder folder;
+  folder.Write("notes.txt", "mine");
+  { const OutputFolder mine(folder.path()); }  // none of ours has that name
+  folder.Write("plan.csv", "mine");
+  folder.Write("sweep.csv", "mine");
+  EXPECT_EQ(Refusal([&] { const OutputFolder next(folder.path()); }),
+            folder.path().string() +
+                " has files that are of no result, as there is no manifest.json: plan.csv, "
+                "sweep.csv; choose another folder, or remove them");
+  { const OutputFolder page(folder.path(), OutputFolder::For::kAddition); }
+}
+
 TEST(Manifest, RefusesFilesOfAnotherRun) {
   const TempFolder folder;
   const auto refusal = [&](const std::string& name) {
@@ -167,6 +210,7 @@ TEST(Manifest, RefusesFilesOfAnotherRun) {
   };
   folder.Write("metrics.json", "of an older version");
   EXPECT_EQ(refusal("metrics.json"), "");  // no manifest
+  folder.Write("manifest.json", R"({"results": {}})");
   Write(folder.path(), "comparison", {"compare.csv", "compare.json"}, "a");
   EXPECT_EQ(refusal("metrics.json"), "");  // nor one that tells of runs
   Write(folder.path(), "run", {"metrics.json", "plan.csv"}, "a");
@@ -184,8 +228,15 @@ TEST(Manifest, RefusesFilesOfAnotherRun) {
   EXPECT_EQ(refusal("video.mp4"), "");
   folder.Write("manifest.json", "{]");
   EXPECT_THAT(refusal("metrics.json"), HasSubstr("manifest.json:1:2: not JSON"));
-  Write(folder.path(), "run", {"metrics.json"}, "a");  // the next run does not mind
-  EXPECT_EQ(refusal("metrics.json"), "");
+}
+
+TEST(Manifest, IsNotWaitedFor) {
+  const TempFolder folder;
+  folder.Write("metrics.json", "{}");
+  ASSERT_EQ(::mkfifo((folder.path() / "manifest.json").c_str(), 0600), 0);
+  const std::string refused = (folder.path() / "manifest.json").string() + ": is no regular file";
+  EXPECT_EQ(Refusal([&] { run_folder::RequireFile(folder.path() / "metrics.json"); }), refused);
+  EXPECT_EQ(Refusal([&] { const OutputFolder out(folder.path()); }), refused);
 }
 
 TEST(Manifest, KnowsARunByThePlanThatItWasDrivenOn) {

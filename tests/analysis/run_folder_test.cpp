@@ -142,6 +142,7 @@ TEST(RunFolder, LosesEveryFileOfAnEarlierRun) {
   for (const std::string& name : run_folder::AllNames()) {
     folder.Write(name, "of an earlier run");
   }
+  folder.Write("manifest.json", R"({"results": {}})");
   folder.Write("notes.txt", "mine");
   WriteRunFolder(RunMission(Read("steering_circle",
                                  {"drive.plants=[kinematic]", "expect={}", "mission.duration=1"})),

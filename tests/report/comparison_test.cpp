@@ -146,7 +146,7 @@ TEST(Comparison, OfOneRunStandsWithThatRun) {
   // As `compare` leaves it beside the run that it has driven.
   ordered_json json = ordered_json::parse(ReadFile(a / "compare.json"));
   json.erase("runs");
-  fs::remove(a / "manifest.json");  // it would refuse the changed file
+  ForgetHashes(a);
   folder.Write("a/compare.json", json.dump());
   EXPECT_EQ(ReportData({a})["comparison"]["verdicts"].size(), 1U);
   const ordered_json both = ReportData({b, a});
@@ -166,7 +166,7 @@ TEST(Comparison, SaysWhatIsWrong) {
   const fs::path out = folder.path() / "out";
   WriteComparison(CompareFolders({a, b}, {}, std::nullopt), out);
   const std::string text = ReadFile(out / "compare.json");
-  fs::remove(out / "manifest.json");  // it would refuse changed files
+  ForgetHashes(out);
   EXPECT_EQ(ErrorMessage({out, a}), out.string() + ": a comparison must be given alone");
   folder.Write("out/compare.json", "{\"pairs\": ");
   EXPECT_THAT(ErrorMessage({out}), HasSubstr("compare.json:1:11: not JSON"));

@@ -26,9 +26,10 @@ class OutputFolder {
     kResult,    ///< alone
     kAddition,  ///< for a page or a film of a result that is there: others may add, too
   };
-  /// Makes the folder, unless it is for an addition. RunError when that fails, and "... is being
-  /// written by another trackbed (process 123)". Not explicit: where one call writes all, a path
-  /// will do.
+  /// Makes the folder, unless it is for an addition. RunError when that fails, "... is being
+  /// written by another trackbed (process 123)", and, for a result, when the folder has files of
+  /// names that results have, but no manifest.json that tells of a result: they are not Trackbed's
+  /// to replace. Not explicit: where one call writes all, a path will do.
   // NOLINTNEXTLINE(google-explicit-constructor)
   OutputFolder(std::filesystem::path path, For use = For::kResult);
 
