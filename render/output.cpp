@@ -3,6 +3,10 @@
 #include <png.h>
 
 #include <array>
+#include <boost/crc.hpp>
+#include <cstdint>
+#include <fstream>
+#include <string_view>
 #include <utility>
 
 #include "render/video.h"
@@ -14,13 +18,52 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kHeaderSize = 33;  // of a PNG: its signature and IHDR
+
+std::string BigEndian(std::uint32_t number) {
+  std::string bytes;
+  for (const unsigned shift : {24U, 16U, 8U, 0U}) {
+    bytes += static_cast<char>(number >> shift & 0xffU);
+  }
+  return bytes;
+}
+
+/// The chunk that tells pictures of Trackbed's from others: tEXt, "Software" (W3C, Portable Network
+/// Graphics, section 11.3.4).
+const std::string& SoftwareChunk() {
+  static const std::string chunk = [] {
+    const std::string text("tEXtSoftware\0Trackbed", 21);
+    boost::crc_32_type crc;
+    crc.process_bytes(text.data(), text.size());
+    return BigEndian(static_cast<std::uint32_t>(text.size() - 4)) + text +
+           BigEndian(crc.checksum());
+  }();
+  return chunk;
+}
+
+bool IsOwnPicture(const fs::path& file) {
+  std::string begin(kHeaderSize + SoftwareChunk().size(), '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return in && std::string_view(begin).substr(kHeaderSize) == SoftwareChunk();
+}
+
 /// One PNG per picture, in a hidden folder until all are complete. Then the frames of an earlier
-/// film of that name go first: numbered without a gap, regular files, nothing else. So there are
-/// never frames of both. Without Finish or Keep the earlier film stays; where there is none, the
-/// frames so far are kept.
+/// film of that name are removed first: those that are numbered without a gap, which must be
+/// pictures of Trackbed's. So there are never frames of both. Without Finish or Keep the earlier
+/// film stays; where there is none, the frames so far are kept.
 class FrameOutput : public FilmOutput {
  public:
-  explicit FrameOutput(fs::path output) : output_(std::move(output)), frames_(output_) {}
+  explicit FrameOutput(fs::path output) : output_(std::move(output)), frames_(output_) {
+    for (int frame = 0; IsThere(frame); ++frame) {
+      const fs::path name = FrameName(output_, frame);
+      if (!IsOwnPicture(name)) {
+        throw RunError(fmt::format(
+            "{} is in the way of the film's frames, but is none itself; choose another name (-o)",
+            name.string()));
+      }
+    }
+  }
   FrameOutput(const FrameOutput&) = delete;
   FrameOutput& operator=(const FrameOutput&) = delete;
   ~FrameOutput() override {
@@ -43,7 +86,7 @@ class FrameOutput : public FilmOutput {
     const int frames = std::exchange(next_, 0);
     std::error_code error;
     int old = 0;
-    while (frames > 0 && fs::is_regular_file(fs::symlink_status(FrameName(output_, old), error))) {
+    while (frames > 0 && IsThere(old)) {
       ++old;
     }
     // From the last one on: what is left on the way can be told and removed by the next film.
@@ -65,6 +108,11 @@ class FrameOutput : public FilmOutput {
   void Keep() override { Finish(); }
 
  private:
+  [[nodiscard]] bool IsThere(int frame) const {
+    std::error_code ignored;
+    return fs::is_regular_file(fs::symlink_status(FrameName(output_, frame), ignored));
+  }
+
   fs::path output_;
   TemporaryFolder frames_;
   int next_ = 0;
@@ -200,6 +248,7 @@ std::string EncodePng(const Image& image) {
     throw RunError(fmt::format("cannot make a PNG: {}", png.message));
   }
   bytes.resize(size);
+  bytes.insert(kHeaderSize, SoftwareChunk());
   return bytes;
 }
 

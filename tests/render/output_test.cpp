@@ -284,6 +284,27 @@ TEST_F(Frames, OfAnOlderFilmStayWhereTheyAreNoFiles) {
   EXPECT_EQ(ReadFile(FrameName(output_, 3)), "kept");
 }
 
+TEST_F(Frames, DoNotReplacePicturesOfOthers) {
+  ASSERT_EQ(RenderFilm(run_, output_, options_).frames, 3);
+  const std::string own = ReadFile(FrameName(output_, 1));
+  // As any other program writes it: without the chunk that names Trackbed.
+  const std::size_t chunk = own.find("tEXt") - 4;
+  const std::string other =
+      own.substr(0, chunk) + own.substr(own.find("Trackbed") + 8 + sizeof(std::uint32_t));
+  WriteFileAtomically(FrameName(output_, 1), other);
+  ASSERT_TRUE(DecodePng(other).rgb == DecodePng(own).rgb);
+  try {
+    RenderFilm(run_, output_, options_);
+    FAIL();
+  } catch (const RunError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              FrameName(output_, 1).string() +
+                  " is in the way of the film's frames, but is none itself; choose another name "
+                  "(-o)");
+  }
+  EXPECT_EQ(ReadFile(FrameName(output_, 1)), other);
+}
+
 TEST_F(Frames, AreNotMadeForAnUnknownExtensionOrQuality) {
   output_ = folder_.path() / "frames" / "f.jpg";
   EXPECT_EQ(InputMessage([this] { RenderFilm(run_, output_, options_); }),
