@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "render/decor.h"
+
 namespace trackbed::render {
 
 void AddCone(mjvScene& scene, const Point& foot) {
@@ -10,15 +12,13 @@ void AddCone(mjvScene& scene, const Point& foot) {
   constexpr double kHalf = 0.0625;                                           // of a height [m]
   constexpr std::array<float, 4> kOrange{0.95F, 0.35F, 0.05F, 1.0F};
   constexpr std::array<float, 4> kWhite{0.95F, 0.95F, 0.95F, 1.0F};
-  for (std::size_t i = 0; i < kConePieces && scene.ngeom < scene.maxgeom; ++i) {
-    const std::array<mjtNum, 3> size{kRadii[i], kHalf, 0.0};
+  for (std::size_t i = 0; i < kConePieces; ++i) {
     const double middle = kHalf * (2.0 * static_cast<double>(i) + 1.0);
-    const std::array<mjtNum, 3> place{foot.x, foot.y, foot.z + middle};
-    mjvGeom& geom = scene.geoms[scene.ngeom];
-    mjv_initGeom(&geom, mjGEOM_CYLINDER, size.data(), place.data(), nullptr,
-                 i == 2 ? kWhite.data() : kOrange.data());
-    geom.category = mjCAT_DECOR;
-    ++scene.ngeom;
+    if (mjvGeom* piece = AddDecor(scene, mjGEOM_CYLINDER, {kRadii[i], kHalf, 0.0},
+                                  {foot.x, foot.y, foot.z + middle}, RowMajorMatrix3::Identity(),
+                                  i == 2 ? kWhite : kOrange)) {
+      piece->specular = 0.5F;
+    }
   }
 }
 

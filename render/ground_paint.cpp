@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "render/decor.h"
+
 namespace trackbed::render {
 namespace {
 
@@ -151,17 +153,9 @@ std::vector<Tile> PatchTiles(const World& world) {
 }
 
 void AddTile(mjvScene& scene, const Tile& tile) {
-  if (scene.ngeom >= scene.maxgeom) {
-    return;
-  }
   const std::array<mjtNum, 3> size{tile.half_length, tile.half_width, 1.0};
-  const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor> rotation = tile.rotation;
   const std::array<float, 4> rgba{tile.color.r, tile.color.g, tile.color.b, tile.alpha};
-  mjvGeom& geom = scene.geoms[scene.ngeom];
-  mjv_initGeom(&geom, mjGEOM_PLANE, size.data(), tile.center.data(), rotation.data(), rgba.data());
-  geom.specular = 0.0F;
-  geom.category = mjCAT_DECOR;
-  ++scene.ngeom;
+  AddDecor(scene, mjGEOM_PLANE, size, tile.center, tile.rotation, rgba);
 }
 
 }  // namespace trackbed::render

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr double kLongestRun = 1e6;  // s, the longest time limit of a drive
 
-[[noreturn]] void Reject(const fs::path& file, std::string key, std::string message) {
+[[noreturn]] void RejectRecording(const fs::path& file, std::string key, std::string message) {
   throw InputError(
       Problem{.file = file.string(), .key = std::move(key), .message = std::move(message)});
 }
@@ -44,8 +44,8 @@ std::vector<std::string> PlantsWithStates(const fs::path& folder) {
     }
   }
   if (plants.empty()) {
-    Reject(folder, "",
-           "no <plant>.state.csv in the folder: not a run, or one that recorded nothing");
+    RejectRecording(folder, "",
+                    "no <plant>.state.csv in the folder: not a run, or one that recorded nothing");
   }
   return plants;
 }
@@ -60,9 +60,10 @@ void CheckAllAreThere(const fs::path& folder, const std::vector<std::string>& pl
   const auto visit = [&](const nlohmann::ordered_json& told) {
     for (const auto& item : told.at("plants").items()) {
       if (std::find(plants.begin(), plants.end(), item.key()) == plants.end()) {
-        Reject(folder / run_folder::StateCsv(item.key()), "",
-               fmt::format("missing from the run folder, whose metrics.json lists a run on {}",
-                           item.key()));
+        RejectRecording(
+            folder / run_folder::StateCsv(item.key()), "",
+            fmt::format("missing from the run folder, whose metrics.json lists a run on {}",
+                        item.key()));
       }
     }
   };
@@ -84,10 +85,10 @@ std::vector<std::string> Chosen(const fs::path& folder, std::vector<std::string>
                                 const std::vector<std::string>& asked) {
   for (const std::string& plant : asked) {
     if (std::find(there_are.begin(), there_are.end(), plant) == there_are.end()) {
-      Reject(folder, "plants", "unknown plant " + UnknownName(plant, there_are));
+      RejectRecording(folder, "plants", "unknown plant " + UnknownName(plant, there_are));
     }
     if (std::count(asked.begin(), asked.end(), plant) > 1) {
-      Reject(folder, "plants", fmt::format("'{}' is listed twice", plant));
+      RejectRecording(folder, "plants", fmt::format("'{}' is listed twice", plant));
     }
   }
   return asked.empty() ? std::move(there_are) : asked;
@@ -112,22 +113,23 @@ TimedTable::TimedTable(const fs::path& file) : file_(file), table_(ReadRunTable(
     return times;
   }();
   if (times_.empty()) {
-    Reject(file_, "", "no rows");
+    RejectRecording(file_, "", "no rows");
   }
   for (std::size_t row = 0; row < times_.size(); ++row) {
     if (!(std::abs(times_[row]) <= kLongestRun)) {
-      Reject(file_, "t_s",
-             fmt::format("row {}: {} is out of range; must be at least {} and at most {}", row + 1,
-                         times_[row], -kLongestRun, kLongestRun));
+      RejectRecording(file_, "t_s",
+                      fmt::format("row {}: {} is out of range; must be at least {} and at most {}",
+                                  row + 1, times_[row], -kLongestRun, kLongestRun));
     }
     if (row > 0 && !(times_[row] > times_[row - 1])) {
-      Reject(
+      RejectRecording(
           file_, "t_s",
           fmt::format("row {}: {} does not come after {}", row + 1, times_[row], times_[row - 1]));
     }
     for (std::size_t column = 0; column < table_.columns().size(); ++column) {
       if (!std::isfinite(table_.at(row, column))) {
-        Reject(file_, table_.columns()[column], fmt::format("row {}: not finite", row + 1));
+        RejectRecording(file_, table_.columns()[column],
+                        fmt::format("row {}: not finite", row + 1));
       }
     }
   }
@@ -141,7 +143,7 @@ std::optional<std::size_t> TimedTable::Find(const std::string& column) const {
 std::size_t TimedTable::Require(const std::string& column) const {
   const std::optional<std::size_t> index = Find(column);
   if (!index) {
-    Reject(file_, column, "no such column");
+    RejectRecording(file_, column, "no such column");
   }
   return *index;
 }
@@ -177,7 +179,7 @@ PlantRecording::PlantRecording(const fs::path& folder, const std::string& plant,
   }
   const int chassis = mj_name2id(&model, mjOBJ_JOINT, "chassis");
   if (chassis < 0 || model.jnt_type[chassis] != mjJNT_FREE) {
-    Reject(folder / run_folder::kModelXml, "", "no free joint named 'chassis'");
+    RejectRecording(folder / run_folder::kModelXml, "", "no free joint named 'chassis'");
   }
   free_joint_qpos_ = model.jnt_qposadr[chassis];
   for (int joint = 0; joint < model.njnt; ++joint) {
@@ -295,10 +297,10 @@ Point Recording::OnGround(const Point& point) const {
 Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& asked) {
   std::error_code ignored;
   if (!fs::exists(folder, ignored)) {
-    Reject(folder, "", "no such folder");
+    RejectRecording(folder, "", "no such folder");
   }
   if (!fs::is_directory(folder, ignored)) {
-    Reject(folder, "", "not a folder, but a run is one");
+    RejectRecording(folder, "", "not a folder, but a run is one");
   }
   const std::vector<std::string> plants = Chosen(folder, FindPlants(folder), asked);
   Recording recording;
@@ -318,7 +320,7 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
   }
   const fs::path plan = folder / run_folder::kPlanCsv;
   if (fs::exists(folder / run_folder::kPlanJson, ignored) && !fs::exists(plan, ignored)) {
-    Reject(plan, "", "missing from the run folder, which has plan.json");
+    RejectRecording(plan, "", "missing from the run folder, which has plan.json");
   }
   const fs::path new_plans = folder / run_folder::NewPlansCsv(plants.front());
   recording.plan = ReadPlan(plan);

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "render/decor.h"
+
 namespace trackbed::render {
 namespace {
 
@@ -73,7 +75,7 @@ void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const Ribbo
                     const Eigen::Vector3d& normal) {
   const Eigen::Vector3d along(b.x - a.x, b.y - a.y, b.z - a.z);
   const double length = along.norm();
-  if (length < 1e-6 || scene.ngeom >= scene.maxgeom) {
+  if (length < 1e-6) {
     return;
   }
   // Neighbors overlap at two heights: lamps that cast shadows light both of two faces at one
@@ -81,7 +83,7 @@ void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const Ribbo
   constexpr double kStagger = 0.0005;
   // Pieces meet at up to about 15 degrees: tan(15 / 2) of half the width closes the outer corner.
   const double overlap = 0.15 * 0.5 * style.width;
-  Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor> rotation;
+  RowMajorMatrix3 rotation;
   rotation.col(0) = along / length;
   rotation.col(1) = normal.cross(along).normalized();
   rotation.col(2) = rotation.col(0).cross(rotation.col(1));
@@ -89,14 +91,11 @@ void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const Ribbo
   const Eigen::Vector3d center = Eigen::Vector3d(a.x, a.y, a.z) + 0.5 * along +
                                  (style.height + (scene.ngeom % 2) * kStagger) * rotation.col(2);
   const std::array<float, 4> rgba{style.color.r, style.color.g, style.color.b, 1.0F};
-  mjvGeom& geom = scene.geoms[scene.ngeom];
   // A plane: MuJoCo's shadow map is made of back faces, which a plane has none of. A thin box would
   // cast a shadow on its own upper face, as speckle wherever the map's depth is too coarse.
-  mjv_initGeom(&geom, mjGEOM_PLANE, size.data(), center.data(), rotation.data(), rgba.data());
-  geom.emission = 0.08F;  // paint is a little brighter than the road, also in the shade
-  geom.specular = 0.0F;
-  geom.category = mjCAT_DECOR;
-  ++scene.ngeom;
+  if (mjvGeom* piece = AddDecor(scene, mjGEOM_PLANE, size, center, rotation, rgba)) {
+    piece->emission = 0.08F;  // paint is a little brighter than the road, also in the shade
+  }
 }
 
 }  // namespace trackbed::render

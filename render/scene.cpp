@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "render/cone.h"
+#include "render/decor.h"
 #include "render/shadow.h"
 #include "trackbed/core/angle.h"
 
@@ -133,7 +134,7 @@ void FilmScene::AddContactShadow() {
     return Eigen::Vector3d(p.x(), p.y(), GroundHeight(recording_.world, p));
   };
   const Eigen::Vector3d along = side(1.0, 0.0) - side(-1.0, 0.0);
-  Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor> flat;
+  RowMajorMatrix3 flat;
   flat.col(0) = along.normalized();
   flat.col(2) = along.cross(side(0.0, 1.0) - side(0.0, -1.0)).normalized();
   flat.col(1) = flat.col(2).cross(flat.col(0));
@@ -141,16 +142,12 @@ void FilmScene::AddContactShadow() {
       0.25 * (side(1.0, 0.0) + side(-1.0, 0.0) + side(0.0, 1.0) + side(0.0, -1.0)) +
       kShadowHeight * flat.col(2);
   const std::array<float, 4> rgba{0.0F, 0.0F, 0.02F, kShadowAlpha};
-  for (int layer = 0; layer < kShadowLayers && scene.ngeom < scene.maxgeom; ++layer) {
+  for (int layer = 0; layer < kShadowLayers; ++layer) {
     // From well inside the outline to as far outside.
     const double wider = kShadowSpread * (layer - 0.5 * kShadowLayers);
     const std::array<mjtNum, 3> size{model.site_size[3 * site] + wider,
                                      model.site_size[3 * site + 1] + wider, 0.0005};
-    mjvGeom& geom = scene.geoms[scene.ngeom];
-    mjv_initGeom(&geom, mjGEOM_BOX, size.data(), place.data(), flat.data(), rgba.data());
-    geom.specular = 0.0F;
-    geom.category = mjCAT_DECOR;
-    ++scene.ngeom;
+    AddDecor(scene, mjGEOM_BOX, size, place, flat, rgba);
   }
 }
 

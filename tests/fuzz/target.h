@@ -31,19 +31,34 @@ int Expect(const Read& read) {
   return 0;
 }
 
-/// A folder of this process in memory.
-inline const std::filesystem::path& Folder() {
-  static const std::filesystem::path folder = [] {
+/// A folder of this process, in memory where it can be, which goes when the process ends.
+class ProcessFolder {
+ public:
+  ProcessFolder() {
     const std::filesystem::path memory = "/dev/shm";
     std::error_code ignored;
     const std::filesystem::path parent = std::filesystem::is_directory(memory, ignored)
                                              ? memory
                                              : std::filesystem::temp_directory_path();
-    const std::filesystem::path own = parent / ("trackbed_fuzz_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(own);
-    return own;
-  }();
-  return folder;
+    path_ = parent / ("trackbed_fuzz_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(path_);
+  }
+  ProcessFolder(const ProcessFolder&) = delete;
+  ProcessFolder& operator=(const ProcessFolder&) = delete;
+  ~ProcessFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline const std::filesystem::path& Folder() {
+  static const ProcessFolder folder;
+  return folder.path();
 }
 
 inline std::filesystem::path Write(const std::string& name, const std::string& content) {
