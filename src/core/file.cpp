@@ -250,13 +250,30 @@ void CheckCanWrite(const fs::path& file) {
   }
 }
 
-void WriteNewFile(const fs::path& file, std::string_view content, const fs::path& shown) {
-  Descriptor out(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  int error = out.get() < 0 ? errno : WriteAll(out.get(), content);
-  error = error != 0 ? error : out.Close();
-  if (error != 0) {
-    Fail("write", shown, error);
+NewFile::NewFile(const fs::path& file, fs::path shown)
+    : shown_(std::move(shown)),
+      descriptor_(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)) {
+  if (descriptor_.get() < 0) {
+    Fail("write", shown_, errno);
   }
+}
+
+void NewFile::Write(std::string_view content) {
+  if (const int error = WriteAll(descriptor_.get(), content); error != 0) {
+    Fail("write", shown_, error);
+  }
+}
+
+void NewFile::Close() {
+  if (const int error = descriptor_.Close(); error != 0) {
+    Fail("write", shown_, error);
+  }
+}
+
+void WriteNewFile(const fs::path& file, std::string_view content, const fs::path& shown) {
+  NewFile out(file, shown);
+  out.Write(content);
+  out.Close();
 }
 
 void WriteFileAtomically(const fs::path& file, std::string_view content) {

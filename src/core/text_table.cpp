@@ -11,9 +11,9 @@
 #include "trackbed/core/table.h"
 
 namespace trackbed {
-namespace {
 
-void AddLine(const std::vector<std::string>& cells, std::string& csv) {
+std::string CsvLine(const std::vector<std::string>& cells) {
+  std::string csv;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     csv += i == 0 ? "" : ",";
     // A line of one empty cell would be an empty line, which readers skip.
@@ -29,9 +29,8 @@ void AddLine(const std::vector<std::string>& cells, std::string& csv) {
     csv += '"';
   }
   csv += '\n';
+  return csv;
 }
-
-}  // namespace
 
 std::string ShortestText(double number) {
   return fmt::format("{}", number + 0.0);  // `+ 0.0` turns a negative zero into zero
@@ -60,10 +59,9 @@ void TextTable::AddRow(std::vector<std::string> row) {
 }
 
 std::string TextTable::ToCsv() const {
-  std::string csv;
-  AddLine(columns_, csv);
+  std::string csv = CsvLine(columns_);
   for (const std::vector<std::string>& row : rows_) {
-    AddLine(row, csv);
+    csv += CsvLine(row);
   }
   return csv;
 }

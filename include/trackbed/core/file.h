@@ -24,11 +24,6 @@ std::string ReadFile(const std::filesystem::path& file, std::size_t largest = kL
 /// may be empty, which the hashes of manifest.json (analysis/output_folder.h) tell.
 void WriteFileAtomically(const std::filesystem::path& file, std::string_view content);
 
-/// Writes a file that is not there yet, in a folder that no one reads. RunError naming `shown`,
-/// what the file will be called; what was written may be left.
-void WriteNewFile(const std::filesystem::path& file, std::string_view content,
-                  const std::filesystem::path& shown);
-
 /// Checks, before long work, that WriteFileAtomically can write the file. RunError as there: the
 /// name is a folder's, or its folder is absent or takes no files. Leaves nothing behind.
 void CheckCanWrite(const std::filesystem::path& file);
@@ -50,6 +45,25 @@ class Descriptor {
  private:
   int descriptor_;
 };
+
+/// A file that is not there yet, in a folder that no one reads. Errors are RunErrors naming
+/// `shown`, what the file will be called; what was written may be left.
+class NewFile {
+ public:
+  NewFile(const std::filesystem::path& file, std::filesystem::path shown);
+  /// Writes to its end.
+  void Write(std::string_view content);
+  /// Call last: only closing tells whether everything found room.
+  void Close();
+
+ private:
+  std::filesystem::path shown_;
+  Descriptor descriptor_;
+};
+
+/// Writes a NewFile at once.
+void WriteNewFile(const std::filesystem::path& file, std::string_view content,
+                  const std::filesystem::path& shown);
 
 /// A new, empty file beside `file`, for use until the content is complete: ".STEM.PID-N.trackbed",
 /// with the extension of `file`, for writers that depend on it. It is locked (flock) as long as the

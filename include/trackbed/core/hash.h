@@ -1,11 +1,29 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 
 namespace trackbed {
 
-/// SHA-256 of some bytes, hexadecimal. Cost: about 2 ns a byte.
+/// SHA-256 of bytes that come in parts. Cost: about 2 ns a byte.
+class Sha256Sum {
+ public:
+  Sha256Sum();
+  Sha256Sum(Sha256Sum&&) noexcept;
+  Sha256Sum& operator=(Sha256Sum&&) noexcept;
+  ~Sha256Sum();
+
+  void Add(std::string_view content);
+  /// Of all that was added, hexadecimal. Call once, last.
+  [[nodiscard]] std::string Finish();
+
+ private:
+  struct Context;
+  std::unique_ptr<Context> context_;
+};
+
+/// SHA-256 of some bytes, hexadecimal.
 std::string Sha256(std::string_view content);
 
 }  // namespace trackbed

@@ -13,6 +13,9 @@ std::string ShortestText(double number);
 /// Two numbers as text with four digits, or with as many as are needed for them to differ.
 std::pair<std::string, std::string> FormatDistinct(double first, double second);
 
+/// A line of a CSV file, in RFC 4180's quotes where a cell holds a comma, a quote or a line end.
+std::string CsvLine(const std::vector<std::string>& cells);
+
 /// A table of texts with named columns, for results that are not all numbers. Text in, text out: an
 /// empty cell is a missing value.
 ///
