@@ -10,9 +10,11 @@ set(pkg_config_names
     NLopt::nlopt=nlopt
     yaml-cpp=yaml-cpp
     tinyxml2::tinyxml2=tinyxml2
+    muparser::muparser=muparser
     PNG::PNG=libpng
     Boost::headers=
     Threads::Threads=-pthread
+    TBB::tbb=tbb
     OpenSSL::Crypto=libcrypto
     csv::csv=-lcsv
     mujoco::mujoco=-lmujoco)

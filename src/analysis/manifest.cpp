@@ -1,10 +1,6 @@
 #include "src/analysis/manifest.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -12,12 +8,20 @@
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
-#include "trackbed/core/hash.h"
 
 namespace trackbed {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
+
+void EntryMaker::Add(std::string_view content) {
+  sum_.Add(content);
+  size_ += content.size();
+}
+
+ManifestEntry EntryMaker::Finish() {
+  return {size_, sum_.Finish()};
+}
 
 ManifestEntry EntryOf(std::string_view content) {
   return {content.size(), Sha256(content)};

@@ -8,9 +8,22 @@
 #include <vector>
 
 #include "trackbed/analysis/output_folder.h"
+#include "trackbed/core/hash.h"
 
 /// manifest.json: which files belong to the results in a folder.
 namespace trackbed {
+
+/// Size and SHA-256 of what is added.
+class EntryMaker {
+ public:
+  void Add(std::string_view content);
+  /// Call last.
+  [[nodiscard]] ManifestEntry Finish();
+
+ private:
+  Sha256Sum sum_;
+  std::size_t size_ = 0;
+};
 
 ManifestEntry EntryOf(std::string_view content);
 

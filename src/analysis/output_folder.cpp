@@ -254,6 +254,11 @@ ResultWriter::~ResultWriter() {
 }
 
 void ResultWriter::Add(const std::string& name, std::string_view content) {
+  bool given = false;
+  Add(name, [&] { return std::exchange(given, true) ? std::string() : std::string(content); });
+}
+
+void ResultWriter::Add(const std::string& name, const std::function<std::string()>& next) {
   const fs::path file = folder_ / name;
   std::error_code error;
   // Links are replaced, but not what else is in the way: Commit would find it too late.
@@ -263,9 +268,15 @@ void ResultWriter::Add(const std::string& name, std::string_view content) {
   if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
     throw RunError(fmt::format("cannot write {}: it is not a regular file", file.string()));
   }
-  WriteNewFile(folder_ / run_folder::kPartial / name, content, file);
+  NewFile out(folder_ / run_folder::kPartial / name, file);
+  EntryMaker entry;
+  for (std::string part = next(); !part.empty(); part = next()) {
+    out.Write(part);
+    entry.Add(part);
+  }
+  out.Close();
   if (name != run_folder::kTimingJson) {
-    files_[name] = EntryOf(content);
+    files_[name] = entry.Finish();
   }
   names_.push_back(name);
 }

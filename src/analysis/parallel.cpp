@@ -1,42 +1,59 @@
 #include "src/analysis/parallel.h"
 
-#include <algorithm>
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <atomic>
-#include <exception>
-#include <mutex>
-#include <thread>
+#include <future>
 #include <vector>
 
 namespace trackbed {
 
+#ifdef __SANITIZE_THREAD__
+
+// The thread sanitizer takes all that oneTBB's threads do for races, as the library is built
+// without it. To look for races of the runs themselves any threads will do.
 void ForEachIndex(std::size_t count, int threads, const std::function<bool(std::size_t)>& work) {
   std::atomic<std::size_t> next{0};
-  std::atomic<bool> stop{false};
-  std::mutex mutex;
-  std::exception_ptr failure;
-  const auto worker = [&] {
-    for (std::size_t i = next++; i < count && !stop; i = next++) {
-      try {
-        if (!work(i)) {
-          stop = true;
+  std::vector<std::future<void>> workers;
+  for (int i = 0; i < threads; ++i) {
+    workers.push_back(std::async(std::launch::async, [&] {
+      for (std::size_t index = next++; index < count; index = next++) {
+        if (!work(index)) {
+          next = count;
         }
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        failure = failure ? failure : std::current_exception();
-        stop = true;
       }
-    }
-  };
-  {
-    std::vector<std::jthread> workers;
-    const auto size = std::min(static_cast<std::size_t>(threads), count);
-    for (std::size_t i = 0; i < size; ++i) {
-      workers.emplace_back(worker);
-    }
+    }));
   }
-  if (failure) {
-    std::rethrow_exception(failure);
+  for (std::future<void>& worker : workers) {
+    worker.get();
   }
 }
+
+#else
+
+void ForEachIndex(std::size_t count, int threads, const std::function<bool(std::size_t)>& work) {
+  // Also more threads than processors, if that is what is asked for.
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::task_group_context context;
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, count, 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            if (!context.is_group_execution_cancelled() && !work(i)) {
+              context.cancel_group_execution();
+            }
+          }
+        },
+        tbb::simple_partitioner(), context);
+  });
+}
+
+#endif
 
 }  // namespace trackbed

@@ -1,15 +1,23 @@
 #include "trackbed/analysis/sweep.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string_view>
-#include <system_error>
+#include <tuple>
+#include <utility>
 
+#include "src/analysis/manifest.h"
 #include "src/analysis/parallel.h"
 #include "trackbed/analysis/bisect.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/hash.h"
 
 namespace trackbed {
 namespace {
@@ -20,8 +28,8 @@ using nlohmann::ordered_json;
 /// Keys of the parameters in the order of their columns.
 std::vector<std::string> ParameterKeys(const Study& study) {
   std::vector<std::string> keys;
-  for (const auto& alternatives : study.vary) {
-    keys.push_back(alternatives.front().key);
+  for (const Variation& variation : study.vary) {
+    keys.push_back(variation.key);
   }
   for (const auto& point : study.list) {
     for (const Setting& setting : point) {
@@ -29,6 +37,9 @@ std::vector<std::string> ParameterKeys(const Study& study) {
         keys.push_back(setting.key);
       }
     }
+  }
+  for (const DerivedKey& derived : study.derive) {
+    keys.push_back(derived.key);
   }
   return keys;
 }
@@ -66,7 +77,7 @@ ordered_json SettingsJson(const std::vector<Setting>& settings) {
   return json;
 }
 
-/// One row of the table, before it is known which others there are.
+/// One row of the table.
 struct Row {
   std::vector<std::string> cells;
   bool passed = false;
@@ -75,6 +86,31 @@ struct Row {
   std::size_t runs = 1;
   ordered_json bisection;
 };
+
+/// As records have it.
+ordered_json ToJson(const Row& row) {
+  ordered_json json{{"cells", row.cells}, {"runs", row.runs}};
+  const std::array<std::pair<const char*, bool>, 3> flags{
+      {{"passed", row.passed}, {"refused", row.refused}, {"error", row.error}}};
+  for (const auto& [name, is_set] : flags) {
+    if (is_set) {
+      json[name] = true;
+    }
+  }
+  if (!row.bisection.is_null()) {
+    json["bisection"] = row.bisection;
+  }
+  return json;
+}
+
+Row FromJson(const ordered_json& json) {
+  return {.cells = json.at("cells").get<std::vector<std::string>>(),
+          .passed = json.contains("passed"),
+          .refused = json.contains("refused"),
+          .error = json.contains("error"),
+          .runs = json.at("runs").get<std::size_t>(),
+          .bisection = json.value("bisection", ordered_json())};
+}
 
 /// Makes the rows of a study.
 class RowMaker {
@@ -213,15 +249,83 @@ class RowMaker {
   const RunScenarioOnce& run_;
 };
 
+ordered_json DistributionJson(const Variation& variation) {
+  const Distribution& distribution = *variation.distribution;
+  ordered_json json{{"distribution", ToString(distribution.kind)}};
+  switch (distribution.kind) {
+    case DistributionKind::kUniform:
+    case DistributionKind::kLogUniform:
+    case DistributionKind::kInteger:
+      json["from"] = distribution.from;
+      json["to"] = distribution.to;
+      break;
+    case DistributionKind::kNormal:
+      json["mean"] = distribution.mean;
+      json["deviation"] = distribution.deviation;
+      if (std::isfinite(distribution.min)) {
+        json["min"] = distribution.min;
+      }
+      if (std::isfinite(distribution.max)) {
+        json["max"] = distribution.max;
+      }
+      break;
+    case DistributionKind::kChoice:
+      if (variation.rows_of.empty()) {
+        for (const std::string& value : distribution.values) {
+          json["values"].push_back(SettingsJson(value));
+        }
+      } else {
+        json["file"] = variation.rows_of;
+        json["sha256"] = Sha256(fmt::format("{}", fmt::join(distribution.values, "\n")));
+      }
+      if (!distribution.weights.empty()) {
+        json["weights"] = distribution.weights;
+      }
+      break;
+  }
+  return json;
+}
+
+/// A list of values, or a section where it has more to say.
+ordered_json VariationJson(const Variation& variation) {
+  ordered_json json = ordered_json::array();
+  if (variation.distribution) {
+    json = DistributionJson(variation);
+  } else {
+    for (const Setting& setting : variation.alternatives) {
+      json.push_back(SettingsJson(setting.value));
+    }
+  }
+  if (!variation.when.empty()) {
+    if (json.is_array()) {
+      json = {{"values", json}};
+    }
+    for (const Condition& condition : variation.when) {
+      for (const std::string& value : condition.values) {
+        json["when"][condition.key].push_back(SettingsJson(value));
+      }
+    }
+  }
+  return json;
+}
+
 ordered_json DescribeStudy(const Study& study) {
-  ordered_json json{{"study", study.name}, {"scenario", study.scenario.string()}};
+  // Whatever folder the study is run from.
+  const fs::path scenario = fs::absolute(study.scenario).lexically_normal();
+  ordered_json json{{"study", study.name}, {"scenario", scenario.string()}};
   json["set"] = SettingsJson(study.set);
   json["overrides"] = study.overrides;
   json["vary"] = ordered_json::object();
-  for (const auto& alternatives : study.vary) {
-    for (const Setting& setting : alternatives) {
-      json["vary"][setting.key].push_back(SettingsJson(setting.value));
-    }
+  for (const Variation& variation : study.vary) {
+    json["vary"][variation.key] = VariationJson(variation);
+  }
+  if (study.sample) {
+    json["sample"] = {{"count", study.sample->count},
+                      {"method", ToString(study.sample->method)},
+                      {"seed", study.sample->seed}};
+  }
+  for (const DerivedKey& derived : study.derive) {
+    json["derive"][derived.key] = derived.formula;
   }
   json["list"] = ordered_json::array();
   for (const auto& point : study.list) {
@@ -243,61 +347,237 @@ ordered_json DescribeStudy(const Study& study) {
 
 }  // namespace
 
-SweepResult RunSweep(const Study& study, const std::vector<StudyPoint>& points,
-                     const RunScenarioOnce& run, const SweepOptions& options) {
+namespace {
+
+std::vector<std::string> Columns(const SweepRecords& records) {
+  return records.header().at("columns").get<std::vector<std::string>>();
+}
+
+/// The row numbers of the shard that the records have not; or else those that they have with one of
+/// the statuses `again`.
+std::vector<std::size_t> RowsToRun(const SweepRecords& records, const SweepOptions& options) {
+  const std::vector<std::string> columns = Columns(records);
+  const auto status = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), "status") -
+                                               columns.begin());
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < records.rows(); ++row) {
+    if (!options.shard.Has(row)) {
+      continue;
+    }
+    bool wanted = options.again.empty() && !records.Has(row);
+    if (!options.again.empty() && records.Has(row)) {
+      const std::string was = FromJson(records.Read(row)).cells.at(status);
+      wanted = std::find(options.again.begin(), options.again.end(), was) != options.again.end();
+    }
+    if (wanted) {
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+/// Calls with every row of the shard that there is, in their order.
+void ForEachRow(const SweepRecords& records, const Shard& shard,
+                const std::function<void(Row row)>& take) {
+  for (std::size_t i = 0; i < records.rows(); ++i) {
+    if (shard.Has(i) && records.Has(i)) {
+      take(FromJson(records.Read(i)));
+    }
+  }
+}
+
+/// sweep.json: the study as it was run.
+ordered_json Description(const SweepRecords& records, const Shard& shard,
+                         const SweepSummary& sweep) {
+  ordered_json json = records.header();
+  json.erase("columns");
+  if (shard.count > 1) {
+    json["shard"] = {shard.index, shard.count};
+  }
+  json["complete"] = sweep.complete();
+  json["rows"] = sweep.rows;
+  json["rows_expected"] = sweep.rows_expected;
+  json["runs"] = sweep.runs;
+  json["refused"] = sweep.refused;
+  json["errors"] = sweep.errors;
+  if (json.contains("bisect")) {
+    json["bisections"] = ordered_json::array();
+    ForEachRow(records, shard, [&](Row row) {
+      if (!row.bisection.is_null()) {
+        json["bisections"].push_back(std::move(row.bisection));
+      }
+    });
+  }
+  return json;
+}
+
+}  // namespace
+
+SweepSummary Summarize(const SweepRecords& records, const Shard& shard) {
+  SweepSummary sweep;
+  for (std::size_t i = 0; i < records.rows(); ++i) {
+    sweep.rows_expected += shard.Has(i) ? 1U : 0U;
+  }
+  ForEachRow(records, shard, [&](const Row& row) {
+    sweep.rows += 1;
+    sweep.runs += row.runs;
+    sweep.passed += row.passed ? 1U : 0U;
+    sweep.refused += row.refused ? 1U : 0U;
+    sweep.errors += row.error ? 1U : 0U;
+  });
+  return sweep;
+}
+
+std::size_t CountRows(const StudyPoints& points) {
+  return points.size() * static_cast<std::size_t>(points.study().repeat);
+}
+
+void RunRows(const StudyPoints& points, const RunScenarioOnce& run, SweepRecords& records,
+             const SweepOptions& options) {
   TRACKBED_CHECK(options.jobs > 0, "{} jobs", options.jobs);
+  TRACKBED_CHECK(records.rows() == CountRows(points), "records of {} rows for a study of {}",
+                 records.rows(), CountRows(points));
+  const Study& study = points.study();
   const auto repeat = static_cast<std::size_t>(study.repeat);
   const RunScenarioOnce unless_interrupted = [&](const Scenario& scenario) {
     return options.interrupted && options.interrupted() ? std::nullopt : run(scenario);
   };
   const RowMaker maker(study, unless_interrupted);
-  std::vector<std::optional<Row>> rows(points.size() * repeat);
+  const std::vector<std::size_t> rows = RowsToRun(records, options);
   std::mutex mutex;
   std::size_t finished = 0;
   ForEachIndex(rows.size(), options.jobs, [&](std::size_t i) {
-    rows[i] = maker.Make(points[i / repeat], i % repeat);
-    if (rows[i] && options.progress) {
+    const std::optional<Row> row = maker.Make(points.Read(rows[i] / repeat), rows[i] % repeat);
+    if (!row) {
+      return false;
+    }
+    records.Append(rows[i], ToJson(*row));
+    if (options.progress) {
       const std::lock_guard lock(mutex);
       options.progress(static_cast<double>(++finished) / static_cast<double>(rows.size()));
     }
-    return rows[i].has_value();
+    return true;
   });
+}
 
-  SweepResult sweep{.table = TextTable(Columns(study)),
-                    .description = DescribeStudy(study),
-                    .rows_expected = rows.size()};
-  ordered_json bisections = ordered_json::array();
-  for (std::optional<Row>& row : rows) {
-    if (!row) {
-      continue;
+SweepSummary WriteSweep(const SweepRecords& records, const Shard& shard,
+                        const OutputFolder& folder) {
+  const SweepSummary summary = Summarize(records, shard);
+  ResultWriter writer(folder);
+  bool header = true;
+  std::size_t next = 0;
+  writer.Add(run_folder::kSweepCsv, [&] {
+    constexpr std::size_t kPart = 65536;
+    std::string part = std::exchange(header, false) ? CsvLine(Columns(records)) : "";
+    for (; next < records.rows() && part.size() < kPart; ++next) {
+      if (shard.Has(next) && records.Has(next)) {
+        part += CsvLine(FromJson(records.Read(next)).cells);
+      }
     }
-    sweep.table.AddRow(std::move(row->cells));
-    sweep.runs += row->runs;
-    sweep.passed += row->passed ? 1U : 0U;
-    sweep.refused += row->refused ? 1U : 0U;
-    sweep.errors += row->error ? 1U : 0U;
-    if (study.bisect) {
-      bisections.push_back(std::move(row->bisection));
-    }
-  }
-  sweep.description["complete"] = sweep.complete();
-  sweep.description["rows"] = sweep.table.rows().size();
-  sweep.description["rows_expected"] = sweep.rows_expected;
-  sweep.description["runs"] = sweep.runs;
-  sweep.description["refused"] = sweep.refused;
-  sweep.description["errors"] = sweep.errors;
-  if (study.bisect) {
-    sweep.description["bisections"] = std::move(bisections);
-  }
-  sweep.description["versions"] = Versions();
+    return part;
+  });
+  writer.Add(run_folder::kSweepJson, Description(records, shard, summary).dump(2) + "\n");
+  writer.Commit(run_folder::kStudy, {run_folder::kReport});
+  return summary;
+}
+
+SweepResult RunSweep(const StudyPoints& points, const RunScenarioOnce& run,
+                     const SweepOptions& options) {
+  SweepRecords records = SweepRecords::InMemory(SweepHeader(points));
+  RunRows(points, run, records, options);
+  SweepResult sweep{.table = TextTable(Columns(records)),
+                    .description = {},
+                    .summary = Summarize(records, options.shard)};
+  sweep.description = Description(records, options.shard, sweep.summary);
+  ForEachRow(records, options.shard, [&](Row row) { sweep.table.AddRow(std::move(row.cells)); });
   return sweep;
 }
 
-void WriteSweep(const SweepResult& sweep, const OutputFolder& folder) {
-  ResultWriter writer(folder);
-  writer.Add(run_folder::kSweepCsv, sweep.table.ToCsv());
-  writer.Add(run_folder::kSweepJson, sweep.description.dump(2) + "\n");
-  writer.Commit(run_folder::kStudy, {run_folder::kReport});
+ordered_json SweepHeader(const StudyPoints& points,
+                         const std::map<std::string, std::string>& inputs) {
+  ordered_json json = DescribeStudy(points.study());
+  json["rows_expected"] = CountRows(points);
+  json["columns"] = Columns(points.study());
+  json["versions"] = Versions();
+  if (!inputs.empty()) {
+    json["inputs"] = inputs;
+  }
+  return json;
+}
+
+void MergeRecords(const std::vector<fs::path>& files, SweepRecords& records) {
+  for (const fs::path& file : files) {
+    const SweepRecords part(file);
+    if (part.header() != records.header()) {
+      throw InputError(Problem{
+          .file = file.string(),
+          .message = fmt::format("is of another study than the first ({})",
+                                 fmt::join(Differences(part.header(), records.header()), "; "))});
+    }
+    for (std::size_t row = 0; row < part.rows(); ++row) {
+      if (!part.Has(row)) {
+        continue;
+      }
+      const ordered_json content = part.Read(row);
+      if (!records.Has(row)) {
+        records.Append(row, content);
+      } else if (records.Read(row) != content) {
+        throw InputError(Problem{
+            .file = file.string(),
+            .message = fmt::format("row {} differs from that of another part ({})", row,
+                                   fmt::join(Differences(content, records.Read(row)), "; "))});
+      }
+    }
+  }
+}
+
+std::vector<Override> OverridesOfRow(const SweepRecords& records, std::size_t row) {
+  if (row >= records.rows() || !records.Has(row)) {
+    throw InputError(Problem{
+        .key = "row",
+        .message = row < records.rows()
+                       ? fmt::format("{} has not been run", row)
+                       : fmt::format("{}; the study has 0 to {}", row, records.rows() - 1)});
+  }
+  const ordered_json& header = records.header();
+  std::vector<Override> overrides;
+  for (const auto& [key, value] : header.at("set").items()) {
+    // Texts stand as they were written, and all else is YAML as it is.
+    overrides.push_back(
+        fmt::format("{}={}", key, value.is_string() ? value.get<std::string>() : value.dump()));
+  }
+  for (const ordered_json& text : header.at("overrides")) {
+    overrides.push_back(text.get<std::string>());
+  }
+  const std::vector<std::string> columns = Columns(records);
+  const std::vector<std::string> cells = FromJson(records.Read(row)).cells;
+  for (std::size_t i = 0; i < columns.size() && columns[i] != "status"; ++i) {
+    if (!cells.at(i).empty()) {
+      overrides.push_back(columns[i] + "=" + cells[i]);
+    }
+  }
+  return overrides;
+}
+
+std::string MissingRows(const SweepRecords& records) {
+  constexpr std::size_t kMost = 10;
+  std::string text;
+  std::size_t ranges = 0;
+  for (std::size_t row = 0; row < records.rows(); ++row) {
+    if (records.Has(row)) {
+      continue;
+    }
+    const std::size_t first = row;
+    while (row + 1 < records.rows() && !records.Has(row + 1)) {
+      ++row;
+    }
+    if (++ranges > kMost) {
+      return text + ", ...";
+    }
+    text += text.empty() ? "" : ", ";
+    text += first == row ? fmt::format("{}", row) : fmt::format("{} to {}", first, row);
+  }
+  return text;
 }
 
 }  // namespace trackbed

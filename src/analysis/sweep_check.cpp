@@ -7,8 +7,12 @@
 #include <tuple>
 
 #include "trackbed/analysis/sweep.h"
+#include "trackbed/control/playback.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/hash.h"
 #include "trackbed/core/spelling.h"
+#include "trackbed/scenario/recording_file.h"
+#include "trackbed/sim/scene.h"
 
 namespace trackbed {
 namespace {
@@ -29,35 +33,34 @@ Scenario Bare(Scenario scenario) {
   return scenario;
 }
 
-/// Does something for each point that is a scenario, and refuses those for which that throws an
-/// InputError. `check` is called once for points of one key.
+/// Does something once for the scenarios of one key, and gathers the InputErrors of that.
 template <typename Key>
-void CheckPoints(CheckedStudy& checked, BadPoints bad_points,
-                 const std::function<Key(const Scenario& scenario)>& key_of,
-                 const std::function<void(const Scenario& scenario)>& check) {
-  std::vector<Problem> problems;
-  std::map<Key, std::string> refusals;
-  bool any_good = false;
-  for (StudyPoint& point : checked.points) {
-    if (!point.refused.empty()) {
-      continue;
-    }
-    const auto [at, is_new] = refusals.try_emplace(key_of(point.scenario));
+class OncePerKey {
+ public:
+  explicit OncePerKey(std::function<void(const Scenario& scenario)> check)
+      : check_(std::move(check)) {}
+
+  /// Whether the scenario is good.
+  bool operator()(const Key& key, const Scenario& scenario) {
+    const auto [at, is_new] = good_.try_emplace(key, true);
     if (is_new) {
       try {
-        check(point.scenario);
+        check_(scenario);
       } catch (const InputError& error) {
-        problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-        at->second = error.problems().front().WithoutPlace();
+        problems_.insert(problems_.end(), error.problems().begin(), error.problems().end());
+        at->second = false;
       }
     }
-    point.refused = at->second;
-    any_good = any_good || point.refused.empty();
+    return at->second;
   }
-  if (!problems.empty() && (bad_points == BadPoints::kThrow || !any_good)) {
-    throw InputError(problems);
-  }
-}
+
+  [[nodiscard]] const std::vector<Problem>& problems() const { return problems_; }
+
+ private:
+  std::function<void(const Scenario& scenario)> check_;
+  std::map<Key, bool> good_;
+  std::vector<Problem> problems_;
+};
 
 /// Puts every car once on each of its plants: not every car has what every plant asks of it.
 void CheckPlants(const CheckedStudy& checked, const Scenario& scenario) {
@@ -77,21 +80,14 @@ void CheckPlants(const CheckedStudy& checked, const Scenario& scenario) {
   }
 }
 
-void CheckOutputs(const CheckedStudy& checked) {
-  std::set<std::string> possible;
-  for (const StudyPoint& point : checked.points) {
-    if (point.refused.empty()) {
-      const std::vector<std::string> own = PossibleOutputs(point.scenario);
-      possible.insert(own.begin(), own.end());
-    }
-  }
+void CheckOutputs(const Study& study, const std::set<std::string>& possible) {
   std::vector<Problem> problems;
-  const std::vector<OutputSpec>& outputs = checked.study.outputs;
+  const std::vector<OutputSpec>& outputs = study.outputs;
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const OutputSpec& output = outputs[i];
     if (possible.find(output.path) == possible.end()) {
       problems.push_back(
-          {checked.study.file, output.line, output.column, fmt::format("outputs[{}]", i),
+          {study.file, output.line, output.column, fmt::format("outputs[{}]", i),
            "unknown metric " + UnknownName(output.path, {possible.begin(), possible.end()})});
     }
   }
@@ -100,22 +96,57 @@ void CheckOutputs(const CheckedStudy& checked) {
   }
 }
 
+/// SHA-256 of all that the model of a scenario's car is made of.
+std::string HashOfModel(const Scenario& scenario) {
+  const Scene scene = ComposeScene(FindModel(scenario.vehicle.model, scenario.folder), {});
+  Sha256Sum hash;
+  hash.Add(scene.xml);
+  for (const auto& asset : scene.assets) {
+    hash.Add(asset.name);
+    hash.Add(asset.content);
+  }
+  return hash.Finish();
+}
+
 }  // namespace
 
-CheckedStudy CheckStudy(Study study, BadPoints bad_points) {
+CheckedStudy CheckStudy(Study study, bool all) {
   CheckedStudy checked{
-      .study = std::move(study), .points = {}, .cars = std::make_unique<CarCache>()};
-  checked.points = ReadPoints(checked.study, bad_points);
-  CheckPoints<CarKey>(checked, bad_points, MakeCarKey,
-                      [&](const Scenario& scenario) { checked.cars->Load(Bare(scenario)); });
+      .points = StudyPoints(std::move(study)), .cars = std::make_unique<CarCache>(), .inputs = {}};
+  CheckPoints(checked.points, all);
+  checked.inputs["scenario"] = Sha256(checked.points.study().scenario_text);
   using PlantsKey = std::tuple<CarKey, std::vector<std::string>, TyreLaw>;
-  CheckPoints<PlantsKey>(
-      checked, bad_points,
-      [](const Scenario& scenario) {
-        return PlantsKey{MakeCarKey(scenario), scenario.drive.plants, scenario.vehicle.tyre};
-      },
-      [&](const Scenario& scenario) { CheckPlants(checked, scenario); });
-  CheckOutputs(checked);
+  OncePerKey<CarKey> compiles([&](const Scenario& scenario) {
+    checked.cars->Load(Bare(scenario));
+    checked.inputs["model " + scenario.vehicle.model] = HashOfModel(scenario);
+  });
+  OncePerKey<PlantsKey> drives([&](const Scenario& scenario) { CheckPlants(checked, scenario); });
+  std::set<std::string> possible;
+  bool any_good = false;
+  for (const std::size_t i : PointsToCheck(checked.points)) {
+    const StudyPoint point = checked.points.Read(i);
+    const Scenario& scenario = point.scenario;
+    if (!point.refused.empty()) {
+      continue;
+    }
+    const CarKey car = MakeCarKey(scenario);
+    if (compiles(car, scenario) &&
+        drives({car, scenario.drive.plants, scenario.vehicle.tyre}, scenario)) {
+      any_good = true;
+      const std::vector<std::string> own = PossibleOutputs(scenario);
+      possible.insert(own.begin(), own.end());
+    }
+    if (const auto* playback = scenario.control.steering.As<PlaybackOptions>()) {
+      checked.inputs["recording " + playback->file] =
+          Sha256(RecordingCsv(playback->recording, playback->by));
+    }
+  }
+  std::vector<Problem> problems = compiles.problems();
+  problems.insert(problems.end(), drives.problems().begin(), drives.problems().end());
+  if (!problems.empty() && (all || !any_good)) {
+    throw InputError(problems);
+  }
+  CheckOutputs(checked.points.study(), possible);
   return checked;
 }
 

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace trackbed::cli {
 
@@ -35,6 +36,13 @@ Option Option::ShowDefault() const {
 
 Option Option::Excludes(const Option& other) const {
   option_->excludes(other.option_);
+  return *this;
+}
+
+Option Option::InsteadOf(const Option& other) const {
+  option_->excludes(other.option_);
+  option_->each(
+      [replaced = other.option_](const std::string& /*value*/) { replaced->required(false); });
   return *this;
 }
 
@@ -75,7 +83,11 @@ void Command::Hide() const {
 }
 
 void Command::OnRun(std::function<int()> run) const {
-  app_->callback([run = std::move(run), code = exit_code_] { *code = run(); });
+  app_->callback([run = std::move(run), code = exit_code_, app = app_] {
+    if (app->get_subcommands().empty()) {
+      *code = run();
+    }
+  });
 }
 
 namespace {
@@ -92,20 +104,33 @@ OptionInfo Info(const CLI::Option& option) {
 
 }  // namespace
 
-std::vector<CommandInfo> Command::VisibleVerbs() const {
-  std::vector<CommandInfo> verbs;
-  for (const CLI::App* verb :
-       std::as_const(*app_->get_parent()).get_subcommands([](const CLI::App* app) {
-         return !app->get_group().empty();
-       })) {
-    CommandInfo info{verb->get_name(), verb->get_description(), {}};
+Command Command::AddVerb(const std::string& name, const std::string& summary) const {
+  return {app_->add_subcommand(name, summary), exit_code_};
+}
+
+namespace {
+
+/// The verbs of `app` and those below them, with `before` in front of their names.
+void AddVisibleVerbs(const CLI::App& app, const std::string& before,
+                     std::vector<CommandInfo>& verbs) {
+  const auto is_visible = [](const CLI::App* verb) { return !verb->get_group().empty(); };
+  for (const CLI::App* verb : app.get_subcommands(is_visible)) {
+    CommandInfo info{before + verb->get_name(), verb->get_description(), {}};
     for (const CLI::Option* option : verb->get_options()) {
       if (option != verb->get_help_ptr()) {
         info.options.push_back(Info(*option));
       }
     }
     verbs.push_back(std::move(info));
+    AddVisibleVerbs(*verb, verb->get_name() + " ", verbs);
   }
+}
+
+}  // namespace
+
+std::vector<CommandInfo> Command::VisibleVerbs() const {
+  std::vector<CommandInfo> verbs;
+  AddVisibleVerbs(*app_->get_parent(), "", verbs);
   return verbs;
 }
 
@@ -119,6 +144,9 @@ std::optional<std::string> Missing(const CLI::App& program) {
         std::string name = option->get_type_name();
         return "missing " + name.substr(0, name.find('.'));
       }
+    }
+    if (std::optional<std::string> below = Missing(*verb)) {
+      return below;
     }
   }
   return std::nullopt;
@@ -141,7 +169,27 @@ Command CommandLine::AddVerb(const std::string& name, const std::string& summary
   return {app_->add_subcommand(name, summary), &exit_code_};
 }
 
+namespace {
+
+/// Where the words ask for a verb below another one, nothing is required of the upper one. CLI11
+/// takes the lower verb's name for what is required otherwise.
+void RequireOnlyOfLowestVerb(CLI::App& program, int argc, char** argv) {
+  const auto find = [](CLI::App& app, const char* name) {
+    return app.get_subcommands([&](const CLI::App* verb) { return verb->check_name(name); });
+  };
+  for (CLI::App* verb : argc > 2 ? find(program, argv[1]) : std::vector<CLI::App*>()) {
+    if (!find(*verb, argv[2]).empty()) {
+      for (CLI::Option* option : verb->get_options([](const CLI::Option*) { return true; })) {
+        option->required(false);
+      }
+    }
+  }
+}
+
+}  // namespace
+
 int CommandLine::Parse(int argc, char** argv, int bad_usage) {
+  RequireOnlyOfLowestVerb(*app_, argc, argv);
   try {
     app_->parse(argc, argv);
   } catch (const CLI::RequiredError& error) {

@@ -16,13 +16,12 @@ class Option;
 namespace trackbed::cli {
 
 /// The variable that an option sets; it must outlive the parsing. Pass the variable itself.
-using OptionTarget =
-    std::variant<std::reference_wrapper<std::string>, std::reference_wrapper<int>,
-                 std::reference_wrapper<std::uint64_t>, std::reference_wrapper<double>,
-                 std::reference_wrapper<std::optional<std::string>>,
-                 std::reference_wrapper<std::optional<double>>,
-                 std::reference_wrapper<std::vector<std::string>>,
-                 std::reference_wrapper<std::vector<double>>>;
+using OptionTarget = std::variant<
+    std::reference_wrapper<std::string>, std::reference_wrapper<int>,
+    std::reference_wrapper<std::uint64_t>, std::reference_wrapper<double>,
+    std::reference_wrapper<std::optional<std::string>>,
+    std::reference_wrapper<std::optional<double>>, std::reference_wrapper<std::optional<int>>,
+    std::reference_wrapper<std::vector<std::string>>, std::reference_wrapper<std::vector<double>>>;
 
 /// Handle of an option that a Command has; valid as long as its CommandLine.
 class Option {
@@ -37,6 +36,8 @@ class Option {
   /// Help shows the value that the variable has now.
   Option ShowDefault() const;
   Option Excludes(const Option& other) const;
+  /// Excludes it, and then it is not required either.
+  Option InsteadOf(const Option& other) const;
   /// Refuses integers outside low..high.
   Option Range(int low, int high) const;
   /// Refuses numbers outside low..high, and NaN.
@@ -72,6 +73,8 @@ class Command {
   /// `names` as in "-o,--out".
   Option AddOption(const std::string& names, OptionTarget target, const std::string& text) const;
   void AddFlag(const std::string& names, bool& target, const std::string& text) const;
+  /// A verb below this one ("sweep merge"), which is then not run itself and requires nothing.
+  [[nodiscard]] Command AddVerb(const std::string& name, const std::string& summary) const;
   /// Leaves the verb out of --help and of VisibleVerbs.
   void Hide() const;
   /// Sets what the verb does; `run` gives back the exit code. Its exceptions leave

@@ -6,11 +6,18 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "src/cli/film_of_run.h"
 #include "src/cli/scenario_runs.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run_folder.h"
+#include "trackbed/analysis/sweep.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+#include "trackbed/core/hash.h"
 #include "trackbed/report/report.h"
 
 namespace trackbed::cli {
@@ -24,8 +31,30 @@ struct RunOptions {
   bool video = false;
   bool report = false;
   bool mcap = false;
+  std::string sweep;
+  std::optional<int> row;
   ScenarioOptions scenario;
 };
+
+/// The scenario of a row becomes the one to run, with what the row sets before other overrides.
+void TakeRow(RunOptions& options) {
+  const fs::path folder = options.sweep;
+  const SweepRecords records(folder / run_folder::kSweepRecords);
+  const fs::path scenario = records.header().at("scenario").get<std::string>();
+  const std::string hash = records.header()
+                               .value("inputs", nlohmann::ordered_json::object())
+                               .value("scenario", std::string());
+  if (!hash.empty() && Sha256(ReadFile(scenario)) != hash) {
+    throw InputError(
+        Problem{.file = scenario.string(),
+                .message = "has changed since the study in " + folder.string() + " was run"});
+  }
+  std::vector<Override> overrides = OverridesOfRow(records, static_cast<std::size_t>(*options.row));
+  overrides.insert(overrides.end(), options.scenario.overrides.begin(),
+                   options.scenario.overrides.end());
+  options.scenario.overrides = std::move(overrides);
+  options.files = {scenario.string()};
+}
 
 void PrintManeuver(const ManeuverMetrics& maneuver) {
   fmt::print("    {}{}\n", maneuver.method,
@@ -101,7 +130,9 @@ int RunOne(const ScenarioRun& run, const RunOptions& options) {
 
 void AddRun(const Command& command) {
   const auto options = std::make_shared<RunOptions>();
-  command.AddPositional("files", options->files, "Scenario files").Required().TypeName("FILE...");
+  const Option files = command.AddPositional("files", options->files, "Scenario files")
+                           .Required()
+                           .TypeName("FILE...");
   command
       .AddOption(
           "-o,--out", options->out,
@@ -112,7 +143,19 @@ void AddRun(const Command& command) {
   command.AddFlag("--report", options->report,
                   "Also write report.html in the run folder, including the video if present");
   command.AddFlag("--mcap", options->mcap, "Also write run.mcap (Foxglove) in the run folder");
+  command
+      .AddOption("--from-sweep", options->sweep,
+                 "Run what a row of a study in this folder ran, instead of scenario files")
+      .InsteadOf(files)
+      .TypeName("DIR");
+  command.AddOption("--row", options->row, "The row, from 0").Range(0, 1'000'000'000).TypeName("N");
   command.OnRun([options] {
+    if (options->sweep.empty() != !options->row) {
+      throw InputError(Problem{.message = "give both --from-sweep DIR and --row N, or neither"});
+    }
+    if (options->row) {
+      TakeRow(*options);
+    }
     const std::vector<ScenarioRun> runs =
         ReadScenarioRuns(options->files, options->scenario, options->out, "out");
     for (const ScenarioRun& run : runs) {

@@ -22,6 +22,14 @@ std::vector<KeySection> StudyKeys() {
   KeyLister range(sections, {"vary.KEY", "", "evenly spaced values instead of a list", {}});
   GridRange none;
   Visit(range, none);
+  for (const auto& [kind, name] : DistributionNames()) {
+    KeyLister sampled(sections, {"vary.KEY", name, "values that are sampled", {}});
+    Distribution distribution{.kind = kind};
+    Visit(sampled, distribution);
+  }
+  KeyLister of_file(sections, {"vary.KEY", kFileDistribution, "values that are sampled", {}});
+  TableColumn column;
+  Visit(of_file, column);
   return sections;
 }
 

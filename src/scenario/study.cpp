@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "src/scenario/study_settings.h"
@@ -111,59 +112,29 @@ void CheckOverrides(const Study& study) {
   }
 }
 
-/// Reads one point after the other and gathers what is wrong with them.
-class PointsReader {
- public:
-  explicit PointsReader(const Study& study) : study_(study), problems_(study) {}
-
-  std::vector<StudyPoint> Read(BadPoints bad_points) {
-    for (const std::vector<Setting>& settings : ExpandGrid(study_)) {
-      points_.push_back({settings, {}});
-      if (!study_.bisect) {
-        Try(settings, std::nullopt);
-        continue;
-      }
-      const BisectSpec& bisect = *study_.bisect;
-      const bool at_from = Try(settings, bisect.from);
-      if (Try(settings, bisect.to) && at_from) {
-        // No round number: what is to be bisected must take any.
-        Try(settings, bisect.from + 0.3819660112501051 * (bisect.to - bisect.from));
-      }
-    }
-    const bool any_good = std::any_of(points_.begin(), points_.end(), [](const StudyPoint& point) {
-      return point.refused.empty();
-    });
-    if (bad_points == BadPoints::kThrow || !any_good) {
-      problems_.ThrowIfAny();
-    }
-    return std::move(points_);
-  }
-
- private:
-  bool Try(const std::vector<Setting>& settings, std::optional<double> bisected) {
-    problems_.CountPoint();
-    StudyPoint& point = points_.back();
-    try {
-      Scenario scenario = ReadPoint(study_, settings, bisected);
-      if (!bisected || *bisected == study_.bisect->from) {
-        point.scenario = std::move(scenario);
-      }
-      return true;
-    } catch (const InputError& error) {
-      point.refused = error.problems().front().WithoutPlace();
-      std::vector<Setting> own = settings;
-      if (bisected) {
-        own.push_back({study_.bisect->key, ShortestText(*bisected)});
-      }
-      problems_.Add(own, error.problems());
-      return false;
+/// Whether a point that sets these holds the condition.
+bool Holds(const Condition& condition, const Study& study, const std::vector<Setting>& point) {
+  const auto is_key = [&](const Setting& setting) { return setting.key == condition.key; };
+  auto found = std::find_if(point.begin(), point.end(), is_key);
+  if (found == point.end()) {
+    found = std::find_if(study.set.begin(), study.set.end(), is_key);
+    if (found == study.set.end()) {
+      return false;  // a key whose own condition does not hold
     }
   }
+  return std::any_of(
+      condition.values.begin(), condition.values.end(),
+      [&](const std::string& value) { return CellText(value) == CellText(found->value); });
+}
 
-  const Study& study_;
-  Problems problems_;
-  std::vector<StudyPoint> points_;
-};
+bool AllHold(const Variation& variation, const Study& study, const std::vector<Setting>& point) {
+  return std::all_of(variation.when.begin(), variation.when.end(),
+                     [&](const Condition& condition) { return Holds(condition, study, point); });
+}
+
+Setting At(const Variation& variation, std::string value) {
+  return {variation.key, std::move(value), variation.line, variation.column};
+}
 
 }  // namespace
 
@@ -191,42 +162,20 @@ std::vector<Setting> AllSettings(const Study& study, const std::vector<Setting>&
 
 std::vector<Setting> Varied(const Study& study) {
   std::vector<Setting> varied;
-  for (const auto& alternatives : study.vary) {
-    varied.push_back(alternatives.front());
+  for (const Variation& variation : study.vary) {
+    varied.push_back(At(variation, ""));
   }
   for (const auto& point : study.list) {
     varied.insert(varied.end(), point.begin(), point.end());
+  }
+  for (const DerivedKey& derived : study.derive) {
+    varied.push_back({derived.key, "", derived.line, derived.column});
   }
   if (study.bisect) {
     const BisectSpec& bisect = *study.bisect;
     varied.push_back({bisect.key, "", bisect.line, bisect.column});
   }
   return varied;
-}
-
-std::vector<std::vector<Setting>> ExpandGrid(const Study& study) {
-  std::vector<std::vector<Setting>> grid(1);
-  // Every point so far, with every alternative of what comes next.
-  const auto multiply = [&grid](std::size_t alternatives, const auto& add) {
-    std::vector<std::vector<Setting>> product;
-    for (const std::vector<Setting>& point : grid) {
-      for (std::size_t i = 0; i < alternatives; ++i) {
-        product.push_back(point);
-        add(i, product.back());
-      }
-    }
-    grid = std::move(product);
-  };
-  for (const auto& alternatives : study.vary) {
-    multiply(alternatives.size(),
-             [&](std::size_t i, std::vector<Setting>& point) { point.push_back(alternatives[i]); });
-  }
-  if (!study.list.empty()) {
-    multiply(study.list.size(), [&](std::size_t i, std::vector<Setting>& point) {
-      point.insert(point.end(), study.list[i].begin(), study.list[i].end());
-    });
-  }
-  return grid;
 }
 
 Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
@@ -253,15 +202,179 @@ Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
   }
 }
 
-std::vector<StudyPoint> ReadPoints(const Study& study, BadPoints bad_points) {
-  CheckOverrides(study);
-  return PointsReader(study).Read(bad_points);
+StudyPoints::StudyPoints(Study study) : study_(std::move(study)) {
+  CheckOverrides(study_);
+  std::map<std::string, int> of_files;
+  int sampled = 0;
+  for (const Variation& variation : study_.vary) {
+    if (!variation.distribution) {
+      combinations_ *= variation.alternatives.size();
+      dimensions_.push_back(-1);
+    } else if (variation.rows_of.empty()) {
+      dimensions_.push_back(sampled++);
+    } else {
+      const auto [known, is_new] = of_files.try_emplace(variation.rows_of, sampled);
+      sampled += is_new ? 1 : 0;
+      dimensions_.push_back(known->second);
+    }
+  }
+  combinations_ *= std::max<std::size_t>(study_.list.size(), 1);
+  if (study_.sample) {
+    unit_sample_ = UnitSample(*study_.sample, sampled);
+  }
+  const bool any_condition =
+      std::any_of(study_.vary.begin(), study_.vary.end(), [](const Variation& variation) {
+        return !variation.distribution && !variation.when.empty();
+      });
+  if (any_condition) {
+    KeepDistinctPoints();
+  }
+}
+
+void StudyPoints::KeepDistinctPoints() {
+  std::set<std::string> known;
+  for (std::size_t i = 0; i < combinations_; ++i) {
+    std::string text;
+    for (const Setting& setting : OfGrid(i)) {
+      text += fmt::format("{}={}\n", setting.key, setting.value);
+    }
+    if (known.insert(std::move(text)).second) {
+      distinct_.push_back(i);
+    }
+  }
+  combinations_ = distinct_.size();
+}
+
+std::size_t StudyPoints::samples() const {
+  return study_.sample ? static_cast<std::size_t>(study_.sample->count) : 1;
+}
+
+std::vector<Setting> StudyPoints::OfGrid(std::size_t combination) const {
+  const auto digit = [&](std::size_t base) {
+    const std::size_t value = combination % base;
+    combination /= base;
+    return value;
+  };
+  std::vector<Setting> listed;
+  if (!study_.list.empty()) {
+    listed = study_.list[digit(study_.list.size())];
+  }
+  // The last key is the lowest digit, and what a key depends on stands before it.
+  std::vector<std::size_t> chosen(study_.vary.size());
+  for (std::size_t k = study_.vary.size(); k-- > 0;) {
+    if (!study_.vary[k].distribution) {
+      chosen[k] = digit(study_.vary[k].alternatives.size());
+    }
+  }
+  std::vector<Setting> settings;
+  for (std::size_t k = 0; k < study_.vary.size(); ++k) {
+    const Variation& variation = study_.vary[k];
+    if (variation.distribution) {
+      continue;
+    }
+    std::vector<Setting> so_far = settings;
+    so_far.insert(so_far.end(), listed.begin(), listed.end());
+    if (AllHold(variation, study_, so_far)) {
+      settings.push_back(variation.alternatives[chosen[k]]);
+    }
+  }
+  settings.insert(settings.end(), listed.begin(), listed.end());
+  return settings;
+}
+
+std::vector<Setting> StudyPoints::Settings(std::size_t i) const {
+  TRACKBED_REQUIRE(i < size(), "StudyPoints: point {} of {}", i, size());
+  const std::size_t combination = i / samples();
+  const auto sample = static_cast<Eigen::Index>(i % samples());
+  std::vector<Setting> settings = OfGrid(distinct_.empty() ? combination : distinct_[combination]);
+  for (std::size_t k = 0; k < study_.vary.size(); ++k) {
+    const Variation& variation = study_.vary[k];
+    if (variation.distribution && AllHold(variation, study_, settings)) {
+      settings.push_back(
+          At(variation, Quantile(*variation.distribution, unit_sample_(sample, dimensions_[k]))));
+    }
+  }
+  AddDerived(study_, settings);
+  return settings;
+}
+
+StudyPoint StudyPoints::Read(std::size_t i) const {
+  StudyPoint point;
+  try {
+    point.settings = Settings(i);
+    point.scenario = ReadPoint(study_, point.settings,
+                               study_.bisect ? std::optional(study_.bisect->from) : std::nullopt);
+  } catch (const InputError& error) {
+    point.refused = error.problems().front().WithoutPlace();
+  }
+  return point;
+}
+
+std::vector<std::size_t> PointsToCheck(const StudyPoints& points) {
+  constexpr std::size_t kMost = 1000;
+  const std::size_t count = std::min(points.size(), kMost);
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < count; ++k) {
+    chosen.push_back(count == 1 ? 0 : k * (points.size() - 1) / (count - 1));
+  }
+  return chosen;
+}
+
+void CheckPoints(const StudyPoints& points, bool all) {
+  const Study& study = points.study();
+  Problems problems(study);
+  bool any_good = false;
+  // Whether there is such a scenario.
+  const auto is_good = [&](const std::vector<Setting>& settings, std::optional<double> bisected) {
+    problems.CountPoint();
+    try {
+      ReadPoint(study, settings, bisected);
+      return true;
+    } catch (const InputError& error) {
+      std::vector<Setting> own = settings;
+      if (bisected) {
+        own.push_back({study.bisect->key, ShortestText(*bisected)});
+      }
+      problems.Add(own, error.problems());
+      return false;
+    }
+  };
+  for (const std::size_t i : PointsToCheck(points)) {
+    std::vector<Setting> settings;
+    try {
+      settings = points.Settings(i);
+    } catch (const InputError& error) {
+      problems.CountPoint();
+      problems.Add({}, error.problems());
+      continue;
+    }
+    bool good = false;
+    if (!study.bisect) {
+      good = is_good(settings, std::nullopt);
+    } else {
+      const BisectSpec& bisect = *study.bisect;
+      const bool at_from = is_good(settings, bisect.from);
+      // In between no round number: what is to be bisected must take any.
+      good = is_good(settings, bisect.to) && at_from &&
+             is_good(settings, bisect.from + 0.3819660112501051 * (bisect.to - bisect.from));
+    }
+    any_good = any_good || good;
+  }
+  if (all || !any_good) {
+    problems.ThrowIfAny();
+  }
+}
+
+std::optional<double> NumberOf(const std::string& value) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+  return error == std::errc{} && end == value.data() + value.size() ? std::optional(number)
+                                                                    : std::nullopt;
 }
 
 std::string CellText(const std::string& value) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-  return error == std::errc{} && end == value.data() + value.size() ? ShortestText(number) : value;
+  const std::optional<double> number = NumberOf(value);
+  return number ? ShortestText(*number) : value;
 }
 
 }  // namespace trackbed

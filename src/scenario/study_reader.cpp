@@ -1,68 +1,24 @@
 #include <algorithm>
-#include <cmath>
 
 #include "src/scenario/study_settings.h"
 #include "src/scenario/study_visit.h"
+#include "src/scenario/variation_reader.h"
 #include "src/scenario/yaml_file.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/text_table.h"
+#include "trackbed/core/file.h"
+#include "trackbed/core/spelling.h"
 #include "trackbed/scenario/study.h"
 
 namespace trackbed {
 namespace {
 
-constexpr std::size_t kMaxRuns = 100000;
-
-/// Writes a value as it was read, on one line: what stood in quotes keeps them.
-void WriteFlow(const YAML::Node& node, YAML::Emitter& out) {
-  if (node.IsMap()) {
-    out << YAML::Flow << YAML::BeginMap;
-    for (const auto& entry : node) {
-      out << YAML::Key;
-      WriteFlow(entry.first, out);
-      out << YAML::Value;
-      WriteFlow(entry.second, out);
-    }
-    out << YAML::EndMap;
-  } else if (node.IsSequence()) {
-    out << YAML::Flow << YAML::BeginSeq;
-    for (const auto& item : node) {
-      WriteFlow(item, out);
-    }
-    out << YAML::EndSeq;
-  } else if (node.IsScalar()) {
-    if (node.Tag() == "!") {
-      out << YAML::DoubleQuoted;
-    }
-    out << node.Scalar();
-  } else {
-    out << YAML::Null;
-  }
-}
-
-Setting ParseSetting(const std::string& key, const YAML::Node& value) {
-  YAML::Emitter out;
-  WriteFlow(value, out);
-  return {key, out.c_str(), value.Mark().line + 1, value.Mark().column + 1};
-}
-
-/// The grid's values to 15 digits, so that a tenth is 0.1 and not 0.10000000000000002.
-std::string GridValue(const GridRange& range, int i) {
-  const int last = range.steps - 1;
-  if (i == 0 || i == last) {
-    return ShortestText(i == 0 ? range.from : range.to);
-  }
-  const double share = static_cast<double>(i) / last;
-  const double value = range.scale == GridScale::kLog
-                           ? range.from * std::pow(range.to / range.from, share)
-                           : (range.from * (last - i) + range.to * i) / last;
-  return fmt::format("{:.15g}", value);
-}
+constexpr double kMaxRuns = 1e7;
 
 class StudyReader {
  public:
-  StudyReader(const std::filesystem::path& file, const YAML::Node& root)
-      : folder_(file.parent_path()), root_(root), context_{.file = file.string()} {}
+  StudyReader(const std::filesystem::path& file, const YAML::Node& root,
+              const std::vector<std::filesystem::path>& asset_folders)
+      : folders_{file.parent_path(), asset_folders}, root_(root), context_{.file = file.string()} {}
 
   Study Read() {
     StudyFile file;
@@ -75,9 +31,15 @@ class StudyReader {
     file.outputs = [&](const YAML::Node& node, const std::string& key) {
       ReadOutputs(node, key, study);
     };
+    file.derive = [&](const YAML::Node& node, const std::string& key) {
+      ReadDerived(node, key, study);
+    };
     YamlReader reader(context_, root_, "");
     Visit(reader, file);
     reader.Finish();
+    if (root_["sample"]) {
+      study.sample = file.sample;
+    }
     study.file = context_.file;
     ReadBaseScenario(file.scenario, study);
     TakeBisect(file.bisect, study);
@@ -102,94 +64,21 @@ class StudyReader {
     context_.problems.push_back({context_.file, at.line, at.column, at.key, std::move(message)});
   }
 
-  using ReadEntry = std::function<void(const YAML::Node& key, const YAML::Node& value,
-                                       const std::string& dotted)>;
-
-  /// Calls with each key of a section of keys of the scenario's, and its value.
-  void ForEachKey(const YAML::Node& node, const std::string& section, const ReadEntry& read) {
-    if (!node.IsMap() || node.size() == 0) {
-      AddError(node, section,
-               fmt::format("expected a section of scenario keys, found {}",
-                           node.IsMap() ? "an empty one" : YamlReader::Describe(node)));
-      return;
-    }
-    Names seen;
-    for (const auto& entry : node) {
-      if (!entry.first.IsScalar() || entry.first.Scalar().empty()) {
-        AddError(entry.first, section, "keys must be names");
-        continue;
-      }
-      const std::string& key = entry.first.Scalar();
-      const std::string dotted = section + "." + key;
-      if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
-        AddError(entry.first, dotted, "duplicate key");
-      } else if (key.find('=') != std::string::npos) {
-        AddError(entry.first, dotted, "a key must not contain '='");
-      } else if (entry.second.IsNull()) {
-        AddError(entry.first, dotted, "expected a value, found nothing");
-      } else {
-        read(entry.first, entry.second, dotted);
-      }
-      seen.push_back(key);
-    }
-  }
-
   std::vector<Setting> ReadSettings(const YAML::Node& node, const std::string& section) {
     std::vector<Setting> settings;
-    ForEachKey(node, section, [&](const YAML::Node& key, const YAML::Node& value, const auto&) {
-      settings.push_back(ParseSetting(key.Scalar(), value));
-    });
+    ForEachKey(context_, node, section,
+               [&](const YAML::Node& key, const YAML::Node& value, const auto&) {
+                 settings.push_back(ParseSetting(key.Scalar(), value));
+               });
     return settings;
   }
 
   void ReadVary(const YAML::Node& node, const std::string& section, Study& study) {
-    ForEachKey(node, section,
-               [&](const YAML::Node& key, const YAML::Node& value, const std::string& dotted) {
-                 study.vary.push_back(value.IsMap() ? ReadRange(key.Scalar(), value, dotted)
-                                                    : ReadValues(key.Scalar(), value, dotted));
-               });
-  }
-
-  std::vector<Setting> ReadValues(const std::string& key, const YAML::Node& node,
-                                  const std::string& dotted) {
-    std::vector<Setting> values;
-    if (!node.IsSequence() || node.size() == 0) {
-      AddError(node, dotted,
-               fmt::format("expected a list of values, or {{from, to, steps}}, found {}",
-                           node.IsSequence() ? "an empty list" : YamlReader::Describe(node)));
-      return values;
-    }
-    for (const auto& value : node) {
-      values.push_back(ParseSetting(key, value));
-    }
-    return values;
-  }
-
-  std::vector<Setting> ReadRange(const std::string& key, const YAML::Node& node,
-                                 const std::string& dotted) {
-    const std::size_t before = context_.problems.size();
-    GridRange range;
-    YamlReader reader(context_, node, dotted);
-    Visit(reader, range);
-    reader.Finish();
-    std::vector<Setting> values;
-    if (context_.problems.size() > before) {
-      return values;
-    }
-    CheckEnds(node, dotted, range.from, range.to);
-    if (range.scale == GridScale::kLog && range.from <= 0.0) {
-      AddError(node["from"], dotted + ".from", "must be above 0 for a geometric scale");
-    }
-    for (int i = 0; i < range.steps; ++i) {
-      values.push_back({key, GridValue(range, i), node.Mark().line + 1, node.Mark().column + 1});
-    }
-    return values;
-  }
-
-  void CheckEnds(const YAML::Node& node, const std::string& dotted, double from, double to) {
-    if (!(from < to)) {
-      AddError(node["from"], dotted + ".from", fmt::format("{} must be below to: {}", from, to));
-    }
+    ForEachKey(
+        context_, node, section,
+        [&](const YAML::Node& key, const YAML::Node& value, const std::string& dotted) {
+          study.vary.push_back(ReadVariation(context_, folders_, key.Scalar(), value, dotted));
+        });
   }
 
   void ReadList(const YAML::Node& node, const std::string& section, Study& study) {
@@ -202,6 +91,20 @@ class StudyReader {
     for (std::size_t i = 0; i < node.size(); ++i) {
       study.list.push_back(ReadSettings(node[i], fmt::format("{}[{}]", section, i)));
     }
+  }
+
+  void ReadDerived(const YAML::Node& node, const std::string& section, Study& study) {
+    ForEachKey(
+        context_, node, section,
+        [&](const YAML::Node& key, const YAML::Node& value, const std::string& dotted) {
+          if (!value.IsScalar() || value.Scalar().empty()) {
+            AddError(value, dotted,
+                     fmt::format("expected a formula, found {}", YamlReader::Describe(value)));
+            return;
+          }
+          study.derive.push_back(
+              {key.Scalar(), value.Scalar(), value.Mark().line + 1, value.Mark().column + 1});
+        });
   }
 
   void ReadOutputs(const YAML::Node& node, const std::string& section, Study& study) {
@@ -228,7 +131,7 @@ class StudyReader {
     if (name.empty()) {
       return;
     }
-    study.scenario = folder_ / name;
+    study.scenario = folders_.own / name;
     try {
       study.scenario_text = ReadInput(study.scenario);
     } catch (const InputError& error) {
@@ -244,31 +147,83 @@ class StudyReader {
     study.bisect = bisect;
     study.bisect->line = node.Mark().line + 1;
     study.bisect->column = node.Mark().column + 1;
-    CheckEnds(node, "bisect", bisect.from, bisect.to);
+    CheckEnds(context_, node, "bisect", bisect.from, bisect.to);
   }
 
   void CheckStudy(const Study& study) {
     const bool varies = root_["vary"] || root_["list"] || root_["repeat"] || root_["bisect"];
+    const bool is_sampled =
+        std::any_of(study.vary.begin(), study.vary.end(),
+                    [](const Variation& variation) { return variation.distribution.has_value(); });
+    if (is_sampled && !study.sample) {
+      AddError(root_["vary"], "sample", "missing; keys of vary have distributions");
+    }
+    if (!is_sampled && study.sample) {
+      AddError(root_["sample"], "sample", "no key of vary has a distribution");
+    }
     if (!varies) {
       AddError(root_, "vary", "missing; a study needs vary, list, repeat or bisect");
     }
     auto runs = static_cast<double>(study.repeat);
-    for (const auto& alternatives : study.vary) {
-      runs *= static_cast<double>(alternatives.size());
+    for (const Variation& variation : study.vary) {
+      runs *= variation.distribution ? 1.0 : static_cast<double>(variation.alternatives.size());
     }
     runs *= static_cast<double>(std::max<std::size_t>(study.list.size(), 1));
-    if (runs > static_cast<double>(kMaxRuns)) {
+    runs *= study.sample ? study.sample->count : 1.0;
+    if (runs > kMaxRuns) {
       AddError(root_, "vary", fmt::format("{} runs; at most {}", runs, kMaxRuns));
     }
+    CheckConditions(study);
     CheckWhatReplaces(study);
     CheckSeed(study);
+    if (context_.problems.empty()) {
+      CheckFormulas(study);
+    }
+  }
+
+  /// A condition is of keys that are set before, those of the grid of such as are in it, too.
+  void CheckConditions(const Study& study) {
+    Names of_grid;
+    for (const Setting& setting : study.set) {
+      of_grid.push_back(setting.key);
+    }
+    for (const auto& point : study.list) {
+      for (const Setting& setting : point) {
+        of_grid.push_back(setting.key);
+      }
+    }
+    Names sampled;
+    for (const Variation& variation : study.vary) {
+      for (const Condition& condition : variation.when) {
+        Names known = of_grid;
+        if (variation.distribution) {
+          known.insert(known.end(), sampled.begin(), sampled.end());
+        }
+        if (std::find(known.begin(), known.end(), condition.key) == known.end()) {
+          const bool is_sampled =
+              std::find(sampled.begin(), sampled.end(), condition.key) != sampled.end();
+          context_.problems.push_back(
+              {context_.file, variation.line, variation.column,
+               fmt::format("vary.{}.when", variation.key),
+               is_sampled
+                   ? fmt::format("{} is sampled, so that a key of the grid cannot depend on it",
+                                 condition.key)
+                   : "a key that the study does not set before: " +
+                         UnknownName(condition.key, known)});
+        }
+      }
+      (variation.distribution ? sampled : of_grid).push_back(variation.key);
+    }
   }
 
   /// Every key must be set once, and nothing may be set that is then replaced.
   void CheckWhatReplaces(const Study& study) {
     std::vector<Setting> one_of_each;
-    for (const auto& alternatives : study.vary) {
-      one_of_each.push_back(alternatives.front());
+    for (const Variation& variation : study.vary) {
+      one_of_each.push_back({variation.key, "", variation.line, variation.column});
+    }
+    for (const DerivedKey& derived : study.derive) {
+      one_of_each.push_back({derived.key, "", derived.line, derived.column});
     }
     const std::vector<std::vector<Setting>> points =
         study.list.empty() ? std::vector<std::vector<Setting>>(1) : study.list;
@@ -308,7 +263,7 @@ class StudyReader {
     }
   }
 
-  std::filesystem::path folder_;
+  StudyFolders folders_;
   const YAML::Node root_;
   ReaderContext context_;
 };
@@ -327,7 +282,8 @@ bool IsStudy(const std::filesystem::path& file) {
 Study ReadStudy(const std::filesystem::path& file, const std::vector<Override>& overrides,
                 const std::vector<std::string>& cameras, const MetricPaths& metrics,
                 const std::vector<std::filesystem::path>& asset_folders) {
-  Study study = StudyReader(file, LoadYaml(ReadInput(file), file.string(), "a study")).Read();
+  Study study =
+      StudyReader(file, LoadYaml(ReadInput(file), file.string(), "a study"), asset_folders).Read();
   study.overrides = overrides;
   study.cameras = cameras;
   study.metrics = metrics;

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <functional>
+#include <limits>
+#include <optional>
 
 #include "src/scenario/key_lister.h"
 #include "src/scenario/visit.h"
@@ -31,6 +34,75 @@ inline void Visit(KeyVisitor& a, GridRange& range) {
           Need::kOptional, scales);
 }
 
+/// What a distribution has beside its kind, which says which of these there are.
+inline void Visit(KeyVisitor& a, Distribution& distribution) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  switch (distribution.kind) {
+    case DistributionKind::kUniform:
+    case DistributionKind::kLogUniform:
+    case DistributionKind::kInteger:
+      a.Field({"from", "", "the smallest value"}, distribution.from, Need::kRequired);
+      a.Field({"to", "", "the largest value"}, distribution.to, Need::kRequired);
+      break;
+    case DistributionKind::kNormal: {
+      a.Field({"mean", "", "without truncation"}, distribution.mean, Need::kRequired);
+      a.Field({"deviation", "", "standard deviation, without truncation"}, distribution.deviation,
+              Need::kRequired, kPositive);
+      std::optional<double> min;
+      std::optional<double> max;
+      a.Field({"min", "", "truncates the distribution"}, min);
+      a.Field({"max", "", "truncates the distribution"}, max);
+      distribution.min = min.value_or(-kInfinity);
+      distribution.max = max.value_or(kInfinity);
+      break;
+    }
+    case DistributionKind::kChoice:
+      a.Field({"weights", "", "of the values; default: all alike"}, distribution.weights,
+              Need::kOptional, Range{.min = 0.0});
+      break;
+  }
+}
+
+/// The kinds of distributions, as files name them; `file` is a choice among the rows of a table.
+inline constexpr const char* kFileDistribution = "file";
+template <typename Enum, std::size_t count>
+EnumNames<Enum> NamesOf(const std::array<Enum, count>& values) {
+  EnumNames<Enum> names;
+  for (const Enum value : values) {
+    names.emplace_back(value, ToString(value));
+  }
+  return names;
+}
+
+inline const EnumNames<DistributionKind>& DistributionNames() {
+  static const EnumNames<DistributionKind> names = NamesOf(
+      std::array{DistributionKind::kUniform, DistributionKind::kLogUniform,
+                 DistributionKind::kInteger, DistributionKind::kNormal, DistributionKind::kChoice});
+  return names;
+}
+
+/// A column of a CSV file.
+struct TableColumn {
+  std::string file;
+  std::string column;
+};
+
+inline void Visit(KeyVisitor& a, TableColumn& table) {
+  a.Field({"file", "", "CSV file with a header, relative to this file"}, table.file,
+          Need::kRequired);
+  a.Field({"column", "", "of the values; keys of one file take them of one row"}, table.column,
+          Need::kRequired);
+}
+
+inline void Visit(KeyVisitor& a, SampleSpec& sample) {
+  a.Field({"count", "", "points, at each of the grid"}, sample.count, Need::kRequired,
+          Range{.min = 1, .max = 1e6});
+  static const EnumNames<SampleMethod> methods = NamesOf(
+      std::array{SampleMethod::kRandom, SampleMethod::kLatinHypercube, SampleMethod::kSobol});
+  a.Field({"method", "", "how the points fill the space"}, sample.method, Need::kOptional, methods);
+  a.Field({"seed", "", "of the sample, not of the runs"}, sample.seed, Need::kOptional);
+}
+
 inline void Visit(KeyVisitor& a, BisectSpec& bisect) {
   a.Field({"key", "", "of a number, dotted"}, bisect.key, Need::kRequired);
   a.Field({"from", "", "a value that passes"}, bisect.from, Need::kRequired);
@@ -46,9 +118,11 @@ struct StudyFile {
   Study study{};
   std::string scenario{};
   BisectSpec bisect{};
+  SampleSpec sample{};
   Read set{};
   Read vary{};
   Read list{};
+  Read derive{};
   Read outputs{};
 };
 
@@ -61,11 +135,17 @@ void Visit(Archive& a, StudyFile& file) {
   a.Field({"scenario", "", "scenario file, relative to this file"}, file.scenario, Need::kRequired);
   a.Custom({"set", "", "dotted scenario keys and their values in every run"}, "section", file.set);
   a.Custom({"vary", "",
-            "dotted scenario keys with lists or grids of values; runs all combinations, the last "
-            "key fastest"},
+            "dotted scenario keys with lists, grids or distributions of values; runs all "
+            "combinations of lists and grids, the last key fastest"},
            "section", file.vary);
+  a.Section({"sample", "", "how the keys with distributions are sampled"}, file.sample);
   a.Custom({"list", "", "points that set several keys at once; combined with each point of `vary`"},
            "list of sections", file.list);
+  a.Custom(
+      {"derive", "",
+       "dotted scenario keys with formulas of keys that the study sets; operators and functions "
+       "of muParser"},
+      "section", file.derive);
   a.Field({"repeat", "", "runs per point, with consecutive seeds starting at the scenario's"},
           file.study.repeat, Need::kOptional, Range{.min = 1, .max = 1e5});
   a.Section({"bisect", "", "at each point, bisects for the highest passing value of a key"},

@@ -17,6 +17,14 @@ inline Study MakeStudy(const TempFolder& folder, const std::string& keys,
   return ReadStudy(folder.Write("study.yaml", text), overrides);
 }
 
+inline std::vector<StudyPoint> AllPoints(const StudyPoints& points) {
+  std::vector<StudyPoint> all;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    all.push_back(points.Read(i));
+  }
+  return all;
+}
+
 /// The error of a call, without the folder's name.
 template <typename Call>
 std::string ErrorMessage(const TempFolder& folder, const Call& call) {

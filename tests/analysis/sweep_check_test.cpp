@@ -83,14 +83,14 @@ TEST(CheckStudy, AStudyOfPlantsNeedsOneColumnForEachResult) {
                 "outputs: [metrics.*.cross_track.max]\n"));
   for (std::size_t i = 0; i < 2; ++i) {
     SCOPED_TRACE(i);
-    const StudyPoint& point = checked.points[i];
+    const StudyPoint point = checked.points.Read(i);
     const Outputs outputs = DriveOnce(checked, point.scenario)->outputs;
     const std::string& plant = point.scenario.drive.plants.at(0);
     EXPECT_EQ(outputs.at("metrics.*.cross_track.max"),
               outputs.at("metrics." + plant + ".cross_track.max"));
   }
   // Of two plants neither is meant.
-  const Outputs of_two = DriveOnce(checked, checked.points[2].scenario)->outputs;
+  const Outputs of_two = DriveOnce(checked, checked.points.Read(2).scenario)->outputs;
   EXPECT_EQ(of_two.count("metrics.*.cross_track.max"), 0U);
   EXPECT_EQ(of_two.count("metrics.single_track.cross_track.max"), 1U);
 }
@@ -101,7 +101,7 @@ TEST(CheckStudy, TellsCarsOfDifferentSteeringRatesApart) {
       CheckStudy(MakeStudy(folder, "vary: {vehicle.steering_rate: [0.2, 0.3]}\n"));
   EXPECT_EQ(checked.cars->compiled(), 2U);
   std::set<double> rates;
-  for (const StudyPoint& point : checked.points) {
+  for (const StudyPoint& point : AllPoints(checked.points)) {
     rates.insert(checked.cars->Load(point.scenario)->params().steering_rate);
   }
   EXPECT_EQ(rates, (std::set<double>{0.2, 0.3}));
@@ -167,7 +167,7 @@ outputs: [metrics.kinematic.status, metrics.kinematic.cross_track.max, verdict.f
 TEST(DriveOnce, ComesToWhatARunOfTheScenarioComesTo) {
   const TempFolder folder;
   const CheckedStudy checked = CheckStudy(MakeStudy(folder, kShort));
-  for (const StudyPoint& point : checked.points) {
+  for (const StudyPoint& point : AllPoints(checked.points)) {
     const std::optional<RunOutcome> outcome = DriveOnce(checked, point.scenario);
     ASSERT_TRUE(outcome.has_value());
     const RunResult run = RunMission(point.scenario);
@@ -211,7 +211,7 @@ TEST(DriveOnce, DrivesEveryPointAsIfItWereAlone) {
   const TempFolder folder;
   const CheckedStudy checked = CheckStudy(MakeStudy(folder, kEveryKind));
   std::set<Outputs> different;
-  for (const StudyPoint& point : checked.points) {
+  for (const StudyPoint& point : AllPoints(checked.points)) {
     const std::optional<RunOutcome> outcome = DriveOnce(checked, point.scenario);
     EXPECT_EQ(outcome->outputs, CollectOutputs(RunMission(point.scenario)))
         << point.settings[0].key;
@@ -230,7 +230,7 @@ TEST(DriveOnce, DisturbsEveryPointInItsOwnWay) {
                 "outputs: [metrics.mujoco.recovery_time]\n"));
   EXPECT_EQ(checked.cars->compiled(), 1U);  // without payload
   std::set<std::string> distances;
-  for (const StudyPoint& point : checked.points) {
+  for (const StudyPoint& point : AllPoints(checked.points)) {
     const Outputs outputs = DriveOnce(checked, point.scenario)->outputs;
     EXPECT_EQ(outputs, CollectOutputs(RunMission(point.scenario)));
     EXPECT_EQ(outputs.count("metrics.mujoco.recovery_time"), point.scenario.disturb.kicks.size());
@@ -244,7 +244,7 @@ TEST(DriveOnce, TellsThatThereIsNoPlan) {
   const TempFolder folder;
   const CheckedStudy checked =
       CheckStudy(MakeStudy(folder, "list: [{mission.waypoints: [[0, 0], [10, 0], [10, 10]]}]\n"));
-  const std::optional<RunOutcome> outcome = DriveOnce(checked, checked.points[0].scenario);
+  const std::optional<RunOutcome> outcome = DriveOnce(checked, checked.points.Read(0).scenario);
   EXPECT_EQ(outcome->status, "no_plan");
   EXPECT_EQ(outcome->outputs.at("plan.status"), "turn_too_tight");
   EXPECT_EQ(outcome->outputs.count("plan.length_m"), 0U);
@@ -253,7 +253,8 @@ TEST(DriveOnce, TellsThatThereIsNoPlan) {
 TEST(DriveOnce, EndsWithNothingWhenItIsInterrupted) {
   const TempFolder folder;
   const CheckedStudy checked = CheckStudy(MakeStudy(folder, kShort));
-  EXPECT_FALSE(DriveOnce(checked, checked.points[0].scenario, [] { return true; }).has_value());
+  EXPECT_FALSE(
+      DriveOnce(checked, checked.points.Read(0).scenario, [] { return true; }).has_value());
 }
 
 TEST(DriveOnce, GivesTheSameSweepOnOneThreadAndOnFour) {
@@ -271,8 +272,8 @@ outputs:
   const RunScenarioOnce run = [&](const Scenario& scenario) {
     return DriveOnce(checked, scenario);
   };
-  const SweepResult one = RunSweep(checked.study, checked.points, run, {.jobs = 1});
-  const SweepResult four = RunSweep(checked.study, checked.points, run, {.jobs = 4});
+  const SweepResult one = RunSweep(checked.points, run, {.jobs = 1});
+  const SweepResult four = RunSweep(checked.points, run, {.jobs = 4});
   EXPECT_EQ(one.table.ToCsv(), four.table.ToCsv());
   EXPECT_EQ(one.description.dump(), four.description.dump());
   // The rows are not all alike, so that a mix-up would show.
@@ -289,11 +290,11 @@ TEST(PreviewDistance, TooFarAheadCutsTheCorners) {
       ReadStudy(std::string(TRACKBED_SOURCE_DIR) + "/scenarios/studies/preview_distance.yaml",
                 {"drive.timestep=0.004", "vehicle.tyre=contact"});
   // Every third of its nine distances: 1, 2.5 and 5 m.
-  std::vector<Setting>& distances = study.vary.at(0);
+  std::vector<Setting>& distances = study.vary.at(0).alternatives;
   distances = {distances.at(0), distances.at(3), distances.at(6)};
   const CheckedStudy checked = CheckStudy(study);
   const SweepResult sweep =
-      RunSweep(checked.study, checked.points,
+      RunSweep(checked.points,
                [&](const Scenario& scenario) { return DriveOnce(checked, scenario); }, {.jobs = 2});
   const auto& rows = sweep.table.rows();
   ASSERT_EQ(rows.size(), 3U);

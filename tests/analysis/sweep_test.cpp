@@ -16,8 +16,7 @@ namespace {
 
 SweepResult SweepStudy(const TempFolder& folder, const std::string& keys,
                        const RunScenarioOnce& run, const SweepOptions& options = {}) {
-  const Study study = MakeStudy(folder, keys);
-  return RunSweep(study, ReadPoints(study), run, options);
+  return RunSweep(StudyPoints(MakeStudy(folder, keys)), run, options);
 }
 
 /// Passes up to a speed that falls with the seed; nothing is driven.
@@ -47,9 +46,9 @@ outputs: [metrics.kinematic.distance, metrics.mujoco.distance]
             "15,\"[kinematic, mujoco]\",passed,30,,\n"
             "20,[kinematic],passed,40,,\n"
             "20,\"[kinematic, mujoco]\",passed,40,,\n");
-  EXPECT_TRUE(sweep.complete());
-  EXPECT_EQ(sweep.runs, 6U);
-  EXPECT_EQ(sweep.passed, 6U);
+  EXPECT_TRUE(sweep.summary.complete());
+  EXPECT_EQ(sweep.summary.runs, 6U);
+  EXPECT_EQ(sweep.summary.passed, 6U);
 }
 
 TEST(Sweep, LeavesCellsOfAListEmptyWhereAPointSaysNothing) {
@@ -72,7 +71,7 @@ TEST(Sweep, CountsTheSeedUpWhereItRepeats) {
             "mission.speed,seed,status,reason\n"
             "15,4,passed,\n15,5,passed,\n15,6,failed,\n"
             "3,4,passed,\n3,5,passed,\n3,6,passed,\n");
-  EXPECT_EQ(sweep.passed, 5U);
+  EXPECT_EQ(sweep.summary.passed, 5U);
 }
 
 TEST(Sweep, BisectsAtEveryPoint) {
@@ -88,8 +87,8 @@ outputs: [metrics.kinematic.distance]
             "0,18,passes_at_to,2,36,\n"
             "5,15,found,6,30,\n"
             "12,,fails_at_from,1,,\n");
-  EXPECT_EQ(sweep.runs, 9U);
-  EXPECT_EQ(sweep.passed, 2U);
+  EXPECT_EQ(sweep.summary.runs, 9U);
+  EXPECT_EQ(sweep.summary.passed, 2U);
   const auto& bisection = sweep.description["bisections"][1];
   EXPECT_EQ(bisection["point"]["seed"], 5);
   EXPECT_EQ(bisection["value"], 15);
@@ -119,7 +118,7 @@ list: [{seed: 3}]
 outputs: [verdict.passed]
 )",
                                 {"world.friction=0.7"});
-  auto json = RunSweep(study, ReadPoints(study), UpToASpeed, {}).description;
+  auto json = RunSweep(StudyPoints(study), UpToASpeed, {}).description;
   EXPECT_EQ(json["study"], "study");
   EXPECT_EQ(json["set"].dump(), R"({"drive.plants":"[kinematic]","world.friction":0.5})");
   EXPECT_EQ(json["overrides"].dump(), R"(["world.friction=0.7"])");
@@ -173,7 +172,7 @@ TEST(Sweep, KeepsTheRowsThatWereCompleteWhenItIsInterrupted) {
   const SweepResult sweep =
       SweepStudy(folder, "vary: {mission.speed: [1, 2, 3, 4]}\n", third_is_cut_off);
   EXPECT_EQ(sweep.table.ToCsv(), "mission.speed,status,reason\n1,passed,\n2,passed,\n");
-  EXPECT_FALSE(sweep.complete());
+  EXPECT_FALSE(sweep.summary.complete());
   EXPECT_EQ(sweep.description["complete"], false);
   EXPECT_EQ(sweep.description["rows_expected"], 4);
   EXPECT_EQ(runs, 3);  // nothing more was begun
@@ -208,20 +207,20 @@ TEST(Sweep, ThrowsOnWhatARunThrows) {
 TEST(Sweep, HasARowWithAReasonForAPointThatIsRefused) {
   const TempFolder folder;
   const Study study = MakeStudy(folder, "vary: {mission.speed: [1, 1000, 2]}\n");
-  EXPECT_THROW(ReadPoints(study), InputError);
-  const SweepResult sweep =
-      RunSweep(study, ReadPoints(study, BadPoints::kKeep), UpToASpeed, {.jobs = 2});
+  EXPECT_THROW(CheckPoints(StudyPoints(study), true), InputError);
+  EXPECT_NO_THROW(CheckPoints(StudyPoints(study), false));
+  const SweepResult sweep = RunSweep(StudyPoints(study), UpToASpeed, {.jobs = 2});
   EXPECT_EQ(
       sweep.table.ToCsv(),
       "mission.speed,status,reason\n1,passed,\n"
       "1000,refused,mission.speed: 1000 is out of range; must be at least 0.1 and at most 100\n"
       "2,passed,\n");
-  EXPECT_TRUE(sweep.complete());
-  EXPECT_EQ(sweep.runs, 2U);
-  EXPECT_EQ(sweep.refused, 1U);
+  EXPECT_TRUE(sweep.summary.complete());
+  EXPECT_EQ(sweep.summary.runs, 2U);
+  EXPECT_EQ(sweep.summary.refused, 1U);
   // A study of nothing but refused points is wrong input.
   const Study bad = MakeStudy(folder, "vary: {mission.speed: [1000, 2000]}\n");
-  EXPECT_THROW(ReadPoints(bad, BadPoints::kKeep), InputError);
+  EXPECT_THROW(CheckPoints(StudyPoints(bad), false), InputError);
 }
 
 TEST(Sweep, HasARowWithAReasonForARunThatThrows) {
@@ -241,8 +240,8 @@ TEST(Sweep, HasARowWithAReasonForARunThatThrows) {
   EXPECT_EQ(sweep.table.ToCsv(),
             "seed,status,reason\n0,passed,as told\n1,refused,drive.timestep: too long\n"
             "2,error,no matrix\n");
-  EXPECT_EQ(sweep.refused, 1U);
-  EXPECT_EQ(sweep.errors, 1U);
+  EXPECT_EQ(sweep.summary.refused, 1U);
+  EXPECT_EQ(sweep.summary.errors, 1U);
   EXPECT_EQ(sweep.description["errors"], 1);
   const SweepResult bisected = SweepStudy(
       folder, "vary: {seed: [1]}\nbisect: {key: mission.speed, from: 10, to: 18, tolerance: 1}\n",
@@ -253,13 +252,17 @@ TEST(Sweep, HasARowWithAReasonForARunThatThrows) {
 
 TEST(Sweep, WritesWholeFiles) {
   const TempFolder folder;
-  const SweepResult sweep = SweepStudy(folder, "repeat: 2\n", UpToASpeed);
-  WriteSweep(sweep, folder.path() / "out");
+  const StudyPoints points(MakeStudy(folder, "repeat: 2\n"));
+  SweepRecords records = SweepRecords::InMemory(SweepHeader(points));
+  RunRows(points, UpToASpeed, records, {});
+  const SweepSummary summary = WriteSweep(records, {}, folder.path() / "out");
+  EXPECT_TRUE(summary.complete());
+  EXPECT_EQ(summary.passed, 2U);
   EXPECT_EQ(ReadFile(folder.path() / "out/sweep.csv"),
             "seed,status,reason\n0,passed,\n1,passed,\n");
   EXPECT_EQ(nlohmann::ordered_json::parse(ReadFile(folder.path() / "out/sweep.json")),
-            sweep.description);
-  EXPECT_THROW(WriteSweep(sweep, folder.path() / "study.yaml" / "x"), RunError);
+            RunSweep(points, UpToASpeed, {}).description);
+  EXPECT_THROW(WriteSweep(records, {}, folder.path() / "study.yaml" / "x"), RunError);
 }
 
 }  // namespace

@@ -123,20 +123,23 @@ TEST_F(FullDisk, LeavesNoPieceOfASweep) {
                                  "vary: {mission.speed: [1, 2]}\n"
                                  "outputs: [metrics.kinematic.distance]\n");
   Trackbed(folder, "sweep -q study.yaml -o whole");
-  // Of the three pages that the sweep takes there is room for one.
+  // Of the four pages that the sweep takes there is room for one, that of its records, from which
+  // it can go on.
   const std::string sweep = TRACKBED_PROGRAM " sweep -q study.yaml -o disk/s";
   const Outcome part = WithDisk("4k", sweep);
   EXPECT_EQ(part.code, 2);
-  EXPECT_EQ(part.output, "cannot write disk/s/sweep.json: No space left on device\n");
-  EXPECT_THAT(NamesIn(folder.path() / "left/s"), IsEmpty());
+  EXPECT_EQ(part.output, "cannot write disk/s/sweep.csv: No space left on device\n");
+  EXPECT_THAT(NamesIn(folder.path() / "left/s"), UnorderedElementsAre("sweep.records"));
   fs::remove_all(folder.path() / "left");
   // Room for one sweep and its list of files to remove, but not for another sweep beside it: the
   // earlier one stays as it was.
-  const Outcome second = WithDisk("16k", sweep + " && " + sweep + " --set drive.time_limit=0.2");
+  const Outcome second =
+      WithDisk("20k", sweep + " && " + sweep + " --restart --set drive.time_limit=0.2");
   EXPECT_EQ(second.code, 2);
   EXPECT_EQ(second.output, "cannot write disk/s/sweep.json: No space left on device\n");
   EXPECT_THAT(NamesIn(folder.path() / "left/s"),
-              UnorderedElementsAre("sweep.csv", "sweep.json", "manifest.json"));
+              UnorderedElementsAre("sweep.csv", "sweep.json", "sweep.records", "manifest.json"));
+  fs::remove(folder.path() / "left/s/sweep.records");  // of the second one
   ExpectWhole(folder.path() / "left/s", folder.path() / "whole");
 }
 

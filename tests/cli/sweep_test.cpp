@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
 
@@ -183,9 +185,132 @@ TEST(Sweep, CtrlCKeepsTheRowsSoFar) {
                            " ] || [ $n -gt 600 ]; do n=$((n + 1)); sleep 0.1; done; kill -INT $!; "
                            "wait $!");
   EXPECT_EQ(outcome.code, 130);
-  EXPECT_EQ(outcome.output, "study: interrupted after 0 of 2 rows, in " + out + "/sweep.csv\n");
+  EXPECT_EQ(outcome.output, "study: interrupted after 0 of 2 rows; the same command goes on, in " +
+                                out + "/sweep.csv\n");
   EXPECT_THAT(ReadFile(folder.path() / "r/sweep.json"), HasSubstr("\"complete\": false"));
   EXPECT_EQ(ReadFile(folder.path() / "r/sweep.csv"), "drive.timestep,status,reason\n");
+}
+
+/// Six short rows, which fail as they end before the goal, the last of which is refused.
+constexpr const char* kShort =
+    "set: {drive.plants: [mujoco], drive.time_limit: 0.1, expect: {}}\n"
+    "vary: {control.distance: [1, 2, 3, 4, 5, -1]}\n"
+    "outputs: [metrics.mujoco.distance]\n";
+
+void ExpectSameSweep(const TempFolder& folder, const std::string& one, const std::string& other) {
+  for (const char* name : {"sweep.csv", "sweep.json", "manifest.json"}) {
+    EXPECT_EQ(ReadFile(folder.path() / one / name), ReadFile(folder.path() / other / name))
+        << name << " of " << one << " and " << other;
+  }
+}
+
+TEST(Sweep, ShardsMergeToTheBytesOfOneProcess) {
+  const TempFolder folder;
+  folder.Write("study.yaml", StudyText(kShort));
+  ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml -o whole").code, 0);
+  for (const int shards : {3, 7}) {  // with seven one has no row
+    const std::string out = "of" + std::to_string(shards);
+    for (int shard = shards; shard >= 1; --shard) {
+      const std::string part = std::to_string(shard) + "/" + std::to_string(shards);
+      ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml -o " + out + " --shard " + part).code, 0);
+    }
+    const Outcome merged = Trackbed(folder, "sweep merge " + out);
+    EXPECT_EQ(merged.code, 0);
+    EXPECT_EQ(merged.output, "study: 6 of 6 rows from " + std::to_string(shards) +
+                                 " files, 0 passed, in " + out +
+                                 "/sweep.csv\nstudy: 1 rows without a run: 1 refused, 0 with an "
+                                 "internal error; see the column reason\n");
+    ExpectSameSweep(folder, "whole", out);
+  }
+}
+
+TEST(Sweep, TakesItsShardFromSlurmsArray) {
+  const TempFolder folder;
+  folder.Write("study.yaml", StudyText(kShort));
+  // Tasks 4, 6 and 8.
+  const std::string array =
+      "SLURM_ARRAY_TASK_COUNT=3 SLURM_ARRAY_TASK_MIN=4 SLURM_ARRAY_TASK_STEP=2 ";
+  for (const char* task : {"4", "6", "8"}) {
+    ASSERT_EQ(Shell(folder, array + "SLURM_ARRAY_TASK_ID=" + task +
+                                " " TRACKBED_PROGRAM " sweep -q study.yaml -o r")
+                  .code,
+              0);
+  }
+  ASSERT_EQ(Trackbed(folder, "sweep merge -q r").code, 0);
+  ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml -o whole").code, 0);
+  ExpectSameSweep(folder, "whole", "r");
+  EXPECT_EQ(Shell(folder, array + "SLURM_ARRAY_TASK_ID=3 " TRACKBED_PROGRAM " sweep -q study.yaml")
+                .output,
+            "SLURM_ARRAY_TASK_ID: 3 is no task of an array of 3 from 4 in steps of 2\n");
+}
+
+TEST(Sweep, MergesOnlyWhatIsWholeAndBelongsTogether) {
+  const TempFolder folder;
+  folder.Write("study.yaml", StudyText(kShort));
+  ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml -o r --shard 2/3").code, 0);
+  EXPECT_EQ(Trackbed(folder, "sweep merge r").output,
+            "r: 4 of 6 rows are missing: 0, 2 to 3, 5; --partial merges what there is\n");
+  EXPECT_EQ(Trackbed(folder, "sweep merge -q --partial r").code, 0);
+  EXPECT_THAT(ReadFile(folder.path() / "r/sweep.json"), HasSubstr("\"complete\": false"));
+  ASSERT_EQ(
+      Trackbed(folder, "sweep -q study.yaml -o other --shard 1/3 --set drive.time_limit=0.2").code,
+      0);
+  EXPECT_THAT(Trackbed(folder, "sweep merge r other").output,
+              testing::MatchesRegex("other/shard_1_of_3/sweep.records: is of another study than "
+                                    "the first \\(overrides.*\n"));
+  EXPECT_EQ(Trackbed(folder, "sweep merge empty").output,
+            "empty: has neither sweep.records nor folders of shards\n");
+  EXPECT_EQ(Trackbed(folder, "sweep study.yaml --shard 4/3").output,
+            "--shard: '4/3' is no shard; give I/N, such as 2/7 for the second of seven\n");
+}
+
+TEST(Sweep, RefusesToGoOnWithAnotherStudy) {
+  const TempFolder folder;
+  folder.Write("study.yaml", StudyText(kShort));
+  ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml -o r").code, 0);
+  EXPECT_EQ(Trackbed(folder, "sweep study.yaml -o r").output,
+            "study: 6 of 6 rows are there already\n"
+            "study: 6 rows from 5 runs, 0 passed, in r/sweep.csv\n"
+            "study: 1 rows without a run: 1 refused, 0 with an internal error; see the column "
+            "reason\n");
+  const std::string other = "sweep -q study.yaml -o r --set drive.time_limit=0.2";
+  EXPECT_THAT(Trackbed(folder, other).output,
+              testing::MatchesRegex("r/sweep.records: has rows of another study \\(overrides.*"
+                                    "--restart removes them.*\n"));
+  EXPECT_EQ(Trackbed(folder, other + " --restart").code, 0);
+}
+
+TEST(Sweep, RunsARowOnceMoreAsARunOfItsOwn) {
+  const TempFolder folder;
+  folder.Write("study.yaml", StudyText(kShort));
+  ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml -o r").code, 0);
+  ASSERT_EQ(Trackbed(folder, "run -q --from-sweep r --row 3 -o row").code, 3);
+  const auto metrics = nlohmann::json::parse(ReadFile(folder.path() / "row/metrics.json"));
+  const auto distance = metrics.at("plants").at("mujoco").at("distance").get<double>();
+  std::smatch row;
+  const std::string csv = ReadFile(folder.path() / "r/sweep.csv");
+  ASSERT_TRUE(std::regex_search(csv, row, std::regex("\n4,failed,([0-9.e+-]+),"))) << csv;
+  EXPECT_EQ(distance, std::stod(row[1]));  // the same double, written in full
+  EXPECT_EQ(Trackbed(folder, "run --from-sweep r --row 6").output,
+            "row: 6; the study has 0 to 5\n");
+  EXPECT_EQ(Trackbed(folder, "run --from-sweep r").output,
+            "give both --from-sweep DIR and --row N, or neither\n");
+  EXPECT_EQ(Trackbed(folder, "run --from-sweep r --row 0 " + ScenarioFile("winding")).code, 2);
+}
+
+TEST(Sweep, RunsRowsOfAStatusOnceMore) {
+  const TempFolder folder;
+  folder.Write("study.yaml", StudyText(kShort));
+  ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml -o r").code, 0);
+  const auto lines = [&] {
+    const std::string text = ReadFile(folder.path() / "r/sweep.records");
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  const auto before = lines();
+  ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml -o r --only refused").code, 0);
+  EXPECT_EQ(lines(), before + 1);
+  ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml -o r --only failed").code, 0);
+  EXPECT_EQ(lines(), before + 6);
 }
 
 }  // namespace

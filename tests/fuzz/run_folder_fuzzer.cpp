@@ -43,9 +43,10 @@ void WriteFolders() {
       fuzz::Write("study.yaml",
                   "schema: 1\nname: study\nscenario: corner.yaml\nvary: {mission.speed: [1, 2]}\n"
                   "outputs: [metrics.kinematic.distance]\n")));
-  WriteSweep(RunSweep(study.study, study.points,
-                      [&](const Scenario& point) { return DriveOnce(study, point); }, {}),
-             fuzz::Folder() / kStudy);
+  SweepRecords records = SweepRecords::InMemory(SweepHeader(study.points));
+  RunRows(study.points, [&](const Scenario& point) { return DriveOnce(study, point); }, records,
+          {});
+  WriteSweep(records, {}, fuzz::Folder() / kStudy);
   for (const char* folder : {kRun, kComparison, kStudy}) {
     fs::remove(fuzz::Folder() / folder / run_folder::kManifest);
   }

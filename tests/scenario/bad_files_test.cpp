@@ -53,7 +53,7 @@ std::string MessageFor(const fs::path& file) {
   const std::vector<std::string> cameras{"chase", "side", "top"};
   try {
     if (IsStudy(file)) {
-      ReadPoints(ReadStudy(file, {}, cameras));
+      CheckPoints(StudyPoints(ReadStudy(file, {}, cameras)), true);
       return kNoError;
     }
     const Scenario scenario =

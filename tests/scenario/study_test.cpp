@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "tests/support/temp_folder.h"
 #include "trackbed/control/preview.h"
 #include "trackbed/core/error.h"
@@ -42,7 +44,8 @@ class StudyFiles : public testing::Test {
                                          const std::vector<Override>& overrides = {}) const {
     std::string message = "no error";
     try {
-      ReadPoints(ReadStudy(folder_.Write("study.yaml", text), overrides, {"chase"}));
+      CheckPoints(StudyPoints(ReadStudy(folder_.Write("study.yaml", text), overrides, {"chase"})),
+                  true);
     } catch (const InputError& error) {
       message = error.what();
     }
@@ -57,28 +60,28 @@ class StudyFiles : public testing::Test {
 };
 
 /// "key=value key=value" of each point.
-std::vector<std::string> Written(const std::vector<std::vector<Setting>>& grid) {
-  std::vector<std::string> points;
-  for (const std::vector<Setting>& point : grid) {
-    std::string& text = points.emplace_back();
-    for (const Setting& setting : point) {
+std::vector<std::string> Written(const StudyPoints& points) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::string& text = texts.emplace_back();
+    for (const Setting& setting : points.Settings(i)) {
       text += (text.empty() ? "" : " ") + setting.key + "=" + setting.value;
     }
   }
-  return points;
+  return texts;
 }
 
 using Grid = StudyFiles;
 
 TEST_F(Grid, IsEveryCombinationWithTheLastKeyFastest) {
-  EXPECT_THAT(Written(ExpandGrid(Read("vary: {mission.speed: [3, 2.5], seed: [1, 2, 7]}\n"))),
+  EXPECT_THAT(Written(StudyPoints(Read("vary: {mission.speed: [3, 2.5], seed: [1, 2, 7]}\n"))),
               testing::ElementsAre("mission.speed=3 seed=1", "mission.speed=3 seed=2",
                                    "mission.speed=3 seed=7", "mission.speed=2.5 seed=1",
                                    "mission.speed=2.5 seed=2", "mission.speed=2.5 seed=7"));
 }
 
 TEST_F(Grid, TakesPointsOfAListAtEachOfItsOwn) {
-  EXPECT_THAT(Written(ExpandGrid(Read(R"(vary: {mission.speed: [3, 2]}
+  EXPECT_THAT(Written(StudyPoints(Read(R"(vary: {mission.speed: [3, 2]}
 list:
   - {control.method: preview, control.distance: 4}
   - {control.method: schedule}
@@ -87,21 +90,22 @@ list:
                                    "mission.speed=3 control.method=schedule",
                                    "mission.speed=2 control.method=preview control.distance=4",
                                    "mission.speed=2 control.method=schedule"));
-  EXPECT_THAT(Written(ExpandGrid(Read("list: [{seed: 4}, {seed: 3}]\n"))),
+  EXPECT_THAT(Written(StudyPoints(Read("list: [{seed: 4}, {seed: 3}]\n"))),
               testing::ElementsAre("seed=4", "seed=3"));
 }
 
 TEST_F(Grid, IsOnePointWhereNothingVaries) {
-  EXPECT_THAT(Written(ExpandGrid(Read("repeat: 5\n"))), testing::ElementsAre(""));
+  EXPECT_THAT(Written(StudyPoints(Read("repeat: 5\n"))), testing::ElementsAre(""));
 }
 
 TEST_F(Grid, DividesARangeEvenlyAndEndsOnItsEnds) {
-  EXPECT_THAT(Written(ExpandGrid(Read("vary: {world.friction: {from: 0.2, to: 1.0, steps: 5}}\n"))),
-              testing::ElementsAre("world.friction=0.2", "world.friction=0.4", "world.friction=0.6",
-                                   "world.friction=0.8", "world.friction=1"));
-  EXPECT_THAT(Written(ExpandGrid(Read("vary: {mission.speed: {from: 0.1, to: 0.3, steps: 3}}\n"))),
+  EXPECT_THAT(
+      Written(StudyPoints(Read("vary: {world.friction: {from: 0.2, to: 1.0, steps: 5}}\n"))),
+      testing::ElementsAre("world.friction=0.2", "world.friction=0.4", "world.friction=0.6",
+                           "world.friction=0.8", "world.friction=1"));
+  EXPECT_THAT(Written(StudyPoints(Read("vary: {mission.speed: {from: 0.1, to: 0.3, steps: 3}}\n"))),
               testing::ElementsAre("mission.speed=0.1", "mission.speed=0.2", "mission.speed=0.3"));
-  EXPECT_THAT(Written(ExpandGrid(
+  EXPECT_THAT(Written(StudyPoints(
                   Read("vary: {control.distance: {from: 0.1, to: 100, steps: 4, scale: log}}"))),
               testing::ElementsAre("control.distance=0.1", "control.distance=1",
                                    "control.distance=10", "control.distance=100"));
@@ -109,7 +113,7 @@ TEST_F(Grid, DividesARangeEvenlyAndEndsOnItsEnds) {
 
 TEST_F(Grid, KeepsValuesAsTheyWereWritten) {
   EXPECT_THAT(
-      Written(ExpandGrid(Read(R"(vary:
+      Written(StudyPoints(Read(R"(vary:
   drive.plants: [[kinematic], [kinematic, "mujoco"]]
   mission.start: [{x: 1, yaw: -0.5}]
   vehicle.model: [prius, 'pri: us', "2"]
@@ -123,24 +127,160 @@ TEST_F(Grid, KeepsValuesAsTheyWereWritten) {
           R"(drive.plants=[kinematic, "mujoco"] mission.start={x: 1, yaw: -0.5} vehicle.model="2")"));
 }
 
+TEST_F(Grid, LeavesOutKeysWhoseConditionDoesNotHold) {
+  EXPECT_THAT(Written(StudyPoints(Read(R"(vary:
+  control.method: [preview, schedule]
+  control.distance: {values: [2, 4], when: {control.method: preview}}
+  mission.speed: [1, 3]
+)"))),
+              testing::ElementsAre("control.method=preview control.distance=2 mission.speed=1",
+                                   "control.method=preview control.distance=2 mission.speed=3",
+                                   "control.method=preview control.distance=4 mission.speed=1",
+                                   "control.method=preview control.distance=4 mission.speed=3",
+                                   "control.method=schedule mission.speed=1",
+                                   "control.method=schedule mission.speed=3"));
+  // Of several values, and on a grid; on what the study sets throughout.
+  EXPECT_THAT(
+      Written(StudyPoints(Read(R"(set: {drive.timestep: 0.002}
+vary:
+  mission.speed: [1, 2, 3.0]
+  seed: {from: 1, to: 2, steps: 2, when: {mission.speed: [1.0, 3], drive.timestep: 0.002}}
+)"))),
+      testing::ElementsAre("mission.speed=1 seed=1", "mission.speed=1 seed=2", "mission.speed=2",
+                           "mission.speed=3.0 seed=1", "mission.speed=3.0 seed=2"));
+}
+
+TEST_F(Grid, RefusesConditionsOfWhatIsNotSetBefore) {
+  EXPECT_EQ(ErrorMessages(R"(vary:
+  seed: {values: [2, 4], when: {mision.speed: 1}}
+  mission.speed: [1, 2]
+)"),
+            "study.yaml:5:19: vary.seed.when: a key that the study does not set before: "
+            "'mision.speed'; allowed: ");
+  EXPECT_EQ(ErrorMessages(R"(sample: {count: 2}
+vary:
+  mission.speed: {distribution: uniform, from: 1, to: 2}
+  seed: {values: [2, 4], when: {mission.speed: 1}}
+)"),
+            "study.yaml:7:19: vary.seed.when: mission.speed is sampled, so that a key of the grid "
+            "cannot depend on it");
+}
+
+using Sampled = StudyFiles;
+
+TEST_F(Sampled, MeetTheSameSampleAtEachPointOfTheGrid) {
+  const StudyPoints points(Read(R"(sample: {count: 3, method: sobol, seed: 4}
+vary:
+  world.friction: {distribution: uniform, from: 0.2, to: 1}
+  control.method: [preview, schedule]
+  disturb.payload.mass: {distribution: normal, mean: 100, deviation: 30, min: 0}
+)"));
+  ASSERT_EQ(points.size(), 6U);
+  const auto sample = [&](std::size_t i) {
+    const std::vector<Setting> settings = points.Settings(i);
+    return settings.at(1).key + "=" + settings.at(1).value + " " + settings.at(2).key + "=" +
+           settings.at(2).value;
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(points.Settings(i).at(0).value, "preview");
+    EXPECT_EQ(points.Settings(3 + i).at(0).value, "schedule");
+    EXPECT_EQ(sample(i), sample(3 + i));
+  }
+  EXPECT_NE(sample(0), sample(1));
+  EXPECT_THAT(sample(0), testing::StartsWith("world.friction="));
+  const Scenario scenario = points.Read(1).scenario;
+  EXPECT_GE(scenario.world.friction, 0.2);
+  EXPECT_LE(scenario.world.friction, 1.0);
+}
+
+TEST_F(Sampled, TakeKeysOfOneFileFromOneRow) {
+  folder_.Write("roads.csv", "mu,speed\n0.3,1\n0.5,2\n0.7,3\n");
+  const StudyPoints points(Read(R"(sample: {count: 9}
+vary:
+  world.friction: {distribution: file, file: roads.csv, column: mu}
+  mission.speed: {distribution: file, file: roads.csv, column: speed}
+)"));
+  std::multiset<std::string> seen;
+  for (const std::string& point : Written(points)) {
+    seen.insert(point);
+  }
+  // A Latin hypercube of nine points has three in each third.
+  EXPECT_EQ(seen, (std::multiset<std::string>{
+                      "world.friction=0.3 mission.speed=1", "world.friction=0.3 mission.speed=1",
+                      "world.friction=0.3 mission.speed=1", "world.friction=0.5 mission.speed=2",
+                      "world.friction=0.5 mission.speed=2", "world.friction=0.5 mission.speed=2",
+                      "world.friction=0.7 mission.speed=3", "world.friction=0.7 mission.speed=3",
+                      "world.friction=0.7 mission.speed=3"}));
+}
+
+TEST_F(Sampled, SayWhatIsWrong) {
+  EXPECT_EQ(ErrorMessages("vary: {seed: {distribution: uniform, from: 1, to: 2}}\n"),
+            "study.yaml:4:7: sample: missing; keys of vary have distributions");
+  EXPECT_EQ(ErrorMessages("sample: {count: 4}\nvary: {seed: [1]}\n"),
+            "study.yaml:4:9: sample: no key of vary has a distribution");
+  EXPECT_EQ(ErrorMessages("sample: {count: 4}\nvary: {seed: {distribution: unifrom, from: 1, to: "
+                          "2}}\n"),
+            "study.yaml:5:29: vary.seed.distribution: unknown 'unifrom'; did you mean "
+            "'uniform'?");
+  EXPECT_EQ(ErrorMessages("sample: {count: 4}\n"
+                          "vary: {seed: {distribution: integer, from: 1.5, to: 2}}\n"),
+            "study.yaml:5:44: vary.seed.from: 1.5 is no whole number");
+  EXPECT_EQ(ErrorMessages("sample: {count: 4}\n"
+                          "vary: {seed: {distribution: choice, values: [1, 2], weights: [1]}}\n"),
+            "study.yaml:5:62: vary.seed.weights: 1 weights of 2 values");
+  EXPECT_EQ(ErrorMessages("sample: {count: 4}\n"
+                          "vary: {seed: {distribution: uniform, from: 1, to: 2, mean: 3}}\n"),
+            "study.yaml:5:54: vary.seed.mean: unknown key 'mean'; allowed: distribution, from, to, "
+            "when");
+  EXPECT_THAT(ErrorMessages("sample: {count: 4}\n"
+                            "vary: {seed: {distribution: file, file: /etc/passwd, column: x}}\n"),
+              testing::HasSubstr("vary.seed.file: /etc/passwd is an absolute path"));
+}
+
+using Derived = StudyFiles;
+
+TEST_F(Derived, FollowFromTheKeysOfThePoint) {
+  EXPECT_THAT(Written(StudyPoints(Read(R"(set: {world.friction: 0.5}
+vary: {mission.speed: [2, 4]}
+derive:
+  control.distance: 1.5 * mission.speed
+  drive.time_limit: control.distance + sqrt(world.friction * 2)
+)"))),
+              testing::ElementsAre("mission.speed=2 control.distance=3 drive.time_limit=4",
+                                   "mission.speed=4 control.distance=6 drive.time_limit=7"));
+}
+
+TEST_F(Derived, SayWhatIsWrong) {
+  EXPECT_THAT(ErrorMessages("vary: {mission.speed: [2]}\nderive: {seed: mission.sped + 1}\n"),
+              testing::HasSubstr("derive.seed: uses a key that the study does not set before: "
+                                 "'mission.sped'; did you mean 'mission.speed'?"));
+  EXPECT_THAT(ErrorMessages("vary: {mission.speed: [2]}\nderive: {seed: mission.speed + }\n"),
+              testing::HasSubstr("derive.seed: 'mission.speed +' is no formula: "));
+  EXPECT_THAT(
+      ErrorMessages("vary: {mission.speed: [2]}\nderive: {seed: 1 / (mission.speed - 2)}\n"),
+      testing::HasSubstr("derive.seed: '1 / (mission.speed - 2)' is inf here"));
+  EXPECT_THAT(ErrorMessages("vary: {drive.plants: [[kinematic]]}\nderive: {seed: drive.plants}\n"),
+              testing::HasSubstr("drive.plants is [kinematic], not a number"));
+}
+
 using Points = StudyFiles;
 
 TEST_F(Points, AreTheScenarioWithWhatTheStudySets) {
-  const auto points = ReadPoints(Read(R"(set: {drive.plants: [kinematic], mission.speed: 2}
+  const StudyPoints points(Read(R"(set: {drive.plants: [kinematic], mission.speed: 2}
 vary: {control.distance: [3, 4]}
 )"));
   ASSERT_EQ(points.size(), 2U);
-  EXPECT_EQ(points[1].scenario.mission.speed, 2.0);
-  EXPECT_EQ(points[1].scenario.drive.plants, std::vector<std::string>{"kinematic"});
-  EXPECT_EQ(points[0].scenario.control.steering.Get<PreviewOptions>().distance, 3.0);
-  EXPECT_EQ(points[1].scenario.control.steering.Get<PreviewOptions>().distance, 4.0);
-  EXPECT_EQ(Written({points[1].settings})[0], "control.distance=4");
+  EXPECT_EQ(points.Read(1).scenario.mission.speed, 2.0);
+  EXPECT_EQ(points.Read(1).scenario.drive.plants, std::vector<std::string>{"kinematic"});
+  EXPECT_EQ(points.Read(0).scenario.control.steering.Get<PreviewOptions>().distance, 3.0);
+  EXPECT_EQ(points.Read(1).scenario.control.steering.Get<PreviewOptions>().distance, 4.0);
+  EXPECT_EQ(Written(points)[1], "control.distance=4");
 }
 
 TEST_F(Points, TakeWhatTheCommandLineSetsInPlaceOfTheStudysOwn) {
-  const auto points = ReadPoints(
+  const StudyPoints points(
       Read("set: {mission.speed: 2}\nvary: {control.distance: [3]}\n", {"mission.speed=1.5"}));
-  EXPECT_EQ(points[0].scenario.mission.speed, 1.5);
+  EXPECT_EQ(points.Read(0).scenario.mission.speed, 1.5);
   EXPECT_EQ(ErrorMessages("set: {mission.speed: 2}\nrepeat: 2\n", {"mission.speed=-1"}),
             "--set: mission.speed: -1 is out of range; must be at least 0.1 and at most 100");
   EXPECT_EQ(ErrorMessages("vary: {control.distance: [3]}\n", {"control.distance=2"}),
@@ -150,8 +290,8 @@ TEST_F(Points, TakeWhatTheCommandLineSetsInPlaceOfTheStudysOwn) {
 TEST_F(Points, HaveTheBisectedKeyWhereItIsAsked) {
   const Study study =
       Read("bisect: {key: mission.speed, from: 1, to: 4, tolerance: 0.1}\nvary: {seed: [3]}\n");
-  EXPECT_EQ(ReadPoints(study)[0].scenario.mission.speed, 1.0);
-  const Scenario scenario = ReadPoint(study, ExpandGrid(study)[0], 2.25);
+  EXPECT_EQ(StudyPoints(study).Read(0).scenario.mission.speed, 1.0);
+  const Scenario scenario = ReadPoint(study, StudyPoints(study).Settings(0), 2.25);
   EXPECT_EQ(scenario.mission.speed, 2.25);
   EXPECT_EQ(scenario.seed, 3U);
 }
@@ -159,7 +299,7 @@ TEST_F(Points, HaveTheBisectedKeyWhereItIsAsked) {
 TEST_F(Points, FindAScenarioThatIsRelativeToTheStudy) {
   const auto file =
       folder_.Write("studies/s.yaml", "schema: 1\nname: s\nscenario: ../small.yaml\nrepeat: 2\n");
-  EXPECT_EQ(ReadPoints(ReadStudy(file)).size(), 1U);
+  EXPECT_EQ(StudyPoints(ReadStudy(file)).size(), 1U);
 }
 
 using Studies = StudyFiles;
@@ -225,8 +365,9 @@ TEST_F(Studies, RefuseToVaryNothingOrTooMuch) {
             "study.yaml:4:1: vary: expected a section, found nothing");
   EXPECT_EQ(ErrorMessages("list: []\n"),
             "study.yaml:4:7: list: expected a list of points, found an empty one");
-  EXPECT_EQ(ErrorMessages("vary: {control.distance: {from: 1, to: 2, steps: 1001}}\nrepeat: 100\n"),
-            "study.yaml:1:1: vary: 100100 runs; at most 100000");
+  EXPECT_EQ(
+      ErrorMessages("vary: {control.distance: {from: 1, to: 2, steps: 1001}}\nrepeat: 10000\n"),
+      "study.yaml:1:1: vary: 10010000 runs; at most 10000000");
 }
 
 TEST_F(Studies, RefuseToSetWhatIsThenReplaced) {
@@ -307,9 +448,13 @@ TEST(CellText, IsTheShortestFormOfNumbersAndYamlOfTheRest) {
 
 TEST(StudyKeys, EachHasALineOfText) {
   const std::vector<KeySection> sections = StudyKeys();
-  ASSERT_EQ(sections.size(), 3U);
-  EXPECT_EQ(sections[1].key, "bisect");
-  EXPECT_EQ(sections[2].key, "vary.KEY");
+  std::vector<std::string> names;
+  for (const KeySection& section : sections) {
+    names.push_back(section.key + (section.method.empty() ? "" : " " + section.method));
+  }
+  EXPECT_THAT(names, testing::ElementsAre("", "sample", "bisect", "vary.KEY", "vary.KEY uniform",
+                                          "vary.KEY log_uniform", "vary.KEY integer",
+                                          "vary.KEY normal", "vary.KEY choice", "vary.KEY file"));
   for (const KeySection& section : sections) {
     for (const KeyInfo& key : section.keys) {
       EXPECT_FALSE(key.text.empty()) << section.key << "." << key.name;

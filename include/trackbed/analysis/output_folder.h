@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -74,6 +75,8 @@ class ResultWriter {
 
   /// RunError naming the file in the output folder.
   void Add(const std::string& name, std::string_view content);
+  /// Likewise, of content in parts: `next` gives one after the other, and an empty one at the end.
+  void Add(const std::string& name, const std::function<std::string()>& next);
 
   /// The files become the result of this name (run_folder::kRun, ...). Those of an earlier one and
   /// those of `obsolete` that the new one does not have are removed. RunError when a name is taken

@@ -46,6 +46,8 @@ inline constexpr const char* kCompareJson = "compare.json";
 // Of a study.
 inline constexpr const char* kSweepCsv = "sweep.csv";
 inline constexpr const char* kSweepJson = "sweep.json";
+/// Grows with the study, which goes on from it: SweepRecords.
+inline constexpr const char* kSweepRecords = "sweep.records";
 
 /// What a plan with a path may have beside plan.json.
 inline constexpr std::array kPathFiles{kPlanCsv, kScheduleCsv, kConvergenceCsv, kTreeCsv};

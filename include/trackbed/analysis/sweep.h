@@ -11,6 +11,7 @@
 
 #include "trackbed/analysis/output_folder.h"
 #include "trackbed/analysis/run.h"
+#include "trackbed/analysis/sweep_records.h"
 #include "trackbed/core/text_table.h"
 #include "trackbed/scenario/study.h"
 
@@ -43,55 +44,106 @@ using RunScenarioOnce = std::function<std::optional<RunOutcome>(const Scenario& 
 /// A study that has been validated as far as possible before it is run. Immutable, and shared
 /// between threads.
 struct CheckedStudy {
-  Study study;
-  std::vector<StudyPoint> points;
-  std::unique_ptr<CarCache> cars;  ///< never null
+  StudyPoints points;
+  std::unique_ptr<CarCache> cars;             ///< never null
+  std::map<std::string, std::string> inputs;  ///< SHA-256 of what the study is made of, by its name
 };
 
-/// Reads every point of the study's grid, compiles the cars, makes the plants and checks the
-/// outputs. InputError with the problems of all points, of all cars, or of all outputs with the
-/// nearest path.
-///
-/// With BadPoints::kKeep the points that have such a problem are refused (StudyPoint), and others
-/// are not affected, unless there are none.
-CheckedStudy CheckStudy(Study study, BadPoints bad_points = BadPoints::kThrow);
+/// Reads the points of the study (CheckPoints), compiles the cars, makes the plants and checks the
+/// outputs. InputError with the problems of the points, of their cars, or of all outputs with the
+/// nearest path: unless `all` points must be good, only if none is.
+CheckedStudy CheckStudy(Study study, bool all = true);
 
 /// Plans, drives, measures and judges a scenario of the study.
 std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario& scenario,
                                     const std::function<bool()>& interrupted = {});
 
+/// A part of the rows of a study: of every `count` rows the one at `index`, from 1.
+struct Shard {
+  int index = 1;
+  int count = 1;
+
+  [[nodiscard]] bool Has(std::size_t row) const {
+    return row % static_cast<std::size_t>(count) == static_cast<std::size_t>(index - 1);
+  }
+};
+
 struct SweepOptions {
   int jobs = 1;                                   ///< runs at the same time, at least 1
   std::function<void(double fraction)> progress;  ///< called after each row, by one thread at once
   std::function<bool()> interrupted;              ///< asked before each run, by any thread
+  Shard shard{};                                  ///< of the rows, the others are left out
+  /// If there are any: instead of the rows that are missing, those with one of these statuses.
+  std::vector<std::string> again{};
 };
 
-struct SweepResult {
-  TextTable table{{"status"}};  ///< sweep.csv: parameters, seed, status, runs, outputs, reason
-  nlohmann::ordered_json description;  ///< sweep.json: the study as it was run, and bisections
-  std::size_t rows_expected = 0;       ///< more than the table has when it was interrupted
-  std::size_t runs = 0;                ///< of the table's rows
-  std::size_t passed = 0;              ///< rows that passed, or whose bisection found a value
-  std::size_t refused = 0;             ///< rows whose scenario is wrong
-  std::size_t errors = 0;              ///< rows whose run met a bug of the program
+/// The rows that a study has: each point `repeat` times.
+std::size_t CountRows(const StudyPoints& points);
 
-  [[nodiscard]] bool complete() const { return table.rows().size() == rows_expected; }
-};
+/// What tells the records of the study from those of others: its description, its columns, the
+/// versions of the programs, and `inputs`, the hashes of what it is made of.
+nlohmann::ordered_json SweepHeader(const StudyPoints& points,
+                                   const std::map<std::string, std::string>& inputs = {});
 
-/// Runs the points of a study, each `repeat` times with its seed counted up, or bisects at each.
-/// Rows are in the grid's order, those that an interruption left unfinished absent.
+/// Runs the rows of a study that `records` has not, each point `repeat` times with its seed counted
+/// up, or bisects at each, and appends every row as soon as it is finished. An interruption leaves
+/// unfinished rows out.
 ///
 /// A point that is refused, and a run that throws an InputError, have a row with the status
 /// `refused` and the first problem as the reason; a run that throws what tells of a bug, one with
 /// the status `error`. The other runs are not affected.
 ///
-/// Guarantees: the result does not depend on `jobs`. A RunError of `run` (a full disk, no memory)
-/// stops the sweep and is thrown on. InternalError unless jobs is positive.
-SweepResult RunSweep(const Study& study, const std::vector<StudyPoint>& points,
-                     const RunScenarioOnce& run, const SweepOptions& options);
+/// Guarantees: what a row has does not depend on `jobs`, shards, or the order in which rows are
+/// finished. A RunError of `run` (no memory) or of `records` (a full disk) stops the sweep and is
+/// thrown on. InternalError unless jobs is positive. Memory does not grow with the rows, beside
+/// that of SweepRecords.
+void RunRows(const StudyPoints& points, const RunScenarioOnce& run, SweepRecords& records,
+             const SweepOptions& options);
 
-/// Writes sweep.csv, sweep.json and manifest.json, all at once (ResultWriter), and removes the
-/// report.html of an earlier sweep. RunError: the earlier sweep is still there then.
-void WriteSweep(const SweepResult& sweep, const OutputFolder& folder);
+/// What there is in some records.
+struct SweepSummary {
+  std::size_t rows = 0;
+  std::size_t rows_expected = 0;  ///< more than there are when it was interrupted
+  std::size_t runs = 0;           ///< of these rows
+  std::size_t passed = 0;         ///< rows that passed, or whose bisection found a value
+  std::size_t refused = 0;        ///< rows whose scenario is wrong
+  std::size_t errors = 0;         ///< rows whose run met a bug of the program
+
+  [[nodiscard]] bool complete() const { return rows == rows_expected; }
+};
+
+/// Counts what there is of the shard.
+SweepSummary Summarize(const SweepRecords& records, const Shard& shard = {});
+
+/// Writes sweep.csv (parameters, seed, status, runs, outputs, reason; rows in the grid's order),
+/// sweep.json (the study as it was run, and bisections) and manifest.json, all at once
+/// (ResultWriter), and removes the report.html of an earlier sweep. RunError: the earlier sweep is
+/// still there then.
+SweepSummary WriteSweep(const SweepRecords& records, const Shard& shard,
+                        const OutputFolder& folder);
+
+/// Puts the rows of several records of one study, such as those of its shards, into others of it.
+///
+/// InputError naming a file and what is different when its study is another one, and when a row
+/// differs between two.
+void MergeRecords(const std::vector<std::filesystem::path>& files, SweepRecords& records);
+
+/// What a row sets, in the order in which it does, for the scenario that the header names: with
+/// these overrides a run is that of the row. InputError when there is no such row.
+std::vector<Override> OverridesOfRow(const SweepRecords& records, std::size_t row);
+
+/// "3, 17 to 20": the rows, from 0, that are missing.
+std::string MissingRows(const SweepRecords& records);
+
+/// A study of few rows, in memory.
+struct SweepResult {
+  TextTable table{{"status"}};         ///< as sweep.csv
+  nlohmann::ordered_json description;  ///< as sweep.json
+  SweepSummary summary;
+};
+
+/// RunRows for all rows, in memory.
+SweepResult RunSweep(const StudyPoints& points, const RunScenarioOnce& run,
+                     const SweepOptions& options);
 
 }  // namespace trackbed

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "trackbed/scenario/sampling.h"
 #include "trackbed/scenario/scenario.h"
 
 /// A study: many runs of one scenario with different values of some keys.
@@ -35,7 +36,34 @@ struct OutputSpec {
   int column = 0;
 };
 
-/// Every run of a grid sets one alternative of each key of `vary` and one point of `list`.
+/// Holds at the points where a key of the study has one of some values.
+struct Condition {
+  std::string key;
+  std::vector<std::string> values;  ///< YAML on one line each
+};
+
+/// A key that is not the same in all runs.
+struct Variation {
+  std::string key;  ///< dotted
+  int line = 0;
+  int column = 0;
+  std::vector<Setting> alternatives{};         ///< of the grid; none where it is sampled
+  std::optional<Distribution> distribution{};  ///< where it is sampled
+  std::string rows_of{};  ///< the CSV file of its values; keys of one file take them of one row
+  std::vector<Condition> when{};  ///< all of them; where one does not hold the key is not set
+};
+
+/// A key whose value follows from those of others.
+struct DerivedKey {
+  std::string key;      ///< dotted
+  std::string formula;  ///< of keys of the study
+  int line = 0;
+  int column = 0;
+};
+
+/// Every run of a grid sets one alternative of each key of `vary` and one point of `list`. Where
+/// keys are sampled there are `sample.count` runs at each point of the grid, which is the same
+/// sample for each, so that what the grid compares meets the same conditions.
 struct Study {
   std::string name;
   std::string file;                                  ///< as the user named it
@@ -46,24 +74,20 @@ struct Study {
   MetricPaths metrics;                               ///< likewise
   std::vector<std::filesystem::path> asset_folders;  ///< likewise
   std::vector<Setting> set;                          ///< the same in every run
-  std::vector<std::vector<Setting>> vary;  ///< the alternatives of each key, in the file's order
-  std::vector<std::vector<Setting>> list;  ///< points of several keys; empty: none
-  int repeat = 1;                          ///< runs per point, with consecutive seeds
-  std::optional<BisectSpec> bisect;        ///< at every point of the grid
+  std::vector<Variation> vary;                       ///< in the file's order
+  std::vector<std::vector<Setting>> list;            ///< points of several keys; empty: none
+  std::optional<SampleSpec> sample;  ///< with keys of `vary` that have distributions
+  std::vector<DerivedKey> derive;    ///< in the file's order
+  int repeat = 1;                    ///< runs per point, with consecutive seeds
+  std::optional<BisectSpec> bisect;  ///< at every point of the grid
   std::vector<OutputSpec> outputs;
 };
 
-/// A point of a study's grid.
+/// A point of a study.
 struct StudyPoint {
-  std::vector<Setting> settings;  ///< of `vary` and `list`
+  std::vector<Setting> settings;  ///< of `vary`, `list` and `derive`
   Scenario scenario;              ///< with these settings, and the bisected key at `from`
   std::string refused{};          ///< why there is no such scenario; empty: there is
-};
-
-/// What happens to a study some of whose points are no scenarios.
-enum class BadPoints {
-  kThrow,  ///< it is refused
-  kKeep,   ///< it is read, unless all of its points are bad; see StudyPoint::refused
 };
 
 /// Whether the file has the key `scenario`, which studies have and scenarios do not. False when it
@@ -77,19 +101,48 @@ Study ReadStudy(const std::filesystem::path& file, const std::vector<Override>& 
                 const std::vector<std::string>& cameras = {}, const MetricPaths& metrics = {},
                 const std::vector<std::filesystem::path>& asset_folders = {});
 
-/// The settings of every point in the grid's order: the last key changes fastest, points of the
-/// list faster than all keys of `vary`. Pure; the grid of a study without either is one point.
-std::vector<std::vector<Setting>> ExpandGrid(const Study& study);
-
 /// The scenario at a point, with the bisected key at `bisected`. InputError as ReadScenario,
 /// problems of the study's settings with their position there.
 Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
                    std::optional<double> bisected = {});
 
-/// All points of the grid, validated before the first run. InputError with the problems of all
-/// points, each once, with one point that has it unless all do, unless bad points are to be kept
-/// and others are good; bisections are checked at both ends and at a value in between.
-std::vector<StudyPoint> ReadPoints(const Study& study, BadPoints bad_points = BadPoints::kThrow);
+/// The points of a study, one at a time: none is kept, however many there are. The last key of the
+/// grid changes fastest, points of the list faster than all keys of `vary`, and those of the sample
+/// faster than the list.
+///
+/// Guarantees: a point depends on the study alone. Immutable: several threads may read points at a
+/// time. Points of the grid that differ only in a key whose condition does not hold are one.
+class StudyPoints {
+ public:
+  explicit StudyPoints(Study study);
+
+  [[nodiscard]] const Study& study() const { return study_; }
+  [[nodiscard]] std::size_t size() const { return combinations_ * samples(); }
+  /// What the point `i` of `size()` sets. InputError when a formula has no value there.
+  [[nodiscard]] std::vector<Setting> Settings(std::size_t i) const;
+  /// The point `i`, refused with the first problem where there is no such scenario.
+  [[nodiscard]] StudyPoint Read(std::size_t i) const;
+
+ private:
+  [[nodiscard]] std::size_t samples() const;
+  [[nodiscard]] std::vector<Setting> OfGrid(std::size_t combination) const;
+  void KeepDistinctPoints();
+
+  Study study_;
+  std::size_t combinations_ = 1;         // of the grid
+  std::vector<std::size_t> distinct_{};  // of all combinations; empty: all of them
+  Eigen::MatrixXd unit_sample_;          // a row for each point of the sample
+  std::vector<int> dimensions_;          // of each key of `vary` in it; -1: not sampled
+};
+
+/// The points that tell whether a study makes sense: all, or 1000 from the first to the last,
+/// evenly spaced.
+std::vector<std::size_t> PointsToCheck(const StudyPoints& points);
+
+/// InputError with the problems of PointsToCheck, each once, with one point that has it unless all
+/// do; bisections are checked at both ends and at a value in between. Unless `all` must be good, it
+/// is enough that one is.
+void CheckPoints(const StudyPoints& points, bool all);
 
 /// A value as text in a table: numbers in shortest form, all else as YAML.
 std::string CellText(const std::string& value);

@@ -1,0 +1,304 @@
+#include "trackbed/analysis/sweep_records.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <boost/crc.hpp>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <functional>
+#include <system_error>
+#include <utility>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t kChecksumWidth = 9;  // eight digits and a space
+constexpr std::string_view kRowKey = "{\"row\":";
+
+std::uint32_t Checksum(std::string_view text) {
+  boost::crc_32_type crc;
+  crc.process_bytes(text.data(), text.size());
+  return crc.checksum();
+}
+
+std::string Line(std::string_view json) {
+  return fmt::format("{:08x} {}\n", Checksum(json), json);
+}
+
+/// The JSON of a line without its end; nothing when the line is not whole.
+std::optional<std::string_view> JsonOf(std::string_view line) {
+  std::uint32_t told = 0;
+  if (line.size() <= kChecksumWidth || line[kChecksumWidth - 1] != ' ') {
+    return std::nullopt;
+  }
+  const char* end = line.data() + kChecksumWidth - 1;
+  const auto [at, error] = std::from_chars(line.data(), end, told, 16);
+  const std::string_view json = line.substr(kChecksumWidth);
+  return error == std::errc{} && at == end && Checksum(json) == told ? std::optional(json)
+                                                                     : std::nullopt;
+}
+
+std::string Dumped(const ordered_json& json) {
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+std::int64_t Seconds() {
+  using Clock = std::chrono::steady_clock;
+  return std::chrono::duration_cast<std::chrono::seconds>(Clock::now().time_since_epoch()).count();
+}
+
+void AddDifferences(const ordered_json& now, const ordered_json& before, const std::string& at,
+                    std::vector<std::string>& found) {
+  constexpr std::size_t kMost = 5;
+  constexpr std::size_t kLongest = 60;
+  if (found.size() >= kMost || now == before) {
+    return;
+  }
+  const auto shown = [](const ordered_json& json) {
+    const std::string text = json.is_null() ? "absent" : Dumped(json);
+    return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+  };
+  if (!now.is_object() || !before.is_object()) {
+    found.push_back(fmt::format("{}: {}, was {}", at, shown(now), shown(before)));
+    return;
+  }
+  const auto value = [](const ordered_json& json, const std::string& key) {
+    return json.contains(key) ? json.at(key) : ordered_json();
+  };
+  const auto inner = [&](const std::string& key) { return at.empty() ? key : at + "." + key; };
+  for (const auto& [key, own] : now.items()) {
+    AddDifferences(own, value(before, key), inner(key), found);
+  }
+  for (const auto& [key, own] : before.items()) {
+    if (!now.contains(key)) {
+      AddDifferences(ordered_json(), own, inner(key), found);
+    }
+  }
+}
+
+/// Calls with every line that has its end, and where it begins, until that returns false.
+void ForEachLine(int descriptor, const std::function<bool(std::string_view, std::int64_t)>& take,
+                 const std::function<void(int error)>& fail) {
+  constexpr std::size_t kBlock = std::size_t{1} << 20U;
+  std::string text;
+  std::int64_t begin = 0;  // of the text in the file
+  for (;;) {
+    const std::size_t before = text.size();
+    text.resize(before + kBlock);
+    const ssize_t got = ::pread(descriptor, text.data() + before, kBlock,
+                                begin + static_cast<std::int64_t>(before));
+    if (got < 0 && errno == EINTR) {
+      text.resize(before);
+      continue;
+    }
+    if (got < 0) {
+      fail(errno);
+    }
+    text.resize(before + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    if (got <= 0) {
+      return;
+    }
+    std::size_t at = 0;
+    for (std::size_t end = text.find('\n', before); end != std::string::npos;
+         end = text.find('\n', at)) {
+      if (!take(std::string_view(text).substr(at, end - at),
+                begin + static_cast<std::int64_t>(at))) {
+        return;
+      }
+      at = end + 1;
+    }
+    text.erase(0, at);
+    begin += static_cast<std::int64_t>(at);
+  }
+}
+
+/// Whether the file is empty, or has what a process left that was killed within the first line.
+bool IsBegunHeader(int descriptor, std::int64_t size) {
+  std::string head(kChecksumWidth, '\0');
+  const ssize_t got = ::pread(descriptor, head.data(), head.size(), 0);
+  return size < static_cast<std::int64_t>(kChecksumWidth) ||
+         (got == static_cast<ssize_t>(head.size()) && head.back() == ' ');
+}
+
+}  // namespace
+
+std::vector<std::string> Differences(const ordered_json& now, const ordered_json& before) {
+  std::vector<std::string> found;
+  AddDifferences(now, before, "", found);
+  return found;
+}
+
+SweepRecords::SweepRecords(std::filesystem::path file, int descriptor)
+    : file_(std::move(file)), descriptor_(descriptor) {
+  if (descriptor < 0) {
+    Fail("open", errno);
+  }
+}
+
+SweepRecords::SweepRecords(const std::filesystem::path& file, ordered_json header)
+    : SweepRecords(file, ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666)) {
+  // As it is after it was written and read.
+  Load(ordered_json::parse(Dumped(header)));
+}
+
+SweepRecords::SweepRecords(const std::filesystem::path& file)
+    : SweepRecords(file, ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW)) {
+  Load(std::nullopt);
+}
+
+SweepRecords SweepRecords::InMemory(ordered_json header) {
+  SweepRecords records("records in memory", ::memfd_create("trackbed_sweep", MFD_CLOEXEC));
+  records.Load(std::move(header));
+  return records;
+}
+
+void SweepRecords::TakeHeader(ordered_json header) {
+  header_ = std::move(header);
+  constexpr std::size_t kMost = 100'000'000;
+  const std::size_t rows = header_.value("rows_expected", std::size_t{0});
+  if (rows == 0 || rows > kMost) {
+    throw InputError(
+        Problem{.file = file_.string(),
+                .message = fmt::format("tells of {} rows; must be 1 to {}", rows, kMost)});
+  }
+  offsets_.assign(rows, -1);
+}
+
+void SweepRecords::Fail(const char* what, int error) const {
+  throw RunError(fmt::format("cannot {} {}: {}", what, file_.string(),
+                             std::generic_category().message(error)));
+}
+
+void SweepRecords::Load(const std::optional<ordered_json>& header) {
+  bool any_line = false;
+  // Whether to go on.
+  const auto take_row = [&](std::string_view json, std::int64_t begin) {
+    std::size_t row = 0;
+    if (!json.starts_with(kRowKey)) {
+      return false;
+    }
+    const auto [at, error] =
+        std::from_chars(json.data() + kRowKey.size(), json.data() + json.size(), row);
+    if (error != std::errc{} || row >= offsets_.size()) {
+      return false;
+    }
+    count_ += offsets_[row] < 0 ? 1U : 0U;
+    offsets_[row] = begin;
+    return true;
+  };
+  ForEachLine(
+      descriptor_.get(),
+      [&](std::string_view line, std::int64_t begin) {
+        const std::optional<std::string_view> json = JsonOf(line);
+        if (!json) {
+          return false;
+        }
+        if (!std::exchange(any_line, true)) {
+          TakeHeader(ordered_json::parse(*json));
+        } else if (!take_row(*json, begin)) {
+          return false;
+        }
+        end_ = begin + static_cast<std::int64_t>(line.size()) + 1;
+        return true;
+      },
+      [&](int error) { Fail("read", error); });
+  struct stat status {};
+  if (::fstat(descriptor_.get(), &status) != 0) {
+    Fail("read", errno);
+  }
+  if (!any_line && (!header || !IsBegunHeader(descriptor_.get(), status.st_size))) {
+    throw InputError(Problem{.file = file_.string(), .message = "has no rows of a study"});
+  }
+  if (any_line && header && *header != header_) {
+    throw InputError(Problem{
+        .file = file_.string(),
+        .message = fmt::format("has rows of another study ({}); --restart removes them, another "
+                               "folder (-o) keeps them",
+                               fmt::join(Differences(*header, header_), "; "))});
+  }
+  if (!header) {
+    return;  // to be read only
+  }
+  if (status.st_size > end_ && ::ftruncate(descriptor_.get(), end_) != 0) {
+    Fail("write", errno);
+  }
+  if (!any_line) {
+    TakeHeader(*header);
+    WriteLine(Dumped(header_));
+  }
+}
+
+void SweepRecords::WriteLine(std::string_view json) {
+  const std::string line = Line(json);
+  std::string_view rest = line;
+  while (!rest.empty()) {
+    const std::int64_t at = end_ + static_cast<std::int64_t>(line.size() - rest.size());
+    const ssize_t written = ::pwrite(descriptor_.get(), rest.data(), rest.size(), at);
+    if (written < 0 && errno == EINTR) {
+      continue;
+    }
+    if (written <= 0) {
+      const int error = written < 0 ? errno : ENOSPC;
+      // What fails here is cut off by whoever opens the file next.
+      [[maybe_unused]] const int ignored = ::ftruncate(descriptor_.get(), end_);
+      Fail("write", error);
+    }
+    rest.remove_prefix(static_cast<std::size_t>(written));
+  }
+  end_ += static_cast<std::int64_t>(line.size());
+}
+
+void SweepRecords::Append(std::size_t row, const ordered_json& content) {
+  TRACKBED_CHECK(row < offsets_.size(), "row {} of {}", row, offsets_.size());
+  ordered_json json{{"row", row}};
+  json.update(content);
+  const std::string text = Dumped(json);
+  const std::lock_guard lock(*mutex_);
+  const std::int64_t begin = end_;
+  WriteLine(text);
+  count_ += offsets_[row] < 0 ? 1U : 0U;
+  offsets_[row] = begin;
+  if (const std::int64_t now = Seconds(); now != synced_) {
+    synced_ = now;
+    ::fdatasync(descriptor_.get());
+  }
+}
+
+ordered_json SweepRecords::Read(std::size_t row) const {
+  TRACKBED_CHECK(row < offsets_.size() && offsets_[row] >= 0, "no row {}", row);
+  std::string text;
+  std::size_t end = std::string::npos;
+  while (end == std::string::npos) {
+    constexpr std::size_t kBlock = 1024;
+    const std::size_t before = text.size();
+    text.resize(before + kBlock);
+    const ssize_t got = ::pread(descriptor_.get(), text.data() + before, kBlock,
+                                offsets_[row] + static_cast<std::int64_t>(before));
+    if (got < 0 && errno == EINTR) {
+      text.resize(before);
+      continue;
+    }
+    if (got <= 0) {
+      Fail("read", got < 0 ? errno : EIO);
+    }
+    text.resize(before + static_cast<std::size_t>(got));
+    end = text.find('\n', before);
+  }
+  const std::optional<std::string_view> json = JsonOf(std::string_view(text).substr(0, end));
+  if (!json) {
+    Fail("read", EIO);
+  }
+  return ordered_json::parse(*json);
+}
+
+}  // namespace trackbed
