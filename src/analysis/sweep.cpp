@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <iterator>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -16,6 +18,7 @@
 #include "src/analysis/parallel.h"
 #include "trackbed/analysis/bisect.h"
 #include "trackbed/analysis/run_folder.h"
+#include "trackbed/analysis/statistics.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/hash.h"
 
@@ -75,6 +78,16 @@ ordered_json SettingsJson(const std::vector<Setting>& settings) {
     json[setting.key] = SettingsJson(setting.value);
   }
   return json;
+}
+
+/// The number that a cell is, if it is one.
+std::optional<double> NumberIn(const std::string& cell) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return !cell.empty() && error == std::errc{} && end == cell.data() + cell.size() &&
+                 std::isfinite(value)
+             ? std::optional(value)
+             : std::nullopt;
 }
 
 /// One row of the table.
@@ -342,6 +355,13 @@ ordered_json DescribeStudy(const Study& study) {
   for (const OutputSpec& output : study.outputs) {
     json["outputs"].push_back(output.path);
   }
+  if (study.keep.rows == KeepSpec::Rows::kHighest || study.keep.rows == KeepSpec::Rows::kLowest) {
+    json["keep"] = {{"count", study.keep.count},
+                    {"by", study.keep.by},
+                    {"highest", study.keep.rows == KeepSpec::Rows::kHighest}};
+  } else if (study.keep.rows != KeepSpec::Rows::kNone) {
+    json["keep"] = ToString(study.keep);
+  }
   return json;
 }
 
@@ -375,6 +395,56 @@ std::vector<std::size_t> RowsToRun(const SweepRecords& records, const SweepOptio
   }
   return rows;
 }
+
+/// How many rows passed at each point of the grid, of the first points of the sample.
+class SampledPassRates {
+ public:
+  SampledPassRates(const SweepRecords& records, std::size_t repeat, std::size_t samples)
+      : records_(records),
+        repeat_(repeat),
+        samples_(samples),
+        passed_(records.rows() / (samples * repeat)) {}
+
+  /// The rows of the next kUntilSamples points of the sample, at all points of the grid. None when
+  /// the sample is at its end.
+  [[nodiscard]] std::vector<std::size_t> NextRows() const {
+    std::vector<std::size_t> rows;
+    const std::size_t end = std::min(taken_ + kUntilSamples, samples_);
+    for (std::size_t grid = 0; grid < passed_.size(); ++grid) {
+      for (std::size_t i = taken_ * repeat_; i < end * repeat_; ++i) {
+        rows.push_back(grid * samples_ * repeat_ + i);
+      }
+    }
+    return rows;
+  }
+
+  /// Counts what came of NextRows; false when one of them is missing.
+  bool Take(const std::vector<std::size_t>& rows) {
+    for (const std::size_t row : rows) {
+      if (!records_.Has(row)) {
+        return false;
+      }
+      passed_[row / (samples_ * repeat_)] += FromJson(records_.Read(row)).passed ? 1U : 0U;
+    }
+    taken_ = std::min(taken_ + kUntilSamples, samples_);
+    return true;
+  }
+
+  /// Whether half of each 95 % interval is at most this.
+  [[nodiscard]] bool AreAllKnownTo(double half_width) const {
+    return std::all_of(passed_.begin(), passed_.end(), [&](std::size_t passed) {
+      const Interval interval = WilsonInterval(passed, taken_ * repeat_, 0.95);
+      return 0.5 * (interval.high - interval.low) <= half_width;
+    });
+  }
+
+ private:
+  const SweepRecords& records_;
+  std::size_t repeat_;
+  std::size_t samples_;
+  std::vector<std::size_t> passed_;  // at each point of the grid
+  std::size_t taken_ = 0;            // points of the sample
+};
 
 /// Calls with every row of the shard that there is, in their order.
 void ForEachRow(const SweepRecords& records, const Shard& shard,
@@ -439,29 +509,53 @@ void RunRows(const StudyPoints& points, const RunScenarioOnce& run, SweepRecords
                  records.rows(), CountRows(points));
   const Study& study = points.study();
   const auto repeat = static_cast<std::size_t>(study.repeat);
-  const RunScenarioOnce unless_interrupted = [&](const Scenario& scenario) {
-    return options.interrupted && options.interrupted() ? std::nullopt : run(scenario);
-  };
-  const RowMaker maker(study, unless_interrupted);
-  const std::vector<std::size_t> rows = RowsToRun(records, options);
+  const std::size_t rows = RowsToRun(records, options).size();
   std::mutex mutex;
   std::size_t finished = 0;
-  ForEachIndex(rows.size(), options.jobs, [&](std::size_t i) {
-    const std::optional<Row> row = maker.Make(points.Read(rows[i] / repeat), rows[i] % repeat);
-    if (!row) {
+  const auto run_row = [&](std::size_t row) {
+    const RunScenarioOnce run_it = [&](const Scenario& scenario) {
+      std::optional<RunOutcome> outcome =
+          options.interrupted && options.interrupted() ? std::nullopt : run(scenario);
+      if (outcome && options.finished && !study.bisect) {
+        options.finished(row, *outcome);
+      }
+      return outcome;
+    };
+    const std::optional<Row> made =
+        RowMaker(study, run_it).Make(points.Read(row / repeat), row % repeat);
+    if (!made) {
       return false;
     }
-    records.Append(rows[i], ToJson(*row));
+    records.Append(row, ToJson(*made));
     if (options.progress) {
       const std::lock_guard lock(mutex);
-      options.progress(static_cast<double>(++finished) / static_cast<double>(rows.size()));
+      options.progress(static_cast<double>(++finished) / static_cast<double>(rows));
     }
     return true;
-  });
+  };
+  const auto run_rows = [&](const std::vector<std::size_t>& some) {
+    ForEachIndex(some.size(), options.jobs, [&](std::size_t i) { return run_row(some[i]); });
+  };
+  if (!options.until_pass_rate) {
+    run_rows(RowsToRun(records, options));
+    return;
+  }
+  TRACKBED_CHECK(study.sample && !study.bisect, "a sample is needed");
+  SampledPassRates rates(records, repeat, static_cast<std::size_t>(study.sample->count));
+  while (!rates.AreAllKnownTo(*options.until_pass_rate)) {
+    const std::vector<std::size_t> next = rates.NextRows();
+    std::vector<std::size_t> missing;
+    std::copy_if(next.begin(), next.end(), std::back_inserter(missing),
+                 [&](std::size_t row) { return !records.Has(row); });
+    run_rows(missing);
+    if (next.empty() || !rates.Take(next)) {
+      return;  // all have been run, or it was interrupted
+    }
+  }
 }
 
-SweepSummary WriteSweep(const SweepRecords& records, const Shard& shard,
-                        const OutputFolder& folder) {
+SweepSummary WriteSweep(const SweepRecords& records, const Shard& shard, const OutputFolder& folder,
+                        const std::string& stopped) {
   const SweepSummary summary = Summarize(records, shard);
   ResultWriter writer(folder);
   bool header = true;
@@ -476,7 +570,11 @@ SweepSummary WriteSweep(const SweepRecords& records, const Shard& shard,
     }
     return part;
   });
-  writer.Add(run_folder::kSweepJson, Description(records, shard, summary).dump(2) + "\n");
+  ordered_json description = Description(records, shard, summary);
+  if (!stopped.empty()) {
+    description["stopped"] = stopped;
+  }
+  writer.Add(run_folder::kSweepJson, description.dump(2) + "\n");
   writer.Commit(run_folder::kStudy, {run_folder::kReport});
   return summary;
 }
@@ -529,6 +627,30 @@ void MergeRecords(const std::vector<fs::path>& files, SweepRecords& records) {
       }
     }
   }
+}
+
+std::vector<std::size_t> WorstRows(const SweepRecords& records) {
+  const ordered_json& keep = records.header().at("keep");
+  const auto by = keep.at("by").get<std::string>();
+  const bool highest = keep.at("highest").get<bool>();
+  const std::vector<std::string> columns = Columns(records);
+  const auto column =
+      static_cast<std::size_t>(std::find(columns.begin(), columns.end(), by) - columns.begin());
+  std::vector<std::pair<double, std::size_t>> rows;
+  for (std::size_t row = 0; row < records.rows(); ++row) {
+    const std::string cell =
+        records.Has(row) ? FromJson(records.Read(row)).cells.at(column) : std::string();
+    if (const std::optional<double> value = NumberIn(cell)) {
+      rows.emplace_back(highest ? -*value : *value, row);
+    }
+  }
+  const auto count = std::min(rows.size(), keep.at("count").get<std::size_t>());
+  std::partial_sort(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(count), rows.end());
+  std::vector<std::size_t> worst;
+  for (std::size_t i = 0; i < count; ++i) {
+    worst.push_back(rows[i].second);
+  }
+  return worst;
 }
 
 std::vector<Override> OverridesOfRow(const SweepRecords& records, std::size_t row) {

@@ -155,19 +155,21 @@ std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario&
   const RunHooks hooks{.drive = [&](const std::string&) {
     return DriveHooks{.progress = {}, .interrupted = interrupted};
   }};
-  const RunResult result = RunMission(scenario, *checked.cars, hooks);
+  RunResult result = RunMission(scenario, *checked.cars, hooks);
   if (result.interrupted) {
     return std::nullopt;
   }
   const bool passed = result.verdict.passed;
   // Without a plan the verdict has one failure, which tells of it.
-  return RunOutcome{.status = !result.plan.ok()        ? "no_plan"
-                              : !result.verdict.judged ? "driven"
-                              : passed                 ? "passed"
-                                                       : "failed",
-                    .passed = passed,
-                    .reason = fmt::format("{}", fmt::join(result.verdict.failures, "; ")),
-                    .outputs = CollectOutputs(result)};
+  RunOutcome outcome{.status = !result.plan.ok()        ? "no_plan"
+                               : !result.verdict.judged ? "driven"
+                               : passed                 ? "passed"
+                                                        : "failed",
+                     .passed = passed,
+                     .reason = fmt::format("{}", fmt::join(result.verdict.failures, "; ")),
+                     .outputs = CollectOutputs(result)};
+  outcome.result = std::move(result);
+  return outcome;
 }
 
 }  // namespace trackbed

@@ -145,7 +145,7 @@ SweepRecords::SweepRecords(std::filesystem::path file, int descriptor)
   }
 }
 
-SweepRecords::SweepRecords(const std::filesystem::path& file, ordered_json header)
+SweepRecords::SweepRecords(const std::filesystem::path& file, const ordered_json& header)
     : SweepRecords(file, ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666)) {
   // As it is after it was written and read.
   Load(ordered_json::parse(Dumped(header)));

@@ -17,6 +17,7 @@
 
 #include "src/cli/progress_bar.h"
 #include "src/cli/scenario_options.h"
+#include "src/cli/scenario_runs.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
@@ -34,6 +35,7 @@ struct SweepVerbOptions {
   std::string out;
   std::string shard;
   std::vector<std::string> only;
+  std::string until;
   bool restart = false;
   int jobs = 0;  // 0: as many as the machine runs threads
   ScenarioOptions scenario;
@@ -59,6 +61,33 @@ Shard ParseShard(const std::string& text) {
            fmt::format("'{}' is no shard; give I/N, such as 2/7 for the second of seven", text));
   }
   return shard;
+}
+
+/// Half the width of the interval in "pass_rate:0.01".
+std::optional<double> ParseUntil(const std::string& text, const Study& study) {
+  if (text.empty()) {
+    return std::nullopt;
+  }
+  constexpr std::string_view kName = "pass_rate:";
+  constexpr std::string_view kPlusMinus = "\u00b1";  // as it is often written
+  std::string_view number = text;
+  double width = 0.0;
+  if (number.starts_with(kName)) {
+    number.remove_prefix(kName.size());
+    number.remove_prefix(number.starts_with(kPlusMinus) ? kPlusMinus.size() : 0);
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), width);
+    width = error == std::errc{} && end == number.data() + number.size() ? width : 0.0;
+  }
+  if (!(width >= 0.001 && width <= 0.5)) {
+    Refuse("--until",
+           fmt::format("'{}' is not understood; give pass_rate:W, such as pass_rate:0.01 "
+                       "for an interval of +-0.01; W from 0.001 to 0.5",
+                       text));
+  }
+  if (!study.sample || study.bisect) {
+    Refuse("--until", "needs a study with a sample and without bisect");
+  }
+  return width;
 }
 
 /// That of the task of a Slurm array in which the program runs, or all.
@@ -90,6 +119,53 @@ fs::path FolderOfShard(const fs::path& study, const Shard& shard) {
              : study / fmt::format("{}{}_of_{}", kShardFolder, shard.index, shard.count);
 }
 
+fs::path FolderOfRow(const fs::path& study, std::size_t row) {
+  return study / "rows" / std::to_string(row);
+}
+
+/// Removes the run folders of rows.
+void RemoveKeptRows(const fs::path& study) {
+  std::error_code error;
+  std::vector<fs::path> folders;
+  for (fs::directory_iterator at(study / "rows", error), end; !error && at != end;
+       at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    if (at->is_directory(error) && !at->is_symlink(error) &&
+        name.find_first_not_of("0123456789") == std::string::npos &&
+        fs::exists(at->path() / run_folder::kManifest, error)) {
+      folders.push_back(at->path());
+    }
+  }
+  for (const fs::path& folder : folders) {
+    fs::remove_all(folder, error);
+  }
+}
+
+/// Runs once more the rows with the worst values that the study keeps, those that are not there
+/// yet.
+void KeepWorstRows(const SweepRecords& records, const fs::path& out,
+                   const ScenarioOptions& options) {
+  const nlohmann::ordered_json& header = records.header();
+  if (!header.contains("keep") || !header["keep"].is_object()) {
+    return;
+  }
+  for (const std::size_t row : WorstRows(records)) {
+    const fs::path folder = FolderOfRow(out, row);
+    std::error_code ignored;
+    if (fs::exists(folder / run_folder::kMetricsJson, ignored)) {
+      continue;
+    }
+    ScenarioOptions own = options;
+    own.overrides = OverridesOfRow(records, row);
+    const auto [locked, result] =
+        DriveScenario({own.Read(header.at("scenario").get<std::string>()), folder}, options.quiet);
+    if (result.interrupted) {
+      return;
+    }
+    WriteRunFolder(result, locked);
+  }
+}
+
 void PrintRowsWithoutRun(const std::string& name, const SweepSummary& sweep) {
   if (sweep.refused + sweep.errors > 0) {
     std::fflush(stdout);  // behind what is said of all rows
@@ -104,15 +180,21 @@ int Sweep(const SweepVerbOptions& options) {
   const Shard shard = options.shard.empty() ? ShardOfTask() : ParseShard(options.shard);
   const CheckedStudy checked =
       CheckStudy(options.scenario.ReadStudyFile(options.file), /*all=*/false);
-  const std::string& name = checked.points.study().name;
-  const fs::path out =
-      FolderOfShard(options.out.empty() ? fs::path("out") / name : fs::path(options.out), shard);
+  const Study& study = checked.points.study();
+  const std::optional<double> until = ParseUntil(options.until, study);
+  if (until && (shard.count > 1 || !options.only.empty())) {
+    Refuse("--until", "needs all rows; leave out --shard and --only");
+  }
+  const std::string& name = study.name;
+  const fs::path all = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
+  const fs::path out = FolderOfShard(all, shard);
   const OutputFolder folder(out);  // before the work, not after it
 
   const fs::path file = out / run_folder::kSweepRecords;
   if (options.restart) {
     std::error_code ignored;
     fs::remove(file, ignored);
+    RemoveKeptRows(all);
   }
   SweepRecords records(file, SweepHeader(checked.points, checked.inputs));
   const std::size_t before = records.count();
@@ -121,6 +203,12 @@ int Sweep(const SweepVerbOptions& options) {
   }
   const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const auto is_interrupted = [] { return interrupted.load(); };
+  const auto keep = [&](std::size_t row, const RunOutcome& outcome) {
+    const KeepSpec::Rows rows = study.keep.rows;
+    if (rows == KeepSpec::Rows::kAll || (rows == KeepSpec::Rows::kFailed && !outcome.passed)) {
+      WriteRunFolder(*outcome.result, FolderOfRow(all, row));
+    }
+  };
   {
     ProgressBar bar(name, options.scenario.quiet);
     RunRows(checked.points,
@@ -130,19 +218,29 @@ int Sweep(const SweepVerbOptions& options) {
              .progress = [&](double fraction) { bar.Show(fraction); },
              .interrupted = is_interrupted,
              .shard = shard,
-             .again = options.only});
+             .again = options.only,
+             .finished = keep,
+             .until_pass_rate = until});
   }
-  const SweepSummary sweep = WriteSweep(records, shard, folder);
+  const bool stopped = until && !interrupted && records.count() < records.rows();
+  const SweepSummary sweep = WriteSweep(records, shard, folder, stopped ? options.until : "");
   if (!options.scenario.quiet) {
     const std::string how =
         sweep.complete()
             ? fmt::format("{} rows from {} runs, {} passed", sweep.rows, sweep.runs, sweep.passed)
-            : fmt::format("interrupted after {} of {} rows; the same command goes on", sweep.rows,
-                          sweep.rows_expected);
+        : stopped ? fmt::format(
+                        "stopped after {} of {} rows, {} passed: all pass rates are known to "
+                        "+-{} (95 %)",
+                        sweep.rows, sweep.rows_expected, sweep.passed, *until)
+                  : fmt::format("interrupted after {} of {} rows; the same command goes on",
+                                sweep.rows, sweep.rows_expected);
     fmt::print("{}: {}, in {}\n", name, how, (out / run_folder::kSweepCsv).string());
   }
+  if (shard.count == 1 && (sweep.complete() || stopped)) {
+    KeepWorstRows(records, all, options.scenario);
+  }
   PrintRowsWithoutRun(name, sweep);
-  return sweep.errors > 0 ? kInternal : sweep.complete() ? kOk : kInterrupted;
+  return sweep.errors > 0 ? kInternal : sweep.complete() || stopped ? kOk : kInterrupted;
 }
 
 struct MergeOptions {
@@ -199,6 +297,11 @@ int Merge(const MergeOptions& options) {
     fmt::print("{}: {} of {} rows from {} files, {} passed, in {}\n", name, sweep.rows,
                sweep.rows_expected, files.size(), sweep.passed,
                (out / run_folder::kSweepCsv).string());
+  }
+  if (sweep.complete()) {
+    ScenarioOptions scenario;
+    scenario.quiet = options.quiet;
+    KeepWorstRows(records, out, scenario);
   }
   PrintRowsWithoutRun(name, sweep);
   return kOk;
@@ -342,6 +445,12 @@ void AddSweep(const Command& command) {
       .TypeName("STATUS")
       .Delimiter(',')
       .OneWord();
+  command
+      .AddOption(
+          "--until", options->until,
+          "Stop when half the 95 % interval of the pass rate at each point of the grid is at "
+          "most W, such as pass_rate:0.01")
+      .TypeName("pass_rate:W");
   command.AddFlag("--restart", options->restart,
                   "Begin anew; else a study that was interrupted goes on where it was");
   options->scenario.AddTo(command);

@@ -372,6 +372,22 @@ std::optional<double> NumberOf(const std::string& value) {
                                                                     : std::nullopt;
 }
 
+std::string ToString(const KeepSpec& keep) {
+  switch (keep.rows) {
+    case KeepSpec::Rows::kNone:
+      break;
+    case KeepSpec::Rows::kFailed:
+      return "failed";
+    case KeepSpec::Rows::kAll:
+      return "all";
+    case KeepSpec::Rows::kHighest:
+      return fmt::format("worst {} by {}", keep.count, keep.by);
+    case KeepSpec::Rows::kLowest:
+      return fmt::format("lowest {} by {}", keep.count, keep.by);
+  }
+  return "none";
+}
+
 std::string CellText(const std::string& value) {
   const std::optional<double> number = NumberOf(value);
   return number ? ShortestText(*number) : value;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <sstream>
 
 #include "src/scenario/study_settings.h"
 #include "src/scenario/study_visit.h"
@@ -41,6 +42,7 @@ class StudyReader {
       study.sample = file.sample;
     }
     study.file = context_.file;
+    study.keep = ReadKeep(file.keep, study);
     ReadBaseScenario(file.scenario, study);
     TakeBisect(file.bisect, study);
     if (context_.problems.empty()) {
@@ -125,6 +127,47 @@ class StudyReader {
         study.outputs.push_back({item.Scalar(), item.Mark().line + 1, item.Mark().column + 1});
       }
     }
+  }
+
+  KeepSpec ReadKeep(const std::string& text, const Study& study) {
+    using Rows = KeepSpec::Rows;
+    const auto refuse = [&](std::string message) {
+      AddError(root_["keep"], "keep", std::move(message));
+      return KeepSpec{};
+    };
+    for (const Rows rows : {Rows::kNone, Rows::kFailed, Rows::kAll}) {
+      if (text == ToString(KeepSpec{.rows = rows})) {
+        return rows != Rows::kNone && root_["bisect"]
+                   ? refuse("a row of a bisection has many runs; give none, or leave out bisect")
+                   : KeepSpec{.rows = rows};
+      }
+    }
+    std::istringstream words(text);
+    std::string kind;
+    std::string by;
+    KeepSpec keep;
+    words >> kind >> keep.count >> by >> keep.by;
+    if ((kind != "worst" && kind != "lowest") || by != "by" || keep.by.empty() || !words.eof()) {
+      return refuse(
+          fmt::format("'{}' is not understood; give none, failed, all, worst N by OUTPUT "
+                      "or lowest N by OUTPUT",
+                      text));
+    }
+    if (keep.count < 1 || keep.count > 1000) {
+      return refuse(fmt::format("{} rows; must be from 1 to 1000", keep.count));
+    }
+    Names outputs;
+    for (const OutputSpec& output : study.outputs) {
+      outputs.push_back(output.path);
+    }
+    if (std::find(outputs.begin(), outputs.end(), keep.by) == outputs.end()) {
+      return refuse("no output " + UnknownName(keep.by, outputs));
+    }
+    if (root_["bisect"]) {
+      return refuse("a row of a bisection has many runs; give none, or leave out bisect");
+    }
+    keep.rows = kind == "worst" ? Rows::kHighest : Rows::kLowest;
+    return keep;
   }
 
   void ReadBaseScenario(const std::string& name, Study& study) {

@@ -124,6 +124,7 @@ struct StudyFile {
   Read list{};
   Read derive{};
   Read outputs{};
+  std::string keep = "none";
 };
 
 template <typename Archive>
@@ -152,6 +153,10 @@ void Visit(Archive& a, StudyFile& file) {
             file.bisect);
   a.Custom({"outputs", "", "dotted results of a run, one column each"}, "list of names",
            file.outputs);
+  a.Field({"keep", "",
+           "rows whose run folders are kept, in `rows`: none, failed, all, worst N by OUTPUT (the "
+           "highest values), lowest N by OUTPUT"},
+          file.keep, Need::kOptional);
 }
 
 }  // namespace trackbed

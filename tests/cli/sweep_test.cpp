@@ -313,5 +313,67 @@ TEST(Sweep, RunsRowsOfAStatusOnceMore) {
   EXPECT_EQ(lines(), before + 6);
 }
 
+std::vector<std::string> NamesIn(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    names.push_back(entry.path().filename());
+  }
+  return names;
+}
+
+TEST(Sweep, KeepsTheRunFoldersThatTheStudyAsksFor) {
+  const TempFolder folder;
+  // One and 2.5 meters pass, ten fail; the error grows with the distance.
+  const auto kept = [&](const std::string& keep) {
+    folder.Write("study.yaml", StudyText(kDistances + ("keep: " + keep + "\n")));
+    const Outcome outcome = Trackbed(folder, "sweep -q study.yaml --restart -o r");
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+    return NamesIn(folder.path() / "r/rows");
+  };
+  EXPECT_THAT(kept("none"), testing::IsEmpty());
+  EXPECT_THAT(kept("failed"), testing::UnorderedElementsAre("2"));
+  EXPECT_THAT(kept("all"), testing::UnorderedElementsAre("0", "1", "2"));
+  const std::string row = ReadFile(folder.path() / "r/rows/1/kinematic.csv");
+  EXPECT_THAT(kept("worst 2 by metrics.kinematic.cross_track.max"),
+              testing::UnorderedElementsAre("1", "2"));
+  EXPECT_EQ(ReadFile(folder.path() / "r/rows/1/kinematic.csv"), row);
+  EXPECT_THAT(kept("lowest 1 by metrics.kinematic.cross_track.max"),
+              testing::UnorderedElementsAre("0"));
+  EXPECT_EQ(Trackbed(folder, "report -q r/rows/0").code, 0);
+}
+
+TEST(Sweep, StopsWhenThePassRateIsKnown) {
+  const TempFolder folder;
+  // Half of the rows pass: in 0.1 s a car at 2.5 m/s drives 0.25 m.
+  folder.Write("study.yaml",
+               "schema: 1\nname: study\nscenario: " + ScenarioFile("steering_circle") +
+                   "\nset: {drive.plants: [kinematic], mission.duration: 0.1, expect: {metrics: "
+                   "[{metric: distance, min: 0.25}]}}\n"
+                   "sample: {count: 2000, method: random}\n"
+                   "vary: {mission.speed: {distribution: uniform, from: 1, to: 4}}\n");
+  for (const char* jobs : {"1", "4"}) {
+    const Outcome outcome = Trackbed(folder, std::string("sweep study.yaml --until pass_rate:0.05 "
+                                                         "-j ") +
+                                                 jobs + " -o r" + jobs);
+    EXPECT_EQ(outcome.code, 0);
+    // The interval is +-0.05 after about (1.96 / 0.05)^2 / 4 = 384 rows, which is looked at every
+    // 100.
+    EXPECT_THAT(outcome.output, testing::MatchesRegex("study: stopped after 400 of 2000 rows, "
+                                                      "[0-9]+ passed: all pass rates are known to "
+                                                      "..0.05 .95 %., in r./sweep.csv\n"));
+    EXPECT_THAT(ReadFile(folder.path() / (std::string("r") + jobs) / "sweep.json"),
+                HasSubstr("\"stopped\": \"pass_rate:0.05\""));
+  }
+  ExpectSameSweep(folder, "r1", "r4");
+  EXPECT_EQ(
+      Trackbed(folder, "sweep study.yaml --until pass_rate:2").output,
+      "--until: 'pass_rate:2' is not understood; give pass_rate:W, such as pass_rate:0.01 for "
+      "an interval of +-0.01; W from 0.001 to 0.5\n");
+  folder.Write("grid.yaml", StudyText(kDistances));
+  EXPECT_EQ(Trackbed(folder, "sweep grid.yaml --until pass_rate:0.1").output,
+            "--until: needs a study with a sample and without bisect\n");
+}
+
 }  // namespace
 }  // namespace trackbed

@@ -213,6 +213,35 @@ vary:
                       "world.friction=0.7 mission.speed=3"}));
 }
 
+TEST_F(Sampled, KeepRowsOfAnOutput) {
+  const auto keep = [&](const std::string& text) {
+    return ToString(
+        Read("vary: {seed: [1]}\noutputs: [verdict.passed, plan.length_m]\nkeep: " + text + "\n")
+            .keep);
+  };
+  EXPECT_EQ(keep("none"), "none");
+  EXPECT_EQ(keep("failed"), "failed");
+  EXPECT_EQ(keep("all"), "all");
+  EXPECT_EQ(keep("worst 10 by plan.length_m"), "worst 10 by plan.length_m");
+  EXPECT_EQ(keep("lowest 1 by plan.length_m"), "lowest 1 by plan.length_m");
+  const auto refusal = [&](const std::string& text, const std::string& keys = "") {
+    return ErrorMessages("vary: {seed: [1]}\noutputs: [plan.length_m]\nkeep: " + text + "\n" +
+                         keys);
+  };
+  EXPECT_EQ(refusal("worst"),
+            "study.yaml:6:7: keep: 'worst' is not understood; give none, failed, all, worst N by "
+            "OUTPUT or lowest N by OUTPUT");
+  EXPECT_EQ(refusal("worst 10 by plan.length_m, please").substr(0, 64),
+            "study.yaml:6:7: keep: 'worst 10 by plan.length_m, please' is not");
+  EXPECT_EQ(refusal("worst 0 by plan.length_m"),
+            "study.yaml:6:7: keep: 0 rows; must be from 1 to 1000");
+  EXPECT_EQ(refusal("worst 3 by plan.lenght_m"),
+            "study.yaml:6:7: keep: no output 'plan.lenght_m'; did you mean 'plan.length_m'?");
+  EXPECT_EQ(refusal("failed", "bisect: {key: mission.speed, from: 1, to: 2, tolerance: 0.1}\n"),
+            "study.yaml:6:7: keep: a row of a bisection has many runs; give none, or leave out "
+            "bisect");
+}
+
 TEST_F(Sampled, SayWhatIsWrong) {
   EXPECT_EQ(ErrorMessages("vary: {seed: {distribution: uniform, from: 1, to: 2}}\n"),
             "study.yaml:4:7: sample: missing; keys of vary have distributions");

@@ -36,6 +36,7 @@ struct RunOutcome {
   bool passed = false;
   std::string reason{};  ///< of one that failed or has no plan
   Outputs outputs;
+  std::optional<RunResult> result{};  ///< all of it, if DriveOnce has run it
 };
 
 /// Runs a scenario, on any thread; nothing when it was interrupted.
@@ -75,7 +76,15 @@ struct SweepOptions {
   Shard shard{};                                  ///< of the rows, the others are left out
   /// If there are any: instead of the rows that are missing, those with one of these statuses.
   std::vector<std::string> again{};
+  /// Called after each run, by any thread, before its row is appended; not of bisections.
+  std::function<void(std::size_t row, const RunOutcome& outcome)> finished{};
+  /// Stop as soon as the interval of the pass rate at each point of the grid is this narrow: half
+  /// of its width, from 0.001 to 0.5. For studies with a sample, without bisection. Looked at after
+  /// every kUntilSamples points of the sample, so that it does not depend on `jobs`.
+  std::optional<double> until_pass_rate{};
 };
+
+inline constexpr std::size_t kUntilSamples = 100;
 
 /// The rows that a study has: each point `repeat` times.
 std::size_t CountRows(const StudyPoints& points);
@@ -117,16 +126,20 @@ SweepSummary Summarize(const SweepRecords& records, const Shard& shard = {});
 
 /// Writes sweep.csv (parameters, seed, status, runs, outputs, reason; rows in the grid's order),
 /// sweep.json (the study as it was run, and bisections) and manifest.json, all at once
-/// (ResultWriter), and removes the report.html of an earlier sweep. RunError: the earlier sweep is
-/// still there then.
-SweepSummary WriteSweep(const SweepRecords& records, const Shard& shard,
-                        const OutputFolder& folder);
+/// (ResultWriter), and removes the report.html of an earlier sweep. `stopped` says why rows are
+/// missing on purpose. RunError: the earlier sweep is still there then.
+SweepSummary WriteSweep(const SweepRecords& records, const Shard& shard, const OutputFolder& folder,
+                        const std::string& stopped = "");
 
 /// Puts the rows of several records of one study, such as those of its shards, into others of it.
 ///
 /// InputError naming a file and what is different when its study is another one, and when a row
 /// differs between two.
 void MergeRecords(const std::vector<std::filesystem::path>& files, SweepRecords& records);
+
+/// The row numbers whose run folders a study keeps that asks for the highest or lowest values of an
+/// output: the worst first, of equal ones the first rows.
+std::vector<std::size_t> WorstRows(const SweepRecords& records);
 
 /// What a row sets, in the order in which it does, for the scenario that the header names: with
 /// these overrides a run is that of the row. InputError when there is no such row.

@@ -30,7 +30,7 @@ class SweepRecords {
   ///
   /// InputError naming the file and the keys in which the study differs from the one whose rows it
   /// has; RunError when it cannot be read or written.
-  SweepRecords(const std::filesystem::path& file, nlohmann::ordered_json header);
+  SweepRecords(const std::filesystem::path& file, const nlohmann::ordered_json& header);
   /// Opens a file that is there, of any study, to be read only, also while a sweep writes to it.
   /// InputError when it has no header.
   explicit SweepRecords(const std::filesystem::path& file);

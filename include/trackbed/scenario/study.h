@@ -36,6 +36,23 @@ struct OutputSpec {
   int column = 0;
 };
 
+/// Of which rows the run folders are kept.
+struct KeepSpec {
+  enum class Rows {
+    kNone,
+    kFailed,  ///< that did not pass
+    kAll,
+    kHighest,  ///< the `count` with the highest values of the output `by`
+    kLowest,   ///< likewise, the lowest
+  };
+  Rows rows = Rows::kNone;
+  int count = 0;
+  std::string by{};
+};
+
+/// "worst 10 by metrics.mujoco.cross_track.max", as files have it.
+std::string ToString(const KeepSpec& keep);
+
 /// Holds at the points where a key of the study has one of some values.
 struct Condition {
   std::string key;
@@ -81,6 +98,7 @@ struct Study {
   int repeat = 1;                    ///< runs per point, with consecutive seeds
   std::optional<BisectSpec> bisect;  ///< at every point of the grid
   std::vector<OutputSpec> outputs;
+  KeepSpec keep{};
 };
 
 /// A point of a study.
