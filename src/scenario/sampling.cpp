@@ -85,8 +85,13 @@ Eigen::MatrixXd Sobol(const SampleSpec& spec, int dimensions) {
   return sample;
 }
 
+/// Boost's tables of long doubles overflow, as the program starts, where these have only 64 bits,
+/// as under valgrind.
+using InDoublesOnly = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+
 double NormalQuantile(const Distribution& distribution, double u) {
-  const boost::math::normal normal(distribution.mean, distribution.deviation);
+  const boost::math::normal_distribution<double, InDoublesOnly> normal(distribution.mean,
+                                                                       distribution.deviation);
   const double below = std::isinf(distribution.min) ? 0.0 : cdf(normal, distribution.min);
   const double up_to = std::isinf(distribution.max) ? 1.0 : cdf(normal, distribution.max);
   const double share = below + u * (up_to - below);
