@@ -2,10 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <numbers>
+#include <random>
 
 #include "trackbed/core/error.h"
+#include "trackbed/core/text_table.h"
+#include "trackbed/scenario/sampling.h"
 
 namespace trackbed {
 namespace {
@@ -65,6 +70,175 @@ TEST(WilsonInterval, KnowsNothingOfNoTrial) {
   EXPECT_EQ(WilsonInterval(0, 0, 0.95).high, 1.0);
   EXPECT_THROW(WilsonInterval(2, 1, 0.95), PreconditionError);
   EXPECT_THROW(WilsonInterval(1, 2, 1.0), PreconditionError);
+}
+
+// By definition: as many of the others below as above, counted by brute force; between two members
+// of the sample on the line between them.
+TEST(Quantiles, HaveTheirShareOfTheSampleBelow) {
+  EXPECT_EQ(Quantiles({4.0, 1.0, 3.0, 2.0}, {0.0, 0.25, 0.5, 1.0}),
+            (std::vector<double>{1.0, 1.75, 2.5, 4.0}));
+  EXPECT_EQ(Quantiles({7.0}, {0.0, 0.3, 1.0}), (std::vector<double>{7.0, 7.0, 7.0}));
+  std::mt19937_64 random(3);
+  std::vector<double> values;
+  for (int i = 0; i < 101; ++i) {
+    values.push_back(static_cast<double>(random() >> 11U));
+  }
+  for (int percent = 0; percent <= 100; ++percent) {
+    // With 101 values every percentile is one of them.
+    const double quantile = Quantiles(values, {percent / 100.0}).front();
+    // A place such as 0.29 x 100 is rounded, by 1e-14 of a step between two values.
+    const double slack = 1e-10 * quantile;
+    EXPECT_EQ(std::count_if(values.begin(), values.end(),
+                            [&](double value) { return value < quantile - slack; }),
+              percent);
+  }
+  EXPECT_THROW(Quantiles({}, {0.5}), PreconditionError);
+  EXPECT_THROW(Quantiles({1.0, std::nan("")}, {0.5}), PreconditionError);
+  EXPECT_THROW(Quantiles({1.0}, {1.1}), PreconditionError);
+}
+
+// t(0.975, 3) = 3.182446 from tables; the mean of 1, 2, 4, 9 is 4, their standard deviation
+// sqrt(38 / 3).
+TEST(EstimateMean, HasStudentsInterval) {
+  const MeanEstimate estimate = EstimateMean({1.0, 2.0, 4.0, 9.0}, 0.95);
+  const double half = 3.182446 * std::sqrt(38.0 / 3.0) / 2.0;
+  EXPECT_EQ(estimate.count, 4U);
+  EXPECT_EQ(estimate.mean, 4.0);
+  EXPECT_NEAR(estimate.interval->low, 4.0 - half, 2e-6);  // seven digits of t
+  EXPECT_NEAR(estimate.interval->high, 4.0 + half, 2e-6);
+  EXPECT_FALSE(EstimateMean({2.0}, 0.95).interval.has_value());
+}
+
+TEST(Classify, TakesDistinctValuesOrEqualShares) {
+  const Classes few = Classify({"a", "b", "a", "1"}, 3);
+  EXPECT_EQ(few.of_row, (std::vector<std::size_t>{0, 1, 0, 2}));
+  EXPECT_EQ(few.names, (std::vector<std::string>{"a", "b", "1"}));
+  const Classes halves = Classify({"5", "1", "4", "2", "3", "6"}, 2);
+  EXPECT_EQ(halves.of_row, (std::vector<std::size_t>{1, 0, 1, 0, 0, 1}));
+  EXPECT_EQ(halves.names, (std::vector<std::string>{"2", "5"}));
+  // Equal values stay together, and what is left is divided anew.
+  const Classes ties = Classify({"1", "1", "1", "1", "2", "3", "4", "5"}, 4);
+  EXPECT_EQ(ties.of_row, (std::vector<std::size_t>{0, 0, 0, 0, 1, 2, 3, 3}));
+  // Texts cannot be put in order.
+  EXPECT_EQ(Classify({"1", "2", "3", "x"}, 2).names.size(), 4U);
+}
+
+std::vector<Classes> ClassesOf(const Eigen::MatrixXd& points, std::size_t most) {
+  std::vector<Classes> classes;
+  for (Eigen::Index column = 0; column < points.cols(); ++column) {
+    std::vector<std::string> values;
+    for (Eigen::Index row = 0; row < points.rows(); ++row) {
+      values.push_back(ShortestText(points(row, column)));
+    }
+    classes.push_back(Classify(values, most));
+  }
+  return classes;
+}
+
+// Ishigami and Homma (1990): y = sin x1 + a sin^2 x2 + b x3^4 sin x1, x uniform from -pi to pi. Its
+// parts of the variance are integrals in closed form.
+TEST(FirstOrderIndices, AreThoseOfIshigamisFunction) {
+  constexpr double kA = 7.0;
+  constexpr double kB = 0.1;
+  const double pi4 = std::pow(std::numbers::pi, 4);
+  const double of_1 = 0.5 * std::pow(1.0 + kB * pi4 / 5.0, 2);
+  const double of_2 = kA * kA / 8.0;
+  const double of_1_with_3 = kB * kB * pi4 * pi4 * (1.0 / 18.0 - 1.0 / 50.0);
+  const double all = of_1 + of_2 + of_1_with_3;
+  const std::vector<double> truth{of_1 / all, of_2 / all, 0.0};
+  for (const SampleMethod method :
+       {SampleMethod::kRandom, SampleMethod::kLatinHypercube, SampleMethod::kSobol}) {
+    const Eigen::MatrixXd points = UnitSample({.count = 16384, .method = method, .seed = 5}, 3);
+    std::vector<double> output;
+    for (Eigen::Index row = 0; row < points.rows(); ++row) {
+      const auto x = [&](Eigen::Index i) {
+        return (2.0 * points(row, i) - 1.0) * std::numbers::pi;
+      };
+      output.push_back(std::sin(x(0)) + kA * std::pow(std::sin(x(1)), 2) +
+                       kB * std::pow(x(2), 4) * std::sin(x(0)));
+    }
+    const auto indices = FirstOrderIndices(ClassesOf(points, 64), output);
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      ASSERT_TRUE(indices[i]);
+      const double half = 0.5 * (indices[i]->interval.high - indices[i]->interval.low);
+      // 64 classes are 0.098 wide, and so lose 0.098^2 / 12 E[f'^2] / V: 0.0014 for x2, where
+      // f' = a sin 2 x2. Half an interval is 1.96 standard deviations; a fixed sample is within
+      // four of them but for one in 16 000.
+      EXPECT_NEAR(indices[i]->index, truth[i], 0.0014 + 4.0 / 1.96 * half) << i;
+      // sqrt(1 / 16384) is 0.008; the variance of these outputs' squares makes it less than twice
+      // as much, and 1.96 deviations 0.03.
+      EXPECT_LT(half, 0.03) << i;
+      EXPECT_GT(half, 0.001) << i;
+    }
+  }
+}
+
+// Of 200 samples about 95 % of the intervals must have the truth: binomial, 190 +- 3.1, so that 178
+// are four deviations below. y = x1 + x2 / 2 + noise, all uniform: shares 1 : 1/4 : 1/4.
+TEST(FirstOrderIndices, HaveIntervalsThatHaveTheTruth) {
+  constexpr int kSamples = 200;
+  const std::vector<double> truth{1.0 / 1.5, 0.25 / 1.5, 0.0};
+  std::vector<int> held(3);
+  std::vector<double> sum(3);
+  for (int sample = 0; sample < kSamples; ++sample) {
+    const Eigen::MatrixXd points = UnitSample(
+        {.count = 400, .method = SampleMethod::kRandom, .seed = static_cast<std::uint64_t>(sample)},
+        4);
+    std::vector<double> output;
+    for (Eigen::Index row = 0; row < points.rows(); ++row) {
+      output.push_back(1e6 + points(row, 0) + 0.5 * points(row, 1) + 0.5 * points(row, 3));
+    }
+    const auto indices = FirstOrderIndices(ClassesOf(points.leftCols(3), 10), output);
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      sum[i] += indices[i]->index / kSamples;
+      held[i] += indices[i]->interval.low <= truth[i] && truth[i] <= indices[i]->interval.high;
+    }
+  }
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    EXPECT_GE(held[i], 178) << i;
+    // Ten classes of a straight line lose a hundredth of its share; the mean of 200 is known to a
+    // fourteenth of an interval's half, which is below 0.1.
+    EXPECT_NEAR(sum[i], 0.99 * truth[i], 0.01) << i;
+  }
+}
+
+TEST(FirstOrderIndices, AreNoneOfWhatDoesNotVary) {
+  const Classes classes = Classify({"a", "b", "a", "b"}, 2);
+  EXPECT_FALSE(FirstOrderIndices({classes}, {0.1, 0.1, 0.1, 0.1})[0].has_value());
+  EXPECT_FALSE(FirstOrderIndices({Classify({"a", "b", "c", "d"}, 4)}, {1, 2, 3, 4})[0].has_value());
+  EXPECT_FALSE(FirstOrderIndices({Classify({}, 4)}, {})[0].has_value());
+  // All of it is explained.
+  EXPECT_EQ(FirstOrderIndices({classes}, {1.0, 2.0, 1.0, 2.0})[0]->index, 1.0);
+  EXPECT_THROW(FirstOrderIndices({classes}, {1.0}), PreconditionError);
+}
+
+// The tail is summed from binomial coefficients in whole numbers.
+TEST(ComparePairs, HasTheExactSignTest) {
+  for (const int pairs : {1, 2, 7, 20}) {
+    for (int higher = 0; higher <= pairs; ++higher) {
+      std::vector<double> a(static_cast<std::size_t>(pairs) + 3, 1.0);  // three are equal
+      std::vector<double> b = a;
+      for (int i = 0; i < pairs; ++i) {
+        b[static_cast<std::size_t>(i)] += i < higher ? 2.0 : -1.0;
+      }
+      double tail = 0.0;
+      double coefficient = 1.0;
+      for (int k = 0; k <= std::min(higher, pairs - higher); ++k) {
+        tail += coefficient;
+        coefficient = coefficient * (pairs - k) / (k + 1);
+      }
+      const PairedDifference compared = ComparePairs(a, b, 0.95);
+      EXPECT_NEAR(compared.sign_test, std::min(1.0, 2.0 * tail / std::pow(2.0, pairs)), 1e-14);
+      EXPECT_EQ(compared.higher, static_cast<std::size_t>(higher));
+      EXPECT_EQ(compared.lower, static_cast<std::size_t>(pairs - higher));
+      EXPECT_EQ(compared.equal, 3U);
+    }
+  }
+  const PairedDifference moved = ComparePairs({1.0, 2.0, 3.0}, {2.0, 4.0, 6.0}, 0.95);
+  EXPECT_EQ(moved.mean.mean, 2.0);
+  EXPECT_EQ(moved.median, 2.0);
+  EXPECT_EQ(ComparePairs({1.0}, {1.0}, 0.95).sign_test, 1.0);
+  EXPECT_THROW(ComparePairs({1.0}, {}, 0.95), PreconditionError);
 }
 
 }  // namespace
