@@ -644,11 +644,11 @@ std::vector<std::size_t> WorstRows(const SweepRecords& records) {
       rows.emplace_back(highest ? -*value : *value, row);
     }
   }
-  const auto count = std::min(rows.size(), keep.at("count").get<std::size_t>());
-  std::partial_sort(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(count), rows.end());
+  std::sort(rows.begin(), rows.end());
+  const auto count = keep.at("count").get<std::size_t>();
   std::vector<std::size_t> worst;
-  for (std::size_t i = 0; i < count; ++i) {
-    worst.push_back(rows[i].second);
+  for (auto row = rows.begin(); row != rows.end() && worst.size() < count; ++row) {
+    worst.push_back(row->second);
   }
   return worst;
 }
