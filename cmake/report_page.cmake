@@ -50,7 +50,7 @@ allow(dygraphs_source "${dygraphs}")
 put(libraries "<script>${d3}</script>\n<script>${dygraphs}</script>")
 
 set(script "\n\"use strict\";\n")
-foreach(part IN ITEMS base map charts series differences film tables study main)
+foreach(part IN ITEMS base map charts series differences film tables study_statistics study main)
   file(READ ${PAGE}/${part}.js text)
   string(APPEND script "${text}\n")
 endforeach()

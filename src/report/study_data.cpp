@@ -10,6 +10,7 @@
 
 #include "src/report/names.h"
 #include "src/report/numbers.h"
+#include "src/report/study_statistics.h"
 #include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
@@ -20,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
+
+constexpr std::size_t kMostRows = 4000;  // that a page shows one by one
 
 /// A number as one, an empty cell as null, all else as text.
 ordered_json CellJson(const std::string& cell) {
@@ -39,10 +42,15 @@ ordered_json StudyDescription(const fs::path& table) {
   if (table.filename() != run_folder::kSweepCsv || !fs::is_regular_file(file, ignored)) {
     return ordered_json::object();
   }
-  return ReadJson(file, [](const ordered_json& json) -> ordered_json {
+  return ReadJson(file, [&](const ordered_json& json) -> ordered_json {
+    const bool complete = json.at("complete").get<bool>();
+    // A row of the table is the row of the study only where none is missing.
+    const bool has_all = complete && !json.contains("shard");
     return {{"name", json.at("study").get<std::string>()},
+            {"folder", has_all ? table.parent_path().string() : ""},
             {"scenario", json.at("scenario").get<std::string>()},
-            {"complete", json.at("complete").get<bool>()},
+            {"complete", complete},
+            {"stopped", json.value("stopped", std::string())},
             {"rows_expected", json.at("rows_expected").get<std::size_t>()},
             {"versions", json.at("versions").get<std::map<std::string, std::string>>()},
             {"text", json.dump(2)}};
@@ -93,14 +101,28 @@ ordered_json StudyData(const fs::path& file) {
     study["name"] = file.stem().string();
   }
   study["columns"] = ColumnsJson(table, file.string());
+  study["row_count"] = table.rows().size();
+  const auto status =
+      std::find(table.columns().begin(), table.columns().end(), "status") - table.columns().begin();
+  study["passed_count"] = std::count_if(table.rows().begin(), table.rows().end(),
+                                        [&](const std::vector<std::string>& row) {
+                                          return HasPassed(row[static_cast<std::size_t>(status)]);
+                                        });
+  const ShownRows shown = StudyRowsToShow(table, kMostRows);
   study["rows"] = ordered_json::array();
-  for (const std::vector<std::string>& row : table.rows()) {
-    ordered_json cells = ordered_json::array();
-    for (const std::string& cell : row) {
-      cells.push_back(CellJson(cell));
+  study["row_numbers"] = ordered_json::array();
+  study["even_count"] = shown.even.size();
+  for (const std::vector<std::size_t>& rows : {shown.even, shown.extremes}) {
+    for (const std::size_t i : rows) {
+      ordered_json cells = ordered_json::array();
+      for (const std::string& cell : table.rows()[i]) {
+        cells.push_back(CellJson(cell));
+      }
+      study["row_numbers"].push_back(i);
+      study["rows"].push_back(std::move(cells));
     }
-    study["rows"].push_back(cells);
   }
+  study["statistics"] = StudyStatistics(table);
   return study;
 }
 

@@ -135,6 +135,20 @@ class Reports(unittest.TestCase):
             "return document.querySelector(arguments[0]).textContent", selector
         )
 
+    def count(self, selector):
+        return self.run_in_page("return document.querySelectorAll(arguments[0]).length", selector)
+
+    def choose(self, selector, option):
+        """Chooses the option of a select that begins so."""
+        self.run_in_page(
+            "const s = document.querySelector(arguments[0]);"
+            "s.value = Array.from(s.options).find(o => o.text.startsWith(arguments[1])).value;"
+            "s.dispatchEvent(new Event('change'))",
+            selector,
+            option,
+        )
+        self.browser.settle()
+
     def box(self, selector):
         return self.run_in_page(
             "const e = document.querySelector(arguments[0]); e.scrollIntoView({block: 'center'});"
@@ -659,13 +673,7 @@ class Reports(unittest.TestCase):
                 )
 
         for over in ("control.distance", "mission.speed"):
-            self.run_in_page(
-                "const s = document.querySelector('#over');"
-                "s.value = Array.from(s.options).find(o => o.text.startsWith(arguments[0])).value;"
-                "s.dispatchEvent(new Event('change'))",
-                over,
-            )
-            self.browser.settle()
+            self.choose("#over", over)
             points = places(column)
             self.assertEqual([row for _, _, row in points], [0, 1, 2, 3, 4, 5])
             assert_linear([x for x, _, _ in points], [float(row[over]) for row in rows])
@@ -682,6 +690,51 @@ class Reports(unittest.TestCase):
         tip = self.text(".tooltip")
         self.assertIn("mission.speed [m/s]4", tip)
         self.browser.picture(PICTURES / "study.png")
+        self.width_is_kept()
+
+    def test_study_statistics(self):
+        rows = ["method,x,status,error,reason"]
+        for i in range(600):
+            x = (i // 2 + 0.5) / 300
+            error = x if i % 2 == 0 else 2 * x
+            rows.append(f"{'lqr' if i % 2 == 0 else 'mpc'},{x},{'passed' if error < 1 else 'failed'},{error},")
+        folder = self.root / "sampled"
+        folder.mkdir()
+        (folder / "sweep.csv").write_text("\n".join(rows) + "\n")
+        (folder / "sweep.json").write_text(
+            '{"study": "sampled", "scenario": "a.yaml", "complete": true, "rows_expected": 600, "versions": {}}'
+        )
+        self.trackbed("report", "sampled")
+        self.open("sampled/report.html")
+        self.assertIn("Pass rate 75.0 %, 95 % interval 71.4 % to 78.3 %", self.text("#pass-rate"))
+        def shares():
+            return self.run_in_page(
+                "return Array.from(document.querySelectorAll('#influence [data-parameter]'))"
+                ".map(e => [e.dataset.parameter, Number(e.querySelector('rect').getAttribute('width'))])"
+            )
+
+        # The pass rate is what is shown first.
+        self.assertEqual(sorted(name for name, _ in shares()), ["method", "x"])
+        self.assertEqual(self.count("#influence figure"), 3)
+        self.assertEqual(self.count("#study-map .cell:not(.none)"), 2 * 7)
+        self.assertEqual(self.count("#distributions figure"), 1)
+        worst = self.run_in_page(
+            "return Array.from(document.querySelectorAll('#worst tbody tr')).map(e => e.dataset.number)"
+        )
+        self.assertEqual(worst, [str(599 - 2 * i) for i in range(10)])
+        self.assertIn("--row 599 --video --report", self.text("#worst tbody tr code"))
+        self.choose("#worst-order", "lowest")
+        self.assertEqual(
+            self.run_in_page("return document.querySelector('#worst tbody tr').dataset.number"), "0"
+        )
+        self.choose("#influence-of", "error")
+        # 9/13 of the variance, and 3/13.
+        (first, wide), (second, narrow) = shares()
+        self.assertEqual([first, second], ["x", "method"])
+        self.assertAlmostEqual(wide / narrow, 3, delta=0.3)
+        self.assertIn("Mean of error over x", self.run_in_page("return document.querySelector('#influence').textContent"))
+        self.choose("#map-of", "error")
+        self.browser.picture(PICTURES / "sampled.png")
         self.width_is_kept()
 
     # What stands in files is text.

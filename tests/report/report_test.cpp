@@ -325,6 +325,77 @@ TEST(ReportData, HoldsTheTableOfAStudy) {
               HasSubstr("other.csv:1: no column 'status'"));
 }
 
+/// A study of `rows` rows: two controllers alternate, the output is x, twice that of the second
+/// one, and rows pass where it is below 1.
+std::string BigStudy(int rows) {
+  std::string csv = "control,x,status,y,reason\n";
+  for (int i = 0; i < rows; ++i) {
+    const double x = (i / 2 + 0.5) / (rows / 2);
+    const double y = i % 2 == 0 ? x : 2.0 * x;
+    csv += fmt::format("{},{},{},{},\n", i % 2 == 0 ? "lqr" : "mpc", x,
+                       y < 1.0 ? "passed" : "failed", y);
+  }
+  return csv;
+}
+
+// y = x k with x uniform in (0, 1) and k 1 or 2: its mean is 3/4, its variance
+// E[x^2] E[k^2] - 9/16 = 5/6 - 9/16 = 13/48. E[y | k] = k / 2 varies by 1/16, E[y | x] = 3 x / 2 by
+// 9/4 / 12 = 3/16: shares of 3/13 and 9/13.
+TEST(StudyData, SaysWhatAllRowsSayTogether) {
+  const TempFolder folder;
+  const ordered_json study = ReportData({folder.Write("study.csv", BigStudy(2000))})["study"];
+  const ordered_json& all = study["statistics"];
+  EXPECT_EQ(all["rows"], 2000);
+  EXPECT_EQ(all["pass_rate"], 0.75);
+  // 0.75 +- 1.96 sqrt(0.75 / 4 / 2000), and what Wilson's interval is nearer to a half: 0.0005.
+  EXPECT_NEAR(all["pass_interval"][0].get<double>(), 0.75 - 0.019, 1e-3);
+  EXPECT_NEAR(all["pass_interval"][1].get<double>(), 0.75 + 0.019, 1e-3);
+  ASSERT_EQ(all["outputs"].size(), 2U);
+  const ordered_json& y = all["outputs"][0];
+  EXPECT_EQ(y["name"], "y");
+  // Half of the values are below 2/3: x < 2/3 and x < 1/3. Steps are of 0.002.
+  EXPECT_EQ(y["quantiles"][4][0], 0.5);
+  EXPECT_NEAR(y["quantiles"][4][1].get<double>(), 2.0 / 3.0, 0.002);
+  EXPECT_EQ(y["distribution"].size(), 200U);
+  ASSERT_EQ(y["indices"].size(), 2U);
+  // Evenly spaced values have no chance in them, but for what the index takes off for it: 64
+  // classes of 2000 rows, 0.03 of the rest.
+  EXPECT_NEAR(y["indices"][0]["index"].get<double>(), 3.0 / 13.0, 0.03);
+  EXPECT_NEAR(y["indices"][1]["index"].get<double>(), 9.0 / 13.0, 0.03);
+  const ordered_json& means = y["effects"][0]["classes"];
+  EXPECT_EQ(means[0]["value"], "lqr");
+  EXPECT_NEAR(means[0]["mean"].get<double>(), 0.5, 1e-9);
+  EXPECT_NEAR(means[1]["mean"].get<double>(), 1.0, 1e-9);
+  EXPECT_EQ(y["effects"][1]["classes"].size(), 12U);
+  const ordered_json& passed = all["outputs"][1];
+  EXPECT_EQ(passed["name"], "passed");
+  EXPECT_FALSE(passed.contains("quantiles"));
+  EXPECT_EQ(passed["effects"][0]["classes"][0]["mean"], 1.0);
+  EXPECT_EQ(passed["effects"][0]["classes"][1]["mean"], 0.5);
+}
+
+TEST(StudyData, OfABigStudyHasSomeRowsAndTheEndsOfOutputs) {
+  const TempFolder folder;
+  const ordered_json study = ReportData({folder.Write("study.csv", BigStudy(10000))})["study"];
+  EXPECT_EQ(study["row_count"], 10000);
+  EXPECT_EQ(study["passed_count"], 7500);
+  EXPECT_EQ(study["even_count"], 4000);
+  const auto numbers = study["row_numbers"].get<std::vector<int>>();
+  EXPECT_EQ(numbers.size(), study["rows"].size());
+  // The lowest of `y` are the first rows, the highest the last odd ones, each second of which is
+  // not among every 2.5th row.
+  for (const int row : {0, 1, 2, 3, 9999, 9997, 9995, 9981}) {
+    EXPECT_NE(std::find(numbers.begin(), numbers.end(), row), numbers.end()) << row;
+  }
+  EXPECT_EQ(study["statistics"]["rows"], 10000);
+}
+
+TEST(StudyData, OfAFewRowsHasNoStatistics) {
+  const TempFolder folder;
+  EXPECT_TRUE(
+      ReportData({folder.Write("study.csv", BigStudy(18))})["study"]["statistics"].is_null());
+}
+
 TEST(ReportPage, HoldsTheDataWhateverIsInIt) {
   const TempFolder folder;
   const fs::path run = DriveCorner(folder, "run", "drive: {plants: [kinematic]}\n");

@@ -5,7 +5,9 @@ function drawStudy(study) {
   const of = (kind) => columns.filter((column) => column.kind === kind);
   const parameters = of('parameter');
   const status = of('status')[0];
-  const rows = study.rows.map((cells, index) => ({ index, cells }));
+  const rows = study.rows.map((cells, index) => ({ index, cells, number: study.row_numbers[index] }));
+  // Of a big study the page has every so many rows, and the ends of each output.
+  const even = rows.slice(0, study.even_count);
   const isGood = (row) => ['passed', 'found', 'passes_at_to'].includes(row.cells[status.index]);
   const isNumber = (column) => rows.some((row) => typeof row.cells[column.index] === 'number')
     && rows.every((row) => row.cells[column.index] === null || typeof row.cells[column.index] === 'number');
@@ -14,20 +16,43 @@ function drawStudy(study) {
   const header = root.append('header');
   const heading = header.append('div').attr('class', 'heading');
   heading.append('h1').text(study.name);
-  const good = rows.filter(isGood).length;
-  const complete = study.complete !== false;
+  const complete = study.complete !== false || Boolean(study.stopped);
   heading.append('span').attr('class', complete ? 'badge plain' : 'badge bad').attr('id', 'verdict').text(
-    complete ? `${good} of ${rows.length} rows passed` : `interrupted: ${rows.length} of ${study.rows_expected} rows`);
+    complete ? `${study.passed_count} of ${study.row_count} rows passed`
+      : `interrupted: ${study.row_count} of ${study.rows_expected} rows`);
+  const { statistics } = study;
+  if (statistics) {
+    const [low, high] = statistics.pass_interval;
+    header.append('p').attr('id', 'pass-rate').text(`Pass rate ${percent(statistics.pass_rate)}, 95 % interval `
+      + `${percent(low)} to ${percent(high)} (Wilson)`
+      + (statistics.without_result ? `; without ${statistics.without_result} rows that were not run` : ''));
+  }
   facts(header, [
     study.scenario && `scenario ${study.scenario}`,
     `${parameters.length} ${parameters.length === 1 ? 'parameter' : 'parameters'}: ${parameters.map(nameOf).join(', ')}`,
+    study.stopped && `stopped at ${study.stopped}, after ${study.row_count} of ${study.rows_expected} rows`,
+    rows.length < study.row_count && `drawn one by one: ${even.length} rows, evenly chosen, and the ends of each output; `
+      + `statistics are of all ${study.row_count}`,
     study.versions && `Trackbed ${study.versions.trackbed}`, study.versions && study.versions.physics,
   ]);
 
   const outputs = of('output').filter((column) => column.name !== 'runs' && isNumber(column));
   const bus = d3.dispatch('choose');
+  const varied = parameters.filter((p) => new Set(rows.map((row) => row.cells[p.index])).size > 1);
+  if (statistics && statistics.outputs.length && varied.length) {
+    drawInfluence(section('influence', 'What matters'), { columns, statistics, nameOf });
+  }
+  if (varied.length > 1 && even.length) {
+    drawStudyMap(section('study-map', 'Map'), { parameters: varied, outputs, rows: even, isGood, isNumber, nameOf });
+  }
+  if (statistics && statistics.outputs.some(({ distribution }) => distribution)) {
+    drawDistributions(section('distributions', 'Distributions'), { outputs, statistics, nameOf });
+  }
   if (parameters.length && outputs.length && rows.length) {
-    drawPlots(section('plots', 'Outputs over a parameter'), { parameters, outputs, rows, isGood, isNumber, nameOf, bus });
+    drawPlots(section('plots', 'Outputs over a parameter'), { parameters, outputs, rows: even, isGood, isNumber, nameOf, bus });
+  }
+  if (outputs.length && rows.length > 10) {
+    drawWorst(section('worst', 'Worst rows'), { study, outputs, parameters: varied, rows, nameOf });
   }
   drawStudyTable(section('table', 'All rows'), { columns, rows, isGood, isNumber, bus });
   if (study.text) {

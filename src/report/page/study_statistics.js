@@ -1,0 +1,283 @@
+// What all rows of a study say together: distributions, what the parameters do, the worst rows, a map.
+
+/** A row of selects; gives a function that tells what is chosen in one. */
+function choicesIn(parent) {
+  const choices = parent.append('div').attr('class', 'choices');
+  return {
+    node: choices,
+    add(label, id, list, chosen, draw) {
+      const select = choices.append('label').text(label).append('select').attr('id', id);
+      for (const [value, name] of list) {
+        select.append('option').attr('value', value).property('selected', value === chosen).text(name);
+      }
+      select.on('change', draw);
+      return () => Number(select.node().value);
+    },
+  };
+}
+
+function percent(share, digits = 1) {
+  return `${fixed(100 * share, digits)} %`;
+}
+
+/** A panel with a title and an empty picture of that height, to be drawn for its width. */
+function figureIn(parent, title, unit, name, height) {
+  const figure = parent.append('figure').attr('class', 'panel').attr('data-output', name);
+  const caption = figure.append('figcaption').attr('title', name).text(title);
+  if (unit) caption.append('span').text(` [${unit}]`);
+  const svg = figure.append('svg').attr('role', 'img').attr('aria-label', title).style('height', `${height}px`);
+  return { figure, svg, width: svg.node().getBoundingClientRect().width, height };
+}
+
+function drawAxes(svg, { x, y, width, height, margin, nameX, formatY }) {
+  svg.append('g').attr('class', 'axis').attr('transform', `translate(0 ${height - margin.bottom})`)
+    .call(d3.axisBottom(x).ticks(Math.max(3, width / 90)).tickSize(-(height - margin.top - margin.bottom))
+      .tickSizeOuter(0).tickPadding(7).tickFormat(shown));
+  svg.append('g').attr('class', 'axis').attr('transform', `translate(${margin.left} 0)`)
+    .call(d3.axisLeft(y).ticks(5).tickSize(-(width - margin.left - margin.right)).tickSizeOuter(0)
+      .tickPadding(7).tickFormat(formatY || shown));
+  svg.append('text').attr('class', 'axis-name').attr('text-anchor', 'end')
+    .attr('x', width - margin.right).attr('y', height - 6).text(nameX);
+}
+
+function drawDistributions(parent, { outputs, statistics, nameOf }) {
+  const list = parent.append('div').attr('class', 'plots');
+  const known = statistics.outputs.filter(({ distribution }) => distribution)
+    .map((of) => ({ of, column: outputs.find(({ name }) => name === of.name) })).filter(({ column }) => column);
+  function draw() {
+    list.text('');
+    for (const { of, column } of known) {
+      const { svg, width, height } = figureIn(list, column.label, column.unit, column.name, 220);
+      svg.attr('aria-label', `Distribution of ${nameOf(column)}`);
+      const margin = { left: 56, right: 14, top: 14, bottom: 44 };
+      const x = d3.scaleLinear().domain(d3.extent(of.distribution, (d) => d[0])).nice()
+        .range([margin.left, width - margin.right]);
+      const y = d3.scaleLinear().domain([0, 1]).range([height - margin.bottom, margin.top]);
+      drawAxes(svg, { x, y, width, height, margin, nameX: nameOf(column), formatY: (v) => percent(v, 0) });
+      svg.append('path').attr('class', 'line').style('color', 'var(--track-0)')
+        .attr('d', d3.line().x((d) => x(d[0])).y((d) => y(d[1]))(of.distribution));
+    }
+  }
+  draw();
+  new ResizeObserver(draw).observe(list.node());
+  const table = parent.append('div').attr('class', 'panel scroll').append('table').attr('id', 'quantiles');
+  const head = table.append('thead').append('tr');
+  head.append('th').attr('class', 'text').text('Quantile');
+  for (const [share] of known[0].of.quantiles) {
+    head.append('th').text(share === 0 ? 'smallest' : share === 1 ? 'largest' : share === 0.5 ? 'median' : percent(share, 0));
+  }
+  head.append('th').text('rows');
+  for (const { of, column } of known) {
+    const line = table.append('tbody').append('tr').attr('data-output', column.name);
+    withUnit(line.append('th'), column.label, column.unit);
+    for (const [, value] of of.quantiles) line.append('td').text(shown(value));
+    line.append('td').text(shown(of.count));
+  }
+}
+
+function drawInfluence(parent, { columns, statistics, nameOf }) {
+  const named = statistics.outputs.map((of, i) => {
+    const column = columns.find(({ name }) => name === of.name);
+    return [i, column ? nameOf(column) : 'pass rate'];
+  });
+  // What passes is the first question, where there is an answer.
+  const rate = statistics.outputs.findIndex(({ name }) => name === 'passed');
+  const choices = choicesIn(parent);
+  const chosen = choices.add('Of', 'influence-of', named, Math.max(rate, 0), draw);
+  const bars = parent.append('div').attr('class', 'plots wide');
+  const note = parent.append('p').attr('class', 'hint');
+  const list = parent.append('div').attr('class', 'plots');
+  draw();
+  new ResizeObserver(draw).observe(list.node());
+
+  function draw() {
+    const of = statistics.outputs[chosen()];
+    const isRate = of.name === 'passed';
+    const output = columns.find(({ name }) => name === of.name);
+    bars.text('');
+    list.text('');
+    drawIndices(of.indices.slice().sort((a, b) => b.index - a.index));
+    note.text('First-order Sobol’ index: the share of the variance that a parameter explains by itself; lines: 95 % '
+      + `intervals. The rest, ${percent(Math.max(0, 1 - d3.sum(of.indices, ({ index }) => index)), 0)}, is due to `
+      + 'parameters together, and to chance.');
+    const ends = of.effects.flatMap(({ classes }) => classes.flatMap((c) => [c.mean, ...(c.interval || [])]));
+    const domain = isRate ? [0, 1] : d3.extent(ends);
+    for (const effect of of.effects) {
+      drawEffect(effect, { domain, isRate, name: isRate ? 'pass rate' : `mean of ${nameOf(output)}` });
+    }
+  }
+
+  function drawIndices(indices) {
+    const row = 30;
+    const { svg, width, height } = figureIn(bars, 'Share of the variance', '', 'indices', indices.length * row + 48);
+    const names = indices.map(({ parameter }) => nameOf(columns[parameter]));
+    const margin = { left: Math.min(0.45 * width, 12 + 7.2 * d3.max(names, (name) => name.length) || 0), right: 64 };
+    const x = d3.scaleLinear().domain([Math.min(0, d3.min(indices, (d) => d.interval[0]) || 0), 1])
+      .range([margin.left, width - margin.right]);
+    svg.append('g').attr('class', 'axis').attr('transform', `translate(0 ${height - 36})`)
+      .call(d3.axisBottom(x).ticks(Math.max(2, (width - margin.left) / 90)).tickSize(-(height - 40)).tickSizeOuter(0).tickPadding(7)
+        .tickFormat((value) => percent(value, 0)));
+    indices.forEach(({ index, interval, parameter }, i) => {
+      const y = 4 + i * row;
+      const line = svg.append('g').attr('data-parameter', columns[parameter].name);
+      const text = names[i].length * 7.2 > margin.left ? `${names[i].slice(0, Math.floor(margin.left / 7.2) - 2)}…` : names[i];
+      line.append('text').attr('x', margin.left - 8).attr('y', y + row / 2 + 1).attr('text-anchor', 'end')
+        .attr('class', 'bar-name').text(text).append('title').text(names[i]);
+      line.append('rect').attr('class', 'bar').attr('x', x(Math.min(0, index))).attr('y', y + 6)
+        .attr('width', Math.abs(x(index) - x(0))).attr('height', row - 14);
+      line.append('path').attr('class', 'whisker').attr('d', `M${x(interval[0])},${y + row / 2 - 1}H${x(Math.min(1, interval[1]))}`);
+      line.append('text').attr('class', 'bar-name').attr('x', width - margin.right + 8).attr('y', y + row / 2 + 1)
+        .text(percent(index));
+    });
+  }
+
+  function drawEffect({ parameter, classes }, { domain, isRate, name }) {
+    const column = columns[parameter];
+    const title = `${name.charAt(0).toUpperCase()}${name.slice(1)} over ${column.label}`;
+    const { svg, width, height } = figureIn(list, title, '', column.name, 220);
+    const margin = { left: 56, right: 14, top: 14, bottom: 44 };
+    const numeric = classes.every(({ value }) => typeof value === 'number');
+    const sorted = numeric ? classes.slice().sort((a, b) => a.value - b.value) : classes;
+    const x = numeric ? d3.scaleLinear().domain(d3.extent(sorted, (c) => c.value)).nice()
+      : d3.scalePoint().domain(sorted.map((c) => String(c.value))).padding(0.5);
+    x.range([margin.left, width - margin.right]);
+    const y = d3.scaleLinear().domain(domain).nice().range([height - margin.bottom, margin.top]);
+    const most = Math.max(6, Math.floor((width - margin.left) / sorted.length / 7));
+    const axisX = d3.axisBottom(x).tickSize(-(height - margin.top - margin.bottom)).tickSizeOuter(0).tickPadding(7)
+      .tickFormat((value) => (numeric ? shown(value) : value.length > most ? `${value.slice(0, most - 1)}…` : value));
+    if (numeric) axisX.ticks(Math.max(3, width / 90));
+    svg.append('g').attr('class', 'axis').attr('transform', `translate(0 ${height - margin.bottom})`).call(axisX)
+      .selectAll('.tick').append('title').text(String);
+    svg.append('g').attr('class', 'axis').attr('transform', `translate(${margin.left} 0)`)
+      .call(d3.axisLeft(y).ticks(5).tickSize(-(width - margin.left - margin.right)).tickSizeOuter(0).tickPadding(7)
+        .tickFormat(isRate ? (value) => percent(value, 0) : shown));
+    svg.append('text').attr('class', 'axis-name').attr('text-anchor', 'end')
+      .attr('x', width - margin.right).attr('y', height - 6).text(nameOf(column));
+    const at = (c) => x(numeric ? c.value : String(c.value));
+    if (numeric) {
+      svg.append('path').attr('class', 'line').style('color', 'var(--track-0)')
+        .attr('d', d3.line().x(at).y((c) => y(c.mean))(sorted));
+    }
+    const marks = svg.append('g').selectAll('g').data(sorted).enter().append('g');
+    marks.filter((c) => c.interval).append('path').attr('class', 'whisker')
+      .attr('d', (c) => `M${at(c)},${y(c.interval[0])}V${y(c.interval[1])}`);
+    marks.append('circle').attr('class', 'mark').attr('cx', at).attr('cy', (c) => y(c.mean)).attr('r', 4)
+      .append('title').text((c) => `${shown(c.value)}: ${isRate ? percent(c.mean) : shown(c.mean)} of ${c.count} rows`);
+  }
+}
+
+function drawWorst(parent, { study, outputs, parameters, rows, nameOf }) {
+  const choices = choicesIn(parent);
+  const chosen = choices.add('By', 'worst-by', outputs.map((column) => [column.index, nameOf(column)]), outputs[0].index, draw);
+  const order = choices.add('Worst are the', 'worst-order', [[1, 'highest'], [-1, 'lowest']], 1, draw);
+  const table = parent.append('div').attr('class', 'panel scroll').append('table');
+  draw();
+
+  function draw() {
+    const column = outputs.find(({ index }) => index === chosen());
+    table.text('');
+    const head = table.append('thead').append('tr');
+    withUnit(head.append('th'), column.label, column.unit);
+    for (const parameter of parameters) withUnit(head.append('th').attr('class', 'brief'), parameter.label, parameter.unit);
+    if (study.folder) head.append('th').attr('class', 'text').text('Run it again');
+    const worst = rows.filter((row) => row.cells[column.index] !== null)
+      .sort((a, b) => order() * (b.cells[column.index] - a.cells[column.index]) || a.number - b.number).slice(0, 10);
+    const lines = table.append('tbody').selectAll('tr').data(worst).enter().append('tr')
+      .attr('data-number', (row) => row.number);
+    lines.append('td').text((row) => shown(row.cells[column.index]));
+    for (const parameter of parameters) lines.append('td').text((row) => shown(row.cells[parameter.index]));
+    if (study.folder) {
+      lines.append('td').attr('class', 'text').append('code')
+        .text((row) => `trackbed run --from-sweep ${shellWord(study.folder)} --row ${row.number} --video --report`);
+    }
+  }
+}
+
+function shellWord(word) {
+  return /^[\w./+-]+$/.test(word) ? word : `'${word.replace(/'/g, "'\\''")}'`;
+}
+
+/** The mean of an output, or the share that passed, over any two parameters. */
+function drawStudyMap(parent, { parameters, outputs, rows, isGood, isNumber, nameOf }) {
+  const choices = choicesIn(parent);
+  const list = parameters.map((column) => [column.index, nameOf(column)]);
+  const across = choices.add('Across', 'map-x', list, list[0][0], draw);
+  const up = choices.add('Up', 'map-y', list, list[1][0], draw);
+  const of = choices.add('Color', 'map-of', [[-1, 'pass rate'], ...outputs.map((column) => [column.index, nameOf(column)])], -1, draw);
+  const place = parent.append('div').attr('class', 'plots wide');
+  draw();
+  new ResizeObserver(draw).observe(place.node());
+
+  /** A parameter's values, or, where there are many numbers, equal steps of them. */
+  function stepsOf(column) {
+    const values = Array.from(new Set(rows.map((row) => row.cells[column.index])));
+    if (!isNumber(column) || values.length <= 24) {
+      if (isNumber(column)) values.sort(d3.ascending);
+      return { names: values.map(shown), find: (value) => values.indexOf(value) };
+    }
+    const [from, to] = d3.extent(values);
+    const count = Math.min(16, Math.max(4, Math.round(Math.sqrt(rows.length / 12))));
+    const edge = (i) => from + (to - from) * i / count;
+    return {
+      names: d3.range(count).map((i) => shown(Number((0.5 * (edge(i) + edge(i + 1))).toPrecision(3)))),
+      find: (value) => (value === null ? -1 : Math.min(count - 1, Math.floor((value - from) / (to - from) * count))),
+    };
+  }
+
+  function draw() {
+    const x = parameters.find(({ index }) => index === across());
+    const y = parameters.find(({ index }) => index === up());
+    const output = outputs.find(({ index }) => index === of());
+    place.text('');
+    const columns = stepsOf(x);
+    const lines = stepsOf(y);
+    const cells = d3.range(columns.names.length * lines.names.length).map(() => []);
+    for (const row of rows) {
+      const value = output ? row.cells[output.index] : Number(isGood(row));
+      const [i, j] = [columns.find(row.cells[x.index]), lines.find(row.cells[y.index])];
+      if (value !== null && i >= 0 && j >= 0) cells[j * columns.names.length + i].push(value);
+    }
+    const means = cells.map((values) => (values.length ? d3.mean(values) : null));
+    const [least, most] = output ? d3.extent(means.filter((mean) => mean !== null)) : [0, 1];
+    const color = (value) => d3.interpolateViridis(most > least ? (value - least) / (most - least) : 0.5);
+    const text = (value) => (output ? shown(Number(value.toPrecision(3))) : percent(value, 0));
+    const title = `${output ? `Mean of ${nameOf(output)}` : 'Pass rate'} over ${nameOf(x)} and ${nameOf(y)}`;
+    const { svg, width, height } = figureIn(place, title, '', 'map', Math.min(520, 100 + 34 * lines.names.length));
+    const longest = d3.max(lines.names, (name) => name.length);
+    const margin = { left: Math.min(0.4 * width, 28 + 7 * longest), right: 8, top: 24, bottom: 84 };
+    const wide = (width - margin.left - margin.right) / columns.names.length;
+    const high = (height - margin.top - margin.bottom) / lines.names.length;
+    const every = Math.ceil(46 / wide);
+    const cut = (name, room) => (name.length * 7 > room ? `${name.slice(0, Math.max(1, Math.floor(room / 7) - 1))}…` : name);
+    svg.append('text').attr('class', 'axis-name').attr('x', 8).attr('y', 14).text(`↑ ${nameOf(y)}`);
+    svg.append('text').attr('class', 'axis-name').attr('text-anchor', 'end').attr('x', width - margin.right)
+      .attr('y', height - 44).text(`${nameOf(x)} →`);
+    columns.names.forEach((name, i) => {
+      if (i % every) return;
+      svg.append('text').attr('class', 'bar-name').attr('text-anchor', 'middle').attr('x', margin.left + (i + 0.5) * wide)
+        .attr('y', height - margin.bottom + 16).text(cut(name, every * wide)).append('title').text(name);
+    });
+    lines.names.forEach((name, j) => {
+      svg.append('text').attr('class', 'bar-name').attr('text-anchor', 'end').attr('x', margin.left - 8)
+        .attr('y', height - margin.bottom - (j + 0.5) * high + 4).text(cut(name, margin.left - 16)).append('title').text(name);
+    });
+    means.forEach((mean, cell) => {
+      const [i, j] = [cell % columns.names.length, Math.floor(cell / columns.names.length)];
+      const rect = svg.append('rect').attr('class', mean === null ? 'cell none' : 'cell')
+        .attr('x', margin.left + i * wide).attr('y', height - margin.bottom - (j + 1) * high)
+        .attr('width', Math.max(1, wide - 1)).attr('height', Math.max(1, high - 1));
+      if (mean !== null) rect.style('fill', color(mean));
+      rect.append('title').text(mean === null ? 'no row' : `${columns.names[i]}, ${lines.names[j]}: ${text(mean)}, ${cells[cell].length} rows`);
+    });
+    // The scale of colors.
+    const scale = svg.append('g').attr('transform', `translate(${margin.left} ${height - 30})`);
+    const steps = 40;
+    const length = Math.min(220, width - margin.left - 60);
+    for (const i of d3.range(steps)) {
+      scale.append('rect').attr('x', i * length / steps).attr('width', length / steps + 0.5).attr('height', 10)
+        .style('fill', d3.interpolateViridis(i / (steps - 1)));
+    }
+    scale.append('text').attr('class', 'bar-name').attr('y', 25).text(text(least));
+    scale.append('text').attr('class', 'bar-name').attr('y', 25).attr('x', length).attr('text-anchor', 'end').text(text(most));
+  }
+}
