@@ -60,9 +60,11 @@ int Report(const ReportOptions& options) {
 void AddReport(const Command& command) {
   const auto options = std::make_shared<ReportOptions>();
   command
-      .AddPositional("folder", options->paths,
-                     "Folders of finished runs (several are compared), the folder of one "
-                     "comparison, or the folder or .csv file of one study")
+      .AddPositional(
+          "folder", options->paths,
+          "Folders of finished runs (several are compared), the folder of one "
+          "comparison, or the folder or .csv file of a study (of two, of one study before and "
+          "after a change)")
       .Required()
       .TypeName("DIR...");
   command

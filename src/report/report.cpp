@@ -87,6 +87,11 @@ std::string PageTitle(const ordered_json& data) {
   return title;
 }
 
+/// Whether it is a study, and neither a run nor a comparison.
+bool IsStudyAlone(const fs::path& path) {
+  return !IsRunFolder(path) && !HasComparison(path) && StudyTable(path);
+}
+
 void RefuseOthers(const std::vector<fs::path>& paths) {
   for (auto path = paths.begin(); path != paths.end(); ++path) {
     std::error_code ignored;
@@ -99,10 +104,14 @@ void RefuseOthers(const std::vector<fs::path>& paths) {
                                .message = "not a finished run (no metrics.json), a comparison (no "
                                           "compare.json) or a study (no sweep.csv or .csv file)"});
     }
-    if (!IsRunFolder(*path) && paths.size() > 1) {
-      throw InputError(Problem{.file = path->string(),
-                               .message = fmt::format("a {} must be given alone",
-                                                      is_comparison ? "comparison" : "study")});
+    const bool are_two_studies =
+        paths.size() == 2 && IsStudyAlone(paths[0]) && IsStudyAlone(paths[1]);
+    if (!IsRunFolder(*path) && paths.size() > 1 && !are_two_studies) {
+      throw InputError(
+          Problem{.file = path->string(),
+                  .message = is_comparison ? "a comparison must be given alone"
+                                           : "a study must be given alone, or with the same study "
+                                             "before a change in front of it"});
     }
     const fs::path real = fs::weakly_canonical(*path);
     if (std::any_of(paths.begin(), path,
@@ -160,7 +169,9 @@ std::vector<std::string> ShortNames(const std::vector<fs::path>& folders) {
 
 ordered_json MakeReportData(const std::vector<fs::path>& paths, const ShownRuns& shown) {
   if (shown.folders.empty()) {
-    return {{"study", StudyData(*StudyTable(paths.front()))}};
+    const std::optional<fs::path> before =
+        paths.size() > 1 ? StudyTable(paths.front()) : std::nullopt;
+    return {{"study", StudyData(*StudyTable(paths.back()), before)}};
   }
   std::size_t plants = 0;
   for (const fs::path& folder : shown.folders) {

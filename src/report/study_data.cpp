@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "src/report/names.h"
 #include "src/report/numbers.h"
+#include "src/report/study_difference.h"
 #include "src/report/study_statistics.h"
 #include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/run_folder.h"
@@ -29,10 +29,8 @@ ordered_json CellJson(const std::string& cell) {
   if (cell.empty()) {
     return nullptr;
   }
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  const bool is_number = error == std::errc{} && end == cell.data() + cell.size();
-  return is_number && std::isfinite(value) ? ordered_json(Rounded(value)) : ordered_json(cell);
+  const std::optional<double> number = CellNumber(cell);
+  return number ? ordered_json(Rounded(*number)) : ordered_json(cell);
 }
 
 /// What stands in sweep.json beside the table; nothing when there is none.
@@ -93,9 +91,13 @@ std::optional<fs::path> StudyTable(const fs::path& path) {
   return fs::is_regular_file(table, ignored) ? std::optional(table) : std::nullopt;
 }
 
-ordered_json StudyData(const fs::path& file) {
+TextTable ReadStudyTable(const fs::path& file) {
   const bool is_own = file.filename() == run_folder::kSweepCsv;  // not a copy under another name
-  const TextTable table = ReadTextCsv(is_own ? run_folder::RequireFile(file) : file);
+  return ReadTextCsv(is_own ? run_folder::RequireFile(file) : file);
+}
+
+ordered_json StudyData(const fs::path& file, const std::optional<fs::path>& before) {
+  const TextTable table = ReadStudyTable(file);
   ordered_json study = StudyDescription(file);
   if (!study.contains("name")) {
     study["name"] = file.stem().string();
@@ -123,6 +125,13 @@ ordered_json StudyData(const fs::path& file) {
     }
   }
   study["statistics"] = StudyStatistics(table);
+  if (before) {
+    const TextTable other = ReadStudyTable(*before);
+    ColumnsJson(other, before->string());  // that it is one of a study
+    study["difference"] = StudyDifference(other, before->string(), table, file.string());
+    study["difference"]["before"] =
+        before->parent_path().filename() != "" ? before->parent_path().string() : before->string();
+  }
   return study;
 }
 

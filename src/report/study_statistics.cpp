@@ -22,13 +22,6 @@ constexpr std::size_t kFewestRows = 20;
 constexpr std::size_t kMostEffects = 12;     // classes of a parameter that a chart shows
 constexpr std::size_t kMostStaircase = 200;  // points of a distribution function
 
-std::optional<double> CellNumber(const std::string& cell) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  const bool is_number = error == std::errc{} && end == cell.data() + cell.size();
-  return is_number && std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
-
 ordered_json IntervalJson(const Interval& interval) {
   return {Rounded(interval.low), Rounded(interval.high)};
 }
@@ -218,6 +211,13 @@ class StudyAnalysis {
 };
 
 }  // namespace
+
+std::optional<double> CellNumber(const std::string& cell) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  const bool is_number = error == std::errc{} && end == cell.data() + cell.size();
+  return is_number && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
 
 bool HasPassed(const std::string& status) {
   return status == "passed" || status == "found" || status == "passes_at_to";

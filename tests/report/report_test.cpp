@@ -396,6 +396,56 @@ TEST(StudyData, OfAFewRowsHasNoStatistics) {
       ReportData({folder.Write("study.csv", BigStudy(18))})["study"]["statistics"].is_null());
 }
 
+TEST(StudyDifference, IsOfRowsThatSetTheSame) {
+  const TempFolder folder;
+  const fs::path before = folder.Write("before/sweep.csv",
+                                       "x,status,y,z,reason\n1,passed,1,7,\n2,failed,2,7,\n"
+                                       "3,failed,3,7,\n4,passed,,7,\n9,passed,9,7,\n");
+  // In another order, with other outputs, and without the last row.
+  const fs::path after = folder.Write("after/sweep.csv",
+                                      "x,status,w,y,reason\n3,passed,0,5,\n2,passed,0,2,\n"
+                                      "1,passed,0,4,\n4,failed,0,1,\n");
+  const ordered_json study = ReportData({before.parent_path(), after.parent_path()})["study"];
+  EXPECT_EQ(study["row_count"], 4);
+  const ordered_json& difference = study["difference"];
+  EXPECT_EQ(difference["before"], before.parent_path().string());
+  EXPECT_EQ(difference["rows"], 4);
+  EXPECT_EQ(difference["only_before"], 1);
+  EXPECT_EQ(difference["only_after"], 0);
+  ASSERT_EQ(difference["outputs"].size(), 2U);
+  const ordered_json& passed = difference["outputs"][0];
+  EXPECT_EQ(passed["name"], "passed");
+  EXPECT_EQ(passed["before"], 0.5);
+  EXPECT_EQ(passed["after"], 0.75);
+  EXPECT_EQ(passed["higher"], 2);
+  EXPECT_EQ(passed["lower"], 1);
+  EXPECT_EQ(passed["sign_test"], 1.0);  // 2 of 3 or 1 of 3 or more uneven: always
+  const ordered_json& y = difference["outputs"][1];
+  EXPECT_EQ(y["name"], "y");
+  EXPECT_EQ(y["count"], 3);                               // the fourth row had none
+  EXPECT_NEAR(y["mean"].get<double>(), 5.0 / 3.0, 1e-5);  // six digits
+  EXPECT_EQ(y["median"], 2.0);
+  EXPECT_EQ(y["equal"], 1);
+  EXPECT_EQ(y["sign_test"], 0.5);  // two of two
+}
+
+TEST(StudyDifference, NeedsTheSameKeysAndDistinctRows) {
+  const TempFolder folder;
+  const auto refusal = [&](const std::string& before, const std::string& after) {
+    const std::vector<fs::path> files{folder.Write("a.csv", before), folder.Write("b.csv", after)};
+    const std::string message = ErrorMessage([&] { ReportData(files); });
+    return std::regex_replace(message, std::regex(folder.path().string() + "/"), "");
+  };
+  const std::string one = "x,status\n1,passed\n";
+  EXPECT_EQ(refusal(one, "y,x,status\n1,1,passed\n"),
+            "b.csv: varies other keys (y, x) than a.csv (x)");
+  EXPECT_EQ(refusal(one, "x,status\n2,passed\n"),
+            "b.csv: has no row that sets the same as one of a.csv");
+  EXPECT_EQ(refusal("x,status\n1,passed\n1,failed\n", one),
+            "a.csv:3: sets the same as an earlier row, so that it cannot be compared with one of "
+            "another study");
+}
+
 TEST(ReportPage, HoldsTheDataWhateverIsInIt) {
   const TempFolder folder;
   const fs::path run = DriveCorner(folder, "run", "drive: {plants: [kinematic]}\n");

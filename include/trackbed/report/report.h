@@ -17,7 +17,8 @@ enum class FilmPlace {
 
 /// What the page shows, as it stands in it: metrics, verdicts, plans, logs and resolved scenarios
 /// of one or more run folders, or of those that one comparison (the folder of a compare.json) is
-/// of; or the table of one study (the folder of a sweep, or its CSV file).
+/// of; or the table of one study (the folder of a sweep, or its CSV file), also compared with that
+/// of the same study before a change, which is given first: rows that set the same, in pairs.
 ///
 /// Plants are compared at equal station as in trackbed/analysis/compare.h: those that a comparison
 /// has judged, with its verdict and tolerances, and each plant of the first of several runs with
@@ -28,9 +29,10 @@ enum class FilmPlace {
 /// every extreme value stays. SI units and radians, as in the files.
 ///
 /// Errors: InputError naming what is missing or broken, when a path is neither a run nor a
-/// comparison nor a study, when one of the latter is mixed with something else, when a run is given
-/// twice, and when a comparison is not of the logs that its runs have now.
-/// Cost: proportional to the size of the logs; 60 s on two plants take a fifth of a second.
+/// comparison nor a study, when one of the latter is mixed with something else, when two studies
+/// vary different keys or have no row in common, when a run is given twice, and when a comparison
+/// is not of the logs that its runs have now. Cost: proportional to the size of the logs; 60 s on
+/// two plants take a fifth of a second.
 nlohmann::ordered_json ReportData(const std::vector<std::filesystem::path>& paths);
 
 /// The whole page of some data. Text from files never becomes markup or script, whatever is in it:

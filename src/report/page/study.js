@@ -38,6 +38,7 @@ function drawStudy(study) {
 
   const outputs = of('output').filter((column) => column.name !== 'runs' && isNumber(column));
   const bus = d3.dispatch('choose');
+  if (study.difference) drawDifference(section('difference', `Against ${study.difference.before}`), { study, columns });
   const varied = parameters.filter((p) => new Set(rows.map((row) => row.cells[p.index])).size > 1);
   if (statistics && statistics.outputs.length && varied.length) {
     drawInfluence(section('influence', 'What matters'), { columns, statistics, nameOf });

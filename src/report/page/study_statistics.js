@@ -281,3 +281,33 @@ function drawStudyMap(parent, { parameters, outputs, rows, isGood, isNumber, nam
     scale.append('text').attr('class', 'bar-name').attr('y', 25).attr('x', length).attr('text-anchor', 'end').text(text(most));
   }
 }
+
+/** Paired differences of two studies: after less before, of rows that set the same. */
+function drawDifference(parent, { study, columns }) {
+  const { rows, only_before: before, only_after: after, outputs } = study.difference;
+  parent.append('p').attr('class', 'hint').text(`${rows} rows that set the same in both`
+    + (before || after ? `; ${before} are only there, ${after} only here` : '')
+    + '. Differences are this study less that one, with the 95 % interval of their mean; p: exact two-sided sign test.');
+  const table = parent.append('div').attr('class', 'panel scroll').append('table');
+  const head = table.append('thead').append('tr');
+  head.append('th').attr('class', 'text').text('Output');
+  for (const name of ['mean before', 'mean now', 'mean difference', '95 % interval', 'median difference', 'higher', 'lower', 'equal', 'p']) {
+    head.append('th').attr('class', 'brief').text(name);
+  }
+  for (const of of outputs) {
+    const column = columns.find(({ name }) => name === of.name);
+    const line = table.append('tbody').append('tr').attr('data-output', of.name);
+    if (column) withUnit(line.append('th'), column.label, column.unit);
+    else line.append('th').text('pass rate');
+    const value = (number, digits) => (column ? shown(number) : percent(number, digits));
+    line.append('td').text(value(of.before));
+    line.append('td').text(value(of.after));
+    line.append('td').text(value(of.mean));
+    line.append('td').text(of.interval ? `${value(of.interval[0])} to ${value(of.interval[1])}` : '–');
+    line.append('td').text(column ? shown(of.median) : '–');
+    line.append('td').text(shown(of.higher));
+    line.append('td').text(shown(of.lower));
+    line.append('td').text(shown(of.equal));
+    line.append('td').text(of.sign_test < 1e-4 ? '< 0.0001' : fixed(of.sign_test, 4));
+  }
+}
