@@ -108,7 +108,8 @@ struct Origin {
   bool& shipped;  ///< whether all that was read comes with Trackbed
 };
 
-/// As a file of a run folder, and of MuJoCo's list of files, may be called.
+/// The name with every character but letters, digits and "._-" replaced by "_": safe as the name of
+/// a file in a run folder and in MuJoCo's list of files.
 std::string PlainName(std::string name) {
   for (char& c : name) {
     const bool is_plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||

@@ -13,8 +13,8 @@ struct Interval {
   double high = 0.0;
 };
 
-/// The score interval of a probability of which `passed` in `count` independent trials were seen,
-/// without continuity correction (Wilson 1927). [0, 1] of no trial.
+/// The score interval of the probability of success, after `passed` successes in `count`
+/// independent trials, without continuity correction (Wilson 1927). [0, 1] if there were no trials.
 ///
 /// PreconditionError unless passed <= count and confidence is in (0, 1).
 Interval WilsonInterval(std::size_t passed, std::size_t count, double confidence);
@@ -70,7 +70,7 @@ struct IndexOptions {
 /// The intervals are those of a normal distribution with the standard deviation of bootstrap
 /// resamples (Efron and Tibshirani 1993), the same on every machine.
 ///
-/// Nothing when the output does not vary, or a parameter has as many classes as rows.
+/// An index is nullopt if the output does not vary or the parameter has as many classes as rows.
 /// PreconditionError unless all have as many rows. Cost: 2 ns per row, parameter and resample.
 std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
     const std::vector<Classes>& parameters, const std::vector<double>& output,
