@@ -160,6 +160,10 @@ class StudyReader {
     for (const OutputSpec& output : study.outputs) {
       outputs.push_back(output.path);
     }
+    if (outputs.empty()) {
+      return refuse(
+          fmt::format("'{}' must be one of the study's outputs, and it has none", keep.by));
+    }
     if (std::find(outputs.begin(), outputs.end(), keep.by) == outputs.end()) {
       return refuse("no output " + UnknownName(keep.by, outputs));
     }

@@ -237,6 +237,8 @@ TEST_F(Sampled, KeepRowsOfAnOutput) {
             "study.yaml:6:7: keep: 0 rows; must be from 1 to 1000");
   EXPECT_EQ(refusal("worst 3 by plan.lenght_m"),
             "study.yaml:6:7: keep: no output 'plan.lenght_m'; did you mean 'plan.length_m'?");
+  EXPECT_EQ(ErrorMessages("vary: {seed: [1]}\nkeep: worst 3 by x\n"),
+            "study.yaml:5:7: keep: 'x' must be one of the study's outputs, and it has none");
   EXPECT_EQ(refusal("failed", "bisect: {key: mission.speed, from: 1, to: 2, tolerance: 0.1}\n"),
             "study.yaml:6:7: keep: a row of a bisection has many runs; give none, or leave out "
             "bisect");
