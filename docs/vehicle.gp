@@ -43,6 +43,9 @@ set logscale xy
 set xrange [1.7:35]
 set yrange [0.0085:0.118]
 set xtics (2, 3, 4.5, 6, 8, 10, 13, 16, 20, 25, 30)
+# Half the step of the study's grid in log speed and in log curvature.
+half_v = log(30/2.)/39/2
+half_k = log(10.)/20/2
 curvatures = '("1/100" 0.01, "1/63" 1/63., "1/40" 0.025, "1/25" 0.04, "1/16" 1/16., "1/10" 0.1)'
 set datafile missing NaN
 in_panel(tyre, mu) = strcol("vehicle.tyre") eq tyre && abs(column("world.friction") - mu) < 1e-9
@@ -81,14 +84,16 @@ do for [what = 1:2] {
       if (mu eq "1" && tyre eq "contact") { set key bottom left } else { set key off }
       last_v = 1e9; last_e = 0
       plot sweep using (in_panel(tyre, real(mu)) ? column("mission.speed") : NaN):(1/column("plan.radius")) \
-             :(what == 1 ? wrong(0) : off_path(0)) with points pt 5 ps 4.6 lc palette notitle, \
+             :(column("mission.speed")*exp(-half_v)):(column("mission.speed")*exp(half_v)) \
+             :(exp(-half_k)/column("plan.radius")):(exp(half_k)/column("plan.radius")) \
+             :(what == 1 ? wrong(0) : off_path(0)) with boxxyerror fs solid noborder lc palette notitle, \
            [1.7:35] 0.5*friction*real(mu)*9.81/x**2 with lines lw 2 dt 3 lc rgb "#000000" title "0.5 µ g (Polack)", \
            $taghia using 1:2 with lines lw 2 dt 2 lc rgb "#1b7837" title "3 m/s (Taghia)", \
            $werner using 1:2 with lines lw 2 dt 4 lc rgb "#762a83" title "4.5 m/s (Werner)", \
            sweep using (in_panel(tyre, real(mu)) ? passes(column("mission.speed"), what == 1 ? wrong(0) : off_path(0), low) : NaN) \
-             :(1/column("plan.radius")) with linespoints lw 2 pt 7 ps 0.9 lc rgb "#08519c" title (what == 1 ? "5 % off" : "0.3 m off"), \
+             :(1/column("plan.radius")) with lines lw 3 lc rgb "#08519c" title (what == 1 ? "5 % off" : "0.3 m off"), \
            sweep using (in_panel(tyre, real(mu)) ? passes(column("mission.speed"), what == 1 ? wrong(0) : off_path(0), high) : NaN) \
-             :(1/column("plan.radius")) with linespoints lw 2 pt 9 ps 0.9 lc rgb "#67000d" title (what == 1 ? "10 % off" : "1 m off")
+             :(1/column("plan.radius")) with lines lw 3 lc rgb "#000000" title (what == 1 ? "10 % off" : "1 m off")
     }
   }
   unset multiplot

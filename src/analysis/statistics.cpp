@@ -4,13 +4,13 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <random>
 
 #include "trackbed/core/error.h"
+#include "trackbed/core/text_table.h"
 
 namespace trackbed {
 namespace {
@@ -29,13 +29,6 @@ double NormalReach(double confidence) {
 
 double MeanOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-std::optional<double> FiniteNumber(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_number = error == std::errc{} && end == text.data() + text.size();
-  return is_number && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 /// Epsilon squared of an output whose mean is about 0: 1 - (within / (n - B)) / (total / (n - 1)).
@@ -143,7 +136,7 @@ Classes Classify(const std::vector<std::string>& values, std::size_t most) {
     if (is_new) {
       classes.names.push_back(values[row]);
     }
-    if (const std::optional<double> number = FiniteNumber(values[row])) {
+    if (const std::optional<double> number = CellNumber(values[row])) {
       numbers.emplace_back(*number, row);
     }
   }

@@ -5,90 +5,25 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <iterator>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 #include "src/analysis/manifest.h"
 #include "src/analysis/parallel.h"
+#include "src/analysis/study_description.h"
 #include "trackbed/analysis/bisect.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/analysis/statistics.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/hash.h"
 
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-/// Keys of the parameters in the order of their columns.
-std::vector<std::string> ParameterKeys(const Study& study) {
-  std::vector<std::string> keys;
-  for (const Variation& variation : study.vary) {
-    keys.push_back(variation.key);
-  }
-  for (const auto& point : study.list) {
-    for (const Setting& setting : point) {
-      if (std::find(keys.begin(), keys.end(), setting.key) == keys.end()) {
-        keys.push_back(setting.key);
-      }
-    }
-  }
-  for (const DerivedKey& derived : study.derive) {
-    keys.push_back(derived.key);
-  }
-  return keys;
-}
-
-std::vector<std::string> Columns(const Study& study) {
-  std::vector<std::string> columns = ParameterKeys(study);
-  if (study.bisect) {
-    columns.push_back(study.bisect->key);
-  }
-  if (study.repeat > 1) {
-    columns.emplace_back("seed");
-  }
-  columns.emplace_back("status");
-  if (study.bisect) {
-    columns.emplace_back("runs");
-  }
-  for (const OutputSpec& output : study.outputs) {
-    columns.push_back(output.path);
-  }
-  columns.emplace_back("reason");
-  return columns;
-}
-
-/// A value of YAML as one of JSON: numbers and the like as such, all else as text.
-ordered_json SettingsJson(const std::string& value) {
-  ordered_json json = ordered_json::parse(CellText(value), nullptr, false);
-  return json.is_discarded() ? ordered_json(value) : json;
-}
-
-ordered_json SettingsJson(const std::vector<Setting>& settings) {
-  ordered_json json = ordered_json::object();
-  for (const Setting& setting : settings) {
-    json[setting.key] = SettingsJson(setting.value);
-  }
-  return json;
-}
-
-/// The number that a cell is, if it is one.
-std::optional<double> NumberIn(const std::string& cell) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  return !cell.empty() && error == std::errc{} && end == cell.data() + cell.size() &&
-                 std::isfinite(value)
-             ? std::optional(value)
-             : std::nullopt;
-}
 
 /// One row of the table.
 struct Row {
@@ -261,113 +196,6 @@ class RowMaker {
   const Study& study_;
   const RunScenarioOnce& run_;
 };
-
-ordered_json DistributionJson(const Variation& variation) {
-  const Distribution& distribution = *variation.distribution;
-  ordered_json json{{"distribution", ToString(distribution.kind)}};
-  switch (distribution.kind) {
-    case DistributionKind::kUniform:
-    case DistributionKind::kLogUniform:
-    case DistributionKind::kInteger:
-      json["from"] = distribution.from;
-      json["to"] = distribution.to;
-      break;
-    case DistributionKind::kNormal:
-      json["mean"] = distribution.mean;
-      json["deviation"] = distribution.deviation;
-      if (std::isfinite(distribution.min)) {
-        json["min"] = distribution.min;
-      }
-      if (std::isfinite(distribution.max)) {
-        json["max"] = distribution.max;
-      }
-      break;
-    case DistributionKind::kChoice:
-      if (variation.rows_of.empty()) {
-        for (const std::string& value : distribution.values) {
-          json["values"].push_back(SettingsJson(value));
-        }
-      } else {
-        json["file"] = variation.rows_of;
-        json["sha256"] = Sha256(fmt::format("{}", fmt::join(distribution.values, "\n")));
-      }
-      if (!distribution.weights.empty()) {
-        json["weights"] = distribution.weights;
-      }
-      break;
-  }
-  return json;
-}
-
-/// A list of values, or a section where it has more to say.
-ordered_json VariationJson(const Variation& variation) {
-  ordered_json json = ordered_json::array();
-  if (variation.distribution) {
-    json = DistributionJson(variation);
-  } else {
-    for (const Setting& setting : variation.alternatives) {
-      json.push_back(SettingsJson(setting.value));
-    }
-  }
-  if (!variation.when.empty()) {
-    if (json.is_array()) {
-      json = {{"values", json}};
-    }
-    for (const Condition& condition : variation.when) {
-      for (const std::string& value : condition.values) {
-        json["when"][condition.key].push_back(SettingsJson(value));
-      }
-    }
-  }
-  return json;
-}
-
-ordered_json DescribeStudy(const Study& study) {
-  // Whatever folder the study is run from.
-  const fs::path scenario = fs::absolute(study.scenario).lexically_normal();
-  ordered_json json{{"study", study.name}, {"scenario", scenario.string()}};
-  json["set"] = SettingsJson(study.set);
-  json["overrides"] = study.overrides;
-  json["vary"] = ordered_json::object();
-  for (const Variation& variation : study.vary) {
-    json["vary"][variation.key] = VariationJson(variation);
-  }
-  if (study.sample) {
-    json["sample"] = {{"count", study.sample->count},
-                      {"method", ToString(study.sample->method)},
-                      {"seed", study.sample->seed}};
-  }
-  for (const DerivedKey& derived : study.derive) {
-    json["derive"][derived.key] = derived.formula;
-  }
-  json["list"] = ordered_json::array();
-  for (const auto& point : study.list) {
-    json["list"].push_back(SettingsJson(point));
-  }
-  json["repeat"] = study.repeat;
-  if (study.bisect) {
-    json["bisect"] = {{"key", study.bisect->key},
-                      {"from", study.bisect->from},
-                      {"to", study.bisect->to},
-                      {"tolerance", study.bisect->tolerance}};
-  }
-  json["outputs"] = ordered_json::array();
-  for (const OutputSpec& output : study.outputs) {
-    json["outputs"].push_back(output.path);
-  }
-  if (study.keep.rows == KeepSpec::Rows::kHighest || study.keep.rows == KeepSpec::Rows::kLowest) {
-    json["keep"] = {{"count", study.keep.count},
-                    {"by", study.keep.by},
-                    {"highest", study.keep.rows == KeepSpec::Rows::kHighest}};
-  } else if (study.keep.rows != KeepSpec::Rows::kNone) {
-    json["keep"] = ToString(study.keep);
-  }
-  return json;
-}
-
-}  // namespace
-
-namespace {
 
 std::vector<std::string> Columns(const SweepRecords& records) {
   return records.header().at("columns").get<std::vector<std::string>>();
@@ -595,7 +423,7 @@ ordered_json SweepHeader(const StudyPoints& points,
                          const std::map<std::string, std::string>& inputs) {
   ordered_json json = DescribeStudy(points.study());
   json["rows_expected"] = CountRows(points);
-  json["columns"] = Columns(points.study());
+  json["columns"] = TableColumns(points.study());
   json["versions"] = Versions();
   if (!inputs.empty()) {
     json["inputs"] = inputs;
@@ -640,7 +468,7 @@ std::vector<std::size_t> WorstRows(const SweepRecords& records) {
   for (std::size_t row = 0; row < records.rows(); ++row) {
     const std::string cell =
         records.Has(row) ? FromJson(records.Read(row)).cells.at(column) : std::string();
-    if (const std::optional<double> value = NumberIn(cell)) {
+    if (const std::optional<double> value = CellNumber(cell)) {
       rows.emplace_back(highest ? -*value : *value, row);
     }
   }

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -18,17 +16,15 @@
 #include "src/cli/progress_bar.h"
 #include "src/cli/scenario_options.h"
 #include "src/cli/scenario_runs.h"
+#include "src/cli/sweep_folders.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/file.h"
 
 namespace trackbed::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kShardFolder = "shard_";
 
 struct SweepVerbOptions {
   std::string file;
@@ -112,70 +108,6 @@ Shard ShardOfTask() {
   return shard;
 }
 
-/// Where a shard has its files, below the folder of the study.
-fs::path FolderOfShard(const fs::path& study, const Shard& shard) {
-  return shard.count == 1
-             ? study
-             : study / fmt::format("{}{}_of_{}", kShardFolder, shard.index, shard.count);
-}
-
-fs::path FolderOfRow(const fs::path& study, std::size_t row) {
-  return study / "rows" / std::to_string(row);
-}
-
-/// Removes the run folders of rows.
-void RemoveKeptRows(const fs::path& study) {
-  std::error_code error;
-  std::vector<fs::path> folders;
-  for (fs::directory_iterator at(study / "rows", error), end; !error && at != end;
-       at.increment(error)) {
-    const std::string name = at->path().filename().string();
-    if (at->is_directory(error) && !at->is_symlink(error) &&
-        name.find_first_not_of("0123456789") == std::string::npos &&
-        fs::exists(at->path() / run_folder::kManifest, error)) {
-      folders.push_back(at->path());
-    }
-  }
-  for (const fs::path& folder : folders) {
-    fs::remove_all(folder, error);
-  }
-}
-
-/// Runs once more the rows with the worst values that the study keeps, those that are not there
-/// yet.
-void KeepWorstRows(const SweepRecords& records, const fs::path& out,
-                   const ScenarioOptions& options) {
-  const nlohmann::ordered_json& header = records.header();
-  if (!header.contains("keep") || !header["keep"].is_object()) {
-    return;
-  }
-  for (const std::size_t row : WorstRows(records)) {
-    const fs::path folder = FolderOfRow(out, row);
-    std::error_code ignored;
-    if (fs::exists(folder / run_folder::kMetricsJson, ignored)) {
-      continue;
-    }
-    ScenarioOptions own = options;
-    own.overrides = OverridesOfRow(records, row);
-    const auto [locked, result] =
-        DriveScenario({own.Read(header.at("scenario").get<std::string>()), folder}, options.quiet);
-    if (result.interrupted) {
-      return;
-    }
-    WriteRunFolder(result, locked);
-  }
-}
-
-void PrintRowsWithoutRun(const std::string& name, const SweepSummary& sweep) {
-  if (sweep.refused + sweep.errors > 0) {
-    std::fflush(stdout);  // behind what is said of all rows
-    fmt::print(stderr,
-               "{}: {} rows without a run: {} refused, {} with an internal error; see the "
-               "column reason\n",
-               name, sweep.refused + sweep.errors, sweep.refused, sweep.errors);
-  }
-}
-
 int Sweep(const SweepVerbOptions& options) {
   const Shard shard = options.shard.empty() ? ShardOfTask() : ParseShard(options.shard);
   const CheckedStudy checked =
@@ -243,186 +175,6 @@ int Sweep(const SweepVerbOptions& options) {
   return sweep.errors > 0 ? kInternal : sweep.complete() || stopped ? kOk : kInterrupted;
 }
 
-struct MergeOptions {
-  std::vector<std::string> folders;
-  std::string out;
-  bool partial = false;
-  bool quiet = false;
-};
-
-/// The records of a folder, or of the shards in it.
-std::vector<fs::path> RecordsIn(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-    const fs::path file = at->path() / run_folder::kSweepRecords;
-    if (at->path().filename().string().starts_with(kShardFolder) && fs::exists(file, error)) {
-      files.push_back(file);
-    }
-  }
-  if (files.empty()) {
-    files.push_back(folder / run_folder::kSweepRecords);
-    if (!fs::exists(files.back(), error)) {
-      throw InputError(Problem{.file = folder.string(),
-                               .message = fmt::format("has neither {} nor folders of shards",
-                                                      run_folder::kSweepRecords)});
-    }
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-int Merge(const MergeOptions& options) {
-  std::vector<fs::path> files;
-  for (const std::string& folder : options.folders) {
-    const std::vector<fs::path> own = RecordsIn(folder);
-    files.insert(files.end(), own.begin(), own.end());
-  }
-  const nlohmann::ordered_json header = SweepRecords(files.front()).header();
-  const fs::path out =
-      options.out.empty() ? fs::path(options.folders.front()) : fs::path(options.out);
-  const OutputFolder folder(out);
-  SweepRecords records(out / run_folder::kSweepRecords, header);
-  MergeRecords(files, records);
-  const std::string name = header.value("study", "");
-  if (records.count() < records.rows() && !options.partial) {
-    throw InputError(Problem{
-        .file = out.string(),
-        .message =
-            fmt::format("{} of {} rows are missing: {}; --partial merges what there is",
-                        records.rows() - records.count(), records.rows(), MissingRows(records))});
-  }
-  const SweepSummary sweep = WriteSweep(records, {}, folder);
-  if (!options.quiet) {
-    fmt::print("{}: {} of {} rows from {} files, {} passed, in {}\n", name, sweep.rows,
-               sweep.rows_expected, files.size(), sweep.passed,
-               (out / run_folder::kSweepCsv).string());
-  }
-  if (sweep.complete()) {
-    ScenarioOptions scenario;
-    scenario.quiet = options.quiet;
-    KeepWorstRows(records, out, scenario);
-  }
-  PrintRowsWithoutRun(name, sweep);
-  return kOk;
-}
-
-void AddMerge(const Command& command) {
-  const auto options = std::make_shared<MergeOptions>();
-  command
-      .AddPositional("folders", options->folders,
-                     "Output folders of shards, or folders that have them")
-      .Required()
-      .TypeName("DIR...");
-  command.AddOption("-o,--out", options->out, "Output folder (default: the first of these)")
-      .TypeName("DIR");
-  command.AddFlag("--partial", options->partial, "Merge although rows are missing");
-  command.AddFlag("-q,--quiet", options->quiet, "Print only problems");
-  command.OnRun([options] { return Merge(*options); });
-}
-
-struct SubmitOptions {
-  std::string file;
-  std::string out;
-  int tasks = 1;
-  std::vector<std::string> sbatch;
-  ScenarioOptions scenario;
-};
-
-/// A word as the shell takes it for that word.
-std::string Quoted(const std::string& word) {
-  std::string quoted = "'";
-  for (const char c : word) {
-    quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  }
-  return quoted + "'";
-}
-
-/// Hands a script to Slurm; its job's number.
-std::string Submit(const std::string& options, const fs::path& script) {
-  const std::string command =
-      fmt::format("sbatch --parsable {} {} 2>&1", options, Quoted(script.string()));
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command.c_str(), "r"), ::pclose);
-  if (!pipe) {
-    throw RunError("cannot run sbatch");
-  }
-  std::string said;
-  std::array<char, 256> part{};
-  while (std::fgets(part.data(), part.size(), pipe.get()) != nullptr) {
-    said += part.data();
-  }
-  said.erase(said.find_last_not_of("\n") + 1);
-  // "123", or "123;cluster".
-  const std::string job = said.substr(0, said.find(';'));
-  if (job.empty() || job.find_first_not_of("0123456789") != std::string::npos) {
-    throw RunError(fmt::format("sbatch did not take {}: {}", script.string(), said));
-  }
-  return job;
-}
-
-int SubmitStudy(const SubmitOptions& options) {
-  const Study study = options.scenario.ReadStudyFile(options.file);
-  const CheckedStudy checked = CheckStudy(study, /*all=*/false);
-  const fs::path out =
-      fs::absolute(options.out.empty() ? fs::path("out") / study.name : fs::path(options.out));
-  const std::string program = fs::read_symlink("/proc/self/exe").string();
-  std::string sweep = fmt::format(
-      "{} sweep {} --out {} --quiet --jobs \"${{SLURM_CPUS_PER_TASK:-1}}\"", Quoted(program),
-      Quoted(fs::absolute(options.file).string()), Quoted(out.string()));
-  for (const Override& text : study.overrides) {
-    sweep += " --set " + Quoted(text);
-  }
-  for (const fs::path& folder : study.asset_folders) {
-    sweep += " --allow-assets " + Quoted(fs::absolute(folder).string());
-  }
-  std::string sbatch;
-  for (const std::string& option : options.sbatch) {
-    sbatch += Quoted(option) + " ";
-  }
-  MakeFolder(out);
-  const auto write = [&](const char* name, const std::string& lines) {
-    WriteFileAtomically(out / name, "#!/bin/sh\n" + lines);
-    return out / name;
-  };
-  const fs::path array = write(
-      "array.sh", fmt::format("#SBATCH --job-name={}\n#SBATCH --array=1-{}\n#SBATCH --requeue\n"
-                              "#SBATCH --output=task_%a.log\n#SBATCH --chdir={}\nexec {}\n",
-                              study.name, options.tasks, out.string(), sweep));
-  const fs::path merge = write(
-      "merge.sh", fmt::format("#SBATCH --job-name={}_merge\n#SBATCH --output=merge.log\n"
-                              "#SBATCH --chdir={}\nexec {} sweep merge {} --quiet\n",
-                              study.name, out.string(), Quoted(program), Quoted(out.string())));
-  const std::string job = Submit(sbatch, array);
-  // The merging waits until all tasks have ended well, and goes when one has not.
-  const std::string last = Submit(
-      fmt::format("{}--dependency=afterok:{} --kill-on-invalid-dep=yes", sbatch, job), merge);
-  if (!options.scenario.quiet) {
-    fmt::print("{}: {} rows in {} tasks of job {}, then job {} merges them, in {}\n", study.name,
-               CountRows(checked.points), options.tasks, job, last, out.string());
-  }
-  return kOk;
-}
-
-void AddSubmit(const Command& command) {
-  const auto options = std::make_shared<SubmitOptions>();
-  command.AddPositional("study", options->file, "Study file").Required().TypeName("STUDY");
-  command.AddOption("--tasks", options->tasks, "Tasks of the array, each of which runs a shard")
-      .Required()
-      .Range(1, 100000)
-      .TypeName("N");
-  command
-      .AddOption("-o,--out", options->out,
-                 "Output folder, which all nodes have (default: out/<study>)")
-      .TypeName("DIR");
-  command
-      .AddOption("--sbatch", options->sbatch,
-                 "An option for sbatch, such as --sbatch=--time=2:00:00; may be repeated")
-      .OneWord()
-      .TypeName("OPTION");
-  options->scenario.AddTo(command);
-  command.OnRun([options] { return SubmitStudy(*options); });
-}
-
 }  // namespace
 
 void AddSweep(const Command& command) {
@@ -455,8 +207,9 @@ void AddSweep(const Command& command) {
                   "Begin anew; else a study that was interrupted goes on where it was");
   options->scenario.AddTo(command);
   command.OnRun([options] { return Sweep(*options); });
-  AddMerge(command.AddVerb("merge", "Put the rows of a study's shards into one table"));
-  AddSubmit(command.AddVerb("submit", "Hand a study to Slurm, as an array of tasks and a merge"));
+  AddSweepMerge(command.AddVerb("merge", "Put the rows of a study's shards into one table"));
+  AddSweepSubmit(
+      command.AddVerb("submit", "Hand a study to Slurm, as an array of tasks and a merge"));
 }
 
 }  // namespace trackbed::cli

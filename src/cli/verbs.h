@@ -34,4 +34,8 @@ void AddList(const Command& command);
 void AddModel(const Command& command);
 void AddDocs(const Command& command);
 
+// Verbs of `sweep`.
+void AddSweepMerge(const Command& command);
+void AddSweepSubmit(const Command& command);
+
 }  // namespace trackbed::cli

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -30,6 +32,14 @@ std::string CsvLine(const std::vector<std::string>& cells) {
   }
   csv += '\n';
   return csv;
+}
+
+std::optional<double> CellNumber(const std::string& cell) {
+  double value = 0.0;
+  const char* const end = cell.data() + cell.size();
+  const auto [read_to, error] = std::from_chars(cell.data(), end, value);
+  return error == std::errc{} && read_to == end && std::isfinite(value) ? std::optional(value)
+                                                                        : std::nullopt;
 }
 
 std::string ShortestText(double number) {

@@ -1,7 +1,6 @@
 #include "src/report/study_statistics.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -211,13 +210,6 @@ class StudyAnalysis {
 };
 
 }  // namespace
-
-std::optional<double> CellNumber(const std::string& cell) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  const bool is_number = error == std::errc{} && end == cell.data() + cell.size();
-  return is_number && std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
 
 bool HasPassed(const std::string& status) {
   return status == "passed" || status == "found" || status == "passes_at_to";

@@ -2,16 +2,12 @@
 
 #include <cstddef>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "trackbed/core/text_table.h"
 
 namespace trackbed {
-
-/// The number that a cell is, if it is a finite one.
-std::optional<double> CellNumber(const std::string& cell);
 
 /// Whether a row with this status is a success.
 bool HasPassed(const std::string& status);

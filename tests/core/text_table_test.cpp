@@ -64,6 +64,14 @@ TEST(TextTable, RefusesRowsOfAnotherWidth) {
   EXPECT_THROW(TextTable({}), InternalError);
 }
 
+TEST(CellNumber, IsTheWholeCellOrNothing) {
+  EXPECT_EQ(CellNumber("-1.5e3"), -1500.0);
+  EXPECT_EQ(CellNumber(ShortestText(1.0 / 3.0)), 1.0 / 3.0);
+  for (const char* text : {"", " ", "1 m", " 1", "1,5", "nan", "inf", "-inf", "1e999", "0x10"}) {
+    EXPECT_EQ(CellNumber(text), std::nullopt) << text;
+  }
+}
+
 TEST(FormatDistinct, TakesTheDigitsThatItTakes) {
   using Texts = std::pair<std::string, std::string>;
   EXPECT_EQ(FormatDistinct(0.1, 0.12345678), Texts("0.1", "0.1235"));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,9 @@ std::string ShortestText(double number);
 
 /// Two numbers as text with four digits, or with as many as are needed for them to differ.
 std::pair<std::string, std::string> FormatDistinct(double first, double second);
+
+/// The finite number that a cell is from its first to its last character, if it is one.
+std::optional<double> CellNumber(const std::string& cell);
 
 /// A line of a CSV file, in RFC 4180's quotes where a cell holds a comma, a quote or a line end.
 std::string CsvLine(const std::vector<std::string>& cells);
