@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -47,13 +48,16 @@ std::vector<ManeuverMetric> ListMethodMetrics(const ManeuverOptions& options) {
 /// Whatever else was measured, a car on its side has failed.
 void CheckRoll(const RunLog& log, ManeuverMetrics& metrics) {
   constexpr double kTippedOver = 0.25 * kPi;  // far beyond where a car comes back by itself [rad]
-  for (const LogRow& row : log.rows) {
-    if (std::abs(row.state.roll) > kTippedOver) {
-      metrics.passed = false;
-      metrics.missing += metrics.missing.empty() ? "" : "; ";
-      metrics.missing += fmt::format("the car rolls over at {:.2f} s", row.state.time);
-      return;
-    }
+  const auto tipped = std::find_if(log.rows.begin(), log.rows.end(), [](const LogRow& row) {
+    return std::abs(row.state.roll) > kTippedOver;
+  });
+  const bool rolled_over = log.status == DriveStatus::kRolledOver;
+  if (rolled_over || tipped != log.rows.end()) {
+    metrics.passed = false;
+    metrics.missing += metrics.missing.empty() ? "" : "; ";
+    metrics.missing +=
+        rolled_over ? fmt::format("the car rolls over at {:.2f} s", log.rows.back().state.time)
+                    : fmt::format("the car leans by 45 degrees at {:.2f} s", tipped->state.time);
   }
 }
 

@@ -44,7 +44,12 @@ Read At(T Part::*value, double Part::*s, double Part::*t) {
 }
 
 Reading Status(const PlantMetrics& metrics) {
-  return MetricReading{std::string(ToString(metrics.status)), {.span = MetricSpan::kEnd}};
+  // The end of a collision is not its moment: the run goes on for a second.
+  const bool collided = metrics.status == DriveStatus::kCollided;
+  return MetricReading{std::string(ToString(metrics.status)),
+                       {.span = collided ? MetricSpan::kMoment : MetricSpan::kEnd,
+                        .s = collided ? metrics.contact_s : metrics.end_s,
+                        .t = collided ? metrics.contact_t : metrics.time}};
 }
 
 Read TextUnlessEmpty(std::string PlantMetrics::*text) {
@@ -88,7 +93,7 @@ std::vector<MetricEntry> OwnMetrics() {
   using C = ClearanceMetrics;
   constexpr MetricSpan kEnd = MetricSpan::kEnd;
   return {
-      {"status", "End status", "", Status},
+      Located({"status", "End status", "", Status}),
       {"cause", "Cause of the end", "", TextUnlessEmpty(&P::cause)},
       {"distance", "Distance traveled", "m", Of(&P::distance, kEnd)},
       Headline({"time", "Time", "s", Of(&P::time, kEnd)}),

@@ -73,6 +73,17 @@ ClearanceMetrics MeasureClearance(const RunLog& log) {
   return metrics;
 }
 
+void PlaceContact(const RunLog& log, PlantMetrics& metrics) {
+  if (!log.contact_time) {
+    return;
+  }
+  metrics.contact_t = *log.contact_time;
+  const auto row = std::find_if(log.rows.begin(), log.rows.end(), [&](const LogRow& own) {
+    return own.state.time >= metrics.contact_t;
+  });
+  metrics.contact_s = row == log.rows.end() ? metrics.end_s : RowStation(*row);
+}
+
 /// Root mean square of the measured steering's mean rate in each control period.
 double SteeringRateRms(const RunLog& log, double control_period) {
   double squares = 0.0;
@@ -143,6 +154,7 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
   metrics.distance = log.rows.back().state.distance;
   metrics.time = log.rows.back().state.time;
   metrics.end_s = RowStation(log.rows.back());
+  PlaceContact(log, metrics);
   const auto window = static_cast<std::size_t>(std::max(1.0, std::round(kWindow / control_period)));
   MeasureLateralAcceleration(log, window, metrics);
   MeasureSteering(log, window, metrics);

@@ -9,6 +9,9 @@ void MeasureLateralAcceleration(const RunLog& log, std::size_t window, PlantMetr
   const std::size_t rows = std::min(window + 1, log.rows.size());
   double sum = 0.0;
   for (std::size_t i = 0; i < log.rows.size(); ++i) {
+    if (log.contact_time && log.rows[i].state.time > *log.contact_time) {
+      break;  // it is the obstacle that pushes
+    }
     sum += log.rows[i].state.lateral_acceleration;
     if (i >= rows) {
       sum -= log.rows[i - rows].state.lateral_acceleration;

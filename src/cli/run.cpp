@@ -71,8 +71,13 @@ void PrintManeuver(const ManeuverMetrics& maneuver) {
 
 void PrintSummary(const RunResult& result) {
   for (const PlantMetrics& plant : result.metrics) {
-    fmt::print("  {:<10} {} after {:.2f} s, {:.2f} m", plant.plant, ToString(plant.status),
-               plant.time, plant.distance);
+    fmt::print("  {:<10} ", plant.plant);
+    if (plant.status == DriveStatus::kCollided) {
+      fmt::print("{} at {:.2f} s, followed until {:.2f} s, {:.2f} m", ToString(plant.status),
+                 plant.contact_t, plant.time, plant.distance);
+    } else {
+      fmt::print("{} after {:.2f} s, {:.2f} m", ToString(plant.status), plant.time, plant.distance);
+    }
     if (plant.tracking) {
       const TrackingMetrics& tracking = *plant.tracking;
       fmt::print("; cross-track error max {:.4f} m, rms {:.4f} m; goal distance {:.4f} m",

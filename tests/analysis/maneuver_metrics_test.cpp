@@ -242,11 +242,17 @@ TEST(EveryManeuver, FailsACarThatTurnsOver) {
     row.state.speed = 20.0;
     row.state.roll = t < 2.0 ? 0.7 : -0.8;  // pi/4 is in between
   });
+  RunLog rolled = log;
+  rolled.status = DriveStatus::kRolledOver;  // ended the run, and so at its last row
+  const std::string end = fmt::format("the car rolls over at {:.2f} s", log.rows.back().state.time);
   for (const ManeuverEntry& entry : Maneuvers()) {
     const ManeuverMetrics metrics = Evaluated(entry.defaults, log);
     EXPECT_EQ(metrics.method, entry.name);
     EXPECT_EQ(metrics.passed, false) << entry.name;
-    EXPECT_THAT(metrics.missing, testing::EndsWith("the car rolls over at 2.00 s"));
+    EXPECT_THAT(metrics.missing, testing::EndsWith("the car leans by 45 degrees at 2.00 s"));
+    const ManeuverMetrics over = Evaluated(entry.defaults, rolled);
+    EXPECT_EQ(over.passed, false) << entry.name;
+    EXPECT_THAT(over.missing, testing::EndsWith(end));
   }
 }
 

@@ -253,5 +253,32 @@ TEST(SideslipMax, IsTheLargestOfTheMovingCarBeforeAContact) {
   EXPECT_DOUBLE_EQ(json["sideslip_max_t"].get<double>(), 4.0);
 }
 
+TEST(Status, IsOfTheContactAndNotOfTheEnd) {
+  RunLog log{.plant = "made_up", .configurations = Table({"t_s"})};
+  for (int i = 0; i <= 400; ++i) {
+    LogRow row;
+    row.state.time = 0.02 * i;
+    row.state.distance = 0.06 * i;
+    row.state.speed = 3.0;
+    row.state.lateral_acceleration = i > 350 ? 40.0 : 0.5;  // the impact at 7 s
+    log.rows.push_back(row);
+  }
+  VehicleParams vehicle;
+  vehicle.wheelbase = 2.5;
+  const auto measured = [&] {
+    return ToJson(Measure(log, Plan{}, vehicle, 0.02, StationSource::kProjection));
+  };
+  log.status = DriveStatus::kArrived;
+  EXPECT_DOUBLE_EQ(measured()["status_t"].get<double>(), 8.0);
+  EXPECT_DOUBLE_EQ(measured()["status_s"].get<double>(), 24.0);
+  log.status = DriveStatus::kCollided;
+  log.contact_time = 7.005;  // between rows: the station is that of the next one
+  EXPECT_DOUBLE_EQ(measured()["status_t"].get<double>(), 7.005);
+  EXPECT_DOUBLE_EQ(measured()["status_s"].get<double>(), 0.06 * 351);
+  EXPECT_DOUBLE_EQ(measured()["time"].get<double>(), 8.0);
+  // The row of 7.00 s is the last before the contact.
+  EXPECT_DOUBLE_EQ(measured()["lateral_acceleration_max"].get<double>(), 0.5);
+}
+
 }  // namespace
 }  // namespace trackbed

@@ -56,12 +56,14 @@ struct TurnMetrics {
 struct PlantMetrics {
   std::string plant;
   DriveStatus status = DriveStatus::kArrived;
-  std::string cause;      ///< of a status that a fault of the physics has: RunLog::cause
-  double distance = 0.0;  ///< driven [m]
-  double time = 0.0;      ///< simulated [s]
-  double end_s = 0.0;     ///< where it ended [m]
+  double contact_s = 0.0;  ///< where the car first touched an obstacle, if it collided [m]
+  double contact_t = 0.0;  ///< when, from the start of the run [s]
+  std::string cause;       ///< of a status that a fault of the physics has: RunLog::cause
+  double distance = 0.0;   ///< driven [m]
+  double time = 0.0;       ///< simulated [s]
+  double end_s = 0.0;      ///< where it ended [m]
   /// Largest magnitude of the center of gravity's lateral acceleration, mean over any 0.1 s
-  /// [m/s^2]: over the rows of the log within it.
+  /// [m/s^2]: over the rows of the log within it, up to the first contact with an obstacle.
   double lateral_acceleration_max = 0.0;
   double lateral_acceleration_max_s = 0.0;  ///< where, the middle of that 0.1 s [m]
   double lateral_acceleration_max_t = 0.0;  ///< when, likewise [s]
