@@ -52,3 +52,7 @@ trackbed_find_script(D3_LICENSE node-d3 copyright /usr/share/doc/node-d3)
 trackbed_find_script(DYGRAPHS_SCRIPT libjs-dygraphs dygraph.min.js /usr/share/javascript/dygraphs)
 trackbed_find_script(DYGRAPHS_STYLE libjs-dygraphs dygraph.min.css /usr/share/javascript/dygraphs)
 trackbed_find_script(DYGRAPHS_LICENSE libjs-dygraphs copyright /usr/share/doc/libjs-dygraphs)
+trackbed_find_script(THREE_SCRIPT libjs-three three.min.js /usr/share/javascript/three)
+trackbed_find_script(ORBIT_CONTROLS_SCRIPT libjs-three OrbitControls.js
+  /usr/share/javascript/three/examples/js/controls)
+trackbed_find_script(THREE_LICENSE libjs-three copyright /usr/share/doc/libjs-three)

@@ -39,8 +39,9 @@ put(style "<style>${style}</style>")
 
 file(READ ${D3_LICENSE} d3_license)
 file(READ ${DYGRAPHS_LICENSE} dygraphs_license)
+file(READ ${THREE_LICENSE} three_license)
 put(licenses
-    "<script type=\"text/plain\" id=\"licenses\">d3\n\n${d3_license}\n\ndygraphs\n\n${dygraphs_license}</script>"
+    "<script type=\"text/plain\" id=\"licenses\">d3\n\n${d3_license}\n\ndygraphs\n\n${dygraphs_license}\n\nthree.js\n\n${three_license}</script>"
 )
 
 file(READ ${D3_SCRIPT} d3)
@@ -50,14 +51,20 @@ allow(dygraphs_source "${dygraphs}")
 put(libraries "<script>${d3}</script>\n<script>${dygraphs}</script>")
 
 set(script "\n\"use strict\";\n")
-foreach(part IN ITEMS base map charts series differences film tables study_statistics study main)
+foreach(part IN ITEMS base map charts phase_planes series differences film tables answer vehicle scenery replay study_statistics study main)
   file(READ ${PAGE}/${part}.js text)
   string(APPEND script "${text}\n")
 endforeach()
 allow(script_source "${script}")
 put(script "<script>${script}</script>")
+# Only reports of runs have a scene.
+file(READ ${THREE_SCRIPT} three)
+file(READ ${ORBIT_CONTROLS_SCRIPT} orbit_controls)
+allow(three_source "${three}")
+allow(orbit_controls_source "${orbit_controls}")
+set(scene_libraries "<script>${three}</script>\n<script>${orbit_controls}</script>\n")
 put("style source" "${style_source}")
-put("script sources" "${d3_source} ${dygraphs_source} ${script_source}")
+put("script sources" "${d3_source} ${dygraphs_source} ${three_source} ${orbit_controls_source} ${script_source}")
 
 # What changes from report to report divides the page.
 foreach(cut IN ITEMS title data)
@@ -81,6 +88,7 @@ namespace trackbed {
 
 const std::string_view kPageBeforeTitle = R\"${delimiter}(${before_title})${delimiter}\";
 const std::string_view kPageBeforeData = R\"${delimiter}(${before_data})${delimiter}\";
+const std::string_view kSceneLibraries = R\"${delimiter}(${scene_libraries})${delimiter}\";
 const std::string_view kPageAfterData = R\"${delimiter}(${after_data})${delimiter}\";
 
 }  // namespace trackbed

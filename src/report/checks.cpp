@@ -18,9 +18,9 @@ std::string AskedText(const ordered_json& check) {
   const std::string relation = check.at("relation").get<std::string>();
   const ordered_json& bound = check.at("bound");
   const char* sign = relation == "at_most" ? "≤" : relation == "at_least" ? "≥" : "=";
-  // Ten digits: what was typed, and not the rounding of what was computed.
+  // Six digits, as metrics are shown: what was computed is known no better.
   return fmt::format("{} {}", sign,
-                     bound.is_number_float() ? fmt::format("{:.10g}", bound.get<double>())
+                     bound.is_number_float() ? fmt::format("{:.6g}", bound.get<double>())
                      : bound.is_string()     ? bound.get<std::string>()
                                              : bound.dump());
 }
@@ -35,10 +35,14 @@ ordered_json CheckRows(const ordered_json& verdict) {
     const bool is_pair = plant.find(" – ") != std::string::npos;
     const ShownName name = is_pair ? NameOfComparison(metric) : NameOfMetric(metric);
     rows.push_back({{"of", plant},
+                    {"metric", metric},
                     {"what", name.label},
                     {"unit", name.unit},
+                    {"relation", check.at("relation")},
+                    {"bound", RoundedLeaf(check.at("bound"))},
                     {"asked", AskedText(check)},
                     {"found", RoundedLeaf(check.at("value"))},
+                    {"t", RoundedLeaf(check.at("time"))},
                     {"met", check.at("met").get<bool>()}});
   }
   return rows;

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 /// Rows of all curves together: a chart has no more pixels, and ten pairs are much.
-constexpr std::size_t kCurveRows = 6000;
+constexpr std::size_t kCurveRows = 3000;
 
 [[noreturn]] void Unfit(const fs::path& file, const std::string& message) {
   throw InputError(Problem{.file = file.string(), .message = message + "; compare the runs again"});
@@ -80,6 +80,15 @@ void TakeNamesakes(const std::vector<std::vector<FinishedDrive>>& drives,
           pairs.push_back({{0, first.trace.name}, {run, second.trace.name}, {}, {}});
         }
       }
+    }
+  }
+}
+
+/// Each two plants of one run.
+void TakePlants(const std::vector<FinishedDrive>& drives, std::vector<Pair>& pairs) {
+  for (std::size_t second = 1; second < drives.size(); ++second) {
+    for (std::size_t first = 0; first < second; ++first) {
+      pairs.push_back({{0, drives[first].trace.name}, {0, drives[second].trace.name}, {}, {}});
     }
   }
 }
@@ -203,8 +212,12 @@ ordered_json ComparisonData(const std::vector<fs::path>& runs,
     }
   }
   std::vector<std::vector<FinishedDrive>> drives;
-  if (!pairs.empty() || runs.size() > 1) {
+  const bool of_plants = pairs.empty() && runs.size() == 1 && PlantCount(runs.front()) > 1;
+  if (!pairs.empty() || runs.size() > 1 || of_plants) {
     std::transform(runs.begin(), runs.end(), std::back_inserter(drives), ReadRunFolder);
+  }
+  if (of_plants) {
+    TakePlants(drives.front(), pairs);
   }
   ordered_json left_out = ordered_json::array();
   if (!judged) {

@@ -8,6 +8,8 @@ namespace trackbed {
 
 extern const std::string_view kPageBeforeTitle;
 extern const std::string_view kPageBeforeData;
+extern const std::string_view
+    kSceneLibraries;  ///< of pages with a scene, before what is after the data
 extern const std::string_view kPageAfterData;
 
 }  // namespace trackbed

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/archive/iterators/base64_from_binary.hpp>
-#include <boost/archive/iterators/transform_width.hpp>
 #include <cctype>
 #include <nlohmann/json.hpp>
 
+#include "src/report/base64.h"
 #include "src/report/comparison_data.h"
 #include "src/report/page_text.h"
 #include "src/report/readable.h"
@@ -26,8 +25,8 @@ constexpr std::size_t kLargestFilm = std::size_t{128}
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Rows of all logs together: some 2 MB.
-constexpr std::size_t kRows = 20000;
+/// Rows of all logs together: some 1 MB.
+constexpr std::size_t kRows = 7500;
 
 std::string Escaped(const std::string& text) {
   std::string markup;
@@ -51,15 +50,6 @@ std::string ScriptJson(const ordered_json& json) {
     }
   }
   return safe;
-}
-
-std::string Base64(const std::string& bytes) {
-  using boost::archive::iterators::base64_from_binary;
-  using boost::archive::iterators::transform_width;
-  using Encoder = base64_from_binary<transform_width<const char*, 6, 8>>;
-  std::string text(Encoder(bytes.data()), Encoder(bytes.data() + bytes.size()));
-  text.append((3 - bytes.size() % 3) % 3, '=');
-  return text;
 }
 
 /// A path as a relative reference: what is not plainly a name is percent-encoded.
@@ -215,9 +205,13 @@ ordered_json ReportData(const std::vector<fs::path>& paths) {
 
 std::string ReportPage(const ordered_json& data) {
   const ordered_json shown = WithReadableTexts(data);
-  return fmt::format("{}{}{}<script type=\"application/json\" id=\"data\">{}</script>\n{}",
+  const ordered_json runs = shown.value("runs", ordered_json::array());
+  const bool has_scene = std::any_of(
+      runs.begin(), runs.end(), [](const ordered_json& run) { return run.contains("vehicle"); });
+  return fmt::format("{}{}{}<script type=\"application/json\" id=\"data\">{}</script>\n{}{}",
                      kPageBeforeTitle, Escaped(PageTitle(shown)), kPageBeforeData,
-                     ScriptJson(shown), kPageAfterData);
+                     ScriptJson(shown), has_scene ? kSceneLibraries : std::string_view(),
+                     kPageAfterData);
 }
 
 void WriteReport(const std::vector<fs::path>& paths, const fs::path& file, FilmPlace film) {

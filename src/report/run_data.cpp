@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -13,6 +14,7 @@
 #include "src/report/names.h"
 #include "src/report/numbers.h"
 #include "src/report/paths.h"
+#include "src/report/scene_data.h"
 #include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
@@ -37,18 +39,21 @@ struct Channel {
   bool needed;
 };
 
-constexpr std::array kChannels{Channel{"t", "t_s", true},
-                               Channel{"x", "x_m", true},
-                               Channel{"y", "y_m", true},
-                               Channel{"yaw", "yaw_rad", true},
-                               Channel{"speed", "speed_mps", true},
-                               Channel{"steering_command", "steering_command_rad", true},
-                               Channel{"steering", "steering_rad", true},
-                               Channel{"yaw_rate", "yaw_rate_radps", false},
-                               Channel{"lateral_acceleration", "lateral_acceleration_mps2", false},
-                               Channel{"cross_track", "cross_track_m", false},
-                               Channel{"heading_error", "heading_error_rad", false},
-                               Channel{"clearance", "clearance_m", false}};
+constexpr std::array kChannels{
+    Channel{"t", "t_s", true},
+    Channel{"x", "x_m", true},
+    Channel{"y", "y_m", true},
+    Channel{"yaw", "yaw_rad", true},
+    Channel{"speed", "speed_mps", true},
+    Channel{"steering_command", "steering_command_rad", true},
+    Channel{"steering", "steering_rad", true},
+    Channel{"yaw_rate", "yaw_rate_radps", false},
+    Channel{"lateral_acceleration", "lateral_acceleration_mps2", false},
+    Channel{"cross_track", "cross_track_m", false},
+    Channel{"heading_error", "heading_error_rad", false},
+    Channel{"sideslip", "sideslip_rad", false},
+    Channel{"longitudinal_acceleration", "longitudinal_acceleration_mps2", false},
+    Channel{"clearance", "clearance_m", false}};
 
 /// x and y of a path.
 ordered_json LineJson(const Table& table, const std::vector<std::size_t>& rows) {
@@ -61,16 +66,21 @@ ordered_json PlanLine(const fs::path& file) {
   return LineJson(table, RowsToShow(table, kMaxRows));
 }
 
-/// One plan after the other, each row with the time from which its plan holds.
+/// One plan after the other, each row with the time from which its plan holds; of all of them
+/// together at most so many points, evenly chosen.
 ordered_json NewPlans(const fs::path& file) {
+  constexpr std::size_t kMostPoints = 6000;
   const Table table = ReadCsvExcerpt(file, {"from_t_s", "x_m", "y_m"}).table;
   const std::vector<double> from = table.Column("from_t_s");
+  const std::size_t step = from.size() / kMostPoints + 1;
   ordered_json plans = ordered_json::array();
   for (std::size_t row = 0; row < from.size();) {
     std::vector<std::size_t> rows;
     const double begin = from[row];
     for (; row < from.size() && from[row] == begin; ++row) {
-      rows.push_back(row);
+      if (rows.empty() || row % step == 0 || row + 1 == from.size() || from[row + 1] != begin) {
+        rows.push_back(row);
+      }
     }
     plans.push_back(LineJson(table, rows));
     plans.back()["from"] = Rounded(begin);
@@ -106,8 +116,24 @@ ordered_json LogJson(const fs::path& file, std::size_t row_limit) {
   return json;
 }
 
-ordered_json PlantJson(const fs::path& folder, const std::string& plant, std::size_t row_limit) {
+/// How a run ended, and when: {status, t, s, cause}.
+ordered_json EndJson(const ordered_json& metrics) {
+  ordered_json json{{"status", metrics.at("status").get<std::string>()}};
+  for (const auto& [name, key] : {std::pair{"t", "status_t"}, std::pair{"s", "status_s"}}) {
+    if (metrics.contains(key)) {
+      json[name] = Rounded(metrics.at(key).get<double>());
+    }
+  }
+  if (metrics.contains("cause")) {
+    json["cause"] = metrics.at("cause").get<std::string>();
+  }
+  return json;
+}
+
+ordered_json PlantJson(const fs::path& folder, const std::string& plant,
+                       const ordered_json& metrics, std::size_t row_limit) {
   ordered_json json{{"name", plant},
+                    {"end", EndJson(metrics)},
                     {"log", LogJson(folder / run_folder::LogCsv(plant), row_limit)}};
   if (const fs::path plans = folder / run_folder::NewPlansCsv(plant); fs::exists(plans)) {
     json["new_plans"] = NewPlans(run_folder::RequireFile(plans));
@@ -124,11 +150,14 @@ ordered_json BoxJson(const OrientedBox& box) {
 }
 
 ordered_json WorldJson(const World& world) {
-  ordered_json json{{"obstacles", ordered_json::array()}, {"patches", ordered_json::array()}};
+  ordered_json json{{"friction", Rounded(world.friction)},
+                    {"obstacles", ordered_json::array()},
+                    {"patches", ordered_json::array()}};
   for (const Obstacle& obstacle : world.obstacles) {
     ordered_json box = BoxJson(obstacle.footprint);
     box["vx"] = Rounded(obstacle.velocity.x());
     box["vy"] = Rounded(obstacle.velocity.y());
+    box["height"] = Rounded(obstacle.height);
     json["obstacles"].push_back(box);
   }
   for (const FrictionPatch& patch : world.friction_patches) {
@@ -144,7 +173,10 @@ ordered_json CarJson(const fs::path& model) {
   return {{"name", car.name},
           {"length", Rounded(car.length)},
           {"width", Rounded(car.width)},
-          {"rear_overhang", Rounded(car.rear_overhang)}};
+          {"rear_overhang", Rounded(car.rear_overhang)},
+          {"wheelbase", Rounded(car.wheelbase)},
+          {"steering_limit", Rounded(car.steering_limit)},
+          {"grip_acceleration", Rounded(car.friction_lateral * kGravity)}};
 }
 
 /// How the plan was found, the gates it leads through, and its line.
@@ -173,6 +205,35 @@ ordered_json PlanJson(const fs::path& folder) {
   return plan;
 }
 
+/// What the page draws the run from in three dimensions, where all plants have their states.
+void AddScene(const fs::path& folder, const World& world, std::size_t row_limit,
+              ordered_json& run) {
+  for (const ordered_json& plant : run["plants"]) {
+    if (!fs::exists(folder / run_folder::StateCsv(plant.at("name").get<std::string>()))) {
+      return;
+    }
+  }
+  const ordered_json vehicle = VehicleJson(folder / run_folder::kModelXml);
+  double low_x = 0.0;
+  double low_y = 0.0;
+  double high_x = 0.0;
+  double high_y = 0.0;
+  for (ordered_json& plant : run["plants"]) {
+    plant["motion"] = MotionJson(folder / run_folder::StateCsv(plant.at("name").get<std::string>()),
+                                 vehicle, row_limit);
+    for (const double x : plant["log"]["x"].get<std::vector<double>>()) {
+      low_x = std::min(low_x, x);
+      high_x = std::max(high_x, x);
+    }
+    for (const double y : plant["log"]["y"].get<std::vector<double>>()) {
+      low_y = std::min(low_y, y);
+      high_y = std::max(high_y, y);
+    }
+  }
+  run["vehicle"] = vehicle;
+  run["ground"] = GroundJson(world, low_x, low_y, high_x, high_y);
+}
+
 }  // namespace
 
 bool IsRunFolder(const fs::path& folder) {
@@ -195,13 +256,14 @@ ordered_json RunData(const fs::path& folder, const std::string& name, std::size_
                      {"versions", metrics.at("versions").get<std::map<std::string, std::string>>()},
                      {"verdict", VerdictJson(metrics.at("verdict"))}};
     run["expectations"] = CheckRows(metrics.at("verdict"));
-    run["world"] = WorldJson(ReadWorld(scenario));
+    const World world = ReadWorld(scenario);
+    run["world"] = WorldJson(world);
     if (fs::exists(folder / run_folder::kPlanJson) || fs::exists(folder / run_folder::kPlanCsv)) {
       run["plan"] = PlanJson(folder);
     }
     run["plants"] = ordered_json::array();
     for (const auto& [plant, entry] : metrics.at("plants").items()) {
-      run["plants"].push_back(PlantJson(folder, plant, row_limit));
+      run["plants"].push_back(PlantJson(folder, plant, entry, row_limit));
       run["plants"].back()["numbers"] = NumbersJson(entry, NameOfMetric);
     }
     run["between"] = ordered_json::array();
@@ -212,6 +274,7 @@ ordered_json RunData(const fs::path& folder, const std::string& name, std::size_
           {{"plants", plants}, {"numbers", NumbersJson(pair, NameOfComparison)}});
     }
     run["resolved"] = ReadFile(scenario, kLargestScenario);
+    AddScene(folder, world, row_limit / 2, run);
     run["car"] = CarJson(folder / run_folder::kModelXml);  // last: takes longest
     return run;
   });

@@ -15,15 +15,19 @@ from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 
 
+# WebGL by software.
+GRAPHICS = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+
+
 class Browser:
-    def __init__(self):
+    def __init__(self, webgl=True):
         self.profile = tempfile.TemporaryDirectory()
         options = Options()
         options.binary_location = "/usr/bin/chromium"
         for argument in (
             "--headless=new",
             "--no-sandbox",
-            "--disable-gpu",
+            *(GRAPHICS if webgl else ["--disable-3d-apis"]),
             "--disable-dev-shm-usage",
             "--hide-scrollbars",
             "--host-resolver-rules=MAP * ~NOTFOUND",

@@ -223,16 +223,111 @@ class Reports(unittest.TestCase):
         metrics = json.loads((self.root / "slow/metrics.json").read_text())
         shown = self.run_in_page(
             "return Array.from(document.querySelectorAll("
-            "'[data-path=\"cross_track.max\"] .number')).map(e => parseFloat(e.textContent))"
+            "'[data-path=\"cross_track.max\"] .number')).map(e => parseFloat(e.textContent.replace('−', '-')))"
         )
         exact = [plant["cross_track"]["max"] for plant in metrics["plants"].values()]
-        self.assertEqual(len(shown), 2)
+        exact.append(exact[1] - exact[0])
+        self.assertEqual(len(shown), 3)  # the last is their difference
         for one, other in zip(shown, exact):
-            self.assertAlmostEqual(one, other, delta=max(5e-5, 5e-3 * other))  # three digits, four decimals
+            self.assertAlmostEqual(one, other, delta=max(5e-5, 5e-3 * abs(other)))  # three digits, four decimals
         self.assertIn("resolved", self.text("#scenario h2").lower())
         self.assertIn("waypoints: [[0, 0], [30, 0], [30, 30]]", self.text("#scenario pre"))
         self.width_is_kept()
         self.browser.picture(PICTURES / "run.png")
+
+    def test_first_screen_says_who_left_the_path_where_and_by_how_much(self):
+        self.open("slow/report.html", width=1280, height=900)
+        metrics = json.loads((self.root / "slow/metrics.json").read_text())
+        rows = self.run_in_page(
+            "return Array.from(document.querySelectorAll('#answer .rows li')).map(e =>"
+            " ['.name', '.what', '.size', '.place'].map(s => e.querySelector(s).textContent)"
+            " .concat(e.getBoundingClientRect().bottom))"
+        )
+        self.assertEqual([row[0] for row in rows], ["kinematic", "mujoco", "kinematic – mujoco"])
+        [between] = metrics["between"]
+        exact = [plant["cross_track"] for plant in metrics["plants"].values()] + [between["position"]]
+        for (_, what, size, place, bottom), own in zip(rows, exact):
+            number, unit, side = size.split(" ")
+            self.assertAlmostEqual(float(number), own["max"], delta=max(5e-5, 5e-3 * own["max"]))
+            self.assertEqual(unit, "m")
+            s, t = re.fullmatch(r"s = ([\d.]+) m, t = ([\d.]+) s", place).groups()
+            self.assertAlmostEqual(float(s), own["max_s"], delta=0.05)
+            self.assertAlmostEqual(float(t), own["max_t"], delta=0.05)
+            self.assertLess(bottom, 900)
+            if what.startswith("arrived after"):
+                plant = metrics["plants"][rows[exact.index(own)][0]]
+                self.assertIn(f"arrived after {plant['time']:.3g} s", what)
+                log = rows_of(self.root / "slow" / f"{rows[exact.index(own)][0]}.csv")
+                left = value_at(log, "cross_track_m", own["max_t"]) > 0
+                self.assertEqual(side, "left" if left else "right")
+        # The page opens where the plants are furthest apart, and every place is a link.
+        self.assertAlmostEqual(self.moment(), between["position"]["max_t"], delta=0.006)
+        self.run_in_page("document.querySelector('#answer .rows li .place').click()")
+        self.assertAlmostEqual(self.moment(), exact[0]["max_t"], delta=0.006)
+
+    def test_expectations_nearest_to_their_limits_come_first(self):
+        self.open("slow/report.html")
+        checks = json.loads((self.root / "slow/metrics.json").read_text())["verdict"]["checks"]
+        bars = self.run_in_page(
+            "return Array.from(document.querySelectorAll('.limits li')).map(e => {"
+            " const bar = e.querySelector('.bar');"
+            " return [e.querySelector('.mark').textContent, bar && ['.fill', '.limit'].map(s =>"
+            "  { const b = bar.querySelector(s).getBoundingClientRect();"
+            "    return (s === '.fill' ? b.right : b.left + b.width / 2) - bar.getBoundingClientRect().left; })]; })"
+        )
+        shares = sorted(
+            (c["value"] / c["bound"] if c["relation"] == "at_most" else c["bound"] / c["value"]
+             for c in checks if c["relation"] != "equals" and c["bound"] > 0 and c["value"] > 0),
+            reverse=True,
+        )
+        drawn = [fill / limit for _, bar in bars if bar for fill, limit in [bar]]
+        self.assertGreaterEqual(len(drawn), 3)
+        self.assertEqual({mark for mark, _ in bars}, {"✓"})
+        for one, other in zip(drawn, shares):
+            one = one if one <= 1.001 else 1 / one  # of a lower bound the value lies beyond it
+            self.assertAlmostEqual(one, other, delta=0.02)  # some pixels of 400
+
+    def test_enlarged_distances_from_the_path(self):
+        self.open("slow/report.html")
+        rows = rows_of(self.root / "slow/mujoco.csv")
+        self.point_at("cross_track", 0.45)
+        moment = self.moment()
+        self.click("#enlarge")
+        x, y, _ = self.numbers(".car[data-track=mujoco]")
+        heading = value_at(rows, "yaw_rad", moment) - value_at(rows, "heading_error_rad", moment)
+        by = 9 * value_at(rows, "cross_track_m", moment)
+        self.assertGreater(abs(by), 0.01)
+        # As for the car in its place; half of the time's last digit moves it by 15 mm along the path.
+        self.assertAlmostEqual(x, value_at(rows, "x_m", moment) - by * math.sin(heading), delta=0.03)
+        self.assertAlmostEqual(y, value_at(rows, "y_m", moment) + by * math.cos(heading), delta=0.03)
+        self.click("#enlarge")
+        x, _, _ = self.numbers(".car[data-track=mujoco]")
+        self.assertAlmostEqual(x, value_at(rows, "x_m", moment), delta=0.02)
+
+    def test_phase_planes_follow_the_moment(self):
+        self.open("slow/report.html")
+        self.assertEqual(self.count("[data-plane]"), 3)
+        rows = rows_of(self.root / "slow/mujoco.csv")
+
+        def place():
+            return self.run_in_page(
+                "const dots = document.querySelectorAll('[data-plane=steering_yaw_rate] circle.now');"
+                "return [+dots[1].getAttribute('cx'), +dots[1].getAttribute('cy')]"
+            )
+
+        places = []
+        for share in (0.3, 0.5, 0.7):
+            self.point_at("speed", share)
+            moment = self.moment()
+            places.append((place(), [value_at(rows, c, moment) for c in ("steering_rad", "yaw_rate_radps")]))
+        for axis in (0, 1):
+            values = [(p[axis], v[axis]) for p, v in places]
+            (low, at_low), (high, at_high) = min(values, key=lambda e: e[1])[::1], max(values, key=lambda e: e[1])
+            scale = (high - low) / (at_high - at_low)
+            self.assertEqual(scale > 0, axis == 0)
+            for pixel, value in values:
+                # The steering moves by 0.75 mrad within half of the time's last digit.
+                self.assertAlmostEqual(pixel, low + scale * (value - at_low), delta=abs(scale) * 3e-3 + 0.5)
 
     def test_pointing_at_a_chart_moves_cars_and_obstacle(self):
         self.open("slow/report.html")
@@ -256,7 +351,7 @@ class Reports(unittest.TestCase):
             self.assertAlmostEqual(y, 12 + 0.25 * moment, delta=0.01)
             self.assertAlmostEqual(degrees, math.degrees(0.3), delta=1e-3)
             cursors = self.run_in_page(
-                "return Array.from(document.querySelectorAll('.cursor'))"
+                "return Array.from(document.querySelectorAll('.chart:not([data-quantity^=difference]) .cursor'))"
                 ".map(e => e.getBoundingClientRect().x)"
             )
             self.assertEqual(len(cursors), 7)
@@ -364,7 +459,7 @@ class Reports(unittest.TestCase):
 
         def ticks():
             return self.run_in_page(
-                "return Array.from(document.querySelectorAll('.chart')).map(c => Array.from("
+                "return Array.from(document.querySelectorAll('.chart:not([data-quantity^=difference])')).map(c => Array.from("
                 "c.querySelectorAll('.dygraph-axis-label-x')).map(e => e.textContent).join())"
             )
 

@@ -135,7 +135,10 @@ TEST(Comparison, OfOneRunStandsWithThatRun) {
   const TempFolder folder;
   const fs::path a = DriveCorner(folder, "a", kPlants);
   const fs::path b = Shifted(a, "b", "single_track", 0.25, 0.0);
-  EXPECT_FALSE(ReportData({a}).contains("comparison"));
+  // Its plants are compared, though nobody judged by it.
+  const ordered_json alone = ReportData({a});
+  EXPECT_THAT(PairsIn(alone), testing::ElementsAre("0 kinematic - 0 single_track"));
+  EXPECT_TRUE(alone["comparison"]["verdicts"].empty());
   for (const fs::path& out : {folder.path() / "out", a}) {
     WriteComparison(CompareFolders({a}, {}, DifferenceBounds{.position_max = 100.0}), out);
     const ordered_json data = ReportData({out});

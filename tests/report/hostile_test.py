@@ -9,6 +9,7 @@ import csv
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -169,7 +170,9 @@ class HostileReports(unittest.TestCase):
             ),
             [],
         )
-        self.assertEqual(run("return document.scripts.length"), 5)  # three of code, data, licenses
+        # Three of code, data, licenses, and two more of a replay.
+        scripts = run("return typeof THREE === 'undefined' ? 5 : 7")
+        self.assertEqual(run("return document.scripts.length"), scripts)
         self.assertEqual(self.browser.console_errors(), [])
         for url in self.browser.loaded():
             self.assertRegex(url, r"^(file://.*\.(html|mp4)$|data:|blob:|chrome:)", url[:100])
@@ -315,8 +318,9 @@ class HostileReports(unittest.TestCase):
             begin = page.index('id="data">') + len('id="data">')
             end = page.index("</script>", begin)
             texts = {}
+            drawn = set()  # in three dimensions, and not said
 
-            def changed(value, place, texts=texts):
+            def changed(value, place, texts=texts, drawn=drawn):
                 if isinstance(value, dict):
                     return {key: changed(entry, f"{place}.{key}") for key, entry in value.items()}
                 if isinstance(value, list):
@@ -325,6 +329,8 @@ class HostileReports(unittest.TestCase):
                     return value
                 # The same text stays the same: drives are found by the names of their plants.
                 texts.setdefault(value, f"{len(texts)}:{ENDINGS}{''.join(SCRIPTS.values())}{SEEN}")
+                if re.search(r"\.(motion|vehicle|ground)\b", place):
+                    drawn.add(texts[value])
                 return texts[value]
 
             data = changed(json.loads(page[begin:end]), "")
@@ -335,7 +341,8 @@ class HostileReports(unittest.TestCase):
             self.hover_everything()
             self.assert_harmless()
             shown = self.shown()
-            self.assertGreater(sum(text in shown for text in texts.values()), 0.5 * len(texts))
+            said = set(texts.values()) - drawn
+            self.assertGreater(sum(text in shown for text in said), 0.5 * len(said))
             self.browser.picture(PICTURES / f"hostile-every-{path.split('/')[0]}.png")
 
     # The policy, if something got through after all.

@@ -48,6 +48,7 @@ const tracks = runs.flatMap((run, r) => run.plants.map((plant) => ({
   log: plant.log,
   newPlans: plant.new_plans || [],
   numbers: plant.numbers,
+  end: plant.end,
   visible: true,
 })));
 (function assignColors() {
@@ -108,7 +109,7 @@ function poseAt(track, time) {
 }
 
 // The moment that map, series and films show together, and who follows it.
-const bus = d3.dispatch('time', 'visibility', 'scheme');
+const bus = d3.dispatch('time', 'visibility', 'scheme', 'play');
 let now = 0;
 
 function setTime(time, from) {

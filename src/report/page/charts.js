@@ -15,11 +15,25 @@ function fixed(number, digits) {
   return number.toFixed(digits).replace(/^-(?=[0.]*$)/, '').replace('-', '−');
 }
 
+/** Those of the limits that are near the lines, and the range of values that shows both. */
+function limitsToDraw(lines, limits) {
+  const values = lines.flatMap((line) => line.values).filter((value) => value !== null);
+  if (!values.length || !limits.length) return { limits: [], range: null };
+  const reach = d3.max(values, Math.abs);
+  const near = limits.filter((limit) => Math.abs(limit) <= 2 * reach
+    && (limit >= 0 ? d3.max(values) > 0.5 * limit : d3.min(values) < 0.5 * limit));
+  if (!near.length) return { limits: near, range: null };
+  const [low, high] = d3.extent([...values, ...near]);
+  const room = 0.06 * (high - low);
+  return { limits: near, range: [low - room, high + room] };
+}
+
 /**
  * The charts of `list`, which `key` tells from others, over `axis`: {values, unit, at, timeOf}, the
  * places of the rows, and which place belongs to a moment and which moment to a place. A chart has
- * {name, title, unit, note, lines, readouts}, a line {label, color, tracks, values, pattern, width},
- * a readout {label, tracks, sign, text}, which is drawn and told at a moment.
+ * {name, title, unit, note, lines, limits, readouts}, a line {label, color, tracks, values, pattern,
+ * width}, a readout {label, tracks, sign, text}, which is drawn and told at a moment. Limits are
+ * values with a line of their own.
  */
 function drawCharts(list, key, axis, charts) {
   const drawn = [];
@@ -39,12 +53,15 @@ function drawCharts(list, key, axis, charts) {
     gridLineColor: cssColor('--grid'),
   });
 
-  for (const { name, title, unit, note, lines, readouts } of charts) {
+  for (const { name, title, unit, note, lines, readouts, limits: all = [] } of charts) {
+    const { limits, range } = limitsToDraw(lines, all);
+    const far = all.filter((limit) => !limits.includes(limit) && limit > 0);
     const figure = list.append('figure').attr('class', 'chart panel').attr('data-quantity', name);
     const caption = figure.append('figcaption');
     const heading = caption.append('span').attr('class', 'title').text(title);
     heading.append('span').text(` [${unit}]`);
-    if (note) heading.append('span').attr('class', 'note').text(`  ${note}`);
+    const notes = [note, limits.length && 'dotted: limit', far.length && `limit ${far.map(brief).join(', ')}, beyond the chart`];
+    if (notes.some(Boolean)) heading.append('span').attr('class', 'note').text(`  ${notes.filter(Boolean).join('; ')}`);
     const group = caption.append('span').attr('class', 'readouts');
     const told = readouts.map((of) => {
       const readout = group.append('span').attr('class', 'readout').attr('data-track', of.label)
@@ -64,6 +81,21 @@ function drawCharts(list, key, axis, charts) {
       hideOverlayOnMouseOut: false,
       highlightCircleSize: 3,
       yRangePad: 8,
+      ...(range ? { valueRange: range } : {}),
+      underlayCallback: (canvas, area, dygraph) => {
+        canvas.save();
+        canvas.strokeStyle = cssColor('--bad');
+        canvas.setLineDash([2, 3]);
+        for (const limit of limits) {
+          const y = dygraph.toDomYCoord(limit);
+          if (y < area.y || y > area.y + area.h) continue;
+          canvas.beginPath();
+          canvas.moveTo(area.x, y);
+          canvas.lineTo(area.x + area.w, y);
+          canvas.stroke();
+        }
+        canvas.restore();
+      },
       interactionModel: mouse,
       axes: {
         x: { ticker: ticksEvery(80, (value) => `${shown(value)} ${axis.unit}`), axisLabelWidth: 60 },

@@ -39,7 +39,8 @@ function signOfPair(parent, pair) {
 
 /** A row for each pair: how much, where, and what was tolerated. */
 function drawDifferences() {
-  if (!pairs.length) return;
+  // Of the plants of one run the section `between` has the numbers.
+  if (!pairs.length || (runs.length === 1 && !pairs.some((pair) => pair.tolerances))) return;
   const made = section('differences', 'Differences at equal station');
   const table = made.append('div').attr('class', 'panel scroll').append('table');
   const head = table.append('thead').append('tr');

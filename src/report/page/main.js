@@ -5,7 +5,7 @@ function drawDrive() {
   drawLegend(drive);
   if (tracks.length) {
     drive.append('p').attr('class', 'hint')
-      .text('Hover over a chart to move the cars. Drag in a chart to zoom, double-click to reset.');
+      .text('Hover over a chart to move the cars. Drag in a chart to zoom, double-click to reset. All times count from the start of the run.');
   }
   const grid = drive.append('div').attr('class', 'drive');
   const scene = grid.append('div').attr('class', 'scene');
@@ -22,16 +22,19 @@ function drawDrive() {
     }
     drawSeries(charts);
   }
-  setTime(0);
+  setTime(keyMoment);
 }
 
 if (data.study) {
   drawStudy(data.study);
 } else {
   drawHead();
+  drawAnswer();
+  drawReplay();
   drawHeadline();
   drawDifferences();
   drawDrive();
+  drawPhasePlanes();
   if (tracks.length) {
     drawNumbers(section('numbers', 'Metrics'), tracks);
     const plants = runs.flatMap((run) => run.between.map(({ plants, numbers }) => ({

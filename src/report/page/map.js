@@ -1,4 +1,5 @@
-// The way seen from above: equal scales, in meters; x to the right, y up.
+// The way seen from above, in meters; x to the right, y up. Scales are equal, unless the way is long
+// and narrow.
 
 function extentOfMap() {
   const xs = [];
@@ -16,7 +17,7 @@ function extentOfMap() {
   }
   for (const track of tracks) track.log.x.forEach((x, i) => add(x, track.log.y[i]));
   if (!xs.length) add(0, 0);
-  const margin = Math.max(4, 0.03 * Math.max(d3.max(xs) - d3.min(xs), d3.max(ys) - d3.min(ys)));
+  const margin = Math.max(4, 0.03 * Math.min(d3.max(xs) - d3.min(xs), d3.max(ys) - d3.min(ys)));
   return {
     x: [d3.min(xs) - margin, d3.max(xs) + margin],
     y: [d3.min(ys) - margin, d3.max(ys) + margin],
@@ -29,12 +30,63 @@ function lineText(x, y, count) {
   return text;
 }
 
+/**
+ * What the way is colored by: of the pair that is furthest apart the distance, else of the track that
+ * is furthest from its path the cross-track error: {track, points: [{t, value}], most, name}.
+ */
+function shadeOfMap() {
+  const pair = pairs.filter((one) => one.curve)
+    .sort((a, b) => d3.max(b.curve.position) - d3.max(a.curve.position))[0];
+  if (pair) {
+    const { t, position } = pair.curve;
+    return {
+      track: pair.first, most: d3.max(position), name: `distance ${pair.label}`,
+      points: t.map((time, i) => ({ t: time, value: position[i] })),
+    };
+  }
+  const track = tracks.filter((one) => one.log.cross_track)
+    .sort((a, b) => d3.max(b.log.cross_track, Math.abs) - d3.max(a.log.cross_track, Math.abs))[0];
+  if (!track) return null;
+  return {
+    track, most: d3.max(track.log.cross_track, Math.abs), name: `cross-track error, ${track.label}`,
+    points: track.log.t.map((time, i) => ({ t: time, value: Math.abs(track.log.cross_track[i]) })),
+  };
+}
+
+const LATERAL = 10;  // by what the button enlarges distances from the path
+
+/** A track's way and its pose at a moment with distances from the path `factor` times as large. */
+function enlarged(track, factor) {
+  const { log } = track;
+  const shift = (pose, crossTrack, headingError) => {
+    const heading = pose.yaw - headingError;
+    const by = (factor - 1) * crossTrack;
+    return { x: pose.x - by * Math.sin(heading), y: pose.y + by * Math.cos(heading), yaw: pose.yaw };
+  };
+  if (factor === 1 || !log.cross_track || !log.heading_error) {
+    return { x: log.x, y: log.y, pose: (time) => poseAt(track, time) };
+  }
+  const points = log.x.map((x, i) => shift({ x, y: log.y[i], yaw: log.yaw[i] }, log.cross_track[i], log.heading_error[i]));
+  const end = log.t[log.t.length - 1];
+  return {
+    x: points.map((point) => point.x),
+    y: points.map((point) => point.y),
+    pose: (time) => {
+      const moment = Math.min(time, end);
+      return shift(poseAt(track, moment), valueAt(track, 'cross_track', moment), valueAt(track, 'heading_error', moment));
+    },
+  };
+}
+
 function placed(pose) {
   return `translate(${pose.x} ${pose.y}) rotate(${(pose.yaw * 180) / Math.PI})`;
 }
 
 function drawMap(parent) {
   const extent = extentOfMap();
+  // A lane change is 150 m long and 4 m wide: to see it, y is stretched.
+  const slender = (extent.x[1] - extent.x[0]) / (extent.y[1] - extent.y[0]);
+  const stretch = slender > 6 ? Math.min(8, Math.floor(slender / 3)) : 1;
   const margin = { left: 50, right: 12, top: 52, bottom: 38 };
   const frame = parent.append('div').attr('class', 'map');
   const svg = frame.append('svg').attr('tabindex', 0).attr('role', 'img')
@@ -44,7 +96,7 @@ function drawMap(parent) {
   const yAxis = svg.append('g').attr('class', 'axis y');
   const world = svg.append('g').attr('clip-path', 'url(#map-area)').append('g').attr('class', 'world');
   const xName = svg.append('text').attr('class', 'axis-name').attr('text-anchor', 'end').text('x [m]');
-  const yName = svg.append('text').attr('class', 'axis-name').text('y [m]');
+  const yName = svg.append('text').attr('class', 'axis-name').text(`y [m]${stretch > 1 ? `, stretched ${stretch}×` : ''}`);
 
   // What is the same in several runs is drawn once.
   const once = new Set();
@@ -83,15 +135,39 @@ function drawMap(parent) {
     }
   }
 
+  let factor = 1;
+  let ways = tracks.map((track) => enlarged(track, factor));
+  const shade = shadeOfMap();
+  const shading = world.append('g').attr('class', 'shade');
+
+  function drawShade() {
+    shading.selectAll('*').remove();
+    if (!shade || !(shade.most > 0)) return;
+    const way = ways[shade.track.id];
+    // A color for each of some hundred pieces: more are not told apart.
+    const step = Math.max(1, Math.floor(shade.points.length / 300));
+    for (let i = 0; i + 1 < shade.points.length; i += step) {
+      const next = Math.min(i + step, shade.points.length - 1);
+      const [from, to] = [way.pose(shade.points[i].t), way.pose(shade.points[next].t)];
+      const value = d3.max(shade.points.slice(i, next + 1), (point) => point.value);
+      shading.append('path').attr('d', `M${from.x} ${from.y}L${to.x} ${to.y}`)
+        .style('stroke', d3.interpolateCividis(value / shade.most))
+        .on('click', () => setTime(shade.points[i].t))
+        .append('title').text(`${brief(value)} m at ${brief(shade.points[i].t)} s`);
+    }
+    shading.style('display', shade.track.visible ? null : 'none');
+  }
+  drawShade();
+
   const layers = tracks.map((track) => {
     const layer = world.append('g').attr('class', 'track').style('color', track.css);
     const { x, y } = track.log;
-    layer.append('path').attr('class', 'way').attr('d', lineText(x, y, x.length));
+    const way = layer.append('path').attr('class', 'way').attr('d', lineText(x, y, x.length));
     for (const plan of track.newPlans) {
       layer.append('path').attr('class', 'new-plan').attr('d', lineText(plan.x, plan.y, plan.x.length))
         .append('title').text(`plan of ${track.label} from ${plan.from} s on`);
     }
-    return { layer, trail: layer.append('path').attr('class', 'trail') };
+    return { layer, way, trail: layer.append('path').attr('class', 'trail') };
   });
   const cars = tracks.map((track) => {
     const size = runs[track.run].car;
@@ -116,27 +192,29 @@ function drawMap(parent) {
     const width = size.width - margin.left - margin.right;
     const height = size.height - margin.top - margin.bottom;
     if (width <= 0 || height <= 0) return;
-    const fit = Math.min(width / (extent.x[1] - extent.x[0]), height / (extent.y[1] - extent.y[0]));
+    const fit = Math.min(width / (extent.x[1] - extent.x[0]), height / (extent.y[1] - extent.y[0]) / stretch);
     const k = fit * zoomed.k;
+    const kY = stretch * k;
     const left = zoomed.applyX(margin.left + width / 2 - (fit * (extent.x[0] + extent.x[1])) / 2);
-    const base = zoomed.applyY(margin.top + height / 2 + (fit * (extent.y[0] + extent.y[1])) / 2);
-    world.attr('transform', `matrix(${k} 0 0 ${-k} ${left} ${base})`);
+    const base = zoomed.applyY(margin.top + height / 2 + (stretch * fit * (extent.y[0] + extent.y[1])) / 2);
+    world.attr('transform', `matrix(${k} 0 0 ${-kY} ${left} ${base})`);
     const right = margin.left + width;
     const bottom = margin.top + height;
     const x = d3.scaleLinear().range([margin.left, right])
       .domain([(margin.left - left) / k, (right - left) / k]);
     const y = d3.scaleLinear().range([bottom, margin.top])
-      .domain([(base - bottom) / k, (base - margin.top) / k]);
-    // Ticks as far apart along both axes.
-    const step = d3.tickStep(0, 60 / k, 1);
-    const ticks = (scale) => d3.range(Math.ceil(scale.domain()[0] / step),
-      Math.floor(scale.domain()[1] / step) + 1).map((i) => i * step);
+      .domain([(base - bottom) / kY, (base - margin.top) / kY]);
+    // Ticks as far apart along both axes, in meters where the scales are equal.
+    const ticks = (scale, perMeter) => {
+      const step = d3.tickStep(0, 60 / perMeter, 1);
+      return d3.range(Math.ceil(scale.domain()[0] / step), Math.floor(scale.domain()[1] / step) + 1).map((i) => i * step);
+    };
     const name = (value) => shown(Number(value.toPrecision(10)));
     clip.attr('x', margin.left).attr('y', margin.top).attr('width', width).attr('height', height);
     xAxis.attr('transform', `translate(0 ${bottom})`)
-      .call(d3.axisBottom(x).tickValues(ticks(x)).tickFormat(name).tickSize(-height).tickSizeOuter(0).tickPadding(7));
+      .call(d3.axisBottom(x).tickValues(ticks(x, k)).tickFormat(name).tickSize(-height).tickSizeOuter(0).tickPadding(7));
     yAxis.attr('transform', `translate(${margin.left} 0)`)
-      .call(d3.axisLeft(y).tickValues(ticks(y)).tickFormat(name).tickSize(-width).tickSizeOuter(0).tickPadding(7));
+      .call(d3.axisLeft(y).tickValues(ticks(y, kY)).tickFormat(name).tickSize(-width).tickSizeOuter(0).tickPadding(7));
     xName.attr('x', right).attr('y', size.height - 6);
     yName.attr('x', 12).attr('y', 32);
     svg.attr('data-scale', k);
@@ -150,22 +228,36 @@ function drawMap(parent) {
       return event.touches ? event.touches.length > 1 : !event.button;
     })
     .on('zoom', () => { zoomed = d3.event.transform; redraw(); });
-  const fitAll = () => svg.transition().duration(250).call(zoom.transform, d3.zoomIdentity);
+  const lasting = (milliseconds) => (window.matchMedia('(prefers-reduced-motion: reduce)').matches ? 0 : milliseconds);
+  const fitAll = () => svg.transition().duration(lasting(250)).call(zoom.transform, d3.zoomIdentity);
   svg.call(zoom).style('touch-action', 'pan-x pan-y').on('dblclick.zoom', fitAll);
   svg.append('title').text('Drag to pan, Ctrl+wheel or pinch to zoom, double-click to show all.');
   const buttons = frame.append('div').attr('class', 'zoom tools').style('border', 0).style('padding', 0);
   for (const [sign, name, act] of [
-    ['+', 'Zoom in', () => svg.transition().duration(200).call(zoom.scaleBy, 1.6)],
-    ['−', 'Zoom out', () => svg.transition().duration(200).call(zoom.scaleBy, 1 / 1.6)],
+    ['+', 'Zoom in', () => svg.transition().duration(lasting(200)).call(zoom.scaleBy, 1.6)],
+    ['−', 'Zoom out', () => svg.transition().duration(lasting(200)).call(zoom.scaleBy, 1 / 1.6)],
     ['⤢', 'Show all', fitAll]]) {
     buttons.append('button').attr('type', 'button').attr('title', name).attr('aria-label', name)
       .style('min-width', 0).text(sign).on('click', act);
   }
 
+  if (tracks.some((track) => track.log.cross_track && track.log.heading_error)) {
+    const button = buttons.insert('button', ':first-child').attr('type', 'button').attr('id', 'enlarge').attr('aria-pressed', 'false')
+      .attr('title', `Distances from the path ${LATERAL} times as large`).text(`lateral ×${LATERAL}`);
+    button.on('click', () => {
+      factor = factor === 1 ? LATERAL : 1;
+      button.attr('aria-pressed', String(factor !== 1));
+      ways = tracks.map((track) => enlarged(track, factor));
+      layers.forEach(({ way }, i) => way.attr('d', lineText(ways[i].x, ways[i].y, ways[i].x.length)));
+      drawShade();
+      bus.call('time', null, now, 'map');
+    });
+  }
+
   new ResizeObserver(() => {
     const width = frame.node().clientWidth;
     // As high as the way needs, as far as there is room.
-    const needed = ((width - margin.left - margin.right) * (extent.y[1] - extent.y[0]))
+    const needed = (stretch * (width - margin.left - margin.right) * (extent.y[1] - extent.y[0]))
       / (extent.x[1] - extent.x[0]) + margin.top + margin.bottom;
     frame.style('height', `${Math.max(280, needed)}px`);
     size = { width, height: frame.node().clientHeight };
@@ -174,10 +266,10 @@ function drawMap(parent) {
 
   bus.on('time.map', (time) => {
     tracks.forEach((track, i) => {
-      const pose = poseAt(track, time);
+      const pose = ways[i].pose(time);
       cars[i].attr('transform', placed(pose));
       const { row } = placeAt(track.log, time);
-      layers[i].trail.attr('d', `${lineText(track.log.x, track.log.y, row + 1)}L${pose.x} ${pose.y}`);
+      layers[i].trail.attr('d', `${lineText(ways[i].x, ways[i].y, row + 1)}L${pose.x} ${pose.y}`);
     });
     for (const { obstacle, shape } of moving) {
       shape.attr('transform', placed({
@@ -188,40 +280,95 @@ function drawMap(parent) {
   bus.on('visibility.map', () => tracks.forEach((track, i) => {
     layers[i].layer.style('display', track.visible ? null : 'none');
     cars[i].style('display', track.visible ? null : 'none');
+    if (shade && shade.track === track) shading.style('display', track.visible ? null : 'none');
   }));
+}
+
+/** What happened, and when: {t, text, track}; in order. */
+function eventsOf() {
+  const events = [];
+  for (const track of tracks) {
+    for (const plan of track.newPlans.slice(0, 12)) events.push({ t: plan.from, text: 'new plan', track });
+    if (track.end.t !== undefined && track.end.status !== 'arrived') {
+      events.push({ t: track.end.t, text: statusText(track.end.status), track });
+    }
+  }
+  for (const pair of pairs.slice(0, 3)) {
+    const apart = furthestApart(pair);
+    if (apart) events.push({ t: apart.t, text: `${brief(apart.size)} m apart`, track: pair.second });
+  }
+  return events.sort((a, b) => a.t - b.t);
+}
+
+function drawEvents(parent) {
+  const events = eventsOf();
+  if (!events.length) return;
+  const list = parent.append('div').attr('class', 'events').attr('aria-label', 'Events');
+  for (const { t, text, track } of events) {
+    const button = list.append('button').attr('type', 'button').attr('title', `${track.label}: show this moment`)
+      .on('click', () => setTime(t));
+    button.append('span').attr('class', 'dot').style('color', track.css);
+    button.append('span').text(`${brief(t)} s ${text}`);
+  }
+}
+
+// Playing: one clock for all of the page.
+const playback = { timer: null, speed: 1 };
+
+function stopPlaying() {
+  if (playback.timer) playback.timer.stop();
+  playback.timer = null;
+  bus.call('play', null, false);
+}
+
+function togglePlaying() {
+  if (playback.timer) {
+    stopPlaying();
+    return;
+  }
+  if (now >= duration) setTime(0, 'clock');
+  let last = 0;
+  playback.timer = d3.timer((elapsed) => {
+    setTime(now + ((elapsed - last) / 1000) * playback.speed, 'clock');
+    last = elapsed;
+    if (now >= duration) stopPlaying();
+  });
+  bus.call('play', null, true);
+}
+
+// Whoever else sets the time stops the clock.
+bus.on('time.playback', (time, from) => {
+  if (from !== 'clock' && playback.timer) stopPlaying();
+});
+
+let clocks = 0;
+
+function drawPlayButton(tools, id) {
+  const key = clocks;
+  clocks += 1;
+  const button = tools.append('button').attr('type', 'button').attr('id', id || null).text('Play').on('click', togglePlaying);
+  bus.on(`play.button${key}`, (plays) => button.text(plays ? 'Pause' : 'Play'));
+  return button;
+}
+
+function drawTimeSlider(tools, name, id) {
+  const slider = tools.append('input').attr('type', 'range').attr('min', 0).attr('max', duration)
+    .attr('step', duration / 2000 || 1).attr('aria-label', 'Time');
+  const text = tools.append('output').attr('class', 'time').attr('id', id || null);
+  slider.on('input', () => setTime(Number(slider.node().value), `slider ${name}`));
+  bus.on(`time.slider_${name}`, (time, from) => {
+    if (from !== `slider ${name}`) slider.node().value = time;
+    text.text(`t = ${time.toFixed(2)} s`);
+  });
 }
 
 /** Plays the run and shows the current time. */
 function drawClock(parent) {
+  drawEvents(parent);
   const tools = parent.append('div').attr('class', 'tools');
-  const play = tools.append('button').attr('type', 'button').attr('id', 'play').text('Play');
+  drawPlayButton(tools, 'play');
   const speed = tools.append('select').attr('aria-label', 'Playback speed');
   for (const factor of [1, 2, 5, 10]) speed.append('option').attr('value', factor).text(`${factor}×`);
-  const slider = tools.append('input').attr('type', 'range').attr('min', 0).attr('max', duration)
-    .attr('step', duration / 2000 || 1).attr('aria-label', 'Time');
-  const text = tools.append('output').attr('class', 'time').attr('id', 'time');
-  let timer = null;
-  const stop = () => {
-    if (timer) timer.stop();
-    timer = null;
-    play.text('Play');
-  };
-  play.on('click', () => {
-    if (timer) return stop();
-    if (now >= duration) setTime(0, 'clock');
-    let last = 0;
-    timer = d3.timer((elapsed) => {
-      setTime(now + ((elapsed - last) / 1000) * Number(speed.node().value), 'clock');
-      last = elapsed;
-      if (now >= duration) stop();
-    });
-    play.text('Pause');
-    return undefined;
-  });
-  slider.on('input', () => { stop(); setTime(Number(slider.node().value), 'slider'); });
-  bus.on('time.clock', (time, from) => {
-    if (from !== 'clock') stop();
-    if (from !== 'slider') slider.node().value = time;
-    text.text(`t = ${time.toFixed(2)} s`);
-  });
+  speed.on('change', () => { playback.speed = Number(speed.node().value); });
+  drawTimeSlider(tools, 'map', 'time');
 }

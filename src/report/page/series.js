@@ -21,6 +21,22 @@ function commonTimes() {
   return { times, spread };
 }
 
+/** The limits of a quantity, of both signs where it has one: those that are expected, and the car's own. */
+function limitsOf(name) {
+  const metric = {
+    cross_track: 'cross_track.max',
+    heading_error: 'heading_error.max',
+    lateral_acceleration: 'lateral_acceleration_max',
+    clearance: 'clearance_min',
+  }[name];
+  const limits = runs.flatMap((run) => run.expectations)
+    .filter((check) => check.metric === metric && typeof check.bound === 'number').map((check) => check.bound);
+  // The car's own limit is shown where it is near.
+  const steering = d3.max(tracks, (track) => d3.max(track.log.steering, Math.abs));
+  if (name === 'steering') limits.push(...runs.map((run) => run.car.steering_limit).filter((limit) => limit > 0 && limit < 2 * steering));
+  return Array.from(new Set(name === 'clearance' ? limits : limits.flatMap((limit) => [limit, -limit])));
+}
+
 function drawSeries(parent) {
   const list = parent.append('div').attr('class', 'series');
   const { times, spread } = commonTimes();
@@ -33,6 +49,7 @@ function drawSeries(parent) {
     const told = (track, name, time) => fixed(valueAt(track, name, time), quantity.digits);
     return {
       ...quantity,
+      limits: limitsOf(quantity.name),
       // What was asked lies below what was done.
       lines: [
         ...(quantity.asked ? own.map((track) => line(track, quantity.asked, { pattern: [5, 4], width: 1.2 })) : []),

@@ -1,0 +1,170 @@
+// What is read first: how each run ended, how far each car was from its path and the cars from each
+// other, what stands out there, and how near the limits of the expectations are.
+
+/** "rolled over", of a status of metrics.json. */
+function statusText(status) {
+  return status.replace(/_/g, ' ');
+}
+
+function endText({ end }) {
+  if (end.t === undefined) return statusText(end.status);
+  const after = ['arrived', 'stopped', 'time_limit', 'interrupted'].includes(end.status);
+  return `${statusText(end.status)} ${after ? 'after' : 'at'} ${brief(end.t)} s`
+    + (end.cause ? ` (${end.cause})` : '');
+}
+
+/** Where a track is furthest from its path: {size, side, s, t}. */
+function furthestFromPath(track) {
+  const size = valueOf(track.numbers, 'cross_track.max');
+  if (size === null) return null;
+  const t = valueOf(track.numbers, 'cross_track.max_t');
+  const signed = valueAt(track, 'cross_track', t) || 0;
+  return { size, t, s: valueOf(track.numbers, 'cross_track.max_s'), side: signed < 0 ? 'right' : 'left' };
+}
+
+/** Where two tracks are furthest apart at equal station. */
+function furthestApart(pair) {
+  if (!pair.curve) return null;
+  const value = (name) => valueOf(pair.numbers, `position.${name}`);
+  return { size: value('max'), s: value('max_s'), t: value('max_t') };
+}
+
+/**
+ * The moment at which the page opens: where the cars are furthest apart, else where one of them is
+ * furthest from its path, else how the first of them ended, unless it arrived.
+ */
+const keyMoment = (() => {
+  const largest = (list) => list.filter(Boolean).sort((a, b) => b.size - a.size)[0];
+  const found = largest(pairs.map(furthestApart)) || largest(tracks.map(furthestFromPath));
+  if (found) return found.t;
+  const ended = tracks.find((track) => track.end.status !== 'arrived' && track.end.t !== undefined);
+  return ended ? ended.end.t : 0;
+})();
+
+/** The last friction patch of the world that the car is on at a moment. */
+function patchUnder(track, time) {
+  const { x, y } = poseAt(track, time);
+  return runs[track.run].world.patches.filter((patch) => {
+    const [dx, dy] = [x - patch.x, y - patch.y];
+    const along = dx * Math.cos(patch.yaw) + dy * Math.sin(patch.yaw);
+    const across = -dx * Math.sin(patch.yaw) + dy * Math.cos(patch.yaw);
+    return Math.abs(along) <= patch.length / 2 && Math.abs(across) <= patch.width / 2;
+  }).pop();
+}
+
+/** What is remarkable about a car in the three seconds up to a moment. */
+function remarks(track, moment) {
+  const list = [];
+  const before = track.log.t.filter((t) => t <= moment);
+  const times = before.filter((t) => t >= moment - 3);
+  const last = times.filter((t) => patchUnder(track, t)).pop();
+  if (last !== undefined) {
+    const patch = patchUnder(track, last);
+    let first = last;
+    for (const t of [...before].reverse()) {
+      if (t <= last && patchUnder(track, t) !== patch) break;
+      first = Math.min(first, t);
+    }
+    list.push(`was on friction ${shown(patch.friction)} from ${brief(first)} to ${brief(last)} s`);
+  }
+  const { car, world } = runs[track.run];
+  const share = (t) => {
+    const friction = (patchUnder(track, t) || world).friction;
+    return Math.abs(valueAt(track, 'lateral_acceleration', t) || 0) / (friction * car.grip_acceleration);
+  };
+  // A model without tyres may ask for more than there is.
+  const used = track.plant === 'kinematic' ? 0 : d3.max(times, share) || 0;
+  if (used > 0.8) list.push(`uses ${used > 1 ? 'all' : `${Math.round(100 * used)} %`} of the tyres' lateral grip`);
+  const asked = d3.max(times, (t) => Math.abs(valueAt(track, 'steering_command', t) - valueAt(track, 'steering', t))) || 0;
+  if (asked > 0.02) list.push(`steers up to ${brief(asked)} rad less than commanded`);
+  const slip = d3.max(times, (t) => Math.abs(valueAt(track, 'sideslip', t) || 0)) || 0;
+  if (track.plant !== 'kinematic' && slip > 0.1) list.push(`slides at a sideslip angle of ${brief(slip)} rad`);
+  return list;
+}
+
+/** A bar from zero to a value, on a scale of its own or a common one, with a mark at the limit. */
+function drawBar(parent, { value, limit, most, css, good }) {
+  const bar = parent.append('span').attr('class', `bar ${good === false ? 'bad' : ''}`).attr('aria-hidden', 'true');
+  const share = (x) => `${Math.min(100, Math.max(0, (100 * x) / most))}%`;
+  bar.append('span').attr('class', 'fill').style('width', share(value)).style('background', css || null);
+  if (limit !== undefined) bar.append('span').attr('class', 'limit').style('left', share(limit));
+}
+
+function drawAnswerRows(parent) {
+  const own = tracks.map((track) => ({ track, found: furthestFromPath(track) }));
+  const apart = pairs.map((pair) => ({ pair, found: furthestApart(pair) })).filter(({ found }) => found);
+  const most = d3.max([...own, ...apart], ({ found }) => found && found.size) || 1;
+  const place = ({ s, t }) => `s = ${brief(s)} m, t = ${brief(t)} s`;
+  const row = (name, sign, text, found, more) => {
+    const line = parent.append('li');
+    const head = line.append('span').attr('class', 'who');
+    sign(head);
+    head.append('span').attr('class', 'name').text(name);
+    line.append('span').attr('class', 'what').text(text);
+    if (!found) return;
+    line.append('span').attr('class', 'size').text(`${brief(found.size)} m ${more.side}`);
+    line.append('button').attr('type', 'button').attr('class', 'place').attr('title', 'Show this moment')
+      .text(place(found)).on('click', () => setTime(found.t));
+    drawBar(line, { value: found.size, most, css: more.css });
+  };
+  for (const { track, found } of own) {
+    row(track.label, (at) => at.append('span').attr('class', 'dot').style('color', track.css),
+      endText(track) + (found ? '; furthest from its path:' : ''), found,
+      { css: track.css, side: found && found.side });
+  }
+  for (const { pair, found } of apart.slice(0, 4)) {
+    row(pair.label, (at) => signOfPair(at, pair), 'furthest apart, at equal station:', found, { css: 'var(--muted)', side: 'apart' });
+  }
+}
+
+/** How near to 1 a check is that is met, how far beyond it one that is not. */
+function shareOfBound({ relation, bound, found }) {
+  if (typeof bound !== 'number' || typeof found !== 'number' || relation === 'equals') return null;
+  if (relation === 'at_most') return bound > 0 ? found / bound : null;
+  return found > 0 ? bound / found : null;
+}
+
+function drawExpectationBars(parent) {
+  const MOST = 6;
+  const all = runs.flatMap((run) => run.expectations.map((check) => ({ run, check, share: shareOfBound(check) })));
+  if (!all.length) return;
+  const panel = parent.append('div').attr('class', 'panel limits');
+  panel.append('h2').text('Expectations');
+  // First what is not met, then what is nearest to its limit.
+  const order = [...all].sort((a, b) => a.check.met - b.check.met || (b.share || 0) - (a.share || 0));
+  const list = panel.append('ul');
+  for (const { run, check, share } of order.slice(0, MOST)) {
+    const line = list.append('li').attr('class', check.met ? 'good' : 'bad');
+    const name = line.append('span').attr('class', 'what');
+    name.append('span').attr('class', 'mark').text(check.met ? '✓' : '✗');
+    name.append('span').text(`${check.what}, ${runs.length > 1 ? `${run.name} · ` : ''}${check.of}`);
+    const unit = check.unit ? ` ${check.unit}` : '';
+    line.append('span').attr('class', 'size').text(`${statusText(brief(check.found))} ${statusText(check.asked)}${unit}`);
+    if (share !== null) {
+      const most = 1.15 * Math.max(Math.abs(check.found), Math.abs(check.bound));
+      drawBar(line, { value: check.found, limit: check.bound, most, good: check.met });
+    }
+  }
+  const left = all.length - MOST;
+  if (left > 0) {
+    panel.append('button').attr('type', 'button').attr('class', 'place')
+      .on('click', () => document.getElementById('expectations').scrollIntoView())
+      .text(`${left} more ${left > 1 ? 'are' : 'is'} ${order.slice(MOST).every(({ check }) => check.met) ? 'met' : 'below'}`);
+  }
+}
+
+/** The first screen. */
+function drawAnswer() {
+  if (!tracks.length || tracks.length > 6) return;
+  const grid = section('answer').append('div').attr('class', 'answer');
+  const panel = grid.append('div').attr('class', 'panel');
+  panel.append('h2').text('What happened');
+  drawAnswerRows(panel.append('ul').attr('class', 'rows'));
+  const found = tracks.map((track) => ({ track, list: remarks(track, keyMoment) })).filter(({ list }) => list.length);
+  if (found.length) {
+    const facts = panel.append('p').attr('class', 'remarks');
+    facts.append('span').text(`Up to ${brief(keyMoment)} s: `);
+    facts.append('span').text(found.map(({ track, list }) => `${track.label} ${list.join(', ')}`).join('; '));
+  }
+  drawExpectationBars(grid);
+}

@@ -1,0 +1,302 @@
+// The drive in three dimensions, at the moment that all of the page shows.
+
+const CAMERAS = [['follow', 'Follow'], ['orbit', 'Orbit'], ['driver', 'Driver']];
+
+/** Plans on which a car drives across open ground, and not along a road. */
+const FIELD_PLANS = ['astar', 'hybrid_astar', 'reeds_shepp', 'dubins', 'rrt', 'rrt_star'];
+
+/** The color of a track, as WebGL needs it: of the style sheet, for a light page. */
+function solidColor(track) {
+  return cssColor(`--track-${track.color}`) || '#888888';
+}
+
+/** What has been driven, as a strip that grows. */
+function trailOf(track, motion, height, width, level) {
+  const { t, channels: { x_m: xs, y_m: ys } } = motion;
+  const step = Math.max(1, Math.floor(t.length / 2500));
+  const rows = d3.range(0, t.length, step);
+  const points = rows.map((row, i) => {
+    const [a, b] = [rows[Math.max(0, i - 1)], rows[Math.min(rows.length - 1, i + 1)]];
+    const heading = Math.atan2(ys[b] - ys[a], xs[b] - xs[a]);
+    return { x: xs[row], y: ys[row], nx: -Math.sin(heading), ny: Math.cos(heading) };
+  });
+  const mesh = flat(strip(points, -width / 2, width / 2, height, 0.018), solidColor(track), level);
+  mesh.material.emissive = new THREE.Color(solidColor(track));
+  mesh.material.emissiveIntensity = 0.35;
+  return {
+    mesh,
+    update: (time) => {
+      const count = d3.bisectRight(rows.map((row) => t[row]), time) - 1;
+      mesh.geometry.setDrawRange(0, Math.max(0, 6 * count));
+    },
+  };
+}
+
+/** A dashed line along a plan. */
+function planMesh(line, height, color, level) {
+  const points = evenly(line, 0.5);
+  if (points.length < 3) return null;
+  return flat(strip(points, -0.06, 0.06, height, 0.016, (i) => i % 3 !== 0), color, level,
+    { emissive: new THREE.Color(color), emissiveIntensity: 0.4 });
+}
+
+function makeReplay(canvas) {
+  const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: false });
+  renderer.shadowMap.enabled = true;
+  renderer.shadowMap.type = THREE.PCFShadowMap;
+  renderer.autoClear = false;
+  renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
+
+  const scene = new THREE.Scene();
+  scene.background = new THREE.Color(0xbdd3e6);
+  scene.fog = new THREE.Fog(0xbdd3e6, 120, 700);
+  scene.add(new THREE.HemisphereLight(0xf2f6ff, 0xb4b49c, 0.7));
+  const sun = new THREE.DirectionalLight(0xfff4e0, 0.46);
+  sun.castShadow = true;
+  sun.shadow.mapSize.set(2048, 2048);
+  Object.assign(sun.shadow.camera, { left: -32, right: 32, top: 32, bottom: -32, near: 1, far: 120 });
+  sun.shadow.bias = -0.0006;
+  scene.add(sun, sun.target);
+
+  const height = heightOf(runs[0].ground);
+  const scenery = drawScenery(scene, height);
+  const makers = runs.map((run) => vehicleMaker(run.vehicle));
+  const cars = tracks.map((track) => {
+    const motion = motionOf(track);
+    const make = makers[track.run];
+    return {
+      track, motion,
+      solid: make({ color: solidColor(track), ghost: false }),
+      ghost: make({ color: solidColor(track), ghost: true }),
+      // One upon the other, and each narrower than the one below.
+      trail: trailOf(track, motion, height, 0.34 / (1 + track.id), 6 + track.id),
+    };
+  });
+  for (const { solid, ghost, trail } of cars) scene.add(solid.group, ghost.group, trail.mesh);
+
+  const plans = [];
+  const seen = new Set();
+  for (const run of runs) {
+    const line = run.plan && run.plan.line;
+    if (line && !seen.has(JSON.stringify(line))) {
+      seen.add(JSON.stringify(line));
+      const mesh = planMesh(line, height, 0xf7d94c, 4);
+      if (mesh) { scene.add(mesh); plans.push({ mesh, shown: () => true }); }
+    }
+  }
+  for (const { track } of cars) {
+    track.newPlans.forEach((plan, i) => {
+      const mesh = planMesh(plan, height, solidColor(track), 5);
+      const until = i + 1 < track.newPlans.length ? track.newPlans[i + 1].from : Infinity;
+      if (mesh) { scene.add(mesh); plans.push({ mesh, shown: (time) => track.visible && time >= plan.from && time < until }); }
+    });
+  }
+
+  // The car that is looked at first: the one with contact dynamics, where there is one.
+  const lead = cars.find(({ track }) => track.plant.startsWith('mujoco')) || cars[cars.length - 1];
+
+  /** Rear-axle place and heading of a car, averaged over a second, so that the camera is calm. */
+  function framing(car, time) {
+    const moments = [-0.5, -0.25, 0, 0.25, 0.5].map((dt) => poseAt(car.track, Math.min(Math.max(time + dt, 0), duration)));
+    const x = d3.mean(moments, (pose) => Math.cos(pose.yaw));
+    const y = d3.mean(moments, (pose) => Math.sin(pose.yaw));
+    const speed = valueAt(car.track, 'speed', Math.min(time, car.track.log.t[car.track.log.t.length - 1])) || 0;
+    return { pose: poseAt(car.track, time), heading: Math.atan2(y, x), backwards: speed < -0.2 };
+  }
+
+  function cameraFor(kind, car, time, aspect, orbit) {
+    const { pose, heading, backwards } = framing(car, time);
+    const camera = new THREE.PerspectiveCamera(kind === 'driver' ? 66 : 46, aspect, 0.1, 1500);
+    camera.up.set(0, 0, 1);
+    const z = height(pose.x, pose.y);
+    const { length, rear_overhang: overhang } = runs[car.track.run].car;
+    const middle = length / 2 - overhang;
+    const ahead = (along, across, up) => new THREE.Vector3(
+      pose.x + along * Math.cos(heading) - across * Math.sin(heading),
+      pose.y + along * Math.sin(heading) + across * Math.cos(heading), z + up);
+    if (kind === 'driver') {
+      car.solid.root.updateMatrixWorld(true);
+      const eye = new THREE.Vector3(middle, 0.1 * length, 0.29 * length).applyMatrix4(car.solid.root.matrix);
+      camera.position.copy(eye);
+      const look = new THREE.Vector3(middle + 20, 0.05 * length, 0).applyMatrix4(car.solid.root.matrix);
+      camera.lookAt(look);
+    } else if (kind === 'orbit') {
+      camera.position.copy(ahead(middle, 0, 0.6)).add(orbit);
+      camera.lookAt(ahead(middle, 0, 0.6));
+    } else {
+      const side = backwards ? -1 : 1;
+      const far = 1.9 * length;
+      camera.position.copy(ahead(middle - side * far, -0.35 * length, 0.72 * length));
+      camera.position.z = Math.max(camera.position.z, height(camera.position.x, camera.position.y) + 1);
+      camera.lookAt(ahead(middle + side * 0.8 * length, 0, 0.15 * length));
+    }
+    camera.updateMatrixWorld();
+    camera.updateProjectionMatrix();
+    return camera;
+  }
+
+  let firstPicture = null;  // [ms] since the page was opened
+  let shown = { kind: 'follow', apart: false };
+  let views = [];  // what was drawn last: {car, camera, viewport}, for tests and labels
+  const orbit = new THREE.Vector3(-8, -7, 5);
+
+  function drawView(car, camera, viewport, others) {
+    for (const each of cars) {
+      // From the driver's seat a ghost around it would hide the road.
+      const around = shown.kind === 'driver' && each !== car
+        && Math.hypot(...['x', 'y'].map((axis) => poseAt(each.track, now)[axis] - poseAt(car.track, now)[axis])) < runs[car.track.run].car.length;
+      const visible = each.track.visible && !around;
+      // The driver's own car is not seen from inside.
+      each.solid.group.visible = visible && each === car && shown.kind !== 'driver';
+      each.ghost.group.visible = visible && each !== car && others;
+      each.trail.mesh.visible = visible && (others || each === car);
+    }
+    const { x, y, width, height: high } = viewport;
+    renderer.setViewport(x, y, width, high);
+    renderer.setScissor(x, y, width, high);
+    renderer.render(scene, camera);
+  }
+
+  function draw(time) {
+    const [width, high] = [canvas.clientWidth, canvas.clientHeight];
+    if (width <= 0 || high <= 0) return;
+    renderer.setSize(width, high, false);
+    for (const car of cars) {
+      car.solid.pose(car.motion, time);
+      car.ghost.pose(car.motion, time);
+      car.trail.update(time);
+    }
+    for (const { mesh, shown: isShown } of plans) mesh.visible = isShown(time);
+    scenery.update(time);
+    const visible = cars.filter(({ track }) => track.visible);
+    if (!visible.length) return;
+    const apart = shown.apart && visible.length > 1;
+    const first = visible.includes(lead) ? lead : visible[visible.length - 1];
+    const own = apart ? visible : [first];
+    renderer.setScissorTest(true);
+    renderer.setScissor(0, 0, width, high);
+    renderer.clear();
+    views = own.map((car, i) => {
+      const part = width / own.length;
+      const viewport = { x: Math.round(i * part), y: 0, width: Math.round(part) - (i + 1 < own.length ? 2 : 0), height: high };
+      const camera = cameraFor(shown.kind, car, time, viewport.width / viewport.height, orbit);
+      const { pose } = framing(car, time);
+      const z = height(pose.x, pose.y);
+      sun.target.position.set(pose.x, pose.y, z);
+      sun.position.set(pose.x - 22, pose.y - 30, z + 46);
+      drawView(car, camera, viewport, !apart);
+      return { car, camera, viewport };
+    });
+    if (firstPicture === null) firstPicture = performance.now();
+  }
+
+  return {
+    draw, orbit, lead, renderer,
+    set: (change) => { shown = { ...shown, ...change }; },
+    kind: () => shown.kind,
+    views: () => views,
+    firstPicture: () => firstPicture,
+    cars,
+  };
+}
+
+/** Whether the browser has WebGL. */
+function hasWebGl() {
+  try {
+    const canvas = document.createElement('canvas');
+    return Boolean(window.WebGLRenderingContext && (canvas.getContext('webgl2') || canvas.getContext('webgl')));
+  } catch (error) {
+    return false;
+  }
+}
+
+let replay = null;
+
+function drawReplay() {
+  if (!tracks.length || tracks.length > 6 || !runs.every((run) => run.vehicle)) return;
+  const made = section('replay', 'Replay');
+  if (!hasWebGl()) {
+    made.append('p').attr('class', 'hint').text('This browser has no WebGL, which the replay in three dimensions needs; the map below shows the same.');
+    return;
+  }
+  for (const run of runs) if (run.plan) run.plan.road = !FIELD_PLANS.includes(run.plan.method);
+  const panel = made.append('div').attr('class', 'panel replay');
+  const frame = panel.append('div').attr('class', 'stage');
+  const canvas = frame.append('canvas').attr('tabindex', 0).attr('role', 'img')
+    .attr('aria-label', `Replay in three dimensions of ${tracks.map(({ label }) => label).join(', ')}; the map and the charts show the same.`);
+  const labels = frame.append('div').attr('class', 'labels');
+  try {
+    replay = makeReplay(canvas.node());
+  } catch (error) {
+    panel.remove();
+    made.append('p').attr('class', 'hint').text('The replay in three dimensions cannot be drawn; the map below shows the same.');
+    return;
+  }
+
+  const tools = panel.append('div').attr('class', 'tools');
+  drawPlayButton(tools);
+  const cameras = tools.append('span').attr('class', 'choice').attr('role', 'group').attr('aria-label', 'Camera');
+  const choose = (kind) => {
+    replay.set({ kind });
+    cameras.selectAll('button').attr('aria-pressed', function pressed() { return String(this.value === kind); });
+    update();
+  };
+  for (const [kind, name] of CAMERAS) {
+    cameras.append('button').attr('type', 'button').attr('value', kind).attr('aria-pressed', String(kind === 'follow'))
+      .text(name).on('click', () => choose(kind));
+  }
+  if (tracks.length > 1) {
+    const apart = tools.append('button').attr('type', 'button').attr('id', 'side-by-side').attr('aria-pressed', 'false').text('Side by side');
+    apart.on('click', () => {
+      const on = apart.attr('aria-pressed') !== 'true';
+      apart.attr('aria-pressed', String(on));
+      replay.set({ apart: on });
+      update();
+    });
+  }
+  drawTimeSlider(tools, 'replay');
+
+  // Dragging turns the camera around the car.
+  const eye = new THREE.PerspectiveCamera();
+  eye.up.set(0, 0, 1);
+  eye.position.copy(replay.orbit);
+  const controls = new THREE.OrbitControls(eye, canvas.node());
+  Object.assign(controls, { enablePan: false, enableKeys: false, minDistance: 3, maxDistance: 150, maxPolarAngle: 0.49 * Math.PI, enableZoom: false });
+  controls.addEventListener('change', () => {
+    replay.orbit.copy(eye.position);
+    update();
+  });
+  controls.addEventListener('start', () => replay.kind() === 'orbit' || choose('orbit'));
+  canvas.on('keydown', () => {
+    const steps = { ArrowLeft: -0.1, ArrowRight: 0.1, PageUp: -1, PageDown: 1 };
+    const step = steps[d3.event.key];
+    if (step === undefined) return;
+    d3.event.preventDefault();
+    setTime(now + step);
+  });
+
+  /** Draws once per frame of the screen, however often it is asked. */
+  let waiting = false;
+  function update() {
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(() => {
+      waiting = false;
+      replay.draw(now);
+      const views = replay.views();
+      const names = labels.selectAll('span').data(views);
+      names.exit().remove();
+      names.enter().append('span').merge(names)
+        .style('left', ({ viewport }) => `${viewport.x + 10}px`)
+        .style('color', ({ car }) => car.track.css)
+        .text(({ car }) => {
+          const ghosts = views.length > 1 ? [] : tracks.filter((track) => track.visible && track !== car.track);
+          return car.track.label + (ghosts.length ? `; translucent: ${ghosts.map(({ label }) => label).join(', ')}` : '');
+        });
+    });
+  }
+  bus.on('time.replay', update);
+  bus.on('visibility.replay', update);
+  bus.on('scheme.replay', update);
+  new ResizeObserver(update).observe(canvas.node());
+}

@@ -1,0 +1,243 @@
+// What stands still around the vehicles: ground, road, friction patches, obstacles, cones, trees.
+
+const ROAD = { width: 7, dash: 3, gap: 6, line: 0.12, post: 10 };  // [m]
+
+/** A pseudo-random number from 0 to 1 for a number: the scenery is the same on every page. */
+function scattered(n) {
+  const x = Math.sin(n * 127.1 + 311.7) * 43758.5453;
+  return x - Math.floor(x);
+}
+
+/** Height of the ground at a point, by the grid of the run. */
+function heightOf(ground) {
+  if (!ground) return () => 0;
+  const z = numbersOf(ground.z);
+  const { columns, step } = ground;
+  const lines = z.length / columns;
+  return (x, y) => {
+    const u = Math.min(Math.max((x - ground.x) / step, 0), columns - 1.001);
+    const v = Math.min(Math.max((y - ground.y) / step, 0), lines - 1.001);
+    const [i, j] = [Math.floor(u), Math.floor(v)];
+    const [a, b] = [u - i, v - j];
+    const at = (k, l) => z[(j + l) * columns + i + k];
+    return (1 - b) * ((1 - a) * at(0, 0) + a * at(1, 0)) + b * ((1 - a) * at(0, 1) + a * at(1, 1));
+  };
+}
+
+/** Grain for a surface, so that motion over it is seen. */
+function grain(light, spread, repeat) {
+  const size = 64;
+  const pixels = new Uint8Array(3 * size * size);
+  for (let i = 0; i < size * size; ++i) {
+    const shade = 1 + spread * (scattered(i) - 0.5);
+    for (let c = 0; c < 3; ++c) pixels[3 * i + c] = Math.min(255, 255 * light[c] * shade);
+  }
+  const texture = new THREE.DataTexture(pixels, size, size, THREE.RGBFormat);
+  texture.wrapS = THREE.RepeatWrapping;
+  texture.wrapT = THREE.RepeatWrapping;
+  texture.repeat.set(repeat, repeat);
+  texture.magFilter = THREE.LinearFilter;
+  texture.minFilter = THREE.LinearMipMapLinearFilter;
+  texture.generateMipmaps = true;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/** Points along a line at equal distances: {x, y, nx, ny}, with the unit normal to the left. */
+function evenly(line, step) {
+  const points = [];
+  let left = 0;
+  for (let i = 0; i + 1 < line.x.length; ++i) {
+    const [dx, dy] = [line.x[i + 1] - line.x[i], line.y[i + 1] - line.y[i]];
+    const length = Math.hypot(dx, dy);
+    for (; left <= length && length > 0; left += step) {
+      points.push({ x: line.x[i] + (dx * left) / length, y: line.y[i] + (dy * left) / length, nx: -dy / length, ny: dx / length });
+    }
+    left -= length;
+  }
+  return points;
+}
+
+/** A strip on the ground between two offsets from points, [m] to the left; with pieces left out. */
+function strip(points, from, to, height, lift, keep = () => true) {
+  const positions = [];
+  const uvs = [];
+  const indices = [];
+  points.forEach(({ x, y, nx, ny }, i) => {
+    for (const offset of [from, to]) {
+      const [px, py] = [x + offset * nx, y + offset * ny];
+      positions.push(px, py, height(px, py) + lift);
+      uvs.push(px / 4, py / 4);
+    }
+    if (i > 0 && keep(i)) {
+      const k = 2 * i;
+      indices.push(k - 2, k, k - 1, k - 1, k, k + 1);
+    }
+  });
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
+  geometry.setAttribute('uv', new THREE.Float32BufferAttribute(uvs, 2));
+  geometry.setIndex(indices);
+  geometry.computeVertexNormals();
+  return geometry;
+}
+
+/** What lies on the ground is drawn over it in this order, so that nothing flickers. */
+function flat(geometry, color, level, more = {}) {
+  const material = new THREE.MeshLambertMaterial({
+    color, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -level, polygonOffsetUnits: -4 * level, ...more,
+  });
+  const mesh = new THREE.Mesh(geometry, material);
+  mesh.renderOrder = level;
+  mesh.receiveShadow = true;
+  return mesh;
+}
+
+function groundMesh(ground, extent) {
+  const material = new THREE.MeshLambertMaterial({ map: grain([0.70, 0.76, 0.58], 0.2, 1) });
+  let geometry;
+  if (ground) {
+    const z = numbersOf(ground.z);
+    const lines = z.length / ground.columns;
+    const positions = [];
+    const uvs = [];
+    const indices = [];
+    z.forEach((height, i) => {
+      const [x, y] = [ground.x + ground.step * (i % ground.columns), ground.y + ground.step * Math.floor(i / ground.columns)];
+      positions.push(x, y, height);
+      uvs.push(x / 8, y / 8);
+    });
+    for (let j = 0; j + 1 < lines; ++j) {
+      for (let i = 0; i + 1 < ground.columns; ++i) {
+        const k = j * ground.columns + i;
+        indices.push(k, k + 1, k + ground.columns, k + 1, k + ground.columns + 1, k + ground.columns);
+      }
+    }
+    geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
+    geometry.setAttribute('uv', new THREE.Float32BufferAttribute(uvs, 2));
+    geometry.setIndex(indices);
+    geometry.computeVertexNormals();
+  } else {
+    const size = 2400;
+    geometry = new THREE.PlaneBufferGeometry(size, size);
+    const uv = geometry.attributes.uv;
+    for (let i = 0; i < uv.count; ++i) uv.setXY(i, (uv.getX(i) * size) / 8, (uv.getY(i) * size) / 8);
+    geometry.translate((extent.x[0] + extent.x[1]) / 2, (extent.y[0] + extent.y[1]) / 2, 0);
+  }
+  const mesh = new THREE.Mesh(geometry, material);
+  mesh.receiveShadow = true;
+  // Nothing is below level ground; over so large a triangle depths are too coarse to tell.
+  material.depthWrite = Boolean(ground);
+  mesh.renderOrder = -1;
+  return mesh;
+}
+
+/** Asphalt along a line, with edge lines, a dashed middle and posts. */
+function roadMeshes(line, height) {
+  const points = evenly(line, 0.5);
+  if (points.length < 3) return [];
+  const half = ROAD.width / 2;
+  const paint = 0xf4f4ee;
+  const glow = { emissive: new THREE.Color(paint), emissiveIntensity: 0.3 };
+  const dash = (ROAD.dash + ROAD.gap) * 2;
+  const meshes = [
+    flat(strip(points, -half - 0.4, half + 0.4, height, 0.004), 0xffffff, 1, { map: grain([0.52, 0.52, 0.53], 0.2, 1) }),
+    flat(strip(points, half - ROAD.line, half, height, 0.008), paint, 2, glow),
+    flat(strip(points, -half, -half + ROAD.line, height, 0.008), paint, 2, glow),
+    flat(strip(points, -ROAD.line / 2, ROAD.line / 2, height, 0.008, (i) => i % dash < 2 * ROAD.dash), paint, 2, glow),
+  ];
+  const spots = points.filter((_, i) => i % (2 * ROAD.post) === 0)
+    .flatMap(({ x, y, nx, ny }) => [1, -1].map((side) => [x + side * (half + 1.1) * nx, y + side * (half + 1.1) * ny]));
+  const posts = new THREE.InstancedMesh(new THREE.BoxBufferGeometry(0.12, 0.12, 1), new THREE.MeshLambertMaterial({ color: 0xf2f0e8, emissive: 0x555550 }), spots.length);
+  const place = new THREE.Matrix4();
+  spots.forEach(([x, y], i) => posts.setMatrixAt(i, place.makeTranslation(x, y, height(x, y) + 0.5)));
+  posts.castShadow = true;
+  posts.frustumCulled = false;
+  return [...meshes, posts];
+}
+
+/** Trees where no road, drive or obstacle is near. */
+function treeMeshes(extent, busy, height) {
+  const MOST = 160;
+  const CLEAR = 14;  // [m]
+  const cells = new Set();
+  for (const [x, y] of busy) {
+    for (let i = -1; i <= 1; ++i) for (let j = -1; j <= 1; ++j) cells.add(`${Math.round(x / CLEAR) + i},${Math.round(y / CLEAR) + j}`);
+  }
+  const spots = [];
+  const [width, depth] = [extent.x[1] - extent.x[0] + 160, extent.y[1] - extent.y[0] + 160];
+  for (let n = 0; spots.length < MOST && n < 4 * MOST; ++n) {
+    const x = extent.x[0] - 80 + width * scattered(2 * n + 1);
+    const y = extent.y[0] - 80 + depth * scattered(2 * n + 2);
+    if (!cells.has(`${Math.round(x / CLEAR)},${Math.round(y / CLEAR)}`)) spots.push([x, y, 4 + 6 * scattered(n + 0.5)]);
+  }
+  const crown = new THREE.InstancedMesh(new THREE.ConeBufferGeometry(0.3, 0.9, 8).toNonIndexed().rotateX(Math.PI / 2).translate(0, 0, 0.6),
+    new THREE.MeshLambertMaterial({ color: 0x9cbb88 }), spots.length);
+  const place = new THREE.Matrix4();
+  spots.forEach(([x, y, size], i) => crown.setMatrixAt(i,
+    place.compose(new THREE.Vector3(x, y, height(x, y) - 0.15 * size), new THREE.Quaternion(), new THREE.Vector3(size, size, size))));
+  crown.castShadow = true;
+  crown.frustumCulled = false;
+  return [crown];
+}
+
+/** A rectangle on the ground, cut so that it follows it. */
+function areaGeometry({ x, y, yaw, length, width }, height, lift) {
+  const count = Math.max(2, Math.min(80, Math.ceil(length / 2)));
+  const points = d3.range(count + 1).map((i) => {
+    const along = length * (i / count - 0.5);
+    return { x: x + along * Math.cos(yaw), y: y + along * Math.sin(yaw), nx: -Math.sin(yaw), ny: Math.cos(yaw) };
+  });
+  return strip(points, -width / 2, width / 2, height, lift);
+}
+
+function drawScenery(scene, height) {
+  const extent = extentOfMap();
+  const [first] = runs;
+  scene.add(groundMesh(first.ground, extent));
+  const busy = [];
+  const take = (line) => line.x.forEach((x, i) => i % 5 === 0 && busy.push([x, line.y[i]]));
+  for (const track of tracks) take(track.log);
+  const lines = new Set();
+  for (const run of runs) {
+    const line = run.plan && run.plan.line;
+    if (!line || !run.plan.road || lines.has(JSON.stringify(line))) continue;
+    lines.add(JSON.stringify(line));
+    take(line);
+    for (const mesh of roadMeshes(line, height)) scene.add(mesh);
+  }
+  const once = new Set();
+  const fresh = (thing) => !once.has(JSON.stringify(thing)) && once.add(JSON.stringify(thing));
+  const moving = [];
+  for (const { world, plan } of runs) {
+    for (const patch of world.patches.filter(fresh)) {
+      const icy = patch.friction < world.friction;
+      scene.add(flat(areaGeometry(patch, height, 0.012), icy ? 0xd3ecfa : 0x3c3a38, 3, { transparent: true, opacity: 0.62 }));
+    }
+    for (const box of world.obstacles.filter(fresh)) {
+      busy.push([box.x, box.y]);
+      const mesh = new THREE.Mesh(new THREE.BoxBufferGeometry(box.length, box.width, box.height),
+        new THREE.MeshLambertMaterial({ color: 0x8a8f96 }));
+      mesh.castShadow = true;
+      mesh.receiveShadow = true;
+      const place = (time) => {
+        const [x, y] = [box.x + box.vx * time, box.y + box.vy * time];
+        mesh.position.set(x, y, height(x, y) + box.height / 2);
+      };
+      mesh.rotation.z = box.yaw;
+      place(0);
+      if (box.vx !== 0 || box.vy !== 0) moving.push(place);
+      scene.add(mesh);
+    }
+    for (const cone of ((plan && plan.cones) || []).filter(fresh)) {
+      const mesh = new THREE.Mesh(new THREE.ConeBufferGeometry(0.16, 0.6, 16).rotateX(Math.PI / 2),
+        new THREE.MeshLambertMaterial({ color: 0xe8641b }));
+      mesh.position.set(cone[0], cone[1], height(...cone) + 0.3);
+      mesh.castShadow = true;
+      scene.add(mesh);
+    }
+  }
+  for (const mesh of treeMeshes(extent, busy, height)) scene.add(mesh);
+  return { update: (time) => moving.forEach((place) => place(time)) };
+}

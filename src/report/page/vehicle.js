@@ -1,0 +1,110 @@
+// The vehicle in three dimensions: its shape from the run's own model, and its pose at a moment from
+// the state log, by the kinematics of its joints.
+
+/** The numbers of a channel: base64 of float32, or of int16 with an offset and a scale. */
+function numbersOf(channel) {
+  const bytes = Uint8Array.from(atob(channel.f4 || channel.i2), (c) => c.charCodeAt(0));
+  if (channel.f4) return new Float32Array(bytes.buffer);
+  return Float64Array.from(new Int16Array(bytes.buffer), (steps) => channel.offset + channel.scale * steps);
+}
+
+/** The motion of a track: its times, and its channels by name. */
+function motionOf(track) {
+  const { motion } = runs[track.run].plants.find((plant) => plant.name === track.plant);
+  const channels = Object.fromEntries(Object.entries(motion.channels).map(([name, channel]) => [name, numbersOf(channel)]));
+  return { t: numbersOf(motion.t), channels };
+}
+
+/** (w, x, y, z) as MuJoCo writes it. */
+function quaternionOf([w, x, y, z]) {
+  return new THREE.Quaternion(x, y, z, w);
+}
+
+function shapeOf(geom, meshes) {
+  const [a, b, c] = geom.size;
+  switch (geom.type) {
+    case 'sphere': return new THREE.SphereBufferGeometry(a, 20, 14);
+    case 'ellipsoid': return new THREE.SphereBufferGeometry(1, 20, 14).scale(a, b, c);
+    case 'cylinder': return new THREE.CylinderBufferGeometry(a, a, 2 * b, 36).rotateX(Math.PI / 2);
+    case 'capsule': return new THREE.CylinderBufferGeometry(a, a, 2 * (b + a), 24).rotateX(Math.PI / 2);
+    case 'box': return new THREE.BoxBufferGeometry(2 * a, 2 * b, 2 * c);
+    default: return meshes[geom.mesh];
+  }
+}
+
+/**
+ * A vehicle: its shapes, all under `group`, and `pose(motion, time)`, which puts it where it was. Its
+ * shapes are shared by all vehicles of a run; a ghost has one color and lets what is behind it through.
+ */
+function vehicleMaker(model) {
+  const meshes = model.meshes.map(({ vertices, faces }) => {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(vertices), 3));
+    geometry.setIndex(faces);
+    const flat = geometry.toNonIndexed();
+    flat.computeVertexNormals();
+    return flat;
+  });
+  const shapes = model.geoms.map((geom) => shapeOf(geom, meshes));
+
+  return ({ color, ghost }) => {
+    const group = new THREE.Group();
+    const bodies = model.bodies.map((body) => {
+      const node = new THREE.Group();
+      node.matrixAutoUpdate = false;
+      group.add(node);
+      return { ...body, node, position: new THREE.Vector3(...body.pos), rotation: quaternionOf(body.quat) };
+    });
+    model.geoms.forEach((geom, i) => {
+      const [r, g, b, a] = geom.rgba;
+      const material = new THREE.MeshLambertMaterial({
+        color: ghost ? new THREE.Color(color) : new THREE.Color(r, g, b),
+        transparent: ghost || a < 1, opacity: ghost ? 0.42 : a, depthWrite: true,
+        // Where both are in one place, the solid car is seen.
+        polygonOffset: ghost, polygonOffsetFactor: 4, polygonOffsetUnits: 40,
+      });
+      const mesh = new THREE.Mesh(shapes[i], material);
+      mesh.position.set(...geom.pos);
+      mesh.quaternion.copy(quaternionOf(geom.quat));
+      mesh.castShadow = !ghost;
+      mesh.receiveShadow = false;
+      bodies[geom.body].node.add(mesh);
+    });
+
+    const one = new THREE.Vector3(1, 1, 1);
+    function pose(motion, time) {
+      const { t, channels } = motion;
+      const next = Math.min(Math.max(d3.bisectRight(t, time), 1), t.length - 1);
+      const part = t.length > 1 ? Math.min(Math.max((time - t[next - 1]) / (t[next] - t[next - 1]), 0), 1) : 0;
+      const at = (name) => {
+        const values = channels[name];
+        if (!values) return 0;
+        return t.length > 1 ? values[next - 1] + part * (values[next] - values[next - 1]) : values[0];
+      };
+      const quaternionAt = (row) => quaternionOf(['qw', 'qx', 'qy', 'qz'].map((name) => channels[name][row]));
+      for (const body of bodies) {
+        const position = body.position.clone();
+        const rotation = body.rotation.clone();
+        for (const joint of body.joints) {
+          if (joint.type === 'free') {
+            position.set(at('x_m'), at('y_m'), at('z_m'));
+            rotation.copy(t.length > 1 ? quaternionAt(next - 1).slerp(quaternionAt(next), part) : quaternionAt(0));
+          } else if (joint.type === 'slide') {
+            position.add(new THREE.Vector3(...joint.axis).multiplyScalar(at(joint.channel)).applyQuaternion(rotation));
+          } else {
+            // It turns about its anchor, which stays.
+            const anchor = new THREE.Vector3(...joint.pos);
+            const turn = new THREE.Quaternion().setFromAxisAngle(new THREE.Vector3(...joint.axis).normalize(), at(joint.channel));
+            const before = anchor.clone().applyQuaternion(rotation);
+            rotation.multiply(turn);
+            position.add(before.sub(anchor.applyQuaternion(rotation)));
+          }
+        }
+        body.node.matrix.compose(position, rotation, one);
+        if (body.parent >= 0) body.node.matrix.premultiply(bodies[body.parent].node.matrix);
+        body.node.matrixWorldNeedsUpdate = true;
+      }
+    }
+    return { group, pose, root: bodies[0].node };
+  };
+}
