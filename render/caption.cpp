@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "render/layout.h"
+#include "render/tyre_forces.h"
 #include "trackbed/core/angle.h"
 
 namespace trackbed::render {
@@ -24,40 +25,69 @@ std::string Signed(double value, int digits, const char* unit) {
   return fmt::format("{}{}", zero ? text.substr(1) : text, unit);
 }
 
+/// "0.98 m left, 0.12 m ahead".
+std::string ApartText(const Apart& apart) {
+  return fmt::format("{:.2f} m {}, {:.2f} m {}", std::abs(apart.left),
+                     apart.left < 0.0 ? "right" : "left", std::abs(apart.ahead),
+                     apart.ahead < 0.0 ? "behind" : "ahead");
+}
+
 std::vector<Reading> ReadingsToShow(const Readings& readings) {
-  const auto degrees = [](double radians) { return Signed(radians * 180.0 / kPi, 1, " deg"); };
   std::vector<Reading> shown{
-      {"TIME", fmt::format("{:.2f} s", readings.time), "000.00 s"},
-      {"SPEED", fmt::format("{:.2f} m/s", readings.speed), "00.00 m/s"},
-      {"STEER CMD", degrees(readings.steering_command), "+00.0 deg"},
-      {"STEER ACTUAL", degrees(readings.steering), "+00.0 deg"},
+      {"t", fmt::format("{:.2f} s", readings.time), "000.00 s"},
+      {"speed", fmt::format("{:.1f} m/s", readings.speed), "00.0 m/s"},
   };
+  if (readings.lateral_acceleration) {
+    shown.push_back(
+        {"lateral", Signed(*readings.lateral_acceleration, 1, " m/s^2"), "+00.0 m/s^2"});
+  }
+  if (readings.tyre_use) {
+    shown.push_back({"grip used", fmt::format("{:.0f} %", 100.0 * *readings.tyre_use), "000 %"});
+  }
   if (readings.cross_track) {
-    shown.push_back({"CROSS-TRACK", Signed(*readings.cross_track, 3, " m"), "+0.000 m"});
+    shown.push_back({"off path", Signed(*readings.cross_track, 2, " m"), "+0.00 m"});
+  }
+  if (readings.apart) {
+    shown.push_back(
+        {readings.apart->plant, ApartText(*readings.apart), "00.00 m right, 00.00 m behind"});
   }
   return shown;
 }
 
-/// `bottom` is where the panel ends [px]. Returns where it begins.
-double DrawReadings(Canvas& canvas, const Font& font, const Layout& layout, double bottom,
-                    const Readings& readings) {
-  const std::vector<Reading> shown = ReadingsToShow(readings);
-  std::vector<double> widths;
-  double total = 2.0 * layout.pad + layout.gap * static_cast<double>(shown.size() - 1);
-  for (const Reading& reading : shown) {
-    widths.push_back(
-        std::max({font.Width(reading.label, layout.label), font.Width(reading.widest, layout.value),
-                  font.Width(reading.value, layout.value)}));
-    total += widths.back();
+/// One slim bar above `bottom` [px], in as many lines as the picture's width asks for. Returns
+/// where it begins.
+double DrawReadings(Canvas& canvas, const Font& font, const Layout& layout, double width,
+                    double bottom, const Readings& readings) {
+  const double space = 0.4 * layout.pad;  // between a label and its value
+  const double widest = width - 2.0 * (layout.margin + layout.pad);
+  std::vector<std::vector<std::pair<Reading, double>>> lines(1);  // with where each begins
+  double pen = 0.0;
+  double longest = 0.0;
+  for (const Reading& reading : ReadingsToShow(readings)) {
+    const double own =
+        font.Width(reading.label, layout.label) + space +
+        std::max(font.Width(reading.widest, layout.label), font.Width(reading.value, layout.label));
+    if (pen > 0.0 && pen + own > widest) {
+      lines.emplace_back();
+      pen = 0.0;
+    }
+    lines.back().emplace_back(reading, pen);
+    longest = std::max(longest, pen + own);
+    pen += own + layout.gap;
   }
-  const double tall = layout.label + layout.value + 1.2 * layout.pad;
+  const double tall = layout.label * static_cast<double>(lines.size()) + 0.8 * layout.pad;
   const double top = bottom - tall;
-  canvas.Fill({layout.margin, top, total, tall}, layout.round(), kPanel, kPanelAlpha);
-  double left = layout.margin + layout.pad;
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    canvas.Text(left, top + 0.6 * layout.pad, shown[i].label, layout.label, kLabel);
-    canvas.Text(left, top + 0.6 * layout.pad + layout.label, shown[i].value, layout.value, kValue);
-    left += widths[i] + layout.gap;
+  canvas.Fill({layout.margin, top, longest + 2.0 * layout.pad, tall}, layout.round(), kPanel,
+              kPanelAlpha);
+  double line_top = top + 0.4 * layout.pad;
+  for (const auto& line : lines) {
+    for (const auto& [reading, at] : line) {
+      const double left = layout.margin + layout.pad + at;
+      canvas.Text(left, line_top, reading.label, layout.label, kLabel);
+      canvas.Text(left + font.Width(reading.label, layout.label) + space, line_top, reading.value,
+                  layout.label, kValue);
+    }
+    line_top += layout.label;
   }
   return top;
 }
@@ -152,13 +182,18 @@ std::string Shortened(const std::string& title) {
 class CaptionPanels : public Overlay {
  public:
   explicit CaptionPanels(const OverlaySetup& setup)
-      : recording_(setup.recording), caption_{setup.title, recording_.note} {}
+      : recording_(setup.recording),
+        forces_(setup.recording),
+        caption_{setup.title, recording_.note} {}
 
   void Draw(PictureContext& context) override {
     caption_.legend = context.legend;
-    const Rows free =
-        DrawCaption(context.image, context.font, caption_, recording_.ReadingsAt(context.time),
-                    context.camera.azimuth, context.bottom);
+    Readings readings = recording_.ReadingsAt(context.time);
+    for (const WheelForce& wheel : forces_.At(context.time, context.car)) {
+      readings.tyre_use = std::max(readings.tyre_use.value_or(0.0), wheel.Use());
+    }
+    const Rows free = DrawCaption(context.image, context.font, caption_, readings,
+                                  context.camera.azimuth, context.bottom);
     const double gap = 0.5 * Layout(context.image.width, context.image.height).pad;
     context.top = free.top + gap;
     context.bottom = free.bottom - gap;
@@ -166,6 +201,7 @@ class CaptionPanels : public Overlay {
 
  private:
   const Recording& recording_;
+  TyreForces forces_;
   Caption caption_;
 };
 
@@ -183,7 +219,7 @@ Rows DrawCaption(Image& image, Font& font, const Caption& caption, const Reading
   if (readings.wind) {
     DrawWind(canvas, font, layout, line, *readings.wind, azimuth);
   }
-  const double top_of_readings = DrawReadings(canvas, font, layout, bottom, readings);
+  const double top_of_readings = DrawReadings(canvas, font, layout, image.width, bottom, readings);
   return {DrawLegend(canvas, font, layout, image.width, caption.legend), top_of_readings};
 }
 

@@ -9,11 +9,11 @@
 namespace trackbed::render {
 
 /// Colors from on the path to Scales::error.
-inline constexpr std::array<Color, 5> kErrorColors{{{0.10F, 0.62F, 0.36F},
-                                                    {0.58F, 0.78F, 0.22F},
-                                                    {0.99F, 0.80F, 0.16F},
-                                                    {0.96F, 0.46F, 0.12F},
-                                                    {0.80F, 0.08F, 0.16F}}};
+inline constexpr std::array<Color, 5> kErrorColors{{{0.27F, 0.00F, 0.33F},
+                                                    {0.23F, 0.32F, 0.55F},
+                                                    {0.13F, 0.57F, 0.55F},
+                                                    {0.37F, 0.79F, 0.38F},
+                                                    {0.99F, 0.91F, 0.14F}}};
 
 /// The color of a fraction of the scale, in [0, 1].
 Color ErrorColor(double fraction);

@@ -140,10 +140,12 @@ std::vector<FilmChoice> Overlays() {
   return overlays;
 }
 
-std::vector<std::string> AllOverlays() {
+std::vector<std::string> DefaultOverlays() {
   std::vector<std::string> names;
   for (const render::OverlayEntry& overlay : render::OverlayTable()) {
-    names.push_back(overlay.name);
+    if (overlay.by_default) {
+      names.push_back(overlay.name);
+    }
   }
   return names;
 }

@@ -44,12 +44,12 @@ OrientedBox Part(const OrientedBox& box, double x, double y, double length, doub
 
 class Tiler {
  public:
-  Tiler(const Ground& ground, std::vector<Tile>& tiles) : ground_(ground), tiles_(tiles) {}
+  Tiler(const Ground& ground, double tolerance, std::vector<Tile>& tiles)
+      : ground_(ground), tolerance_(tolerance), tiles_(tiles) {}
 
   void Cut(const OrientedBox& box, const Tile& like, double above) {
     constexpr double kLargest = 2.0;   // [m] where the ground is no plane
     constexpr double kSmallest = 0.1;  // [m]
-    constexpr double kTolerance = 0.0015;
     if (IsPlane(ground_, box)) {
       Add(box, like, above);
       return;
@@ -72,7 +72,7 @@ class Tiler {
     // Of the two sides the worse is cut; a long one may hide what it spans.
     along = box.length > kLargest ? 1e3 * box.length : box.length > kSmallest ? along : 0.0;
     across = box.width > kLargest ? 1e3 * box.width : box.width > kSmallest ? across : 0.0;
-    if (std::max(along, across) < kTolerance) {
+    if (std::max(along, across) < tolerance_) {
       Add(box, like, above);
     } else if (along >= across) {
       const double half = 0.5 * box.length;
@@ -110,6 +110,7 @@ class Tiler {
   }
 
   const Ground& ground_;
+  double tolerance_;  // [m]
   std::vector<Tile>& tiles_;
 };
 
@@ -139,7 +140,8 @@ Color PatchColorOnRoad(double friction) {
 
 std::vector<Tile> PatchTiles(const World& world) {
   std::vector<Tile> tiles;
-  Tiler tiler(world.ground, tiles);
+  constexpr double kTolerance = 0.0015;  // [m]
+  Tiler tiler(world.ground, kTolerance, tiles);
   const auto count = static_cast<double>(world.friction_patches.size());
   double above = kLowest;
   for (const FrictionPatch& patch : world.friction_patches) {
@@ -149,6 +151,13 @@ std::vector<Tile> PatchTiles(const World& world) {
     tiler.Cut(patch.area, like, above);
     above += (kHighest - kLowest) / count;
   }
+  return tiles;
+}
+
+std::vector<Tile> CutToGround(const Ground& ground, const OrientedBox& box, const Tile& like,
+                              double above, double tolerance) {
+  std::vector<Tile> tiles;
+  Tiler(ground, tolerance, tiles).Cut(box, like, above);
   return tiles;
 }
 

@@ -33,6 +33,11 @@ Color PatchColorOnRoad(double friction);
 /// lie 1 to 2 mm above the ground, later patches above earlier ones.
 std::vector<Tile> PatchTiles(const World& world);
 
+/// A rectangle on the ground, likewise cut so that the ground bends by no more than `tolerance` [m]
+/// under any tile; `above` the ground [m], with the color of `like`.
+std::vector<Tile> CutToGround(const Ground& ground, const OrientedBox& box, const Tile& like,
+                              double above, double tolerance);
+
 /// Appends a tile to the scene; nothing when the scene is full.
 void AddTile(mjvScene& scene, const Tile& tile);
 

@@ -85,6 +85,7 @@ struct OverlayEntry {
   std::string name;
   std::string summary;  ///< for people, on one line
   std::unique_ptr<Overlay> (*make)(const OverlaySetup& setup);
+  bool by_default = true;  ///< whether films have it that do not say
 };
 
 /// The entry of an overlay whose constructor takes the setup.

@@ -9,6 +9,8 @@
 #include "render/ghost.h"
 #include "render/ground_paint.h"
 #include "render/plan_lines.h"
+#include "render/road.h"
+#include "render/skid_marks.h"
 #include "render/strip.h"
 #include "render/trail.h"
 #include "render/tyre_forces.h"
@@ -38,8 +40,8 @@ void CheckNames(const std::vector<std::string>& names) {
 /// One line for each overlay. Later ones are drawn over earlier ones.
 const std::vector<OverlayEntry>& OverlayTable() {
   static const std::vector<OverlayEntry> table{
-      PlanOverlay(), TrailOverlay(), ErrorOverlay(), GhostOverlay(),
-      WindOverlay(), ForceOverlay(), StripOverlay(), CaptionOverlay(),
+      RoadOverlay(),  SkidMarkOverlay(), PlanOverlay(),  TrailOverlay(), ErrorOverlay(),
+      GhostOverlay(), WindOverlay(),     ForceOverlay(), StripOverlay(), CaptionOverlay(),
   };
   return table;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "trackbed/analysis/json_file.h"
+#include "trackbed/analysis/road_look.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
@@ -94,6 +95,16 @@ std::vector<std::string> Chosen(const fs::path& folder, std::vector<std::string>
   return asked.empty() ? std::move(there_are) : asked;
 }
 
+/// The name of the planner of a plan.json; empty without such a file.
+std::string PlannerOf(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored) ? ReadJson(file,
+                                              [](const nlohmann::ordered_json& plan) {
+                                                return plan.value("method", std::string());
+                                              })
+                                   : std::string();
+}
+
 /// What the run changed of its car.
 std::string VehicleNote(const VehicleSpec& vehicle) {
   return vehicle.steering_rate
@@ -173,7 +184,8 @@ PlantRecording::PlantRecording(const fs::path& folder, const std::string& plant,
       speed_(log_.Require("speed_mps")),
       steering_command_(log_.Require("steering_command_rad")),
       steering_(log_.Require("steering_rad")),
-      cross_track_(log_.Find("cross_track_m")) {
+      cross_track_(log_.Find("cross_track_m")),
+      lateral_acceleration_(log_.Find("lateral_acceleration_mps2")) {
   for (const char* column : {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"}) {
     pose_columns_.push_back(state_.Require(column));
   }
@@ -246,6 +258,9 @@ Readings PlantRecording::ReadingsAt(double time) const {
   if (cross_track_) {
     readings.cross_track = log_.Value(place, *cross_track_);
   }
+  if (lateral_acceleration_) {
+    readings.lateral_acceleration = log_.Value(place, *lateral_acceleration_);
+  }
   return readings;
 }
 
@@ -259,6 +274,15 @@ double Recording::end() const {
 
 Readings Recording::ReadingsAt(double time) const {
   Readings readings = plants.front().ReadingsAt(time);
+  if (plants.size() > 1 && time <= std::min(plants[0].end(), plants[1].end())) {
+    const Point car = plants[0].Position(time);
+    const Point other = plants[1].Position(time);
+    const double heading = plants[0].Heading(time);
+    const double dx = other.x - car.x;
+    const double dy = other.y - car.y;
+    readings.apart = {plants[1].plant(), dx * std::cos(heading) + dy * std::sin(heading),
+                      -dx * std::sin(heading) + dy * std::cos(heading)};
+  }
   if (!IsCalm(world.wind)) {
     const Point car = plants.front().Position(time);
     readings.wind = WindAt(world, {car.x, car.y}, time);
@@ -324,6 +348,9 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
   }
   const fs::path new_plans = folder / run_folder::NewPlansCsv(plants.front());
   recording.plan = ReadPlan(plan);
+  if (!recording.plan.empty()) {
+    recording.road = RoadToDraw(recording.world, PlannerOf(folder / run_folder::kPlanJson));
+  }
   recording.new_plans = ReadNewPlans(new_plans);
   recording.curvatures = ReadCurvatures(plan, recording.begin());
   // The log counts stations on from one plan to the next, and each plan its own from 0.

@@ -49,14 +49,24 @@ class TimedTable {
   std::vector<double> times_;
 };
 
+/// Where another plant's car is at the same time, seen from the car.
+struct Apart {
+  std::string plant;
+  double ahead = 0;  ///< along the car's heading [m]
+  double left = 0;   ///< across it [m]
+};
+
 /// What the caption says at a moment. SI units and radians.
 struct Readings {
   double time = 0;
   double speed = 0;
   double steering_command = 0;
   double steering = 0;
-  std::optional<double> cross_track;  ///< only when the run had a planned path
-  std::optional<Vec2> wind;           ///< at the car; only when the run has wind [m/s]
+  std::optional<double> cross_track;           ///< only when the run had a planned path
+  std::optional<double> lateral_acceleration;  ///< where the log has it [m/s^2]
+  std::optional<double> tyre_use;              ///< largest share of its grip that a tyre uses
+  std::optional<Apart> apart;                  ///< of the first ghost
+  std::optional<Vec2> wind;                    ///< at the car; only when the run has wind [m/s]
 };
 
 /// One plant's drive.
@@ -100,6 +110,7 @@ class PlantRecording {
   std::size_t steering_command_ = 0;
   std::size_t steering_ = 0;
   std::optional<std::size_t> cross_track_;
+  std::optional<std::size_t> lateral_acceleration_;
 };
 
 /// A run folder, read.
@@ -112,6 +123,7 @@ struct Recording {
   std::vector<Point> plan;                   ///< from the start; empty when there was none
   std::vector<NewPlan> new_plans;            ///< of the car alone, in the order of time
   std::vector<CurvatureProfile> curvatures;  ///< of both, where their files have it
+  std::optional<RoadLook> road;              ///< along the plan; none: open ground
   std::vector<Point> cones;                  ///< of the gates that the plan leads through
   TyreLaw tyre = TyreLaw::kAuto;             ///< of the plant `mujoco`
   Scales scales;                             ///< of this recording, or common with others

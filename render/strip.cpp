@@ -172,7 +172,10 @@ void Strip::Draw(Image& image, Font& font, double time) const {
 }
 
 OverlayEntry StripOverlay() {
-  return EntryOf<StripPanel>("strip", "planned curvature and steering over time");
+  OverlayEntry entry =
+      EntryOf<StripPanel>("strip", "planned curvature and steering over time; only where named");
+  entry.by_default = false;
+  return entry;
 }
 
 }  // namespace trackbed::render

@@ -54,6 +54,13 @@ class Forces : public Overlay {
  public:
   explicit Forces(const OverlaySetup& setup) : forces_(setup.recording) {}
 
+  void AddLegend(std::vector<LegendEntry>& legend) const override {
+    if (forces_.known()) {
+      legend.push_back({kEllipse, "friction ellipse of each tyre"});
+      legend.push_back({kLittle, "tyre force", "", {kLittle, kMuch, kAll}});
+    }
+  }
+
   void Draw(PictureContext& context) override {
     if (!forces_.known()) {
       return;
@@ -137,6 +144,7 @@ std::vector<WheelForce> TyreForces::At(double time, const mjData& data) const {
     const Vec2 under = hub.head<2>();
     const Eigen::Vector3d up = GroundNormal(recording_.world, under);
     WheelForce force;
+    force.body = wheel.body;
     force.place = {under.x(), under.y(), GroundHeight(recording_.world, under)};
     force.forward = axle.cross(up).normalized();
     force.left = up.cross(force.forward);

@@ -22,6 +22,8 @@ struct WheelForce {
   Vec2 force;               ///< along them [N]
   Vec2 most;                ///< half axes of the ellipse that friction times load is [N]
 
+  int body = -1;  ///< of the wheel, in the model
+
   /// How much of the friction is used: 1 on the ellipse. Tyre laws may give a little more.
   [[nodiscard]] double Use() const;
 };

@@ -16,6 +16,7 @@
 #include "src/report/paths.h"
 #include "src/report/scene_data.h"
 #include "trackbed/analysis/json_file.h"
+#include "trackbed/analysis/road_look.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
@@ -260,6 +261,9 @@ ordered_json RunData(const fs::path& folder, const std::string& name, std::size_
     run["world"] = WorldJson(world);
     if (fs::exists(folder / run_folder::kPlanJson) || fs::exists(folder / run_folder::kPlanCsv)) {
       run["plan"] = PlanJson(folder);
+      if (const auto road = RoadToDraw(world, run["plan"].value("method", ""))) {
+        run["plan"]["road"] = {{"width", Rounded(road->width)}, {"lanes", road->lanes}};
+      }
     }
     run["plants"] = ordered_json::array();
     for (const auto& [plant, entry] : metrics.at("plants").items()) {

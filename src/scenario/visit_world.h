@@ -77,6 +77,13 @@ inline void Visit(KeyVisitor& a, Wind& wind) {
   a.List({"gusts", "", "gusts added to the constant wind"}, wind.gusts);
 }
 
+inline void Visit(KeyVisitor& a, RoadLook& road) {
+  a.Field({"width", "m", "between the edge lines; 0: no road"}, road.width, Need::kOptional,
+          Range{.min = 0.0, .max = 100.0});
+  a.Field({"lanes", "", "number of lanes of equal width"}, road.lanes, Need::kOptional,
+          Range{.min = 1, .max = 12});
+}
+
 inline void Visit(KeyVisitor& a, World& world) {
   a.Field({"friction", "", "factor on the tyre friction coefficients"}, world.friction,
           Need::kOptional, kRoadFactor);
@@ -85,6 +92,10 @@ inline void Visit(KeyVisitor& a, World& world) {
   a.Section({"ground", "", "road surface; default: flat at z = 0"}, world.ground);
   a.Section({"wind", "", "air velocity over the ground"}, world.wind);
   a.List({"obstacles", "", "obstacles"}, world.obstacles);
+  a.Section({"road", "",
+             "road along the plan in films and reports, without effect on the drive; default: "
+             "along plans that do not cross open ground"},
+            world.road);
 }
 
 /// The keys of `box`.

@@ -60,6 +60,7 @@ class GoldenFrame : public testing::Test {
 name: golden
 mission: {speed: 3, waypoints: [[0, 0], [12, 12]]}
 world:
+  road: {width: 6, lanes: 2}
   friction_patches: [{x: 7, y: 2.5, yaw: 0.5, length: 6, width: 5, friction: 0.3}]
   wind: {y: -6, gusts: [{x: 3, y: 0, from: 1, duration: 5, area: {x: 9, y: 6, length: 6, width: 5}}]}
 )");

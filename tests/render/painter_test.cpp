@@ -141,10 +141,10 @@ world:
   options_.inset = "top";
   const Image with = Painted(options_);
   // Nine lines of 16 px and 9.6 px around them make the legend, from 10 px: the car and its scale,
-  // the path, the ghost, wind, gust and three factors. The strip takes 65.6 px of 350 and 4 px
-  // above it, and the readings 47.6 px above that.
+  // the path, the ghost, wind, gust and three factors. The readings are one line of 16 px and 6.4
+  // px around it.
   const int legend_end = 10 + 9 * 16 + 9;
-  const int readings_begin = 350 - 66 - 4 - 48;
+  const int readings_begin = 350 - 16 - 7;
   EXPECT_EQ(Different(with, without, 0, 640, 0, legend_end), 0);
   EXPECT_EQ(Different(with, without, 0, 640, readings_begin, 360), 0);
   EXPECT_GT(Different(with, without, 0, 640, legend_end, readings_begin), 54 * 96 / 2);

@@ -20,8 +20,8 @@ std::vector<FilmChoice> Cameras();
 /// Every overlay there is.
 std::vector<FilmChoice> Overlays();
 
-/// The names of all overlays.
-std::vector<std::string> AllOverlays();
+/// The names of the overlays of films that name none.
+std::vector<std::string> DefaultOverlays();
 
 /// How a film is taken. The defaults are what `trackbed run --video` makes.
 struct FilmOptions {
@@ -33,7 +33,7 @@ struct FilmOptions {
   /// smooth edges, and the shadows that the model's lamps cast, for about four times the time.
   std::string quality = "draft";
   std::string inset{};  ///< another camera, for a small picture in the picture; empty: none
-  std::vector<std::string> overlays = AllOverlays();  ///< names of Overlays()
+  std::vector<std::string> overlays = DefaultOverlays();  ///< names of Overlays()
   /// Plants of the run, each with a part of the picture of its own, side by side, as the car and
   /// alone. None: one picture, the car and the other plants as its ghosts.
   std::vector<std::string> plants{};

@@ -22,6 +22,12 @@ struct Obstacle {
   [[nodiscard]] bool moves() const { return velocity != Vec2::Zero(); }
 };
 
+/// A road along the plan in pictures. It changes nothing about a drive.
+struct RoadLook {
+  double width = 7.0;  ///< between the edge lines [m]; 0: no road
+  int lanes = 2;       ///< of equal width
+};
+
 /// The environment of a car.
 struct World {
   double friction = 1.0;  ///< factor on the tyres' own friction coefficient, both tyre laws
@@ -30,6 +36,8 @@ struct World {
   Ground ground{};
   Wind wind{};
   std::vector<Obstacle> obstacles;
+  /// None: a road where the planner follows one (analysis/road_look.h).
+  std::optional<RoadLook> road{};
 };
 
 /// The road's factor on the tyres' friction coefficient at a point: that of the last patch in the

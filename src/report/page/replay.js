@@ -2,9 +2,6 @@
 
 const CAMERAS = [['follow', 'Follow'], ['orbit', 'Orbit'], ['driver', 'Driver']];
 
-/** Plans on which a car drives across open ground, and not along a road. */
-const FIELD_PLANS = ['astar', 'hybrid_astar', 'reeds_shepp', 'dubins', 'rrt', 'rrt_star'];
-
 /** The color of a track, as WebGL needs it: of the style sheet, for a light page. */
 function solidColor(track) {
   return cssColor(`--track-${track.color}`) || '#888888';
@@ -219,7 +216,6 @@ function drawReplay() {
     made.append('p').attr('class', 'hint').text('This browser has no WebGL, which the replay in three dimensions needs; the map below shows the same.');
     return;
   }
-  for (const run of runs) if (run.plan) run.plan.road = !FIELD_PLANS.includes(run.plan.method);
   const panel = made.append('div').attr('class', 'panel replay');
   const frame = panel.append('div').attr('class', 'stage');
   const canvas = frame.append('canvas').attr('tabindex', 0).attr('role', 'img')

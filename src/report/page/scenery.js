@@ -1,6 +1,6 @@
 // What stands still around the vehicles: ground, road, friction patches, obstacles, cones, trees.
 
-const ROAD = { width: 7, dash: 3, gap: 6, line: 0.12, post: 10 };  // [m]
+const ROAD = { dash: 3, gap: 6, line: 0.12, post: 10 };  // [m]
 
 /** A pseudo-random number from 0 to 1 for a number: the scenery is the same on every page. */
 function scattered(n) {
@@ -134,10 +134,10 @@ function groundMesh(ground, extent) {
 }
 
 /** Asphalt along a line, with edge lines, a dashed middle and posts. */
-function roadMeshes(line, height) {
+function roadMeshes(line, { width, lanes }, height) {
   const points = evenly(line, 0.5);
   if (points.length < 3) return [];
-  const half = ROAD.width / 2;
+  const half = width / 2;
   const paint = 0xf4f4ee;
   const glow = { emissive: new THREE.Color(paint), emissiveIntensity: 0.3 };
   const dash = (ROAD.dash + ROAD.gap) * 2;
@@ -145,7 +145,10 @@ function roadMeshes(line, height) {
     flat(strip(points, -half - 0.4, half + 0.4, height, 0.004), 0xffffff, 1, { map: grain([0.52, 0.52, 0.53], 0.2, 1) }),
     flat(strip(points, half - ROAD.line, half, height, 0.008), paint, 2, glow),
     flat(strip(points, -half, -half + ROAD.line, height, 0.008), paint, 2, glow),
-    flat(strip(points, -ROAD.line / 2, ROAD.line / 2, height, 0.008, (i) => i % dash < 2 * ROAD.dash), paint, 2, glow),
+    ...d3.range(1, lanes).map((lane) => {
+      const middle = -half + (width * lane) / lanes;
+      return flat(strip(points, middle - ROAD.line / 2, middle + ROAD.line / 2, height, 0.008, (i) => i % dash < 2 * ROAD.dash), paint, 2, glow);
+    }),
   ];
   const spots = points.filter((_, i) => i % (2 * ROAD.post) === 0)
     .flatMap(({ x, y, nx, ny }) => [1, -1].map((side) => [x + side * (half + 1.1) * nx, y + side * (half + 1.1) * ny]));
@@ -205,7 +208,7 @@ function drawScenery(scene, height) {
     if (!line || !run.plan.road || lines.has(JSON.stringify(line))) continue;
     lines.add(JSON.stringify(line));
     take(line);
-    for (const mesh of roadMeshes(line, height)) scene.add(mesh);
+    for (const mesh of roadMeshes(line, run.plan.road, height)) scene.add(mesh);
   }
   const once = new Set();
   const fresh = (thing) => !once.has(JSON.stringify(thing)) && once.add(JSON.stringify(thing));

@@ -1,0 +1,198 @@
+#include "render/road.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/decor.h"
+#include "render/ground_line.h"
+#include "render/ground_paint.h"
+#include "render/ribbon.h"
+
+namespace trackbed::render {
+namespace {
+
+constexpr Color kRoadColor{0.40F, 0.41F, 0.42F};
+constexpr Color kPaint{0.93F, 0.93F, 0.90F};
+constexpr float kGroundUnderRoad = 0.006F;  // where asphalt lies, level ground is lower [m]
+constexpr double kShoulder = 0.4;           // asphalt beyond the edge lines [m]
+constexpr double kLineWidth = 0.14;         // [m]
+constexpr double kAsphaltHeight = -0.003;   // below all other paint [m]
+constexpr double kAsphaltRange = 250.0;     // [m]; farther it is thinner than a pixel
+constexpr double kPaintHeight = -0.001;
+constexpr double kDash = 3.0;         // [m]
+constexpr double kDashPeriod = 9.0;   // [m]
+constexpr double kPostPeriod = 10.0;  // [m]
+constexpr double kPostRange = 120.0;  // farther posts are thinner than a pixel [m]
+constexpr double kPostHeight = 1.0;   // [m]
+
+/// A point of a line, with the direction of the line there.
+struct Spot {
+  Point point;
+  Vec2 left;
+};
+
+/// Points every `step` [m] along a line from its begin.
+std::vector<Spot> SpotsAlong(const std::vector<Point>& line, double step) {
+  std::vector<Spot> spots;
+  double ahead = 0.0;  // to the next spot
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const Vec2 from(line[i - 1].x, line[i - 1].y);
+    const Vec2 piece = Vec2(line[i].x, line[i].y) - from;
+    const double length = piece.norm();
+    for (; ahead < length; ahead += step) {
+      const Vec2 at = from + piece * (ahead / length);
+      spots.push_back({{at.x(), at.y()}, Vec2(-piece.y(), piece.x()) / length});
+    }
+    ahead -= length;
+  }
+  return spots;
+}
+
+/// Grass beside the road, lower by what keeps the two apart in the depth buffer.
+void DressGround(const mjModel& model, mjvScene& scene) {
+  const int ground = mj_name2id(&model, mjOBJ_GEOM, "ground");
+  for (int i = 0; i < scene.ngeom; ++i) {
+    mjvGeom& geom = scene.geoms[i];
+    if (geom.objtype == mjOBJ_GEOM && (geom.objid == ground || geom.type == mjGEOM_HFIELD)) {
+      geom.pos[2] -= kGroundUnderRoad;
+      constexpr std::array<float, 3> kGrass{0.86F, 1.02F, 0.66F};
+      std::transform(kGrass.begin(), kGrass.end(), geom.rgba, geom.rgba,
+                     [](float share, float own) { return std::min(1.0F, share * own); });
+    }
+  }
+}
+
+class RoadRibbons : public Overlay {
+ public:
+  explicit RoadRibbons(const OverlaySetup& setup) : recording_(setup.recording) {
+    if (!recording_.road || recording_.plan.size() < 2) {
+      return;
+    }
+    constexpr double kStep = 0.5;  // [m]
+    const std::vector<Spot> spots = SpotsAlong(recording_.plan, kStep);
+    const double half = 0.5 * recording_.road->width;
+    AddAsphalt(spots, recording_.road->width + 2.0 * kShoulder);
+    edges_ = {Beside(spots, half), Beside(spots, -half)};
+    const int lanes = recording_.road->lanes;
+    for (int lane = 1; lane < lanes; ++lane) {
+      const double offset = recording_.road->width * (static_cast<double>(lane) / lanes - 0.5);
+      AddDashes(spots, offset, kStep);
+    }
+    for (const Spot& spot : SpotsAlong(recording_.plan, kPostPeriod)) {
+      for (const double side : {-1.0, 1.0}) {
+        posts_.push_back(OffsetFrom(spot, side * (half + 1.1)));
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t max_shapes() const override {
+    std::size_t count = asphalt_.size() + posts_.size();
+    for (const std::vector<Point>& edge : edges_) {
+      count += edge.size();
+    }
+    return count + dashes_.size();
+  }
+
+  void AddShapes(SceneContext& context) override {
+    if (asphalt_.empty()) {
+      return;
+    }
+    DressGround(*recording_.model, context.scene);
+    const Eigen::Vector2d around(context.camera.target_x, context.camera.target_y);
+    for (const Tile& tile : asphalt_) {
+      if ((tile.center.head<2>() - around).norm() < kAsphaltRange + tile.half_length) {
+        AddTile(context.scene, tile);
+      }
+    }
+    for (const std::vector<Point>& edge : edges_) {
+      AddLine(context, recording_.world, edge, {kPaint, kLineWidth, kPaintHeight});
+    }
+    for (const auto& [from, to] : dashes_) {
+      AddPiece(context, recording_.world, from, to, {kPaint, kLineWidth, kPaintHeight});
+    }
+    for (const Point& post : posts_) {
+      AddPost(context, post);
+    }
+  }
+
+ private:
+  [[nodiscard]] Point OffsetFrom(const Spot& spot, double left) const {
+    return recording_.OnGround(
+        {spot.point.x + left * spot.left.x(), spot.point.y + left * spot.left.y()});
+  }
+
+  [[nodiscard]] std::vector<Point> Beside(const std::vector<Spot>& spots, double left) const {
+    std::vector<Point> line;
+    for (const Spot& spot : spots) {
+      line.push_back(OffsetFrom(spot, left));
+    }
+    return Thinned(line);
+  }
+
+  /// Straight pieces: coarser than the edge lines, which lie upon them.
+  void AddAsphalt(const std::vector<Spot>& spots, double width) {
+    constexpr double kCoarse = 0.1;       // [m]
+    constexpr double kTolerance = 0.002;  // [m]
+    constexpr std::size_t kMostPieces = 2000;
+    const double overlap = 0.15 * 0.5 * width;  // as AddRibbonPiece
+    std::vector<Point> middle;
+    for (const Spot& spot : spots) {
+      middle.push_back({spot.point.x, spot.point.y, 0.0});
+    }
+    const std::vector<std::size_t> kept = Thin(middle, kCoarse, kMostPieces);
+    Tile like;
+    like.color = kRoadColor;
+    for (std::size_t i = 1; i < kept.size(); ++i) {
+      const Vec2 a(middle[kept[i - 1]].x, middle[kept[i - 1]].y);
+      const Vec2 b(middle[kept[i]].x, middle[kept[i]].y);
+      const Vec2 along = b - a;
+      const Vec2 center = 0.5 * (a + b);
+      const OrientedBox box{{center.x(), center.y(), std::atan2(along.y(), along.x())},
+                            along.norm() + 2.0 * overlap,
+                            width};
+      // Neighbors overlap at two heights, as pieces of ribbons do.
+      const double above = kAsphaltHeight + (i % 2 == 0 ? 0.0 : 0.0008);
+      const std::vector<Tile> tiles =
+          CutToGround(recording_.world.ground, box, like, above, kTolerance);
+      asphalt_.insert(asphalt_.end(), tiles.begin(), tiles.end());
+    }
+  }
+
+  void AddDashes(const std::vector<Spot>& spots, double left, double step) {
+    const auto period = static_cast<std::size_t>(kDashPeriod / step);
+    const auto dash = static_cast<std::size_t>(kDash / step);
+    for (std::size_t i = 0; i + dash < spots.size(); i += period) {
+      dashes_.emplace_back(OffsetFrom(spots[i], left), OffsetFrom(spots[i + dash], left));
+    }
+  }
+
+  static void AddPost(SceneContext& context, const Point& post) {
+    const double away =
+        std::hypot(post.x - context.camera.target_x, post.y - context.camera.target_y);
+    if (away < kPostRange) {
+      const std::array<mjtNum, 3> size{0.06, 0.06, 0.5 * kPostHeight};
+      const std::array<float, 4> rgba{0.90F, 0.89F, 0.85F, 1.0F};
+      mjvGeom* geom =
+          AddDecor(context.scene, mjGEOM_BOX, size, {post.x, post.y, post.z + 0.5 * kPostHeight},
+                   RowMajorMatrix3::Identity(), rgba);
+      if (geom != nullptr) {
+        geom->emission = 0.35F;  // white also on the side that the sun does not reach
+      }
+    }
+  }
+
+  const Recording& recording_;
+  std::vector<Tile> asphalt_;
+  std::vector<std::vector<Point>> edges_;
+  std::vector<std::pair<Point, Point>> dashes_;
+  std::vector<Point> posts_;
+};
+
+}  // namespace
+
+OverlayEntry RoadOverlay() {
+  return EntryOf<RoadRibbons>("road", "a road along the plan, with lanes and posts");
+}
+
+}  // namespace trackbed::render

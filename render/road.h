@@ -1,0 +1,11 @@
+#pragma once
+
+#include "render/overlay.h"
+
+namespace trackbed::render {
+
+/// Asphalt along the plan of the recording (Recording::road), with edge lines, dashed lines between
+/// lanes and posts every 10 m; nothing on open ground.
+OverlayEntry RoadOverlay();
+
+}  // namespace trackbed::render

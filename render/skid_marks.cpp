@@ -1,0 +1,85 @@
+#include "render/skid_marks.h"
+
+#include <map>
+#include <optional>
+
+#include "render/ground_line.h"
+#include "render/tyre_forces.h"
+#include "trackbed/sim/mujoco_handles.h"
+
+namespace trackbed::render {
+namespace {
+
+constexpr double kSkidUse = 0.9;        // of the grip
+constexpr double kSkidWidth = 0.17;     // about that of a tyre [m]
+constexpr double kSkidHeight = 0.003;   // below plans and trails [m]
+constexpr double kShortestSkid = 0.15;  // of a piece [m]
+constexpr Color kRubber{0.10F, 0.10F, 0.11F};
+
+class SkidMarks : public Overlay {
+ public:
+  explicit SkidMarks(const OverlaySetup& setup) : recording_(setup.recording) {
+    const TyreForces forces(recording_);
+    if (!forces.known()) {
+      return;
+    }
+    const MujocoData data = MakeMujocoData(*recording_.model);
+    const PlantRecording& car = recording_.plants.front();
+    std::map<int, Point> begins;  // of the mark that a wheel is making
+    for (const double time : car.times()) {
+      car.Pose(time, *recording_.model, *data);
+      std::map<int, Point> still;
+      for (const WheelForce& wheel : forces.At(time, *data)) {
+        if (wheel.Use() <= kSkidUse) {
+          continue;
+        }
+        const Point here{wheel.place.x(), wheel.place.y(), wheel.place.z()};
+        const auto begin = begins.find(wheel.body);
+        if (begin == begins.end()) {
+          still.emplace(wheel.body, here);
+        } else if (std::hypot(here.x - begin->second.x, here.y - begin->second.y) < kShortestSkid) {
+          still.insert(*begin);
+        } else {
+          pieces_.push_back({time, begin->second, here});
+          still.emplace(wheel.body, here);
+        }
+      }
+      begins = std::move(still);
+    }
+  }
+
+  [[nodiscard]] std::size_t max_shapes() const override { return pieces_.size(); }
+
+  void AddShapes(SceneContext& context) override {
+    for (const Piece& piece : pieces_) {
+      if (piece.time > context.time) {
+        break;
+      }
+      AddPiece(context, recording_.world, piece.from, piece.to, {kRubber, kSkidWidth, kSkidHeight});
+    }
+  }
+
+  void AddLegend(std::vector<LegendEntry>& legend) const override {
+    if (!pieces_.empty()) {
+      legend.push_back({kRubber, "tyre beyond 90 % of its grip"});
+    }
+  }
+
+ private:
+  struct Piece {
+    double time;  // when it ends [s]
+    Point from;
+    Point to;
+  };
+
+  const Recording& recording_;
+  std::vector<Piece> pieces_;  // in the order of time
+};
+
+}  // namespace
+
+OverlayEntry SkidMarkOverlay() {
+  return EntryOf<SkidMarks>("skid", "marks of tyres that use more than 0.9 of their grip");
+}
+
+}  // namespace trackbed::render
