@@ -272,8 +272,11 @@ TEST_F(FilmSceneTest, TheErrorRibbonHasTheColorOfTheDistanceFromThePath) {
   const Image image = Picture("top", 2.0);
   const std::array<int, 3> on = At(image, 1.5, 0.0);
   const std::array<int, 3> off = At(image, 4.2, 0.0);
-  EXPECT_GT(on[1], on[0] + 60);     // green: (0.10, 0.62, 0.36)
-  EXPECT_GT(off[0], off[1] + 100);  // red: half way from (0.96, 0.46, 0.12) to (0.80, 0.08, 0.16)
+  // viridis: dark violet, (68, 1, 84), on the path, yellow, (253, 231, 37), at the scale's end.
+  EXPECT_GT(on[2], on[1] + 40);
+  EXPECT_LT(on[1], 60);
+  EXPECT_GT(off[1], off[2] + 100);
+  EXPECT_GT(off[0], off[2] + 60);
   overlays_.pop_back();
   EXPECT_GT(At(Picture("top", 2.0), 1.5, 0.0)[0], 200);  // the car's orange
 }
