@@ -20,8 +20,9 @@ void AddCheck(const Command& command) {
       .AddPositional("files", options->paths,
                      "Scenario or study files, or folders searched recursively")
       .Required()
-      .TypeName("FILE...");
+      .TypeName("SCENARIO...");
   options->scenario.AddTo(command);
+  command.AddExample("Validate two shipped scenarios", "trackbed check three_turns slalom");
   command.OnRun([options] {
     int exit_code = kOk;
     for (const auto& file : ScenarioFiles(options->paths, FolderContent::kScenariosAndStudies)) {

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "src/cli/terminal.h"
+
 namespace trackbed::cli {
 
 Option Option::Required() const {
@@ -83,7 +85,7 @@ void Command::Hide() const {
 }
 
 void Command::OnRun(std::function<int()> run) const {
-  app_->callback([run = std::move(run), code = exit_code_, app = app_] {
+  app_->callback([run = std::move(run), code = &line_->exit_code_, app = app_] {
     if (app->get_subcommands().empty()) {
       *code = run();
     }
@@ -99,30 +101,39 @@ OptionInfo Info(const CLI::Option& option) {
           .value = !positional && option.get_items_expected_max() > 0 ? type : "",
           .text = option.get_description(),
           .fallback = option.get_default_str(),
-          .required = option.get_required()};
+          .required = option.get_required(),
+          .positional = positional};
 }
 
 }  // namespace
 
 Command Command::AddVerb(const std::string& name, const std::string& summary) const {
-  return {app_->add_subcommand(name, summary), exit_code_};
+  CLI::App* verb = app_->add_subcommand(name, summary);
+  line_->Prepare(*verb);
+  return {verb, line_};
 }
 
 namespace {
 
+constexpr const char* kColorOption = "--color";
+
 /// The verbs of `app` and those below them, with `before` in front of their names.
 void AddVisibleVerbs(const CLI::App& app, const std::string& before,
+                     const std::map<const CLI::App*, std::vector<Example>>& examples,
                      std::vector<CommandInfo>& verbs) {
   const auto is_visible = [](const CLI::App* verb) { return !verb->get_group().empty(); };
   for (const CLI::App* verb : app.get_subcommands(is_visible)) {
-    CommandInfo info{before + verb->get_name(), verb->get_description(), {}};
+    CommandInfo info{before + verb->get_name(), verb->get_description(), {}, {}};
     for (const CLI::Option* option : verb->get_options()) {
-      if (option != verb->get_help_ptr()) {
+      if (option != verb->get_help_ptr() && !option->check_name(kColorOption)) {
         info.options.push_back(Info(*option));
       }
     }
+    if (const auto found = examples.find(verb); found != examples.end()) {
+      info.examples = found->second;
+    }
     verbs.push_back(std::move(info));
-    AddVisibleVerbs(*verb, verb->get_name() + " ", verbs);
+    AddVisibleVerbs(*verb, verb->get_name() + " ", examples, verbs);
   }
 }
 
@@ -130,8 +141,18 @@ void AddVisibleVerbs(const CLI::App& app, const std::string& before,
 
 std::vector<CommandInfo> Command::VisibleVerbs() const {
   std::vector<CommandInfo> verbs;
-  AddVisibleVerbs(*app_->get_parent(), "", verbs);
+  AddVisibleVerbs(*line_->app_, "", line_->examples_, verbs);
   return verbs;
+}
+
+void Command::AddExample(const std::string& text, const std::string& command) const {
+  std::vector<Example>& examples = line_->examples_[app_];
+  examples.push_back({text, command});
+  std::string footer = "Examples:\n";
+  for (const Example& example : examples) {
+    footer += fmt::format("  {}:\n    {}\n", example.text, example.command);
+  }
+  app_->footer(footer);
 }
 
 namespace {
@@ -154,6 +175,56 @@ std::optional<std::string> Missing(const CLI::App& program) {
 
 }  // namespace
 
+namespace {
+
+/// Help as other programs print it: value names as they are, texts broken at the terminal's width.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option(const CLI::Option* option, bool positional) const override {
+    const OptionInfo info = Info(*option);
+    std::string text = info.text;
+    text += info.fallback.empty() ? "" : fmt::format(" (default: {})", info.fallback);
+    return Item(positional ? info.name : info.name + (info.value.empty() ? "" : " " + info.value),
+                text);
+  }
+
+  std::string make_option_usage(const CLI::Option* option) const override {
+    const std::string name = Info(*option).name;
+    return option->get_required() ? name : "[" + name + "]";
+  }
+
+  std::string make_subcommand(const CLI::App* verb) const override {
+    return Item(verb->get_name(), verb->get_description());
+  }
+
+  std::string make_description(const CLI::App* app) const override {
+    std::string text;
+    for (const std::string& line : Wrapped(app->get_description(), Width())) {
+      text += line + "\n";
+    }
+    return text + "\n";
+  }
+
+ private:
+  /// Wider lines are hard to read.
+  static std::size_t Width() { return std::min<std::size_t>(TerminalWidth(), 100); }
+
+  static std::string Item(const std::string& name, const std::string& text) {
+    constexpr std::size_t kIndent = 2;
+    constexpr std::size_t kColumn = 26;
+    std::string item = std::string(kIndent, ' ') + name;
+    const std::vector<std::string> lines = Wrapped(text, Width() - kColumn);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const bool beside = i == 0 && item.size() + 2 <= kColumn;
+      item += beside ? std::string(kColumn - item.size(), ' ') : "\n" + std::string(kColumn, ' ');
+      item += lines[i];
+    }
+    return item + "\n";
+  }
+};
+
+}  // namespace
+
 CommandLine::CommandLine(const std::string& name, const std::string& summary,
                          std::function<std::string()> version)
     : app_(std::make_unique<CLI::App>(summary, name)) {
@@ -161,12 +232,30 @@ CommandLine::CommandLine(const std::string& name, const std::string& summary,
   app_->set_help_flag("-h,--help", "Print this help");
   app_->require_subcommand(0, 1);
   app_->failure_message(CLI::FailureMessage::simple);
+  app_->formatter(std::make_shared<HelpFormatter>());
+  app_->get_formatter()->label("OPTIONS", "OPTION...");
+  app_->get_formatter()->label("SUBCOMMAND", "VERB");
+  app_->get_formatter()->label("Positionals", "Arguments");
+  Prepare(*app_);
 }
 
 CommandLine::~CommandLine() = default;
 
 Command CommandLine::AddVerb(const std::string& name, const std::string& summary) {
-  return {app_->add_subcommand(name, summary), &exit_code_};
+  CLI::App* verb = app_->add_subcommand(name, summary);
+  Prepare(*verb);
+  return {verb, this};
+}
+
+void CommandLine::Prepare(CLI::App& verb) {
+  verb.group("Verbs");
+  verb.footer("");  // not that of the verb above
+  verb.add_option_function<std::string>(kColorOption, &ChooseColors,
+                                        "Colors: auto (on a terminal, unless NO_COLOR is set), "
+                                        "always or never")
+      ->check(CLI::IsMember(ColorChoices()).description(""))
+      ->type_name("auto|always|never")
+      ->trigger_on_parse();
 }
 
 namespace {

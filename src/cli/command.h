@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -57,14 +58,24 @@ struct OptionInfo {
   std::string text;
   std::string fallback;  ///< default, empty if none is shown
   bool required = false;
+  bool positional = false;
 };
 
-/// A verb as the reference pages show it.
+/// A command that help shows.
+struct Example {
+  std::string text;     ///< what it does
+  std::string command;  ///< as one types it
+};
+
+/// A verb as help and the reference pages show it.
 struct CommandInfo {
   std::string name;
   std::string summary;
-  std::vector<OptionInfo> options;  ///< without --help
+  std::vector<OptionInfo> options;  ///< without --help and --color, which every verb has
+  std::vector<Example> examples;
 };
+
+class CommandLine;
 
 /// Handle of one verb of a CommandLine, which must outlive it.
 class Command {
@@ -75,6 +86,8 @@ class Command {
   void AddFlag(const std::string& names, bool& target, const std::string& text) const;
   /// A verb below this one ("sweep merge"), which is then not run itself and requires nothing.
   [[nodiscard]] Command AddVerb(const std::string& name, const std::string& summary) const;
+  /// Shown at the end of --help.
+  void AddExample(const std::string& text, const std::string& command) const;
   /// Leaves the verb out of --help and of VisibleVerbs.
   void Hide() const;
   /// Sets what the verb does; `run` gives back the exit code. Its exceptions leave
@@ -85,10 +98,10 @@ class Command {
 
  private:
   friend class CommandLine;
-  Command(CLI::App* app, int* exit_code) : app_(app), exit_code_(exit_code) {}
+  Command(CLI::App* app, CommandLine* line) : app_(app), line_(line) {}
 
   CLI::App* app_;
-  int* exit_code_;
+  CommandLine* line_;
 };
 
 /// The parser of a program with verbs. Everything that knows CLI11, whose headers take longer to
@@ -108,7 +121,12 @@ class CommandLine {
   int Parse(int argc, char** argv, int bad_usage);
 
  private:
+  friend class Command;
+  /// Adds what every verb has.
+  void Prepare(CLI::App& verb);
+
   std::unique_ptr<CLI::App> app_;
+  std::map<const CLI::App*, std::vector<Example>> examples_;
   int exit_code_ = 0;
 };
 

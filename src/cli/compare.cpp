@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "src/cli/scenario_runs.h"
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/compare_runs.h"
 #include "trackbed/analysis/run_folder.h"
@@ -31,15 +32,15 @@ void PrintRow(const char* what, const char* unit, const Difference& difference,
   if (tolerance && !(difference.max <= *tolerance)) {
     const auto [expected, actual] = FormatDistinct(*tolerance, difference.max);
     max = actual;
-    limit = "; at most " + expected + ": EXCEEDED";
+    limit = "; at most " + expected + ": " + Toned(Tone::kBad, "EXCEEDED");
   }
   fmt::print("    {:<8} {:>9} {:<5} at {:>6.4g} m, {:>6.4g} s; rms {:>9.3g} {}{}\n", what, max,
              unit, difference.max_s, difference.max_t, difference.rms, unit, limit);
 }
 
 std::string StatusText(const RunComparison& result) {
-  return !result.verdict.passed ? "FAILED"
-         : result.judged()      ? "passed"
+  return !result.verdict.passed ? Toned(Tone::kBad, "FAILED")
+         : result.judged()      ? Toned(Tone::kGood, "passed")
                                 : "compared, no tolerances given";
 }
 
@@ -141,14 +142,14 @@ void AddCompare(const Command& command) {
       .AddPositional("files", options->files,
                      "Scenario files, or one or two folders of finished runs")
       .Required()
-      .TypeName("FILE...");
+      .TypeName("SCENARIO...");
   command
       .AddOption("--plants", options->scenario.plants,
                  "Plants to compare (default: all of the scenario or run, or those common to both "
                  "runs); with two runs, A,B compares A of the first with B of the second")
       .Delimiter(',')
       .OneWord()
-      .TypeName("A,B...");
+      .TypeName("PLANT,...");
   command
       .AddOption("--tolerance", options->tolerances,
                  "Tolerances on position [m], heading [rad], yaw_rate [rad/s], steering [rad] "
@@ -162,6 +163,9 @@ void AddCompare(const Command& command) {
                  "runs); with several scenarios, one subfolder each")
       .TypeName("DIR");
   options->scenario.AddKeysTo(command);
+  command.AddExample("How far the car in MuJoCo is from the kinematic one on the same plan",
+                     "trackbed compare three_turns --tolerance position=0.1");
+  command.AddExample("Two finished runs", "trackbed compare out/three_turns out/three_turns");
   command.OnRun([options] { return Compare(*options); });
 }
 

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "src/cli/text_columns.h"
+
 namespace trackbed::cli {
 namespace {
 
@@ -126,79 +128,40 @@ class Collector : public DiagnosticsVisitor {
   std::string prefix_;
 };
 
-/// A column of a table, its heading above its texts.
-struct Column {
-  std::string name;
-  Texts heading;  ///< lines
-  Texts texts;    ///< one per row; "-" for what a row does not have
-  std::size_t width = 0;
-};
-
-/// Breaks the words into lines no wider than the column needs anyway.
-void SetHeading(Column& column) {
-  constexpr std::size_t kNarrow = 9;
-  const Heading heading = HeadingFor(column.name);
-  column.width = kNarrow;
-  for (const std::string& word : heading.words) {
-    column.width = std::max(column.width, word.size());
-  }
-  for (const std::string& text : column.texts) {
-    column.width = std::max(column.width, text.size());
-  }
-  for (const std::string& word : heading.words) {
-    if (!column.heading.empty() && column.heading.back().size() + 1 + word.size() <= column.width) {
-      column.heading.back() += " " + word;
-    } else {
-      column.heading.push_back(word);
-    }
-  }
-  column.heading.push_back(heading.unit.empty() ? "" : "[" + heading.unit + "]");
-}
-
-std::vector<Column> MakeColumns(const NamedList& list) {
+TextColumns MakeColumns(const NamedList& list) {
+  struct Column {
+    std::string name;
+    Texts texts;  ///< one per row; "-" for what a row does not have
+  };
   std::vector<Column> columns;
   for (std::size_t row = 0; row < list.rows.size(); ++row) {
     for (const TextCell& cell : list.rows[row].cells) {
       auto column = std::find_if(columns.begin(), columns.end(),
                                  [&](const Column& each) { return each.name == cell.name; });
       if (column == columns.end()) {
-        column = columns.insert(
-            columns.end(),
-            {.name = cell.name, .heading = {}, .texts = Texts(list.rows.size(), "-")});
+        column = columns.insert(columns.end(), {cell.name, Texts(list.rows.size(), "-")});
       }
       column->texts[row] = cell.text;
     }
   }
+  TextColumns laid;
   for (Column& column : columns) {
-    SetHeading(column);
+    Heading heading = HeadingFor(column.name);
+    laid.Add({std::move(heading.words), std::move(heading.unit), std::move(column.texts)});
   }
-  return columns;
+  return laid;
 }
 
 std::string TableText(const NamedList& list) {
-  const std::vector<Column> columns = MakeColumns(list);
-  std::size_t height = 0;
-  for (const Column& column : columns) {
-    height = std::max(height, column.heading.size());
-  }
+  const Texts lines = MakeColumns(list).Lines();
+  const std::size_t heading = lines.size() - list.rows.size();
   std::string text = fmt::format("  {}\n", list.name);
-  for (std::size_t line = 0; line < height; ++line) {
-    text += " ";
-    for (const Column& column : columns) {
-      const std::size_t empty = height - column.heading.size();
-      text +=
-          fmt::format(" {:>{}}", line < empty ? "" : column.heading[line - empty], column.width);
-    }
-    text += "\n";
-  }
-  for (std::size_t row = 0; row < list.rows.size(); ++row) {
-    text += " ";
-    for (const Column& column : columns) {
-      text += fmt::format(" {:>{}}", column.texts[row], column.width);
-    }
-    text += "\n";
-    for (const std::string& remark : list.rows[row].remarks) {
-      text += fmt::format("      {}\n", remark);
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    text += lines[line] + "\n";
+    if (line >= heading) {
+      for (const std::string& remark : list.rows[line - heading].remarks) {
+        text += fmt::format("      {}\n", remark);
+      }
     }
   }
   return text;

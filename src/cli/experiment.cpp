@@ -220,7 +220,7 @@ void AddExperiment(const Command& command) {
       .Required()
       .TypeName("NAME");
   command.AddOption("--vehicle", options->vehicle, "A model by name, or the path of an MJCF file")
-      .TypeName("NAME")
+      .TypeName("MODEL")
       .ShowDefault();
   command
       .AddOption("--steering-deg", options->steering,
@@ -249,7 +249,7 @@ void AddExperiment(const Command& command) {
       .AddOption("--searches", options->searches,
                  "Optimizers; see 'trackbed list optimizers' (default: all)")
       .Delimiter(',')
-      .TypeName("NAME,...");
+      .TypeName("OPTIMIZER,...");
   command
       .AddOption("--evaluations", options->evaluations,
                  "Maximum evaluations per search; 0: each method's default")
@@ -261,6 +261,8 @@ void AddExperiment(const Command& command) {
       .ShowDefault();
   command.AddOption("-o,--out", options->out, "Also write the table as CSV").TypeName("FILE");
   command.AddFlag("-q,--quiet", options->quiet, "Print errors only");
+  command.AddExample("One speed of the follower, all optimizers",
+                     "trackbed experiment optimal_steering --speeds 2");
   command.OnRun([options] { return Experiment(*options); });
 }
 

@@ -4,7 +4,9 @@
 #include <functional>
 #include <memory>
 
+#include "src/cli/listed_names.h"
 #include "src/cli/scenario_options.h"
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
@@ -53,9 +55,19 @@ std::vector<Line> Models() {
 
 std::vector<Line> Scenarios() {
   std::vector<Line> lines;
-  for (const auto& file :
-       ScenarioFiles({(DataFolder() / "scenarios").string()}, FolderContent::kScenarios)) {
+  for (const auto& file : ShippedScenarios(FolderContent::kScenarios)) {
     lines.push_back({file.stem().string(), file.string()});
+  }
+  return lines;
+}
+
+std::vector<Line> Studies() {
+  const std::vector<std::filesystem::path> scenarios = ShippedScenarios(FolderContent::kScenarios);
+  std::vector<Line> lines;
+  for (const auto& file : ShippedScenarios(FolderContent::kScenariosAndStudies)) {
+    if (std::find(scenarios.begin(), scenarios.end(), file) == scenarios.end()) {
+      lines.push_back({file.stem().string(), file.string()});
+    }
   }
   return lines;
 }
@@ -97,6 +109,7 @@ const std::vector<Kind>& Kinds() {
       {"overlays", [] { return Summaries(Overlays()); }},
       {"models", Models},
       {"scenarios", Scenarios},
+      {"studies", Studies},
   };
   return kinds;
 }
@@ -107,7 +120,7 @@ void Print(const Kind& kind) {
   for (const Line& line : lines) {
     longest = std::max(longest, line.name.size());
   }
-  fmt::print("{}:\n", kind.name);
+  fmt::print("{}:\n", Toned(Tone::kHeading, kind.name));
   for (const Line& line : lines) {
     fmt::print("  {:<{}} {}\n", line.name, longest, line.text);
   }
@@ -115,14 +128,29 @@ void Print(const Kind& kind) {
 
 }  // namespace
 
+std::vector<std::string> NamesOfKind(std::string_view name) {
+  std::vector<std::string> names;
+  for (const Kind& kind : Kinds()) {
+    if (name == "kinds") {
+      names.emplace_back(kind.name);
+    } else if (kind.name == name) {
+      for (const Line& line : kind.lines()) {
+        names.push_back(line.name);
+      }
+    }
+  }
+  return names;
+}
+
 void AddList(const Command& command) {
   const auto what = std::make_shared<std::string>();
   std::string kinds;
-  for (const Kind& kind : Kinds()) {
-    kinds += kinds.empty() ? "" : "|";
-    kinds += kind.name;
+  for (const std::string& kind : NamesOfKind("kinds")) {
+    kinds += (kinds.empty() ? "" : ", ") + kind;
   }
-  command.AddPositional("kind", *what, "What to list (default: everything)").TypeName(kinds);
+  command.AddPositional("kind", *what, fmt::format("{} (default: all of them)", kinds))
+      .TypeName("KIND");
+  command.AddExample("Where shipped scenarios are", "trackbed list scenarios");
   command.OnRun([what] {
     std::vector<std::string> names;
     bool found = false;

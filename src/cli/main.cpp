@@ -9,6 +9,7 @@
 #include <system_error>
 #include <vector>
 
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
@@ -43,10 +44,12 @@ const std::vector<Verb> kVerbs{
     {"experiment", "Repeat a published experiment and print its table", AddExperiment},
     {"list",
      "List available planners, controllers, maneuvers, plants, optimizers, cameras, overlays, "
-     "models or scenarios",
+     "models, scenarios or studies",
      AddList},
     {"model", "Print the parameters of a vehicle model, or write its composed MJCF", AddModel},
+    {"completion", "Print a script that completes commands in a shell", AddCompletion},
     {"docs", "Update the generated tables of docs/cli.md", AddDocs},
+    {"man", "Write manual pages", AddManual},
 };
 
 std::string VersionText() {
@@ -115,7 +118,7 @@ int Main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   // Plain stdio: where stderr is closed there is nobody to tell, and telling must not fail.
   const auto say = [](const std::string& text) {
-    std::fputs((WithoutControls(text) + "\n").c_str(), stderr);
+    std::fputs((cli::Toned(cli::Tone::kBad, WithoutControls(text), stderr) + "\n").c_str(), stderr);
   };
   int code = cli::kInternal;
   try {

@@ -102,7 +102,7 @@ void AddModel(const Command& command) {
   const auto options = std::make_shared<Options>();
   command.AddPositional("name", options->name, "A model by name, or the path of an MJCF file")
       .Required()
-      .TypeName("NAME");
+      .TypeName("MODEL");
   command
       .AddOption("--save", options->save,
                  "Write the composed MJCF and the files it needs, to open in MuJoCo's viewer")
@@ -111,6 +111,7 @@ void AddModel(const Command& command) {
       "--linkage", options->linkage,
       "Print joint couplings fitted to the steering linkage, to paste into the model file");
   AddAllowAssets(command, options->asset_folders);
+  command.AddExample("Parameters of a shipped model", "trackbed model bmw320i");
   command.OnRun([options] {
     const auto file = FindModel(options->name, "");
     const CarModel car(ComposeScene(file, {.asset_folders = Paths(options->asset_folders)}),

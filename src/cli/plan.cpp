@@ -55,10 +55,11 @@ int PlanOne(const PlanOptions& options) {
 
 void AddPlan(const Command& command) {
   const auto options = std::make_shared<PlanOptions>();
-  command.AddPositional("file", options->file, "Scenario file").Required().TypeName("FILE");
+  command.AddPositional("file", options->file, "Scenario file").Required().TypeName("SCENARIO");
   command.AddOption("-o,--out", options->out, "Output folder (default: out/<scenario>)")
       .TypeName("DIR");
   options->scenario.AddTo(command);
+  command.AddExample("Plan one of the shipped scenarios", "trackbed plan winding");
   command.OnRun([options] { return PlanOne(*options); });
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "src/cli/terminal.h"
+
 namespace trackbed::cli {
 namespace {
 
@@ -35,8 +37,22 @@ void ProgressBar::Show(double fraction) {
   constexpr std::size_t kWidth = 32;
   const auto filled =
       static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * static_cast<double>(kWidth));
-  Put(fmt::format("\r{} [{}{}] {:3.0f} %\x1b[K", label_, std::string(filled, '#'),
-                  std::string(kWidth - filled, '.'), fraction * 100.0));
+  Put(fmt::format("\r{} [{}{}] {:3.0f} %{}\x1b[K", label_, std::string(filled, '#'),
+                  std::string(kWidth - filled, '.'), fraction * 100.0, TimeLeft(fraction)));
+}
+
+std::string ProgressBar::TimeLeft(double fraction) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!begun_ && fraction > 0.0) {
+    begun_ = Moment{now, fraction};
+  }
+  constexpr double kEnoughTime = 2.0;  // [s] before which it would only be a guess
+  const double took = begun_ ? std::chrono::duration<double>(now - begun_->time).count() : 0.0;
+  const double done = begun_ ? fraction - begun_->fraction : 0.0;
+  if (took < kEnoughTime || !(done > 0.0) || fraction >= 1.0) {
+    return "";
+  }
+  return fmt::format(", {} left", DurationText((1.0 - fraction) * took / done));
 }
 
 }  // namespace trackbed::cli

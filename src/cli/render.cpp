@@ -121,21 +121,21 @@ void AddRender(const Command& command) {
   command
       .AddOption("--camera", options->camera,
                  "Point of view (default: the scenario's render.camera): " + Listed(Cameras()))
-      .TypeName("NAME");
+      .TypeName("CAMERA");
   command.AddOption("--inset", options->inset, "Another camera, shown as an inset")
-      .TypeName("NAME");
+      .TypeName("CAMERA");
   command
       .AddOption("--plants", options->plants,
                  "These plants of the run side by side, each alone (default: one picture, the car "
                  "and the others as its ghosts)")
       .Delimiter(',')
-      .TypeName("NAME,...");
+      .TypeName("PLANT,...");
   command
       .AddOption(
           "--overlays", options->overlays,
           "What to draw over the world, or none (default: everything): " + Listed(Overlays()))
       .Delimiter(',')
-      .TypeName("NAME,...");
+      .TypeName("OVERLAY,...");
   command
       .AddOption("--quality", options->quality,
                  "draft, or film: smooth edges and cast shadows, 4 times slower")
@@ -157,6 +157,11 @@ void AddRender(const Command& command) {
           "writes DIR/F_00000.png, ... (default: video.mp4, or picture.png, in the run folder)")
       .TypeName("FILE");
   command.AddFlag("-q,--quiet", options->quiet, "Print errors only");
+  command.AddExample("A picture of the tenth second, after `trackbed run three_turns`",
+                     "trackbed render out/three_turns --at 10 --quality film --out turn.png");
+  command.AddExample("The plants of a run side by side, as an animated picture",
+                     "trackbed render out/three_turns --plants kinematic,mujoco --size 640x360 "
+                     "--fps 5 --from 9 --to 10 --out split.webp");
   command.OnRun([options] { return RenderOne(*options); });
 }
 

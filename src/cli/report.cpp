@@ -77,6 +77,7 @@ void AddReport(const Command& command) {
                  "Video of each run: embedded in the page, linked to its file (beside), or none")
       .TypeName("embedded|beside|none");
   command.AddFlag("-q,--quiet", options->quiet, "Print errors only");
+  command.AddExample("The page of a finished run", "trackbed report out/three_turns");
   command.OnRun([options] { return Report(*options); });
 }
 

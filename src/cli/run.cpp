@@ -1,6 +1,5 @@
 #include "trackbed/analysis/run.h"
 
-#include <fmt/color.h>
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -8,16 +7,19 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "src/cli/film_of_run.h"
 #include "src/cli/scenario_runs.h"
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/analysis/sweep.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/hash.h"
+#include "trackbed/report/names.h"
 #include "trackbed/report/report.h"
 
 namespace trackbed::cli {
@@ -59,10 +61,14 @@ void TakeRow(RunOptions& options) {
 void PrintManeuver(const ManeuverMetrics& maneuver) {
   fmt::print("    {}{}\n", maneuver.method,
              !maneuver.passed   ? ""
-             : *maneuver.passed ? ": passed"
-                                : ": FAILED");
-  for (const auto& [name, value] : maneuver.values) {
-    fmt::print("    {:<36} {:>10.4g}\n", name, value);
+             : *maneuver.passed ? ": " + Toned(Tone::kGood, "passed")
+                                : ": " + Toned(Tone::kBad, "FAILED"));
+  for (const auto& [path, value] : maneuver.values) {
+    const ShownName name = NameOfMetric("maneuver." + path);
+    constexpr std::string_view kGroup = "Maneuver: ";
+    fmt::print("    {:<44} {:>10.4g}{}\n",
+               name.label.starts_with(kGroup) ? name.label.substr(kGroup.size()) : name.label,
+               value, name.unit.empty() ? "" : " " + name.unit);
   }
   if (!maneuver.missing.empty()) {
     fmt::print("    {}\n", maneuver.missing);
@@ -107,10 +113,10 @@ int RunOne(const ScenarioRun& run, const RunOptions& options) {
   WriteRunFolder(result, folder, {.mcap = options.mcap});
   if (!options.scenario.quiet) {
     fmt::print("{}: {}, in {}\n", scenario.name,
-               result.interrupted       ? "interrupted"
+               result.interrupted       ? Toned(Tone::kDoubtful, "interrupted")
                : !result.verdict.judged ? "finished, no expectations"
-               : result.verdict.passed  ? "passed"
-                                        : "FAILED",
+               : result.verdict.passed  ? Toned(Tone::kGood, "passed")
+                                        : Toned(Tone::kBad, "FAILED"),
                out.string());
     PrintSummary(result);
     std::fflush(stdout);  // a film takes its time, and may find no room
@@ -137,7 +143,7 @@ void AddRun(const Command& command) {
   const auto options = std::make_shared<RunOptions>();
   const Option files = command.AddPositional("files", options->files, "Scenario files")
                            .Required()
-                           .TypeName("FILE...");
+                           .TypeName("SCENARIO...");
   command
       .AddOption(
           "-o,--out", options->out,
@@ -154,6 +160,10 @@ void AddRun(const Command& command) {
       .InsteadOf(files)
       .TypeName("DIR");
   command.AddOption("--row", options->row, "The row, from 0").Range(0, 1'000'000'000).TypeName("N");
+  command.AddExample("Drive a shipped scenario; the results are in out/three_turns",
+                     "trackbed run three_turns");
+  command.AddExample("The same at another speed, with a page and a 3-D replay to open in a browser",
+                     "trackbed run three_turns --set mission.speed=2 --report --out faster");
   command.OnRun([options] {
     if (options->sweep.empty() != !options->row) {
       throw InputError(Problem{.message = "give both --from-sweep DIR and --row N, or neither"});

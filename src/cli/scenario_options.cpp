@@ -8,7 +8,9 @@
 
 #include "trackbed/analysis/metrics.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/spelling.h"
 #include "trackbed/render/film.h"
+#include "trackbed/sim/scene.h"
 
 namespace trackbed::cli {
 
@@ -75,7 +77,7 @@ std::vector<fs::path> Paths(const std::vector<std::string>& names) {
 
 void ScenarioOptions::AddTo(const Command& command) {
   command.AddOption("--plant", plants, "Run these plants instead of the scenario's")
-      .TypeName("NAME...");
+      .TypeName("PLANT...");
   AddKeysTo(command);
 }
 
@@ -99,11 +101,52 @@ std::vector<Override> ScenarioOptions::Overrides() const {
 }
 
 Scenario ScenarioOptions::Read(const fs::path& file) const {
-  return ReadScenario(file, Overrides(), CameraNames(), PossibleMetrics, Paths(asset_folders));
+  return ReadScenario(FindScenario(file), Overrides(), CameraNames(), PossibleMetrics,
+                      Paths(asset_folders));
 }
 
 Study ScenarioOptions::ReadStudyFile(const fs::path& file) const {
-  return ReadStudy(file, Overrides(), CameraNames(), PossibleMetrics, Paths(asset_folders));
+  return ReadStudy(FindScenario(file), Overrides(), CameraNames(), PossibleMetrics,
+                   Paths(asset_folders));
+}
+
+std::vector<fs::path> ShippedScenarios(FolderContent content) {
+  std::vector<fs::path> files;
+  AddFilesIn(DataFolder() / "scenarios", content, files);
+  std::erase_if(files,
+                [](const fs::path& file) { return file.parent_path().filename() == "validation"; });
+  return files;
+}
+
+fs::path FindScenario(const fs::path& name) {
+  std::error_code ignored;
+  if (fs::exists(fs::symlink_status(name, ignored)) || name.has_extension() || name.is_absolute()) {
+    return name;
+  }
+  const fs::path shipped = DataFolder() / "scenarios";
+  std::vector<std::string> names;
+  std::vector<fs::path> found;
+  for (const fs::path& file : ShippedScenarios(FolderContent::kScenariosAndStudies)) {
+    const fs::path inside = file.lexically_relative(shipped).replace_extension();
+    names.push_back(inside.filename().string());
+    if (inside == name || inside.filename() == name) {
+      found.push_back(file);
+    }
+  }
+  if (found.size() == 1) {
+    return found.front();
+  }
+  if (found.size() > 1) {
+    throw InputError(Problem{.file = name.string(),
+                             .message = fmt::format("is the name of {} and of {}",
+                                                    found[0].string(), found[1].string())});
+  }
+  const std::string nearest = NearestSpelling(name.string(), names);
+  throw InputError(Problem{
+      .file = name.string(),
+      .message = fmt::format("no such file, and no scenario of this name comes with Trackbed{}",
+                             nearest.empty() ? "; `trackbed list scenarios` names those that do"
+                                             : fmt::format("; did you mean '{}'?", nearest))});
 }
 
 std::vector<fs::path> ScenarioFiles(const std::vector<std::string>& paths, FolderContent content) {
@@ -114,7 +157,7 @@ std::vector<fs::path> ScenarioFiles(const std::vector<std::string>& paths, Folde
       AddFilesIn(path, content, found);
     }
     if (found.size() == before) {
-      found.emplace_back(path);
+      found.push_back(FindScenario(path));
     }
   }
   std::vector<fs::path> files;

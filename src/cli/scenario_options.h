@@ -44,7 +44,18 @@ std::vector<std::filesystem::path> Paths(const std::vector<std::string>& names);
 /// What to take from folders.
 enum class FolderContent { kScenarios, kScenariosAndStudies };
 
-/// The scenario files that `paths` name, each once: files as they are, folders by the *.yaml and
+/// Every file in the folder `scenarios` of the data, the files of a folder before those in its
+/// folders; without scenarios/validation, whose recordings are not installed.
+std::vector<std::filesystem::path> ShippedScenarios(FolderContent content);
+
+/// The file that a name on the command line means: itself if there is such a file or it has an
+/// extension, else the scenario or study of that name that comes with Trackbed: "three_turns",
+/// "studies/robustness" or "robustness". InputError with the nearest name when there is none, and
+/// when there are several.
+std::filesystem::path FindScenario(const std::filesystem::path& name);
+
+/// The scenario files that `paths` name, each once: files as FindScenario finds them,
+/// folders by the *.yaml and
 /// *.yml in them and their folders, the files of a folder before those of its folders, sorted.
 /// What is hidden (.git) and links to folders are passed by. A folder that has none stands for
 /// itself, for RefuseFolder to tell of. RunError when a folder cannot be read.

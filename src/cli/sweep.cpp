@@ -17,9 +17,12 @@
 #include "src/cli/scenario_options.h"
 #include "src/cli/scenario_runs.h"
 #include "src/cli/sweep_folders.h"
+#include "src/cli/sweep_table.h"
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/text_table.h"
 
 namespace trackbed::cli {
 namespace {
@@ -166,7 +169,12 @@ int Sweep(const SweepVerbOptions& options) {
                         sweep.rows, sweep.rows_expected, sweep.passed, *until)
                   : fmt::format("interrupted after {} of {} rows; the same command goes on",
                                 sweep.rows, sweep.rows_expected);
-    fmt::print("{}: {}, in {}\n", name, how, (out / run_folder::kSweepCsv).string());
+    const fs::path csv = out / run_folder::kSweepCsv;
+    fmt::print("{}: {}, in {}\n", name, how, csv.string());
+    constexpr std::size_t kMostRows = 100'000;  // more take more memory than their study
+    if (sweep.rows <= kMostRows) {
+      fmt::print("{}", SweepTableText(ReadTextCsv(csv), TerminalWidth()));
+    }
   }
   if (shard.count == 1 && (sweep.complete() || stopped)) {
     KeepWorstRows(records, all, options.scenario);
@@ -206,6 +214,7 @@ void AddSweep(const Command& command) {
   command.AddFlag("--restart", options->restart,
                   "Begin anew; else a study that was interrupted goes on where it was");
   options->scenario.AddTo(command);
+  command.AddExample("A shipped study", "trackbed sweep steering_delay --jobs 2");
   command.OnRun([options] { return Sweep(*options); });
   AddSweepMerge(command.AddVerb("merge", "Put the rows of a study's shards into one table"));
   AddSweepSubmit(

@@ -73,6 +73,8 @@ void AddSweepMerge(const Command& command) {
       .TypeName("DIR");
   command.AddFlag("--partial", options->partial, "Merge although rows are missing");
   command.AddFlag("-q,--quiet", options->quiet, "Print only problems");
+  command.AddExample("One table of what the tasks of a study left in its folder",
+                     "trackbed sweep merge /shared/study");
   command.OnRun([options] { return Merge(*options); });
 }
 

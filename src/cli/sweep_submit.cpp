@@ -120,6 +120,9 @@ void AddSweepSubmit(const Command& command) {
       .OneWord()
       .TypeName("OPTION");
   options->scenario.AddTo(command);
+  command.AddExample("A study as fifty tasks of a Slurm array, two hours each",
+                     "trackbed sweep submit study.yaml --tasks 50 --out /shared/study "
+                     "--sbatch=--time=2:00:00");
   command.OnRun([options] { return SubmitStudy(*options); });
 }
 

@@ -2,11 +2,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <thread>
 
 #include "src/cli/scenario_options.h"
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/suite.h"
 #include "trackbed/core/file.h"
@@ -34,20 +37,24 @@ void PrintCase(const SuiteCase& one, bool quiet) {
   switch (one.status) {
     case CaseStatus::kPassed:
       if (!quiet) {
-        fmt::print("pass {}: {}\n", one.file.string(), line);
+        fmt::print("{} {} ({:.1f} s): {}\n", Toned(Tone::kGood, "pass"), one.file.string(),
+                   one.wall_time, line);
       }
       break;
     case CaseStatus::kNotJudged:
       if (!quiet) {
-        fmt::print("not judged {}: {}\n", one.file.string(), line);
+        fmt::print("{} {} ({:.1f} s): {}\n", Toned(Tone::kDoubtful, "not judged"),
+                   one.file.string(), one.wall_time, line);
       }
       break;
     case CaseStatus::kFailed:
-      fmt::print("FAIL {}: {}\n", one.file.string(), line);
+      fmt::print("{} {} ({:.1f} s): {}\n", Toned(Tone::kBad, "FAIL"), one.file.string(),
+                 one.wall_time, line);
       break;
     case CaseStatus::kBadInput:
     case CaseStatus::kInternalError:
-      fmt::print(stderr, "{}\n", fmt::join(one.reasons, "\n"));
+      fmt::print(stderr, "{}\n",
+                 Toned(Tone::kBad, fmt::format("{}", fmt::join(one.reasons, "\n")), stderr));
       break;
     case CaseStatus::kInterrupted:
       break;
@@ -69,7 +76,36 @@ int SuiteExitCode(const std::vector<SuiteCase>& cases) {
                                          : kOk;
 }
 
+/// "12 scenarios in 34.5 s: 10 passed, 1 failed, 1 not judged".
+void PrintTotal(const std::vector<SuiteCase>& cases, double wall_time) {
+  struct Count {
+    CaseStatus status;
+    const char* name;
+    Tone tone;
+  };
+  static constexpr std::array kCounts{
+      Count{CaseStatus::kPassed, "passed", Tone::kGood},
+      Count{CaseStatus::kFailed, "failed", Tone::kBad},
+      Count{CaseStatus::kNotJudged, "not judged", Tone::kDoubtful},
+      Count{CaseStatus::kBadInput, "with wrong input", Tone::kBad},
+      Count{CaseStatus::kInternalError, "with internal errors", Tone::kBad},
+      Count{CaseStatus::kInterrupted, "not finished", Tone::kDoubtful},
+  };
+  std::vector<std::string> parts;
+  for (const Count& count : kCounts) {
+    const auto number = std::count_if(cases.begin(), cases.end(), [&](const SuiteCase& one) {
+      return one.status == count.status;
+    });
+    if (number > 0) {
+      parts.push_back(Toned(count.tone, fmt::format("{} {}", number, count.name)));
+    }
+  }
+  fmt::print("{} scenario{} in {}: {}\n", cases.size(), cases.size() == 1 ? "" : "s",
+             DurationText(wall_time), fmt::join(parts, ", "));
+}
+
 int Test(const TestOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
   const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const std::vector<fs::path> files = ScenarioFiles(options.paths, FolderContent::kScenarios);
   if (!options.junit.empty()) {  // before the work, not after it
@@ -87,6 +123,10 @@ int Test(const TestOptions& options) {
   if (!options.junit.empty()) {
     WriteFileAtomically(options.junit, ToJUnit(cases));
   }
+  if (!options.scenario.quiet) {
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    PrintTotal(cases, took.count());
+  }
   return SuiteExitCode(cases);
 }
 
@@ -96,7 +136,7 @@ void AddTest(const Command& command) {
   const auto options = std::make_shared<TestOptions>();
   command.AddPositional("paths", options->paths, "Scenario files, or folders searched recursively")
       .Required()
-      .TypeName("PATH...");
+      .TypeName("SCENARIO...");
   command.AddOption("--junit", options->junit, "Also write the results as JUnit XML")
       .TypeName("FILE");
   command
@@ -105,6 +145,8 @@ void AddTest(const Command& command) {
       .Range(1, 1000)
       .TypeName("N");
   options->scenario.AddTo(command);
+  command.AddExample("Two shipped scenarios, with results for a CI server",
+                     "trackbed test three_turns paper_circle --junit results.xml");
   command.OnRun([options] { return Test(*options); });
 }
 

@@ -32,7 +32,9 @@ void AddReport(const Command& command);
 void AddExperiment(const Command& command);
 void AddList(const Command& command);
 void AddModel(const Command& command);
+void AddCompletion(const Command& command);
 void AddDocs(const Command& command);
+void AddManual(const Command& command);
 
 // Verbs of `sweep`.
 void AddSweepMerge(const Command& command);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "src/report/names.h"
 #include "src/report/paths.h"
+#include "trackbed/report/names.h"
 
 namespace trackbed {
 namespace {

@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "src/report/checks.h"
-#include "src/report/names.h"
 #include "src/report/numbers.h"
 #include "src/report/paths.h"
 #include "src/report/run_data.h"
 #include "trackbed/analysis/compare.h"
 #include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/run_folder.h"
+#include "trackbed/report/names.h"
 
 namespace trackbed {
 namespace {

@@ -1,4 +1,4 @@
-#include "src/report/names.h"
+#include "trackbed/report/names.h"
 
 #include <fmt/format.h>
 

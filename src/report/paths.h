@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/report/names.h"
+#include "trackbed/report/names.h"
 
 namespace trackbed {
 

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "src/report/checks.h"
-#include "src/report/names.h"
 #include "src/report/numbers.h"
 #include "src/report/paths.h"
 #include "src/report/scene_data.h"
@@ -22,6 +21,7 @@
 #include "trackbed/core/file.h"
 #include "trackbed/core/table.h"
 #include "trackbed/planning/common/plan_status.h"
+#include "trackbed/report/names.h"
 #include "trackbed/scenario/scenario.h"
 #include "trackbed/sim/car_model.h"
 

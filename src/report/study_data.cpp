@@ -7,7 +7,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "src/report/names.h"
 #include "src/report/numbers.h"
 #include "src/report/study_difference.h"
 #include "src/report/study_statistics.h"
@@ -15,6 +14,7 @@
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
+#include "trackbed/report/names.h"
 
 namespace trackbed {
 namespace {
@@ -48,6 +48,7 @@ ordered_json StudyDescription(const fs::path& table) {
             {"folder", has_all ? table.parent_path().string() : ""},
             {"scenario", json.at("scenario").get<std::string>()},
             {"complete", complete},
+            {"bisected", json.value("/bisect/key"_json_pointer, std::string())},
             {"stopped", json.value("stopped", std::string())},
             {"rows_expected", json.at("rows_expected").get<std::size_t>()},
             {"versions", json.at("versions").get<std::map<std::string, std::string>>()},
@@ -55,7 +56,9 @@ ordered_json StudyDescription(const fs::path& table) {
   });
 }
 
-ordered_json ColumnsJson(const TextTable& table, const std::string& file) {
+/// A key that was bisected is what the study asks for: an output, before all others.
+ordered_json ColumnsJson(const TextTable& table, const std::string& file,
+                         const std::string& bisected = "") {
   const std::vector<std::string>& names = table.columns();
   const auto status = std::find(names.begin(), names.end(), "status");
   if (status == names.end()) {
@@ -64,11 +67,12 @@ ordered_json ColumnsJson(const TextTable& table, const std::string& file) {
   }
   ordered_json columns = ordered_json::array();
   for (auto name = names.begin(); name != names.end(); ++name) {
-    const bool is_output = name > status;
+    const bool is_bisected = name < status && *name == bisected;
+    const bool is_output = name > status || is_bisected;
     const bool is_parameter = name < status && *name != "seed";
-    const ShownName shown = is_output      ? NameOfOutput(*name)
-                            : is_parameter ? NameOfKey(*name)
-                                           : ShownName{*name, ""};
+    const ShownName shown = is_parameter ? NameOfKey(*name)
+                            : is_output  ? NameOfOutput(*name)
+                                         : ShownName{*name, ""};
     columns.push_back({{"name", *name},
                        {"label", shown.label},
                        {"unit", shown.unit},
@@ -102,7 +106,7 @@ ordered_json StudyData(const fs::path& file, const std::optional<fs::path>& befo
   if (!study.contains("name")) {
     study["name"] = file.stem().string();
   }
-  study["columns"] = ColumnsJson(table, file.string());
+  study["columns"] = ColumnsJson(table, file.string(), study.value("bisected", ""));
   study["row_count"] = table.rows().size();
   const auto status =
       std::find(table.columns().begin(), table.columns().end(), "status") - table.columns().begin();

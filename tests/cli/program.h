@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <regex>
 #include <string>
 
 #include "tests/support/shell.h"
@@ -15,6 +16,12 @@ inline Outcome Trackbed(const TempFolder& folder, const std::string& arguments) 
 
 inline std::string ScenarioFile(const std::string& name) {
   return (std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml")).string();
+}
+
+/// What `test` prints, without the times that it took: " (0.3 s)" and " in 1.2 s".
+inline std::string WithoutDurations(const std::string& output) {
+  static const std::regex duration(R"( \([0-9.]+ (s|min|h)[^)]*\)| in [0-9.]+ (s|min|h)[^:]*)");
+  return std::regex_replace(output, duration, "");
 }
 
 /// Whether the program was built with video.

@@ -352,14 +352,16 @@ TEST(Program, TestsScenariosOneLineEach) {
       Trackbed(folder, "test --plant kinematic --set 'expect={reach_goal: 0.5}' -- " +
                            ScenarioFile("winding") + " " + ScenarioFile("three_turns"));
   EXPECT_EQ(outcome.code, 0);
-  EXPECT_EQ(outcome.output, "pass " + ScenarioFile("winding") + ": all expectations met\npass " +
-                                ScenarioFile("three_turns") + ": all expectations met\n");
+  EXPECT_EQ(WithoutDurations(outcome.output),
+            "pass " + ScenarioFile("winding") + ": all expectations met\npass " +
+                ScenarioFile("three_turns") + ": all expectations met\n2 scenarios: 2 passed\n");
   const Outcome failed =
       Trackbed(folder, "test -q --plant kinematic --set 'expect={max_cross_track: 0.001}' -- " +
                            ScenarioFile("winding"));
   EXPECT_EQ(failed.code, 3);
-  EXPECT_THAT(failed.output, StartsWith("FAIL " + ScenarioFile("winding") +
-                                        ": kinematic: maximum cross-track error "));
+  EXPECT_THAT(
+      WithoutDurations(failed.output),
+      StartsWith("FAIL " + ScenarioFile("winding") + ": kinematic: maximum cross-track error "));
   EXPECT_THAT(failed.output, HasSubstr(" m exceeds 0.001 m at "));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
@@ -397,8 +399,8 @@ TEST(Program, ChecksWhatIsExpectedOfMetrics) {
     const Outcome outcome = Trackbed(folder, std::string(verb) + " s.yaml");
     EXPECT_EQ(outcome.code, 2) << verb;
     EXPECT_THAT(outcome.output,
-                testing::MatchesRegex("s.yaml:12:22: expect.metrics.0..metric: unknown metric "
-                                      "'steering_rat_max'; did you mean 'steering_rate_max'.\n"))
+                StartsWith("s.yaml:12:22: expect.metrics[0].metric: unknown metric "
+                           "'steering_rat_max'; did you mean 'steering_rate_max'?\n"))
         << verb;
   }
   EXPECT_THAT(folder.Names(), testing::ElementsAre("s.yaml"));  // nothing was driven

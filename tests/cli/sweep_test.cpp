@@ -33,7 +33,10 @@ TEST(Sweep, WritesATableAndWhereItComesFrom) {
   const Outcome outcome = Trackbed(folder, "sweep study.yaml");
   EXPECT_EQ(outcome.code, 0) << outcome.output;
   // Ten meters ahead cuts the corners; that a run fails is a result, not an error.
-  EXPECT_EQ(outcome.output, "study: 3 rows from 3 runs, 2 passed, in out/study/sweep.csv\n");
+  EXPECT_THAT(outcome.output, StartsWith("study: 3 rows from 3 runs, 2 passed, in "
+                                         "out/study/sweep.csv\n"));
+  // And a table of the rows.
+  EXPECT_THAT(outcome.output, testing::ContainsRegex("\n +2\\.5 +passed +0\\.0[0-9]+\n"));
   const std::string csv = ReadFile(folder.path() / "out/study/sweep.csv");
   EXPECT_THAT(csv, testing::MatchesRegex(
                        "control\\.distance,status,metrics\\.kinematic\\.cross_track\\.max,reason\n"
@@ -82,7 +85,10 @@ TEST(Sweep, LeavesCellsEmptyThatARunHasNoValueFor) {
                          "metrics.mujoco.status, plan.status]\n"));
   const Outcome outcome = Trackbed(folder, "sweep study.yaml");
   EXPECT_EQ(outcome.code, 0);  // runs that fail are results
-  EXPECT_EQ(outcome.output, "study: 3 rows from 3 runs, 0 passed, in out/study/sweep.csv\n");
+  EXPECT_THAT(outcome.output, StartsWith("study: 3 rows from 3 runs, 0 passed, in "
+                                         "out/study/sweep.csv\n"));
+  EXPECT_THAT(outcome.output,
+              HasSubstr("   [kinematic]         -        10    failed  time_limit"));
   EXPECT_EQ(
       ReadFile(folder.path() / "out/study/sweep.csv"),
       "drive.plants,mission.speed,plan.radius,status,metrics.kinematic.status,"
@@ -268,11 +274,11 @@ TEST(Sweep, RefusesToGoOnWithAnotherStudy) {
   const TempFolder folder;
   folder.Write("study.yaml", StudyText(kShort));
   ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml -o r").code, 0);
-  EXPECT_EQ(Trackbed(folder, "sweep study.yaml -o r").output,
-            "study: 6 of 6 rows are there already\n"
-            "study: 6 rows from 5 runs, 0 passed, in r/sweep.csv\n"
-            "study: 1 rows without a run: 1 refused, 0 with an internal error; see the column "
-            "reason\n");
+  EXPECT_THAT(Trackbed(folder, "sweep study.yaml -o r").output,
+              testing::AllOf(StartsWith("study: 6 of 6 rows are there already\n"
+                                        "study: 6 rows from 5 runs, 0 passed, in r/sweep.csv\n"),
+                             testing::EndsWith("study: 1 rows without a run: 1 refused, 0 with an "
+                                               "internal error; see the column reason\n")));
   const std::string other = "sweep -q study.yaml -o r --set drive.time_limit=0.2";
   EXPECT_THAT(Trackbed(folder, other).output,
               testing::MatchesRegex("r/sweep.records: has rows of another study \\(overrides.*"

@@ -1,4 +1,4 @@
-#include "src/report/names.h"
+#include "trackbed/report/names.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

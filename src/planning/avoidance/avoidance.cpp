@@ -293,9 +293,11 @@ Plan PlanAroundWith(const ListingAvoidanceOptions& options, const AvoidanceReque
 
 const std::vector<AvoiderEntry>& LocalPlanners() {
   static const std::vector<AvoiderEntry> table{
-      {"bezier", "RRT* and a degree-7 Bezier curve, repaired until feasible (F.2)",
+      {"bezier",
+       "RRT* and a degree-7 Bezier curve, repaired until feasible (Skackauskas, dissertation)",
        BezierAvoidanceOptions{}, true},
-      {"listing", "the curve of F.2 as printed, without checks, for comparison",
+      {"listing",
+       "the curve as Skackauskas's dissertation prints it, without checks, for comparison",
        ListingAvoidanceOptions{}, false},
   };
   return table;

@@ -227,8 +227,8 @@ void Visit(KeyVisitor& keys, FilletOptions& options) {
       {RadiusConstraint::kHalfLeg, "half_leg"},
       {RadiusConstraint::kNone, "none"}};
   keys.Field({"constraint", "",
-              "constraint on the radius: leaves room for the steering ramps (C.40), fits half the "
-              "shorter leg (C.34), or none"},
+              "constraint on the radius: leaves room for the steering ramps, fits half the "
+              "shorter leg, or none"},
              options.constraint, Need::kOptional, constraints);
   keys.Field({"neutral_steering", "rad",
               "steering angle between turns, positive to the left; unless 0, a kinematic car "
@@ -240,8 +240,9 @@ void Visit(KeyVisitor& keys, FilletOptions& options) {
       {InfeasibleTurnPolicy::kSlowDown, "slow_down"},
       {InfeasibleTurnPolicy::kHalfLeg, "half_leg"},
       {InfeasibleTurnPolicy::kRefuse, "refuse"}};
-  keys.Field({"without_room", "", "handling of turns for which C.40 has no feasible radius"},
-             options.without_room, Need::kOptional, without_room);
+  keys.Field(
+      {"without_room", "", "what to do about turns for which steering_room leaves no radius"},
+      options.without_room, Need::kOptional, without_room);
   keys.Field({"min_speed", "m/s", "minimum speed in turns"}, options.min_speed, Need::kOptional,
              kPositive);
   static const EnumNames<RadiusObjective> objectives{{RadiusObjective::kLargest, "largest"},
@@ -268,7 +269,7 @@ PlannerEntry FilletPlanner() {
   return {.name = "fillet",
           .summary =
               "straight legs joined by arcs of the largest radius that the steering rate allows "
-              "(C.1-C.40)",
+              "(Skackauskas, dissertation)",
           .defaults = FilletOptions{},
           .plan = PlanBy<FilletOptions, PlanWith>,
           .min_waypoints = kMinFilletWaypoints};

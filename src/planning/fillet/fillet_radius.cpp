@@ -117,13 +117,13 @@ std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle
   }
   const std::string why = fmt::format(
       "at {:.4g} m/s no radius from {:.4g} to {:.4g} m leaves room for the steering ramp "
-      "within half of the shorter leg, {:.4g} m (C.40)",
+      "within half of the shorter leg, {:.4g} m",
       speed, bounds.low, bounds.high, turn.shorter_leg / 2.0);
   if (options.without_room == InfeasibleTurnPolicy::kRefuse) {
     throw RefuseTurn(turn, PlanStatus::kNoRoomForSteering, why);
   }
   if (options.without_room == InfeasibleTurnPolicy::kHalfLeg) {
-    turn.note = why + "; under C.34 instead";
+    turn.note = why + "; under half_leg instead";
     return std::nullopt;
   }
   const auto slower =

@@ -735,7 +735,7 @@ TEST(PlanFillets, RefusesLegsWithoutSteeringRoom) {
   ExpectRefused(PlanFillets(ReferenceCar(), route, kSpeed, options), PlanStatus::kNoRoomForSteering,
                 2,
                 "turn of -90 deg at waypoint 2: at 3 m/s no radius from 5.1 to 154 m leaves room "
-                "for the steering ramp within half of the shorter leg, 14 m (C.40)");
+                "for the steering ramp within half of the shorter leg, 14 m");
 }
 
 // --- A turn for which C.40 has no radius ---------------------------------------------------------
@@ -792,7 +792,7 @@ TEST(PlanFillets, KeepsItsSpeedUnderHalfLegWhenAskedTo) {
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   EXPECT_EQ(plan.turns[0].speed, kSpeed);
   EXPECT_NEAR(plan.turns[0].radius, 14.0, Tolerance(kRounding));
-  EXPECT_THAT(plan.turns[0].note, HasSubstr("(C.40); under C.34 instead"));
+  EXPECT_THAT(plan.turns[0].note, HasSubstr("14 m; under half_leg instead"));
 }
 
 TEST(PlanFillets, SlowerCarFindsSteeringRoom) {

@@ -1,0 +1,368 @@
+#include "src/cli/shell_pages.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+#include <string_view>
+
+#include "src/cli/listed_names.h"
+#include "trackbed/core/version.h"
+
+namespace trackbed::cli {
+namespace {
+
+using Words = std::vector<std::string>;
+
+const OptionInfo kHelp{.name = "-h,--help", .text = "Print help"};
+const OptionInfo kColor{.name = "--color", .value = "auto|always|never", .text = "Colors"};
+
+Words PartsOf(const std::string& text, char separator) {
+  Words words;
+  std::istringstream in(text);
+  for (std::string word; std::getline(in, word, separator);) {
+    words.push_back(word);
+  }
+  return words;
+}
+
+/// The values that a type name stands for: "draft|film" itself lists them, "CAMERA", "CAMERA,..."
+/// and "SCENARIO..." are kinds of `trackbed list`. Empty for all other values.
+Words ValuesOf(const std::string& type) {
+  if (type.find('|') != std::string::npos) {
+    return PartsOf(type, '|');
+  }
+  std::string kind;
+  for (const char c : type) {
+    if (std::isupper(static_cast<unsigned char>(c)) == 0) {
+      break;
+    }
+    kind += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  if (kind == "study") {
+    return NamesOfKind("studies");
+  }
+  return NamesOfKind(kind + "s");
+}
+
+bool IsList(const std::string& type) {
+  return type.ends_with(",...");
+}
+
+/// Those of every verb, too.
+std::vector<OptionInfo> OptionsOf(const CommandInfo& verb) {
+  std::vector<OptionInfo> options;
+  for (const OptionInfo& option : verb.options) {
+    if (!option.positional) {
+      options.push_back(option);
+    }
+  }
+  options.push_back(kColor);
+  options.push_back(kHelp);
+  return options;
+}
+
+/// The values that the words without an option may have.
+Words PositionalValues(const CommandInfo& verb) {
+  Words values;
+  for (const OptionInfo& option : verb.options) {
+    if (option.positional) {
+      const Words some = ValuesOf(option.name);
+      values.insert(values.end(), some.begin(), some.end());
+    }
+  }
+  return values;
+}
+
+/// The verbs below `above`, or those of the program: their last words.
+std::vector<CommandInfo> VerbsBelow(const std::vector<CommandInfo>& verbs,
+                                    const std::string& above) {
+  std::vector<CommandInfo> below;
+  for (CommandInfo verb : verbs) {
+    const std::size_t space = verb.name.rfind(' ');
+    const std::string parent = space == std::string::npos ? "" : verb.name.substr(0, space);
+    if (parent == above) {
+      verb.name = verb.name.substr(space == std::string::npos ? 0 : space + 1);
+      below.push_back(std::move(verb));
+    }
+  }
+  return below;
+}
+
+Words NamesOf(const std::vector<CommandInfo>& verbs) {
+  Words names;
+  for (const CommandInfo& verb : verbs) {
+    names.push_back(verb.name);
+  }
+  return names;
+}
+
+std::string Replaced(const std::string& text, std::string_view what, std::string_view by) {
+  std::string result;
+  std::size_t at = 0;
+  for (std::size_t found = text.find(what); found != std::string::npos;
+       found = text.find(what, at)) {
+    result += text.substr(at, found - at);
+    result += by;
+    at = found + what.size();
+  }
+  return result + text.substr(at);
+}
+
+/// In single quotes as bash and zsh read them.
+std::string InSingleQuotes(const std::string& text) {
+  return "'" + Replaced(text, "'", "'\\''") + "'";
+}
+
+}  // namespace
+
+std::string BashCompletion(const std::vector<CommandInfo>& verbs) {
+  std::string text =
+      "# bash completion of trackbed; written by `trackbed completion bash`.\n"
+      "_trackbed_values() {\n"
+      "  COMPREPLY=($(compgen -W \"$1\" -- \"$cur\"))\n"
+      "}\n"
+      "_trackbed_list() {  # after the last comma\n"
+      "  local done=\"\"\n"
+      "  [[ $cur == *,* ]] && done=\"${cur%,*},\"\n"
+      "  COMPREPLY=($(compgen -P \"$done\" -W \"$1\" -- \"${cur##*,}\"))\n"
+      "}\n"
+      "_trackbed() {\n"
+      "  local cur=\"${COMP_WORDS[COMP_CWORD]}\" before=\"${COMP_WORDS[COMP_CWORD-1]}\"\n"
+      "  local verb=\"\"\n"
+      "  COMPREPLY=()\n"
+      "  [[ $COMP_CWORD -gt 1 ]] && verb=\"${COMP_WORDS[1]}\"\n"
+      "  if [[ $COMP_CWORD -gt 2 ]]; then\n"
+      "    case \"$verb ${COMP_WORDS[2]}\" in\n";
+  for (const CommandInfo& verb : verbs) {
+    if (verb.name.find(' ') != std::string::npos) {
+      text += fmt::format("      '{0}') verb='{0}' ;;\n", verb.name);
+    }
+  }
+  text +=
+      "    esac\n"
+      "  fi\n"
+      "  case \"$verb\" in\n";
+  const auto add_case = [&](const CommandInfo& verb) {
+    text += fmt::format("    '{}')\n      case \"$before\" in\n", verb.name);
+    Words names;
+    for (const OptionInfo& option : OptionsOf(verb)) {
+      const Words spellings = PartsOf(option.name, ',');
+      names.insert(names.end(), spellings.begin(), spellings.end());
+      if (!option.value.empty()) {
+        const Words values = ValuesOf(option.value);
+        text += fmt::format("        {}) {}return ;;\n", fmt::join(spellings, "|"),
+                            values.empty() ? ""
+                                           : fmt::format("_trackbed_{} \"{}\"; ",
+                                                         IsList(option.value) ? "list" : "values",
+                                                         fmt::join(values, " ")));
+      }
+    }
+    Words others = PositionalValues(verb);
+    for (const std::string& below : NamesOf(VerbsBelow(verbs, verb.name))) {
+      others.push_back(below);
+    }
+    text += fmt::format(
+        "      esac\n"
+        "      if [[ $cur == -* ]]; then _trackbed_values \"{}\"\n"
+        "      else _trackbed_values \"{}\"\n"
+        "      fi ;;\n",
+        fmt::join(names, " "), fmt::join(others, " "));
+  };
+  for (const CommandInfo& verb : verbs) {
+    add_case(verb);
+  }
+  text += fmt::format(
+      "    '') _trackbed_values \"{} --help --version --color\" ;;\n"
+      "  esac\n"
+      "}}\n"
+      "# Where nothing is found, names of files.\n"
+      "complete -o bashdefault -o default -F _trackbed trackbed\n",
+      fmt::join(NamesOf(VerbsBelow(verbs, "")), " "));
+  return text;
+}
+
+std::string ZshCompletion(const std::vector<CommandInfo>& verbs) {
+  const auto explained = [](const std::string& text) {
+    return Replaced(Replaced(Replaced(Replaced(text, "\\", "\\\\"), "[", "\\["), "]", "\\]"), ":",
+                    "\\:");
+  };
+  const auto action = [](const std::string& type) {
+    const Words values = ValuesOf(type);
+    return values.empty() ? std::string("_files")
+           : IsList(type) ? fmt::format("_values -s , value {}", fmt::join(values, " "))
+                          : fmt::format("_alternative \"names\\:\\:({})\" \"files\\:\\:_files\"",
+                                        fmt::join(values, " "));
+  };
+  std::string text =
+      "#compdef trackbed\n"
+      "# zsh completion of trackbed; written by `trackbed completion zsh`.\n"
+      "_trackbed() {\n"
+      "  local -a verbs\n"
+      "  verbs=(\n";
+  for (const CommandInfo& verb : VerbsBelow(verbs, "")) {
+    text += fmt::format("    {}\n", InSingleQuotes(verb.name + ":" + explained(verb.summary)));
+  }
+  text +=
+      "  )\n"
+      "  if (( CURRENT == 2 )); then\n"
+      "    _describe -t verbs verb verbs\n"
+      "    return\n"
+      "  fi\n"
+      "  local verb=\"${words[2]}\"\n"
+      "  shift words; (( CURRENT-- ))\n"
+      "  if (( CURRENT > 2 )); then\n"
+      "    case \"$verb ${words[2]}\" in\n";
+  for (const CommandInfo& verb : verbs) {
+    if (verb.name.find(' ') != std::string::npos) {
+      text += fmt::format("      '{0}') verb='{0}'; shift words; (( CURRENT-- )) ;;\n", verb.name);
+    }
+  }
+  text +=
+      "    esac\n"
+      "  fi\n"
+      "  case \"$verb\" in\n";
+  for (const CommandInfo& verb : verbs) {
+    text += fmt::format("    '{}') _arguments -s", verb.name);
+    for (const OptionInfo& option : OptionsOf(verb)) {
+      for (const std::string& name : PartsOf(option.name, ',')) {
+        std::string spec = fmt::format("*{}[{}]", name, explained(option.text));
+        if (!option.value.empty()) {
+          spec += fmt::format(":{}:{}", explained(option.value), action(option.value));
+        }
+        text += " \\\n      " + InSingleQuotes(spec);
+      }
+    }
+    Words others = PositionalValues(verb);
+    for (const std::string& below : NamesOf(VerbsBelow(verbs, verb.name))) {
+      others.push_back(below);
+    }
+    text += fmt::format(
+        " \\\n      {} ;;\n",
+        InSingleQuotes(others.empty() ? "*::_files"
+                                      : fmt::format("*: :_alternative \"names\\:\\:({})\" "
+                                                    "\"files\\:\\:_files\"",
+                                                    fmt::join(others, " "))));
+  }
+  return text +
+         "  esac\n"
+         "}\n"
+         "_trackbed \"$@\"\n";
+}
+
+std::string FishCompletion(const std::vector<CommandInfo>& verbs) {
+  const auto quoted = [](const std::string& text) {
+    return "'" + Replaced(Replaced(text, "\\", "\\\\"), "'", "\\'") + "'";
+  };
+  std::string text = "# fish completion of trackbed; written by `trackbed completion fish`.\n";
+  for (const CommandInfo& verb : VerbsBelow(verbs, "")) {
+    text += fmt::format("complete -c trackbed -n __fish_use_subcommand -f -a {} -d {}\n", verb.name,
+                        quoted(verb.summary));
+  }
+  for (const CommandInfo& verb : verbs) {
+    std::string condition;
+    for (const std::string& word : PartsOf(verb.name, ' ')) {
+      condition += (condition.empty() ? "" : "; and ") + ("__fish_seen_subcommand_from " + word);
+    }
+    const std::string start = fmt::format("complete -c trackbed -n '{}'", condition);
+    for (const OptionInfo& option : OptionsOf(verb)) {
+      text += start;
+      for (const std::string& name : PartsOf(option.name, ',')) {
+        text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+      }
+      if (!option.value.empty()) {
+        const Words values = ValuesOf(option.value);
+        text += values.empty() ? " -r" : fmt::format(" -x -a '{}'", fmt::join(values, " "));
+      }
+      text += fmt::format(" -d {}\n", quoted(option.text));
+    }
+    const Words others = PositionalValues(verb);
+    if (!others.empty()) {
+      text += fmt::format("{} -a '{}'\n", start, fmt::join(others, " "));
+    }
+    for (const CommandInfo& below : VerbsBelow(verbs, verb.name)) {
+      text += fmt::format("{} -a {} -d {}\n", start, below.name, quoted(below.summary));
+    }
+  }
+  return text;
+}
+
+namespace {
+
+/// Text of a line of roff.
+std::string Roff(const std::string& text) {
+  const std::string escaped = Replaced(Replaced(text, "\\", "\\e"), "-", "\\-");
+  return escaped.starts_with('.') || escaped.starts_with('\'') ? "\\&" + escaped : escaped;
+}
+
+std::string PageTitle(const std::string& name) {
+  return fmt::format(".TH {} 1 \"\" \"Trackbed {}\" \"Trackbed\"\n", name, Version());
+}
+
+std::string PageOfVerb(const CommandInfo& verb) {
+  const std::string name = "trackbed-" + Replaced(verb.name, " ", "-");
+  std::string usage;
+  for (const OptionInfo& option : verb.options) {
+    if (option.positional) {
+      usage += option.required ? " " + option.name : " [" + option.name + "]";
+    }
+  }
+  std::string text = PageTitle(name);
+  text += fmt::format(".SH NAME\n{} \\- {}\n", Roff(name), Roff(verb.summary));
+  text += fmt::format(".SH SYNOPSIS\n.B trackbed {}\n[OPTION...]{}\n", verb.name, Roff(usage));
+  text += ".SH OPTIONS\n";
+  std::vector<OptionInfo> options = OptionsOf(verb);
+  std::copy_if(verb.options.begin(), verb.options.end(), std::inserter(options, options.begin()),
+               [](const OptionInfo& option) { return option.positional; });
+  for (const OptionInfo& option : options) {
+    const std::string names = Replaced(option.name, ",-", ", -");
+    text += fmt::format(".TP\n\\fB{}\\fR{}\n{}{}\n", Roff(names),
+                        option.value.empty() ? "" : " \\fI" + Roff(option.value) + "\\fR",
+                        Roff(option.text),
+                        option.fallback.empty() ? "" : " (default: " + Roff(option.fallback) + ")");
+  }
+  if (!verb.examples.empty()) {
+    text += ".SH EXAMPLES\n";
+  }
+  for (const Example& example : verb.examples) {
+    text += &example == &verb.examples.front() ? "" : ".PP\n";
+    text += fmt::format("{}:\n.PP\n.RS 4\n.EX\n{}\n.EE\n.RE\n", Roff(example.text),
+                        Roff(example.command));
+  }
+  return text + ".SH SEE ALSO\n.BR trackbed (1)\n";
+}
+
+}  // namespace
+
+std::vector<ManualPage> ManualPages(const std::vector<CommandInfo>& verbs) {
+  std::string text = PageTitle("trackbed");
+  text +=
+      ".SH NAME\ntrackbed \\- vehicle simulation testbed on MuJoCo\n"
+      ".SH SYNOPSIS\n.B trackbed\nVERB [OPTION...]\n"
+      ".SH DESCRIPTION\nRuns plans and controllers under contact dynamics, compares them with a "
+      "kinematic model, and renders videos without a display.\n"
+      ".SH VERBS\n";
+  std::vector<ManualPage> pages;
+  for (const CommandInfo& verb : verbs) {
+    ManualPage page{"trackbed-" + Replaced(verb.name, " ", "-") + ".1", PageOfVerb(verb)};
+    text += fmt::format(".TP\n\\fB{}\\fR\n{}; see \\fB{}\\fR(1)\n", verb.name, Roff(verb.summary),
+                        Roff(page.file.substr(0, page.file.size() - 2)));
+    pages.push_back(std::move(page));
+  }
+  text +=
+      ".SH EXIT STATUS\n"
+      ".TP\n0\nDone; of runs with expectations: all met.\n"
+      ".TP\n1\nA bug in Trackbed.\n"
+      ".TP\n2\nWrong input, or an environment that does not allow the work.\n"
+      ".TP\n3\nExpectations or tolerances not met.\n"
+      ".TP\n130\nInterrupted; what was finished is kept.\n"
+      ".SH ENVIRONMENT\n"
+      ".TP\nTRACKBED_DATA\nFolder with models and scenarios, instead of the installed one.\n"
+      ".TP\nNO_COLOR\nIf set and not empty: no colors.\n";
+  pages.insert(pages.begin(), {"trackbed.1", text});
+  return pages;
+}
+
+}  // namespace trackbed::cli
