@@ -7,27 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "src/analysis/evaluations.h"
+#include "src/analysis/peaks.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
 
 namespace trackbed {
 namespace {
-
-double SaturatedFraction(const RunLog& log, double begin, double end) {
-  constexpr double kReached = 1e-6;  // [rad]; as in PlantMetrics
-  double saturated = 0.0;
-  double periods = 0.0;
-  for (std::size_t i = 0; i + 1 < log.rows.size(); ++i) {
-    const LogRow& row = log.rows[i];
-    if (row.state.time >= begin && log.rows[i + 1].state.time <= end) {
-      const double short_by = row.command.steering - log.rows[i + 1].state.steering_actuator;
-      saturated += std::abs(short_by) > kReached ? 1.0 : 0.0;
-      periods += 1.0;
-    }
-  }
-  return periods > 0.0 ? saturated / periods : 0.0;
-}
 
 /// What every evaluation says beside its own values.
 const std::vector<ManeuverMetric>& CommonMetrics() {
@@ -85,7 +71,7 @@ ManeuverMetrics EvaluateManeuver(const ManeuverOptions& options, const RunLog& l
     TRACKBED_CHECK(AllMetrics(options).Find(name), "a value that is not in the list: {}", name);
   }
   CheckRoll(log, metrics);
-  metrics.steering_saturated_fraction = SaturatedFraction(log, metrics.begin, metrics.end);
+  metrics.steering_saturated_fraction = SaturatedFraction(log, vehicle, metrics.begin, metrics.end);
   return metrics;
 }
 

@@ -95,20 +95,6 @@ double SteeringRateRms(const RunLog& log, double control_period) {
   return std::sqrt(squares / periods) / control_period;
 }
 
-/// Share of the control periods at whose end the actuator had not reached what was asked.
-double SaturatedFraction(const RunLog& log) {
-  // A microradian: less than any command matters, more than rounding in the actuator.
-  constexpr double kReached = 1e-6;
-  std::size_t saturated = 0;
-  for (std::size_t i = 0; i + 1 < log.rows.size(); ++i) {
-    const double asked = log.rows[i].command.steering;
-    saturated += std::abs(asked - log.rows[i + 1].state.steering_actuator) > kReached ? 1U : 0U;
-  }
-  return log.rows.size() < 2
-             ? 0.0
-             : static_cast<double>(saturated) / static_cast<double>(log.rows.size() - 1);
-}
-
 std::optional<double> YawRateRatio(const RunLog& log, double wheelbase) {
   double products = 0.0;
   double squares = 0.0;
@@ -161,7 +147,8 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
   metrics.steering_rate_limit = vehicle.steering_rate;
   metrics.steering_limit = vehicle.steering_limit;
   metrics.steering_rate_rms = SteeringRateRms(log, control_period);
-  metrics.steering_saturated_fraction = SaturatedFraction(log);
+  metrics.steering_saturated_fraction =
+      SaturatedFraction(log, vehicle, log.rows.front().state.time, metrics.time);
   metrics.yaw_rate_ratio = YawRateRatio(log, vehicle.wheelbase);
   if (log.rows.front().tracking) {
     metrics.tracking = MeasureTracking(log, plan.goal, vehicle.width);

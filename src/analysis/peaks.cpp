@@ -46,4 +46,27 @@ void MeasureSteering(const RunLog& log, std::size_t window, PlantMetrics& metric
   }
 }
 
+double SaturatedFraction(const RunLog& log, const VehicleParams& vehicle, double begin,
+                         double end) {
+  // A microradian: less than any command matters, more than rounding in the actuator.
+  constexpr double kReached = 1e-6;
+  double saturated = 0.0;
+  double periods = 0.0;
+  for (std::size_t i = 0; i + 1 < log.rows.size(); ++i) {
+    const LogRow& row = log.rows[i];
+    const VehicleState& after = log.rows[i + 1].state;
+    if (row.state.time < begin || after.time > end) {
+      continue;
+    }
+    const double period = after.time - row.state.time;
+    const double turned = std::abs(after.steering_actuator - row.state.steering_actuator);
+    const bool missed = std::abs(row.command.steering - after.steering_actuator) > kReached;
+    const bool limited = turned >= vehicle.steering_rate * period - kReached ||
+                         std::abs(after.steering_actuator) >= vehicle.steering_limit - kReached;
+    saturated += missed && limited ? 1.0 : 0.0;
+    periods += 1.0;
+  }
+  return periods > 0.0 ? saturated / periods : 0.0;
+}
+
 }  // namespace trackbed

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "tests/tolerance.h"
 #include "trackbed/analysis/verdict.h"
@@ -66,6 +67,42 @@ TEST(SteeringRateRms, IsThatOfARampAndARest) {
   const PlantMetrics metrics = Measure(log, Plan{}, vehicle, 0.02, StationSource::kProjection);
   EXPECT_NEAR(metrics.steering_rate_rms, 0.05, Tolerance(1e-12));
   EXPECT_NEAR(ToJson(metrics)["steering_rate_rms"].get<double>(), 0.05, Tolerance(1e-12));
+}
+
+/// Of 400 control periods of a car that turns its wheels by up to `step` [rad] in each.
+double Saturated(double step, double limit, const std::function<double(int)>& command) {
+  RunLog log{.plant = "made_up", .configurations = Table({"t_s"})};
+  double angle = 0.0;
+  for (int i = 0; i <= 400; ++i) {
+    LogRow row;
+    row.state.time = 0.02 * i;
+    row.state.steering_actuator = angle;
+    row.command.steering = command(i);
+    log.rows.push_back(row);
+    angle += std::clamp(std::clamp(row.command.steering, -limit, limit) - angle, -step, step);
+  }
+  VehicleParams vehicle;
+  vehicle.wheelbase = 2.5;
+  vehicle.steering_rate = 0.4;
+  vehicle.steering_limit = 0.5;
+  return Measure(log, Plan{}, vehicle, 0.02, StationSource::kProjection)
+      .steering_saturated_fraction;
+}
+
+TEST(SaturatedFraction, CountsTheRateLimit) {
+  // 0.08 rad to turn, 0.008 in a period: ten periods, the last of which arrives.
+  EXPECT_EQ(Saturated(0.008, 0.5, [](int i) { return i >= 100 ? 0.08 : 0.0; }), 9.0 / 400.0);
+}
+
+TEST(SaturatedFraction, CountsTheAngleLimit) {
+  // Half of the periods ask for more than 0.5 rad, which takes 62 periods to reach.
+  EXPECT_EQ(Saturated(0.008, 0.5, [](int i) { return i >= 200 ? 0.6 : 0.0; }), 200.0 / 400.0);
+}
+
+TEST(SaturatedFraction, DoesNotCountWhatTheActuatorWasNotAsked) {
+  // Slower than its limit, as behind a delay or a lag.
+  EXPECT_EQ(Saturated(0.004, 0.5, [](int i) { return 0.001 * i; }), 0.0);
+  EXPECT_EQ(Saturated(0.004, 0.5, [](int i) { return i >= 100 ? 0.08 : 0.0; }), 0.0);
 }
 
 /// A run that went as far as 20 m in 8 s.

@@ -54,7 +54,7 @@ struct ManeuverMetrics {
   std::string method;
   double begin = 0.0;  ///< of what was evaluated [s]
   double end = 0.0;    ///< [s]
-  /// Of the control periods in between: the actuator did not reach the command.
+  /// Of the control periods in between, as PlantMetrics::steering_saturated_fraction.
   double steering_saturated_fraction = 0.0;
   std::vector<std::pair<std::string, double>> values;  ///< by name; SI units
   /// Where the standard has limits; false for every maneuver in which the car rolls over.

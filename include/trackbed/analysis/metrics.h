@@ -71,13 +71,14 @@ struct PlantMetrics {
   /// Of the measured angle, mean over any 0.1 s, or one control period where that is longer
   /// [rad/s].
   double steering_rate_max = 0.0;
-  double steering_rate_max_s = 0.0;          ///< where that 0.1 s ended [m]
-  double steering_rate_max_t = 0.0;          ///< when [s]
-  double steering_rate_limit = 0.0;          ///< of the car [rad/s]; 0: not known
-  double steering_limit = 0.0;               ///< likewise, of the angle [rad]
-  bool steering_is_prescribed = false;       ///< and so not held to these limits
-  double steering_rate_rms = 0.0;            ///< of its means over the control periods [rad/s]
-  double steering_saturated_fraction = 0.0;  ///< of the periods: actuator did not reach the command
+  double steering_rate_max_s = 0.0;     ///< where that 0.1 s ended [m]
+  double steering_rate_max_t = 0.0;     ///< when [s]
+  double steering_rate_limit = 0.0;     ///< of the car [rad/s]; 0: not known
+  double steering_limit = 0.0;          ///< likewise, of the angle [rad]
+  bool steering_is_prescribed = false;  ///< and so not held to these limits
+  double steering_rate_rms = 0.0;       ///< of its means over the control periods [rad/s]
+  /// Of the control periods: short of the command, with the actuator at its rate or angle limit.
+  double steering_saturated_fraction = 0.0;
   /// Ratio of the yaw rate to v tan(delta)/L, the kinematic model's value for the measured speed
   /// and steering, by least squares over the run. 1 / (1 + K v^2/L) for a car of understeer
   /// gradient K that turns steadily. None for a car that never turned faster than 1 mrad/s (root
