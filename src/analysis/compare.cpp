@@ -138,6 +138,9 @@ Trace MakeTrace(const RunLog& log, StationSource source) {
   Trace trace{.name = log.plant};
   for (const LogRow& row : log.rows) {
     const VehicleState& state = row.state;
+    if (log.contact_time && state.time > *log.contact_time) {
+      break;  // where an obstacle pushes a car says nothing of how it was driven
+    }
     const bool projected = row.tracking && source == StationSource::kProjection;
     AddRow(trace, projected ? row.tracking->s : state.distance, state.time, state.pose,
            state.yaw_rate, state.steering);
@@ -145,7 +148,8 @@ Trace MakeTrace(const RunLog& log, StationSource source) {
   return trace;
 }
 
-Trace ReadTrace(const fs::path& file, const std::string& name) {
+Trace ReadTrace(const fs::path& file, const std::string& name,
+                std::optional<double> contact_time) {
   const Table table = ReadCsvExcerpt(file, {"s_m", "t_s", "x_m", "y_m", "yaw_rad", "yaw_rate_radps",
                                             "steering_rad"})
                           .table;
@@ -164,6 +168,9 @@ Trace ReadTrace(const fs::path& file, const std::string& name) {
   }
   Trace trace{.name = name};
   for (std::size_t i = 0; i < table.rows(); ++i) {
+    if (contact_time && t[i] > *contact_time) {
+      break;
+    }
     AddRow(trace, s[i], t[i], {x[i], y[i], yaw[i]}, yaw_rate[i], steering[i]);
   }
   return trace;
@@ -236,9 +243,13 @@ std::vector<FinishedDrive> ReadRunFolder(const fs::path& folder) {
                                  .key = "plants",
                                  .message = "unknown " + UnknownName(plant, known)});
       }
-      drives.push_back(
-          {metrics.at("status").get<std::string>(),
-           ReadTrace(run_folder::RequireFile(folder / run_folder::LogCsv(plant)), plant)});
+      const auto status = metrics.at("status").get<std::string>();
+      std::optional<double> contact_time;
+      if (status == ToString(DriveStatus::kCollided) && metrics.contains("status_t")) {
+        contact_time = metrics.at("status_t").get<double>();
+      }
+      drives.push_back({status, ReadTrace(run_folder::RequireFile(folder / run_folder::LogCsv(plant)),
+                                          plant, contact_time)});
     }
   };
   VisitJson(file, visit, {.message = "not the metrics of a run"});

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "trackbed/analysis/maneuver_metrics.h"
+#include "trackbed/analysis/metric_value.h"
 #include "trackbed/planning/common/plan.h"
 
 /// The evaluations behind EvaluateManeuver: each fills in values, passed, missing, begin and end.
@@ -14,6 +16,7 @@ struct ManeuverMetric {
   const char* label;
   const char* unit;
   bool headline = false;
+  std::optional<StandardLimit> limit = std::nullopt;  ///< to pass
 };
 
 struct ManeuverInput {

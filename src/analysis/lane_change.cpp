@@ -13,8 +13,15 @@
 
 namespace trackbed {
 
+namespace {
+
+/// ISO 3888: no corner of the footprint beyond an edge of a gate.
+constexpr StandardLimit kInsideGates{StandardLimit::Relation::kAtLeast, 0.0};  // [m]
+
+}  // namespace
+
 std::vector<ManeuverMetric> MethodMetrics(const LaneChangeOptions& /*options*/) {
-  return {{"margin", "minimum gate margin", "m", true},
+  return {{"margin", "minimum gate margin", "m", true, kInsideGates},
           {"margin_gate", "section of the minimum margin", ""},
           {"margin_1", "margin in section 1", "m"},
           {"margin_3", "margin in section 3", "m"},
@@ -61,7 +68,7 @@ void Evaluate(const LaneChangeOptions&, const ManeuverInput& input, ManeuverMetr
   }
   const std::vector<double> margins = GateMargins(gates, input.vehicle, poses);
   const auto smallest = std::min_element(margins.begin(), margins.end());
-  metrics.passed = exit.has_value() && *smallest >= 0.0;
+  metrics.passed = exit.has_value() && kInsideGates.Met(*smallest);
   if (std::isfinite(*smallest)) {
     metrics.values.emplace_back("margin", *smallest);
     metrics.values.emplace_back(

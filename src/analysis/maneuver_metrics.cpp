@@ -113,7 +113,7 @@ std::optional<MetricInfo> DescribeManeuverMetric(std::string_view name) {
   const auto find = [&](const std::vector<ManeuverMetric>& metrics) -> std::optional<MetricInfo> {
     for (const ManeuverMetric& metric : metrics) {
       if (name == metric.name) {
-        return MetricInfo{metric.label, metric.unit, metric.headline};
+        return MetricInfo{metric.label, metric.unit, metric.headline, metric.limit};
       }
     }
     return std::nullopt;

@@ -9,6 +9,11 @@
 namespace trackbed {
 namespace {
 
+// Of ISO 19365 and FMVSS 126, to pass the sine with dwell.
+constexpr StandardLimit kEarlyRatio{StandardLimit::Relation::kAtMost, 0.35};     // [1]
+constexpr StandardLimit kLateRatio{StandardLimit::Relation::kAtMost, 0.20};      // [1]
+constexpr StandardLimit kDisplacement{StandardLimit::Relation::kAtLeast, 1.83};  // [m]
+
 /// Below this the wheels have not been turned [rad].
 constexpr double kNoSteering = 1e-4;
 
@@ -128,10 +133,10 @@ void Evaluate(const StepSteerOptions& options, const ManeuverInput& input,
 
 std::vector<ManeuverMetric> MethodMetrics(const SineWithDwellTestOptions& /*options*/) {
   return {{"speed", "initial speed", "m/s"},
-          {"lateral_displacement", "lateral displacement", "m", true},
+          {"lateral_displacement", "lateral displacement", "m", true, kDisplacement},
           {"yaw_rate_peak", "peak yaw rate", "rad/s"},
-          {"yaw_rate_ratio_1_00", "yaw rate ratio after 1.00 s", "", true},
-          {"yaw_rate_ratio_1_75", "yaw rate ratio after 1.75 s", "", true}};
+          {"yaw_rate_ratio_1_00", "yaw rate ratio after 1.00 s", "", true, kEarlyRatio},
+          {"yaw_rate_ratio_1_75", "yaw rate ratio after 1.75 s", "", true, kLateRatio}};
 }
 
 void Evaluate(const SineWithDwellTestOptions&, const ManeuverInput& input,
@@ -198,7 +203,8 @@ void Evaluate(const SineWithDwellTestOptions&, const ManeuverInput& input,
   metrics.values.emplace_back("yaw_rate_ratio_1_00", early);
   metrics.values.emplace_back("yaw_rate_ratio_1_75", late);
   metrics.end = completion;
-  metrics.passed = early <= 0.35 && late <= 0.20 && displacement >= 1.83;
+  metrics.passed =
+      kEarlyRatio.Met(early) && kLateRatio.Met(late) && kDisplacement.Met(displacement);
 }
 
 }  // namespace trackbed

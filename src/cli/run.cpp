@@ -59,16 +59,25 @@ void TakeRow(RunOptions& options) {
 }
 
 void PrintManeuver(const ManeuverMetrics& maneuver) {
-  fmt::print("    {}{}\n", maneuver.method,
+  fmt::print("    {}{}, evaluated from {:.2f} s to {:.2f} s of the run\n", maneuver.method,
              !maneuver.passed   ? ""
              : *maneuver.passed ? ": " + Toned(Tone::kGood, "passed")
-                                : ": " + Toned(Tone::kBad, "FAILED"));
+                                : ": " + Toned(Tone::kBad, "FAILED"),
+             maneuver.begin, maneuver.end);
   for (const auto& [path, value] : maneuver.values) {
     const ShownName name = NameOfMetric("maneuver." + path);
     constexpr std::string_view kGroup = "Maneuver: ";
-    fmt::print("    {:<44} {:>10.4g}{}\n",
-               name.label.starts_with(kGroup) ? name.label.substr(kGroup.size()) : name.label,
-               value, name.unit.empty() ? "" : " " + name.unit);
+    std::string text = fmt::format(
+        "    {:<44} {:>10.4g}{}",
+        name.label.starts_with(kGroup) ? name.label.substr(kGroup.size()) : name.label, value,
+        name.unit.empty() ? "" : " " + name.unit);
+    if (name.limit) {
+      const bool at_most = name.limit->relation == StandardLimit::Relation::kAtMost;
+      text += Toned(name.limit->Met(value) ? Tone::kGood : Tone::kBad,
+                    fmt::format(" ({} {:.4g} to pass)", at_most ? "at most" : "at least",
+                                name.limit->bound));
+    }
+    fmt::print("{}\n", text);
   }
   if (!maneuver.missing.empty()) {
     fmt::print("    {}\n", maneuver.missing);

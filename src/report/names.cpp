@@ -13,7 +13,7 @@ ShownName Shown(const std::optional<MetricInfo>& info, const std::string& path) 
   if (!info) {
     return {path, ""};
   }
-  ShownName name{info->label, info->unit, info->headline};
+  ShownName name{info->label, info->unit, info->headline, info->limit};
   if (const std::size_t square = name.unit.find("^2"); square != std::string::npos) {
     name.unit = info->unit.substr(0, square) + "²" + info->unit.substr(square + 2);
   }

@@ -47,6 +47,11 @@ ordered_json NumbersJson(const ordered_json& entry, ShownName (*name_of)(const s
     if (name.headline) {
       rows.back()["headline"] = true;
     }
+    if (name.limit) {
+      const bool at_most = name.limit->relation == StandardLimit::Relation::kAtMost;
+      rows.back()["limit"] = {{"relation", at_most ? "at_most" : "at_least"},
+                              {"bound", name.limit->bound}};
+    }
   }
   return rows;
 }

@@ -18,7 +18,7 @@ std::vector<std::pair<std::string, nlohmann::ordered_json>> LeafValues(
 nlohmann::ordered_json RoundedLeaf(const nlohmann::ordered_json& leaf);
 
 /// Every value of an entry of metrics.json as a row of a table: {path, label, value, unit,
-/// headline}, the last two where there are such.
+/// headline, limit}, the last three where there are such; a limit is {relation, bound}.
 nlohmann::ordered_json NumbersJson(const nlohmann::ordered_json& entry,
                                    ShownName (*name_of)(const std::string& path));
 

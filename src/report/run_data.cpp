@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "src/report/checks.h"
+#include "src/report/drive_data.h"
 #include "src/report/numbers.h"
 #include "src/report/paths.h"
 #include "src/report/scene_data.h"
@@ -159,18 +160,28 @@ ordered_json WorldJson(const World& world) {
     box["vx"] = Rounded(obstacle.velocity.x());
     box["vy"] = Rounded(obstacle.velocity.y());
     box["height"] = Rounded(obstacle.height);
+    box["known_later"] = obstacle.known_from_time || obstacle.known_from_range;
     json["obstacles"].push_back(box);
   }
   for (const FrictionPatch& patch : world.friction_patches) {
     json["patches"].push_back(BoxJson(patch.area));
     json["patches"].back()["friction"] = Rounded(patch.friction);
   }
+  json["gusts"] = ordered_json::array();
+  for (const Gust& gust : world.wind.gusts) {
+    if (gust.area) {
+      ordered_json area = BoxJson(*gust.area);
+      area["from"] = Rounded(gust.from);
+      if (gust.duration) {
+        area["to"] = Rounded(gust.from + *gust.duration);
+      }
+      json["gusts"].push_back(area);
+    }
+  }
   return json;
 }
 
-ordered_json CarJson(const fs::path& model) {
-  const VehicleParams car =
-      CarModel(ComposeScene(run_folder::RequireFile(model), {}), model.string()).params();
+ordered_json CarJson(const VehicleParams& car) {
   return {{"name", car.name},
           {"length", Rounded(car.length)},
           {"width", Rounded(car.width)},
@@ -221,7 +232,7 @@ void AddScene(const fs::path& folder, const World& world, std::size_t row_limit,
   double high_y = 0.0;
   for (ordered_json& plant : run["plants"]) {
     plant["motion"] = MotionJson(folder / run_folder::StateCsv(plant.at("name").get<std::string>()),
-                                 vehicle, row_limit);
+                                 vehicle, world, row_limit);
     for (const double x : plant["log"]["x"].get<std::vector<double>>()) {
       low_x = std::min(low_x, x);
       high_x = std::max(high_x, x);
@@ -233,6 +244,22 @@ void AddScene(const fs::path& folder, const World& world, std::size_t row_limit,
   }
   run["vehicle"] = vehicle;
   run["ground"] = GroundJson(world, low_x, low_y, high_x, high_y);
+}
+
+/// What takes the compiled car to know.
+void AddCar(const fs::path& folder, const World& world, std::size_t row_limit, ordered_json& run) {
+  const fs::path model = folder / run_folder::kModelXml;
+  const CarModel car(ComposeScene(run_folder::RequireFile(model), {}), model.string());
+  const TyreLaw law = ReadVehicleSpec(folder / run_folder::kScenarioYaml).tyre;
+  run["car"] = CarJson(car.params());
+  for (ordered_json& plant : run["plants"]) {
+    const auto name = plant.at("name").get<std::string>();
+    const fs::path log = folder / run_folder::LogCsv(name);
+    plant["events"] = EventsJson(log, world, car.params());
+    if (plant.contains("motion")) {
+      plant["tyres"] = TyresJson(log, name, law, world, car, row_limit);
+    }
+  }
 }
 
 }  // namespace
@@ -279,7 +306,7 @@ ordered_json RunData(const fs::path& folder, const std::string& name, std::size_
     }
     run["resolved"] = ReadFile(scenario, kLargestScenario);
     AddScene(folder, world, row_limit / 2, run);
-    run["car"] = CarJson(folder / run_folder::kModelXml);  // last: takes longest
+    AddCar(folder, world, row_limit / 2, run);  // last: takes longest
     return run;
   });
 }

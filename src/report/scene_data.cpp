@@ -57,12 +57,16 @@ std::string Floats(const std::vector<double>& values) {
 
 }  // namespace
 
+ordered_json FloatsJson(const std::vector<double>& values) {
+  return {{"f4", Floats(values)}};
+}
+
 ordered_json ChannelJson(const std::vector<double>& values) {
   constexpr double kFine = 1e-3;  // [m], [rad]: a millimeter is less than a pixel
   constexpr double kSteps = 65535.0;
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   if (values.empty() || *high - *low > kSteps * kFine) {
-    return {{"f4", Floats(values)}};
+    return FloatsJson(values);
   }
   // Zero where nothing changes, and then all integers are zero.
   const double scale = (*high - *low) / kSteps;
@@ -105,7 +109,27 @@ ordered_json VehicleJson(const fs::path& file) {
   return json;
 }
 
-ordered_json MotionJson(const fs::path& states, const ordered_json& vehicle,
+std::vector<std::size_t> RowsOfMotion(const std::vector<double>& times, std::size_t row_limit) {
+  if (times.empty()) {
+    return {};
+  }
+  constexpr double kRate = 30.0;  // [1/s]
+  const double duration = times.back() - times.front();
+  const double most = std::min(static_cast<double>(std::max<std::size_t>(row_limit, 2)),
+                               std::max(2.0, std::ceil(duration * kRate)));
+  const auto step =
+      static_cast<std::size_t>(std::max(1.0, std::ceil(static_cast<double>(times.size()) / most)));
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < times.size(); row += step) {
+    rows.push_back(row);
+  }
+  if (rows.back() + 1 < times.size()) {
+    rows.push_back(times.size() - 1);
+  }
+  return rows;
+}
+
+ordered_json MotionJson(const fs::path& states, const ordered_json& vehicle, const World& world,
                         std::size_t row_limit) {
   std::vector<std::string> joints;
   for (const ordered_json& body : vehicle.at("bodies")) {
@@ -122,19 +146,7 @@ ordered_json MotionJson(const fs::path& states, const ordered_json& vehicle,
   if (times.empty()) {
     throw InputError(Problem{.file = states.string(), .message = "no rows"});
   }
-  constexpr double kRate = 30.0;  // [1/s]
-  const double duration = times.back() - times.front();
-  const double most = std::min(static_cast<double>(std::max<std::size_t>(row_limit, 2)),
-                               std::max(2.0, std::ceil(duration * kRate)));
-  const auto step =
-      static_cast<std::size_t>(std::max(1.0, std::ceil(static_cast<double>(times.size()) / most)));
-  std::vector<std::size_t> rows;
-  for (std::size_t row = 0; row < times.size(); row += step) {
-    rows.push_back(row);
-  }
-  if (rows.back() + 1 < times.size()) {
-    rows.push_back(times.size() - 1);
-  }
+  const std::vector<std::size_t> rows = RowsOfMotion(times, row_limit);
   const auto chosen = [&](const std::string& column) {
     const std::vector<double> all = table.Column(column);
     std::vector<double> values;
@@ -143,11 +155,24 @@ ordered_json MotionJson(const fs::path& states, const ordered_json& vehicle,
     }
     return values;
   };
-  ordered_json json{{"t", {{"f4", Floats(chosen("t_s"))}}}, {"channels", ordered_json::object()}};
+  ordered_json json{{"t", FloatsJson(chosen("t_s"))}, {"channels", ordered_json::object()}};
   for (const std::string& column : table.columns()) {
     if (column != "t_s") {
       json["channels"][column] = ChannelJson(chosen(column));
     }
+  }
+  if (!IsCalm(world.wind)) {
+    const std::vector<double> x = chosen("x_m");
+    const std::vector<double> y = chosen("y_m");
+    const std::vector<double> t = chosen("t_s");
+    std::vector<double> wind_x;
+    std::vector<double> wind_y;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      const Vec2 wind = WindAt(world, Vec2(x[i], y[i]), t[i]);
+      wind_x.push_back(wind.x());
+      wind_y.push_back(wind.y());
+    }
+    json["wind"] = {{"x", ChannelJson(wind_x)}, {"y", ChannelJson(wind_y)}};
   }
   return json;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/sim/contact_friction.h"
 #include "src/sim/parts_reader.h"
 #include "src/sim/vehicle_limits.h"
 #include "src/sim/wheel_pair_parts.h"
@@ -236,12 +237,12 @@ class CarReader final : private PartsReader {
     const std::array<double, 2> share{params_.cg_to_rear / params_.wheelbase,
                                       params_.cg_to_front() / params_.wheelbase};
     double rolling = 0.0;  // resistance [N]
-    TyreFriction friction{ContactFriction(parts_.tyre[0]), ContactFriction(parts_.tyre[0])};
+    TyreFriction friction{ContactFriction(m_, parts_.tyre[0]), ContactFriction(m_, parts_.tyre[0])};
     std::array<double, 2> wheel_mass{};
     for (std::size_t w = 0; w < kWheels.size(); ++w) {
       const std::size_t axle = w / 2;
       const double load = 0.5 * weight * share[axle];
-      TyreFriction own{ContactFriction(parts_.tyre[w]), ContactFriction(parts_.tyre[w])};
+      TyreFriction own{ContactFriction(m_, parts_.tyre[w]), ContactFriction(m_, parts_.tyre[w])};
       if (parts_.tyres) {
         const MagicFormula& tyre = parts_.tyres->axle[axle];
         const TyreFriction peak = PeakFriction(tyre, load);

@@ -129,15 +129,6 @@ void PartsReader::ReadFootprint(int site) {
   params_.rear_overhang = half[0] - middle[0];
 }
 
-double PartsReader::ContactFriction(int tyre) const {
-  const int ground = mj_name2id(&m_, mjOBJ_GEOM, "ground");
-  const double of_tyre = m_.geom_friction[3 * tyre];
-  const double of_ground = m_.geom_friction[3 * ground];
-  // As MuJoCo combines them: the higher priority's, else the larger.
-  const int ahead = m_.geom_priority[tyre] - m_.geom_priority[ground];
-  return ahead > 0 ? of_tyre : ahead < 0 ? of_ground : std::max(of_tyre, of_ground);
-}
-
 double PartsReader::Place(int body, std::size_t axis) const {
   return Offset(data_->xpos + 3 * body, axis);
 }

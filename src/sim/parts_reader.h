@@ -50,8 +50,6 @@ class PartsReader {
   /// That the wheel is on a level ground at qpos0, to half its radius.
   void CheckStand(const std::string& wheel, const mjtNum* hub_W, double radius);
   void ReadFootprint(int site);
-  /// Sliding friction between a tyre and the ground on which it stands.
-  [[nodiscard]] double ContactFriction(int tyre) const;
   void ReadAerodynamics();
 
   const mjModel& m_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "src/sim/contact_friction.h"
 #include "src/sim/parts_reader.h"
 
 namespace trackbed {
@@ -158,7 +159,7 @@ class WheelPairReader final : private PartsReader {
       rolling += m_.dof_frictionloss[dof] / radius;
     }
     const double friction =
-        std::min(ContactFriction(parts_.tyre[0]), ContactFriction(parts_.tyre[1]));
+        std::min(ContactFriction(m_, parts_.tyre[0]), ContactFriction(m_, parts_.tyre[1]));
     params_.friction_longitudinal = friction;
     params_.friction_lateral = friction;
     const double rolling_mass = params_.mass + wheel_mass;

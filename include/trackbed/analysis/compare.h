@@ -21,7 +21,8 @@
 namespace trackbed {
 
 /// A run over increasing station: rows without progress are left out, so that a standing car is at
-/// its stopping point. All of equal length.
+/// its stopping point, and so are those after the first contact with an obstacle. All of equal
+/// length.
 struct Trace {
   std::string name;  ///< the plant's, or a label of the run
   std::vector<double> station;
@@ -40,7 +41,9 @@ struct Trace {
 Trace MakeTrace(const RunLog& log, StationSource source = StationSource::kProjection);
 
 /// Reads the log `<plant>.csv` of a run. InputError as ReadCsvExcerpt, and for fewer than two rows.
-Trace ReadTrace(const std::filesystem::path& file, const std::string& name);
+/// Rows after `contact_time` [s] are left out.
+Trace ReadTrace(const std::filesystem::path& file, const std::string& name,
+                std::optional<double> contact_time = std::nullopt);
 
 /// The difference in one quantity over the stations common to both runs.
 struct Difference {

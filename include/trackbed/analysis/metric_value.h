@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -40,11 +41,23 @@ struct Metric {
   MetricPlace at;
 };
 
+/// What a standard asks of a quantity.
+struct StandardLimit {
+  enum class Relation { kAtMost, kAtLeast };
+  Relation relation = Relation::kAtMost;
+  double bound = 0.0;  ///< in the quantity's unit
+
+  [[nodiscard]] bool Met(double value) const {
+    return relation == Relation::kAtMost ? value <= bound : value >= bound;
+  }
+};
+
 /// Label and unit of a metric.
 struct MetricInfo {
   std::string label;      ///< "Maximum cross-track error"
   std::string unit;       ///< SI, "m/s^2"; empty for ratios, counts and texts
   bool headline = false;  ///< shown first in a report
+  std::optional<StandardLimit> limit = std::nullopt;  ///< of a standard maneuver
 };
 
 nlohmann::ordered_json ToJson(const MetricValue& value);

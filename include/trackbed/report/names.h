@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <string>
+
+#include "trackbed/analysis/metric_value.h"
 
 /// What people call the numbers of metrics.json and of a sweep's table.
 namespace trackbed {
@@ -9,6 +12,7 @@ struct ShownName {
   std::string label;
   std::string unit;       ///< empty for what is no quantity
   bool headline = false;  ///< whether it belongs to what is read first
+  std::optional<StandardLimit> limit = std::nullopt;  ///< of a standard maneuver
 };
 
 /// Of a path in a plant's entry of metrics.json, such as "cross_track.max" or

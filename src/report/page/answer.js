@@ -1,6 +1,8 @@
 // What is read first: how each run ended, how far each car was from its path and the cars from each
 // other, what stands out there, and how near the limits of the expectations are.
 
+const MOST_ROWS = 4;  // of plants, furthest from their paths first
+
 /** "rolled over", of a status of metrics.json. */
 function statusText(status) {
   return status.replace(/_/g, ' ');
@@ -90,8 +92,69 @@ function drawBar(parent, { value, limit, most, css, good }) {
   if (limit !== undefined) bar.append('span').attr('class', 'limit').style('left', share(limit));
 }
 
+/** The answer in a sentence: which car was furthest from its path, where, by how much; and the others. */
+function drawSentence(parent) {
+  const found = tracks.map((track) => ({ track, far: furthestFromPath(track) })).filter(({ far }) => far)
+    .sort((a, b) => b.far.size - a.far.size);
+  const broken = tracks.filter(({ end }) => ['collided', 'rolled_over'].includes(end.status));
+  if (!found.length && !broken.length) return;
+  const line = parent.append('p').attr('class', 'sentence');
+  const name = (track) => {
+    line.append('span').attr('class', 'dot').style('color', track.css);
+    line.append('strong').text(` ${track.label}`);
+  };
+  const say = (text) => line.append('span').text(text);
+  if (found.length) {
+    const [{ track, far }, ...others] = found;
+    name(track);
+    say(tracks.length > 1 ? ' strays furthest from the path: ' : ' strays from the path by up to ');
+    line.append('strong').text(`${brief(far.size)} m to the ${far.side}`);
+    say(', ');
+    line.append('button').attr('type', 'button').attr('class', 'place').attr('title', 'Show this moment')
+      .text(`${brief(far.s)} m along it, at ${brief(far.t)} s`).on('click', () => setTime(far.t));
+    say('.');
+    if (others.length) {
+      say(' ');
+      if (others.length === 1) name(others[0].track);
+      say(`${others.length > 1 ? 'The others stay' : ' stays'} within ${brief(others[0].far.size)} m of it.`);
+    }
+  }
+  for (const track of broken) {
+    say(found.length ? ' ' : '');
+    name(track);
+    say(` ${track.end.status === 'collided' ? 'collides' : 'rolls over'} at ${brief(track.end.t)} s.`);
+  }
+}
+
+/** Of a maneuver the quantities that the standard names first, each against its limit. */
+function drawManeuverRows(parent) {
+  const rows = rowsOf(tracks.map((track) => track.numbers))
+    .filter((row) => row.path.startsWith('maneuver.') && (row.limit || (row.headline && row.path !== 'maneuver.passed')));
+  if (!rows.length) return;
+  const list = parent.append('ul').attr('class', 'rows');
+  for (const row of rows) {
+    for (const track of tracks) {
+      const value = valueOf(track.numbers, row.path);
+      if (typeof value !== 'number') continue;
+      const line = list.append('li');
+      const head = line.append('span').attr('class', 'who');
+      head.append('span').attr('class', 'dot').style('color', track.css);
+      head.append('span').attr('class', 'name').text(upperFirst(row.label.replace(/^Maneuver: /, '')));
+      const unit = row.unit ? ` ${row.unit}` : '';
+      const met = row.limit ? keeps(value, row.limit) : null;
+      line.append('span').attr('class', 'what').text([tracks.length > 1 && track.label, limitText(row.limit, row.unit)].filter(Boolean).join(', '));
+      line.append('span').attr('class', `size ${met === false ? 'bad' : ''}`).text(`${brief(value)}${unit}${met === null ? '' : met ? ' ✓' : ' ✗'}`);
+      if (row.limit) {
+        const most = 1.15 * Math.max(Math.abs(value), Math.abs(row.limit.bound)) || 1;
+        drawBar(line, { value, limit: row.limit.bound, most, good: met });
+      }
+    }
+  }
+}
+
 function drawAnswerRows(parent) {
-  const own = tracks.map((track) => ({ track, found: furthestFromPath(track) }));
+  const own = tracks.map((track) => ({ track, found: furthestFromPath(track) }))
+    .sort((a, b) => (b.found ? b.found.size : -1) - (a.found ? a.found.size : -1)).slice(0, MOST_ROWS);
   const apart = pairs.map((pair) => ({ pair, found: furthestApart(pair) })).filter(({ found }) => found);
   const most = d3.max([...own, ...apart], ({ found }) => found && found.size) || 1;
   const place = ({ s, t }) => `s = ${brief(s)} m, t = ${brief(t)} s`;
@@ -112,7 +175,10 @@ function drawAnswerRows(parent) {
       endText(track) + (found ? '; furthest from its path:' : ''), found,
       { css: track.css, side: found && found.side });
   }
-  for (const { pair, found } of apart.slice(0, 4)) {
+  if (tracks.length > own.length) {
+    parent.append('li').append('span').attr('class', 'what').text(`${tracks.length - own.length} more, nearer to their paths, are in the table below`);
+  }
+  for (const { pair, found } of apart.sort((a, b) => b.found.size - a.found.size).slice(0, 4)) {
     row(pair.label, (at) => signOfPair(at, pair), 'furthest apart, at equal station:', found, { css: 'var(--muted)', side: 'apart' });
   }
 }
@@ -155,12 +221,14 @@ function drawExpectationBars(parent) {
 
 /** The first screen. */
 function drawAnswer() {
-  if (!tracks.length || tracks.length > 6) return;
+  if (!tracks.length) return;
   const grid = section('answer').append('div').attr('class', 'answer');
   const panel = grid.append('div').attr('class', 'panel');
   panel.append('h2').text('What happened');
+  drawSentence(panel);
+  drawManeuverRows(panel);
   drawAnswerRows(panel.append('ul').attr('class', 'rows'));
-  const found = tracks.map((track) => ({ track, list: remarks(track, keyMoment) })).filter(({ list }) => list.length);
+  const found = tracks.map((track) => ({ track, list: remarks(track, keyMoment) })).filter(({ list }) => list.length).slice(0, MOST_ROWS);
   if (found.length) {
     const facts = panel.append('p').attr('class', 'remarks');
     facts.append('span').text(`Up to ${brief(keyMoment)} s: `);

@@ -48,6 +48,8 @@ const tracks = runs.flatMap((run, r) => run.plants.map((plant) => ({
   log: plant.log,
   newPlans: plant.new_plans || [],
   numbers: plant.numbers,
+  events: plant.events || { rate_limit: [], known: [] },
+  tyres: plant.tyres,
   end: plant.end,
   visible: true,
 })));
@@ -77,6 +79,11 @@ function placeAt(log, time) {
   const row = next - 1;
   const part = (time - log.t[row]) / (log.t[next] - log.t[row]);
   return { row, next, part: Math.min(Math.max(part, 0), 1) };
+}
+
+/** When a car collided or rolled over; undefined where it did not. */
+function brokenAt({ end }) {
+  return ['collided', 'rolled_over'].includes(end.status) ? end.t : undefined;
 }
 
 /** Linear between the points, held at the ends. */

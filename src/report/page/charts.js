@@ -10,29 +10,47 @@ function ticksEvery(pixels, name) {
     .map((value) => ({ v: value, label: name(value) }));
 }
 
+// The graph of each plot, for what is placed over it.
+const graphs = new WeakMap();
+
 function fixed(number, digits) {
   if (number === null) return '–';
   return number.toFixed(digits).replace(/^-(?=[0.]*$)/, '').replace('-', '−');
 }
 
-/** Those of the limits that are near the lines, and the range of values that shows both. */
-function limitsToDraw(lines, limits) {
-  const values = lines.flatMap((line) => line.values).filter((value) => value !== null);
-  if (!values.length || !limits.length) return { limits: [], range: null };
+/**
+ * Those of the limits that are near the lines, and the range of values that shows both; null where it is
+ * that of all values. What follows a line's `until` is no result, and sets no scale.
+ */
+function limitsToDraw(lines, limits, places) {
+  const isCut = lines.some(({ until }) => until !== undefined);
+  const values = lines.flatMap(({ values: own, until }) => (until === undefined ? own : own.filter((_, i) => places[i] <= until)))
+    .filter((value) => value !== null);
+  if (!values.length || (!limits.length && !isCut)) return { limits: [], range: null };
   const reach = d3.max(values, Math.abs);
   const near = limits.filter((limit) => Math.abs(limit) <= 2 * reach
     && (limit >= 0 ? d3.max(values) > 0.5 * limit : d3.min(values) < 0.5 * limit));
-  if (!near.length) return { limits: near, range: null };
+  if (!near.length && !isCut) return { limits: near, range: null };
   const [low, high] = d3.extent([...values, ...near]);
-  const room = 0.06 * (high - low);
+  const room = 0.08 * (high - low) || 1e-6;
   return { limits: near, range: [low - room, high + room] };
+}
+
+/** A chart in words: the range of each line. */
+function chartText({ title, unit, lines, limits, axis }) {
+  const ranges = lines.filter(({ pattern }) => !pattern || lines.every((line) => line.pattern)).map(({ label, values }) => {
+    const [low, high] = d3.extent(values.filter((value) => value !== null));
+    return `${label} from ${brief(low)} to ${brief(high)} ${unit}`;
+  });
+  const [first, last] = d3.extent(axis.values);
+  return `${title} over ${brief(first)} to ${brief(last)} ${axis.unit}: ${ranges.join(', ')}${limits.length ? `; limits ${limits.map(brief).join(', ')}` : ''}.`;
 }
 
 /**
  * The charts of `list`, which `key` tells from others, over `axis`: {values, unit, at, timeOf}, the
  * places of the rows, and which place belongs to a moment and which moment to a place. A chart has
  * {name, title, unit, note, lines, limits, readouts}, a line {label, color, tracks, values, pattern,
- * width}, a readout {label, tracks, sign, text}, which is drawn and told at a moment. Limits are
+ * width, until}, a readout {label, tracks, sign, text}, which is drawn and told at a moment. Limits are
  * values with a line of their own.
  */
 function drawCharts(list, key, axis, charts) {
@@ -54,7 +72,7 @@ function drawCharts(list, key, axis, charts) {
   });
 
   for (const { name, title, unit, note, lines, readouts, limits: all = [] } of charts) {
-    const { limits, range } = limitsToDraw(lines, all);
+    const { limits, range } = limitsToDraw(lines, all, axis.values);
     const far = all.filter((limit) => !limits.includes(limit) && limit > 0);
     const figure = list.append('figure').attr('class', 'chart panel').attr('data-quantity', name);
     const caption = figure.append('figcaption');
@@ -69,7 +87,8 @@ function drawCharts(list, key, axis, charts) {
       of.sign(readout);
       return { of, readout, text: readout.append('span') };
     });
-    const plot = figure.append('div').attr('class', 'plot');
+    const plot = figure.append('div').attr('class', 'plot').attr('role', 'img')
+      .attr('aria-label', chartText({ title, unit, lines, limits, axis }));
     const labels = lines.map(({ label }, i) => `${i} ${label}`);
     const { touchstart, touchmove, touchend, ...mouse } = Dygraph.defaultInteractionModel;
     const table = axis.values.map((value, i) => [value, ...lines.map((line) => line.values[i])]);
@@ -81,9 +100,25 @@ function drawCharts(list, key, axis, charts) {
       hideOverlayOnMouseOut: false,
       highlightCircleSize: 3,
       yRangePad: 8,
+      rightGap: 32,
       ...(range ? { valueRange: range } : {}),
       underlayCallback: (canvas, area, dygraph) => {
         canvas.save();
+        // After the last car's collision or roll-over nothing is a result.
+        if (lines.length && lines.every(({ until }) => until !== undefined)) {
+          const x = dygraph.toDomXCoord(d3.max(lines, ({ until }) => until));
+          canvas.fillStyle = cssColor('--grid');
+          canvas.fillRect(Math.max(x, area.x), area.y, Math.max(0, area.x + area.w - Math.max(x, area.x)), area.h);
+        }
+        canvas.setLineDash([6, 3]);
+        for (const { until, color } of lines.filter((line) => line.until !== undefined)) {
+          const x = dygraph.toDomXCoord(until);
+          canvas.strokeStyle = cssColor(`--track-${color}`);
+          canvas.beginPath();
+          canvas.moveTo(x, area.y);
+          canvas.lineTo(x, area.y + area.h);
+          canvas.stroke();
+        }
         canvas.strokeStyle = cssColor('--bad');
         canvas.setLineDash([2, 3]);
         for (const limit of limits) {
@@ -119,6 +154,7 @@ function drawCharts(list, key, axis, charts) {
       const at = graph.eventToDomCoords(event)[0];
       setTime(axis.timeOf(graph.toDataXCoord(at)), key);
     });
+    graphs.set(plot.node(), graph);
     drawn.push({ graph, cursor, lines, told });
   }
 

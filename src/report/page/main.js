@@ -30,6 +30,7 @@ if (data.study) {
 } else {
   drawHead();
   drawAnswer();
+  drawManeuver();
   drawReplay();
   drawHeadline();
   drawDifferences();

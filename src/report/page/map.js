@@ -284,34 +284,6 @@ function drawMap(parent) {
   }));
 }
 
-/** What happened, and when: {t, text, track}; in order. */
-function eventsOf() {
-  const events = [];
-  for (const track of tracks) {
-    for (const plan of track.newPlans.slice(0, 12)) events.push({ t: plan.from, text: 'new plan', track });
-    if (track.end.t !== undefined && track.end.status !== 'arrived') {
-      events.push({ t: track.end.t, text: statusText(track.end.status), track });
-    }
-  }
-  for (const pair of pairs.slice(0, 3)) {
-    const apart = furthestApart(pair);
-    if (apart) events.push({ t: apart.t, text: `${brief(apart.size)} m apart`, track: pair.second });
-  }
-  return events.sort((a, b) => a.t - b.t);
-}
-
-function drawEvents(parent) {
-  const events = eventsOf();
-  if (!events.length) return;
-  const list = parent.append('div').attr('class', 'events').attr('aria-label', 'Events');
-  for (const { t, text, track } of events) {
-    const button = list.append('button').attr('type', 'button').attr('title', `${track.label}: show this moment`)
-      .on('click', () => setTime(t));
-    button.append('span').attr('class', 'dot').style('color', track.css);
-    button.append('span').text(`${brief(t)} s ${text}`);
-  }
-}
-
 // Playing: one clock for all of the page.
 const playback = { timer: null, speed: 1 };
 

@@ -28,7 +28,9 @@ function drawPhasePlane(parent, plane) {
   const figure = parent.append('figure').attr('class', 'panel').attr('data-plane', plane.name);
   const caption = figure.append('figcaption').text(plane.title);
   const radius = plane.equal ? gripRadius() : null;
-  const all = (axis) => own.flatMap((track) => track.log[plane[axis]]);
+  // Up to a collision or a roll-over.
+  const rowsOfTrack = (track) => (brokenAt(track) === undefined ? track.log.t.length : d3.bisectRight(track.log.t, brokenAt(track)));
+  const all = (axis) => own.flatMap((track) => track.log[plane[axis]].slice(0, rowsOfTrack(track)));
   const reach = (axis) => Math.max(1e-6, d3.max(all(axis), Math.abs)) * 1.08;
   let [xMost, yMost] = [reach('x'), reach('y')];
   const isShown = radius && radius < 3 * Math.max(xMost, yMost);
@@ -78,7 +80,7 @@ function drawPhasePlane(parent, plane) {
       circle.attr('cx', x(0)).attr('cy', y(0)).attr('rx', x(radius) - x(0)).attr('ry', y(0) - y(radius));
     }
     for (const { track, line } of marks) {
-      line.attr('d', lineText(track.log[plane.x].map(x), track.log[plane.y].map(y), track.log.t.length));
+      line.attr('d', lineText(track.log[plane.x].map(x), track.log[plane.y].map(y), rowsOfTrack(track)));
     }
     place();
   }).observe(svg.node());

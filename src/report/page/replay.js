@@ -1,5 +1,6 @@
 // The drive in three dimensions, at the moment that all of the page shows.
 
+const MOST_NAMED = 4;  // of the translucent cars
 const CAMERAS = [['follow', 'Follow'], ['orbit', 'Orbit'], ['driver', 'Driver']];
 
 /** The color of a track, as WebGL needs it: of the style sheet, for a light page. */
@@ -56,8 +57,8 @@ function makeReplay(canvas) {
   scene.add(sun, sun.target);
 
   const height = heightOf(runs[0].ground);
-  const scenery = drawScenery(scene, height);
   const makers = runs.map((run) => vehicleMaker(run.vehicle));
+  const scenery = drawScenery(scene, height, makers);
   const cars = tracks.map((track) => {
     const motion = motionOf(track);
     const make = makers[track.run];
@@ -65,11 +66,19 @@ function makeReplay(canvas) {
       track, motion,
       solid: make({ color: solidColor(track), ghost: false }),
       ghost: make({ color: solidColor(track), ghost: true }),
+      use: tyreUse(track),
+      wind: windAt(track),
       // One upon the other, and each narrower than the one below.
       trail: trailOf(track, motion, height, 0.34 / (1 + track.id), 6 + track.id),
     };
   });
-  for (const { solid, ghost, trail } of cars) scene.add(solid.group, ghost.group, trail.mesh);
+  for (const car of cars) {
+    scene.add(car.solid.group, car.ghost.group, car.trail.mesh);
+    car.skid = makeSkidMarks(car.track, car.solid, car.motion, runs[car.track.run].vehicle, height);
+    if (car.skid) scene.add(car.skid.mesh);
+  }
+  const dials = cars.some(({ use }) => use) ? makeDials(scene) : null;
+  const wind = cars.some((car) => car.wind) ? makeWind(scene, height) : null;
 
   const plans = [];
   const seen = new Set();
@@ -133,7 +142,7 @@ function makeReplay(canvas) {
   }
 
   let firstPicture = null;  // [ms] since the page was opened
-  let shown = { kind: 'follow', apart: false };
+  let shown = { kind: 'follow', apart: false, forces: Boolean(dials) };
   let views = [];  // what was drawn last: {car, camera, viewport}, for tests and labels
   const orbit = new THREE.Vector3(-8, -7, 5);
 
@@ -147,7 +156,17 @@ function makeReplay(canvas) {
       each.solid.group.visible = visible && each === car && shown.kind !== 'driver';
       each.ghost.group.visible = visible && each !== car && others;
       each.trail.mesh.visible = visible && (others || each === car);
+      if (each.skid) each.skid.mesh.visible = each.track.visible && (others || each === car);
     }
+    if (dials) {
+      if (car.use && shown.forces && shown.kind !== 'driver') dials.show(car.use, wheelPlaces(car.solid, runs[car.track.run].vehicle, height), now);
+      else dials.hide();
+    }
+    if (wind) {
+      if (car.wind) wind.show(car.wind, poseAt(car.track, now), now);
+      else wind.hide();
+    }
+    scenery.know(car.track, now);
     const { x, y, width, height: high } = viewport;
     renderer.setViewport(x, y, width, high);
     renderer.setScissor(x, y, width, high);
@@ -162,6 +181,7 @@ function makeReplay(canvas) {
       car.solid.pose(car.motion, time);
       car.ghost.pose(car.motion, time);
       car.trail.update(time);
+      if (car.skid) car.skid.update(time);
     }
     for (const { mesh, shown: isShown } of plans) mesh.visible = isShown(time);
     scenery.update(time);
@@ -173,9 +193,9 @@ function makeReplay(canvas) {
     renderer.setScissorTest(true);
     renderer.setScissor(0, 0, width, high);
     renderer.clear();
+    const cells = gridOf(own.length, width, high);
     views = own.map((car, i) => {
-      const part = width / own.length;
-      const viewport = { x: Math.round(i * part), y: 0, width: Math.round(part) - (i + 1 < own.length ? 2 : 0), height: high };
+      const viewport = cells[i];
       const camera = cameraFor(shown.kind, car, time, viewport.width / viewport.height, orbit);
       const { pose } = framing(car, time);
       const z = height(pose.x, pose.y);
@@ -191,10 +211,65 @@ function makeReplay(canvas) {
     draw, orbit, lead, renderer,
     set: (change) => { shown = { ...shown, ...change }; },
     kind: () => shown.kind,
+    hasForces: Boolean(dials),
     views: () => views,
     firstPicture: () => firstPicture,
     cars,
   };
+}
+
+/** The pictures side by side, in rows where there is no width for one: {x, y, width, height}, y from below. */
+function gridOf(count, width, height) {
+  const GAP = 2;
+  const columns = Math.min(count, Math.max(1, Math.round(Math.sqrt((count * width) / height / 1.3))));
+  const lines = Math.ceil(count / columns);
+  return d3.range(count).map((i) => {
+    const [column, line] = [i % columns, Math.floor(i / columns)];
+    // The last row may have fewer, which are wider.
+    const inLine = line + 1 < lines ? columns : count - columns * (lines - 1);
+    const [x0, x1] = [column, column + 1].map((k) => Math.round((k * width) / inLine));
+    const [y0, y1] = [lines - 1 - line, lines - line].map((k) => Math.round((k * height) / lines));
+    return {
+      x: x0, y: y0 + (line + 1 < lines ? GAP : 0),
+      width: x1 - x0 - (column + 1 < inLine ? GAP : 0), height: y1 - y0 - (line + 1 < lines ? GAP : 0),
+    };
+  });
+}
+
+/** "4.62 m/s, 1.31 m right of the path", of a track at a moment. */
+function stateText(track, time) {
+  const moment = Math.min(time, track.log.t[track.log.t.length - 1]);
+  const [speed, off] = [valueAt(track, 'speed', moment), valueAt(track, 'cross_track', moment)];
+  const over = track.end.t !== undefined && time >= track.end.t - 1e-6 && track.end.status !== 'arrived';
+  return [
+    `${fixed(speed, 1)} m/s`,
+    off !== null && `${fixed(Math.abs(off), 2)} m ${off < 0 ? 'right' : 'left'} of the path`,
+    over && statusText(track.end.status),
+  ].filter(Boolean).join(', ');
+}
+
+/** What the colors of the scene mean. */
+function drawSceneKey(parent) {
+  const key = parent.append('p').attr('class', 'key');
+  const sign = (name, style, kind = 'line') => {
+    const entry = key.append('span').attr('class', 'sign');
+    const swatch = entry.append('span').attr('class', `swatch ${kind}`);
+    for (const [property, value] of Object.entries(style)) swatch.style(property, value);
+    entry.append('span').text(name);
+  };
+  const worlds = runs.map((run) => run.world);
+  if (runs.some((run) => run.plan && run.plan.line)) sign('plan', { 'border-top': '3px dashed #d8b400' });
+  for (const track of tracks) sign(`driven, ${track.label}`, { 'border-top': `4px solid ${track.css}` });
+  for (const track of tracks.filter((one) => one.newPlans.length)) sign(`new plan, ${track.label}`, { 'border-top': `3px dashed ${track.css}` });
+  const patches = worlds.flatMap(({ friction, patches: own }) => own.map((patch) => patch.friction < friction));
+  if (patches.includes(true)) sign('less friction', { background: '#c4e2f2' }, 'area');
+  if (patches.includes(false)) sign('more friction', { background: '#55524e' }, 'area');
+  if (worlds.some((world) => world.obstacles.length)) sign('obstacle', { background: '#c9a24a' }, 'area');
+  if (worlds.some((world) => world.obstacles.some((box) => box.known_later))) sign('obstacle not known yet', { border: '2px solid #7a5a10' }, 'area');
+  if (replay.cars.some(({ skid }) => skid)) sign(`tyre beyond ${100 * SKID.use} % of its grip`, { 'border-top': '4px solid #15161a' });
+  if (replay.hasForces) sign('tyre force in the circle of its grip', { border: '2px solid #8d959c', 'border-radius': '50%' }, 'round');
+  if (replay.cars.some((car) => car.wind)) sign('wind', { background: '#cfc6f2' }, 'area');
+  if (worlds.some((world) => (world.gusts || []).length)) sign('area of a gust', { border: '2px solid #8f74e8' }, 'area');
 }
 
 /** Whether the browser has WebGL. */
@@ -210,7 +285,7 @@ function hasWebGl() {
 let replay = null;
 
 function drawReplay() {
-  if (!tracks.length || tracks.length > 6 || !runs.every((run) => run.vehicle)) return;
+  if (!tracks.length || !runs.every((run) => run.vehicle)) return;
   const made = section('replay', 'Replay');
   if (!hasWebGl()) {
     made.append('p').attr('class', 'hint').text('This browser has no WebGL, which the replay in three dimensions needs; the map below shows the same.');
@@ -250,7 +325,18 @@ function drawReplay() {
       update();
     });
   }
+  if (replay.hasForces) {
+    const forces = tools.append('button').attr('type', 'button').attr('id', 'tyre-forces').attr('aria-pressed', 'true').text('Tyre forces');
+    forces.on('click', () => {
+      const on = forces.attr('aria-pressed') !== 'true';
+      forces.attr('aria-pressed', String(on));
+      replay.set({ forces: on });
+      update();
+    });
+  }
   drawTimeSlider(tools, 'replay');
+  drawEventTrack(panel);
+  drawSceneKey(panel);
 
   // Dragging turns the camera around the car.
   const eye = new THREE.PerspectiveCamera();
@@ -280,17 +366,40 @@ function drawReplay() {
       waiting = false;
       replay.draw(now);
       const views = replay.views();
-      const names = labels.selectAll('span').data(views);
-      names.exit().remove();
-      names.enter().append('span').merge(names)
+      const high = canvas.node().clientHeight;
+      const boxes = labels.selectAll('div').data(views);
+      boxes.exit().remove();
+      boxes.enter().append('div').merge(boxes)
         .style('left', ({ viewport }) => `${viewport.x + 10}px`)
-        .style('color', ({ car }) => car.track.css)
-        .text(({ car }) => {
+        .style('top', ({ viewport }) => `${high - viewport.y - viewport.height + 10}px`)
+        .style('max-width', ({ viewport }) => `${viewport.width - 20}px`)
+        .each(function fill({ car }) {
           const ghosts = views.length > 1 ? [] : tracks.filter((track) => track.visible && track !== car.track);
-          return car.track.label + (ghosts.length ? `; translucent: ${ghosts.map(({ label }) => label).join(', ')}` : '');
+          const wind = car.wind && car.wind(now);
+          const lines = d3.select(this).selectAll('p').data([
+            { name: car.track.label, css: car.track.css, text: stateText(car.track, now) },
+            ...ghosts.slice(0, MOST_NAMED).map((track) => ({ name: track.label, css: track.css, text: stateText(track, now), ghost: true })),
+            ...(ghosts.length > MOST_NAMED ? [{ name: `and ${ghosts.length - MOST_NAMED} more`, text: '' }] : []),
+            ...(wind && wind.speed >= 0.05 ? [{ name: 'wind', text: `${fixed(wind.speed, 1)} m/s` }] : []),
+          ]);
+          lines.exit().remove();
+          const made = lines.enter().append('p');
+          made.append('span').attr('class', 'dot');
+          made.append('span').attr('class', 'name');
+          made.append('span').attr('class', 'state');
+          const all = made.merge(lines).classed('ghost', ({ ghost }) => Boolean(ghost));
+          all.select('.dot').style('color', ({ css }) => css || 'transparent');
+          all.select('.name').text(({ name }) => name);
+          all.select('.state').text(({ text, ghost }) => text + (ghost ? ' (translucent)' : ''));
         });
     });
   }
+  // WebGL keeps nothing for a printer: it gets a picture of its own.
+  const still = frame.append('img').attr('class', 'still').attr('alt', '');
+  window.addEventListener('beforeprint', () => {
+    replay.draw(now);
+    still.attr('src', canvas.node().toDataURL('image/jpeg', 0.9));
+  });
   bus.on('time.replay', update);
   bus.on('visibility.replay', update);
   bus.on('scheme.replay', update);

@@ -195,7 +195,61 @@ function areaGeometry({ x, y, yaw, length, width }, height, lift) {
   return strip(points, -width / 2, width / 2, height, lift);
 }
 
-function drawScenery(scene, height) {
+/** An obstacle: a box, or a car of its size where it moves and has one. */
+function obstacleShape(box, make) {
+  const [moves, isCar] = [box.vx !== 0 || box.vy !== 0, box.length > 3 && box.length < 6 && box.width > 1.4 && box.width < 2.3];
+  const { car } = runs[0];
+  if (!(moves && isCar && make)) {
+    const mesh = new THREE.Mesh(new THREE.BoxBufferGeometry(box.length, box.width, box.height), new THREE.MeshLambertMaterial({ color: 0xc9a24a }));
+    mesh.castShadow = true;
+    mesh.receiveShadow = true;
+    mesh.position.z = box.height / 2;
+    return mesh;
+  }
+  const vehicle = make({ color: '#c9a24a', ghost: false });
+  const still = { t: [0], channels: { x_m: [0], y_m: [0], z_m: [0], qw: [1], qx: [0], qy: [0], qz: [0] } };
+  vehicle.pose(still, 0);
+  const [along, across] = [box.length / car.length, box.width / car.width];
+  vehicle.group.scale.set(along, across, 0.5 * (along + across));
+  vehicle.group.position.x = -along * (car.length / 2 - car.rear_overhang);
+  // Models look along x; it may move backwards or to its side.
+  const facing = Math.cos(Math.atan2(box.vy, box.vx) - box.yaw) < 0 ? Math.PI : 0;
+  const holder = new THREE.Group();
+  vehicle.group.position.applyAxisAngle(new THREE.Vector3(0, 0, 1), facing);
+  vehicle.group.rotation.z = facing;
+  holder.add(vehicle.group);
+  return holder;
+}
+
+/** An obstacle with its edges alone for as long as a car does not know of it. */
+function makeObstacle(scene, box, height, make) {
+  const node = new THREE.Group();
+  node.rotation.z = box.yaw;
+  const solid = obstacleShape(box, make);
+  node.add(solid);
+  let edges = null;
+  if (box.known_later) {
+    edges = new THREE.LineSegments(new THREE.EdgesGeometry(new THREE.BoxBufferGeometry(box.length, box.width, box.height)),
+      new THREE.LineBasicMaterial({ color: 0x7a5a10 }));
+    edges.position.z = box.height / 2;
+    node.add(edges);
+  }
+  scene.add(node);
+  const place = (time) => {
+    const [x, y] = [box.x + box.vx * time, box.y + box.vy * time];
+    node.position.set(x, y, height(x, y));
+  };
+  place(0);
+  return {
+    place,
+    know: (known) => {
+      solid.visible = known || !edges;
+      if (edges) edges.visible = !known;
+    },
+  };
+}
+
+function drawScenery(scene, height, makers) {
   const extent = extentOfMap();
   const [first] = runs;
   scene.add(groundMesh(first.ground, extent));
@@ -212,26 +266,16 @@ function drawScenery(scene, height) {
   }
   const once = new Set();
   const fresh = (thing) => !once.has(JSON.stringify(thing)) && once.add(JSON.stringify(thing));
-  const moving = [];
-  for (const { world, plan } of runs) {
+  const obstacles = [];
+  for (const [r, { world, plan }] of runs.entries()) {
     for (const patch of world.patches.filter(fresh)) {
       const icy = patch.friction < world.friction;
       scene.add(flat(areaGeometry(patch, height, 0.012), icy ? 0xd3ecfa : 0x3c3a38, 3, { transparent: true, opacity: 0.62 }));
     }
-    for (const box of world.obstacles.filter(fresh)) {
+    for (const [i, box] of world.obstacles.entries()) {
+      if (!fresh(box)) continue;
       busy.push([box.x, box.y]);
-      const mesh = new THREE.Mesh(new THREE.BoxBufferGeometry(box.length, box.width, box.height),
-        new THREE.MeshLambertMaterial({ color: 0x8a8f96 }));
-      mesh.castShadow = true;
-      mesh.receiveShadow = true;
-      const place = (time) => {
-        const [x, y] = [box.x + box.vx * time, box.y + box.vy * time];
-        mesh.position.set(x, y, height(x, y) + box.height / 2);
-      };
-      mesh.rotation.z = box.yaw;
-      place(0);
-      if (box.vx !== 0 || box.vy !== 0) moving.push(place);
-      scene.add(mesh);
+      obstacles.push({ run: r, index: i, box, shape: makeObstacle(scene, box, height, makers[r]) });
     }
     for (const cone of ((plan && plan.cones) || []).filter(fresh)) {
       const mesh = new THREE.Mesh(new THREE.ConeBufferGeometry(0.16, 0.6, 16).rotateX(Math.PI / 2),
@@ -242,5 +286,15 @@ function drawScenery(scene, height) {
     }
   }
   for (const mesh of treeMeshes(extent, busy, height)) scene.add(mesh);
-  return { update: (time) => moving.forEach((place) => place(time)) };
+  return {
+    update: (time) => obstacles.forEach(({ shape }) => shape.place(time)),
+    /** What a car knows of at a moment is solid. */
+    know: (track, time) => {
+      for (const { run, index, box, shape } of obstacles) {
+        if (!box.known_later) continue;
+        const event = run === track.run && track.events.known.find(([which]) => which === index);
+        shape.know(event ? time >= event[1] : run !== track.run || !track.events.known);
+      }
+    },
+  };
 }

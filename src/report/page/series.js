@@ -42,7 +42,7 @@ function drawSeries(parent) {
   const { times, spread } = commonTimes();
   const axis = { values: times, unit: 's', at: (time) => time, timeOf: (time) => time };
   const line = (track, name, more) => ({
-    label: track.label, color: track.color, tracks: [track], values: spread(track, name), ...more,
+    label: track.label, color: track.color, tracks: [track], values: spread(track, name), until: brokenAt(track), ...more,
   });
   const charts = QUANTITIES.filter((q) => tracks.some((track) => track.log[q.name])).map((quantity) => {
     const own = tracks.filter((track) => track.log[quantity.name]);

@@ -40,6 +40,16 @@ function drawStudy(study) {
   const bus = d3.dispatch('choose');
   if (study.difference) drawDifference(section('difference', `Against ${study.difference.before}`), { study, columns });
   const varied = parameters.filter((p) => new Set(rows.map((row) => row.cells[p.index])).size > 1);
+  const drawOutputs = () => {
+    if (!parameters.length || !outputs.length || !rows.length) return;
+    drawPlots(section('plots', study.bisected ? `Limits of ${study.bisected}` : 'Outputs over a parameter'),
+      { parameters, outputs, rows: even, isGood, isNumber, nameOf, bus });
+  };
+  if (outputs.length && rows.length) {
+    drawStudyAnswer(section('answer', study.bisected ? 'Found' : ''), { study, outputs, varied, rows, status });
+  }
+  // What was bisected is what the study asks for.
+  if (study.bisected) drawOutputs();
   if (statistics && statistics.outputs.length && varied.length) {
     drawInfluence(section('influence', 'What matters'), { columns, statistics, nameOf });
   }
@@ -49,9 +59,7 @@ function drawStudy(study) {
   if (statistics && statistics.outputs.some(({ distribution }) => distribution)) {
     drawDistributions(section('distributions', 'Distributions'), { outputs, statistics, nameOf });
   }
-  if (parameters.length && outputs.length && rows.length) {
-    drawPlots(section('plots', 'Outputs over a parameter'), { parameters, outputs, rows: even, isGood, isNumber, nameOf, bus });
-  }
+  if (!study.bisected) drawOutputs();
   if (outputs.length && rows.length > 10) {
     drawWorst(section('worst', 'Worst rows'), { study, outputs, parameters: varied, rows, nameOf });
   }

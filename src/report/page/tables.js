@@ -77,8 +77,8 @@ function rowsOf(lists) {
   const rows = new Map();
   for (const list of lists) {
     let before = null;
-    for (const { path, label, unit, headline } of list) {
-      if (!rows.has(path)) rows.set(path, { path, label, unit, headline, before });
+    for (const { path, label, unit, headline, limit } of list) {
+      if (!rows.has(path)) rows.set(path, { path, label, unit, headline, limit, before });
       before = path;
     }
   }
@@ -97,26 +97,46 @@ function valueOf(list, path) {
   return found ? found.value : null;
 }
 
+function upperFirst(text) {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+/** Whether a value keeps to a limit of a standard: {relation, bound}. */
+function keeps(value, { relation, bound }) {
+  return relation === 'at_most' ? value <= bound : value >= bound;
+}
+
+/** "at most 0.35", of a limit of a standard. */
+function limitText(limit, unit) {
+  return limit ? `${limit.relation === 'at_most' ? 'at most' : 'at least'} ${brief(limit.bound)}${unit ? ` ${unit}` : ''} to pass` : '';
+}
+
+/** Of a maneuver its own quantities, with units and limits. */
+function drawManeuver() {
+  const own = rowsOf(tracks.map((track) => track.numbers)).filter((row) => row.path.startsWith('maneuver.')
+    && (row.unit || row.headline) && !['maneuver.begin', 'maneuver.end'].includes(row.path));
+  if (!own.length) return;
+  const methods = new Set(tracks.map((track) => valueOf(track.numbers, 'maneuver.method')).filter(Boolean));
+  const made = section('maneuver', `Maneuver: ${statusText(Array.from(methods).join(', '))}`);
+  const [from, to] = ['begin', 'end'].map((name) => valueOf(tracks[0].numbers, `maneuver.${name}`));
+  made.append('p').attr('class', 'hint').text(`Evaluated from ${brief(from)} s to ${brief(to)} s. All times on this page count from the start of the run, its run-up included.`);
+  if (tracks.length > 2) drawHeadlineTable(made, own);
+  else drawCards(made, own.map((row) => ({ ...row, label: upperFirst(row.label.replace(/^Maneuver: /, '')) })));
+}
+
 /** What is read first: a card for each number, or with many tracks a row for each of those. */
 function drawHeadline() {
   if (!tracks.length) return;
-  const rows = rowsOf(tracks.map((track) => track.numbers)).filter((row) => row.headline);
+  const all = rowsOf(tracks.map((track) => track.numbers)).filter((row) => row.headline);
+  // Those of a maneuver have a section of their own.
+  const rows = all.filter((row) => !row.path.startsWith('maneuver.'));
   const made = section('headline');
   if (tracks.length > 2) {
     drawHeadlineTable(made, rows);
     return;
   }
-  // Of a maneuver its own quantities come first, all of them.
-  const isOfManeuver = (row) => row.path.startsWith('maneuver.');
-  const own = rowsOf(tracks.map((track) => track.numbers)).filter((row) => isOfManeuver(row)
-    && (row.unit || row.headline) && !['maneuver.begin', 'maneuver.end'].includes(row.path));
-  if (own.length) {
-    const methods = new Set(tracks.map((track) => valueOf(track.numbers, 'maneuver.method')).filter(Boolean));
-    made.append('h3').text(`Maneuver: ${statusText(Array.from(methods).join(', '))}`);
-    drawCards(made, own.map((row) => ({ ...row, label: row.label.replace(/^Maneuver: (.)/, (_, first) => first.toUpperCase()) })));
-    made.append('h3').text('Whole run');
-  }
-  drawCards(made, rows.filter((row) => !isOfManeuver(row)));
+  if (rows.length < all.length) made.append('h3').text('Whole run');
+  drawCards(made, rows);
 }
 
 /** "at most 0.5", as expected of a metric in all runs alike. */
@@ -162,6 +182,10 @@ function drawCards(parent, rows) {
         .append('span').attr('class', 'unit').text(` ${row.unit}`);
     }
     const asked = askedOf(row.path);
+    if (row.limit) {
+      const kept = values.filter((value) => typeof value === 'number').every((value) => keeps(value, row.limit));
+      card.append('p').attr('class', `asked ${kept ? 'good' : 'bad'}`).text(`${kept ? '✓' : '✗'} ${limitText(row.limit, row.unit)}`);
+    }
     if (asked) card.append('p').attr('class', 'asked').text(`expected ${asked}${row.unit ? ` ${row.unit}` : ''}`);
   }
 }

@@ -32,9 +32,18 @@ function shapeOf(geom, meshes) {
   }
 }
 
+/** The color of a vehicle's body: the one that most of its meshes have, else most of its shapes. */
+function paintOf({ geoms }) {
+  const meshes = geoms.filter(({ type }) => type === 'mesh');
+  const counts = d3.nest().key(({ rgba }) => rgba.join()).rollup((list) => list.length).entries(meshes.length ? meshes : geoms);
+  return counts.sort((a, b) => b.value - a.value).map(({ key }) => key)[0];
+}
+
 /**
- * A vehicle: its shapes, all under `group`, and `pose(motion, time)`, which puts it where it was. Its
- * shapes are shared by all vehicles of a run; a ghost has one color and lets what is behind it through.
+ * A vehicle: its shapes, all under `group`, and `pose(motion, time)`, which puts it where it was, with
+ * the `nodes` of its bodies. Its
+ * shapes are shared by all vehicles of a run; its body has the color asked for, and a ghost has it all
+ * over and lets what is behind it through.
  */
 function vehicleMaker(model) {
   const meshes = model.meshes.map(({ vertices, faces }) => {
@@ -46,6 +55,7 @@ function vehicleMaker(model) {
     return flat;
   });
   const shapes = model.geoms.map((geom) => shapeOf(geom, meshes));
+  const paint = paintOf(model);
 
   return ({ color, ghost }) => {
     const group = new THREE.Group();
@@ -58,7 +68,7 @@ function vehicleMaker(model) {
     model.geoms.forEach((geom, i) => {
       const [r, g, b, a] = geom.rgba;
       const material = new THREE.MeshLambertMaterial({
-        color: ghost ? new THREE.Color(color) : new THREE.Color(r, g, b),
+        color: ghost || geom.rgba.join() === paint ? new THREE.Color(color) : new THREE.Color(r, g, b),
         transparent: ghost || a < 1, opacity: ghost ? 0.42 : a, depthWrite: true,
         // Where both are in one place, the solid car is seen.
         polygonOffset: ghost, polygonOffsetFactor: 4, polygonOffsetUnits: 40,
@@ -105,6 +115,6 @@ function vehicleMaker(model) {
         body.node.matrixWorldNeedsUpdate = true;
       }
     }
-    return { group, pose, root: bodies[0].node };
+    return { group, pose, root: bodies[0].node, nodes: bodies.map(({ node }) => node) };
   };
 }

@@ -1,0 +1,38 @@
+// What a study found, in a sentence for each output: what is read first.
+
+// How a bisected key stands, by the status of its row.
+const BISECTED = {
+  found: 'passes up to', passes_at_to: 'passes in all of its range, up to', fails_at_from: 'fails in all of its range',
+};
+
+/** "control.distance = 2 m, mission.speed = 5 m/s" of a row; what all rows have alike is left out. */
+function pointText(row, varied) {
+  return varied.map(({ name, unit, index }) => `${name} = ${shown(row.cells[index])}${unit ? ` ${unit}` : ''}`).join(', ');
+}
+
+function drawStudyAnswer(parent, { study, outputs, varied, rows, status }) {
+  const MOST = 4;
+  const list = parent.append('div').attr('class', 'panel answer').append('ul').attr('class', 'rows');
+  const say = (name, size, text) => {
+    const line = list.append('li');
+    line.append('span').attr('class', 'who').append('span').attr('class', 'name').text(name);
+    line.append('span').attr('class', 'what').text(text);
+    line.append('span').attr('class', 'size').text(size);
+  };
+  const unitOf = ({ unit }) => (unit ? ` ${unit}` : '');
+  for (const output of outputs.slice(0, MOST)) {
+    const there = rows.filter((row) => typeof row.cells[output.index] === 'number')
+      .sort((a, b) => a.cells[output.index] - b.cells[output.index]);
+    if (!there.length) continue;
+    const [least, most] = [there[0], there[there.length - 1]];
+    const value = (row) => brief(row.cells[output.index]);
+    if (output.name === study.bisected && there.length === 1) {
+      say(output.label, `${value(least)}${unitOf(output)}`, BISECTED[least.cells[status.index]] || statusText(String(least.cells[status.index])));
+    } else if (there.length === 1 || value(least) === value(most)) {
+      say(output.label, `${value(least)}${unitOf(output)}`, there.length === 1 ? '' : 'in all rows');
+    } else {
+      say(output.label, `${value(least)} to ${value(most)}${unitOf(output)}`,
+        varied.length ? `smallest with ${pointText(least, varied)}; largest with ${pointText(most, varied)}` : '');
+    }
+  }
+}
