@@ -32,10 +32,13 @@ function furthestApart(pair) {
 }
 
 /**
- * The moment at which the page opens: where the cars are furthest apart, else where one of them is
- * furthest from its path, else how the first of them ended, unless it arrived.
+ * The moment at which the page opens: when the first car collided or rolled over, else where the cars
+ * are furthest apart, else where one of them is furthest from its path, else how the first of them ended,
+ * unless it arrived.
  */
 const keyMoment = (() => {
+  const broken = d3.min(tracks, brokenAt);
+  if (broken !== undefined) return broken;
   const largest = (list) => list.filter(Boolean).sort((a, b) => b.size - a.size)[0];
   const found = largest(pairs.map(furthestApart)) || largest(tracks.map(furthestFromPath));
   if (found) return found.t;
@@ -87,49 +90,56 @@ function remarks(track, moment) {
 /** A bar from zero to a value, on a scale of its own or a common one, with a mark at the limit. */
 function drawBar(parent, { value, limit, most, css, good }) {
   const bar = parent.append('span').attr('class', `bar ${good === false ? 'bad' : ''}`).attr('aria-hidden', 'true');
-  const share = (x) => `${Math.min(100, Math.max(0, (100 * x) / most))}%`;
-  bar.append('span').attr('class', 'fill').style('width', share(value)).style('background', css || null);
-  if (limit !== undefined) bar.append('span').attr('class', 'limit').style('left', share(limit));
+  const low = Math.min(0, 1.15 * value, 1.15 * (limit || 0));
+  const place = (x) => Math.min(100, Math.max(0, (100 * (x - low)) / (most - low)));
+  const [from, to] = [0, value].map(place).sort(d3.ascending);
+  bar.append('span').attr('class', 'fill').style('left', `${from}%`).style('width', `${to - from}%`).style('background', css || null);
+  if (limit !== undefined) bar.append('span').attr('class', 'limit').style('left', `${place(limit)}%`);
 }
 
-/** The answer in a sentence: which car was furthest from its path, where, by how much; and the others. */
+/** The answer in sentences: what broke, which car was furthest from its path, where, by how much; and the others. */
 function drawSentence(parent) {
+  const NEAR = 0.1;  // half the width of a tyre: nobody has left the path [m]
   const found = tracks.map((track) => ({ track, far: furthestFromPath(track) })).filter(({ far }) => far)
     .sort((a, b) => b.far.size - a.far.size);
-  const broken = tracks.filter(({ end }) => ['collided', 'rolled_over'].includes(end.status));
+  const broken = tracks.filter((track) => brokenAt(track) !== undefined).sort((a, b) => brokenAt(a) - brokenAt(b));
   if (!found.length && !broken.length) return;
   const line = parent.append('p').attr('class', 'sentence');
   const name = (track) => {
-    line.append('span').attr('class', 'dot').style('color', track.css);
-    line.append('strong').text(` ${track.label}`);
+    const whole = line.append('span').attr('class', 'whole');
+    whole.append('span').attr('class', 'dot').style('color', track.css);
+    whole.append('strong').text(` ${track.label}`);
   };
   const say = (text) => line.append('span').text(text);
-  if (found.length) {
-    const [{ track, far }, ...others] = found;
-    name(track);
-    say(tracks.length > 1 ? ' strays furthest from the path: ' : ' strays from the path by up to ');
-    line.append('strong').text(`${brief(far.size)} m to the ${far.side}`);
-    say(', ');
-    line.append('button').attr('type', 'button').attr('class', 'place').attr('title', 'Show this moment')
-      .text(`${brief(far.s)} m along it, at ${brief(far.t)} s`).on('click', () => setTime(far.t));
-    say('.');
-    if (others.length) {
-      say(' ');
-      if (others.length === 1) name(others[0].track);
-      say(`${others.length > 1 ? 'The others stay' : ' stays'} within ${brief(others[0].far.size)} m of it.`);
-    }
-  }
+  const place = (text, t) => {
+    const whole = line.append('span').attr('class', 'whole');
+    whole.append('button').attr('type', 'button').attr('class', 'place').attr('title', 'Show this moment').text(text).on('click', () => setTime(t));
+    whole.append('span').text('. ');
+  };
   for (const track of broken) {
-    say(found.length ? ' ' : '');
     name(track);
-    say(` ${track.end.status === 'collided' ? 'collides' : 'rolls over'} at ${brief(track.end.t)} s.`);
+    line.append('strong').text(track.end.status === 'collided' ? ' collides' : ' rolls over');
+    say(' ');
+    place(`at ${fixed(track.end.t, 2)} s`, track.end.t);
   }
+  if (!found.length) return;
+  const [{ track, far }, ...others] = found;
+  if (far.size < NEAR) say(tracks.length > 1 ? 'No car leaves the path: ' : 'The car keeps to the path: ');
+  name(track);
+  say(far.size < NEAR ? `${tracks.length > 1 ? ', the furthest,' : ''} is ` : tracks.length > 1 ? ' strays furthest from the path: ' : ' strays from the path: ');
+  line.append('strong').attr('class', 'whole').text(`${meters(far.size)} to the ${far.side}`);
+  say(', ');
+  place(`${fixed(far.s, 1)} m along it, at ${fixed(far.t, 1)} s`, far.t);
+  if (others.length === 1) name(others[0].track);
+  if (others.length) say(`${others.length > 1 ? 'The others stay' : ' stays'} within ${meters(others[0].far.size)} of it.`);
 }
 
 /** Of a maneuver the quantities that the standard names first, each against its limit. */
 function drawManeuverRows(parent) {
   const rows = rowsOf(tracks.map((track) => track.numbers))
-    .filter((row) => row.path.startsWith('maneuver.') && (row.limit || (row.headline && row.path !== 'maneuver.passed')));
+    .filter((row) => row.path.startsWith('maneuver.') && row.path !== 'maneuver.passed' && (row.limit || row.headline))
+    // Where the standard has limits, what has none can wait.
+    .filter((row, _, all) => row.limit || !all.some((other) => other.limit));
   if (!rows.length) return;
   const list = parent.append('ul').attr('class', 'rows');
   for (const row of rows) {
@@ -142,8 +152,9 @@ function drawManeuverRows(parent) {
       head.append('span').attr('class', 'name').text(upperFirst(row.label.replace(/^Maneuver: /, '')));
       const unit = row.unit ? ` ${row.unit}` : '';
       const met = row.limit ? keeps(value, row.limit) : null;
-      line.append('span').attr('class', 'what').text([tracks.length > 1 && track.label, limitText(row.limit, row.unit)].filter(Boolean).join(', '));
       line.append('span').attr('class', `size ${met === false ? 'bad' : ''}`).text(`${brief(value)}${unit}${met === null ? '' : met ? ' ✓' : ' ✗'}`);
+      const about = [tracks.length > 1 && track.label, limitText(row.limit, row.unit)].filter(Boolean).join(', ');
+      if (about) line.append('span').attr('class', 'what').text(about);
       if (row.limit) {
         const most = 1.15 * Math.max(Math.abs(value), Math.abs(row.limit.bound)) || 1;
         drawBar(line, { value, limit: row.limit.bound, most, good: met });
@@ -157,30 +168,36 @@ function drawAnswerRows(parent) {
     .sort((a, b) => (b.found ? b.found.size : -1) - (a.found ? a.found.size : -1)).slice(0, MOST_ROWS);
   const apart = pairs.map((pair) => ({ pair, found: furthestApart(pair) })).filter(({ found }) => found);
   const most = d3.max([...own, ...apart], ({ found }) => found && found.size) || 1;
-  const place = ({ s, t }) => `s = ${brief(s)} m, t = ${brief(t)} s`;
+  const place = ({ s, t }) => `at ${fixed(s, 1)} m, ${fixed(t, 1)} s`;
   const row = (name, sign, text, found, more) => {
     const line = parent.append('li');
     const head = line.append('span').attr('class', 'who');
     sign(head);
     head.append('span').attr('class', 'name').text(name);
+    if (found) line.append('span').attr('class', 'size').text(`${meters(found.size)} ${more.side}`);
     line.append('span').attr('class', 'what').text(text);
     if (!found) return;
-    line.append('span').attr('class', 'size').text(`${brief(found.size)} m ${more.side}`);
     line.append('button').attr('type', 'button').attr('class', 'place').attr('title', 'Show this moment')
       .text(place(found)).on('click', () => setTime(found.t));
     drawBar(line, { value: found.size, most, css: more.css });
   };
   for (const { track, found } of own) {
     row(track.label, (at) => at.append('span').attr('class', 'dot').style('color', track.css),
-      endText(track) + (found ? '; furthest from its path:' : ''), found,
+      endText(track), found,
       { css: track.css, side: found && found.side });
   }
   if (tracks.length > own.length) {
     parent.append('li').append('span').attr('class', 'what').text(`${tracks.length - own.length} more, nearer to their paths, are in the table below`);
   }
   for (const { pair, found } of apart.sort((a, b) => b.found.size - a.found.size).slice(0, 4)) {
-    row(pair.label, (at) => signOfPair(at, pair), 'furthest apart, at equal station:', found, { css: 'var(--muted)', side: 'apart' });
+    row(pair.label, (at) => signOfPair(at, pair), 'at equal station', found, { css: 'var(--muted)', side: 'apart' });
   }
+}
+
+/** "≤ 0.155", as short as the value beside it. */
+function askedText({ relation, bound }) {
+  const sign = { at_most: '≤', at_least: '≥', equals: '=' }[relation];
+  return `${sign} ${typeof bound === 'string' ? statusText(bound) : brief(bound)}`;
 }
 
 /** How near to 1 a check is that is met, how far beyond it one that is not. */
@@ -205,7 +222,7 @@ function drawExpectationBars(parent) {
     name.append('span').attr('class', 'mark').text(check.met ? '✓' : '✗');
     name.append('span').text(`${check.what}, ${runs.length > 1 ? `${run.name} · ` : ''}${check.of}`);
     const unit = check.unit ? ` ${check.unit}` : '';
-    line.append('span').attr('class', 'size').text(`${statusText(brief(check.found))} ${statusText(check.asked)}${unit}`);
+    line.append('span').attr('class', 'size').text(`${statusText(brief(check.found, check.unit))} ${askedText(check)}${unit}`);
     if (share !== null) {
       const most = 1.15 * Math.max(Math.abs(check.found), Math.abs(check.bound));
       drawBar(line, { value: check.found, limit: check.bound, most, good: check.met });
@@ -223,10 +240,10 @@ function drawExpectationBars(parent) {
 function drawAnswer() {
   if (!tracks.length) return;
   const grid = section('answer').append('div').attr('class', 'answer');
-  const panel = grid.append('div').attr('class', 'panel');
+  const panel = grid.append('div').attr('class', 'panel happened');
   panel.append('h2').text('What happened');
-  drawSentence(panel);
   drawManeuverRows(panel);
+  drawSentence(panel);
   drawAnswerRows(panel.append('ul').attr('class', 'rows'));
   const found = tracks.map((track) => ({ track, list: remarks(track, keyMoment) })).filter(({ list }) => list.length).slice(0, MOST_ROWS);
   if (found.length) {
@@ -234,5 +251,6 @@ function drawAnswer() {
     facts.append('span').text(`Up to ${brief(keyMoment)} s: `);
     facts.append('span').text(found.map(({ track, list }) => `${track.label} ${list.join(', ')}`).join('; '));
   }
+  drawReplay(grid);
   drawExpectationBars(grid);
 }

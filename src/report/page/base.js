@@ -18,12 +18,19 @@ function shown(value) {
 }
 
 /** At most three digits and four decimals, for what is read at a glance. */
-function brief(value) {
+function brief(value, unit) {
   if (typeof value !== 'number') return shown(value);
   const size = Math.abs(value);
   if (Number.isInteger(value) || size >= 1e6) return shown(value);
+  // Lengths, angles and times are known no better.
+  if (size < 5e-5 && ['m', 'rad', 's'].includes(unit)) return '0.0000';
   if (size < 5e-5) return d3.format('.1~e')(value).replace(/-/g, '−');
   return d3.format(size >= 100 ? '.1~f' : size < 0.01 ? '.4~f' : '.3~r')(value).replace('-', '−');
+}
+
+/** Meters as they are said: to centimeters, below 10 cm to millimeters. */
+function meters(value) {
+  return `${fixed(value, Math.abs(value) < 0.0995 ? 3 : 2)} m`;
 }
 
 /** "Speed [m/s]": the unit is set apart. */

@@ -38,14 +38,15 @@ function eventsOf() {
   return events.sort((a, b) => a.t - b.t);
 }
 
-/** A lane for each track, as long as the time line, with the marks of its events. */
+/** The time line, and below it a lane for each track with the marks of its events. */
 function drawEventTrack(parent) {
   const all = eventsOf();
-  if (!all.length) return;
   const LANE = 20;
   const SIDE = 9;  // as far as the knob of a slider stands in at its ends
   const own = tracks.filter((track) => all.some((event) => event.track === track));
   const figure = parent.append('div').attr('class', 'event-track');
+  drawTimeSlider(figure.append('div').attr('class', 'time-line'), 'track');
+  if (!all.length) return;
   const svg = figure.append('svg').attr('role', 'group').attr('aria-label', 'Events on the time line').attr('height', LANE * own.length + 4);
   const lanes = own.map((track, i) => {
     const lane = svg.append('g').style('color', track.css);

@@ -31,7 +31,6 @@ if (data.study) {
   drawHead();
   drawAnswer();
   drawManeuver();
-  drawReplay();
   drawHeadline();
   drawDifferences();
   drawDrive();

@@ -337,6 +337,7 @@ function drawTimeSlider(tools, name, id) {
 /** Plays the run and shows the current time. */
 function drawClock(parent) {
   drawEvents(parent);
+  if (!replay) drawEventTrack(parent);
   const tools = parent.append('div').attr('class', 'tools');
   drawPlayButton(tools, 'play');
   const speed = tools.append('select').attr('aria-label', 'Playback speed');

@@ -146,6 +146,12 @@ function makeReplay(canvas) {
   let views = [];  // what was drawn last: {car, camera, viewport}, for tests and labels
   const orbit = new THREE.Vector3(-8, -7, 5);
 
+  /** How far two cars are from each other now [m]. */
+  function apartNow(one, other) {
+    const [a, b] = [one, other].map((car) => car.solid.root.matrix.elements);
+    return Math.hypot(a[12] - b[12], a[13] - b[13], a[14] - b[14]);
+  }
+
   function drawView(car, camera, viewport, others) {
     for (const each of cars) {
       // From the driver's seat a ghost around it would hide the road.
@@ -154,7 +160,7 @@ function makeReplay(canvas) {
       const visible = each.track.visible && !around;
       // The driver's own car is not seen from inside.
       each.solid.group.visible = visible && each === car && shown.kind !== 'driver';
-      each.ghost.group.visible = visible && each !== car && others;
+      each.ghost.group.visible = visible && each !== car && others && each.ghost.fade(apartNow(each, car));
       each.trail.mesh.visible = visible && (others || each === car);
       if (each.skid) each.skid.mesh.visible = each.track.visible && (others || each === car);
     }
@@ -243,7 +249,7 @@ function stateText(track, time) {
   const over = track.end.t !== undefined && time >= track.end.t - 1e-6 && track.end.status !== 'arrived';
   return [
     `${fixed(speed, 1)} m/s`,
-    off !== null && `${fixed(Math.abs(off), 2)} m ${off < 0 ? 'right' : 'left'} of the path`,
+    off !== null && (Math.abs(off) < 0.005 ? 'on the path' : `${fixed(Math.abs(off), 2)} m ${off < 0 ? 'right' : 'left'} of the path`),
     over && statusText(track.end.status),
   ].filter(Boolean).join(', ');
 }
@@ -284,13 +290,14 @@ function hasWebGl() {
 
 let replay = null;
 
-function drawReplay() {
+function drawReplay(parent) {
   if (!tracks.length || !runs.every((run) => run.vehicle)) return;
-  const made = section('replay', 'Replay');
+  const made = parent.append('section').attr('id', 'replay').attr('aria-label', 'Replay');
   if (!hasWebGl()) {
     made.append('p').attr('class', 'hint').text('This browser has no WebGL, which the replay in three dimensions needs; the map below shows the same.');
     return;
   }
+  parent.classed('with-replay', true);
   const panel = made.append('div').attr('class', 'panel replay');
   const frame = panel.append('div').attr('class', 'stage');
   const canvas = frame.append('canvas').attr('tabindex', 0).attr('role', 'img')
@@ -300,6 +307,7 @@ function drawReplay() {
     replay = makeReplay(canvas.node());
   } catch (error) {
     panel.remove();
+    parent.classed('with-replay', false);
     made.append('p').attr('class', 'hint').text('The replay in three dimensions cannot be drawn; the map below shows the same.');
     return;
   }
@@ -334,7 +342,6 @@ function drawReplay() {
       update();
     });
   }
-  drawTimeSlider(tools, 'replay');
   drawEventTrack(panel);
   drawSceneKey(panel);
 

@@ -26,10 +26,12 @@ function heightOf(ground) {
 
 /** Grain for a surface, so that motion over it is seen. */
 function grain(light, spread, repeat) {
-  const size = 64;
+  const size = 128;
   const pixels = new Uint8Array(3 * size * size);
   for (let i = 0; i < size * size; ++i) {
-    const shade = 1 + spread * (scattered(i) - 0.5);
+    // Fine grain, and patches of four texels that are told apart from further away.
+    const coarse = scattered(7919 + Math.floor((i % size) / 4) + 64 * Math.floor(i / size / 4));
+    const shade = 1 + spread * (0.75 * scattered(i) + 0.35 * coarse - 0.55);
     for (let c = 0; c < 3; ++c) pixels[3 * i + c] = Math.min(255, 255 * light[c] * shade);
   }
   const texture = new THREE.DataTexture(pixels, size, size, THREE.RGBFormat);
@@ -39,6 +41,7 @@ function grain(light, spread, repeat) {
   texture.magFilter = THREE.LinearFilter;
   texture.minFilter = THREE.LinearMipMapLinearFilter;
   texture.generateMipmaps = true;
+  texture.anisotropy = 8;
   texture.needsUpdate = true;
   return texture;
 }
@@ -67,7 +70,7 @@ function strip(points, from, to, height, lift, keep = () => true) {
     for (const offset of [from, to]) {
       const [px, py] = [x + offset * nx, y + offset * ny];
       positions.push(px, py, height(px, py) + lift);
-      uvs.push(px / 4, py / 4);
+      uvs.push(px / 2, py / 2);
     }
     if (i > 0 && keep(i)) {
       const k = 2 * i;
@@ -105,7 +108,7 @@ function groundMesh(ground, extent) {
     z.forEach((height, i) => {
       const [x, y] = [ground.x + ground.step * (i % ground.columns), ground.y + ground.step * Math.floor(i / ground.columns)];
       positions.push(x, y, height);
-      uvs.push(x / 8, y / 8);
+      uvs.push(x / 6, y / 6);
     });
     for (let j = 0; j + 1 < lines; ++j) {
       for (let i = 0; i + 1 < ground.columns; ++i) {
@@ -122,7 +125,7 @@ function groundMesh(ground, extent) {
     const size = 2400;
     geometry = new THREE.PlaneBufferGeometry(size, size);
     const uv = geometry.attributes.uv;
-    for (let i = 0; i < uv.count; ++i) uv.setXY(i, (uv.getX(i) * size) / 8, (uv.getY(i) * size) / 8);
+    for (let i = 0; i < uv.count; ++i) uv.setXY(i, (uv.getX(i) * size) / 6, (uv.getY(i) * size) / 6);
     geometry.translate((extent.x[0] + extent.x[1]) / 2, (extent.y[0] + extent.y[1]) / 2, 0);
   }
   const mesh = new THREE.Mesh(geometry, material);

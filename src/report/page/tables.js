@@ -32,6 +32,13 @@ function drawHead() {
     const { good, text } = verdictOf(runs[0]);
     badge(heading, good, text).attr('id', 'verdict');
   }
+  // A comparison about which no more is to say than how it went.
+  const verdicts = (data.comparison || {}).verdicts || [];
+  const isBrief = ({ failures, notes }) => runs.length === 1 && !failures.length && notes.every((note) => runs[0].verdict.notes.includes(note));
+  for (const { passed } of verdicts.filter(isBrief)) {
+    if (passed === null) heading.append('span').attr('class', 'badge plain').text('compared without tolerances');
+    else badge(heading, passed, `comparison ${passed ? 'passed' : 'failed'}`);
+  }
   const one = runs[0];
   facts(header, [
     runs.length === 1 && runs[0].name !== runs[0].scenario && `folder ${one.name}`,
@@ -40,7 +47,7 @@ function drawHead() {
     runs.length === 1 && `seed ${one.seed}`,
     `Trackbed ${one.versions.trackbed}`, one.versions.physics, one.versions.optimizer,
   ]);
-  for (const { run, passed, failures, notes } of (data.comparison || {}).verdicts || []) {
+  for (const { run, passed, failures, notes } of verdicts.filter((verdict) => !isBrief(verdict))) {
     const verdict = header.append('div').attr('class', `verdict comparison ${passed === false ? 'bad' : ''}`);
     const line = verdict.append('div').attr('class', 'heading');
     line.append('span').text(run === undefined ? 'Comparison' : `Comparison in ${runs[run].name}`);
@@ -68,8 +75,9 @@ function drawHead() {
 function drawReasons(parent, failures, notes) {
   if (!failures.length && !notes.length) return;
   const list = parent.append('ul');
-  for (const failure of failures) list.append('li').text(failure);
-  for (const note of notes) list.append('li').attr('class', 'note').text(note);
+  const written = (text) => text.replace(/\^2/g, '²');
+  for (const failure of failures) list.append('li').text(written(failure));
+  for (const note of notes) list.append('li').attr('class', 'note').text(written(note));
 }
 
 /** The rows of several lists of numbers, each path once, in order. */
@@ -170,7 +178,7 @@ function drawCards(parent, rows) {
       const value = card.append('p').attr('class', 'value');
       value.append('span').attr('class', 'dot').style('color', track.css);
       value.append('span').attr('class', 'of').attr('title', track.label).text(track.label);
-      const number = value.append('span').attr('class', 'number').text(brief(valueOf(track.numbers, row.path)));
+      const number = value.append('span').attr('class', 'number').text(brief(valueOf(track.numbers, row.path), row.unit));
       if (row.unit) number.append('span').attr('class', 'unit').text(` ${row.unit}`);
     }
     const values = tracks.map((track) => valueOf(track.numbers, row.path));
@@ -178,7 +186,7 @@ function drawCards(parent, rows) {
       const apart = values[1] - values[0];
       const line = card.append('p').attr('class', 'value apart');
       line.append('span').attr('class', 'of').text('difference');
-      line.append('span').attr('class', 'number').text(`${apart > 0 ? '+' : ''}${brief(apart)}`)
+      line.append('span').attr('class', 'number').text(`${apart > 5e-5 ? '+' : ''}${brief(apart, row.unit)}`)
         .append('span').attr('class', 'unit').text(` ${row.unit}`);
     }
     const asked = askedOf(row.path);

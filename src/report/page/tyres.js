@@ -21,7 +21,7 @@ function tyreUse(track) {
   };
 }
 
-/** Where a vehicle's wheels stand on the ground: {x, y, z, yaw}, by name; empty for other vehicles. */
+/** Where a vehicle's wheels stand on the ground: {x, y, z, yaw}, by name, but for those high above it. */
 function wheelPlaces(vehicle, model, height) {
   const places = {};
   for (const wheel of WHEELS) {
@@ -31,6 +31,7 @@ function wheelPlaces(vehicle, model, height) {
     // The wheel turns about its y axis, which stays; ahead is to the right of it.
     const yaw = Math.atan2(-elements[4], elements[5]);
     const [x, y] = [elements[12], elements[13]];
+    if (elements[14] - height(x, y) > 0.5) continue;  // in the air
     places[wheel] = { x, y, z: height(x, y), yaw };
   }
   return places;
@@ -122,7 +123,7 @@ function makeSkidMarks(track, vehicle, motion, model, height) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
   geometry.computeVertexNormals();
-  const mesh = flat(geometry, 0x15161a, 5, { transparent: true, opacity: 0.82 });
+  const mesh = flat(geometry, 0x1b1c20, 5);
   mesh.frustumCulled = false;
   return { mesh, update: (time) => geometry.setDrawRange(0, 6 * d3.bisectRight(times, time)) };
 }

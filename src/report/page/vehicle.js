@@ -1,6 +1,8 @@
 // The vehicle in three dimensions: its shape from the run's own model, and its pose at a moment from
 // the state log, by the kinematics of its joints.
 
+const GHOST = 0.42;  // opacity
+
 /** The numbers of a channel: base64 of float32, or of int16 with an offset and a scale. */
 function numbersOf(channel) {
   const bytes = Uint8Array.from(atob(channel.f4 || channel.i2), (c) => c.charCodeAt(0));
@@ -65,14 +67,16 @@ function vehicleMaker(model) {
       group.add(node);
       return { ...body, node, position: new THREE.Vector3(...body.pos), rotation: quaternionOf(body.quat) };
     });
+    const materials = [];
     model.geoms.forEach((geom, i) => {
       const [r, g, b, a] = geom.rgba;
       const material = new THREE.MeshLambertMaterial({
         color: ghost || geom.rgba.join() === paint ? new THREE.Color(color) : new THREE.Color(r, g, b),
-        transparent: ghost || a < 1, opacity: ghost ? 0.42 : a, depthWrite: true,
+        transparent: ghost || a < 1, opacity: ghost ? GHOST : a, depthWrite: true,
         // Where both are in one place, the solid car is seen.
         polygonOffset: ghost, polygonOffsetFactor: 4, polygonOffsetUnits: 40,
       });
+      materials.push(material);
       const mesh = new THREE.Mesh(shapes[i], material);
       mesh.position.set(...geom.pos);
       mesh.quaternion.copy(quaternionOf(geom.quat));
@@ -115,6 +119,13 @@ function vehicleMaker(model) {
         body.node.matrixWorldNeedsUpdate = true;
       }
     }
-    return { group, pose, root: bodies[0].node, nodes: bodies.map(({ node }) => node) };
+    /** Nearly in the place of the solid car a ghost would only soil it: whether it is seen at such a distance [m]. */
+    function fade(apart) {
+      const [from, to] = [0.05, 0.3];
+      const share = Math.min(1, Math.max(0, (apart - from) / (to - from)));
+      for (const material of materials) material.opacity = GHOST * share;
+      return share > 0;
+    }
+    return { group, pose, fade, root: bodies[0].node, nodes: bodies.map(({ node }) => node) };
   };
 }

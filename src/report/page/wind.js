@@ -45,7 +45,7 @@ function makeWind(scene, height) {
       if (!arrows.visible) return;
       const length = Math.min(WIND.longest, Math.max(0.8, WIND.perSpeed * speed));
       turn.setFromAxisAngle(up, Math.atan2(wy, wx));
-      const scale = new THREE.Vector3(length, 1.1, 1);
+      const scale = new THREE.Vector3(length, 1.9, 1);
       const [column, row] = [Math.round(x / WIND.spacing), Math.round(y / WIND.spacing)];
       let i = 0;
       for (let du = -WIND.reach; du <= WIND.reach; ++du) {
