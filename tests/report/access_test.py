@@ -131,7 +131,7 @@ class Access(unittest.TestCase):
             nameless = self.browser.run(
                 """
                 return Array.from(document.querySelectorAll('button, input, select, [role=button]'))
-                  .filter((e) => !(e.getAttribute('aria-label') || e.textContent.trim() || e.closest('label')))
+                  .filter((e) => e.getClientRects().length && !(e.getAttribute('aria-label') || e.textContent.trim() || e.closest('label')))
                   .map((e) => e.outerHTML.slice(0, 200));
                 """
             )

@@ -124,7 +124,9 @@ function drawSentence(parent) {
   }
   if (!found.length) return;
   const [{ track, far }, ...others] = found;
-  if (far.size < NEAR) say(tracks.length > 1 ? 'No car leaves the path: ' : 'The car keeps to the path: ');
+  // After a collision this is said of the time before it.
+  if (broken.length) say('Before: ');
+  else if (far.size < NEAR) say(tracks.length > 1 ? 'No car leaves the path: ' : 'The car keeps to the path: ');
   name(track);
   say(far.size < NEAR ? `${tracks.length > 1 ? ', the furthest,' : ''} is ` : tracks.length > 1 ? ' strays furthest from the path: ' : ' strays from the path: ');
   line.append('strong').attr('class', 'whole').text(`${meters(far.size)} to the ${far.side}`);
@@ -194,10 +196,11 @@ function drawAnswerRows(parent) {
   }
 }
 
-/** "≤ 0.155", as short as the value beside it. */
-function askedText({ relation, bound }) {
-  const sign = { at_most: '≤', at_least: '≥', equals: '=' }[relation];
-  return `${sign} ${typeof bound === 'string' ? statusText(bound) : brief(bound)}`;
+/** "0.151 ≤ 0.155 rad/s", "rolled over", "no, not yes". */
+function measuredText({ relation, bound, found, unit, met }) {
+  const told = (value) => statusText(brief(value, unit));
+  if (relation === 'equals') return met ? told(found) : `${told(found)}, not ${told(bound)}`;
+  return `${told(found)} ${relation === 'at_most' ? '≤' : '≥'} ${told(bound)}${unit ? ` ${unit}` : ''}`;
 }
 
 /** How near to 1 a check is that is met, how far beyond it one that is not. */
@@ -221,8 +224,7 @@ function drawExpectationBars(parent) {
     const name = line.append('span').attr('class', 'what');
     name.append('span').attr('class', 'mark').text(check.met ? '✓' : '✗');
     name.append('span').text(`${check.what}, ${runs.length > 1 ? `${run.name} · ` : ''}${check.of}`);
-    const unit = check.unit ? ` ${check.unit}` : '';
-    line.append('span').attr('class', 'size').text(`${statusText(brief(check.found, check.unit))} ${askedText(check)}${unit}`);
+    line.append('span').attr('class', 'size').text(measuredText(check));
     if (share !== null) {
       const most = 1.15 * Math.max(Math.abs(check.found), Math.abs(check.bound));
       drawBar(line, { value: check.found, limit: check.bound, most, good: check.met });

@@ -3,9 +3,9 @@
 const MOST_NAMED = 4;  // of the translucent cars
 const CAMERAS = [['follow', 'Follow'], ['orbit', 'Orbit'], ['driver', 'Driver']];
 
-/** The color of a track, as WebGL needs it: of the style sheet, for a light page. */
+/** The color of a track, as WebGL needs it. */
 function solidColor(track) {
-  return cssColor(`--track-${track.color}`) || '#888888';
+  return cssColor(`--scene-${track.color}`) || '#888888';
 }
 
 /** What has been driven, as a strip that grows. */

@@ -126,8 +126,10 @@ function drawManeuver() {
   if (!own.length) return;
   const methods = new Set(tracks.map((track) => valueOf(track.numbers, 'maneuver.method')).filter(Boolean));
   const made = section('maneuver', `Maneuver: ${statusText(Array.from(methods).join(', '))}`);
-  const [from, to] = ['begin', 'end'].map((name) => valueOf(tracks[0].numbers, `maneuver.${name}`));
-  made.append('p').attr('class', 'hint').text(`Evaluated from ${brief(from)} s to ${brief(to)} s. All times on this page count from the start of the run, its run-up included.`);
+  const spans = tracks.map((track) => ['begin', 'end'].map((name) => brief(valueOf(track.numbers, `maneuver.${name}`))).join(' s to '));
+  const isSame = new Set(spans).size === 1;
+  const evaluated = isSame ? spans.slice(0, 1) : spans.map((span, i) => `${span} s (${tracks[i].label})`);
+  made.append('p').attr('class', 'hint').text(`Evaluated from ${evaluated.join(', ')}${isSame ? ' s' : ''}. All times on this page count from the start of the run, its run-up included.`);
   if (tracks.length > 2) drawHeadlineTable(made, own);
   else drawCards(made, own.map((row) => ({ ...row, label: upperFirst(row.label.replace(/^Maneuver: /, '')) })));
 }
