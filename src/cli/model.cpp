@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include "src/cli/scenario_options.h"
 #include "src/cli/verbs.h"
@@ -15,7 +16,9 @@ namespace trackbed::cli {
 namespace {
 
 void Row(const char* name, double value, const char* unit) {
-  fmt::print("  {:<26} {:>12.6g} {}\n", name, value, unit);
+  // Five digits: more than any of it is known to.
+  fmt::print("  {:<26} {:>12.5g}{}\n", name, value,
+             std::string_view(unit).empty() ? "" : fmt::format(" {}", unit));
 }
 
 void PrintCar(const CarModel& car) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -84,14 +85,23 @@ void PrintManeuver(const ManeuverMetrics& maneuver) {
   }
 }
 
+/// "rolled over".
+std::string InWords(DriveStatus status) {
+  std::string words = ToString(status);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
 void PrintSummary(const RunResult& result) {
   for (const PlantMetrics& plant : result.metrics) {
     fmt::print("  {:<10} ", plant.plant);
     if (plant.status == DriveStatus::kCollided) {
-      fmt::print("{} at {:.2f} s, followed until {:.2f} s, {:.2f} m", ToString(plant.status),
+      fmt::print("{} at {:.2f} s, followed until {:.2f} s, {:.2f} m", InWords(plant.status),
                  plant.contact_t, plant.time, plant.distance);
     } else {
-      fmt::print("{} after {:.2f} s, {:.2f} m", ToString(plant.status), plant.time, plant.distance);
+      fmt::print("{} {} {:.2f} s, {:.2f} m", InWords(plant.status),
+                 plant.status == DriveStatus::kRolledOver ? "at" : "after", plant.time,
+                 plant.distance);
     }
     if (plant.tracking) {
       const TrackingMetrics& tracking = *plant.tracking;

@@ -204,6 +204,33 @@ TEST(MakeTrace, LeavesOutWhereTheCarDoesNotGetOn) {
               testing::ElementsAre(0.0, 10.0, 20.0));
 }
 
+TEST(MakeTrace, EndsAtTheContact) {
+  RunLog log{.plant = "made_up", .configurations = Table({"t_s"})};
+  for (int i = 0; i < 5; ++i) {
+    LogRow row;
+    row.state.time = i;
+    row.state.distance = 10.0 * i;
+    log.rows.push_back(row);
+  }
+  log.contact_time = 2.5;
+  EXPECT_THAT(MakeTrace(log).station, testing::ElementsAre(0.0, 10.0, 20.0));
+}
+
+TEST(ReadRunFolder, EndsTracesAtTheContact) {
+  const TempFolder folder;
+  folder.Write("metrics.json",
+               R"({"plants": {"kinematic": {"status": "collided", "status_t": 1.5}, )"
+               R"("mujoco": {"status": "arrived", "status_t": 1.5}}})");
+  const std::string log =
+      "t_s,x_m,y_m,yaw_rad,yaw_rate_radps,steering_rad,s_m\n"
+      "0,0,0,0,0,0,0\n1,3,0,0,0,0,3\n2,6,0,0,0,0,6\n";
+  folder.Write("kinematic.csv", log);
+  folder.Write("mujoco.csv", log);
+  const std::vector<FinishedDrive> drives = ReadRunFolder(folder.path());
+  EXPECT_THAT(drives[0].trace.station, testing::ElementsAre(0.0, 3.0));
+  EXPECT_THAT(drives[1].trace.station, testing::ElementsAre(0.0, 3.0, 6.0));
+}
+
 TEST(ReadRunFolder, GivesTheDrivesThatWereLogged) {
   const TempFolder folder;
   folder.Write("metrics.json",

@@ -409,5 +409,23 @@ TEST(Verdict, NotesSteeringThatIsLimited) {
   EXPECT_THAT(Judge({}, {free}, {}).notes, testing::IsEmpty());
 }
 
+TEST(DescribeManeuverMetric, KnowsTheLimitsOfStandards) {
+  // ISO 19365 and FMVSS 126: 35 %, 20 % and 1.83 m (6 ft); ISO 3888: within the gates.
+  using Relation = StandardLimit::Relation;
+  const auto limit = [](const char* name) { return DescribeManeuverMetric(name)->limit; };
+  ASSERT_TRUE(limit("yaw_rate_ratio_1_00"));
+  EXPECT_EQ(limit("yaw_rate_ratio_1_00")->relation, Relation::kAtMost);
+  EXPECT_EQ(limit("yaw_rate_ratio_1_00")->bound, 0.35);
+  EXPECT_EQ(limit("yaw_rate_ratio_1_75")->bound, 0.20);
+  EXPECT_EQ(limit("lateral_displacement")->relation, Relation::kAtLeast);
+  EXPECT_EQ(limit("lateral_displacement")->bound, 1.83);
+  EXPECT_EQ(limit("margin")->relation, Relation::kAtLeast);
+  EXPECT_EQ(limit("margin")->bound, 0.0);
+  EXPECT_FALSE(limit("tb"));
+  EXPECT_TRUE(limit("margin")->Met(0.0));
+  EXPECT_FALSE(limit("margin")->Met(-1e-9));
+  EXPECT_FALSE(limit("yaw_rate_ratio_1_00")->Met(0.351));
+}
+
 }  // namespace
 }  // namespace trackbed

@@ -432,7 +432,7 @@ TEST(Program, ShowsAndSavesAModel) {
   EXPECT_EQ(Trackbed(folder, "model prius --save car.xml").code, 0);
   // What was saved is a model like the one it came from.
   EXPECT_THAT(Trackbed(folder, "model ./car.xml").output,
-              HasSubstr("steering_rate                  0.150568 rad/s\n"));
+              HasSubstr("steering_rate                   0.15057 rad/s\n"));
   EXPECT_EQ(Trackbed(folder, "model pruis").output,
             "unknown model 'pruis'; did you mean 'prius'?\n");
 }

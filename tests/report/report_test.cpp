@@ -100,7 +100,8 @@ TEST(ReportData, HoldsTheLogsOfTheRun) {
   EXPECT_NEAR(data["plan"]["line"]["y"].back().get<double>(), plan.Column("y_m").back(), 1e-4);
   EXPECT_EQ(
       data["world"]["obstacles"].dump(),
-      R"([{"x":5.0,"y":9.0,"yaw":0.5,"length":3.0,"width":1.0,"vx":1.0,"vy":0.0,"height":1.0}])");
+      R"([{"x":5.0,"y":9.0,"yaw":0.5,"length":3.0,"width":1.0,"vx":1.0,"vy":0.0,"height":1.0,)"
+      R"("known_later":false}])");
   // The Prius, from the model that was driven.
   EXPECT_EQ(data["car"]["length"], 4.45);
   EXPECT_EQ(data["car"]["width"], 1.725);

@@ -41,7 +41,7 @@ function grain(light, spread, repeat) {
   texture.magFilter = THREE.LinearFilter;
   texture.minFilter = THREE.LinearMipMapLinearFilter;
   texture.generateMipmaps = true;
-  texture.anisotropy = 8;
+  texture.anisotropy = 2;  // more takes long where there is no graphics hardware
   texture.needsUpdate = true;
   return texture;
 }

@@ -1,0 +1,53 @@
+"""The page of every shipped scenario is at most 3 MB, without its film.
+
+size_test.py PROGRAM SCENARIOS: drives each scenario below a folder and makes its report. Prints their sizes, the
+largest first, and how large the scene of the replay is for a minute of a plant.
+"""
+
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+LARGEST = 3_000_000  # [B]
+LARGEST_SCENE = 500_000  # [B] for a minute and plant
+
+
+def scene_size(page):
+    """Bytes of the scene for a minute of a plant, of runs that last long enough to tell."""
+    data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.S).group(1))
+    sizes = [0]
+    for run in data["runs"]:
+        for plant in run["plants"]:
+            duration = plant["log"]["t"][-1]
+            if duration > 20 and "motion" in plant:
+                sizes.append(len(json.dumps([plant["motion"], plant["tyres"]])) * 60 / duration)
+    return max(sizes)
+
+
+def main():
+    program, scenarios = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
+    found = []
+    with tempfile.TemporaryDirectory() as folder:
+        for scenario in sorted(scenarios.rglob("*.yaml")):
+            if "studies" in scenario.parts:
+                continue
+            out = pathlib.Path(folder) / scenario.stem
+            done = subprocess.run(
+                [program, "run", "-q", "--report", scenario, "-o", out], capture_output=True, text=True, check=False
+            )
+            if done.returncode not in (0, 3):
+                sys.exit(f"{scenario}: {done.stdout}{done.stderr}")
+            page = out / "report.html"
+            found.append((page.stat().st_size, scene_size(page.read_text()), scenario.stem))
+    if len(found) < 30:
+        sys.exit(f"only {len(found)} scenarios in {scenarios}")
+    for size, scene, name in sorted(found, reverse=True):
+        print(f"{size / 1e6:5.2f} MB, scene {scene / 1e6:.3f} MB/min/plant: {name}")
+    sys.exit(int(any(size > LARGEST or scene > LARGEST_SCENE for size, scene, _ in found)))
+
+
+if __name__ == "__main__":
+    main()
