@@ -95,14 +95,26 @@ ShapeMesh Bounds(const ShapeMesh& mesh) {
   return box;
 }
 
+/// Whether a body hangs on a free joint, as a vehicle does; obstacles that move do not.
+bool IsOfVehicle(const mjModel& model, int body) {
+  const int root = model.body_rootid[body];
+  return model.body_jntnum[root] > 0 && model.jnt_type[model.body_jntadr[root]] == mjJNT_FREE;
+}
+
 }  // namespace
 
 VehicleShape ReadVehicleShape(const Scene& scene, const std::string& name) {
   const MujocoModel compiled = CompileScene(scene, name, Looks::kKept);
   const mjModel& model = *compiled;
   VehicleShape shape;
+  std::map<int, int> bodies;  // index in the model to that in the shape
   for (int body = 1; body < model.nbody; ++body) {
-    shape.bodies.push_back({.parent = model.body_parentid[body] - 1,
+    if (!IsOfVehicle(model, body)) {
+      continue;
+    }
+    bodies.emplace(body, static_cast<int>(shape.bodies.size()));
+    const auto parent = bodies.find(model.body_parentid[body]);
+    shape.bodies.push_back({.parent = parent == bodies.end() ? -1 : parent->second,
                             .position = Copied<3>(model.body_pos + 3 * body),
                             .quaternion = Copied<4>(model.body_quat + 4 * body),
                             .joints = JointsOf(model, body)});
@@ -112,10 +124,10 @@ VehicleShape ReadVehicleShape(const Scene& scene, const std::string& name) {
     const char* type = TypeName(model.geom_type[geom]);
     const std::array<double, 4> rgba = DrawnColor(model, geom);
     if (type == nullptr || model.geom_group[geom] >= kDrawnGroups || rgba[3] <= 0.0 ||
-        model.geom_bodyid[geom] == 0) {
+        !bodies.contains(model.geom_bodyid[geom])) {
       continue;
     }
-    ShapeGeom drawn{.body = model.geom_bodyid[geom] - 1,
+    ShapeGeom drawn{.body = bodies.at(model.geom_bodyid[geom]),
                     .type = type,
                     .size = Copied<3>(model.geom_size + 3 * geom),
                     .position = Copied<3>(model.geom_pos + 3 * geom),

@@ -86,6 +86,19 @@ TEST_P(ShapeOf, HasJointsThatStateLogsName) {
   }
 }
 
+TEST(ReadVehicleShape, LeavesOutObstacles) {
+  const CarModel car = CarWith("prius", {});
+  World world;
+  world.obstacles = {
+      {.footprint = {{20.0, 0.0, 0.0}, 4.4, 1.8}, .velocity = {3.0, 0.0}},  // on joints of its own
+      {.footprint = {{30.0, 5.0, 0.0}, 2.0, 2.0}}};
+  const VehicleShape alone = ReadVehicleShape(car.scene(), "prius");
+  const VehicleShape among =
+      ReadVehicleShape(WithWorld(car.scene(), car.params(), world), "prius");
+  EXPECT_EQ(among.bodies.size(), alone.bodies.size());
+  EXPECT_EQ(among.geoms.size(), alone.geoms.size());
+}
+
 INSTANTIATE_TEST_SUITE_P(Cars, ShapeOf, testing::Values("prius", "bmw320i"));
 
 }  // namespace

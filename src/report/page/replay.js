@@ -227,8 +227,9 @@ function makeReplay(canvas) {
 /** The pictures side by side, in rows where there is no width for one: {x, y, width, height}, y from below. */
 function gridOf(count, width, height) {
   const GAP = 2;
-  const columns = Math.min(count, Math.max(1, Math.round(Math.sqrt((count * width) / height / 1.3))));
-  const lines = Math.ceil(count / columns);
+  const most = Math.min(count, Math.max(1, Math.round(Math.sqrt((count * width) / height / 1.3))));
+  const lines = Math.ceil(count / most);
+  const columns = Math.ceil(count / lines);
   return d3.range(count).map((i) => {
     const [column, line] = [i % columns, Math.floor(i / columns)];
     // The last row may have fewer, which are wider.

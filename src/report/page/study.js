@@ -29,7 +29,7 @@ function drawStudy(study) {
   }
   facts(header, [
     study.scenario && `scenario ${study.scenario}`,
-    `${parameters.length} ${parameters.length === 1 ? 'parameter' : 'parameters'}: ${parameters.map(nameOf).join(', ')}`,
+    parameters.length > 0 && `${parameters.length} ${parameters.length === 1 ? 'parameter' : 'parameters'}: ${parameters.map(nameOf).join(', ')}`,
     study.stopped && `stopped at ${study.stopped}, after ${study.row_count} of ${study.rows_expected} rows`,
     rows.length < study.row_count && `drawn one by one: ${even.length} rows, evenly chosen, and the ends of each output; `
       + `statistics are of all ${study.row_count}`,

@@ -12,12 +12,12 @@ function pointText(row, varied) {
 
 function drawStudyAnswer(parent, { study, outputs, varied, rows, status }) {
   const MOST = 4;
-  const list = parent.append('div').attr('class', 'panel answer').append('ul').attr('class', 'rows');
+  const list = parent.append('ul').attr('class', 'panel found');
   const say = (name, size, text) => {
     const line = list.append('li');
-    line.append('span').attr('class', 'who').append('span').attr('class', 'name').text(name);
-    line.append('span').attr('class', 'what').text(text);
-    line.append('span').attr('class', 'size').text(size);
+    line.append('span').text(name);
+    line.append('strong').text(size);
+    line.append('span').attr('class', 'hint').text(text);
   };
   const unitOf = ({ unit }) => (unit ? ` ${unit}` : '');
   for (const output of outputs.slice(0, MOST)) {
