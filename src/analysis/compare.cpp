@@ -148,8 +148,7 @@ Trace MakeTrace(const RunLog& log, StationSource source) {
   return trace;
 }
 
-Trace ReadTrace(const fs::path& file, const std::string& name,
-                std::optional<double> contact_time) {
+Trace ReadTrace(const fs::path& file, const std::string& name, std::optional<double> contact_time) {
   const Table table = ReadCsvExcerpt(file, {"s_m", "t_s", "x_m", "y_m", "yaw_rad", "yaw_rate_radps",
                                             "steering_rad"})
                           .table;
@@ -248,8 +247,9 @@ std::vector<FinishedDrive> ReadRunFolder(const fs::path& folder) {
       if (status == ToString(DriveStatus::kCollided) && metrics.contains("status_t")) {
         contact_time = metrics.at("status_t").get<double>();
       }
-      drives.push_back({status, ReadTrace(run_folder::RequireFile(folder / run_folder::LogCsv(plant)),
-                                          plant, contact_time)});
+      drives.push_back(
+          {status, ReadTrace(run_folder::RequireFile(folder / run_folder::LogCsv(plant)), plant,
+                             contact_time)});
     }
   };
   VisitJson(file, visit, {.message = "not the metrics of a run"});

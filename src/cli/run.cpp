@@ -68,15 +68,15 @@ void PrintManeuver(const ManeuverMetrics& maneuver) {
   for (const auto& [path, value] : maneuver.values) {
     const ShownName name = NameOfMetric("maneuver." + path);
     constexpr std::string_view kGroup = "Maneuver: ";
-    std::string text = fmt::format(
-        "    {:<44} {:>10.4g}{}",
-        name.label.starts_with(kGroup) ? name.label.substr(kGroup.size()) : name.label, value,
-        name.unit.empty() ? "" : " " + name.unit);
+    std::string text =
+        fmt::format("    {:<44} {:>10.4g}{}",
+                    name.label.starts_with(kGroup) ? name.label.substr(kGroup.size()) : name.label,
+                    value, name.unit.empty() ? "" : " " + name.unit);
     if (name.limit) {
       const bool at_most = name.limit->relation == StandardLimit::Relation::kAtMost;
-      text += Toned(name.limit->Met(value) ? Tone::kGood : Tone::kBad,
-                    fmt::format(" ({} {:.4g} to pass)", at_most ? "at most" : "at least",
-                                name.limit->bound));
+      text += Toned(
+          name.limit->Met(value) ? Tone::kGood : Tone::kBad,
+          fmt::format(" ({} {:.4g} to pass)", at_most ? "at most" : "at least", name.limit->bound));
     }
     fmt::print("{}\n", text);
   }

@@ -81,7 +81,9 @@ TyreShares SharesOf(std::size_t wheel, const Table& log, TyreLaw law, const Worl
   const std::vector<double> x = log.Column("x_m");
   const std::vector<double> y = log.Column("y_m");
   const std::vector<double> yaw = log.Column("yaw_rad");
-  const auto force = [&](const char* kind) { return log.Column(ForceColumn(kind, kWheels[wheel])); };
+  const auto force = [&](const char* kind) {
+    return log.Column(ForceColumn(kind, kWheels[wheel]));
+  };
   const std::vector<double> load = force("normal");
   const std::vector<double> along = force("longitudinal");
   const std::vector<double> across = force("lateral");

@@ -17,8 +17,8 @@ nlohmann::ordered_json VehicleJson(const std::filesystem::path& model);
 /// The motion of a vehicle on a plant, from its state log: {t, channels}, with the channels that
 /// its joints name, those that the log has, and the pose of its free joint. At most `row_limit`
 /// evenly chosen rows and no more than 30 per second, the last one among them. Angles of spinning
-/// wheels are not wrapped. Where there is wind, `wind` has the velocity of the air at the rear axle,
-/// {x, y}. InputError as ReadCsvExcerpt, and for a log without rows.
+/// wheels are not wrapped. Where there is wind, `wind` has the velocity of the air at the rear
+/// axle, {x, y}. InputError as ReadCsvExcerpt, and for a log without rows.
 nlohmann::ordered_json MotionJson(const std::filesystem::path& states,
                                   const nlohmann::ordered_json& vehicle, const World& world,
                                   std::size_t row_limit);

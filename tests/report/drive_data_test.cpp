@@ -68,8 +68,8 @@ std::string DriveAlongX(double duration, const ShortBy& short_by) {
 TEST(EventsJson, JoinsAndDropsShortTimesAtTheRateLimit) {
   const TempFolder folder;
   const auto file = folder.Write("log.csv", DriveAlongX(10.0, [](int i) {
-                                   const bool is_short = (i > 50 && i <= 75)      // 1.0 to 1.5 s
-                                                         || (i > 78 && i <= 100)  // 1.56 to 2.0 s
+                                   const bool is_short = (i > 50 && i <= 75)        // 1.0 to 1.5 s
+                                                         || (i > 78 && i <= 100)    // 1.56 to 2.0 s
                                                          || (i > 200 && i <= 202);  // 0.04 s
                                    return is_short ? 0.05 : 0.0;
                                  }));
@@ -128,8 +128,7 @@ TEST(TyresJson, IsTheShareOfTheGripOnTheRoadUnderEachWheel) {
   }
   const double mu = PeakFriction(car.parts().tyres->axle[0], 3000.0).lateral;
   const ordered_json formula = TyresJson(file, "mujoco", TyreLaw::kAuto, world, car, 1000);
-  EXPECT_NEAR(NumbersIn(formula["fr"]["across"])[0], 600.0 / (mu * 0.8 * 3000.0),
-              Tolerance(1e-12));
+  EXPECT_NEAR(NumbersIn(formula["fr"]["across"])[0], 600.0 / (mu * 0.8 * 3000.0), Tolerance(1e-12));
 }
 
 TEST(TyresJson, ShowsTheRowsWhereTheTyresUseMost) {

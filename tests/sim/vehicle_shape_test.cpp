@@ -93,8 +93,7 @@ TEST(ReadVehicleShape, LeavesOutObstacles) {
       {.footprint = {{20.0, 0.0, 0.0}, 4.4, 1.8}, .velocity = {3.0, 0.0}},  // on joints of its own
       {.footprint = {{30.0, 5.0, 0.0}, 2.0, 2.0}}};
   const VehicleShape alone = ReadVehicleShape(car.scene(), "prius");
-  const VehicleShape among =
-      ReadVehicleShape(WithWorld(car.scene(), car.params(), world), "prius");
+  const VehicleShape among = ReadVehicleShape(WithWorld(car.scene(), car.params(), world), "prius");
   EXPECT_EQ(among.bodies.size(), alone.bodies.size());
   EXPECT_EQ(among.geoms.size(), alone.geoms.size());
 }

@@ -10,8 +10,8 @@ namespace trackbed {
 
 struct ShownName {
   std::string label;
-  std::string unit;       ///< empty for what is no quantity
-  bool headline = false;  ///< whether it belongs to what is read first
+  std::string unit;                                   ///< empty for what is no quantity
+  bool headline = false;                              ///< whether it belongs to what is read first
   std::optional<StandardLimit> limit = std::nullopt;  ///< of a standard maneuver
 };
 

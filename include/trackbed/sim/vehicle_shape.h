@@ -50,9 +50,9 @@ struct VehicleShape {
   std::vector<ShapeMesh> meshes;
 };
 
-/// The bodies of a scene's vehicle, not those of obstacles, and what MuJoCo's viewer draws of them: geoms of groups 0 to 2 that are
-/// not wholly transparent, with their materials' colors. A mesh with more than 20 000 triangles is
-/// its bounding box. `name` stands for the scene in messages.
+/// The bodies of a scene's vehicle, not those of obstacles, and what MuJoCo's viewer draws of them:
+/// geoms of groups 0 to 2 that are not wholly transparent, with their materials' colors. A mesh
+/// with more than 20 000 triangles is its bounding box. `name` stands for the scene in messages.
 ///
 /// Errors and cost: as CompileScene.
 VehicleShape ReadVehicleShape(const Scene& scene, const std::string& name);
