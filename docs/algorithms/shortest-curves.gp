@@ -1,22 +1,27 @@
-# Figure of shortest-curves.md; made by scripts/figures, which runs the plans first.
-set datafile separator ","
-set terminal pngcairo size 1000,640 font "sans,11" background "white"
-set grid lt 1 lw 1 lc rgb "#c8c8c8"
+# Figure of shortest-curves.md; made by scripts/figures, which makes the plans first.
+load "docs/style.gp"
 set key autotitle columnhead
+unset key
+set terminal pngcairo size 1000,640 font "sans,12" background "white"
 set output images . "/shortest_curves.png"
-set size ratio -1
-set xlabel "x [m]"
-set ylabel "y [m]"
-set key top left
-set xrange [-6:44]
-set yrange [-16:22]
-plot runs . "/dubins/boxes.csv" using 1:2 with filledcurves lc rgb "#bbbbbb" title "obstacle", \
-     runs . "/dubins/plan.csv" using "x_m":"y_m" with lines lw 2 lc rgb "#1f77b4" title "dubins", \
-     runs . "/reeds_shepp/plan.csv" using (column("direction") > 0 ? column("x_m") : NaN):"y_m" with lines lw 2 lc rgb "#ff7f0e" title "reeds\\_shepp, forwards", \
-     runs . "/reeds_shepp/plan.csv" using (column("direction") < 0 ? column("x_m") : NaN):"y_m" with lines lw 2 dt 2 lc rgb "#d62728" title "reeds\\_shepp, backwards", \
-     "-" using 1:2:(3*cos($3)):(3*sin($3)) with vectors lw 2 lc rgb "#333333" title "stops with headings"
+eval map_of("heading\\_goal: the shortest curves through three poses")
+set xrange [-4:46]
+set yrange [-9:17]
+set label 1 "dubins" at 41.3,8 left tc rgb blue
+set label 2 "reeds\\_shepp, forwards" at 1.5,4.6 left tc rgb orange
+set label 3 "reeds\\_shepp, backwards" at 26.8,-0.5 left tc rgb red
+set label 4 "obstacle" at 13,11.6 center tc rgb gray
+set label 5 "start" at 0,-1.3 left tc rgb black
+set label 6 "stop" at 28.6,11.8 center tc rgb black
+set label 7 "goal" at 21.3,-6.3 left tc rgb black
+$stops << end
 x,y,yaw
 0,0,0
 30,10,1.2
 20,-5,0
-e
+end
+plot runs . "/boxes.csv" using 1:2 with filledcurves lc rgb "#bbbbbb", \
+     runs . "/dubins/plan.csv" using "x_m":"y_m" with lines lw 2.5 lc rgb blue, \
+     runs . "/reeds_shepp/plan.csv" using (column("direction") > 0 ? column("x_m") : NaN):"y_m" with lines lw 2.5 lc rgb orange, \
+     runs . "/reeds_shepp/plan.csv" using (column("direction") < 0 ? column("x_m") : NaN):"y_m" with lines lw 2.5 dt 2 lc rgb red, \
+     $stops using 1:2:(3*cos($3)):(3*sin($3)) with vectors lw 2 lc rgb black
