@@ -41,7 +41,9 @@ void LiftOnto(CameraPose& pose, const CameraSubject& subject, double time) {
 
 CameraPose Chase(const CameraSubject& subject, double time, double /*aspect*/) {
   const Point car = subject.Position(time);
-  const double heading = subject.SmoothHeading(time);
+  // In reverse it looks the other way: at where the car is going. On its way round it passes the
+  // car's right side.
+  const double heading = subject.SmoothHeading(time) + kPi * subject.SmoothReverse(time);
   // Ahead of the rear axle, so that the road the car is about to take fills the picture, and so
   // little that the car stays above the strip and the caption.
   constexpr double kAhead = 1.0;
@@ -74,6 +76,44 @@ CameraPose Side(const CameraSubject& subject, double time, double aspect) {
   // From its right, where the sun does not stand behind the camera: shadows have depth.
   pose.azimuth = heading + 0.5 * kPi;
   pose.elevation = -12.0 * kPi / 180.0;
+  LiftOnto(pose, subject, time);
+  return pose;
+}
+
+CameraPose Driver(const CameraSubject& subject, double time, double aspect) {
+  const Point car = subject.Position(time);
+  const double heading = subject.Heading(time);
+  const CarBox& box = subject.box();
+  constexpr double kWide = 66.0 * kPi / 180.0;  // from side to side
+  CameraPose pose;
+  pose.inside = true;
+  // The eyes: in the middle of the car, to the left, under the roof.
+  const Vec2 eye = ToWorld({car.x, car.y, heading}, {box.middle, 0.45 * box.half_width});
+  pose.distance = 8.0;
+  pose.azimuth = heading;
+  pose.elevation = -6.0 * kPi / 180.0;
+  pose.view_angle = 2.0 * std::atan(std::tan(0.5 * kWide) / std::max(aspect, 1.0));
+  const double level = pose.distance * std::cos(pose.elevation);
+  pose.target_x = eye.x() + level * std::cos(heading);
+  pose.target_y = eye.y() + level * std::sin(heading);
+  pose.target_z = 0.82 * box.height + pose.distance * std::sin(pose.elevation);
+  LiftOnto(pose, subject, time);
+  return pose;
+}
+
+CameraPose Orbit(const CameraSubject& subject, double time, double /*aspect*/) {
+  const Point car = subject.Position(time);
+  const double heading = subject.SmoothHeading(time);
+  const double middle = subject.box().middle;
+  CameraPose pose;
+  pose.target_x = car.x + middle * std::cos(heading);
+  pose.target_y = car.y + middle * std::sin(heading);
+  pose.target_z = 0.7;
+  pose.distance = 11.0;
+  constexpr double kRound = 24.0;  // [s]
+  pose.azimuth = subject.Heading(subject.begin()) + 2.0 * kPi * (time - subject.begin()) / kRound;
+  pose.elevation = -20.0 * kPi / 180.0;
+  pose.view_angle = 40.0 * kPi / 180.0;
   LiftOnto(pose, subject, time);
   return pose;
 }
@@ -118,7 +158,15 @@ CameraSubject::CameraSubject(const Recording& recording)
     : recording_(recording),
       car_(recording.plants.front()),
       lowest_(car_.Position(car_.begin())),
-      highest_(lowest_) {
+      highest_(lowest_),
+      box_(FindCarBox(*recording.model)) {
+  constexpr double kCreep = 0.05;  // slower than this a car stands [m/s]
+  double reverse = 0.0;
+  for (const double at : car_.log().times()) {
+    const double speed = car_.ReadingsAt(at).speed;
+    reverse = std::abs(speed) < kCreep ? reverse : speed < 0.0 ? 1.0 : 0.0;
+    reverse_.push_back(reverse);
+  }
   const auto include = [this](const Point& point) {
     lowest_ = {std::min(lowest_.x, point.x), std::min(lowest_.y, point.y)};
     highest_ = {std::max(highest_.x, point.x), std::max(highest_.y, point.y)};
@@ -158,10 +206,18 @@ double CameraSubject::SmoothGround(double time) const {
   })[0];
 }
 
+double CameraSubject::SmoothReverse(double time) const {
+  return Smooth(time, [this](double at) {
+    return std::array<double, 2>{reverse_[car_.log().At(at).row], 0.0};
+  })[0];
+}
+
 const std::vector<Camera>& CameraTable() {
   static const std::vector<Camera> table{
-      {"chase", "behind and above the car, turning with it", &Chase},
+      {"chase", "behind and above the car, turning with it; swings round in reverse", &Chase},
       {"side", "from the car's right, a little above, going along with it", &Side},
+      {"driver", "from the driver's seat, turning with the car", &Driver},
+      {"orbit", "once around the car in 24 s", &Orbit},
       {"top", "straight down, north up: the whole route if it is small, else around the car", &Top},
   };
   return table;

@@ -20,6 +20,7 @@ struct CameraPose {
   double view_angle = 0.7;  ///< from the picture's bottom to its top [rad]
   double ground_z = 0;      ///< height of the ground where the target is [m]
   double paint_scale = 1;   ///< how much wider than usual lines on the ground must be to be seen
+  bool inside = false;      ///< from inside the car, which is left out of the picture
 };
 
 /// What a camera may follow: the car's drive, smoothed, and the extent of the route.
@@ -36,6 +37,15 @@ class CameraSubject {
   [[nodiscard]] double SmoothHeading(double time) const;
   /// Height of the ground under the car, averaged in the same way [m].
   [[nodiscard]] double SmoothGround(double time) const;
+  /// Share of the time around that moment that the car is in reverse gear, in [0, 1]. Standing, it
+  /// is in the gear of its last motion.
+  [[nodiscard]] double SmoothReverse(double time) const;
+  /// The recording's first moment [s].
+  [[nodiscard]] double begin() const { return car_.begin(); }
+  /// As driven, not averaged [rad].
+  [[nodiscard]] double Heading(double time) const { return car_.Heading(time); }
+  /// Middle and half sides of the car's footprint in the vehicle frame, and its height [m].
+  [[nodiscard]] const CarBox& box() const { return box_; }
   /// Of the plane that the ground is but for what lies on it: dz/dx and dz/dy.
   [[nodiscard]] const Vec2& grade() const { return recording_.world.ground.grade; }
 
@@ -48,6 +58,8 @@ class CameraSubject {
   const PlantRecording& car_;
   Point lowest_;
   Point highest_;
+  CarBox box_;
+  std::vector<double> reverse_;  // 1 in reverse gear, else 0; for each row of the car's log
 };
 
 struct Camera {

@@ -25,11 +25,12 @@ std::string Signed(double value, int digits, const char* unit) {
   return fmt::format("{}{}", zero ? text.substr(1) : text, unit);
 }
 
-/// "0.98 m left, 0.12 m ahead".
+/// "0.98 m left, 0.12 m ahead": across the car, and along the path, where there is one.
 std::string ApartText(const Apart& apart) {
+  const double ahead = apart.station.value_or(apart.ahead);
   return fmt::format("{:.2f} m {}, {:.2f} m {}", std::abs(apart.left),
-                     apart.left < 0.0 ? "right" : "left", std::abs(apart.ahead),
-                     apart.ahead < 0.0 ? "behind" : "ahead");
+                     apart.left < 0.0 ? "right" : "left", std::abs(ahead),
+                     ahead < 0.0 ? "behind" : "ahead");
 }
 
 std::vector<Reading> ReadingsToShow(const Readings& readings) {
@@ -49,7 +50,8 @@ std::vector<Reading> ReadingsToShow(const Readings& readings) {
   }
   if (readings.apart) {
     shown.push_back(
-        {readings.apart->plant, ApartText(*readings.apart), "00.00 m right, 00.00 m behind"});
+        {"difference of " + readings.apart->plant, ApartText(*readings.apart),
+         "00.00 m right, 00.00 m behind"});
   }
   return shown;
 }
@@ -92,39 +94,95 @@ double DrawReadings(Canvas& canvas, const Font& font, const Layout& layout, doub
   return top;
 }
 
+/// The color of an entry as what it is in the picture, in a cell of `width` by `height` px.
+void DrawSymbol(Canvas& canvas, const LegendEntry& entry, double left, double top, double width,
+                double height) {
+  const double middle_x = left + 0.5 * width;
+  const double middle_y = top + 0.53 * height;
+  const double thick = 0.28 * height;
+  if (!entry.ramp.empty()) {
+    const double part = width / static_cast<double>(entry.ramp.size());
+    for (std::size_t i = 0; i < entry.ramp.size(); ++i) {
+      canvas.Fill({left + part * static_cast<double>(i), middle_y - 0.75 * thick, part, 1.5 * thick},
+                  0.0, entry.ramp[i], 1.0);
+    }
+    return;
+  }
+  const double half = 0.36 * height;
+  switch (entry.symbol) {
+    case LegendSymbol::kLine:
+      canvas.Fill({left, middle_y - 0.5 * thick, width, thick}, 0.5 * thick, entry.color, 1.0);
+      break;
+    case LegendSymbol::kOutline:
+      canvas.Stroke({{left + 1.0, middle_y - half},
+                     {left + width - 1.0, middle_y - half},
+                     {left + width - 1.0, middle_y + half},
+                     {left + 1.0, middle_y + half},
+                     {left + 1.0, middle_y - half}},
+                    std::max(1.2, 0.09 * height), entry.color, 1.0);
+      break;
+    case LegendSymbol::kDiamond:
+      canvas.FillConvex({{middle_x - half, middle_y},
+                         {middle_x, middle_y - half},
+                         {middle_x + half, middle_y},
+                         {middle_x, middle_y + half}},
+                        entry.color, 1.0);
+      break;
+    case LegendSymbol::kCross:
+      for (const double side : {-1.0, 1.0}) {
+        canvas.Stroke({{middle_x - half, middle_y - side * half},
+                       {middle_x + half, middle_y + side * half}},
+                      0.22 * height, entry.color, 1.0);
+      }
+      break;
+    case LegendSymbol::kDial: {
+      std::vector<CanvasPoint> rim;
+      constexpr int kCorners = 24;
+      for (int i = 0; i <= kCorners; ++i) {
+        const double angle = 2.0 * kPi * i / kCorners;
+        rim.push_back({middle_x + half * std::cos(angle), middle_y + half * std::sin(angle)});
+      }
+      canvas.Stroke(rim, std::max(1.2, 0.07 * height), entry.color, 1.0);
+      canvas.Stroke({{middle_x, middle_y}, {middle_x - 0.5 * half, middle_y - 0.5 * half}},
+                    std::max(1.5, 0.12 * height), entry.color, 1.0);
+      break;
+    }
+  }
+}
+
+/// Letters so large that the legend leaves half of the picture's height, and can be read.
+double LegendLetters(const Layout& layout, int height, int lines) {
+  constexpr double kMostShare = 0.5;
+  constexpr double kLeast = 0.75;  // of the size of labels
+  const double room = kMostShare * height - layout.margin - 1.2 * layout.pad;
+  return std::round(std::clamp(room / std::max(1, lines), kLeast * layout.label, layout.label));
+}
+
 /// Returns where the panel ends [px].
-double DrawLegend(Canvas& canvas, const Font& font, const Layout& layout, int width,
+double DrawLegend(Canvas& canvas, const Font& font, const Layout& layout, const Image& image,
                   const std::vector<LegendEntry>& legend) {
-  double widest = 0.0;
   int lines = 0;
   for (const LegendEntry& entry : legend) {
-    widest = std::max(
-        {widest, font.Width(entry.text, layout.label), font.Width(entry.note, layout.label)});
     lines += entry.note.empty() ? 1 : 2;
   }
-  const double swatch = 1.3 * layout.label;
+  const double letters = LegendLetters(layout, image.height, lines);
+  double widest = 0.0;
+  for (const LegendEntry& entry : legend) {
+    widest = std::max({widest, font.Width(entry.text, letters), font.Width(entry.note, letters)});
+  }
+  const double swatch = 1.3 * letters;
   const double total = 2.4 * layout.pad + swatch + widest;
-  const double tall = layout.label * lines + 1.2 * layout.pad;
-  const double left = width - layout.margin - total;
+  const double tall = letters * lines + 1.2 * layout.pad;
+  const double left = image.width - layout.margin - total;
   canvas.Fill({left, layout.margin, total, tall}, layout.round(), kPanel, kPanelAlpha);
   double top = layout.margin + 0.6 * layout.pad;
   for (const LegendEntry& entry : legend) {
-    const double thick = 0.28 * layout.label;
-    const Canvas::Rectangle bar{left + layout.pad, top + 0.53 * layout.label - 0.5 * thick, swatch,
-                                thick};
-    if (entry.ramp.empty()) {
-      canvas.Fill(bar, 0.5 * thick, entry.color, 1.0);
-    }
-    const double part = swatch / static_cast<double>(std::max<std::size_t>(1, entry.ramp.size()));
-    for (std::size_t i = 0; i < entry.ramp.size(); ++i) {
-      canvas.Fill(
-          {bar.left + part * static_cast<double>(i), bar.top - 0.25 * thick, part, 1.5 * thick},
-          0.0, entry.ramp[i], 1.0);
-    }
-    for (const std::string& text : {entry.text, entry.note}) {
+    DrawSymbol(canvas, entry, left + layout.pad, top, swatch, letters);
+    for (const auto& [text, color] :
+         {std::pair(entry.text, kValue), std::pair(entry.note, kLabel)}) {
       if (!text.empty()) {
-        canvas.Text(left + 1.4 * layout.pad + swatch, top, text, layout.label, kValue);
-        top += layout.label;
+        canvas.Text(left + 1.4 * layout.pad + swatch, top, text, letters, color);
+        top += letters;
       }
     }
   }
@@ -220,7 +278,7 @@ Rows DrawCaption(Image& image, Font& font, const Caption& caption, const Reading
     DrawWind(canvas, font, layout, line, *readings.wind, azimuth);
   }
   const double top_of_readings = DrawReadings(canvas, font, layout, image.width, bottom, readings);
-  return {DrawLegend(canvas, font, layout, image.width, caption.legend), top_of_readings};
+  return {DrawLegend(canvas, font, layout, image, caption.legend), top_of_readings};
 }
 
 OverlayEntry CaptionOverlay() {

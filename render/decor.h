@@ -3,6 +3,7 @@
 #include <mujoco/mujoco.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 
 namespace trackbed::render {
@@ -14,5 +15,12 @@ using RowMajorMatrix3 = Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>;
 mjvGeom* AddDecor(mjvScene& scene, mjtGeom type, const std::array<mjtNum, 3>& size,
                   const Eigen::Vector3d& center, const RowMajorMatrix3& rotation,
                   const std::array<float, 4>& rgba);
+
+/// Takes the geoms out of the scene for which `leave_out` is true; the others keep their order.
+template <typename Predicate>
+void RemoveGeoms(mjvScene& scene, Predicate leave_out) {
+  scene.ngeom = static_cast<int>(
+      std::remove_if(scene.geoms, scene.geoms + scene.ngeom, leave_out) - scene.geoms);
+}
 
 }  // namespace trackbed::render

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "render/camera.h"
+#include "render/insets.h"
 #include "render/output.h"
 #include "render/overlays.h"
 #include "render/painter.h"
@@ -130,6 +131,14 @@ std::vector<FilmChoice> Cameras() {
     cameras.push_back({std::string(camera.name), std::string(camera.summary)});
   }
   return cameras;
+}
+
+std::vector<FilmChoice> FlatInsets() {
+  std::vector<FilmChoice> insets;
+  for (const render::FlatView& view : render::FlatViewTable()) {
+    insets.push_back({std::string(view.name), std::string(view.summary)});
+  }
+  return insets;
 }
 
 std::vector<FilmChoice> Overlays() {

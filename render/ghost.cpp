@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "render/ground_line.h"
 #include "render/scene_handle.h"
@@ -59,7 +60,7 @@ class Ghosts : public Overlay {
 
   void AddLegend(std::vector<LegendEntry>& legend) const override {
     for (std::size_t car = 1; car < recording_.plants.size(); ++car) {
-      legend.push_back({CarColor(car), recording_.plants[car].plant() + " (ghost)"});
+      legend.push_back({CarColor(car), recording_.plants[car].plant() + " (ghost)", "at equal time, with footprint"});
     }
   }
 
@@ -69,6 +70,9 @@ class Ghosts : public Overlay {
     mjvScene& ghost = posed_.get();
     mjvScene& scene = context.scene;
     recording_.plants[car].Pose(context.time, model, *data_);
+    if (context.camera.inside && IsAroundTheCar(context.time, car)) {
+      return;
+    }
     mjv_updateScene(&model, data_.get(), &context.visible, nullptr, &context.view, mjCAT_DYNAMIC,
                     &ghost);
     const auto behind = static_cast<float>(kGhostBehind / context.camera.distance);
@@ -92,6 +96,14 @@ class Ghosts : public Overlay {
     RibbonStyle style = TrailStyle(car, context.camera.paint_scale);
     style.width = kFootprintWidth * context.camera.paint_scale;
     AddFootprint(context, style);
+  }
+
+  /// Whether it would hide the road from somebody in the car.
+  [[nodiscard]] bool IsAroundTheCar(double time, std::size_t ghost) const {
+    const Point own = recording_.plants.front().Position(time);
+    const Point other = recording_.plants[ghost].Position(time);
+    return std::hypot(other.x - own.x, other.y - own.y) <
+           2.0 * FindCarBox(*recording_.model).half_length;
   }
 
   void AddFootprint(SceneContext& context, const RibbonStyle& style) const {

@@ -17,12 +17,22 @@
 /// adds one.
 namespace trackbed::render {
 
+/// How a color is shown in the legend.
+enum class LegendSymbol {
+  kLine,     ///< a line on the ground
+  kOutline,  ///< the outline of an area or a box
+  kDiamond,  ///< a mark on the ground
+  kCross,    ///< another one
+  kDial,     ///< a dial of the friction used
+};
+
 /// What a color in the picture stands for.
 struct LegendEntry {
   Color color;
   std::string text;
   std::string note{};         ///< a second line; may be empty
   std::vector<Color> ramp{};  ///< in place of the color, from left to right
+  LegendSymbol symbol = LegendSymbol::kLine;
 };
 
 /// The world posed for one picture, to which overlays add shapes.

@@ -6,9 +6,13 @@
 
 #include "render/caption.h"
 #include "render/error_ribbon.h"
+#include "render/event_marks.h"
+#include "render/gates.h"
 #include "render/ghost.h"
 #include "render/ground_paint.h"
+#include "render/obstacles.h"
 #include "render/plan_lines.h"
+#include "render/relief.h"
 #include "render/road.h"
 #include "render/skid_marks.h"
 #include "render/strip.h"
@@ -40,8 +44,9 @@ void CheckNames(const std::vector<std::string>& names) {
 /// One line for each overlay. Later ones are drawn over earlier ones.
 const std::vector<OverlayEntry>& OverlayTable() {
   static const std::vector<OverlayEntry> table{
-      RoadOverlay(),  SkidMarkOverlay(), PlanOverlay(),  TrailOverlay(), ErrorOverlay(),
-      GhostOverlay(), WindOverlay(),     ForceOverlay(), StripOverlay(), CaptionOverlay(),
+      RoadOverlay(),  ReliefOverlay(), GateOverlay(),  ObstacleOverlay(), SkidMarkOverlay(),
+      PlanOverlay(),  TrailOverlay(),  ErrorOverlay(), GhostOverlay(),    WindOverlay(),
+      StripOverlay(), CaptionOverlay(), EventOverlay(), ForceOverlay(),
   };
   return table;
 }

@@ -98,7 +98,7 @@ Painter::Painter(std::span<Recording> recordings, const FilmOptions& options)
     : options_(options),
       quality_(FindQuality(options.quality)),
       camera_(FindCamera(options.camera)),
-      inset_(options.inset.empty() ? nullptr : &FindCamera(options.inset, "inset")),
+      inset_(options.inset.empty() ? Inset{} : FindInset(options.inset)),
       offscreen_(
           Prepared(*recordings.front().model, quality_,
                    camera_.pose(CameraSubject(recordings.front()), recordings.front().begin(),
@@ -119,7 +119,7 @@ Painter::Painter(std::span<Recording> recordings, const FilmOptions& options)
         .width = right - left,
         .height = options.height,
         .font = font_};
-    parts_.push_back(std::make_unique<Part>(setup, recording, left, quality_, inset_ != nullptr));
+    parts_.push_back(std::make_unique<Part>(setup, recording, left, quality_, inset_.camera != nullptr));
   }
 }
 
@@ -158,7 +158,7 @@ void Painter::Paint(Part& part, double time, Image& image) {
   for (const auto& overlay : part.overlays) {
     overlay->Draw(context);
   }
-  if (part.inset) {
+  if (inset_.camera != nullptr || inset_.view != nullptr) {
     PaintInset(part, context);
   }
 }
@@ -173,8 +173,13 @@ void Painter::PaintInset(Part& part, const PictureContext& context) {
       std::clamp((context.bottom - context.top - 2 * frame) / part.height, kMinShare, kMaxShare);
   const int width = std::max(1, static_cast<int>(share * part.width));
   const int height = std::max(1, static_cast<int>(share * part.height));
-  offscreen_.Render(part.inset->At(context.time, part.Pose(*inset_, context.time)), inset_image_,
-                    width, height);
+  if (inset_.view != nullptr) {
+    inset_image_.Resize(width, height);
+    inset_.view->draw(part.recording, inset_image_, font_, context.time);
+  } else {
+    offscreen_.Render(part.inset->At(context.time, part.Pose(*inset_.camera, context.time)),
+                      inset_image_, width, height);
+  }
   const int left = static_cast<int>(part.width - layout.margin) - width - frame;
   const int upper = static_cast<int>(context.top) + frame;
   Canvas(context.image, font_)

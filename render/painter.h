@@ -7,6 +7,7 @@
 
 #include "render/camera.h"
 #include "render/canvas.h"
+#include "render/insets.h"
 #include "render/offscreen.h"
 #include "render/overlay.h"
 #include "render/recording.h"
@@ -53,7 +54,7 @@ class Painter {
   FilmOptions options_;
   const Quality& quality_;
   const Camera& camera_;
-  const Camera* inset_;
+  Inset inset_;
   Offscreen offscreen_;
   Font font_;
   std::vector<std::unique_ptr<Part>> parts_;

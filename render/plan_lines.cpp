@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "render/ground_line.h"
+#include "render/palette.h"
 
 namespace trackbed::render {
 namespace {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "trackbed/analysis/json_file.h"
@@ -106,16 +107,22 @@ std::vector<CurvatureProfile> ReadCurvatures(const fs::path& file, double begin)
   return profiles;
 }
 
-std::vector<Point> ReadCones(const fs::path& file) {
-  std::vector<Point> cones;
+std::vector<std::vector<Point>> ReadGates(const fs::path& file) {
   std::error_code ignored;
   if (!fs::exists(file, ignored)) {
-    return cones;
+    return {};
   }
-  for (const Vec2& cone : ReadJson(file, GateCones, {.key = "gates"})) {
-    cones.push_back({cone.x(), cone.y()});
-  }
-  return cones;
+  const auto read = [](const nlohmann::ordered_json& plan) {
+    std::vector<std::vector<Point>> gates;
+    for (const nlohmann::ordered_json& gate : plan.value("gates", nlohmann::ordered_json::array())) {
+      std::vector<Point>& cones = gates.emplace_back();
+      for (const Vec2& cone : GateCones({{"gates", nlohmann::ordered_json::array({gate})}})) {
+        cones.push_back({cone.x(), cone.y()});
+      }
+    }
+    return gates;
+  };
+  return ReadJson(file, read, {.key = "gates"});
 }
 
 }  // namespace trackbed::render

@@ -44,7 +44,7 @@ std::vector<NewPlan> ReadNewPlans(const std::filesystem::path& file);
 /// own stations. `begin` is when the plan of `plan.csv` holds from [s].
 std::vector<CurvatureProfile> ReadCurvatures(const std::filesystem::path& file, double begin);
 
-/// The cones of the gates in `plan.json`.
-std::vector<Point> ReadCones(const std::filesystem::path& file);
+/// The cones of each gate in `plan.json`, in pairs across its lane, from entry to exit.
+std::vector<std::vector<Point>> ReadGates(const std::filesystem::path& file);
 
 }  // namespace trackbed::render

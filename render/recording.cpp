@@ -95,6 +95,24 @@ std::vector<std::string> Chosen(const fs::path& folder, std::vector<std::string>
   return asked.empty() ? std::move(there_are) : asked;
 }
 
+/// The gates of a plan.json, and their cones.
+void AddGates(const fs::path& file, Recording& recording) {
+  for (const std::vector<Point>& cones : ReadGates(file)) {
+    for (const Point& cone : cones) {
+      recording.cones.push_back(recording.OnGround(cone));
+    }
+    // In pairs across the lane, from its entry to its exit: around all of them.
+    if (cones.size() >= 4) {
+      const std::size_t last = cones.size() - 1;
+      std::vector<Point> corners;
+      for (const std::size_t i : {std::size_t{0}, std::size_t{1}, last, last - 1}) {
+        corners.push_back(recording.OnGround(cones[i]));
+      }
+      recording.gates.push_back(std::move(corners));
+    }
+  }
+}
+
 /// The name of the planner of a plan.json; empty without such a file.
 std::string PlannerOf(const fs::path& file) {
   std::error_code ignored;
@@ -105,6 +123,39 @@ std::string PlannerOf(const fs::path& file) {
                                    : std::string();
 }
 
+/// Station of the second log less that of the first [m]; none where one of them has no stations.
+std::optional<double> StationBetween(const TimedTable& first, const TimedTable& second,
+                                     double time) {
+  const std::optional<std::size_t> own = first.Find("s_m");
+  const std::optional<std::size_t> other = second.Find("s_m");
+  if (!own || !other) {
+    return std::nullopt;
+  }
+  return second.Value(second.At(time), *other) - first.Value(first.At(time), *own);
+}
+
+/// The largest steering rate of the car at its road wheels [rad/s]; 0 where the model has none.
+double SteeringRate(const mjModel& model, const VehicleSpec& vehicle) {
+  const auto number = [&](const char* name) {
+    const int id = mj_name2id(&model, mjOBJ_NUMERIC, name);
+    return id < 0 ? 0.0 : model.numeric_data[model.numeric_adr[id]];
+  };
+  const double ratio = number("steering_ratio");
+  return vehicle.steering_rate.value_or(ratio > 0.0 ? number("steering_wheel_rate") / ratio : 0.0);
+}
+
+/// When the car of a log first touches an obstacle [s].
+std::optional<double> ContactTime(const TimedTable& log) {
+  if (const std::optional<std::size_t> clearance = log.Find("clearance_m")) {
+    for (std::size_t row = 0; row < log.times().size(); ++row) {
+      if (log.table().at(row, *clearance) <= 0.0) {
+        return log.times()[row];
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 /// What the run changed of its car.
 std::string VehicleNote(const VehicleSpec& vehicle) {
   return vehicle.steering_rate
@@ -113,6 +164,18 @@ std::string VehicleNote(const VehicleSpec& vehicle) {
 }
 
 }  // namespace
+
+CarBox FindCarBox(const mjModel& model) {
+  const int site = mj_name2id(&model, mjOBJ_SITE, "footprint");
+  if (site < 0 || model.site_type[site] != mjGEOM_BOX) {
+    return {};
+  }
+  const mjtNum* size = model.site_size + 3 * site;
+  return {.middle = model.site_pos[3 * site],
+          .half_length = size[0],
+          .half_width = size[1],
+          .height = 2.0 * size[2]};
+}
 
 TimedTable::TimedTable(const fs::path& file) : file_(file), table_(ReadRunTable(file)), times_() {
   times_ = [&] {
@@ -248,6 +311,13 @@ double PlantRecording::Heading(double time) const {
   return headings_[place.row] + place.part * (headings_[place.next] - headings_[place.row]);
 }
 
+double PlantRecording::Upright(double time) const {
+  const TimedTable::Place place = state_.At(time);
+  const auto q = [&](std::size_t i) { return state_.Value(place, pose_columns_[3 + i]); };
+  const double squared = q(0) * q(0) + q(1) * q(1) + q(2) * q(2) + q(3) * q(3);
+  return 1.0 - 2.0 * (q(1) * q(1) + q(2) * q(2)) / squared;
+}
+
 Readings PlantRecording::ReadingsAt(double time) const {
   const TimedTable::Place place = log_.At(time);
   Readings readings;
@@ -281,7 +351,8 @@ Readings Recording::ReadingsAt(double time) const {
     const double dx = other.x - car.x;
     const double dy = other.y - car.y;
     readings.apart = {plants[1].plant(), dx * std::cos(heading) + dy * std::sin(heading),
-                      -dx * std::sin(heading) + dy * std::cos(heading)};
+                      -dx * std::sin(heading) + dy * std::cos(heading),
+                      StationBetween(plants[0].log(), plants[1].log(), time)};
   }
   if (!IsCalm(world.wind)) {
     const Point car = plants.front().Position(time);
@@ -318,6 +389,15 @@ Point Recording::OnGround(const Point& point) const {
   return {point.x, point.y, GroundHeight(world, {point.x, point.y})};
 }
 
+std::vector<int> ObstacleGeoms(const Recording& recording) {
+  std::vector<int> geoms;
+  for (std::size_t i = 0; i < recording.world.obstacles.size(); ++i) {
+    geoms.push_back(
+        mj_name2id(recording.model.get(), mjOBJ_GEOM, fmt::format("obstacle_{}", i).c_str()));
+  }
+  return geoms;
+}
+
 Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& asked) {
   std::error_code ignored;
   if (!fs::exists(folder, ignored)) {
@@ -338,10 +418,12 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
     const VehicleSpec vehicle = ReadVehicleSpec(scenario);
     recording.note = VehicleNote(vehicle);
     recording.tyre = vehicle.tyre;
+    recording.steering_rate = SteeringRate(*recording.model, vehicle);
+  } else {
+    recording.steering_rate = SteeringRate(*recording.model, {});
   }
-  for (const Point& cone : ReadCones(folder / run_folder::kPlanJson)) {
-    recording.cones.push_back(recording.OnGround(cone));
-  }
+  recording.contact_time = ContactTime(recording.plants.front().log());
+  AddGates(folder / run_folder::kPlanJson, recording);
   const fs::path plan = folder / run_folder::kPlanCsv;
   if (fs::exists(folder / run_folder::kPlanJson, ignored) && !fs::exists(plan, ignored)) {
     RejectRecording(plan, "", "missing from the run folder, which has plan.json");

@@ -54,7 +54,20 @@ struct Apart {
   std::string plant;
   double ahead = 0;  ///< along the car's heading [m]
   double left = 0;   ///< across it [m]
+  /// Its station less the car's, along the path [m]; none where a log has no stations.
+  std::optional<double> station{};
 };
+
+/// The box around a car, upright on the ground, in the vehicle frame [m].
+struct CarBox {
+  double middle = 1.3;      ///< from the rear axle ahead to its middle
+  double half_length = 2.2;
+  double half_width = 0.9;
+  double height = 1.5;
+};
+
+/// That of the model's site `footprint`; the defaults where it has none.
+CarBox FindCarBox(const mjModel& model);
 
 /// What the caption says at a moment. SI units and radians.
 struct Readings {
@@ -89,6 +102,8 @@ class PlantRecording {
   [[nodiscard]] Point Position(double time) const;
   [[nodiscard]] const std::vector<double>& headings() const { return headings_; }
   [[nodiscard]] double Heading(double time) const;
+  /// Cosine of the angle between the car's z axis and the world's: 1 upright, 0 on its side.
+  [[nodiscard]] double Upright(double time) const;
 
   [[nodiscard]] Readings ReadingsAt(double time) const;
   [[nodiscard]] const TimedTable& log() const { return log_; }
@@ -125,7 +140,10 @@ struct Recording {
   std::vector<CurvatureProfile> curvatures;  ///< of both, where their files have it
   std::optional<RoadLook> road;              ///< along the plan; none: open ground
   std::vector<Point> cones;                  ///< of the gates that the plan leads through
+  std::vector<std::vector<Point>> gates;     ///< of each the four corners between its cones
   TyreLaw tyre = TyreLaw::kAuto;             ///< of the plant `mujoco`
+  double steering_rate = 0;                  ///< most that the car steers [rad/s]; 0: not known
+  std::optional<double> contact_time;        ///< first contact with an obstacle [s]; none: never
   Scales scales;                             ///< of this recording, or common with others
 
   [[nodiscard]] double begin() const { return plants.front().begin(); }
@@ -139,6 +157,9 @@ struct Recording {
   /// The point of the ground above or below a point.
   [[nodiscard]] Point OnGround(const Point& point) const;
 };
+
+/// The geoms `obstacle_i` of the model, of each of the world's obstacles; -1 where it has none.
+std::vector<int> ObstacleGeoms(const Recording& recording);
 
 /// Reads everything that a film needs: of these plants alone, the first of them as the car, or of
 /// every plant where none is named. InputError when the folder does not hold it, or not all that

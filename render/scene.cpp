@@ -8,6 +8,7 @@
 
 #include "render/cone.h"
 #include "render/decor.h"
+#include "render/occlusion.h"
 #include "render/shadow.h"
 #include "trackbed/core/angle.h"
 
@@ -61,6 +62,8 @@ FilmScene::FilmScene(Recording& recording, const OverlayList& overlays, bool sha
     : recording_(recording),
       overlays_(overlays),
       patches_(PatchTiles(recording.world)),
+      box_(FindCarBox(*recording.model)),
+      obstacle_geoms_(ObstacleGeoms(recording)),
       car_data_(MakeMujocoData(*recording.model)),
       scene_(*recording.model, MaxGeoms(recording, patches_, overlays)) {
   mjv_defaultOption(&visible_);
@@ -77,13 +80,17 @@ mjvScene& FilmScene::At(double time, const CameraPose& camera) {
   recording_.plants.front().Pose(time, model, *car_data_);
   mjv_updateScene(&model, car_data_.get(), &visible_, nullptr, &camera_, mjCAT_ALL, &scene);
   SinkHeightFields(scene);
+  FadeWhatHidesTheCar(time, camera);
+  if (camera.inside) {
+    LeaveOutTheCar();
+  }
   scene.flags[mjRND_SKYBOX] = SeesSky(model, recording_.world, camera) ? 1 : 0;
   AimLamps(scene, camera);
   AddPatches(camera);
   for (const Point& cone : recording_.cones) {
     AddCone(scene, cone);
   }
-  if (scene.flags[mjRND_SHADOW] == 0) {
+  if (scene.flags[mjRND_SHADOW] == 0 && !camera.inside) {
     AddContactShadow();
   }
   SceneContext context{scene, time, camera, camera_, visible_};
@@ -105,6 +112,41 @@ void FilmScene::Aim(const CameraPose& camera) {
   // As far out as the car allows: it is what lets a depth buffer tell paint from road.
   model.vis.map.znear = static_cast<float>(0.1 * camera.distance / model.stat.extent);
   model.vis.map.zfar = static_cast<float>((1000.0 + 2.0 * camera.distance) / model.stat.extent);
+}
+
+void FilmScene::FadeWhatHidesTheCar(double time, const CameraPose& camera) {
+  const PlantRecording& car = recording_.plants.front();
+  const Point place = recording_.OnGround(car.Position(time));
+  const Pose2 pose{place.x, place.y, car.Heading(time)};
+  const mjModel& model = *recording_.model;
+  mjvScene& scene = scene_.get();
+  for (int i = 0; i < scene.ngeom; ++i) {
+    mjvGeom& geom = scene.geoms[i];
+    if (geom.objtype != mjOBJ_GEOM || geom.type != mjGEOM_BOX ||
+        std::find(obstacle_geoms_.begin(), obstacle_geoms_.end(), geom.objid) ==
+            obstacle_geoms_.end()) {
+      continue;
+    }
+    const mjtNum* center = car_data_->geom_xpos + 3 * geom.objid;
+    const mjtNum* axes = car_data_->geom_xmat + 9 * geom.objid;
+    const mjtNum* half = model.geom_size + 3 * geom.objid;
+    const UprightBox box{{{center[0], center[1], std::atan2(axes[3], axes[0])},
+                          2.0 * half[0],
+                          2.0 * half[1]},
+                         center[2] - half[2],
+                         center[2] + half[2]};
+    geom.rgba[3] *=
+        static_cast<float>(FadedAlpha(HiddenShare(box, camera, box_, pose, place.z)));
+  }
+}
+
+void FilmScene::LeaveOutTheCar() {
+  const mjModel& model = *recording_.model;
+  const int chassis = model.jnt_bodyid[mj_name2id(&model, mjOBJ_JOINT, "chassis")];
+  RemoveGeoms(scene_.get(), [&](const mjvGeom& geom) {
+    return geom.objtype == mjOBJ_GEOM &&
+           model.body_rootid[model.geom_bodyid[geom.objid]] == model.body_rootid[chassis];
+  });
 }
 
 void FilmScene::AddPatches(const CameraPose& camera) {

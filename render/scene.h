@@ -30,10 +30,14 @@ class FilmScene {
   void Aim(const CameraPose& camera);
   void AddPatches(const CameraPose& camera);
   void AddContactShadow();
+  void FadeWhatHidesTheCar(double time, const CameraPose& camera);
+  void LeaveOutTheCar();
 
   Recording& recording_;
   const OverlayList& overlays_;
   std::vector<Tile> patches_;
+  CarBox box_;
+  std::vector<int> obstacle_geoms_;  // of the world's obstacles; -1: not in the model
   MujocoData car_data_;
   SceneHandle scene_;
   mjvOption visible_;

@@ -10,7 +10,6 @@
 namespace trackbed::render {
 namespace {
 
-constexpr double kSkidUse = 0.9;        // of the grip
 constexpr double kSkidWidth = 0.17;     // about that of a tyre [m]
 constexpr double kSkidHeight = 0.003;   // below plans and trails [m]
 constexpr double kShortestSkid = 0.15;  // of a piece [m]

@@ -1,7 +1,6 @@
 #include "render/trail.h"
 
 #include <algorithm>
-#include <array>
 
 #include "render/error_ribbon.h"
 #include "render/ground_line.h"
@@ -48,15 +47,6 @@ class Trails : public Overlay {
 };
 
 }  // namespace
-
-Color CarColor(std::size_t car) {
-  constexpr std::array<Color, 5> kColors{{{1.00F, 0.47F, 0.08F},
-                                          {0.10F, 0.75F, 0.95F},
-                                          {0.85F, 0.25F, 0.70F},
-                                          {0.55F, 0.80F, 0.20F},
-                                          {0.98F, 0.85F, 0.25F}}};
-  return kColors[car < kColors.size() ? car : 1 + (car - 1) % (kColors.size() - 1)];
-}
 
 RibbonStyle TrailStyle(std::size_t car, double scale) {
   if (car == 0) {

@@ -3,12 +3,10 @@
 #include <vector>
 
 #include "render/overlay.h"
+#include "render/palette.h"
 #include "render/ribbon.h"
 
 namespace trackbed::render {
-
-/// The color of a car's trail and of what else is its own; 0 is the car, others are ghosts.
-Color CarColor(std::size_t car);
 
 /// The line that a car leaves: narrower than those it covers, like the lines of a transport map.
 RibbonStyle TrailStyle(std::size_t car, double scale);

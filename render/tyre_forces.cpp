@@ -1,33 +1,24 @@
 #include "render/tyre_forces.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "render/layout.h"
+#include "render/palette.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/sim/car_model.h"
 
 namespace trackbed::render {
 namespace {
 
-constexpr Color kEllipse{1.00F, 1.00F, 1.00F};
-constexpr Color kUnder{0.05F, 0.06F, 0.08F};
-// An arrow by how much of the friction is used.
-constexpr Color kLittle{0.35F, 0.95F, 0.55F};
-constexpr Color kMuch{1.00F, 0.80F, 0.15F};
-constexpr Color kAll{1.00F, 0.25F, 0.20F};
-
-Color Between(const Color& a, const Color& b, double share) {
-  const auto part = static_cast<float>(std::clamp(share, 0.0, 1.0));
-  return {a.r + part * (b.r - a.r), a.g + part * (b.g - a.g), a.b + part * (b.b - a.b)};
-}
-
-Color ColorOfUse(double use) {
-  return use < 0.75 ? Between(kLittle, kMuch, (use - 0.35) / 0.4)
-                    : Between(kMuch, kAll, (use - 0.75) / 0.2);
-}
+// Of the picture's sizes: in units of the height of letters.
+constexpr double kRadius = 1.15;   // of a dial
+constexpr double kBetween = 0.35;  // two dials
+constexpr double kOverflow = 1.12;  // a tyre law may give a little more than friction times load
 
 /// A tyre coefficient of the model, of an axle or of both; 0 where it has none.
 double Coefficient(const mjModel& model, const std::string& name, const char* axle) {
@@ -56,8 +47,10 @@ class Forces : public Overlay {
 
   void AddLegend(std::vector<LegendEntry>& legend) const override {
     if (forces_.known()) {
-      legend.push_back({kEllipse, "friction ellipse of each tyre"});
-      legend.push_back({kLittle, "tyre force", "", {kLittle, kMuch, kAll}});
+      legend.push_back({.color = kValue,
+                        .text = "grip used by each tyre",
+                        .note = fmt::format("rim: all of it; red: over {:.0f} %", 100.0 * kSkidUse),
+                        .symbol = LegendSymbol::kDial});
     }
   }
 
@@ -65,12 +58,26 @@ class Forces : public Overlay {
     if (!forces_.known()) {
       return;
     }
+    const Layout layout(context.image.width, context.image.height);
+    const double radius = kRadius * layout.label;
+    const double step = (2.0 * kRadius + kBetween) * layout.label;
+    const double side = step + 2.0 * radius + 1.2 * layout.pad;
+    const double left = context.image.width - layout.margin - side;
+    const double top = context.bottom - side;
     Canvas canvas(context.image, context.font);
-    const int width = context.image.width;
-    const int height = context.image.height;
-    DrawTyreForces(canvas, Projection(context.camera, width, height),
-                   forces_.At(context.time, context.car), forces_.meters_per_newton(),
-                   Layout(width, height).hairline);
+    canvas.Fill({left, top, side, side}, layout.round(), kPanel, kPanelAlpha);
+    // As the car stands, its front up.
+    const CanvasPoint first{left + 0.6 * layout.pad + radius, top + 0.6 * layout.pad + radius};
+    const std::vector<WheelForce> forces = forces_.At(context.time, context.car);
+    for (std::size_t wheel = 0; wheel < kWheels.size(); ++wheel) {
+      const auto own = std::find_if(forces.begin(), forces.end(), [&](const WheelForce& force) {
+        return force.wheel == wheel;
+      });
+      DrawGripDial(canvas,
+                   {first.x + (wheel % 2 == 0 ? 0.0 : step), first.y + (wheel < 2 ? 0.0 : step)},
+                   radius, own == forces.end() ? nullptr : &*own, layout.hairline);
+    }
+    context.bottom = top - 0.5 * layout.pad;
   }
 
  private:
@@ -87,20 +94,9 @@ TyreForces::TyreForces(const Recording& recording) : recording_(recording) {
   constexpr std::array<const char*, 4> kAxles{"front", "front", "rear", "rear"};
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     if (std::optional<Wheel> wheel = FindWheel(kWheels[w], kAxles[w])) {
+      wheel->index = w;
       wheels_.push_back(*wheel);
     }
-  }
-  if (known()) {
-    const mjModel& model = *recording.model;
-    double friction = 0.0;
-    for (const Wheel& wheel : wheels_) {
-      friction = std::max(friction, wheel.friction.maxCoeff());
-    }
-    const double weight = model.body_subtreemass[model.body_rootid[wheels_.front().body]] *
-                          std::abs(model.opt.gravity[2]);
-    constexpr double kRadius = 0.72;  // [m]; half a car's track, so that neighbors just touch
-    meters_per_newton_ =
-        kRadius * static_cast<double>(wheels_.size()) / (std::max(friction, 0.1) * weight);
   }
 }
 
@@ -145,6 +141,7 @@ std::vector<WheelForce> TyreForces::At(double time, const mjData& data) const {
     const Eigen::Vector3d up = GroundNormal(recording_.world, under);
     WheelForce force;
     force.body = wheel.body;
+    force.wheel = wheel.index;
     force.place = {under.x(), under.y(), GroundHeight(recording_.world, under)};
     force.forward = axle.cross(up).normalized();
     force.left = up.cross(force.forward);
@@ -160,65 +157,39 @@ std::vector<WheelForce> TyreForces::At(double time, const mjData& data) const {
   return forces;
 }
 
-void DrawTyreForces(Canvas& canvas, const Projection& projection,
-                    const std::vector<WheelForce>& forces, double meters_per_newton,
-                    double hairline) {
-  for (const WheelForce& tyre : forces) {
-    const auto at = [&](const Vec2& force) {
-      return projection(tyre.place +
-                        meters_per_newton * (force.x() * tyre.forward + force.y() * tyre.left));
-    };
-    constexpr int kCorners = 36;
-    std::vector<CanvasPoint> ellipse;
-    for (int i = 0; i < kCorners; ++i) {
+void DrawGripDial(Canvas& canvas, const CanvasPoint& center, double radius,
+                  const WheelForce* tyre, double hairline) {
+  const auto ring = [&](double share) {
+    constexpr int kCorners = 48;
+    std::vector<CanvasPoint> points;
+    for (int i = 0; i <= kCorners; ++i) {
       const double angle = 2.0 * kPi * i / kCorners;
-      if (const auto corner =
-              at({tyre.most.x() * std::cos(angle), tyre.most.y() * std::sin(angle)})) {
-        ellipse.push_back(*corner);
-      }
+      points.push_back({center.x + share * radius * std::cos(angle),
+                        center.y + share * radius * std::sin(angle)});
     }
-    const auto root = at({0.0, 0.0});
-    const auto tip = at(tyre.force);
-    if (ellipse.size() < kCorners || !root || !tip) {
-      continue;
-    }
-    canvas.FillConvex(ellipse, kUnder, 0.30);
-    ellipse.push_back(ellipse.front());
-    canvas.Stroke(ellipse, 2.0 * hairline, kUnder, 0.35);
-    canvas.Stroke(ellipse, hairline, kEllipse, 0.90);
-    // A shaft and a head that lie on the ground as the ellipse does; a short arrow is all head.
-    const double length = meters_per_newton * tyre.force.norm();
-    if (length < 0.02) {
-      continue;
-    }
-    constexpr double kHead = 0.24;       // [m] long
-    constexpr double kHalfHead = 0.11;   // and to each side
-    constexpr double kHalfShaft = 0.04;  // [m]
-    const double head = std::min(kHead, length);
-    const Vec2 along = tyre.force.normalized() / meters_per_newton;
-    const Vec2 across(-along.y(), along.x());
-    const auto shape = [&](std::initializer_list<Vec2> corners) {
-      std::vector<CanvasPoint> points;
-      for (const Vec2& corner : corners) {
-        if (const auto point = at(corner.x() * along + corner.y() * across)) {
-          points.push_back(*point);
-        }
-      }
-      canvas.FillConvex(points, ColorOfUse(tyre.Use()), 1.0);
-    };
-    const double neck = length - head;
-    if (neck > 0.0) {
-      // Under the head a little, so that no seam is left between them.
-      const double overlap = neck + 0.1 * head;
-      shape({{0.0, kHalfShaft}, {0.0, -kHalfShaft}, {overlap, -kHalfShaft}, {overlap, kHalfShaft}});
-    }
-    const double half = kHalfHead * head / kHead;
-    shape({{neck, half}, {neck, -half}, {length, 0.0}});
+    return points;
+  };
+  canvas.FillConvex(ring(1.0), kPanel, 0.55);
+  canvas.Stroke(ring(0.5), 0.6 * hairline, kLabel, 0.5);
+  canvas.Stroke(ring(1.0), hairline, kValue, tyre == nullptr ? 0.35 : 0.9);
+  if (tyre == nullptr) {
+    return;
   }
+  // In shares of what friction gives along each axis: the ellipse of friction becomes the rim.
+  Vec2 share = tyre->force.cwiseQuotient(tyre->most);
+  const double use = share.norm();
+  if (use > kOverflow) {
+    share *= kOverflow / use;
+  }
+  const CanvasPoint tip{center.x - radius * share.y(), center.y - radius * share.x()};
+  const Color& color = use > kSkidUse ? kLimitColor : kValue;
+  canvas.Stroke({center, tip}, 2.2 * hairline, color, 1.0);
+  const double dot = 2.2 * hairline;
+  canvas.Fill({tip.x - dot, tip.y - dot, 2.0 * dot, 2.0 * dot}, dot, color, 1.0);
 }
 
 OverlayEntry ForceOverlay() {
-  return EntryOf<Forces>("forces", "tyre forces inside their friction ellipses");
+  return EntryOf<Forces>("forces", "dials: how much of its grip each tyre uses, and in which direction");
 }
 
 }  // namespace trackbed::render

@@ -9,7 +9,6 @@
 
 #include "render/canvas.h"
 #include "render/overlay.h"
-#include "render/projection.h"
 #include "render/recording.h"
 
 namespace trackbed::render {
@@ -21,8 +20,8 @@ struct WheelForce {
   Eigen::Vector3d left;     ///< and across
   Vec2 force;               ///< along them [N]
   Vec2 most;                ///< half axes of the ellipse that friction times load is [N]
-
-  int body = -1;  ///< of the wheel, in the model
+  int body = -1;          ///< of the wheel, in the model
+  std::size_t wheel = 0;  ///< its index in kWheels of car_model.h
 
   /// How much of the friction is used: 1 on the ellipse. Tyre laws may give a little more.
   [[nodiscard]] double Use() const;
@@ -38,11 +37,10 @@ class TyreForces {
   [[nodiscard]] bool known() const { return !wheels_.empty(); }
   /// One per wheel that carries load. `data` is posed at `time` [s].
   [[nodiscard]] std::vector<WheelForce> At(double time, const mjData& data) const;
-  /// How long a newton is in pictures [m]: a circle of friction is as wide as half the car at rest.
-  [[nodiscard]] double meters_per_newton() const { return meters_per_newton_; }
 
  private:
   struct Wheel {
+    std::size_t index = 0;
     int joint = -1;  // about which it spins
     int body = -1;
     std::array<std::size_t, 3> columns{};  // load, along, across
@@ -55,16 +53,20 @@ class TyreForces {
 
   const Recording& recording_;
   std::vector<Wheel> wheels_;
-  double meters_per_newton_ = 0.0;
 };
 
-/// Draws each force as an arrow inside its ellipse, flat on the ground and over what hides that.
-/// `hairline` is the thickness of the ellipse [px].
-void DrawTyreForces(Canvas& canvas, const Projection& projection,
-                    const std::vector<WheelForce>& forces, double meters_per_newton,
-                    double hairline);
+/// The share of its grip that a tyre of the car has to use for a skid mark, and for its dial to be
+/// red.
+inline constexpr double kSkidUse = 0.9;
 
-/// The forces of the car's tyres, where its log has them.
+/// Draws how much of its grip a tyre uses: a line from the middle, up for a force forward and to
+/// the left for one to the left, that ends on the rim, at `radius` [px], where all of it is used,
+/// and beyond the rim by at most an eighth of the radius. No tyre: it carries no load, and the dial
+/// is empty. `hairline` is the thickness of the rim [px].
+void DrawGripDial(Canvas& canvas, const CanvasPoint& center, double radius, const WheelForce* tyre,
+                  double hairline);
+
+/// A panel of dials, one for each tyre of the car whose log has forces, as its wheels stand.
 OverlayEntry ForceOverlay();
 
 }  // namespace trackbed::render

@@ -4,15 +4,14 @@
 #include <cmath>
 
 #include "render/ground_line.h"
+#include "render/palette.h"
 
 namespace trackbed::render {
 namespace {
 
-constexpr Color kGustColor{0.66F, 0.56F, 0.96F};
 constexpr double kGustWidth = 0.16;
 constexpr double kGustHeight = 0.006;
 
-constexpr Color kWindColor{0.80F, 0.76F, 1.00F};
 constexpr double kSpacing = 5.0;  // [m]
 constexpr int kHalfCount = 4;     // of places from the middle to each side: 81 in all
 constexpr double kHeight = 0.004;
@@ -97,7 +96,8 @@ class WindArrows : public Overlay {
       legend.push_back({kWindColor, "wind"});
     }
     if (!gusts_.empty()) {
-      legend.push_back({kGustColor, "gust"});
+      legend.push_back(
+          {.color = kGustColor, .text = "gust", .symbol = LegendSymbol::kOutline});
     }
   }
 

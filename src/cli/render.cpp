@@ -122,7 +122,9 @@ void AddRender(const Command& command) {
       .AddOption("--camera", options->camera,
                  "Point of view (default: the scenario's render.camera): " + Listed(Cameras()))
       .TypeName("CAMERA");
-  command.AddOption("--inset", options->inset, "Another camera, shown as an inset")
+  command
+      .AddOption("--inset", options->inset,
+                 "Another camera, shown as an inset, or " + Listed(FlatInsets()))
       .TypeName("CAMERA");
   command
       .AddOption("--plants", options->plants,

@@ -17,6 +17,9 @@ struct FilmChoice {
 /// Every camera there is, the default first.
 std::vector<FilmChoice> Cameras();
 
+/// What an inset may show beside another camera's picture.
+std::vector<FilmChoice> FlatInsets();
+
 /// Every overlay there is.
 std::vector<FilmChoice> Overlays();
 
@@ -32,7 +35,8 @@ struct FilmOptions {
   /// "draft": one sample a pixel and a painted shadow under the car. "film": four samples, for
   /// smooth edges, and the shadows that the model's lamps cast, for about four times the time.
   std::string quality = "draft";
-  std::string inset{};  ///< another camera, for a small picture in the picture; empty: none
+  /// Another camera, or a name of FlatInsets(), for a small picture in the picture; empty: none.
+  std::string inset{};
   std::vector<std::string> overlays = DefaultOverlays();  ///< names of Overlays()
   /// Plants of the run, each with a part of the picture of its own, side by side, as the car and
   /// alone. None: one picture, the car and the other plants as its ghosts.

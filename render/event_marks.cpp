@@ -1,0 +1,201 @@
+#include "render/event_marks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "render/events.h"
+#include "render/ground_line.h"
+#include "render/layout.h"
+#include "render/palette.h"
+#include "trackbed/core/angle.h"
+
+namespace trackbed::render {
+namespace {
+
+using Kind = RunEvent::Kind;
+
+constexpr double kShown = 1.5;  // a line of text, at least [s]
+constexpr double kFlash = 0.6;  // [s]
+constexpr double kSide = 0.5;   // of a mark [m]
+constexpr double kRim = 0.10;   // dark, around it [m]
+constexpr double kHeight = 0.030;  // above all trails [m]
+constexpr Color kDetected{0.98F, 0.98F, 0.98F};
+constexpr Color kUnder{0.05F, 0.06F, 0.08F};
+
+Color ColorOf(Kind kind) {
+  switch (kind) {
+    case Kind::kObstacleKnown:
+      return kDetected;
+    case Kind::kNewPlan:
+      return kNewPlanColor;
+    case Kind::kRateLimit:
+    case Kind::kCollision:
+    case Kind::kRollOver:
+      break;
+  }
+  return kLimitColor;
+}
+
+const char* LegendText(Kind kind) {
+  switch (kind) {
+    case Kind::kObstacleKnown:
+      return "obstacle detected";
+    case Kind::kNewPlan:
+      return "new plan";
+    case Kind::kRateLimit:
+      return "steering rate limit";
+    case Kind::kCollision:
+      return "collision";
+    case Kind::kRollOver:
+      break;
+  }
+  return "roll-over";
+}
+
+bool EndsTheRun(Kind kind) {
+  return kind == Kind::kCollision || kind == Kind::kRollOver;
+}
+
+class EventMarks : public Overlay {
+ public:
+  explicit EventMarks(const OverlaySetup& setup)
+      : recording_(setup.recording), events_(FindEvents(setup.recording)) {}
+
+  [[nodiscard]] std::size_t max_shapes() const override { return 4 * events_.size(); }
+
+  void AddShapes(SceneContext& context) override {
+    for (const RunEvent& event : events_) {
+      if (event.from > context.time) {
+        break;
+      }
+      const double scale = context.camera.paint_scale;
+      if (EndsTheRun(event.kind)) {
+        AddCross(context, event, 2.5 * scale);
+      } else {
+        AddDiamond(context, event, scale);
+      }
+    }
+  }
+
+  void Draw(PictureContext& context) override {
+    Canvas canvas(context.image, context.font);
+    const Layout layout(context.image.width, context.image.height);
+    constexpr std::size_t kMostLines = 3;
+    std::vector<const RunEvent*> shown;
+    for (const RunEvent& event : events_) {
+      if (event.from <= context.time && context.time <= std::max(event.to, event.from + kShown)) {
+        // Of new plans in quick succession the last one alone.
+        if (!shown.empty() && event.kind == Kind::kNewPlan) {
+          std::erase_if(shown, [](const RunEvent* other) { return other->kind == Kind::kNewPlan; });
+        }
+        shown.push_back(&event);
+      }
+    }
+    if (shown.size() > kMostLines) {
+      shown.erase(shown.begin(), shown.end() - kMostLines);
+    }
+    double bottom = context.bottom;
+    for (auto event = shown.rbegin(); event != shown.rend(); ++event) {
+      bottom = DrawLine(canvas, context.font, layout, bottom, **event);
+    }
+    for (const RunEvent& event : events_) {
+      if (EndsTheRun(event.kind)) {
+        Flash(canvas, layout, context, context.time - event.from);
+      }
+    }
+  }
+
+  void AddLegend(std::vector<LegendEntry>& legend) const override {
+    std::set<Kind> kinds;
+    for (const RunEvent& event : events_) {
+      if (kinds.insert(event.kind).second) {
+        legend.push_back({.color = ColorOf(event.kind),
+                          .text = LegendText(event.kind),
+                          .symbol = EndsTheRun(event.kind) ? LegendSymbol::kCross
+                                                           : LegendSymbol::kDiamond});
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] Point Beside(const Point& place, double x, double y) const {
+    return recording_.OnGround({place.x + x, place.y + y});
+  }
+
+  /// A square on one of its corners along the car's heading, with a dark rim.
+  void AddDiamond(SceneContext& context, const RunEvent& event, double scale) const {
+    const double heading = recording_.plants.front().Heading(event.from) + 0.25 * kPi;
+    const double c = std::cos(heading);
+    const double s = std::sin(heading);
+    const auto square = [&](double side, double height, const Color& color) {
+      // AddRibbonPiece makes a piece longer by 0.15 of its width.
+      const double half = 0.5 * side / 1.15;
+      AddPiece(context, recording_.world, Beside(event.place, -half * c, -half * s),
+               Beside(event.place, half * c, half * s), {color, side, height});
+    };
+    square((kSide + kRim) * scale, kHeight, kUnder);
+    square(kSide * scale, kHeight + 0.002, ColorOf(event.kind));
+  }
+
+  void AddCross(SceneContext& context, const RunEvent& event, double scale) const {
+    const double heading = recording_.plants.front().Heading(event.from);
+    for (const double turn : {0.25, -0.25}) {
+      const double x = 0.5 * kSide * scale * std::cos(heading + turn * kPi);
+      const double y = 0.5 * kSide * scale * std::sin(heading + turn * kPi);
+      AddPiece(context, recording_.world, Beside(event.place, -x, -y), Beside(event.place, x, y),
+               {kUnder, 0.4 * kSide * scale, kHeight});
+      AddPiece(context, recording_.world, Beside(event.place, -x, -y), Beside(event.place, x, y),
+               {ColorOf(event.kind), 0.25 * kSide * scale, kHeight + 0.002});
+    }
+  }
+
+  /// Returns where the panel begins, less the gap to the next one [px].
+  static double DrawLine(Canvas& canvas, const Font& font, const Layout& layout, double bottom,
+                         const RunEvent& event) {
+    const double tall = layout.label + 0.6 * layout.pad;
+    const double top = bottom - tall;
+    const double mark = 0.5 * layout.label;
+    const double left = layout.margin + layout.pad;
+    canvas.Fill({layout.margin, top,
+                 font.Width(event.text, layout.label) + mark + 2.5 * layout.pad, tall},
+                layout.round(), EndsTheRun(event.kind) ? kLimitColor : kPanel,
+                EndsTheRun(event.kind) ? 0.9 : kPanelAlpha);
+    const double x = left + 0.5 * mark;
+    const double y = top + 0.5 * tall;
+    const double half = 0.5 * mark;
+    canvas.FillConvex({{x - half, y}, {x, y - half}, {x + half, y}, {x, y + half}},
+                      EndsTheRun(event.kind) ? kValue : ColorOf(event.kind), 1.0);
+    canvas.Text(left + mark + 0.5 * layout.pad, top + 0.3 * layout.pad, event.text, layout.label,
+                kValue);
+    return top - 0.4 * layout.pad;
+  }
+
+  /// A frame around the picture that fades.
+  static void Flash(Canvas& canvas, const Layout& layout, const PictureContext& context,
+                    double since) {
+    if (since < 0.0 || since >= kFlash) {
+      return;
+    }
+    const double alpha = 0.85 * (1.0 - since / kFlash);
+    const double thick = 1.2 * layout.margin;
+    const double width = context.image.width;
+    const double height = context.image.height;
+    canvas.Fill({0.0, 0.0, width, thick}, 0.0, kLimitColor, alpha);
+    canvas.Fill({0.0, height - thick, width, thick}, 0.0, kLimitColor, alpha);
+    canvas.Fill({0.0, thick, thick, height - 2.0 * thick}, 0.0, kLimitColor, alpha);
+    canvas.Fill({width - thick, thick, thick, height - 2.0 * thick}, 0.0, kLimitColor, alpha);
+  }
+
+  const Recording& recording_;
+  std::vector<RunEvent> events_;  // in the order of time
+};
+
+}  // namespace
+
+OverlayEntry EventOverlay() {
+  return EntryOf<EventMarks>(
+      "events", "marks and labels: obstacle detected, new plan, rate limit, collision, roll-over");
+}
+
+}  // namespace trackbed::render

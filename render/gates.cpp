@@ -1,0 +1,56 @@
+#include "render/gates.h"
+
+#include "render/ground_line.h"
+
+namespace trackbed::render {
+namespace {
+
+constexpr Color kGate{0.98F, 0.98F, 0.98F};
+constexpr double kWidth = 0.10;   // [m]
+constexpr double kHeight = 0.005;  // below plans and trails [m]
+
+class GateLines : public Overlay {
+ public:
+  explicit GateLines(const OverlaySetup& setup) : recording_(setup.recording) {
+    for (const std::vector<Point>& gate : recording_.gates) {
+      std::array<Vec2, 4> corners;
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        corners[i] = {gate[i].x, gate[i].y};
+      }
+      lines_.push_back(Outline(recording_, corners));
+    }
+  }
+
+  [[nodiscard]] std::size_t max_shapes() const override {
+    std::size_t sum = 0;
+    for (const std::vector<Point>& line : lines_) {
+      sum += line.size();
+    }
+    return sum;
+  }
+
+  void AddShapes(SceneContext& context) override {
+    for (const std::vector<Point>& line : lines_) {
+      AddLine(context, recording_.world, line,
+              {kGate, kWidth * context.camera.paint_scale, kHeight});
+    }
+  }
+
+  void AddLegend(std::vector<LegendEntry>& legend) const override {
+    if (!lines_.empty()) {
+      legend.push_back({.color = kGate, .text = "gate", .symbol = LegendSymbol::kOutline});
+    }
+  }
+
+ private:
+  const Recording& recording_;
+  std::vector<std::vector<Point>> lines_;
+};
+
+}  // namespace
+
+OverlayEntry GateOverlay() {
+  return EntryOf<GateLines>("gates", "outlines of the gates that the plan leads through");
+}
+
+}  // namespace trackbed::render

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "render/overlay.h"
+
+namespace trackbed::render {
+
+/// Lines on the ground around the gates that the plan leads through, between their cones.
+OverlayEntry GateOverlay();
+
+}  // namespace trackbed::render

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "render/image.h"
+
+/// One meaning for each hue in a film: orange is the car, blue and the other colors of CarColor are
+/// the other plants, white the plan, pink what replaced it, violet the wind, red a limit that is
+/// reached; the cross-track error goes from dark violet over green to yellow (viridis). The hues
+/// are those of Okabe and Ito, "Color universal design" (2008), which people with any common kind
+/// of color blindness tell apart, lighter where they lie on asphalt.
+namespace trackbed::render {
+
+inline constexpr Color kPlanColor{1.00F, 1.00F, 0.97F};
+inline constexpr Color kNewPlanColor{1.00F, 0.58F, 0.80F};
+inline constexpr Color kLimitColor{0.88F, 0.15F, 0.10F};
+inline constexpr Color kWindColor{0.80F, 0.76F, 1.00F};
+inline constexpr Color kGustColor{0.66F, 0.56F, 0.96F};
+
+/// The color of a plant's trail and of what else is its own; 0 is the car, others are ghosts.
+constexpr Color CarColor(std::size_t car) {
+  constexpr std::array<Color, 5> kColors{{{1.00F, 0.55F, 0.05F},
+                                          {0.34F, 0.75F, 0.97F},
+                                          {0.00F, 0.62F, 0.45F},
+                                          {0.80F, 0.47F, 0.65F},
+                                          {0.10F, 0.45F, 0.80F}}};
+  return kColors[car < kColors.size() ? car : 1 + (car - 1) % (kColors.size() - 1)];
+}
+
+}  // namespace trackbed::render

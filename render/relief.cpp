@@ -1,0 +1,124 @@
+#include "render/relief.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/ground_line.h"
+#include "render/isolines.h"
+#include "render/round_up.h"
+
+namespace trackbed::render {
+namespace {
+
+constexpr Color kContour{0.52F, 0.40F, 0.26F};
+constexpr double kWidth = 0.09;      // [m]
+constexpr double kHeight = 0.0015;   // above the ground, below all other paint [m]
+constexpr double kMargin = 30.0;     // around the plan and all drives [m]
+constexpr double kMostCells = 4e4;
+constexpr double kLeastSpan = 0.02;  // less is level ground [m]
+
+class Relief : public Overlay {
+ public:
+  explicit Relief(const OverlaySetup& setup) : recording_(setup.recording) {
+    const Ground& ground = recording_.world.ground;
+    if (IsFlat(ground)) {
+      return;
+    }
+    AddHill();
+    for (const Bump& bump : ground.bumps) {
+      AddFeature(bump);
+    }
+    for (const Superelevation& side_slope : ground.side_slopes) {
+      AddFeature(side_slope);
+    }
+  }
+
+  [[nodiscard]] std::size_t max_shapes() const override {
+    std::size_t sum = 0;
+    for (const std::vector<Point>& line : lines_) {
+      sum += line.size();
+    }
+    return sum;
+  }
+
+  void AddShapes(SceneContext& context) override {
+    for (const std::vector<Point>& line : lines_) {
+      AddLine(context, recording_.world, line,
+              {kContour, kWidth * context.camera.paint_scale, kHeight});
+    }
+  }
+
+  void AddLegend(std::vector<LegendEntry>& legend) const override {
+    if (interval_ > 0.0) {
+      legend.push_back({kContour, fmt::format("contours every {:.2g} m", interval_)});
+    }
+  }
+
+ private:
+  void AddHill() {
+    const CameraSubject route(recording_);
+    const Vec2 low(route.lowest().x - kMargin, route.lowest().y - kMargin);
+    const Vec2 high(route.highest().x + kMargin, route.highest().y + kMargin);
+    const Vec2 sides = high - low;
+    const double step = std::max(1.0, std::sqrt(sides.x() * sides.y() / kMostCells));
+    const IsolineGrid grid(low, high, step, [this](const Vec2& point) {
+      return GroundHeight(recording_.world, point);
+    });
+    const double span = grid.highest() - grid.lowest();
+    if (span < kLeastSpan) {
+      return;
+    }
+    interval_ = ContourInterval(span);
+    const double first = std::ceil(grid.lowest() / interval_);
+    for (double level = first; level * interval_ <= grid.highest(); level += 1.0) {
+      Add(grid.At(level * interval_));
+    }
+  }
+
+  /// Lines at a quarter, a half and three quarters of its own height above the plane.
+  template <typename Feature>
+  void AddFeature(const Feature& feature) {
+    const std::array<Vec2, 4> corners = Extent(feature).Corners();
+    Vec2 low = corners[0];
+    Vec2 high = corners[0];
+    for (const Vec2& corner : corners) {
+      low = low.cwiseMin(corner);
+      high = high.cwiseMax(corner);
+    }
+    constexpr double kCells = 60.0;  // along the longer side
+    const IsolineGrid grid(low, high, (high - low).maxCoeff() / kCells,
+                           [&](const Vec2& point) { return Rise(feature, point); });
+    for (const double share : {0.25, 0.5, 0.75}) {
+      Add(grid.At(share * grid.highest()));
+    }
+  }
+
+  void Add(const std::vector<std::vector<Vec2>>& lines) {
+    for (const std::vector<Vec2>& line : lines) {
+      std::vector<Point> points;
+      for (const Vec2& point : line) {
+        points.push_back(recording_.OnGround({point.x(), point.y()}));
+      }
+      lines_.push_back(Thinned(points));
+    }
+  }
+
+  const Recording& recording_;
+  std::vector<std::vector<Point>> lines_;
+  double interval_ = 0.0;  // [m]; 0: no contours of the whole
+};
+
+}  // namespace
+
+double ContourInterval(double span) {
+  constexpr double kMostLines = 20.0;
+  return RoundedUp(span / kMostLines);
+}
+
+OverlayEntry ReliefOverlay() {
+  return EntryOf<Relief>("relief", "contour lines of ground that is not level, and of bumps");
+}
+
+}  // namespace trackbed::render
