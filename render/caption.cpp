@@ -50,8 +50,7 @@ std::vector<Reading> ReadingsToShow(const Readings& readings) {
   }
   if (readings.apart) {
     shown.push_back(
-        {"difference of " + readings.apart->plant, ApartText(*readings.apart),
-         "00.00 m right, 00.00 m behind"});
+        {"difference between plants", ApartText(*readings.apart), "0.00 m right, 0.00 m behind"});
   }
   return shown;
 }

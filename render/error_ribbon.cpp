@@ -20,7 +20,8 @@ std::string Length(double meters) {
 
 class ErrorRibbon : public Overlay {
  public:
-  explicit ErrorRibbon(const OverlaySetup& setup) : scale_(setup.recording.scales.error) {
+  explicit ErrorRibbon(const OverlaySetup& setup)
+      : recording_(setup.recording), scale_(setup.recording.scales.error) {
     if (!HasErrorScale(setup.recording)) {
       return;
     }
@@ -37,7 +38,7 @@ class ErrorRibbon : public Overlay {
 
   void AddShapes(SceneContext& context) override {
     if (trail_) {
-      RibbonStyle style = TrailStyle(0, context.camera.paint_scale);
+      RibbonStyle style = TrailStyle(recording_, 0, context.camera.paint_scale);
       style.width = kWidth * context.camera.paint_scale;
       trail_->AddShapes(context, style);
     }
@@ -45,12 +46,13 @@ class ErrorRibbon : public Overlay {
 
   void AddLegend(std::vector<LegendEntry>& legend) const override {
     if (trail_) {
-      legend.front().ramp.assign(kErrorColors.begin(), kErrorColors.end());
-      legend.front().note = fmt::format("cross-track error, 0 to {}", Length(scale_));
+      legend.push_back({.text = fmt::format("cross-track error, 0 to {}", Length(scale_)),
+                        .ramp = {kErrorColors.begin(), kErrorColors.end()}});
     }
   }
 
  private:
+  const Recording& recording_;
   double scale_;  // [m]
   std::optional<Trail> trail_;
 };

@@ -17,8 +17,8 @@ using Kind = RunEvent::Kind;
 
 constexpr double kShown = 1.5;  // a line of text, at least [s]
 constexpr double kFlash = 0.6;  // [s]
-constexpr double kSide = 0.5;   // of a mark [m]
-constexpr double kRim = 0.10;   // dark, around it [m]
+constexpr double kSide = 0.4;   // of a mark [m]
+constexpr double kRim = 0.07;   // dark, around it [m]
 constexpr double kHeight = 0.030;  // above all trails [m]
 constexpr Color kDetected{0.98F, 0.98F, 0.98F};
 constexpr Color kUnder{0.05F, 0.06F, 0.08F};
@@ -71,7 +71,7 @@ class EventMarks : public Overlay {
       }
       const double scale = context.camera.paint_scale;
       if (EndsTheRun(event.kind)) {
-        AddCross(context, event, 2.5 * scale);
+        AddCross(context, event, 3.0 * scale);
       } else {
         AddDiamond(context, event, scale);
       }

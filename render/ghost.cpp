@@ -60,7 +60,8 @@ class Ghosts : public Overlay {
 
   void AddLegend(std::vector<LegendEntry>& legend) const override {
     for (std::size_t car = 1; car < recording_.plants.size(); ++car) {
-      legend.push_back({CarColor(car), recording_.plants[car].plant() + " (ghost)", "at equal time, with footprint"});
+      const PlantRecording& plant = recording_.plants[car];
+      legend.push_back({plant.color(), plant.plant() + " (ghost)", "at equal time, with footprint"});
     }
   }
 
@@ -86,14 +87,14 @@ class Ghosts : public Overlay {
       }
       mjvGeom& geom = scene.geoms[scene.ngeom];
       geom = ghost.geoms[i];
-      MakeTranslucent(geom, CarColor(car));
+      MakeTranslucent(geom, recording_.plants[car].color());
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const float eye = scene.camera[0].pos[axis];
         geom.pos[axis] += behind * (geom.pos[axis] - eye);
       }
       ++scene.ngeom;
     }
-    RibbonStyle style = TrailStyle(car, context.camera.paint_scale);
+    RibbonStyle style = TrailStyle(recording_, car, context.camera.paint_scale);
     style.width = kFootprintWidth * context.camera.paint_scale;
     AddFootprint(context, style);
   }

@@ -115,12 +115,12 @@ void LateralView::Draw(Image& image, Font& font, double time) const {
     const CanvasPoint now = Place(width, height, car, log.Value(place, along->station),
                                   log.Value(place, along->left));
     line.push_back(now);
-    canvas.Stroke(line, thick, CarColor(i), 0.95);
+    canvas.Stroke(line, thick, recording_.plants[i].color(), 0.95);
     const double size = 4.0 * thick;
     canvas.FillConvex({{now.x - 0.6 * size, now.y - 0.55 * size},
                        {now.x + 0.6 * size, now.y},
                        {now.x - 0.6 * size, now.y + 0.55 * size}},
-                      CarColor(i), 1.0);
+                      recording_.plants[i].color(), 1.0);
   }
   canvas.Text(0.5 * letters, 0.3 * letters, "distance from path x10", letters, kValue);
 }

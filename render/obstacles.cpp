@@ -6,6 +6,7 @@
 
 #include "render/decor.h"
 #include "render/events.h"
+#include "render/scene.h"
 #include "render/scene_handle.h"
 #include "trackbed/sim/mujoco_handles.h"
 
@@ -94,21 +95,19 @@ class CarParts {
     SceneHandle posed(model, 2 * model.ngeom + 100);
     mjvScene& scene = posed.get();
     mjv_updateScene(&model, data.get(), &visible, nullptr, &camera, mjCAT_DYNAMIC, &scene);
-    const int root = model.body_rootid[model.jnt_bodyid[joint]];
+    const std::vector<CarPart> looks = FindCarParts(model);
     const CarBox box = FindCarBox(model);
     scale_ = {1.0 / box.half_length, 1.0 / box.half_width, 2.0 / box.height};
     const Eigen::Vector3d middle(box.middle, 0.0, 0.5 * box.height);
     for (int i = 0; i < scene.ngeom; ++i) {
       mjvGeom part = scene.geoms[i];
       constexpr float kSmall = 0.05F;  // [m]
-      if (part.objtype != mjOBJ_GEOM || model.body_rootid[model.geom_bodyid[part.objid]] != root ||
+      if (part.objtype != mjOBJ_GEOM || !looks[static_cast<std::size_t>(part.objid)].of_car ||
           std::max({part.size[0], part.size[1], part.size[2]}) < kSmall) {
         continue;
       }
-      const int material = model.geom_matid[part.objid];
-      const char* name = material < 0 ? nullptr : mj_id2name(&model, mjOBJ_MATERIAL, material);
       parts_.push_back({part, Block(part).center - middle, Block(part).axes,
-                        name != nullptr && std::string_view(name) == "paint"});
+                        looks[static_cast<std::size_t>(part.objid)].painted});
       parts_.back().geom.objtype = mjOBJ_UNKNOWN;
       parts_.back().geom.category = mjCAT_DECOR;
     }

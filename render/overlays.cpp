@@ -63,7 +63,8 @@ OverlayList MakeOverlays(const OverlaySetup& setup) {
 }
 
 std::vector<LegendEntry> MakeLegend(const Recording& recording, const OverlayList& overlays) {
-  std::vector<LegendEntry> legend{{CarColor(0), recording.plants.front().plant()}};
+  std::vector<LegendEntry> legend{
+      {recording.plants.front().color(), recording.plants.front().plant()}};
   for (const auto& overlay : overlays) {
     overlay->AddLegend(legend);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "render/ground_texture.h"
 #include "render/layout.h"
 #include "render/overlays.h"
 #include "render/shadow.h"
@@ -32,8 +33,13 @@ const Quality& FindQuality(const std::string& name) {
       Problem{.key = "quality", .message = "unknown quality " + UnknownName(name, names)});
 }
 
-/// The model, ready for its Offscreen.
-mjModel& Prepared(mjModel& model, const Quality& quality, const CameraPose& camera) {
+/// The model of the first, ready for its Offscreen.
+mjModel& Prepared(std::span<Recording> recordings, const Quality& quality,
+                  const CameraPose& camera) {
+  for (Recording& recording : recordings) {
+    MakeGroundPlain(*recording.model, !recording.road);
+  }
+  mjModel& model = *recordings.front().model;
   if (quality.shadows) {
     FitShadowMap(model, camera);
   }
@@ -100,7 +106,7 @@ Painter::Painter(std::span<Recording> recordings, const FilmOptions& options)
       camera_(FindCamera(options.camera)),
       inset_(options.inset.empty() ? Inset{} : FindInset(options.inset)),
       offscreen_(
-          Prepared(*recordings.front().model, quality_,
+          Prepared(recordings, quality_,
                    camera_.pose(CameraSubject(recordings.front()), recordings.front().begin(),
                                 static_cast<double>(options.width) / options.height)),
           options.width, options.height, quality_.supersampling),

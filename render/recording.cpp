@@ -144,8 +144,20 @@ double SteeringRate(const mjModel& model, const VehicleSpec& vehicle) {
   return vehicle.steering_rate.value_or(ratio > 0.0 ? number("steering_wheel_rate") / ratio : 0.0);
 }
 
-/// When the car of a log first touches an obstacle [s].
-std::optional<double> ContactTime(const TimedTable& log) {
+/// When the car first touches an obstacle [s]: as metrics.json has it, else the first row of the log
+/// that says so.
+std::optional<double> ContactTime(const fs::path& folder, const std::string& plant,
+                                  const TimedTable& log) {
+  const fs::path metrics = folder / run_folder::kMetricsJson;
+  if (std::error_code ignored; fs::exists(metrics, ignored)) {
+    const auto read = [&](const nlohmann::ordered_json& told) -> std::optional<double> {
+      const nlohmann::ordered_json& own = told.at("plants").at(plant);
+      return own.value("collision", false)
+                 ? std::optional(own.at("clearance_min_t").get<double>())
+                 : std::nullopt;
+    };
+    return ReadJson(metrics, read, {.key = "plants"});
+  }
   if (const std::optional<std::size_t> clearance = log.Find("clearance_m")) {
     for (std::size_t row = 0; row < log.times().size(); ++row) {
       if (log.table().at(row, *clearance) <= 0.0) {
@@ -240,8 +252,9 @@ double TimedTable::Value(const Place& place, std::size_t column) const {
 }
 
 PlantRecording::PlantRecording(const fs::path& folder, const std::string& plant,
-                               const mjModel& model)
+                               const mjModel& model, std::size_t index)
     : plant_(plant),
+      index_(index),
       state_(folder / run_folder::StateCsv(plant)),
       log_(folder / run_folder::LogCsv(plant)),
       speed_(log_.Require("speed_mps")),
@@ -406,12 +419,14 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
   if (!fs::is_directory(folder, ignored)) {
     RejectRecording(folder, "", "not a folder, but a run is one");
   }
-  const std::vector<std::string> plants = Chosen(folder, FindPlants(folder), asked);
+  const std::vector<std::string> all = FindPlants(folder);
   Recording recording;
   recording.name = fs::weakly_canonical(folder).filename().string();
   recording.model = LoadModel(folder / run_folder::kModelXml);
+  const std::vector<std::string> plants = Chosen(folder, all, asked);
   for (const std::string& plant : plants) {
-    recording.plants.emplace_back(folder, plant, *recording.model);
+    const auto index = std::find(all.begin(), all.end(), plant) - all.begin();
+    recording.plants.emplace_back(folder, plant, *recording.model, static_cast<std::size_t>(index));
   }
   if (const fs::path scenario = folder / run_folder::kScenarioYaml; fs::exists(scenario, ignored)) {
     recording.world = ReadWorld(run_folder::RequireFile(scenario));
@@ -422,7 +437,7 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
   } else {
     recording.steering_rate = SteeringRate(*recording.model, {});
   }
-  recording.contact_time = ContactTime(recording.plants.front().log());
+  recording.contact_time = ContactTime(folder, plants.front(), recording.plants.front().log());
   AddGates(folder / run_folder::kPlanJson, recording);
   const fs::path plan = folder / run_folder::kPlanCsv;
   if (fs::exists(folder / run_folder::kPlanJson, ignored) && !fs::exists(plan, ignored)) {

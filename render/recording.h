@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "render/palette.h"
 #include "render/recorded_plans.h"
 #include "render/scales.h"
 #include "trackbed/core/table.h"
@@ -87,10 +88,13 @@ class PlantRecording {
  public:
   /// Of the plant of that name, from its `.state.csv` and `.csv` in `folder`; the former must have
   /// a column for every joint of `model`. InputError otherwise.
+  /// `index` is its place among the plants of the run, which has its color.
   PlantRecording(const std::filesystem::path& folder, const std::string& plant,
-                 const mjModel& model);
+                 const mjModel& model, std::size_t index = 0);
 
   [[nodiscard]] const std::string& plant() const { return plant_; }
+  /// The same in every picture of the run, whichever plants it shows.
+  [[nodiscard]] Color color() const { return CarColor(index_); }
   [[nodiscard]] double begin() const { return state_.begin(); }
   [[nodiscard]] double end() const { return state_.end(); }
   [[nodiscard]] const std::vector<double>& times() const { return state_.times(); }
@@ -115,6 +119,7 @@ class PlantRecording {
   };
 
   std::string plant_;
+  std::size_t index_;
   TimedTable state_;
   TimedTable log_;
   int free_joint_qpos_ = 0;

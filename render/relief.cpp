@@ -113,7 +113,7 @@ class Relief : public Overlay {
 }  // namespace
 
 double ContourInterval(double span) {
-  constexpr double kMostLines = 20.0;
+  constexpr double kMostLines = 40.0;
   return RoundedUp(span / kMostLines);
 }
 

@@ -9,7 +9,7 @@ namespace trackbed::render {
 OverlayEntry ReliefOverlay();
 
 /// The height between contour lines of ground that spans so much height [m]: 1, 2 or 5 times a
-/// power of ten, such that there are at most 20.
+/// power of ten, such that there are at most 40.
 double ContourInterval(double span);
 
 }  // namespace trackbed::render

@@ -17,6 +17,10 @@ constexpr Color kPaint{0.93F, 0.93F, 0.90F};
 constexpr float kGroundUnderRoad = 0.006F;  // where asphalt lies, level ground is lower [m]
 constexpr double kShoulder = 0.4;           // asphalt beyond the edge lines [m]
 constexpr double kLineWidth = 0.14;         // [m]
+constexpr double kVergeWidth = 1.05;        // of gravel, over the rough edge of the asphalt [m]
+constexpr double kVergeBegin = 0.22;        // from the edge line's middle [m]
+constexpr Color kGravel{0.58F, 0.54F, 0.45F};
+constexpr double kVergeHeight = -0.0015;    // above the asphalt, whose corners it covers
 constexpr double kAsphaltHeight = -0.003;   // below all other paint [m]
 constexpr double kAsphaltRange = 250.0;     // [m]; farther it is thinner than a pixel
 constexpr double kPaintHeight = -0.001;
@@ -49,6 +53,14 @@ std::vector<Spot> SpotsAlong(const std::vector<Point>& line, double step) {
   return spots;
 }
 
+bool NearTheCamera(const CameraPose& camera, const Point& place) {
+  constexpr double kNear = 0.6;  // of its way to what it looks at
+  const double level = camera.distance * std::cos(camera.elevation);
+  const double x = place.x - camera.target_x + level * std::cos(camera.azimuth);
+  const double y = place.y - camera.target_y + level * std::sin(camera.azimuth);
+  return !camera.inside && std::hypot(x, y) < kNear * level;
+}
+
 /// Grass beside the road, lower by what keeps the two apart in the depth buffer.
 void DressGround(const mjModel& model, mjvScene& scene) {
   const int ground = mj_name2id(&model, mjOBJ_GEOM, "ground");
@@ -74,6 +86,8 @@ class RoadRibbons : public Overlay {
     const double half = 0.5 * recording_.road->width;
     AddAsphalt(spots, recording_.road->width + 2.0 * kShoulder);
     edges_ = {Beside(spots, half), Beside(spots, -half)};
+    const double verge = half + kVergeBegin + 0.5 * kVergeWidth;
+    verges_ = {Beside(spots, verge), Beside(spots, -verge)};
     const int lanes = recording_.road->lanes;
     for (int lane = 1; lane < lanes; ++lane) {
       const double offset = recording_.road->width * (static_cast<double>(lane) / lanes - 0.5);
@@ -81,15 +95,17 @@ class RoadRibbons : public Overlay {
     }
     for (const Spot& spot : SpotsAlong(recording_.plan, kPostPeriod)) {
       for (const double side : {-1.0, 1.0}) {
-        posts_.push_back(OffsetFrom(spot, side * (half + 1.1)));
+        posts_.push_back(OffsetFrom(spot, side * (half + kVergeBegin + 0.6 * kVergeWidth)));
       }
     }
   }
 
   [[nodiscard]] std::size_t max_shapes() const override {
     std::size_t count = asphalt_.size() + posts_.size();
-    for (const std::vector<Point>& edge : edges_) {
-      count += edge.size();
+    for (const auto* lines : {&edges_, &verges_}) {
+      for (const std::vector<Point>& line : *lines) {
+        count += line.size();
+      }
     }
     return count + dashes_.size();
   }
@@ -104,6 +120,9 @@ class RoadRibbons : public Overlay {
       if ((tile.center.head<2>() - around).norm() < kAsphaltRange + tile.half_length) {
         AddTile(context.scene, tile);
       }
+    }
+    for (const std::vector<Point>& verge : verges_) {
+      AddLine(context, recording_.world, verge, {kGravel, kVergeWidth, kVergeHeight});
     }
     for (const std::vector<Point>& edge : edges_) {
       AddLine(context, recording_.world, edge, {kPaint, kLineWidth, kPaintHeight});
@@ -170,7 +189,9 @@ class RoadRibbons : public Overlay {
   static void AddPost(SceneContext& context, const Point& post) {
     const double away =
         std::hypot(post.x - context.camera.target_x, post.y - context.camera.target_y);
-    if (away < kPostRange) {
+    // A post next to the camera would stand before the car.
+    const bool near = NearTheCamera(context.camera, post);
+    if (away < kPostRange && !near) {
       const std::array<mjtNum, 3> size{0.06, 0.06, 0.5 * kPostHeight};
       const std::array<float, 4> rgba{0.90F, 0.89F, 0.85F, 1.0F};
       mjvGeom* geom =
@@ -185,6 +206,7 @@ class RoadRibbons : public Overlay {
   const Recording& recording_;
   std::vector<Tile> asphalt_;
   std::vector<std::vector<Point>> edges_;
+  std::vector<std::vector<Point>> verges_;
   std::vector<std::pair<Point, Point>> dashes_;
   std::vector<Point> posts_;
 };
@@ -192,7 +214,7 @@ class RoadRibbons : public Overlay {
 }  // namespace
 
 OverlayEntry RoadOverlay() {
-  return EntryOf<RoadRibbons>("road", "a road along the plan, with lanes and posts");
+  return EntryOf<RoadRibbons>("road", "a road along the plan, with lanes, verges and posts");
 }
 
 }  // namespace trackbed::render

@@ -18,6 +18,10 @@ namespace {
 // Patches farther than this from where the camera looks would be thinner than a pixel [m].
 constexpr double kPaintRange = 250.0;
 
+constexpr float kPaintShade = 0.86F;  // of a plant's color: on a body that the sun shines on
+// MuJoCo lets nothing translucent cast a shadow: so opaque that it is not seen to be translucent.
+constexpr float kCastsNoShadow = 0.99F;
+
 constexpr float kSunk = 0.002F;  // [m]; less than all paint is above the ground
 
 // Nested dark layers: a soft contact shadow where the shadow map would cost half the time.
@@ -58,11 +62,36 @@ void SinkHeightFields(mjvScene& scene) {
 
 }  // namespace
 
+std::vector<CarPart> FindCarParts(const mjModel& model) {
+  constexpr double kSmall = 0.04;  // volume of the box around a part [m^3]; a wheel has 0.07
+  const int chassis = model.jnt_bodyid[mj_name2id(&model, mjOBJ_JOINT, "chassis")];
+  std::vector<CarPart> parts(static_cast<std::size_t>(model.ngeom));
+  for (int i = 0; i < model.ngeom; ++i) {
+    CarPart& part = parts[static_cast<std::size_t>(i)];
+    part.of_car = model.body_rootid[model.geom_bodyid[i]] == model.body_rootid[chassis];
+    if (part.of_car) {
+      const int material = model.geom_matid[i];
+      const char* name = material < 0 ? nullptr : mj_id2name(&model, mjOBJ_MATERIAL, material);
+      part.painted = name != nullptr && std::string_view(name) == "paint";
+      const mjtNum* half = model.geom_size + 3 * i;
+      const int type = model.geom_type[i];
+      const double volume =
+          type == mjGEOM_CAPSULE ? 8.0 * half[0] * half[0] * (half[0] + half[1])
+          : type == mjGEOM_BOX || type == mjGEOM_MESH || type == mjGEOM_ELLIPSOID
+              ? 8.0 * half[0] * half[1] * half[2]
+              : kSmall;
+      part.casts_shadow = volume >= kSmall;
+    }
+  }
+  return parts;
+}
+
 FilmScene::FilmScene(Recording& recording, const OverlayList& overlays, bool shadows)
     : recording_(recording),
       overlays_(overlays),
       patches_(PatchTiles(recording.world)),
       box_(FindCarBox(*recording.model)),
+      car_parts_(FindCarParts(*recording.model)),
       obstacle_geoms_(ObstacleGeoms(recording)),
       car_data_(MakeMujocoData(*recording.model)),
       scene_(*recording.model, MaxGeoms(recording, patches_, overlays)) {
@@ -83,6 +112,8 @@ mjvScene& FilmScene::At(double time, const CameraPose& camera) {
   FadeWhatHidesTheCar(time, camera);
   if (camera.inside) {
     LeaveOutTheCar();
+  } else {
+    DressTheCar();
   }
   scene.flags[mjRND_SKYBOX] = SeesSky(model, recording_.world, camera) ? 1 : 0;
   AimLamps(scene, camera);
@@ -141,12 +172,29 @@ void FilmScene::FadeWhatHidesTheCar(double time, const CameraPose& camera) {
 }
 
 void FilmScene::LeaveOutTheCar() {
-  const mjModel& model = *recording_.model;
-  const int chassis = model.jnt_bodyid[mj_name2id(&model, mjOBJ_JOINT, "chassis")];
-  RemoveGeoms(scene_.get(), [&](const mjvGeom& geom) {
-    return geom.objtype == mjOBJ_GEOM &&
-           model.body_rootid[model.geom_bodyid[geom.objid]] == model.body_rootid[chassis];
+  RemoveGeoms(scene_.get(), [this](const mjvGeom& geom) {
+    return geom.objtype == mjOBJ_GEOM && car_parts_[static_cast<std::size_t>(geom.objid)].of_car;
   });
+}
+
+void FilmScene::DressTheCar() {
+  mjvScene& scene = scene_.get();
+  const Color color = recording_.plants.front().color();
+  for (int i = 0; i < scene.ngeom; ++i) {
+    mjvGeom& geom = scene.geoms[i];
+    if (geom.objtype != mjOBJ_GEOM) {
+      continue;
+    }
+    const CarPart& part = car_parts_[static_cast<std::size_t>(geom.objid)];
+    if (part.painted) {
+      geom.rgba[0] = kPaintShade * color.r;
+      geom.rgba[1] = kPaintShade * color.g;
+      geom.rgba[2] = kPaintShade * color.b;
+    }
+    if (!part.casts_shadow && scene.flags[mjRND_SHADOW] != 0) {
+      geom.rgba[3] = std::min(geom.rgba[3], kCastsNoShadow);
+    }
+  }
 }
 
 void FilmScene::AddPatches(const CameraPose& camera) {

@@ -13,6 +13,16 @@
 
 namespace trackbed::render {
 
+/// How a geom of the model is drawn.
+struct CarPart {
+  bool of_car = false;
+  bool painted = false;      ///< in the plant's color
+  bool casts_shadow = true;  ///< not: so small that its shadow on the car would be a row of stairs
+};
+
+/// Of each geom of the recording's model.
+std::vector<CarPart> FindCarParts(const mjModel& model);
+
 /// The recorded world, posed at a moment, and the shapes that overlays add to it.
 class FilmScene {
  public:
@@ -32,11 +42,13 @@ class FilmScene {
   void AddContactShadow();
   void FadeWhatHidesTheCar(double time, const CameraPose& camera);
   void LeaveOutTheCar();
+  void DressTheCar();
 
   Recording& recording_;
   const OverlayList& overlays_;
   std::vector<Tile> patches_;
   CarBox box_;
+  std::vector<CarPart> car_parts_;    // for each geom of the model
   std::vector<int> obstacle_geoms_;  // of the world's obstacles; -1: not in the model
   MujocoData car_data_;
   SceneHandle scene_;

@@ -60,7 +60,7 @@ class SkidMarks : public Overlay {
 
   void AddLegend(std::vector<LegendEntry>& legend) const override {
     if (!pieces_.empty()) {
-      legend.push_back({kRubber, "tyre beyond 90 % of its grip"});
+      legend.push_back({kRubber, "skid mark: over 90 % of grip"});
     }
   }
 

@@ -14,7 +14,7 @@ bool Differ(const Color& a, const Color& b) {
 
 class Trails : public Overlay {
  public:
-  explicit Trails(const OverlaySetup& setup) {
+  explicit Trails(const OverlaySetup& setup) : recording_(setup.recording) {
     const std::size_t cars = setup.Shows("ghosts") ? setup.recording.plants.size() : 1;
     for (std::size_t car = 0; car < cars; ++car) {
       // The error ribbon is the car's trail already.
@@ -34,7 +34,7 @@ class Trails : public Overlay {
 
   void AddShapes(SceneContext& context) override {
     for (const auto& [car, trail] : trails_) {
-      trail.AddShapes(context, TrailStyle(car, context.camera.paint_scale));
+      trail.AddShapes(context, TrailStyle(recording_, car, context.camera.paint_scale));
     }
   }
 
@@ -43,16 +43,18 @@ class Trails : public Overlay {
     std::size_t car;
     Trail trail;
   };
+  const Recording& recording_;
   std::vector<OfCar> trails_;
 };
 
 }  // namespace
 
-RibbonStyle TrailStyle(std::size_t car, double scale) {
+RibbonStyle TrailStyle(const Recording& recording, std::size_t car, double scale) {
+  const Color color = recording.plants[car].color();
   if (car == 0) {
-    return {CarColor(0), 0.14 * scale, 0.024};
+    return {color, 0.14 * scale, 0.024};
   }
-  return {CarColor(car), 0.28 * scale, std::max(0.018 - 0.002 * static_cast<double>(car), 0.010)};
+  return {color, 0.28 * scale, std::max(0.018 - 0.002 * static_cast<double>(car), 0.010)};
 }
 
 Trail::Trail(const Recording& recording, std::size_t car, const std::vector<Color>& colors)

@@ -9,7 +9,7 @@
 namespace trackbed::render {
 
 /// The line that a car leaves: narrower than those it covers, like the lines of a transport map.
-RibbonStyle TrailStyle(std::size_t car, double scale);
+RibbonStyle TrailStyle(const Recording& recording, std::size_t car, double scale);
 
 /// The track of a car's rear-axle center, up to the moment of the picture.
 class Trail {
