@@ -97,7 +97,7 @@ class EventMarks : public Overlay {
     }
     double bottom = context.bottom;
     for (auto event = shown.rbegin(); event != shown.rend(); ++event) {
-      bottom = DrawLine(canvas, context.font, layout, bottom, **event);
+      bottom = DrawLine(canvas, context.font, layout, context.left, bottom, **event);
     }
     for (const RunEvent& event : events_) {
       if (EndsTheRun(event.kind)) {
@@ -151,13 +151,13 @@ class EventMarks : public Overlay {
   }
 
   /// Returns where the panel begins, less the gap to the next one [px].
-  static double DrawLine(Canvas& canvas, const Font& font, const Layout& layout, double bottom,
-                         const RunEvent& event) {
+  static double DrawLine(Canvas& canvas, const Font& font, const Layout& layout, double first,
+                         double bottom, const RunEvent& event) {
     const double tall = layout.label + 0.6 * layout.pad;
     const double top = bottom - tall;
     const double mark = 0.5 * layout.label;
-    const double left = layout.margin + layout.pad;
-    canvas.Fill({layout.margin, top,
+    const double left = first + layout.pad;
+    canvas.Fill({first, top,
                  font.Width(event.text, layout.label) + mark + 2.5 * layout.pad, tall},
                 layout.round(), EndsTheRun(event.kind) ? kLimitColor : kPanel,
                 EndsTheRun(event.kind) ? 0.9 : kPanelAlpha);

@@ -101,20 +101,25 @@ void AddRollOver(const Recording& recording, std::vector<RunEvent>& events) {
   constexpr double kLeaning = 0.87;  // and of 30
   const PlantRecording& car = recording.plants.front();
   const std::vector<double>& times = car.times();
-  const auto over =
+  const auto first =
       std::find_if(times.begin(), times.end(), [&](double at) { return car.Upright(at) < kOver; });
-  if (over == times.end()) {
+  if (first == times.end() && !recording.roll_over_time) {
     return;
   }
-  auto from = over;
+  const double over = recording.roll_over_time.value_or(first == times.end() ? 0.0 : *first);
+  // States are recorded less often than the log's rows: the last one may be just before.
+  auto from = std::upper_bound(times.begin(), times.end(), over);
   while (from != times.begin() && car.Upright(*(from - 1)) < kLeaning) {
+    --from;
+  }
+  if (from == times.end()) {
     --from;
   }
   events.push_back({.kind = RunEvent::Kind::kRollOver,
                     .from = *from,
                     .to = kNever,
                     .place = PlaceOf(recording, *from),
-                    .text = fmt::format("roll-over at {:.2f} s", *over)});
+                    .text = fmt::format("roll-over at {:.2f} s", over)});
 }
 
 }  // namespace

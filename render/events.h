@@ -31,8 +31,9 @@ struct RunEvent {
 /// plans are those of `<plant>.plan.csv`. The rate limit is reached in a control period in which
 /// the actuator turns by 0.98 or more of what its rate allows and ends away from its command;
 /// periods less than 0.5 s apart are one event. A collision is at the first row whose clearance is
-/// 0, `contact_time` of the recording. A car that leans by more than 60 degrees has rolled over;
-/// the event begins when it leans by more than 30 for the last time before.
+/// 0, and a roll-over when the car leans by more than 60 degrees, unless metrics.json has their
+/// times (Recording::contact_time, roll_over_time); a roll-over begins as an event when the car
+/// leans by more than 30 degrees for the last time before.
 /// Cost: linear in the rows of the log, times the obstacles that are not known from the start.
 std::vector<RunEvent> FindEvents(const Recording& recording);
 

@@ -64,9 +64,9 @@ void MakeGroundPlain(mjModel& model, bool lines) {
     for (int column = 0; column < width; ++column) {
       const double u = (column + 0.5) / width;
       const double v = (row + 0.5) / height;
-      double light = 1.0 + 0.045 * Noise(u, v, 7, 0) + 0.035 * Noise(u, v, 29, 1) +
-                     0.035 * Noise(u, v, 113, 2) +
-                     0.05 * Scattered(static_cast<std::uint32_t>(column),
+      double light = 1.0 + 0.03 * Noise(u, v, 7, 0) + 0.025 * Noise(u, v, 29, 1) +
+                     0.02 * Noise(u, v, 113, 2) +
+                     0.025 * Scattered(static_cast<std::uint32_t>(column),
                                       static_cast<std::uint32_t>(row), 3);
       if (lines && (OnLine(u) || OnLine(v))) {
         light = kLineLight;

@@ -25,9 +25,9 @@ struct Layout {
 
   Layout(int width, int height) {
     const double scale = height / 720.0;
-    // Five columns at the least readable sizes take about 600 px, all panels one below the other
-    // 250.
-    const double shrink = std::min({1.0, width / 640.0, height / 270.0});
+    // The legend and the title beside it take about 400 px at the least readable sizes, all panels
+    // one below the other 250.
+    const double shrink = std::min({1.0, width / 400.0, height / 270.0});
     // A tall and narrow picture, such as one of two side by side, has room for no more than this.
     const double widest = width / 960.0;
     const auto size = [&](double of_height, double least) {

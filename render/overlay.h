@@ -54,6 +54,7 @@ struct PictureContext {
   const std::vector<LegendEntry>& legend;
   double top;     ///< where panels along the upper edge end [px]; such a panel moves it down
   double bottom;  ///< where panels along the lower edge begin [px]; such a panel moves it up
+  double left;    ///< where there is room above `bottom` [px]; what stands there moves it right
 };
 
 /// One thing drawn over the world of one recording. The defaults draw nothing.

@@ -46,7 +46,7 @@ const std::vector<OverlayEntry>& OverlayTable() {
   static const std::vector<OverlayEntry> table{
       RoadOverlay(),  ReliefOverlay(), GateOverlay(),  ObstacleOverlay(), SkidMarkOverlay(),
       PlanOverlay(),  TrailOverlay(),  ErrorOverlay(), GhostOverlay(),    WindOverlay(),
-      StripOverlay(), CaptionOverlay(), EventOverlay(), ForceOverlay(),
+      StripOverlay(), CaptionOverlay(), ForceOverlay(), EventOverlay(),
   };
   return table;
 }

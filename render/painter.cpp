@@ -160,7 +160,8 @@ void Painter::Paint(Part& part, double time, Image& image) {
                          .car = part.scene.car(),
                          .legend = part.legend,
                          .top = layout.margin,
-                         .bottom = part.height - layout.margin};
+                         .bottom = part.height - layout.margin,
+                         .left = layout.margin};
   for (const auto& overlay : part.overlays) {
     overlay->Draw(context);
   }

@@ -15,6 +15,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
+#include "trackbed/drive/run_log.h"
 #include "trackbed/scenario/scenario.h"
 #include "trackbed/sim/compile_scene.h"
 #include "trackbed/sim/plant.h"
@@ -144,28 +145,32 @@ double SteeringRate(const mjModel& model, const VehicleSpec& vehicle) {
   return vehicle.steering_rate.value_or(ratio > 0.0 ? number("steering_wheel_rate") / ratio : 0.0);
 }
 
-/// When the car first touches an obstacle [s]: as metrics.json has it, else the first row of the log
-/// that says so.
-std::optional<double> ContactTime(const fs::path& folder, const std::string& plant,
-                                  const TimedTable& log) {
+/// When the car first touches an obstacle, and when it rolls over: as metrics.json has it. Without
+/// that file the log says the former.
+void ReadMishaps(const fs::path& folder, Recording& recording) {
+  const PlantRecording& car = recording.plants.front();
   const fs::path metrics = folder / run_folder::kMetricsJson;
   if (std::error_code ignored; fs::exists(metrics, ignored)) {
-    const auto read = [&](const nlohmann::ordered_json& told) -> std::optional<double> {
-      const nlohmann::ordered_json& own = told.at("plants").at(plant);
-      return own.value("collision", false)
-                 ? std::optional(own.at("clearance_min_t").get<double>())
-                 : std::nullopt;
+    const auto visit = [&](const nlohmann::ordered_json& told) {
+      const nlohmann::ordered_json own =
+          told.at("plants").value(car.plant(), nlohmann::ordered_json::object());
+      if (own.value("collision", false)) {
+        recording.contact_time = own.at("clearance_min_t").get<double>();
+      }
+      if (own.value("status", "") == ToString(DriveStatus::kRolledOver)) {
+        recording.roll_over_time = own.at("status_t").get<double>();
+      }
     };
-    return ReadJson(metrics, read, {.key = "plants"});
+    VisitJson(metrics, visit, {.key = "plants"});
+    return;
   }
-  if (const std::optional<std::size_t> clearance = log.Find("clearance_m")) {
-    for (std::size_t row = 0; row < log.times().size(); ++row) {
-      if (log.table().at(row, *clearance) <= 0.0) {
-        return log.times()[row];
+  if (const std::optional<std::size_t> clearance = car.log().Find("clearance_m")) {
+    for (std::size_t row = 0; row < car.log().times().size() && !recording.contact_time; ++row) {
+      if (car.log().table().at(row, *clearance) <= 0.0) {
+        recording.contact_time = car.log().times()[row];
       }
     }
   }
-  return std::nullopt;
 }
 
 /// What the run changed of its car.
@@ -437,7 +442,7 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
   } else {
     recording.steering_rate = SteeringRate(*recording.model, {});
   }
-  recording.contact_time = ContactTime(folder, plants.front(), recording.plants.front().log());
+  ReadMishaps(folder, recording);
   AddGates(folder / run_folder::kPlanJson, recording);
   const fs::path plan = folder / run_folder::kPlanCsv;
   if (fs::exists(folder / run_folder::kPlanJson, ignored) && !fs::exists(plan, ignored)) {

@@ -149,6 +149,7 @@ struct Recording {
   TyreLaw tyre = TyreLaw::kAuto;             ///< of the plant `mujoco`
   double steering_rate = 0;                  ///< most that the car steers [rad/s]; 0: not known
   std::optional<double> contact_time;        ///< first contact with an obstacle [s]; none: never
+  std::optional<double> roll_over_time;      ///< [s]; none: never, or without metrics.json
   Scales scales;                             ///< of this recording, or common with others
 
   [[nodiscard]] double begin() const { return plants.front().begin(); }

@@ -62,7 +62,7 @@ class Forces : public Overlay {
     const double radius = kRadius * layout.label;
     const double step = (2.0 * kRadius + kBetween) * layout.label;
     const double side = step + 2.0 * radius + 1.2 * layout.pad;
-    const double left = context.image.width - layout.margin - side;
+    const double left = context.left;
     const double top = context.bottom - side;
     Canvas canvas(context.image, context.font);
     canvas.Fill({left, top, side, side}, layout.round(), kPanel, kPanelAlpha);
@@ -77,7 +77,7 @@ class Forces : public Overlay {
                    {first.x + (wheel % 2 == 0 ? 0.0 : step), first.y + (wheel < 2 ? 0.0 : step)},
                    radius, own == forces.end() ? nullptr : &*own, layout.hairline);
     }
-    context.bottom = top - 0.5 * layout.pad;
+    context.left = left + side + 0.5 * layout.pad;
   }
 
  private:

@@ -1,4 +1,5 @@
 #include "render/output.h"
+#include "render/ground_texture.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -217,6 +218,7 @@ TEST_F(Frames, AreThePicturesThatAVideoIsMadeOf) {
   RenderFilm(run_, output_, options_);
   const MujocoErrorScope errors;
   Recording recording = ReadRecording(run_);
+  MakeGroundPlain(*recording.model, !recording.road);
   Offscreen offscreen(*recording.model, 160, 90, 1);
   std::vector<Image> glyphs;
   for (char character = Font::kFirst; character <= Font::kLast; ++character) {

@@ -37,11 +37,17 @@ class EveryOverlay : public FilmSceneTest, public testing::WithParamInterface<st
                      [](double) { return 2000.0; });
       }
     }
+    WriteFileAtomically(folder_.path() / "plan.json",
+                        R"({"method": "lane_change", "gates": [
+                            {"cones_m": [[6, 1.5], [6, -1.5], [9, 1.5], [9, -1.5]]}]})");
+    InsertIntoModel(folder_.path(),
+                    "<geom name='obstacle_0' type='box' pos='9 2 0.9' size='1 1 0.5'/>");
     WriteFileAtomically(folder_.path() / "scenario.resolved.yaml", R"(schema: 1
 name: run
 mission: {speed: 3, waypoints: [[0, 0], [20, 0]]}
 world:
   road: {width: 6, lanes: 3}
+  obstacles: [{box: {x: 9, y: 2, length: 2, width: 2, height: 1}, known_from: {time: 1.5}}]
   ground: {grade: {x: 0.05}}
   wind: {y: 9, gusts: [{y: 3, shape: step, area: {x: 6, y: 0, length: 8, width: 4}}]}
 )");
@@ -82,7 +88,7 @@ TEST_P(EveryOverlay, AddsNoMoreShapesThanItSays) {
   const OverlayList none;
   FilmScene with(recording, overlays, false);
   FilmScene without(recording, none, false);
-  for (const char* camera : {"chase", "side", "top"}) {
+  for (const char* camera : {"chase", "side", "driver", "orbit", "top"}) {
     for (const double time : {0.0, 1.0, 2.0}) {
       const CameraPose pose = FindCamera(camera).pose(subject, time, 16.0 / 9.0);
       const int added = with.At(time, pose).ngeom - without.At(time, pose).ngeom;
@@ -92,7 +98,7 @@ TEST_P(EveryOverlay, AddsNoMoreShapesThanItSays) {
 }
 
 TEST_P(EveryOverlay, DoesWithoutWhatARunMayLack) {
-  for (const char* file : {"plan.csv", "mujoco.plan.csv", "kinematic.csv", "kinematic.state.csv",
+  for (const char* file : {"plan.csv", "plan.json", "mujoco.plan.csv", "kinematic.csv", "kinematic.state.csv",
                            "scenario.resolved.yaml"}) {
     std::filesystem::remove(folder_.path() / file);
   }
@@ -136,7 +142,7 @@ TEST(RoundedUp, IsTheNextOfOneTwoAndFive) {
 TEST_F(FilmSceneTest, PointsAreProjectedAsAPinholeCameraSeesThem) {
   Recording recording = ReadRecording(folder_.path());
   const CameraSubject subject(recording);
-  for (const char* camera : {"chase", "side", "top"}) {
+  for (const char* camera : {"chase", "side", "orbit", "top"}) {
     const CameraPose pose = FindCamera(camera).pose(subject, 1.0, 16.0 / 9.0);
     const Projection projection(pose, kWidth, kHeight);
     for (const Eigen::Vector3d& point :
@@ -228,37 +234,52 @@ world: {friction_patches: [{x: 3, y: 1, length: 20, width: 2, friction: 0.5}]}
   }
 }
 
-TEST_F(TyreForcesTest, AreDrawnAlongTheirDirectionInTheColorOfTheirUse) {
-  // A wheel at the origin, seen from straight above, 1 m being 20 px, x up.
-  CameraPose above;
-  above.azimuth = 0.0;
-  above.elevation = -0.5 * kPi;
-  above.distance = 100.0;
-  above.view_angle = 2.0 * std::atan(0.5 * 120.0 / 20.0 / 100.0);
-  const auto picture = [&](const Vec2& force) {
+class GripDialTest : public FilmSceneTest {
+ protected:
+  /// A dial of 40 px in the middle of 120 x 120 px, of a tyre that may take 1000 N along and 2000 N
+  /// across.
+  Image Dial(const std::optional<Vec2>& force) {
     Image image;
     image.Resize(120, 120);
     std::fill(image.rgb.begin(), image.rgb.end(), std::uint8_t{120});
     Canvas canvas(image, font_);
-    const WheelForce wheel{Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(),
-                           Eigen::Vector3d::UnitY(), force, Vec2(1000.0, 2000.0)};
-    DrawTyreForces(canvas, Projection(above, 120, 120), {wheel}, 0.001, 2.0);
+    WheelForce wheel{};
+    wheel.most = {1000.0, 2000.0};
+    wheel.force = force.value_or(Vec2(0.0, 0.0));
+    DrawGripDial(canvas, {60.0, 60.0}, 40.0, force ? &wheel : nullptr, 2.0);
     return image;
-  };
-  // Half axes of 1 m along, up, and of 2 m across: 20 and 40 px.
-  const Image little = picture({300.0, 0.0});
-  EXPECT_GT(little.Pixel(60, 40)[0], 200);  // on the ellipse
-  EXPECT_GT(little.Pixel(20, 60)[0], 200);
-  EXPECT_EQ(little.Pixel(60, 30)[0], 120);                           // outside
-  EXPECT_LT(little.Pixel(60, 70)[0], 120);                           // inside: darker
-  EXPECT_GT(little.Pixel(60, 56)[1], little.Pixel(60, 56)[0] + 60);  // green, up
-  EXPECT_LT(little.Pixel(60, 64)[1], 120);                           // and nothing down
-  // To the left, on the ellipse: red, up to 40 px.
-  const Image all = picture({0.0, 2000.0});
-  for (const int x : {25, 40, 55}) {
+  }
+};
+
+TEST_F(GripDialTest, PointsWhereTheForceGoesAndEndsAtTheShareOfGripThatIsUsed) {
+  // 0.3 of what friction gives along: 12 px up, whatever that is in newtons.
+  const Image little = Dial(Vec2(300.0, 0.0));
+  EXPECT_GT(little.Pixel(60, 50)[0], 200);
+  EXPECT_GT(little.Pixel(60, 50)[1], 200);  // white: less than 0.9
+  EXPECT_LT(little.Pixel(60, 35)[0], 120);  // beyond its end: the dial's dark
+  EXPECT_LT(little.Pixel(60, 70)[0], 120);
+  EXPECT_GT(little.Pixel(60, 20)[0], 180);  // the rim
+  EXPECT_GT(little.Pixel(20, 60)[0], 180);
+  EXPECT_EQ(little.Pixel(60, 15)[0], 120);
+  // Half of 2000 N to the left: 20 px, as far as half of 1000 N would be up.
+  const Image half = Dial(Vec2(0.0, 1000.0));
+  EXPECT_GT(half.Pixel(45, 60)[0], 200);
+  EXPECT_LT(half.Pixel(32, 60)[0], 120);
+  // All of it: red, up to the rim; with ten times less grip and load the same dial.
+  const Image all = Dial(Vec2(0.0, 2000.0));
+  for (const int x : {25, 40, 52}) {
     EXPECT_GT(all.Pixel(x, 60)[0], all.Pixel(x, 60)[1] + 120) << x;
   }
   EXPECT_LT(all.Pixel(70, 60)[0], 120);
+}
+
+TEST_F(GripDialTest, StaysNextToTheRimHoweverLargeTheForceAndIsEmptyWithoutLoad) {
+  const Image beyond = Dial(Vec2(5000.0, 0.0));
+  EXPECT_GT(beyond.Pixel(60, 16)[0], beyond.Pixel(60, 16)[1] + 120);
+  EXPECT_EQ(beyond.Pixel(60, 5)[0], 120);
+  const Image empty = Dial(std::nullopt);
+  EXPECT_LT(empty.Pixel(60, 60)[0], 120);
+  EXPECT_GT(empty.Pixel(60, 20)[0], 120);
 }
 
 TEST_F(FilmSceneTest, TheErrorRibbonHasTheColorOfTheDistanceFromThePath) {

@@ -140,10 +140,10 @@ world:
   const Image without = Painted(options_);
   options_.inset = "top";
   const Image with = Painted(options_);
-  // Nine lines of 16 px and 9.6 px around them make the legend, from 10 px: the car and its scale,
-  // the path, the ghost, wind, gust and three factors. The readings are one line of 16 px and 6.4
+  // Ten lines of 16 px and 9.6 px around them make the legend, from 10 px: the car, the path, the
+  // scale of errors, the ghost with a note, wind, gust and three factors. The readings are one line of 16 px and 6.4
   // px around it.
-  const int legend_end = 10 + 9 * 16 + 9;
+  const int legend_end = 10 + 10 * 16 + 9;
   const int readings_begin = 350 - 16 - 7;
   EXPECT_EQ(Different(with, without, 0, 640, 0, legend_end), 0);
   EXPECT_EQ(Different(with, without, 0, 640, readings_begin, 360), 0);
@@ -153,7 +153,7 @@ world:
 TEST_F(PainterTest, NamesWhatThereIsNot) {
   options_.inset = "tip";
   EXPECT_EQ(InputMessage([this] { Painted(options_); }),
-            "inset: unknown camera 'tip'; did you mean 'top'?");
+            "inset: unknown inset 'tip'; did you mean 'top'?");
   EXPECT_EQ(InputMessage([this] { ReadRecording(folder_.path(), {"mojoco"}); }),
             folder_.path().string() + ": plants: unknown plant 'mojoco'; did you mean 'mujoco'?");
 }

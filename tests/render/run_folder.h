@@ -92,6 +92,14 @@ inline void CopyPrius(const std::filesystem::path& folder) {
       folder / "model.xml");
 }
 
+/// Adds elements to the world of the run's model.
+inline void InsertIntoModel(const std::filesystem::path& folder, const std::string& elements) {
+  const std::filesystem::path model = folder / "model.xml";
+  std::string xml = ReadFile(model);
+  xml.insert(xml.rfind("</worldbody>"), elements);
+  WriteFileAtomically(model, xml);
+}
+
 /// A straight plan along the x axis from 0 to `length` [m].
 inline void WriteStraightPlan(const std::filesystem::path& folder, double length) {
   Table plan({"s_m", "x_m", "y_m", "yaw_rad", "curvature_radpm", "speed_mps", "direction"});

@@ -28,12 +28,12 @@ TEST(WheelPair, IsSeenWhereItWasDriven) {
   FilmScene scene(recording, none, false);
   Image image;
   offscreen.Render(scene.At(time, pose), image);
-  // The green hood, in the middle of its right flank, 0.21 m out and 0.27 m high.
+  // The hood, in its plant's orange, in the middle of its right flank, 0.21 m out and 0.27 m high.
   const Pose2 car = run.logs.back().rows[25].state.pose;
   const Vec2 flank = ToWorld(car, {0.25, -0.21});
   const Pixel pixel = Project(pose, flank.x(), flank.y(), 0.27);
   const std::uint8_t* rgb = image.Pixel(pixel.x, pixel.y);
-  EXPECT_GT(rgb[1], rgb[0] + 20);
+  EXPECT_GT(rgb[0], rgb[1] + 20);
   EXPECT_GT(rgb[1], rgb[2] + 10);
 }
 
