@@ -112,7 +112,7 @@ void DraftOverlays(benchmark::State& state) {
 }
 
 bool RegisterFilm() {
-  for (const auto& [quality, limit] : {std::pair("film", 1.10), std::pair("draft", 1.25)}) {
+  for (const auto& [quality, limit] : {std::pair("film", 1.15), std::pair("draft", 1.5)}) {
     RegisterGuarded(std::string("Film/") + quality, Film, quality, limit)
         ->Iterations(3)
         ->UseManualTime()

@@ -102,8 +102,9 @@ void DrawSymbol(Canvas& canvas, const LegendEntry& entry, double left, double to
   if (!entry.ramp.empty()) {
     const double part = width / static_cast<double>(entry.ramp.size());
     for (std::size_t i = 0; i < entry.ramp.size(); ++i) {
-      canvas.Fill({left + part * static_cast<double>(i), middle_y - 0.75 * thick, part, 1.5 * thick},
-                  0.0, entry.ramp[i], 1.0);
+      canvas.Fill(
+          {left + part * static_cast<double>(i), middle_y - 0.75 * thick, part, 1.5 * thick}, 0.0,
+          entry.ramp[i], 1.0);
     }
     return;
   }
@@ -129,9 +130,9 @@ void DrawSymbol(Canvas& canvas, const LegendEntry& entry, double left, double to
       break;
     case LegendSymbol::kCross:
       for (const double side : {-1.0, 1.0}) {
-        canvas.Stroke({{middle_x - half, middle_y - side * half},
-                       {middle_x + half, middle_y + side * half}},
-                      0.22 * height, entry.color, 1.0);
+        canvas.Stroke(
+            {{middle_x - half, middle_y - side * half}, {middle_x + half, middle_y + side * half}},
+            0.22 * height, entry.color, 1.0);
       }
       break;
     case LegendSymbol::kDial: {

@@ -19,8 +19,8 @@ mjvGeom* AddDecor(mjvScene& scene, mjtGeom type, const std::array<mjtNum, 3>& si
 /// Takes the geoms out of the scene for which `leave_out` is true; the others keep their order.
 template <typename Predicate>
 void RemoveGeoms(mjvScene& scene, Predicate leave_out) {
-  scene.ngeom = static_cast<int>(
-      std::remove_if(scene.geoms, scene.geoms + scene.ngeom, leave_out) - scene.geoms);
+  scene.ngeom = static_cast<int>(std::remove_if(scene.geoms, scene.geoms + scene.ngeom, leave_out) -
+                                 scene.geoms);
 }
 
 }  // namespace trackbed::render

@@ -15,10 +15,10 @@ namespace {
 
 using Kind = RunEvent::Kind;
 
-constexpr double kShown = 1.5;  // a line of text, at least [s]
-constexpr double kFlash = 0.6;  // [s]
-constexpr double kSide = 0.4;   // of a mark [m]
-constexpr double kRim = 0.07;   // dark, around it [m]
+constexpr double kShown = 1.5;     // a line of text, at least [s]
+constexpr double kFlash = 0.6;     // [s]
+constexpr double kSide = 0.4;      // of a mark [m]
+constexpr double kRim = 0.07;      // dark, around it [m]
 constexpr double kHeight = 0.030;  // above all trails [m]
 constexpr Color kDetected{0.98F, 0.98F, 0.98F};
 constexpr Color kUnder{0.05F, 0.06F, 0.08F};
@@ -110,10 +110,10 @@ class EventMarks : public Overlay {
     std::set<Kind> kinds;
     for (const RunEvent& event : events_) {
       if (kinds.insert(event.kind).second) {
-        legend.push_back({.color = ColorOf(event.kind),
-                          .text = LegendText(event.kind),
-                          .symbol = EndsTheRun(event.kind) ? LegendSymbol::kCross
-                                                           : LegendSymbol::kDiamond});
+        legend.push_back(
+            {.color = ColorOf(event.kind),
+             .text = LegendText(event.kind),
+             .symbol = EndsTheRun(event.kind) ? LegendSymbol::kCross : LegendSymbol::kDiamond});
       }
     }
   }
@@ -157,8 +157,7 @@ class EventMarks : public Overlay {
     const double top = bottom - tall;
     const double mark = 0.5 * layout.label;
     const double left = first + layout.pad;
-    canvas.Fill({first, top,
-                 font.Width(event.text, layout.label) + mark + 2.5 * layout.pad, tall},
+    canvas.Fill({first, top, font.Width(event.text, layout.label) + mark + 2.5 * layout.pad, tall},
                 layout.round(), EndsTheRun(event.kind) ? kLimitColor : kPanel,
                 EndsTheRun(event.kind) ? 0.9 : kPanelAlpha);
     const double x = left + 0.5 * mark;

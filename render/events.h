@@ -18,11 +18,11 @@ struct RunEvent {
     kRollOver,       ///< the car tips over
   };
   Kind kind = Kind::kNewPlan;
-  double from = 0;      ///< [s]
-  double to = 0;        ///< when it is over; an event without a duration: `from` [s]
-  Point place;          ///< of the car's rear axle when it begins, on the ground
-  std::string text;     ///< for people
-  int obstacle = -1;    ///< which one, of kObstacleKnown
+  double from = 0;    ///< [s]
+  double to = 0;      ///< when it is over; an event without a duration: `from` [s]
+  Point place;        ///< of the car's rear axle when it begins, on the ground
+  std::string text;   ///< for people
+  int obstacle = -1;  ///< which one, of kObstacleKnown
 };
 
 /// The events of the recorded car, `recording.plants.front()`, in the order of time.

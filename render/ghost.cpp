@@ -61,7 +61,8 @@ class Ghosts : public Overlay {
   void AddLegend(std::vector<LegendEntry>& legend) const override {
     for (std::size_t car = 1; car < recording_.plants.size(); ++car) {
       const PlantRecording& plant = recording_.plants[car];
-      legend.push_back({plant.color(), plant.plant() + " (ghost)", "at equal time, with footprint"});
+      legend.push_back(
+          {plant.color(), plant.plant() + " (ghost)", "at equal time, with footprint"});
     }
   }
 

@@ -64,16 +64,15 @@ void MakeGroundPlain(mjModel& model, bool lines) {
     for (int column = 0; column < width; ++column) {
       const double u = (column + 0.5) / width;
       const double v = (row + 0.5) / height;
-      double light = 1.0 + 0.03 * Noise(u, v, 7, 0) + 0.025 * Noise(u, v, 29, 1) +
-                     0.02 * Noise(u, v, 113, 2) +
-                     0.025 * Scattered(static_cast<std::uint32_t>(column),
-                                      static_cast<std::uint32_t>(row), 3);
+      double light =
+          1.0 + 0.03 * Noise(u, v, 7, 0) + 0.025 * Noise(u, v, 29, 1) + 0.02 * Noise(u, v, 113, 2) +
+          0.025 * Scattered(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), 3);
       if (lines && (OnLine(u) || OnLine(v))) {
         light = kLineLight;
       }
       for (std::size_t channel = 0; channel < 3; ++channel) {
-        pixels[3 * (row * width + column) + static_cast<int>(channel)] = static_cast<mjtByte>(
-            std::clamp(light * mean[channel] / (width * height), 0.0, 255.0));
+        pixels[3 * (row * width + column) + static_cast<int>(channel)] =
+            static_cast<mjtByte>(std::clamp(light * mean[channel] / (width * height), 0.0, 255.0));
       }
     }
   }

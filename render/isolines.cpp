@@ -71,9 +71,9 @@ std::vector<std::vector<Vec2>> IsolineGrid::At(double level) const {
   for (int row = 0; row + 1 < rows_; ++row) {
     for (int column = 0; column + 1 < columns_; ++column) {
       // Counterclockwise from the lower left corner; each side between a corner and the next.
-      const std::array<bool, 4> above{
-          Value(column, row) >= level, Value(column + 1, row) >= level,
-          Value(column + 1, row + 1) >= level, Value(column, row + 1) >= level};
+      const std::array<bool, 4> above{Value(column, row) >= level, Value(column + 1, row) >= level,
+                                      Value(column + 1, row + 1) >= level,
+                                      Value(column, row + 1) >= level};
       const std::array<int, 4> sides{Side(column, row, 0), Side(column + 1, row, 1),
                                      Side(column, row + 1, 0), Side(column, row, 1)};
       std::vector<std::size_t> cut;

@@ -13,9 +13,9 @@
 namespace trackbed::render {
 namespace {
 
-constexpr double kLength = 40.0;   // [m] of path
-constexpr double kBehind = 0.75;   // of it
-constexpr double kFill = 0.85;     // of the half height that the largest distance takes
+constexpr double kLength = 40.0;  // [m] of path
+constexpr double kBehind = 0.75;  // of it
+constexpr double kFill = 0.85;    // of the half height that the largest distance takes
 constexpr double kGridAlpha = 0.35;
 
 /// The columns of a log that say where a car is along a path and beside it.
@@ -84,7 +84,8 @@ void LateralView::Draw(Image& image, Font& font, double time) const {
   const int width = image.width;
   const int height = image.height;
   Canvas canvas(image, font);
-  canvas.Fill({0.0, 0.0, static_cast<double>(width), static_cast<double>(height)}, 0.0, kPanel, 1.0);
+  canvas.Fill({0.0, 0.0, static_cast<double>(width), static_cast<double>(height)}, 0.0, kPanel,
+              1.0);
   const double letters = LetterSize(height);
   const TimedTable& own = recording_.plants.front().log();
   const std::optional<AlongPath> path = FindAlongPath(own);
@@ -106,14 +107,14 @@ void LateralView::Draw(Image& image, Font& font, double time) const {
       const CanvasPoint point = Place(width, height, car, log.table().at(row, along->station),
                                       log.table().at(row, along->left));
       // Half a pixel apart, and none long out of the picture.
-      if (point.x > -2.0 && (line.empty() || std::hypot(point.x - line.back().x,
-                                                        point.y - line.back().y) > 0.5)) {
+      if (point.x > -2.0 &&
+          (line.empty() || std::hypot(point.x - line.back().x, point.y - line.back().y) > 0.5)) {
         line.push_back(point);
       }
     }
     const TimedTable::Place place = log.At(time);
-    const CanvasPoint now = Place(width, height, car, log.Value(place, along->station),
-                                  log.Value(place, along->left));
+    const CanvasPoint now =
+        Place(width, height, car, log.Value(place, along->station), log.Value(place, along->left));
     line.push_back(now);
     canvas.Stroke(line, thick, recording_.plants[i].color(), 0.95);
     const double size = 4.0 * thick;

@@ -5,8 +5,8 @@
 
 namespace trackbed::render {
 
-/// The path drawn as a straight line, from left to right, and each plant's car where its log has it:
-/// at its own station, with its distance from the path ten times as large as along it.
+/// The path drawn as a straight line, from left to right, and each plant's car where its log has
+/// it: at its own station, with its distance from the path ten times as large as along it.
 ///
 /// It shows 40 m of the path, three quarters of them behind the car, or so much more that the
 /// largest distance of the run has room. Plants whose logs lack s_m or cross_track_m are left out.

@@ -24,10 +24,8 @@ constexpr Color kConcrete{0.66F, 0.65F, 0.62F};
 constexpr Color kDark{0.20F, 0.20F, 0.21F};
 constexpr Color kWhitePaint{0.94F, 0.94F, 0.92F};
 constexpr Color kConeOrange{0.95F, 0.35F, 0.05F};
-constexpr std::array<Color, 4> kCarPaints{{{0.72F, 0.73F, 0.75F},
-                                           {0.28F, 0.29F, 0.31F},
-                                           {0.62F, 0.57F, 0.48F},
-                                           {0.86F, 0.86F, 0.84F}}};
+constexpr std::array<Color, 4> kCarPaints{
+    {{0.72F, 0.73F, 0.75F}, {0.28F, 0.29F, 0.31F}, {0.62F, 0.57F, 0.48F}, {0.86F, 0.86F, 0.84F}}};
 
 /// A box in the world: the geom of an obstacle as the scene has it.
 struct Block {
@@ -126,8 +124,7 @@ class CarParts {
       turn << 0.0, -forward, 0.0, forward, 0.0, 0.0, 0.0, 0.0, 1.0;
     }
     // Not a rotation: MuJoCo draws a geom by its matrix, and normalizes normals.
-    const RowMajorMatrix3 stretched =
-        block.axes * turn * half.cwiseProduct(scale_).asDiagonal();
+    const RowMajorMatrix3 stretched = block.axes * turn * half.cwiseProduct(scale_).asDiagonal();
     for (const Part& part : parts_) {
       if (scene.ngeom >= scene.maxgeom) {
         return;
@@ -210,8 +207,8 @@ class Obstacles : public Overlay {
   }
 
   void AddLegend(std::vector<LegendEntry>& legend) const override {
-    const bool unknown =
-        std::any_of(known_.begin(), known_.end(), [](double from) { return std::isfinite(from) || from > 0.0; });
+    const bool unknown = std::any_of(known_.begin(), known_.end(),
+                                     [](double from) { return std::isfinite(from) || from > 0.0; });
     if (unknown) {
       legend.push_back({.color = kUnknown,
                         .text = "obstacle not detected yet",

@@ -44,8 +44,8 @@ void CheckNames(const std::vector<std::string>& names) {
 /// One line for each overlay. Later ones are drawn over earlier ones.
 const std::vector<OverlayEntry>& OverlayTable() {
   static const std::vector<OverlayEntry> table{
-      RoadOverlay(),  ReliefOverlay(), GateOverlay(),  ObstacleOverlay(), SkidMarkOverlay(),
-      PlanOverlay(),  TrailOverlay(),  ErrorOverlay(), GhostOverlay(),    WindOverlay(),
+      RoadOverlay(),  ReliefOverlay(),  GateOverlay(),  ObstacleOverlay(), SkidMarkOverlay(),
+      PlanOverlay(),  TrailOverlay(),   ErrorOverlay(), GhostOverlay(),    WindOverlay(),
       StripOverlay(), CaptionOverlay(), ForceOverlay(), EventOverlay(),
   };
   return table;

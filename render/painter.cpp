@@ -125,7 +125,8 @@ Painter::Painter(std::span<Recording> recordings, const FilmOptions& options)
         .width = right - left,
         .height = options.height,
         .font = font_};
-    parts_.push_back(std::make_unique<Part>(setup, recording, left, quality_, inset_.camera != nullptr));
+    parts_.push_back(
+        std::make_unique<Part>(setup, recording, left, quality_, inset_.camera != nullptr));
   }
 }
 

@@ -114,7 +114,8 @@ std::vector<std::vector<Point>> ReadGates(const fs::path& file) {
   }
   const auto read = [](const nlohmann::ordered_json& plan) {
     std::vector<std::vector<Point>> gates;
-    for (const nlohmann::ordered_json& gate : plan.value("gates", nlohmann::ordered_json::array())) {
+    for (const nlohmann::ordered_json& gate :
+         plan.value("gates", nlohmann::ordered_json::array())) {
       std::vector<Point>& cones = gates.emplace_back();
       for (const Vec2& cone : GateCones({{"gates", nlohmann::ordered_json::array({gate})}})) {
         cones.push_back({cone.x(), cone.y()});

@@ -13,9 +13,9 @@ namespace trackbed::render {
 namespace {
 
 constexpr Color kContour{0.52F, 0.40F, 0.26F};
-constexpr double kWidth = 0.09;      // [m]
-constexpr double kHeight = 0.0015;   // above the ground, below all other paint [m]
-constexpr double kMargin = 30.0;     // around the plan and all drives [m]
+constexpr double kWidth = 0.09;     // [m]
+constexpr double kHeight = 0.0015;  // above the ground, below all other paint [m]
+constexpr double kMargin = 30.0;    // around the plan and all drives [m]
 constexpr double kMostCells = 4e4;
 constexpr double kLeastSpan = 0.02;  // less is level ground [m]
 

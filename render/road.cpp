@@ -20,9 +20,9 @@ constexpr double kLineWidth = 0.14;         // [m]
 constexpr double kVergeWidth = 1.05;        // of gravel, over the rough edge of the asphalt [m]
 constexpr double kVergeBegin = 0.22;        // from the edge line's middle [m]
 constexpr Color kGravel{0.58F, 0.54F, 0.45F};
-constexpr double kVergeHeight = -0.0015;    // above the asphalt, whose corners it covers
-constexpr double kAsphaltHeight = -0.003;   // below all other paint [m]
-constexpr double kAsphaltRange = 250.0;     // [m]; farther it is thinner than a pixel
+constexpr double kVergeHeight = -0.0015;   // above the asphalt, whose corners it covers
+constexpr double kAsphaltHeight = -0.003;  // below all other paint [m]
+constexpr double kAsphaltRange = 250.0;    // [m]; farther it is thinner than a pixel
 constexpr double kPaintHeight = -0.001;
 constexpr double kDash = 3.0;         // [m]
 constexpr double kDashPeriod = 9.0;   // [m]

@@ -75,11 +75,10 @@ std::vector<CarPart> FindCarParts(const mjModel& model) {
       part.painted = name != nullptr && std::string_view(name) == "paint";
       const mjtNum* half = model.geom_size + 3 * i;
       const int type = model.geom_type[i];
-      const double volume =
-          type == mjGEOM_CAPSULE ? 8.0 * half[0] * half[0] * (half[0] + half[1])
-          : type == mjGEOM_BOX || type == mjGEOM_MESH || type == mjGEOM_ELLIPSOID
-              ? 8.0 * half[0] * half[1] * half[2]
-              : kSmall;
+      const double volume = type == mjGEOM_CAPSULE ? 8.0 * half[0] * half[0] * (half[0] + half[1])
+                            : type == mjGEOM_BOX || type == mjGEOM_MESH || type == mjGEOM_ELLIPSOID
+                                ? 8.0 * half[0] * half[1] * half[2]
+                                : kSmall;
       part.casts_shadow = volume >= kSmall;
     }
   }
@@ -161,13 +160,11 @@ void FilmScene::FadeWhatHidesTheCar(double time, const CameraPose& camera) {
     const mjtNum* center = car_data_->geom_xpos + 3 * geom.objid;
     const mjtNum* axes = car_data_->geom_xmat + 9 * geom.objid;
     const mjtNum* half = model.geom_size + 3 * geom.objid;
-    const UprightBox box{{{center[0], center[1], std::atan2(axes[3], axes[0])},
-                          2.0 * half[0],
-                          2.0 * half[1]},
-                         center[2] - half[2],
-                         center[2] + half[2]};
-    geom.rgba[3] *=
-        static_cast<float>(FadedAlpha(HiddenShare(box, camera, box_, pose, place.z)));
+    const UprightBox box{
+        {{center[0], center[1], std::atan2(axes[3], axes[0])}, 2.0 * half[0], 2.0 * half[1]},
+        center[2] - half[2],
+        center[2] + half[2]};
+    geom.rgba[3] *= static_cast<float>(FadedAlpha(HiddenShare(box, camera, box_, pose, place.z)));
   }
 }
 

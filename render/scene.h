@@ -48,7 +48,7 @@ class FilmScene {
   const OverlayList& overlays_;
   std::vector<Tile> patches_;
   CarBox box_;
-  std::vector<CarPart> car_parts_;    // for each geom of the model
+  std::vector<CarPart> car_parts_;   // for each geom of the model
   std::vector<int> obstacle_geoms_;  // of the world's obstacles; -1: not in the model
   MujocoData car_data_;
   SceneHandle scene_;

@@ -16,8 +16,8 @@ namespace trackbed::render {
 namespace {
 
 // Of the picture's sizes: in units of the height of letters.
-constexpr double kRadius = 1.15;   // of a dial
-constexpr double kBetween = 0.35;  // two dials
+constexpr double kRadius = 1.15;    // of a dial
+constexpr double kBetween = 0.35;   // two dials
 constexpr double kOverflow = 1.12;  // a tyre law may give a little more than friction times load
 
 /// A tyre coefficient of the model, of an axle or of both; 0 where it has none.
@@ -70,9 +70,8 @@ class Forces : public Overlay {
     const CanvasPoint first{left + 0.6 * layout.pad + radius, top + 0.6 * layout.pad + radius};
     const std::vector<WheelForce> forces = forces_.At(context.time, context.car);
     for (std::size_t wheel = 0; wheel < kWheels.size(); ++wheel) {
-      const auto own = std::find_if(forces.begin(), forces.end(), [&](const WheelForce& force) {
-        return force.wheel == wheel;
-      });
+      const auto own = std::find_if(forces.begin(), forces.end(),
+                                    [&](const WheelForce& force) { return force.wheel == wheel; });
       DrawGripDial(canvas,
                    {first.x + (wheel % 2 == 0 ? 0.0 : step), first.y + (wheel < 2 ? 0.0 : step)},
                    radius, own == forces.end() ? nullptr : &*own, layout.hairline);
@@ -157,8 +156,8 @@ std::vector<WheelForce> TyreForces::At(double time, const mjData& data) const {
   return forces;
 }
 
-void DrawGripDial(Canvas& canvas, const CanvasPoint& center, double radius,
-                  const WheelForce* tyre, double hairline) {
+void DrawGripDial(Canvas& canvas, const CanvasPoint& center, double radius, const WheelForce* tyre,
+                  double hairline) {
   const auto ring = [&](double share) {
     constexpr int kCorners = 48;
     std::vector<CanvasPoint> points;
@@ -189,7 +188,8 @@ void DrawGripDial(Canvas& canvas, const CanvasPoint& center, double radius,
 }
 
 OverlayEntry ForceOverlay() {
-  return EntryOf<Forces>("forces", "dials: how much of its grip each tyre uses, and in which direction");
+  return EntryOf<Forces>("forces",
+                         "dials: how much of its grip each tyre uses, and in which direction");
 }
 
 }  // namespace trackbed::render

@@ -20,8 +20,8 @@ struct WheelForce {
   Eigen::Vector3d left;     ///< and across
   Vec2 force;               ///< along them [N]
   Vec2 most;                ///< half axes of the ellipse that friction times load is [N]
-  int body = -1;          ///< of the wheel, in the model
-  std::size_t wheel = 0;  ///< its index in kWheels of car_model.h
+  int body = -1;            ///< of the wheel, in the model
+  std::size_t wheel = 0;    ///< its index in kWheels of car_model.h
 
   /// How much of the friction is used: 1 on the ellipse. Tyre laws may give a little more.
   [[nodiscard]] double Use() const;

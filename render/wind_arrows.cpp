@@ -96,8 +96,7 @@ class WindArrows : public Overlay {
       legend.push_back({kWindColor, "wind"});
     }
     if (!gusts_.empty()) {
-      legend.push_back(
-          {.color = kGustColor, .text = "gust", .symbol = LegendSymbol::kOutline});
+      legend.push_back({.color = kGustColor, .text = "gust", .symbol = LegendSymbol::kOutline});
     }
   }
 

@@ -1,11 +1,10 @@
-#include "render/events.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "render/events.h"
 #include "render/painter.h"
 #include "tests/render/pictures.h"
 #include "tests/tolerance.h"
@@ -162,8 +161,8 @@ TEST_F(EventTest, MarksLieWhereTheCarWasFromThenOn) {
   WriteStraightPlan(folder_.path(), 16.0);
   WriteNewPlans(folder_.path(), "mujoco", {{0.2, 2.0, 16.0}});
   Recording recording = ReadRecording(folder_.path());
-  pose_ = FindCamera("top").pose(CameraSubject(recording), 2.0,
-                                 static_cast<double>(kWidth) / kHeight);
+  pose_ =
+      FindCamera("top").pose(CameraSubject(recording), 2.0, static_cast<double>(kWidth) / kHeight);
   // The car was at x = 0.6 and, from 2.2 on at 1 s, is not over it: pink, more red than green.
   EXPECT_GT(At(Painted(1.0), 0.6, 0.0)[0], At(Painted(1.0), 0.6, 0.0)[1] + 60);
   const std::array<int, 3> before = At(Painted(0.19), -0.9, 0.0);

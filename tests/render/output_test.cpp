@@ -1,5 +1,4 @@
 #include "render/output.h"
-#include "render/ground_texture.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,6 +11,7 @@
 #include <thread>
 
 #include "render/caption.h"
+#include "render/ground_texture.h"
 #include "render/layout.h"
 #include "render/offscreen.h"
 #include "render/overlays.h"

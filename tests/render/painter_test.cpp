@@ -141,8 +141,8 @@ world:
   options_.inset = "top";
   const Image with = Painted(options_);
   // Ten lines of 16 px and 9.6 px around them make the legend, from 10 px: the car, the path, the
-  // scale of errors, the ghost with a note, wind, gust and three factors. The readings are one line of 16 px and 6.4
-  // px around it.
+  // scale of errors, the ghost with a note, wind, gust and three factors. The readings are one line
+  // of 16 px and 6.4 px around it.
   const int legend_end = 10 + 10 * 16 + 9;
   const int readings_begin = 350 - 16 - 7;
   EXPECT_EQ(Different(with, without, 0, 640, 0, legend_end), 0);

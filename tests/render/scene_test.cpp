@@ -134,8 +134,8 @@ TEST_F(FilmSceneTest, TheSideCameraHasTheCarInTheMiddle) {
   EXPECT_NEAR(0.5 * (tail.x + nose.x), 0.5 * kWidth, 0.05 * kWidth);
   EXPECT_GT(Project(*pose_, 4.4, 0.0, 1.49).y, kHeight / 10);
   EXPECT_LT(Project(*pose_, 4.4, -0.86, 0.0).y, kHeight - kHeight / 10);
-  // The plant's orange on the doors, 0.86 of (1.00, 0.55, 0.05), where the ground has as much red as
-  // blue; in the shade, by 0.36 of ambient light, it is still 0.36 * 0.82 * 255 = 75 more red.
+  // The plant's orange on the doors, 0.86 of (1.00, 0.55, 0.05), where the ground has as much red
+  // as blue; in the shade, by 0.36 of ambient light, it is still 0.36 * 0.82 * 255 = 75 more red.
   const std::array<int, 3> door = At(image, 4.6, -0.8625, 0.6);
   EXPECT_GT(door[0], door[2] + 60);
 }

@@ -97,8 +97,14 @@ TEST_F(FilmSceneTest, GatesAreOutlinedBetweenTheirCones) {
     EXPECT_GT(At(image, x, -1.5)[0], 200) << x;
     EXPECT_LT(At(image, x, 0.7)[0], 200) << x;
   }
-  EXPECT_GT(At(image, 10.0, 0.5)[0], 200);
-  EXPECT_GT(At(image, 6.0, 0.5)[0], 200);
+  // Its exit and its entry: with the camera's 20 m in 180 rows a pixel is 0.11 m, the line 0.09.
+  for (const double x : {6.0, 10.0}) {
+    int most = 0;
+    for (int i = -5; i <= 5; ++i) {
+      most = std::max(most, At(image, x + 0.02 * i, 0.8)[0]);
+    }
+    EXPECT_GT(most, 200) << x;
+  }
   EXPECT_EQ(ReadRecording(folder_.path()).cones.size(), 6U);
 }
 
@@ -122,7 +128,7 @@ TEST_F(FilmSceneTest, PlainGroundKeepsItsColorAndHasLinesOnRequest) {
   // Noise of mean 0 in at least 7 x 7 cells of amplitude 0.03: 0.03 / sqrt(3) / 7 = 0.25 %.
   EXPECT_NEAR(mean(), before, Tolerance(3.0 * 0.0025 * before + 0.5));
   EXPECT_FLOAT_EQ(model.mat_texrepeat[2 * material], 0.1F);
-  const auto brightest_row = [&](int row) {
+  const auto least_of_row = [&](int row) {
     int least = 255;
     for (int i = 0; i < side; ++i) {
       least = std::min<int>(least, pixels[3 * (row * side + i)]);
@@ -130,10 +136,12 @@ TEST_F(FilmSceneTest, PlainGroundKeepsItsColorAndHasLinesOnRequest) {
     return least;
   };
   // In the middle of 10 m, along all of it.
-  EXPECT_LT(brightest_row(side / 2), 1.1 * before);
+  // A line is 1.12 of the mean, red a little less than the mean of all channels; grain at
+  // most 1.10.
+  EXPECT_LT(least_of_row(side / 2), before);
   MakeGroundPlain(model, true);
-  EXPECT_GT(brightest_row(side / 2), 1.1 * before);
-  EXPECT_LT(brightest_row(side / 4), 1.1 * before);
+  EXPECT_GT(least_of_row(side / 2), 1.05 * before);
+  EXPECT_LT(least_of_row(side / 4), before);
 }
 
 TEST_F(FilmSceneTest, SmallPartsOfTheCarCastNoShadowOnIt) {
@@ -221,10 +229,14 @@ class CameraTest : public FilmSceneTest {
 TEST_F(CameraTest, ChaseSwingsRoundInReverse) {
   // Forward for 3 s, standing until 4 s, then back.
   WritePlant(folder_.path(), "mujoco", 8.0, [](double time) {
-    return CarPlace{time < 3.0 ? 3.0 * time : time < 4.0 ? 9.0 : 9.0 - 3.0 * (time - 4.0), 0.0, 0.0};
+    return CarPlace{time < 3.0   ? 3.0 * time
+                    : time < 4.0 ? 9.0
+                                 : 9.0 - 3.0 * (time - 4.0),
+                    0.0, 0.0};
   });
-  SetLogColumn(folder_.path(), "mujoco", "speed_mps",
-               [](double time) { return time < 3.0 ? 3.0 : time < 4.0 ? 0.0 : -3.0; });
+  SetLogColumn(folder_.path(), "mujoco", "speed_mps", [](double time) {
+    return time < 3.0 ? 3.0 : time < 4.0 ? 0.0 : -3.0;
+  });
   const double aside = 14.0 * kPi / 180.0;
   EXPECT_NEAR(Pose("chase", 1.5).azimuth, aside, Tolerance(1e-9));
   // Standing it is in the gear of before, up to 0.8 s before it moves.
@@ -244,8 +256,8 @@ TEST_F(CameraTest, DriverSitsInTheCarAndLooksAhead) {
   EXPECT_TRUE(pose.inside);
   EXPECT_NEAR(pose.azimuth, 1.0, Tolerance(1e-3));
   // In the middle of the Prius, 1.4 m ahead of its rear axle, 0.45 of half its width to the left.
-  const Vec2 seat = ToWorld({5.0 * std::sin(1.0), 5.0 - 5.0 * std::cos(1.0), 1.0},
-                            {1.4, 0.45 * 0.8625});
+  const Vec2 seat =
+      ToWorld({5.0 * std::sin(1.0), 5.0 - 5.0 * std::cos(1.0), 1.0}, {1.4, 0.45 * 0.8625});
   const Eigen::Vector3d eye = Eye(pose);
   EXPECT_NEAR(eye.x(), seat.x(), Tolerance(2e-3));  // states are 1/60 s apart: 5 / 8 / 60^2
   EXPECT_NEAR(eye.y(), seat.y(), Tolerance(2e-3));
