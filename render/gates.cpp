@@ -6,7 +6,7 @@ namespace trackbed::render {
 namespace {
 
 constexpr Color kGate{0.98F, 0.98F, 0.98F};
-constexpr double kWidth = 0.10;    // [m]
+constexpr double kWidth = 0.14;    // [m]
 constexpr double kHeight = 0.005;  // below plans and trails [m]
 
 class GateLines : public Overlay {

@@ -11,9 +11,9 @@
 namespace trackbed::render {
 namespace {
 
-constexpr Color kCurvature{0.62F, 0.66F, 0.70F};
+constexpr Color kCurvature{0.86F, 0.88F, 0.84F};
 constexpr Color kCommand{1.00F, 1.00F, 1.00F};
-constexpr Color kActual = CarColor(0);  // it is the car's
+constexpr Color kActual = CarColor(0);   // it is the car's
 constexpr double kLettersToCell = 0.86;  // the labels are a little smaller than the legend's
 
 class StripPanel : public Overlay {

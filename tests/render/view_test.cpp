@@ -97,7 +97,7 @@ TEST_F(FilmSceneTest, GatesAreOutlinedBetweenTheirCones) {
     EXPECT_GT(At(image, x, -1.5)[0], 200) << x;
     EXPECT_LT(At(image, x, 0.7)[0], 200) << x;
   }
-  // Its exit and its entry: with the camera's 20 m in 180 rows a pixel is 0.11 m, the line 0.09.
+  // Its exit and its entry: with the camera's 20 m in 180 rows a pixel is 0.11 m, the line 0.13.
   for (const double x : {6.0, 10.0}) {
     int most = 0;
     for (int i = -5; i <= 5; ++i) {
