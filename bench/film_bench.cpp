@@ -91,7 +91,7 @@ void DraftOverlays(benchmark::State& state) {
   render::Image image;
   int frame = 0;
   CompareInTurn(
-      state, 1.2,
+      state, 1.5,
       [&] {
         frame = frame % kFrames + 1;
         const Stopwatch stopwatch;

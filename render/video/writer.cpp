@@ -55,7 +55,7 @@ const Recipe& EncoderRecipe(FilmCodec codec) {
                            "mp4",
                            AV_PIX_FMT_YUV420P,
                            true,
-                           {{"preset", "veryfast"}, {"crf", "23"}, {"mbtree", "0"}},
+                           {{"preset", "superfast"}, {"crf", "23"}, {"mbtree", "0"}},
                            {{"preset", "ultrafast"}},
                            {{"movflags", "+faststart"}}};
   static const Recipe webp{"libwebp_anim",
