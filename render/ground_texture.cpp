@@ -65,7 +65,8 @@ void MakeGroundPlain(mjModel& model, bool lines) {
       const double u = (column + 0.5) / width;
       const double v = (row + 0.5) / height;
       double light =
-          1.0 + 0.03 * Noise(u, v, 7, 0) + 0.025 * Noise(u, v, 29, 1) + 0.025 * Noise(u, v, 113, 2) +
+          1.0 + 0.03 * Noise(u, v, 7, 0) + 0.025 * Noise(u, v, 29, 1) +
+          0.025 * Noise(u, v, 113, 2) +
           0.012 * Scattered(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), 3);
       if (lines && (OnLine(u) || OnLine(v))) {
         light = kLineLight;

@@ -225,7 +225,12 @@ class Obstacles : public Overlay {
     const Block block(*own);
     const double since = context.time - known_[i];
     if (since < kStillOutlined) {
-      AddEdges(scene, block, kUnknown, 0.5F);
+      // Around what stands there, and not within it.
+      Block outline = block;
+      for (double& half : outline.half) {
+        half += since < 0.0 ? 0.0 : kEdge;
+      }
+      AddEdges(scene, outline, kUnknown, 0.5F);
     }
     if (since < 0.0) {
       own->objtype = kReplaced;
