@@ -116,10 +116,11 @@ std::vector<std::vector<Point>> ReadGates(const fs::path& file) {
     std::vector<std::vector<Point>> gates;
     for (const nlohmann::ordered_json& gate :
          plan.value("gates", nlohmann::ordered_json::array())) {
-      std::vector<Point>& cones = gates.emplace_back();
+      std::vector<Point> cones;
       for (const Vec2& cone : GateCones({{"gates", nlohmann::ordered_json::array({gate})}})) {
         cones.push_back({cone.x(), cone.y()});
       }
+      gates.push_back(std::move(cones));
     }
     return gates;
   };

@@ -88,6 +88,7 @@ world:
   EXPECT_EQ(events[0].kind, Kind::kObstacleKnown);
   EXPECT_EQ(events[0].obstacle, 1);
   EXPECT_EQ(events[1].obstacle, 0);
+  EXPECT_NEAR(events[1].from, 1.14, Tolerance(1e-9));
   EXPECT_NEAR(events[1].place.x, 3.0 * 1.14, Tolerance(1e-9));
 }
 
