@@ -67,18 +67,25 @@ set(scene_libraries "<script>${three}</script>\n<script>${orbit_controls}</scrip
 put("style source" "${style_source}")
 put("script sources" "${d3_source} ${dygraphs_source} ${three_source} ${orbit_controls_source} ${script_source}")
 
+# Only the page of a run that goes on (trackbed watch) has this script, and may connect to its server.
+file(READ ${PAGE}/live.js live)
+set(live "\n\"use strict\";\n${live}")
+allow(live_source "${live}")
+set(live_source " ${live_source}; connect-src 'self'")
+set(live_script "<script>${live}</script>\n")
+
 # What changes from report to report divides the page.
-foreach(cut IN ITEMS title data)
-  string(FIND "${page}" "<!-- ${cut} -->" place_of_${cut})
+foreach(cut IN ITEMS live_source title data live_script)
+  string(REPLACE "_" " " mark ${cut})
+  string(FIND "${page}" "<!-- ${mark} -->" place)
+  if(place EQUAL -1)
+    message(FATAL_ERROR "page.html has no place for ${mark}")
+  endif()
+  string(SUBSTRING "${page}" 0 ${place} before_${cut})
+  string(LENGTH "<!-- ${mark} -->" length)
+  math(EXPR place "${place} + ${length}")
+  string(SUBSTRING "${page}" ${place} -1 page)
 endforeach()
-string(LENGTH "<!-- title -->" after_title)
-math(EXPR after_title "${place_of_title} + ${after_title}")
-math(EXPR between "${place_of_data} - ${after_title}")
-string(LENGTH "<!-- data -->" after_data)
-math(EXPR after_data "${place_of_data} + ${after_data}")
-string(SUBSTRING "${page}" 0 ${place_of_title} before_title)
-string(SUBSTRING "${page}" ${after_title} ${between} before_data)
-string(SUBSTRING "${page}" ${after_data} -1 after_data)
 
 set(delimiter trackbed)
 file(
@@ -87,10 +94,14 @@ file(
 
 namespace trackbed {
 
+const std::string_view kPageBeforeLiveSource = R\"${delimiter}(${before_live_source})${delimiter}\";
+const std::string_view kLiveSource = R\"${delimiter}(${live_source})${delimiter}\";
 const std::string_view kPageBeforeTitle = R\"${delimiter}(${before_title})${delimiter}\";
 const std::string_view kPageBeforeData = R\"${delimiter}(${before_data})${delimiter}\";
 const std::string_view kSceneLibraries = R\"${delimiter}(${scene_libraries})${delimiter}\";
-const std::string_view kPageAfterData = R\"${delimiter}(${after_data})${delimiter}\";
+const std::string_view kPageBeforeLiveScript = R\"${delimiter}(${before_live_script})${delimiter}\";
+const std::string_view kLiveScript = R\"${delimiter}(${live_script})${delimiter}\";
+const std::string_view kPageEnd = R\"${delimiter}(${page})${delimiter}\";
 
 }  // namespace trackbed
 ")

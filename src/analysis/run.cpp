@@ -1,10 +1,12 @@
 #include "trackbed/analysis/run.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "src/analysis/simulate_plants.h"
+#include "src/analysis/stopwatch.h"
 #include "trackbed/analysis/mcap.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/control/controllers.h"
@@ -25,16 +27,6 @@ using nlohmann::ordered_json;
 
 /// Largest distance between the points of plan.csv [m].
 constexpr double kPlanSpacing = 0.1;
-
-class Stopwatch {
- public:
-  [[nodiscard]] double Seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 Table PlanTable(const Reference& reference) {
   Table table({"s_m", "x_m", "y_m", "yaw_rad", "curvature_radpm", "speed_mps", "direction"});
@@ -195,6 +187,10 @@ RunResult RunMission(const Scenario& scenario, CarCache& cars, const RunHooks& h
 }
 
 RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHooks& hooks) {
+  return DriveRun(PlanRun(scenario, car), car, hooks);
+}
+
+RunResult PlanRun(const Scenario& scenario, const CarModel& car) {
   RunResult result;
   result.scenario = scenario;
   result.scene = car.scene();
@@ -206,42 +202,38 @@ RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHoo
     result.verdict = {.passed = false,
                       .failures = {fmt::format("no plan ({}): {}", ToString(result.plan.status),
                                                result.plan.reason)}};
+  }
+  return result;
+}
+
+namespace {
+
+PlantMetrics MeasurePlant(const RunResult& result, const RunLog& log, const CarModel& car) {
+  const Scenario& scenario = result.scenario;
+  PlantMetrics metrics = Measure(log, result.plan, car.params(), scenario.drive.control_period,
+                                 ControllerFor(scenario.control.steering).station);
+  metrics.steering_is_prescribed = scenario.drive.steering == SteeringInput::kPrescribed;
+  if (scenario.maneuver) {
+    metrics.maneuver = EvaluateManeuver(*scenario.maneuver, log, result.plan, car.params());
+  }
+  metrics.recovery = MeasureRecovery(log, scenario.disturb, scenario.world.wind);
+  return metrics;
+}
+
+}  // namespace
+
+RunResult DriveRun(RunResult planned, const CarModel& car, const RunHooks& hooks) {
+  RunResult result = std::move(planned);
+  if (!result.plan.ok()) {
     return result;
   }
-  for (const std::string& plant : scenario.drive.plants) {
-    DriveHooks drive_hooks = hooks.drive ? hooks.drive(plant) : DriveHooks{};
-    DriveTiming timing{.plant = plant};
-    double steering = 0.0;
-    drive_hooks.steered = [&, callers = drive_hooks.steered](double seconds) {
-      ++timing.updates;
-      steering += seconds;
-      timing.update_max = std::max(timing.update_max, seconds);
-      if (callers) {
-        callers(seconds);
-      }
-    };
-    const Stopwatch driving;
-    result.logs.push_back(DrivePlant(scenario, car, result.plan, plant, drive_hooks));
-    const double wall = driving.Seconds();
-    result.metrics.push_back(Measure(result.logs.back(), result.plan, car.params(),
-                                     scenario.drive.control_period,
-                                     ControllerFor(scenario.control.steering).station));
-    result.metrics.back().steering_is_prescribed =
-        scenario.drive.steering == SteeringInput::kPrescribed;
-    if (scenario.maneuver) {
-      result.metrics.back().maneuver =
-          EvaluateManeuver(*scenario.maneuver, result.logs.back(), result.plan, car.params());
-    }
-    result.metrics.back().recovery =
-        MeasureRecovery(result.logs.back(), scenario.disturb, scenario.world.wind);
-    timing.wall_time = wall;
-    timing.real_time_factor = result.metrics.back().time / wall;
-    timing.update_mean = timing.updates > 0 ? steering / timing.updates : 0.0;
-    result.timing.push_back(timing);
-    if (result.logs.back().status == DriveStatus::kInterrupted) {
-      result.interrupted = true;
-      break;
-    }
+  const Scenario& scenario = result.scenario;
+  for (SimulatedPlant& simulated : SimulatePlants(result, car, hooks)) {
+    result.logs.push_back(std::move(simulated.log));
+    result.metrics.push_back(MeasurePlant(result, result.logs.back(), car));
+    result.timing.push_back(simulated.timing);
+    result.interrupted =
+        result.interrupted || result.logs.back().status == DriveStatus::kInterrupted;
   }
   for (std::size_t i = 0; i < result.logs.size(); ++i) {
     for (std::size_t j = i + 1; j < result.logs.size(); ++j) {

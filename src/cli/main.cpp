@@ -41,6 +41,7 @@ const std::vector<Verb> kVerbs{
     {"sweep", "Run a study: one scenario over many parameter values, results in one table",
      AddSweep},
     {"report", "Write one HTML page about finished runs or a study", AddReport},
+    {"watch", "Show a run in a browser while it goes on, or a finished run", AddWatch},
     {"experiment", "Repeat a published experiment and print its table", AddExperiment},
     {"list",
      "List available planners, controllers, maneuvers, plants, optimizers, cameras, overlays, "

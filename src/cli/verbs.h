@@ -29,6 +29,7 @@ void AddCompare(const Command& command);
 void AddTest(const Command& command);
 void AddSweep(const Command& command);
 void AddReport(const Command& command);
+void AddWatch(const Command& command);
 void AddExperiment(const Command& command);
 void AddList(const Command& command);
 void AddModel(const Command& command);

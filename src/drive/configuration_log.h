@@ -19,6 +19,9 @@ class ConfigurationLog {
 
   void Record(const Plant& plant, double time);
 
+  /// What has been logged so far.
+  [[nodiscard]] const Table& table() const { return table_; }
+
   Table Take() { return std::move(table_); }
 
  private:

@@ -12,6 +12,7 @@ Recorder::Recorder(const LoopConfig& config, std::vector<std::string> controller
            .rows = {},
            .changes = {},
            .configurations = Table({"t_s"})},
+      hooks_(config.hooks),
       configurations_(config.configuration_columns, config.world, config.state_period),
       collisions_(config.world, config.vehicle) {}
 
@@ -31,6 +32,13 @@ LogRow Recorder::BeginRow(const VehicleState& state, const Command& command,
              .controller = std::move(controller_values)};
   row.state.obstacle_force = seen.force;
   return row;
+}
+
+void Recorder::AddRow(const LogRow& row) {
+  log_.rows.push_back(row);
+  if (hooks_.logged) {
+    hooks_.logged(log_, configurations_.table());
+  }
 }
 
 RunLog Recorder::Finish(DriveStatus status, std::string cause) {

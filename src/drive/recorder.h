@@ -13,7 +13,7 @@ namespace trackbed {
 /// Makes the log of one run: its rows, plan changes, configurations and first contact.
 class Recorder {
  public:
-  /// Refers to world and vehicle of the configuration, which must outlive it.
+  /// Refers to world, vehicle and hooks of the configuration, which must outlive it.
   Recorder(const LoopConfig& config, std::vector<std::string> controller_columns);
 
   /// Looks at the plant as it is at `time` [s], at the start and after every physics step.
@@ -23,7 +23,8 @@ class Recorder {
   /// what the controller told then.
   LogRow BeginRow(const VehicleState& state, const Command& command,
                   std::vector<double> controller_values);
-  void AddRow(const LogRow& row) { log_.rows.push_back(row); }
+  /// Adds a row, and calls `logged` (DriveHooks) if it is set.
+  void AddRow(const LogRow& row);
   void AddPlanChange(PlanChange change) { log_.changes.push_back(std::move(change)); }
 
   /// When the car first touched an obstacle [s]; none: it has not.
@@ -36,6 +37,7 @@ class Recorder {
 
  private:
   RunLog log_;
+  const DriveHooks& hooks_;
   ConfigurationLog configurations_;
   CollisionWatch collisions_;
 };

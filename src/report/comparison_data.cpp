@@ -212,7 +212,9 @@ ordered_json ComparisonData(const std::vector<fs::path>& runs,
     }
   }
   std::vector<std::vector<FinishedDrive>> drives;
-  const bool of_plants = pairs.empty() && runs.size() == 1 && PlantCount(runs.front()) > 1;
+  // Plants of an interrupted run have not come equally far.
+  const bool of_plants =
+      pairs.empty() && runs.size() == 1 && PlantCount(runs.front()) > 1 && IsComplete(runs.front());
   if (!pairs.empty() || runs.size() > 1 || of_plants) {
     std::transform(runs.begin(), runs.end(), std::back_inserter(drives), ReadRunFolder);
   }

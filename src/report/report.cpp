@@ -15,6 +15,7 @@
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/report/live.h"
 
 namespace trackbed {
 namespace {
@@ -203,18 +204,40 @@ ordered_json ReportData(const std::vector<fs::path>& paths) {
   return MakeReportData(paths, RunsToShow(paths));
 }
 
-std::string ReportPage(const ordered_json& data) {
+namespace {
+
+enum class PageUse { kFinished, kLive };
+
+std::string MakePage(const ordered_json& data, PageUse use) {
   const ordered_json shown = WithReadableTexts(data);
   const ordered_json runs = shown.value("runs", ordered_json::array());
   const bool has_scene = std::any_of(
       runs.begin(), runs.end(), [](const ordered_json& run) { return run.contains("vehicle"); });
-  return fmt::format("{}{}{}<script type=\"application/json\" id=\"data\">{}</script>\n{}{}",
-                     kPageBeforeTitle, Escaped(PageTitle(shown)), kPageBeforeData,
-                     ScriptJson(shown), has_scene ? kSceneLibraries : std::string_view(),
-                     kPageAfterData);
+  const bool live = use == PageUse::kLive;
+  const auto only = [](bool shown_here, std::string_view text) {
+    return shown_here ? text : std::string_view();
+  };
+  return fmt::format(
+      "{}{}{}{}{}<script type=\"application/json\" id=\"data\">{}</script>\n{}{}{}{}",
+      kPageBeforeLiveSource, only(live, kLiveSource), kPageBeforeTitle, Escaped(PageTitle(shown)),
+      kPageBeforeData, ScriptJson(shown), only(has_scene, kSceneLibraries), kPageBeforeLiveScript,
+      only(live, kLiveScript), kPageEnd);
 }
 
-void WriteReport(const std::vector<fs::path>& paths, const fs::path& file, FilmPlace film) {
+}  // namespace
+
+std::string ReportPage(const ordered_json& data) {
+  return MakePage(data, PageUse::kFinished);
+}
+
+std::string LivePage(const ordered_json& data, const std::string& id) {
+  ordered_json live = data;
+  live.erase("comparison");
+  live["live"] = {{"id", id}};
+  return MakePage(live, PageUse::kLive);
+}
+
+std::string ReportPageOf(const std::vector<fs::path>& paths, const fs::path& file, FilmPlace film) {
   const ShownRuns shown = RunsToShow(paths);
   const run_folder::Reading reading(shown.folders);
   ordered_json data = MakeReportData(paths, shown);
@@ -222,7 +245,11 @@ void WriteReport(const std::vector<fs::path>& paths, const fs::path& file, FilmP
     AddFilms(shown, file, film, data);
   }
   reading.RequireUnchanged();
-  const std::string page = ReportPage(data);
+  return ReportPage(data);
+}
+
+void WriteReport(const std::vector<fs::path>& paths, const fs::path& file, FilmPlace film) {
+  const std::string page = ReportPageOf(paths, file, film);
   if (file.has_parent_path()) {
     MakeFolder(file.parent_path());
   }

@@ -57,6 +57,16 @@ constexpr std::array kChannels{
     Channel{"longitudinal_acceleration", "longitudinal_acceleration_mps2", false},
     Channel{"clearance", "clearance_m", false}};
 
+/// Adds what lies on the way to what `low` and `high` span.
+void Widen(const ordered_json& line, Vec2& low, Vec2& high) {
+  for (const auto& [name, axis] : {std::pair{"x", 0}, std::pair{"y", 1}}) {
+    for (const double value : line.at(name).get<std::vector<double>>()) {
+      low[axis] = std::min(low[axis], value);
+      high[axis] = std::max(high[axis], value);
+    }
+  }
+}
+
 /// x and y of a path.
 ordered_json LineJson(const Table& table, const std::vector<std::size_t>& rows) {
   return {{"x", RoundedColumn(table, "x_m", rows)}, {"y", RoundedColumn(table, "y_m", rows)}};
@@ -226,24 +236,18 @@ void AddScene(const fs::path& folder, const World& world, std::size_t row_limit,
     }
   }
   const ordered_json vehicle = VehicleJson(folder / run_folder::kModelXml);
-  double low_x = 0.0;
-  double low_y = 0.0;
-  double high_x = 0.0;
-  double high_y = 0.0;
+  Vec2 low = Vec2::Zero();
+  Vec2 high = Vec2::Zero();
+  if (run.contains("plan") && run["plan"].contains("line")) {
+    Widen(run["plan"]["line"], low, high);
+  }
   for (ordered_json& plant : run["plants"]) {
     plant["motion"] = MotionJson(folder / run_folder::StateCsv(plant.at("name").get<std::string>()),
                                  vehicle, world, row_limit);
-    for (const double x : plant["log"]["x"].get<std::vector<double>>()) {
-      low_x = std::min(low_x, x);
-      high_x = std::max(high_x, x);
-    }
-    for (const double y : plant["log"]["y"].get<std::vector<double>>()) {
-      low_y = std::min(low_y, y);
-      high_y = std::max(high_y, y);
-    }
+    Widen(plant["log"], low, high);
   }
   run["vehicle"] = vehicle;
-  run["ground"] = GroundJson(world, low_x, low_y, high_x, high_y);
+  run["ground"] = GroundJson(world, low.x(), low.y(), high.x(), high.y());
 }
 
 /// What takes the compiled car to know.
@@ -264,9 +268,21 @@ void AddCar(const fs::path& folder, const World& world, std::size_t row_limit, o
 
 }  // namespace
 
+const char* ColumnOfChannel(const std::string& name) {
+  const auto* found = std::find_if(kChannels.begin(), kChannels.end(),
+                                   [&](const Channel& channel) { return name == channel.name; });
+  TRACKBED_CHECK(found != kChannels.end(), "no channel '{}'", name);
+  return found->column;
+}
+
 bool IsRunFolder(const fs::path& folder) {
   std::error_code ignored;
   return fs::is_regular_file(folder / run_folder::kMetricsJson, ignored);
+}
+
+bool IsComplete(const fs::path& folder) {
+  return ReadJson(folder / run_folder::kMetricsJson,
+                  [](const ordered_json& metrics) { return metrics.at("complete").get<bool>(); });
 }
 
 std::size_t PlantCount(const fs::path& folder) {

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <future>
 #include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
@@ -288,6 +291,78 @@ TEST(Run, WithoutAPlanFailsWithTheReason) {
       result.verdict.failures,
       testing::ElementsAre("no plan (u_turn): the route turns back on itself at waypoint 1"));
   EXPECT_TRUE(result.logs.empty());
+}
+
+/// Both logs, as files have them.
+std::string LogsOf(const RunResult& result) {
+  std::string text;
+  for (const RunLog& log : result.logs) {
+    text += log.plant + "\n" + ToTable(log).ToCsv() + log.configurations.ToCsv();
+  }
+  return text;
+}
+
+TEST(RunMission, GivesTheSameWithAllPlantsTogether) {
+  const Scenario scenario = Load("three_turns", {"drive.time_limit=2"});
+  std::mutex mutex;
+  std::set<std::string> ended;
+  std::map<std::string, std::size_t> rows;
+  const RunResult together = RunMission(
+      scenario, {.drive =
+                     [&](const std::string& plant) {
+                       return DriveHooks{.logged = [&, plant](const RunLog& log, const Table&) {
+                         const std::lock_guard lock(mutex);
+                         rows[plant] = log.rows.size();
+                       }};
+                     },
+                 .ended =
+                     [&](const std::string& plant) {
+                       const std::lock_guard lock(mutex);
+                       ended.insert(plant);
+                     },
+                 .together = true});
+  const RunResult in_turn = RunMission(scenario);
+  EXPECT_EQ(LogsOf(together), LogsOf(in_turn));
+  EXPECT_EQ(MetricsJson(together), MetricsJson(in_turn));
+  EXPECT_THAT(ended, testing::ElementsAre("kinematic", "mujoco"));
+  for (const RunLog& log : together.logs) {
+    EXPECT_EQ(rows[log.plant], log.rows.size());
+  }
+}
+
+TEST(RunMission, InterruptsTheOtherPlantsWhereOneFails) {
+  std::promise<void> fails;
+  const std::shared_future<void> failed = fails.get_future().share();
+  int rows = 0;
+  const auto logged = [&](const std::string& plant, const RunLog& log) {
+    if (plant == "kinematic") {
+      if (log.rows.size() == 5) {
+        fails.set_value();
+        throw RunError("the kinematic plant fails");
+      }
+    } else {
+      failed.wait();
+      rows = static_cast<int>(log.rows.size());
+    }
+  };
+  const RunHooks hooks{
+      .drive =
+          [&](const std::string& plant) {
+            return DriveHooks{
+                .logged = [&, plant](const RunLog& log, const Table&) { logged(plant, log); }};
+          },
+      .together = true};
+  EXPECT_THROW(RunMission(Load("three_turns"), hooks), RunError);
+  EXPECT_LT(rows, 2000);  // the whole run has 2364
+}
+
+TEST(DriveRun, OfAPlanIsTheRestOfTheMission) {
+  const Scenario scenario = Load("three_turns", {"drive.time_limit=1"});
+  const CarModel car = LoadCar(scenario);
+  const RunResult planned = PlanRun(scenario, car);
+  EXPECT_TRUE(planned.plan.ok());
+  EXPECT_TRUE(planned.logs.empty());
+  EXPECT_EQ(LogsOf(DriveRun(planned, car)), LogsOf(RunMission(scenario)));
 }
 
 TEST(Run, KeepsTheLogWhenInterrupted) {

@@ -18,6 +18,15 @@ inline std::string ScenarioFile(const std::string& name) {
   return (std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml")).string();
 }
 
+/// Starts `watch`, and sends it a signal when it has said where it serves. What it prints, and its
+/// exit code.
+inline Outcome Watched(const TempFolder& folder, const std::string& arguments,
+                       const std::string& signal = "INT") {
+  return Shell(folder, "rm -f said && mkfifo said && { " TRACKBED_PROGRAM " watch " + arguments +
+                           " > said & } && { read line; echo \"$line\"; kill -" + signal +
+                           " $!; cat; wait $!; } < said");
+}
+
 /// What `test` prints, without the times that it took: " (0.3 s)" and " in 1.2 s".
 inline std::string WithoutDurations(const std::string& output) {
   static const std::regex duration(R"( \([0-9.]+ (s|min|h)[^)]*\)| in [0-9.]+ (s|min|h)[^:]*)");

@@ -298,6 +298,14 @@ TEST(Docs, CommandsDoWhatTheySay) {
     if (film && !HasVideo(folder)) {
       continue;
     }
+    if (command.starts_with("watch ")) {
+      // It ends with Ctrl-C alone; a run that it interrupts is not for the commands that follow.
+      const bool runs = command.find("scenarios/") != std::string::npos;
+      const Outcome watched = Watched(folder, command.substr(6) + (runs ? " --out watched" : ""));
+      EXPECT_TRUE(watched.code == 130 || watched.code == 0) << command << "\n" << watched.output;
+      EXPECT_THAT(watched.output, testing::StartsWith("http://127.0.0.1:")) << command;
+      continue;
+    }
     const bool run_film = command.find(" --video") != std::string::npos;
     static const std::regex kLook(" --(size|fps) [^ ]+");
     const Outcome outcome =

@@ -171,6 +171,27 @@ TEST(SimulateClosedLoop, EndsAsThePlantDoes) {
   EXPECT_EQ(log.rows.size(), 3U);         // the log ends before
 }
 
+TEST(SimulateClosedLoop, CallsBackWithEachRowBeforeItIsSimulatedOn) {
+  Unicycle plant({.speed = 3.0});
+  ConstantController controller(0.1);
+  LoopConfig config = ConfigFor(1.0);
+  config.configuration_columns = {"x_m", "y_m"};
+  std::vector<double> times;
+  config.hooks.logged = [&](const RunLog& log, const Table& configurations) {
+    times.push_back(log.rows.back().state.time);
+    EXPECT_EQ(log.rows.size(), times.size());
+    // The plant stands where the row says, and the configurations have come as far.
+    EXPECT_EQ(plant.Observe().pose.x, log.rows.back().state.pose.x);
+    EXPECT_LE(configurations.at(configurations.rows() - 1, 0), times.back() + 1e-9);  // rounding
+    EXPECT_GT(configurations.at(configurations.rows() - 1, 0), times.back() - config.state_period);
+  };
+  const RunLog log = SimulateClosedLoop(plant, controller, PlanAtSpeed(3.0), config);
+  ASSERT_EQ(times.size(), log.rows.size());
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    EXPECT_EQ(times[i], log.rows[i].state.time);
+  }
+}
+
 TEST(SimulateClosedLoop, CallsItsHooks) {
   Unicycle plant({.speed = 3.0});
   ConstantController controller(0.0);

@@ -1,4 +1,4 @@
-"""A headless Chromium without a network, for looking at reports.
+"""A headless Chromium without a network but the loopback, for looking at reports.
 
 As a script: browser.py PAGE PICTURE [WIDTH HEIGHT [JAVASCRIPT]] takes a picture of a page, after
 running something in it.
@@ -30,7 +30,7 @@ class Browser:
             *(GRAPHICS if webgl else ["--disable-3d-apis"]),
             "--disable-dev-shm-usage",
             "--hide-scrollbars",
-            "--host-resolver-rules=MAP * ~NOTFOUND",
+            "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
             "--user-data-dir=" + self.profile.name,
         ):
             options.add_argument(argument)
@@ -43,7 +43,9 @@ class Browser:
         self.profile.cleanup()
 
     def open(self, page, width=1440, height=1000, dark=False):
-        """Opens a file, on a screen of that size, a phone's if it is narrow."""
+        """Opens a file, or a page of a server on the loopback, on a screen of that size, a phone's if it
+        is narrow."""
+        served = str(page).startswith("http://")
         call = self.driver.execute_cdp_cmd
         phone = width < 600
         call(
@@ -59,10 +61,10 @@ class Browser:
         call("Network.enable", {})
         call(
             "Network.emulateNetworkConditions",
-            {"offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0},
+            {"offline": not served, "latency": 0, "downloadThroughput": -1, "uploadThroughput": -1},
         )
         self.driver.get_log("browser")
-        self.driver.get(pathlib.Path(page).resolve().as_uri())
+        self.driver.get(page if served else pathlib.Path(page).resolve().as_uri())
         self.settle()
 
     def settle(self):

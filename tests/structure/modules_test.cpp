@@ -170,7 +170,7 @@ TEST(RunFolder, ItsFilesAreNamedInOnePlaceAlone) {
     }
   }
   EXPECT_THAT(names, testing::IsSupersetOf({"\"plan.csv\"", "\"run.mcap\"", "\".state.csv\""}));
-  const std::vector<std::string> can_see{"analysis", "report", "testing", "render", "cli"};
+  const std::vector<std::string> can_see{"analysis", "report", "watch", "testing", "render", "cli"};
   for (const Module& module : Modules()) {
     if (std::find(can_see.begin(), can_see.end(), module.path) == can_see.end()) {
       continue;

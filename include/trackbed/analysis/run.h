@@ -39,7 +39,12 @@ struct RunResult {
 
 struct RunHooks {
   /// Called before each plant is simulated; returns the hooks of that simulation.
-  std::function<DriveHooks(const std::string& plant)> drive;
+  std::function<DriveHooks(const std::string& plant)> drive{};
+  /// Called when a plant's simulation has ended, also by an exception.
+  std::function<void(const std::string& plant)> ended{};
+  /// All plants at a time, each in a thread of its own, which calls its hooks; else one after the
+  /// other in the caller's. The results are the same.
+  bool together = false;
 };
 
 /// Plans, drives, measures, judges. A mission that cannot be planned is a failed verdict with the
@@ -51,6 +56,11 @@ RunResult RunMission(const Scenario& scenario, CarCache& cars, const RunHooks& h
 
 /// The same for a scenario that has been checked, with its car as LoadCar would give it.
 RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHooks& hooks = {});
+
+/// The two parts of RunMission: what is known before anything is simulated, and the rest. Errors:
+/// those of RunMission, and exceptions of the hooks.
+RunResult PlanRun(const Scenario& scenario, const CarModel& car);
+RunResult DriveRun(RunResult planned, const CarModel& car, const RunHooks& hooks = {});
 
 /// What metrics.json holds.
 nlohmann::ordered_json MetricsJson(const RunResult& result);

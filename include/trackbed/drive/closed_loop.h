@@ -27,6 +27,10 @@ struct DriveHooks {
   std::function<bool()> interrupted{};              ///< asked once per control period
   /// Called after each update of the steering with the wall-clock time that it took [s].
   std::function<void(double seconds)> steered{};
+  /// Called with each row of the log, before the control period that it begins is simulated, and
+  /// with the last one; the run waits for it. `log` has the rows and plan changes so far,
+  /// `configurations` what RunLog::configurations will begin with.
+  std::function<void(const RunLog& log, const Table& configurations)> logged{};
 };
 
 /// New plans during a run. Without either, obstacles do not change the plan.

@@ -40,6 +40,10 @@ nlohmann::ordered_json ReportData(const std::vector<std::filesystem::path>& path
 /// own scripts, which it knows by their hashes. Characters that cannot be seen are named.
 std::string ReportPage(const nlohmann::ordered_json& data);
 
+/// The page that WriteReport writes to `file`, which is not touched. Errors: those of WriteReport.
+std::string ReportPageOf(const std::vector<std::filesystem::path>& paths,
+                         const std::filesystem::path& file, FilmPlace film);
+
 /// Makes the report of `paths` and writes it to `file`, which is either what it was or complete;
 /// its folder is made if it is missing. The page loads nothing from a network and forbids the
 /// browser to. The same folders give the same bytes. Errors: as ReportData, and RunError when

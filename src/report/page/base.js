@@ -77,7 +77,8 @@ const tracks = runs.flatMap((run, r) => run.plants.map((plant) => ({
   });
 })();
 
-const duration = d3.max(tracks, (track) => track.log.t[track.log.t.length - 1]) || 0;
+const lastMoment = () => d3.max(tracks, (track) => track.log.t[track.log.t.length - 1]) || 0;
+let duration = lastMoment();
 
 /** Where between two rows of a log a moment lies; held at its ends. */
 function placeAt(log, time) {
@@ -123,12 +124,18 @@ function poseAt(track, time) {
 }
 
 // The moment that map, series and films show together, and who follows it.
-const bus = d3.dispatch('time', 'visibility', 'scheme', 'play');
+const bus = d3.dispatch('time', 'visibility', 'scheme', 'play', 'rows');
 let now = 0;
 
 function setTime(time, from) {
   now = Math.min(Math.max(time, 0), duration);
   bus.call('time', null, now, from);
+}
+
+/** While a run goes on (live.js): its logs have grown. */
+function rowsAdded() {
+  duration = lastMoment();
+  bus.call('rows');
 }
 
 window.matchMedia('(prefers-color-scheme: dark)')

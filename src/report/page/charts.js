@@ -72,7 +72,7 @@ function drawCharts(list, key, axis, charts) {
   });
 
   for (const { name, title, unit, note, lines, readouts, limits: all = [] } of charts) {
-    const { limits, range } = limitsToDraw(lines, all, axis.values);
+    let { limits, range } = limitsToDraw(lines, all, axis.values);
     const far = all.filter((limit) => !limits.includes(limit) && limit > 0);
     const figure = list.append('figure').attr('class', 'chart panel').attr('data-quantity', name);
     const caption = figure.append('figcaption');
@@ -91,8 +91,8 @@ function drawCharts(list, key, axis, charts) {
       .attr('aria-label', chartText({ title, unit, lines, limits, axis }));
     const labels = lines.map(({ label }, i) => `${i} ${label}`);
     const { touchstart, touchmove, touchend, ...mouse } = Dygraph.defaultInteractionModel;
-    const table = axis.values.map((value, i) => [value, ...lines.map((line) => line.values[i])]);
-    const graph = new Dygraph(plot.append('div').style('width', '100%').style('height', '100%').node(), table, {
+    const table = () => axis.values.map((value, i) => [value, ...lines.map((line) => line.values[i])]);
+    const graph = new Dygraph(plot.append('div').style('width', '100%').style('height', '100%').node(), table(), {
       labels: ['at', ...labels],
       series: Object.fromEntries(lines.map(({ pattern, width }, i) => [labels[i],
         { strokePattern: pattern || null, strokeWidth: width }])),
@@ -141,7 +141,7 @@ function drawCharts(list, key, axis, charts) {
       drawCallback: (own, first) => {
         if (first) return;
         together(() => drawn.forEach((chart) => {
-          if (chart.graph !== own) chart.graph.updateOptions({ dateWindow: own.xAxisRange() });
+          if (chart.graph !== own) chart.graph.updateOptions({ dateWindow: own.isZoomed('x') ? own.xAxisRange() : null });
         }));
         placeCursors(now);
       },
@@ -154,8 +154,12 @@ function drawCharts(list, key, axis, charts) {
       const at = graph.eventToDomCoords(event)[0];
       setTime(axis.timeOf(graph.toDataXCoord(at)), key);
     });
+    const refill = () => {
+      ({ limits, range } = limitsToDraw(lines, all, axis.values));
+      graph.updateOptions({ file: table(), valueRange: range });
+    };
     graphs.set(plot.node(), graph);
-    drawn.push({ graph, cursor, lines, told });
+    drawn.push({ graph, cursor, lines, told, refill });
   }
 
   function placeCursors(time) {
@@ -179,6 +183,7 @@ function drawCharts(list, key, axis, charts) {
       for (const { of, text } of told) text.text(of.text(time));
     }
   });
+  bus.on(`rows.${key}_charts`, () => together(() => drawn.forEach(({ refill }) => refill())));
   bus.on(`visibility.${key}`, () => {
     for (const { graph, lines, told } of drawn) {
       together(() => graph.setVisibility(Object.fromEntries(lines.map((line, i) => [i, isShown(line)]))));

@@ -40,7 +40,7 @@ function eventsOf() {
 
 /** The time line, and below it a lane for each track with the marks of its events. */
 function drawEventTrack(parent) {
-  const all = eventsOf();
+  const all = data.live ? [] : eventsOf();  // of a run that goes on, what was largest is not known yet
   const LANE = 20;
   const SIDE = 9;  // as far as the knob of a slider stands in at its ends
   const own = tracks.filter((track) => all.some((event) => event.track === track));
@@ -99,6 +99,7 @@ function drawEventTrack(parent) {
 /** The events that are moments, as buttons with their words. */
 function drawEvents(parent) {
   const MOST = 16;
+  if (data.live) return;
   const events = eventsOf().filter(({ kind }) => kind !== 'limit');
   if (!events.length) return;
   const list = parent.append('div').attr('class', 'events').attr('role', 'group').attr('aria-label', 'Events');

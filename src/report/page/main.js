@@ -27,7 +27,7 @@ function drawDrive() {
 
 if (data.study) {
   drawStudy(data.study);
-} else {
+} else if (!data.live) {
   drawHead();
   drawAnswer();
   drawManeuver();
@@ -45,4 +45,4 @@ if (data.study) {
   drawExpectations();
   drawScenarios();
 }
-drawFoot();
+if (!data.live) drawFoot();  // else live.js draws the page

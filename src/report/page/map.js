@@ -35,6 +35,7 @@ function lineText(x, y, count) {
  * is furthest from its path the cross-track error: {track, points: [{t, value}], most, name}.
  */
 function shadeOfMap() {
+  if (data.live) return null;  // what is most is not known yet
   const pair = pairs.filter((one) => one.curve)
     .sort((a, b) => d3.max(b.curve.position) - d3.max(a.curve.position))[0];
   if (pair) {
@@ -83,7 +84,7 @@ function placed(pose) {
 }
 
 function drawMap(parent) {
-  const extent = extentOfMap();
+  let extent = extentOfMap();
   // A lane change is 150 m long and 4 m wide: to see it, y is stretched.
   const slender = (extent.x[1] - extent.x[0]) / (extent.y[1] - extent.y[0]);
   const stretch = slender > 6 ? Math.min(8, Math.floor(slender / 3)) : 1;
@@ -124,14 +125,11 @@ function drawMap(parent) {
     }
     for (const obstacle of run.world.obstacles.filter((o) => fresh('obstacle', o))) {
       const moves = obstacle.vx !== 0 || obstacle.vy !== 0;
-      if (moves) {
-        world.append('path').attr('class', 'obstacle-way')
-          .attr('d', `M${obstacle.x} ${obstacle.y}l${obstacle.vx * duration} ${obstacle.vy * duration}`);
-      }
+      const way = moves && world.append('path').attr('class', 'obstacle-way');
       const shape = world.append('g').attr('class', moves ? 'obstacle moving' : 'obstacle')
         .attr('transform', placed(obstacle));
       box(shape.append('rect'), obstacle);
-      if (moves) moving.push({ obstacle, shape });
+      if (moves) moving.push({ obstacle, shape, way });
     }
   }
 
@@ -163,12 +161,22 @@ function drawMap(parent) {
     const layer = world.append('g').attr('class', 'track').style('color', track.css);
     const { x, y } = track.log;
     const way = layer.append('path').attr('class', 'way').attr('d', lineText(x, y, x.length));
-    for (const plan of track.newPlans) {
-      layer.append('path').attr('class', 'new-plan').attr('d', lineText(plan.x, plan.y, plan.x.length))
-        .append('title').text(`plan of ${track.label} from ${plan.from} s on`);
-    }
-    return { layer, way, trail: layer.append('path').attr('class', 'trail') };
+    const newPlans = layer.append('g');
+    return { layer, way, newPlans, trail: layer.append('path').attr('class', 'trail') };
   });
+
+  /** What grows with the logs. */
+  function drawGrown() {
+    for (const { obstacle, way } of moving) {
+      way.attr('d', `M${obstacle.x} ${obstacle.y}l${obstacle.vx * duration} ${obstacle.vy * duration}`);
+    }
+    tracks.forEach((track, i) => {
+      const fresh = layers[i].newPlans.selectAll('path').data(track.newPlans).enter();
+      fresh.append('path').attr('class', 'new-plan').attr('d', (plan) => lineText(plan.x, plan.y, plan.x.length))
+        .append('title').text((plan) => `plan of ${track.label} from ${plan.from} s on`);
+    });
+  }
+  drawGrown();
   const cars = tracks.map((track) => {
     const size = runs[track.run].car;
     const rear = -size.rear_overhang;
@@ -264,6 +272,13 @@ function drawMap(parent) {
     redraw();
   }).observe(frame.node());
 
+  bus.on('rows.map', () => {
+    extent = extentOfMap();
+    ways = tracks.map((track) => enlarged(track, factor));
+    layers.forEach(({ way }, i) => way.attr('d', lineText(ways[i].x, ways[i].y, ways[i].x.length)));
+    drawGrown();
+    redraw();
+  });
   bus.on('time.map', (time) => {
     tracks.forEach((track, i) => {
       const pose = ways[i].pose(time);
@@ -324,8 +339,10 @@ function drawPlayButton(tools, id) {
 }
 
 function drawTimeSlider(tools, name, id) {
-  const slider = tools.append('input').attr('type', 'range').attr('min', 0).attr('max', duration)
-    .attr('step', duration / 2000 || 1).attr('aria-label', 'Time');
+  const slider = tools.append('input').attr('type', 'range').attr('min', 0).attr('aria-label', 'Time');
+  const setRange = () => slider.attr('max', duration).attr('step', duration / 2000 || 1);
+  setRange();
+  bus.on(`rows.slider_${name}`, setRange);
   const text = tools.append('output').attr('class', 'time').attr('id', id || null);
   slider.on('input', () => setTime(Number(slider.node().value), `slider ${name}`));
   bus.on(`time.slider_${name}`, (time, from) => {

@@ -33,11 +33,16 @@ function drawPhasePlane(parent, plane) {
   const all = (axis) => own.flatMap((track) => track.log[plane[axis]].slice(0, rowsOfTrack(track)));
   const reach = (axis) => Math.max(1e-6, d3.max(all(axis), Math.abs)) * 1.08;
   let [xMost, yMost] = [reach('x'), reach('y')];
-  const isShown = radius && radius < 3 * Math.max(xMost, yMost);
-  if (plane.equal) {
-    xMost = Math.max(xMost, yMost, isShown ? 1.05 * radius : 0);
-    yMost = xMost;
-  }
+  // What a run that goes on will come to is not known.
+  const isShown = radius && (data.live || radius < 3 * Math.max(xMost, yMost));
+  const setReach = () => {
+    [xMost, yMost] = [reach('x'), reach('y')];
+    if (plane.equal) {
+      xMost = Math.max(xMost, yMost, isShown ? 1.05 * radius : 0);
+      yMost = xMost;
+    }
+  };
+  setReach();
   if (isShown) caption.append('span').text(` circle: µ g = ${brief(radius)} m/s²`);
   const svg = figure.append('svg').attr('role', 'img')
     .attr('aria-label', `${plane.title}: ${plane.yName} over ${plane.xName}, of ${own.map(({ label }) => label).join(', ')}`);
@@ -60,7 +65,7 @@ function drawPhasePlane(parent, plane) {
       if (x !== null && y !== null) dot.attr('cx', scales.x(x)).attr('cy', scales.y(y));
     }
   };
-  new ResizeObserver(() => {
+  const redraw = () => {
     const { clientWidth: width, clientHeight: height } = svg.node();
     const [w, h] = [width - margin.left - margin.right, height - margin.top - margin.bottom];
     if (w <= 0 || h <= 0) return;
@@ -83,7 +88,9 @@ function drawPhasePlane(parent, plane) {
       line.attr('d', lineText(track.log[plane.x].map(x), track.log[plane.y].map(y), rowsOfTrack(track)));
     }
     place();
-  }).observe(svg.node());
+  };
+  new ResizeObserver(redraw).observe(svg.node());
+  bus.on(`rows.${plane.name}`, () => { setReach(); redraw(); });
   bus.on(`time.${plane.name}`, place);
   bus.on(`visibility.${plane.name}`, () => {
     for (const { track, layer } of marks) layer.style('display', track.visible ? null : 'none');

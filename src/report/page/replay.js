@@ -11,18 +11,26 @@ function solidColor(track) {
 /** What has been driven, as a strip that grows. */
 function trailOf(track, motion, height, width, level) {
   const { t, channels: { x_m: xs, y_m: ys } } = motion;
-  const step = Math.max(1, Math.floor(t.length / 2500));
-  const rows = d3.range(0, t.length, step);
-  const points = rows.map((row, i) => {
-    const [a, b] = [rows[Math.max(0, i - 1)], rows[Math.min(rows.length - 1, i + 1)]];
-    const heading = Math.atan2(ys[b] - ys[a], xs[b] - xs[a]);
-    return { x: xs[row], y: ys[row], nx: -Math.sin(heading), ny: Math.cos(heading) };
-  });
-  const mesh = flat(strip(points, -width / 2, width / 2, height, 0.018), solidColor(track), level);
+  let rows = [];
+  const geometry = () => {
+    const step = Math.max(1, Math.floor(t.length / 2500));
+    rows = d3.range(0, t.length, step);
+    const points = rows.map((row, i) => {
+      const [a, b] = [rows[Math.max(0, i - 1)], rows[Math.min(rows.length - 1, i + 1)]];
+      const heading = Math.atan2(ys[b] - ys[a], xs[b] - xs[a]);
+      return { x: xs[row], y: ys[row], nx: -Math.sin(heading), ny: Math.cos(heading) };
+    });
+    return strip(points, -width / 2, width / 2, height, 0.018);
+  };
+  const mesh = flat(geometry(), solidColor(track), level);
   mesh.material.emissive = new THREE.Color(solidColor(track));
   mesh.material.emissiveIntensity = 0.35;
   return {
     mesh,
+    grow: () => {
+      mesh.geometry.dispose();
+      mesh.geometry = geometry();
+    },
     update: (time) => {
       const count = d3.bisectRight(rows.map((row) => t[row]), time) - 1;
       mesh.geometry.setDrawRange(0, Math.max(0, 6 * count));
@@ -90,13 +98,23 @@ function makeReplay(canvas) {
       if (mesh) { scene.add(mesh); plans.push({ mesh, shown: () => true }); }
     }
   }
-  for (const { track } of cars) {
-    track.newPlans.forEach((plan, i) => {
-      const mesh = planMesh(plan, height, solidColor(track), 5);
-      const until = i + 1 < track.newPlans.length ? track.newPlans[i + 1].from : Infinity;
-      if (mesh) { scene.add(mesh); plans.push({ mesh, shown: (time) => track.visible && time >= plan.from && time < until }); }
-    });
+  const drawnPlans = new Set();
+  function drawNewPlans() {
+    for (const { track } of cars) {
+      track.newPlans.forEach((plan, i) => {
+        if (drawnPlans.has(plan)) return;
+        drawnPlans.add(plan);
+        const mesh = planMesh(plan, height, solidColor(track), 5);
+        const until = () => (i + 1 < track.newPlans.length ? track.newPlans[i + 1].from : Infinity);
+        if (mesh) { scene.add(mesh); plans.push({ mesh, shown: (time) => track.visible && time >= plan.from && time < until() }); }
+      });
+    }
   }
+  drawNewPlans();
+  bus.on('rows.replay', () => {
+    for (const { trail } of cars) trail.grow();
+    drawNewPlans();
+  });
 
   // The car that is looked at first: the one with contact dynamics, where there is one.
   const lead = cars.find(({ track }) => track.plant.startsWith('mujoco')) || cars[cars.length - 1];

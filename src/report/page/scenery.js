@@ -288,7 +288,9 @@ function drawScenery(scene, height, makers) {
       scene.add(mesh);
     }
   }
-  for (const mesh of treeMeshes(extent, busy, height)) scene.add(mesh);
+  // Where a run without a plan will lead is not known while it goes on.
+  const isKnown = !data.live || runs.some((run) => run.plan && run.plan.line);
+  if (isKnown) for (const mesh of treeMeshes(extent, busy, height)) scene.add(mesh);
   return {
     update: (time) => obstacles.forEach(({ shape }) => shape.place(time)),
     /** What a car knows of at a moment is solid. */

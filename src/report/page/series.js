@@ -42,7 +42,7 @@ function drawSeries(parent) {
   const { times, spread } = commonTimes();
   const axis = { values: times, unit: 's', at: (time) => time, timeOf: (time) => time };
   const line = (track, name, more) => ({
-    label: track.label, color: track.color, tracks: [track], values: spread(track, name), until: brokenAt(track), ...more,
+    label: track.label, color: track.color, tracks: [track], quantity: name, values: spread(track, name), until: brokenAt(track), ...more,
   });
   const charts = QUANTITIES.filter((q) => tracks.some((track) => track.log[q.name])).map((quantity) => {
     const own = tracks.filter((track) => track.log[quantity.name]);
@@ -64,5 +64,12 @@ function drawSeries(parent) {
       })),
     };
   });
-  drawCharts(list, 'series', axis, charts);
+  bus.on('rows.series', () => {
+    const { times: grown, spread: anew } = commonTimes();
+    axis.values = grown;
+    for (const { lines } of charts) {
+      for (const one of lines) one.values = anew(one.tracks[0], one.quantity);
+    }
+  });
+  drawCharts(list, 'series', axis, charts);  // which follow after that
 }

@@ -217,12 +217,17 @@ function drawLegend(parent) {
     const entry = legend.append('span').attr('class', 'sign');
     draw(entry.append('svg').attr('width', 26).attr('height', 12).append('g').attr('class', 'world'));
     entry.append('span').text(name);
+    return entry;
   };
   if (runs.some((run) => run.plan && run.plan.line)) {
     sign('plan', (svg) => svg.append('path').attr('class', 'plan').attr('d', 'M0 6h26'));
   }
-  if (tracks.some((track) => track.newPlans.length)) {
-    sign('replan', (svg) => svg.append('path').attr('class', 'new-plan').attr('d', 'M0 6h26'));
+  const replans = () => tracks.some((track) => track.newPlans.length);
+  if (replans() || data.live) {
+    const entry = sign('replan', (svg) => svg.append('path').attr('class', 'new-plan').attr('d', 'M0 6h26'));
+    const show = () => entry.style('display', replans() ? null : 'none');
+    show();
+    bus.on('rows.legend', show);
   }
   if (runs.some((run) => run.world.obstacles.length)) {
     sign('obstacle', (svg) => svg.append('g').attr('class', 'obstacle').append('rect')

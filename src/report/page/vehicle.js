@@ -13,8 +13,10 @@ function numbersOf(channel) {
 /** The motion of a track: its times, and its channels by name. */
 function motionOf(track) {
   const { motion } = runs[track.run].plants.find((plant) => plant.name === track.plant);
-  const channels = Object.fromEntries(Object.entries(motion.channels).map(([name, channel]) => [name, numbersOf(channel)]));
-  return { t: numbersOf(motion.t), channels };
+  // Those of a run that goes on grow.
+  const numbers = (channel) => (data.live ? Array.from(numbersOf(channel)) : numbersOf(channel));
+  const channels = Object.fromEntries(Object.entries(motion.channels).map(([name, channel]) => [name, numbers(channel)]));
+  return { t: numbers(motion.t), channels };
 }
 
 /** (w, x, y, z) as MuJoCo writes it. */

@@ -1,0 +1,109 @@
+#include "src/analysis/simulate_plants.h"
+
+#include <algorithm>
+#include <atomic>
+#include <future>
+#include <string>
+#include <utility>
+
+#include "src/analysis/stopwatch.h"
+
+namespace trackbed {
+namespace {
+
+/// Simulates one plant. The time that its hook `logged` takes is not the plant's.
+SimulatedPlant SimulatePlant(const RunResult& planned, const CarModel& car,
+                             const std::string& plant, DriveHooks hooks) {
+  DriveTiming timing{.plant = plant};
+  double steering = 0.0;
+  double waited = 0.0;
+  hooks.steered = [&, callers = hooks.steered](double seconds) {
+    ++timing.updates;
+    steering += seconds;
+    timing.update_max = std::max(timing.update_max, seconds);
+    if (callers) {
+      callers(seconds);
+    }
+  };
+  if (hooks.logged) {
+    hooks.logged = [&, callers = hooks.logged](const RunLog& log, const Table& configurations) {
+      const Stopwatch waiting;
+      callers(log, configurations);
+      waited += waiting.Seconds();
+    };
+  }
+  const Stopwatch driving;
+  RunLog log = DrivePlant(planned.scenario, car, planned.plan, plant, hooks);
+  timing.wall_time = driving.Seconds() - waited;
+  timing.real_time_factor = log.rows.back().state.time / timing.wall_time;
+  timing.update_mean = timing.updates > 0 ? steering / timing.updates : 0.0;
+  return {std::move(log), timing};
+}
+
+/// Tells a run's hooks that a plant's simulation is over, however it ends.
+class EndOfPlant {
+ public:
+  EndOfPlant(const RunHooks& hooks, const std::string& plant) : hooks_(hooks), plant_(plant) {}
+  EndOfPlant(const EndOfPlant&) = delete;
+  EndOfPlant& operator=(const EndOfPlant&) = delete;
+  ~EndOfPlant() {
+    if (hooks_.ended) {
+      hooks_.ended(plant_);
+    }
+  }
+
+ private:
+  const RunHooks& hooks_;
+  const std::string& plant_;
+};
+
+std::vector<SimulatedPlant> SimulateTogether(const RunResult& planned, const CarModel& car,
+                                             const RunHooks& hooks) {
+  std::atomic<bool> failed{false};
+  const auto simulate = [&](const std::string& plant) {
+    const EndOfPlant end(hooks, plant);
+    try {
+      DriveHooks drive_hooks = hooks.drive ? hooks.drive(plant) : DriveHooks{};
+      drive_hooks.interrupted = [&failed, callers = drive_hooks.interrupted] {
+        return failed || (callers && callers());
+      };
+      return SimulatePlant(planned, car, plant, std::move(drive_hooks));
+    } catch (...) {
+      failed = true;
+      throw;
+    }
+  };
+  std::vector<std::future<SimulatedPlant>> running;
+  for (const std::string& plant : planned.scenario.drive.plants) {
+    running.push_back(std::async(std::launch::async, simulate, plant));
+  }
+  std::vector<SimulatedPlant> simulated;
+  for (std::future<SimulatedPlant>& plant : running) {
+    simulated.push_back(plant.get());
+  }
+  return simulated;
+}
+
+std::vector<SimulatedPlant> SimulateInTurn(const RunResult& planned, const CarModel& car,
+                                           const RunHooks& hooks) {
+  std::vector<SimulatedPlant> simulated;
+  for (const std::string& plant : planned.scenario.drive.plants) {
+    const EndOfPlant end(hooks, plant);
+    simulated.push_back(
+        SimulatePlant(planned, car, plant, hooks.drive ? hooks.drive(plant) : DriveHooks{}));
+    if (simulated.back().log.status == DriveStatus::kInterrupted) {
+      break;
+    }
+  }
+  return simulated;
+}
+
+}  // namespace
+
+std::vector<SimulatedPlant> SimulatePlants(const RunResult& planned, const CarModel& car,
+                                           const RunHooks& hooks) {
+  return hooks.together ? SimulateTogether(planned, car, hooks)
+                        : SimulateInTurn(planned, car, hooks);
+}
+
+}  // namespace trackbed

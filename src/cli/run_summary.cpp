@@ -1,0 +1,96 @@
+#include "src/cli/run_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+#include "src/cli/terminal.h"
+#include "trackbed/report/names.h"
+
+namespace trackbed::cli {
+namespace {
+
+void PrintManeuver(const ManeuverMetrics& maneuver) {
+  fmt::print("    {}{}, evaluated from {:.2f} s to {:.2f} s of the run\n", maneuver.method,
+             !maneuver.passed   ? ""
+             : *maneuver.passed ? ": " + Toned(Tone::kGood, "passed")
+                                : ": " + Toned(Tone::kBad, "FAILED"),
+             maneuver.begin, maneuver.end);
+  for (const auto& [path, value] : maneuver.values) {
+    const ShownName name = NameOfMetric("maneuver." + path);
+    constexpr std::string_view kGroup = "Maneuver: ";
+    std::string text =
+        fmt::format("    {:<44} {:>10.4g}{}",
+                    name.label.starts_with(kGroup) ? name.label.substr(kGroup.size()) : name.label,
+                    value, name.unit.empty() ? "" : " " + name.unit);
+    if (name.limit) {
+      const bool at_most = name.limit->relation == StandardLimit::Relation::kAtMost;
+      text += Toned(
+          name.limit->Met(value) ? Tone::kGood : Tone::kBad,
+          fmt::format(" ({} {:.4g} to pass)", at_most ? "at most" : "at least", name.limit->bound));
+    }
+    fmt::print("{}\n", text);
+  }
+  if (!maneuver.missing.empty()) {
+    fmt::print("    {}\n", maneuver.missing);
+  }
+}
+
+/// "rolled over".
+std::string InWords(DriveStatus status) {
+  std::string words = ToString(status);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+}  // namespace
+
+void PrintSummary(const RunResult& result, const std::filesystem::path& folder) {
+  fmt::print("{}: {}, in {}\n", result.scenario.name,
+             result.interrupted       ? Toned(Tone::kDoubtful, "interrupted")
+             : !result.verdict.judged ? "finished, no expectations"
+             : result.verdict.passed  ? Toned(Tone::kGood, "passed")
+                                      : Toned(Tone::kBad, "FAILED"),
+             folder.string());
+  for (const PlantMetrics& plant : result.metrics) {
+    fmt::print("  {:<10} ", plant.plant);
+    if (plant.status == DriveStatus::kCollided) {
+      fmt::print("{} at {:.2f} s, followed until {:.2f} s, {:.2f} m", InWords(plant.status),
+                 plant.contact_t, plant.time, plant.distance);
+    } else {
+      fmt::print("{} {} {:.2f} s, {:.2f} m", InWords(plant.status),
+                 plant.status == DriveStatus::kRolledOver ? "at" : "after", plant.time,
+                 plant.distance);
+    }
+    if (plant.tracking) {
+      const TrackingMetrics& tracking = *plant.tracking;
+      fmt::print("; cross-track error max {:.4f} m, rms {:.4f} m; goal distance {:.4f} m",
+                 tracking.cross_track_max, tracking.cross_track_rms, tracking.goal_distance);
+    }
+    fmt::print("\n");
+    if (plant.maneuver) {
+      PrintManeuver(*plant.maneuver);
+    }
+  }
+  for (const PlantComparison& between : result.comparisons) {
+    fmt::print("  {} - {}: position max {:.4f} m, heading max {:.4f} rad\n", between.first,
+               between.second, between.position.max, between.heading.max);
+  }
+  for (const std::string& failure : result.verdict.failures) {
+    fmt::print("  {}\n", failure);
+  }
+  for (const std::string& note : result.verdict.notes) {
+    fmt::print("  {}\n", note);
+  }
+  std::fflush(stdout);  // what follows takes its time, and may fail
+}
+
+ExitCode ExitCodeOf(const RunResult& result) {
+  const bool failed = result.verdict.judged && !result.verdict.passed;
+  return result.interrupted ? kInterrupted : failed ? kFailedExpectations : kOk;
+}
+
+}  // namespace trackbed::cli

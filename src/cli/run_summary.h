@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+
+#include "src/cli/verbs.h"
+#include "trackbed/analysis/run.h"
+
+namespace trackbed::cli {
+
+/// Prints how a run went that was written to `folder`.
+void PrintSummary(const RunResult& result, const std::filesystem::path& folder);
+
+/// kInterrupted, kFailedExpectations or kOk.
+ExitCode ExitCodeOf(const RunResult& result);
+
+}  // namespace trackbed::cli

@@ -1,0 +1,144 @@
+#include "src/watch/drive_clock.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trackbed {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+double Pace::AllowedAt(double wall) const {
+  if (paused_) {
+    return until_;
+  }
+  return std::isinf(speed_) ? kInfinity : from_simulated_ + speed_ * (wall - from_wall_);
+}
+
+double Pace::MomentOf(double simulated) const {
+  if (paused_) {
+    return simulated <= until_ ? -kInfinity : kInfinity;
+  }
+  return std::isinf(speed_) ? -kInfinity : from_wall_ + (simulated - from_simulated_) / speed_;
+}
+
+void Pace::Pause(double simulated) {
+  if (!paused_) {
+    paused_ = true;
+    until_ = simulated;
+  }
+}
+
+void Pace::Resume(double simulated, double wall) {
+  if (paused_) {
+    paused_ = false;
+    CountFrom(simulated, wall);
+  }
+}
+
+void Pace::Step(double simulated, double period) {
+  Pause(simulated);
+  until_ = std::max(until_, simulated) + period;
+}
+
+void Pace::SetSpeed(double speed, double simulated, double wall) {
+  speed_ = speed;
+  CountFrom(simulated, wall);
+}
+
+void Pace::KeepUp(double simulated, double wall) {
+  constexpr double kMostLost = 0.1;  // [s] of the wall clock: less is the scheduler's doing
+  if (!paused_ && !std::isinf(speed_) && AllowedAt(wall) - simulated > kMostLost * speed_) {
+    CountFrom(simulated, wall);
+  }
+}
+
+void Pace::CountFrom(double simulated, double wall) {
+  from_simulated_ = simulated;
+  from_wall_ = wall;
+}
+
+DriveClock::DriveClock(std::size_t plants, double period, double speed, bool paused)
+    : period_(period), pace_(speed, paused), times_(plants, -period) {}
+
+void DriveClock::Advance(std::size_t plant, double time) {
+  std::unique_lock lock(mutex_);
+  times_[plant] = time;
+  if (SlowestTime() == time) {
+    pace_.KeepUp(time, Now());
+  }
+  changed_.notify_all();
+  const double next = time + period_;
+  const double tolerance = 0.5 * period_;  // times are sums of periods, to rounding
+  while (!released_) {
+    const bool others_are_here = SlowestTime() > time - tolerance;
+    const double moment = pace_.MomentOf(next - tolerance);
+    const double wait = moment - Now();
+    if (others_are_here && wait <= 0.0) {
+      return;
+    }
+    if (others_are_here && std::isfinite(wait)) {
+      changed_.wait_for(lock, std::chrono::duration<double>(wait));
+    } else {
+      changed_.wait(lock);
+    }
+  }
+}
+
+void DriveClock::End(std::size_t plant) {
+  const std::lock_guard lock(mutex_);
+  times_[plant] = kInfinity;
+  changed_.notify_all();
+}
+
+void DriveClock::Release() {
+  const std::lock_guard lock(mutex_);
+  released_ = true;
+  changed_.notify_all();
+}
+
+void DriveClock::Pause() {
+  const std::lock_guard lock(mutex_);
+  pace_.Pause(Reached());
+  changed_.notify_all();
+}
+
+void DriveClock::Resume() {
+  const std::lock_guard lock(mutex_);
+  pace_.Resume(Reached(), Now());
+  changed_.notify_all();
+}
+
+void DriveClock::Step() {
+  const std::lock_guard lock(mutex_);
+  pace_.Step(Reached(), period_);
+  changed_.notify_all();
+}
+
+void DriveClock::SetSpeed(double speed) {
+  const std::lock_guard lock(mutex_);
+  pace_.SetSpeed(speed, Reached(), Now());
+  changed_.notify_all();
+}
+
+DriveClock::State DriveClock::state() const {
+  const std::lock_guard lock(mutex_);
+  return {pace_.paused(), pace_.speed()};
+}
+
+double DriveClock::SlowestTime() const {
+  return *std::min_element(times_.begin(), times_.end());
+}
+
+double DriveClock::Reached() const {
+  return std::max(0.0, SlowestTime());
+}
+
+double DriveClock::Now() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+}  // namespace trackbed
