@@ -12,20 +12,22 @@ namespace {
 using boost::locale::utf::code_point;
 using nlohmann::ordered_json;
 
-struct Range {
+struct CodePointRange {
   code_point first;
   code_point last;
 };
 
-constexpr std::array kUnseen{Range{0x00, 0x08},      Range{0x0B, 0x1F},     Range{0x7F, 0x9F},
-                             Range{0xAD, 0xAD},      Range{0x061C, 0x061C}, Range{0x180E, 0x180E},
-                             Range{0x200B, 0x200B},  Range{0x200E, 0x200F}, Range{0x2028, 0x202E},
-                             Range{0x2060, 0x206F},  Range{0xFEFF, 0xFEFF}, Range{0xFFF9, 0xFFFB},
-                             Range{0xE0000, 0xE007F}};
+constexpr std::array kUnseen{
+    CodePointRange{0x00, 0x08},      CodePointRange{0x0B, 0x1F},     CodePointRange{0x7F, 0x9F},
+    CodePointRange{0xAD, 0xAD},      CodePointRange{0x061C, 0x061C}, CodePointRange{0x180E, 0x180E},
+    CodePointRange{0x200B, 0x200B},  CodePointRange{0x200E, 0x200F}, CodePointRange{0x2028, 0x202E},
+    CodePointRange{0x2060, 0x206F},  CodePointRange{0xFEFF, 0xFEFF}, CodePointRange{0xFFF9, 0xFFFB},
+    CodePointRange{0xE0000, 0xE007F}};
 
 bool IsUnseen(code_point c) {
-  return std::any_of(kUnseen.begin(), kUnseen.end(),
-                     [c](const Range& range) { return range.first <= c && c <= range.last; });
+  return std::any_of(kUnseen.begin(), kUnseen.end(), [c](const CodePointRange& range) {
+    return range.first <= c && c <= range.last;
+  });
 }
 
 bool IsPlain(char c) {
