@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 const fs::path kRoot = TRACKBED_SOURCE_DIR;
 constexpr std::uintmax_t kMaxBytes = 300'000;
-constexpr std::uintmax_t kMaxBytesOfAll = 8'000'000;
+constexpr std::uintmax_t kMaxBytesOfAll = 10'000'000;
 
 /// Every picture that README.md and the pages of docs/ show, with a page that does.
 std::map<fs::path, fs::path> ShownPictures() {
