@@ -43,7 +43,7 @@ ordered_json JointJson(const ShapeJoint& joint) {
 template <typename Word>
 void AppendLittleEndian(Word word, std::string& bytes) {
   for (std::size_t i = 0; i < sizeof(Word); ++i) {
-    bytes += static_cast<char>((word >> (8U * i)) & 0xFFU);
+    bytes += static_cast<char>((std::uint32_t{word} >> (8U * i)) & 0xFFU);
   }
 }
 
