@@ -19,8 +19,6 @@ namespace {
 constexpr double kPaintRange = 250.0;
 
 constexpr float kPaintShade = 0.86F;  // of a plant's color: on a body that the sun shines on
-// MuJoCo lets nothing translucent cast a shadow: so opaque that it is not seen to be translucent.
-constexpr float kCastsNoShadow = 0.99F;
 
 constexpr float kSunk = 0.002F;  // [m]; less than all paint is above the ground
 
@@ -63,7 +61,6 @@ void SinkHeightFields(mjvScene& scene) {
 }  // namespace
 
 std::vector<CarPart> FindCarParts(const mjModel& model) {
-  constexpr double kSmall = 0.04;  // volume of the box around a part [m^3]; a wheel has 0.07
   const int chassis = model.jnt_bodyid[mj_name2id(&model, mjOBJ_JOINT, "chassis")];
   std::vector<CarPart> parts(static_cast<std::size_t>(model.ngeom));
   for (int i = 0; i < model.ngeom; ++i) {
@@ -73,13 +70,6 @@ std::vector<CarPart> FindCarParts(const mjModel& model) {
       const int material = model.geom_matid[i];
       const char* name = material < 0 ? nullptr : mj_id2name(&model, mjOBJ_MATERIAL, material);
       part.painted = name != nullptr && std::string_view(name) == "paint";
-      const mjtNum* half = model.geom_size + 3 * i;
-      const int type = model.geom_type[i];
-      const double volume = type == mjGEOM_CAPSULE ? 8.0 * half[0] * half[0] * (half[0] + half[1])
-                            : type == mjGEOM_BOX || type == mjGEOM_MESH || type == mjGEOM_ELLIPSOID
-                                ? 8.0 * half[0] * half[1] * half[2]
-                                : kSmall;
-      part.casts_shadow = volume >= kSmall;
     }
   }
   return parts;
@@ -187,9 +177,6 @@ void FilmScene::DressTheCar() {
       geom.rgba[0] = kPaintShade * color.r;
       geom.rgba[1] = kPaintShade * color.g;
       geom.rgba[2] = kPaintShade * color.b;
-    }
-    if (!part.casts_shadow && scene.flags[mjRND_SHADOW] != 0) {
-      geom.rgba[3] = std::min(geom.rgba[3], kCastsNoShadow);
     }
   }
 }

@@ -16,8 +16,7 @@ namespace trackbed::render {
 /// How a geom of the model is drawn.
 struct CarPart {
   bool of_car = false;
-  bool painted = false;      ///< in the plant's color
-  bool casts_shadow = true;  ///< not: so small that its shadow on the car would be a row of stairs
+  bool painted = false;  ///< in the plant's color
 };
 
 /// Of each geom of the recording's model.

@@ -15,8 +15,8 @@ constexpr int kShadowMapSide =
 
 double ShadowReach(const CameraPose& camera) {
   const double half_height = camera.distance * std::tan(0.5 * camera.view_angle);
-  // 2 * 4 half heights in 4096 texels: 1.4 to a pixel of a picture of 720 rows.
-  constexpr double kLongest = 4.0;
+  // 2 * 3.5 half heights in 4096 texels: 1.6 to a pixel of a picture of 720 rows.
+  constexpr double kLongest = 3.5;
   // Half the diagonal of a picture of up to 21:9, as a camera that looks down a slope sees it.
   const double seen = 2.5 / std::max(0.1, std::sin(-camera.elevation));
   return half_height * std::min(kLongest, seen);
