@@ -39,6 +39,13 @@ void PrintCar(const CarModel& car) {
   }
   Row("steering_limit", p.steering_limit, "rad");
   Row("steering_rate", p.steering_rate, "rad/s");
+  const SteeringResponse& response = p.steering_response;
+  Row("steering_dead_time", response.dead_time, "s");
+  Row("steering_time_constant", response.time_constant, "s");
+  Row("steering_backlash", response.backlash, "rad");
+  for (const Vec2& point : response.curve) {
+    Row("steering_curve", point.y(), fmt::format("rad, commanded {:.6g}", point.x()).c_str());
+  }
   Row("steering_ratio", p.steering_ratio, "");
   Row("min_turning_radius", p.min_turning_radius(), "m");
 }

@@ -62,7 +62,7 @@ ErrorModel MakeErrorModel(const ControlInput& input, const Tracking& tracking, d
   rates(kOffset, kHeading) = u;
   rates(kHeading, curvature) = -u;
   rates(kActuator, rate) = 1.0;
-  const double lag = std::max(vehicle.steering_lag, kShortestLag);
+  const double lag = std::max(vehicle.steering_delay(), kShortestLag);
   rates(kWheels, kActuator) = 1.0 / lag;
   rates(kWheels, kWheels) = -1.0 / lag;
   if (tyres) {

@@ -122,7 +122,7 @@ double ResponseTime(const VehicleParams& vehicle, double speed, double period) {
       HasTyres(vehicle) ? vehicle.mass * std::abs(speed) /
                               (vehicle.cornering_stiffness_front + vehicle.cornering_stiffness_rear)
                         : 0.0;
-  return period + vehicle.steering_lag + tyres;
+  return period + vehicle.steering_delay() + tyres;
 }
 
 double PreviewDistance(const ControlInput& input, double delay) {

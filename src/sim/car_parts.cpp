@@ -8,6 +8,7 @@
 
 #include "src/sim/contact_friction.h"
 #include "src/sim/parts_reader.h"
+#include "src/sim/steering_response_reader.h"
 #include "src/sim/vehicle_limits.h"
 #include "src/sim/wheel_pair_parts.h"
 #include "trackbed/core/error.h"
@@ -156,6 +157,7 @@ class CarReader final : private PartsReader {
       damping += m_.dof_damping[m_.jnt_dofadr[joint]];
     }
     params_.steering_lag = damping / m_.actuator_gainprm[mjNGAIN * steer];
+    params_.steering_response = ReadSteeringResponse(numerics_, angle[1]);
     CheckSymmetric("ctrlrange", "steering rate [rad/s]", rate);
     CheckSymmetric("actrange", "steering angle [rad]", angle);
     if (!(angle[1] < 1.5)) {

@@ -1,4 +1,5 @@
 #include "src/sim/exact_plant.h"
+#include "src/sim/plants.h"
 
 namespace trackbed {
 namespace {
@@ -16,7 +17,7 @@ KinematicState StateAt(const VehicleParams& params, const StartState& start,
 
 }  // namespace
 
-std::unique_ptr<Plant> MakeKinematicPlant(const PlantSetup& setup, ReferencePoint reference) {
+std::unique_ptr<Plant> MakeIdealKinematicPlant(const PlantSetup& setup, ReferencePoint reference) {
   const KinematicState start = StateAt(setup.car.params(), setup.start, reference);
   return std::make_unique<ExactPlant<KinematicCar>>(setup.car,
                                                     KinematicCar(Steered(setup), reference, start));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "src/sim/plants.h"
+#include "src/sim/steering_filter_plant.h"
 #include "trackbed/core/error.h"
 #include "trackbed/options/registry.h"
 
@@ -13,7 +14,7 @@ namespace trackbed {
 namespace {
 
 std::unique_ptr<Plant> MakeKinematic(const PlantSetup& setup) {
-  return MakeKinematicPlant(setup, ReferencePoint::kRearAxle);
+  return MakeIdealKinematicPlant(setup, ReferencePoint::kRearAxle);
 }
 
 template <TyreLaw law>
@@ -65,7 +66,11 @@ std::unique_ptr<Plant> MakePlant(const std::string& name, const PlantSetup& setu
                        std::isfinite(start.speed) && std::isfinite(start.steering),
                    "MakePlant: the start is at {}, {}, yaw {}, {} m/s, steering {}; must be finite",
                    start.pose.x, start.pose.y, start.pose.yaw, start.speed, start.steering);
-  return Table().Find(name).make(setup);
+  return WithSteeringResponse(Table().Find(name).make(setup), setup);
+}
+
+std::unique_ptr<Plant> MakeKinematicPlant(const PlantSetup& setup, ReferencePoint reference) {
+  return WithSteeringResponse(MakeIdealKinematicPlant(setup, reference), setup);
 }
 
 std::string PlantFileName(const std::string& name) {

@@ -79,6 +79,13 @@ const double* Numerics::Find(const std::string& name, int count) const {
   return id < 0 ? nullptr : model_.numeric_data + model_.numeric_adr[id];
 }
 
+std::span<const double> Numerics::List(const std::string& name) const {
+  const int id = mj_name2id(&model_, mjOBJ_NUMERIC, name.c_str());
+  return id < 0 ? std::span<const double>{}
+                : std::span(model_.numeric_data + model_.numeric_adr[id],
+                            static_cast<std::size_t>(model_.numeric_size[id]));
+}
+
 void Numerics::Read(const std::string& name, double& value) const {
   if (const double* number = Find(name, 1)) {
     value = *number;

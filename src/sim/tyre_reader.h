@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "trackbed/sim/car_model.h"
@@ -20,6 +21,8 @@ class Numerics {
   [[nodiscard]] bool Has(const std::string& name) const;
   /// `count` numbers, or null when there are none of that name.
   [[nodiscard]] const double* Find(const std::string& name, int count) const;
+  /// All numbers of that name; empty when there are none.
+  [[nodiscard]] std::span<const double> List(const std::string& name) const;
   /// Leaves the value alone when there is no such number.
   void Read(const std::string& name, double& value) const;
 

@@ -85,6 +85,10 @@ struct PlantEntry {
 /// file and what is missing there; it begins without slip, as every plant does. Where it is
 /// unstable it ends as diverged, 1e10 m or rad away.
 ///
+/// A car with a steering response (VehicleParams::steering_response) has it on every plant,
+/// registered ones included: what the plant is commanded is what the SteeringFilter gives. Not with
+/// prescribed steering.
+///
 /// ApplyLateralForce has no effect on `kinematic`, nor on `single_track` at rest.
 ///
 /// The MuJoCo plant converts a commanded acceleration to drive torque on its differential, or,

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "trackbed/vehicle/steering_response.h"
+
 namespace trackbed {
 
 inline constexpr double kGravity = 9.81;  ///< [m/s^2]
@@ -61,6 +63,7 @@ struct VehicleParams {
   double steering_limit = 0.0;  ///< delta_max [rad]
   double steering_rate = 0.0;   ///< omega_delta at the road wheels, of delta anyway [rad/s]
   double steering_lag = 0.0;    ///< tau: of the road wheels behind the actuator, on a ramp [s]
+  SteeringResponse steering_response{};  ///< of the actuator to commands
   double steering_ratio =
       0.0;                     ///< steering-wheel angle over road-wheel angle; 0: no steering wheel
   double length = 0.0;         ///< of the footprint [m]
@@ -85,6 +88,8 @@ struct VehicleParams {
 
   /// l_f: center of gravity to front axle, along x [m]. Of cars only.
   [[nodiscard]] double cg_to_front() const { return wheelbase - cg_to_rear; }
+  /// Of the road wheels behind the command, on a ramp within the rate limit [s].
+  [[nodiscard]] double steering_delay() const { return steering_lag + steering_response.delay(); }
   /// Of the rear-axle center at full lock [m].
   [[nodiscard]] double min_turning_radius() const;
 };

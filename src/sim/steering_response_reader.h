@@ -1,0 +1,12 @@
+#pragma once
+
+#include "src/sim/tyre_reader.h"
+#include "trackbed/vehicle/steering_response.h"
+
+namespace trackbed {
+
+/// The response of a steering actuator that turns the wheels by up to `limit` [rad] to both sides;
+/// ideal for a model without numbers of it.
+SteeringResponse ReadSteeringResponse(const Numerics& numerics, double limit);
+
+}  // namespace trackbed

@@ -1,0 +1,83 @@
+#include "trackbed/vehicle/steering_response.h"
+
+#include <algorithm>
+#include <boost/math/interpolators/pchip.hpp>
+#include <cmath>
+#include <utility>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+/// Of the ring that the dead time needs.
+std::size_t DeadTimeSteps(const SteeringResponse& response, double timestep, double start) {
+  TRACKBED_REQUIRE(response.time_constant >= 0.0 && std::isfinite(response.time_constant) &&
+                       response.backlash >= 0.0 && std::isfinite(response.backlash) &&
+                       std::isfinite(start),
+                   "SteeringFilter: time constant {} s, backlash {} rad, start {} rad; must be "
+                   "finite, the first two at least 0",
+                   response.time_constant, response.backlash, start);
+  constexpr double kMostSteps = 1e7;
+  const double steps = response.dead_time / timestep;
+  TRACKBED_REQUIRE(timestep > 0.0 && response.dead_time >= 0.0 && steps <= kMostSteps,
+                   "SteeringFilter: a dead time of {} s in timesteps of {} s; must be at most {} "
+                   "steps",
+                   response.dead_time, timestep, kMostSteps);
+  return static_cast<std::size_t>(std::lround(steps));
+}
+
+}  // namespace
+
+MonotoneCurve::MonotoneCurve(const std::vector<Vec2>& points) {
+  TRACKBED_REQUIRE(points.size() >= 4, "MonotoneCurve: {} points; must be at least 4",
+                   points.size());
+  std::vector<double> x;
+  std::vector<double> y;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool rises =
+        i == 0 || (points[i].x() > points[i - 1].x() && points[i].y() > points[i - 1].y());
+    TRACKBED_REQUIRE(points[i].allFinite() && rises,
+                     "MonotoneCurve: point {} is ({}, {}); both must be finite and increase", i,
+                     points[i].x(), points[i].y());
+    x.push_back(points[i].x());
+    y.push_back(points[i].y());
+  }
+  first_ = x.front();
+  last_ = x.back();
+  interpolant_ = boost::math::interpolators::pchip(std::move(x), std::move(y));
+}
+
+double MonotoneCurve::At(double x) const {
+  TRACKBED_REQUIRE(std::isfinite(x), "MonotoneCurve::At: {}; must be finite", x);
+  return interpolant_(std::clamp(x, first_, last_));
+}
+
+bool SteeringResponse::ideal() const {
+  return curve.empty() && dead_time == 0.0 && time_constant == 0.0 && backlash == 0.0;
+}
+
+SteeringFilter::SteeringFilter(const SteeringResponse& response, double timestep, double start)
+    : play_(0.5 * response.backlash),
+      on_the_way_(DeadTimeSteps(response, timestep, start), start),
+      lagged_(start),
+      given_(start) {
+  if (!response.curve.empty()) {
+    curve_.emplace(response.curve);
+  }
+  decay_ = response.time_constant > 0.0 ? std::exp(-timestep / response.time_constant) : 0.0;
+}
+
+double SteeringFilter::Pass(double command) {
+  TRACKBED_REQUIRE(std::isfinite(command), "SteeringFilter::Pass: {} rad; must be finite", command);
+  double arrived = curve_ ? curve_->At(command) : command;
+  if (!on_the_way_.empty()) {
+    std::swap(arrived, on_the_way_[oldest_]);
+    oldest_ = (oldest_ + 1) % on_the_way_.size();
+  }
+  lagged_ = decay_ == 0.0 ? arrived : arrived + decay_ * (lagged_ - arrived);
+  given_ = std::clamp(given_, lagged_ - play_, lagged_ + play_);
+  return given_;
+}
+
+}  // namespace trackbed
