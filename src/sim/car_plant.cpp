@@ -43,6 +43,9 @@ class CarPlant final : public MujocoPlant {
     Begin();
     if (tyres_) {
       tyres_->Stand(data());
+      if (setup.start.lateral_speed || setup.start.yaw_rate) {
+        tyres_->TakeLateralSlip(model(), data());
+      }
     }
   }
 

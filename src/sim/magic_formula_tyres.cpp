@@ -143,6 +143,16 @@ void MagicFormulaTyres::Stand(const mjData& data) {
   }
 }
 
+void MagicFormulaTyres::TakeLateralSlip(const mjModel& model, const mjData& data) {
+  for (std::size_t w = 0; w < kWheels.size(); ++w) {
+    const TyreTouch touch = Touch(data, w);
+    const Eigen::Vector3d on_road = touch.lowest_W - touch.gap * touch.normal_W;
+    const WheelContact contact = ContactAt(car_, model, data, w, on_road, touch.normal_W);
+    const double speed = std::abs(contact.rolling_speed);
+    slips_[w].y = speed > kAtRestSpeed ? contact.slip_speed_y / speed : 0.0;
+  }
+}
+
 void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
                               const std::array<double, 4>& road) {
   const double radius = car_.params().wheel_radius;

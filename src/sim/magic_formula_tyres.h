@@ -33,6 +33,10 @@ class MagicFormulaTyres {
   /// Before the first step, from the positions in `data`: tyres without slip.
   void Stand(const mjData_& data);
 
+  /// After Stand, from the speeds in `data`: every rolling tyre with the steady slip of its lateral
+  /// motion.
+  void TakeLateralSlip(const mjModel_& model, const mjData_& data);
+
   /// What Apply found last.
   [[nodiscard]] std::array<WheelState, 4> Observe() const;
 

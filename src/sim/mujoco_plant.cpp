@@ -65,7 +65,15 @@ MujocoPlant::MujocoPlant(const PlantSetup& setup, TyreSupport support)
   mjtNum* velocity = data_->qvel + car_.chassis().chassis_dof;
   const Vector3d ahead_W = car_.AheadOnGround(start.pose, ground);
   Eigen::Map<Vector3d>{velocity} = start.speed / ahead_W.head<2>().norm() * ahead_W;
-  velocity[5] = start.speed * CurvatureForSteering(car_.params(), start.steering);
+  velocity[5] =
+      start.yaw_rate.value_or(start.speed * CurvatureForSteering(car_.params(), start.steering));
+  if (start.lateral_speed) {
+    // Of V's origin, which the free joint moves.
+    const double sideways = *start.lateral_speed - car_.params().cg_to_rear * velocity[5];
+    const Vec2 left = LeftNormal(Direction(start.pose.yaw));
+    velocity[0] += sideways * left.x();
+    velocity[1] += sideways * left.y();
+  }
   yaw_ = start.pose.yaw;
   for (std::size_t i = 0; i < world_.obstacles.size(); ++i) {
     const Obstacle& obstacle = world_.obstacles[i];

@@ -63,9 +63,13 @@ TyreLaw SelectTyreLaw(const CarModel& car, TyreLaw tyre) {
 std::unique_ptr<Plant> MakePlant(const std::string& name, const PlantSetup& setup) {
   const StartState& start = setup.start;
   TRACKBED_REQUIRE(start.pose.position().allFinite() && std::isfinite(start.pose.yaw) &&
-                       std::isfinite(start.speed) && std::isfinite(start.steering),
-                   "MakePlant: the start is at {}, {}, yaw {}, {} m/s, steering {}; must be finite",
-                   start.pose.x, start.pose.y, start.pose.yaw, start.speed, start.steering);
+                       std::isfinite(start.speed) && std::isfinite(start.steering) &&
+                       std::isfinite(start.lateral_speed.value_or(0.0)) &&
+                       std::isfinite(start.yaw_rate.value_or(0.0)),
+                   "MakePlant: the start is at {}, {}, yaw {}, {} m/s, steering {}, lateral speed "
+                   "{}, yaw rate {}; must be finite",
+                   start.pose.x, start.pose.y, start.pose.yaw, start.speed, start.steering,
+                   start.lateral_speed.value_or(0.0), start.yaw_rate.value_or(0.0));
   return WithSteeringResponse(Table().Find(name).make(setup), setup);
 }
 

@@ -8,7 +8,9 @@ namespace trackbed {
 std::unique_ptr<Plant> MakeSingleTrackPlant(const PlantSetup& setup) {
   static_cast<void>(RequireTyres(setup.car, "the plant single_track"));
   const VehicleParams params = Steered(setup);
-  const SingleTrackState start = RollingWithoutSlip(params, InPlane(setup.start));
+  SingleTrackState start = RollingWithoutSlip(params, InPlane(setup.start));
+  start.lateral_speed = setup.start.lateral_speed.value_or(start.lateral_speed);
+  start.yaw_rate = setup.start.yaw_rate.value_or(start.yaw_rate);
   return std::make_unique<ExactPlant<SingleTrackCar>>(setup.car, SingleTrackCar(params, start));
 }
 

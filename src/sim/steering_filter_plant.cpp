@@ -47,7 +47,9 @@ std::unique_ptr<Plant> WithSteeringResponse(std::unique_ptr<Plant> plant, const 
     return plant;
   }
   return std::make_unique<SteeringFilterPlant>(
-      std::move(plant), SteeringFilter(response, setup.car.timestep(), setup.start.steering));
+      std::move(plant), setup.filter
+                            ? *setup.filter
+                            : SteeringFilter(response, setup.car.timestep(), setup.start.steering));
 }
 
 }  // namespace trackbed

@@ -30,9 +30,10 @@ std::vector<Vec2> ReadCurve(const Numerics& numerics) {
     return {};
   }
   if (numbers.size() < 8 || numbers.size() % 2 != 0) {
-    numerics.AddError(name, fmt::format("has {} numbers; must be pairs of commanded angle and angle "
-                                        "of the road wheels [rad], at least four",
-                                        numbers.size()));
+    numerics.AddError(name,
+                      fmt::format("has {} numbers; must be pairs of commanded angle and angle "
+                                  "of the road wheels [rad], at least four",
+                                  numbers.size()));
     return {};
   }
   std::vector<Vec2> curve;

@@ -42,6 +42,12 @@ double CurvatureForSteering(const VehicleParams& params, double steering) {
   return std::tan(steering) / params.wheelbase;
 }
 
+double RestingSteering(const VehicleParams& params, double command) {
+  const std::vector<Vec2>& curve = params.steering_response.curve;
+  const double angle = curve.empty() ? command : MonotoneCurve(curve).At(command);
+  return std::clamp(angle, -params.steering_limit, params.steering_limit);
+}
+
 FrontAngles AckermannAngles(const VehicleParams& params, double steering) {
   const double k = params.track_front / (2.0 * params.wheelbase);
   const double sine = std::sin(steering);

@@ -1,5 +1,7 @@
 #include "trackbed/vehicle/steering_response.h"
 
+#include <math.h>  // pchip.hpp uses ::isnan
+
 #include <algorithm>
 #include <boost/math/interpolators/pchip.hpp>
 #include <cmath>

@@ -17,9 +17,9 @@ constexpr const char* kCurve = "-0.4 -0.3 -0.1 -0.09 0 0 0.1 0.08 0.4 0.25";
 
 /// The BMW with a steering response in its file.
 CarModel Responding(const std::string& curve = kCurve) {
-  const CarModel car = CarWith("bmw320i", {{"steering_dead_time", 0.05},
-                                           {"steering_time_constant", 0.1},
-                                           {"steering_backlash", 0.01}});
+  const CarModel car = CarWith(
+      "bmw320i",
+      {{"steering_dead_time", 0.05}, {"steering_time_constant", 0.1}, {"steering_backlash", 0.01}});
   Scene scene = car.scene();
   scene.xml.insert(scene.xml.find("</custom>"),
                    fmt::format("<numeric name=\"steering_curve\" data=\"{}\"/>", curve));
@@ -41,8 +41,7 @@ TEST(SteeringFilterPlant, IsTheSameOnEveryPlant) {
   const World world;
   const auto command = [](double t) { return t < 1.0 ? 0.3 : -0.2; };
   for (const PlantEntry& entry : Plants()) {
-    const auto plant =
-        MakePlant(entry.name, {.car = car, .world = world, .start = {.speed = 5.0}});
+    const auto plant = MakePlant(entry.name, {.car = car, .world = world, .start = {.speed = 5.0}});
     SteeringFilter filter(car.params().steering_response, car.timestep(), 0.0);
     const double step = car.params().steering_rate * car.timestep();
     double actuator = 0.0;
@@ -50,7 +49,8 @@ TEST(SteeringFilterPlant, IsTheSameOnEveryPlant) {
         car, *plant, 2.0, [&](double t, const VehicleState&) { return Command{command(t)}; },
         [&](double t, const VehicleState& state) {
           // MuJoCo adds up rates times timesteps: 1000 roundings of numbers below 1.
-          EXPECT_NEAR(state.steering_actuator, actuator, Tolerance(1e-12)) << entry.name << " " << t;
+          EXPECT_NEAR(state.steering_actuator, actuator, Tolerance(1e-12))
+              << entry.name << " " << t;
           actuator += std::clamp(filter.Pass(command(t)) - actuator, -step, step);
         });
   }
@@ -105,8 +105,9 @@ TEST(SteeringFilterPlant, RefusesNumbersOutOfRange) {
               testing::HasSubstr("steering_time_constant: must be between 0 and 10 s, found 11"));
   EXPECT_THAT(Problems({{"steering_backlash", 9.0}}),
               testing::HasSubstr("steering_backlash: must be between 0 and 2.132 rad, found 9"));
-  EXPECT_THAT(Problems({}, "0 0 1 1 2 2"),
-              testing::HasSubstr("steering_curve: has 6 numbers; must be pairs of commanded angle"));
+  EXPECT_THAT(
+      Problems({}, "0 0 1 1 2 2"),
+      testing::HasSubstr("steering_curve: has 6 numbers; must be pairs of commanded angle"));
   EXPECT_THAT(Problems({}, "0 0 1 1 2 2 3"), testing::HasSubstr("steering_curve: has 7 numbers"));
   EXPECT_THAT(Problems({}, "0 0 1 1 2 0.5 3 3"),
               testing::HasSubstr("steering_curve: pair 3 is 2 0.5; both numbers must increase"));

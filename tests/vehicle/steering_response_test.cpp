@@ -136,7 +136,8 @@ TEST(SteeringFilter, LosesItsBacklashAtEveryTurn) {
   }
   const std::vector<double> angles = Filtered({.backlash = 0.02}, commands);
   for (std::size_t i = 0; i < angles.size(); ++i) {
-    // Up: half of the play behind. After a turn at a: at rest over the play, then half behind again.
+    // Up: half of the play behind. After a turn at a: at rest over the play, then half behind
+    // again.
     const double up = std::max(0.0, commands[i] - 0.01);
     const double down = std::min(0.09, commands[i] + 0.01);
     const double again = std::max(-0.09, commands[i] - 0.01);

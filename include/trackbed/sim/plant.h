@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "trackbed/sim/plant_options.h"
 #include "trackbed/vehicle/kinematic_car.h"
 #include "trackbed/vehicle/state.h"
+#include "trackbed/vehicle/steering_response.h"
 #include "trackbed/world/world.h"
 
 /// The interface of plants and their registry.
@@ -62,6 +64,9 @@ struct PlantSetup {
   StartState start;
   TyreLaw tyre = TyreLaw::kAuto;
   SteeringInput steering = SteeringInput::kActuator;
+  /// The car's steering response as earlier commands have left it, made for the car's timestep.
+  /// None: as if what keeps the wheels where they start had always been commanded.
+  std::optional<SteeringFilter> filter{};
 };
 
 /// Resolves `tyre` for a car: never kAuto.
@@ -82,8 +87,10 @@ struct PlantEntry {
 /// The first two follow the commanded acceleration exactly and ignore the world: obstacles,
 /// friction, grades and wind. (A linear tyre has only a stiffness, which does not depend on the
 /// road's friction.) `single_track` needs a car with tyre coefficients, else InputError names its
-/// file and what is missing there; it begins without slip, as every plant does. Where it is
-/// unstable it ends as diverged, 1e10 m or rad away.
+/// file and what is missing there. Where it is unstable it ends as diverged, 1e10 m or rad away.
+///
+/// Plants begin without slip, unless the start has a lateral speed or a yaw rate, which `kinematic`
+/// ignores; those of MuJoCo stand on their springs as at rest.
 ///
 /// A car with a steering response (VehicleParams::steering_response) has it on every plant,
 /// registered ones included: what the plant is commanded is what the SteeringFilter gives. Not with

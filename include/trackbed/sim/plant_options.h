@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "trackbed/geometry/pose.h"
 
 /// What a plant starts from and is made of, apart from car and world.
@@ -10,6 +12,10 @@ struct StartState {
   Pose2 pose;             ///< rear-axle center
   double speed = 0.0;     ///< [m/s]
   double steering = 0.0;  ///< bicycle angle, wheels and actuator alike [rad]
+  /// Of the center of gravity, along y [m/s]. None: it rolls without slip. For plants that can
+  /// slip.
+  std::optional<double> lateral_speed{};
+  std::optional<double> yaw_rate{};  ///< [rad/s]; likewise
 };
 
 /// The tyre model of the MuJoCo plant.

@@ -111,6 +111,10 @@ double SteeringForCurvature(const VehicleParams& params, double curvature);
 /// kappa = tan(delta)/L [1/m].
 double CurvatureForSteering(const VehicleParams& params, double steering);
 
+/// The angle [rad] that the actuator rests at under a lasting `command` [rad]: the curve of the
+/// steering response, within the limit.
+double RestingSteering(const VehicleParams& params, double command);
+
 /// Angles of the two front wheels [rad].
 struct FrontAngles {
   double left = 0.0;

@@ -10,8 +10,8 @@
 /// How a steering actuator follows a commanded angle, apart from its limits of rate and angle.
 namespace trackbed {
 
-/// A monotone curve through points: the piecewise cubic of Fritsch and Butland (1984), which does not
-/// overshoot between two points; held before the first point and after the last.
+/// A monotone curve through points: the piecewise cubic of Fritsch and Butland (1984), which does
+/// not overshoot between two points; held before the first point and after the last.
 class MonotoneCurve {
  public:
   /// At least four points (x, y), both strictly increasing and finite, else PreconditionError.
@@ -33,8 +33,9 @@ class MonotoneCurve {
 ///   u_4(t), with |u_4 - u_3| <= backlash/2  the play moves only at its edges
 /// All angles are bicycle angles at the road wheels [rad], positive to the left.
 struct SteeringResponse {
-  std::vector<Vec2> curve{};   ///< (command, angle) [rad], of a MonotoneCurve; empty: angle = command
-  double dead_time = 0.0;      ///< [s], >= 0
+  std::vector<Vec2>
+      curve{};             ///< (command, angle) [rad], of a MonotoneCurve; empty: angle = command
+  double dead_time = 0.0;  ///< [s], >= 0
   double time_constant = 0.0;  ///< [s], >= 0
   double backlash = 0.0;       ///< total play [rad], >= 0
 
@@ -60,9 +61,9 @@ class SteeringFilter {
 
  private:
   std::optional<MonotoneCurve> curve_;
-  double decay_;                      // of the lag, in a timestep
-  double play_;                       // half the backlash [rad]
-  std::vector<double> on_the_way_;    // a ring
+  double decay_;                    // of the lag, in a timestep
+  double play_;                     // half the backlash [rad]
+  std::vector<double> on_the_way_;  // a ring
   std::size_t oldest_ = 0;
   double lagged_;
   double given_;
