@@ -68,33 +68,34 @@ struct RowReader {
 
 }  // namespace
 
-void ReadCsvRows(const std::filesystem::path& file, std::size_t most_cells, ProblemList& problems,
+void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, ProblemList& problems,
                  const TakeCsvRow& take) {
-  const std::string content = ReadFile(file);
-  std::string_view text = content;
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.starts_with(kByteOrderMark)) {
-    text.remove_prefix(kByteOrderMark.size());
-  }
-  RowReader reader{.file = file, .most_cells = most_cells, .problems = problems, .take = take};
+  RowReader reader{
+      .file = file, .most_cells = limits.most_cells, .problems = problems, .take = take};
   csv_parser parser{};
   TRACKBED_CHECK(csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI | CSV_REPALL_NL) == 0,
                  "libcsv did not start");
   const std::unique_ptr<csv_parser, void (*)(csv_parser*)> guard(&parser, csv_free);
+  csv_set_delim(&parser, static_cast<unsigned char>(limits.delimiter));
   const auto cell = [](void* data, std::size_t size, void* self) {
     static_cast<RowReader*>(self)->Cell({static_cast<const char*>(data), size});
   };
   const auto row = [](int ending, void* self) { static_cast<RowReader*>(self)->EndOfRow(ending); };
+  bool at_begin = true;
   // In parts: libcsv cannot be stopped, and keeps a cell whole until it ends.
-  while (!text.empty() && !reader.stopped) {
-    const std::string_view part = text.substr(0, kLongestCell);
-    text.remove_prefix(part.size());
+  const auto parse = [&](std::string_view part) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (std::exchange(at_begin, false) && part.starts_with(kByteOrderMark)) {
+      part.remove_prefix(kByteOrderMark.size());
+    }
     if (csv_parse(&parser, part.data(), part.size(), cell, row, &reader) != part.size()) {
       reader.Stop(csv_strerror(csv_error(&parser)));
     } else if (parser.entry_pos > kLongestCell) {
       reader.Stop(fmt::format("a cell of more than {} characters", kLongestCell));
     }
-  }
+    return !reader.stopped;
+  };
+  ReadBlocks(file, parse, limits.most_bytes);
   if (!reader.stopped && csv_fini(&parser, cell, row, &reader) != 0) {
     reader.Stop(csv_strerror(csv_error(&parser)));
   }

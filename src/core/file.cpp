@@ -57,6 +57,19 @@ namespace {
 }  // namespace
 
 std::string ReadFile(const fs::path& file, std::size_t largest) {
+  std::string content;
+  ReadBlocks(
+      file,
+      [&](std::string_view block) {
+        content.append(block);
+        return true;
+      },
+      largest);
+  return content;
+}
+
+void ReadBlocks(const fs::path& file, const std::function<bool(std::string_view block)>& take,
+                std::size_t largest) {
   Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
   if (in.get() < 0) {
     Fail("read", file, errno);
@@ -65,22 +78,23 @@ std::string ReadFile(const fs::path& file, std::size_t largest) {
   if (::fstat(in.get(), &status) == 0 && static_cast<std::size_t>(status.st_size) > largest) {
     FailAsTooLarge(file, largest);
   }
-  std::string content;
+  std::size_t bytes = 0;
   std::array<char, 65536> block{};
   for (;;) {
     const ssize_t got = ::read(in.get(), block.data(), block.size());
-    if (got == 0) {
-      return content;
-    }
     if (got < 0) {
       if (errno == EINTR) {
         continue;
       }
       Fail("read", file, errno);
     }
-    content.append(block.data(), static_cast<std::size_t>(got));
-    if (content.size() > largest) {  // a pipe, or a file that grows
+    const auto size = static_cast<std::size_t>(got);
+    bytes += size;
+    if (bytes > largest) {  // a pipe, or a file that grows
       FailAsTooLarge(file, largest);
+    }
+    if (size == 0 || !take({block.data(), size})) {
+      return;
     }
   }
 }

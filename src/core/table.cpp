@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <optional>
 
 #include "src/core/csv_reader.h"
@@ -22,6 +23,7 @@ struct Selection {
   std::vector<std::string> needed{};    // otherwise these, which must be there,
   std::vector<std::string> optional{};  // and these, which may
   bool finite = false;                  // whether cells must be
+  bool empty = false;                   // whether cells may be; they are NaN
 
   [[nodiscard]] bool Takes(const std::string& column) const {
     return all || std::find(needed.begin(), needed.end(), column) != needed.end() ||
@@ -33,6 +35,7 @@ struct Selection {
 struct Reader {
   std::string file;
   Selection selection;
+  std::function<void(const std::vector<double>& numbers, int line)> take{};  // none: to the table
   std::optional<Table> table{};
   std::vector<int> lines{};           // of the table's rows
   std::vector<std::string> header{};  // every name in the file
@@ -102,6 +105,10 @@ struct Reader {
     row.reserve(taken.size());
     for (const std::size_t i : taken) {
       const std::string& cell = cells[i];
+      if (cell.empty() && selection.empty) {
+        row.push_back(std::numeric_limits<double>::quiet_NaN());
+        continue;
+      }
       double value = 0.0;
       const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
       if (error != std::errc{} || end != cell.data() + cell.size()) {
@@ -111,22 +118,29 @@ struct Reader {
       }
       row.push_back(value);
     }
+    if (take) {
+      take(row, line);
+      return;
+    }
     table->AddRow(row);
     lines.push_back(line);
   }
 };
 
 /// The whole file; InputError unless everything in it can be read.
-Reader ReadThrough(const std::filesystem::path& file, Selection selection) {
-  constexpr std::size_t kMostCells = 50'000'000;  // 400 MB
-  Reader reader{.file = file.string(), .selection = std::move(selection)};
-  ReadCsvRows(file, kMostCells, reader.problems, [&](std::vector<std::string>& cells, int line) {
+void ReadThrough(const std::filesystem::path& file, const CsvLimits& limits, Reader& reader) {
+  ReadCsvRows(file, limits, reader.problems, [&](std::vector<std::string>& cells, int line) {
     reader.cells.swap(cells);
     reader.line = line;
     reader.TakeRow();
     reader.cells.swap(cells);
   });
   reader.problems.ThrowIfAny();
+}
+
+Reader ReadThrough(const std::filesystem::path& file, Selection selection) {
+  Reader reader{.file = file.string(), .selection = std::move(selection)};
+  ReadThrough(file, {}, reader);
   return reader;
 }
 
@@ -208,6 +222,29 @@ CsvExcerpt ReadCsvExcerpt(const std::filesystem::path& file, std::vector<std::st
       file,
       {.all = false, .needed = std::move(needed), .optional = std::move(optional), .finite = true});
   return {std::move(*reader.table), std::move(reader.lines)};
+}
+
+void ReadCsvNumbers(const std::filesystem::path& file, const std::vector<std::string>& columns,
+                    char delimiter,
+                    const std::function<void(const std::vector<double>&, int)>& take) {
+  TRACKBED_CHECK(!columns.empty(), "numbers need columns");
+  Reader reader{.file = file.string(),
+                .selection = {.all = false, .needed = columns, .optional = {}, .empty = true}};
+  std::vector<double> ordered(columns.size());
+  std::vector<std::size_t> place;  // of each of `columns` in the file's order
+  reader.take = [&](const std::vector<double>& numbers, int line) {
+    if (place.empty()) {
+      for (const std::string& column : columns) {
+        place.push_back(static_cast<std::size_t>(reader.table->Find(column)));
+      }
+    }
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      ordered[i] = numbers[place[i]];
+    }
+    take(ordered, line);
+  };
+  constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
+  ReadThrough(file, {.most_cells = kAny, .most_bytes = kAny, .delimiter = delimiter}, reader);
 }
 
 }  // namespace trackbed

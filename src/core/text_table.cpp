@@ -80,26 +80,27 @@ TextTable ReadTextCsv(const std::filesystem::path& file) {
   constexpr std::size_t kMostCells = 10'000'000;  // of at least 32 bytes each
   ProblemList problems;
   std::optional<TextTable> table;
-  ReadCsvRows(file, kMostCells, problems, [&](std::vector<std::string>& cells, int line) {
-    const auto add_error = [&](std::string message) {
-      problems.Add({.file = file.string(), .line = line, .message = std::move(message)});
-    };
-    if (!table) {
-      for (auto name = cells.begin(); name != cells.end(); ++name) {
-        if (name->empty()) {
-          add_error(fmt::format("cell {}: the column has no name", name - cells.begin() + 1));
-        } else if (std::find(cells.begin(), name, *name) != name) {
-          add_error(fmt::format("repeated column '{}'", *name));
+  ReadCsvRows(
+      file, {.most_cells = kMostCells}, problems, [&](std::vector<std::string>& cells, int line) {
+        const auto add_error = [&](std::string message) {
+          problems.Add({.file = file.string(), .line = line, .message = std::move(message)});
+        };
+        if (!table) {
+          for (auto name = cells.begin(); name != cells.end(); ++name) {
+            if (name->empty()) {
+              add_error(fmt::format("cell {}: the column has no name", name - cells.begin() + 1));
+            } else if (std::find(cells.begin(), name, *name) != name) {
+              add_error(fmt::format("repeated column '{}'", *name));
+            }
+          }
+          table.emplace(cells);
+        } else if (cells.size() != table->columns().size()) {
+          add_error(fmt::format("{} {}, the header has {}", cells.size(),
+                                cells.size() == 1 ? "cell" : "cells", table->columns().size()));
+        } else {
+          table->AddRow(std::move(cells));
         }
-      }
-      table.emplace(cells);
-    } else if (cells.size() != table->columns().size()) {
-      add_error(fmt::format("{} {}, the header has {}", cells.size(),
-                            cells.size() == 1 ? "cell" : "cells", table->columns().size()));
-    } else {
-      table->AddRow(std::move(cells));
-    }
-  });
+      });
   problems.ThrowIfAny();
   return *std::move(table);
 }

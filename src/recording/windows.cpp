@@ -8,6 +8,7 @@
 #include "trackbed/control/playback.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/recording/relative_rms.h"
 #include "trackbed/sim/plant.h"
 #include "trackbed/vehicle/steering_actuator.h"
 #include "trackbed/vehicle/steering_response.h"
@@ -82,17 +83,16 @@ WindowPrediction Predict(const Replay& replay, const std::string& name, long fir
                          const SteeringHistory& steering) {
   const double period = replay.options.control_period;
   WindowPrediction window{.start = static_cast<double>(first) * period};
-  const VehicleState from = StateOf(replay.drive.At(window.start), replay.car.params(),
-                                    replay.options.steering == ReplaySteering::kMeasured);
+  const RecordedSample from = replay.drive.At(window.start);
   const bool prescribed = replay.options.input == SteeringInput::kPrescribed;
   const double angle =
       prescribed ? replay.inputs.recording.steering.At(window.start) : steering.angle;
   const auto plant = MakePlant(name, {.car = replay.car,
                                       .world = replay.options.world,
                                       .start = {.pose = from.pose,
-                                                .speed = from.speed,
+                                                .speed = from.velocity_V.x(),
                                                 .steering = angle,
-                                                .lateral_speed = from.lateral_speed,
+                                                .lateral_speed = from.velocity_V.y(),
                                                 .yaw_rate = from.yaw_rate},
                                       .tyre = replay.options.tyre,
                                       .steering = replay.options.input,
@@ -123,22 +123,6 @@ double QuantileOf(const std::vector<double>& sorted, double share) {
          : std::isinf(sorted[after]) ? sorted[after]
                                      : std::lerp(sorted[before], sorted[after], rest);
 }
-
-/// Root mean square of differences over that of what is measured.
-class RelativeRms {
- public:
-  void Add(double predicted, double measured) {
-    differences_ += (predicted - measured) * (predicted - measured);
-    measured_ += measured * measured;
-  }
-  [[nodiscard]] double value() const {
-    return differences_ == 0.0 ? 0.0 : std::sqrt(differences_ / measured_);
-  }
-
- private:
-  double differences_ = 0.0;
-  double measured_ = 0.0;
-};
 
 }  // namespace
 

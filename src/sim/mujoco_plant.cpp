@@ -68,11 +68,9 @@ MujocoPlant::MujocoPlant(const PlantSetup& setup, TyreSupport support)
   velocity[5] =
       start.yaw_rate.value_or(start.speed * CurvatureForSteering(car_.params(), start.steering));
   if (start.lateral_speed) {
-    // Of V's origin, which the free joint moves.
-    const double sideways = *start.lateral_speed - car_.params().cg_to_rear * velocity[5];
-    const Vec2 left = LeftNormal(Direction(start.pose.yaw));
-    velocity[0] += sideways * left.x();
-    velocity[1] += sideways * left.y();
+    const Vec2 sideways = *start.lateral_speed * LeftNormal(Direction(start.pose.yaw));
+    velocity[0] += sideways.x();
+    velocity[1] += sideways.y();
   }
   yaw_ = start.pose.yaw;
   for (std::size_t i = 0; i < world_.obstacles.size(); ++i) {

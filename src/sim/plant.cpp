@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "src/sim/plants.h"
@@ -48,6 +49,8 @@ const std::vector<PlantEntry>& Plants() {
 }
 
 void RegisterPlant(PlantEntry entry) {
+  TRACKBED_REQUIRE(std::string_view(entry.name) != kRecordedPlant,
+                   "RegisterPlant: '{}' is what recorded drives are called", entry.name);
   Table().Add(std::move(entry));
 }
 

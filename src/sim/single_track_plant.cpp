@@ -9,8 +9,9 @@ std::unique_ptr<Plant> MakeSingleTrackPlant(const PlantSetup& setup) {
   static_cast<void>(RequireTyres(setup.car, "the plant single_track"));
   const VehicleParams params = Steered(setup);
   SingleTrackState start = RollingWithoutSlip(params, InPlane(setup.start));
-  start.lateral_speed = setup.start.lateral_speed.value_or(start.lateral_speed);
   start.yaw_rate = setup.start.yaw_rate.value_or(start.yaw_rate);
+  start.lateral_speed =
+      setup.start.lateral_speed.value_or(0.0) + params.cg_to_rear * start.yaw_rate;
   return std::make_unique<ExactPlant<SingleTrackCar>>(setup.car, SingleTrackCar(params, start));
 }
 

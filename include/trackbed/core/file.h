@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,6 +17,12 @@ inline constexpr std::size_t kLargestFile = std::size_t{512} << 20U;
 /// The whole file as bytes. RunError naming the file when it cannot be read (missing, a folder, …)
 /// or has more than `largest` bytes, of which no more are read then.
 std::string ReadFile(const std::filesystem::path& file, std::size_t largest = kLargestFile);
+
+/// The file as a stream: calls `take` with one block of at most 64 KiB after the other, until it
+/// gives back false. RunError as ReadFile.
+void ReadBlocks(const std::filesystem::path& file,
+                const std::function<bool(std::string_view block)>& take,
+                std::size_t largest = kLargestFile);
 
 /// Writes `content` beside `file` under a temporary name and renames it, so that `file` is either
 /// what it was or complete, also when the process is killed. RunError (the temporary is removed)

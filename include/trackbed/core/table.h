@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -71,5 +72,13 @@ struct CsvExcerpt {
 /// nearest spelling) and a cell that is not finite.
 CsvExcerpt ReadCsvExcerpt(const std::filesystem::path& file, std::vector<std::string> needed,
                           std::vector<std::string> optional = {});
+
+/// Reads columns of a CSV file of any length as a stream: `take` is called for each row with the
+/// numbers of `columns`, each named once, in that order, and with the line where the row begins.
+/// Empty cells are NaN. InputError as ReadCsvExcerpt, after the last row and without the limit of
+/// cells, but for cells that are not finite, which are handed on. RunError as ReadFile.
+void ReadCsvNumbers(const std::filesystem::path& file, const std::vector<std::string>& columns,
+                    char delimiter,
+                    const std::function<void(const std::vector<double>& numbers, int line)>& take);
 
 }  // namespace trackbed

@@ -29,7 +29,7 @@ struct RecordedSample {
 
 /// Uniform samples, at least two; the first at time 0.
 struct RecordedDrive {
-  std::string name;     ///< of the map, or of the file
+  std::string name;     ///< of the file, without its extension
   double period = 0.0;  ///< between samples [s]
   std::vector<RecordedSample> samples{};
   bool has_steering = false;          ///< whether the samples have a measured steering angle

@@ -79,6 +79,10 @@ struct PlantEntry {
   std::unique_ptr<Plant> (*make)(const PlantSetup& setup);
 };
 
+/// What the record of a real vehicle is called among the plants of a run (scenario/record.h). No
+/// plant of the registry may have this name.
+inline constexpr const char* kRecordedPlant = "recorded";
+
 /// All plants, those of Trackbed first: `kinematic` (KinematicCar, rear-axle reference),
 /// `single_track` (SingleTrackCar) and `mujoco` (the MJCF car on its contacts, with the tyre law of
 /// the setup); `mujoco:contact` and `mujoco:magic_formula` have their own law whatever the setup's
@@ -113,7 +117,7 @@ const std::vector<PlantEntry>& Plants();
 
 /// Adds a plant to the registry, for scenarios, `trackbed list`, messages and reports. Call it at
 /// the start of main: it invalidates references to entries and is not thread-safe.
-/// PreconditionError when the name is taken.
+/// PreconditionError when the name is taken, or kRecordedPlant.
 void RegisterPlant(PlantEntry entry);
 
 /// InputError with the nearest spelling when there is no such plant, PreconditionError for a start

@@ -12,8 +12,7 @@ struct StartState {
   Pose2 pose;             ///< rear-axle center
   double speed = 0.0;     ///< [m/s]
   double steering = 0.0;  ///< bicycle angle, wheels and actuator alike [rad]
-  /// Of the center of gravity, along y [m/s]. None: it rolls without slip. For plants that can
-  /// slip.
+  /// Of the rear axle, along y [m/s]. None: it rolls without slip. For plants that can slip.
   std::optional<double> lateral_speed{};
   std::optional<double> yaw_rate{};  ///< [rad/s]; likewise
 };

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cmath>
+
+namespace trackbed {
+
+/// Root mean square of the differences between what is predicted and what is measured, over the
+/// root mean square of what is measured: 0 for a perfect prediction, 1 for that of zero. Without
+/// any difference 0, else infinite where only zeros were measured.
+class RelativeRms {
+ public:
+  void Add(double predicted, double measured) {
+    differences_ += (predicted - measured) * (predicted - measured);
+    measured_ += measured * measured;
+  }
+  [[nodiscard]] double value() const {
+    return differences_ == 0.0 ? 0.0 : std::sqrt(differences_ / measured_);
+  }
+
+ private:
+  double differences_ = 0.0;
+  double measured_ = 0.0;
+};
+
+}  // namespace trackbed

@@ -1,0 +1,74 @@
+#include "src/recording/local_polynomial.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+/// Cleveland (1979).
+double Tricube(double u) {
+  const double rest = 1.0 - std::abs(u * u * u);
+  return rest * rest * rest;
+}
+
+}  // namespace
+
+std::vector<LogStretch> SplitAtGaps(const std::vector<double>& time, double gap) {
+  std::vector<LogStretch> stretches;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    if (i == 0 || time[i] - time[i - 1] > gap) {
+      stretches.push_back({i, i});
+    }
+    stretches.back().end = i + 1;
+  }
+  return stretches;
+}
+
+LocalFit LocalPolynomial::At(double at, const LogStretch& stretch) const {
+  TRACKBED_CHECK(stretch.end > stretch.first, "a fit without rows");
+  const auto begin = time_.begin() + static_cast<std::ptrdiff_t>(stretch.first);
+  const auto end = time_.begin() + static_cast<std::ptrdiff_t>(stretch.end);
+  auto first = std::upper_bound(begin, end, at - half_width_);
+  auto last = std::lower_bound(first, end, at + half_width_);
+  const std::ptrdiff_t needed = std::min<std::ptrdiff_t>(degree_ + 1, end - begin);
+  double width = half_width_;
+  if (last - first < needed) {
+    while (last - first < needed) {  // takes the nearer of the two next rows
+      const bool before = first != begin && (last == end || at - *(first - 1) <= *last - at);
+      before ? static_cast<void>(--first) : static_cast<void>(++last);
+    }
+    // Far enough out that the furthest row still has a third of the weight.
+    width = 1.5 * std::max(at - *first, *(last - 1) - at);
+    width = width > 0.0 ? width : half_width_;
+  }
+  const auto rows = static_cast<Eigen::Index>(last - first);
+  const auto offset = static_cast<Eigen::Index>(first - time_.begin());
+  const Eigen::Index terms = std::min<Eigen::Index>(degree_ + 1, rows);
+  Eigen::MatrixXd powers(rows, terms);
+  Eigen::MatrixXd weighted = values_.middleRows(offset, rows);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const double u = (*(first + i) - at) / width;
+    const double root = std::sqrt(Tricube(u));
+    double power = root;
+    for (Eigen::Index k = 0; k < terms; ++k, power *= u) {
+      powers(i, k) = power;
+    }
+    weighted.row(i) *= root;
+  }
+  const Eigen::MatrixXd solution = powers.householderQr().solve(weighted);
+  LocalFit fit = LocalFit::Zero(3, values_.cols());
+  fit.row(0) = solution.row(0);
+  if (terms > 1) {
+    fit.row(1) = solution.row(1) / width;
+  }
+  if (terms > 2) {
+    fit.row(2) = 2.0 / (width * width) * solution.row(2);
+  }
+  return fit;
+}
+
+}  // namespace trackbed

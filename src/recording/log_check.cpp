@@ -1,0 +1,273 @@
+#include "src/recording/log_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "src/recording/local_polynomial.h"
+#include "trackbed/control/signal.h"
+#include "trackbed/core/angle.h"
+
+namespace trackbed {
+namespace {
+
+constexpr double kTurns = 0.02;  // slower is not judged [rad/s]
+
+/// One moment of the moving part of the drive, by the position alone.
+struct Moment {
+  double time;
+  double speed;        // [m/s]
+  double course;       // [rad]
+  double course_rate;  // [rad/s]
+  double yaw_rate;     // by the yaw [rad/s]
+  double yaw;          // [rad]
+};
+
+double UpperQuartile(std::vector<double> values) {
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 3 / 4);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// The moments at which the measured point moves at a fifth of its usual speed or more, with every
+/// yaw multiplied by `scale`. At most 4000 of them, evenly spread.
+std::vector<Moment> Moments(const LogRows& rows, const LogMap& map, double scale) {
+  constexpr std::size_t kMost = 4000;
+  std::vector<double> yaw = rows.yaw;
+  for (double& angle : yaw) {
+    angle *= scale;
+  }
+  Unwrap(yaw);
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(yaw.size()), 3);
+  for (std::size_t i = 0; i < yaw.size(); ++i) {
+    values.row(static_cast<Eigen::Index>(i)) << rows.position[i].x(), rows.position[i].y(), yaw[i];
+  }
+  const LocalPolynomial fits(rows.time, values, map.resample.half_width, map.resample.degree);
+  std::vector<Moment> all;
+  const std::size_t step = std::max<std::size_t>(1, rows.time.size() / kMost);
+  double squares = 0.0;
+  for (const LogStretch& stretch : SplitAtGaps(rows.time, map.gap)) {
+    for (std::size_t i = stretch.first; i < stretch.end; i += step) {
+      const LocalFit fit = fits.At(rows.time[i], stretch);
+      const Vec2 velocity = fit.row(1).head<2>();
+      const Vec2 acceleration = fit.row(2).head<2>();
+      const double square = velocity.squaredNorm();
+      squares += square;
+      all.push_back({.time = rows.time[i],
+                     .speed = std::sqrt(square),
+                     .course = std::atan2(velocity.y(), velocity.x()),
+                     .course_rate = square > 0.0 ? Cross(velocity, acceleration) / square : 0.0,
+                     .yaw_rate = fit(1, 2),
+                     .yaw = fit(0, 2)});
+    }
+  }
+  const double slow = 0.2 * std::sqrt(squares / static_cast<double>(all.size()));
+  std::erase_if(all, [&](const Moment& moment) { return moment.speed < std::max(slow, 1e-3); });
+  return all;
+}
+
+/// How far the yaw rate is from that of the course, over the latter; none for a drive that hardly
+/// turns.
+std::optional<double> Misfit(const std::vector<Moment>& moments) {
+  std::vector<double> apart;
+  std::vector<double> course;
+  for (const Moment& moment : moments) {
+    apart.push_back(std::abs(moment.yaw_rate - moment.course_rate));
+    course.push_back(std::abs(moment.course_rate));
+  }
+  if (course.size() < 20 || UpperQuartile(course) < kTurns) {
+    return std::nullopt;
+  }
+  return UpperQuartile(apart) / UpperQuartile(course);
+}
+
+using Found = std::vector<std::pair<std::string, std::string>>;
+
+const char* YawKey(const LogMap& map) {
+  return map.yaw ? "yaw" : "orientation";
+}
+
+void CheckYawRateOfYaw(const LogRows& rows, const LogMap& map, Found& found) {
+  constexpr double kContradicts = 0.7;
+  constexpr double kAgrees = 0.35;
+  const std::optional<double> misfit = Misfit(Moments(rows, map, 1.0));
+  if (!misfit || *misfit < kContradicts) {
+    return;
+  }
+  struct Explanation {
+    double scale;
+    const char* text;
+  };
+  const std::array explanations{
+      Explanation{kPi / 180.0,
+                  "the numbers look like degrees that are read as radians: set unit: deg"},
+      Explanation{180.0 / kPi,
+                  "the numbers look like radians that are read as degrees: set unit: rad"},
+      Explanation{-1.0,
+                  "the car turns the other way than its path does: look at frame, and at the order "
+                  "of position.x and position.y, or set scale: -1"}};
+  for (const Explanation& explanation : explanations) {
+    if (Misfit(Moments(rows, map, explanation.scale)).value_or(1.0) < kAgrees) {
+      found.emplace_back(YawKey(map), explanation.text);
+      return;
+    }
+  }
+  const auto [least, most] = std::minmax_element(rows.yaw.begin(), rows.yaw.end());
+  found.emplace_back(
+      YawKey(map),
+      *most - *least < 1e-6
+          ? "the yaw is constant while the path turns"
+          : fmt::format(
+                "the yaw does not turn as the path does: yaw rates differ from those of the "
+                "course by {:.0f} % of the latter",
+                100.0 * *misfit));
+}
+
+/// A yaw that turns as the path does, but is off by a quarter turn: compass headings.
+void CheckHeading(const std::vector<Moment>& moments, const LogMap& map, Found& found) {
+  if (moments.size() < 20) {
+    return;
+  }
+  Vec2 mean = Vec2::Zero();
+  for (const Moment& moment : moments) {
+    mean += Direction(moment.yaw - map.sensor.yaw - moment.course);
+  }
+  mean /= static_cast<double>(moments.size());
+  const double off = std::atan2(mean.y(), mean.x());
+  constexpr double kConcentrated = 0.9;  // of 1: the same all the time
+  // Backwards is half a turn off.
+  if (mean.norm() > kConcentrated && std::abs(off) > 0.6 && std::abs(off) < kPi - 0.6) {
+    found.emplace_back(YawKey(map),
+                       fmt::format("the car moves {:.3g} rad to the {} of where it points, all the "
+                                   "time: look at frame, sensor.yaw and the yaw's offset",
+                                   std::abs(off), off > 0.0 ? "right" : "left"));
+  }
+}
+
+/// b of the least squares column = b * of the pose, and their correlation.
+struct Ratio {
+  double slope = 0.0;
+  double correlation = 0.0;
+  std::size_t count = 0;
+};
+
+template <typename OfPose>
+Ratio RatioTo(const LogSeries& series, const std::vector<Moment>& moments, const OfPose& of_pose) {
+  Signal signal;
+  for (std::size_t i = 0; i < series.time.size(); ++i) {
+    signal.knots.emplace_back(series.time[i], series.value[i]);
+  }
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  Ratio ratio;
+  for (const Moment& moment : moments) {
+    if (signal.empty() || moment.time < series.time.front() || moment.time > series.time.back()) {
+      continue;
+    }
+    const double x = of_pose(moment);
+    const double y = signal.At(moment.time);
+    xx += x * x;
+    xy += x * y;
+    yy += y * y;
+    ++ratio.count;
+  }
+  if (xx > 0.0 && yy > 0.0) {
+    ratio.slope = xy / xx;
+    ratio.correlation = xy / std::sqrt(xx * yy);
+  }
+  return ratio;
+}
+
+bool IsNear(double value, double wanted) {
+  constexpr double kWithin = 0.15;
+  return std::abs(value / wanted - 1.0) < kWithin;
+}
+
+void CheckSpeed(const LogRows& rows, const std::vector<Moment>& moments, Found& found) {
+  const Ratio ratio = RatioTo(rows.signals[kSpeedSignal], moments,
+                              [](const Moment& moment) { return moment.speed; });
+  const double times = std::abs(ratio.slope);
+  if (ratio.count < 20 || (times > 0.67 && times < 1.5)) {
+    return;
+  }
+  found.emplace_back(
+      "speed",
+      IsNear(times, 3.6) ? "the numbers look like km/h that are read as m/s: set unit: km/h"
+      : IsNear(times, 1.0 / 3.6)
+          ? "the numbers look like m/s that are read as km/h: set unit: m/s"
+          : fmt::format(
+                "the column's speed is {:.3g} times that of the position: look at the units "
+                "of both",
+                times));
+}
+
+void CheckYawRate(const LogRows& rows, const std::vector<Moment>& moments, Found& found) {
+  std::vector<double> rates;
+  for (const Moment& moment : moments) {
+    rates.push_back(std::abs(moment.yaw_rate));
+  }
+  if (rates.size() < 20 || UpperQuartile(rates) < kTurns) {
+    return;
+  }
+  const Ratio ratio = RatioTo(rows.signals[kYawRateSignal], moments,
+                              [](const Moment& moment) { return moment.yaw_rate; });
+  if (ratio.count < 20 || (ratio.slope > 0.67 && ratio.slope < 1.5)) {
+    return;
+  }
+  const double times = std::abs(ratio.slope);
+  std::string text =
+      IsNear(times, 180.0 / kPi)
+          ? "the numbers look like deg/s that are read as rad/s: set unit: deg/s"
+      : IsNear(times, kPi / 180.0)
+          ? "the numbers look like rad/s that are read as deg/s: set unit: rad/s"
+      : IsNear(times, 1.0)
+          ? "the column turns the other way than the yaw does: set scale: -1, or look at frame"
+          : fmt::format("the column is {:.3g} times the rate of the yaw", ratio.slope);
+  if (ratio.slope < 0.0 && !IsNear(times, 1.0)) {
+    text += ", and its sign is the other one: set scale: -1";
+  }
+  found.emplace_back("yaw_rate", text);
+}
+
+void CheckSteering(const LogRows& rows, const std::vector<Moment>& moments, LogSignal signal,
+                   Found& found) {
+  // tan(delta) goes with the path's curvature, whatever the wheelbase.
+  const Ratio ratio = RatioTo(rows.signals[signal], moments, [](const Moment& moment) {
+    return moment.course_rate / moment.speed;
+  });
+  constexpr double kSurely = -0.7;
+  if (ratio.count >= 20 && ratio.correlation < kSurely) {
+    found.emplace_back(
+        kLogSignalKeys[signal],
+        "the car turns the other way than it steers: set scale: -1, or look at frame");
+  }
+}
+
+}  // namespace
+
+Found FindContradictions(const LogRows& rows, const LogMap& map) {
+  Found found;
+  const std::vector<Moment> moments = Moments(rows, map, 1.0);
+  CheckYawRateOfYaw(rows, map, found);
+  if (found.empty()) {
+    CheckHeading(moments, map, found);
+  }
+  if (rows.has[kSpeedSignal]) {
+    CheckSpeed(rows, moments, found);
+  }
+  if (rows.has[kYawRateSignal] && found.empty()) {  // what is compared with a wrong yaw is no news
+    CheckYawRate(rows, moments, found);
+  }
+  for (const LogSignal signal : {kSteeringSignal, kSteeringCommandSignal}) {
+    if (rows.has[signal]) {
+      CheckSteering(rows, moments, signal, found);
+    }
+  }
+  return found;
+}
+
+}  // namespace trackbed

@@ -1,0 +1,317 @@
+#include "src/recording/log_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "trackbed/control/signal.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+#include "trackbed/core/table.h"
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostNumbers = 50'000'000;  // 400 MB
+
+/// A signal's column, and the sign with which it counts.
+struct SignalColumn {
+  LogSignal signal;
+  LogColumn column;
+  double sign;
+};
+
+std::vector<SignalColumn> SignalColumns(const LogMap& map) {
+  const double turn = map.frame == LogFrame::kNed ? -1.0 : 1.0;  // of what is positive to the right
+  std::vector<SignalColumn> columns;
+  const auto add = [&](LogSignal signal, const auto& column, double sign) {
+    if (column) {
+      columns.push_back({signal, *column, sign});
+    }
+  };
+  add(kSpeedSignal, map.speed, 1.0);
+  add(kYawRateSignal, map.yaw_rate, turn);
+  if (const auto& sensor = map.accelerometer) {
+    const LogColumn x{
+        .column = sensor->x, .file = sensor->file, .unit = sensor->unit, .delay = sensor->delay};
+    LogColumn y = x;
+    y.column = sensor->y;
+    columns.push_back({kAccelerationX, x, 1.0});
+    columns.push_back({kAccelerationY, y, turn});
+  }
+  add(kSteeringSignal, map.steering, turn);
+  add(kSteeringCommandSignal, map.steering_command, turn);
+  add(kThrottleSignal, map.throttle, 1.0);
+  return columns;
+}
+
+char DelimiterOf(const LogMap& map) {
+  return map.delimiter == LogDelimiter::kComma       ? ','
+         : map.delimiter == LogDelimiter::kSemicolon ? ';'
+                                                     : '\t';
+}
+
+/// Names of columns, each once.
+class ColumnNames {
+ public:
+  std::size_t Add(const std::string& name) {
+    const auto found = std::find(names_.begin(), names_.end(), name);
+    if (found == names_.end()) {
+      names_.push_back(name);
+      return names_.size() - 1;
+    }
+    return static_cast<std::size_t>(found - names_.begin());
+  }
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  std::vector<std::string> names_;
+};
+
+double Yaw(double x, double y, double z, double w) {
+  return std::atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z));
+}
+
+class LogReader {
+ public:
+  LogReader(const fs::path& log, const LogMap& map)
+      : log_(log), map_(map), signals_(SignalColumns(map)) {
+    for (const SignalColumn& signal : signals_) {
+      rows_.has[signal.signal] = true;
+    }
+  }
+
+  LogRows Read() {
+    ReadPoses();
+    std::vector<std::string> others;
+    for (const SignalColumn& signal : signals_) {
+      const std::optional<std::string>& file = signal.column.file;
+      if (file && std::find(others.begin(), others.end(), *file) == others.end()) {
+        others.push_back(*file);
+        ReadOther(*file, kLogSignalKeys[signal.signal]);
+      }
+    }
+    return std::move(rows_);
+  }
+
+ private:
+  using Numbers = std::vector<double>;
+
+  /// The time of a row since the first of the log [s]; none, with a problem, where there is none
+  /// or it goes back.
+  struct Clock {
+    std::size_t column;
+    std::optional<std::size_t> nanoseconds;
+    std::optional<double> last{};
+  };
+
+  Clock MakeClock(ColumnNames& names) const {
+    Clock clock{.column = names.Add(map_.time.column), .nanoseconds = {}};
+    if (map_.time.nanoseconds) {
+      clock.nanoseconds = names.Add(*map_.time.nanoseconds);
+    }
+    return clock;
+  }
+
+  std::optional<double> TimeOf(Clock& clock, const Numbers& numbers, const fs::path& file, int line,
+                               ProblemList& problems) {
+    const double count = numbers[clock.column];
+    const double nanoseconds = clock.nanoseconds ? numbers[*clock.nanoseconds] : 0.0;
+    if (!std::isfinite(count) || !std::isfinite(nanoseconds)) {
+      problems.Add({file.string(), line, 0, map_.time.column, "no time"});
+      return std::nullopt;
+    }
+    if (!origin_) {
+      origin_ = {count, nanoseconds};
+      rows_.origin = count;
+    }
+    // Differences first: they are exact where the counts are near 1e18.
+    const double time = (count - origin_->first) * UnitInSi(map_.time.unit) +
+                        (nanoseconds - origin_->second) * 1e-9;
+    if (clock.last && time < *clock.last) {
+      problems.Add({file.string(), line, 0, map_.time.column,
+                    fmt::format("the time goes back by {:.6g} s; sort the rows, or cut the part "
+                                "out with from and to",
+                                *clock.last - time)});
+      clock.last = time;
+      return std::nullopt;
+    }
+    clock.last = time;
+    return time;
+  }
+
+  [[nodiscard]] bool IsWanted(double time) const {
+    const double margin = map_.resample.half_width;
+    return time >= map_.from - margin && (!map_.to || time <= *map_.to + margin);
+  }
+
+  void Count(std::size_t numbers) {
+    kept_ += numbers;
+    if (kept_ > kMostNumbers) {
+      throw InputError(Problem{
+          .file = log_.string(),
+          .message = fmt::format("more than {} numbers in the columns that the map names; import a "
+                                 "part of it with from and to",
+                                 kMostNumbers)});
+    }
+  }
+
+  void TakeSignal(const SignalColumn& signal, double number, double time) {
+    if (!std::isfinite(number)) {
+      return;
+    }
+    const LogColumn& column = signal.column;
+    LogSeries& series = rows_.signals[signal.signal];
+    const double at = time - column.delay;
+    if (!series.time.empty() && at <= series.time.back()) {
+      return;  // of the time of the row before
+    }
+    Count(2);
+    double value = column.scale * (number * UnitInSi(column.unit)) + column.offset;
+    if (!column.curve.empty()) {
+      value = Signal{column.curve}.At(value);
+    }
+    series.time.push_back(at);
+    series.value.push_back(signal.sign * value);
+  }
+
+  void ReadPoses();
+  void ReadOther(const std::string& name, const char* key);
+  /// Position and yaw of a row, if it has them.
+  void TakePose(const Numbers& numbers, double time, int line,
+                const std::vector<std::size_t>& columns);
+
+  const fs::path& log_;
+  const LogMap& map_;
+  std::vector<SignalColumn> signals_;
+  LogRows rows_;
+  std::optional<std::pair<double, double>> origin_;  // count and nanoseconds of the first row
+  std::size_t kept_ = 0;
+};
+
+void LogReader::TakePose(const Numbers& numbers, double time, int line,
+                         const std::vector<std::size_t>& columns) {
+  const bool complete = std::all_of(columns.begin(), columns.end(), [&](std::size_t column) {
+    return std::isfinite(numbers[column]);
+  });
+  if (!complete) {
+    ++rows_.without_pose;
+    return;
+  }
+  if (!rows_.time.empty() && time <= rows_.time.back()) {
+    rows_.repeated_line = rows_.repeated == 0 ? line : rows_.repeated_line;
+    ++rows_.repeated;
+    return;
+  }
+  Count(4);
+  const double unit = UnitInSi(map_.position.unit);
+  const Vec2 position = unit * Vec2(numbers[columns[0]], numbers[columns[1]]);
+  double yaw = 0.0;
+  if (map_.yaw) {
+    yaw = map_.yaw->scale * (numbers[columns[2]] * UnitInSi(map_.yaw->unit)) + map_.yaw->offset;
+    yaw = map_.yaw->curve.empty() ? yaw : Signal{map_.yaw->curve}.At(yaw);
+  } else {
+    yaw = Yaw(numbers[columns[2]], numbers[columns[3]], numbers[columns[4]], numbers[columns[5]]);
+  }
+  const bool ned = map_.frame == LogFrame::kNed;
+  rows_.time.push_back(time);
+  rows_.position.push_back(ned ? Vec2(position.y(), position.x()) : position);
+  rows_.yaw.push_back(ned ? 0.5 * kPi - yaw : yaw);
+}
+
+void LogReader::ReadPoses() {
+  ColumnNames names;
+  Clock clock = MakeClock(names);
+  std::vector<std::size_t> pose{names.Add(map_.position.x), names.Add(map_.position.y)};
+  if (map_.yaw) {
+    pose.push_back(names.Add(map_.yaw->column));
+  } else {
+    for (const std::string& part :
+         {map_.orientation->x, map_.orientation->y, map_.orientation->z, map_.orientation->w}) {
+      pose.push_back(names.Add(part));
+    }
+  }
+  std::vector<std::pair<const SignalColumn*, std::size_t>> signals;
+  for (const SignalColumn& signal : signals_) {
+    if (!signal.column.file) {
+      signals.emplace_back(&signal, names.Add(signal.column.column));
+    }
+  }
+  std::vector<std::size_t> conditions;
+  for (const LogCondition& condition : map_.valid) {
+    conditions.push_back(names.Add(condition.column));
+  }
+  ProblemList problems;
+  ReadCsvNumbers(log_, names.names(), DelimiterOf(map_), [&](const Numbers& numbers, int line) {
+    ++rows_.rows;
+    const std::optional<double> time = TimeOf(clock, numbers, log_, line, problems);
+    if (!time || !IsWanted(*time)) {
+      return;
+    }
+    for (std::size_t i = 0; i < conditions.size(); ++i) {
+      const LogCondition& condition = map_.valid[i];
+      const double number = numbers[conditions[i]];
+      constexpr double kAny = std::numeric_limits<double>::infinity();
+      if (!(number >= condition.min.value_or(-kAny) && number <= condition.max.value_or(kAny)) ||
+          (condition.equals && number != *condition.equals)) {
+        ++rows_.invalid;
+        return;
+      }
+    }
+    TakePose(numbers, *time, line, pose);
+    for (const auto& [signal, column] : signals) {
+      TakeSignal(*signal, numbers[column], *time);
+    }
+  });
+  problems.ThrowIfAny();
+}
+
+void LogReader::ReadOther(const std::string& name, const char* key) {
+  const fs::path folder = log_.parent_path();
+  if (const std::string why = WhyUnreadable(name, folder, {}); !why.empty()) {
+    throw InputError(
+        Problem{.key = fmt::format("{}.file", key), .message = fmt::format("{} {}", name, why)});
+  }
+  ColumnNames names;
+  Clock clock = MakeClock(names);
+  std::vector<std::pair<const SignalColumn*, std::size_t>> signals;
+  for (const SignalColumn& signal : signals_) {
+    if (signal.column.file == name) {
+      signals.emplace_back(&signal, names.Add(signal.column.column));
+    }
+  }
+  const fs::path file = folder / name;
+  ProblemList problems;
+  ReadCsvNumbers(file, names.names(), DelimiterOf(map_), [&](const Numbers& numbers, int line) {
+    const std::optional<double> time = TimeOf(clock, numbers, file, line, problems);
+    if (time) {  // all of them: rows may be far apart
+      for (const auto& [signal, column] : signals) {
+        TakeSignal(*signal, numbers[column], *time);
+      }
+    }
+  });
+  problems.ThrowIfAny();
+}
+
+}  // namespace
+
+LogRows ReadLogRows(const fs::path& log, const LogMap& map) {
+  return LogReader(log, map).Read();
+}
+
+void Unwrap(std::vector<double>& yaw) {
+  for (std::size_t i = 1; i < yaw.size(); ++i) {
+    yaw[i] = yaw[i - 1] + AngleDifference(yaw[i], yaw[i - 1]);
+  }
+}
+
+}  // namespace trackbed
