@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "src/analysis/metric_table.h"
 #include "trackbed/analysis/json_file.h"
@@ -13,7 +14,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
-#include "trackbed/sim/plant.h"
+#include "trackbed/scenario/record.h"
 
 namespace trackbed {
 namespace {
@@ -54,7 +55,14 @@ struct Apart {
   double yaw = 0.0;
   double yaw_rate = 0.0;
   double steering = 0.0;
+  bool after_gap = false;  // of the stations that are compared
 };
+
+/// Whether a place is in no gap of a recorded run.
+bool IsValid(const Trace& trace, const Place& place) {
+  return trace.valid.empty() || ((place.share >= 1.0 || trace.valid[place.before]) &&
+                                 (place.share <= 0.0 || trace.valid[place.before + 1]));
+}
 
 /// The runs apart at every station where either has a row and both have been.
 std::vector<Apart> ApartAtRows(const Trace& first, const Trace& second) {
@@ -71,12 +79,17 @@ std::vector<Apart> ApartAtRows(const Trace& first, const Trace& second) {
              second.station.end(), std::back_inserter(stations));
   stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
   std::vector<Apart> all;
+  bool after_gap = false;
   for (const double s : stations) {
     if (s < from || s > to) {
       continue;
     }
     const Place a = PlaceAt(first, s);
     const Place b = PlaceAt(second, s);
+    if (!IsValid(first, a) || !IsValid(second, b)) {
+      after_gap = true;
+      continue;
+    }
     const Pose2 pose_1 = PoseIn(first, a);
     const Pose2 pose_2 = PoseIn(second, b);
     all.push_back({.s = s,
@@ -85,7 +98,8 @@ std::vector<Apart> ApartAtRows(const Trace& first, const Trace& second) {
                    .position = pose_2.position() - pose_1.position(),
                    .yaw = AngleDifference(pose_2.yaw, pose_1.yaw),
                    .yaw_rate = b.Between(second.yaw_rate) - a.Between(first.yaw_rate),
-                   .steering = b.Between(second.steering) - a.Between(first.steering)});
+                   .steering = b.Between(second.steering) - a.Between(first.steering),
+                   .after_gap = std::exchange(after_gap, false)});
   }
   return all;
 }
@@ -95,6 +109,7 @@ template <typename Of>
 Difference Summarise(const std::vector<Apart>& rows, const Of& of) {
   Difference difference;
   double integral = 0.0;
+  double length = 0.0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Vec2 here = of(rows[i]);
     if (i == 0 || here.norm() > difference.max) {
@@ -102,25 +117,27 @@ Difference Summarise(const std::vector<Apart>& rows, const Of& of) {
       difference.max_s = rows[i].s;
       difference.max_t = rows[i].first_t;
     }
-    if (i > 0) {
+    if (i > 0 && !rows[i].after_gap) {
+      length += rows[i].s - rows[i - 1].s;
       // Of a quantity that goes from a to b along a line, the mean square is (a.a + a.b + b.b)/3.
       const Vec2 before = of(rows[i - 1]);
       integral += (rows[i].s - rows[i - 1].s) *
                   (before.squaredNorm() + before.dot(here) + here.squaredNorm()) / 3.0;
     }
   }
-  difference.rms = std::sqrt(integral / (rows.back().s - rows.front().s));
+  difference.rms = length > 0.0 ? std::sqrt(integral / length) : difference.max;
   return difference;
 }
 
 void AddRow(Trace& trace, double station, double time, const Pose2& pose, double yaw_rate,
-            double steering) {
+            double steering, bool valid) {
   if (trace.station.empty() || station > trace.station.back()) {
     trace.station.push_back(station);
     trace.time.push_back(time);
     trace.pose.push_back(pose);
     trace.yaw_rate.push_back(yaw_rate);
     trace.steering.push_back(steering);
+    trace.valid.push_back(valid);
   }
 }
 
@@ -143,15 +160,17 @@ Trace MakeTrace(const RunLog& log, StationSource source) {
     }
     const bool projected = row.tracking && source == StationSource::kProjection;
     AddRow(trace, projected ? row.tracking->s : state.distance, state.time, state.pose,
-           state.yaw_rate, state.steering);
+           state.yaw_rate, state.steering, row.valid);
   }
   return trace;
 }
 
 Trace ReadTrace(const fs::path& file, const std::string& name, std::optional<double> contact_time) {
-  const Table table = ReadCsvExcerpt(file, {"s_m", "t_s", "x_m", "y_m", "yaw_rad", "yaw_rate_radps",
-                                            "steering_rad"})
-                          .table;
+  const Table table =
+      ReadCsvExcerpt(file,
+                     {"s_m", "t_s", "x_m", "y_m", "yaw_rad", "yaw_rate_radps", "steering_rad"},
+                     {"valid"})
+          .table;
   const auto column = [&](std::string_view of) { return table.Column(of); };
   const auto s = column("s_m");
   const auto t = column("t_s");
@@ -165,12 +184,14 @@ Trace ReadTrace(const fs::path& file, const std::string& name, std::optional<dou
         Problem{.file = file.string(),
                 .message = fmt::format("a log needs at least two rows; found {}", table.rows())});
   }
+  const int valid = table.Find("valid");
   Trace trace{.name = name};
   for (std::size_t i = 0; i < table.rows(); ++i) {
     if (contact_time && t[i] > *contact_time) {
       break;
     }
-    AddRow(trace, s[i], t[i], {x[i], y[i], yaw[i]}, yaw_rate[i], steering[i]);
+    AddRow(trace, s[i], t[i], {x[i], y[i], yaw[i]}, yaw_rate[i], steering[i],
+           valid < 0 || table.at(i, static_cast<std::size_t>(valid)) != 0.0);
   }
   return trace;
 }
@@ -225,10 +246,7 @@ std::vector<FinishedDrive> ReadRunFolder(const fs::path& folder) {
     throw InputError(Problem{.file = folder.string(),
                              .message = "not the folder of a finished run (no metrics.json)"});
   }
-  std::vector<std::string> known;
-  for (const PlantEntry& plant : Plants()) {
-    known.push_back(plant.name);
-  }
+  const std::vector<std::string> known = DrivenPlantNames();
   std::vector<FinishedDrive> drives;
   const auto visit = [&](const nlohmann::ordered_json& json) {
     if (!json.value("complete", true)) {

@@ -19,6 +19,7 @@ using nlohmann::ordered_json;
 
 constexpr const char* kManeuver = "maneuver";
 constexpr const char* kTurns = "turns";
+constexpr const char* kWindows = "windows";
 
 /// The only list that changes after the program began: RegisterMetric adds to it.
 std::vector<MetricEntry>& Registry() {
@@ -72,7 +73,7 @@ void CheckEntry(const MetricEntry& entry) {
   if (static_cast<bool>(entry.read) == static_cast<bool>(entry.measure)) {
     refuse("exactly one of `measure` and `read` must be given");
   }
-  std::vector<std::string> taken{kManeuver, kTurns};
+  std::vector<std::string> taken{kManeuver, kTurns, kWindows};
   for (const MetricEntry& other : Metrics()) {
     const std::vector<std::string> paths = EntryPaths(other);
     taken.insert(taken.end(), paths.begin(), paths.end());
@@ -86,9 +87,9 @@ void CheckEntry(const MetricEntry& entry) {
   }
 }
 
-/// The rest of a path in a section, "lateral_offset" of "turns[1].lateral_offset"; sets `index`.
-std::optional<std::string_view> InTurn(std::string_view path, int& index) {
-  const std::string begin = fmt::format("{}[", kTurns);
+/// The rest of a path in a list, "lateral_offset" of "turns[1].lateral_offset"; sets `index`.
+std::optional<std::string_view> InList(const char* list, std::string_view path, int& index) {
+  const std::string begin = fmt::format("{}[", list);
   const std::size_t close = path.find("].");
   if (!path.starts_with(begin) || close == std::string_view::npos ||
       std::from_chars(path.data() + begin.size(), path.data() + close, index).ec != std::errc{}) {
@@ -101,6 +102,15 @@ std::optional<MetricInfo> DescribeTurnMetric(std::string_view key, int index) {
   for (const TurnMetricEntry& entry : TurnMetricTable()) {
     if (key == entry.key) {
       return MetricInfo{fmt::format("Turn {}: {}", index + 1, entry.label), entry.unit};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<MetricInfo> DescribeWindowMetric(std::string_view key, int index) {
+  for (const WindowMetricEntry& entry : WindowMetricTable()) {
+    if (key == entry.key) {
+      return MetricInfo{fmt::format("Prediction {}: {}", index + 1, entry.label), entry.unit};
     }
   }
   return std::nullopt;
@@ -169,13 +179,21 @@ std::vector<Metric> ListMetrics(const PlantMetrics& metrics) {
           {.span = MetricSpan::kMoment, .s = turn.s, .t = turn.t});
     }
   }
+  for (std::size_t i = 0; i < metrics.windows.size(); ++i) {
+    for (const WindowMetricEntry& entry : WindowMetricTable()) {
+      add(fmt::format("{}[{}].{}", kWindows, i, entry.key), entry.read(metrics.windows[i]), {});
+    }
+  }
   return all;
 }
 
 std::optional<MetricInfo> DescribeMetric(std::string_view path) {
-  int turn = 0;
-  if (const auto key = InTurn(path, turn)) {
-    return DescribeTurnMetric(*key, turn);
+  int index = 0;
+  if (const auto key = InList(kTurns, path, index)) {
+    return DescribeTurnMetric(*key, index);
+  }
+  if (const auto key = InList(kWindows, path, index)) {
+    return DescribeWindowMetric(*key, index);
   }
   if (const std::string section = fmt::format("{}.", kManeuver); path.starts_with(section)) {
     std::optional<MetricInfo> info = DescribeManeuverMetric(path.substr(section.size()));
@@ -236,6 +254,10 @@ PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
   }
   if (scenario.maneuver) {
     metrics.maneuver = AllMetrics(*scenario.maneuver);
+  }
+  if (scenario.record) {
+    metrics.recorded.emplace();
+    metrics.windows.resize(scenario.record->windows.size());
   }
   for (const MetricEntry& entry : Metrics()) {
     if (entry.measure) {

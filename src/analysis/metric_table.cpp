@@ -1,5 +1,7 @@
 #include "src/analysis/metric_table.h"
 
+#include <cmath>
+
 #include "src/analysis/sideslip.h"
 
 // The place where a metric is registered: one entry each.
@@ -20,6 +22,10 @@ const TrackingMetrics* SelectMetrics(const PlantMetrics& metrics,
 const ClearanceMetrics* SelectMetrics(const PlantMetrics& metrics,
                                       const ClearanceMetrics* /*which*/) {
   return metrics.clearance ? &*metrics.clearance : nullptr;
+}
+
+const RecordMetrics* SelectMetrics(const PlantMetrics& metrics, const RecordMetrics* /*which*/) {
+  return metrics.recorded ? &*metrics.recorded : nullptr;
 }
 
 /// `value` of the whole run, or of its end.
@@ -91,6 +97,7 @@ std::vector<MetricEntry> OwnMetrics() {
   using P = PlantMetrics;
   using T = TrackingMetrics;
   using C = ClearanceMetrics;
+  using R = RecordMetrics;
   constexpr MetricSpan kEnd = MetricSpan::kEnd;
   return {
       Located({"status", "End status", "", Status}),
@@ -127,6 +134,19 @@ std::vector<MetricEntry> OwnMetrics() {
       {"steering_saturated_fraction", "Fraction of time at the steering rate limit", "",
        Of(&P::steering_saturated_fraction)},
       {"yaw_rate_ratio", "Yaw rate relative to the kinematic model", "", YawRateRatio},
+      Headline({"recorded.yaw_rate.relative_rms", "Yaw rate against the record, relative rms", "",
+                Of(&R::yaw_rate_relative_rms)}),
+      {"recorded.lateral_acceleration.relative_rms",
+       "Lateral acceleration against the record, relative rms", "",
+       Of(&R::lateral_acceleration_relative_rms)},
+      {"recorded.position.rms", "Distance from the record, rms", "m", Of(&R::position_rms)},
+      Headline(Located({"recorded.position.max", "Maximum distance from the record", "m",
+                        At(&R::position_max, &R::position_max_s, &R::position_max_t)})),
+      {"recorded.position.final", "Distance from the record at the end", "m",
+       Of(&R::position_final, kEnd)},
+      {"recorded.heading.rms", "Heading against the record, rms", "rad", Of(&R::heading_rms)},
+      Located({"recorded.heading.max", "Maximum heading difference from the record", "rad",
+               At(&R::heading_max, &R::heading_max_s, &R::heading_max_t)}),
       Located({"sideslip_max", "Maximum sideslip angle", "rad", {}, LargestSideslip}),
   };
 }
@@ -143,6 +163,31 @@ const std::vector<TurnMetricEntry>& TurnMetricTable() {
        [](T turn) -> MetricValue { return turn.predicted.lateral_offset; }},
       {"lateral_offset", "lateral offset", "m",
        [](T turn) -> MetricValue { return turn.measured.lateral_offset; }}};
+  return table;
+}
+
+const std::vector<WindowMetricEntry>& WindowMetricTable() {
+  using E = const WindowErrors&;
+  static const auto known = [](E errors, double value) -> MetricValue {
+    return errors.count > 0 && std::isfinite(value) ? MetricValue(value) : MetricValue();
+  };
+  static const std::vector<WindowMetricEntry> table{
+      {"horizon", "horizon", "s", [](E errors) -> MetricValue { return errors.horizon; }},
+      {"count", "windows", "", [](E errors) -> MetricValue { return errors.count; }},
+      {"diverged", "windows that diverged", "",
+       [](E errors) -> MetricValue { return errors.diverged; }},
+      {"position.median", "position error at the end, median", "m",
+       [](E errors) { return known(errors, errors.position_median); }},
+      {"position.p90", "position error at the end, 90 %", "m",
+       [](E errors) { return known(errors, errors.position_p90); }},
+      {"heading.median", "heading error at the end, median", "rad",
+       [](E errors) { return known(errors, errors.heading_median); }},
+      {"heading.p90", "heading error at the end, 90 %", "rad",
+       [](E errors) { return known(errors, errors.heading_p90); }},
+      {"yaw_rate.relative_rms", "yaw rate, relative rms", "",
+       [](E errors) { return known(errors, errors.yaw_rate_relative_rms); }},
+      {"lateral_acceleration.relative_rms", "lateral acceleration, relative rms", "",
+       [](E errors) { return known(errors, errors.lateral_acceleration_relative_rms); }}};
   return table;
 }
 

@@ -20,6 +20,17 @@ struct TurnMetricEntry {
 
 const std::vector<TurnMetricEntry>& TurnMetricTable();
 
+/// A metric of the predictions over one horizon; in metrics.json under `windows[N]`. Nothing where
+/// there were no windows, or where a quantile is infinite.
+struct WindowMetricEntry {
+  const char* key;
+  const char* label;
+  const char* unit;
+  MetricValue (*read)(const WindowErrors& errors);
+};
+
+const std::vector<WindowMetricEntry>& WindowMetricTable();
+
 /// Puts a value into an entry of metrics.json, where its path says: "turns[0].waypoint" is
 /// /turns/0/waypoint.
 void PutMetric(const Metric& metric, nlohmann::ordered_json& json);

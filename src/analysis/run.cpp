@@ -8,6 +8,7 @@
 #include "src/analysis/simulate_plants.h"
 #include "src/analysis/stopwatch.h"
 #include "trackbed/analysis/mcap.h"
+#include "trackbed/analysis/record_metrics.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/playback.h"
@@ -17,6 +18,7 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/registry/planners.h"
+#include "trackbed/recording/record_csv.h"
 #include "trackbed/scenario/recording_file.h"
 
 namespace trackbed {
@@ -213,6 +215,11 @@ PlantMetrics MeasurePlant(const RunResult& result, const RunLog& log, const CarM
   PlantMetrics metrics = Measure(log, result.plan, car.params(), scenario.drive.control_period,
                                  ControllerFor(scenario.control.steering).station);
   metrics.steering_is_prescribed = scenario.drive.steering == SteeringInput::kPrescribed;
+  if (log.plant == kRecordedPlant) {
+    // The limits are those of the model, the wheels those of the real vehicle.
+    metrics.steering_rate_limit = 0.0;
+    metrics.steering_limit = 0.0;
+  }
   if (scenario.maneuver) {
     metrics.maneuver = EvaluateManeuver(*scenario.maneuver, log, result.plan, car.params());
   }
@@ -230,10 +237,15 @@ RunResult DriveRun(RunResult planned, const CarModel& car, const RunHooks& hooks
   const Scenario& scenario = result.scenario;
   for (SimulatedPlant& simulated : SimulatePlants(result, car, hooks)) {
     result.logs.push_back(std::move(simulated.log));
-    result.metrics.push_back(MeasurePlant(result, result.logs.back(), car));
+    const RunLog& log = result.logs.back();
+    PlantMetrics& metrics = result.metrics.emplace_back(MeasurePlant(result, log, car));
+    if (scenario.record && log.plant != kRecordedPlant) {
+      metrics.recorded = MeasureAgainstRecord(log, *scenario.record->data, car.params(),
+                                              scenario.record->min_speed);
+      metrics.windows = std::move(simulated.windows);
+    }
     result.timing.push_back(simulated.timing);
-    result.interrupted =
-        result.interrupted || result.logs.back().status == DriveStatus::kInterrupted;
+    result.interrupted = result.interrupted || simulated.interrupted;
   }
   for (std::size_t i = 0; i < result.logs.size(); ++i) {
     for (std::size_t j = i + 1; j < result.logs.size(); ++j) {
@@ -248,6 +260,11 @@ RunResult DriveRun(RunResult planned, const CarModel& car, const RunHooks& hooks
     result.verdict.notes.push_back(fmt::format("steering rate set to {:.4g} rad/s", *rate));
   }
   NoteSlidingContacts(result, car);
+  if (scenario.record) {
+    for (const std::string& note : scenario.record->data->notes) {
+      result.verdict.notes.push_back("record: " + note);
+    }
+  }
   return result;
 }
 
@@ -327,7 +344,11 @@ void WriteRunFolder(const RunResult& result, const OutputFolder& folder,
                     const RunFolderOptions& options) {
   ResultWriter writer(folder);
   writer.Add(run_folder::kScenarioYaml, ResolvedYaml(result.scenario));
-  if (const auto* playback = result.scenario.control.steering.As<PlaybackOptions>()) {
+  if (const auto& record = result.scenario.record) {
+    writer.Add(kRecordCsv, RecordCsv(*record->data));
+  }
+  const auto* playback = result.scenario.control.steering.As<PlaybackOptions>();
+  if (playback != nullptr && !(playback->file.empty() && result.scenario.record)) {
     writer.Add(kRecordingCsv, RecordingCsv(playback->recording, playback->by));
   }
   writer.Add(run_folder::kModelXml, result.scene.xml);

@@ -9,6 +9,8 @@
 #include "src/analysis/manifest.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/recording/record_csv.h"
+#include "trackbed/scenario/record.h"
 #include "trackbed/scenario/recording_file.h"
 #include "trackbed/sim/plant.h"
 
@@ -53,9 +55,9 @@ std::optional<std::string> PlantOfStateCsv(const std::string& file_name) {
       file_name.front() == '.') {
     return std::nullopt;
   }
-  for (const PlantEntry& plant : Plants()) {
-    if (StateCsv(plant.name) == file_name) {
-      return plant.name;
+  for (const std::string& plant : DrivenPlantNames()) {
+    if (StateCsv(plant) == file_name) {
+      return plant;
     }
   }
   return file_name.substr(0, file_name.size() - kStateEnding.size());
@@ -66,10 +68,11 @@ std::vector<std::string> AllNames() {
                                  kTimingJson, kMetricsJson,  kMcap,       kVideo,
                                  kPicture,    kReport,       kCompareCsv, kCompareJson};
   names.emplace_back(kRecordingCsv);
+  names.emplace_back(kRecordCsv);
   names.insert(names.end(), kPathFiles.begin(), kPathFiles.end());
-  for (const PlantEntry& plant : Plants()) {
+  for (const std::string& plant : DrivenPlantNames()) {
     for (const auto name_of : {LogCsv, StateCsv, NewPlansCsv, NewPlansJson, NewPlansTreeCsv}) {
-      names.push_back(name_of(plant.name));
+      names.push_back(name_of(plant));
     }
   }
   return names;

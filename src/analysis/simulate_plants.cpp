@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "src/analysis/stopwatch.h"
+#include "trackbed/analysis/record_metrics.h"
+#include "trackbed/scenario/record.h"
 
 namespace trackbed {
 namespace {
@@ -37,7 +39,13 @@ SimulatedPlant SimulatePlant(const RunResult& planned, const CarModel& car,
   timing.wall_time = driving.Seconds() - waited;
   timing.real_time_factor = log.rows.back().state.time / timing.wall_time;
   timing.update_mean = timing.updates > 0 ? steering / timing.updates : 0.0;
-  return {std::move(log), timing};
+  SimulatedPlant simulated{.log = std::move(log), .timing = timing};
+  simulated.interrupted = simulated.log.status == DriveStatus::kInterrupted;
+  if (planned.scenario.record && plant != kRecordedPlant && !simulated.interrupted) {
+    simulated.windows = MeasureRecordWindows(planned.scenario, car, plant, hooks.interrupted);
+    simulated.interrupted = hooks.interrupted && hooks.interrupted();
+  }
+  return simulated;
 }
 
 /// Tells a run's hooks that a plant's simulation is over, however it ends.
@@ -91,7 +99,7 @@ std::vector<SimulatedPlant> SimulateInTurn(const RunResult& planned, const CarMo
     const EndOfPlant end(hooks, plant);
     simulated.push_back(
         SimulatePlant(planned, car, plant, hooks.drive ? hooks.drive(plant) : DriveHooks{}));
-    if (simulated.back().log.status == DriveStatus::kInterrupted) {
+    if (simulated.back().interrupted) {
       break;
     }
   }

@@ -9,6 +9,8 @@ namespace trackbed {
 struct SimulatedPlant {
   RunLog log;
   DriveTiming timing;
+  std::vector<WindowErrors> windows;  // of a scenario with a record
+  bool interrupted = false;           // in its simulation or in its windows
 };
 
 /// Simulates the plants of a run that is planned, in their order or together, as the hooks say. In

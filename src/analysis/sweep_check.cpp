@@ -11,6 +11,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/hash.h"
 #include "trackbed/core/spelling.h"
+#include "trackbed/recording/record_csv.h"
 #include "trackbed/scenario/recording_file.h"
 #include "trackbed/sim/scene.h"
 
@@ -68,6 +69,9 @@ void CheckPlants(const CheckedStudy& checked, const Scenario& scenario) {
   const World bare;
   const auto compiled = checked.cars->Load(Bare(scenario));
   for (const std::string& plant : scenario.drive.plants) {
+    if (plant == kRecordedPlant) {
+      continue;
+    }
     try {
       MakePlant(plant,
                 {.car = *compiled, .world = bare, .start = {}, .tyre = scenario.vehicle.tyre});
@@ -136,7 +140,11 @@ CheckedStudy CheckStudy(Study study, bool all) {
       const std::vector<std::string> own = PossibleOutputs(scenario);
       possible.insert(own.begin(), own.end());
     }
-    if (const auto* playback = scenario.control.steering.As<PlaybackOptions>()) {
+    if (scenario.record) {
+      checked.inputs["record " + scenario.record->file] = Sha256(RecordCsv(*scenario.record->data));
+    }
+    const auto* playback = scenario.control.steering.As<PlaybackOptions>();
+    if (playback != nullptr && !playback->file.empty()) {
       checked.inputs["recording " + playback->file] =
           Sha256(RecordingCsv(playback->recording, playback->by));
     }

@@ -31,7 +31,7 @@ std::uint32_t Checksum(std::string_view text) {
   return crc.checksum();
 }
 
-std::string Line(std::string_view json) {
+std::string LineOf(std::string_view json) {
   return fmt::format("{:08x} {}\n", Checksum(json), json);
 }
 
@@ -239,7 +239,7 @@ void SweepRecords::Load(const std::optional<ordered_json>& header) {
 }
 
 void SweepRecords::WriteLine(std::string_view json) {
-  const std::string line = Line(json);
+  const std::string line = LineOf(json);
   std::string_view rest = line;
   while (!rest.empty()) {
     const std::int64_t at = end_ + static_cast<std::int64_t>(line.size() - rest.size());

@@ -16,7 +16,7 @@
 #include "trackbed/planning/avoidance/avoidance.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/render/film.h"
-#include "trackbed/sim/plant.h"
+#include "trackbed/scenario/record.h"
 #include "trackbed/sim/scene.h"
 
 namespace trackbed::cli {
@@ -103,7 +103,14 @@ const std::vector<Kind>& Kinds() {
          }
          return lines;
        }},
-      {"plants", [] { return Summaries(Plants()); }},
+      {"plants",
+       [] {
+         std::vector<Line> lines;
+         for (const auto& [name, summary] : DrivenPlantSummaries()) {
+           lines.push_back({name, summary});
+         }
+         return lines;
+       }},
       {"optimizers", [] { return Summaries(Searches()); }},
       {"cameras", [] { return Summaries(Cameras()); }},
       {"overlays", [] { return Summaries(Overlays()); }},

@@ -35,6 +35,7 @@ const std::vector<Verb> kVerbs{
     {"plan", "Plan only: write the path, its steering schedule and the planner's diagnostics",
      AddPlan},
     {"render", "Render the video of a finished run from its folder", AddRender},
+    {"import", "Make a run folder of the log of a real vehicle", AddImport},
     {"compare", "Compare plants on one plan, or two finished runs", AddCompare},
     {"test", "Run scenarios and check their expectations, one line each", AddTest},
     {"check", "Validate scenarios and studies without running them", AddCheck},

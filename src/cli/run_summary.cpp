@@ -39,6 +39,26 @@ void PrintManeuver(const ManeuverMetrics& maneuver) {
   }
 }
 
+/// How far a plant is from the record.
+void PrintRecord(const PlantMetrics& plant) {
+  const RecordMetrics& recorded = *plant.recorded;
+  fmt::print(
+      "    against the record: yaw rate {:.3g}, lateral acceleration {:.3g} (relative rms); "
+      "position max {:.3g} m\n",
+      recorded.yaw_rate_relative_rms, recorded.lateral_acceleration_relative_rms,
+      recorded.position_max);
+  for (const WindowErrors& windows : plant.windows) {
+    fmt::print("    after {:.3g} s, {} windows: ", windows.horizon, windows.count);
+    if (windows.count > 0) {
+      fmt::print("position {:.3g} m, 90 % {:.3g} m; heading {:.3g} rad, 90 % {:.3g} rad\n",
+                 windows.position_median, windows.position_p90, windows.heading_median,
+                 windows.heading_p90);
+    } else {
+      fmt::print("nothing to measure\n");
+    }
+  }
+}
+
 /// "rolled over".
 std::string InWords(DriveStatus status) {
   std::string words = ToString(status);
@@ -73,6 +93,9 @@ void PrintSummary(const RunResult& result, const std::filesystem::path& folder) 
     fmt::print("\n");
     if (plant.maneuver) {
       PrintManeuver(*plant.maneuver);
+    }
+    if (plant.recorded) {
+      PrintRecord(plant);
     }
   }
   for (const PlantComparison& between : result.comparisons) {

@@ -44,7 +44,7 @@ void AddFilesIn(const fs::path& folder, FolderContent content, std::vector<fs::p
         folders.push_back(path);
       }
     } else if (extension == ".yaml" || extension == ".yml") {
-      if (content == FolderContent::kScenariosAndStudies || !IsStudy(path)) {
+      if ((content == FolderContent::kScenariosAndStudies || !IsStudy(path)) && !IsLogMap(path)) {
         own.push_back(path);
       }
     }

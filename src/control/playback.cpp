@@ -76,8 +76,13 @@ void Visit(KeyVisitor& keys, RecordingColumns& columns) {
 }
 
 void Visit(KeyVisitor& keys, PlaybackOptions& options) {
-  keys.Field({"file", "", "recording: a CSV file with a header, relative to this file"},
-             options.file, Need::kRequired);
+  std::optional<std::string> file =
+      options.file.empty() ? std::nullopt : std::optional(options.file);
+  keys.Field(
+      {"file", "",
+       "recording: a CSV file with a header, relative to this file; required without record"},
+      file);
+  options.file = file.value_or("");
   static const EnumNames<PlaybackAxis> axes{{PlaybackAxis::kTime, "time"},
                                             {PlaybackAxis::kDistance, "distance"}};
   keys.Field({"by", "", "independent variable of the rows: time or distance traveled"}, options.by,

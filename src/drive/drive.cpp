@@ -1,5 +1,6 @@
 #include "trackbed/drive/drive.h"
 
+#include "src/drive/recorded_log.h"
 #include "src/drive/scenario_parts.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/schedule.h"
@@ -47,10 +48,18 @@ LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car) {
 
 RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& plan,
                   const std::string& plant_name, const DriveHooks& hooks) {
+  if (plant_name == kRecordedPlant) {
+    return RecordedLog(scenario, car);
+  }
+  StartState start = InitialState(scenario);
+  if (scenario.record && !scenario.mission.start.steering &&
+      scenario.drive.steering == SteeringInput::kActuator) {
+    start.steering = RestingSteering(car.params(), start.steering);
+  }
   const auto controller = MakeSteeringController(scenario.control.steering);
   const auto plant = MakePlant(plant_name, {.car = car,
                                             .world = scenario.world,
-                                            .start = InitialState(scenario),
+                                            .start = start,
                                             .tyre = scenario.vehicle.tyre,
                                             .steering = scenario.drive.steering});
   LoopConfig config = MakeLoopConfig(scenario, car);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "trackbed/sim/car_model.h"
 
 namespace trackbed {
@@ -41,6 +43,8 @@ Table ToTable(const RunLog& log) {
   const bool obstacles = !log.rows.empty() && log.rows.front().clearance.has_value();
   const bool wheels = !log.rows.empty() && log.rows.front().state.wheels.has_value();
   const bool noise = !log.rows.empty() && log.rows.front().measured.has_value();
+  const bool gaps =
+      std::any_of(log.rows.begin(), log.rows.end(), [](const LogRow& row) { return !row.valid; });
   std::vector<std::string> columns{"t_s",
                                    "x_m",
                                    "y_m",
@@ -73,6 +77,9 @@ Table ToTable(const RunLog& log) {
         columns.push_back(fmt::format(fmt::runtime(pattern), wheel));
       }
     }
+  }
+  if (gaps) {
+    columns.emplace_back("valid");
   }
   columns.insert(columns.end(), log.controller_columns.begin(), log.controller_columns.end());
   Table table(columns);
@@ -108,6 +115,9 @@ Table ToTable(const RunLog& log) {
         cells.insert(cells.end(), {wheel.normal_force, wheel.longitudinal_force,
                                    wheel.lateral_force, wheel.slip_angle, wheel.slip_ratio});
       }
+    }
+    if (gaps) {
+      cells.push_back(row.valid ? 1.0 : 0.0);
     }
     cells.insert(cells.end(), row.controller.begin(), row.controller.end());
     table.AddRow(cells);

@@ -278,8 +278,9 @@ void LogReader::ReadPoses() {
 void LogReader::ReadOther(const std::string& name, const char* key) {
   const fs::path folder = log_.parent_path();
   if (const std::string why = WhyUnreadable(name, folder, {}); !why.empty()) {
-    throw InputError(
-        Problem{.key = fmt::format("{}.file", key), .message = fmt::format("{} {}", name, why)});
+    throw InputError(Problem{.file = log_.string(),
+                             .key = fmt::format("{}.file", key),
+                             .message = fmt::format("{} {}", name, why)});
   }
   ColumnNames names;
   Clock clock = MakeClock(names);

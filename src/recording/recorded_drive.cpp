@@ -111,6 +111,17 @@ VehicleState StateOf(const RecordedSample& sample, const VehicleParams& vehicle,
   return state;
 }
 
+StartState StartFrom(const RecordedSample& sample, double steering) {
+  constexpr double kSlowest = 0.2;  // [m/s]
+  StartState start{
+      .pose = sample.pose, .speed = std::max(0.0, sample.velocity_V.x()), .steering = steering};
+  if (start.speed >= kSlowest) {
+    start.lateral_speed = sample.velocity_V.y();
+    start.yaw_rate = sample.yaw_rate;
+  }
+  return start;
+}
+
 Recording ReplayInputs(const RecordedDrive& drive, ReplaySteering steering, ReplayDrive source) {
   const bool measured = steering == ReplaySteering::kMeasured;
   if (measured) {

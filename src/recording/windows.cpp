@@ -89,11 +89,7 @@ WindowPrediction Predict(const Replay& replay, const std::string& name, long fir
       prescribed ? replay.inputs.recording.steering.At(window.start) : steering.angle;
   const auto plant = MakePlant(name, {.car = replay.car,
                                       .world = replay.options.world,
-                                      .start = {.pose = from.pose,
-                                                .speed = from.velocity_V.x(),
-                                                .steering = angle,
-                                                .lateral_speed = from.velocity_V.y(),
-                                                .yaw_rate = from.yaw_rate},
+                                      .start = StartFrom(from, angle),
                                       .tyre = replay.options.tyre,
                                       .steering = replay.options.input,
                                       .filter = steering.filter});

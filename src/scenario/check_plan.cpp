@@ -211,7 +211,7 @@ void CheckMission(Diagnostics& c) {
   }
   const bool has_start_speed = StartSpeedBesideMission(c.scenario) ||
                                !c.CouldRead({"mission.start.speed", "control.speed.over_time",
-                                             "control.file", "control.columns"});
+                                             "control.file", "control.columns", "record"});
   if (mission.speed == 0.0 && c.CouldRead({"mission.speed"}) && (plan || !has_start_speed)) {
     c.AddError("mission.speed", "missing");
   }
@@ -225,7 +225,8 @@ void CheckMission(Diagnostics& c) {
     c.AddError("mission.duration", "not allowed with a plan, which ends at the goal; remove one");
   }
   if (!plan && !RunDuration(c.scenario) &&
-      c.CouldRead({"mission.duration", "control.file", "control.columns"})) {
+      c.CouldRead(
+          {"mission.duration", "control.file", "control.columns", "record", "record.file"})) {
     c.AddError("mission.duration", "missing; required without a plan");
   }
   const auto* fillet = plan ? plan->global.As<FilletOptions>() : nullptr;

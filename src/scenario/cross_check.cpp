@@ -1,5 +1,6 @@
 #include "src/scenario/cross_check.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "src/scenario/diagnostics.h"
@@ -7,6 +8,7 @@
 #include "trackbed/control/playback.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/course/lane_change.h"
+#include "trackbed/sim/plant.h"
 
 namespace trackbed {
 namespace {
@@ -139,6 +141,31 @@ void CheckDisturbances(Diagnostics& c) {
   }
 }
 
+void CheckRecord(Diagnostics& c) {
+  const auto& record = c.scenario.record;
+  if (!record) {
+    if (Drives(c.scenario, kRecordedPlant) && c.CouldRead({"drive.plants", "record"})) {
+      c.AddError("drive.plants", "recorded needs a record");
+    }
+    return;
+  }
+  if (c.scenario.plan && c.CouldReadPlan({"method"})) {
+    c.AddError("record", "not allowed with a plan; remove one");
+  }
+  for (std::size_t i = 0; i < record->windows.size(); ++i) {
+    const std::string key = fmt::format("record.windows[{}]", i);
+    if (record->data != nullptr && c.could_read(key) &&
+        record->windows[i] > record->data->duration()) {
+      c.AddError(key, fmt::format("{} s is longer than the record, {:.4g} s", record->windows[i],
+                                  record->data->duration()));
+    }
+    const auto here = record->windows.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::find(record->windows.begin(), here, *here) != here) {
+      c.AddError(key, fmt::format("{} s is listed twice", *here));
+    }
+  }
+}
+
 template <typename Options>
 void CheckFit(Diagnostics& c, const Options& options) {
   if constexpr (requires { options.fit_from; }) {
@@ -176,6 +203,7 @@ std::vector<std::pair<std::string, std::string>> CrossProblems(
   CheckObstacles(c);
   CheckDisturbances(c);
   CheckManeuver(c);
+  CheckRecord(c);
   CheckExpectations(c);
   return std::move(c.found);
 }

@@ -3,6 +3,7 @@
 #include "src/scenario/key_lister.h"
 #include "src/scenario/study_visit.h"
 #include "src/scenario/visit.h"
+#include "trackbed/recording/log_map.h"
 
 namespace trackbed {
 
@@ -30,6 +31,14 @@ std::vector<KeySection> StudyKeys() {
   KeyLister of_file(sections, {"vary.KEY", kFileDistribution, "values that are sampled", {}});
   TableColumn column;
   Visit(of_file, column);
+  return sections;
+}
+
+std::vector<KeySection> LogMapKeys() {
+  std::vector<KeySection> sections;
+  KeyLister lister(sections, {"", "", "the whole file", {}});
+  LogMap defaults;
+  Visit(lister, defaults);
   return sections;
 }
 

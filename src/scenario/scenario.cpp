@@ -1,10 +1,12 @@
 #include "trackbed/scenario/scenario.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "src/scenario/cross_check.h"
+#include "src/scenario/inputs.h"
 #include "src/scenario/overrides.h"
 #include "src/scenario/visit.h"
 #include "src/scenario/yaml_file.h"
@@ -17,6 +19,7 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/registry/planners.h"
+#include "trackbed/recording/record_csv.h"
 #include "trackbed/scenario/recording_file.h"
 #include "trackbed/sim/scene.h"
 
@@ -60,57 +63,6 @@ std::vector<std::pair<std::string, std::string>> UnknownMetrics(
   return found;
 }
 
-/// The node that a dotted key names, or the nearest one above it that is there.
-YAML::Node NodeAt(const YAML::Node& root, const std::string& key) {
-  YAML::Node node(root);
-  for (std::size_t begin = 0; begin < key.size();) {
-    const std::size_t end = std::min(key.find_first_of(".[", begin + 1), key.size());
-    const bool is_index = key[begin] == '[';
-    const std::size_t skip = is_index || key[begin] == '.' ? 1 : 0;
-    const std::string step = key.substr(begin + skip, end - begin - skip - (is_index ? 1 : 0));
-    if (is_index ? !node.IsSequence() : !node.IsMap()) {
-      break;
-    }
-    const YAML::Node next = is_index ? node[std::stoul(step)] : node[step];
-    if (!next) {
-      break;
-    }
-    node.reset(next);
-    begin = end;
-  }
-  return node;
-}
-
-/// Reads the recording that is to be replayed. What is wrong in it is placed there, and follows
-/// the problems of the scenario.
-template <typename AddError>
-std::vector<Problem> ReadInputs(Scenario& scenario, const ReaderContext& context,
-                                const AddError& add_error) {
-  auto* playback = scenario.control.steering.As<PlaybackOptions>();
-  if (playback == nullptr || !context.Read("control.file") || !context.Read("control.columns")) {
-    return {};
-  }
-  if (const std::string why =
-          WhyUnreadable(playback->file, scenario.folder, scenario.asset_folders);
-      !why.empty()) {
-    add_error("control.file", fmt::format("{} {}", playback->file, why));
-    return {};
-  }
-  try {
-    playback->recording =
-        ReadRecording(scenario.folder / playback->file, playback->by, playback->columns);
-  } catch (const InputError& error) {
-    const Problem& first = error.problems().front();
-    if (!first.file.empty()) {
-      return error.problems();
-    }
-    add_error(first.key, first.message);
-  } catch (const RunError& error) {
-    add_error("control.file", error.what());
-  }
-  return {};
-}
-
 }  // namespace
 
 Scenario ParseScenario(const std::string& yaml, const std::string& name,
@@ -137,9 +89,6 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
     add_error("vehicle.model", error.problems().front().message);
   }
   const std::vector<Problem> of_inputs = ReadInputs(scenario, context, add_error);
-  if (!of_inputs.empty()) {
-    context.unread.emplace_back("control.file");
-  }
   const std::string& camera = scenario.render.camera;
   if (!cameras.empty() && std::find(cameras.begin(), cameras.end(), camera) == cameras.end()) {
     add_error("render.camera", "unknown " + UnknownName(camera, cameras));
@@ -224,9 +173,14 @@ const Recording* FindRecording(const Scenario& scenario) {
 
 std::optional<double> RunDuration(const Scenario& scenario) {
   const auto* playback = scenario.control.steering.As<PlaybackOptions>();
-  if (scenario.mission.duration || scenario.plan || playback == nullptr ||
-      playback->by != PlaybackAxis::kTime) {
+  if (scenario.mission.duration || scenario.plan) {
     return scenario.mission.duration;
+  }
+  if (scenario.record && scenario.record->data) {
+    return scenario.record->data->duration();
+  }
+  if (playback == nullptr || playback->by != PlaybackAxis::kTime) {
+    return std::nullopt;
   }
   const Signal& steering = playback->recording.steering;
   const double end = steering.empty() ? 0.0 : steering.knots.back().x();
@@ -282,6 +236,17 @@ std::string ResolvedYaml(const Scenario& scenario) {
   const StartState start = InitialState(scenario);
   resolved.mission.start = {start.pose.x, start.pose.y, start.pose.yaw, start.speed,
                             start.steering};
+  if (auto& record = resolved.record) {
+    // The angle under the recorded command is the car's own; see DrivePlant.
+    resolved.mission.start.steering = scenario.mission.start.steering;
+    record->file = kRecordCsv;
+    record->map.reset();
+    record->from.reset();
+    record->to.reset();
+    if (record->data) {
+      record->notes = fmt::format("{}", fmt::join(record->data->notes, "\n"));
+    }
+  }
   if (resolved.vehicle.model.find('/') != std::string::npos) {
     resolved.vehicle.model =
         std::filesystem::absolute(FindModel(scenario.vehicle.model, scenario.folder))
@@ -290,7 +255,7 @@ std::string ResolvedYaml(const Scenario& scenario) {
   }
   resolved.mission.duration = RunDuration(scenario);
   if (auto* playback = resolved.control.steering.As<PlaybackOptions>()) {
-    playback->file = kRecordingCsv;
+    playback->file = playback->file.empty() && resolved.record ? "" : kRecordingCsv;
     playback->columns = {};  // RecordingCsv has the default names
   }
   YAML::Emitter out;

@@ -1,5 +1,7 @@
 #include "src/scenario/start_state.h"
 
+#include <algorithm>
+
 #include "trackbed/control/playback.h"
 #include "trackbed/planning/common/route_start.h"
 #include "trackbed/planning/fillet/fillet.h"
@@ -8,8 +10,16 @@
 namespace trackbed {
 namespace {
 
-Pose2 StartPose(const MissionSpec& mission) {
-  Pose2 pose = StartOfRoute(mission.waypoints);
+/// The first recorded moment; none without a record.
+const RecordedSample* FirstSample(const Scenario& scenario) {
+  return scenario.record && scenario.record->data ? &scenario.record->data->samples.front()
+                                                  : nullptr;
+}
+
+Pose2 StartPose(const Scenario& scenario) {
+  const MissionSpec& mission = scenario.mission;
+  const RecordedSample* recorded = FirstSample(scenario);
+  Pose2 pose = recorded != nullptr ? recorded->pose : StartOfRoute(mission.waypoints);
   if (!mission.headings.empty()) {
     pose.yaw = mission.headings.front();
   }
@@ -26,6 +36,10 @@ double StartSteering(const Scenario& scenario) {
   if (recording != nullptr && scenario.drive.steering == SteeringInput::kPrescribed) {
     return recording->steering.At(0.0);
   }
+  if (const RecordedSample* recorded = FirstSample(scenario)) {
+    return scenario.record->steering == ReplaySteering::kMeasured ? recorded->steering
+                                                                  : recorded->steering_command;
+  }
   const auto* fillets = scenario.plan ? scenario.plan->global.As<FilletOptions>() : nullptr;
   return fillets == nullptr ? 0.0 : fillets->neutral_steering;
 }
@@ -40,14 +54,27 @@ std::optional<double> StartSpeedBesideMission(const Scenario& scenario) {
   if (recording != nullptr && !recording->speed.empty()) {
     return recording->speed.At(0.0);
   }
+  if (const RecordedSample* recorded = FirstSample(scenario)) {
+    return std::max(0.0, recorded->velocity_V.x());
+  }
   const Signal& over_time = scenario.control.speed.over_time;
   return over_time.empty() ? std::nullopt : std::optional(over_time.At(0.0));
 }
 
 StartState InitialState(const Scenario& scenario) {
-  return {.pose = StartPose(scenario.mission),
-          .speed = StartSpeedBesideMission(scenario).value_or(scenario.mission.speed),
-          .steering = StartSteering(scenario)};
+  StartState start{.pose = StartPose(scenario),
+                   .speed = StartSpeedBesideMission(scenario).value_or(scenario.mission.speed),
+                   .steering = StartSteering(scenario)};
+  const RecordedSample* recorded = FirstSample(scenario);
+  if (recorded != nullptr) {
+    const StartState own = StartFrom(*recorded, start.steering);
+    // A car that is to start at another speed does not slip as the recorded one.
+    if (start.speed == own.speed) {
+      start.lateral_speed = own.lateral_speed;
+      start.yaw_rate = own.yaw_rate;
+    }
+  }
+  return start;
 }
 
 }  // namespace trackbed

@@ -8,8 +8,8 @@
 #include "src/scenario/visit_world.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
+#include "trackbed/scenario/record.h"
 #include "trackbed/scenario/scenario.h"
-#include "trackbed/sim/plant.h"
 
 /// The keys of a scenario, each named once for reading, writing and listing alike.
 namespace trackbed {
@@ -18,14 +18,6 @@ inline constexpr Key kVehicleSection{"vehicle", "", "vehicle"};
 inline constexpr Key kExpectSection{
     "expect", "", "bounds that every plant must meet; only those given are checked"};
 inline constexpr Key kRenderSection{"render", "", "video settings"};
-
-inline Names PlantNames() {
-  Names names;
-  for (const PlantEntry& entry : Plants()) {
-    names.emplace_back(entry.name);
-  }
-  return names;
-}
 
 inline void Visit(KeyVisitor& a, VehicleSpec& vehicle) {
   a.Field({"model", "", "name under models/, or path relative to this file"}, vehicle.model,
@@ -42,19 +34,23 @@ inline void Visit(KeyVisitor& a, VehicleSpec& vehicle) {
 }
 
 inline void Visit(KeyVisitor& a, StartSpec& start) {
-  a.Field({"x", "m", "initial position of the rear axle; default: first waypoint, or 0"}, start.x,
-          kMap);
+  a.Field({"x", "m",
+           "initial position of the rear axle; default: that of the record, first waypoint, or 0"},
+          start.x, kMap);
   a.Field({"y", "m", "likewise"}, start.y, kMap);
   a.Field({"yaw", "rad",
-           "initial heading; default: the first of `headings`, along the first leg, or 0"},
+           "initial heading; default: that of the record, the first of `headings`, along the first "
+           "leg, "
+           "or 0"},
           start.yaw, kDirection);
-  a.Field({"speed", "m/s",
-           "initial speed; default: that of the recording, of control.speed.over_time, or of the "
-           "mission"},
-          start.speed, kSpeedRange);
+  a.Field(
+      {"speed", "m/s",
+       "initial speed; default: that of the recording or record, of control.speed.over_time, or "
+       "of the mission"},
+      start.speed, kSpeedRange);
   a.Field({"steering", "rad",
            "initial bicycle angle of wheels and actuator; default: the plan's neutral_steering, or "
-           "0; with prescribed steering, the recorded angle"},
+           "0; with a record or prescribed steering, the recorded angle"},
           start.steering, kSteering);
 }
 
@@ -73,15 +69,39 @@ inline void Visit(KeyVisitor& a, MissionSpec& mission) {
            "previous to the next stop at stops in between"},
           mission.headings, Need::kOptional, kDirection);
   a.Field({"duration", "s",
-           "end of the run; required without a plan unless a recording over time ends it, not "
+           "end of the run; required without a plan unless a recording or record ends it, not "
            "allowed with a plan"},
           mission.duration, kPositive);
   a.Section({"start", "", "initial state of the car"}, mission.start);
 }
 
+inline void Visit(KeyVisitor& a, RecordSpec& record) {
+  a.Field({"file", "", "log of a real vehicle, a CSV file; or the record.csv of a run"},
+          record.file, Need::kRequired);
+  a.Field({"map", "", "how to read the log: a file; not for a record.csv"}, record.map);
+  a.Field({"from", "s", "what is before is left out; default: the map's"}, record.from,
+          kNonNegative);
+  a.Field({"to", "s", "what is after is left out; default: the map's"}, record.to, kPositive);
+  static const EnumNames<ReplaySteering> steering{{ReplaySteering::kCommand, "command"},
+                                                  {ReplaySteering::kMeasured, "measured"}};
+  a.Field({"steering", "", "what a replay steers with: the recorded command or measured angle"},
+          record.steering, Need::kOptional, steering);
+  static const EnumNames<ReplayDrive> drive{{ReplayDrive::kSpeed, "speed"},
+                                            {ReplayDrive::kThrottle, "throttle"}};
+  a.Field({"drive", "", "what it drives with: the recorded speed or throttle"}, record.drive,
+          Need::kOptional, drive);
+  a.Field({"windows", "s",
+           "horizons: every so often plants restart at the recorded state and predict so far"},
+          record.windows, Need::kOptional, Range{.max = 1e4, .above = 0.0});
+  a.Field({"min_speed", "m/s", "moments and windows in which the car was slower are not measured"},
+          record.min_speed, Need::kOptional, kSpeedRange);
+  a.Field({"notes", "", "what was done to the log, a line for each remark; runs write it"},
+          record.notes);
+}
+
 inline void Visit(KeyVisitor& a, DriveSpec& drive) {
   a.Field({"plants", "", "plants to run, in this order"}, drive.plants, Need::kOptional,
-          PlantNames());
+          DrivenPlantNames());
   static const EnumNames<SteeringInput> inputs{{SteeringInput::kActuator, "actuator"},
                                                {SteeringInput::kPrescribed, "prescribed"}};
   a.Field({"steering", "",
@@ -131,7 +151,7 @@ inline void Visit(KeyVisitor& a, PlantExpectation& expect) {
 
 inline void Visit(KeyVisitor& a, BetweenExpectation& expect) {
   a.Field({"plants", "", "the two plants to compare"}, expect.plants, Need::kRequired,
-          PlantNames());
+          DrivenPlantNames());
   a.Field({"position_max", "m", "maximum position difference at equal station"},
           expect.bounds.position_max, kNonNegative);
   a.Field({"heading_max", "rad", "maximum heading difference at equal station"},
@@ -144,7 +164,7 @@ inline void Visit(KeyVisitor& a, BetweenExpectation& expect) {
 }
 
 inline void VisitPlants(KeyVisitor& a, Expectations& expect) {
-  for (const std::string& plant : PlantNames()) {
+  for (const std::string& plant : DrivenPlantNames()) {
     const Key key{plant.c_str(), "", "the bounds above, for this plant only"};
     if (a.mode() == KeyVisitor::Mode::kList) {
       a.Mention(key, "section");
@@ -185,6 +205,8 @@ inline void Visit(KeyVisitor& a, Scenario& scenario) {
   a.Field({"seed", "", "seed of all random numbers"}, scenario.seed, Need::kOptional);
   a.Section(kVehicleSection, scenario.vehicle);
   a.Section({"mission", "", "route and speed"}, scenario.mission, Need::kRequired);
+  a.Section({"record", "", "recorded drive of a real vehicle, to be replayed and compared with"},
+            scenario.record);
   a.Section(kWorldSection, scenario.world);
   VisitPlan(a, scenario.plan);
   std::optional<ControllerOptions> steering = scenario.control.steering;

@@ -326,4 +326,24 @@ YAML::Node LoadYaml(const std::string& text, const std::string& file, const char
   return root;
 }
 
+YAML::Node NodeAt(const YAML::Node& root, const std::string& key) {
+  YAML::Node node(root);
+  for (std::size_t begin = 0; begin < key.size();) {
+    const std::size_t end = std::min(key.find_first_of(".[", begin + 1), key.size());
+    const bool is_index = key[begin] == '[';
+    const std::size_t skip = is_index || key[begin] == '.' ? 1 : 0;
+    const std::string step = key.substr(begin + skip, end - begin - skip - (is_index ? 1 : 0));
+    if (is_index ? !node.IsSequence() : !node.IsMap()) {
+      break;
+    }
+    const YAML::Node next = is_index ? node[std::stoul(step)] : node[step];
+    if (!next) {
+      break;
+    }
+    node.reset(next);
+    begin = end;
+  }
+  return node;
+}
+
 }  // namespace trackbed

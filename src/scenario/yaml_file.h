@@ -19,4 +19,7 @@ YAML::Node LoadYamlValue(const std::string& text, const std::string& file);
 YAML::Node LoadYaml(const std::string& text, const std::string& file,
                     const char* what = "a scenario");
 
+/// The node that a dotted key names, or the nearest one above it that is there.
+YAML::Node NodeAt(const YAML::Node& root, const std::string& key);
+
 }  // namespace trackbed

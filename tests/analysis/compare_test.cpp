@@ -45,6 +45,21 @@ Trace Circle(const std::string& name, double radius, double wheelbase, double le
   return trace;
 }
 
+TEST(CompareTraces, LeavesOutGapsOfARecord) {
+  // 1 m apart until 10 m, 5 m apart after 20 m; what is between is a gap of the second.
+  Trace second = Line("recorded", {0, 5, 10, 12, 18, 20, 25}, 1.0);
+  for (std::size_t i = 3; i < 7; ++i) {
+    second.pose[i].y = 5.0;
+  }
+  second.valid = {true, true, true, false, false, true, true};
+  const PlantComparison c = CompareTraces(Line("a", {0, 1, 15, 25}, 0.0), second);
+  EXPECT_DOUBLE_EQ(c.position.max, 5.0);
+  EXPECT_EQ(c.position.max_s, 20.0);
+  // Over 10 m of 1 m and 5 m of 5 m: sqrt((10 + 125)/15).
+  EXPECT_DOUBLE_EQ(c.position.rms, 3.0);
+  EXPECT_EQ(DifferencesOverArcLength(Line("a", {0, 1, 15, 25}, 0.0), second).rows(), 6U);
+}
+
 TEST(CompareTraces, KnowsHowFarShiftedLinesAreApart) {
   const PlantComparison c =
       CompareTraces(Line("a", {0, 1, 5, 20}, 0.2), Line("b", {0, 3, 12, 20}, 0.5));

@@ -29,6 +29,8 @@ PlantMetrics All() {
   metrics.partial = "ends early";
   metrics.cause = "MuJoCo: huge value";
   metrics.turns.resize(2);
+  metrics.recorded.emplace();
+  metrics.windows.resize(2);
   return metrics;
 }
 

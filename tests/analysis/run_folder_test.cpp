@@ -46,7 +46,7 @@ TEST(RunFolder, NamesItsFilesAsDocumented) {
                                                              "kinematic.tree.csv",
                                                              "mujoco-magic_formula.state.csv"}));
   // Five of each plant, and the seventeen others.
-  EXPECT_EQ(run_folder::AllNames().size(), 5 * Plants().size() + 17);
+  EXPECT_EQ(run_folder::AllNames().size(), 5 * DrivenPlantNames().size() + 18);
   EXPECT_STREQ(run_folder::kSweepCsv, "sweep.csv");
   EXPECT_STREQ(run_folder::kSweepJson, "sweep.json");
 }

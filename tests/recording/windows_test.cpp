@@ -133,6 +133,18 @@ TEST(PredictWindows, StartsWithTheRecordedSlip) {
   }
 }
 
+TEST(StartFrom, TakesNoSlipFromTheNoiseOfASlowCar) {
+  RecordedSample sample{.velocity_V = {0.5, 0.02}, .yaw_rate = 0.1};
+  EXPECT_EQ(StartFrom(sample, 0.3).lateral_speed, 0.02);
+  EXPECT_EQ(StartFrom(sample, 0.3).yaw_rate, 0.1);
+  EXPECT_EQ(StartFrom(sample, 0.3).steering, 0.3);
+  sample.velocity_V = {0.001, 0.001};
+  EXPECT_FALSE(StartFrom(sample, 0.0).lateral_speed);
+  EXPECT_FALSE(StartFrom(sample, 0.0).yaw_rate);
+  sample.velocity_V.x() = -0.02;
+  EXPECT_EQ(StartFrom(sample, 0.0).speed, 0.0);
+}
+
 TEST(PredictWindows, RefusesWhatItCannotDo) {
   const CarModel car = SmallCar();
   RecordedDrive drive = Drive(car, "kinematic", 2.0);

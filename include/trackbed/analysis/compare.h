@@ -30,6 +30,7 @@ struct Trace {
   std::vector<Pose2> pose;  ///< yaw is not wrapped
   std::vector<double> yaw_rate;
   std::vector<double> steering;
+  std::vector<bool> valid{};  ///< whether a row is in no gap of a record; empty: none is in one
 
   /// The pose at a station, linear between rows. Needs at least two rows.
   [[nodiscard]] Pose2 PoseAt(double at) const;

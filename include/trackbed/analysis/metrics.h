@@ -8,6 +8,7 @@
 
 #include "trackbed/analysis/maneuver_metrics.h"
 #include "trackbed/analysis/metric_value.h"
+#include "trackbed/analysis/record_metrics.h"
 #include "trackbed/analysis/recovery.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/drive/run_log.h"
@@ -92,6 +93,8 @@ struct PlantMetrics {
   std::string partial;                        ///< why the plan is partial; else empty
   std::optional<ManeuverMetrics> maneuver;    ///< none if the scenario has no maneuver
   std::vector<TurnMetrics> turns;             ///< of the isolated turns that were driven
+  std::optional<RecordMetrics> recorded;      ///< none without a record, and of the record itself
+  std::vector<WindowErrors> windows;          ///< of each horizon of record.windows, likewise
   /// Of the metrics that are measured on the log (MetricEntry::measure), by path.
   std::vector<std::pair<std::string, MetricReading>> measured;
 };

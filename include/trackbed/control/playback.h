@@ -42,7 +42,8 @@ void Visit(KeyVisitor& keys, RecordingColumns& columns);
 /// Before the first row and after the last the values are held. By distance, the car stays where
 /// the recorded speed is zero.
 struct PlaybackOptions {
-  std::string file;  ///< where the recording was read; empty for one that was filled in by hand
+  std::string file;  ///< where the recording was read; empty for one of a scenario's record, or
+                     ///< that was filled in by hand
   PlaybackAxis by = PlaybackAxis::kTime;
   RecordingColumns columns;
   Recording recording;

@@ -21,13 +21,15 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle);
 /// `follow_schedule` and the station source are those of the scenario's controller.
 LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car);
 
-/// SimulateClosedLoop with the scenario's controller and the plant of that name. An obstacle that
+/// SimulateClosedLoop with the scenario's controller and the plant of that name; of kRecordedPlant
+/// the record itself. A car that replays a record starts with its steering where the recorded
+/// command would bring it to rest, unless the mission says otherwise. An obstacle that
 /// becomes known and blocks the path triggers a replan; the current plan is followed until the
 /// delay of the local planner has passed, and the new one starts at the car's state then.
 ///
 /// Guarantees: the same scenario, plan and build give the same log bit for bit. Errors:
-/// PreconditionError for a plan that is not ok; InputError for an unknown plant, or one that does
-/// not support the car.
+/// PreconditionError for a plan that is not ok, and for kRecordedPlant without a record; InputError
+/// for an unknown plant, or one that does not support the car.
 RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& plan,
                   const std::string& plant_name, const DriveHooks& hooks = {});
 

@@ -43,6 +43,7 @@ struct LogRow {
   std::optional<double> clearance;
   std::optional<Pose2> measured;   ///< what the controller saw; none without noise
   std::vector<double> controller;  ///< diagnostics of its last update: RunLog's columns
+  bool valid = true;               ///< false in a gap of a recorded drive
 };
 
 /// A plan adopted during the run.

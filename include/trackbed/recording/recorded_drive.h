@@ -6,6 +6,7 @@
 #include "trackbed/control/playback.h"
 #include "trackbed/control/signal.h"
 #include "trackbed/geometry/pose.h"
+#include "trackbed/sim/plant_options.h"
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/state.h"
 
@@ -49,6 +50,11 @@ struct RecordedDrive {
 /// l from the rear axle to the center of gravity. Steering is the measured angle if `measured`,
 /// else the command. `distance` stays 0; sideslip is 0 below kAtRestSpeed.
 VehicleState StateOf(const RecordedSample& sample, const VehicleParams& vehicle, bool measured);
+
+/// The start of a plant at the sample, with its wheels at `steering` [rad]: with the recorded yaw
+/// rate and lateral speed, unless the car is slower than 0.2 m/s, where the direction in which it
+/// seems to move is that of the noise; then it rolls without slip. At rest if it goes backwards.
+StartState StartFrom(const RecordedSample& sample, double steering);
 
 /// What a replay steers with.
 enum class ReplaySteering {

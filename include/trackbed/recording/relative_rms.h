@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 namespace trackbed {
 
 /// Root mean square of the differences between what is predicted and what is measured, over the
@@ -9,17 +7,12 @@ namespace trackbed {
 /// any difference 0, else infinite where only zeros were measured.
 class RelativeRms {
  public:
-  void Add(double predicted, double measured) {
-    differences_ += (predicted - measured) * (predicted - measured);
-    measured_ += measured * measured;
-  }
-  [[nodiscard]] double value() const {
-    return differences_ == 0.0 ? 0.0 : std::sqrt(differences_ / measured_);
-  }
+  void Add(double predicted, double measured);
+  [[nodiscard]] double value() const;
 
  private:
-  double differences_ = 0.0;
-  double measured_ = 0.0;
+  double differences_ = 0.0;  // sum of squares
+  double measured_ = 0.0;     // likewise
 };
 
 }  // namespace trackbed

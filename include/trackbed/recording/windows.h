@@ -40,10 +40,10 @@ struct WindowPrediction {
 /// The plant's states over [restart, restart + horizon] for each of `restarts` [s], in their order.
 ///
 /// Restart times are rounded to whole control periods. There the plant has the recorded pose,
-/// speed, lateral speed and yaw rate (the kinematic car only pose and speed, MuJoCo's car stands on
-/// its springs as at rest), and the steering actuator is where the recorded commands since the
-/// start of the drive have brought it, dead time and backlash included. Commands are those of the
-/// controller `playback`: what a scenario with `record` replays over the whole drive.
+/// speed, lateral speed and yaw rate (StartFrom; the kinematic car only pose and speed, MuJoCo's
+/// car stands on its springs as at rest), and the steering actuator is where the recorded commands
+/// since the start of the drive have brought it, dead time and backlash included. Commands are
+/// those of the controller `playback`: what a scenario with `record` replays over the whole drive.
 ///
 /// Guarantees: the same arguments give the same states, bit for bit; a window does not depend on
 /// the others. The car is not changed, and several threads may predict with one. Errors:

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-/// All keys of scenarios and studies, listed by the code that reads them.
+/// All keys of scenarios, studies and maps of logs, listed by the code that reads them.
 namespace trackbed {
 
 struct KeyInfo {
@@ -28,5 +28,8 @@ std::vector<KeySection> ScenarioKeys();
 
 /// The same of a study.
 std::vector<KeySection> StudyKeys();
+
+/// The same of a map of logs (recording/log_map.h).
+std::vector<KeySection> LogMapKeys();
 
 }  // namespace trackbed

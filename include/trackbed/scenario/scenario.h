@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "trackbed/planning/replan/replan_options.h"
 #include "trackbed/scenario/disturbances.h"
 #include "trackbed/scenario/maneuver.h"
+#include "trackbed/scenario/record.h"
 #include "trackbed/sim/plant_options.h"
 #include "trackbed/world/world.h"
 
@@ -134,6 +136,7 @@ struct Scenario {
   std::uint64_t seed = 0;
   VehicleSpec vehicle;
   MissionSpec mission;
+  std::optional<RecordSpec> record;  ///< a recorded drive, if one is replayed
   World world;
   std::optional<PlanSpec> plan;             ///< none: the mission has no path
   std::optional<ManeuverOptions> maneuver;  ///< how the run is evaluated, if at all
@@ -195,8 +198,9 @@ Expectations ReadExpectations(const std::filesystem::path& file);
 void CheckScenario(const Scenario& scenario);
 
 /// The scenario with every default filled in, as YAML that ReadScenario reads back to an equal one
-/// from any folder: a model given by its path is written with its absolute path, and a recording is
-/// `recording.csv`, which must lie beside the YAML with the content of RecordingCsv.
+/// from any folder: a model given by its path is written with its absolute path, a recording is
+/// `recording.csv`, which must lie beside the YAML with the content of RecordingCsv, and a recorded
+/// drive likewise `record.csv` with that of RecordCsv.
 std::string ResolvedYaml(const Scenario& scenario);
 
 /// The keys of a method's options with their values, on one line: "distance: 2.5, law: exact_arc".
@@ -204,6 +208,12 @@ std::string OptionDefaults(const PlannerOptions& options);
 std::string OptionDefaults(const AvoiderOptions& options);
 std::string OptionDefaults(const ControllerOptions& options);
 std::string OptionDefaults(const ManeuverOptions& options);
+
+/// A scenario whose run is the record itself, and which replays it if drive.plants names others:
+/// named after the drive, with windows of 1, 2 and 5 s that fit in, a control period of the
+/// record's if that is a whole number of timesteps, and a gain of the speed control of 20/s.
+/// `model` as in VehicleSpec.
+Scenario RecordScenario(std::shared_ptr<const RecordedDrive> drive, const std::string& model);
 
 /// The replayed recording, if any; owned by the scenario.
 const Recording* FindRecording(const Scenario& scenario);

@@ -1,0 +1,175 @@
+#include "src/scenario/inputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "trackbed/control/playback.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+#include "trackbed/recording/import_log.h"
+#include "trackbed/recording/record_csv.h"
+#include "trackbed/scenario/recording_file.h"
+#include "trackbed/sim/plant.h"
+#include "trackbed/sim/scene.h"
+
+namespace trackbed {
+namespace {
+
+/// Calls `read`; what is wrong in a file is given back, what is wrong with a key is added.
+std::vector<Problem> Attempt(const std::function<void()>& read, const char* key,
+                             ReaderContext& context, const AddKeyError& add_error) {
+  try {
+    read();
+  } catch (const InputError& error) {
+    if (!error.problems().front().file.empty()) {
+      context.unread.emplace_back(key);
+      return error.problems();
+    }
+    for (const Problem& problem : error.problems()) {
+      add_error(problem.key.empty() ? key : problem.key, problem.message);
+    }
+  } catch (const RunError& error) {
+    add_error(key, error.what());
+  }
+  return {};
+}
+
+/// Whose files any record may name: those that come with Trackbed.
+std::vector<std::filesystem::path> WithOwnData(std::vector<std::filesystem::path> folders) {
+  try {
+    folders.push_back(DataFolder());
+  } catch (const InputError&) {
+    // A program without the data.
+  }
+  return folders;
+}
+
+RecordedDrive ReadRecord(const Scenario& scenario, const std::optional<LogMap>& given) {
+  const RecordSpec& record = *scenario.record;
+  const std::filesystem::path file = scenario.folder / record.file;
+  if (!given) {
+    RecordedDrive drive = ReadRecordCsv(file);
+    if (record.notes) {
+      drive.notes.clear();
+      std::istringstream lines(*record.notes);
+      for (std::string line; std::getline(lines, line);) {
+        drive.notes.push_back(line);
+      }
+    }
+    return drive;
+  }
+  LogMap map = *given;
+  map.from = record.from.value_or(map.from);
+  map.to = record.to ? record.to : map.to;
+  return ImportLog(file, map);
+}
+
+std::vector<Problem> ReadRecord(Scenario& scenario, ReaderContext& context,
+                                const AddKeyError& add_error) {
+  RecordSpec& record = *scenario.record;
+  const auto may_read = [&](const std::string& name, const char* key) {
+    const std::string why =
+        WhyUnreadable(name, scenario.folder, WithOwnData(scenario.asset_folders));
+    if (!why.empty()) {
+      add_error(key, fmt::format("{} {}", name, why));
+    }
+    return why.empty();
+  };
+  if (!context.Read("record") || !context.Read("record.file") || !context.Read("record.map") ||
+      !context.Read("record.from") || !context.Read("record.to") || record.file.empty() ||
+      !may_read(record.file, "record.file") ||
+      (record.map && !may_read(*record.map, "record.map"))) {
+    return {};
+  }
+  if (!record.map && (record.from || record.to)) {
+    add_error("record.map", "missing; from and to cut a log that is read by a map");
+    return {};
+  }
+  std::optional<LogMap> map;
+  if (record.map) {
+    const std::vector<Problem> problems = Attempt(
+        [&] { map = ReadLogMap(scenario.folder / *record.map); }, "record.map", context, add_error);
+    if (!map) {
+      return problems;
+    }
+  }
+  return Attempt(
+      [&] { record.data = std::make_shared<const RecordedDrive>(ReadRecord(scenario, map)); },
+      "record.file", context, add_error);
+}
+
+/// Takes the inputs of a replay from the record, for the controller playback and for windows.
+std::vector<Problem> TakeInputs(Scenario& scenario, ReaderContext& context,
+                                const AddKeyError& add_error) {
+  const RecordSpec& record = *scenario.record;
+  const std::vector<std::string>& plants = scenario.drive.plants;
+  auto* playback = scenario.control.steering.As<PlaybackOptions>();
+  const bool replays = playback != nullptr && playback->file.empty();
+  if (!record.data || !(replays || !record.windows.empty()) ||
+      std::all_of(plants.begin(), plants.end(),
+                  [](const std::string& plant) { return plant == kRecordedPlant; })) {
+    return {};
+  }
+  return Attempt(
+      [&] {
+        const Recording inputs = ReplayInputs(*record.data, record.steering, record.drive);
+        if (replays) {
+          playback->recording = inputs;
+        }
+      },
+      "record", context, add_error);
+}
+
+std::vector<Problem> ReadPlayback(Scenario& scenario, PlaybackOptions& playback,
+                                  ReaderContext& context, const AddKeyError& add_error) {
+  if (!context.Read("control.file") || !context.Read("control.columns")) {
+    return {};
+  }
+  if (playback.file.empty()) {
+    if (!scenario.record) {
+      add_error("control.file", "missing");
+    } else if (playback.by == PlaybackAxis::kDistance) {
+      add_error("control.by", "a record is replayed over time; remove this");
+    }
+    return {};
+  }
+  if (const std::string why = WhyUnreadable(playback.file, scenario.folder, scenario.asset_folders);
+      !why.empty()) {
+    add_error("control.file", fmt::format("{} {}", playback.file, why));
+    return {};
+  }
+  return Attempt(
+      [&] {
+        playback.recording =
+            ReadRecording(scenario.folder / playback.file, playback.by, playback.columns);
+      },
+      "control.file", context, add_error);
+}
+
+}  // namespace
+
+std::vector<Problem> ReadInputs(Scenario& scenario, ReaderContext& context,
+                                const AddKeyError& add_error) {
+  std::vector<Problem> problems;
+  const auto add = [&](const std::vector<Problem>& more) {
+    problems.insert(problems.end(), more.begin(), more.end());
+  };
+  if (scenario.record) {
+    add(ReadRecord(scenario, context, add_error));
+    if (!scenario.record->data) {
+      context.unread.emplace_back("record");
+    }
+    add(TakeInputs(scenario, context, add_error));
+  }
+  if (auto* playback = scenario.control.steering.As<PlaybackOptions>()) {
+    add(ReadPlayback(scenario, *playback, context, add_error));
+  }
+  return problems;
+}
+
+}  // namespace trackbed

@@ -1,0 +1,117 @@
+#include "trackbed/scenario/record.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <utility>
+
+#include "src/scenario/yaml_file.h"
+#include "src/scenario/yaml_reader.h"
+#include "trackbed/control/playback.h"
+#include "trackbed/core/error.h"
+#include "trackbed/recording/record_csv.h"
+#include "trackbed/recording/windows.h"
+#include "trackbed/scenario/scenario.h"
+#include "trackbed/sim/plant.h"
+
+namespace trackbed {
+
+std::vector<std::pair<std::string, std::string>> DrivenPlantSummaries() {
+  std::vector<std::pair<std::string, std::string>> summaries;
+  for (const PlantEntry& entry : Plants()) {
+    summaries.emplace_back(entry.name, entry.summary);
+  }
+  summaries.emplace_back(kRecordedPlant,
+                         "not simulated: the recorded drive of the scenario's record");
+  return summaries;
+}
+
+std::vector<std::string> DrivenPlantNames() {
+  std::vector<std::string> names;
+  for (const auto& [name, summary] : DrivenPlantSummaries()) {
+    names.push_back(name);
+  }
+  return names;
+}
+
+LogMap ReadLogMap(const std::filesystem::path& file) {
+  const YAML::Node root = LoadYaml(ReadInput(file), file.string(), "a map");
+  ReaderContext context{.file = file.string(), .overridden = {}, .problems = {}};
+  LogMap map;
+  YamlReader reader(context, root, "");
+  Visit(reader, map);
+  reader.Finish();
+  if (context.problems.empty()) {
+    for (auto& [key, message] : LogMapProblems(map)) {
+      context.AddError(NodeAt(root, key).Mark(), key, std::move(message));
+    }
+  }
+  if (!context.problems.empty()) {
+    std::stable_sort(context.problems.begin(), context.problems.end(),
+                     [](const Problem& a, const Problem& b) {
+                       return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+                     });
+    throw InputError(context.problems);
+  }
+  return map;
+}
+
+bool IsLogMap(const std::filesystem::path& file) {
+  try {
+    const YAML::Node root = LoadYaml(ReadInput(file), file.string(), "a map");
+    return root["time"] && root["position"];
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+namespace {
+
+/// The name of a file as that of a scenario.
+std::string AsIdentifier(std::string name) {
+  const auto fits = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
+  };
+  std::replace_if(
+      name.begin(), name.end(), [&](unsigned char c) { return !fits(c); }, '_');
+  constexpr std::size_t kLongest = 100;
+  name = name.substr(0, kLongest);
+  return name.empty() || name.front() == '.' ? "record" : name;
+}
+
+}  // namespace
+
+Scenario RecordScenario(std::shared_ptr<const RecordedDrive> drive, const std::string& model) {
+  Scenario scenario;
+  scenario.name = AsIdentifier(drive->name);
+  scenario.vehicle.model = model;
+  scenario.record = RecordSpec{.file = kRecordCsv, .map = {}};
+  RecordSpec& record = *scenario.record;
+  for (const double window : {1.0, 2.0, 5.0}) {
+    if (window <= drive->duration()) {
+      record.windows.push_back(window);
+    }
+  }
+  if (!drive->has_steering_command && drive->has_steering) {
+    record.steering = ReplaySteering::kMeasured;
+  }
+  PlaybackOptions playback;
+  try {
+    playback.recording = ReplayInputs(*drive, record.steering, record.drive);
+  } catch (const InputError&) {
+    // Nothing to steer with, or it goes backwards: to look at and compare, not to replay.
+    record.windows.clear();
+  }
+  scenario.control.steering = std::move(playback);
+  scenario.control.speed.gain = ReplayOptions{}.speed_gain;
+  scenario.drive.plants = {kRecordedPlant};
+  scenario.drive.time_limit = std::max(scenario.drive.time_limit, drive->duration() + 1.0);
+  const double steps = drive->period / scenario.drive.timestep;
+  if (std::round(steps) >= 1.0 && std::abs(steps - std::round(steps)) < 1e-6) {
+    scenario.drive.control_period = std::round(steps) * scenario.drive.timestep;
+  }
+  record.data = std::move(drive);
+  return scenario;
+}
+
+}  // namespace trackbed
