@@ -75,7 +75,7 @@ std::string AsIdentifier(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [&](unsigned char c) { return !fits(c); }, '_');
   constexpr std::size_t kLongest = 100;
-  name = name.substr(0, kLongest);
+  name.resize(std::min(name.size(), kLongest));
   return name.empty() || name.front() == '.' ? "record" : name;
 }
 

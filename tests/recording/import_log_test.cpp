@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <functional>
+#include <ostream>
 #include <random>
 #include <string>
 #include <vector>
@@ -404,6 +405,10 @@ struct Nonsense {
   double steering = 1.0;
   const char* message;
 };
+
+void PrintTo(const Nonsense& wrong, std::ostream* out) {
+  *out << wrong.name;
+}
 
 class Contradiction : public testing::TestWithParam<Nonsense> {};
 
