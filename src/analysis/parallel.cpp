@@ -1,4 +1,4 @@
-#include "src/analysis/parallel.h"
+#include "trackbed/analysis/parallel.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>

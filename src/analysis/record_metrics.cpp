@@ -54,19 +54,23 @@ std::optional<RecordMetrics> MeasureAgainstRecord(const RunLog& log, const Recor
   return metrics;
 }
 
+ReplayOptions ReplayOptionsOf(const Scenario& scenario) {
+  return {.steering = scenario.record->steering,
+          .drive = scenario.record->drive,
+          .control_period = scenario.drive.control_period,
+          .speed_gain = scenario.control.speed.gain,
+          .tyre = scenario.vehicle.tyre,
+          .input = scenario.drive.steering,
+          .world = scenario.world};
+}
+
 std::vector<WindowErrors> MeasureRecordWindows(const Scenario& scenario, const CarModel& car,
                                                const std::string& plant,
                                                const std::function<bool()>& interrupted) {
   const RecordSpec& spec = *scenario.record;
   const RecordedDrive& record = *spec.data;
-  const ReplayOptions options{.steering = spec.steering,
-                              .drive = spec.drive,
-                              .control_period = scenario.drive.control_period,
-                              .speed_gain = scenario.control.speed.gain,
-                              .tyre = scenario.vehicle.tyre,
-                              .input = scenario.drive.steering,
-                              .world = scenario.world,
-                              .interrupted = interrupted};
+  ReplayOptions options = ReplayOptionsOf(scenario);
+  options.interrupted = interrupted;
   std::vector<WindowErrors> all;
   for (const double horizon : spec.windows) {
     if (interrupted && interrupted()) {

@@ -63,6 +63,10 @@ std::optional<std::string> PlantOfStateCsv(const std::string& file_name) {
   return file_name.substr(0, file_name.size() - kStateEnding.size());
 }
 
+std::string ResidualsCsv(const std::string& record) {
+  return record + ".residuals.csv";
+}
+
 std::vector<std::string> AllNames() {
   std::vector<std::string> names{kManifest,   kScenarioYaml, kModelXml,   kPlanJson,
                                  kTimingJson, kMetricsJson,  kMcap,       kVideo,

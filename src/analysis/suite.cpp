@@ -10,7 +10,7 @@
 #include <mutex>
 #include <sstream>
 
-#include "src/analysis/parallel.h"
+#include "trackbed/analysis/parallel.h"
 #include "trackbed/analysis/run.h"
 #include "trackbed/core/error.h"
 

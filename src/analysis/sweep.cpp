@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "src/analysis/manifest.h"
-#include "src/analysis/parallel.h"
 #include "src/analysis/study_description.h"
 #include "trackbed/analysis/bisect.h"
+#include "trackbed/analysis/parallel.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/analysis/statistics.h"
 #include "trackbed/core/error.h"

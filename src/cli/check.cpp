@@ -7,6 +7,7 @@
 #include "trackbed/analysis/sweep.h"
 #include "trackbed/core/error.h"
 #include "trackbed/drive/drive.h"
+#include "trackbed/identify/identify.h"
 
 namespace trackbed::cli {
 
@@ -28,7 +29,9 @@ void AddCheck(const Command& command) {
     for (const auto& file : ScenarioFiles(options->paths, FolderContent::kScenariosAndStudies)) {
       try {
         RefuseFolder(file);
-        if (IsStudy(file)) {
+        if (IsIdentification(file)) {
+          CheckIdentification(ReadIdentification(file, Paths(options->scenario.asset_folders)));
+        } else if (IsStudy(file)) {
           static_cast<void>(CheckStudy(options->scenario.ReadStudyFile(file)));
         } else {
           static_cast<void>(LoadCar(options->scenario.Read(file)));

@@ -99,6 +99,7 @@ std::vector<Block> Blocks(const std::vector<CommandInfo>& verbs) {
   }
   blocks.push_back({"scenario keys", KeyTables(ScenarioKeys())});
   blocks.push_back({"study keys", KeyTables(StudyKeys())});
+  blocks.push_back({"identification keys", KeyTables(IdentificationKeys())});
   blocks.push_back({"map keys", KeyTables(LogMapKeys())});
   return blocks;
 }

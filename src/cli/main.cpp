@@ -36,6 +36,7 @@ const std::vector<Verb> kVerbs{
      AddPlan},
     {"render", "Render the video of a finished run from its folder", AddRender},
     {"import", "Make a run folder of the log of a real vehicle", AddImport},
+    {"identify", "Estimate numbers of a vehicle model from recorded drives", AddIdentify},
     {"compare", "Compare plants on one plan, or two finished runs", AddCompare},
     {"test", "Run scenarios and check their expectations, one line each", AddTest},
     {"check", "Validate scenarios and studies without running them", AddCheck},

@@ -10,6 +10,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/render/film.h"
+#include "trackbed/scenario/identification.h"
 #include "trackbed/sim/scene.h"
 
 namespace trackbed::cli {
@@ -44,7 +45,8 @@ void AddFilesIn(const fs::path& folder, FolderContent content, std::vector<fs::p
         folders.push_back(path);
       }
     } else if (extension == ".yaml" || extension == ".yml") {
-      if ((content == FolderContent::kScenariosAndStudies || !IsStudy(path)) && !IsLogMap(path)) {
+      const bool is_study = IsStudy(path) || IsIdentification(path);
+      if ((content == FolderContent::kScenariosAndStudies || !is_study) && !IsLogMap(path)) {
         own.push_back(path);
       }
     }

@@ -25,6 +25,7 @@ void AddRun(const Command& command);
 void AddPlan(const Command& command);
 void AddRender(const Command& command);
 void AddImport(const Command& command);
+void AddIdentify(const Command& command);
 void AddCheck(const Command& command);
 void AddCompare(const Command& command);
 void AddTest(const Command& command);

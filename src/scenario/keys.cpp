@@ -1,5 +1,6 @@
 #include "trackbed/scenario/keys.h"
 
+#include "src/scenario/identification_visit.h"
 #include "src/scenario/key_lister.h"
 #include "src/scenario/study_visit.h"
 #include "src/scenario/visit.h"
@@ -31,6 +32,14 @@ std::vector<KeySection> StudyKeys() {
   KeyLister of_file(sections, {"vary.KEY", kFileDistribution, "values that are sampled", {}});
   TableColumn column;
   Visit(of_file, column);
+  return sections;
+}
+
+std::vector<KeySection> IdentificationKeys() {
+  std::vector<KeySection> sections;
+  KeyLister lister(sections, {"", "", "the whole file", {}});
+  Identification defaults;
+  Visit(lister, defaults);
   return sections;
 }
 

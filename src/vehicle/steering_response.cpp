@@ -12,8 +12,8 @@
 namespace trackbed {
 namespace {
 
-/// Of the ring that the dead time needs.
-std::size_t DeadTimeSteps(const SteeringResponse& response, double timestep, double start) {
+/// The dead time in timesteps.
+double DeadTimeSteps(const SteeringResponse& response, double timestep, double start) {
   TRACKBED_REQUIRE(response.time_constant >= 0.0 && std::isfinite(response.time_constant) &&
                        response.backlash >= 0.0 && std::isfinite(response.backlash) &&
                        std::isfinite(start),
@@ -26,7 +26,9 @@ std::size_t DeadTimeSteps(const SteeringResponse& response, double timestep, dou
                    "SteeringFilter: a dead time of {} s in timesteps of {} s; must be at most {} "
                    "steps",
                    response.dead_time, timestep, kMostSteps);
-  return static_cast<std::size_t>(std::lround(steps));
+  constexpr double kRounding = 1e-6;  // a multiple of the timestep is a whole number of them
+  const double whole = std::round(steps);
+  return std::abs(steps - whole) < kRounding ? whole : steps;
 }
 
 }  // namespace
@@ -60,10 +62,10 @@ bool SteeringResponse::ideal() const {
 }
 
 SteeringFilter::SteeringFilter(const SteeringResponse& response, double timestep, double start)
-    : play_(0.5 * response.backlash),
-      on_the_way_(DeadTimeSteps(response, timestep, start), start),
-      lagged_(start),
-      given_(start) {
+    : play_(0.5 * response.backlash), arrived_(start), lagged_(start), given_(start) {
+  const double steps = DeadTimeSteps(response, timestep, start);
+  on_the_way_.assign(static_cast<std::size_t>(steps), start);
+  late_share_ = steps - std::floor(steps);
   if (!response.curve.empty()) {
     curve_.emplace(response.curve);
   }
@@ -76,6 +78,10 @@ double SteeringFilter::Pass(double command) {
   if (!on_the_way_.empty()) {
     std::swap(arrived, on_the_way_[oldest_]);
     oldest_ = (oldest_ + 1) % on_the_way_.size();
+  }
+  if (late_share_ > 0.0) {
+    const double before = std::exchange(arrived_, arrived);
+    arrived = std::lerp(arrived, before, late_share_);
   }
   lagged_ = decay_ == 0.0 ? arrived : arrived + decay_ * (lagged_ - arrived);
   given_ = std::clamp(given_, lagged_ - play_, lagged_ + play_);

@@ -31,6 +31,9 @@ struct RecordMetrics {
 std::optional<RecordMetrics> MeasureAgainstRecord(const RunLog& log, const RecordedDrive& record,
                                                   const VehicleParams& vehicle, double min_speed);
 
+/// How a scenario with a record replays it.
+ReplayOptions ReplayOptionsOf(const Scenario& scenario);
+
 /// The predictions of the plant over every horizon of the scenario's record, restarted as often as
 /// it is long. Without windows (WindowStarts) the count is 0. `interrupted` as in ReplayOptions;
 /// what is missing then is left out.

@@ -21,6 +21,7 @@ inline constexpr const char* kRun = "run";
 inline constexpr const char* kPlan = "plan";
 inline constexpr const char* kComparison = "comparison";
 inline constexpr const char* kStudy = "study";
+inline constexpr const char* kIdentification = "identification";
 
 // Of a run.
 inline constexpr const char* kScenarioYaml = "scenario.resolved.yaml";
@@ -48,6 +49,10 @@ inline constexpr const char* kSweepCsv = "sweep.csv";
 inline constexpr const char* kSweepJson = "sweep.json";
 /// Grows with the study, which goes on from it: SweepRecords.
 inline constexpr const char* kSweepRecords = "sweep.records";
+
+// Of an identification.
+inline constexpr const char* kIdentifyJson = "identify.json";
+std::string ResidualsCsv(const std::string& record);  ///< <record>.residuals.csv
 
 /// What a plan with a path may have beside plan.json.
 inline constexpr std::array kPathFiles{kPlanCsv, kScheduleCsv, kConvergenceCsv, kTreeCsv};

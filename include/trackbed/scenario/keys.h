@@ -32,4 +32,7 @@ std::vector<KeySection> StudyKeys();
 /// The same of a map of logs (recording/log_map.h).
 std::vector<KeySection> LogMapKeys();
 
+/// Those of an identification.
+std::vector<KeySection> IdentificationKeys();
+
 }  // namespace trackbed

@@ -45,10 +45,10 @@ struct SteeringResponse {
   [[nodiscard]] double delay() const { return dead_time + time_constant; }
 };
 
-/// Guarantees: an ideal response gives the command, bit for bit. The dead time is the whole number
-/// of timesteps nearest to it. The lag is exact for a command that is constant over each timestep.
-/// Cost O(log points of the curve). PreconditionError for numbers that are not finite or out of
-/// range, or a dead time of more than 10^7 timesteps.
+/// Guarantees: an ideal response gives the command, bit for bit. A command that
+/// arrives during a timestep counts for the share of it that is left. The lag is exact for a
+/// command that is constant over each timestep. Cost O(log points of the curve). PreconditionError
+/// for numbers that are not finite or out of range, or a dead time of more than 10^7 timesteps.
 class SteeringFilter {
  public:
   /// The actuator stands at `start` [rad], in the middle of the play, as if what keeps it there had
@@ -65,6 +65,8 @@ class SteeringFilter {
   double play_;                     // half the backlash [rad]
   std::vector<double> on_the_way_;  // a ring
   std::size_t oldest_ = 0;
+  double late_share_ = 0.0;  // of a timestep in which what arrives is still the command before
+  double arrived_;           // of the timestep before
   double lagged_;
   double given_;
 };

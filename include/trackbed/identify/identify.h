@@ -1,0 +1,102 @@
+#pragma once
+
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trackbed/analysis/output_folder.h"
+#include "trackbed/analysis/run.h"
+#include "trackbed/scenario/identification.h"
+
+/// Estimates numbers of a car's model from recorded drives.
+///
+/// The plant restarts at the recorded state every `horizon` and predicts until the next restart.
+/// With r_ij the residuals of one signal in window i over their deviation, the estimate minimizes
+///   J(p) = sum over windows and signals of mean_j rho(r_ij) + 1/2 sum_k ((p_k -
+///   mean_k)/deviation_k)^2
+/// within the bounds: one window counts as one measurement of each signal, since residuals that
+/// follow each other are not independent. The search is NLopt's SLSQP with differenced gradients,
+/// from several starts.
+///
+/// Standard errors are those of an M-estimator with windows as independent clusters (Huber 1967;
+/// White 1980): the covariance is H^-1 (sum_i g_i g_i^T) H^-1 n/(n - p), g_i the gradient of window
+/// i, n the number of windows, H the Gauss-Newton Hessian of J. A parameter whose standard error is
+/// more than the deviation of a uniform distribution over its bounds, (to - from)/sqrt(12), is not
+/// identified: it is held at its start, and the others are estimated again. So are parameters that
+/// cannot be told apart, but for one of them.
+namespace trackbed {
+
+enum class ParameterStatus {
+  kIdentified,
+  kAtLowerBound,   ///< the estimate; it has no standard error
+  kAtUpperBound,   ///< likewise
+  kNotIdentified,  ///< the records do not tell: held at its start
+};
+
+/// "identified", "at_lower_bound", …: the spelling of identify.json.
+const char* ToString(ParameterStatus status);
+
+struct ParameterEstimate {
+  IdentifiedParameter parameter;
+  double start = 0.0;  ///< where the first search began
+  double value = 0.0;  ///< of the fitted model; of one that is not identified its start
+  ParameterStatus status = ParameterStatus::kIdentified;
+  std::optional<double> standard_error{};  ///< of identified ones
+  std::string remark{};                    ///< for people: why not identified, or told apart from
+};
+
+/// One record, replayed on every plant of its scenario by the model as it was and as it is fitted.
+struct IdentifiedRecord {
+  std::string name;  ///< of the scenario
+  bool held_out = false;
+  RunResult start;
+  RunResult fitted;
+};
+
+struct IdentificationResult {
+  Identification study;
+  std::vector<ParameterEstimate> parameters;
+  std::vector<std::vector<double>> correlation;  ///< of the identified ones, in their order
+  double start_cost = 0.0;
+  double cost = 0.0;
+  int windows = 0;
+  int evaluations = 0;  ///< of the cost
+  bool interrupted = false;
+  Scene model;  ///< with the estimates and their origins as comments
+  std::vector<IdentifiedRecord> records;
+  double wall_time = 0.0;  ///< [s]
+
+  [[nodiscard]] const ParameterEstimate* Find(const std::string& name) const;
+};
+
+struct IdentificationHooks {
+  std::function<void(double fraction)> progress{};  ///< of all the work, at most
+  std::function<bool()> interrupted{};              ///< ends the search early, with the best so far
+  int threads = 1;
+};
+
+/// Identifies, and replays every record with the model before and after.
+///
+/// Guarantees: the same study gives the same estimates, bit for bit, with any number of threads;
+/// estimates lie within their bounds; the cost is never above that of the start. Does not prove
+/// that there is no better minimum. Errors: InputError for parameters that the model does not have,
+/// placed in the study's file, for a start with which it cannot be compiled, and when no window of
+/// the records can be used. Cost: 2 p + 1 evaluations per step of the search, each the simulation
+/// of all windows and one compilation of the model; dozens of steps per start.
+IdentificationResult Identify(const Identification& study, const IdentificationHooks& hooks = {});
+
+/// Whether the model has the parameters of a study and can be compiled with where they start.
+/// Errors: as Identify.
+void CheckIdentification(const Identification& study);
+
+/// What identify.json holds.
+nlohmann::ordered_json ToJson(const IdentificationResult& result);
+
+/// Writes identify.json, the fitted model `<vehicle>.xml` with its assets, timing.json,
+/// `<record>.residuals.csv` of each record, and its run folder with the fitted model in
+/// `records/<record>`.
+void WriteIdentification(const IdentificationResult& result, const OutputFolder& folder);
+
+}  // namespace trackbed

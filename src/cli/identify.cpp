@@ -1,0 +1,144 @@
+#include "trackbed/identify/identify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "src/cli/progress_bar.h"
+#include "src/cli/scenario_options.h"
+#include "src/cli/terminal.h"
+#include "src/cli/verbs.h"
+#include "trackbed/analysis/run_folder.h"
+#include "trackbed/report/report.h"
+
+namespace trackbed::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct IdentifyOptions {
+  std::string study;
+  std::string out;
+  int jobs = 0;
+  std::vector<std::string> asset_folders;
+  bool report = false;
+  bool quiet = false;
+};
+
+std::string InWords(ParameterStatus status) {
+  switch (status) {
+    case ParameterStatus::kIdentified:
+      return "";
+    case ParameterStatus::kAtLowerBound:
+      return "at its lower bound";
+    case ParameterStatus::kAtUpperBound:
+      return "at its upper bound";
+    case ParameterStatus::kNotIdentified:
+      return "not identified";
+  }
+  return "";
+}
+
+void PrintParameters(const IdentificationResult& result) {
+  fmt::print("  {:<24} {:>11} {:>11} {:>14}\n", "parameter", "start", "estimate", "standard error");
+  for (const ParameterEstimate& estimate : result.parameters) {
+    const bool known = estimate.status != ParameterStatus::kNotIdentified;
+    std::string remark = InWords(estimate.status);
+    if (!estimate.remark.empty()) {
+      remark += (remark.empty() ? "" : ": ") + estimate.remark;
+    }
+    fmt::print("  {:<24} {:>11.4g} {:>11} {:>14}{}\n", estimate.parameter.name, estimate.start,
+               known ? fmt::format("{:.4g}", estimate.value) : "",
+               estimate.standard_error ? fmt::format("{:.2g}", *estimate.standard_error) : "",
+               remark.empty() ? "" : "  " + Toned(Tone::kDoubtful, remark));
+  }
+}
+
+const PlantMetrics* Find(const RunResult& run, const std::string& plant) {
+  for (const PlantMetrics& metrics : run.metrics) {
+    if (metrics.plant == plant && metrics.recorded) {
+      return &metrics;
+    }
+  }
+  return nullptr;
+}
+
+void PrintRecords(const IdentificationResult& result) {
+  fmt::print("  {:<26} {:<14} {:>21}  after {:.3g} s: median, 90 %\n", "record", "plant",
+             "yaw rate (rel. rms)", result.study.horizon);
+  for (const IdentifiedRecord& record : result.records) {
+    for (const PlantMetrics& fitted : record.fitted.metrics) {
+      const PlantMetrics* start = Find(record.start, fitted.plant);
+      if (start == nullptr || !fitted.recorded) {
+        continue;
+      }
+      std::string windows;
+      for (const WindowErrors& window : fitted.windows) {
+        if (window.horizon == result.study.horizon && window.count > 0) {
+          windows = fmt::format("{:.3g} m, {:.3g} m", window.position_median, window.position_p90);
+        }
+      }
+      fmt::print("  {:<26} {:<14} {:>9.3g} -> {:<8.3g}  {}{}\n", record.name, fitted.plant,
+                 start->recorded->yaw_rate_relative_rms, fitted.recorded->yaw_rate_relative_rms,
+                 windows, record.held_out ? "  (held out)" : "");
+    }
+  }
+}
+
+int RunIdentification(const IdentifyOptions& options) {
+  const Identification study = ReadIdentification(options.study, Paths(options.asset_folders));
+  const fs::path out = options.out.empty() ? fs::path("out") / study.name : fs::path(options.out);
+  const OutputFolder folder(out);
+  ProgressBar bar(study.name, options.quiet);
+  const IdentificationResult result = Identify(
+      study, {.progress = [&](double fraction) { bar.Show(fraction); },
+              .interrupted = [] { return interrupted.load(); },
+              .threads = options.jobs > 0 ? options.jobs
+                                          : static_cast<int>(std::max(
+                                                1U, std::thread::hardware_concurrency()))});
+  bar.Show(1.0);
+  WriteIdentification(result, folder);
+  if (options.report) {
+    WriteReport({out}, out / run_folder::kReport);
+  }
+  if (!options.quiet) {
+    fmt::print("{}: {}, cost {:.4g} -> {:.4g} over {} windows of {:.3g} s, in {}\n", study.name,
+               result.interrupted ? Toned(Tone::kDoubtful, "interrupted") : "finished",
+               result.start_cost, result.cost, result.windows, study.horizon, out.string());
+    PrintParameters(result);
+    PrintRecords(result);
+  }
+  return result.interrupted ? kInterrupted : kOk;
+}
+
+}  // namespace
+
+void AddIdentify(const Command& command) {
+  const auto options = std::make_shared<IdentifyOptions>();
+  command
+      .AddPositional("study", options->study,
+                     "What to estimate from which recorded drives: an identification file")
+      .Required()
+      .TypeName("STUDY");
+  command.AddOption("-o,--out", options->out, "Output folder (default: out/<name>)")
+      .TypeName("DIR");
+  command
+      .AddOption("-j,--jobs", options->jobs,
+                 "Windows simulated in parallel (default: one per hardware thread)")
+      .Range(1, 1000)
+      .TypeName("N");
+  AddAllowAssets(command, options->asset_folders);
+  command.AddFlag("--report", options->report, "Also write report.html in the folder");
+  command.AddFlag("-q,--quiet", options->quiet, "Print errors only");
+  command.AddExample("Fit the tyres of the 1:10 car to its recordings",
+                     "trackbed identify scenarios/real/identify_single_track.yaml --report");
+  command.OnRun([options] { return RunIdentification(*options); });
+}
+
+}  // namespace trackbed::cli

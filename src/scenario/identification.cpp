@@ -1,0 +1,134 @@
+#include "trackbed/scenario/identification.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "src/scenario/identification_visit.h"
+#include "src/scenario/yaml_file.h"
+#include "src/scenario/yaml_reader.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/spelling.h"
+#include "trackbed/sim/plant.h"
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+
+void CheckParameters(Identification& study, const YAML::Node& root, ReaderContext& context) {
+  const auto add_error = [&](const std::string& key, std::string message) {
+    context.AddError(NodeAt(root, key).Mark(), key, std::move(message));
+  };
+  if (study.parameters.empty()) {
+    add_error("parameters", "needs at least one parameter");
+  }
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < study.parameters.size(); ++i) {
+    IdentifiedParameter& parameter = study.parameters[i];
+    const std::string key = fmt::format("parameters[{}]", i);
+    const YAML::Mark mark = NodeAt(root, key + ".name").Mark();
+    parameter.line = mark.line + 1;
+    parameter.column = mark.column + 1;
+    if (!names.insert(parameter.name).second) {
+      add_error(key + ".name", fmt::format("'{}' is estimated already", parameter.name));
+    }
+    if (!(parameter.from < parameter.to)) {
+      add_error(key + ".to",
+                fmt::format("must be above from, {}; found {}", parameter.from, parameter.to));
+    } else if (parameter.start &&
+               (*parameter.start < parameter.from || *parameter.start > parameter.to)) {
+      add_error(key + ".start", fmt::format("must be between {} and {}; found {}", parameter.from,
+                                            parameter.to, *parameter.start));
+    }
+  }
+  if (study.fit.empty()) {
+    add_error("fit", "needs at least one scenario with a record");
+  }
+}
+
+/// The scenarios of a list of files. A scenario without a record, or of another vehicle than the
+/// first one's, is a problem of the key.
+std::vector<Scenario> ReadRecords(const std::vector<std::string>& files, const std::string& list,
+                                  const fs::path& folder, const std::vector<fs::path>& assets,
+                                  const Scenario* first, const YAML::Node& root,
+                                  ReaderContext& context) {
+  std::vector<Scenario> scenarios;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::string key = fmt::format("{}[{}]", list, i);
+    const auto add_error = [&](std::string message) {
+      context.AddError(NodeAt(root, key).Mark(), key, std::move(message));
+    };
+    Scenario scenario = ReadScenario(folder / files[i], {}, {}, {}, assets);
+    if (!scenario.record) {
+      add_error(fmt::format("{} has no record to compare with", files[i]));
+      continue;
+    }
+    const VehicleSpec& own = scenario.vehicle;
+    const Scenario& reference = first != nullptr    ? *first
+                                : scenarios.empty() ? scenario
+                                                    : scenarios.front();
+    const VehicleSpec& vehicle = reference.vehicle;
+    const fs::path model = FindModel(own.model, scenario.folder);
+    const fs::path its_model = FindModel(vehicle.model, reference.folder);
+    std::error_code ignored;
+    if (!fs::equivalent(model, its_model, ignored) ||
+        scenario.drive.timestep != reference.drive.timestep ||
+        own.steering_rate != vehicle.steering_rate) {
+      add_error(
+          fmt::format("{} has another vehicle, steering rate or timestep than the first "
+                      "scenario; one model is fitted to all",
+                      files[i]));
+    }
+    scenarios.push_back(std::move(scenario));
+  }
+  return scenarios;
+}
+
+void Throw(ReaderContext& context) {
+  if (context.problems.empty()) {
+    return;
+  }
+  std::stable_sort(context.problems.begin(), context.problems.end(),
+                   [](const Problem& a, const Problem& b) {
+                     return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+                   });
+  throw InputError(context.problems);
+}
+
+}  // namespace
+
+Identification ReadIdentification(const fs::path& file,
+                                  const std::vector<fs::path>& asset_folders) {
+  const YAML::Node root = LoadYaml(ReadInput(file), file.string(), "an identification");
+  ReaderContext context{.file = file.string(), .overridden = {}, .problems = {}};
+  Identification study;
+  study.file = file;
+  YamlReader reader(context, root, "");
+  Visit(reader, study);
+  reader.Finish();
+  Throw(context);
+  CheckParameters(study, root, context);
+  Throw(context);
+  const fs::path folder = file.parent_path();
+  study.fit_scenarios =
+      ReadRecords(study.fit, "fit", folder, asset_folders, nullptr, root, context);
+  const Scenario* first = study.fit_scenarios.empty() ? nullptr : &study.fit_scenarios.front();
+  study.held_out_scenarios =
+      ReadRecords(study.held_out, "held_out", folder, asset_folders, first, root, context);
+  Throw(context);
+  return study;
+}
+
+bool IsIdentification(const fs::path& file) {
+  try {
+    const YAML::Node root = LoadYaml(ReadInput(file), file.string(), "an identification");
+    return root["parameters"] && root["fit"];
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace trackbed
