@@ -342,7 +342,8 @@ void YamlReader::Field(const Key& key, std::vector<std::string>& value, Need nee
     const std::string dotted = fmt::format("{}[{}]", Dotted(key.name), i);
     if (!item.IsScalar()) {
       AddError(item, dotted, fmt::format("expected a name, found {}", Describe(item)));
-    } else if (std::find(allowed.begin(), allowed.end(), item.Scalar()) == allowed.end()) {
+    } else if (!allowed.empty() &&
+               std::find(allowed.begin(), allowed.end(), item.Scalar()) == allowed.end()) {
       AddError(item, dotted, "unknown " + UnknownName(item.Scalar(), allowed));
     } else if (std::find(names.begin(), names.end(), item.Scalar()) != names.end()) {
       AddError(item, dotted, fmt::format("'{}' is listed twice", item.Scalar()));
