@@ -98,6 +98,27 @@ class Estimator {
     return cost;
   }
 
+  /// Holds the parameters that leave the cost as it is, to the last bit: a plant without that part.
+  /// Gives them back.
+  std::vector<std::size_t> HoldInert() {
+    std::vector<std::size_t> inert;
+    for (const std::size_t i : free_) {
+      const IdentifiedParameter& parameter = study_.parameters[i];
+      constexpr double kMove = 0.1;  // of the width
+      const double move = kMove * (parameter.to - parameter.from);
+      std::vector<double> moved = start_;
+      moved[i] = start_[i] + move <= parameter.to ? start_[i] + move : start_[i] - move;
+      work_.Count();
+      if (!study_.parameters[i].prior && Cost(moved) == best_cost_) {
+        inert.push_back(i);
+      }
+    }
+    for (const std::size_t i : inert) {
+      std::erase(free_, i);
+    }
+    return inert;
+  }
+
   /// Searches from there; the best of all searches stays. Interrupted when the caller wants no
   /// more.
   void Improve(const std::vector<double>& from) {
@@ -124,7 +145,7 @@ class Estimator {
       }
       return cost;
     };
-    constexpr double kTolerance = 1e-5;  // of the bounds' width
+    constexpr double kTolerance = 1e-4;  // of the bounds' width
     static_cast<void>(Search(problem,
                              {.method = SearchMethod::kSlsqp,
                               .population = std::max(100, 2 + static_cast<int>(free_.size())),
@@ -277,6 +298,13 @@ void ReplayRecords(const ResidualModel& model, const IdentificationHooks& hooks,
 void Estimate(Estimator& estimator, const ResidualModel& model, Work& work,
               IdentificationResult& result) {
   const Identification& study = result.study;
+  for (const std::size_t i : estimator.HoldInert()) {
+    result.parameters[i].status = ParameterStatus::kNotIdentified;
+    result.parameters[i].remark = fmt::format("it has no effect on the plant {}", study.plant);
+  }
+  if (estimator.free().empty()) {
+    return;
+  }
   std::mt19937_64 generator(study.seed);
   for (int i = 0; i < study.starts; ++i) {
     estimator.Improve(i == 0 ? estimator.start() : estimator.Random(generator));

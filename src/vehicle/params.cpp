@@ -43,8 +43,13 @@ double CurvatureForSteering(const VehicleParams& params, double steering) {
 }
 
 double RestingSteering(const VehicleParams& params, double command) {
-  const std::vector<Vec2>& curve = params.steering_response.curve;
-  const double angle = curve.empty() ? command : MonotoneCurve(curve).At(command);
+  const SteeringResponse& response = params.steering_response;
+  const auto after_curve = [&](double input) {
+    return response.curve.empty() ? input : MonotoneCurve(response.curve).At(input);
+  };
+  const double center = after_curve(command);
+  const double play = 0.5 * response.backlash;
+  const double angle = std::clamp(after_curve(0.0), center - play, center + play);
   return std::clamp(angle, -params.steering_limit, params.steering_limit);
 }
 

@@ -111,8 +111,8 @@ double SteeringForCurvature(const VehicleParams& params, double curvature);
 /// kappa = tan(delta)/L [1/m].
 double CurvatureForSteering(const VehicleParams& params, double steering);
 
-/// The angle [rad] that the actuator rests at under a lasting `command` [rad]: the curve of the
-/// steering response, within the limit.
+/// The angle [rad] at which the actuator comes to rest when it is steered to `command` [rad] from
+/// the command 0: the curve of the steering response less half the backlash, within the limit.
 double RestingSteering(const VehicleParams& params, double command);
 
 /// Angles of the two front wheels [rad].
