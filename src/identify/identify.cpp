@@ -10,10 +10,10 @@
 #include <random>
 #include <utility>
 
+#include "src/identify/linear_model.h"
 #include "src/identify/residuals.h"
-#include "src/identify/uncertainty.h"
 #include "trackbed/core/error.h"
-#include "trackbed/optimize/search.h"
+#include "trackbed/optimize/quadratic_program.h"
 #include "trackbed/sim/car_parameters.h"
 
 namespace trackbed {
@@ -77,25 +77,7 @@ class Estimator {
   [[nodiscard]] const std::vector<std::size_t>& free() const { return free_; }
 
   [[nodiscard]] double Cost(const std::vector<double>& values) const {
-    const std::vector<SignalResiduals> residuals = model_.At(values);
-    if (residuals.empty()) {
-      return std::numeric_limits<double>::quiet_NaN();
-    }
-    double cost = 0.0;
-    for (const SignalResiduals& signal : residuals) {
-      double sum = 0.0;
-      for (const double residual : signal.values) {
-        sum += Loss(study_, residual);
-      }
-      cost += sum / static_cast<double>(signal.values.size());
-    }
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (const auto& prior = study_.parameters[i].prior) {
-        const double off = (values[i] - prior->mean) / prior->deviation;
-        cost += 0.5 * off * off;
-      }
-    }
-    return cost;
+    return CostOf(study_, model_, values);
   }
 
   /// Holds the parameters that leave the cost as it is, to the last bit: a plant without that part.
@@ -119,39 +101,49 @@ class Estimator {
     return inert;
   }
 
-  /// Searches from there; the best of all searches stays. Interrupted when the caller wants no
-  /// more.
-  void Improve(const std::vector<double>& from) {
-    // SLSQP begins with the identity for a Hessian: in these units it has ones on its diagonal.
-    const std::vector<double> unit = Units(from);
-    SearchProblem problem;
-    for (std::size_t k = 0; k < free_.size(); ++k) {
-      const IdentifiedParameter& parameter = study_.parameters[free_[k]];
-      problem.lower.push_back(parameter.from / unit[k]);
-      problem.upper.push_back(parameter.to / unit[k]);
-      problem.start.push_back(from[free_[k]] / unit[k]);
+  /// Gauss-Newton steps within a trust region from there on; the best of all stays. Each step is a
+  /// quadratic program with the bounds, which NLopt's SLSQP solves. (SLSQP on the cost itself takes
+  /// six times as many evaluations: it has to learn the Hessian that the residuals give away.)
+  void Improve(std::vector<double> at) {
+    constexpr double kSmallest = 1e-4;   // step, of the widths
+    constexpr double kLeastGain = 1e-5;  // of the cost
+    const int last = work_.evaluations() + study_.evaluations;
+    double radius = 0.25;  // of the widths
+    double cost = Cost(at);
+    Keep(at, cost);
+    while (std::isfinite(cost) && work_.evaluations() < last) {
+      const LinearModel linear = Linearize(study_, model_, at, free_, [this] { work_.Count(); });
+      bool moved = false;
+      double gained = 0.0;
+      while (!moved && radius > kSmallest) {
+        const Eigen::VectorXd step = Step(linear, at, radius);
+        const double expected = -linear.gradient.dot(step) - 0.5 * step.dot(linear.hessian * step);
+        if (!(expected > 0.0)) {
+          return;
+        }
+        const std::vector<double> next = Moved(at, step);
+        work_.Count();
+        const double reached = Cost(next);
+        const double share = (cost - reached) / expected;
+        const double length = step.cwiseAbs().maxCoeff();
+        if (share > 0.1) {  // false for NaN
+          moved = true;
+          gained = cost - reached;
+          at = next;
+          cost = reached;
+          Keep(at, cost);
+          radius = share > 0.75 ? std::max(radius, 2.0 * length) : radius;
+          if (length < kSmallest) {
+            return;
+          }
+        } else {
+          radius = 0.3 * length;
+        }
+      }
+      if (!moved || gained < kLeastGain * cost) {
+        return;
+      }
     }
-    problem.objective = [&](std::span<const double> x) {
-      std::vector<double> values = from;
-      for (std::size_t k = 0; k < free_.size(); ++k) {
-        const IdentifiedParameter& parameter = study_.parameters[free_[k]];
-        values[free_[k]] = std::clamp(x[k] * unit[k], parameter.from, parameter.to);
-      }
-      work_.Count();
-      const double cost = Cost(values);
-      if (cost < best_cost_) {
-        best_ = values;
-        best_cost_ = cost;
-      }
-      return cost;
-    };
-    constexpr double kTolerance = 1e-4;  // of the bounds' width
-    static_cast<void>(Search(problem,
-                             {.method = SearchMethod::kSlsqp,
-                              .population = std::max(100, 2 + static_cast<int>(free_.size())),
-                              .evaluations = study_.evaluations,
-                              .tolerance = kTolerance},
-                             study_.seed));
   }
 
   /// A random point within the bounds, of the free parameters.
@@ -173,30 +165,46 @@ class Estimator {
   }
 
  private:
-  /// For each free parameter the change that adds 1/2 to the cost, where that is known.
-  std::vector<double> Units(const std::vector<double>& at) {
-    std::vector<double> units;
-    constexpr double kStep = 1e-3;  // of the width
-    const double here = Cost(at);
-    for (const std::size_t i : free_) {
-      const IdentifiedParameter& parameter = study_.parameters[i];
-      const double width = parameter.to - parameter.from;
-      std::vector<double> moved = at;
-      const auto cost_at = [&](double value) {
-        moved[i] = value;
-        work_.Count();
-        return Cost(moved);
-      };
-      const double middle =
-          std::clamp(at[i], parameter.from + kStep * width, parameter.to - kStep * width);
-      const double center = middle == at[i] ? here : cost_at(middle);
-      const double curvature =
-          (cost_at(middle + kStep * width) - 2.0 * center + cost_at(middle - kStep * width)) /
-          (kStep * kStep);               // of the cost over the width
-      constexpr double kFlattest = 1.0;  // a move across the bounds adds 1/2
-      units.push_back(curvature > kFlattest ? width / std::sqrt(curvature) : width);
+  void Keep(const std::vector<double>& values, double cost) {
+    if (cost < best_cost_) {
+      best_ = values;
+      best_cost_ = cost;
     }
-    return units;
+  }
+
+  [[nodiscard]] std::vector<double> Moved(std::vector<double> values,
+                                          const Eigen::VectorXd& step) const {
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      const IdentifiedParameter& parameter = study_.parameters[free_[k]];
+      const double move = step[static_cast<Eigen::Index>(k)] * (parameter.to - parameter.from);
+      values[free_[k]] = std::clamp(values[free_[k]] + move, parameter.from, parameter.to);
+    }
+    return values;
+  }
+
+  /// The step to the minimum of the linear model within the bounds and the trust region, over the
+  /// widths.
+  [[nodiscard]] Eigen::VectorXd Step(const LinearModel& linear, const std::vector<double>& at,
+                                     double radius) const {
+    const Eigen::Index n = linear.gradient.size();
+    // A little of the identity: directions that change nothing stay where they are.
+    constexpr double kLeast = 1e-9;
+    const double ridge = std::max(kLeast * linear.hessian.trace(), kLeast);
+    QuadraticProgram program;
+    program.hessian = linear.hessian + ridge * Eigen::MatrixXd::Identity(n, n);
+    program.linear = linear.gradient;
+    program.constraints = QuadraticProgram::Rows::Zero(2 * n, n);
+    program.bounds = QuadraticProgram::Bounds::Zero(2 * n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const std::size_t index = free_[static_cast<std::size_t>(i)];
+      const IdentifiedParameter& parameter = study_.parameters[index];
+      const double width = parameter.to - parameter.from;
+      program.constraints(2 * i, i) = 1.0;
+      program.bounds[2 * i] = std::min(radius, (parameter.to - at[index]) / width);
+      program.constraints(2 * i + 1, i) = -1.0;
+      program.bounds[2 * i + 1] = std::min(radius, (at[index] - parameter.from) / width);
+    }
+    return Solve(program).x;
   }
 
   const Identification& study_;
@@ -232,27 +240,22 @@ bool IsAt(double value, double bound, const IdentifiedParameter& parameter) {
 
 /// Which of the free parameters the records do not tell, the one that is told least first; none if
 /// they tell all.
-std::optional<std::size_t> LeastKnown(const Identification& study, const Uncertainty& uncertainty,
-                                      const std::vector<std::size_t>& free) {
+std::optional<std::size_t> LeastKnown(const Eigen::MatrixXd& covariance) {
   std::optional<std::size_t> least;
   double worst = 1.0 / std::sqrt(12.0);  // deviation of a uniform distribution over the width
-  for (std::size_t k = 0; k < free.size(); ++k) {
-    const IdentifiedParameter& parameter = study.parameters[free[k]];
-    const auto i = static_cast<Eigen::Index>(k);
-    const double deviation =
-        std::sqrt(uncertainty.covariance(i, i)) / (parameter.to - parameter.from);
+  for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
+    const double deviation = std::sqrt(covariance(i, i));
     if (!(deviation <= worst)) {
       worst = deviation;
-      least = k;
+      least = static_cast<std::size_t>(i);
     }
   }
   return least;
 }
 
-double Correlation(const Uncertainty& uncertainty, std::size_t a, std::size_t b) {
+double Correlation(const Eigen::MatrixXd& covariance, std::size_t a, std::size_t b) {
   const auto i = static_cast<Eigen::Index>(a);
   const auto j = static_cast<Eigen::Index>(b);
-  const Eigen::MatrixXd& covariance = uncertainty.covariance;
   return covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
 }
 
@@ -326,19 +329,24 @@ void Estimate(Estimator& estimator, const ResidualModel& model, Work& work,
     if (inside.empty()) {
       return;
     }
-    const Uncertainty uncertainty = EstimateUncertainty(study, model, estimator.best(), inside);
-    const std::optional<std::size_t> least = LeastKnown(study, uncertainty, inside);
+    const Eigen::MatrixXd covariance = Covariance(
+        study, Linearize(study, model, estimator.best(), inside, [&] { work.Count(); }), inside);
+    const std::optional<std::size_t> least = LeastKnown(covariance);
+    const auto error_of = [&](std::size_t a) {
+      const auto i = static_cast<Eigen::Index>(a);
+      const IdentifiedParameter& parameter = study.parameters[inside[a]];
+      return std::sqrt(covariance(i, i)) * (parameter.to - parameter.from);
+    };
     if (!least) {
       result.correlation.assign(inside.size(), std::vector<double>(inside.size(), 1.0));
       for (std::size_t a = 0; a < inside.size(); ++a) {
         ParameterEstimate& estimate = result.parameters[inside[a]];
-        const auto i = static_cast<Eigen::Index>(a);
-        estimate.standard_error = std::sqrt(uncertainty.covariance(i, i));
+        estimate.standard_error = error_of(a);
         for (std::size_t b = 0; b < inside.size(); ++b) {
           if (a == b) {
             continue;
           }
-          const double correlation = Correlation(uncertainty, a, b);
+          const double correlation = Correlation(covariance, a, b);
           result.correlation[a][b] = correlation;
           if (std::abs(correlation) > kAlike) {
             estimate.remark += fmt::format(
@@ -351,8 +359,7 @@ void Estimate(Estimator& estimator, const ResidualModel& model, Work& work,
     }
     ParameterEstimate& held = result.parameters[inside[*least]];
     held.status = ParameterStatus::kNotIdentified;
-    const auto k = static_cast<Eigen::Index>(*least);
-    const double error = std::sqrt(uncertainty.covariance(k, k));
+    const double error = error_of(*least);
     held.remark =
         std::isfinite(error)
             ? fmt::format("the records do not tell: standard error {:.2g}, bounds {} to {}", error,

@@ -25,6 +25,10 @@ void CheckParameters(Identification& study, const YAML::Node& root, ReaderContex
   if (study.parameters.empty()) {
     add_error("parameters", "needs at least one parameter");
   }
+  constexpr std::size_t kMost = 40;  // of QuadraticProgram
+  if (study.parameters.size() > kMost) {
+    add_error("parameters", fmt::format("at most {}; found {}", kMost, study.parameters.size()));
+  }
   std::set<std::string> names;
   for (std::size_t i = 0; i < study.parameters.size(); ++i) {
     IdentifiedParameter& parameter = study.parameters[i];

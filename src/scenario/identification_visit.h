@@ -62,8 +62,8 @@ inline void Visit(KeyVisitor& a, Identification& study) {
   a.List({"parameters", "", "what is estimated"}, study.parameters);
   a.Field({"starts", "", "the search begins so often: first at `start`, then at random points"},
           study.starts, Need::kOptional, Range{.min = 1.0, .max = 1000.0});
-  a.Field({"evaluations", "", "of the cost, at most, from each start"}, study.evaluations,
-          Need::kOptional, Range{.min = 1.0, .max = 1e6});
+  a.Field({"evaluations", "", "of the cost, about, from each start: then the search ends"},
+          study.evaluations, Need::kOptional, Range{.min = 1.0, .max = 1e6});
   a.Field({"seed", "", "of the random starts"}, study.seed, Need::kOptional);
 }
 

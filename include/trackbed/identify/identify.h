@@ -17,8 +17,8 @@
 ///   J(p) = sum over windows and signals of mean_j rho(r_ij) + 1/2 sum_k ((p_k -
 ///   mean_k)/deviation_k)^2
 /// within the bounds: one window counts as one measurement of each signal, since residuals that
-/// follow each other are not independent. The search is NLopt's SLSQP with differenced gradients,
-/// from several starts.
+/// follow each other are not independent. The search takes Gauss-Newton steps within a trust
+/// region, each a quadratic program with the bounds (NLopt's SLSQP), from several starts.
 ///
 /// Standard errors are those of an M-estimator with windows as independent clusters (Huber 1967;
 /// White 1980): the covariance is H^-1 (sum_i g_i g_i^T) H^-1 n/(n - p), g_i the gradient of window
@@ -83,8 +83,8 @@ struct IdentificationHooks {
 /// estimates lie within their bounds; the cost is never above that of the start. Does not prove
 /// that there is no better minimum. Errors: InputError for parameters that the model does not have,
 /// placed in the study's file, for a start with which it cannot be compiled, and when no window of
-/// the records can be used. Cost: 2 p + 1 evaluations per step of the search, each the simulation
-/// of all windows and one compilation of the model; dozens of steps per start.
+/// the records can be used. Cost: 2 p + 2 evaluations per step of the search, each the simulation
+/// of all windows and one compilation of the model; about ten steps per start.
 IdentificationResult Identify(const Identification& study, const IdentificationHooks& hooks = {});
 
 /// Whether the model has the parameters of a study and can be compiled with where they start.

@@ -56,7 +56,7 @@ struct Identification {
   double loss_scale = 2.0;  ///< in deviations
   std::vector<IdentifiedParameter> parameters;
   int starts = 2;          ///< of the search: the first at `start`, the others random in the bounds
-  int evaluations = 1500;  ///< of the cost, at most, from each start
+  int evaluations = 400;  ///< of the cost, about, from each start
   std::uint64_t seed = 1;
 
   std::filesystem::path file{};           ///< where it was read

@@ -1,4 +1,4 @@
-#include "src/identify/uncertainty.h"
+#include "src/identify/linear_model.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -12,7 +12,8 @@ namespace {
 
 /// Of residual vectors: d residual/d(parameter over the width of its bounds).
 std::vector<SignalResiduals> Derivative(const Identification& study, const ResidualModel& model,
-                                        const std::vector<double>& estimate, std::size_t index) {
+                                        const std::vector<double>& estimate, std::size_t index,
+                                        const std::function<void()>& count) {
   // Steps are so large that play, whose edges make residuals kinked, averages out, and so small
   // that a Magic Formula is straight.
   constexpr double kStep = 1e-3;  // of the width
@@ -21,9 +22,11 @@ std::vector<SignalResiduals> Derivative(const Identification& study, const Resid
   std::vector<double> at = estimate;
   at[index] = std::min(estimate[index] + kStep * width, parameter.to);
   const double high = at[index];
+  count();
   std::vector<SignalResiduals> ahead = model.At(at);
   at[index] = std::max(estimate[index] - kStep * width, parameter.from);
   const double step = (high - at[index]) / width;
+  count();
   const std::vector<SignalResiduals> behind = model.At(at);
   if (ahead.size() != behind.size()) {
     return {};
@@ -36,17 +39,53 @@ std::vector<SignalResiduals> Derivative(const Identification& study, const Resid
   return ahead;
 }
 
+double Cost(const Identification& study, const std::vector<SignalResiduals>& residuals,
+            const std::vector<double>& values) {
+  double cost = 0.0;
+  for (const SignalResiduals& signal : residuals) {
+    double sum = 0.0;
+    for (const double residual : signal.values) {
+      sum += Loss(study, residual);
+    }
+    cost += sum / static_cast<double>(signal.values.size());
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (const auto& prior = study.parameters[i].prior) {
+      const double off = (values[i] - prior->mean) / prior->deviation;
+      cost += 0.5 * off * off;
+    }
+  }
+  return cost;
+}
+
+double Width(const IdentifiedParameter& parameter) {
+  return parameter.to - parameter.from;
+}
+
 }  // namespace
 
-Uncertainty EstimateUncertainty(const Identification& study, const ResidualModel& model,
-                                const std::vector<double>& estimate,
-                                const std::vector<std::size_t>& free) {
+double CostOf(const Identification& study, const ResidualModel& model,
+              const std::vector<double>& values) {
+  const std::vector<SignalResiduals> residuals = model.At(values);
+  return residuals.empty() ? std::numeric_limits<double>::quiet_NaN()
+                           : Cost(study, residuals, values);
+}
+
+LinearModel Linearize(const Identification& study, const ResidualModel& model,
+                      const std::vector<double>& estimate, const std::vector<std::size_t>& free,
+                      const std::function<void()>& count) {
+  const auto counted = [&] {
+    if (count) {
+      count();
+    }
+  };
   const auto n = static_cast<Eigen::Index>(free.size());
+  counted();
   const std::vector<SignalResiduals> residuals = model.At(estimate);
   TRACKBED_CHECK(!residuals.empty(), "an estimate that does not compile");
   std::vector<std::vector<SignalResiduals>> jacobian;
   for (const std::size_t index : free) {
-    jacobian.push_back(Derivative(study, model, estimate, index));
+    jacobian.push_back(Derivative(study, model, estimate, index, counted));
     if (jacobian.back().size() != residuals.size()) {  // it does not compile beside the estimate
       jacobian.back() = residuals;
       for (SignalResiduals& signal : jacobian.back()) {
@@ -54,44 +93,55 @@ Uncertainty EstimateUncertainty(const Identification& study, const ResidualModel
       }
     }
   }
-  // In units of the bounds' widths, so that the matrices are well scaled.
-  Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(n, n);
-  Eigen::MatrixXd gradients = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(model.windows()));
+  LinearModel linear{
+      .cost = Cost(study, residuals, estimate),
+      .gradient = Eigen::VectorXd::Zero(n),
+      .hessian = Eigen::MatrixXd::Zero(n, n),
+      .of_windows = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(model.windows()))};
+  Eigen::VectorXd row(n);
   for (std::size_t s = 0; s < residuals.size(); ++s) {
     const std::vector<double>& values = residuals[s].values;
     const double share = 1.0 / static_cast<double>(values.size());
     for (std::size_t j = 0; j < values.size(); ++j) {
-      Eigen::VectorXd row(n);
       for (Eigen::Index i = 0; i < n; ++i) {
         row[i] = jacobian[static_cast<std::size_t>(i)][s].values[j];
       }
       const double weight = share * LossWeight(study, values[j]);
-      hessian += weight * row * row.transpose();
-      gradients.col(static_cast<Eigen::Index>(residuals[s].window)) += weight * values[j] * row;
+      linear.hessian += weight * row * row.transpose();
+      linear.of_windows.col(static_cast<Eigen::Index>(residuals[s].window)) +=
+          weight * values[j] * row;
     }
   }
-  Eigen::VectorXd width(n);
+  linear.gradient = linear.of_windows.rowwise().sum();
   for (Eigen::Index i = 0; i < n; ++i) {
-    const IdentifiedParameter& parameter = study.parameters[free[static_cast<std::size_t>(i)]];
-    width[i] = parameter.to - parameter.from;
+    const std::size_t index = free[static_cast<std::size_t>(i)];
+    const IdentifiedParameter& parameter = study.parameters[index];
     if (parameter.prior) {
-      const double precision = width[i] / parameter.prior->deviation;
-      hessian(i, i) += precision * precision;
+      const double precision = Width(parameter) / parameter.prior->deviation;
+      linear.hessian(i, i) += precision * precision;
+      linear.gradient[i] +=
+          precision * (estimate[index] - parameter.prior->mean) / parameter.prior->deviation;
     }
   }
-  const auto windows = static_cast<double>(model.windows());
-  const double count = std::max(1.0, windows - static_cast<double>(n));
-  Eigen::MatrixXd scatter = gradients * gradients.transpose() * (windows / count);
+  return linear;
+}
+
+Eigen::MatrixXd Covariance(const Identification& study, const LinearModel& linear,
+                           const std::vector<std::size_t>& free) {
+  const Eigen::Index n = linear.gradient.size();
+  const auto windows = static_cast<double>(linear.of_windows.cols());
+  const double freedom = std::max(1.0, windows - static_cast<double>(n));
+  Eigen::MatrixXd scatter = linear.of_windows * linear.of_windows.transpose() * (windows / freedom);
   // A prior is a measurement whose scatter is its own deviation.
   for (Eigen::Index i = 0; i < n; ++i) {
     const IdentifiedParameter& parameter = study.parameters[free[static_cast<std::size_t>(i)]];
     if (parameter.prior) {
-      const double precision = width[i] / parameter.prior->deviation;
+      const double precision = Width(parameter) / parameter.prior->deviation;
       scatter(i, i) += precision * precision;
     }
   }
   // Directions in which the cost is flat have no inverse: their variance is without bounds.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(hessian);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(linear.hessian);
   constexpr double kFlat = 1e-10;
   const double largest = std::max(eigen.eigenvalues()[n - 1], 1e-300);
   Eigen::VectorXd inverse(n);
@@ -112,9 +162,7 @@ Uncertainty EstimateUncertainty(const Identification& study, const ResidualModel
       covariance(i, i) = std::numeric_limits<double>::infinity();
     }
   }
-  return {
-      .hessian = width.cwiseInverse().asDiagonal() * hessian * width.cwiseInverse().asDiagonal(),
-      .covariance = width.asDiagonal() * covariance * width.asDiagonal()};
+  return covariance;
 }
 
 }  // namespace trackbed
