@@ -1,5 +1,6 @@
 #include "trackbed/vehicle/steering_response.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +9,7 @@
 #include "tests/geometry/random.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
+#include "trackbed/vehicle/params.h"
 
 namespace trackbed {
 namespace {
@@ -87,6 +89,26 @@ TEST(MonotoneCurve, RefusesPointsOutOfOrder) {
                PreconditionError);
   EXPECT_THROW(static_cast<void>(MonotoneCurve(Asymmetric()).At(std::nan(""))),
                PreconditionError);
+}
+
+TEST(SteeringFilter, PassesWhatArrivesDuringATimestepForItsShare) {
+  // A step of 1 rad that is on its way for 2.3 timesteps arrives when 0.3 of the third has passed.
+  SteeringFilter filter({.dead_time = 2.3 * kTimestep}, kTimestep, 0.0);
+  std::vector<double> passed;
+  for (int i = 0; i < 5; ++i) {
+    passed.push_back(filter.Pass(1.0));
+  }
+  EXPECT_THAT(passed, testing::ElementsAre(0.0, 0.0, testing::DoubleNear(0.7, 1e-12),
+                                           testing::DoubleNear(1.0, 1e-12), 1.0));
+}
+
+TEST(RestingSteering, IsWhereTheWheelsComeToRestFromStraightAhead) {
+  VehicleParams params{.steering_limit = 0.5};
+  params.steering_response.backlash = 0.04;
+  EXPECT_THAT(RestingSteering(params, 0.2), testing::DoubleNear(0.18, 1e-15));
+  EXPECT_THAT(RestingSteering(params, -0.2), testing::DoubleNear(-0.18, 1e-15));
+  EXPECT_EQ(RestingSteering(params, 0.01), 0.0);  // within the play
+  EXPECT_EQ(RestingSteering(params, 1.0), 0.5);   // the limit
 }
 
 TEST(SteeringFilter, IdealGivesTheCommand) {
