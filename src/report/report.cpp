@@ -8,6 +8,7 @@
 
 #include "src/report/base64.h"
 #include "src/report/comparison_data.h"
+#include "src/report/identification_data.h"
 #include "src/report/page_text.h"
 #include "src/report/readable.h"
 #include "src/report/run_data.h"
@@ -71,6 +72,9 @@ std::string PageTitle(const ordered_json& data) {
   if (data.contains("study")) {
     return data["study"]["name"].get<std::string>();
   }
+  if (data.contains("identification")) {
+    return data["identification"]["name"].get<std::string>();
+  }
   std::string title;
   for (const ordered_json& run : data["runs"]) {
     title += (title.empty() ? "" : " · ") + run["name"].get<std::string>();
@@ -90,10 +94,18 @@ void RefuseOthers(const std::vector<fs::path>& paths) {
       throw InputError(Problem{.file = path->string(), .message = "no such folder"});
     }
     const bool is_comparison = HasComparison(*path);
+    if (IsIdentificationFolder(*path)) {
+      if (paths.size() > 1) {
+        throw InputError(
+            Problem{.file = path->string(), .message = "an identification must be given alone"});
+      }
+      return;
+    }
     if (!IsRunFolder(*path) && !is_comparison && !StudyTable(*path)) {
       throw InputError(Problem{.file = path->string(),
                                .message = "not a finished run (no metrics.json), a comparison (no "
-                                          "compare.json) or a study (no sweep.csv or .csv file)"});
+                                          "compare.json), an identification (no identify.json) or "
+                                          "a study (no sweep.csv or .csv file)"});
     }
     const bool are_two_studies =
         paths.size() == 2 && IsStudyAlone(paths[0]) && IsStudyAlone(paths[1]);
@@ -159,6 +171,9 @@ std::vector<std::string> ShortNames(const std::vector<fs::path>& folders) {
 }
 
 ordered_json MakeReportData(const std::vector<fs::path>& paths, const ShownRuns& shown) {
+  if (IsIdentificationFolder(paths.front())) {
+    return {{"identification", IdentificationData(paths.front())}};
+  }
   if (shown.folders.empty()) {
     const std::optional<fs::path> before =
         paths.size() > 1 ? StudyTable(paths.front()) : std::nullopt;

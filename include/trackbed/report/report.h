@@ -24,6 +24,9 @@ enum class FilmPlace {
 /// has judged, with its verdict and tolerances, and each plant of the first of several runs with
 /// its namesake in every other.
 ///
+/// Of an identification, given alone: the estimates with their errors and correlations, the errors
+/// against each record before and after the fit, and residuals over time.
+///
 /// Numbers are rounded to six significant digits, those below 5e-7 to 0. Logs with more than 20000
 /// rows in total are decimated; rows with a column's local maximum or minimum are kept, so that
 /// every extreme value stays. SI units and radians, as in the files.

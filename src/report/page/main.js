@@ -27,6 +27,8 @@ function drawDrive() {
 
 if (data.study) {
   drawStudy(data.study);
+} else if (data.identification) {
+  drawIdentification(data.identification);
 } else if (!data.live) {
   drawHead();
   drawAnswer();
