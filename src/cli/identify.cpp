@@ -41,6 +41,8 @@ std::string InWords(ParameterStatus status) {
       return "at its upper bound";
     case ParameterStatus::kNotIdentified:
       return "not identified";
+    case ParameterStatus::kUnfinished:
+      return "not finished";
   }
   return "";
 }

@@ -101,10 +101,11 @@ class Estimator {
     return inert;
   }
 
-  /// Gauss-Newton steps within a trust region from there on; the best of all stays. Each step is a
+  /// Gauss-Newton steps within a trust region from there on; the best of all stays. Gives back the
+  /// cost that it reached. Each step is a
   /// quadratic program with the bounds, which NLopt's SLSQP solves. (SLSQP on the cost itself takes
   /// six times as many evaluations: it has to learn the Hessian that the residuals give away.)
-  void Improve(std::vector<double> at) {
+  double Improve(std::vector<double> at) {
     constexpr double kSmallest = 1e-4;   // step, of the widths
     constexpr double kLeastGain = 1e-5;  // of the cost
     const int last = work_.evaluations() + study_.evaluations;
@@ -119,7 +120,7 @@ class Estimator {
         const Eigen::VectorXd step = Step(linear, at, radius);
         const double expected = -linear.gradient.dot(step) - 0.5 * step.dot(linear.hessian * step);
         if (!(expected > 0.0)) {
-          return;
+          return cost;
         }
         const std::vector<double> next = Moved(at, step);
         work_.Count();
@@ -134,16 +135,17 @@ class Estimator {
           Keep(at, cost);
           radius = share > 0.75 ? std::max(radius, 2.0 * length) : radius;
           if (length < kSmallest) {
-            return;
+            return cost;
           }
         } else {
           radius = 0.3 * length;
         }
       }
       if (!moved || gained < kLeastGain * cost) {
-        return;
+        return cost;
       }
     }
+    return cost;
   }
 
   /// A random point within the bounds, of the free parameters.
@@ -310,7 +312,8 @@ void Estimate(Estimator& estimator, const ResidualModel& model, Work& work,
   }
   std::mt19937_64 generator(study.seed);
   for (int i = 0; i < study.starts; ++i) {
-    estimator.Improve(i == 0 ? estimator.start() : estimator.Random(generator));
+    result.start_costs.push_back(
+        estimator.Improve(i == 0 ? estimator.start() : estimator.Random(generator)));
     work.SkipTo((i + 1) * study.evaluations);
   }
   for (;;) {
@@ -370,7 +373,7 @@ void Estimate(Estimator& estimator, const ResidualModel& model, Work& work,
     if (estimator.free().empty()) {
       return;
     }
-    estimator.Improve(estimator.best());
+    static_cast<void>(estimator.Improve(estimator.best()));
   }
 }
 
@@ -386,6 +389,8 @@ const char* ToString(ParameterStatus status) {
       return "at_upper_bound";
     case ParameterStatus::kNotIdentified:
       return "not_identified";
+    case ParameterStatus::kUnfinished:
+      return "unfinished";
   }
   throw InternalError("no such parameter status");
 }
@@ -429,6 +434,11 @@ IdentificationResult Identify(const Identification& study, const IdentificationH
       Estimate(estimator, model, work, result);
     } catch (const Interrupted&) {
       result.interrupted = true;
+      for (ParameterEstimate& estimate : result.parameters) {
+        if (!estimate.standard_error && estimate.status != ParameterStatus::kNotIdentified) {
+          estimate.status = ParameterStatus::kUnfinished;
+        }
+      }
     }
     for (std::size_t i = 0; i < result.parameters.size(); ++i) {
       result.parameters[i].value = estimator.best()[i];

@@ -113,6 +113,10 @@ ordered_json ToJson(const IdentificationResult& result) {
       {"windows", {{"horizon_s", study.horizon}, {"count", result.windows}}},
       {"cost", {{"start", OrNull(result.start_cost)}, {"fitted", OrNull(result.cost)}}},
       {"evaluations", result.evaluations}};
+  json["cost"]["of_starts"] = ordered_json::array();
+  for (const double cost : result.start_costs) {
+    json["cost"]["of_starts"].push_back(OrNull(cost));
+  }
   json["parameters"] = ordered_json::array();
   ordered_json names = ordered_json::array();
   for (const ParameterEstimate& estimate : result.parameters) {

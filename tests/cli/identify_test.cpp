@@ -14,19 +14,18 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-const fs::path kSource = TRACKBED_SOURCE_DIR;
+const fs::path kScenarios = fs::path(TRACKBED_SOURCE_DIR) / "scenarios";
 
 /// A study of the recorded 1:10 car on the single-track model.
-std::string Study(const std::string& parameters, const std::string& rest = "") {
-  return "schema: 1\nname: small\nfit: [" +
-         (kSource / "scenarios/real/dart_ramp_02.yaml").string() + "]\nparameters:\n" + parameters +
-         "starts: 1\n" + rest;
+std::string StudyOfDart(const std::string& parameters, const std::string& rest = "") {
+  return "schema: 1\nname: small\nfit: [" + (kScenarios / "real/dart_ramp_02.yaml").string() +
+         "]\nparameters:\n" + parameters + "starts: 1\n" + rest;
 }
 
 TEST(Identify, EstimatesAndWritesAModelThatRuns) {
   const TempFolder folder;
-  folder.Write("study.yaml", Study("  - {name: p_ky1_front, from: -20, to: -2}\n"
-                                   "  - {name: p_dy1_front, from: 0.5, to: 1.5}\n"));
+  folder.Write("study.yaml", StudyOfDart("  - {name: p_ky1_front, from: -20, to: -2}\n"
+                                         "  - {name: p_dy1_front, from: 0.5, to: 1.5}\n"));
   const Outcome found = Trackbed(folder, "identify study.yaml -o out --report");
   EXPECT_EQ(found.code, 0) << found.output;
   EXPECT_THAT(found.output, HasSubstr("small: finished, cost"));
@@ -52,31 +51,30 @@ TEST(Identify, NamesWhatIsWrongWithItsPlace) {
     EXPECT_FALSE(fs::exists(folder.path() / "out/identify.json"));
     return outcome.output;
   };
-  EXPECT_THAT(message(Study("  - {name: p_ky1_frnt, from: -20, to: -2}\n")),
+  EXPECT_THAT(message(StudyOfDart("  - {name: p_ky1_frnt, from: -20, to: -2}\n")),
               HasSubstr("study.yaml:5:12: parameters: p_ky1_frnt: no such number in the model: "
                         "'p_ky1_frnt'; did you mean 'p_ky1_front'?"));
-  EXPECT_THAT(message(Study("  - {name: mass, from: 2, to: 1}\n")),
-              HasSubstr("study.yaml:5:30: parameters[0].to: must be above from, 2; found 1"));
-  EXPECT_THAT(message(Study("  - {name: mass, from: 1, to: 2, start: 3}\n")),
+  EXPECT_THAT(message(StudyOfDart("  - {name: mass, from: 2, to: 1}\n")),
+              HasSubstr("study.yaml:5:31: parameters[0].to: must be above from, 2; found 1"));
+  EXPECT_THAT(message(StudyOfDart("  - {name: mass, from: 1, to: 2, start: 3}\n")),
               HasSubstr("parameters[0].start: must be between 1 and 2; found 3"));
   EXPECT_THAT(
-      message(Study("  - {name: mass, from: 1, to: 2}\n  - {name: mass, from: 1, to: 2}\n")),
+      message(StudyOfDart("  - {name: mass, from: 1, to: 2}\n  - {name: mass, from: 1, to: 2}\n")),
       HasSubstr("parameters[1].name: 'mass' is estimated already"));
-  EXPECT_THAT(message(Study("  - {name: mass, from: 1, to: 2}\n", "horzon: 1\n")),
-              HasSubstr("unknown key; did you mean 'horizon'?"));
-  EXPECT_THAT(message(Study("  - {name: mass, from: 1, to: 2}\n", "horizon: 1000\n")),
+  EXPECT_THAT(message(StudyOfDart("  - {name: mass, from: 1, to: 2}\n", "horzon: 1\n")),
+              HasSubstr("study.yaml:7:1: horzon: unknown key 'horzon'; did you mean 'horizon'?"));
+  EXPECT_THAT(message(StudyOfDart("  - {name: mass, from: 1, to: 2}\n", "horizon: 1000\n")),
               HasSubstr("no record has 1000 s in a row that are valid and fast enough"));
-  EXPECT_THAT(
-      message("schema: 1\nname: x\nfit: [" + (kSource / "scenarios/three_turns.yaml").string() +
-              "]\nparameters: [{name: mass, from: 1, to: 2}]\n"),
-      HasSubstr("three_turns.yaml has no record to compare with"));
+  EXPECT_THAT(message("schema: 1\nname: x\nfit: [" + (kScenarios / "three_turns.yaml").string() +
+                      "]\nparameters: [{name: mass, from: 1, to: 2}]\n"),
+              HasSubstr("three_turns.yaml has no record to compare with"));
 }
 
 TEST(Identify, IsCheckedWithoutBeingRun) {
   const TempFolder folder;
   for (const char* study : {"identify_single_track", "identify_mujoco"}) {
     const Outcome checked = Trackbed(
-        folder, "check " + (kSource / "scenarios/real" / (std::string(study) + ".yaml")).string());
+        folder, "check " + (kScenarios / "real" / (std::string(study) + ".yaml")).string());
     EXPECT_EQ(checked.code, 0) << checked.output;
   }
 }

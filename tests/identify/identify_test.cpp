@@ -227,6 +227,7 @@ TEST_F(IdentifiedCar, KeepsTheBestWhenInterrupted) {
   EXPECT_LT(result.cost, result.start_cost);
   EXPECT_EQ(result.records.size(), 1U);
   EXPECT_EQ(ToJson(result)["complete"], false);
+  EXPECT_EQ(result.parameters.front().status, ParameterStatus::kUnfinished);
 }
 
 TEST_F(IdentifiedCar, WeighsPriorsAgainstWindows) {

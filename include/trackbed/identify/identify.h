@@ -33,6 +33,7 @@ enum class ParameterStatus {
   kAtLowerBound,   ///< the estimate; it has no standard error
   kAtUpperBound,   ///< likewise
   kNotIdentified,  ///< the records do not tell: held at its start
+  kUnfinished,     ///< the search was interrupted: the best so far
 };
 
 /// "identified", "at_lower_bound", …: the spelling of identify.json.
@@ -61,6 +62,7 @@ struct IdentificationResult {
   std::vector<std::vector<double>> correlation;  ///< of the identified ones, in their order
   double start_cost = 0.0;
   double cost = 0.0;
+  std::vector<double> start_costs;  ///< that each search reached: equal ones speak for one minimum
   int windows = 0;
   int evaluations = 0;  ///< of the cost
   bool interrupted = false;

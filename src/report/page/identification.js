@@ -1,7 +1,7 @@
 // An identification: what was estimated, how well, and what the model does with it.
 
 const parameterStatus = {
-  identified: '', at_lower_bound: 'at its lower bound', at_upper_bound: 'at its upper bound', not_identified: 'not identified',
+  identified: '', at_lower_bound: 'at its lower bound', at_upper_bound: 'at its upper bound', not_identified: 'not identified', unfinished: 'not finished',
 };
 
 function drawIdentification(found) {
@@ -24,7 +24,7 @@ function drawIdentificationHead(found) {
     `plant ${found.plant}`,
     `${found.windows.count} windows of ${brief(found.windows.horizon_s)} s in ${found.records.length - held.length} records`,
     held.length > 0 && `held out: ${held.map(({ name }) => name).join(', ')}`,
-    `cost ${brief(found.cost.start)} → ${brief(found.cost.fitted)}`, `${found.evaluations} evaluations`,
+    `cost ${brief(found.cost.start)} → ${brief(found.cost.fitted)} (from each start ${found.cost.of_starts.map((cost) => brief(cost)).join(', ')})`, `${found.evaluations} evaluations`,
     `Trackbed ${found.versions.trackbed}`, found.versions.physics, found.versions.optimizer,
   ]);
 }
