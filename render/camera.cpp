@@ -39,6 +39,12 @@ void LiftOnto(CameraPose& pose, const CameraSubject& subject, double time) {
   pose.elevation += std::atan(subject.grade().dot(Direction(pose.azimuth)));
 }
 
+/// Of a car beside a full-size one, to whose measure the cameras stand: 1 for cars of 4 m and more.
+double Size(const CameraSubject& subject) {
+  constexpr double kFullSize = 2.0;  // half its length [m]
+  return std::min(1.0, subject.box().half_length / kFullSize);
+}
+
 CameraPose Chase(const CameraSubject& subject, double time, double /*aspect*/) {
   const Point car = subject.Position(time);
   // In reverse it looks the other way: at where the car is going. On its way round it passes the
@@ -46,12 +52,14 @@ CameraPose Chase(const CameraSubject& subject, double time, double /*aspect*/) {
   const double heading = subject.SmoothHeading(time) + kPi * subject.SmoothReverse(time);
   // Ahead of the rear axle, so that the road the car is about to take fills the picture, and so
   // little that the car stays above the strip and the caption.
-  constexpr double kAhead = 1.0;
+  const double size = Size(subject);
+  const double ahead = 1.0 * size;
   CameraPose pose;
-  pose.target_x = car.x + kAhead * std::cos(heading);
-  pose.target_y = car.y + kAhead * std::sin(heading);
-  pose.target_z = 1.0;
-  pose.distance = 14.5;
+  pose.target_x = car.x + ahead * std::cos(heading);
+  pose.target_y = car.y + ahead * std::sin(heading);
+  pose.target_z = 1.0 * size;
+  pose.distance = 14.5 * size;
+  pose.paint_scale = size;
   // A little from the side: one sees the car's flank, and its trail beside the caption.
   pose.azimuth = heading + 14.0 * kPi / 180.0;
   pose.elevation = -18.0 * kPi / 180.0;
@@ -63,16 +71,18 @@ CameraPose Chase(const CameraSubject& subject, double time, double /*aspect*/) {
 CameraPose Side(const CameraSubject& subject, double time, double aspect) {
   const Point car = subject.Position(time);
   const double heading = subject.SmoothHeading(time);
-  constexpr double kAhead = 1.4;  // about the middle of a car, from its rear axle [m]
-  constexpr double kWidth = 9.0;  // of the picture at the car [m]: two car lengths
+  const double size = Size(subject);
+  const double ahead = 1.4 * size;  // about the middle of a car, from its rear axle [m]
+  const double width = 9.0 * size;  // of the picture at the car [m]: two car lengths
   constexpr double kViewAngle = 28.0 * kPi / 180.0;
   CameraPose pose;
-  pose.target_x = car.x + kAhead * std::cos(heading);
-  pose.target_y = car.y + kAhead * std::sin(heading);
-  pose.target_z = 0.7;
+  pose.target_x = car.x + ahead * std::cos(heading);
+  pose.target_y = car.y + ahead * std::sin(heading);
+  pose.target_z = 0.7 * size;
+  pose.paint_scale = size;
   pose.view_angle = kViewAngle;
   // Portraits must hold the car's length, too.
-  pose.distance = 0.5 * kWidth / (std::tan(0.5 * kViewAngle) * std::clamp(aspect, 0.2, 16.0 / 9.0));
+  pose.distance = 0.5 * width / (std::tan(0.5 * kViewAngle) * std::clamp(aspect, 0.2, 16.0 / 9.0));
   // From its right, where the sun does not stand behind the camera: shadows have depth.
   pose.azimuth = heading + 0.5 * kPi;
   pose.elevation = -12.0 * kPi / 180.0;
@@ -89,7 +99,8 @@ CameraPose Driver(const CameraSubject& subject, double time, double aspect) {
   pose.inside = true;
   // The eyes: in the middle of the car, to the left, under the roof.
   const Vec2 eye = ToWorld({car.x, car.y, heading}, {box.middle, 0.45 * box.half_width});
-  pose.distance = 8.0;
+  pose.distance = 8.0 * Size(subject);
+  pose.paint_scale = Size(subject);
   pose.azimuth = heading;
   pose.elevation = -6.0 * kPi / 180.0;
   pose.view_angle = 2.0 * std::atan(std::tan(0.5 * kWide) / std::max(aspect, 1.0));
@@ -108,8 +119,9 @@ CameraPose Orbit(const CameraSubject& subject, double time, double /*aspect*/) {
   CameraPose pose;
   pose.target_x = car.x + middle * std::cos(heading);
   pose.target_y = car.y + middle * std::sin(heading);
-  pose.target_z = 0.7;
-  pose.distance = 11.0;
+  pose.target_z = 0.7 * Size(subject);
+  pose.distance = 11.0 * Size(subject);
+  pose.paint_scale = Size(subject);
   constexpr double kRound = 24.0;  // [s]
   pose.azimuth = subject.Heading(subject.begin()) + 2.0 * kPi * (time - subject.begin()) / kRound;
   pose.elevation = -20.0 * kPi / 180.0;
@@ -121,29 +133,30 @@ CameraPose Orbit(const CameraSubject& subject, double time, double /*aspect*/) {
 CameraPose Top(const CameraSubject& subject, double time, double aspect) {
   // A long lens from high up: upright things hardly lean away from the center.
   constexpr double kViewAngle = 20.0 * kPi / 180.0;
-  constexpr double kMargin = 5.0;         // [m] around the route
-  constexpr double kFollowHeight = 34.0;  // [m] of ground from bottom to top
-  constexpr double kFitHeight = 60.0;     // larger routes would leave too few pixels for the car
+  const double size = Size(subject);
+  const double margin = 5.0 * size;          // [m] around the route
+  const double follow_height = 34.0 * size;  // [m] of ground from bottom to top
+  const double fit_height = 60.0 * size;     // larger routes would leave too few pixels for the car
   const Point low = subject.lowest();
   const Point high = subject.highest();
   const double needed =
-      std::max(high.y - low.y + 2 * kMargin, (high.x - low.x + 2 * kMargin) / aspect);
+      std::max(high.y - low.y + 2 * margin, (high.x - low.x + 2 * margin) / aspect);
 
   CameraPose pose;
   pose.azimuth = 0.5 * kPi;
   pose.elevation = -0.5 * kPi;
   pose.view_angle = kViewAngle;
-  double height = kFollowHeight;
-  if (needed <= kFitHeight) {
-    height = std::max(needed, 20.0);
+  double height = follow_height;
+  if (needed <= fit_height) {
+    height = std::max(needed, 20.0 * size);
     pose.target_x = 0.5 * (low.x + high.x);
     pose.target_y = 0.5 * (low.y + high.y);
   } else {
     // Look ahead: the road to come is worth more of the picture than the one behind.
     const Point car = subject.SmoothPosition(time);
     const double heading = subject.SmoothHeading(time);
-    pose.target_x = car.x + 6.0 * std::cos(heading);
-    pose.target_y = car.y + 6.0 * std::sin(heading);
+    pose.target_x = car.x + 6.0 * size * std::cos(heading);
+    pose.target_y = car.y + 6.0 * size * std::sin(heading);
   }
   pose.ground_z = subject.grade().dot(Vec2(pose.target_x, pose.target_y));
   pose.target_z = pose.ground_z;

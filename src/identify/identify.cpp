@@ -279,7 +279,11 @@ void ReplayRecords(const ResidualModel& model, const IdentificationHooks& hooks,
         {.name = estimate.parameter.name, .value = estimate.value, .origin = std::move(origin)});
   }
   result.model = WithCarParameters(model.car(), fitted);
-  const auto replay = [&](const Scenario& scenario, bool held_out) {
+  const auto replay = [&](Scenario scenario, bool held_out) {
+    std::vector<double>& windows = scenario.record->windows;
+    if (std::find(windows.begin(), windows.end(), result.study.horizon) == windows.end()) {
+      windows.push_back(result.study.horizon);
+    }
     const CarModel base = LoadCar(scenario);
     const auto run = [&](const std::vector<CarParameter>& parameters) {
       const CarModel car(WithCarParameters(base, parameters), base.file());

@@ -271,6 +271,22 @@ TEST_F(CameraTest, DriverSitsInTheCarAndLooksAhead) {
   }
 }
 
+TEST_F(CameraTest, StandsNearerToSmallCars) {
+  WritePlant(folder_.path(), "mujoco", 2.0, [](double time) { return CarPlace{time, 0.0, 0.0}; });
+  const double full_size = Pose("chase", 1.0).distance;
+  const std::filesystem::path model = folder_.path() / "model.xml";
+  std::string xml = ReadFile(model);
+  const std::string size = "2.225 0.8625 0.745";
+  ASSERT_NE(xml.find(size), std::string::npos);
+  xml.replace(xml.find(size), size.size(), "0.2 0.08 0.07");
+  WriteFileAtomically(model, xml);
+  // A tenth of the 4 m from which on cars are full-size.
+  for (const char* camera : {"chase", "side", "orbit", "top"}) {
+    EXPECT_LT(Pose(camera, 1.0).paint_scale, 0.2) << camera;
+  }
+  EXPECT_NEAR(Pose("chase", 1.0).distance, 0.1 * full_size, Tolerance(1e-9));
+}
+
 TEST_F(CameraTest, OrbitGoesRoundTheCarIn24Seconds) {
   WritePlant(folder_.path(), "mujoco", 24.0, [](double) { return CarPlace{2.0, 1.0, 0.5}; });
   const CameraPose begin = Pose("orbit", 0.0);

@@ -37,8 +37,8 @@ TEST(RealCar, IsAPlantForMatchers) {
   scenario.drive.plants = {kRecordedPlant, "mujoco"};
   scenario.expect = {};
   const RunResult run = RunScenario(scenario);
-  // 11 m at 0.5 m/s without correction: a steering angle that is wrong by 0.02 rad for the whole
-  // way turns the car by 0.02/0.17 rad/m, 1.3 rad, half of what a wheelbase of 0.17 m would show.
+  // A wheel angle that is off by 0.02 rad turns the car by 0.02/0.17 rad/m more, 1.3 rad over the
+  // 11 m of the record, which goes round in circles of 2 m.
   EXPECT_THAT(run, StaysWithin(kRecordedPlant, "mujoco", 3.0));
   EXPECT_THAT(run, testing::Not(StaysWithin(kRecordedPlant, "mujoco", 1e-4)));
 }
@@ -61,6 +61,7 @@ TEST(RealCar, IsPredictedOverTwoSecondsWhereNothingWasFitted) {
     }
   }
   std::sort(distances.begin(), distances.end());
+  ASSERT_EQ(distances.size(), 60U);
   // The goal, a median of 0.10 m and 90 % within 0.25 m, is not met: the 10 Hz commands of
   // free_driving_b, whose times are known to 0.1 s only, keep its windows from it
   // (docs/real-cars.md). These are the measured 0.105 m and 0.48 m, and a tenth more.
