@@ -39,12 +39,6 @@ void LiftOnto(CameraPose& pose, const CameraSubject& subject, double time) {
   pose.elevation += std::atan(subject.grade().dot(Direction(pose.azimuth)));
 }
 
-/// Of a car beside a full-size one, to whose measure the cameras stand: 1 for cars of 4 m and more.
-double Size(const CameraSubject& subject) {
-  constexpr double kFullSize = 2.0;  // half its length [m]
-  return std::min(1.0, subject.box().half_length / kFullSize);
-}
-
 CameraPose Chase(const CameraSubject& subject, double time, double /*aspect*/) {
   const Point car = subject.Position(time);
   // In reverse it looks the other way: at where the car is going. On its way round it passes the
@@ -52,7 +46,7 @@ CameraPose Chase(const CameraSubject& subject, double time, double /*aspect*/) {
   const double heading = subject.SmoothHeading(time) + kPi * subject.SmoothReverse(time);
   // Ahead of the rear axle, so that the road the car is about to take fills the picture, and so
   // little that the car stays above the strip and the caption.
-  const double size = Size(subject);
+  const double size = subject.box().scale();
   const double ahead = 1.0 * size;
   CameraPose pose;
   pose.target_x = car.x + ahead * std::cos(heading);
@@ -71,7 +65,7 @@ CameraPose Chase(const CameraSubject& subject, double time, double /*aspect*/) {
 CameraPose Side(const CameraSubject& subject, double time, double aspect) {
   const Point car = subject.Position(time);
   const double heading = subject.SmoothHeading(time);
-  const double size = Size(subject);
+  const double size = subject.box().scale();
   const double ahead = 1.4 * size;  // about the middle of a car, from its rear axle [m]
   const double width = 9.0 * size;  // of the picture at the car [m]: two car lengths
   constexpr double kViewAngle = 28.0 * kPi / 180.0;
@@ -99,8 +93,8 @@ CameraPose Driver(const CameraSubject& subject, double time, double aspect) {
   pose.inside = true;
   // The eyes: in the middle of the car, to the left, under the roof.
   const Vec2 eye = ToWorld({car.x, car.y, heading}, {box.middle, 0.45 * box.half_width});
-  pose.distance = 8.0 * Size(subject);
-  pose.paint_scale = Size(subject);
+  pose.distance = 8.0 * subject.box().scale();
+  pose.paint_scale = subject.box().scale();
   pose.azimuth = heading;
   pose.elevation = -6.0 * kPi / 180.0;
   pose.view_angle = 2.0 * std::atan(std::tan(0.5 * kWide) / std::max(aspect, 1.0));
@@ -119,9 +113,9 @@ CameraPose Orbit(const CameraSubject& subject, double time, double /*aspect*/) {
   CameraPose pose;
   pose.target_x = car.x + middle * std::cos(heading);
   pose.target_y = car.y + middle * std::sin(heading);
-  pose.target_z = 0.7 * Size(subject);
-  pose.distance = 11.0 * Size(subject);
-  pose.paint_scale = Size(subject);
+  pose.target_z = 0.7 * subject.box().scale();
+  pose.distance = 11.0 * subject.box().scale();
+  pose.paint_scale = subject.box().scale();
   constexpr double kRound = 24.0;  // [s]
   pose.azimuth = subject.Heading(subject.begin()) + 2.0 * kPi * (time - subject.begin()) / kRound;
   pose.elevation = -20.0 * kPi / 180.0;
@@ -133,7 +127,7 @@ CameraPose Orbit(const CameraSubject& subject, double time, double /*aspect*/) {
 CameraPose Top(const CameraSubject& subject, double time, double aspect) {
   // A long lens from high up: upright things hardly lean away from the center.
   constexpr double kViewAngle = 20.0 * kPi / 180.0;
-  const double size = Size(subject);
+  const double size = subject.box().scale();
   const double margin = 5.0 * size;          // [m] around the route
   const double follow_height = 34.0 * size;  // [m] of ground from bottom to top
   const double fit_height = 60.0 * size;     // larger routes would leave too few pixels for the car

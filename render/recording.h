@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <mujoco/mujoco.h>
 
 #include <filesystem>
@@ -32,6 +33,10 @@ struct CarBox {
   double half_length = 2.2;
   double half_width = 0.9;
   double height = 1.5;
+
+  /// Beside a full-size car, to whose measure cameras, marks and shadows are made: 1 from a length
+  /// of 4 m on.
+  [[nodiscard]] double scale() const { return std::min(1.0, half_length / 2.0); }
 };
 
 /// That of the model's site `footprint`; the defaults where it has none.

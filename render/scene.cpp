@@ -214,11 +214,11 @@ void FilmScene::AddContactShadow() {
   flat.col(1) = flat.col(2).cross(flat.col(0));
   const Eigen::Vector3d place =
       0.25 * (side(1.0, 0.0) + side(-1.0, 0.0) + side(0.0, 1.0) + side(0.0, -1.0)) +
-      kShadowHeight * flat.col(2);
+      box_.scale() * kShadowHeight * flat.col(2);
   const std::array<float, 4> rgba{0.0F, 0.0F, 0.02F, kShadowAlpha};
   for (int layer = 0; layer < kShadowLayers; ++layer) {
     // From well inside the outline to as far outside.
-    const double wider = kShadowSpread * (layer - 0.5 * kShadowLayers);
+    const double wider = box_.scale() * kShadowSpread * (layer - 0.5 * kShadowLayers);
     const std::array<mjtNum, 3> size{model.site_size[3 * site] + wider,
                                      model.site_size[3 * site + 1] + wider, 0.0005};
     AddDecor(scene, mjGEOM_BOX, size, place, flat, rgba);

@@ -36,7 +36,8 @@ class SkidMarks : public Overlay {
         const auto begin = begins.find(wheel.body);
         if (begin == begins.end()) {
           still.emplace(wheel.body, here);
-        } else if (std::hypot(here.x - begin->second.x, here.y - begin->second.y) < kShortestSkid) {
+        } else if (std::hypot(here.x - begin->second.x, here.y - begin->second.y) <
+                   scale_ * kShortestSkid) {
           still.insert(*begin);
         } else {
           pieces_.push_back({time, begin->second, here});
@@ -54,7 +55,8 @@ class SkidMarks : public Overlay {
       if (piece.time > context.time) {
         break;
       }
-      AddPiece(context, recording_.world, piece.from, piece.to, {kRubber, kSkidWidth, kSkidHeight});
+      AddPiece(context, recording_.world, piece.from, piece.to,
+               {kRubber, scale_ * kSkidWidth, kSkidHeight});
     }
   }
 
@@ -72,6 +74,7 @@ class SkidMarks : public Overlay {
   };
 
   const Recording& recording_;
+  double scale_ = FindCarBox(*recording_.model).scale();
   std::vector<Piece> pieces_;  // in the order of time
 };
 
