@@ -8,17 +8,16 @@ unset title
 set format y "%.0f %%"
 set yrange [0:100]
 set ytics 20
-shares(parameter) = sprintf("plot for [i=2:5] '%s' using 1:(100*column(i)) with lines lw 2.4 lc rgb word(colors, i - 1)", \
+# The first two are one line.
+shares(parameter) = sprintf("plot for [i=3:5] '%s' using 1:(100*column(i)) with lines lw 2.4 lc rgb word(colors, i - 2)", \
                             bins(parameter))
-colors = sprintf("%s %s %s %s", blue, red, purple, green)
+colors = sprintf("%s %s %s", blue, purple, green)
 
 set xlabel "speed [m/s]"
 set xrange [12:20]
-# One above the other, at the left end.
-set label 1 "preview" at graph 0.70,0.94 textcolor rgb blue
-set label 2 "pure_pursuit" at graph 0.70,0.87 textcolor rgb red
-set label 3 "stanley" at graph 0.70,0.80 textcolor rgb purple
-set label 4 "lqr" at graph 0.70,0.73 textcolor rgb green
+set label 1 "preview, pure_pursuit" at graph 0.66,0.94 textcolor rgb blue
+set label 2 "stanley" at graph 0.66,0.87 textcolor rgb purple
+set label 3 "lqr" at graph 0.66,0.80 textcolor rgb green
 eval shares("speed")
 unset label
 set xlabel "delay of the steering [s]"
