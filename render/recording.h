@@ -1,8 +1,8 @@
 #pragma once
 
-#include <algorithm>
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -200,9 +200,9 @@ TEST_F(IdentifiedCar, FindsATyrePeakOnMujoco) {
   const std::vector<CarParameter> truth{{.name = "p_dy1", .value = 0.7},
                                         {.name = "p_ky1", .value = -10.0}};
   RecordedDrive drive = Drive("mujoco", truth, {}, 10.0);
-  Identification study = Study("mujoco", std::move(drive),
-                               {{.name = "p_dy1", .from = 0.4, .to = 1.2},
-                                {.name = "p_ky1", .from = -16.0, .to = -4.0}});
+  Identification study = Study(
+      "mujoco", std::move(drive),
+      {{.name = "p_dy1", .from = 0.4, .to = 1.2}, {.name = "p_ky1", .from = -16.0, .to = -4.0}});
   study.horizon = 5.0;
   const IdentificationResult result = Identify(study, {.threads = 2});
   // The body rolls anew after each restart, for 0.1 s of 5 s: 2 % of the widths.

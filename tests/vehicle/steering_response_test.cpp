@@ -87,8 +87,7 @@ TEST(MonotoneCurve, RefusesPointsOutOfOrder) {
   EXPECT_THROW(MonotoneCurve({{0.0, 0.0}, {1.0, 1.0}, {2.0, 0.5}, {3.0, 3.0}}), PreconditionError);
   EXPECT_THROW(MonotoneCurve({{0.0, 0.0}, {1.0, 1.0}, {2.0, 2.0}, {3.0, std::nan("")}}),
                PreconditionError);
-  EXPECT_THROW(static_cast<void>(MonotoneCurve(Asymmetric()).At(std::nan(""))),
-               PreconditionError);
+  EXPECT_THROW(static_cast<void>(MonotoneCurve(Asymmetric()).At(std::nan(""))), PreconditionError);
 }
 
 TEST(SteeringFilter, PassesWhatArrivesDuringATimestepForItsShare) {

@@ -55,7 +55,7 @@ struct Identification {
   RobustLoss loss = RobustLoss::kHuber;
   double loss_scale = 2.0;  ///< in deviations
   std::vector<IdentifiedParameter> parameters;
-  int starts = 2;          ///< of the search: the first at `start`, the others random in the bounds
+  int starts = 2;         ///< of the search: the first at `start`, the others random in the bounds
   int evaluations = 400;  ///< of the cost, about, from each start
   std::uint64_t seed = 1;
 
