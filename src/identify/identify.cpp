@@ -63,8 +63,7 @@ std::vector<double> StartValues(const Identification& study, const CarModel& car
 class Estimator {
  public:
   Estimator(const Identification& study, const ResidualModel& model, Work& work)
-      : study_(study), model_(model), work_(work) {
-    start_ = StartValues(study, model.car());
+      : study_(study), model_(model), work_(work), start_(StartValues(study, model.car())) {
     free_.resize(start_.size());
     std::iota(free_.begin(), free_.end(), std::size_t{0});
     best_ = start_;
