@@ -362,7 +362,7 @@ Scene WithCarParameters(const CarModel& car, const std::vector<CarParameter>& pa
   }
   scene.xml = Print(document);
   scene.lines.clear();
-  scene.trusted = true;  // the model has been compiled before; numbers alone are different
+  scene.trusted = true;  // compiled once already: only numbers have changed
   return scene;
 }
 

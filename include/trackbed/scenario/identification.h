@@ -64,9 +64,10 @@ struct Identification {
   std::vector<Scenario> held_out_scenarios{};
 };
 
-/// Reads a study and its scenarios strictly. InputError with every problem of the file, each with
-/// file, line, column and dotted key; or with those of the first scenario that cannot be used. Each
-/// scenario must have a record and the first one's vehicle.
+/// Reads a study and its scenarios strictly. InputError with every problem of single keys, each
+/// with file, line, column and dotted key; without any, with those of how the keys fit together; or
+/// with those of the first scenario that cannot be used. Each scenario must have a record and the
+/// first one's vehicle.
 Identification ReadIdentification(const std::filesystem::path& file,
                                   const std::vector<std::filesystem::path>& asset_folders = {});
 
