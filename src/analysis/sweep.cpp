@@ -4,16 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <mutex>
 #include <nlohmann/json.hpp>
-#include <string_view>
 #include <utility>
 
 #include "src/analysis/manifest.h"
 #include "src/analysis/study_description.h"
-#include "trackbed/analysis/bisect.h"
+#include "src/analysis/sweep_rows.h"
 #include "trackbed/analysis/parallel.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/analysis/statistics.h"
@@ -24,178 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-/// One row of the table.
-struct Row {
-  std::vector<std::string> cells;
-  bool passed = false;
-  bool refused = false;
-  bool error = false;
-  std::size_t runs = 1;
-  ordered_json bisection;
-};
-
-/// As records have it.
-ordered_json ToJson(const Row& row) {
-  ordered_json json{{"cells", row.cells}, {"runs", row.runs}};
-  const std::array<std::pair<const char*, bool>, 3> flags{
-      {{"passed", row.passed}, {"refused", row.refused}, {"error", row.error}}};
-  for (const auto& [name, is_set] : flags) {
-    if (is_set) {
-      json[name] = true;
-    }
-  }
-  if (!row.bisection.is_null()) {
-    json["bisection"] = row.bisection;
-  }
-  return json;
-}
-
-Row FromJson(const ordered_json& json) {
-  return {.cells = json.at("cells").get<std::vector<std::string>>(),
-          .passed = json.contains("passed"),
-          .refused = json.contains("refused"),
-          .error = json.contains("error"),
-          .runs = json.at("runs").get<std::size_t>(),
-          .bisection = json.value("bisection", ordered_json())};
-}
-
-/// Makes the rows of a study.
-class RowMaker {
- public:
-  RowMaker(const Study& study, const RunScenarioOnce& run) : study_(study), run_(run) {}
-
-  /// The row of a point's `repetition`; nothing when it was interrupted.
-  [[nodiscard]] std::optional<Row> Make(const StudyPoint& point, std::uint64_t repetition) const {
-    if (!point.refused.empty()) {
-      return WithoutResult(point, repetition, kRefused, point.refused);
-    }
-    try {
-      return study_.bisect ? BisectAt(point, repetition) : RunAt(point, repetition);
-    } catch (const InputError& error) {
-      return WithoutResult(point, repetition, kRefused, error.problems().front().WithoutPlace());
-    } catch (const RunError&) {
-      throw;
-    } catch (const std::exception& error) {
-      return WithoutResult(point, repetition, kError, error.what());
-    }
-  }
-
- private:
-  static constexpr const char* kRefused = "refused";
-  static constexpr const char* kError = "error";
-
-  [[nodiscard]] Row WithoutResult(const StudyPoint& point, std::uint64_t repetition,
-                                  std::string_view status, std::string reason) const {
-    const std::uint64_t seed = point.scenario.seed + repetition;
-    Row row{.cells = Parameters(point),
-            .refused = status == kRefused,
-            .error = status == kError,
-            .runs = 0,
-            .bisection = {}};
-    if (study_.bisect) {
-      row.cells.emplace_back();
-      row.bisection = {{"point", SettingsJson(point.settings)}, {"seed", seed}, {"status", status}};
-    }
-    AddSeed(seed, row);
-    row.cells.emplace_back(status);
-    if (study_.bisect) {
-      row.cells.push_back(std::to_string(row.runs));
-    }
-    AddOutputs({}, row);
-    row.cells.push_back(std::move(reason));
-    return row;
-  }
-
-  [[nodiscard]] std::optional<Row> RunAt(const StudyPoint& point, std::uint64_t repetition) const {
-    Scenario scenario = point.scenario;
-    scenario.seed += repetition;
-    const std::optional<RunOutcome> outcome = run_(scenario);
-    if (!outcome) {
-      return std::nullopt;
-    }
-    Row row{.cells = Parameters(point), .passed = outcome->passed, .bisection = {}};
-    AddSeed(scenario.seed, row);
-    row.cells.push_back(outcome->status);
-    AddOutputs(outcome->outputs, row);
-    row.cells.push_back(outcome->reason);
-    return row;
-  }
-
-  [[nodiscard]] std::optional<Row> BisectAt(const StudyPoint& point,
-                                            std::uint64_t repetition) const {
-    const BisectSpec& spec = *study_.bisect;
-    Outputs best;  // of the highest value that passed
-    const Bisection bisection =
-        Bisect(spec.from, spec.to, spec.tolerance, [&](double value) -> std::optional<bool> {
-          Scenario scenario = ReadPoint(study_, point.settings, value);
-          scenario.seed += repetition;
-          std::optional<RunOutcome> outcome = run_(scenario);
-          if (!outcome) {
-            return std::nullopt;
-          }
-          if (outcome->passed) {
-            best = std::move(outcome->outputs);
-          }
-          return outcome->passed;
-        });
-    if (bisection.status == BisectStatus::kInterrupted) {
-      return std::nullopt;
-    }
-    const bool has_value = bisection.status != BisectStatus::kFailsAtFrom;
-    const std::uint64_t seed = point.scenario.seed + repetition;
-    Row row{.cells = Parameters(point),
-            .passed = has_value,
-            .runs = bisection.trials.size(),
-            .bisection = Describe(point, seed, bisection)};
-    row.cells.push_back(has_value ? ShortestText(bisection.value) : "");
-    AddSeed(seed, row);
-    row.cells.emplace_back(ToString(bisection.status));
-    row.cells.push_back(std::to_string(row.runs));
-    AddOutputs(best, row);
-    row.cells.emplace_back();
-    return row;
-  }
-
-  [[nodiscard]] ordered_json Describe(const StudyPoint& point, std::uint64_t seed,
-                                      const Bisection& bisection) const {
-    ordered_json json{{"point", SettingsJson(point.settings)}, {"seed", seed}};
-    json["status"] = ToString(bisection.status);
-    if (bisection.status != BisectStatus::kFailsAtFrom) {
-      json["value"] = bisection.value;
-    }
-    for (const Trial& trial : bisection.trials) {
-      json["trials"].push_back({{"value", trial.value}, {"passed", trial.passed}});
-    }
-    return json;
-  }
-
-  [[nodiscard]] std::vector<std::string> Parameters(const StudyPoint& point) const {
-    std::vector<std::string> cells;
-    for (const std::string& key : ParameterKeys(study_)) {
-      const auto found = std::find_if(point.settings.begin(), point.settings.end(),
-                                      [&](const Setting& setting) { return setting.key == key; });
-      cells.push_back(found == point.settings.end() ? "" : CellText(found->value));
-    }
-    return cells;
-  }
-
-  void AddSeed(std::uint64_t seed, Row& row) const {
-    if (study_.repeat > 1) {
-      row.cells.push_back(std::to_string(seed));
-    }
-  }
-
-  void AddOutputs(const Outputs& outputs, Row& row) const {
-    for (const OutputSpec& output : study_.outputs) {
-      const auto found = outputs.find(output.path);
-      row.cells.push_back(found == outputs.end() ? "" : found->second);
-    }
-  }
-
-  const Study& study_;
-  const RunScenarioOnce& run_;
-};
 
 std::vector<std::string> Columns(const SweepRecords& records) {
   return records.header().at("columns").get<std::vector<std::string>>();
@@ -214,7 +40,7 @@ std::vector<std::size_t> RowsToRun(const SweepRecords& records, const SweepOptio
     }
     bool wanted = options.again.empty() && !records.Has(row);
     if (!options.again.empty() && records.Has(row)) {
-      const std::string was = FromJson(records.Read(row)).cells.at(status);
+      const std::string was = RowFromJson(records.Read(row)).cells.at(status);
       wanted = std::find(options.again.begin(), options.again.end(), was) != options.again.end();
     }
     if (wanted) {
@@ -252,7 +78,7 @@ class SampledPassRates {
       if (!records_.Has(row)) {
         return false;
       }
-      passed_[row / (samples_ * repeat_)] += FromJson(records_.Read(row)).passed ? 1U : 0U;
+      passed_[row / (samples_ * repeat_)] += RowFromJson(records_.Read(row)).passed ? 1U : 0U;
     }
     taken_ = std::min(taken_ + kUntilSamples, samples_);
     return true;
@@ -276,10 +102,10 @@ class SampledPassRates {
 
 /// Calls with every row of the shard that there is, in their order.
 void ForEachRow(const SweepRecords& records, const Shard& shard,
-                const std::function<void(Row row)>& take) {
+                const std::function<void(SweepRow row)>& take) {
   for (std::size_t i = 0; i < records.rows(); ++i) {
     if (shard.Has(i) && records.Has(i)) {
-      take(FromJson(records.Read(i)));
+      take(RowFromJson(records.Read(i)));
     }
   }
 }
@@ -300,7 +126,7 @@ ordered_json Description(const SweepRecords& records, const Shard& shard,
   json["errors"] = sweep.errors;
   if (json.contains("bisect")) {
     json["bisections"] = ordered_json::array();
-    ForEachRow(records, shard, [&](Row row) {
+    ForEachRow(records, shard, [&](SweepRow row) {
       if (!row.bisection.is_null()) {
         json["bisections"].push_back(std::move(row.bisection));
       }
@@ -316,7 +142,7 @@ SweepSummary Summarize(const SweepRecords& records, const Shard& shard) {
   for (std::size_t i = 0; i < records.rows(); ++i) {
     sweep.rows_expected += shard.Has(i) ? 1U : 0U;
   }
-  ForEachRow(records, shard, [&](const Row& row) {
+  ForEachRow(records, shard, [&](const SweepRow& row) {
     sweep.rows += 1;
     sweep.runs += row.runs;
     sweep.passed += row.passed ? 1U : 0U;
@@ -349,8 +175,8 @@ void RunRows(const StudyPoints& points, const RunScenarioOnce& run, SweepRecords
       }
       return outcome;
     };
-    const std::optional<Row> made =
-        RowMaker(study, run_it).Make(points.Read(row / repeat), row % repeat);
+    const std::optional<SweepRow> made =
+        MakeRow(study, run_it, points.Read(row / repeat), row % repeat);
     if (!made) {
       return false;
     }
@@ -393,7 +219,7 @@ SweepSummary WriteSweep(const SweepRecords& records, const Shard& shard, const O
     std::string part = std::exchange(header, false) ? CsvLine(Columns(records)) : "";
     for (; next < records.rows() && part.size() < kPart; ++next) {
       if (shard.Has(next) && records.Has(next)) {
-        part += CsvLine(FromJson(records.Read(next)).cells);
+        part += CsvLine(RowFromJson(records.Read(next)).cells);
       }
     }
     return part;
@@ -415,7 +241,8 @@ SweepResult RunSweep(const StudyPoints& points, const RunScenarioOnce& run,
                     .description = {},
                     .summary = Summarize(records, options.shard)};
   sweep.description = Description(records, options.shard, sweep.summary);
-  ForEachRow(records, options.shard, [&](Row row) { sweep.table.AddRow(std::move(row.cells)); });
+  ForEachRow(records, options.shard,
+             [&](SweepRow row) { sweep.table.AddRow(std::move(row.cells)); });
   return sweep;
 }
 
@@ -467,7 +294,7 @@ std::vector<std::size_t> WorstRows(const SweepRecords& records) {
   std::vector<std::pair<double, std::size_t>> rows;
   for (std::size_t row = 0; row < records.rows(); ++row) {
     const std::string cell =
-        records.Has(row) ? FromJson(records.Read(row)).cells.at(column) : std::string();
+        records.Has(row) ? RowFromJson(records.Read(row)).cells.at(column) : std::string();
     if (const std::optional<double> value = CellNumber(cell)) {
       rows.emplace_back(highest ? -*value : *value, row);
     }
@@ -500,7 +327,7 @@ std::vector<Override> OverridesOfRow(const SweepRecords& records, std::size_t ro
     overrides.push_back(text.get<std::string>());
   }
   const std::vector<std::string> columns = Columns(records);
-  const std::vector<std::string> cells = FromJson(records.Read(row)).cells;
+  const std::vector<std::string> cells = RowFromJson(records.Read(row)).cells;
   for (std::size_t i = 0; i < columns.size() && columns[i] != "status"; ++i) {
     if (!cells.at(i).empty()) {
       overrides.push_back(columns[i] + "=" + cells[i]);

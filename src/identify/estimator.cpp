@@ -1,0 +1,168 @@
+#include "src/identify/estimator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "trackbed/optimize/quadratic_program.h"
+#include "trackbed/sim/car_parameters.h"
+
+namespace trackbed {
+
+Work::Work(const IdentificationHooks& hooks, int most) : hooks_(hooks), most_(std::max(most, 1)) {}
+
+void Work::Count() {
+  ++evaluations_;
+  if (hooks_.progress) {
+    hooks_.progress(std::min(1.0, static_cast<double>(evaluations_) / most_));
+  }
+  if (hooks_.interrupted && hooks_.interrupted()) {
+    throw Interrupted{};
+  }
+}
+
+void Work::SkipTo(int evaluations) {
+  most_ -= std::max(0, evaluations - evaluations_);
+}
+
+std::vector<double> StartValues(const Identification& study, const CarModel& car) {
+  std::vector<double> values;
+  for (const IdentifiedParameter& parameter : study.parameters) {
+    const double own = CarParameterValue(car, parameter.name);
+    values.push_back(std::clamp(parameter.start.value_or(own), parameter.from, parameter.to));
+  }
+  return values;
+}
+
+Estimator::Estimator(const Identification& study, const ResidualModel& model, Work& work)
+    : study_(study), model_(model), work_(work), start_(StartValues(study, model.car())) {
+  free_.resize(start_.size());
+  std::iota(free_.begin(), free_.end(), std::size_t{0});
+  best_ = start_;
+  best_cost_ = Cost(start_);
+}
+
+double Estimator::Cost(const std::vector<double>& values) const {
+  return CostOf(study_, model_, values);
+}
+
+std::vector<std::size_t> Estimator::HoldInert() {
+  std::vector<std::size_t> inert;
+  for (const std::size_t i : free_) {
+    const IdentifiedParameter& parameter = study_.parameters[i];
+    constexpr double kMove = 0.1;  // of the width
+    const double move = kMove * (parameter.to - parameter.from);
+    std::vector<double> moved = start_;
+    moved[i] = start_[i] + move <= parameter.to ? start_[i] + move : start_[i] - move;
+    work_.Count();
+    if (!study_.parameters[i].prior && Cost(moved) == best_cost_) {
+      inert.push_back(i);
+    }
+  }
+  for (const std::size_t i : inert) {
+    std::erase(free_, i);
+  }
+  return inert;
+}
+
+double Estimator::Improve(std::vector<double> at) {
+  constexpr double kSmallest = 1e-4;   // step, of the widths
+  constexpr double kLeastGain = 1e-5;  // of the cost
+  const int last = work_.evaluations() + study_.evaluations;
+  double radius = 0.25;  // of the widths
+  double cost = Cost(at);
+  Keep(at, cost);
+  while (std::isfinite(cost) && work_.evaluations() < last) {
+    const LinearModel linear = Linearize(study_, model_, at, free_, [this] { work_.Count(); });
+    bool moved = false;
+    double gained = 0.0;
+    while (!moved && radius > kSmallest) {
+      const Eigen::VectorXd step = Step(linear, at, radius);
+      const double expected = -linear.gradient.dot(step) - 0.5 * step.dot(linear.hessian * step);
+      if (!(expected > 0.0)) {
+        return cost;
+      }
+      const std::vector<double> next = Moved(at, step);
+      work_.Count();
+      const double reached = Cost(next);
+      const double share = (cost - reached) / expected;
+      const double length = step.cwiseAbs().maxCoeff();
+      if (share > 0.1) {  // false for NaN
+        moved = true;
+        gained = cost - reached;
+        at = next;
+        cost = reached;
+        Keep(at, cost);
+        radius = share > 0.75 ? std::max(radius, 2.0 * length) : radius;
+        if (length < kSmallest) {
+          return cost;
+        }
+      } else {
+        radius = 0.3 * length;
+      }
+    }
+    if (!moved || gained < kLeastGain * cost) {
+      return cost;
+    }
+  }
+  return cost;
+}
+
+std::vector<double> Estimator::Random(std::mt19937_64& generator) const {
+  std::vector<double> values = start_;
+  for (const std::size_t i : free_) {
+    const IdentifiedParameter& parameter = study_.parameters[i];
+    const double share = static_cast<double>(generator() >> 11U) * 0x1p-53;
+    values[i] = std::lerp(parameter.from, parameter.to, share);
+  }
+  return values;
+}
+
+void Estimator::Hold(std::size_t index) {
+  std::erase(free_, index);
+  best_[index] = start_[index];
+  best_cost_ = Cost(best_);
+}
+
+void Estimator::Keep(const std::vector<double>& values, double cost) {
+  if (cost < best_cost_) {
+    best_ = values;
+    best_cost_ = cost;
+  }
+}
+
+std::vector<double> Estimator::Moved(std::vector<double> values,
+                                     const Eigen::VectorXd& step) const {
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    const IdentifiedParameter& parameter = study_.parameters[free_[k]];
+    const double move = step[static_cast<Eigen::Index>(k)] * (parameter.to - parameter.from);
+    values[free_[k]] = std::clamp(values[free_[k]] + move, parameter.from, parameter.to);
+  }
+  return values;
+}
+
+Eigen::VectorXd Estimator::Step(const LinearModel& linear, const std::vector<double>& at,
+                                double radius) const {
+  const Eigen::Index n = linear.gradient.size();
+  // A little of the identity: directions that change nothing stay where they are.
+  constexpr double kLeast = 1e-9;
+  const double ridge = std::max(kLeast * linear.hessian.trace(), kLeast);
+  QuadraticProgram program;
+  program.hessian = linear.hessian + ridge * Eigen::MatrixXd::Identity(n, n);
+  program.linear = linear.gradient;
+  program.constraints = QuadraticProgram::Rows::Zero(2 * n, n);
+  program.bounds = QuadraticProgram::Bounds::Zero(2 * n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const std::size_t index = free_[static_cast<std::size_t>(i)];
+    const IdentifiedParameter& parameter = study_.parameters[index];
+    const double width = parameter.to - parameter.from;
+    program.constraints(2 * i, i) = 1.0;
+    program.bounds[2 * i] = std::min(radius, (parameter.to - at[index]) / width);
+    program.constraints(2 * i + 1, i) = -1.0;
+    program.bounds[2 * i + 1] = std::min(radius, (at[index] - parameter.from) / width);
+  }
+  return Solve(program).x;
+}
+
+}  // namespace trackbed
