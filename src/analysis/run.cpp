@@ -8,6 +8,7 @@
 #include "src/analysis/simulate_plants.h"
 #include "src/analysis/stopwatch.h"
 #include "trackbed/analysis/mcap.h"
+#include "trackbed/analysis/path_properties.h"
 #include "trackbed/analysis/record_metrics.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/control/controllers.h"
@@ -286,17 +287,20 @@ ordered_json MetricsJson(const RunResult& result) {
 
 namespace {
 
-void AddPlan(const Plan& plan, const Scenario& scenario, ResultWriter& writer) {
+void AddPlan(const RunResult& result, ResultWriter& writer) {
+  const Plan& plan = result.plan;
   ordered_json content{{"status", ToString(plan.status)}};
   if (!plan.ok()) {
     content["reason"] = plan.reason;
   }
-  content["method"] = PlannerFor(scenario.plan->global).name;
-  content["seed"] = scenario.seed;
+  content["method"] = PlannerFor(result.scenario.plan->global).name;
+  content["seed"] = result.scenario.seed;
   if (plan.ok()) {
-    const double length = plan.reference.path.length();
-    content["length_m"] = length;
-    content["duration_s"] = plan.reference.speed.TimeAt(length);
+    for (const PathProperty& property : PathProperties()) {
+      if (const auto value = property.measure({plan, result.scenario.world, result.vehicle})) {
+        content[property.name] = *value;
+      }
+    }
     writer.Add(run_folder::kPlanCsv, PlanTable(plan.reference).ToCsv());
     writer.Add(run_folder::kScheduleCsv, ScheduleTable(plan.schedule).ToCsv());
     AddUnlessEmpty(ConvergenceTable(plan.diagnostics), run_folder::kConvergenceCsv, writer);
@@ -334,9 +338,9 @@ ordered_json TimingJson(const RunResult& result) {
 
 }  // namespace
 
-void WritePlan(const Plan& plan, const Scenario& scenario, const OutputFolder& folder) {
+void WritePlan(const RunResult& planned, const OutputFolder& folder) {
   ResultWriter writer(folder);
-  AddPlan(plan, scenario, writer);
+  AddPlan(planned, writer);
   writer.Commit(run_folder::kPlan, {run_folder::kPathFiles.begin(), run_folder::kPathFiles.end()});
 }
 
@@ -356,7 +360,7 @@ void WriteRunFolder(const RunResult& result, const OutputFolder& folder,
     writer.Add(asset.name, asset.content);
   }
   if (result.scenario.plan) {
-    AddPlan(result.plan, result.scenario, writer);
+    AddPlan(result, writer);
   }
   for (const RunLog& log : result.logs) {
     AddLog(log, writer);

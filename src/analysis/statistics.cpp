@@ -233,6 +233,65 @@ std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
   return indices;
 }
 
+namespace {
+
+/// From 0, as doubles; equal values have the mean of theirs. None if all are equal.
+std::optional<std::vector<double>> RanksOf(const std::vector<double>& values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  std::vector<double> ranks(values.size());
+  for (std::size_t begin = 0; begin < order.size();) {
+    std::size_t end = begin + 1;
+    while (end < order.size() && values[order[end]] == values[order[begin]]) {
+      ++end;
+    }
+    if (begin == 0 && end == order.size()) {
+      return std::nullopt;
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+      ranks[order[i]] = 0.5 * static_cast<double>(begin + end - 1);
+    }
+    begin = end;
+  }
+  return ranks;
+}
+
+}  // namespace
+
+std::optional<RankCorrelation> CorrelateRanks(const std::vector<double>& a,
+                                              const std::vector<double>& b, double confidence) {
+  TRACKBED_REQUIRE(a.size() == b.size(), "{} values against {}", a.size(), b.size());
+  for (const auto* values : {&a, &b}) {
+    TRACKBED_REQUIRE(
+        std::all_of(values->begin(), values->end(), [](double v) { return std::isfinite(v); }),
+        "a value is not finite");
+  }
+  const double z = NormalReach(confidence);
+  constexpr std::size_t kFewest = 4;
+  const auto ranks_a = RanksOf(a);
+  const auto ranks_b = RanksOf(b);
+  if (a.size() < kFewest || !ranks_a || !ranks_b) {
+    return std::nullopt;
+  }
+  const double middle = 0.5 * static_cast<double>(a.size() - 1);
+  double products = 0.0;
+  double squares_a = 0.0;
+  double squares_b = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double x = (*ranks_a)[i] - middle;
+    const double y = (*ranks_b)[i] - middle;
+    products += x * y;
+    squares_a += x * x;
+    squares_b += y * y;
+  }
+  const double rho = std::clamp(products / std::sqrt(squares_a * squares_b), -1.0, 1.0);
+  const double half = z * std::sqrt((1.0 + 0.5 * rho * rho) / static_cast<double>(a.size() - 3));
+  const double center = std::atanh(rho);  // infinite at the ends
+  return RankCorrelation{rho, {std::tanh(center - half), std::tanh(center + half)}};
+}
+
 PairedDifference ComparePairs(const std::vector<double>& a, const std::vector<double>& b,
                               double confidence) {
   TRACKBED_REQUIRE(a.size() == b.size() && !a.empty(), "{} values against {}", a.size(), b.size());

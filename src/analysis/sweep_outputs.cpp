@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include "src/analysis/metric_table.h"
+#include "trackbed/analysis/path_properties.h"
 #include "trackbed/analysis/sweep.h"
 
 namespace trackbed {
@@ -28,8 +29,14 @@ Outputs CollectOutputs(const RunResult& result) {
   outputs["verdict.failures"] = fmt::format("{}", fmt::join(verdict.failures, "; "));
   if (result.scenario.plan) {
     outputs["plan.status"] = ToString(result.plan.status);
-    if (result.plan.ok()) {
-      outputs["plan.length_m"] = ToText(result.plan.reference.path.length());
+    outputs["timing.planning_s"] = ToText(result.planning_time);
+    for (const PathProperty& property : PathProperties()) {
+      const std::optional<double> value =
+          result.plan.ok() ? property.measure({result.plan, result.scenario.world, result.vehicle})
+                           : std::nullopt;
+      if (value) {
+        outputs[fmt::format("plan.{}", property.name)] = ToText(*value);
+      }
     }
   }
   return outputs;

@@ -33,8 +33,9 @@ int PlanOne(const PlanOptions& options) {
       options.out.empty() ? fs::path("out") / scenario.name : fs::path(options.out);
   const CarModel car = LoadCar(scenario);
   const OutputFolder folder(out);
-  const Plan plan = PlanMission(scenario, car.unladen());
-  WritePlan(plan, scenario, folder);
+  const RunResult planned = PlanRun(scenario, car);
+  const Plan& plan = planned.plan;
+  WritePlan(planned, folder);
   if (!plan.ok()) {
     fmt::print(stderr, "{}: no plan ({}): {}\n", scenario.name, ToString(plan.status), plan.reason);
     return kFailedExpectations;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "trackbed/analysis/metric_registry.h"
+#include "trackbed/analysis/path_properties.h"
 #include "trackbed/scenario/keys.h"
 
 namespace trackbed {
@@ -57,7 +58,17 @@ ShownName NameOfOutput(const std::string& path) {
     name.label += fmt::format(" ({} – {})", first, second);
     return name;
   }
-  return {path, path == "plan.length_m" ? "m" : ""};
+  if (kind == "plan") {
+    for (const PathProperty& property : PathProperties()) {
+      if (rest == property.name) {
+        return Shown(MetricInfo{.label = property.label, .unit = property.unit}, path);
+      }
+    }
+  }
+  if (path == "timing.planning_s") {
+    return {"Time to plan", "s"};
+  }
+  return {path, ""};
 }
 
 ShownName NameOfKey(const std::string& key) {

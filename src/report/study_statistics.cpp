@@ -19,6 +19,7 @@ using nlohmann::ordered_json;
 constexpr double kConfidence = 0.95;
 constexpr std::size_t kFewestRows = 20;
 constexpr std::size_t kMostEffects = 12;     // classes of a parameter that a chart shows
+constexpr std::size_t kMostCorrelated = 24;  // outputs
 constexpr std::size_t kMostStaircase = 200;  // points of a distribution function
 
 ordered_json IntervalJson(const Interval& interval) {
@@ -117,10 +118,43 @@ class StudyAnalysis {
       output["name"] = "passed";
       json["outputs"].push_back(std::move(output));
     }
+    json["correlations"] = Correlations();
     return json;
   }
 
  private:
+  /// Of each two outputs, of the rows that have both.
+  [[nodiscard]] ordered_json Correlations() const {
+    ordered_json json = ordered_json::array();
+    const std::size_t count = std::min(columns_.outputs.size(), kMostCorrelated);
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const std::size_t a = columns_.outputs[j];
+        const std::size_t b = columns_.outputs[i];
+        std::vector<double> values_a;
+        std::vector<double> values_b;
+        for (const std::size_t row : passed_.rows) {
+          const std::optional<double> value_a = CellNumber(table_.rows()[row][a]);
+          const std::optional<double> value_b = CellNumber(table_.rows()[row][b]);
+          if (value_a && value_b) {
+            values_a.push_back(*value_a);
+            values_b.push_back(*value_b);
+          }
+        }
+        if (values_a.size() < kFewestRows) {
+          continue;
+        }
+        if (const auto correlation = CorrelateRanks(values_a, values_b, kConfidence)) {
+          json.push_back({{"outputs", {table_.columns()[a], table_.columns()[b]}},
+                          {"count", values_a.size()},
+                          {"rho", Rounded(correlation->rho)},
+                          {"interval", IntervalJson(correlation->interval)}});
+        }
+      }
+    }
+    return json;
+  }
+
   [[nodiscard]] Sample SampleOf(std::size_t column) const {
     Sample sample;
     for (const std::size_t row : passed_.rows) {

@@ -241,5 +241,54 @@ TEST(ComparePairs, HasTheExactSignTest) {
   EXPECT_THROW(ComparePairs({1.0}, {}, 0.95), PreconditionError);
 }
 
+// Ten pairs whose squared differences of ranks sum up to 194: 1 - 6 194/(10 (100 - 1)).
+TEST(CorrelateRanks, IsSpearmans) {
+  const std::vector<double> a{106, 100, 86, 101, 99, 103, 97, 113, 112, 110};
+  const std::vector<double> b{7, 27, 2, 50, 28, 29, 20, 12, 6, 17};
+  const RankCorrelation correlation = CorrelateRanks(a, b, 0.95).value();
+  EXPECT_NEAR(correlation.rho, -29.0 / 165.0, 1e-14);
+  EXPECT_LT(correlation.interval.low, correlation.rho);
+  EXPECT_GT(correlation.interval.high, correlation.rho);
+  // The two that are equal have the rank between theirs: 4.5/sqrt(4.5 5).
+  EXPECT_NEAR(CorrelateRanks({1, 2, 2, 3}, {1, 2, 3, 4}, 0.95)->rho, std::sqrt(0.9), 1e-14);
+  // Of anything that rises it is 1, and says nothing of how.
+  const RankCorrelation rising =
+      CorrelateRanks({1, 2, 3, 4, 5}, {1, 10, 11, 12, 1e6}, 0.95).value();
+  EXPECT_NEAR(rising.rho, 1.0, 1e-14);
+  EXPECT_NEAR(rising.interval.low, 1.0, 1e-6);  // atanh of 1 less rounding is 17 to 19
+  EXPECT_LT(CorrelateRanks({1, 2, 3, 4}, {4, 3, 2, 1}, 0.95)->rho, -1.0 + 1e-14);
+}
+
+TEST(CorrelateRanks, IsNoneOfWhatDoesNotVary) {
+  EXPECT_FALSE(CorrelateRanks({1, 1, 1, 1}, {1, 2, 3, 4}, 0.95).has_value());
+  EXPECT_FALSE(CorrelateRanks({1, 2, 3}, {1, 2, 3}, 0.95).has_value());
+  EXPECT_FALSE(CorrelateRanks({}, {}, 0.95).has_value());
+  EXPECT_THROW(CorrelateRanks({1}, {}, 0.95), PreconditionError);
+  EXPECT_THROW(CorrelateRanks({1, 2, 3, NAN}, {1, 2, 3, 4}, 0.95), PreconditionError);
+}
+
+// Of a bivariate normal distribution with correlation r it is 6/pi asin(r/2) (Pearson 1907). Of 200
+// intervals of 95 % less than 178 contain it with a probability of 2e-4.
+TEST(CorrelateRanks, HasIntervalsThatContainTheTruth) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  for (const double r : {0.0, 0.5, -0.9}) {
+    const double truth = 6.0 / std::numbers::pi * std::asin(0.5 * r);
+    int held = 0;
+    for (int sample = 0; sample < 200; ++sample) {
+      std::vector<double> a;
+      std::vector<double> b;
+      for (int i = 0; i < 60; ++i) {
+        const double x = normal(random);
+        a.push_back(x);
+        b.push_back(std::exp(r * x + std::sqrt(1.0 - r * r) * normal(random)));
+      }
+      const Interval interval = CorrelateRanks(a, b, 0.95)->interval;
+      held += interval.low <= truth && truth <= interval.high ? 1 : 0;
+    }
+    EXPECT_GE(held, 178) << r;
+  }
+}
+
 }  // namespace
 }  // namespace trackbed

@@ -799,11 +799,11 @@ class Reports(unittest.TestCase):
         self.width_is_kept()
 
     def test_study_statistics(self):
-        rows = ["method,x,status,error,reason"]
+        rows = ["method,x,status,error,margin,reason"]
         for i in range(600):
             x = (i // 2 + 0.5) / 300
             error = x if i % 2 == 0 else 2 * x
-            rows.append(f"{'lqr' if i % 2 == 0 else 'mpc'},{x},{'passed' if error < 1 else 'failed'},{error},")
+            rows.append(f"{'lqr' if i % 2 == 0 else 'mpc'},{x},{'passed' if error < 1 else 'failed'},{error},{1 - error},")
         folder = self.root / "sampled"
         folder.mkdir()
         (folder / "sweep.csv").write_text("\n".join(rows) + "\n")
@@ -815,15 +815,17 @@ class Reports(unittest.TestCase):
         self.assertIn("Pass rate 75.0 %, 95 % interval 71.4 % to 78.3 %", self.text("#pass-rate"))
         def shares():
             return self.run_in_page(
-                "return Array.from(document.querySelectorAll('#influence [data-parameter]'))"
-                ".map(e => [e.dataset.parameter, Number(e.querySelector('rect').getAttribute('width'))])"
+                "return Array.from(document.querySelectorAll('#influence [data-bar]'))"
+                ".map(e => [e.dataset.bar, Number(e.querySelector('rect').getAttribute('width'))])"
             )
 
         # The pass rate is what is shown first.
         self.assertEqual(sorted(name for name, _ in shares()), ["method", "x"])
         self.assertEqual(self.count("#influence figure"), 3)
         self.assertEqual(self.count("#study-map .cell:not(.none)"), 2 * 7)
-        self.assertEqual(self.count("#distributions figure"), 1)
+        self.assertEqual(self.count("#distributions figure"), 2)
+        # One falls as the other rises.
+        self.assertEqual(self.text("#correlations [data-bar='error'] .bar-name:last-child"), "−1.00")
         worst = self.run_in_page(
             "return Array.from(document.querySelectorAll('#worst tbody tr')).map(e => e.dataset.number)"
         )

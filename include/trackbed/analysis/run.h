@@ -78,8 +78,9 @@ struct RunFolderOptions {
 void WriteRunFolder(const RunResult& result, const OutputFolder& folder,
                     const RunFolderOptions& options = {});
 
-/// Writes plan.csv and other tables (when there is a path) and plan.json alone, likewise.
-void WritePlan(const Plan& plan, const Scenario& scenario, const OutputFolder& folder);
+/// Writes plan.csv and other tables (when there is a path) and plan.json alone, likewise, of what
+/// PlanRun gave.
+void WritePlan(const RunResult& planned, const OutputFolder& folder);
 
 /// Versions of Trackbed and its libraries, as in metrics.json.
 nlohmann::ordered_json Versions();

@@ -76,6 +76,19 @@ std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
     const std::vector<Classes>& parameters, const std::vector<double>& output,
     const IndexOptions& options = {});
 
+/// How far two lists of values rise together: Pearson's correlation of their ranks, equal values
+/// sharing the mean of theirs (Spearman 1904).
+struct RankCorrelation {
+  double rho = 0.0;     ///< in [-1, 1]
+  Interval interval{};  ///< by Fisher's transformation with the variance (1 + rho^2/2)/(n - 3) of
+                        ///< Bonett and Wright (2000); of rho = 1 or -1 no wider than that
+};
+
+/// None of fewer than 4 pairs, or if one list does not vary. PreconditionError unless both have as
+/// many values, all finite, and confidence is in (0, 1). Cost: that of sorting both.
+std::optional<RankCorrelation> CorrelateRanks(const std::vector<double>& a,
+                                              const std::vector<double>& b, double confidence);
+
 /// How one list of values differs from another of the same conditions, b - a.
 struct PairedDifference {
   MeanEstimate mean;

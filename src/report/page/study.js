@@ -59,6 +59,9 @@ function drawStudy(study) {
   if (statistics && statistics.outputs.some(({ distribution }) => distribution)) {
     drawDistributions(section('distributions', 'Distributions'), { outputs, statistics, nameOf });
   }
+  if (statistics && statistics.correlations.length) {
+    drawCorrelations(section('correlations', 'Which results go together'), { outputs, statistics, nameOf });
+  }
   if (!study.bisected) drawOutputs();
   if (outputs.length && rows.length > 10) {
     drawWorst(section('worst', 'Worst rows'), { study, outputs, parameters: varied, rows, nameOf });

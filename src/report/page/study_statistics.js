@@ -75,6 +75,54 @@ function drawDistributions(parent, { outputs, statistics, nameOf }) {
   }
 }
 
+/** Bars with intervals from 0 on, one under the other. */
+function drawBars(parent, title, name, bars, { domain, format, formatTick }) {
+  const row = 30;
+  const { svg, width, height } = figureIn(parent, title, '', name, bars.length * row + 48);
+  const margin = { left: Math.min(0.45 * width, 12 + 7.2 * d3.max(bars, (bar) => bar.name.length) || 0), right: 64 };
+  const x = d3.scaleLinear().domain([Math.min(domain[0], d3.min(bars, (bar) => bar.interval[0]) || 0), domain[1]])
+    .range([margin.left, width - margin.right]);
+  svg.append('g').attr('class', 'axis').attr('transform', `translate(0 ${height - 36})`)
+    .call(d3.axisBottom(x).ticks(Math.max(2, (width - margin.left) / 90)).tickSize(-(height - 40)).tickSizeOuter(0).tickPadding(7)
+      .tickFormat(formatTick));
+  bars.forEach((bar, i) => {
+    const y = 4 + i * row;
+    const line = svg.append('g').attr('data-bar', bar.column.name);
+    const text = bar.name.length * 7.2 > margin.left ? `${bar.name.slice(0, Math.floor(margin.left / 7.2) - 2)}…` : bar.name;
+    line.append('text').attr('x', margin.left - 8).attr('y', y + row / 2 + 1).attr('text-anchor', 'end')
+      .attr('class', 'bar-name').text(text).append('title').text(bar.name);
+    line.append('rect').attr('class', 'bar-fill').attr('x', x(Math.min(0, bar.value))).attr('y', y + 6)
+      .attr('width', Math.abs(x(bar.value) - x(0))).attr('height', row - 14);
+    line.append('path').attr('class', 'whisker')
+      .attr('d', `M${x(bar.interval[0])},${y + row / 2 - 1}H${x(Math.min(domain[1], bar.interval[1]))}`);
+    line.append('text').attr('class', 'bar-name').attr('x', width - margin.right + 8).attr('y', y + row / 2 + 1)
+      .text(format(bar.value));
+  });
+}
+
+/** Which outputs rise and fall with a chosen one. */
+function drawCorrelations(parent, { outputs, statistics, nameOf }) {
+  const known = outputs.filter(({ name }) => statistics.correlations.some((pair) => pair.outputs.includes(name)));
+  const choices = choicesIn(parent);
+  const chosen = choices.add('With', 'correlation-of', known.map((column, i) => [i, nameOf(column)]), known.length - 1, draw);
+  const bars = parent.append('div').attr('class', 'plots wide');
+  parent.append('p').attr('class', 'hint').text('Spearman’s rank correlation: 1 where both always rise together, −1 where '
+    + 'one falls as the other rises, about 0 of what has nothing to do with each other; lines: 95 % intervals.');
+  draw();
+  new ResizeObserver(draw).observe(bars.node());
+
+  function draw() {
+    const { name } = known[chosen()];
+    const others = statistics.correlations.filter((pair) => pair.outputs.includes(name)).map(({ outputs: pair, rho, interval }) => {
+      const column = outputs.find((output) => output.name === (pair[0] === name ? pair[1] : pair[0]));
+      return { column, name: nameOf(column), value: rho, interval };
+    });
+    bars.text('');
+    drawBars(bars, 'Rank correlation', 'correlations', others.sort((a, b) => Math.abs(b.value) - Math.abs(a.value)),
+      { domain: [-1, 1], format: (value) => fixed(value, 2), formatTick: shown });
+  }
+}
+
 function drawInfluence(parent, { columns, statistics, nameOf }) {
   const named = statistics.outputs.map((of, i) => {
     const column = columns.find(({ name }) => name === of.name);
@@ -96,7 +144,10 @@ function drawInfluence(parent, { columns, statistics, nameOf }) {
     const output = columns.find(({ name }) => name === of.name);
     bars.text('');
     list.text('');
-    drawIndices(of.indices.slice().sort((a, b) => b.index - a.index));
+    drawBars(bars, 'Share of the variance', 'indices', of.indices.slice().sort((a, b) => b.index - a.index)
+      .map(({ parameter, index, interval }) => (
+        { column: columns[parameter], name: nameOf(columns[parameter]), value: index, interval })),
+    { domain: [0, 1], format: percent, formatTick: (value) => percent(value, 0) });
     note.text('First-order Sobol’ index: the share of the variance that a parameter explains by itself; lines: 95 % '
       + `intervals. The rest, ${percent(Math.max(0, 1 - d3.sum(of.indices, ({ index }) => index)), 0)}, is due to `
       + 'parameters together, and to chance.');
@@ -105,30 +156,6 @@ function drawInfluence(parent, { columns, statistics, nameOf }) {
     for (const effect of of.effects) {
       drawEffect(effect, { domain, isRate, name: isRate ? 'pass rate' : `mean of ${nameOf(output)}` });
     }
-  }
-
-  function drawIndices(indices) {
-    const row = 30;
-    const { svg, width, height } = figureIn(bars, 'Share of the variance', '', 'indices', indices.length * row + 48);
-    const names = indices.map(({ parameter }) => nameOf(columns[parameter]));
-    const margin = { left: Math.min(0.45 * width, 12 + 7.2 * d3.max(names, (name) => name.length) || 0), right: 64 };
-    const x = d3.scaleLinear().domain([Math.min(0, d3.min(indices, (d) => d.interval[0]) || 0), 1])
-      .range([margin.left, width - margin.right]);
-    svg.append('g').attr('class', 'axis').attr('transform', `translate(0 ${height - 36})`)
-      .call(d3.axisBottom(x).ticks(Math.max(2, (width - margin.left) / 90)).tickSize(-(height - 40)).tickSizeOuter(0).tickPadding(7)
-        .tickFormat((value) => percent(value, 0)));
-    indices.forEach(({ index, interval, parameter }, i) => {
-      const y = 4 + i * row;
-      const line = svg.append('g').attr('data-parameter', columns[parameter].name);
-      const text = names[i].length * 7.2 > margin.left ? `${names[i].slice(0, Math.floor(margin.left / 7.2) - 2)}…` : names[i];
-      line.append('text').attr('x', margin.left - 8).attr('y', y + row / 2 + 1).attr('text-anchor', 'end')
-        .attr('class', 'bar-name').text(text).append('title').text(names[i]);
-      line.append('rect').attr('class', 'bar').attr('x', x(Math.min(0, index))).attr('y', y + 6)
-        .attr('width', Math.abs(x(index) - x(0))).attr('height', row - 14);
-      line.append('path').attr('class', 'whisker').attr('d', `M${x(interval[0])},${y + row / 2 - 1}H${x(Math.min(1, interval[1]))}`);
-      line.append('text').attr('class', 'bar-name').attr('x', width - margin.right + 8).attr('y', y + row / 2 + 1)
-        .text(percent(index));
-    });
   }
 
   function drawEffect({ parameter, classes }, { domain, isRate, name }) {

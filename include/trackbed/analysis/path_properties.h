@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/vehicle/params.h"
+#include "trackbed/world/world.h"
+
+/// What a planned path is by itself, before it is driven: what planners are usually compared by.
+namespace trackbed {
+
+/// A plan that is ok, and where it leads.
+struct PlannedPath {
+  const Plan& plan;
+  const World& world;
+  const VehicleParams& vehicle;
+};
+
+/// A property of a path, in plan.json and among the outputs of studies as `plan.NAME`.
+struct PathProperty {
+  const char* name;   ///< with its unit: "curvature_max_radpm"
+  const char* label;  ///< on a report
+  const char* unit;   ///< SI
+  /// Nothing where the path has no such value.
+  std::optional<double> (*measure)(const PlannedPath& path);
+};
+
+/// All properties, in the order of plan.json. With kappa the curvature over the station s of a path
+/// of length L:
+///   length_m                  L
+///   duration_s                time of the plan's speeds, without its stops
+///   curvature_max_radpm       max |kappa|
+///   curvature_rms_radpm       sqrt(integral of kappa^2 ds / L)
+///   turning_rad               integral of |kappa| ds: how far the car turns in all
+///   curvature_rate_max_radpm2 max |dkappa/ds| between jumps
+///   curvature_jump_max_radpm  largest jump of kappa between segments, cusps and stops left out: a
+///                             car turns its wheels there at rest
+///   clearance_min_m           smallest distance of the footprint from obstacles that stand still
+///                             and are known from the start, at most 1 cm too large, and 0 if one
+///                             is touched; nothing without such obstacles
+///
+/// The first seven are exact, to rounding. A path of length 0 has the value 0 of each of them.
+/// Cost: some us a segment, and one Clearance() per (c - c_min) or 1 cm of path.
+const std::vector<PathProperty>& PathProperties();
+
+}  // namespace trackbed

@@ -1,0 +1,172 @@
+#include "trackbed/analysis/path_properties.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+namespace trackbed {
+namespace {
+
+using Segments = std::vector<Segment>;
+
+const Segments& SegmentsOf(const PlannedPath& path) {
+  return path.plan.reference.path.segments();
+}
+
+/// Where the curvature's derivative is 0 within the segment, and both ends.
+std::vector<double> Extrema(const Segment& segment) {
+  std::vector<double> places{0.0, segment.length};
+  const double vertex = -segment.sharpness / segment.sharpness_rate;
+  if (vertex > 0.0 && vertex < segment.length) {  // false for NaN
+    places.push_back(vertex);
+  }
+  return places;
+}
+
+double MaxCurvature(const Segments& segments) {
+  double largest = 0.0;
+  for (const Segment& segment : segments) {
+    for (const double d : Extrema(segment)) {
+      largest = std::max(largest, std::abs(segment.CurvatureAt(d)));
+    }
+  }
+  return largest;
+}
+
+double MaxCurvatureRate(const Segments& segments) {
+  double largest = 0.0;  // the rate is linear: largest at an end
+  for (const Segment& segment : segments) {
+    largest = std::max({largest, std::abs(segment.sharpness),
+                        std::abs(segment.sharpness + segment.sharpness_rate * segment.length)});
+  }
+  return largest;
+}
+
+/// Gauss-Legendre with three points, exact for the square of a quadratic.
+double SquaredCurvature(const Segment& segment) {
+  static const double kOuter = std::sqrt(0.6);
+  const double half = 0.5 * segment.length;
+  const auto square = [&](double u) {
+    const double curvature = segment.CurvatureAt(half * (1.0 + u));
+    return curvature * curvature;
+  };
+  return half * (5.0 * square(-kOuter) + 8.0 * square(0.0) + 5.0 * square(kOuter)) / 9.0;
+}
+
+/// Where the curvature changes its sign within the segment, and both ends, in order.
+std::vector<double> Crossings(const Segment& segment) {
+  std::vector<double> places{0.0, segment.length};
+  const auto add = [&](double d) {
+    if (d > 0.0 && d < segment.length) {  // false for NaN
+      places.push_back(d);
+    }
+  };
+  // Of 0.5 r d^2 + q d + p, without the loss of digits that subtracting like numbers would bring.
+  const double p = segment.curvature;
+  const double q = segment.sharpness;
+  const double r = segment.sharpness_rate;
+  const double root = std::sqrt(q * q - 2.0 * r * p);
+  const double larger = -(q + std::copysign(root, q));
+  add(larger / r);
+  add(2.0 * p / larger);
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+double Turning(const Segments& segments) {
+  double turned = 0.0;
+  for (const Segment& segment : segments) {
+    const auto heading = [&](double d) {
+      return d *
+             (segment.curvature + d * (0.5 * segment.sharpness + d * segment.sharpness_rate / 6.0));
+    };
+    const std::vector<double> places = Crossings(segment);
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      turned += std::abs(heading(places[i]) - heading(places[i - 1]));
+    }
+  }
+  return turned;
+}
+
+/// Jumps within the legs between stops: SplitIntoLegs cuts at cusps and stops.
+double MaxCurvatureJump(const PlannedPath& path) {
+  double largest = 0.0;
+  const Path& line = path.plan.reference.path;
+  for (const Stations& leg : SplitIntoLegs(line, path.plan.stops)) {
+    const Segments segments = line.Cut(leg);
+    for (std::size_t i = 1; i < segments.size(); ++i) {
+      const Segment& before = segments[i - 1];
+      largest =
+          std::max(largest, std::abs(segments[i].curvature - before.CurvatureAt(before.length)));
+    }
+  }
+  return largest;
+}
+
+/// Goes forward by what the clearance surely allows: it changes by at most `moved` a meter.
+std::optional<double> MinClearance(const PlannedPath& path) {
+  World known = path.world;
+  std::erase_if(known.obstacles, [](const Obstacle& obstacle) {
+    return obstacle.moves() || obstacle.known_from_time || obstacle.known_from_range;
+  });
+  constexpr double kTolerance = 0.01;  // [m]
+  const Path& line = path.plan.reference.path;
+  const VehicleParams& vehicle = path.vehicle;
+  const double reach = std::hypot(
+      std::max(vehicle.rear_overhang, vehicle.length - vehicle.rear_overhang), 0.5 * vehicle.width);
+  const double moved = 1.0 + MaxCurvature(line.segments()) * reach;
+  std::optional<double> smallest;
+  for (double s = 0.0;;) {
+    const std::optional<double> here = Clearance(known, vehicle, line.At(s).pose, 0.0);
+    if (!here) {
+      return std::nullopt;
+    }
+    smallest = std::min(smallest.value_or(*here), *here);
+    if (*smallest <= 0.0 || s >= line.length()) {
+      return smallest;
+    }
+    s = std::min(line.length(), s + (*here - *smallest + kTolerance) / moved);
+  }
+}
+
+}  // namespace
+
+const std::vector<PathProperty>& PathProperties() {
+  static const std::vector<PathProperty> properties{
+      {"length_m", "Length of the plan", "m",
+       [](const PlannedPath& path) -> std::optional<double> {
+         return path.plan.reference.path.length();
+       }},
+      {"duration_s", "Duration of the plan", "s",
+       [](const PlannedPath& path) -> std::optional<double> {
+         const Reference& reference = path.plan.reference;
+         return reference.speed.TimeAt(reference.path.length());
+       }},
+      {"curvature_max_radpm", "Maximum curvature of the plan", "rad/m",
+       [](const PlannedPath& path) -> std::optional<double> {
+         return MaxCurvature(SegmentsOf(path));
+       }},
+      {"curvature_rms_radpm", "RMS curvature of the plan", "rad/m",
+       [](const PlannedPath& path) -> std::optional<double> {
+         double squares = 0.0;
+         for (const Segment& segment : SegmentsOf(path)) {
+           squares += SquaredCurvature(segment);
+         }
+         const double length = path.plan.reference.path.length();
+         return length > 0.0 ? std::sqrt(squares / length) : 0.0;
+       }},
+      {"turning_rad", "Turning of the plan, both ways added", "rad",
+       [](const PlannedPath& path) -> std::optional<double> { return Turning(SegmentsOf(path)); }},
+      {"curvature_rate_max_radpm2", "Maximum curvature rate of the plan between jumps", "rad/m^2",
+       [](const PlannedPath& path) -> std::optional<double> {
+         return MaxCurvatureRate(SegmentsOf(path));
+       }},
+      {"curvature_jump_max_radpm", "Largest jump of the plan's curvature", "rad/m",
+       [](const PlannedPath& path) -> std::optional<double> { return MaxCurvatureJump(path); }},
+      {"clearance_min_m", "Minimum clearance of the plan", "m", MinClearance},
+  };
+  return properties;
+}
+
+}  // namespace trackbed
