@@ -10,6 +10,7 @@ set(pkg_config_names
     NLopt::nlopt=nlopt
     yaml-cpp=yaml-cpp
     tinyxml2::tinyxml2=tinyxml2
+    PROJ::proj=proj
     muparser::muparser=muparser
     PNG::PNG=libpng
     Boost::headers=

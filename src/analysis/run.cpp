@@ -16,8 +16,10 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/version.h"
 #include "trackbed/optimize/search.h"
+#include "trackbed/path_files/path_file.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/fillet/fillet.h"
+#include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/recording/record_csv.h"
 #include "trackbed/scenario/recording_file.h"
@@ -354,6 +356,11 @@ void WriteRunFolder(const RunResult& result, const OutputFolder& folder,
   const auto* playback = result.scenario.control.steering.As<PlaybackOptions>();
   if (playback != nullptr && !(playback->file.empty() && result.scenario.record)) {
     writer.Add(kRecordingCsv, RecordingCsv(playback->recording, playback->by));
+  }
+  const auto* path =
+      result.scenario.plan ? result.scenario.plan->global.As<PathFileOptions>() : nullptr;
+  if (path != nullptr && path->path != nullptr) {
+    writer.Add(kPathCsv, PathCsv(path->path->given));
   }
   writer.Add(run_folder::kModelXml, result.scene.xml);
   for (const SceneAsset& asset : result.scene.assets) {

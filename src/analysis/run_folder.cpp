@@ -9,6 +9,7 @@
 #include "src/analysis/manifest.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/path_files/path_file.h"
 #include "trackbed/recording/record_csv.h"
 #include "trackbed/scenario/record.h"
 #include "trackbed/scenario/recording_file.h"
@@ -73,6 +74,7 @@ std::vector<std::string> AllNames() {
                                  kPicture,    kReport,       kCompareCsv, kCompareJson};
   names.emplace_back(kRecordingCsv);
   names.emplace_back(kRecordCsv);
+  names.emplace_back(kPathCsv);
   names.insert(names.end(), kPathFiles.begin(), kPathFiles.end());
   for (const std::string& plant : DrivenPlantNames()) {
     for (const auto name_of : {LogCsv, StateCsv, NewPlansCsv, NewPlansJson, NewPlansTreeCsv}) {

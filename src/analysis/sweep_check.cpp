@@ -11,6 +11,8 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/hash.h"
 #include "trackbed/core/spelling.h"
+#include "trackbed/path_files/path_file.h"
+#include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/recording/record_csv.h"
 #include "trackbed/scenario/recording_file.h"
 #include "trackbed/sim/scene.h"
@@ -147,6 +149,10 @@ CheckedStudy CheckStudy(Study study, bool all) {
     if (playback != nullptr && !playback->file.empty()) {
       checked.inputs["recording " + playback->file] =
           Sha256(RecordingCsv(playback->recording, playback->by));
+    }
+    const auto* path = scenario.plan ? scenario.plan->global.As<PathFileOptions>() : nullptr;
+    if (path != nullptr && path->path != nullptr) {
+      checked.inputs["path " + path->file] = Sha256(PathCsv(path->path->given));
     }
   }
   std::vector<Problem> problems = compiles.problems();

@@ -40,6 +40,7 @@ const std::vector<Verb> kVerbs{
     {"compare", "Compare plants on one plan, or two finished runs", AddCompare},
     {"test", "Run scenarios and check their expectations, one line each", AddTest},
     {"check", "Validate scenarios and studies without running them", AddCheck},
+    {"check-path", "Check whether a car can drive the path in a file, and how fast", AddCheckPath},
     {"sweep", "Run a study: one scenario over many parameter values, results in one table",
      AddSweep},
     {"report", "Write one HTML page about finished runs or a study", AddReport},

@@ -107,6 +107,12 @@ Scenario ScenarioOptions::Read(const fs::path& file) const {
                       Paths(asset_folders));
 }
 
+Scenario ScenarioOptions::Parse(const std::string& yaml, const std::string& name,
+                                const fs::path& folder) const {
+  return ParseScenario(yaml, name, folder, Overrides(), CameraNames(), PossibleMetrics,
+                       Paths(asset_folders));
+}
+
 Study ScenarioOptions::ReadStudyFile(const fs::path& file) const {
   return ReadStudy(FindScenario(file), Overrides(), CameraNames(), PossibleMetrics,
                    Paths(asset_folders));

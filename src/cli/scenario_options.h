@@ -28,6 +28,11 @@ struct ScenarioOptions {
   /// The scenario as these options change it. InputError as ReadScenario.
   [[nodiscard]] Scenario Read(const std::filesystem::path& file) const;
 
+  /// The same of a scenario's text; `name` stands for the file in messages, `folder` is where
+  /// relative paths start.
+  [[nodiscard]] Scenario Parse(const std::string& yaml, const std::string& name,
+                               const std::filesystem::path& folder) const;
+
   /// A study whose scenario these options change. InputError as ReadStudy.
   [[nodiscard]] Study ReadStudyFile(const std::filesystem::path& file) const;
 

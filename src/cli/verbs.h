@@ -27,6 +27,7 @@ void AddRender(const Command& command);
 void AddImport(const Command& command);
 void AddIdentify(const Command& command);
 void AddCheck(const Command& command);
+void AddCheckPath(const Command& command);
 void AddCompare(const Command& command);
 void AddTest(const Command& command);
 void AddSweep(const Command& command);

@@ -10,7 +10,7 @@
 #include <limits>
 #include <optional>
 
-#include "src/core/csv_reader.h"
+#include "trackbed/core/csv_rows.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "src/core/csv_reader.h"
+#include "trackbed/core/csv_rows.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/table.h"
 

@@ -5,6 +5,7 @@
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/schedule.h"
 #include "trackbed/planning/common/plan.h"
+#include "trackbed/scenario/initial_state.h"
 
 namespace trackbed {
 
@@ -51,7 +52,7 @@ RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& pla
   if (plant_name == kRecordedPlant) {
     return RecordedLog(scenario, car);
   }
-  StartState start = InitialState(scenario);
+  StartState start = InitialState(scenario, car.params());
   if (scenario.record && !scenario.mission.start.steering &&
       scenario.drive.steering == SteeringInput::kActuator) {
     start.steering = RestingSteering(car.params(), start.steering);

@@ -10,6 +10,7 @@
 #include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/registry/planners.h"
+#include "trackbed/scenario/initial_state.h"
 
 namespace trackbed {
 namespace {
@@ -37,7 +38,7 @@ void NoteObstacle(Plan& plan, const VehicleParams& vehicle, const std::vector<Or
 }  // namespace
 
 Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
-  const StartState start = InitialState(scenario);
+  const StartState start = InitialState(scenario, vehicle);
   if (!scenario.plan) {
     Plan plan;
     plan.reference.speed = SpeedProfile({{0.0, MissionSpeed(scenario)}});

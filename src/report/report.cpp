@@ -75,6 +75,9 @@ std::string PageTitle(const ordered_json& data) {
   if (data.contains("identification")) {
     return data["identification"]["name"].get<std::string>();
   }
+  if (data.contains("path_check")) {
+    return data["path_check"]["name"].get<std::string>();
+  }
   std::string title;
   for (const ordered_json& run : data["runs"]) {
     title += (title.empty() ? "" : " · ") + run["name"].get<std::string>();

@@ -1,6 +1,7 @@
 #include "src/scenario/inputs.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -11,6 +12,8 @@
 #include "trackbed/control/playback.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/path_files/path_file.h"
+#include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/recording/import_log.h"
 #include "trackbed/recording/record_csv.h"
 #include "trackbed/scenario/recording_file.h"
@@ -151,6 +154,52 @@ std::vector<Problem> ReadPlayback(Scenario& scenario, PlaybackOptions& playback,
       "control.file", context, add_error);
 }
 
+/// `key` has the section of the planner before it: "plan.file".
+std::vector<Problem> ReadPath(Scenario& scenario, PathFileOptions& options, ReaderContext& context,
+                              const AddKeyError& add_error) {
+  const bool layers = scenario.plan->avoid || scenario.plan->replan;
+  const std::string section = layers ? "plan.global." : "plan.";
+  const std::string file_key = section + "file";
+  const std::vector<std::pair<std::string, std::string>> wrong = PathMapProblems(options.map);
+  for (const auto& [key, message] : wrong) {
+    add_error(section + key, message);
+  }
+  if (!wrong.empty() || options.file.empty() || !context.Read(section + "max_deviation") ||
+      !context.Read(section + "resample") || !context.Read(section + "columns") ||
+      !context.Read(file_key)) {
+    return {};
+  }
+  if (const std::string why =
+          WhyUnreadable(options.file, scenario.folder, WithOwnData(scenario.asset_folders));
+      !why.empty()) {
+    add_error(file_key, fmt::format("{} {}", options.file, why));
+    return {};
+  }
+  const std::filesystem::path file = scenario.folder / options.file;
+  return Attempt(
+      [&] {
+        PathFile found = ReadPathFile(file, options.map);
+        if (!options.notes) {
+          options.notes = fmt::format("{}", fmt::join(found.notes, "\n"));
+        }
+        try {
+          options.path = std::make_shared<const FittedPath>(
+              FitPath(AtRearAxle(std::move(found.points), options.ahead), options.fit));
+        } catch (const InputError& error) {
+          std::vector<Problem> problems = error.problems();
+          for (Problem& problem : problems) {
+            if (problem.key.empty()) {
+              problem.file = file.string();
+            } else {
+              problem.key = section + problem.key;
+            }
+          }
+          throw InputError(std::move(problems));
+        }
+      },
+      file_key.c_str(), context, add_error);
+}
+
 }  // namespace
 
 std::vector<Problem> ReadInputs(Scenario& scenario, ReaderContext& context,
@@ -168,6 +217,9 @@ std::vector<Problem> ReadInputs(Scenario& scenario, ReaderContext& context,
   }
   if (auto* playback = scenario.control.steering.As<PlaybackOptions>()) {
     add(ReadPlayback(scenario, *playback, context, add_error));
+  }
+  if (auto* path = scenario.plan ? scenario.plan->global.As<PathFileOptions>() : nullptr) {
+    add(ReadPath(scenario, *path, context, add_error));
   }
   return problems;
 }

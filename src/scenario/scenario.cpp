@@ -17,7 +17,9 @@
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
+#include "trackbed/path_files/path_file.h"
 #include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/recording/record_csv.h"
 #include "trackbed/scenario/recording_file.h"
@@ -254,6 +256,14 @@ std::string ResolvedYaml(const Scenario& scenario) {
             .string();
   }
   resolved.mission.duration = RunDuration(scenario);
+  auto* path = resolved.plan ? resolved.plan->global.As<PathFileOptions>() : nullptr;
+  if (path != nullptr) {
+    // The angle of the path's first point is the car's own; see InitialState.
+    resolved.mission.start.steering = scenario.mission.start.steering;
+    path->file = kPathCsv;
+    path->map = {};  // PathCsv has the usual names
+    path->ahead = 0.0;
+  }
   if (auto* playback = resolved.control.steering.As<PlaybackOptions>()) {
     playback->file = playback->file.empty() && resolved.record ? "" : kRecordingCsv;
     playback->columns = {};  // RecordingCsv has the default names

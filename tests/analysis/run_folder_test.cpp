@@ -33,6 +33,7 @@ TEST(RunFolder, NamesItsFilesAsDocumented) {
                                                              "run.mcap",
                                                              "manifest.json",
                                                              "recording.csv",
+                                                             "path.csv",
                                                              "metrics.json",
                                                              "video.mp4",
                                                              "picture.png",
@@ -45,8 +46,8 @@ TEST(RunFolder, NamesItsFilesAsDocumented) {
                                                              "kinematic.plan.json",
                                                              "kinematic.tree.csv",
                                                              "mujoco-magic_formula.state.csv"}));
-  // Five of each plant, and the seventeen others.
-  EXPECT_EQ(run_folder::AllNames().size(), 5 * DrivenPlantNames().size() + 18);
+  // Five of each plant, and the nineteen others.
+  EXPECT_EQ(run_folder::AllNames().size(), 5 * DrivenPlantNames().size() + 19);
   EXPECT_STREQ(run_folder::kSweepCsv, "sweep.csv");
   EXPECT_STREQ(run_folder::kSweepJson, "sweep.json");
 }
@@ -89,6 +90,22 @@ TEST(RunFolder, RepeatsAPlaybackFromItsOwnRecording) {
       run(Read("playback_lane_change", {"drive.plants=[kinematic]", "expect={}"}), "first");
   EXPECT_EQ(run(ReadScenario(out("first") / run_folder::kScenarioYaml), "again"), first);
   EXPECT_EQ(ReadFile(out("first") / "recording.csv"), ReadFile(out("again") / "recording.csv"));
+}
+
+TEST(RunFolder, RepeatsThePathOfAFileFromItsOwnPoints) {
+  const TempFolder folder;
+  const auto out = [&](const char* name) { return folder.path() / name; };
+  const auto run = [&](const Scenario& scenario, const char* name) {
+    WriteRunFolder(RunMission(scenario), out(name));
+    return ReadFile(out(name) / "kinematic.csv");
+  };
+  const std::string first =
+      run(Read("paths/from_a_file", {"drive.plants=[kinematic]", "plan.ahead=1", "expect={}"}),
+          "first");
+  EXPECT_EQ(run(ReadScenario(out("first") / run_folder::kScenarioYaml), "again"), first);
+  for (const char* name : {"path.csv", "plan.csv", "plan.json", "scenario.resolved.yaml"}) {
+    EXPECT_EQ(ReadFile(out("first") / name), ReadFile(out("again") / name)) << name;
+  }
 }
 
 TEST(RunFolder, TellsWhosePlantAStateIs) {

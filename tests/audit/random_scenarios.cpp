@@ -5,16 +5,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <random>
 
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
+#include "trackbed/path_files/path_file.h"
 #include "trackbed/planning/avoidance/avoidance.h"
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/course/course.h"
 #include "trackbed/planning/course/lane_change.h"
 #include "trackbed/planning/grid/astar_planner.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
+#include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/planning/replan/along_route.h"
 #include "trackbed/planning/sampling/rrt_planner.h"
@@ -167,12 +170,35 @@ struct Generator {
     }
   }
 
+  /// The points of a path of another program, a little noisy.
+  void PathOfFile(PathFileOptions& options) {
+    Pose2 pose{dice.Between(-20.0, 20.0), 0.0, dice.Between(-kPi, kPi)};
+    const double step = size * dice.Between(0.3, 1.0);
+    const double sharpest = dice.Logarithmic(0.02, 0.2) / size;
+    double curvature = 0.0;
+    PathPoints given;
+    const std::size_t count = 20 + dice.Below(40);
+    for (std::size_t i = 0; i < count; ++i) {
+      given.points.push_back(pose.position() +
+                             0.01 * step * Vec2(dice.Between(-1.0, 1.0), dice.Between(-1.0, 1.0)));
+      curvature =
+          std::clamp(curvature + 0.3 * sharpest * dice.Between(-1.0, 1.0), -sharpest, sharpest);
+      pose.yaw += curvature * step;
+      pose = {pose.x + step * std::cos(pose.yaw), pose.y + step * std::sin(pose.yaw), pose.yaw};
+    }
+    options.file = kPathCsv;
+    options.fit.max_deviation = size * dice.Between(0.01, 0.1);
+    options.path = std::make_shared<const FittedPath>(FitPath(std::move(given), options.fit));
+  }
+
   void Planner(const PlannerEntry& entry) {
     scenario.plan = PlanSpec{};
     scenario.plan->global = entry.defaults;
     PlannerOptions& global = scenario.plan->global;
     if (auto* course = global.As<CourseOptions>()) {
       Course(*course);
+    } else if (auto* path = global.As<PathFileOptions>()) {
+      PathOfFile(*path);
     } else if (auto* lane_change = global.As<LaneChangePlannerOptions>()) {
       lane_change->standard = LaneChangeStandard::kIso3888_2;
       lane_change->lead_in = dice.Between(1.0, 10.0);
@@ -188,7 +214,7 @@ struct Generator {
     }
     if (entry.min_waypoints > 0) {
       Route(entry.min_waypoints, entry.has_headings);
-    } else {
+    } else if (!global.Is<PathFileOptions>()) {  // whose path says where it begins
       scenario.mission.start.x = dice.Between(-20.0, 20.0);
       scenario.mission.start.yaw = dice.Between(-kPi, kPi);
     }

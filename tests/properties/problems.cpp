@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "tests/properties/option_numbers.h"
 #include "tests/properties/property.h"
@@ -13,6 +15,7 @@
 #include "trackbed/planning/course/lane_change.h"
 #include "trackbed/planning/grid/astar_planner.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
+#include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/sampling/rrt_planner.h"
 
 namespace properties {
@@ -75,6 +78,16 @@ void SetOptions(PlannerOptions& options, double scale, bool adversarial) {
       (OnceIn(2) ? piece.curvature_to : piece.curvature) = curvature;
       course->segments.push_back(piece);
     }
+  } else if (auto* path = options.As<PathFileOptions>()) {
+    FittedPath fitted;
+    const double length = scale * *Between(0.5, 20.0);
+    const double curvature = *Within(adversarial ? 0.4 : 0.15) / scale;
+    fitted.path = Path(Pose2{}, {{.length = length},
+                                 {.length = length, .sharpness = curvature / length},
+                                 {.length = length, .curvature = curvature}});
+    fitted.given.points = {{0.0, 0.0}, fitted.path.At(3.0 * length).pose.position()};
+    fitted.stations = {0.0, fitted.path.length()};
+    path->path = std::make_shared<const FittedPath>(std::move(fitted));
   } else if (auto* lane_change = options.As<LaneChangePlannerOptions>()) {
     lane_change->lead_in = *Between(0.1, 20.0);
   } else if (auto* hybrid = options.As<HybridAStarOptions>()) {
@@ -85,6 +98,17 @@ void SetOptions(PlannerOptions& options, double scale, bool adversarial) {
     rrt->iterations = 1000;
   } else if (auto* astar = options.As<AStarOptions>()) {
     astar->budget = 20000;
+  }
+}
+
+/// Another path in place of that of the planner path_file.
+template <typename Transform>
+void TransformPath(PlannerOptions& options, const Transform& transform) {
+  auto* own = options.As<PathFileOptions>();
+  if (own != nullptr && own->path != nullptr) {
+    FittedPath fitted = *own->path;
+    fitted.path = transform(fitted.path);
+    own->path = std::make_shared<const FittedPath>(std::move(fitted));
   }
 }
 
@@ -159,6 +183,8 @@ Problem AnyProblem(const PlannerEntry& entry, const Wildness& wildness) {
     const double shift = *PowerOfTen(0, 6);
     problem = Moved(problem, {shift, -shift, 0.0});
   }
+  TransformPath(problem.options,
+                [&](const Path& path) { return Path(problem.request.start, path.segments()); });
   return problem;
 }
 
@@ -180,6 +206,15 @@ Problem Mirrored(const Problem& problem) {
   if (auto* lane_change = mirrored.options.As<LaneChangePlannerOptions>()) {
     lane_change->first = lane_change->first == Side::kLeft ? Side::kRight : Side::kLeft;
   }
+  TransformPath(mirrored.options, [](const Path& path) {
+    const Pose2 start = path.At(0.0).pose;
+    std::vector<Segment> segments = path.segments();
+    for (Segment& segment : segments) {
+      segment.curvature = -segment.curvature;
+      segment.sharpness = -segment.sharpness;
+    }
+    return Path({start.x, -start.y, -start.yaw}, segments);
+  });
   if (auto* course = mirrored.options.As<CourseOptions>()) {
     for (CoursePiece& piece : course->segments) {
       for (std::optional<double>* own :
@@ -206,6 +241,9 @@ Problem Moved(const Problem& problem, const Pose2& by) {
     box.center = Compose(by, box.center);
   }
   request.start = Compose(by, request.start);
+  TransformPath(moved.options, [&](const Path& path) {
+    return Path(Compose(by, path.At(0.0).pose), path.segments());
+  });
   return moved;
 }
 

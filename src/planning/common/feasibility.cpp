@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "trackbed/core/angle.h"
+#include "trackbed/planning/common/path_pieces.h"
 #include "trackbed/world/world.h"
 
 namespace trackbed {
@@ -72,49 +73,6 @@ void ForEachRamp(const SteeringSchedule& schedule, const Call& call) {
   }
 }
 
-/// A short piece of a path, and the most it asks of the steering.
-struct Piece {
-  Stations stations;
-  double curvature = 0.0;  ///< largest |kappa| [1/m]
-  double slope = 0.0;      ///< largest |d delta/ds| [rad/m] where the curvature is continuous
-};
-
-/// |d delta/ds| [rad/m]: L |kappa'|/(1 + (L kappa)^2).
-double SteeringSlope(const VehicleParams& vehicle, double curvature, double sharpness) {
-  const double tangent = vehicle.wheelbase * curvature;
-  return vehicle.wheelbase * std::abs(sharpness) / (1.0 + tangent * tangent);
-}
-
-/// Calls with each segment divided into equal pieces of at most kCheckSpacing, so that short
-/// segments are checked too.
-template <typename Call>
-void ForEachPiece(const Path& path, const VehicleParams& vehicle, const Call& call) {
-  double start = 0.0;
-  for (const Segment& segment : path.segments()) {
-    const auto count = static_cast<long>(std::ceil(segment.length / kCheckSpacing));
-    for (long i = 0; i < count; ++i) {
-      const double from = segment.length * static_cast<double>(i) / static_cast<double>(count);
-      const double to = segment.length * static_cast<double>(i + 1) / static_cast<double>(count);
-      Piece piece{{start + from, start + to}};
-      const auto take = [&](double d) {
-        const double curvature = segment.CurvatureAt(d);
-        piece.curvature = std::max(piece.curvature, std::abs(curvature));
-        piece.slope = std::max(
-            piece.slope,
-            SteeringSlope(vehicle, curvature, segment.sharpness + d * segment.sharpness_rate));
-      };
-      take(from);
-      take(to);
-      const double vertex = -segment.sharpness / segment.sharpness_rate;
-      if (vertex > from && vertex < to) {
-        take(vertex);
-      }
-      call(piece);
-    }
-    start += segment.length;
-  }
-}
-
 /// The road's factor over a piece.
 double RoadOver(const PlanRequest& request, const Path& path, const Stations& piece) {
   return std::min(RoadAt(request, path, piece.from), RoadAt(request, path, piece.to));
@@ -152,7 +110,7 @@ void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>
   Worst speed("speed", "m/s", Remedy::kLowerSpeed);
   Worst rate("steering rate along the path", "rad/s", Remedy::kLowerSpeed);
   const Path& path = plan.reference.path;
-  ForEachPiece(path, vehicle, [&](const Piece& piece) {
+  ForEachPiece(path, vehicle, kCheckSpacing, [&](const PathPiece& piece) {
     const double s = piece.stations.from;
     const double v =
         std::max(plan.reference.speed.SpeedAt(s), plan.reference.speed.SpeedAt(piece.stations.to));
@@ -226,7 +184,7 @@ std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
       caps.push_back({piece.from, piece.to, speed});
     }
   };
-  ForEachPiece(path, vehicle, [&](const Piece& piece) {
+  ForEachPiece(path, vehicle, kCheckSpacing, [&](const PathPiece& piece) {
     double speed = vehicle.steering_rate / piece.slope;
     if (vehicle.friction_lateral > 0.0) {
       const double road = RoadOver(request, path, piece.stations);

@@ -14,6 +14,7 @@
 #include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/grid/astar_planner.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
+#include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/sampling/rrt_planner.h"
 
 namespace trackbed {
@@ -30,6 +31,7 @@ Registry<PlannerEntry>& Table() {
                                                      AStarPlanner(),
                                                      HybridAStarPlanner(),
                                                      RrtPlanner(),
+                                                     PathFilePlanner(),
                                                  });
   return table;
 }

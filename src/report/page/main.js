@@ -29,6 +29,8 @@ if (data.study) {
   drawStudy(data.study);
 } else if (data.identification) {
   drawIdentification(data.identification);
+} else if (data.path_check) {
+  drawPathCheck(data.path_check);
 } else if (!data.live) {
   drawHead();
   drawAnswer();

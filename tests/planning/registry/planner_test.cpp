@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -21,6 +22,7 @@
 #include "trackbed/planning/course/course.h"
 #include "trackbed/planning/curves/curve_planners.h"
 #include "trackbed/planning/fillet/fillet.h"
+#include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/registry/planners.h"
 
 namespace trackbed {
@@ -43,9 +45,26 @@ PlanRequest Request(std::vector<Vec2> waypoints) {
 
 // --- What every planner of the table owes its caller ---------------------------------------------
 
-/// The defaults, and a course for the one that cannot do without.
-PlannerOptions DefaultOptions(const PlannerEntry& entry) {
+/// A path of continuous curvature as FitPath would give it, from `start`.
+std::shared_ptr<const FittedPath> FittedFrom(const Pose2& start) {
+  FittedPath fitted;
+  fitted.path = Path(start, {{.length = 10.0},
+                             {.length = 5.0, .sharpness = 0.01},
+                             {.length = 12.0, .curvature = 0.05},
+                             {.length = 8.0, .curvature = 0.05, .sharpness = -0.00625}});
+  for (const PathPoint& point : fitted.path.Sample(0.5)) {
+    fitted.given.points.push_back(point.pose.position());
+    fitted.stations.push_back(point.s);
+  }
+  return std::make_shared<const FittedPath>(std::move(fitted));
+}
+
+/// The defaults, and a course or a path for those that cannot do without.
+PlannerOptions DefaultOptions(const PlannerEntry& entry, const PlanRequest& request) {
   PlannerOptions options = entry.defaults;
+  if (auto* path = options.As<PathFileOptions>()) {
+    path->path = FittedFrom(std::isfinite(request.start.yaw) ? request.start : Pose2{});
+  }
   if (auto* course = options.As<CourseOptions>()) {
     course->segments = {{.length = 10.0, .curvature = 0.0},
                         {.length = 5.0, .curvature_to = 0.05},
@@ -53,6 +72,10 @@ PlannerOptions DefaultOptions(const PlannerEntry& entry) {
                         {.length = 8.0, .curvature = -0.1}};
   }
   return options;
+}
+
+Plan PlanWithDefaults(const PlanRequest& request, const PlannerEntry& entry) {
+  return MakePlan(request, DefaultOptions(entry, request));
 }
 
 class EveryPlanner : public ::testing::TestWithParam<PlannerEntry> {};
@@ -69,15 +92,15 @@ TEST_P(EveryPlanner, NeedsItsFewestWaypointsAndNoMore) {
   route.resize(fewest);
   PlanRequest request = Request(RouteA());
   request.waypoints = route;
-  EXPECT_TRUE(MakePlan(request, DefaultOptions(GetParam())).ok());
+  EXPECT_TRUE(PlanWithDefaults(request, GetParam()).ok());
   if (fewest > 0) {
     request.waypoints.pop_back();
-    EXPECT_EQ(MakePlan(request, DefaultOptions(GetParam())).status, PlanStatus::kTooFewWaypoints);
+    EXPECT_EQ(PlanWithDefaults(request, GetParam()).status, PlanStatus::kTooFewWaypoints);
   }
 }
 
 TEST_P(EveryPlanner, StartsWhereTheCarIsAndEndsAtGoal) {
-  const Plan plan = MakePlan(Request(RouteA()), DefaultOptions(GetParam()));
+  const Plan plan = PlanWithDefaults(Request(RouteA()), GetParam());
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_EQ(plan.reason, "");
   const Path& path = plan.reference.path;
@@ -91,7 +114,7 @@ TEST_P(EveryPlanner, StartsWhereTheCarIsAndEndsAtGoal) {
 }
 
 TEST_P(EveryPlanner, StaysWithinTheCarsSteering) {
-  const Plan plan = MakePlan(Request(RouteA()), DefaultOptions(GetParam()));
+  const Plan plan = PlanWithDefaults(Request(RouteA()), GetParam());
   ASSERT_TRUE(plan.ok()) << plan.reason;
   for (const Segment& segment : plan.reference.path.segments()) {
     for (const double d : {0.0, segment.length}) {
@@ -108,7 +131,7 @@ TEST_P(EveryPlanner, StaysWithinTheCarsSteering) {
 TEST_P(EveryPlanner, StopsAtTheEndOfItsPath) {
   PlanRequest request = Request(RouteA());
   request.start_speed = 1.25;
-  const Plan plan = MakePlan(request, DefaultOptions(GetParam()));
+  const Plan plan = PlanWithDefaults(request, GetParam());
   ASSERT_TRUE(plan.ok()) << plan.reason;
   const auto& knots = plan.reference.speed.knots();
   ASSERT_GE(knots.size(), 2U);
@@ -122,8 +145,8 @@ TEST_P(EveryPlanner, StopsAtTheEndOfItsPath) {
 }
 
 TEST_P(EveryPlanner, IsAFunctionOfItsRequest) {
-  const Plan a = MakePlan(Request(RouteB()), DefaultOptions(GetParam()));
-  const Plan b = MakePlan(Request(RouteB()), DefaultOptions(GetParam()));
+  const Plan a = PlanWithDefaults(Request(RouteB()), GetParam());
+  const Plan b = PlanWithDefaults(Request(RouteB()), GetParam());
   EXPECT_EQ(DiagnosticsJson(a), DiagnosticsJson(b));
   EXPECT_EQ(a.reference.path.segments(), b.reference.path.segments());
   EXPECT_EQ(a.caps.size(), b.caps.size());
@@ -131,7 +154,7 @@ TEST_P(EveryPlanner, IsAFunctionOfItsRequest) {
 
 TEST_P(EveryPlanner, IsAsLongAsItsSteps) {
   for (const std::vector<Vec2>& route : {RouteA(), RouteB()}) {
-    const Plan plan = MakePlan(Request(route), DefaultOptions(GetParam()));
+    const Plan plan = PlanWithDefaults(Request(route), GetParam());
     ASSERT_TRUE(plan.ok()) << plan.reason;
     const Path& path = plan.reference.path;
     constexpr double kStep = 0.01;  // [m]
@@ -157,15 +180,14 @@ TEST_P(EveryPlanner, PlansWithEverySeed) {
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
     PlanRequest request = Request(RouteB());
     request.seed = seed;
-    const Plan plan = MakePlan(request, DefaultOptions(GetParam()));
+    const Plan plan = PlanWithDefaults(request, GetParam());
     ASSERT_TRUE(plan.ok()) << plan.reason;
     const Path& path = plan.reference.path;
     EXPECT_NEAR((path.At(path.length()).pose.position() - plan.goal.position()).norm(), 0.0,
                 Tolerance(1e-9));
     if (!GetParam().is_random) {
       request.seed = 0;
-      EXPECT_EQ(MakePlan(request, DefaultOptions(GetParam())).reference.path.segments(),
-                path.segments());
+      EXPECT_EQ(PlanWithDefaults(request, GetParam()).reference.path.segments(), path.segments());
     }
   }
 }
@@ -177,8 +199,8 @@ TEST_P(EveryPlanner, IsMovedWithItsMission) {
     waypoint = ToWorld(by, waypoint);
   }
   moved.start = Compose(by, moved.start);
-  const Plan here = MakePlan(Request(RouteB()), DefaultOptions(GetParam()));
-  const Plan there = MakePlan(moved, DefaultOptions(GetParam()));
+  const Plan here = PlanWithDefaults(Request(RouteB()), GetParam());
+  const Plan there = PlanWithDefaults(moved, GetParam());
   ASSERT_TRUE(here.ok() && there.ok()) << there.reason;
   const Path& path = here.reference.path;
   // Rounding of coordinates of some 250 m, carried through a search.
@@ -195,7 +217,7 @@ TEST_P(EveryPlanner, IsNeverFasterThanTheMissionAndEndsAtRest) {
   for (const double speed : {0.7, 2.0, 5.0}) {
     PlanRequest request = Request(RouteA());
     request.speed.speed = speed;
-    const Plan plan = MakePlan(request, DefaultOptions(GetParam()));
+    const Plan plan = PlanWithDefaults(request, GetParam());
     ASSERT_TRUE(plan.ok()) << plan.reason;
     const double length = plan.reference.path.length();
     for (double s = 0.0; s <= length; s += 0.1) {
@@ -213,7 +235,7 @@ TEST_P(EveryPlanner, RefusesWithAReasonAndNoPath) {
   } else {
     request.vehicle.steering_limit = 1e-3;  // a car that needs 2.7 km to turn
   }
-  const Plan plan = MakePlan(request, DefaultOptions(GetParam()));
+  const Plan plan = PlanWithDefaults(request, GetParam());
   EXPECT_FALSE(plan.ok());
   EXPECT_NE(plan.reason, "");
   EXPECT_EQ(plan.reference.path.length(), 0.0);
@@ -228,24 +250,22 @@ TEST_P(EveryPlanner, ThrowsForNumbersThatAreNone) {
     SCOPED_TRACE(bad);
     PlanRequest waypoint = Request(RouteA());
     waypoint.waypoints[2].y() = bad;
-    EXPECT_THROW(MakePlan(waypoint, DefaultOptions(GetParam())), InternalError);
+    EXPECT_THROW(PlanWithDefaults(waypoint, GetParam()), InternalError);
     PlanRequest start = Request(RouteA());
     start.start.yaw = bad;
-    EXPECT_THROW(MakePlan(start, DefaultOptions(GetParam())), InternalError) << "start";
+    EXPECT_THROW(PlanWithDefaults(start, GetParam()), InternalError) << "start";
     PlanRequest start_speed = Request(RouteA());
     start_speed.start_speed = bad;
-    EXPECT_THROW(MakePlan(start_speed, DefaultOptions(GetParam())), InternalError) << "start speed";
+    EXPECT_THROW(PlanWithDefaults(start_speed, GetParam()), InternalError) << "start speed";
     PlanRequest speed = Request(RouteA());
     speed.speed.speed = bad;
-    EXPECT_THROW(MakePlan(speed, DefaultOptions(GetParam())), InternalError) << "speed";
+    EXPECT_THROW(PlanWithDefaults(speed, GetParam()), InternalError) << "speed";
     PlanRequest acceleration = Request(RouteA());
     acceleration.speed.acceleration = bad;
-    EXPECT_THROW(MakePlan(acceleration, DefaultOptions(GetParam())), InternalError)
-        << "acceleration";
+    EXPECT_THROW(PlanWithDefaults(acceleration, GetParam()), InternalError) << "acceleration";
     PlanRequest deceleration = Request(RouteA());
     deceleration.speed.deceleration = bad;
-    EXPECT_THROW(MakePlan(deceleration, DefaultOptions(GetParam())), InternalError)
-        << "deceleration";
+    EXPECT_THROW(PlanWithDefaults(deceleration, GetParam()), InternalError) << "deceleration";
   }
 }
 

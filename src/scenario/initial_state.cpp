@@ -1,10 +1,12 @@
-#include "src/scenario/start_state.h"
+#include "trackbed/scenario/initial_state.h"
 
 #include <algorithm>
 
+#include "src/scenario/start_state.h"
 #include "trackbed/control/playback.h"
 #include "trackbed/planning/common/route_start.h"
 #include "trackbed/planning/fillet/fillet.h"
+#include "trackbed/planning/path_file/path_file_planner.h"
 
 // How a run begins, for planners, plants and the resolved scenario alike.
 namespace trackbed {
@@ -16,10 +18,19 @@ const RecordedSample* FirstSample(const Scenario& scenario) {
                                                   : nullptr;
 }
 
+/// The path in a file that is followed; none for other plans.
+const FittedPath* PathOfFile(const Scenario& scenario) {
+  const auto* own = scenario.plan ? scenario.plan->global.As<PathFileOptions>() : nullptr;
+  return own == nullptr ? nullptr : own->path.get();
+}
+
 Pose2 StartPose(const Scenario& scenario) {
   const MissionSpec& mission = scenario.mission;
   const RecordedSample* recorded = FirstSample(scenario);
-  Pose2 pose = recorded != nullptr ? recorded->pose : StartOfRoute(mission.waypoints);
+  const FittedPath* path = PathOfFile(scenario);
+  Pose2 pose = path != nullptr       ? path->path.At(0.0).pose
+               : recorded != nullptr ? recorded->pose
+                                     : StartOfRoute(mission.waypoints);
   if (!mission.headings.empty()) {
     pose.yaw = mission.headings.front();
   }
@@ -57,6 +68,12 @@ std::optional<double> StartSpeedBesideMission(const Scenario& scenario) {
   if (const RecordedSample* recorded = FirstSample(scenario)) {
     return std::max(0.0, recorded->velocity_V.x());
   }
+  if (const FittedPath* path = PathOfFile(scenario)) {
+    const auto& options = scenario.plan->global.Get<PathFileOptions>();
+    if (options.speeds == PathSpeeds::kFile && !path->given.speed.empty()) {
+      return path->given.speed.front();
+    }
+  }
   const Signal& over_time = scenario.control.speed.over_time;
   return over_time.empty() ? std::nullopt : std::optional(over_time.At(0.0));
 }
@@ -73,6 +90,16 @@ StartState InitialState(const Scenario& scenario) {
       start.lateral_speed = own.lateral_speed;
       start.yaw_rate = own.yaw_rate;
     }
+  }
+  return start;
+}
+
+StartState InitialState(const Scenario& scenario, const VehicleParams& vehicle) {
+  StartState start = InitialState(scenario);
+  const FittedPath* path = PathOfFile(scenario);
+  if (path != nullptr && !scenario.mission.start.steering) {
+    start.steering = std::clamp(SteeringForCurvature(vehicle, path->path.At(0.0).curvature),
+                                -vehicle.steering_limit, vehicle.steering_limit);
   }
   return start;
 }

@@ -1,4 +1,4 @@
-#include "src/core/csv_reader.h"
+#include "trackbed/core/csv_rows.h"
 
 #include <csv.h>
 #include <fmt/format.h>

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trackbed/options/key_visitor.h"
+
+/// How to read a path that another program wrote.
+namespace trackbed {
+
+enum class PathFormat {
+  kAuto,        ///< by the file's ending and first characters
+  kCsv,         ///< a table with named columns; racing lines of TUM, with their header behind '#'
+  kNavPath,     ///< nav_msgs/Path of ROS as YAML or JSON
+  kCommonRoad,  ///< a solution of CommonRoad, XML
+  kGeoJson,     ///< a line string, RFC 7946
+};
+
+/// The columns of a CSV file. Those without a name are found by the usual ones (PathColumnNames),
+/// in any case of letters; units without a name by the ending of the column's, else SI.
+struct PathColumns {
+  std::optional<std::string> x;
+  std::optional<std::string> y;
+  std::optional<std::string> yaw;
+  std::optional<std::string> curvature;
+  std::optional<std::string> speed;
+  std::optional<std::string> time;
+  std::optional<std::string> position_unit;  ///< "m", "cm", "mm" or "km"
+  std::optional<std::string> yaw_unit;       ///< "rad" or "deg"
+  std::optional<std::string> speed_unit;     ///< "m/s", "km/h" or "mph"
+};
+void Visit(KeyVisitor& keys, PathColumns& columns);
+
+/// What the coordinates of a GeoJSON file are.
+enum class PathCoordinates {
+  kAuto,    ///< WGS 84, or meters if its member `crs` names another reference system
+  kWgs84,   ///< longitude and latitude in degrees
+  kMeters,  ///< x and y of any projection
+};
+
+struct PathMap {
+  PathFormat format = PathFormat::kAuto;
+  PathColumns columns;
+  PathCoordinates coordinates = PathCoordinates::kAuto;
+  std::optional<double> origin_latitude;   ///< of WGS 84 [deg]; none: the first point
+  std::optional<double> origin_longitude;  ///< [deg]; likewise
+};
+void Visit(KeyVisitor& keys, PathMap& map);
+
+/// Problems that concern more than one key, each with the key to change.
+std::vector<std::pair<std::string, std::string>> PathMapProblems(const PathMap& map);
+
+/// A usual name of a column, and its unit.
+struct PathColumnName {
+  const char* name;
+  const char* unit;
+};
+
+/// The usual names, the best first, of "x", "y", "yaw", "curvature", "speed" or "time".
+const std::vector<PathColumnName>& PathColumnNames(const std::string& quantity);
+
+}  // namespace trackbed

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/path/path.h"
+#include "trackbed/vehicle/params.h"
+
+/// What a path asks of the steering, piece by piece.
+namespace trackbed {
+
+/// A short piece of a path, and the most it asks of the steering.
+struct PathPiece {
+  Stations stations;
+  double curvature = 0.0;  ///< largest |kappa| [1/m]
+  double slope = 0.0;      ///< largest |d delta/ds| [rad/m] where the curvature is continuous
+};
+
+/// |d delta/ds| [rad/m]: L |kappa'|/(1 + (L kappa)^2).
+double SteeringSlope(const VehicleParams& vehicle, double curvature, double sharpness);
+
+/// Calls with each segment divided into equal pieces of at most `spacing` [m], so that short
+/// segments are looked at, too.
+template <typename Call>
+void ForEachPiece(const Path& path, const VehicleParams& vehicle, double spacing,
+                  const Call& call) {
+  double start = 0.0;
+  for (const Segment& segment : path.segments()) {
+    const auto count = static_cast<long>(std::ceil(segment.length / spacing));
+    for (long i = 0; i < count; ++i) {
+      const double from = segment.length * static_cast<double>(i) / static_cast<double>(count);
+      const double to = segment.length * static_cast<double>(i + 1) / static_cast<double>(count);
+      PathPiece piece{{start + from, start + to}};
+      const auto take = [&](double d) {
+        const double curvature = segment.CurvatureAt(d);
+        piece.curvature = std::max(piece.curvature, std::abs(curvature));
+        piece.slope = std::max(
+            piece.slope,
+            SteeringSlope(vehicle, curvature, segment.sharpness + d * segment.sharpness_rate));
+      };
+      take(from);
+      take(to);
+      const double vertex = -segment.sharpness / segment.sharpness_rate;
+      if (vertex > from && vertex < to) {
+        take(vertex);
+      }
+      call(piece);
+    }
+    start += segment.length;
+  }
+}
+
+}  // namespace trackbed

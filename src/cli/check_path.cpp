@@ -1,0 +1,216 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "src/cli/film_of_run.h"
+#include "src/cli/run_summary.h"
+#include "src/cli/scenario_options.h"
+#include "src/cli/scenario_runs.h"
+#include "src/cli/terminal.h"
+#include "src/cli/verbs.h"
+#include "trackbed/analysis/run_folder.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+#include "trackbed/drive/drive.h"
+#include "trackbed/planning/path_file/path_check.h"
+#include "trackbed/planning/path_file/path_file_planner.h"
+#include "trackbed/report/path_check.h"
+#include "trackbed/report/report.h"
+
+namespace trackbed::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CheckPathOptions {
+  std::string file;
+  std::string vehicle = VehicleSpec{}.model;
+  double speed = 0.0;
+  std::optional<std::string> fit;
+  std::optional<double> max_deviation;
+  bool closed = false;
+  std::string report;
+  bool json = false;
+  bool drive = false;
+  bool video = false;
+  std::string out;
+  ScenarioOptions scenario;
+};
+
+/// The file's name as that of a scenario, of the characters that such names may have.
+std::string NameOf(const fs::path& file) {
+  std::string name = file.stem().string();
+  std::replace_if(
+      name.begin(), name.end(),
+      [](unsigned char c) { return c > 127 || (std::isalnum(c) == 0 && c != '_' && c != '-'); },
+      '_');
+  return name.empty() ? "path" : name;
+}
+
+/// A scenario that drives the path, whatever becomes of the car. JSON is YAML.
+std::string ScenarioText(const CheckPathOptions& options) {
+  const fs::path file = options.file;
+  nlohmann::ordered_json plan{
+      {"method", "path_file"}, {"file", file.filename().string()}, {"infeasible", "allow"}};
+  if (options.fit) {
+    plan["fit"] = *options.fit;
+  }
+  if (options.max_deviation) {
+    plan["max_deviation"] = *options.max_deviation;
+  }
+  if (options.closed) {
+    plan["closed"] = true;
+  }
+  const nlohmann::ordered_json scenario{{"schema", 1},
+                                        {"name", NameOf(file)},
+                                        {"vehicle", {{"model", options.vehicle}}},
+                                        {"mission", {{"speed", options.speed}}},
+                                        {"plan", plan}};
+  return scenario.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+PathCheckOptions CheckOptions(const Scenario& scenario, const CarModel& car) {
+  const VehicleParams& vehicle = car.unladen();
+  PathCheckOptions options{.speed = scenario.mission.speed, .friction = scenario.world.friction};
+  if (vehicle.kind == VehicleKind::kSteered) {
+    options.rollover_acceleration = RollOverAcceleration(
+        std::min(vehicle.track_front, vehicle.track_rear), car.parts().cg_height);
+  }
+  return options;
+}
+
+void Print(const Scenario& scenario, const FittedPath& fitted, const PathCheck& check,
+           const PathFileOptions& plan) {
+  constexpr std::size_t kMost = 10;
+  fmt::print("{}: {} at {:.3g} m/s with {}\n", scenario.name,
+             check.drivable() ? Toned(Tone::kGood, "drivable") : Toned(Tone::kBad, "not drivable"),
+             scenario.mission.speed, scenario.vehicle.model);
+  if (fitted.reversals.empty()) {
+    fmt::print("  {:.4g} m, {}\n", fitted.path.length(), Describe(fitted));
+    if (check.max_speed > 0.0 && std::isfinite(check.max_speed)) {
+      fmt::print("  up to {:.3g} m/s, limited by {} at s = {:.4g} m\n", check.max_speed,
+                 ToString(check.max_speed_limit), check.max_speed_station);
+    } else if (check.max_speed == 0.0) {
+      fmt::print("  at no speed: {} at s = {:.4g} m\n", ToString(check.max_speed_limit),
+                 check.max_speed_station);
+    }
+  }
+  std::istringstream notes(plan.notes.value_or(""));
+  for (std::string note; std::getline(notes, note);) {
+    fmt::print("  {}\n", WithoutControls(note));
+  }
+  for (std::size_t i = 0; i < std::min(kMost, check.faults.size()); ++i) {
+    fmt::print("  {}\n", ToString(check.faults[i]));
+  }
+  if (check.faults.size() > kMost) {
+    fmt::print("  and {} more\n", check.faults.size() - kMost);
+  }
+}
+
+int Drive(const CheckPathOptions& options, const Scenario& scenario) {
+  const fs::path out =
+      options.out.empty() ? fs::path("out") / scenario.name : fs::path(options.out);
+  const auto [folder, result] = DriveScenario({scenario, out}, options.scenario.quiet);
+  WriteRunFolder(result, folder);
+  if (!options.scenario.quiet && !options.json) {
+    PrintSummary(result, out);
+  }
+  if (options.video && !result.interrupted && result.plan.ok()) {
+    const RenderSpec& render = scenario.render;
+    FilmRun(out, out / run_folder::kVideo,
+            {.width = render.width,
+             .height = render.height,
+             .fps = render.fps,
+             .camera = render.camera},
+            options.scenario.quiet);
+  }
+  return ExitCodeOf(result);
+}
+
+int CheckPathFile(const CheckPathOptions& options) {
+  const fs::path file = options.file;
+  const Scenario scenario =
+      options.scenario.Parse(ScenarioText(options), "check-path", file.parent_path());
+  const auto* plan = scenario.plan ? scenario.plan->global.As<PathFileOptions>() : nullptr;
+  if (plan == nullptr) {
+    throw InputError(Problem{.file = "--set", .key = "plan", .message = "must stay path_file"});
+  }
+  const CarModel car = LoadCar(scenario);
+  const PathCheckOptions check_options = CheckOptions(scenario, car);
+  const FittedPath& fitted = *plan->path;
+  const PathCheck check = CheckPath(fitted, car.unladen(), check_options);
+  const PathCheckTitle title{scenario.name, scenario.vehicle.model, plan->notes.value_or("")};
+  if (options.json) {
+    fmt::print("{}\n", PathCheckJson(title, fitted, check, check_options).dump(2));
+  } else if (!options.scenario.quiet) {
+    Print(scenario, fitted, check, *plan);
+  }
+  if (!options.report.empty()) {
+    const fs::path page = options.report;
+    if (page.has_parent_path()) {
+      MakeFolder(page.parent_path());
+    }
+    WriteFileAtomically(page, ReportPage(PathCheckReport(title, fitted, check, check_options)));
+  }
+  const int verdict = check.drivable() ? kOk : kFailedExpectations;
+  return options.drive ? std::max(verdict, Drive(options, scenario)) : verdict;
+}
+
+}  // namespace
+
+void AddCheckPath(const Command& command) {
+  const auto options = std::make_shared<CheckPathOptions>();
+  command
+      .AddPositional("file", options->file,
+                     "The path: CSV, nav_msgs/Path (YAML, JSON), CommonRoad solution or GeoJSON")
+      .Required()
+      .TypeName("FILE");
+  command.AddOption("--speed", options->speed, "Speed to check at [m/s]")
+      .Required()
+      .Range(0.1, 100.0)
+      .TypeName("SPEED");
+  command.AddOption("--vehicle", options->vehicle, "The vehicle, a model by name")
+      .ShowDefault()
+      .TypeName("MODEL");
+  command
+      .AddOption("--fit", options->fit,
+                 "spline, within --max-deviation of the points, or polyline (default: spline)")
+      .TypeName("FIT");
+  command
+      .AddOption("--max-deviation", options->max_deviation,
+                 "Largest distance of the points from the spline [m] (default: 0.05)")
+      .TypeName("DISTANCE");
+  command.AddFlag("--closed", options->closed, "The path leads back to its first point");
+  command.AddOption("--report", options->report, "Also write a page with a map and charts")
+      .TypeName("FILE");
+  command.AddFlag("--json", options->json, "Print the result as JSON");
+  command.AddFlag("--drive", options->drive,
+                  "Also drive it, on both plants, and write a run folder");
+  command.AddFlag("--video", options->video,
+                  "With --drive: also render video.mp4 in the run folder");
+  command.AddOption("-o,--out", options->out, "With --drive: run folder (default: out/<file>)")
+      .TypeName("DIR");
+  options->scenario.AddTo(command);
+  command.AddExample("Whether a Prius can drive a path at 8 m/s",
+                     "trackbed check-path path.csv --vehicle prius --speed 8 --report path.html");
+  command.AddExample("Columns of other names",
+                     "trackbed check-path path.csv --speed 8 --set plan.columns.x=east "
+                     "plan.columns.y=north");
+  command.OnRun([options] {
+    if ((options->video || !options->out.empty()) && !options->drive) {
+      throw InputError(Problem{.message = "--video and --out need --drive"});
+    }
+    return CheckPathFile(*options);
+  });
+}
+
+}  // namespace trackbed::cli

@@ -1,0 +1,420 @@
+#include "trackbed/path/fit_path.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "src/path/smoothing_spline.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+constexpr std::size_t kMostFitted = 200'000;
+constexpr double kSame = 1e-9;  // [m]; points no further apart are one
+
+[[noreturn]] void Fail(const std::string& key, std::string message) {
+  throw InputError(Problem{.key = key, .message = std::move(message)});
+}
+
+/// Every point that differs from the one before, with its chord length.
+struct DistinctPoints {
+  ChordPoints chords;
+  std::vector<std::size_t> number;  // of each among the given ones
+  std::vector<double> given_u;      // of each given one
+  double period = 0.0;              // [m]; 0 of an open path
+};
+
+DistinctPoints Distinct(const PathPoints& given, bool closed) {
+  DistinctPoints distinct;
+  ChordPoints& chords = distinct.chords;
+  for (std::size_t i = 0; i < given.points.size(); ++i) {
+    const Vec2& point = given.points[i];
+    const double step = chords.points.empty() ? 0.0 : (point - chords.points.back()).norm();
+    if (chords.points.empty() || step > kSame) {
+      chords.u.push_back(chords.u.empty() ? 0.0 : chords.u.back() + step);
+      chords.points.push_back(point);
+      distinct.number.push_back(i);
+    }
+    distinct.given_u.push_back(chords.u.back());
+  }
+  if (closed && chords.points.size() > 2) {
+    double gap = (chords.points.front() - chords.points.back()).norm();
+    if (gap <= kSame) {
+      chords.points.pop_back();
+      gap = chords.u.back() - *(chords.u.end() - 2);
+      chords.u.pop_back();
+      distinct.number.pop_back();
+    }
+    distinct.period = chords.u.back() + gap;
+  }
+  return distinct;
+}
+
+/// The number of the last one of rising numbers, the first of them 0, that is not above u >= 0.
+std::size_t LastBefore(const std::vector<double>& rising, double u) {
+  const auto after = std::upper_bound(rising.begin(), rising.end(), u);
+  return static_cast<std::size_t>(after - rising.begin()) - 1;
+}
+
+/// The point on the straight lines at chord length u.
+Vec2 OnLines(const ChordPoints& chords, double u) {
+  const std::size_t i = LastBefore(chords.u, u);
+  if (i + 1 == chords.u.size()) {
+    return chords.points.back();
+  }
+  const double share = (u - chords.u[i]) / (chords.u[i + 1] - chords.u[i]);
+  return chords.points[i] + share * (chords.points[i + 1] - chords.points[i]);
+}
+
+ChordPoints Resampled(const DistinctPoints& distinct, double spacing) {
+  ChordPoints lines = distinct.chords;
+  if (distinct.period > 0.0) {
+    lines.u.push_back(distinct.period);
+    lines.points.push_back(lines.points.front());
+  }
+  const double length = lines.u.back();
+  const double count = std::max(1.0, std::ceil(length / spacing));
+  if (count > static_cast<double>(kMostFitted)) {
+    Fail("resample", fmt::format("{:.4g} m every {:.4g} m are more than {} points", length, spacing,
+                                 kMostFitted));
+  }
+  ChordPoints resampled;
+  const double last = distinct.period > 0.0 ? count - 1.0 : count;
+  for (double i = 0.0; i <= last; i += 1.0) {
+    resampled.u.push_back(length * i / count);
+    resampled.points.push_back(OnLines(lines, resampled.u.back()));
+  }
+  return resampled;
+}
+
+/// The change of direction at each inner point, of a closed path at every one.
+template <typename Call>
+void ForEachTurn(const ChordPoints& chords, double period, const Call& call) {
+  const std::size_t count = chords.points.size();
+  const std::size_t begin = period > 0.0 ? 0 : 1;
+  const std::size_t end = period > 0.0 ? count : count - 1;
+  for (std::size_t i = begin; i < end; ++i) {
+    const Vec2 in = chords.points[i] - chords.points[(i + count - 1) % count];
+    const Vec2 out = chords.points[(i + 1) % count] - chords.points[i];
+    call(i, std::atan2(Cross(in, out), in.dot(out)), std::min(in.norm(), out.norm()));
+  }
+}
+
+std::vector<HeadingJump> FindReversals(const ChordPoints& chords, double period) {
+  std::vector<HeadingJump> reversals;
+  ForEachTurn(chords, period, [&](std::size_t i, double angle, double /*shorter*/) {
+    if (std::abs(angle) > kLargestJump) {
+      reversals.push_back({.point = i,
+                           .s = chords.u[i],
+                           .position = chords.points[i],
+                           .angle = angle,
+                           .rounded = {chords.u[i], chords.u[i]}});
+    }
+  });
+  return reversals;
+}
+
+/// Straight lines with tiny arcs between them.
+void FitPolyline(const ChordPoints& chords, double period, FittedPath& fitted,
+                 std::vector<double>& stations) {
+  constexpr double kTangent = 1e-3;  // [m]
+  const std::size_t count = chords.points.size();
+  std::vector<double> angles(count, 0.0);
+  std::vector<double> tangents(count, 0.0);
+  ForEachTurn(chords, period, [&](std::size_t i, double angle, double shorter) {
+    const bool is_start = i == 0;  // whose jump a closed path does not drive
+    if (std::abs(angle) > kSame && !is_start) {
+      angles[i] = angle;
+      tangents[i] = std::min(kTangent, 0.25 * shorter);
+    }
+  });
+  const Vec2 first = chords.points[1] - chords.points[0];
+  std::vector<Segment> segments;
+  double s = 0.0;
+  stations.assign(count, 0.0);
+  const std::size_t lines = period > 0.0 ? count : count - 1;
+  for (std::size_t i = 0; i < lines; ++i) {
+    const std::size_t next = (i + 1) % count;
+    const double length = (chords.points[next] - chords.points[i]).norm();
+    segments.push_back({.length = length - tangents[i] - tangents[next]});
+    s += segments.back().length;
+    if (next == 0) {
+      continue;
+    }
+    const double angle = std::abs(angles[next]);
+    const double radius = angle > 0.0 ? tangents[next] / std::tan(0.5 * angle) : 0.0;
+    const double arc = radius * angle;
+    stations[next] = s + 0.5 * arc;
+    if (angle > 0.0) {
+      segments.push_back({.length = arc, .curvature = std::copysign(1.0 / radius, angles[next])});
+      fitted.jumps.push_back({.point = next,
+                              .s = stations[next],
+                              .position = chords.points[next],
+                              .angle = angles[next],
+                              .rounded = {s, s + arc}});
+    }
+    s += arc;
+  }
+  fitted.path = Path({chords.points[0].x(), chords.points[0].y(), std::atan2(first.y(), first.x())},
+                     std::move(segments));
+  if (period > 0.0) {
+    stations.push_back(fitted.path.length());
+  }
+}
+
+/// The largest distance of the given points from the spline.
+double Deviation(const SmoothingSpline& spline, const DistinctPoints& distinct) {
+  double deviation = 0.0;
+  for (std::size_t i = 0; i < distinct.chords.u.size(); ++i) {
+    deviation =
+        std::max(deviation, (spline.At(distinct.chords.u[i]) - distinct.chords.points[i]).norm());
+  }
+  return deviation;
+}
+
+/// Fits with the largest smoothing length that keeps within `tolerance` [m], which it gives back.
+double FitWithin(SmoothingSpline& spline, const DistinctPoints& distinct, double tolerance) {
+  const std::vector<double>& knots = spline.knots();
+  const double length = knots.back() - knots.front();
+  double least = length;
+  for (std::size_t i = 1; i < knots.size(); ++i) {
+    least = std::min(least, knots[i] - knots[i - 1]);
+  }
+  double smallest_deviation = std::numeric_limits<double>::infinity();
+  const auto fits = [&](double smoothing) {
+    if (!spline.Fit(smoothing)) {
+      return false;
+    }
+    const double deviation = Deviation(spline, distinct);
+    smallest_deviation = std::min(smallest_deviation, deviation);
+    return deviation <= tolerance;
+  };
+  double good = length / static_cast<double>(knots.size() - 1);
+  double bad = good;
+  if (fits(good)) {
+    do {
+      bad = 2.0 * good;
+    } while (fits(bad) && (good = bad) < length);
+    if (good >= length) {
+      return good;
+    }
+  } else {
+    do {
+      good *= 0.5;
+      if (good < 1e-3 * least) {
+        Fail("max_deviation", fmt::format("{:.3g} m cannot be kept: the nearest spline deviates by "
+                                          "{:.3g} m",
+                                          tolerance, smallest_deviation));
+      }
+    } while (!fits(good));
+    bad = 2.0 * good;
+  }
+  while (bad / good > 1.1) {
+    const double middle = std::sqrt(good * bad);
+    (fits(middle) ? good : bad) = middle;
+  }
+  TRACKBED_CHECK(fits(good), "a smoothing length of {} m fits no more", good);
+  return good;
+}
+
+/// The station of the point at chord length u: that of its knot, or where it has none of the
+/// nearest point between the knots beside it.
+double StationOf(const SampledSpline& sampled, const std::vector<double>& knots, const Path& path,
+                 double u, const Vec2& point) {
+  const std::size_t i = LastBefore(knots, u);
+  if (knots[i] == u) {
+    return sampled.knot_stations[i];
+  }
+  const double to = sampled.knot_stations[std::min(i + 1, knots.size() - 1)];
+  return path.Project({point.x(), point.y(), 0.0}, {sampled.knot_stations[i], to}).s;
+}
+
+/// The largest distance of a distinct point from its station, and its number among them.
+std::pair<double, std::size_t> LargestDeviation(const Path& path, const ChordPoints& chords,
+                                                const std::vector<double>& stations) {
+  std::pair<double, std::size_t> largest{0.0, 0};
+  for (std::size_t i = 0; i < chords.points.size(); ++i) {
+    const double own = (path.At(stations[i]).pose.position() - chords.points[i]).norm();
+    largest = std::max(largest, {own, i}, [](auto& a, auto& b) { return a.first < b.first; });
+  }
+  return largest;
+}
+
+void FitSpline(const ChordPoints& knots, const DistinctPoints& distinct, FittedPath& fitted,
+               std::vector<double>& stations) {
+  constexpr double kSpacing = 0.1;  // [m]
+  constexpr int kFinest = 6;        // halvings
+  const double tolerance = fitted.options.max_deviation;
+  SmoothingSpline spline(knots, distinct.period);
+  // A little is left for the segments, which follow the spline.
+  fitted.smoothing_length = FitWithin(spline, distinct, 0.95 * tolerance);
+  const Vec2 start = spline.At(spline.knots().front());
+  double spacing = kSpacing;
+  for (int halvings = 0; halvings <= kFinest; ++halvings, spacing *= 0.5) {
+    const SampledSpline sampled = Sample(spline, spacing);
+    if (sampled.points.empty()) {
+      Fail("max_deviation", "the spline has a cusp; allow a larger deviation");
+    }
+    fitted.path =
+        Path({start.x(), start.y(), sampled.points.front().yaw}, SegmentsThrough(sampled.points));
+    stations.clear();
+    for (std::size_t i = 0; i < distinct.chords.u.size(); ++i) {
+      stations.push_back(StationOf(sampled, spline.knots(), fitted.path, distinct.chords.u[i],
+                                   distinct.chords.points[i]));
+    }
+    if (LargestDeviation(fitted.path, distinct.chords, stations).first <= tolerance) {
+      return;
+    }
+  }
+  Fail("max_deviation", fmt::format("{:.3g} m cannot be kept by the path's segments", tolerance));
+}
+
+void CheckArguments(const PathPoints& given, const PathFitOptions& options) {
+  TRACKBED_REQUIRE(
+      std::isfinite(options.max_deviation) && options.max_deviation > 0.0 &&
+          (!options.resample || (std::isfinite(*options.resample) && *options.resample > 0.0)),
+      "FitPath: max_deviation {} m, resample {} m; must be above 0", options.max_deviation,
+      options.resample.value_or(1.0));
+  for (const Vec2& point : given.points) {
+    TRACKBED_REQUIRE(point.allFinite(), "FitPath: a point at ({}, {})", point.x(), point.y());
+  }
+  for (const auto* list : {&given.yaw, &given.curvature, &given.speed}) {
+    TRACKBED_REQUIRE(list->empty() || list->size() == given.points.size(),
+                     "FitPath: {} entries for {} points", list->size(), given.points.size());
+    for (const double number : *list) {
+      TRACKBED_REQUIRE(std::isfinite(number), "FitPath: an entry {}", number);
+    }
+  }
+}
+
+/// The largest difference of the given headings from those of the path [rad].
+double HeadingDifference(const FittedPath& fitted) {
+  constexpr double kOpposite = 2.0;  // [rad]; what is less may be counted from another axis
+  double largest = 0.0;
+  for (std::size_t i = 0; i < fitted.given.yaw.size(); ++i) {
+    const double yaw = fitted.path.At(fitted.stations[i]).pose.yaw;
+    const double own = std::abs(AngleDifference(fitted.given.yaw[i], yaw));
+    if (own > kOpposite) {
+      const Vec2& point = fitted.given.points[i];
+      Fail("",
+           fmt::format("the heading of point {} at ({:.6g}, {:.6g}), {:.4g} rad, is against the "
+                       "direction of travel, {:.4g} rad; paths that are driven in reverse are "
+                       "not supported",
+                       i + 1, point.x(), point.y(), fitted.given.yaw[i], WrapAngle(yaw)));
+    }
+    largest = std::max(largest, own);
+  }
+  return largest;
+}
+
+}  // namespace
+
+PathPoints AtRearAxle(PathPoints given, double ahead) {
+  TRACKBED_REQUIRE(std::isfinite(ahead), "AtRearAxle: a point {} m ahead", ahead);
+  if (ahead == 0.0) {
+    return given;
+  }
+  given.curvature.clear();
+  if (!given.yaw.empty()) {
+    for (std::size_t i = 0; i < given.points.size(); ++i) {
+      given.points[i] -= ahead * Vec2(std::cos(given.yaw[i]), std::sin(given.yaw[i]));
+    }
+    return given;
+  }
+  const ChordPoints chords = Distinct(given, false).chords;
+  if (chords.points.size() < 2) {
+    return given;
+  }
+  const auto direction = [&](std::size_t i) {
+    const Vec2 along = chords.points[i + 1] - chords.points[i];
+    return std::atan2(along.y(), along.x());
+  };
+  double yaw = direction(0);
+  if (chords.points.size() > 2) {
+    const double turn = AngleDifference(direction(1), direction(0));
+    const double curvature = 2.0 * std::sin(turn) / (chords.points[2] - chords.points[0]).norm();
+    // Against the tangent at the first point, which is half a chord's turn before its direction.
+    yaw -= 0.5 * curvature * chords.u[1] + std::asin(std::clamp(ahead * curvature, -1.0, 1.0));
+  }
+  Vec2 before = given.points.front();
+  for (Vec2& point : given.points) {
+    const Vec2 along = point - before;
+    before = point;
+    if (along.norm() > kSame) {
+      // On a straight line of length d, tan(phi/2) of the angle to it falls by exp(-d/ahead).
+      const double line = std::atan2(along.y(), along.x());
+      const double angle = AngleDifference(line, yaw);
+      yaw = line - 2.0 * std::atan(std::tan(0.5 * angle) * std::exp(-along.norm() / ahead));
+    }
+    point -= ahead * Vec2(std::cos(yaw), std::sin(yaw));
+  }
+  return given;
+}
+
+FittedPath FitPath(PathPoints given, const PathFitOptions& options) {
+  CheckArguments(given, options);
+  const DistinctPoints distinct = Distinct(given, options.closed);
+  FittedPath fitted;
+  fitted.given = std::move(given);
+  fitted.options = options;
+  const std::size_t count = distinct.chords.points.size();
+  if (count < 2 || (options.closed && count < 3)) {
+    Fail("", fmt::format("{} different point{}; must be at least {}", count, count == 1 ? "" : "s",
+                         options.closed ? 3 : 2));
+  }
+  fitted.repeated = fitted.given.points.size() - count;
+  const ChordPoints own =
+      options.resample ? Resampled(distinct, *options.resample) : distinct.chords;
+  if (own.points.size() > kMostFitted) {
+    Fail("resample", fmt::format("{} points; must be at most {}, give a distance to resample them",
+                                 own.points.size(), kMostFitted));
+  }
+  const auto name_points = [&](std::vector<HeadingJump>& jumps) {
+    for (HeadingJump& jump : jumps) {
+      jump.point = distinct.number[LastBefore(distinct.chords.u, own.u[jump.point])];
+    }
+  };
+  fitted.reversals = FindReversals(own, distinct.period);
+  if (!fitted.reversals.empty()) {
+    name_points(fitted.reversals);
+    return fitted;
+  }
+  std::vector<double> stations;  // of the distinct points
+  if (options.fit == PathFit::kSpline && own.points.size() > 2) {
+    FitSpline(own, distinct, fitted, stations);
+  } else {
+    std::vector<double> own_stations;
+    FitPolyline(own, distinct.period, fitted, own_stations);
+    if (options.resample) {
+      for (std::size_t i = 0; i < count; ++i) {
+        const Vec2& point = distinct.chords.points[i];
+        const double about = distinct.chords.u[i];
+        stations.push_back(
+            fitted.path
+                .Project({point.x(), point.y(), 0.0},
+                         {about - 2.0 * *options.resample, about + *options.resample})
+                .s);
+      }
+    } else {
+      stations = std::move(own_stations);
+    }
+    name_points(fitted.jumps);
+  }
+  const auto [deviation, where] = LargestDeviation(fitted.path, distinct.chords, stations);
+  fitted.deviation = deviation;
+  fitted.deviation_point = distinct.number[where];
+  // A repeated point is where the one before is; the last of a closed path where it ends.
+  for (const double u : distinct.given_u) {
+    const std::size_t i = LastBefore(distinct.chords.u, u);
+    fitted.stations.push_back(u > distinct.chords.u[i] ? fitted.path.length() : stations[i]);
+  }
+  fitted.heading_difference = HeadingDifference(fitted);
+  return fitted;
+}
+
+}  // namespace trackbed

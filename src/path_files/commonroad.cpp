@@ -1,0 +1,123 @@
+#include <fmt/format.h>
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "src/path_files/formats.h"
+#include "trackbed/core/text_table.h"
+
+// Solutions of CommonRoad: a trajectory of states for each planning problem.
+namespace trackbed {
+namespace {
+
+using tinyxml2::XMLElement;
+
+std::optional<double> Number(const XMLElement& state, const char* name, double largest,
+                             const std::string& file) {
+  const XMLElement* element = state.FirstChildElement(name);
+  if (element == nullptr) {
+    return std::nullopt;
+  }
+  const char* text = element->GetText();
+  std::string trimmed = text == nullptr ? "" : text;
+  trimmed.erase(0, std::min(trimmed.find_first_not_of(" \t\r\n"), trimmed.size()));
+  trimmed.erase(trimmed.find_last_not_of(" \t\r\n") + 1);
+  const std::optional<double> number = CellNumber(trimmed);
+  if (!number) {
+    Refuse(file, name, fmt::format("'{}' is no finite number", trimmed.substr(0, 40)),
+           element->GetLineNum());
+  }
+  if (std::abs(*number) > largest) {
+    Refuse(file, name,
+           fmt::format("{} is out of range; must be between {} and {}", *number, -largest, largest),
+           element->GetLineNum());
+  }
+  return number;
+}
+
+double Required(const XMLElement& state, const char* name, double largest,
+                const std::string& file) {
+  const std::optional<double> number = Number(state, name, largest, file);
+  if (!number) {
+    Refuse(file, name, fmt::format("missing in {}", state.Name()), state.GetLineNum());
+  }
+  return *number;
+}
+
+/// The element of the trajectory, such as ksTrajectory.
+const XMLElement* FindTrajectory(const XMLElement& root, std::size_t& count) {
+  const XMLElement* first = nullptr;
+  for (const XMLElement* child = root.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    if (std::string_view(child->Name()).ends_with("Trajectory")) {
+      ++count;
+      first = first == nullptr ? child : first;
+    }
+  }
+  return first;
+}
+
+}  // namespace
+
+PathFile ReadCommonRoad(const std::filesystem::path& path, const std::string& text) {
+  const std::string file = path.string();
+  tinyxml2::XMLDocument document;
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    Refuse(file, "", fmt::format("not XML: {}", document.ErrorName()), document.ErrorLineNum());
+  }
+  const XMLElement* root = document.RootElement();
+  if (root == nullptr || std::string_view(root->Name()) != "CommonRoadSolution") {
+    Refuse(file, "",
+           fmt::format("the root element is {}; must be CommonRoadSolution",
+                       root == nullptr ? "missing" : root->Name()),
+           root == nullptr ? 1 : root->GetLineNum());
+  }
+  std::size_t trajectories = 0;
+  const XMLElement* trajectory = FindTrajectory(*root, trajectories);
+  if (trajectory == nullptr) {
+    Refuse(file, "", "has no trajectory, such as ksTrajectory", root->GetLineNum());
+  }
+  PathFile found;
+  PathPoints& points = found.points;
+  for (const XMLElement* state = trajectory->FirstChildElement(); state != nullptr;
+       state = state->NextSiblingElement()) {
+    points.points.emplace_back(Required(*state, "x", kFarthest, file),
+                               Required(*state, "y", kFarthest, file));
+    // A point mass has the velocity along both axes instead of an orientation.
+    const auto vx = Number(*state, "xVelocity", kFastest, file);
+    const auto vy = Number(*state, "yVelocity", kFastest, file);
+    const auto speed = Number(*state, "velocity", kFastest, file);
+    if (const auto yaw = Number(*state, "orientation", 1e6, file)) {
+      points.yaw.push_back(*yaw);
+    }
+    if (speed) {
+      if (*speed < 0.0) {
+        Refuse(file, "velocity", "paths that are driven in reverse are not supported",
+               state->GetLineNum());
+      }
+      points.speed.push_back(*speed);
+    } else if (vx && vy) {
+      points.speed.push_back(std::min(std::hypot(*vx, *vy), kFastest));
+    }
+  }
+  for (const auto& [list, name] :
+       {std::pair(&points.yaw, "orientation"), std::pair(&points.speed, "velocity")}) {
+    if (!list->empty() && list->size() != points.points.size()) {
+      Refuse(file, name,
+             fmt::format("in {} of {} states; must be in all or none", list->size(),
+                         points.points.size()),
+             trajectory->GetLineNum());
+    }
+  }
+  found.notes.push_back(fmt::format(
+      "CommonRoad {} of {} states{}", trajectory->Name(), points.points.size(),
+      trajectories > 1 ? fmt::format(", the first of {}", trajectories) : std::string()));
+  return found;
+}
+
+}  // namespace trackbed

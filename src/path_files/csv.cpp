@@ -1,0 +1,314 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/algorithm/string.hpp>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "src/path_files/formats.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/core/csv_rows.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/spelling.h"
+#include "trackbed/core/table.h"
+#include "trackbed/core/text_table.h"
+
+// Tables with a header line of names, which may stand behind a '#'.
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The value of one of a unit in SI units.
+double InSi(const std::string& unit) {
+  static const std::vector<std::pair<std::string, double>> units{
+      {"m", 1.0},       {"cm", 0.01},         {"mm", 0.001}, {"km", 1000.0},
+      {"rad", 1.0},     {"deg", kPi / 180.0}, {"m/s", 1.0},  {"km/h", 1.0 / 3.6},
+      {"mph", 0.44704}, {"1/m", 1.0},         {"s", 1.0}};
+  const auto found = std::find_if(units.begin(), units.end(),
+                                  [&](const auto& entry) { return entry.first == unit; });
+  TRACKBED_CHECK(found != units.end(), "no unit '{}'", unit);
+  return found->second;
+}
+
+/// The character between the cells of the first line that is no comment.
+char FindDelimiter(const fs::path& file) {
+  char delimiter = ',';
+  std::string begin;
+  ReadBlocks(file, [&](std::string_view block) {
+    begin = block;
+    return false;
+  });
+  std::vector<std::string> lines;
+  boost::split(lines, begin, [](char c) { return c == '\n' || c == '\r'; });
+  for (const std::string& line : lines) {
+    if (line.empty() || line.front() == '#') {
+      continue;
+    }
+    std::ptrdiff_t most = 0;
+    for (const char candidate : {',', ';', '\t'}) {
+      const auto count = std::count(line.begin(), line.end(), candidate);
+      if (count > most) {
+        most = count;
+        delimiter = candidate;
+      }
+    }
+    break;
+  }
+  return delimiter;
+}
+
+/// Of a quantity.
+struct Column {
+  std::size_t index;
+  double factor;  // to SI units
+  double offset = 0.0;
+  double largest = 0.0;  // in SI units
+};
+
+enum Quantity { kX, kY, kYaw, kCurvature, kSpeed, kTime, kQuantities };
+
+class CsvPath {
+ public:
+  CsvPath(const fs::path& file, const PathColumns& asked) : file_(file), asked_(asked) {}
+
+  PathFile Read() {
+    const char delimiter = FindDelimiter(file_);
+    ReadCsvRows(file_, {.delimiter = delimiter}, problems_,
+                [&](std::vector<std::string>& cells, int line) { Take(cells, line); });
+    if (!is_header_known_ && problems_.empty()) {
+      AddError(1, "", "no rows after the comments");
+    }
+    problems_.ThrowIfAny();
+    if (columns_[kTime] && !columns_[kSpeed]) {
+      AddSpeeds(found_.points, times_, file_.string());
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void AddError(int line, const std::string& column, std::string message) {
+    problems_.Add({file_.string(), line, 0, column, std::move(message)});
+  }
+
+  void Take(std::vector<std::string>& cells, int line) {
+    if (cells.front().starts_with('#')) {
+      if (!is_header_known_) {
+        cells.front().erase(0, 1);
+        comment_.clear();
+        for (const std::string& cell : cells) {
+          comment_.push_back(boost::trim_copy(cell));
+        }
+        comment_line_ = line;
+      }
+      return;
+    }
+    if (!is_header_known_) {
+      is_header_known_ = true;
+      const bool is_data = std::all_of(cells.begin(), cells.end(), [](const std::string& cell) {
+        return CellNumber(cell).has_value();
+      });
+      if (!is_data) {
+        SetHeader(cells, line);
+        return;
+      }
+      if (comment_.size() != cells.size()) {
+        AddError(line, "",
+                 "no column names before the first row; expected a header line such as "
+                 "x_m,y_m");
+        is_broken_ = true;
+        return;
+      }
+      SetHeader(comment_, comment_line_);
+    }
+    if (!is_broken_) {
+      TakeRow(cells, line);
+    }
+  }
+
+  void SetHeader(std::vector<std::string> names, int line) {
+    names_ = std::move(names);
+    std::set<std::string> seen;
+    for (const std::string& name : names_) {
+      if (!name.empty() && !seen.insert(name).second) {
+        AddError(line, name, "repeated column");
+        is_broken_ = true;
+      }
+    }
+    const std::array<std::pair<const char*, const std::optional<std::string>*>, kQuantities>
+        quantities{{{"x", &asked_.x},
+                    {"y", &asked_.y},
+                    {"yaw", &asked_.yaw},
+                    {"curvature", &asked_.curvature},
+                    {"speed", &asked_.speed},
+                    {"time", &asked_.time}}};
+    for (std::size_t i = 0; i < kQuantities; ++i) {
+      Find(static_cast<Quantity>(i), quantities[i].first, *quantities[i].second, line);
+    }
+    is_broken_ = is_broken_ || !columns_[kX] || !columns_[kY];
+    if (is_broken_) {
+      return;
+    }
+    std::vector<std::string> used;
+    for (std::size_t i = 0; i < kQuantities; ++i) {
+      if (columns_[i]) {
+        used.push_back(names_[columns_[i]->index]);
+      }
+    }
+    found_.notes.push_back(fmt::format("CSV, columns {}", fmt::join(used, ", ")));
+    TakeTumHeading();
+  }
+
+  /// The racing lines of TUM count their heading from north.
+  void TakeTumHeading() {
+    const auto has = [&](const char* name) {
+      return std::find(names_.begin(), names_.end(), name) != names_.end();
+    };
+    if (columns_[kYaw] && names_[columns_[kYaw]->index] == "psi_rad" && !asked_.yaw && has("s_m") &&
+        has("kappa_radpm") && has("vx_mps")) {
+      columns_[kYaw]->offset = 0.5 * kPi;
+      found_.notes.emplace_back("psi_rad is taken from north, as in TUM's racing lines");
+    }
+  }
+
+  void Find(Quantity quantity, const char* name, const std::optional<std::string>& asked,
+            int line) {
+    std::string unit;
+    std::optional<std::size_t> index;
+    const auto position = [&](const std::string& wanted) -> std::optional<std::size_t> {
+      for (std::size_t i = 0; i < names_.size(); ++i) {
+        if (asked ? names_[i] == wanted : boost::iequals(names_[i], wanted)) {
+          return i;
+        }
+      }
+      return std::nullopt;
+    };
+    if (asked) {
+      index = position(*asked);
+    }
+    std::vector<std::string> usual;
+    for (const PathColumnName& own : PathColumnNames(name)) {
+      usual.emplace_back(own.name);
+      if (!asked && !index) {
+        index = position(own.name);
+      }
+      if (unit.empty() && index && boost::iequals(names_[*index], own.name)) {
+        unit = own.unit;
+      }
+    }
+    if (!index) {
+      if (asked) {
+        AddError(line, *asked, fmt::format("no such column {}", UnknownName(*asked, names_)));
+        is_broken_ = true;
+      } else if (quantity == kX || quantity == kY) {
+        AddError(line, name,
+                 fmt::format("no column for {}: none is called {}; the file has {}; name it by "
+                             "columns.{}",
+                             name, fmt::join(usual, ", "), fmt::join(names_, ", "), name));
+      }
+      return;
+    }
+    const std::string si = PathColumnNames(name).front().unit;
+    const std::optional<std::string>* given = quantity <= kY       ? &asked_.position_unit
+                                              : quantity == kYaw   ? &asked_.yaw_unit
+                                              : quantity == kSpeed ? &asked_.speed_unit
+                                                                   : nullptr;
+    if (given != nullptr && *given) {
+      unit = **given;
+    }
+    const double largest = quantity <= kY           ? kFarthest
+                           : quantity == kYaw       ? 1e6
+                           : quantity == kSpeed     ? kFastest
+                           : quantity == kCurvature ? kLargestCurvature
+                                                    : 1e12;
+    columns_[quantity] = Column{*index, InSi(unit.empty() ? si : unit), 0.0, largest};
+  }
+
+  void TakeRow(const std::vector<std::string>& cells, int line) {
+    if (cells.size() != names_.size()) {
+      AddError(line, "", fmt::format("{} cells, the header has {}", cells.size(), names_.size()));
+      return;
+    }
+    if (found_.points.points.size() >= kMostPathPoints) {
+      is_broken_ = true;
+      AddError(line, "", fmt::format("more than {} points", kMostPathPoints));
+      return;
+    }
+    std::array<double, kQuantities> values{};
+    for (std::size_t i = 0; i < kQuantities; ++i) {
+      if (!columns_[i]) {
+        continue;
+      }
+      const Column& column = *columns_[i];
+      const std::optional<double> number = CellNumber(cells[column.index]);
+      values[i] = number.value_or(0.0) * column.factor + column.offset;
+      const double smallest = i == kSpeed ? 0.0 : -column.largest;
+      if (!number) {
+        AddError(line, names_[column.index],
+                 fmt::format("'{}' is no finite number", cells[column.index]));
+      } else if (values[i] < smallest || values[i] > column.largest) {
+        AddError(line, names_[column.index],
+                 fmt::format("{} is out of range; must be between {} and {} in SI units", *number,
+                             smallest, column.largest));
+      }
+    }
+    PathPoints& points = found_.points;
+    points.points.emplace_back(values[kX], values[kY]);
+    const auto add = [&](Quantity quantity, std::vector<double>& list) {
+      if (columns_[quantity]) {
+        list.push_back(values[quantity]);
+      }
+    };
+    add(kYaw, points.yaw);
+    add(kCurvature, points.curvature);
+    add(kSpeed, points.speed);
+    add(kTime, times_);
+  }
+
+  const fs::path& file_;
+  const PathColumns& asked_;
+  ProblemList problems_;
+  bool is_header_known_ = false;
+  bool is_broken_ = false;
+  std::vector<std::string> comment_;  // the last one before the header
+  int comment_line_ = 0;
+  std::vector<std::string> names_;
+  std::array<std::optional<Column>, kQuantities> columns_;
+  std::vector<double> times_;
+  PathFile found_;
+};
+
+}  // namespace
+
+PathFile ReadPathCsv(const fs::path& file, const PathColumns& columns) {
+  return CsvPath(file, columns).Read();
+}
+
+std::string PathCsv(const PathPoints& points) {
+  std::vector<std::string> columns{"x_m", "y_m"};
+  std::vector<const std::vector<double>*> lists;
+  const auto add = [&](const char* name, const std::vector<double>& list) {
+    if (!list.empty()) {
+      columns.emplace_back(name);
+      lists.push_back(&list);
+    }
+  };
+  add("yaw_rad", points.yaw);
+  add("curvature_radpm", points.curvature);
+  add("speed_mps", points.speed);
+  Table table(columns);
+  for (std::size_t i = 0; i < points.points.size(); ++i) {
+    std::vector<double> row{points.points[i].x(), points.points[i].y()};
+    for (const std::vector<double>* list : lists) {
+      row.push_back((*list)[i]);
+    }
+    table.AddRow(row);
+  }
+  return table.ToCsv();
+}
+
+}  // namespace trackbed

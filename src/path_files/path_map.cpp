@@ -1,0 +1,140 @@
+#include "trackbed/path_files/path_map.h"
+
+#include <map>
+#include <utility>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+
+void Visit(KeyVisitor& keys, PathColumns& columns) {
+  keys.Field({"x", "", "column of the position; default: x_m, x or another usual name"}, columns.x);
+  keys.Field({"y", "", "likewise"}, columns.y);
+  keys.Field({"yaw", "",
+              "column of the car's heading; default: yaw_rad, psi_rad, heading, ... if "
+              "present"},
+             columns.yaw);
+  keys.Field({"curvature", "", "likewise, of the curvature; default: kappa_radpm, curvature, ..."},
+             columns.curvature);
+  keys.Field({"speed", "", "likewise; default: vx_mps, speed_mps, velocity, ..."}, columns.speed);
+  keys.Field({"time", "",
+              "likewise, of which speeds are made if there are none; default: t_s, "
+              "time, ..."},
+             columns.time);
+  keys.Field({"position_unit", "", "m, cm, mm or km; default: that in the column's name, or m"},
+             columns.position_unit);
+  keys.Field({"yaw_unit", "", "rad or deg; default likewise, or rad"}, columns.yaw_unit);
+  keys.Field({"speed_unit", "", "m/s, km/h or mph; default likewise, or m/s"}, columns.speed_unit);
+}
+
+void Visit(KeyVisitor& keys, PathMap& map) {
+  static const EnumNames<PathFormat> formats{{PathFormat::kAuto, "auto"},
+                                             {PathFormat::kCsv, "csv"},
+                                             {PathFormat::kNavPath, "nav_path"},
+                                             {PathFormat::kCommonRoad, "commonroad"},
+                                             {PathFormat::kGeoJson, "geojson"}};
+  keys.Field({"format", "",
+              "of the file: a table, nav_msgs/Path as YAML or JSON, a CommonRoad solution or a "
+              "GeoJSON line string; auto: by its ending and content"},
+             map.format, Need::kOptional, formats);
+  keys.Section({"columns", "", "columns of a CSV file"}, map.columns);
+  static const EnumNames<PathCoordinates> coordinates{{PathCoordinates::kAuto, "auto"},
+                                                      {PathCoordinates::kWgs84, "wgs84"},
+                                                      {PathCoordinates::kMeters, "meters"}};
+  keys.Field({"coordinates", "",
+              "of GeoJSON: longitude and latitude, or meters; auto: WGS 84 unless the file names "
+              "another reference system"},
+             map.coordinates, Need::kOptional, coordinates);
+  keys.Field(
+      {"origin_latitude", "deg", "origin of the projection of WGS 84; default: the first point"},
+      map.origin_latitude, Range{.min = -89.0, .max = 89.0});
+  keys.Field({"origin_longitude", "deg", "likewise"}, map.origin_longitude,
+             Range{.min = -180.0, .max = 180.0});
+}
+
+std::vector<std::pair<std::string, std::string>> PathMapProblems(const PathMap& map) {
+  std::vector<std::pair<std::string, std::string>> problems;
+  if (map.origin_latitude.has_value() != map.origin_longitude.has_value()) {
+    problems.emplace_back(map.origin_latitude ? "origin_longitude" : "origin_latitude",
+                          "missing; give both coordinates of the origin or none");
+  }
+  const auto check = [&](const char* key, const std::optional<std::string>& unit,
+                         const std::vector<std::string>& allowed) {
+    bool known = !unit;
+    std::string list;
+    for (const std::string& name : allowed) {
+      known = known || *unit == name;
+      list += (list.empty() ? "" : ", ") + name;
+    }
+    if (!known) {
+      problems.emplace_back(std::string("columns.") + key,
+                            "unknown unit '" + *unit + "'; allowed: " + list);
+    }
+  };
+  check("position_unit", map.columns.position_unit, {"m", "cm", "mm", "km"});
+  check("yaw_unit", map.columns.yaw_unit, {"rad", "deg"});
+  check("speed_unit", map.columns.speed_unit, {"m/s", "km/h", "mph"});
+  return problems;
+}
+
+const std::vector<PathColumnName>& PathColumnNames(const std::string& quantity) {
+  static const std::map<std::string, std::vector<PathColumnName>> names{
+      {"x",
+       {{"x_m", "m"},
+        {"x", "m"},
+        {"pos_x", "m"},
+        {"position_x", "m"},
+        {"x [m]", "m"},
+        {"x_cm", "cm"},
+        {"x_mm", "mm"},
+        {"x_km", "km"},
+        {"easting", "m"}}},
+      {"y",
+       {{"y_m", "m"},
+        {"y", "m"},
+        {"pos_y", "m"},
+        {"position_y", "m"},
+        {"y [m]", "m"},
+        {"y_cm", "cm"},
+        {"y_mm", "mm"},
+        {"y_km", "km"},
+        {"northing", "m"}}},
+      {"yaw",
+       {{"yaw_rad", "rad"},
+        {"yaw", "rad"},
+        {"heading_rad", "rad"},
+        {"heading", "rad"},
+        {"theta_rad", "rad"},
+        {"theta", "rad"},
+        {"psi_rad", "rad"},
+        {"psi", "rad"},
+        {"orientation", "rad"},
+        {"yaw_deg", "deg"},
+        {"heading_deg", "deg"},
+        {"psi_deg", "deg"}}},
+      {"curvature",
+       {{"curvature_radpm", "1/m"},
+        {"kappa_radpm", "1/m"},
+        {"curvature", "1/m"},
+        {"kappa", "1/m"},
+        {"curvature_1pm", "1/m"}}},
+      {"speed",
+       {{"speed_mps", "m/s"},
+        {"vx_mps", "m/s"},
+        {"v_mps", "m/s"},
+        {"speed", "m/s"},
+        {"velocity", "m/s"},
+        {"velocity_mps", "m/s"},
+        {"v", "m/s"},
+        {"vx", "m/s"},
+        {"speed_kmh", "km/h"},
+        {"v_kmh", "km/h"},
+        {"speed_mph", "mph"}}},
+      {"time", {{"t_s", "s"}, {"time_s", "s"}, {"time", "s"}, {"t", "s"}, {"timestamp", "s"}}},
+  };
+  const auto found = names.find(quantity);
+  TRACKBED_CHECK(found != names.end(), "no quantity '{}'", quantity);
+  return found->second;
+}
+
+}  // namespace trackbed

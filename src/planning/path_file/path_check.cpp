@@ -1,0 +1,233 @@
+#include "trackbed/planning/path_file/path_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "trackbed/core/error.h"
+#include "trackbed/planning/common/path_pieces.h"
+
+namespace trackbed {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kRounding = 1e-6;  // of a limit
+constexpr double kSpacing = 0.05;   // [m]
+
+/// Limits of 0 are not known, and limit nothing.
+double OrInfinite(double limit) {
+  return limit > 0.0 ? limit : kInfinity;
+}
+
+/// Joins neighboring pieces that exceed a limit.
+class FaultFinder {
+ public:
+  FaultFinder(PathFaultKind kind, double limit) : kind_(kind), limit_(OrInfinite(limit)) {}
+
+  void Take(const Stations& piece, double asked, const Path& path, std::vector<PathFault>& faults) {
+    if (!(asked > limit_ * (1.0 + kRounding))) {
+      is_open_ = false;
+      return;
+    }
+    if (!is_open_) {
+      index_ = faults.size();
+      faults.push_back({.kind = kind_, .stations = piece, .limit = limit_});
+    }
+    is_open_ = true;
+    PathFault& fault = faults[index_];
+    fault.stations.to = piece.to;
+    if (asked > fault.asked) {
+      fault.asked = asked;
+      fault.s = piece.from;
+      fault.position = path.At(piece.from).pose.position();
+    }
+  }
+
+ private:
+  PathFaultKind kind_;
+  double limit_;
+  bool is_open_ = false;
+  std::size_t index_ = 0;
+};
+
+PathCheck Reversed(const FittedPath& fitted, PathCheck check) {
+  for (const HeadingJump& jump : fitted.reversals) {
+    check.faults.push_back({.kind = PathFaultKind::kReversal,
+                            .stations = {jump.s, jump.s},
+                            .s = jump.s,
+                            .position = jump.position,
+                            .asked = std::abs(jump.angle),
+                            .limit = kLargestJump});
+  }
+  check.max_speed_station = check.faults.front().s;
+  check.max_speed_limit = PathFaultKind::kReversal;
+  return check;
+}
+
+/// The demand of a piece, and what limits its speed most.
+std::pair<PathDemand, PathFaultKind> DemandOf(const PathPiece& piece, const PathPoint& begin,
+                                              const VehicleParams& vehicle, double speed,
+                                              const PathCheck& limits) {
+  const auto by_acceleration = [&](double limit) {
+    return piece.curvature > 0.0 ? std::sqrt(OrInfinite(limit) / piece.curvature) : kInfinity;
+  };
+  PathDemand demand{.s = piece.stations.from,
+                    .position = begin.pose.position(),
+                    .curvature = begin.curvature,
+                    .curvature_rate = begin.sharpness,
+                    .steering = SteeringForCurvature(vehicle, piece.curvature),
+                    .steering_rate = speed * piece.slope,
+                    .lateral_acceleration = speed * speed * piece.curvature};
+  demand.speed_by_steering_rate =
+      piece.slope > 0.0 ? OrInfinite(vehicle.steering_rate) / piece.slope : kInfinity;
+  demand.speed_by_friction = by_acceleration(limits.friction_limit);
+  demand.speed_by_rollover = by_acceleration(limits.rollover_limit);
+  const std::array<std::pair<double, PathFaultKind>, 5> speeds{
+      {{demand.steering > vehicle.steering_limit * (1.0 + kRounding) ? 0.0 : kInfinity,
+        PathFaultKind::kSteeringAngle},
+       {demand.speed_by_steering_rate, PathFaultKind::kSteeringRate},
+       {demand.speed_by_friction, PathFaultKind::kFriction},
+       {demand.speed_by_rollover, PathFaultKind::kRollOver},
+       {OrInfinite(vehicle.top_speed), PathFaultKind::kTopSpeed}}};
+  const auto least = std::min_element(
+      speeds.begin(), speeds.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  demand.speed = least->first;
+  return {demand, least->second};
+}
+
+}  // namespace
+
+double RollOverAcceleration(double track, double cg_height) {
+  TRACKBED_REQUIRE(
+      std::isfinite(track) && track > 0.0 && std::isfinite(cg_height) && cg_height > 0.0,
+      "RollOverAcceleration: track {} m, height {} m; must be above 0", track, cg_height);
+  return kGravity * track / (2.0 * cg_height);
+}
+
+PathCheck CheckPath(const FittedPath& fitted, const VehicleParams& vehicle,
+                    const PathCheckOptions& options) {
+  TRACKBED_REQUIRE(std::isfinite(options.speed) && options.speed > 0.0 &&
+                       std::isfinite(options.friction) && options.friction > 0.0,
+                   "CheckPath: speed {} m/s, friction {}; must be above 0", options.speed,
+                   options.friction);
+  PathCheck check;
+  check.steering_limit = vehicle.steering_limit;
+  check.steering_rate_limit = vehicle.steering_rate;
+  check.friction_limit = MaxLateralAcceleration(vehicle, options.friction);
+  check.rollover_limit = options.rollover_acceleration.value_or(0.0);
+  if (!fitted.reversals.empty()) {
+    return Reversed(fitted, std::move(check));
+  }
+  const Path& path = fitted.path;
+  const std::vector<HeadingJump>& jumps = fitted.jumps;
+  FaultFinder angle(PathFaultKind::kSteeringAngle, vehicle.steering_limit);
+  FaultFinder rate(PathFaultKind::kSteeringRate, vehicle.steering_rate);
+  FaultFinder friction(PathFaultKind::kFriction, check.friction_limit);
+  FaultFinder rollover(PathFaultKind::kRollOver, check.rollover_limit);
+  FaultFinder top_speed(PathFaultKind::kTopSpeed, vehicle.top_speed);
+  auto jump = jumps.begin();
+  check.max_speed = kInfinity;
+  const auto limit_speed = [&](double speed, double s, PathFaultKind kind) {
+    if (speed < check.max_speed) {
+      check.max_speed = speed;
+      check.max_speed_station = s;
+      check.max_speed_limit = kind;
+    }
+  };
+  ForEachPiece(path, vehicle, kSpacing, [&](const PathPiece& piece) {
+    // The arc in place of a jump is as tight as the polyline is written, not as it is meant.
+    while (jump != jumps.end() && jump->rounded.to <= piece.stations.from + 1e-9) {
+      ++jump;
+    }
+    if (jump != jumps.end() && piece.stations.from >= jump->rounded.from - 1e-9) {
+      check.faults.push_back({.kind = PathFaultKind::kHeadingJump,
+                              .stations = jump->rounded,
+                              .s = jump->s,
+                              .position = jump->position,
+                              .asked = std::abs(jump->angle),
+                              .limit = 0.0});
+      limit_speed(0.0, jump->s, PathFaultKind::kHeadingJump);
+      ++jump;
+      return;
+    }
+    const auto [demand, limit] =
+        DemandOf(piece, path.At(piece.stations.from), vehicle, options.speed, check);
+    check.demands.push_back(demand);
+    limit_speed(demand.speed, demand.s, limit);
+    angle.Take(piece.stations, demand.steering, path, check.faults);
+    rate.Take(piece.stations, demand.steering_rate, path, check.faults);
+    friction.Take(piece.stations, demand.lateral_acceleration, path, check.faults);
+    rollover.Take(piece.stations, demand.lateral_acceleration, path, check.faults);
+    top_speed.Take(piece.stations, options.speed, path, check.faults);
+  });
+  return check;
+}
+
+const char* ToString(PathFaultKind kind) {
+  switch (kind) {
+    case PathFaultKind::kReversal:
+      return "reversal";
+    case PathFaultKind::kHeadingJump:
+      return "heading_jump";
+    case PathFaultKind::kSteeringAngle:
+      return "steering_angle";
+    case PathFaultKind::kSteeringRate:
+      return "steering_rate";
+    case PathFaultKind::kFriction:
+      return "friction";
+    case PathFaultKind::kRollOver:
+      return "roll_over";
+    case PathFaultKind::kTopSpeed:
+      return "top_speed";
+  }
+  return "";
+}
+
+const char* UnitOf(PathFaultKind kind) {
+  switch (kind) {
+    case PathFaultKind::kReversal:
+    case PathFaultKind::kHeadingJump:
+    case PathFaultKind::kSteeringAngle:
+      return "rad";
+    case PathFaultKind::kSteeringRate:
+      return "rad/s";
+    case PathFaultKind::kFriction:
+    case PathFaultKind::kRollOver:
+      return "m/s^2";
+    case PathFaultKind::kTopSpeed:
+      return "m/s";
+  }
+  return "";
+}
+
+std::string ToString(const PathFault& fault) {
+  const char* unit = UnitOf(fault.kind);
+  const std::string place = fmt::format("at s = {:.4g} m, ({:.6g}, {:.6g})", fault.s,
+                                        fault.position.x(), fault.position.y());
+  const std::string beyond =
+      fmt::format("{:.3g} {} exceeds {:.3g} {} {}, on {:.3g} m", fault.asked, unit, fault.limit,
+                  unit, place, fault.stations.to - fault.stations.from);
+  switch (fault.kind) {
+    case PathFaultKind::kReversal:
+      return fmt::format("turns back on itself by {:.3g} rad {}", fault.asked, place);
+    case PathFaultKind::kHeadingJump:
+      return fmt::format("heading jumps by {:.3g} rad {}", fault.asked, place);
+    case PathFaultKind::kSteeringAngle:
+      return "steering angle " + beyond;
+    case PathFaultKind::kSteeringRate:
+      return "steering rate " + beyond;
+    case PathFaultKind::kFriction:
+      return "lateral acceleration " + beyond + " (friction)";
+    case PathFaultKind::kRollOver:
+      return "lateral acceleration " + beyond + " (roll-over)";
+    case PathFaultKind::kTopSpeed:
+      return "speed " + beyond;
+  }
+  return "";
+}
+
+}  // namespace trackbed

@@ -1,0 +1,369 @@
+#include "trackbed/path_files/path_file.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/support/temp_folder.h"
+#include "tests/tolerance.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+PathPoints Read(const std::string& name, const std::string& text, const PathMap& map = {}) {
+  const TempFolder folder;
+  return ReadPathFile(folder.Write(name, text), map).points;
+}
+
+std::string Error(const std::string& name, const std::string& text, const PathMap& map = {}) {
+  try {
+    Read(name, text, map);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+PathMap Of(PathFormat format) {
+  PathMap map;
+  map.format = format;
+  return map;
+}
+
+// --- CSV -----------------------------------------------------------------------------------------
+
+TEST(PathCsv, FindsUsualColumns) {
+  for (const std::string header : {"x_m,y_m,yaw_rad,speed_mps", "X,Y,theta,v",
+                                   "pos_x,pos_y,heading,velocity", "x [m],y [m],psi,vx_mps"}) {
+    SCOPED_TRACE(header);
+    const PathPoints points = Read("p.csv", header + "\n1,2,0.1,3\n4,5,0.2,6\n");
+    ASSERT_EQ(points.points.size(), 2U);
+    EXPECT_EQ(points.points[1], Vec2(4.0, 5.0));
+    EXPECT_EQ(points.yaw, (std::vector<double>{0.1, 0.2}));
+    EXPECT_EQ(points.speed, (std::vector<double>{3.0, 6.0}));
+    EXPECT_TRUE(points.curvature.empty());
+  }
+}
+
+TEST(PathCsv, TakesUnitsOfNamesAndOfTheMap) {
+  const PathPoints own = Read("p.csv", "x_cm,y_mm,yaw_deg,speed_kmh\n100,2000,90,36\n0,0,0,0\n");
+  EXPECT_NEAR(own.points[0].x(), 1.0, Tolerance(1e-15));
+  EXPECT_NEAR(own.points[0].y(), 2.0, Tolerance(1e-15));
+  EXPECT_NEAR(own.yaw[0], 0.5 * kPi, Tolerance(1e-15));
+  EXPECT_NEAR(own.speed[0], 10.0, Tolerance(1e-14));
+  PathMap map;
+  map.columns.x = "east";
+  map.columns.y = "north";
+  map.columns.yaw = "course";
+  map.columns.position_unit = "km";
+  map.columns.yaw_unit = "deg";
+  const PathPoints named = Read("p.csv", "course,east,north\n180,1,2\n0,3,4\n", map);
+  EXPECT_EQ(named.points[1], Vec2(3000.0, 4000.0));
+  EXPECT_NEAR(named.yaw[0], kPi, Tolerance(1e-15));
+}
+
+TEST(PathCsv, ReadsRacingLinesOfTum) {
+  const std::string text =
+      "# 4a7c2f\n# another comment, with a comma\n"
+      "# s_m; x_m; y_m; psi_rad; kappa_radpm; vx_mps; ax_mps2\n"
+      "0.0; 1.0; 2.0; 0.0; 0.01; 20.0; 1.0\n5.0; 1.0; 7.0; 0.0; 0.02; 21.0; 1.0\n";
+  const TempFolder folder;
+  const PathFile file = ReadPathFile(folder.Write("line.csv", text));
+  EXPECT_EQ(file.points.points[1], Vec2(1.0, 7.0));
+  EXPECT_EQ(file.points.curvature, (std::vector<double>{0.01, 0.02}));
+  EXPECT_EQ(file.points.speed, (std::vector<double>{20.0, 21.0}));
+  // Headings from north: the line leads north.
+  EXPECT_NEAR(file.points.yaw[0], 0.5 * kPi, Tolerance(1e-15));
+  EXPECT_THAT(file.notes.back(), HasSubstr("from north"));
+  EXPECT_EQ(Read("track.csv", "# x_m,y_m,w_tr_right_m,w_tr_left_m\n0,0,5,5\n5,0,5,5\n").points[1],
+            Vec2(5.0, 0.0));
+}
+
+TEST(PathCsv, MakesSpeedsOfTimes) {
+  const PathPoints points = Read("p.csv", "t_s,x,y\n10,0,0\n11,3,0\n13,3,8\n");
+  EXPECT_EQ(points.speed, (std::vector<double>{3.0, 4.0, 4.0}));
+  EXPECT_THAT(Error("p.csv", "t_s,x,y\n1,0,0\n1,3,0\n"), HasSubstr("must be above"));
+  EXPECT_THAT(Error("p.csv", "t_s,x,y\n1,0,0\n1.001,3,0\n"), HasSubstr("at most 100 m/s"));
+}
+
+TEST(PathCsv, WritesWhatItReads) {
+  PathPoints points;
+  points.points = {{0.1, -2.0 / 3.0}, {1e6, 3.0}};
+  points.yaw = {0.3, 2.0};
+  points.speed = {1.0, 0.0};
+  const PathPoints again = Read(kPathCsv, PathCsv(points));
+  EXPECT_EQ(again.points, points.points);
+  EXPECT_EQ(again.yaw, points.yaw);
+  EXPECT_EQ(again.speed, points.speed);
+  EXPECT_TRUE(again.curvature.empty());
+}
+
+TEST(PathCsv, SaysWhatIsWrong) {
+  EXPECT_THAT(Error("p.csv", "a,b\n1,2\n3,4\n"),
+              AllOf(HasSubstr("p.csv:1"), HasSubstr("no column for x"), HasSubstr("columns.x"),
+                    HasSubstr("a, b")));
+  PathMap misspelt;
+  misspelt.columns.x = "estaing";
+  EXPECT_THAT(Error("p.csv", "easting,northing\n1,2\n3,4\n", misspelt),
+              HasSubstr("did you mean 'easting'"));
+  EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3,four\n"),
+              AllOf(HasSubstr("p.csv:3"), HasSubstr("'four' is no finite number")));
+  EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3,nan\n"), HasSubstr("no finite number"));
+  EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3,inf\n"), HasSubstr("no finite number"));
+  EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3,1e300\n"), HasSubstr("out of range"));
+  EXPECT_THAT(Error("p.csv", "x,y,v\n1,2,-1\n3,4,1\n"), HasSubstr("out of range"));
+  EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3\n"), HasSubstr("1 cells, the header has 2"));
+  EXPECT_THAT(Error("p.csv", "x,y\n1,2\n"), HasSubstr("1 point; a path has at least 2"));
+  EXPECT_THAT(Error("p.csv", "x,x,y\n1,2,3\n"), HasSubstr("repeated column"));
+  EXPECT_THAT(Error("p.csv", "1,2\n3,4\n"), HasSubstr("no column names"));
+  EXPECT_THAT(Error("p.csv", ""), HasSubstr("empty file"));
+  EXPECT_THAT(Error("p.csv", "# x,y\n"), HasSubstr("no rows"));
+  PathMap unit;
+  unit.columns.yaw_unit = "grad";
+  EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3,4\n", unit), HasSubstr("unknown unit 'grad'"));
+}
+
+TEST(PathCsv, IsBoundedInPoints) {
+  std::string text = "x,y\n";
+  for (std::size_t i = 0; i <= kMostPathPoints; ++i) {
+    text += i % 2 == 0 ? "0,0\n" : "1,0\n";
+  }
+  EXPECT_THAT(Error("p.csv", text), HasSubstr("more than 1000000 points"));
+  text.resize(text.size() - 4);
+  EXPECT_EQ(Read("p.csv", text).points.size(), kMostPathPoints);
+}
+
+// --- nav_msgs/Path -------------------------------------------------------------------------------
+
+std::string Pose(double x, double y, double yaw) {
+  return fmt::format(
+      R"({{"header": {{"frame_id": "map"}}, "pose": {{"position": {{"x": {}, "y": {}, "z": 0.0}}, )"
+      R"("orientation": {{"x": 0.0, "y": 0.0, "z": {}, "w": {}}}}}}})",
+      x, y, std::sin(0.5 * yaw), std::cos(0.5 * yaw));
+}
+
+TEST(NavPath, IsReadAsJsonAndYaml) {
+  const std::string json = fmt::format(R"({{"header": {{"frame_id": "map"}}, "poses": [{}, {}]}})",
+                                       Pose(1.0, 2.0, 0.5), Pose(3.0, 4.0, -2.0));
+  // JSON is YAML; ros2 topic echo writes blocks and ends a message by "---".
+  const std::string yaml =
+      "header:\n  stamp: {sec: 12, nanosec: 5}\n  frame_id: map\nposes:\n"
+      "- header: {frame_id: map}\n  pose:\n    position: {x: 1.0, y: 2.0, z: 0.0}\n"
+      "    orientation: {x: 0.0, y: 0.0, z: 0.24740395925452294, w: 0.9689124217106447}\n"
+      "- pose:\n    position:\n      x: 3.0\n      y: 4.0\n"
+      "    orientation: {x: 0.0, y: 0.0, z: -0.8414709848078965, w: 0.5403023058681398}\n---\n";
+  for (const auto& [name, text] : {std::pair(std::string("p.json"), json),
+                                   {"p.yaml", json},
+                                   {"p.yaml", yaml},
+                                   {"p.yml", yaml}}) {
+    SCOPED_TRACE(name);
+    const PathPoints points = Read(name, text);
+    ASSERT_EQ(points.points.size(), 2U);
+    EXPECT_EQ(points.points[1], Vec2(3.0, 4.0));
+    EXPECT_NEAR(points.yaw[0], 0.5, Tolerance(1e-12));
+    EXPECT_NEAR(points.yaw[1], -2.0, Tolerance(1e-12));
+  }
+}
+
+TEST(NavPath, IgnoresOrientationsThatWereNotSet) {
+  const TempFolder folder;
+  const PathFile file = ReadPathFile(folder.Write(
+      "p.json", fmt::format(R"({{"poses": [{}, {}]}})", Pose(0.0, 0.0, 0.0), Pose(0.0, 5.0, 0.0))));
+  EXPECT_TRUE(file.points.yaw.empty());
+  EXPECT_THAT(file.notes, ::testing::Contains(HasSubstr("not set")));
+}
+
+TEST(NavPath, SaysWhatIsWrong) {
+  EXPECT_THAT(Error("p.json", R"({"poses": [{"pose": {"position": {"x": 1}}}]})"),
+              AllOf(HasSubstr("poses[0].pose.position"), HasSubstr("no member y")));
+  EXPECT_THAT(Error("p.json", R"({"poses": [{"pose": {"position": {"x": "1", "y": 2}}}]})"),
+              HasSubstr("poses[0].pose.position.x"));
+  EXPECT_THAT(Error("p.json", R"({"poses": 7})"), HasSubstr("list of poses"));
+  EXPECT_THAT(Error("p.json", R"({"points": []})"), HasSubstr("no member poses"));
+  EXPECT_THAT(Error("p.json", "[1, 2]"), HasSubstr("no member poses"));
+  EXPECT_THAT(Error("p.json", R"({"poses": []})"), HasSubstr("0 points"));
+  EXPECT_THAT(Error("p.json", "{\n\"poses\": [1,,2]}"),
+              AllOf(HasSubstr("p.json:2"), HasSubstr("not JSON")));
+  EXPECT_THAT(Error("p.json", R"({"poses": [{"pose": {"position": {"x": 1e999, "y": 2}}}]})"),
+              HasSubstr("p.json"));
+  EXPECT_THAT(Error("p.yaml", "poses: [a: b: c]\n"), HasSubstr("not YAML"));
+  EXPECT_THAT(Error("p.yaml", "poses: [{pose: {position: {x: .nan, y: 1}}}]\n"),
+              HasSubstr("no finite number"));
+}
+
+TEST(NavPath, RefusesDeepAndEndlessText) {
+  const std::string deep = std::string(100000, '[') + std::string(100000, ']');
+  EXPECT_THAT(Error("p.json", deep), HasSubstr("nested deeper than 64 levels"));
+  EXPECT_THAT(Error("p.json", "{\"poses\": " + deep + "}"), HasSubstr("nested deeper"));
+  EXPECT_NE(Error("p.yaml", deep), "");
+  EXPECT_THAT(Error("p.yaml", "poses: " + std::string(80, '[') + std::string(80, ']')),
+              HasSubstr("nested deeper than 64 levels"));
+  EXPECT_THAT(Error("p.yaml", "a: &a [x, x]\nb: &b [*a, *a]\nposes: [*b, *b]\n"),
+              HasSubstr("aliases"));
+  EXPECT_THAT(Error("p.json", "{\"poses\": [" + std::string(200, '{')), HasSubstr("p.json"));
+}
+
+// --- CommonRoad ----------------------------------------------------------------------------------
+
+TEST(CommonRoad, ReadsTrajectories) {
+  const std::string ks =
+      "<?xml version='1.0' ?>\n<CommonRoadSolution benchmark_id=\"KS1:JB1:USA_Lanker-1_1_T-1\">\n"
+      "<ksTrajectory "
+      "planningProblem=\"500\">\n<ksState><x>1.5</x><y>-2</y><steeringAngle>0</steeringAngle>"
+      "<velocity>10</velocity><orientation>0.2</orientation><time>0</time></ksState>\n"
+      "<ksState><x> 2.5 </x><y>-2.5</y><velocity>9</velocity><orientation>0.3</orientation>"
+      "<time>1</time></ksState></ksTrajectory></CommonRoadSolution>";
+  const PathPoints points = Read("s.xml", ks);
+  ASSERT_EQ(points.points.size(), 2U);
+  EXPECT_EQ(points.points[1], Vec2(2.5, -2.5));
+  EXPECT_EQ(points.yaw, (std::vector<double>{0.2, 0.3}));
+  EXPECT_EQ(points.speed, (std::vector<double>{10.0, 9.0}));
+  const PathPoints mass =
+      Read("s.xml",
+           "<CommonRoadSolution><pmTrajectory><pmState><x>0</x><y>0</y><xVelocity>3</xVelocity>"
+           "<yVelocity>4</yVelocity></pmState><pmState><x>1</x><y>0</y><xVelocity>0</xVelocity>"
+           "<yVelocity>0</yVelocity></pmState></pmTrajectory></CommonRoadSolution>");
+  EXPECT_EQ(mass.speed, (std::vector<double>{5.0, 0.0}));
+  EXPECT_TRUE(mass.yaw.empty());
+}
+
+TEST(CommonRoad, SaysWhatIsWrong) {
+  EXPECT_THAT(Error("s.xml", "<CommonRoadSolution>"), HasSubstr("not XML"));
+  EXPECT_THAT(Error("s.xml", "no xml"), HasSubstr("not XML"));
+  EXPECT_THAT(Error("s.xml", "<commonRoad></commonRoad>"), HasSubstr("must be CommonRoadSolution"));
+  EXPECT_THAT(Error("s.xml", "<CommonRoadSolution></CommonRoadSolution>"),
+              HasSubstr("no trajectory"));
+  const std::string begin = "<CommonRoadSolution><ksTrajectory>\n<ksState>";
+  const std::string end = "</ksState></ksTrajectory></CommonRoadSolution>";
+  EXPECT_THAT(Error("s.xml", begin + "<x>1</x>" + end),
+              AllOf(HasSubstr("s.xml:2"), HasSubstr("missing in ksState")));
+  EXPECT_THAT(Error("s.xml", begin + "<x>one</x><y>2</y>" + end), HasSubstr("'one' is no finite"));
+  EXPECT_THAT(Error("s.xml", begin + "<x>1</x><y>2</y><velocity>-3</velocity>" + end),
+              HasSubstr("reverse"));
+}
+
+TEST(CommonRoad, ExpandsNoEntities) {
+  const std::string bomb =
+      "<!DOCTYPE a [<!ENTITY a \"1\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;&a;&a;\">"
+      "<!ENTITY c \"&b;&b;&b;&b;&b;&b;&b;&b;\">]>"
+      "<CommonRoadSolution><ksTrajectory><ksState><x>&c;</x><y>2</y></ksState></ksTrajectory>"
+      "</CommonRoadSolution>";
+  EXPECT_THAT(Error("s.xml", bomb), HasSubstr("s.xml"));
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) {
+    deep += "<a>";
+  }
+  EXPECT_THAT(Error("s.xml", deep), HasSubstr("not XML"));
+}
+
+// --- GeoJSON -------------------------------------------------------------------------------------
+
+std::string Line(const std::string& coordinates, const std::string& more = "") {
+  return R"({"type": "FeatureCollection", )" + more +
+         R"("features": [{"type": "Feature", "properties": {}, "geometry": )"
+         R"({"type": "LineString", "coordinates": )" +
+         coordinates + "}}]}";
+}
+
+// By the formulas for the ellipsoid WGS 84 (a = 6378137 m, e^2 = 0.00669437999): at the latitude
+// phi a degree of latitude is pi/180 a (1 - e^2)/(1 - e^2 sin^2 phi)^1.5, one of longitude pi/180 a
+// cos phi/(1 - e^2 sin^2 phi)^0.5; over 0.001 degrees curvature counts for less than 1 mm.
+TEST(GeoJson, ProjectsDegrees) {
+  const double phi = 48.1 * kPi / 180.0;
+  const double w = 1.0 - 0.00669437999 * std::sin(phi) * std::sin(phi);
+  const double north = kPi / 180.0 * 6378137.0 * (1.0 - 0.00669437999) / std::pow(w, 1.5);
+  const double east = kPi / 180.0 * 6378137.0 * std::cos(phi) / std::sqrt(w);
+  for (const std::string name : {"p.geojson", "p.json"}) {
+    const PathPoints points =
+        Read(name, Line("[[11.5, 48.1, 500.0], [11.501, 48.1], [11.5, 48.101]]"));
+    ASSERT_EQ(points.points.size(), 3U);
+    EXPECT_NEAR(points.points[0].norm(), 0.0, Tolerance(1e-6));
+    EXPECT_NEAR(points.points[1].x(), 0.001 * east, Tolerance(1e-3));
+    EXPECT_NEAR(points.points[1].y(), 0.0, Tolerance(1e-3));
+    EXPECT_NEAR(points.points[2].y(), 0.001 * north, Tolerance(1e-3));
+  }
+  PathMap map;
+  map.origin_latitude = 48.1;
+  map.origin_longitude = 11.501;
+  EXPECT_NEAR(Read("p.geojson", Line("[[11.5, 48.1], [11.501, 48.1]]"), map).points[0].x(),
+              -0.001 * east, Tolerance(1e-3));
+}
+
+TEST(GeoJson, TakesMetersIfToldOrNamed) {
+  PathMap meters;
+  meters.coordinates = PathCoordinates::kMeters;
+  EXPECT_EQ(Read("p.geojson", Line("[[500, 600], [700, 800]]"), meters).points[1],
+            Vec2(700.0, 800.0));
+  EXPECT_EQ(
+      Read(
+          "p.geojson",
+          Line(
+              "[[500, 600], [700, 800]]",
+              R"("crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32632"}}, )"))
+          .points[0],
+      Vec2(500.0, 600.0));
+}
+
+TEST(GeoJson, SaysWhatIsWrong) {
+  EXPECT_THAT(
+      Error("p.geojson", Line("[[500, 600], [700, 800]]")),
+      AllOf(HasSubstr("features[0].geometry.coordinates[0]"), HasSubstr("coordinates: meters")));
+  EXPECT_THAT(Error("p.geojson", Line("[[1, 2], [3]]")), HasSubstr("position of two"));
+  EXPECT_THAT(Error("p.geojson", Line("[[1, 2], [3, \"x\"]]")), HasSubstr("no finite number"));
+  EXPECT_THAT(Error("p.geojson", Line("[]")), HasSubstr("no positions"));
+  EXPECT_THAT(Error("p.geojson", Line("7")), HasSubstr("list of positions"));
+  EXPECT_THAT(Error("p.geojson", R"({"type": "Point", "coordinates": [1, 2]})"),
+              HasSubstr("0 line strings"));
+  EXPECT_THAT(
+      Error("p.geojson",
+            R"({"type": "MultiLineString", "coordinates": [[[1, 2], [1, 3]], [[1, 2], [3, 4]]]})"),
+      HasSubstr("2 line strings"));
+  EXPECT_THAT(Error("p.geojson", Line("[[1, 2], [90, 3]]")), HasSubstr("too far from the origin"));
+  PathMap half;
+  half.origin_latitude = 3.0;
+  EXPECT_THAT(Error("p.geojson", Line("[[1, 2], [1, 3]]"), half), HasSubstr("origin_longitude"));
+}
+
+TEST(PathFile, ReadsAnyFormatFromAnyBytes) {
+  // Cut off, and with each byte replaced: a message or a path, and nothing else.
+  const std::vector<std::pair<PathFormat, std::string>> texts{
+      {PathFormat::kCsv, "x_m,y_m,speed_mps\n1,2,3\n4,5,6\n"},
+      {PathFormat::kNavPath,
+       "poses: [{pose: {position: {x: 1, y: 2}}}, {pose: {position: {x: 2, y: 2}}}]"},
+      {PathFormat::kCommonRoad,
+       "<CommonRoadSolution><ksTrajectory><ksState><x>1</x><y>2</y></ksState><ksState><x>2</x>"
+       "<y>2</y></ksState></ksTrajectory></CommonRoadSolution>"},
+      {PathFormat::kGeoJson, R"({"type": "LineString", "coordinates": [[1, 2], [1.01, 2]]})"}};
+  const TempFolder folder;
+  const auto read = [&](const std::string& text, PathFormat format) {
+    try {
+      ReadPathFile(folder.Write("p", text), Of(format));
+    } catch (const InputError& error) {
+      EXPECT_STRNE(error.what(), "");
+    }
+  };
+  for (const auto& [format, text] : texts) {
+    EXPECT_EQ(Error("q", text, Of(format)), "");
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      read(text.substr(0, i), format);
+      const std::string bytes(
+          "\0\"[-\xff"
+          "9:&#<",
+          10);
+      std::string other = text;
+      other[i] = bytes[i % bytes.size()];
+      read(other, format);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trackbed

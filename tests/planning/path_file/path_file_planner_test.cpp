@@ -1,0 +1,109 @@
+#include "trackbed/planning/path_file/path_file_planner.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "tests/tolerance.h"
+#include "tests/vehicle/reference_car.h"
+#include "trackbed/planning/registry/planners.h"
+
+namespace trackbed {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+PathFileOptions Options(std::vector<Vec2> points, const PathFitOptions& fit = {}) {
+  PathPoints given;
+  given.points = std::move(points);
+  PathFileOptions options;
+  options.fit = fit;
+  options.path = std::make_shared<const FittedPath>(FitPath(std::move(given), fit));
+  return options;
+}
+
+PathFileOptions Bend(const PathFitOptions& fit = {}) {
+  std::vector<Vec2> points;
+  for (double x = 0.0; x <= 80.0; x += 1.0) {
+    points.emplace_back(x, 10.0 * (1.0 - std::cos(0.03 * x)));
+  }
+  return Options(points, fit);
+}
+
+PlanRequest RequestAlong(const PathFileOptions& options) {
+  PlanRequest request;
+  request.vehicle = ReferenceCar();
+  const PathPoint start = options.path->path.At(0.0);
+  request.start = start.pose;
+  request.start_speed = 3.0;
+  request.start_steering = SteeringForCurvature(request.vehicle, start.curvature);
+  request.speed = {.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
+  return request;
+}
+
+TEST(PathFilePlanner, FollowsThePathAsItIs) {
+  const PathFileOptions options = Bend();
+  const Plan plan = MakePlan(RequestAlong(options), options);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_EQ(plan.reference.path.segments(), options.path->path.segments());
+  EXPECT_THAT(plan.notes, Contains(HasSubstr("spline within 0.0")));
+  const nlohmann::json json = DiagnosticsJson(plan);
+  EXPECT_EQ(json.at("points"), 81);
+  EXPECT_LE(json.at("deviation_m").get<double>(), 0.05);
+  // The kinematic car that steers by the schedule stays on the path: RK4 over knots 0.1 m apart.
+  EXPECT_LE(json.at("open_loop").at("deviation_max_m").get<double>(), 1e-3);
+}
+
+TEST(PathFilePlanner, KeepsTheSpeedsOfTheFile) {
+  PathPoints given;
+  for (int i = 0; i <= 40; ++i) {
+    given.points.emplace_back(2.0 * i, 0.0);
+    given.speed.push_back(i < 20 ? 2.0 : 1.0);
+  }
+  PathFileOptions options;
+  options.path = std::make_shared<const FittedPath>(FitPath(given, {}));
+  PlanRequest request = RequestAlong(options);
+  request.start_speed = 2.0;
+  EXPECT_EQ(MakePlan(request, options).reference.speed.SpeedAt(30.0), 3.0);
+  options.speeds = PathSpeeds::kFile;
+  const Plan plan = MakePlan(request, options);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_NEAR(plan.reference.speed.SpeedAt(30.0), 2.0, Tolerance(1e-9));
+  EXPECT_NEAR(plan.reference.speed.SpeedAt(60.0), 1.0, Tolerance(1e-9));
+  for (double s = 0.0; s < 80.0; s += 0.5) {
+    EXPECT_LE(plan.reference.speed.SpeedAt(s), s < 38.0 ? 2.0 : s < 40.0 ? 1.5 : 1.0 + 1e-9) << s;
+  }
+}
+
+TEST(PathFilePlanner, RefusesHeadingJumpsUnlessAllowed) {
+  const PathFileOptions options =
+      Options({{0.0, 0.0}, {20.0, 0.0}, {40.0, 10.0}}, {.fit = PathFit::kPolyline});
+  PlanRequest request = RequestAlong(options);
+  const Plan refused = MakePlan(request, options);
+  EXPECT_EQ(refused.status, PlanStatus::kTurnTooTight);
+  EXPECT_THAT(refused.reason, HasSubstr("by up to 0.464 rad at s = 20 m, (20, 0)"));
+  request.infeasible = InfeasiblePolicy::kAllow;
+  EXPECT_TRUE(MakePlan(request, options).ok());
+}
+
+TEST(PathFilePlanner, SaysWhyThereIsNoPath) {
+  EXPECT_EQ(MakePlan(RequestAlong(Bend()), PathFileOptions{}).status, PlanStatus::kNoPath);
+  const PathFileOptions back = Options({{0.0, 0.0}, {5.0, 0.0}, {1.0, 0.0}});
+  const Plan plan = MakePlan(RequestAlong(back), back);
+  EXPECT_EQ(plan.status, PlanStatus::kUTurn);
+  EXPECT_THAT(plan.reason, HasSubstr("(5, 0)"));
+}
+
+TEST(PathFilePlanner, RefusesACarThatStartsElsewhere) {
+  const PathFileOptions options = Bend();
+  PlanRequest request = RequestAlong(options);
+  request.start.x += 1.0;
+  EXPECT_THAT(MakePlan(request, options).reason, HasSubstr("initial position"));
+}
+
+}  // namespace
+}  // namespace trackbed

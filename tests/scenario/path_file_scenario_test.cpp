@@ -1,0 +1,135 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/support/temp_folder.h"
+#include "tests/tolerance.h"
+#include "tests/vehicle/reference_car.h"
+#include "trackbed/core/error.h"
+#include "trackbed/path_files/path_file.h"
+#include "trackbed/planning/path_file/path_file_planner.h"
+#include "trackbed/scenario/initial_state.h"
+#include "trackbed/scenario/scenario.h"
+
+namespace trackbed {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// A path on a circle of 20 m from (3, 4), 1 m apart.
+std::string Circle() {
+  std::string text = "east,north,v_kmh\n";
+  for (int i = 0; i < 40; ++i) {
+    text += fmt::format("{},{},{}\n", 3.0 + 20.0 * std::sin(0.05 * i),
+                        4.0 + 20.0 * (1.0 - std::cos(0.05 * i)), i < 20 ? 10.8 : 7.2);
+  }
+  return text;
+}
+
+std::string Text(const std::string& plan) {
+  return "schema: 1\nname: x\nmission: {speed: 4}\nplan: {method: path_file, " + plan + "}\n";
+}
+
+constexpr const char* kCircle = "file: p.csv, columns: {x: east, y: north}";
+
+Scenario Parse(const TempFolder& folder, const std::string& plan,
+               const std::vector<Override>& overrides = {}) {
+  return ParseScenario(Text(plan), "test.yaml", folder.path(), overrides);
+}
+
+std::string Error(const TempFolder& folder, const std::string& plan) {
+  try {
+    Parse(folder, plan);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+TEST(PathFileScenario, StartsOnThePath) {
+  const TempFolder folder;
+  folder.Write("p.csv", Circle());
+  const Scenario scenario = Parse(folder, kCircle);
+  const StartState start = InitialState(scenario, ReferenceCar());
+  // The spline leaves the points by at most 0.05 m.
+  EXPECT_NEAR(start.pose.x, 3.0, Tolerance(0.05));
+  EXPECT_NEAR(start.pose.y, 4.0, Tolerance(0.05));
+  EXPECT_EQ(start.speed, 4.0);
+  const auto& path = scenario.plan->global.Get<PathFileOptions>().path->path;
+  EXPECT_EQ(start.steering, SteeringForCurvature(ReferenceCar(), path.At(0.0).curvature));
+  // atan(2.7/20) = 0.134, but for what 0.05 m may straighten.
+  EXPECT_NEAR(start.steering, 0.134, Tolerance(0.03));
+  EXPECT_EQ(
+      InitialState(Parse(folder, kCircle, {"mission.start.steering=0.1"}), ReferenceCar()).steering,
+      0.1);
+  EXPECT_NEAR(InitialState(Parse(folder, std::string(kCircle) + ", speeds: file")).speed, 3.0,
+              Tolerance(1e-14));
+  EXPECT_EQ(InitialState(
+                Parse(folder, std::string(kCircle) + ", speeds: file", {"mission.start.speed=1"}))
+                .speed,
+            1.0);
+}
+
+TEST(PathFileScenario, HasItsPointsBesideIt) {
+  const TempFolder folder;
+  folder.Write("p.csv", Circle());
+  const Scenario scenario = Parse(folder, std::string(kCircle) + ", ahead: 1.4, speeds: file");
+  const std::string once = ResolvedYaml(scenario);
+  EXPECT_THAT(once, AllOf(HasSubstr("file: path.csv\n"), HasSubstr("ahead: 0\n"),
+                          HasSubstr("CSV, columns east, north, v_kmh")));
+  const TempFolder elsewhere;
+  const FittedPath& fitted = *scenario.plan->global.Get<PathFileOptions>().path;
+  elsewhere.Write(kPathCsv, PathCsv(fitted.given));
+  const Scenario again = ParseScenario(once, "resolved.yaml", elsewhere.path());
+  EXPECT_EQ(once, ResolvedYaml(again));
+  EXPECT_EQ(again.plan->global.Get<PathFileOptions>().path->path.segments(),
+            fitted.path.segments());
+}
+
+TEST(PathFileScenario, ReadsFilesBelowItsFolderAlone) {
+  const TempFolder folder;
+  folder.Write("p.csv", Circle());
+  folder.Write("inner/p.csv", Circle());
+  EXPECT_EQ(Error(folder, "file: inner/p.csv, columns: {x: east, y: north}"), "");
+  folder.Write("scenarios/x", "");
+  const Scenario allowed =
+      ParseScenario(Text("file: ../p.csv, columns: {x: east, y: north}"), "test.yaml",
+                    folder.path() / "scenarios", {}, {}, {}, {folder.path()});
+  EXPECT_NE(allowed.plan->global.Get<PathFileOptions>().path, nullptr);
+  try {
+    ParseScenario(Text("file: ../p.csv"), "test.yaml", folder.path() / "scenarios");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("test.yaml:4"), HasSubstr("plan.file: ../p.csv")));
+  }
+}
+
+TEST(PathFileScenario, SaysWhatIsWrong) {
+  const TempFolder folder;
+  folder.Write("p.csv", Circle());
+  folder.Write("cell.csv", "x,y\n0,0\n1,one\n");
+  folder.Write("point.csv", "x,y\n0,0\n0,0\n");
+  folder.Write("back.csv", "x,y,yaw\n0,0,3.1\n1,0,3.1\n2,0,3.1\n");
+  EXPECT_THAT(Error(folder, "file: p.csv"),
+              AllOf(HasSubstr("p.csv:1"), HasSubstr("no column for x")));
+  EXPECT_THAT(Error(folder, "file: cell.csv"), HasSubstr("cell.csv:3: y: 'one'"));
+  EXPECT_THAT(Error(folder, "file: point.csv"), HasSubstr("1 different point; must be at least 2"));
+  EXPECT_THAT(Error(folder, "file: back.csv"), HasSubstr("heading of point 1"));
+  EXPECT_THAT(Error(folder, "file: none.csv"), HasSubstr("none.csv"));
+  EXPECT_THAT(Error(folder, "fit: spline"), HasSubstr("plan.file: missing"));
+  EXPECT_THAT(Error(folder, std::string(kCircle) + ", fit: cubic"), HasSubstr("plan.fit"));
+  EXPECT_THAT(Error(folder, std::string(kCircle) + ", max_deviation: 0"),
+              HasSubstr("plan.max_deviation"));
+  EXPECT_THAT(Error(folder, std::string(kCircle) + ", resample: 0.001, fit: polyline"), "");
+  EXPECT_THAT(Error(folder, "file: p.csv, columns: {x: east, y: north, yaw_unit: grad}"),
+              HasSubstr("plan.columns.yaw_unit: unknown unit 'grad'"));
+  EXPECT_THAT(Error(folder, std::string(kCircle) + ", origin_latitude: 3"),
+              HasSubstr("plan.origin_longitude"));
+}
+
+}  // namespace
+}  // namespace trackbed
