@@ -1,0 +1,101 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+/// The g-g-v diagram of a car: which accelerations its tyres, motor and brakes can give at which
+/// speed.
+///
+/// Symbols, along the road's surface and over the car's mass [m/s^2], gravity included:
+///   f_x  force of all tyres along the car, positive when driving
+///   f_y  force of all tyres across the car; only its magnitude matters
+///   f_n  load on the road; g on a level road
+///   v    speed [m/s];  f the road's factor on the tyres' friction [1]
+/// On a level road the car's acceleration is a_x = f_x - D/m and a_y = f_y, D being the drag.
+///
+/// Tyre forces are those at f_n = g and scale with f_n: exact for friction that does not fall with
+/// the load.
+namespace trackbed {
+
+/// The boundary of f_x over f_y at one speed on one road.
+struct GgvSection {
+  double speed = 0.0;    ///< v [m/s], >= 0
+  double road = 1.0;     ///< f [1], > 0
+  double lateral = 0.0;  ///< the largest f_y [m/s^2], > 0
+  /// The largest and the smallest f_x [m/s^2] where f_y = lateral sqrt(1 - u^2), for u from 0 to 1
+  /// in equal steps: from the largest f_y to straight ahead. Of an ellipse they are linear in u.
+  std::vector<double> driving;
+  std::vector<double> braking;
+};
+
+/// What moves a car along, tyres aside.
+struct LongitudinalForces {
+  double mass = 0.0;                ///< m [kg], > 0
+  double rolling_mass = 0.0;        ///< m and the wheels' inertia over the radius squared [kg]
+  double drive_force = 0.0;         ///< largest, of the motor at the wheels [N]; 0: not limited
+  double drive_power = 0.0;         ///< largest [W]; 0: not limited
+  double brake_force = 0.0;         ///< largest, of the brakes at the wheels [N]; 0: not limited
+  double rolling_resistance = 0.0;  ///< with the bearings' [N]
+  double drag = 0.0;                ///< D/v^2 = rho C_d A/2 in still air [kg/m]
+  double top_speed = 0.0;           ///< [m/s]; 0: not limited
+};
+
+/// Where a car is on the diagram.
+struct GgvPoint {
+  double speed = 0.0;    ///< v [m/s]
+  double road = 1.0;     ///< f [1]
+  double load = 1.0;     ///< f_n/g [1]
+  double lateral = 0.0;  ///< f_y [m/s^2]
+};
+
+/// A range of f_x [m/s^2].
+struct TyreRange {
+  double braking = 0.0;
+  double driving = 0.0;
+};
+
+/// Immutable value. Between sections values are linear in v^2 and in the road's factor; at speeds
+/// beyond the sections they are those of the nearest one, on other roads they are in proportion to
+/// the factor.
+class GgvDiagram {
+ public:
+  /// InternalError unless there is a section for every pair of the speeds and roads that occur,
+  /// all with equally many values, at least two, finite and with braking <= driving; unless masses
+  /// are positive, and forces not negative.
+  GgvDiagram(const LongitudinalForces& forces, std::vector<GgvSection> sections);
+
+  [[nodiscard]] const LongitudinalForces& forces() const { return forces_; }
+  /// By road, then by speed, both rising.
+  [[nodiscard]] const std::vector<GgvSection>& sections() const { return sections_; }
+
+  /// The largest f_y [m/s^2]; the point's own does not matter. Cost: about 10 ns.
+  [[nodiscard]] double MaxLateral(const GgvPoint& point) const;
+
+  /// The range of f_x that the tyres leave beside f_y; where f_y is beyond the largest one, that at
+  /// the largest. Motor and brakes do not limit it. Cost: about 20 ns.
+  [[nodiscard]] TyreRange TyresAt(const GgvPoint& point) const;
+
+  /// Largest force of the motor at the wheels [N] at a speed; infinite when it is not limited.
+  [[nodiscard]] double DriveForce(double speed) const;
+
+ private:
+  /// The sections around a point, and by how much each counts.
+  struct Weights {
+    std::array<const GgvSection*, 4> section{};
+    std::array<double, 4> weight{};
+    std::size_t count = 0;
+  };
+  [[nodiscard]] Weights WeightsAt(const GgvPoint& point) const;
+
+  LongitudinalForces forces_;
+  std::vector<double> speeds_;
+  std::vector<double> roads_;
+  std::vector<GgvSection> sections_;  // by road, then by speed
+};
+
+/// An ellipse with the half axes `driving` ahead, `braking` behind and `lateral` to the sides
+/// [m/s^2], all > 0, for speed 0 and a road of factor 1. Exact: two values are enough.
+GgvSection EllipticSection(double driving, double braking, double lateral);
+
+}  // namespace trackbed

@@ -1,0 +1,376 @@
+#include "trackbed/planning/common/limit_profile.h"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <limits>
+
+#include "src/planning/common/jerk_limit.h"
+#include "trackbed/core/error.h"
+#include "trackbed/vehicle/params.h"
+
+namespace trackbed {
+namespace {
+
+using Squares = std::vector<double>;  // of speeds [m^2/s^2], one for each station
+
+/// What a car can do at a station, over the square of its speed.
+class Capability {
+ public:
+  Capability(const GgvDiagram& diagram, const LimitOptions& options)
+      : diagram_(diagram), options_(options) {}
+
+  /// The range of dv/dt [m/s^2].
+  [[nodiscard]] double MaxAcceleration(const LimitStation& at, double squared) const {
+    const Demand demand = DemandAt(at, squared);
+    const LongitudinalForces& car = diagram_.forces();
+    const double motor = options_.share * diagram_.DriveForce(std::sqrt(demand.squared)) -
+                         car.rolling_resistance - car.mass * demand.resistance;
+    const double by_tyres = Tyres(demand).driving - demand.resistance;
+    return std::min(by_tyres, motor / car.rolling_mass) / demand.stretch;
+  }
+
+  [[nodiscard]] double MinAcceleration(const LimitStation& at, double squared) const {
+    const Demand demand = DemandAt(at, squared);
+    const LongitudinalForces& car = diagram_.forces();
+    const double brakes = car.brake_force > 0.0 ? options_.share * car.brake_force
+                                                : std::numeric_limits<double>::infinity();
+    const double by_brakes =
+        -(brakes + car.rolling_resistance + car.mass * demand.resistance) / car.rolling_mass;
+    const double by_tyres = Tyres(demand).braking - demand.resistance;
+    return std::max(by_tyres, by_brakes) / demand.stretch;
+  }
+
+  /// How far the tyres are from their limit at a steady speed [m/s^2]; negative beyond it. A motor
+  /// that is too weak to keep the speed is no matter of the tyres.
+  [[nodiscard]] double Margin(const LimitStation& at, double squared) const {
+    const Demand demand = DemandAt(at, squared);
+    const double across =
+        options_.share * diagram_.MaxLateral(demand.point) - options_.share * demand.point.lateral;
+    if (across <= 0.0) {
+      return std::min(across, demand.load - kLeastLoad);
+    }
+    const TyreRange tyres = Tyres(demand);
+    const double braking = demand.resistance - tyres.braking;
+    const double driving = tyres.driving - std::min(demand.resistance, HoldingForce(demand));
+    return std::min({across, braking, driving, demand.load - kLeastLoad});
+  }
+
+  /// The largest square up to `most` at which the tyres hold; 0: none.
+  [[nodiscard]] double MaxSquared(const LimitStation& at, double most) const;
+
+ private:
+  static constexpr double kLeastLoad = 0.05;  // of the weight; less is as good as in the air
+
+  struct Demand {
+    GgvPoint point;           // f_y divided by the share
+    double load = 1.0;        // f_n/g, also where it is negative [1]
+    double squared = 0.0;     // of the speed along the road [m^2/s^2]
+    double stretch = 1.0;     // A
+    double resistance = 0.0;  // of drag and slope [m/s^2]
+  };
+
+  [[nodiscard]] Demand DemandAt(const LimitStation& at, double squared) const {
+    Demand demand;
+    const double steep = 1.0 + at.grade * at.grade;  // A^2
+    const double tilt = std::sqrt(steep + at.bank * at.bank);
+    demand.stretch = std::sqrt(steep);
+    demand.squared = steep * squared;
+    const double gravity = kGravity + squared * at.crest;
+    const double turn = squared * at.curvature;
+    demand.load = (gravity - at.bank * turn) / (tilt * kGravity);
+    demand.point.road = at.road;
+    demand.point.speed = std::sqrt(demand.squared);
+    demand.point.load = std::max(0.0, demand.load);
+    demand.point.lateral =
+        std::abs(steep * turn + at.bank * gravity) / (tilt * demand.stretch * options_.share);
+    demand.resistance = diagram_.forces().drag * demand.squared / diagram_.forces().mass +
+                        at.grade * gravity / demand.stretch;
+    return demand;
+  }
+
+  [[nodiscard]] TyreRange Tyres(const Demand& demand) const {
+    const TyreRange all = diagram_.TyresAt(demand.point);
+    return {options_.share * all.braking, options_.share * all.driving};
+  }
+
+  /// What the motor gives at most [m/s^2].
+  [[nodiscard]] double HoldingForce(const Demand& demand) const {
+    const LongitudinalForces& car = diagram_.forces();
+    return (options_.share * diagram_.DriveForce(demand.point.speed) - car.rolling_resistance) /
+           car.mass;
+  }
+
+  const GgvDiagram& diagram_;
+  const LimitOptions& options_;
+};
+
+double Capability::MaxSquared(const LimitStation& at, double most) const {
+  const double at_most = Margin(at, most);
+  if (at_most >= 0.0) {
+    return most;
+  }
+  double low = 0.0;
+  double at_low = Margin(at, low);
+  // On a bank that is too steep to stand on, a car must be fast enough, too.
+  constexpr int kTries = 64;
+  for (int i = kTries - 1; at_low < 0.0 && i > 0; --i) {
+    low = most * i / kTries;
+    at_low = Margin(at, low);
+  }
+  if (at_low <= 0.0) {
+    return at_low < 0.0 ? 0.0 : low;
+  }
+  std::uintmax_t iterations = 40;
+  const auto [below, above] = boost::math::tools::toms748_solve(
+      [&](double squared) { return Margin(at, squared); }, low, most, at_low, at_most,
+      boost::math::tools::eps_tolerance<double>(30), iterations);
+  return Margin(at, above) >= 0.0 ? above : below;
+}
+
+/// The largest square between 0 and `most`, at one end of an interval of `length`, to which `can`,
+/// the acceleration that is possible there at a square, leads from the square `from` at the other.
+template <typename Can>
+double Reach(double from, double length, double most, const Can& can) {
+  const auto spare = [&](double squared) {
+    return can(squared) - (squared - from) / (2.0 * length);
+  };
+  const double at_most = spare(most);
+  if (at_most >= 0.0) {
+    return most;
+  }
+  double low = std::max(0.0, std::min(from, most) * 0.5);
+  double at_low = spare(low);
+  if (at_low < 0.0) {
+    low = 0.0;
+    at_low = spare(low);
+  }
+  if (at_low <= 0.0 || low >= most) {
+    return low;  // no speed is low enough: a slope that the car cannot climb, or brake on
+  }
+  std::uintmax_t iterations = 12;
+  const auto [below, above] = boost::math::tools::toms748_solve(
+      spare, low, most, at_low, at_most, boost::math::tools::eps_tolerance<double>(24), iterations);
+  return spare(above) >= 0.0 ? above : below;
+}
+
+class Passes {
+ public:
+  Passes(const std::vector<LimitStation>& stations, const Capability& can)
+      : stations_(stations), can_(can) {}
+
+  /// Lowers the squares to what can be reached by accelerating from the first one.
+  void Forward(Squares& squares) const {
+    for (std::size_t i = 0; i + 1 < squares.size(); ++i) {
+      const double length = stations_[i + 1].s - stations_[i].s;
+      const double step = 2.0 * length * can_.MaxAcceleration(stations_[i], squares[i]);
+      const double most = std::clamp(squares[i] + step, 0.0, squares[i + 1]);
+      squares[i + 1] = Reach(squares[i], length, most, [&](double squared) {
+        return can_.MaxAcceleration(stations_[i + 1], squared);
+      });
+    }
+  }
+
+  /// Lowers the squares to those from which the car can brake to the last one.
+  void Backward(Squares& squares) const {
+    for (std::size_t i = squares.size() - 1; i-- > 0;) {
+      const double length = stations_[i + 1].s - stations_[i].s;
+      const double step = -2.0 * length * can_.MinAcceleration(stations_[i + 1], squares[i + 1]);
+      const double most = std::clamp(squares[i + 1] + step, 0.0, squares[i]);
+      squares[i] = Reach(squares[i + 1], length, most, [&](double squared) {
+        return -can_.MinAcceleration(stations_[i], squared);
+      });
+    }
+  }
+
+  /// Raises the first squares to those of a car that begins with the square `start`, and brakes as
+  /// hard as it can down to what the squares are.
+  void BrakeFrom(double start, Squares& squares) const {
+    squares[0] = start;
+    for (std::size_t i = 0; i + 1 < squares.size(); ++i) {
+      const double length = stations_[i + 1].s - stations_[i].s;
+      const double braked =
+          squares[i] + 2.0 * length * can_.MinAcceleration(stations_[i], squares[i]);
+      if (braked <= squares[i + 1]) {
+        return;
+      }
+      squares[i + 1] = braked;
+    }
+  }
+
+ private:
+  const std::vector<LimitStation>& stations_;
+  const Capability& can_;
+};
+
+void Check(const std::vector<LimitStation>& stations, const LimitOptions& options) {
+  TRACKBED_REQUIRE(stations.size() >= 2, "LimitSpeeds: {} stations; must be at least two",
+                   stations.size());
+  TRACKBED_REQUIRE(options.share > 0.0 && options.share <= 1.0 && options.jerk >= 0.0 &&
+                       options.speed >= 0.0 && std::isfinite(options.jerk) &&
+                       std::isfinite(options.speed),
+                   "LimitSpeeds: share {}, jerk {} m/s^3, speed {} m/s", options.share,
+                   options.jerk, options.speed);
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    const LimitStation& at = stations[i];
+    TRACKBED_REQUIRE(std::isfinite(at.s) && std::isfinite(at.curvature) &&
+                         std::isfinite(at.grade) && std::isfinite(at.bank) &&
+                         std::isfinite(at.crest) && std::isfinite(at.road) && at.road > 0.0 &&
+                         std::isfinite(at.cap) && at.cap >= 0.0,
+                     "LimitSpeeds: a number of the station {} m is not finite or negative", at.s);
+    TRACKBED_REQUIRE(i == 0 || at.s > stations[i - 1].s,
+                     "LimitSpeeds: stations {} and {} m do not rise", stations[i - 1].s, at.s);
+  }
+}
+
+/// The squares that the stations allow by themselves.
+Squares MaxSquares(const std::vector<LimitStation>& stations, const GgvDiagram& diagram,
+                   const LimitOptions& options, const Capability& can) {
+  double fastest = std::numeric_limits<double>::infinity();
+  for (const double speed : {options.speed, diagram.forces().top_speed}) {
+    fastest = speed > 0.0 ? std::min(fastest, speed) : fastest;
+  }
+  TRACKBED_REQUIRE(std::isfinite(fastest), "LimitSpeeds: neither the options nor the car {}",
+                   "give a largest speed");
+  Squares squares;
+  squares.reserve(stations.size());
+  for (const LimitStation& at : stations) {
+    const double cap = at.cap > 0.0 ? std::min(at.cap, fastest) : fastest;
+    squares.push_back(can.MaxSquared(at, cap * cap));
+  }
+  return squares;
+}
+
+std::vector<double> StationList(const std::vector<LimitStation>& stations) {
+  std::vector<double> s;
+  s.reserve(stations.size());
+  for (const LimitStation& at : stations) {
+    s.push_back(at.s);
+  }
+  return s;
+}
+
+LimitSpeeds Result(const std::vector<LimitStation>& stations, const Squares& squares) {
+  LimitSpeeds result;
+  for (std::size_t i = 0; i < squares.size(); ++i) {
+    result.speeds.push_back(std::sqrt(squares[i]));
+    if (i > 0) {
+      result.time +=
+          2.0 * (stations[i].s - stations[i - 1].s) / (result.speeds[i - 1] + result.speeds[i]);
+    }
+  }
+  return result;
+}
+
+/// Smooths and goes over the squares again by turns until the diagram hardly lowers what is smooth.
+template <typename Smooth, typename Pass>
+void SmoothWithin(const Smooth& smooth, const Pass& pass, Squares& squares) {
+  constexpr int kRounds = 100;
+  constexpr double kHardly = 1e-4;  // of a square
+  for (int round = 0; round < kRounds; ++round) {
+    smooth(squares);
+    const Squares before = squares;
+    pass(squares);
+    bool lowered = false;
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+      lowered = lowered || before[i] - squares[i] > kHardly * before[i];
+    }
+    if (!lowered) {
+      squares = before;
+      return;
+    }
+  }
+  smooth(squares);
+}
+
+/// Forward and backward over one lap until its begin and its end agree. The last square stands for
+/// the first one.
+void GoAround(const Passes& passes, Squares& squares) {
+  constexpr int kLaps = 50;
+  constexpr double kSame = 1e-12;
+  for (int lap = 0; lap < kLaps; ++lap) {
+    const double before = squares.front();
+    squares.back() = before;
+    passes.Forward(squares);
+    squares.front() = squares.back();
+    passes.Backward(squares);
+    squares.back() = squares.front();
+    if (before - squares.front() <= kSame * before) {
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+LimitSpeeds LimitSpeedsAlong(const std::vector<LimitStation>& stations, const GgvDiagram& diagram,
+                             const LimitOptions& options, double start_speed, double end_speed) {
+  Check(stations, options);
+  TRACKBED_REQUIRE(std::isfinite(start_speed) && start_speed >= 0.0 && std::isfinite(end_speed) &&
+                       end_speed >= 0.0,
+                   "LimitSpeedsAlong: start speed {}, end speed {} m/s", start_speed, end_speed);
+  const Capability can(diagram, options);
+  const Passes passes(stations, can);
+  const Squares allowed = MaxSquares(stations, diagram, options, can);
+  const double start = start_speed * start_speed;
+  Squares squares = allowed;
+  squares.front() = std::min(squares.front(), start);
+  squares.back() = std::min(squares.back(), end_speed * end_speed);
+  passes.Forward(squares);
+  passes.Backward(squares);
+  if (options.jerk > 0.0) {
+    const std::vector<double> s = StationList(stations);
+    SmoothWithin([&](Squares& lowered) { LimitJerk(s, options.jerk, lowered); },
+                 [&](Squares& lowered) {
+                   passes.Forward(lowered);
+                   passes.Backward(lowered);
+                 },
+                 squares);
+  }
+  if (squares.front() < start) {
+    passes.BrakeFrom(start, squares);
+  }
+  LimitSpeeds result = Result(stations, squares);
+  constexpr double kRounding = 1e-6;
+  for (std::size_t i = 0; i < squares.size() && !result.excess; ++i) {
+    const double cap = stations[i].cap;
+    const bool capped = cap > 0.0 && squares[i] > cap * cap * (1.0 + kRounding);
+    if (squares[i] > allowed[i] * (1.0 + kRounding) &&
+        (capped || can.Margin(stations[i], squares[i]) < 0.0)) {
+      result.excess = {stations[i].s, result.speeds[i], std::sqrt(allowed[i])};
+    }
+  }
+  return result;
+}
+
+LimitSpeeds LimitSpeedsAround(const std::vector<LimitStation>& stations, double length,
+                              const GgvDiagram& diagram, const LimitOptions& options) {
+  Check(stations, options);
+  TRACKBED_REQUIRE(std::isfinite(length) && length > stations.back().s - stations.front().s,
+                   "LimitSpeedsAround: a length of {} m with stations from {} to {} m", length,
+                   stations.front().s, stations.back().s);
+  const Capability can(diagram, options);
+  const Squares allowed = MaxSquares(stations, diagram, options, can);
+  // Where the path is slowest, no pass has to lower the speed but for slopes.
+  const auto slowest = std::min_element(allowed.begin(), allowed.end()) - allowed.begin();
+  std::vector<LimitStation> lap(stations.begin() + slowest, stations.end());
+  Squares squares(allowed.begin() + slowest, allowed.end());
+  for (std::ptrdiff_t i = 0; i <= slowest; ++i) {
+    lap.push_back(stations[static_cast<std::size_t>(i)]);
+    lap.back().s += length;
+    squares.push_back(allowed[static_cast<std::size_t>(i)]);
+  }
+  const Passes passes(lap, can);
+  GoAround(passes, squares);
+  if (options.jerk > 0.0) {
+    const std::vector<double> s = StationList(lap);
+    SmoothWithin([&](Squares& lowered) { LimitJerkAround(s, options.jerk, lowered); },
+                 [&](Squares& lowered) { GoAround(passes, lowered); }, squares);
+  }
+  LimitSpeeds result = Result(lap, squares);
+  result.speeds.pop_back();
+  std::rotate(result.speeds.begin(), result.speeds.end() - slowest, result.speeds.end());
+  return result;
+}
+
+}  // namespace trackbed
