@@ -4,7 +4,7 @@
 ///
 ///     const trackbed::Scenario scenario = trackbed::ReadScenario("corner.yaml");
 ///     const trackbed::CarModel car = trackbed::LoadCar(scenario);
-///     const trackbed::Plan plan = trackbed::PlanMission(scenario, car.params());
+///     const trackbed::Plan plan = trackbed::PlanMission(scenario, car);
 ///     const trackbed::RunLog log = trackbed::DrivePlant(scenario, car, plan, "mujoco");
 ///
 /// SimulateClosedLoop runs plants and controllers of your own; RunMission measures and judges a

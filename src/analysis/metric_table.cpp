@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "src/analysis/predicted_time.h"
 #include "src/analysis/sideslip.h"
 
 // The place where a metric is registered: one entry each.
@@ -148,6 +149,8 @@ std::vector<MetricEntry> OwnMetrics() {
       Located({"recorded.heading.max", "Maximum heading difference from the record", "rad",
                At(&R::heading_max, &R::heading_max_s, &R::heading_max_t)}),
       Located({"sideslip_max", "Maximum sideslip angle", "rad", {}, LargestSideslip}),
+      {"predicted_time", "Time predicted at the limit", "s", {}, PredictedTime},
+      {"time_over_predicted", "Time over the predicted one", "", {}, TimeOverPredicted},
   };
 }
 

@@ -201,7 +201,7 @@ RunResult PlanRun(const Scenario& scenario, const CarModel& car) {
   result.scene = car.scene();
   result.vehicle = car.params();
   const Stopwatch planning;
-  result.plan = PlanMission(scenario, car.unladen());
+  result.plan = PlanMission(scenario, car);
   result.planning_time = planning.Seconds();
   if (!result.plan.ok()) {
     result.verdict = {.passed = false,

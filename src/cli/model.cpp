@@ -1,14 +1,20 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "src/cli/scenario_options.h"
 #include "src/cli/verbs.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/core/table.h"
+#include "trackbed/sim/car_grip.h"
 #include "trackbed/sim/car_model.h"
 #include "trackbed/sim/linkage.h"
 
@@ -88,6 +94,19 @@ void Print(const CarModel& car, const std::string& file) {
   }
 }
 
+/// From standstill to the top speed in steps of 10 m/s, of slow vehicles in ten.
+std::vector<double> GgvSpeeds(const GgvDiagram& diagram) {
+  constexpr double kFast = 60.0;  // [m/s]
+  const double own = diagram.forces().top_speed;
+  const double top = own > 0.0 ? std::min(own, kFast) : kFast;
+  const double step = top > 20.0 ? 10.0 : top / 10.0;
+  std::vector<double> speeds;
+  for (double speed = 0.0; speed < top * (1.0 + 1e-9); speed += step) {
+    speeds.push_back(speed);
+  }
+  return speeds;
+}
+
 void PrintLinkage(const CarModel& car) {
   const LinkagePolynomials fit = FitLinkage(car.params());
   fmt::print("<!-- Ackermann's linkage within {:.2g} rad, up to {:.4g} rad -->\n", fit.error,
@@ -100,6 +119,52 @@ void PrintLinkage(const CarModel& car) {
   }
 }
 
+/// The largest and smallest acceleration on a level road beside shares of the largest lateral one.
+void PrintGgv(const GgvDiagram& diagram, const std::string& name) {
+  constexpr std::array<double, 4> kShares{0.0, 0.5, 0.8, 0.95};
+  fmt::print("g-g-v diagram of {} on a level road of factor 1 [m/s^2]\n", name);
+  fmt::print("{:>8} {:>8}", "v [m/s]", "lateral");
+  for (const double share : kShares) {
+    fmt::print(" {:>15}", share == 0.0 ? "straight" : fmt::format("{:g} of lateral", share));
+  }
+  fmt::print("\n");
+  for (const double speed : GgvSpeeds(diagram)) {
+    const double lateral = diagram.MaxLateral({.speed = speed});
+    fmt::print("{:>8.4g} {:>8.3f}", speed, lateral);
+    for (const double share : kShares) {
+      const AccelerationRange range =
+          diagram.AccelerationsAt({.speed = speed, .lateral = share * lateral});
+      fmt::print(" {:>15}", fmt::format("{:.3f} {:+.3f}", range.smallest, range.largest));
+    }
+    fmt::print("\n");
+  }
+}
+
+/// The boundary at each speed, from braking over the largest lateral acceleration to driving.
+Table GgvTable(const GgvDiagram& diagram) {
+  Table table({"speed_mps", "lateral_acceleration_mps2", "longitudinal_acceleration_mps2"});
+  constexpr int kSteps = 24;
+  for (const double speed : GgvSpeeds(diagram)) {
+    const double lateral = diagram.MaxLateral({.speed = speed});
+    for (int i = -kSteps; i <= kSteps; ++i) {
+      const double u = static_cast<double>(i) / kSteps;
+      const double own = lateral * std::sqrt(1.0 - u * u);
+      const AccelerationRange range = diagram.AccelerationsAt({.speed = speed, .lateral = own});
+      table.AddRow({speed, own, i < 0 ? range.smallest : range.largest});
+    }
+  }
+  return table;
+}
+
+void ShowGgv(const CarModel& car, const std::string& out) {
+  const GgvDiagram diagram = ComputeGgv(car, TyreLaw::kAuto, {1.0});
+  PrintGgv(diagram, car.params().name);
+  if (!out.empty()) {
+    RemoveAbandonedTemporaries(std::filesystem::path(out).parent_path());
+    WriteFileAtomically(out, GgvTable(diagram).ToCsv());
+  }
+}
+
 }  // namespace
 
 void AddModel(const Command& command) {
@@ -107,6 +172,8 @@ void AddModel(const Command& command) {
     std::string name;
     std::string save;
     bool linkage = false;
+    bool ggv = false;
+    std::string out;
     std::vector<std::string> asset_folders;
   };
   const auto options = std::make_shared<Options>();
@@ -120,8 +187,13 @@ void AddModel(const Command& command) {
   command.AddFlag(
       "--linkage", options->linkage,
       "Print joint couplings fitted to the steering linkage, to paste into the model file");
+  command.AddFlag("--ggv", options->ggv,
+                  "Print the g-g-v diagram: accelerations that tyres, brakes and drive give");
+  command.AddOption("-o,--out", options->out, "Also write the diagram of --ggv as CSV")
+      .TypeName("FILE");
   AddAllowAssets(command, options->asset_folders);
   command.AddExample("Parameters of a shipped model", "trackbed model bmw320i");
+  command.AddExample("Its g-g-v diagram, also as CSV", "trackbed model bmw320i --ggv -o ggv.csv");
   command.OnRun([options] {
     const auto file = FindModel(options->name, "");
     const CarModel car(ComposeScene(file, {.asset_folders = Paths(options->asset_folders)}),
@@ -130,7 +202,12 @@ void AddModel(const Command& command) {
       throw InputError(
           Problem{.file = "--linkage", .message = options->name + " has no steered front wheels"});
     }
-    if (options->linkage) {
+    if (!options->out.empty() && !options->ggv) {
+      throw InputError(Problem{.file = "--out", .message = "needs --ggv"});
+    }
+    if (options->ggv) {
+      ShowGgv(car, options->out);
+    } else if (options->linkage) {
       PrintLinkage(car);
     } else if (options->save.empty()) {
       Print(car, file.string());

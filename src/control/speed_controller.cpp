@@ -25,7 +25,7 @@ double MeanAcceleration(const SpeedProfile& profile, double s, double speed, dou
   return acceleration;
 }
 
-/// A profile that brakes this much harder than the comfortable deceleration does so on purpose.
+/// A profile that brakes or accelerates this much harder than the options say does so on purpose.
 constexpr double kOnPurpose = 1.1;
 /// What a controller may add to that where the car has come to lag behind.
 constexpr double kCatchUp = 1.25;
@@ -67,7 +67,10 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
   const double error = profile.SpeedAt(s) - speed;
   const double hard = on_purpose(-feed_forward) ? -kCatchUp * feed_forward : 0.0;
   const double hardest = std::min(std::max(2.0 * options.deceleration, hard), limit);
-  return std::clamp(feed_forward + options.gain * error, -hardest, options.acceleration);
+  const double strongest = feed_forward > kOnPurpose * options.acceleration
+                               ? kCatchUp * feed_forward
+                               : options.acceleration;
+  return std::clamp(feed_forward + options.gain * error, -hardest, strongest);
 }
 
 namespace {

@@ -11,6 +11,7 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/scenario/initial_state.h"
+#include "trackbed/sim/car_grip.h"
 
 namespace trackbed {
 namespace {
@@ -35,9 +36,30 @@ void NoteObstacle(Plan& plan, const VehicleParams& vehicle, const std::vector<Or
   }
 }
 
-}  // namespace
+/// The road's factors in a world.
+std::vector<double> Roads(const World& world) {
+  std::vector<double> roads{world.friction};
+  for (const FrictionPatch& patch : world.friction_patches) {
+    if (std::find(roads.begin(), roads.end(), patch.friction) == roads.end()) {
+      roads.push_back(patch.friction);
+    }
+  }
+  return roads;
+}
 
-Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
+/// `diagram` makes the one of the car on given roads, if the mission wants it.
+template <typename Diagram>
+std::optional<SpeedAtLimit> LimitsFor(const Scenario& scenario, const Diagram& diagram) {
+  const auto& profile = scenario.mission.speed_profile;
+  const auto* limits = profile ? std::get_if<LimitProfileOptions>(&*profile) : nullptr;
+  if (limits == nullptr || !scenario.plan) {
+    return std::nullopt;
+  }
+  return SpeedAtLimit{diagram(Roads(scenario.world)), *limits, scenario.world.ground};
+}
+
+Plan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
+              std::optional<SpeedAtLimit> limits) {
   const StartState start = InitialState(scenario, vehicle);
   if (!scenario.plan) {
     Plan plan;
@@ -71,7 +93,8 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
           },
       .friction = scenario.world.friction,
       .friction_patches = scenario.world.friction_patches,
-      .infeasible = scenario.plan->infeasible};
+      .infeasible = scenario.plan->infeasible,
+      .limits = std::move(limits)};
   Plan plan = MakePlan(request, scenario.plan->global);
   if (!plan.ok()) {
     return plan;
@@ -95,6 +118,21 @@ Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
                      .car = {},
                      .seed = scenario.seed},
                     *scenario.plan->avoid);
+}
+
+}  // namespace
+
+Plan PlanMission(const Scenario& scenario, const CarModel& car) {
+  return PlanWith(scenario, car.unladen(),
+                  LimitsFor(scenario, [&](const std::vector<double>& roads) {
+                    return ComputeGgv(car, scenario.vehicle.tyre, roads);
+                  }));
+}
+
+Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
+  return PlanWith(scenario, vehicle, LimitsFor(scenario, [&](const std::vector<double>& roads) {
+                    return FrictionGgv(vehicle, roads);
+                  }));
 }
 
 }  // namespace trackbed

@@ -200,6 +200,25 @@ void CheckWaypoints(Diagnostics& c) {
   }
 }
 
+/// Speeds at the limit belong to one plan, which is driven as it was made.
+void CheckSpeedProfile(Diagnostics& c) {
+  const auto& profile = c.scenario.mission.speed_profile;
+  if (!profile || !c.CouldRead({"mission.speed_profile", "mission.speed_profile.method"}) ||
+      !c.CouldReadPlan({"method"})) {
+    return;
+  }
+  const auto& plan = c.scenario.plan;
+  if (!plan) {
+    c.AddError("mission.speed_profile", "needs a plan; remove it, or give a plan");
+  } else if (std::holds_alternative<LimitProfileOptions>(*profile) &&
+             (plan->avoid || plan->replan)) {
+    c.AddError("mission.speed_profile.method",
+               fmt::format("limits is not supported together with {}, which plans other speeds "
+                           "during the run; remove one",
+                           plan->avoid ? "plan.avoid" : "plan.replan"));
+  }
+}
+
 void CheckMission(Diagnostics& c) {
   const MissionSpec& mission = c.scenario.mission;
   const auto& plan = c.scenario.plan;
@@ -240,6 +259,7 @@ void CheckMission(Diagnostics& c) {
 
 void CheckMissionAndPlan(Diagnostics& c) {
   CheckMission(c);
+  CheckSpeedProfile(c);
   CheckCourse(c);
   CheckSmoothing(c);
   CheckAvoider(c);

@@ -72,6 +72,9 @@ inline void Visit(KeyVisitor& a, MissionSpec& mission) {
            "end of the run; required without a plan unless a recording or record ends it, not "
            "allowed with a plan"},
           mission.duration, kPositive);
+  a.Method(
+      {"speed_profile", "", "how the plan's speeds are chosen; default: constant_acceleration"},
+      mission.speed_profile, SpeedProfiles(), Need::kOptional);
   a.Section({"start", "", "initial state of the car"}, mission.start);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "trackbed/core/error.h"
 
@@ -53,6 +54,19 @@ Place PlaceAmong(const std::vector<double>& values, double value, const Measure&
   const double low = measure(*(above - 1));
   return {static_cast<std::size_t>(above - values.begin()) - 1,
           (measure(value) - low) / (measure(*above) - low)};
+}
+
+/// Where a share of the largest f_y lies among the values of a section, 0 to `last`.
+Place PlaceOnBoundary(double ratio, std::size_t last) {
+  const double sine = std::sqrt(1.0 - ratio * ratio);
+  if (last == 1) {
+    return {0, sine};
+  }
+  const double step = 0.5 * std::numbers::pi / static_cast<double>(last);
+  const std::size_t index = std::min(static_cast<std::size_t>(std::acos(ratio) / step), last - 1);
+  const double low = std::sin(step * static_cast<double>(index));
+  const double high = std::sin(step * static_cast<double>(index + 1));
+  return {index, std::clamp((sine - low) / (high - low), 0.0, 1.0)};
 }
 
 void AddOnce(std::vector<double>& values, double value) {
@@ -124,9 +138,7 @@ TyreRange GgvDiagram::TyresAt(const GgvPoint& point) const {
   }
   const double ratio = lateral > 0.0 ? std::min(1.0, std::abs(point.lateral) / lateral) : 1.0;
   const std::size_t last = sections_.front().driving.size() - 1;
-  const double place = std::sqrt(1.0 - ratio * ratio) * static_cast<double>(last);
-  const std::size_t index = std::min(static_cast<std::size_t>(place), last - 1);
-  const double share = place - static_cast<double>(index);
+  const auto [index, share] = PlaceOnBoundary(ratio, last);
   TyreRange range;
   for (std::size_t i = 0; i < weights.count; ++i) {
     const GgvSection& section = *weights.section[i];
@@ -136,6 +148,20 @@ TyreRange GgvDiagram::TyresAt(const GgvPoint& point) const {
         weights.weight[i] * std::lerp(section.braking[index], section.braking[index + 1], share);
   }
   return range;
+}
+
+AccelerationRange GgvDiagram::AccelerationsAt(const GgvPoint& point, double share,
+                                              double slope) const {
+  GgvPoint whole = point;
+  whole.lateral /= share;
+  const TyreRange tyres = TyresAt(whole);
+  const double resistance = forces_.drag * point.speed * point.speed / forces_.mass + slope;
+  const double against = forces_.rolling_resistance + forces_.mass * resistance;  // [N]
+  const double motor = share * DriveForce(point.speed) - against;
+  const double brakes = forces_.brake_force > 0.0 ? share * forces_.brake_force
+                                                  : std::numeric_limits<double>::infinity();
+  return {std::max(share * tyres.braking - resistance, -(brakes + against) / forces_.rolling_mass),
+          std::min(share * tyres.driving - resistance, motor / forces_.rolling_mass)};
 }
 
 double GgvDiagram::DriveForce(double speed) const {

@@ -10,6 +10,7 @@
 
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/file.h"
+#include "trackbed/core/table.h"
 
 namespace trackbed {
 namespace {
@@ -443,6 +444,22 @@ TEST(Program, ShowsAndSavesAModel) {
               HasSubstr("steering_rate                   0.15057 rad/s\n"));
   EXPECT_EQ(Trackbed(folder, "model pruis").output,
             "unknown model 'pruis'; did you mean 'prius'?\n");
+}
+
+TEST(Program, ShowsTheGgvDiagramOfAModel) {
+  const TempFolder folder;
+  const Outcome shown = Trackbed(folder, "model prius --ggv -o ggv.csv");
+  EXPECT_EQ(shown.code, 0) << shown.output;
+  EXPECT_THAT(shown.output, HasSubstr("g-g-v diagram of prius on a level road of factor 1"));
+  EXPECT_THAT(shown.output, HasSubstr("\n      60 "));
+  // Seven speeds, each from braking straight ahead over the largest lateral acceleration to
+  // driving.
+  const Table table = ReadCsv(folder.path() / "ggv.csv");
+  ASSERT_EQ(table.rows(), 7U * 49U);
+  EXPECT_EQ(table.at(0, 1), 0.0);
+  EXPECT_NEAR(table.at(0, 2), -8.26, 0.005);  // max_deceleration, to the digits of docs/models.md
+  EXPECT_GT(table.at(24, 1), 8.0);            // in the middle
+  EXPECT_EQ(Trackbed(folder, "model prius -o ggv.csv").output, "--out: needs --ggv\n");
 }
 
 /// Runs the program and sends it a signal when `there` says so to the shell, at most a minute

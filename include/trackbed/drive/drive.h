@@ -14,7 +14,12 @@ CarModel LoadCar(const Scenario& scenario);
 
 /// Plans the scenario's mission, around the obstacles that are known at its start. Without a `plan`
 /// section the plan is an empty path at the mission's speed. Reproducible except for planners with
-/// a time limit: that is wall-clock time.
+/// a time limit: that is wall-clock time. Speeds at the limit (mission.speed_profile) are those of
+/// the car's tyres, springs and drive without its payload, of all roads of the world
+/// (sim/car_grip.h).
+Plan PlanMission(const Scenario& scenario, const CarModel& car);
+
+/// The same for parameters alone, with FrictionGgv for speeds at the limit.
 Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle);
 
 /// The LoopConfig of a scenario, for SimulateClosedLoop with your own plant or controller.

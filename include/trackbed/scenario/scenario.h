@@ -13,6 +13,7 @@
 #include "trackbed/control/speed_control_options.h"
 #include "trackbed/planning/avoidance/avoidance_options.h"
 #include "trackbed/planning/common/planner_options.h"
+#include "trackbed/planning/common/speed_profile_options.h"
 #include "trackbed/planning/replan/replan_options.h"
 #include "trackbed/scenario/disturbances.h"
 #include "trackbed/scenario/maneuver.h"
@@ -52,6 +53,8 @@ struct MissionSpec {
   std::vector<Vec2> waypoints;     ///< [m]
   std::vector<double> headings;    ///< of the car at each of them [rad]; none: along the legs
   std::optional<double> duration;  ///< [s]; ends the run, for missions without a goal
+  /// How the speeds of the plan are chosen; none: ConstantAccelerationOptions.
+  std::optional<SpeedProfileOptions> speed_profile;
   StartSpec start;
 };
 

@@ -23,8 +23,8 @@ struct GgvSection {
   double speed = 0.0;    ///< v [m/s], >= 0
   double road = 1.0;     ///< f [1], > 0
   double lateral = 0.0;  ///< the largest f_y [m/s^2], > 0
-  /// The largest and the smallest f_x [m/s^2] where f_y = lateral sqrt(1 - u^2), for u from 0 to 1
-  /// in equal steps: from the largest f_y to straight ahead. Of an ellipse they are linear in u.
+  /// The largest and the smallest f_x [m/s^2] where f_y = lateral cos(q), q from 0 to pi/2 in equal
+  /// steps: from the largest f_y to straight ahead. In between linear in sin(q), as an ellipse is.
   std::vector<double> driving;
   std::vector<double> braking;
 };
@@ -55,6 +55,12 @@ struct TyreRange {
   double driving = 0.0;
 };
 
+/// A range of accelerations [m/s^2].
+struct AccelerationRange {
+  double smallest = 0.0;
+  double largest = 0.0;
+};
+
 /// Immutable value. Between sections values are linear in v^2 and in the road's factor; at speeds
 /// beyond the sections they are those of the nearest one, on other roads they are in proportion to
 /// the factor.
@@ -69,12 +75,18 @@ class GgvDiagram {
   /// By road, then by speed, both rising.
   [[nodiscard]] const std::vector<GgvSection>& sections() const { return sections_; }
 
-  /// The largest f_y [m/s^2]; the point's own does not matter. Cost: about 10 ns.
+  /// The largest f_y [m/s^2]; the point's own does not matter. Cost: below 0.1 us.
   [[nodiscard]] double MaxLateral(const GgvPoint& point) const;
 
   /// The range of f_x that the tyres leave beside f_y; where f_y is beyond the largest one, that at
-  /// the largest. Motor and brakes do not limit it. Cost: about 20 ns.
+  /// the largest. Motor and brakes do not limit it. Cost: below 0.1 us.
   [[nodiscard]] TyreRange TyresAt(const GgvPoint& point) const;
+
+  /// The range of the acceleration along the road [m/s^2] beside f_y, if `share` of the forces of
+  /// tyres, motor and brakes is used, less the drag and `slope`, the part of gravity along the
+  /// road, positive uphill [m/s^2].
+  [[nodiscard]] AccelerationRange AccelerationsAt(const GgvPoint& point, double share = 1.0,
+                                                  double slope = 0.0) const;
 
   /// Largest force of the motor at the wheels [N] at a speed; infinite when it is not limited.
   [[nodiscard]] double DriveForce(double speed) const;

@@ -168,12 +168,16 @@ void CheckAcceleration(const Plan& plan, const PlanRequest& request, std::vector
   driving.AddTo(found);
 }
 
-/// Caps that keep what a slower car can keep: lateral acceleration, steering rate, top speed.
+/// Caps that keep what a slower car can keep: steering rate, top speed, and unless the speeds are
+/// at the limit anyway, lateral acceleration.
 std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
   const VehicleParams& vehicle = request.vehicle;
   const Path& path = plan.reference.path;
   std::vector<SpeedCap> caps;
   const double wanted = request.speed.speed;
+  // At the limit, controllers need what is left of the steering rate, too.
+  const double rate =
+      vehicle.steering_rate * (request.limits ? request.limits->options.share : 1.0);
   if (vehicle.top_speed > 0.0 && vehicle.top_speed < wanted) {
     caps.push_back({0.0, path.length(), vehicle.top_speed});
   }
@@ -185,8 +189,8 @@ std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
     }
   };
   ForEachPiece(path, vehicle, kCheckSpacing, [&](const PathPiece& piece) {
-    double speed = vehicle.steering_rate / piece.slope;
-    if (vehicle.friction_lateral > 0.0) {
+    double speed = rate / piece.slope;
+    if (vehicle.friction_lateral > 0.0 && !request.limits) {
       const double road = RoadOver(request, path, piece.stations);
       speed = std::min(speed, std::sqrt(MaxLateralAcceleration(vehicle, road) / piece.curvature));
     }
@@ -194,7 +198,7 @@ std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
   });
   const std::vector<Stations> legs = SplitIntoLegs(path, plan.stops);
   ForEachRamp(plan.schedule, [&](double from, double to, double slope) {
-    const double speed = vehicle.steering_rate / slope;
+    const double speed = rate / slope;
     if (speed < wanted * (1.0 - kRounding) && !EndsAtStop(legs, to)) {
       caps.push_back({from, to, speed});
     }
@@ -216,6 +220,13 @@ Plan Refuse(const std::vector<Excess>& excesses, const Plan& plan) {
   refused.reason = "the path is not feasible: " + Listed(excesses);
   refused.diagnostics = plan.diagnostics;
   return refused;
+}
+
+double SlowestOf(const std::vector<SpeedCap>& caps, double speed) {
+  for (const SpeedCap& cap : caps) {
+    speed = std::min(speed, cap.speed);
+  }
+  return speed;
 }
 
 /// The limits that keep the car from sliding where it speeds up or slows down.
@@ -245,6 +256,35 @@ std::string Mended(const SpeedLimits& before, const SpeedLimits& after, double s
     texts.push_back(fmt::format("acceleration limited to {:.3g} m/s^2", after.acceleration));
   }
   return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+/// The plan with speeds at the limit, which is within it by construction: what is left are paths
+/// that the car cannot follow at any speed, and starts that are too fast.
+Plan DriveAtLimit(Plan plan, const PlanRequest& request) {
+  std::vector<Excess> excesses;
+  for (Excess& excess : FindExcesses(plan, request)) {
+    if (excess.remedy == Remedy::kNone) {
+      excesses.push_back(std::move(excess));
+    }
+  }
+  std::vector<SpeedCap> caps = CapsFor(plan, request);
+  if (SlowestOf(caps, request.speed.speed) < kSlowest) {
+    for (Excess& excess : FindExcesses(plan, request)) {
+      excesses.push_back(std::move(excess));
+    }
+    return Refuse(excesses, plan);
+  }
+  caps.insert(caps.end(), plan.caps.begin(), plan.caps.end());
+  if (const std::optional<LimitExcess> fast = SetSpeedsAtLimit(plan, request, caps)) {
+    excesses.push_back({"speed", fast->speed, fast->allowed, "m/s", fast->s, Remedy::kNone});
+  }
+  if (!excesses.empty() && request.infeasible != InfeasiblePolicy::kAllow) {
+    return Refuse(excesses, plan);
+  }
+  if (!excesses.empty()) {
+    plan.notes.push_back("infeasible, kept anyway: " + Listed(excesses));
+  }
+  return plan;
 }
 
 }  // namespace
@@ -277,6 +317,9 @@ Plan MakeFeasible(Plan plan, const PlanRequest& request) {
   if (!plan.ok()) {
     return plan;
   }
+  if (request.limits) {
+    return DriveAtLimit(std::move(plan), request);
+  }
   const std::vector<Excess> first = FindExcesses(plan, request);
   if (first.empty()) {
     return plan;
@@ -292,10 +335,7 @@ Plan MakeFeasible(Plan plan, const PlanRequest& request) {
     return Refuse(first, plan);
   }
   const std::vector<SpeedCap> caps = CapsFor(plan, request);
-  double slowest = request.speed.speed;
-  for (const SpeedCap& cap : caps) {
-    slowest = std::min(slowest, cap.speed);
-  }
+  const double slowest = SlowestOf(caps, request.speed.speed);
   if (slowest < kSlowest) {
     return Refuse(first, plan);
   }

@@ -20,40 +20,32 @@ class Capability {
   Capability(const GgvDiagram& diagram, const LimitOptions& options)
       : diagram_(diagram), options_(options) {}
 
-  /// The range of dv/dt [m/s^2].
+  /// Of dv/dt [m/s^2].
   [[nodiscard]] double MaxAcceleration(const LimitStation& at, double squared) const {
     const Demand demand = DemandAt(at, squared);
-    const LongitudinalForces& car = diagram_.forces();
-    const double motor = options_.share * diagram_.DriveForce(std::sqrt(demand.squared)) -
-                         car.rolling_resistance - car.mass * demand.resistance;
-    const double by_tyres = Tyres(demand).driving - demand.resistance;
-    return std::min(by_tyres, motor / car.rolling_mass) / demand.stretch;
+    return Accelerations(demand).largest / demand.stretch;
   }
 
   [[nodiscard]] double MinAcceleration(const LimitStation& at, double squared) const {
     const Demand demand = DemandAt(at, squared);
-    const LongitudinalForces& car = diagram_.forces();
-    const double brakes = car.brake_force > 0.0 ? options_.share * car.brake_force
-                                                : std::numeric_limits<double>::infinity();
-    const double by_brakes =
-        -(brakes + car.rolling_resistance + car.mass * demand.resistance) / car.rolling_mass;
-    const double by_tyres = Tyres(demand).braking - demand.resistance;
-    return std::max(by_tyres, by_brakes) / demand.stretch;
+    return Accelerations(demand).smallest / demand.stretch;
   }
 
-  /// How far the tyres are from their limit at a steady speed [m/s^2]; negative beyond it. A motor
-  /// that is too weak to keep the speed is no matter of the tyres.
+  /// How far the tyres are from their limit [m/s^2]; negative beyond it. The car may slow down
+  /// there, for want of drive, but need not speed up.
   [[nodiscard]] double Margin(const LimitStation& at, double squared) const {
     const Demand demand = DemandAt(at, squared);
-    const double across =
-        options_.share * diagram_.MaxLateral(demand.point) - options_.share * demand.point.lateral;
+    const double across = options_.share * diagram_.MaxLateral(demand.point) - demand.point.lateral;
+    const double weight = demand.load - kLeastLoad;
     if (across <= 0.0) {
-      return std::min(across, demand.load - kLeastLoad);
+      return std::min(across, weight);
     }
-    const TyreRange tyres = Tyres(demand);
-    const double braking = demand.resistance - tyres.braking;
-    const double driving = tyres.driving - std::min(demand.resistance, HoldingForce(demand));
-    return std::min({across, braking, driving, demand.load - kLeastLoad});
+    GgvPoint whole = demand.point;
+    whole.lateral /= options_.share;
+    const TyreRange tyres = diagram_.TyresAt(whole);
+    const LongitudinalForces& car = diagram_.forces();
+    const double resistance = car.drag * whole.speed * whole.speed / car.mass + demand.slope;
+    return std::min({across, weight, resistance - options_.share * tyres.braking});
   }
 
   /// The largest square up to `most` at which the tyres hold; 0: none.
@@ -63,42 +55,31 @@ class Capability {
   static constexpr double kLeastLoad = 0.05;  // of the weight; less is as good as in the air
 
   struct Demand {
-    GgvPoint point;           // f_y divided by the share
-    double load = 1.0;        // f_n/g, also where it is negative [1]
-    double squared = 0.0;     // of the speed along the road [m^2/s^2]
-    double stretch = 1.0;     // A
-    double resistance = 0.0;  // of drag and slope [m/s^2]
+    GgvPoint point;
+    double load = 1.0;     // f_n/g, also where it is negative [1]
+    double stretch = 1.0;  // A
+    double slope = 0.0;    // of gravity along the road [m/s^2]
   };
 
-  [[nodiscard]] Demand DemandAt(const LimitStation& at, double squared) const {
+  [[nodiscard]] static Demand DemandAt(const LimitStation& at, double squared) {
     Demand demand;
     const double steep = 1.0 + at.grade * at.grade;  // A^2
     const double tilt = std::sqrt(steep + at.bank * at.bank);
     demand.stretch = std::sqrt(steep);
-    demand.squared = steep * squared;
     const double gravity = kGravity + squared * at.crest;
     const double turn = squared * at.curvature;
     demand.load = (gravity - at.bank * turn) / (tilt * kGravity);
-    demand.point.road = at.road;
-    demand.point.speed = std::sqrt(demand.squared);
-    demand.point.load = std::max(0.0, demand.load);
-    demand.point.lateral =
-        std::abs(steep * turn + at.bank * gravity) / (tilt * demand.stretch * options_.share);
-    demand.resistance = diagram_.forces().drag * demand.squared / diagram_.forces().mass +
-                        at.grade * gravity / demand.stretch;
+    demand.slope = at.grade * gravity / demand.stretch;
+    demand.point = {
+        .speed = std::sqrt(steep * squared),
+        .road = at.road,
+        .load = std::max(0.0, demand.load),
+        .lateral = std::abs(steep * turn + at.bank * gravity) / (tilt * demand.stretch)};
     return demand;
   }
 
-  [[nodiscard]] TyreRange Tyres(const Demand& demand) const {
-    const TyreRange all = diagram_.TyresAt(demand.point);
-    return {options_.share * all.braking, options_.share * all.driving};
-  }
-
-  /// What the motor gives at most [m/s^2].
-  [[nodiscard]] double HoldingForce(const Demand& demand) const {
-    const LongitudinalForces& car = diagram_.forces();
-    return (options_.share * diagram_.DriveForce(demand.point.speed) - car.rolling_resistance) /
-           car.mass;
+  [[nodiscard]] AccelerationRange Accelerations(const Demand& demand) const {
+    return diagram_.AccelerationsAt(demand.point, options_.share, demand.slope);
   }
 
   const GgvDiagram& diagram_;

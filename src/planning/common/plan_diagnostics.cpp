@@ -122,6 +122,9 @@ void Visit(DiagnosticsVisitor& out, const Plan& plan) {
   if (own.open_loop) {
     out.Section("open_loop", *own.open_loop);
   }
+  if (own.speed_profile) {
+    out.Section("speed_profile", *own.speed_profile);
+  }
   if (!own.avoided.empty()) {
     out.List("avoid", own.avoided);
   }

@@ -48,7 +48,8 @@ std::vector<Excess> FindExcesses(const Plan& plan, const PlanRequest& request);
 
 /// The plan as the request wants it where it asks too much: slowed down there, refused
 /// (kInfeasible), or left as it is; Plan::notes tell. A plan that is not ok is left as it is.
-/// Slower than 0.1 m/s no plan is made: it is refused.
+/// Slower than 0.1 m/s no plan is made: it is refused. With PlanRequest::limits its speeds become
+/// those at the limit, and it is refused if the car cannot follow its path or starts too fast.
 Plan MakeFeasible(Plan plan, const PlanRequest& request);
 
 /// Sets the plan's speeds, of the path and of the open loop, from its path, caps and stops.

@@ -32,9 +32,8 @@ struct LimitStation {
 };
 
 struct LimitOptions {
-  double share =
-      1.0;            ///< of the forces of tyres, motor and brakes that is used, above 0, at most 1
-  double jerk = 0.0;  ///< largest |da/dt| [m/s^3]; 0: not limited
+  double share = 1.0;  ///< of the forces of tyres, motor and brakes, above 0, at most 1
+  double jerk = 0.0;   ///< largest |da/dt| [m/s^3]; 0: not limited
   double speed = 0.0;  ///< largest speed [m/s]; 0: the car's, which must have one then
 };
 

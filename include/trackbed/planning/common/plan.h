@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "trackbed/planning/common/plan_diagnostics.h"
 #include "trackbed/planning/common/plan_status.h"
 #include "trackbed/planning/common/planner_options.h"
+#include "trackbed/planning/common/speed_at_limit.h"
 #include "trackbed/planning/common/turn_prediction.h"
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/steering_schedule.h"
@@ -54,6 +56,8 @@ struct PlanRequest {
   double friction = 1.0;                          ///< of the road, a factor on the tyres' own
   std::vector<FrictionPatch> friction_patches{};  ///< where it is another
   InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
+  /// How speeds at the car's limit are found; none: they follow `speed`.
+  std::optional<SpeedAtLimit> limits{};
 };
 
 /// What a planner gives back. With any status but kOk there is a reason and no path.

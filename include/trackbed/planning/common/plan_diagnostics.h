@@ -8,6 +8,7 @@
 #include "trackbed/planning/common/corners.h"
 #include "trackbed/planning/common/diagnostics.h"
 #include "trackbed/planning/common/open_loop.h"
+#include "trackbed/planning/common/speed_at_limit.h"
 
 namespace trackbed {
 
@@ -43,12 +44,13 @@ void Visit(DiagnosticsVisitor& out, const AvoidedStretch& stretch);
 struct PlanDiagnostics {
   MethodDiagnostics planner;             ///< of the planner, such as RrtDiagnostics
   std::vector<MethodDiagnostics> turns;  ///< with an open-loop schedule: FilletTurnFindings
-  std::optional<std::vector<RoundCorner>> corners;  ///< that were rounded
-  std::optional<std::size_t> direction_changes;     ///< cusps on the path
-  std::optional<double> stop_distance;              ///< D_end, where the schedule has one [m]
-  std::optional<OpenLoopRun> open_loop;             ///< of the schedule, by the kinematic car
-  std::vector<AvoidedStretch> avoided;              ///< that were replaced to pass obstacles
-  MethodDiagnostics replan;                         ///< ReplanDiagnostics of a plan made on the way
+  std::optional<std::vector<RoundCorner>> corners;    ///< that were rounded
+  std::optional<std::size_t> direction_changes;       ///< cusps on the path
+  std::optional<double> stop_distance;                ///< D_end, where the schedule has one [m]
+  std::optional<OpenLoopRun> open_loop;               ///< of the schedule, by the kinematic car
+  std::vector<AvoidedStretch> avoided;                ///< that were replaced to pass obstacles
+  std::optional<LimitProfileFindings> speed_profile;  ///< where speeds are at the limit
+  MethodDiagnostics replan;  ///< ReplanDiagnostics of a plan made on the way
 };
 
 /// Names the fields of a plan's diagnostics.

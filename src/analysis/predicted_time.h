@@ -1,0 +1,23 @@
+#pragma once
+
+#include "trackbed/analysis/metric_registry.h"
+#include "trackbed/planning/common/plan.h"
+
+namespace trackbed {
+
+/// The time that speeds at the limit take from start to goal [s]; none for other speeds.
+inline std::optional<MetricReading> PredictedTime(const MetricInput& input) {
+  const auto& profile = input.plan.diagnostics.speed_profile;
+  return profile ? std::optional(MetricReading{profile->predicted_time, {}}) : std::nullopt;
+}
+
+/// The time of the run over it; none unless the run arrived.
+inline std::optional<MetricReading> TimeOverPredicted(const MetricInput& input) {
+  const auto& profile = input.plan.diagnostics.speed_profile;
+  if (!profile || input.log.status != DriveStatus::kArrived) {
+    return std::nullopt;
+  }
+  return MetricReading{input.log.rows.back().state.time / profile->predicted_time, {}};
+}
+
+}  // namespace trackbed

@@ -1,0 +1,228 @@
+#include "trackbed/planning/common/speed_at_limit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/core/error.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/world/world.h"
+
+namespace trackbed {
+namespace {
+
+constexpr double kSamePlace = 1e-9;  // [m]
+/// Stations closer than this are one [m].
+constexpr double kMerged = 1e-3;
+
+double LargerOf(double a, double b) {
+  return std::abs(a) > std::abs(b) ? a : b;
+}
+
+/// Stations and curvatures of segments that begin at `from`.
+std::vector<LimitStation> Nodes(const std::vector<Segment>& segments, double from, double spacing) {
+  std::vector<LimitStation> nodes;
+  double start = from;
+  for (const Segment& segment : segments) {
+    const double pieces = std::ceil(segment.length / spacing);
+    for (double i = 0.0; i <= pieces; i += 1.0) {
+      const double d = segment.length * i / pieces;
+      const double curvature = segment.CurvatureAt(d);
+      if (!nodes.empty() && start + d < nodes.back().s + kMerged) {
+        nodes.back().curvature = LargerOf(nodes.back().curvature, curvature);
+      } else {
+        nodes.push_back({.s = start + d, .curvature = curvature});
+      }
+    }
+    start += segment.length;
+  }
+  if (nodes.size() > 1 && start - nodes.back().s > 0.0) {
+    nodes.back().s = start;  // the end itself
+  }
+  return nodes;
+}
+
+/// The ground and the road along a path.
+class Surface {
+ public:
+  Surface(const Path& path, const PlanRequest& request) : path_(path), request_(request) {
+    const VehicleParams& vehicle = request.vehicle;
+    front_ = vehicle.kind == VehicleKind::kSteered ? vehicle.wheelbase : 0.0;
+    share_ = front_ > 0.0 ? vehicle.cg_to_rear / vehicle.wheelbase : 0.0;
+    flat_ = IsFlat(request.limits->ground);
+  }
+
+  void Describe(LimitStation& at) const {
+    if (flat_ && request_.friction_patches.empty()) {
+      at.road = request_.friction;
+      return;
+    }
+    const Pose2 pose = path_.At(at.s).pose;
+    const Vec2 rear = pose.position();
+    const Vec2 front = ToWorld(pose, {front_, 0.0});
+    const auto factor = [&](const Vec2& point) {
+      return RoadFactor(request_.friction, request_.friction_patches, point);
+    };
+    at.road = std::min(factor(rear), factor(front));
+    if (flat_) {
+      return;
+    }
+    const double half = 0.5 * std::max(request_.vehicle.wheelbase, 0.1);
+    const double before = Height(path_.At(at.s - half).pose);
+    const double here = Height(pose);
+    const double after = Height(path_.At(at.s + half).pose);
+    at.grade = (after - before) / (2.0 * half);
+    at.crest = (after - 2.0 * here + before) / (half * half);
+    const Ground& ground = request_.limits->ground;
+    const Vec2 slope =
+        (1.0 - share_) * GroundSlope(ground, rear) + share_ * GroundSlope(ground, front);
+    at.bank = slope.dot(LeftNormal(Direction(pose.yaw)));
+  }
+
+ private:
+  /// Of the ground under the center of gravity, as the axles feel it.
+  [[nodiscard]] double Height(const Pose2& pose) const {
+    const Ground& ground = request_.limits->ground;
+    return std::lerp(GroundHeight(ground, pose.position()),
+                     GroundHeight(ground, ToWorld(pose, {front_, 0.0})), share_);
+  }
+
+  const Path& path_;
+  const PlanRequest& request_;
+  double front_ = 0.0;  // of the front axle [m]
+  double share_ = 0.0;  // of the load on it
+  bool flat_ = true;
+};
+
+void ApplyCaps(const std::vector<SpeedCap>& caps, std::vector<LimitStation>& stations) {
+  const auto before = [](const LimitStation& at, double s) { return at.s < s; };
+  for (const SpeedCap& cap : caps) {
+    if (stations.empty() || cap.to < stations.front().s - kSamePlace ||
+        cap.from > stations.back().s + kSamePlace) {
+      continue;
+    }
+    // The speed between two stations is at most that at one of them.
+    auto first = std::lower_bound(stations.begin(), stations.end(), cap.from + kSamePlace, before);
+    auto last = std::lower_bound(stations.begin(), stations.end(), cap.to - kSamePlace, before);
+    first = first == stations.begin() ? first : first - 1;
+    last = last == stations.end() ? last : last + 1;
+    for (; first != last; ++first) {
+      first->cap = first->cap > 0.0 ? std::min(first->cap, cap.speed) : cap.speed;
+    }
+  }
+}
+
+struct Timed {
+  SpeedProfile profile;
+  std::optional<LimitExcess> excess;
+};
+
+/// The speeds over parts of a path, each of which ends at rest.
+Timed SpeedsOver(const std::vector<Stations>& legs, const Path& path, const PlanRequest& request,
+                 const std::vector<SpeedCap>& caps) {
+  const SpeedAtLimit& limits = *request.limits;
+  const LimitOptions options{.share = limits.options.share,
+                             .jerk = limits.options.jerk.value_or(0.0),
+                             .speed = request.speed.speed};
+  Timed timed;
+  std::vector<SpeedProfile::Knot> knots;
+  for (const Stations& leg : legs) {
+    const std::vector<LimitStation> stations = StationsAlong(path, leg, request, caps);
+    if (stations.size() < 2) {
+      continue;
+    }
+    const LimitSpeeds own = LimitSpeedsAlong(stations, limits.diagram, options,
+                                             knots.empty() ? request.start_speed : 0.0, 0.0);
+    if (own.excess && !timed.excess) {
+      timed.excess = own.excess;
+    }
+    for (std::size_t i = 0; i < stations.size(); ++i) {
+      if (knots.empty() || stations[i].s > knots.back().s + 0.5 * kSamePlace) {
+        knots.push_back({stations[i].s, own.speeds[i]});
+      }
+    }
+  }
+  timed.profile = SpeedProfile(knots.empty() ? std::vector<SpeedProfile::Knot>{{0.0, 0.0}} : knots);
+  return timed;
+}
+
+LimitProfileFindings Describe(const Plan& plan, double share) {
+  const Path& path = plan.reference.path;
+  const SpeedProfile& speed = plan.reference.speed;
+  LimitProfileFindings findings{.share = share, .predicted_time = speed.TimeAt(path.length())};
+  const std::vector<SpeedProfile::Knot>& knots = speed.knots();
+  double before = 0.0;
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    const double square = knots[i].speed * knots[i].speed;
+    findings.lateral_max =
+        std::max(findings.lateral_max, square * std::abs(path.BendAt(knots[i].s).curvature));
+    const double after = speed.AccelerationAt(knots[i].s);
+    findings.driving_max = std::max(findings.driving_max, after);
+    findings.braking_max = std::max(findings.braking_max, -after);
+    const bool valley = before < 0.0 && after >= 0.0 && knots[i].speed > 0.0;
+    if (valley && (findings.slowest == 0.0 || knots[i].speed < findings.slowest)) {
+      findings.slowest = knots[i].speed;
+      findings.slowest_s = knots[i].s;
+    }
+    before = after;
+  }
+  return findings;
+}
+
+}  // namespace
+
+std::vector<LimitStation> StationsAlong(const Path& path, const Stations& part,
+                                        const PlanRequest& request,
+                                        const std::vector<SpeedCap>& caps) {
+  TRACKBED_CHECK(request.limits.has_value(), "a request {}", "without limits");
+  std::vector<Segment> segments = path.Cut(part);
+  const double beyond = part.to - std::max(path.length(), part.from);
+  if (beyond > kSamePlace) {
+    segments.push_back({.length = beyond});
+  }
+  const double spacing = std::min(0.5, 0.2 * request.vehicle.wheelbase);
+  std::vector<LimitStation> stations = Nodes(segments, part.from, spacing);
+  const Surface surface(path, request);
+  for (LimitStation& at : stations) {
+    surface.Describe(at);
+  }
+  ApplyCaps(caps, stations);
+  return stations;
+}
+
+std::optional<LimitExcess> SetSpeedsAtLimit(Plan& plan, const PlanRequest& request,
+                                            const std::vector<SpeedCap>& caps) {
+  const Path& path = plan.reference.path;
+  const double stop =
+      plan.schedule_speed.knots().empty() ? path.length() : plan.schedule_speed.knots().back().s;
+  const std::vector<Stations> legs = SplitIntoLegs(path, plan.stops);
+  Timed timed = SpeedsOver(legs, path, request, caps);
+  plan.reference.speed = timed.profile;
+  plan.schedule_speed = std::abs(stop - path.length()) < kSamePlace
+                            ? plan.reference.speed
+                            : SpeedsOver({{0.0, stop}}, path, request, caps).profile;
+  const LimitProfileFindings findings = Describe(plan, request.limits->options.share);
+  plan.diagnostics.speed_profile = findings;
+  const std::string slowest = findings.slowest > 0.0
+                                  ? fmt::format(", slowest {:.3g} m/s at s = {:.4g} m",
+                                                findings.slowest, findings.slowest_s)
+                                  : "";
+  plan.notes.push_back(fmt::format("speeds at {:.3g} of the limit: predicted time {:.4g} s{}",
+                                   findings.share, findings.predicted_time, slowest));
+  return timed.excess;
+}
+
+void Visit(DiagnosticsVisitor& out, const LimitProfileFindings& findings) {
+  out.Number("share", findings.share);
+  out.Number("predicted_time_s", findings.predicted_time);
+  if (findings.slowest > 0.0) {
+    out.Number("slowest_mps", findings.slowest);
+    out.Number("slowest_s_m", findings.slowest_s);
+  }
+  out.Number("lateral_acceleration_max_mps2", findings.lateral_max);
+  out.Number("acceleration_max_mps2", findings.driving_max);
+  out.Number("deceleration_max_mps2", findings.braking_max);
+}
+
+}  // namespace trackbed

@@ -1,0 +1,153 @@
+#include "trackbed/planning/common/speed_at_limit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tests/tolerance.h"
+#include "trackbed/planning/common/feasibility.h"
+#include "trackbed/planning/common/plan.h"
+
+namespace trackbed {
+namespace {
+
+constexpr double kGrip = 8.0;  // [m/s^2]
+
+PlanRequest Request() {
+  PlanRequest request;
+  request.vehicle.name = "car";
+  request.vehicle.wheelbase = 2.5;
+  request.vehicle.cg_to_rear = 1.0;
+  request.vehicle.steering_limit = 0.6;
+  request.vehicle.steering_rate = 0.5;
+  request.vehicle.length = 4.0;
+  request.vehicle.width = 1.8;
+  request.speed = {.speed = 30.0, .acceleration = 1.0, .deceleration = 1.5};
+  request.limits = SpeedAtLimit{
+      GgvDiagram({.mass = 1000.0, .rolling_mass = 1000.0}, {EllipticSection(kGrip, kGrip, kGrip)}),
+      {.share = 1.0}};
+  return request;
+}
+
+/// A plan along a path from the origin, with today's speeds.
+Plan PlanAlong(std::vector<Segment> segments, const PlanRequest& request) {
+  Plan plan;
+  plan.reference.path = Path({}, std::move(segments));
+  SetSpeeds(plan, request.start_speed, request.speed);
+  return plan;
+}
+
+/// 60 m straight, 30 m of clothoid to 1/40, 60 m of arc, and back.
+std::vector<Segment> Bend() {
+  return {{.length = 60.0},
+          {.length = 30.0, .sharpness = 1.0 / 1200.0},
+          {.length = 60.0, .curvature = 1.0 / 40.0},
+          {.length = 30.0, .curvature = 1.0 / 40.0, .sharpness = -1.0 / 1200.0},
+          {.length = 60.0}};
+}
+
+TEST(SpeedAtLimit, IsThatOfFrictionInABend) {
+  const PlanRequest request = Request();
+  const Plan plan = MakeFeasible(PlanAlong(Bend(), request), request);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const SpeedProfile& speed = plan.reference.speed;
+  EXPECT_EQ(speed.SpeedAt(0.0), 0.0);
+  EXPECT_EQ(speed.SpeedAt(240.0), 0.0);
+  EXPECT_NEAR(speed.SpeedAt(120.0), std::sqrt(kGrip * 40.0), Tolerance(1e-4));
+  // From rest at the full grip, until the bend is near.
+  EXPECT_NEAR(speed.SpeedAt(10.0), std::sqrt(2.0 * kGrip * 10.0), Tolerance(1e-3));
+  ASSERT_TRUE(plan.diagnostics.speed_profile);
+  EXPECT_NEAR(plan.diagnostics.speed_profile->predicted_time, speed.TimeAt(240.0), Tolerance(1e-9));
+  EXPECT_NEAR(plan.diagnostics.speed_profile->lateral_max, kGrip, Tolerance(1e-4));
+  EXPECT_EQ(plan.notes.size(), 1U);
+}
+
+TEST(SpeedAtLimit, KeepsTheSteeringRate) {
+  // On the clothoid dkappa/ds = 1/1200: v L kappa'/(1 + (L kappa)^2) <= omega, slowest at its
+  // start.
+  PlanRequest request = Request();
+  request.vehicle.steering_rate = 0.02;
+  const Plan plan = MakeFeasible(PlanAlong(Bend(), request), request);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const double cap = 0.02 / (2.5 / 1200.0);  // 9.6 m/s
+  EXPECT_NEAR(plan.reference.speed.SpeedAt(60.0), cap, Tolerance(1e-3 * cap));
+  for (const Excess& excess : FindExcesses(plan, request)) {
+    EXPECT_EQ(excess.what.find("steering rate"), std::string::npos) << ToString(excess);
+  }
+}
+
+TEST(SpeedAtLimit, StopsAtCuspsAndStops) {
+  const PlanRequest request = Request();
+  Plan plan = PlanAlong({{.length = 20.0}, {.length = 10.0, .direction = -1}}, request);
+  plan = MakeFeasible(plan, request);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_EQ(plan.reference.speed.SpeedAt(20.0), 0.0);
+  EXPECT_NEAR(plan.reference.speed.SpeedAt(10.0), std::sqrt(2.0 * kGrip * 10.0), Tolerance(1e-3));
+  Plan stops = PlanAlong({{.length = 40.0}}, request);
+  stops.stops = {15.0};
+  stops = MakeFeasible(stops, request);
+  ASSERT_TRUE(stops.ok()) << stops.reason;
+  EXPECT_EQ(stops.reference.speed.SpeedAt(15.0), 0.0);
+  EXPECT_GT(stops.reference.speed.SpeedAt(16.0), 3.0);
+}
+
+TEST(SpeedAtLimit, KeepsCapsOfThePlanAndTheMissionsSpeed) {
+  PlanRequest request = Request();
+  request.speed.speed = 12.0;
+  Plan plan = PlanAlong({{.length = 200.0}}, request);
+  plan.caps = {{100.0, 110.2, 4.0}};
+  plan = MakeFeasible(plan, request);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  for (double s = 100.0; s <= 110.2; s += 0.05) {
+    EXPECT_LE(plan.reference.speed.SpeedAt(s), 4.0 + Tolerance(1e-9)) << s;
+  }
+  EXPECT_NEAR(plan.reference.speed.SpeedAt(60.0), 12.0, Tolerance(1e-9));
+}
+
+TEST(SpeedAtLimit, KnowsRoadAndSlopes) {
+  PlanRequest request = Request();
+  request.friction_patches = {{{{30.0, 0.0, 0.0}, 20.0, 4.0}, 0.25}};
+  request.limits->ground.grade = {0.1, -0.05};
+  const Path path({}, {{.length = 60.0}});
+  const std::vector<LimitStation> stations = StationsAlong(path, {0.0, 60.0}, request, {});
+  EXPECT_EQ(stations.front().s, 0.0);
+  EXPECT_EQ(stations.back().s, 60.0);
+  for (const LimitStation& at : stations) {
+    // Heights of some meters, differences over 1.25 m.
+    EXPECT_NEAR(at.grade, 0.1, Tolerance(1e-14));
+    EXPECT_NEAR(at.bank, -0.05, Tolerance(1e-15));
+    EXPECT_NEAR(at.crest, 0.0, Tolerance(1e-14));
+    // Ice from 20 to 40 m, under either axle.
+    const bool on_ice = at.s >= 17.5 && at.s <= 40.0;
+    EXPECT_EQ(at.road, on_ice ? 0.25 : 1.0) << at.s;
+  }
+}
+
+TEST(SpeedAtLimit, RefusesAStartThatIsTooFast) {
+  PlanRequest request = Request();
+  request.start_speed = 30.0;
+  request.speed.speed = 30.0;
+  const std::vector<Segment> sharp{{.length = 20.0}, {.length = 30.0, .curvature = 1.0 / 20.0}};
+  Plan plan = PlanAlong(sharp, request);
+  const Plan refused = MakeFeasible(plan, request);
+  EXPECT_EQ(refused.status, PlanStatus::kInfeasible);
+  EXPECT_NE(refused.reason.find("speed 24.1 m/s exceeds 12.6 m/s at s = 20 m"), std::string::npos)
+      << refused.reason;
+  request.infeasible = InfeasiblePolicy::kAllow;
+  const Plan kept = MakeFeasible(plan, request);
+  EXPECT_TRUE(kept.ok());
+  EXPECT_EQ(kept.notes.size(), 2U);
+}
+
+TEST(SpeedAtLimit, RefusesAPathThatIsTooTight) {
+  const PlanRequest request = Request();
+  const Plan refused =
+      MakeFeasible(PlanAlong({{.length = 10.0, .curvature = 0.5}}, request), request);
+  EXPECT_EQ(refused.status, PlanStatus::kInfeasible);
+  EXPECT_NE(refused.reason.find("steering angle"), std::string::npos) << refused.reason;
+}
+
+}  // namespace
+}  // namespace trackbed

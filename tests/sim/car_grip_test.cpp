@@ -1,0 +1,131 @@
+#include "trackbed/sim/car_grip.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "tests/sim/cars.h"
+#include "tests/tolerance.h"
+
+/// Whether the g-g-v diagram of a car is what the MuJoCo car does.
+namespace trackbed {
+namespace {
+
+constexpr double kSpeed = 25.0;  // [m/s]
+
+/// The largest lateral acceleration, mean over half a second, of a car that is steered ever more,
+/// slowly enough to be at steady state, until it spins [m/s^2]. It keeps its speed or coasts.
+double MeasureLateral(const CarModel& car, double road, bool coasts) {
+  World world;
+  world.friction = road;
+  const auto plant = MakePlant("mujoco:magic_formula", {.car = car,
+                                                        .world = world,
+                                                        .start = {.speed = kSpeed},
+                                                        .tyre = TyreLaw::kAuto,
+                                                        .steering = SteeringInput::kPrescribed});
+  constexpr double kWindow = 0.5;    // [s]
+  constexpr double kSpinning = 0.2;  // of the sideslip [rad]
+  double largest = 0.0;
+  double sum = 0.0;
+  double until = kWindow;
+  int count = 0;
+  bool spins = false;
+  Drive(
+      car, *plant, 12.0,
+      [&](double t, const VehicleState& state) {
+        return Command{
+            .steering = 0.02 * t, .acceleration = 2.0 * (kSpeed - state.speed), .coast = coasts};
+      },
+      [&](double t, const VehicleState& state) {
+        spins = spins || std::abs(state.sideslip) > kSpinning;
+        if (t >= until) {
+          largest = spins ? largest : std::max(largest, sum / count);
+          sum = 0.0;
+          count = 0;
+          until += kWindow;
+        }
+        sum += state.lateral_acceleration;
+        ++count;
+      });
+  return largest;
+}
+
+// Neglected: the cosine of the steering angle, at most 0.15 rad, takes 1 % of the front axle's
+// force; unsprung masses that do not lean, the toe of the wheels, and what is left of transients,
+// below 1 % each.
+constexpr double kNeglected = 0.025;
+
+TEST(CarGrip, LateralLimitIsThatOfAMujocoCarThatCoasts) {
+  for (const std::string model : {"prius", "bmw320i"}) {
+    const CarModel car = CarWith(model, {});
+    for (const double road : {1.0, 0.5}) {
+      const double predicted =
+          ComputeGgv(car, TyreLaw::kMagicFormula, {road}).MaxLateral({.road = road});
+      EXPECT_NEAR(MeasureLateral(car, road, true), predicted, Tolerance(kNeglected * predicted))
+          << model << ", " << road;
+    }
+  }
+}
+
+TEST(CarGrip, LateralLimitIsThatOfAMujocoCarThatKeepsItsSpeed) {
+  // The inner front wheel of the Prius drives against drag and slip angles, and slides: 8 % less.
+  const CarModel car = CarWith("prius", {});
+  const GripModel grip = MakeGripModel(car, TyreLaw::kMagicFormula);
+  const LongitudinalForces& forces = grip.forces;
+  const double longitudinal =
+      (forces.drag * kSpeed * kSpeed + forces.rolling_resistance) / forces.mass;
+  for (const double road : {1.0, 0.5}) {
+    const double predicted = MaxLateralForce(grip, road, longitudinal);
+    EXPECT_NEAR(MeasureLateral(car, road, false), predicted, Tolerance(kNeglected * predicted))
+        << road;
+  }
+}
+
+TEST(CarGrip, RollStiffnessIsThatOfTheModelsSprings) {
+  // models/prius/prius.xml: springs of 19 and 22 kN/m and anti-roll bars of 11480 and 5480 N/m;
+  // tyres of 6 % of the radius.
+  const CarModel car = CarWith("prius", {});
+  const GripModel grip = MakeGripModel(car, TyreLaw::kMagicFormula);
+  const double tyre = car.parts().tyres->vertical_stiffness;
+  const std::array<double, 2> spring{19e3, 22e3};
+  const std::array<double, 2> bar{11480.0, 5480.0};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double square = grip.axles[i].track * grip.axles[i].track;
+    // The roll angle is 2 z/t; a bar is stretched by 2 z.
+    const double springs = (0.5 * spring[i] + bar[i]) * square;
+    const double tyres = 0.5 * tyre * square;
+    EXPECT_NEAR(grip.axles[i].roll_stiffness, springs * tyres / (springs + tyres),
+                Tolerance(1e-9 * springs));
+    EXPECT_NEAR(grip.axles[i].suspension_share, tyres / (springs + tyres), Tolerance(1e-12));
+  }
+  // Contacts are rigid.
+  EXPECT_EQ(MakeGripModel(car, TyreLaw::kContact).axles[0].suspension_share, 1.0);
+}
+
+TEST(CarGrip, ForcesAreThoseOfTheParameters) {
+  const CarModel car = CarWith("bmw320i", {});
+  const LongitudinalForces forces = MakeGripModel(car, TyreLaw::kAuto).forces;
+  const VehicleParams& params = car.params();
+  EXPECT_EQ(forces.mass, params.mass);
+  EXPECT_EQ(forces.drive_power, car.parts().drive_power);
+  EXPECT_GT(forces.rolling_mass, params.mass);
+  EXPECT_LT(forces.rolling_mass, 1.1 * params.mass);
+  // The diagram's top speed, where the motor's force is the drag's and the resistance.
+  const GgvDiagram diagram = ComputeGgv(car, TyreLaw::kAuto, {1.0});
+  EXPECT_NEAR(diagram.AccelerationsAt({.speed = params.top_speed}).largest, 0.0, Tolerance(1e-6));
+  // From rest what VehicleParams says, of the Magic Formula alone, whose grip is the larger one.
+  EXPECT_GE(diagram.AccelerationsAt({}).largest, params.max_acceleration - 1e-3);
+  // No command brakes harder.
+  EXPECT_NEAR(diagram.TyresAt({}).braking, -params.max_deceleration, Tolerance(1e-3));
+}
+
+TEST(CarGrip, OfADifferentialDriveIsItsFriction) {
+  const CarModel car = CarWith("diff_drive", {});
+  const GgvDiagram diagram = ComputeGgv(car, TyreLaw::kAuto, {1.0});
+  EXPECT_NEAR(diagram.MaxLateral({}), MaxLateralAcceleration(car.params(), 1.0), Tolerance(1e-12));
+}
+
+}  // namespace
+}  // namespace trackbed
