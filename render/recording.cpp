@@ -20,6 +20,7 @@
 #include "trackbed/sim/compile_scene.h"
 #include "trackbed/sim/plant.h"
 #include "trackbed/sim/scene.h"
+#include "trackbed/track/track_file.h"
 
 namespace trackbed::render {
 namespace {
@@ -388,6 +389,9 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
   recording.plan = ReadPlan(plan);
   if (!recording.plan.empty()) {
     recording.road = RoadToDraw(recording.world, PlannerOf(folder / run_folder::kPlanJson));
+  }
+  if (const fs::path track = folder / kTrackCsv; fs::exists(track, ignored)) {
+    recording.track = ReadTrack(run_folder::RequireFile(track));
   }
   recording.new_plans = ReadNewPlans(new_plans);
   recording.curvatures = ReadCurvatures(plan, recording.begin());

@@ -14,6 +14,7 @@
 #include "render/timed_table.h"
 #include "trackbed/sim/mujoco_handles.h"
 #include "trackbed/sim/plant.h"
+#include "trackbed/track/track.h"
 #include "trackbed/world/world.h"
 
 namespace trackbed::render {
@@ -116,6 +117,7 @@ struct Recording {
   std::vector<NewPlan> new_plans;            ///< of the car alone, in the order of time
   std::vector<CurvatureProfile> curvatures;  ///< of both, where their files have it
   std::optional<RoadLook> road;              ///< along the plan; none: open ground
+  std::optional<Track> track;                ///< of a run on one: the road is between its edges
   std::vector<Point> cones;                  ///< of the gates that the plan leads through
   std::vector<std::vector<Point>> gates;     ///< of each the four corners between its cones
   TyreLaw tyre = TyreLaw::kAuto;             ///< of the plant `mujoco`

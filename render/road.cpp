@@ -53,6 +53,32 @@ std::vector<Spot> SpotsAlong(const std::vector<Point>& line, double step) {
   return spots;
 }
 
+/// A road: its middle, and half of its width there [m].
+struct Roadway {
+  std::vector<Spot> spots;
+  std::vector<double> half;
+};
+
+Roadway AlongPlan(const std::vector<Point>& plan, double width, double step) {
+  Roadway way{.spots = SpotsAlong(plan, step), .half = {}};
+  way.half.assign(way.spots.size(), 0.5 * width);
+  return way;
+}
+
+/// Once around, to where it begins.
+Roadway AlongTrack(const Track& track) {
+  Roadway way;
+  const std::size_t count = track.left_edge().size();
+  for (std::size_t i = 0; i <= count; ++i) {
+    const Vec2 left = track.left_edge()[i % count];
+    const Vec2 right = track.right_edge()[i % count];
+    const Vec2 middle = 0.5 * (left + right);
+    way.spots.push_back({{middle.x(), middle.y()}, (left - right).normalized()});
+    way.half.push_back(0.5 * (left - right).norm());
+  }
+  return way;
+}
+
 bool NearTheCamera(const CameraPose& camera, const Point& place) {
   constexpr double kNear = 0.6;  // of its way to what it looks at
   const double level = camera.distance * std::cos(camera.elevation);
@@ -82,20 +108,25 @@ class RoadRibbons : public Overlay {
       return;
     }
     constexpr double kStep = 0.5;  // [m]
-    const std::vector<Spot> spots = SpotsAlong(recording_.plan, kStep);
-    const double half = 0.5 * recording_.road->width;
-    AddAsphalt(spots, recording_.road->width + 2.0 * kShoulder);
-    edges_ = {Beside(spots, half), Beside(spots, -half)};
-    const double verge = half + kVergeBegin + 0.5 * kVergeWidth;
-    verges_ = {Coarse(Beside(spots, verge)), Coarse(Beside(spots, -verge))};
+    const double width = recording_.road->width;
+    const Roadway way =
+        recording_.track ? AlongTrack(*recording_.track) : AlongPlan(recording_.plan, width, kStep);
+    AddAsphalt(way);
+    edges_ = {Beside(way, 1.0, 0.0), Beside(way, -1.0, 0.0)};
+    constexpr double kVerge = kVergeBegin + 0.5 * kVergeWidth;
+    verges_ = {Coarse(Beside(way, 1.0, kVerge)), Coarse(Beside(way, -1.0, kVerge))};
+    if (recording_.track) {
+      dashes_.emplace_back(OffsetFrom(way.spots.front(), way.half.front()),
+                           OffsetFrom(way.spots.front(), -way.half.front()));
+      return;  // a start line, but neither lanes nor posts
+    }
     const int lanes = recording_.road->lanes;
     for (int lane = 1; lane < lanes; ++lane) {
-      const double offset = recording_.road->width * (static_cast<double>(lane) / lanes - 0.5);
-      AddDashes(spots, offset, kStep);
+      AddDashes(way.spots, width * (static_cast<double>(lane) / lanes - 0.5), kStep);
     }
     for (const Spot& spot : SpotsAlong(recording_.plan, kPostPeriod)) {
       for (const double side : {-1.0, 1.0}) {
-        posts_.push_back(OffsetFrom(spot, side * (half + kVergeBegin + 0.6 * kVergeWidth)));
+        posts_.push_back(OffsetFrom(spot, side * (0.5 * width + kVergeBegin + 0.6 * kVergeWidth)));
       }
     }
   }
@@ -141,10 +172,11 @@ class RoadRibbons : public Overlay {
         {spot.point.x + left * spot.left.x(), spot.point.y + left * spot.left.y()});
   }
 
-  [[nodiscard]] std::vector<Point> Beside(const std::vector<Spot>& spots, double left) const {
+  /// A line on the left (1) or right (-1) of the road, beyond its edge.
+  [[nodiscard]] std::vector<Point> Beside(const Roadway& way, double side, double beyond) const {
     std::vector<Point> line;
-    for (const Spot& spot : spots) {
-      line.push_back(OffsetFrom(spot, left));
+    for (std::size_t i = 0; i < way.spots.size(); ++i) {
+      line.push_back(OffsetFrom(way.spots[i], side * (way.half[i] + beyond)));
     }
     return Thinned(line);
   }
@@ -163,13 +195,12 @@ class RoadRibbons : public Overlay {
   }
 
   /// Straight pieces: coarser than the edge lines, which lie upon them.
-  void AddAsphalt(const std::vector<Spot>& spots, double width) {
+  void AddAsphalt(const Roadway& way) {
     constexpr double kCoarse = 0.1;       // [m]
     constexpr double kTolerance = 0.002;  // [m]
     constexpr std::size_t kMostPieces = 2000;
-    const double overlap = 0.15 * 0.5 * width;  // as AddRibbonPiece
     std::vector<Point> middle;
-    for (const Spot& spot : spots) {
+    for (const Spot& spot : way.spots) {
       middle.push_back({spot.point.x, spot.point.y, 0.0});
     }
     const std::vector<std::size_t> kept = Thin(middle, kCoarse, kMostPieces);
@@ -180,6 +211,10 @@ class RoadRibbons : public Overlay {
       const Vec2 b(middle[kept[i]].x, middle[kept[i]].y);
       const Vec2 along = b - a;
       const Vec2 center = 0.5 * (a + b);
+      const auto first = way.half.begin() + static_cast<std::ptrdiff_t>(kept[i - 1]);
+      const auto last = way.half.begin() + static_cast<std::ptrdiff_t>(kept[i]);
+      const double width = 2.0 * (*std::max_element(first, last + 1) + kShoulder);
+      const double overlap = 0.15 * 0.5 * width;  // as AddRibbonPiece
       const OrientedBox box{{center.x(), center.y(), std::atan2(along.y(), along.x())},
                             along.norm() + 2.0 * overlap,
                             width};
@@ -227,7 +262,8 @@ class RoadRibbons : public Overlay {
 }  // namespace
 
 OverlayEntry RoadOverlay() {
-  return EntryOf<RoadRibbons>("road", "a road along the plan, with lanes, verges and posts");
+  return EntryOf<RoadRibbons>(
+      "road", "a road along the plan, with lanes, verges and posts; on a track, between its edges");
 }
 
 }  // namespace trackbed::render

@@ -19,6 +19,7 @@ using nlohmann::ordered_json;
 
 constexpr const char* kManeuver = "maneuver";
 constexpr const char* kTurns = "turns";
+constexpr const char* kLaps = "laps";
 constexpr const char* kWindows = "windows";
 
 /// The only list that changes after the program began: RegisterMetric adds to it.
@@ -73,7 +74,7 @@ void CheckEntry(const MetricEntry& entry) {
   if (static_cast<bool>(entry.read) == static_cast<bool>(entry.measure)) {
     refuse("exactly one of `measure` and `read` must be given");
   }
-  std::vector<std::string> taken{kManeuver, kTurns, kWindows};
+  std::vector<std::string> taken{kManeuver, kTurns, kLaps, kWindows};
   for (const MetricEntry& other : Metrics()) {
     const std::vector<std::string> paths = EntryPaths(other);
     taken.insert(taken.end(), paths.begin(), paths.end());
@@ -102,6 +103,15 @@ std::optional<MetricInfo> DescribeTurnMetric(std::string_view key, int index) {
   for (const TurnMetricEntry& entry : TurnMetricTable()) {
     if (key == entry.key) {
       return MetricInfo{fmt::format("Turn {}: {}", index + 1, entry.label), entry.unit};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<MetricInfo> DescribeLapMetric(std::string_view key, int index) {
+  for (const LapMetricEntry& entry : LapMetricTable()) {
+    if (key == entry.key) {
+      return MetricInfo{fmt::format("Lap {}: {}", index + 1, entry.label), entry.unit, true};
     }
   }
   return std::nullopt;
@@ -179,6 +189,13 @@ std::vector<Metric> ListMetrics(const PlantMetrics& metrics) {
           {.span = MetricSpan::kMoment, .s = turn.s, .t = turn.t});
     }
   }
+  for (std::size_t i = 0; i < metrics.laps.size(); ++i) {
+    const LapMetrics& lap = metrics.laps[i];
+    for (const LapMetricEntry& entry : LapMetricTable()) {
+      add(fmt::format("{}[{}].{}", kLaps, i, entry.key), entry.read(lap),
+          {.span = MetricSpan::kInterval, .s = lap.s, .t = lap.t, .from_t = lap.t - lap.time});
+    }
+  }
   for (std::size_t i = 0; i < metrics.windows.size(); ++i) {
     for (const WindowMetricEntry& entry : WindowMetricTable()) {
       add(fmt::format("{}[{}].{}", kWindows, i, entry.key), entry.read(metrics.windows[i]), {});
@@ -191,6 +208,9 @@ std::optional<MetricInfo> DescribeMetric(std::string_view path) {
   int index = 0;
   if (const auto key = InList(kTurns, path, index)) {
     return DescribeTurnMetric(*key, index);
+  }
+  if (const auto key = InList(kLaps, path, index)) {
+    return DescribeLapMetric(*key, index);
   }
   if (const auto key = InList(kWindows, path, index)) {
     return DescribeWindowMetric(*key, index);
@@ -259,8 +279,13 @@ PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
     metrics.recorded.emplace();
     metrics.windows.resize(scenario.record->windows.size());
   }
+  if (scenario.mission.track) {
+    metrics.laps.resize(static_cast<std::size_t>(scenario.mission.track->laps));
+  }
   for (const MetricEntry& entry : Metrics()) {
-    if (entry.measure) {
+    // Those of a track are of runs on one alone.
+    const bool of_track = entry.path.starts_with("track_limits.");
+    if (entry.measure && (!of_track || scenario.mission.track)) {
       metrics.measured.emplace_back(entry.path, MetricReading{0.0, {}});
     }
   }

@@ -4,6 +4,7 @@
 
 #include "src/analysis/predicted_time.h"
 #include "src/analysis/sideslip.h"
+#include "src/analysis/track_metrics.h"
 
 // The place where a metric is registered: one entry each.
 namespace trackbed {
@@ -151,6 +152,13 @@ std::vector<MetricEntry> OwnMetrics() {
       Located({"sideslip_max", "Maximum sideslip angle", "rad", {}, LargestSideslip}),
       {"predicted_time", "Time predicted at the limit", "s", {}, PredictedTime},
       {"time_over_predicted", "Time over the predicted one", "", {}, TimeOverPredicted},
+      Headline(Located({"track_limits.margin_min",
+                        "Smallest distance from the track's edges (negative: beyond)",
+                        "m",
+                        {},
+                        SmallestTrackMargin})),
+      {"track_limits.time_off", "Time off the track", "s", {}, TimeOffTrack},
+      {"track_limits.distance_off", "Distance off the track", "m", {}, DistanceOffTrack},
   };
 }
 
@@ -166,6 +174,15 @@ const std::vector<TurnMetricEntry>& TurnMetricTable() {
        [](T turn) -> MetricValue { return turn.predicted.lateral_offset; }},
       {"lateral_offset", "lateral offset", "m",
        [](T turn) -> MetricValue { return turn.measured.lateral_offset; }}};
+  return table;
+}
+
+const std::vector<LapMetricEntry>& LapMetricTable() {
+  using L = const LapMetrics&;
+  static const std::vector<LapMetricEntry> table{
+      {"time", "time", "s", [](L lap) -> MetricValue { return lap.time; }},
+      {"time_planned", "time, planned", "s",
+       [](L lap) -> MetricValue { return lap.time_planned; }}};
   return table;
 }
 

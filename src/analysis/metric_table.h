@@ -20,6 +20,16 @@ struct TurnMetricEntry {
 
 const std::vector<TurnMetricEntry>& TurnMetricTable();
 
+/// A metric of each completed lap on a track; in metrics.json under `laps[N]`.
+struct LapMetricEntry {
+  const char* key;
+  const char* label;
+  const char* unit;
+  MetricValue (*read)(const LapMetrics& lap);
+};
+
+const std::vector<LapMetricEntry>& LapMetricTable();
+
 /// A metric of the predictions over one horizon; in metrics.json under `windows[N]`. Nothing where
 /// there were no windows, or where a quantile is infinite.
 struct WindowMetricEntry {

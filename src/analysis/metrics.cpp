@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "src/analysis/peaks.h"
+#include "src/analysis/track_metrics.h"
 #include "trackbed/analysis/compare.h"
 #include "trackbed/analysis/metric_registry.h"
 #include "trackbed/control/steering_controller.h"
@@ -160,6 +161,7 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
   metrics.blocked = (log.changes.empty() ? plan : log.changes.back().plan).blocked;
   metrics.partial = plan.partial;
   metrics.turns = MeasureTurns(log, plan, vehicle, source);
+  metrics.laps = MeasureLaps(log, plan);
   for (const MetricEntry& entry : Metrics()) {
     if (entry.measure) {
       if (const auto reading = entry.measure({log, plan, vehicle})) {

@@ -23,6 +23,7 @@
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/recording/record_csv.h"
 #include "trackbed/scenario/recording_file.h"
+#include "trackbed/track/track_file.h"
 
 namespace trackbed {
 namespace {
@@ -352,6 +353,9 @@ void WriteRunFolder(const RunResult& result, const OutputFolder& folder,
   writer.Add(run_folder::kScenarioYaml, ResolvedYaml(result.scenario));
   if (const auto& record = result.scenario.record) {
     writer.Add(kRecordCsv, RecordCsv(*record->data));
+  }
+  if (const auto& track = result.scenario.mission.track) {
+    writer.Add(kTrackCsv, TrackCsv(track->data->points()));
   }
   const auto* playback = result.scenario.control.steering.As<PlaybackOptions>();
   if (playback != nullptr && !(playback->file.empty() && result.scenario.record)) {

@@ -14,6 +14,7 @@
 #include "trackbed/scenario/record.h"
 #include "trackbed/scenario/recording_file.h"
 #include "trackbed/sim/plant.h"
+#include "trackbed/track/track_file.h"
 
 namespace trackbed::run_folder {
 namespace {
@@ -75,6 +76,7 @@ std::vector<std::string> AllNames() {
   names.emplace_back(kRecordingCsv);
   names.emplace_back(kRecordCsv);
   names.emplace_back(kPathCsv);
+  names.emplace_back(kTrackCsv);
   names.insert(names.end(), kPathFiles.begin(), kPathFiles.end());
   for (const std::string& plant : DrivenPlantNames()) {
     for (const auto name_of : {LogCsv, StateCsv, NewPlansCsv, NewPlansJson, NewPlansTreeCsv}) {

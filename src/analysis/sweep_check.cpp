@@ -16,6 +16,7 @@
 #include "trackbed/recording/record_csv.h"
 #include "trackbed/scenario/recording_file.h"
 #include "trackbed/sim/scene.h"
+#include "trackbed/track/track_file.h"
 
 namespace trackbed {
 namespace {
@@ -144,6 +145,9 @@ CheckedStudy CheckStudy(Study study, bool all) {
     }
     if (scenario.record) {
       checked.inputs["record " + scenario.record->file] = Sha256(RecordCsv(*scenario.record->data));
+    }
+    if (const auto& track = scenario.mission.track) {
+      checked.inputs["track " + track->file] = Sha256(TrackCsv(track->data->points()));
     }
     const auto* playback = scenario.control.steering.As<PlaybackOptions>();
     if (playback != nullptr && !playback->file.empty()) {

@@ -93,6 +93,9 @@ Plan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
           },
       .friction = scenario.world.friction,
       .friction_patches = scenario.world.friction_patches,
+      .on_track = scenario.mission.track
+                      ? TrackLaps{scenario.mission.track->data, scenario.mission.track->laps}
+                      : TrackLaps{},
       .infeasible = scenario.plan->infeasible,
       .limits = std::move(limits)};
   Plan plan = MakePlan(request, scenario.plan->global);

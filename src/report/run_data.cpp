@@ -25,6 +25,7 @@
 #include "trackbed/report/names.h"
 #include "trackbed/scenario/scenario.h"
 #include "trackbed/sim/car_model.h"
+#include "trackbed/track/track_file.h"
 
 namespace trackbed {
 namespace {
@@ -227,6 +228,22 @@ ordered_json PlanJson(const fs::path& folder) {
   return plan;
 }
 
+/// The edges of a track, as many points of both.
+ordered_json EdgesJson(const fs::path& file) {
+  constexpr std::size_t kMostPoints = 2000;
+  const Track track = ReadTrack(run_folder::RequireFile(file));
+  const auto line = [&](const TrackEdgeLine& edge) {
+    const std::size_t step = edge.size() / kMostPoints + 1;
+    ordered_json json{{"x", ordered_json::array()}, {"y", ordered_json::array()}};
+    for (std::size_t i = 0; i < edge.size(); i += step) {
+      json["x"].push_back(Rounded(edge[i].x()));
+      json["y"].push_back(Rounded(edge[i].y()));
+    }
+    return json;
+  };
+  return {{"left", line(track.left_edge())}, {"right", line(track.right_edge())}};
+}
+
 /// What the page draws the run from in three dimensions, where all plants have their states.
 void AddScene(const fs::path& folder, const World& world, std::size_t row_limit,
               ordered_json& run) {
@@ -306,6 +323,9 @@ ordered_json RunData(const fs::path& folder, const std::string& name, std::size_
       run["plan"] = PlanJson(folder);
       if (const auto road = RoadToDraw(world, run["plan"].value("method", ""))) {
         run["plan"]["road"] = {{"width", Rounded(road->width)}, {"lanes", road->lanes}};
+      }
+      if (const fs::path track = folder / kTrackCsv; fs::exists(track)) {
+        run["plan"]["edges"] = EdgesJson(track);
       }
     }
     run["plants"] = ordered_json::array();

@@ -219,6 +219,32 @@ void CheckSpeedProfile(Diagnostics& c) {
   }
 }
 
+/// A track, and a planner that follows one.
+void CheckTrack(Diagnostics& c) {
+  const auto& plan = c.scenario.plan;
+  const bool has_track = c.scenario.mission.track.has_value();
+  if (!c.CouldReadPlan({"method"}) || !c.could_read("mission.track")) {
+    return;
+  }
+  const char* key = "mission.track";
+  if (!plan) {
+    if (has_track) {
+      c.AddError(key, "needs plan: {method: center_line} or another planner that follows a track");
+    }
+    return;
+  }
+  const PlannerEntry& planner = PlannerFor(plan->global);
+  if (has_track && !planner.follows_track) {
+    c.AddError(key, fmt::format("the planner {} does not follow a track; remove it", planner.name));
+  } else if (!has_track && planner.follows_track) {
+    c.AddError(key, fmt::format("missing; the planner {} follows a track", planner.name));
+  }
+  if (planner.follows_track && (plan->avoid || plan->replan)) {
+    c.AddError(plan->avoid ? "plan.avoid" : "plan.replan",
+               "not available on a track, whose edges it does not know; remove it");
+  }
+}
+
 void CheckMission(Diagnostics& c) {
   const MissionSpec& mission = c.scenario.mission;
   const auto& plan = c.scenario.plan;
@@ -260,6 +286,7 @@ void CheckMission(Diagnostics& c) {
 void CheckMissionAndPlan(Diagnostics& c) {
   CheckMission(c);
   CheckSpeedProfile(c);
+  CheckTrack(c);
   CheckCourse(c);
   CheckSmoothing(c);
   CheckAvoider(c);

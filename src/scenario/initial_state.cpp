@@ -7,6 +7,7 @@
 #include "trackbed/planning/common/route_start.h"
 #include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/path_file/path_file_planner.h"
+#include "trackbed/track/track.h"
 
 // How a run begins, for planners, plants and the resolved scenario alike.
 namespace trackbed {
@@ -33,6 +34,9 @@ Pose2 StartPose(const Scenario& scenario) {
                                      : StartOfRoute(mission.waypoints);
   if (!mission.headings.empty()) {
     pose.yaw = mission.headings.front();
+  }
+  if (mission.track && mission.track->data) {
+    pose = mission.track->data->At(0.0).pose;
   }
   const StartSpec& given = mission.start;
   return {given.x.value_or(pose.x), given.y.value_or(pose.y), given.yaw.value_or(pose.yaw)};

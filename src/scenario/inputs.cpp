@@ -19,6 +19,7 @@
 #include "trackbed/scenario/recording_file.h"
 #include "trackbed/sim/plant.h"
 #include "trackbed/sim/scene.h"
+#include "trackbed/track/track_file.h"
 
 namespace trackbed {
 namespace {
@@ -200,6 +201,28 @@ std::vector<Problem> ReadPath(Scenario& scenario, PathFileOptions& options, Read
       file_key.c_str(), context, add_error);
 }
 
+std::vector<Problem> ReadTrackFile(Scenario& scenario, ReaderContext& context,
+                                   const AddKeyError& add_error) {
+  TrackSpec& track = *scenario.mission.track;
+  const char* key = "mission.track.file";
+  if (!context.Read("mission.track") || !context.Read(key) ||
+      !context.Read("mission.track.smoothing") || track.file.empty()) {
+    return {};
+  }
+  if (const std::string why =
+          WhyUnreadable(track.file, scenario.folder, WithOwnData(scenario.asset_folders));
+      !why.empty()) {
+    add_error(key, fmt::format("{} {}", track.file, why));
+    return {};
+  }
+  return Attempt(
+      [&] {
+        track.data =
+            std::make_shared<const Track>(ReadTrack(scenario.folder / track.file, track.smoothing));
+      },
+      key, context, add_error);
+}
+
 }  // namespace
 
 std::vector<Problem> ReadInputs(Scenario& scenario, ReaderContext& context,
@@ -214,6 +237,9 @@ std::vector<Problem> ReadInputs(Scenario& scenario, ReaderContext& context,
       context.unread.emplace_back("record");
     }
     add(TakeInputs(scenario, context, add_error));
+  }
+  if (scenario.mission.track) {
+    add(ReadTrackFile(scenario, context, add_error));
   }
   if (auto* playback = scenario.control.steering.As<PlaybackOptions>()) {
     add(ReadPlayback(scenario, *playback, context, add_error));

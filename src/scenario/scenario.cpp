@@ -24,6 +24,7 @@
 #include "trackbed/recording/record_csv.h"
 #include "trackbed/scenario/recording_file.h"
 #include "trackbed/sim/scene.h"
+#include "trackbed/track/track_file.h"
 
 namespace trackbed {
 namespace {
@@ -248,6 +249,9 @@ std::string ResolvedYaml(const Scenario& scenario) {
     if (record->data) {
       record->notes = fmt::format("{}", fmt::join(record->data->notes, "\n"));
     }
+  }
+  if (auto& track = resolved.mission.track) {
+    track->file = kTrackCsv;
   }
   if (resolved.vehicle.model.find('/') != std::string::npos) {
     resolved.vehicle.model =

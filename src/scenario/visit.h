@@ -54,6 +54,17 @@ inline void Visit(KeyVisitor& a, StartSpec& start) {
           start.steering, kSteering);
 }
 
+inline void Visit(KeyVisitor& a, TrackSpec& track) {
+  a.Field({"file", "", "track: a CSV file in TUM's format, relative to this file"}, track.file,
+          Need::kRequired);
+  a.Field({"laps", "", "laps that are timed"}, track.laps, Need::kOptional,
+          Range{.min = 1, .max = 1000});
+  a.Field({"smoothing", "m",
+           "bends of the center line shorter than this are smoothed out; default: four times the "
+           "mean distance of the points"},
+          track.smoothing, Range{.max = 1000.0, .above = 0.0});
+}
+
 inline void Visit(KeyVisitor& a, MissionSpec& mission) {
   std::optional<double> speed = mission.speed > 0.0 ? std::optional(mission.speed) : std::nullopt;
   a.Field({"speed", "m/s",
@@ -75,6 +86,8 @@ inline void Visit(KeyVisitor& a, MissionSpec& mission) {
   a.Method(
       {"speed_profile", "", "how the plan's speeds are chosen; default: constant_acceleration"},
       mission.speed_profile, SpeedProfiles(), Need::kOptional);
+  a.Section({"track", "", "closed track to drive laps on, for planners that follow one"},
+            mission.track);
   a.Section({"start", "", "initial state of the car"}, mission.start);
 }
 

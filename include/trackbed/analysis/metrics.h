@@ -54,6 +54,14 @@ struct TurnMetrics {
   double t = 0.0;  ///< when [s]
 };
 
+/// A lap on a closed track.
+struct LapMetrics {
+  double time_planned = 0.0;  ///< by the speed profile of the plan [s]
+  double time = 0.0;          ///< between the crossings of the start line [s]
+  double s = 0.0;             ///< station of the plan where it ended [m]
+  double t = 0.0;             ///< when [s]
+};
+
 struct PlantMetrics {
   std::string plant;
   DriveStatus status = DriveStatus::kArrived;
@@ -93,6 +101,7 @@ struct PlantMetrics {
   std::string partial;                        ///< why the plan is partial; else empty
   std::optional<ManeuverMetrics> maneuver;    ///< none if the scenario has no maneuver
   std::vector<TurnMetrics> turns;             ///< of the isolated turns that were driven
+  std::vector<LapMetrics> laps;               ///< that were completed on a track
   std::optional<RecordMetrics> recorded;      ///< none without a record, and of the record itself
   std::vector<WindowErrors> windows;          ///< of each horizon of record.windows, likewise
   /// Of the metrics that are measured on the log (MetricEntry::measure), by path.

@@ -18,6 +18,7 @@
 #include "trackbed/scenario/disturbances.h"
 #include "trackbed/scenario/maneuver.h"
 #include "trackbed/scenario/record.h"
+#include "trackbed/scenario/track_spec.h"
 #include "trackbed/sim/plant_options.h"
 #include "trackbed/world/world.h"
 
@@ -55,6 +56,7 @@ struct MissionSpec {
   std::optional<double> duration;  ///< [s]; ends the run, for missions without a goal
   /// How the speeds of the plan are chosen; none: ConstantAccelerationOptions.
   std::optional<SpeedProfileOptions> speed_profile;
+  std::optional<TrackSpec> track;  ///< laps to drive, instead of waypoints
   StartSpec start;
 };
 
@@ -203,7 +205,7 @@ void CheckScenario(const Scenario& scenario);
 /// The scenario with every default filled in, as YAML that ReadScenario reads back to an equal one
 /// from any folder: a model given by its path is written with its absolute path, a recording is
 /// `recording.csv`, which must lie beside the YAML with the content of RecordingCsv, and a recorded
-/// drive likewise `record.csv` with that of RecordCsv.
+/// drive likewise `record.csv` with that of RecordCsv, and a track `track.csv` with that of TrackCsv.
 std::string ResolvedYaml(const Scenario& scenario);
 
 /// The keys of a method's options with their values, on one line: "distance: 2.5, law: exact_arc".

@@ -15,6 +15,7 @@
 #include "trackbed/planning/grid/astar_planner.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
 #include "trackbed/planning/path_file/path_file_planner.h"
+#include "trackbed/planning/racing/center_line.h"
 #include "trackbed/planning/sampling/rrt_planner.h"
 
 namespace trackbed {
@@ -32,6 +33,7 @@ Registry<PlannerEntry>& Table() {
                                                      HybridAStarPlanner(),
                                                      RrtPlanner(),
                                                      PathFilePlanner(),
+                                                     CenterLinePlanner(),
                                                  });
   return table;
 }
@@ -85,6 +87,7 @@ void CheckRequest(const PlanRequest& request) {
   for (const double heading : request.headings) {
     TRACKBED_CHECK(std::isfinite(heading), "heading {}", heading);
   }
+  TRACKBED_CHECK(request.on_track.laps >= 1, "{} laps", request.on_track.laps);
   CheckVehicle(request.vehicle);
   CheckWorld(request);
 }

@@ -8,6 +8,7 @@ function extentOfMap() {
   for (const run of runs) {
     const line = run.plan && run.plan.line;
     if (line) line.x.forEach((x, i) => add(x, line.y[i]));
+    for (const edge of Object.values((run.plan && run.plan.edges) || {})) edge.x.forEach((x, i) => add(x, edge.y[i]));
     for (const cone of (run.plan && run.plan.cones) || []) add(cone[0], cone[1]);
     for (const box of run.world.obstacles) {
       const reach = Math.hypot(box.length, box.width) / 2;
@@ -113,6 +114,13 @@ function drawMap(parent) {
     for (const patch of run.world.patches.filter((p) => fresh('patch', p))) {
       box(world.append('rect').attr('class', 'patch').attr('transform', placed(patch)), patch)
         .append('title').text(`friction ${patch.friction}`);
+    }
+  }
+  for (const run of runs) {
+    const edges = Object.values((run.plan && run.plan.edges) || {});
+    if (edges.length && fresh('edges', run.plan.edges)) {
+      const text = edges.map(({ x, y }) => `${lineText(x, y, x.length)}Z`).join('');
+      world.append('path').attr('class', 'edges').attr('d', text);
     }
   }
   for (const run of runs) {

@@ -61,13 +61,17 @@ function evenly(line, step) {
   return points;
 }
 
-/** A strip on the ground between two offsets from points, [m] to the left; with pieces left out. */
-function strip(points, from, to, height, lift, keep = () => true) {
+/**
+ * A strip on the ground between two offsets from points, [m] to the left, of each point its `width` times a share more; with
+ * pieces left out.
+ */
+function strip(points, from, to, height, lift, keep = () => true, shares = [0, 0]) {
   const positions = [];
   const uvs = [];
   const indices = [];
-  points.forEach(({ x, y, nx, ny }, i) => {
-    for (const offset of [from, to]) {
+  points.forEach(({ x, y, nx, ny, width }, i) => {
+    for (const [side, base] of [from, to].entries()) {
+      const offset = base + (shares[side] && shares[side] * width);
       const [px, py] = [x + offset * nx, y + offset * ny];
       positions.push(px, py, height(px, py) + lift);
       uvs.push(px / 2, py / 2);
@@ -161,6 +165,25 @@ function roadMeshes(line, { width, lanes }, height) {
   posts.castShadow = true;
   posts.frustumCulled = false;
   return [...meshes, posts];
+}
+
+/** Asphalt between the edges of a track, which are lines of as many points, with edge lines and a start line. */
+function trackMeshes({ left, right }, height) {
+  const points = [...right.x.keys(), 0].map((i) => {
+    const [dx, dy] = [left.x[i] - right.x[i], left.y[i] - right.y[i]];
+    const width = Math.hypot(dx, dy);
+    return { x: right.x[i], y: right.y[i], nx: dx / width, ny: dy / width, width };
+  });
+  const paint = 0xf4f4ee;
+  const glow = { emissive: new THREE.Color(paint), emissiveIntensity: 0.3 };
+  const all = () => true;
+  const line = { x: [right.x[0], left.x[0]], y: [right.y[0], left.y[0]] };
+  return [
+    flat(strip(points, -0.4, 0.4, height, 0.004, all, [0, 1]), 0xffffff, 1, { map: grain([0.52, 0.52, 0.53], 0.2, 1) }),
+    flat(strip(points, 0, ROAD.line, height, 0.008), paint, 2, glow),
+    flat(strip(points, -ROAD.line, 0, height, 0.008, all, [1, 1]), paint, 2, glow),
+    flat(strip(evenly(line, 0.5), -0.15, 0.15, height, 0.008), paint, 2, glow),
+  ];
 }
 
 /** Trees where no road, drive or obstacle is near. */
@@ -265,7 +288,9 @@ function drawScenery(scene, height, makers) {
     if (!line || !run.plan.road || lines.has(JSON.stringify(line))) continue;
     lines.add(JSON.stringify(line));
     take(line);
-    for (const mesh of roadMeshes(line, run.plan.road, height)) scene.add(mesh);
+    const { edges, road } = run.plan;
+    if (edges) [edges.left, edges.right].forEach(take);
+    for (const mesh of edges ? trackMeshes(edges, height) : roadMeshes(line, road, height)) scene.add(mesh);
   }
   const once = new Set();
   const fresh = (thing) => !once.has(JSON.stringify(thing)) && once.add(JSON.stringify(thing));

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,22 @@
 
 /// What a planner is asked, and what it answers.
 namespace trackbed {
+
+class Track;
+
+/// Laps on a closed track, to be planned.
+struct TrackLaps {
+  std::shared_ptr<const Track> track{};  ///< none: not on a track
+  int laps = 1;                          ///< >= 1
+};
+
+/// Laps on a closed track as planned.
+struct PlannedLaps {
+  std::shared_ptr<const Track> track{};  ///< none: not on a track
+  /// Stations of the plan where it crosses the start line [m]: one more than laps. The first one is
+  /// 0 when the plan begins on the line or after it.
+  std::vector<double> lines{};
+};
 
 /// A section of a course with cones on either side.
 struct Gate {
@@ -55,6 +72,7 @@ struct PlanRequest {
   std::function<double()> clock{};
   double friction = 1.0;                          ///< of the road, a factor on the tyres' own
   std::vector<FrictionPatch> friction_patches{};  ///< where it is another
+  TrackLaps on_track{};                           ///< for planners that follow a track
   InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
   /// How speeds at the car's limit are found; none: they follow `speed`.
   std::optional<SpeedAtLimit> limits{};
@@ -80,6 +98,7 @@ struct Plan {
   std::vector<IsolatedTurn> turns;  ///< whose cost to an open-loop run can be told
   std::vector<std::string> notes;   ///< what to know of it, for people: that it was slowed down
   PlanDiagnostics diagnostics;      ///< how it was found, for plan.json
+  PlannedLaps laps;                 ///< of a plan on a track
   std::vector<TreeNode> tree;       ///< of every RRT or RRT* that was used, one after the other
 
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }

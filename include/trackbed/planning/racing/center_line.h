@@ -1,0 +1,14 @@
+#pragma once
+
+#include "trackbed/planning/common/planner.h"
+
+/// Laps along the middle of a track as surveyed (PlanRequest::on_track); see FollowLine.
+namespace trackbed {
+
+struct CenterLineOptions {};
+void Visit(KeyVisitor& keys, CenterLineOptions& options);
+
+/// The planner `center_line`.
+PlannerEntry CenterLinePlanner();
+
+}  // namespace trackbed

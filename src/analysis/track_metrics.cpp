@@ -1,0 +1,181 @@
+#include "src/analysis/track_metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/analysis/peaks.h"
+#include "trackbed/world/world.h"
+
+namespace trackbed {
+namespace {
+
+/// Follows the rear axle along the track: its station, which goes on from lap to lap.
+class LapCounter {
+ public:
+  LapCounter(const Track& track, const Vec2& start) : track_(track) {
+    station_ = track.Locate(start).s;
+    if (station_ > 0.5 * track.length()) {
+      station_ -= track.length();
+    }
+  }
+
+  [[nodiscard]] double station() const { return station_; }
+
+  /// The station of the next place.
+  double Advance(const Vec2& position) {
+    const double s = track_.Locate(position, station_).s;
+    // The lap in which that is nearest to the last station.
+    station_ = s + track_.length() * std::round((station_ - s) / track_.length());
+    return station_;
+  }
+
+ private:
+  const Track& track_;
+  double station_ = 0.0;
+};
+
+/// Distance of a point from the nearest piece of an edge among those by a station [m], negative on
+/// the outer side: right of a right edge, left of a left edge.
+double DistanceInside(const TrackEdgeLine& edge, double side, const Vec2& point, double share) {
+  const auto count = static_cast<std::ptrdiff_t>(edge.size());
+  const auto middle = static_cast<std::ptrdiff_t>(share * static_cast<double>(count));
+  constexpr double kReach = 15.0;  // [m]
+  const auto reach = std::min(static_cast<std::ptrdiff_t>(kReach / Track::kEdgeSpacing), count / 4);
+  double nearest = std::numeric_limits<double>::infinity();
+  double inside = 0.0;
+  for (std::ptrdiff_t k = middle - reach; k <= middle + reach; ++k) {
+    const Vec2& a = edge[static_cast<std::size_t>((k % count + count) % count)];
+    const Vec2& b = edge[static_cast<std::size_t>(((k + 1) % count + count) % count)];
+    const Vec2 along = b - a;
+    const double part =
+        std::clamp((point - a).dot(along) / std::max(along.squaredNorm(), 1e-12), 0.0, 1.0);
+    const Vec2 beside = point - a - part * along;
+    const double distance = beside.norm();
+    // At a corner two pieces are equally near; the one that the point is more abeam of says on
+    // which side it is.
+    const double across = side * Cross(along, point - a) / std::max(along.norm(), 1e-6);
+    const bool equal = std::abs(distance - nearest) < 1e-9;
+    if (equal ? std::abs(across) > std::abs(inside) : distance < nearest) {
+      nearest = equal ? nearest : distance;
+      inside = across;
+    }
+  }
+  return std::copysign(nearest, inside);
+}
+
+/// The margin at every row of the log.
+struct Margin {
+  double margin = 0.0;  // [m]
+  const LogRow* row = nullptr;
+};
+
+std::vector<Margin> Margins(const MetricInput& input) {
+  const Track& track = *input.plan.laps.track;
+  LapCounter counter(track, input.log.rows.front().state.pose.position());
+  std::vector<Margin> margins;
+  for (const LogRow& row : input.log.rows) {
+    const OrientedBox footprint = FootprintAt(input.vehicle, row.state.pose);
+    const double ahead = (footprint.center.position() - row.state.pose.position()).norm();
+    const double s = counter.Advance(row.state.pose.position());
+    margins.push_back({TrackMargin(track, footprint, s + ahead), &row});
+  }
+  return margins;
+}
+
+/// The sum over the control periods that begin off the track.
+template <typename Span>
+std::optional<MetricReading> SumOffTrack(const MetricInput& input, const Span& span) {
+  if (!input.plan.laps.track) {
+    return std::nullopt;
+  }
+  const std::vector<Margin> margins = Margins(input);
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < margins.size(); ++i) {
+    if (margins[i].margin < 0.0) {
+      sum += span(margins[i].row->state, margins[i + 1].row->state);
+    }
+  }
+  return MetricReading{sum, {}};
+}
+
+}  // namespace
+
+std::vector<LapMetrics> MeasureLaps(const RunLog& log, const Plan& plan) {
+  std::vector<LapMetrics> laps;
+  if (!plan.laps.track) {
+    return laps;
+  }
+  const Track& track = *plan.laps.track;
+  const std::vector<LogRow>& rows = log.rows;
+  LapCounter counter(track, rows.front().state.pose.position());
+  std::optional<double> begin;
+  if (counter.station() > -1e-6) {
+    begin = rows.front().state.time;
+  }
+  // By the plan's lines: a run that goes on beyond its last lap begins no other.
+  double next = begin ? track.length() : 0.0;
+  double before = counter.station();
+  for (std::size_t i = 1; i < rows.size() && laps.size() + 1 < plan.laps.lines.size(); ++i) {
+    const double now = counter.Advance(rows[i].state.pose.position());
+    if (before < next && now >= next) {
+      const double share = (next - before) / (now - before);
+      const double time = std::lerp(rows[i - 1].state.time, rows[i].state.time, share);
+      if (begin) {
+        const SpeedProfile& speed = plan.reference.speed;
+        const double from = plan.laps.lines[laps.size()];
+        const double to = plan.laps.lines[laps.size() + 1];
+        laps.push_back({.time_planned = speed.TimeAt(to) - speed.TimeAt(from),
+                        .time = time - *begin,
+                        .s = to,
+                        .t = time});
+      }
+      begin = time;
+      next += track.length();
+    }
+    before = now;
+  }
+  return laps;
+}
+
+double TrackMargin(const Track& track, const OrientedBox& footprint, double near) {
+  constexpr int kParts = 16;
+  const double share = near / track.length() - std::floor(near / track.length());
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const double side : {-0.5, 0.5}) {
+    for (int k = 0; k <= kParts; ++k) {
+      const double along = static_cast<double>(k) / kParts - 0.5;
+      const Vec2 point =
+          ToWorld(footprint.center, {along * footprint.length, side * footprint.width});
+      smallest = std::min({smallest, DistanceInside(track.right_edge(), 1.0, point, share),
+                           DistanceInside(track.left_edge(), -1.0, point, share)});
+    }
+  }
+  return smallest;
+}
+
+std::optional<MetricReading> SmallestTrackMargin(const MetricInput& input) {
+  if (!input.plan.laps.track) {
+    return std::nullopt;
+  }
+  const std::vector<Margin> margins = Margins(input);
+  const auto smallest =
+      std::min_element(margins.begin(), margins.end(),
+                       [](const Margin& a, const Margin& b) { return a.margin < b.margin; });
+  return MetricReading{smallest->margin,
+                       {.span = MetricSpan::kMoment,
+                        .s = RowStation(*smallest->row),
+                        .t = smallest->row->state.time}};
+}
+
+std::optional<MetricReading> TimeOffTrack(const MetricInput& input) {
+  return SumOffTrack(input,
+                     [](const VehicleState& a, const VehicleState& b) { return b.time - a.time; });
+}
+
+std::optional<MetricReading> DistanceOffTrack(const MetricInput& input) {
+  return SumOffTrack(
+      input, [](const VehicleState& a, const VehicleState& b) { return b.distance - a.distance; });
+}
+
+}  // namespace trackbed

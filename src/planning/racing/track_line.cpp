@@ -1,0 +1,254 @@
+#include "trackbed/planning/racing/track_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/path/frenet_frame.h"
+#include "trackbed/planning/common/diagnostics.h"
+#include "trackbed/planning/common/route.h"
+#include "trackbed/planning/frenet/polynomial.h"
+
+namespace trackbed {
+namespace {
+
+/// What leads from the car's offset to the line's.
+struct Join {
+  double from = 0.0;    // station [m]
+  double length = 0.0;  // [m]
+  Polynomial difference;
+};
+
+/// A line over the unrolled station, with what leads onto it.
+class Unrolled {
+ public:
+  Unrolled(const Track& track, const TrackLine& line, const Join& join)
+      : track_(track), line_(line), join_(join) {}
+
+  [[nodiscard]] LineOffset OffsetAt(double s) const {
+    LineOffset offset = line_.At(s);
+    const double along = s - join_.from;
+    if (along < join_.length) {
+      offset.d += join_.difference.At(along, 0);
+      offset.slope += join_.difference.At(along, 1);
+      offset.bend += join_.difference.At(along, 2);
+    }
+    return offset;
+  }
+
+  /// None where there is no frame.
+  [[nodiscard]] std::optional<MotionState> At(double s) const {
+    const LineOffset offset = OffsetAt(s);
+    return FromFrenet(
+        track_.At(s),
+        {.s = s, .s_rate = 1.0, .d = offset.d, .d_slope = offset.slope, .d_bend = offset.bend});
+  }
+
+  [[nodiscard]] double Length(double from, double to) const {
+    return boost::math::quadrature::gauss<double, 7>::integrate(
+        [&](double s) {
+          const LineOffset offset = OffsetAt(s);
+          return std::hypot(1.0 - track_.At(s).curvature * offset.d, offset.slope);
+        },
+        from, to);
+  }
+
+ private:
+  const Track& track_;
+  const TrackLine& line_;
+  const Join& join_;
+};
+
+/// Between points of a path [m].
+double Spacing(const Track& track) {
+  return std::min(1.0, 0.25 * track.length() / static_cast<double>(track.points().size()));
+}
+
+/// A path through points of the line, and where it passes the stations.
+struct LinePath {
+  std::vector<CurvePoint> points;
+  std::vector<double> passed;  // stations of the path [m]
+};
+
+/// The line through stations of the track, at least two that rise; none where there is no frame.
+std::optional<LinePath> TraceLine(const Track& track, const Unrolled& line,
+                                  const std::vector<double>& stations) {
+  LinePath path;
+  double length = 0.0;
+  double yaw = 0.0;
+  const auto add = [&](double s) {
+    const std::optional<MotionState> at = line.At(s);
+    if (at) {
+      yaw = path.points.empty() ? at->pose.yaw : yaw + AngleDifference(at->pose.yaw, yaw);
+      path.points.push_back({length, yaw, at->curvature});
+    }
+    return at.has_value();
+  };
+  const double spacing = Spacing(track);
+  for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
+    path.passed.push_back(length);
+    const double span = stations[i + 1] - stations[i];
+    const double parts = std::ceil(span / spacing);
+    for (double k = 0.0; k < parts; k += 1.0) {
+      const double s = stations[i] + span * k / parts;
+      if (!add(s)) {
+        return std::nullopt;
+      }
+      length += line.Length(s, stations[i] + span * (k + 1.0) / parts);
+    }
+  }
+  path.passed.push_back(length);
+  return add(stations.back()) ? std::optional(path) : std::nullopt;
+}
+
+/// Where the car is on the track; the station is at most half a lap from the start line.
+struct Start {
+  std::optional<FrenetState> at;
+  std::string refused;  // why it cannot start there
+};
+
+Start FindStart(const Track& track, const PlanRequest& request) {
+  const double curvature = CurvatureForSteering(request.vehicle, request.start_steering);
+  Start start{.at = track.ToFrenet({.pose = request.start, .curvature = curvature, .speed = 1.0}),
+              .refused = {}};
+  const TrackPlace place = track.Locate(request.start.position());
+  const TrackEdges edges = track.EdgesAt(place.s);
+  if (place.offset > edges.left || place.offset < edges.right) {
+    start.refused = fmt::format(
+        "the car starts off the track: {:.3g} m {} of the center line, whose edge is {:.3g} m away",
+        std::abs(place.offset), place.offset > 0.0 ? "left" : "right",
+        place.offset > 0.0 ? edges.left : -edges.right);
+  } else if (!start.at) {
+    start.refused = "the car does not look along the track where it starts";
+  } else if (start.at->s > 0.5 * track.length()) {
+    start.at->s -= track.length();
+  }
+  return start;
+}
+
+Join MakeJoin(const Track& track, const TrackLine& line, const FrenetState& car,
+              const PlanRequest& request) {
+  constexpr double kTime = 3.0;  // [s]
+  constexpr double kOffsets = 10.0;
+  constexpr double kWheelbases = 4.0;
+  const LineOffset own = line.At(car.s);
+  const LineMotion from{car.d - own.d, car.d_slope - own.slope, car.d_bend - own.bend};
+  Join join;
+  join.from = car.s;
+  join.length = std::min(0.5 * track.length(),
+                         std::max({kTime * request.speed.speed, kOffsets * std::abs(from.position),
+                                   kWheelbases * request.vehicle.wheelbase}));
+  join.difference = QuinticBetween(from, {}, join.length);
+  return join;
+}
+
+double RunOut(const PlanRequest& request) {
+  double deceleration = request.speed.deceleration;
+  if (const double most = MaxDeceleration(request.vehicle, request.friction); most > 0.0) {
+    deceleration = std::min(deceleration, most);
+  }
+  return request.speed.speed * request.speed.speed / (2.0 * deceleration);
+}
+
+}  // namespace
+
+TrackLine::TrackLine(const ClosedSplineBasis& basis, Eigen::MatrixXd coefficients)
+    : basis_(basis), coefficients_(std::move(coefficients)) {
+  TRACKBED_REQUIRE(
+      coefficients_.cols() == 1 && coefficients_.rows() == static_cast<Eigen::Index>(basis.count()),
+      "TrackLine: {} x {} coefficients for {} functions", coefficients_.rows(),
+      coefficients_.cols(), basis.count());
+}
+
+LineOffset TrackLine::At(double s) const {
+  if (!basis_) {
+    return {};
+  }
+  const ClosedSplineBasis::Local local = basis_->At(s);
+  return {Evaluate(local, coefficients_, 0)[0], Evaluate(local, coefficients_, 1)[0],
+          Evaluate(local, coefficients_, 2)[0]};
+}
+
+LineFindings MeasureLine(const Track& track, const TrackLine& line) {
+  const Join none;
+  const Unrolled unrolled(track, line, none);
+  const double parts = std::ceil(track.length() / Spacing(track));
+  LineFindings findings;
+  double sharpest = 0.0;
+  for (double k = 0.0; k < parts; k += 1.0) {
+    // Kappa^2 repeats once a lap: for such functions the sum is as good as any integral.
+    const double from = track.length() * k / parts;
+    const double length = unrolled.Length(from, track.length() * (k + 1.0) / parts);
+    const std::optional<MotionState> at = unrolled.At(track.length() * (k + 0.5) / parts);
+    TRACKBED_REQUIRE(at.has_value(), "MeasureLine: the line folds over at s = {} m", from);
+    findings.length += length;
+    findings.curvature_square += at->curvature * at->curvature * length;
+    sharpest = std::max(sharpest, std::abs(at->curvature));
+  }
+  findings.radius_min = 1.0 / sharpest;
+  return findings;
+}
+
+void Visit(DiagnosticsVisitor& out, const TrackPlanDiagnostics& own) {
+  out.Number("track_length_m", own.track_length);
+  out.Number("smoothing_m", own.smoothing);
+  out.Number("deviation_max_m", own.deviation_max);
+  out.Number("deviation_rms_m", own.deviation_rms);
+  out.Number("lap_length_m", own.lap.length);
+  out.Number("lap_curvature_square_radpm", own.lap.curvature_square);
+  out.Number("lap_radius_min_m", own.lap.radius_min);
+  out.Number("join_m", own.join);
+  out.Number("run_out_m", own.run_out);
+}
+
+Plan FollowLine(const PlanRequest& request, const TrackLine& line) {
+  if (!request.on_track.track) {
+    return route::Refused(PlanStatus::kNoPath, "there is no track to follow");
+  }
+  const Track& track = *request.on_track.track;
+  const Start start = FindStart(track, request);
+  if (!start.refused.empty()) {
+    return route::Refused(PlanStatus::kStartBlocked, start.refused);
+  }
+  const Join join = MakeJoin(track, line, *start.at, request);
+  const double run_out = RunOut(request);
+  const double first = start.at->s;
+  std::vector<double> stations{first};
+  for (int lap = first < 0.0 ? 0 : 1; lap <= request.on_track.laps; ++lap) {
+    stations.push_back(lap * track.length());
+  }
+  stations.push_back(stations.back() + run_out);
+  const std::optional<LinePath> traced = TraceLine(track, Unrolled(track, line, join), stations);
+  if (!traced) {
+    return route::Refused(PlanStatus::kNoPath,
+                          "the track bends too sharply where the car comes onto its line");
+  }
+  Plan plan;
+  plan.reference.path = Path({request.start.x, request.start.y, traced->points.front().yaw},
+                             SegmentsThrough(traced->points));
+  const Path& path = plan.reference.path;
+  plan.reference.speed = StopAtEnd(path.length(), request.start_speed, request.speed);
+  std::vector<SteeringSchedule::Knot> knots;
+  for (const CurvePoint& point : traced->points) {
+    knots.push_back({point.s, SteeringForCurvature(request.vehicle, point.curvature)});
+  }
+  plan.schedule = SteeringSchedule::Through(std::move(knots));
+  plan.schedule_speed = plan.reference.speed;
+  plan.goal = path.At(path.length()).pose;
+  plan.laps = {.track = request.on_track.track,
+               .lines = {traced->passed.begin() + (first < 0.0 ? 1 : 0), traced->passed.end() - 1}};
+  plan.diagnostics.planner = TrackPlanDiagnostics{.track_length = track.length(),
+                                                  .smoothing = track.smoothing(),
+                                                  .deviation_max = track.deviation_max(),
+                                                  .deviation_rms = track.deviation_rms(),
+                                                  .join = join.length,
+                                                  .run_out = run_out,
+                                                  .lap = MeasureLine(track, line)};
+  return plan;
+}
+
+}  // namespace trackbed

@@ -1,0 +1,113 @@
+#include "trackbed/track/track_file.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <system_error>
+
+#include "trackbed/core/error.h"
+#include "trackbed/core/table.h"
+
+namespace trackbed {
+namespace {
+
+constexpr std::uintmax_t kLargestTrackFile = std::uintmax_t{16} << 20U;
+constexpr double kLargestPosition = 1e5;  // [m]
+constexpr double kLargestWidth = 1000.0;  // [m]
+constexpr const char* kFirstColumn = "# x_m";
+
+void CheckSize(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
+  if (!ignored && size > kLargestTrackFile) {
+    throw InputError(Problem{
+        .file = file.string(),
+        .message = fmt::format("has {} bytes; a track has at most {}", size, kLargestTrackFile)});
+  }
+}
+
+/// The name of the first column: '#' begins the header, but belongs to no name.
+const char* FindFirstColumn(const std::filesystem::path& file, const Table& table) {
+  for (const char* name : {kFirstColumn, "#x_m", "x_m"}) {
+    if (table.Find(name) >= 0) {
+      return name;
+    }
+  }
+  throw InputError(Problem{.file = file.string(),
+                           .line = 1,
+                           .message = "no column 'x_m'; the header of a track is "
+                                      "'# x_m,y_m,w_tr_right_m,w_tr_left_m'"});
+}
+
+}  // namespace
+
+Track ReadTrack(const std::filesystem::path& file, std::optional<double> smoothing) {
+  CheckSize(file);
+  const CsvExcerpt excerpt =
+      ReadCsvExcerpt(file, {"y_m", "w_tr_right_m", "w_tr_left_m"}, {kFirstColumn, "#x_m", "x_m"});
+  const Table& table = excerpt.table;
+  const std::string name = file.string();
+  const auto column = [&](const char* own) { return static_cast<std::size_t>(table.Find(own)); };
+  const std::size_t x = column(FindFirstColumn(file, table));
+  const std::size_t y = column("y_m");
+  const std::size_t right = column("w_tr_right_m");
+  const std::size_t left = column("w_tr_left_m");
+  if (table.rows() < Track::kMinPoints || table.rows() > Track::kMaxPoints) {
+    throw InputError(
+        Problem{.file = name,
+                .message = fmt::format("has {} points; a track has {} to {}", table.rows(),
+                                       Track::kMinPoints, Track::kMaxPoints)});
+  }
+  ProblemList problems;
+  std::vector<TrackPoint> points;
+  const auto add = [&](std::size_t row, std::string key, std::string message) {
+    problems.Add({name, excerpt.lines[row], 0, std::move(key), std::move(message)});
+  };
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    points.push_back(
+        {{table.at(row, x), table.at(row, y)}, table.at(row, right), table.at(row, left)});
+    for (const auto& [key, value] :
+         {std::pair{"x_m", table.at(row, x)}, {"y_m", table.at(row, y)}}) {
+      if (std::abs(value) > kLargestPosition) {
+        add(row, key,
+            fmt::format("{} is out of range; must be between {} and {}", value, -kLargestPosition,
+                        kLargestPosition));
+      }
+    }
+    for (const auto& [key, value] :
+         {std::pair{"w_tr_right_m", table.at(row, right)}, {"w_tr_left_m", table.at(row, left)}}) {
+      if (!(value > 0.0) || value > kLargestWidth) {
+        add(row, key,
+            fmt::format("{} is out of range; must be above 0 and at most {}", value,
+                        kLargestWidth));
+      }
+    }
+    if (row > 0 && points[row].position == points[row - 1].position) {
+      add(row, "", "same point as in the row before");
+    }
+  }
+  if (points.back().position == points.front().position) {
+    add(points.size() - 1, "", "the first point again; a track is closed without it");
+  }
+  problems.ThrowIfAny();
+  Track track(std::move(points), smoothing);
+  if (const std::optional<TrackFold> fold = FindFold(track)) {
+    add(fold->point, "",
+        fmt::format("the center line bends on a radius of {:.3g} m, and the inner edge is {:.3g} m "
+                    "from it; must be less than the radius, so that the edge does not fold over",
+                    fold->radius, fold->width));
+  }
+  problems.ThrowIfAny();
+  return track;
+}
+
+std::string TrackCsv(const std::vector<TrackPoint>& points) {
+  Table table({kFirstColumn, "y_m", "w_tr_right_m", "w_tr_left_m"});
+  for (const TrackPoint& point : points) {
+    table.AddRow({point.position.x(), point.position.y(), point.width_right, point.width_left});
+  }
+  return table.ToCsv();
+}
+
+}  // namespace trackbed

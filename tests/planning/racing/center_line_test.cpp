@@ -1,0 +1,199 @@
+#include "trackbed/planning/racing/center_line.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "tests/tolerance.h"
+#include "tests/track/rings.h"
+#include "tests/vehicle/reference_car.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/planning/common/feasibility.h"
+#include "trackbed/planning/racing/track_line.h"
+#include "trackbed/planning/registry/planners.h"
+#include "trackbed/track/track.h"
+
+namespace trackbed {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kRadius = 50.0;  // [m]
+
+/// Laps on a track from a start on its center line, at the start line unless it is moved.
+PlanRequest Laps(std::vector<TrackPoint> points, int laps) {
+  PlanRequest request;
+  request.vehicle = ReferenceCar();
+  request.on_track = {std::make_shared<const Track>(std::move(points)), laps};
+  request.start = request.on_track.track->At(0.0).pose;
+  request.start_steering = std::atan(2.7 * request.on_track.track->At(0.0).curvature);
+  request.speed = {.speed = 8.0, .acceleration = 1.5, .deceleration = 2.0};
+  return request;
+}
+
+PlanRequest RingLaps(int laps) {
+  return Laps(RingPoints(kRadius, 63, 4.0, 3.0), laps);
+}
+
+TEST(CenterLine, GoesRoundAsOftenAsAsked) {
+  for (const int laps : {1, 3}) {
+    const PlanRequest request = RingLaps(laps);
+    const Plan plan = MakePlan(request, CenterLineOptions{});
+    ASSERT_TRUE(plan.ok()) << plan.reason;
+    const double lap = request.on_track.track->length();
+    const Path& path = plan.reference.path;
+    // v^2/(2 b) = 16 m to brake behind the line. The path's length is integrated to rounding.
+    EXPECT_NEAR(path.length(), laps * lap + 16.0, Tolerance(1e-6));
+    ASSERT_EQ(plan.laps.lines.size(), static_cast<std::size_t>(laps) + 1);
+    for (int i = 0; i <= laps; ++i) {
+      EXPECT_NEAR(plan.laps.lines[static_cast<std::size_t>(i)], i * lap, Tolerance(1e-6));
+    }
+    // On the track's own center line to the last lap: SegmentsThrough states 1e-7 m for a bend.
+    for (double s = 0.0; s < path.length(); s += 5.0) {
+      const PathPoint at = path.At(s);
+      const PathPoint expected = request.on_track.track->At(s);
+      EXPECT_NEAR((at.pose.position() - expected.pose.position()).norm(), 0.0, Tolerance(1e-5));
+      EXPECT_NEAR(at.curvature, expected.curvature, Tolerance(1e-7));
+    }
+    EXPECT_EQ(plan.reference.speed.SpeedAt(path.length()), 0.0);
+    // It is still at full speed on the finish line.
+    EXPECT_NEAR(plan.reference.speed.SpeedAt(plan.laps.lines.back()), 8.0, Tolerance(1e-6));
+    EXPECT_TRUE(FindExcesses(plan, request).empty());
+  }
+}
+
+TEST(CenterLine, FollowsTheTracksOwnCurvature) {
+  const PlanRequest request = Laps(EllipsePoints(120.0, 60.0, 114, 5.0, 5.0), 1);
+  const Plan plan = MakePlan(request, CenterLineOptions{});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const Track& track = *request.on_track.track;
+  for (double s = 0.0; s < track.length(); s += 3.0) {
+    const PathPoint at = plan.reference.path.At(s);
+    EXPECT_NEAR((at.pose.position() - track.At(s).pose.position()).norm(), 0.0, Tolerance(1e-4));
+    EXPECT_NEAR(at.curvature, track.At(s).curvature, Tolerance(1e-6));
+    EXPECT_NEAR(plan.schedule.At(s), std::atan(2.7 * at.curvature), Tolerance(1e-4));
+  }
+}
+
+TEST(CenterLine, MayStartBeforeTheLineAndBesideIt) {
+  PlanRequest request = RingLaps(2);
+  const Track& track = *request.on_track.track;
+  request.start = Compose(track.At(-30.0).pose, {0.0, 1.5, 0.1});
+  request.start_steering = 0.0;
+  const Plan plan = MakePlan(request, CenterLineOptions{});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const Path& path = plan.reference.path;
+  EXPECT_EQ(path.At(0.0).pose.position(), request.start.position());
+  EXPECT_NEAR(path.At(0.0).pose.yaw, request.start.yaw, Tolerance(1e-9));
+  ASSERT_EQ(plan.laps.lines.size(), 3U);
+  // 30 m to the line; 1.5 m inside of a circle of 50 m, and slanting, about as far.
+  EXPECT_NEAR(plan.laps.lines[0], 30.0, 1.0);
+  for (const double line : plan.laps.lines) {
+    const TrackPlace place = track.Locate(path.At(line).pose.position());
+    EXPECT_NEAR(std::remainder(place.s, track.length()), 0.0, Tolerance(1e-4));
+  }
+  // In 24 m, three seconds at 8 m/s, it is on the line.
+  EXPECT_NEAR(track.Locate(path.At(26.0).pose.position()).offset, 0.0, Tolerance(1e-4));
+  // With wheels straight ahead at first.
+  EXPECT_NEAR(path.At(0.0).curvature, 0.0, Tolerance(1e-9));
+}
+
+TEST(CenterLine, CountsALapFromAStartBehindTheLine) {
+  PlanRequest request = RingLaps(1);
+  const Track& track = *request.on_track.track;
+  request.start = track.At(20.0).pose;
+  const Plan plan = MakePlan(request, CenterLineOptions{});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  ASSERT_EQ(plan.laps.lines.size(), 2U);
+  EXPECT_EQ(plan.laps.lines[0], 0.0);
+  EXPECT_NEAR(plan.laps.lines[1], track.length() - 20.0, 0.5);
+}
+
+TEST(CenterLine, MayStartFlying) {
+  PlanRequest request = RingLaps(1);
+  request.start_speed = 8.0;
+  const Plan plan = MakePlan(request, CenterLineOptions{});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_EQ(plan.reference.speed.SpeedAt(0.0), 8.0);
+  // As the wheels stand, to rounding.
+  EXPECT_NEAR(plan.reference.path.At(0.0).curvature, std::tan(request.start_steering) / 2.7,
+              Tolerance(1e-12));
+}
+
+TEST(CenterLine, IsMovedAndTurnedWithItsTrack) {
+  const Pose2 by{-200.0, 77.0, 2.1};
+  const auto plan_on = [](std::vector<TrackPoint> points) {
+    return MakePlan(Laps(std::move(points), 1), CenterLineOptions{});
+  };
+  std::vector<TrackPoint> moved = EllipsePoints(120.0, 60.0, 114, 5.0, 5.0);
+  for (TrackPoint& point : moved) {
+    point.position = ToWorld(by, point.position);
+  }
+  const Plan here = plan_on(EllipsePoints(120.0, 60.0, 114, 5.0, 5.0));
+  const Plan there = plan_on(moved);
+  ASSERT_TRUE(here.ok() && there.ok()) << there.reason;
+  for (double s = 0.0; s < here.reference.path.length(); s += 7.0) {
+    EXPECT_NEAR((ToWorld(by, here.reference.path.At(s).pose.position()) -
+                 there.reference.path.At(s).pose.position())
+                    .norm(),
+                0.0, Tolerance(1e-6));
+  }
+}
+
+TEST(CenterLine, IsSlowedDownForWhatTheTyresHold) {
+  PlanRequest request = Laps(EllipsePoints(120.0, 60.0, 114, 5.0, 5.0), 1);
+  request.vehicle.friction_lateral = 0.9;
+  request.speed.speed = 25.0;  // 25^2/30 is 21 m/s^2
+  const Plan plan = MakePlan(request, CenterLineOptions{});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  ASSERT_FALSE(plan.notes.empty());
+  EXPECT_THAT(plan.notes.front(), HasSubstr("lateral acceleration"));
+  EXPECT_TRUE(FindExcesses(plan, request).empty());
+}
+
+TEST(CenterLine, RefusesWithAReason) {
+  PlanRequest request = RingLaps(1);
+  request.on_track.track = nullptr;
+  Plan plan = MakePlan(request, CenterLineOptions{});
+  EXPECT_EQ(plan.status, PlanStatus::kNoPath);
+  EXPECT_EQ(plan.reason, "there is no track to follow");
+
+  request = RingLaps(1);
+  request.start = Compose(request.start, {0.0, -4.1, 0.0});
+  plan = MakePlan(request, CenterLineOptions{});
+  EXPECT_EQ(plan.status, PlanStatus::kStartBlocked);
+  EXPECT_THAT(plan.reason, HasSubstr("off the track: 4.1 m right of the center line"));
+
+  request = RingLaps(1);
+  request.start.yaw += kPi;
+  plan = MakePlan(request, CenterLineOptions{});
+  EXPECT_EQ(plan.status, PlanStatus::kStartBlocked);
+  EXPECT_THAT(plan.reason, HasSubstr("does not look along the track"));
+
+  request = RingLaps(1);
+  request.vehicle.steering_limit = 0.03;  // a radius of 90 m
+  plan = MakePlan(request, CenterLineOptions{});
+  EXPECT_EQ(plan.status, PlanStatus::kInfeasible);
+  EXPECT_THAT(plan.reason, HasSubstr("steering"));
+  EXPECT_EQ(plan.reference.path.length(), 0.0);
+}
+
+TEST(MeasureLine, OfACircleIsInClosedForm) {
+  const Track track(RingPoints(kRadius, 63, 4.0, 3.0));
+  const LineFindings center = MeasureLine(track, TrackLine());
+  // The integral of 1/r^2 over 2 pi r.
+  EXPECT_NEAR(center.length, 2.0 * kPi * kRadius, Tolerance(1e-3));
+  EXPECT_NEAR(center.curvature_square, 2.0 * kPi / kRadius, Tolerance(1e-6));
+  EXPECT_NEAR(center.radius_min, kRadius, Tolerance(1e-3));
+  // A closed spline of constant coefficients is constant: a circle 2 m farther out.
+  const ClosedSplineBasis basis(track.length(), 40);
+  const LineFindings outside =
+      MeasureLine(track, TrackLine(basis, Eigen::MatrixXd::Constant(40, 1, -2.0)));
+  EXPECT_NEAR(outside.length, 2.0 * kPi * (kRadius + 2.0), Tolerance(1e-3));
+  EXPECT_NEAR(outside.curvature_square, 2.0 * kPi / (kRadius + 2.0), Tolerance(1e-6));
+}
+
+}  // namespace
+}  // namespace trackbed

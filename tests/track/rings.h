@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "trackbed/core/angle.h"
+#include "trackbed/track/track.h"
+
+namespace trackbed {
+
+/// A track around the origin, counter-clockwise: an ellipse with half axes `a` along x and `b`, its
+/// points at equal steps of the parameter, its start line at (a, 0).
+inline std::vector<TrackPoint> EllipsePoints(double a, double b, int count, double right,
+                                             double left) {
+  std::vector<TrackPoint> points;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2.0 * kPi * i / count;
+    points.push_back({{a * std::cos(angle), b * std::sin(angle)}, right, left});
+  }
+  return points;
+}
+
+inline std::vector<TrackPoint> RingPoints(double radius, int count, double right, double left) {
+  return EllipsePoints(radius, radius, count, right, left);
+}
+
+}  // namespace trackbed

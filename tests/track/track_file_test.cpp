@@ -1,0 +1,160 @@
+#include "trackbed/track/track_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/temp_folder.h"
+#include "tests/tolerance.h"
+#include "tests/track/rings.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string kHeader = "# x_m,y_m,w_tr_right_m,w_tr_left_m\n";
+
+/// A ring of 20 m as a file, with the row that begins on `line` replaced.
+std::string RingFile(int line = 0, const std::string& row = "") {
+  std::string text = TrackCsv(RingPoints(20.0, 24, 4.0, 3.0));
+  std::size_t begin = 0;
+  for (int i = 1; i < line; ++i) {
+    begin = text.find('\n', begin) + 1;
+  }
+  return line == 0 ? text : text.replace(begin, text.find('\n', begin) - begin, row);
+}
+
+std::string ErrorMessages(const std::string& csv) {
+  const TempFolder folder;
+  try {
+    static_cast<void>(ReadTrack(folder.Write("t.csv", csv)));
+  } catch (const InputError& error) {
+    std::string text = error.what();
+    const std::string prefix = folder.path().string() + "/";
+    for (auto at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) {
+      text.erase(at, prefix.size());
+    }
+    return text;
+  }
+  return "no problem";
+}
+
+TEST(ReadTrack, ReadsBackWhatTrackCsvWrites) {
+  const TempFolder folder;
+  std::vector<TrackPoint> points = RingPoints(20.0, 24, 4.0, 3.0);
+  points[7].width_left = 2.0 / 3.0;
+  const Track track = ReadTrack(folder.Write("t.csv", TrackCsv(points)));
+  EXPECT_EQ(track.points(), points);
+  EXPECT_EQ(TrackCsv(track.points()), TrackCsv(points));
+}
+
+TEST(ReadTrack, TakesTheHeaderWithAndWithoutItsMark) {
+  const TempFolder folder;
+  const std::string rows = RingFile().substr(kHeader.size());
+  const std::vector<TrackPoint> points = RingPoints(20.0, 24, 4.0, 3.0);
+  for (const char* header :
+       {"# x_m,y_m,w_tr_right_m,w_tr_left_m\n", "#x_m, y_m, w_tr_right_m, w_tr_left_m\n",
+        "x_m,y_m,w_tr_right_m,w_tr_left_m\r\n"}) {
+    EXPECT_EQ(ReadTrack(folder.Write("t.csv", header + rows)).points(), points) << header;
+  }
+}
+
+TEST(ReadTrack, TakesColumnsInAnyOrder) {
+  std::string text = "w_tr_left_m,y_m,x_m,note,w_tr_right_m\n";
+  for (const TrackPoint& point : RingPoints(20.0, 24, 4.0, 3.0)) {
+    text += std::to_string(point.width_left) + "," + std::to_string(point.position.y()) + "," +
+            std::to_string(point.position.x()) + ",kerb," + std::to_string(point.width_right) +
+            "\n";
+  }
+  const TempFolder folder;
+  const Track track = ReadTrack(folder.Write("t.csv", text));
+  EXPECT_EQ(track.points()[3].width_left, 3.0);
+  EXPECT_EQ(track.points()[3].width_right, 4.0);
+  // Six digits are in the text.
+  EXPECT_NEAR(track.points()[6].position.y(), 20.0, Tolerance(5e-7));
+}
+
+TEST(ReadTrack, NamesTheLineOfEachMistake) {
+  EXPECT_EQ(ErrorMessages(RingFile(5, "1,x,4,3")), "t.csv:5: cell 2 (y_m): 'x' is not a number");
+  EXPECT_EQ(ErrorMessages(RingFile(5, "1,nan,4,3")),
+            "t.csv:5: cell 2 (y_m): 'nan' is not a finite number");
+  EXPECT_EQ(ErrorMessages(RingFile(5, "1,inf,4,3")),
+            "t.csv:5: cell 2 (y_m): 'inf' is not a finite number");
+  EXPECT_EQ(ErrorMessages(RingFile(5, "1,2e5,4,3")),
+            "t.csv:5: y_m: 200000 is out of range; must be between -100000 and 100000");
+  EXPECT_EQ(ErrorMessages(RingFile(5, "1,2,0,3")),
+            "t.csv:5: w_tr_right_m: 0 is out of range; must be above 0 and at most 1000");
+  EXPECT_EQ(ErrorMessages(RingFile(5, "1,2,4,-3")),
+            "t.csv:5: w_tr_left_m: -3 is out of range; must be above 0 and at most 1000");
+  EXPECT_EQ(ErrorMessages(RingFile(3, "20,0,4,3")), "t.csv:3: same point as in the row before");
+  EXPECT_EQ(ErrorMessages(RingFile() + "20,0,4,3\n"),
+            "t.csv:26: the first point again; a track is closed without it");
+  EXPECT_THAT(ErrorMessages(RingFile(5, "1,2,4")), StartsWith("t.csv:5: "));
+}
+
+TEST(ReadTrack, NamesTwoMistakesAtOnce) {
+  const std::string text = ErrorMessages(RingFile(5, "1,2,0,-3"));
+  EXPECT_THAT(text, HasSubstr("t.csv:5: w_tr_right_m"));
+  EXPECT_THAT(text, HasSubstr("t.csv:5: w_tr_left_m"));
+}
+
+TEST(ReadTrack, RefusesFilesThatAreNoTracks) {
+  EXPECT_THAT(ErrorMessages(""), HasSubstr("t.csv"));
+  EXPECT_THAT(ErrorMessages("x_m,y_m\n1,2\n"), HasSubstr("w_tr_right_m"));
+  EXPECT_THAT(ErrorMessages("y_m,w_tr_right_m,w_tr_left_m\n2,3,4\n"),
+              HasSubstr("t.csv:1: no column 'x_m'"));
+  EXPECT_EQ(ErrorMessages(kHeader), "t.csv: has 0 points; a track has 8 to 20000");
+  EXPECT_EQ(ErrorMessages(kHeader + "1,2,3,4\n2,2,3,4\n"),
+            "t.csv: has 2 points; a track has 8 to 20000");
+  std::string long_file = kHeader;
+  for (int i = 0; i < 20001; ++i) {
+    long_file += std::to_string(i) + ",0,4,3\n";
+  }
+  EXPECT_EQ(ErrorMessages(long_file), "t.csv: has 20001 points; a track has 8 to 20000");
+}
+
+TEST(ReadTrack, RefusesLargeFilesBeforeItReadsThem) {
+  const TempFolder folder;
+  const std::filesystem::path file = folder.Write("t.csv", kHeader);
+  std::filesystem::resize_file(file, (std::uintmax_t{16} << 20U) + 1);
+  try {
+    static_cast<void>(ReadTrack(file));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("has 16777217 bytes; a track has at most 16777216"));
+  }
+}
+
+TEST(ReadTrack, NamesTheBendThatIsTighterThanTheTrackIsWide) {
+  // The ellipse's radius is 30 m where it starts and half way around.
+  EXPECT_THAT(
+      ErrorMessages(TrackCsv(EllipsePoints(120.0, 60.0, 114, 5.0, 31.0))),
+      testing::AllOf(StartsWith("t.csv:"), HasSubstr("the center line bends on a radius of"),
+                     HasSubstr("the inner edge is 31 m from it")));
+}
+
+TEST(ReadTrack, ReadsTracksOfTum) {
+  const std::filesystem::path folder =
+      std::filesystem::path(TRACKBED_SOURCE_DIR) / "tests/data/tracks";
+  struct Known {
+    const char* name;
+    std::size_t points;
+    double length;  // of the published track [m]
+  };
+  for (const Known& known : {Known{"Norisring", 460, 2300.0}, Known{"Hockenheim", 914, 4574.0},
+                             Known{"Spielberg", 864, 4318.0}, Known{"Silverstone", 1178, 5891.0}}) {
+    const Track track = ReadTrack(folder / (std::string(known.name) + ".csv"));
+    EXPECT_EQ(track.points().size(), known.points) << known.name;
+    // Half a percent: the operators measure along lines of their own.
+    EXPECT_NEAR(track.length(), known.length, Tolerance(0.005 * known.length)) << known.name;
+    EXPECT_LT(track.deviation_max(), 0.5) << known.name;
+    EXPECT_LT(track.deviation_rms(), 0.05) << known.name;
+  }
+}
+
+}  // namespace
+}  // namespace trackbed

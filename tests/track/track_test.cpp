@@ -1,0 +1,169 @@
+#include "trackbed/track/track.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "tests/tolerance.h"
+#include "tests/track/rings.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+constexpr double kRadius = 50.0;
+
+/// 63 points, 5 m apart.
+Track Ring(std::optional<double> smoothing = {}) {
+  return Track(RingPoints(kRadius, 63, 4.0, 3.0), smoothing);
+}
+
+/// Of a wave along the curve, this is left (closed_spline.h); of a circle its radius.
+double Left(double wavelength, double length) {
+  return 1.0 / (1.0 + std::pow(wavelength / length, 6.0));
+}
+
+TEST(Track, OfARingIsARing) {
+  const Track track = Ring();
+  // Chords instead of arcs make the parameter shorter by (5/50)^2/24, and the penalty on
+  // differences is that on derivatives but for (h/r)^2/4 with h = 2.5 m: together far below 1e-3 of
+  // the 1e-6 that smoothing takes of the radius. What is left is the spline's interpolation,
+  // (h/r)^6 r/30.
+  EXPECT_NEAR(track.smoothing(), 20.0, Tolerance(0.1));
+  for (double s = 0.0; s < track.length(); s += 1.3) {
+    const PathPoint at = track.At(s);
+    EXPECT_NEAR(at.pose.position().norm(), kRadius, Tolerance(1e-4)) << s;
+    EXPECT_NEAR(at.curvature, 1.0 / kRadius, Tolerance(1e-7)) << s;
+  }
+  EXPECT_NEAR(track.length(), 2.0 * kPi * kRadius, Tolerance(2.0 * kPi * 1e-4));
+}
+
+TEST(Track, SmoothsByTheWavelength) {
+  // Half of a circle's radius is left when its circumference is the wavelength.
+  for (const double factor : {0.3, 0.5, 0.7}) {
+    const double length = 2.0 * kPi * kRadius;
+    const Track track = Ring(factor * length);
+    const double expected = kRadius * Left(factor, 1.0);
+    // Differences instead of derivatives: each of three factors sin(x)/x, x = pi/126, squared:
+    // 6.2e-4 of what is taken away. Chords instead of arcs: 6 x 4.1e-4 of it.
+    const double taken = kRadius - expected;
+    EXPECT_NEAR(track.At(0.25 * track.length()).pose.position().norm(), expected,
+                Tolerance(3.1e-3 * taken + 1e-4))
+        << factor;
+    EXPECT_NEAR(track.deviation_max(), taken, Tolerance(3.1e-3 * taken + 1e-4));
+    EXPECT_NEAR(track.deviation_rms(), taken, Tolerance(3.1e-3 * taken + 1e-4));
+  }
+}
+
+TEST(Track, TakesNoiseOutOfTheCurvature) {
+  std::vector<TrackPoint> points = RingPoints(kRadius, 63, 4.0, 3.0);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> noise(-0.1, 0.1);
+  for (TrackPoint& point : points) {
+    point.position += Vec2(noise(random), noise(random));
+  }
+  const Track smooth(points);
+  const Track rough(points, 1.0);
+  const auto worst = [](const Track& track) {
+    double largest = 0.0;
+    for (double s = 0.0; s < track.length(); s += 0.5) {
+      largest = std::max(largest, std::abs(track.At(s).curvature - 1.0 / kRadius));
+    }
+    return largest;
+  };
+  // Differentiated twice, 0.1 m at a wavelength of 10 m is 0.04/m; a sixty-fifth is left of it.
+  EXPECT_GT(worst(rough), 0.02);
+  EXPECT_LT(worst(smooth), 0.006);
+  EXPECT_LT(smooth.deviation_max(), 0.1 * std::sqrt(2.0) + 0.02);
+}
+
+TEST(Track, KeepsItsEdgesWhereThePointsHaveThem) {
+  // Smoothed hard, the center line moves by meters, and the edges stay.
+  const Track track = Ring(0.5 * 2.0 * kPi * kRadius);
+  ASSERT_GT(track.deviation_max(), 0.7);
+  for (const Vec2& point : track.left_edge()) {
+    // Linear between points 5 m apart: within 5^2/(8 x 47) of a circle.
+    EXPECT_NEAR(point.norm(), kRadius - 3.0, Tolerance(0.07));
+  }
+  for (const Vec2& point : track.right_edge()) {
+    EXPECT_NEAR(point.norm(), kRadius + 4.0, Tolerance(0.07));
+  }
+}
+
+TEST(Track, ClosesSmoothly) {
+  const Track track(EllipsePoints(120.0, 60.0, 114, 5.0, 5.0));
+  const PathPoint first = track.At(0.0);
+  const PathPoint last = track.At(track.length() - 1e-9);
+  // 1e-4 of 5 m.
+  EXPECT_NEAR((first.pose.position() - last.pose.position()).norm(), 0.0, Tolerance(5e-4));
+  EXPECT_NEAR(std::remainder(first.pose.yaw - last.pose.yaw, 2.0 * kPi), 0.0, Tolerance(1e-6));
+  EXPECT_NEAR(first.curvature, last.curvature, Tolerance(1e-6));
+  EXPECT_EQ(track.At(track.length()).pose, first.pose);
+  EXPECT_EQ(track.At(3.0 * track.length()).pose, first.pose);
+  // The point of the ellipse on its long axis, where its radius is b^2/a.
+  EXPECT_NEAR((first.pose.position() - Vec2(120.0, 0.0)).norm(), 0.0, Tolerance(0.02));
+  EXPECT_NEAR(1.0 / first.curvature, 30.0, Tolerance(0.3));
+}
+
+TEST(Track, LocatesPointsAndComesBack) {
+  const Track track(EllipsePoints(120.0, 60.0, 114, 5.0, 5.0));
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> station(0.0, track.length());
+  std::uniform_real_distribution<double> offset(-5.0, 5.0);
+  for (int i = 0; i < 200; ++i) {
+    const double s = station(random);
+    const double d = offset(random);
+    const Vec2 point = ToWorld(track.At(s).pose, {0.0, d});
+    const TrackPlace place = track.Locate(point);
+    // Path::Project is exact to 1e-9 m along the path.
+    EXPECT_NEAR(std::remainder(place.s - s, track.length()), 0.0, Tolerance(1e-6));
+    EXPECT_NEAR(place.offset, d, Tolerance(1e-6));
+    const TrackPlace near = track.Locate(point, s + 7.0 * track.length() + 10.0);
+    EXPECT_NEAR(std::remainder(near.s - s, track.length()), 0.0, Tolerance(1e-6));
+  }
+}
+
+TEST(Track, HasLinearWidthsBetweenItsPoints) {
+  std::vector<TrackPoint> points = RingPoints(kRadius, 63, 4.0, 3.0);
+  points[10].width_left = 6.0;
+  const Track track(points, 1.0);  // nothing is smoothed, and the points are on the line
+  const double middle = 0.5 * (track.StationOf(10) + track.StationOf(11));
+  // Half way in station, up to the unevenness of stations along the spline.
+  EXPECT_NEAR(track.EdgesAt(middle).left, 4.5, Tolerance(1e-3));
+  EXPECT_NEAR(track.EdgesAt(track.StationOf(10)).left, 6.0, Tolerance(1e-3));
+  EXPECT_NEAR(track.EdgesAt(track.StationOf(10)).right, -4.0, Tolerance(1e-3));
+  EXPECT_NEAR(track.EdgesAt(0.5 * (track.StationOf(62) + track.length())).left, 3.0,
+              Tolerance(1e-3));
+}
+
+TEST(Track, FindsBendsTighterThanItsWidth) {
+  EXPECT_FALSE(FindFold(Ring()));
+  // The ellipse's tightest bend, 30 m, is at its start line and opposite.
+  EXPECT_FALSE(FindFold(Track(EllipsePoints(120.0, 60.0, 114, 35.0, 27.0))));
+  const auto fold = FindFold(Track(EllipsePoints(120.0, 60.0, 114, 5.0, 29.9)));
+  ASSERT_TRUE(fold);
+  EXPECT_EQ(fold->point, 0U);
+  EXPECT_NEAR(fold->radius, 30.0, Tolerance(0.3));
+  EXPECT_NEAR(fold->width, 29.9, Tolerance(0.05));
+}
+
+TEST(Track, RefusesWhatIsNoTrack) {
+  EXPECT_THROW(Track(RingPoints(kRadius, 7, 4.0, 3.0)), PreconditionError);
+  EXPECT_THROW(Track(RingPoints(kRadius, 63, 0.0, 3.0)), PreconditionError);
+  EXPECT_THROW(Track(RingPoints(kRadius, 63, 4.0, -1.0)), PreconditionError);
+  std::vector<TrackPoint> points = RingPoints(kRadius, 63, 4.0, 3.0);
+  EXPECT_THROW(Track(points, 0.0), PreconditionError);
+  points[5].position.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(Track{points}, PreconditionError);
+  points[5] = points[4];
+  EXPECT_THROW(Track{points}, PreconditionError);
+  points = RingPoints(kRadius, 63, 4.0, 3.0);
+  points.push_back(points.front());
+  EXPECT_THROW(Track{points}, PreconditionError);
+}
+
+}  // namespace
+}  // namespace trackbed
