@@ -63,6 +63,12 @@ json Pose(const Pose2& pose, double z) {
           {"orientation", Rotation(pose.yaw)}};
 }
 
+json CubeAt(const OrientedBox& box, double height, const json& color) {
+  return {{"pose", Pose(box.center, 0.5 * height)},
+          {"size", {{"x", box.length}, {"y", box.width}, {"z", height}}},
+          {"color", color}};
+}
+
 json Cube(const OrientedBox& box, double height, const std::string& id, const std::string& frame,
           double time, const json& color) {
   return {{"timestamp", Time(time)},
@@ -70,10 +76,7 @@ json Cube(const OrientedBox& box, double height, const std::string& id, const st
           {"id", id},
           {"lifetime", Time(0.0)},  // until it is replaced
           {"frame_locked", true},
-          {"cubes",
-           {{{"pose", Pose(box.center, 0.5 * height)},
-             {"size", {{"x", box.length}, {"y", box.width}, {"z", height}}},
-             {"color", color}}}}};
+          {"cubes", json::array({CubeAt(box, height, color)})}};
 }
 
 json Obstacles(const World& world, double time) {
@@ -84,6 +87,18 @@ json Obstacles(const World& world, double time) {
                             {{"r", 0.75}, {"g", 0.1}, {"b", 0.15}, {"a", 1.0}}));
   }
   return {{"entities", entities}};
+}
+
+/// The walls of the world's map, which stand still: one entity of many cubes.
+json Walls(const World& world) {
+  json entity{{"timestamp", Time(0.0)}, {"frame_id", "world"},   {"id", "map"},
+              {"lifetime", Time(0.0)},  // until it is replaced
+              {"frame_locked", true},   {"cubes", json::array()}};
+  for (const OrientedBox& wall : MapWalls(world)) {
+    entity["cubes"].push_back(
+        CubeAt(wall, world.map->height, {{"r", 0.62}, {"g", 0.6}, {"b", 0.57}, {"a", 1.0}}));
+  }
+  return {{"entities", json::array({entity})}};
 }
 
 json PosesMessage(const Path& path, double time) {
@@ -163,6 +178,10 @@ std::string ToMcap(const RunResult& result) {
     for (int i = 0; i <= updates; ++i) {
       messages.push_back({0.1 * i, obstacles, Obstacles(world, 0.1 * i)});
     }
+  }
+  if (!MapWalls(world).empty()) {
+    const auto map = writer.AddChannel("/map", "foxglove.SceneUpdate", kScene);
+    messages.push_back({0.0, map, Walls(world)});
   }
   std::stable_sort(messages.begin(), messages.end(),
                    [](const Message& a, const Message& b) { return a.time < b.time; });

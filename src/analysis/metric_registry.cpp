@@ -269,7 +269,7 @@ PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
     // At most one turn at every waypoint between the first and the last.
     metrics.turns.resize(std::max<std::size_t>(scenario.mission.waypoints.size(), 2) - 2);
   }
-  if (!scenario.world.obstacles.empty()) {
+  if (HasObstacles(scenario.world)) {
     metrics.clearance.emplace();
   }
   if (scenario.maneuver) {

@@ -22,6 +22,7 @@
 #include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/recording/record_csv.h"
+#include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/recording_file.h"
 #include "trackbed/track/track_file.h"
 
@@ -356,6 +357,10 @@ void WriteRunFolder(const RunResult& result, const OutputFolder& folder,
   }
   if (const auto& track = result.scenario.mission.track) {
     writer.Add(kTrackCsv, TrackCsv(track->data->points()));
+  }
+  if (const auto& map = result.scenario.world.map) {
+    writer.Add(kMapYaml, MapYaml(map->data->map()));
+    writer.Add(kMapPgm, MapPgm(map->data->map()));
   }
   const auto* playback = result.scenario.control.steering.As<PlaybackOptions>();
   if (playback != nullptr && !(playback->file.empty() && result.scenario.record)) {

@@ -11,6 +11,7 @@
 #include "trackbed/core/file.h"
 #include "trackbed/path_files/path_file.h"
 #include "trackbed/recording/record_csv.h"
+#include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/record.h"
 #include "trackbed/scenario/recording_file.h"
 #include "trackbed/sim/plant.h"
@@ -77,6 +78,8 @@ std::vector<std::string> AllNames() {
   names.emplace_back(kRecordCsv);
   names.emplace_back(kPathCsv);
   names.emplace_back(kTrackCsv);
+  names.emplace_back(kMapYaml);
+  names.emplace_back(kMapPgm);
   names.insert(names.end(), kPathFiles.begin(), kPathFiles.end());
   for (const std::string& plant : DrivenPlantNames()) {
     for (const auto name_of : {LogCsv, StateCsv, NewPlansCsv, NewPlansJson, NewPlansTreeCsv}) {

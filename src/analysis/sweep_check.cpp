@@ -14,6 +14,7 @@
 #include "trackbed/path_files/path_file.h"
 #include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/recording/record_csv.h"
+#include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/recording_file.h"
 #include "trackbed/sim/scene.h"
 #include "trackbed/track/track_file.h"
@@ -32,6 +33,7 @@ CarKey MakeCarKey(const Scenario& scenario) {
 /// The scenario with nothing put into the car's scene.
 Scenario Bare(Scenario scenario) {
   scenario.world.obstacles.clear();
+  scenario.world.map.reset();
   scenario.world.ground = {};
   scenario.disturb.payload.reset();
   return scenario;
@@ -148,6 +150,10 @@ CheckedStudy CheckStudy(Study study, bool all) {
     }
     if (const auto& track = scenario.mission.track) {
       checked.inputs["track " + track->file] = Sha256(TrackCsv(track->data->points()));
+    }
+    if (const auto& map = scenario.world.map) {
+      checked.inputs["map " + map->file] =
+          Sha256(MapYaml(map->data->map()) + MapPgm(map->data->map()));
     }
     const auto* playback = scenario.control.steering.As<PlaybackOptions>();
     if (playback != nullptr && !playback->file.empty()) {

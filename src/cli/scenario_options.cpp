@@ -11,6 +11,8 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/render/film.h"
 #include "trackbed/scenario/identification.h"
+#include "trackbed/scenario/map_file.h"
+#include "trackbed/scenario/record.h"
 #include "trackbed/sim/scene.h"
 
 namespace trackbed::cli {
@@ -46,7 +48,8 @@ void AddFilesIn(const fs::path& folder, FolderContent content, std::vector<fs::p
       }
     } else if (extension == ".yaml" || extension == ".yml") {
       const bool is_study = IsStudy(path) || IsIdentification(path);
-      if ((content == FolderContent::kScenariosAndStudies || !is_study) && !IsLogMap(path)) {
+      if ((content == FolderContent::kScenariosAndStudies || !is_study) && !IsLogMap(path) &&
+          !IsRosMap(path)) {
         own.push_back(path);
       }
     }

@@ -35,7 +35,7 @@ std::optional<Scene> LadenScene(const Scenario& scenario, const CarModel& car) {
 /// The car's scene in the scenario's world; none on flat ground without obstacles.
 std::optional<Scene> SceneInWorld(const Scenario& scenario, const CarModel& car) {
   const World& world = scenario.world;
-  const bool empty = world.obstacles.empty() && IsFlat(world.ground);
+  const bool empty = !HasObstacles(world) && IsFlat(world.ground);
   return empty ? std::nullopt : std::optional(WithWorld(car.scene(), car.params(), world));
 }
 

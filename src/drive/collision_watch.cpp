@@ -8,7 +8,7 @@ CollisionWatch::CollisionWatch(const World& world, const VehicleParams& vehicle)
     : world_(world), vehicle_(vehicle) {}
 
 void CollisionWatch::Update(const Plant& plant, double time) {
-  if (world_.obstacles.empty()) {
+  if (!HasObstacles(world_)) {
     return;
   }
   const Pose2 pose = plant.pose();

@@ -75,6 +75,8 @@ Plan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
       known.push_back(obstacle.footprint);
     }
   }
+  const std::vector<OrientedBox>& walls = MapWalls(scenario.world);
+  known.insert(known.end(), walls.begin(), walls.end());
   const auto begin = std::chrono::steady_clock::now();
   const PlanRequest request{
       .vehicle = vehicle,

@@ -137,6 +137,9 @@ std::vector<MovingBox> ReplanningMonitor::KnownObstacles(const VehicleState& sta
       known.push_back({box, obstacle.velocity});
     }
   }
+  for (const OrientedBox& wall : MapWalls(options_.world)) {
+    known.push_back({wall, Vec2::Zero()});
+  }
   return known;
 }
 

@@ -178,6 +178,16 @@ ordered_json WorldJson(const World& world) {
     json["patches"].push_back(BoxJson(patch.area));
     json["patches"].back()["friction"] = Rounded(patch.friction);
   }
+  if (const std::vector<OrientedBox>& walls = MapWalls(world); !walls.empty()) {
+    // All have the direction of the map's rows.
+    json["walls"] = {{"yaw", Rounded(walls.front().center.yaw)},
+                     {"height", Rounded(world.map->height)},
+                     {"boxes", ordered_json::array()}};
+    for (const OrientedBox& wall : walls) {
+      json["walls"]["boxes"].push_back({Rounded(wall.center.x), Rounded(wall.center.y),
+                                        Rounded(wall.length), Rounded(wall.width)});
+    }
+  }
   json["gusts"] = ordered_json::array();
   for (const Gust& gust : world.wind.gusts) {
     if (gust.area) {

@@ -74,14 +74,14 @@ void CheckMetrics(Diagnostics& c) {
 void CheckWhatIsMeasured(Diagnostics& c) {
   const bool has_path = c.scenario.plan || !c.CouldReadPlan({"method"});
   const bool has_obstacles =
-      !c.scenario.world.obstacles.empty() || !c.CouldRead({"world.obstacles"});
+      HasObstacles(c.scenario.world) || !c.CouldRead({"world.obstacles", "world.map"});
   ForEachExpectation(c, [&](const std::string& key, const PlantExpectation& expectation) {
     if (!has_path && (expectation.reach_goal || expectation.max_cross_track ||
                       expectation.rms_cross_track || expectation.max_heading_error)) {
       c.AddError(key, "goal and path expectations need a plan");
     }
     if (!has_obstacles && (expectation.min_clearance || expectation.collision.value_or(false))) {
-      c.AddError(key, "min_clearance and collision need world.obstacles");
+      c.AddError(key, "min_clearance and collision need world.obstacles or world.map");
     }
   });
 }

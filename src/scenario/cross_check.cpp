@@ -118,6 +118,21 @@ void CheckObstacles(Diagnostics& c) {
   }
 }
 
+void CheckMap(Diagnostics& c) {
+  const auto& map = c.scenario.world.map;
+  if (!map) {
+    return;
+  }
+  if (!IsFlat(c.scenario.world.ground)) {
+    c.AddError("world.map", "needs a flat world.ground");
+  }
+  if (c.scenario.plan && c.scenario.plan->avoid && c.CouldReadPlan({"avoid"})) {
+    c.AddError("plan.avoid",
+               "local planners pass single obstacles, not the walls of world.map; use a global "
+               "planner that searches, or plan.replan");
+  }
+}
+
 void CheckDisturbances(Diagnostics& c) {
   const Disturbances& disturb = c.scenario.disturb;
   const auto& loss = disturb.speed_loss;
@@ -201,6 +216,7 @@ std::vector<std::pair<std::string, std::string>> CrossProblems(
   CheckGround(c);
   CheckGusts(c);
   CheckObstacles(c);
+  CheckMap(c);
   CheckDisturbances(c);
   CheckManeuver(c);
   CheckRecord(c);

@@ -16,6 +16,7 @@
 #include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/recording/import_log.h"
 #include "trackbed/recording/record_csv.h"
+#include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/recording_file.h"
 #include "trackbed/sim/plant.h"
 #include "trackbed/sim/scene.h"
@@ -223,6 +224,28 @@ std::vector<Problem> ReadTrackFile(Scenario& scenario, ReaderContext& context,
       key, context, add_error);
 }
 
+std::vector<Problem> ReadMap(Scenario& scenario, MapSpec& map, ReaderContext& context,
+                             const AddKeyError& add_error) {
+  if (!context.Read("world.map") || !context.Read("world.map.file") ||
+      !context.Read("world.map.cell") || map.file.empty()) {
+    return {};
+  }
+  const std::vector<std::filesystem::path> others = WithOwnData(scenario.asset_folders);
+  if (const std::string why = WhyUnreadable(map.file, scenario.folder, others); !why.empty()) {
+    add_error("world.map.file", fmt::format("{} {}", map.file, why));
+    return {};
+  }
+  const std::filesystem::path own = (scenario.folder / map.file).parent_path();
+  const WhyNot why_not = [&](const std::filesystem::path& image) {
+    return WhyUnreadable(image.lexically_relative(own), own, others);
+  };
+  return Attempt(
+      [&] {
+        map.data = std::make_shared<const MapObstacles>(ReadMap(map, scenario.folder, why_not));
+      },
+      "world.map.file", context, add_error);
+}
+
 }  // namespace
 
 std::vector<Problem> ReadInputs(Scenario& scenario, ReaderContext& context,
@@ -240,6 +263,12 @@ std::vector<Problem> ReadInputs(Scenario& scenario, ReaderContext& context,
   }
   if (scenario.mission.track) {
     add(ReadTrackFile(scenario, context, add_error));
+  }
+  if (auto& map = scenario.world.map) {
+    add(ReadMap(scenario, *map, context, add_error));
+    if (!map->data) {
+      context.unread.emplace_back("world.map");
+    }
   }
   if (auto* playback = scenario.control.steering.As<PlaybackOptions>()) {
     add(ReadPlayback(scenario, *playback, context, add_error));

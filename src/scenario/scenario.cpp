@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "src/scenario/cross_check.h"
 #include "src/scenario/inputs.h"
@@ -22,6 +23,7 @@
 #include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/recording/record_csv.h"
+#include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/recording_file.h"
 #include "trackbed/sim/scene.h"
 #include "trackbed/track/track_file.h"
@@ -152,7 +154,20 @@ VehicleSpec ReadVehicleSpec(const std::filesystem::path& file) {
 }
 
 World ReadWorld(const std::filesystem::path& file) {
-  return ReadSection<World>(file, kWorldSection);
+  World world = ReadSection<World>(file, kWorldSection);
+  if (world.map) {
+    const std::filesystem::path folder = file.parent_path();
+    const WhyNot why_not = [&](const std::filesystem::path& image) {
+      return WhyUnreadable(image.lexically_relative(folder), folder, {});
+    };
+    if (const std::string why = WhyUnreadable(world.map->file, folder, {}); !why.empty()) {
+      throw InputError(Problem{.file = file.string(),
+                               .key = "world.map.file",
+                               .message = fmt::format("{} {}", world.map->file, why)});
+    }
+    world.map->data = std::make_shared<const MapObstacles>(ReadMap(*world.map, folder, why_not));
+  }
+  return world;
 }
 
 Expectations ReadExpectations(const std::filesystem::path& file) {
@@ -271,6 +286,9 @@ std::string ResolvedYaml(const Scenario& scenario) {
   if (auto* playback = resolved.control.steering.As<PlaybackOptions>()) {
     playback->file = playback->file.empty() && resolved.record ? "" : kRecordingCsv;
     playback->columns = {};  // RecordingCsv has the default names
+  }
+  if (auto& map = resolved.world.map) {
+    *map = {.file = kMapYaml, .unknown = map->unknown, .height = map->height};
   }
   YAML::Emitter out;
   out << YAML::BeginMap;

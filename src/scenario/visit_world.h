@@ -1,11 +1,11 @@
 #pragma once
 
+#include "src/scenario/visit_map.h"
 #include "trackbed/world/world.h"
 
 /// The keys of the section `world`.
 namespace trackbed {
 
-inline constexpr Range kSize{.max = 1e4, .above = 0.0};  // [m]
 inline constexpr Range kRoadFactor{.max = 10.0, .above = 0.0};
 inline constexpr Range kRiseOverRun{.min = -0.5, .max = 0.5};    // 27 degrees
 inline constexpr Range kWindSpeed{.min = -100.0, .max = 100.0};  // [m/s]
@@ -92,6 +92,7 @@ inline void Visit(KeyVisitor& a, World& world) {
   a.Section({"ground", "", "road surface; default: flat at z = 0"}, world.ground);
   a.Section({"wind", "", "air velocity over the ground"}, world.wind);
   a.List({"obstacles", "", "obstacles"}, world.obstacles);
+  a.Section({"map", "", "grid map whose blocked cells are walls"}, world.map);
   a.Section({"road", "",
              "road along the plan in films and reports, without effect on the drive; default: "
              "along plans that do not cross open ground"},

@@ -211,8 +211,33 @@ void ExtendKeyframes(XMLElement& root, int joints) {
   }
 }
 
+/// What the car's shell and wheels meet.
+void MakeObstacle(XMLElement& geom, const char* rgba) {
+  geom.SetAttribute("contype", 1);
+  geom.SetAttribute("conaffinity", 3);
+  geom.SetAttribute("group", 0);
+  geom.SetAttribute("rgba", rgba);
+}
+
+/// The walls of the world's map, which has flat ground.
+void AddWalls(XMLElement& bodies, const World& world) {
+  const std::vector<OrientedBox>& walls = MapWalls(world);
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const OrientedBox& box = walls[i];
+    const double half_height = 0.5 * world.map->height;
+    XMLElement* geom = bodies.InsertNewChildElement("geom");
+    geom->SetAttribute("name", fmt::format("obstacle_wall_{}", i).c_str());
+    geom->SetAttribute("type", "box");
+    geom->SetAttribute("pos", Numbers({box.center.x, box.center.y, half_height}).c_str());
+    const double half_yaw = 0.5 * box.center.yaw;
+    geom->SetAttribute("quat", Numbers({std::cos(half_yaw), 0.0, 0.0, std::sin(half_yaw)}).c_str());
+    geom->SetAttribute("size", Numbers({0.5 * box.length, 0.5 * box.width, half_height}).c_str());
+    MakeObstacle(*geom, "0.62 0.60 0.57 1");
+  }
+}
+
 Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const World& world) {
-  if (world.obstacles.empty()) {
+  if (!HasObstacles(world)) {
     return car_scene;
   }
   XMLDocument document;
@@ -268,11 +293,9 @@ Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const 
     geom->SetAttribute("quat", Numbers({turn.w(), turn.x(), turn.y(), turn.z()}).c_str());
     geom->SetAttribute("size",
                        Numbers({0.5 * box.length, 0.5 * box.width, 0.5 * obstacle.height}).c_str());
-    geom->SetAttribute("contype", 1);
-    geom->SetAttribute("conaffinity", 3);
-    geom->SetAttribute("group", 0);
-    geom->SetAttribute("rgba", "0.78 0.15 0.20 1");
+    MakeObstacle(*geom, "0.78 0.15 0.20 1");
   }
+  AddWalls(*bodies, world);
   ExcludeContacts(root, sliders);
   ExtendKeyframes(root, 2 * static_cast<int>(sliders.size()));
   Scene scene = car_scene;

@@ -33,6 +33,23 @@ Vec2 WindAt(const World& world, const Vec2& point_W, double time) {
   return WindAt(world.wind, point_W, time);
 }
 
+namespace {
+
+bool HasMap(const World& world) {
+  return world.map && world.map->data;
+}
+
+}  // namespace
+
+bool HasObstacles(const World& world) {
+  return !world.obstacles.empty() || !MapWalls(world).empty();
+}
+
+const std::vector<OrientedBox>& MapWalls(const World& world) {
+  static const std::vector<OrientedBox> none;
+  return HasMap(world) ? world.map->data->boxes() : none;
+}
+
 OrientedBox FootprintAt(const VehicleParams& vehicle, const Pose2& pose) {
   const Vec2 middle = ToWorld(pose, {0.5 * vehicle.length - vehicle.rear_overhang, 0.0});
   return {{middle.x(), middle.y(), pose.yaw}, vehicle.length, vehicle.width};
@@ -51,7 +68,7 @@ bool IsKnown(const Obstacle& obstacle, double time, const OrientedBox& footprint
 
 std::optional<double> Clearance(const World& world, const VehicleParams& vehicle, const Pose2& pose,
                                 double time) {
-  if (world.obstacles.empty()) {
+  if (!HasObstacles(world)) {
     return std::nullopt;
   }
   const OrientedBox footprint = FootprintAt(vehicle, pose);
@@ -66,7 +83,7 @@ std::optional<double> Clearance(const World& world, const VehicleParams& vehicle
       nearest = std::min(nearest, Distance(footprint, box));
     }
   }
-  return nearest;
+  return HasMap(world) ? world.map->data->index().DistanceTo(footprint, nearest) : nearest;
 }
 
 namespace {
@@ -116,7 +133,7 @@ void Approach(const World& world, const VehicleParams& vehicle, const ClearanceS
 
 ClosestApproach ApproachBetween(const World& world, const VehicleParams& vehicle,
                                 const ClearanceSample& from, const ClearanceSample& to) {
-  TRACKBED_CHECK(!world.obstacles.empty(), "no obstacles");
+  TRACKBED_CHECK(HasObstacles(world), "no obstacles");
   const double moved = MostMoved(world, vehicle, from, to);
   TRACKBED_REQUIRE(std::isfinite(moved) && from.clearance >= 0.0 && to.clearance >= 0.0,
                    "ApproachBetween: {} m moved between clearances of {} and {} m; must be finite, "

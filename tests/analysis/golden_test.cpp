@@ -14,6 +14,7 @@
 #include "trackbed/core/file.h"
 #include "trackbed/core/text_table.h"
 #include "trackbed/scenario/identification.h"
+#include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/record.h"
 
 namespace trackbed {
@@ -31,7 +32,7 @@ std::vector<std::string> NamesBelow(const fs::path& folder, const std::string& e
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const fs::path place = entry.path().lexically_relative(folder);
     if (place.extension() == extension && *place.begin() != "studies" && !IsLogMap(entry.path()) &&
-        !IsIdentification(entry.path())) {
+        !IsRosMap(entry.path()) && !IsIdentification(entry.path())) {
       names.push_back(fs::path(place).replace_extension().string());
     }
   }

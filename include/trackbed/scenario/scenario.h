@@ -205,7 +205,8 @@ void CheckScenario(const Scenario& scenario);
 /// The scenario with every default filled in, as YAML that ReadScenario reads back to an equal one
 /// from any folder: a model given by its path is written with its absolute path, a recording is
 /// `recording.csv`, which must lie beside the YAML with the content of RecordingCsv, and a recorded
-/// drive likewise `record.csv` with that of RecordCsv, and a track `track.csv` with that of TrackCsv.
+/// drive likewise `record.csv` with that of RecordCsv, a track `track.csv` with that of TrackCsv, a
+/// map `map.yaml` and `map.pgm` (map_file.h).
 std::string ResolvedYaml(const Scenario& scenario);
 
 /// The keys of a method's options with their values, on one line: "distance: 2.5, law: exact_arc".

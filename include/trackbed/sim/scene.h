@@ -71,7 +71,8 @@ Scene ComposeScene(const std::filesystem::path& car_file, const SceneOptions& op
 Scene WithGround(const Scene& car_scene, const Ground& ground);
 
 /// Adds the world's obstacles, `obstacle_0`, `obstacle_1`, …, as fixed boxes, or as boxes moved by
-/// the joints `obstacle_0_x` and `obstacle_0_y` where they have a velocity, and to the car a shell
+/// the joints `obstacle_0_x` and `obstacle_0_y` where they have a velocity, the walls of its map,
+/// `obstacle_wall_0`, …, as fixed boxes on flat ground, and to the car a shell
 /// that only they can touch: a box geom `shell` in its body `chassis`, the footprint from a hand's
 /// breadth above the ground to the roof. They stand on the world's ground. Without obstacles the
 /// scene stays as it is.

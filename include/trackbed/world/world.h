@@ -5,6 +5,7 @@
 
 #include "trackbed/geometry/oriented_box.h"
 #include "trackbed/vehicle/params.h"
+#include "trackbed/world/map_obstacles.h"
 #include "trackbed/world/road.h"
 #include "trackbed/world/wind.h"
 
@@ -38,7 +39,14 @@ struct World {
   std::vector<Obstacle> obstacles;
   /// None: a road where the planner follows one (analysis/road_look.h).
   std::optional<RoadLook> road{};
+  std::optional<MapSpec> map{};  ///< its walls stand beside `obstacles`, from the start
 };
+
+/// Whether there is an obstacle or a wall of the map.
+bool HasObstacles(const World& world);
+
+/// The walls of the world's map; none without one.
+const std::vector<OrientedBox>& MapWalls(const World& world);
 
 /// The road's factor on the tyres' friction coefficient at a point: that of the last patch in the
 /// list that contains it, else `friction`. Cost O(patches). PreconditionError for a point that is
@@ -62,8 +70,9 @@ OrientedBox FootprintAt(const Obstacle& obstacle, double time);
 /// Whether planners that do not know the obstacle yet learn of it now.
 bool IsKnown(const Obstacle& obstacle, double time, const OrientedBox& footprint);
 
-/// Shortest distance from the car's footprint to any obstacle at `time` [m]; 0 when they touch or
-/// overlap, which counts as a collision on every plant. None without obstacles. Cost O(obstacles).
+/// Shortest distance from the car's footprint to any obstacle or wall at `time` [m]; 0 when they
+/// touch or overlap, which counts as a collision on every plant. None without obstacles. Cost
+/// O(obstacles), and the walls near by.
 std::optional<double> Clearance(const World& world, const VehicleParams& vehicle, const Pose2& pose,
                                 double time);
 

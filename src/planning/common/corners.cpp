@@ -9,6 +9,7 @@
 
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/geometry/box_index.h"
 #include "trackbed/planning/common/route_start.h"
 
 namespace trackbed {
@@ -268,9 +269,9 @@ std::vector<Vec2> WithoutStraightOn(const std::vector<Vec2>& polyline) {
 
 std::vector<Vec2> Shortcut(const std::vector<Vec2>& polyline, const std::vector<OrientedBox>& boxes,
                            double inflation) {
+  const BoxIndex index(boxes);
   return Without(polyline, [&](const Vec2& from, const Vec2& to) {
-    return std::all_of(boxes.begin(), boxes.end(),
-                       [&](const OrientedBox& box) { return Distance(from, to, box) > inflation; });
+    return index.KeepsFrom(from, to, inflation);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trackbed/geometry/box_index.h"
 #include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/grid/astar.h"
@@ -114,12 +115,9 @@ std::vector<std::vector<Vec2>> WaysOut(const PlanRequest& request) {
   return ways;
 }
 
-bool IsFree(const std::vector<Vec2>& points, const std::vector<OrientedBox>& boxes,
-            double inflation) {
+bool IsFree(const std::vector<Vec2>& points, const BoxIndex& boxes, double inflation) {
   for (std::size_t i = 1; i < points.size(); ++i) {
-    if (std::any_of(boxes.begin(), boxes.end(), [&](const OrientedBox& box) {
-          return Distance(points[i - 1], points[i], box) <= inflation;
-        })) {
+    if (!boxes.KeepsFrom(points[i - 1], points[i], inflation)) {
       return false;
     }
   }
@@ -156,8 +154,9 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
   if ((direct.ok() && begins_right) || options.corners == Corners::kRefuse) {
     return direct;
   }
+  const BoxIndex obstacles(request.obstacles);
   for (const std::vector<Vec2>& way : ways_out) {
-    if (!IsFree(way, request.obstacles, inflation)) {
+    if (!IsFree(way, obstacles, inflation)) {
       continue;
     }
     Plan plan = PlanGrid(options, request, grid, inflation, way);

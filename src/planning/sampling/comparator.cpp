@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "trackbed/core/error.h"
+#include "trackbed/geometry/box_index.h"
 
 namespace trackbed {
 namespace {
@@ -44,11 +45,10 @@ PathScore ScorePath(const std::vector<Vec2>& way, const Vec2& position,
   for (std::size_t i = 1; i < rest.size(); ++i) {
     score.length += (rest[i] - rest[i - 1]).norm();
   }
+  const BoxIndex index(obstacles);
   for (std::size_t i = 0; i < rest.size() && !score.collides; ++i) {
     const Vec2& from = rest[i == 0 ? 0 : i - 1];
-    score.collides = std::any_of(obstacles.begin(), obstacles.end(), [&](const OrientedBox& box) {
-      return Distance(from, rest[i], box) <= inflation;
-    });
+    score.collides = !index.KeepsFrom(from, rest[i], inflation);
   }
   score.wind = WindScore(rest, wind);
   score.total = score.length - score.wind + (score.collides ? options.collision_penalty : 0.0);

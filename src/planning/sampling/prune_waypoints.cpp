@@ -4,18 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "trackbed/geometry/box_index.h"
+
 namespace trackbed {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Of a corner that the car cannot drive [m].
 constexpr double kTooTight = 1e6;
-
-bool IsFree(const PruningProblem& problem, const Vec2& from, const Vec2& to) {
-  return std::all_of(
-      problem.obstacles.begin(), problem.obstacles.end(),
-      [&](const OrientedBox& box) { return Distance(from, to, box) > problem.inflation; });
-}
 
 /// What the corner at `at` costs. `all_in`, `all_out`: the whole of a leg may be used for it.
 double CornerCost(const PruningProblem& problem, const Vec2& from, const Vec2& at, const Vec2& to,
@@ -39,11 +35,12 @@ struct Line {
 std::vector<Vec2> PruneWaypoints(const std::vector<Vec2>& way, const PruningProblem& problem) {
   const std::size_t n = way.size();
   const bool windy = problem.wind.weight != 0.0 && !IsCalm(problem.wind.wind);
+  const BoxIndex obstacles(problem.obstacles);
   std::vector<Line> lines(n * n);
   for (std::size_t i = 1; i < n; ++i) {
     const bool ends = problem.last_leg && i + 1 == n;
     for (std::size_t k = 0; k < i; ++k) {
-      if (k + 1 < i && !IsFree(problem, way[k], way[i])) {
+      if (k + 1 < i && !obstacles.KeepsFrom(way[k], way[i], problem.inflation)) {
         continue;
       }
       Line best;

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "trackbed/core/error.h"
+#include "trackbed/geometry/box_index.h"
 
 namespace trackbed {
 namespace {
@@ -21,7 +22,7 @@ using Entry = std::pair<Point, std::size_t>;
 class Tree {
  public:
   Tree(const RrtProblem& problem, const RrtOptions& options, std::uint64_t seed)
-      : problem_(problem), options_(options), random_(seed) {
+      : problem_(problem), obstacles_(problem.obstacles), options_(options), random_(seed) {
     Add(problem.start, 0);
   }
 
@@ -54,10 +55,7 @@ class Tree {
   double Uniform() { return boost::random::uniform_01<double>()(random_); }
 
   [[nodiscard]] bool IsFree(const Vec2& from, const Vec2& to) const {
-    return std::all_of(problem_.obstacles.begin(), problem_.obstacles.end(),
-                       [&](const OrientedBox& obstacle) {
-                         return Distance(from, to, obstacle) > problem_.inflation;
-                       });
+    return obstacles_.KeepsFrom(from, to, problem_.inflation);
   }
 
   Vec2 Sample() {
@@ -124,6 +122,7 @@ class Tree {
   }
 
   const RrtProblem& problem_;
+  BoxIndex obstacles_;
   const RrtOptions& options_;
   boost::random::mt19937_64 random_;
   std::vector<RrtNode> nodes_;

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "trackbed/core/error.h"
+#include "trackbed/geometry/box_index.h"
 
 namespace trackbed {
 namespace {
@@ -26,7 +27,7 @@ constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 class RrtStarTree {
  public:
   RrtStarTree(const RrtStarProblem& problem, const RrtStarOptions& options, std::uint64_t seed)
-      : problem_(problem), options_(options), random_(seed) {
+      : problem_(problem), obstacles_(problem.obstacles), options_(options), random_(seed) {
     Add(problem.start, 0, 0.0);
   }
 
@@ -69,10 +70,7 @@ class RrtStarTree {
   double Uniform() { return boost::random::uniform_01<double>()(random_); }
 
   [[nodiscard]] bool IsFree(const Vec2& from, const Vec2& to) const {
-    return std::all_of(problem_.obstacles.begin(), problem_.obstacles.end(),
-                       [&](const OrientedBox& obstacle) {
-                         return Distance(from, to, obstacle) > problem_.inflation;
-                       });
+    return obstacles_.KeepsFrom(from, to, problem_.inflation);
   }
 
   Vec2 Sample() {
@@ -236,6 +234,7 @@ class RrtStarTree {
   }
 
   const RrtStarProblem& problem_;
+  BoxIndex obstacles_;
   const RrtStarOptions& options_;
   boost::random::mt19937_64 random_;
   std::vector<TreeNode> nodes_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "trackbed/core/error.h"
+#include "trackbed/geometry/box_index.h"
 
 namespace trackbed {
 namespace {
@@ -61,9 +62,7 @@ class Smoother {
   }
 
   [[nodiscard]] bool IsFree(const Vec2& from, const Vec2& to) const {
-    return std::all_of(obstacles_.begin(), obstacles_.end(), [&](const OrientedBox& obstacle) {
-      return Distance(from, to, obstacle) > inflation_;
-    });
+    return obstacles_.KeepsFrom(from, to, inflation_);
   }
 
   [[nodiscard]] double Score(const Vec2& before, const Vec2& at, const Vec2& after) const {
@@ -72,7 +71,7 @@ class Smoother {
 
   const std::vector<Vec2>& given_;
   std::vector<Vec2> smooth_;
-  const std::vector<OrientedBox>& obstacles_;
+  BoxIndex obstacles_;
   double inflation_;
   const WindScoring& wind_;
   const SmoothingOptions& options_;

@@ -131,6 +131,15 @@ function drawMap(parent) {
     for (const cone of ((run.plan && run.plan.cones) || []).filter((c) => fresh('cone', c))) {
       world.append('path').attr('class', 'cone').attr('d', `M${cone[0]} ${cone[1]}h0`);
     }
+    const { walls } = run.world;
+    if (walls && fresh('walls', walls)) {
+      // Seen from the direction of its rows, each is a rectangle along the axes.
+      const [c, s] = [Math.cos(walls.yaw), Math.sin(walls.yaw)];
+      const text = walls.boxes.map(([x, y, length, width]) =>
+        `M${c * x + s * y - length / 2} ${c * y - s * x - width / 2}h${length}v${width}h${-length}z`).join('');
+      world.append('path').attr('class', 'walls').attr('d', text)
+        .attr('transform', `rotate(${(walls.yaw * 180) / Math.PI})`);
+    }
     for (const obstacle of run.world.obstacles.filter((o) => fresh('obstacle', o))) {
       const moves = obstacle.vx !== 0 || obstacle.vy !== 0;
       const way = moves && world.append('path').attr('class', 'obstacle-way');

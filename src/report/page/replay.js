@@ -289,6 +289,7 @@ function drawSceneKey(parent) {
   const patches = worlds.flatMap(({ friction, patches: own }) => own.map((patch) => patch.friction < friction));
   if (patches.includes(true)) sign('less friction', { background: '#c4e2f2' }, 'area');
   if (patches.includes(false)) sign('more friction', { background: '#55524e' }, 'area');
+  if (worlds.some((world) => world.walls)) sign('map', { background: '#b5b0a8' }, 'area');
   if (worlds.some((world) => world.obstacles.length)) sign('obstacle', { background: '#c9a24a' }, 'area');
   if (worlds.some((world) => world.obstacles.some((box) => box.known_later))) sign('obstacle not known yet', { border: '2px solid #7a5a10' }, 'area');
   if (replay.cars.some(({ skid }) => skid)) sign(`tyre beyond ${100 * SKID.use} % of its grip`, { 'border-top': '4px solid #15161a' });

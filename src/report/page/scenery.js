@@ -221,6 +221,25 @@ function areaGeometry({ x, y, yaw, length, width }, height, lift) {
   return strip(points, -width / 2, width / 2, height, lift);
 }
 
+/** The walls of a map that are near enough to be seen, on flat ground. */
+function wallsMesh({ yaw, height, boxes }, extent) {
+  const SEEN = 150;  // [m]
+  const near = boxes.filter(([x, y, length, width]) => {
+    const reach = SEEN + Math.hypot(length, width) / 2;
+    return x > extent.x[0] - reach && x < extent.x[1] + reach && y > extent.y[0] - reach && y < extent.y[1] + reach;
+  });
+  const mesh = new THREE.InstancedMesh(new THREE.BoxBufferGeometry(1, 1, 1),
+    new THREE.MeshLambertMaterial({ color: 0xb5b0a8 }), near.length);
+  const place = new THREE.Matrix4();
+  const turn = new THREE.Quaternion().setFromAxisAngle(new THREE.Vector3(0, 0, 1), yaw);
+  near.forEach(([x, y, length, width], i) => mesh.setMatrixAt(i,
+    place.compose(new THREE.Vector3(x, y, height / 2), turn, new THREE.Vector3(length, width, height))));
+  mesh.castShadow = true;
+  mesh.receiveShadow = true;
+  mesh.frustumCulled = false;
+  return mesh;
+}
+
 /** An obstacle: a box, or a car of its size where it moves and has one. */
 function obstacleShape(box, make) {
   const [moves, isCar] = [box.vx !== 0 || box.vy !== 0, box.length > 3 && box.length < 6 && box.width > 1.4 && box.width < 2.3];
@@ -305,6 +324,7 @@ function drawScenery(scene, height, makers) {
       busy.push([box.x, box.y]);
       obstacles.push({ run: r, index: i, box, shape: makeObstacle(scene, box, height, makers[r]) });
     }
+    if (world.walls && fresh(world.walls)) scene.add(wallsMesh(world.walls, extent));
     for (const cone of ((plan && plan.cones) || []).filter(fresh)) {
       const mesh = new THREE.Mesh(new THREE.ConeBufferGeometry(0.16, 0.6, 16).rotateX(Math.PI / 2),
         new THREE.MeshLambertMaterial({ color: 0xe8641b }));
@@ -314,8 +334,9 @@ function drawScenery(scene, height, makers) {
     }
   }
   // Where a run without a plan will lead is not known while it goes on.
-  const isKnown = !data.live || runs.some((run) => run.plan && run.plan.line);
-  if (isKnown) for (const mesh of treeMeshes(extent, busy, height)) scene.add(mesh);
+  // Nor are there trees on a map.
+  const hasTrees = !runs.some((run) => run.world.walls) && (!data.live || runs.some((run) => run.plan && run.plan.line));
+  if (hasTrees) for (const mesh of treeMeshes(extent, busy, height)) scene.add(mesh);
   return {
     update: (time) => obstacles.forEach(({ shape }) => shape.place(time)),
     /** What a car knows of at a moment is solid. */

@@ -229,6 +229,9 @@ function drawLegend(parent) {
     show();
     bus.on('rows.legend', show);
   }
+  if (runs.some((run) => run.world.walls)) {
+    sign('map', (svg) => svg.append('path').attr('class', 'walls').attr('d', 'M4 1h18v10h-18z'));
+  }
   if (runs.some((run) => run.world.obstacles.length)) {
     sign('obstacle', (svg) => svg.append('g').attr('class', 'obstacle').append('rect')
       .attr('x', 4).attr('y', 1).attr('width', 18).attr('height', 10));

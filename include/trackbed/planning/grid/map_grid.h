@@ -1,0 +1,12 @@
+#pragma once
+
+#include "trackbed/planning/common/occupancy_grid.h"
+#include "trackbed/world/grid_map.h"
+
+namespace trackbed {
+
+/// The cells of a map as a grid to search (astar.h), without inflation: what is found is a path of
+/// a point. The cell in a column and row of the map is that at row x columns + column.
+OccupancyGrid ToOccupancyGrid(const GridMap& map, UnknownCells unknown);
+
+}  // namespace trackbed

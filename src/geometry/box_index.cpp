@@ -1,0 +1,107 @@
+#include "trackbed/geometry/box_index.h"
+
+#include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <cmath>
+#include <utility>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+namespace index = boost::geometry::index;
+using Point = boost::geometry::model::d2::point_xy<double>;
+using Bounds = boost::geometry::model::box<Point>;
+using Entry = std::pair<Bounds, std::size_t>;
+
+/// Up to so many boxes are looked at one after the other.
+constexpr std::size_t kFew = 16;
+/// By which bounds are larger than computed, for rounding: of a coordinate, and at least [m].
+constexpr double kRounding = 1e-12;
+
+bool IsFinite(const OrientedBox& box) {
+  return box.center.position().allFinite() && std::isfinite(box.center.yaw) &&
+         std::isfinite(box.length) && std::isfinite(box.width);
+}
+
+Bounds BoundsAround(Vec2 low, Vec2 high, double margin) {
+  const double rounding =
+      kRounding * (1.0 + std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()));
+  low.array() -= margin + rounding;
+  high.array() += margin + rounding;
+  return {{low.x(), low.y()}, {high.x(), high.y()}};
+}
+
+Bounds BoundsOf(const OrientedBox& box) {
+  const Vec2 along = 0.5 * box.length * Direction(box.center.yaw);
+  const Vec2 across = 0.5 * box.width * LeftNormal(Direction(box.center.yaw));
+  const Vec2 reach = along.cwiseAbs() + across.cwiseAbs();
+  return BoundsAround(box.center.position() - reach, box.center.position() + reach, 0.0);
+}
+
+}  // namespace
+
+struct BoxIndex::Tree {
+  explicit Tree(const std::vector<Entry>& entries) : tree(entries) {}
+  index::rtree<Entry, index::quadratic<16>> tree;
+};
+
+BoxIndex::BoxIndex(std::vector<OrientedBox> boxes) : boxes_(std::move(boxes)) {
+  std::vector<Entry> entries;
+  for (const OrientedBox& box : boxes_) {
+    TRACKBED_REQUIRE(IsFinite(box),
+                     "BoxIndex: a box of {} x {} m at {}, {}, yaw {}; must be finite", box.length,
+                     box.width, box.center.x, box.center.y, box.center.yaw);
+    if (boxes_.size() > kFew) {
+      entries.emplace_back(BoundsOf(box), entries.size());
+    }
+  }
+  if (!entries.empty()) {
+    tree_ = std::make_unique<Tree>(entries);
+  }
+}
+
+BoxIndex::BoxIndex(BoxIndex&&) noexcept = default;
+BoxIndex& BoxIndex::operator=(BoxIndex&&) noexcept = default;
+BoxIndex::~BoxIndex() = default;
+
+double BoxIndex::DistanceTo(const OrientedBox& box, double at_most) const {
+  double nearest = at_most;
+  if (!IsFinite(box)) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  if (!tree_) {
+    for (const OrientedBox& own : boxes_) {
+      nearest = std::min(nearest, Distance(box, own));
+    }
+    return nearest;
+  }
+  const double radius = 0.5 * std::hypot(box.length, box.width);
+  const Point center(box.center.x, box.center.y);
+  const auto all = static_cast<unsigned>(boxes_.size());
+  for (auto own = tree_->tree.qbegin(index::nearest(center, all)); own != tree_->tree.qend();
+       ++own) {
+    // They come by rising distance of their bounds from the center.
+    if (nearest == 0.0 || boost::geometry::distance(center, own->first) - radius >= nearest) {
+      break;
+    }
+    nearest = std::min(nearest, Distance(box, boxes_[own->second]));
+  }
+  return nearest;
+}
+
+bool BoxIndex::KeepsFrom(const Vec2& from, const Vec2& to, double distance) const {
+  const auto is_clear = [&](const OrientedBox& box) { return Distance(from, to, box) > distance; };
+  if (!tree_) {
+    return std::all_of(boxes_.begin(), boxes_.end(), is_clear);
+  }
+  const Bounds bounds = BoundsAround(from.cwiseMin(to), from.cwiseMax(to), distance);
+  return std::all_of(tree_->tree.qbegin(index::intersects(bounds)), tree_->tree.qend(),
+                     [&](const Entry& near) { return is_clear(boxes_[near.second]); });
+}
+
+}  // namespace trackbed
