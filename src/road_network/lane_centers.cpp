@@ -1,0 +1,290 @@
+#include "src/road_network/lane_centers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "trackbed/core/angle.h"
+
+namespace trackbed {
+namespace {
+
+constexpr double kSpacing = 0.25;         // of the points that segments join [m]
+constexpr double kKink = 1e-6;            // that is rounded [rad]
+constexpr double kWorstKink = 0.2;        // [rad]
+constexpr double kRounding = 0.5;         // on either side of a kink [m]
+constexpr double kWorstDeviation = 0.05;  // [m]
+
+/// A point of a lane's center, in the direction of traffic.
+struct CenterPoint {
+  Vec2 position{0.0, 0.0};
+  CurvePoint curve;  ///< distance along the center, heading, curvature
+};
+
+/// A smooth piece of a center.
+using Piece = std::vector<CenterPoint>;
+
+/// A stretch on its road.
+struct RoadStretch {
+  const Road& road;
+  std::size_t section;
+  const LaneStretch& stretch;
+
+  [[nodiscard]] int direction() const { return stretch.to > stretch.from ? 1 : -1; }
+
+  /// t of the path over s. `piece_of` as in LaneBordersAt.
+  [[nodiscard]] CubicValue Offset(double s, double piece_of) const {
+    const CubicValue a = LaneBordersAt(road, section, stretch.lane, s, piece_of).Center();
+    if (stretch.to_lane == stretch.lane) {
+      return a;
+    }
+    const CubicValue b = LaneBordersAt(road, section, stretch.to_lane, s, piece_of).Center();
+    // The quintic from 0 to 1 with neither slope nor curvature at its ends.
+    const double scale = 1.0 / (stretch.to - stretch.from);
+    const double q = std::clamp((s - stretch.from) * scale, 0.0, 1.0);
+    const double w = q * q * q * (10.0 + q * (-15.0 + 6.0 * q));
+    const double w1 = 30.0 * q * q * (1.0 - q) * (1.0 - q) * scale;
+    const double w2 = 60.0 * q * (1.0 - q) * (1.0 - 2.0 * q) * scale * scale;
+    const double gap = b.value - a.value;
+    const double gap1 = b.slope - a.slope;
+    return {a.value + w * gap, a.slope + w1 * gap + w * gap1,
+            a.second + w2 * gap + 2.0 * w1 * gap1 + w * (b.second - a.second)};
+  }
+};
+
+/// Where the functions of the file that make up the center have joints.
+std::vector<double> Joints(const RoadStretch& own) {
+  const double low = std::min(own.stretch.from, own.stretch.to);
+  const double high = std::max(own.stretch.from, own.stretch.to);
+  // Nearer ones are rounding, or so short that what is between them is not seen.
+  constexpr double kApart = 0.01;  // [m]
+  std::vector<double> joints;
+  const auto add = [&](double s) { joints.push_back(s); };
+  for (const auto& piece : own.road.reference.pieces()) {
+    add(piece.s);
+  }
+  for (const auto& piece : own.road.lane_offset.pieces()) {
+    add(piece.s);
+  }
+  const LaneSection& section = own.road.sections[own.section];
+  for (const Lane& lane : section.lanes) {
+    for (const auto& piece : lane.extent.pieces()) {
+      add(section.s + piece.s);
+    }
+  }
+  std::sort(joints.begin(), joints.end());
+  std::vector<double> apart{low};
+  for (const double joint : joints) {
+    if (joint > apart.back() + kApart && joint < high - kApart) {
+      apart.push_back(joint);
+    }
+  }
+  apart.push_back(high);
+  return apart;
+}
+
+/// The center R(s) + t(s) N(s), N the left normal, and its derivatives by s. With m = dR/ds (1 -
+/// kappa t) its tangent is m T + t' N.
+struct CenterState {
+  Vec2 position{0.0, 0.0};
+  double heading = 0.0;
+  double curvature = 0.0;
+  double speed = 0.0;   ///< of its arc by s
+  bool folded = false;  ///< beyond the center of curvature
+};
+
+CenterState StateAt(const RoadStretch& own, double s, double piece_of) {
+  const ReferenceLinePoint r = own.road.reference.At(s, piece_of);
+  const CubicValue t = own.Offset(s, piece_of);
+  const double m = r.stretch * (1.0 - r.curvature * t.value);
+  const double m_slope = -r.stretch * (r.stretch * r.sharpness * t.value + r.curvature * t.slope);
+  CenterState state;
+  state.position = ToWorld(r.pose, {0.0, t.value});
+  state.speed = std::hypot(m, t.slope);
+  state.folded = m <= 0.0;
+  if (state.folded) {
+    return state;
+  }
+  state.heading = r.pose.yaw + std::atan2(t.slope, m);
+  state.curvature =
+      (r.stretch * r.curvature + (t.second * m - t.slope * m_slope) / (state.speed * state.speed)) /
+      state.speed;
+  return state;
+}
+
+/// The smooth pieces of a stretch, in the direction of traffic; none where the center is folded.
+std::vector<Piece> SmoothPieces(const RoadStretch& own) {
+  std::vector<Piece> pieces;
+  const std::vector<double> joints = Joints(own);
+  for (std::size_t i = 1; i < joints.size(); ++i) {
+    const double length = joints[i] - joints[i - 1];
+    const double middle = 0.5 * (joints[i] + joints[i - 1]);
+    const auto count = static_cast<std::size_t>(std::ceil(length / kSpacing));
+    const double step = length / static_cast<double>(count);
+    Piece piece;
+    double distance = 0.0;
+    for (std::size_t j = 0; j <= count; ++j) {
+      const double s = j == count ? joints[i] : joints[i - 1] + step * static_cast<double>(j);
+      if (j > 0) {
+        distance += boost::math::quadrature::gauss<double, 7>::integrate(
+            [&](double at) { return StateAt(own, at, middle).speed; }, s - step, s);
+      }
+      const CenterState state = StateAt(own, s, middle);
+      if (state.folded) {
+        return {};
+      }
+      piece.push_back({state.position, {distance, state.heading, state.curvature}});
+    }
+    if (own.direction() < 0) {
+      std::reverse(piece.begin(), piece.end());
+      for (CenterPoint& point : piece) {
+        point.curve = {distance - point.curve.s, point.curve.yaw + kPi, -point.curve.curvature};
+      }
+    }
+    pieces.push_back(std::move(piece));
+  }
+  if (own.direction() < 0) {
+    std::reverse(pieces.begin(), pieces.end());
+  }
+  return pieces;
+}
+
+/// Pieces on one line of distances and headings, those with a kink between them made one.
+class Joiner {
+ public:
+  /// "" or why it cannot follow.
+  std::string Add(Piece piece) {
+    if (runs_.empty()) {
+      runs_.push_back(std::move(piece));
+      return "";
+    }
+    Piece& before = runs_.back();
+    const CurvePoint end = before.back().curve;
+    const double kink = AngleDifference(piece.front().curve.yaw, end.yaw);
+    const double turn = end.yaw + kink - piece.front().curve.yaw;
+    const double gap = (piece.front().position - before.back().position).norm();
+    for (CenterPoint& point : piece) {
+      point.curve.s += end.s;
+      point.curve.yaw += turn;
+    }
+    if (std::abs(kink) > kWorstKink) {
+      return fmt::format("the lanes' centers have a kink of {:.3g} rad (at most {})", kink,
+                         kWorstKink);
+    }
+    if (gap > kWorstDeviation) {
+      return fmt::format("the lanes' centers are {:.3g} m apart (at most {} m)", gap,
+                         kWorstDeviation);
+    }
+    if (std::abs(kink) <= kKink) {
+      runs_.push_back(std::move(piece));
+      return "";
+    }
+    // The first point of all that is joined stays, and the last.
+    while (before.size() > 1 && before.back().curve.s > end.s - kRounding) {
+      before.pop_back();
+    }
+    auto first = piece.begin();
+    while (first + 1 != piece.end() && first->curve.s < end.s + kRounding) {
+      ++first;
+    }
+    before.insert(before.end(), first, piece.end());
+    return "";
+  }
+
+  /// Lines and arcs become one segment each: what steers a car along them looks at the curvature's
+  /// steps and at how far apart they are.
+  [[nodiscard]] Path Join() const {
+    std::vector<Segment> segments;
+    for (const Piece& run : runs_) {
+      std::vector<CurvePoint> points;
+      for (const CenterPoint& point : run) {
+        points.push_back(point.curve);
+      }
+      for (Segment& segment : SegmentsThrough(points)) {
+        constexpr double kSame = 1e-9;  // [1/m]; turns by 1e-4 rad over 100 km
+        const double change = std::abs(segment.sharpness) * segment.length +
+                              std::abs(segment.sharpness_rate) * segment.length * segment.length;
+        if (change < kSame) {
+          segment.sharpness = 0.0;
+          segment.sharpness_rate = 0.0;
+        }
+        Segment* before = segments.empty() ? nullptr : &segments.back();
+        if (before != nullptr && change < kSame && before->sharpness == 0.0 &&
+            before->sharpness_rate == 0.0 &&
+            std::abs(before->curvature - segment.curvature) < kSame) {
+          before->length += segment.length;
+        } else {
+          segments.push_back(segment);
+        }
+      }
+    }
+    const CenterPoint& start = runs_.front().front();
+    return Path({start.position.x(), start.position.y(), start.curve.yaw}, std::move(segments));
+  }
+
+ private:
+  std::vector<Piece> runs_;
+};
+
+/// The largest distance of the centers from the path's points at the same stations.
+double Deviation(const Path& path, const std::vector<Piece>& pieces) {
+  double worst = 0.0;
+  double station = 0.0;
+  for (const Piece& piece : pieces) {
+    for (const CenterPoint& point : piece) {
+      const Vec2 at = path.At(std::min(station + point.curve.s, path.length())).pose.position();
+      worst = std::max(worst, (at - point.position).norm());
+    }
+    station += piece.back().curve.s;
+  }
+  return worst;
+}
+
+}  // namespace
+
+JoinedPath JoinLaneCenters(const RoadNetwork& network, const std::vector<LaneStretch>& stretches) {
+  JoinedPath joined;
+  Joiner joiner;
+  std::vector<Piece> all;
+  std::size_t points = 0;
+  for (const LaneStretch& stretch : stretches) {
+    const Road& road = network.roads.find(stretch.road)->second;
+    const RoadStretch own{road, road.SectionAt(0.5 * (stretch.from + stretch.to)), stretch};
+    const std::vector<Piece> pieces = SmoothPieces(own);
+    if (pieces.empty()) {
+      joined.failure = fmt::format(
+          "road {}: the center of lane {} lies beyond the road's center "
+          "of curvature",
+          stretch.road, stretch.lane);
+      return joined;
+    }
+    for (const Piece& piece : pieces) {
+      if (const std::string why = joiner.Add(piece); !why.empty()) {
+        joined.failure = fmt::format("road {}, lane {}: {}", stretch.road, stretch.lane, why);
+        return joined;
+      }
+      all.push_back(piece);
+      points += piece.size();
+    }
+    constexpr std::size_t kMostPoints = 2000000;
+    if (points > kMostPoints) {
+      joined.failure = fmt::format("the lanes' centers have more than {} pieces", kMostPoints);
+      return joined;
+    }
+  }
+  joined.path = joiner.Join();
+  joined.deviation = Deviation(joined.path, all);
+  if (joined.deviation > kWorstDeviation) {
+    joined.failure = fmt::format(
+        "gaps and kinks of the lanes' centers take the path {:.3g} m off them (at most "
+        "{} m)",
+        joined.deviation, kWorstDeviation);
+  }
+  return joined;
+}
+
+}  // namespace trackbed

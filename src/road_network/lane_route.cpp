@@ -1,0 +1,171 @@
+#include "trackbed/road_network/lane_route.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "src/road_network/lane_centers.h"
+#include "src/road_network/lane_graph.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/spelling.h"
+
+namespace trackbed {
+namespace {
+
+constexpr double kShortestStretch = 1e-6;  // [m]; what is shorter is left out
+constexpr double kLongestRoute = 1e5;      // [m]
+
+std::string Named(const LanePlace& place) {
+  return fmt::format("lane {} of road {} at s = {:.4g} m", place.lane, place.road, place.s);
+}
+
+/// A place, found.
+struct Found {
+  const Road* road;
+  std::size_t section;
+  std::size_t node;
+};
+
+/// Adds stretches and counts their length.
+class Stretches {
+ public:
+  void Add(const Road& road, int lane, int to_lane, double from, double to) {
+    if (std::abs(to - from) > kShortestStretch) {
+      length_ += std::abs(to - from);
+      all_.push_back({road.id, lane, to_lane, from, to});
+    }
+  }
+  /// The rest of a lane, or its beginning.
+  void AddUpToEnd(const LaneNode& node, double from) {
+    Add(*node.road, node.lane, node.lane, from, node.follows_road() ? node.end() : node.start());
+  }
+  void AddFromStart(const LaneNode& node, double to) {
+    Add(*node.road, node.lane, node.lane, node.follows_road() ? node.start() : node.end(), to);
+  }
+  [[nodiscard]] double length() const { return length_; }
+  [[nodiscard]] std::vector<LaneStretch> Take() { return std::move(all_); }
+
+ private:
+  std::vector<LaneStretch> all_;
+  double length_ = 0.0;
+};
+
+Found FindPlace(const RoadNetwork& network, const LaneGraph& graph, const LanePlace& place) {
+  const std::string why = WhyNoPlace(network, place);
+  TRACKBED_REQUIRE(why.empty(), "FindLaneRoute: {}", why);
+  const Road& road = network.roads.find(place.road)->second;
+  const std::size_t section = road.SectionAt(place.s);
+  return {&road, section, graph.Find(road, section, place.lane).value()};
+}
+
+/// "" or why there is no way.
+std::string Connect(const LaneGraph& graph, const LanePlace& a, const Found& from,
+                    const LanePlace& b, const Found& to, Stretches& stretches) {
+  const LaneNode& node = graph.node(from.node);
+  const bool ahead = node.follows_road() ? b.s > a.s : b.s < a.s;
+  if (from.node == to.node && ahead) {
+    stretches.Add(*from.road, a.lane, a.lane, a.s, b.s);
+    return "";
+  }
+  const bool beside = from.road == to.road && from.section == to.section &&
+                      std::abs(a.lane - b.lane) == 1 && (a.lane > 0) == (b.lane > 0);
+  if (beside && ahead) {
+    stretches.Add(*from.road, a.lane, b.lane, a.s, b.s);
+    return "";
+  }
+  const std::vector<std::size_t> way = graph.ShortestWay(from.node, to.node);
+  if (way.empty()) {
+    return fmt::format("no linked lanes lead from {} to {}", Named(a), Named(b));
+  }
+  stretches.AddUpToEnd(node, a.s);
+  for (std::size_t i = 1; i + 1 < way.size(); ++i) {
+    const LaneNode& between = graph.node(way[i]);
+    stretches.AddUpToEnd(between, between.follows_road() ? between.start() : between.end());
+  }
+  stretches.AddFromStart(graph.node(to.node), b.s);
+  return "";
+}
+
+}  // namespace
+
+Pose2 PoseAt(const RoadNetwork& network, const LanePlace& place) {
+  const std::string why = WhyNoPlace(network, place);
+  TRACKBED_REQUIRE(why.empty(), "PoseAt: {}", why);
+  const Road& road = network.roads.find(place.road)->second;
+  const LaneBorders borders = LaneBordersAt(road, place.lane, place.s);
+  const CubicValue center = borders.Center();
+  const ReferenceLinePoint reference = road.reference.At(place.s);
+  const Vec2 position = ToWorld(reference.pose, {0.0, center.value});
+  const double along = reference.stretch * (1.0 - reference.curvature * center.value);
+  const double heading = reference.pose.yaw + std::atan2(center.slope, along);
+  return {position.x(), position.y(),
+          WrapAngle(FollowsRoad(road, place.lane) ? heading : heading + kPi)};
+}
+
+std::string WhyNoPlace(const RoadNetwork& network, const LanePlace& place) {
+  const auto found = network.roads.find(place.road);
+  if (found == network.roads.end()) {
+    std::vector<std::string> ids;
+    for (const auto& [id, road] : network.roads) {
+      ids.push_back(id);
+    }
+    return "unknown road " + UnknownName(place.road, ids);
+  }
+  const Road& road = found->second;
+  if (!(place.s >= 0.0 && place.s <= road.length)) {
+    return fmt::format("s = {} m is not on road {}; must be between 0 and {} m", place.s, road.id,
+                       road.length);
+  }
+  const LaneSection& section = road.sections[road.SectionAt(place.s)];
+  const Lane* lane = section.Find(place.lane);
+  if (lane == nullptr || lane->id == 0 || !IsDrivable(*lane)) {
+    std::vector<int> ids;
+    for (const Lane& other : section.lanes) {
+      if (other.id != 0 && IsDrivable(other)) {
+        ids.push_back(other.id);
+      }
+    }
+    return fmt::format(
+        "road {} has no lane {} to drive on at s = {} m{}; it has {}", road.id, place.lane, place.s,
+        lane == nullptr || lane->id == 0 ? "" : fmt::format(", but a {} lane", lane->type),
+        ids.empty() ? "none" : fmt::format("{}", fmt::join(ids, ", ")));
+  }
+  return "";
+}
+
+LaneRoute FindLaneRoute(const RoadNetwork& network, const std::vector<LanePlace>& places) {
+  TRACKBED_REQUIRE(places.size() >= 2, "FindLaneRoute: {} places; must be at least 2",
+                   places.size());
+  const LaneGraph graph(network);
+  std::vector<Found> found;
+  for (const LanePlace& place : places) {
+    found.push_back(FindPlace(network, graph, place));
+  }
+  LaneRoute route;
+  Stretches stretches;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    route.failure = Connect(graph, places[i - 1], found[i - 1], places[i], found[i], stretches);
+    if (route.ok() && stretches.length() > kLongestRoute) {
+      route.failure = fmt::format("the route is longer than {} km", kLongestRoute / 1000.0);
+    }
+    if (!route.ok()) {
+      return route;
+    }
+  }
+  route.stretches = stretches.Take();
+  if (route.stretches.empty()) {
+    route.failure = "the route has no length";
+    return route;
+  }
+  JoinedPath joined = JoinLaneCenters(network, route.stretches);
+  route.failure = std::move(joined.failure);
+  route.path = std::move(joined.path);
+  route.deviation = joined.deviation;
+  return route;
+}
+
+}  // namespace trackbed

@@ -1,0 +1,203 @@
+#include "src/road_network/road_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "trackbed/core/spelling.h"
+
+namespace trackbed {
+namespace {
+
+using tinyxml2::XMLElement;
+
+std::optional<RoadLink> ReadRoadLink(const XmlFields& road, const char* name) {
+  const XMLElement* link = road.element().FirstChildElement("link");
+  const XMLElement* element = link == nullptr ? nullptr : link->FirstChildElement(name);
+  if (element == nullptr) {
+    return std::nullopt;
+  }
+  const XmlFields fields(*element, fmt::format("{}.link.{}", road.where(), name), road.problems());
+  RoadLink found{.is_junction = false,
+                 .id = fields.Text("elementId"),
+                 .contact = RoadEnd::kStart,
+                 .line = fields.line()};
+  const std::string type = fields.Text("elementType");
+  if (type == "junction") {
+    found.is_junction = true;
+  } else if (type == "road") {
+    found.contact = ReadContactPoint(fields);
+  } else if (!type.empty()) {
+    fields.AddError("elementType", UnknownName(type, {"road", "junction"}));
+  }
+  return found;
+}
+
+void ReadHeights(const XmlFields& fields, Road& road) {
+  const std::string& where = fields.where();
+  const XMLElement* elevation = fields.Child("elevationProfile");
+  road.elevation =
+      ReadCubics(elevation, "elevation", "s", where + ".elevationProfile", fields.problems());
+  const XMLElement* lateral = fields.Child("lateralProfile");
+  road.superelevation =
+      ReadCubics(lateral, "superelevation", "s", where + ".lateralProfile", fields.problems());
+  for (const char* unread : {"shape", "crossfall", "crossSectionSurface"}) {
+    if (lateral != nullptr && lateral->FirstChildElement(unread) != nullptr) {
+      road.unread_heights.emplace_back(unread);
+    }
+  }
+}
+
+/// The ids that lane links name on the other side, each once.
+void CheckLaneIds(const std::vector<int>& ids, const LaneSection& beyond, const std::string& key,
+                  int line, XmlProblems& problems) {
+  for (const int id : ids) {
+    if (beyond.Find(id) == nullptr) {
+      problems.Add(line, key, fmt::format("links to lane {}, which is not there", id));
+    }
+  }
+}
+
+/// Links of lanes between the sections of one road, and to a road that follows.
+void CheckLaneLinks(const RoadNetwork& network, const Road& road, XmlProblems& problems) {
+  const auto beyond = [&](const std::optional<RoadLink>& link) -> const LaneSection* {
+    if (!link || link->is_junction) {
+      return nullptr;
+    }
+    const auto found = network.roads.find(link->id);
+    if (found == network.roads.end() || found->second.sections.empty()) {
+      return nullptr;
+    }
+    const auto& sections = found->second.sections;
+    return link->contact == RoadEnd::kStart ? &sections.front() : &sections.back();
+  };
+  for (std::size_t i = 0; i < road.sections.size(); ++i) {
+    const LaneSection* before = i > 0 ? &road.sections[i - 1] : beyond(road.predecessor);
+    const LaneSection* after =
+        i + 1 < road.sections.size() ? &road.sections[i + 1] : beyond(road.successor);
+    for (const Lane& lane : road.sections[i].lanes) {
+      const std::string key =
+          fmt::format("road[{}].lanes.laneSection[{}].lane[{}].link", road.id, i, lane.id);
+      if (before != nullptr) {
+        CheckLaneIds(lane.predecessors, *before, key + ".predecessor", road.line, problems);
+      }
+      if (after != nullptr) {
+        CheckLaneIds(lane.successors, *after, key + ".successor", road.line, problems);
+      }
+    }
+  }
+}
+
+void CheckConnection(const RoadNetwork& network, const Junction& junction, std::size_t index,
+                     XmlProblems& problems) {
+  const JunctionConnection& connection = junction.connections[index];
+  const std::string key = fmt::format("junction[{}].connection[{}]", junction.id, index);
+  for (const auto& [name, id] : {std::pair("incomingRoad", &connection.incoming),
+                                 std::pair("connectingRoad", &connection.connecting)}) {
+    if (!id->empty() && network.roads.find(*id) == network.roads.end()) {
+      problems.Add(connection.line, fmt::format("{}.{}", key, name),
+                   fmt::format("road '{}' is not there", *id));
+    }
+  }
+  const auto found = network.roads.find(connection.connecting);
+  if (found == network.roads.end() || found->second.sections.empty()) {
+    return;
+  }
+  const auto& sections = found->second.sections;
+  const LaneSection& entered =
+      connection.contact == RoadEnd::kStart ? sections.front() : sections.back();
+  for (const auto& [from, to] : connection.lane_links) {
+    CheckLaneIds({to}, entered, key + ".laneLink.to", connection.line, problems);
+  }
+}
+
+}  // namespace
+
+RoadEnd ReadContactPoint(const XmlFields& fields) {
+  const std::string contact = fields.Text("contactPoint");
+  if (!contact.empty() && contact != "start" && contact != "end") {
+    fields.AddError("contactPoint", UnknownName(contact, {"start", "end"}));
+  }
+  return contact == "end" ? RoadEnd::kEnd : RoadEnd::kStart;
+}
+
+PiecewiseCubic ReadCubics(const XMLElement* parent, const char* name, const char* start,
+                          const std::string& where, XmlProblems& problems) {
+  std::vector<PiecewiseCubic::Piece> pieces;
+  bool rises = true;
+  ForEachChild(parent, name, [&](const XMLElement& element, std::size_t index) {
+    const XmlFields fields(element, fmt::format("{}.{}[{}]", where, name, index), problems);
+    const PiecewiseCubic::Piece piece{
+        fields.Number(start, {0.0, 1e6}),
+        {fields.Number("a"), fields.Number("b"), fields.Number("c"), fields.Number("d")}};
+    if (!pieces.empty() && piece.s < pieces.back().s) {
+      fields.AddError(
+          start, fmt::format("{} m is before the record above, at {} m", piece.s, pieces.back().s));
+      rises = false;
+    }
+    pieces.push_back(piece);
+  });
+  return rises ? PiecewiseCubic(std::move(pieces)) : PiecewiseCubic();
+}
+
+Road ReadRoad(const XMLElement& element, XmlProblems& problems) {
+  const XmlFields unnamed(element, "road", problems);
+  Road road;
+  road.id = unnamed.Text("id");
+  const XmlFields fields(element, fmt::format("road[{}]", road.id), problems);
+  road.line = fields.line();
+  road.name = fields.OptionalText("name");
+  road.length = fields.Number("length", {1e-6, 1e6});
+  const std::string junction = fields.OptionalText("junction");
+  if (!junction.empty() && junction != "-1") {
+    road.junction = junction;
+  }
+  const std::string rule = fields.OptionalText("rule");
+  road.left_hand_traffic = rule == "LHT" || rule == "lht";
+  if (!rule.empty() && !road.left_hand_traffic && rule != "RHT" && rule != "rht") {
+    fields.AddError("rule", UnknownName(rule, {"RHT", "LHT"}));
+  }
+  road.predecessor = ReadRoadLink(fields, "predecessor");
+  road.successor = ReadRoadLink(fields, "successor");
+  road.reference = ReadPlanView(fields, road.length);
+  ReadHeights(fields, road);
+  const XMLElement* lanes = fields.Child("lanes");
+  if (lanes == nullptr) {
+    fields.AddError("lanes", "missing");
+    return road;
+  }
+  const XmlFields lane_fields(*lanes, fields.where() + ".lanes", problems);
+  road.lane_offset = ReadCubics(lanes, "laneOffset", "s", lane_fields.where(), problems);
+  road.sections = ReadLaneSections(lane_fields, road, road.unread_heights);
+  return road;
+}
+
+void CheckLinks(const RoadNetwork& network, XmlProblems& problems) {
+  for (const auto& [id, road] : network.roads) {
+    for (const auto& [name, link] :
+         {std::pair("predecessor", &road.predecessor), std::pair("successor", &road.successor)}) {
+      if (!*link || (*link)->id.empty()) {
+        continue;
+      }
+      const bool found = (*link)->is_junction
+                             ? network.junctions.find((*link)->id) != network.junctions.end()
+                             : network.roads.find((*link)->id) != network.roads.end();
+      if (!found) {
+        problems.Add((*link)->line, fmt::format("road[{}].link.{}", id, name),
+                     fmt::format("{} '{}' is not there", (*link)->is_junction ? "junction" : "road",
+                                 (*link)->id));
+      }
+    }
+    CheckLaneLinks(network, road, problems);
+  }
+  for (const auto& [id, junction] : network.junctions) {
+    for (std::size_t i = 0; i < junction.connections.size(); ++i) {
+      CheckConnection(network, junction, i, problems);
+    }
+  }
+}
+
+}  // namespace trackbed

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "trackbed/core/table.h"
+
+/// Attributes of XML elements as numbers, with every problem on the way.
+namespace trackbed {
+
+/// Allowed values of an attribute.
+struct Bounds {
+  double min = -1e9;
+  double max = 1e9;
+};
+
+/// The problems of a file, each with its line.
+class XmlProblems {
+ public:
+  explicit XmlProblems(std::string file) : file_(std::move(file)) {}
+
+  void Add(int line, std::string key, std::string message) {
+    problems_.Add({file_, line, 0, std::move(key), std::move(message)});
+  }
+  [[nodiscard]] bool empty() const { return problems_.empty(); }
+  void ThrowIfAny() const { problems_.ThrowIfAny(); }
+
+ private:
+  std::string file_;
+  ProblemList problems_;
+};
+
+/// The attributes of an element; `where` is its place for messages, "road[3].planView.geometry[0]".
+class XmlFields {
+ public:
+  XmlFields(const tinyxml2::XMLElement& element, std::string where, XmlProblems& problems)
+      : element_(element), where_(std::move(where)), problems_(problems) {}
+
+  [[nodiscard]] const tinyxml2::XMLElement& element() const { return element_; }
+  [[nodiscard]] const std::string& where() const { return where_; }
+  [[nodiscard]] int line() const { return element_.GetLineNum(); }
+  [[nodiscard]] XmlProblems& problems() const { return problems_; }
+
+  /// A number within bounds; after an error the one of them that is nearest to 0.
+  [[nodiscard]] double Number(const char* name, Bounds bounds = {}) const;
+  /// `missing` where the attribute is not there.
+  [[nodiscard]] double Number(const char* name, Bounds bounds, double missing) const;
+  /// A whole number; 0 after an error.
+  [[nodiscard]] int Integer(const char* name) const;
+  /// A text of at least one character; "" after an error.
+  [[nodiscard]] std::string Text(const char* name) const;
+  /// "" where the attribute is not there.
+  [[nodiscard]] std::string OptionalText(const char* name) const;
+
+  void AddError(const char* name, std::string message) const;
+
+  /// The only child of that name, or null; a second one is an error.
+  [[nodiscard]] const tinyxml2::XMLElement* Child(const char* name) const;
+
+ private:
+  const tinyxml2::XMLElement& element_;
+  std::string where_;
+  XmlProblems& problems_;
+};
+
+/// Calls `take(element, index)` for each child element of that name.
+template <typename Take>
+void ForEachChild(const tinyxml2::XMLElement* parent, const char* name, const Take& take) {
+  if (parent == nullptr) {
+    return;
+  }
+  std::size_t index = 0;
+  for (const tinyxml2::XMLElement* child = parent->FirstChildElement(name); child != nullptr;
+       child = child->NextSiblingElement(name)) {
+    take(*child, index++);
+  }
+}
+
+}  // namespace trackbed

@@ -1,0 +1,32 @@
+#include <algorithm>
+
+#include "tests/fuzz/target.h"
+#include "trackbed/road_network/lane_route.h"
+#include "trackbed/road_network/open_drive.h"
+
+/// A road network in OpenDRIVE: positions on its lanes, and a route from lane to lane.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace trackbed;
+  fuzz::Expect([&] {
+    const RoadNetwork network = ParseOpenDrive(fuzz::Text(data, size), "roads.xodr");
+    std::vector<LanePlace> places;
+    for (const auto& [id, road] : network.roads) {
+      for (const Lane& lane : road.sections.front().lanes) {
+        static_cast<void>(LanePositionAt(road, lane.id, 0.0));
+        const LanePlace place{id, lane.id, std::min(0.5 * road.length, road.SectionEnd(0))};
+        if (WhyNoPlace(network, place).empty() && places.size() < 3) {
+          places.push_back(place);
+        }
+      }
+      static_cast<void>(PositionAt(road, road.length, 1.0));
+    }
+    // Of short ones alone: a fuzzer has 10 s for an input.
+    const bool is_short =
+        std::all_of(network.roads.begin(), network.roads.end(),
+                    [](const auto& entry) { return entry.second.length < 1000.0; });
+    if (places.size() >= 2 && is_short) {
+      static_cast<void>(FindLaneRoute(network, places));
+    }
+  });
+  return 0;
+}

@@ -1,0 +1,278 @@
+#include "trackbed/road_network/lane_route.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/road_network/documents.h"
+#include "tests/tolerance.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/road_network/open_drive.h"
+
+namespace trackbed {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+// Quadrature of lengths and headings between points 0.25 m apart, over some 300 m of road.
+constexpr double kOnCenter = 1e-6;
+
+RoadNetwork Crossing() {
+  return ReadOpenDrive(std::string(TRACKBED_SOURCE_DIR) + "/scenarios/roads/crossing.xodr");
+}
+
+std::vector<std::string> RoadsOf(const LaneRoute& route) {
+  std::vector<std::string> roads;
+  for (const LaneStretch& stretch : route.stretches) {
+    roads.push_back(stretch.road);
+  }
+  return roads;
+}
+
+/// That the path passes through the center of every stretch, in its direction, and is no longer
+/// than they are.
+void ExpectAlongCenters(const RoadNetwork& network, const LaneRoute& route) {
+  ASSERT_TRUE(route.ok()) << route.failure;
+  double passed = 0.0;
+  for (const LaneStretch& stretch : route.stretches) {
+    const Road& road = network.roads.at(stretch.road);
+    const double direction = stretch.to > stretch.from ? 0.0 : kPi;
+    // The sections of a road meet at its stations: look just inside.
+    for (const double share : {1e-6, 0.2, 0.5, 0.8, 1.0 - 1e-6}) {
+      const double s = std::lerp(stretch.from, stretch.to, share);
+      const RoadPosition center = LanePositionAt(road, stretch.lane, s);
+      const Projection at = route.path.Project({center.x, center.y, 0.0}, {passed, passed + 200.0});
+      EXPECT_NEAR(at.cross_track, 0.0, Tolerance(kOnCenter)) << stretch.road << " at " << s;
+      EXPECT_NEAR(AngleDifference(route.path.At(at.s).pose.yaw, center.heading + direction), 0.0,
+                  Tolerance(kOnCenter))
+          << stretch.road << " at " << s;
+      EXPECT_GE(at.s, passed);
+      passed = std::max(passed, at.s - 1e-3);
+    }
+  }
+  EXPECT_NEAR(passed, route.path.length(), 2e-3);
+}
+
+TEST(LaneRoute, LeadsThroughTheJunctionAndBackAgainstTheRoad) {
+  const RoadNetwork network = Crossing();
+  const LaneRoute route =
+      FindLaneRoute(network, {{"1", -1, 10.0}, {"2", -1, 90.0}, {"1", 1, 20.0}});
+  ExpectAlongCenters(network, route);
+  // West to east, around the loop, and from the north to the west.
+  ASSERT_EQ(route.stretches.size(), 6U);
+  const std::vector<std::string> roads = RoadsOf(route);
+  EXPECT_EQ(roads[0], "1");
+  EXPECT_EQ(network.roads.at(roads[1]).name, "W to E");
+  EXPECT_EQ(roads[2], "2");
+  EXPECT_EQ(roads[3], "2");
+  EXPECT_EQ(network.roads.at(roads[4]).name, "N to W");
+  EXPECT_EQ(roads[5], "1");
+  EXPECT_EQ(route.stretches.back().from, 68.0);
+  EXPECT_EQ(route.stretches.back().to, 20.0);
+  EXPECT_LE(route.deviation, Tolerance(kOnCenter));
+}
+
+TEST(LaneRoute, StartsAndEndsAtItsPlaces) {
+  const RoadNetwork network = Crossing();
+  const LanePlace from{"3", 1, 40.0};
+  const LanePlace to{"1", 1, 5.0};
+  const LaneRoute route = FindLaneRoute(network, {from, to});
+  ASSERT_TRUE(route.ok()) << route.failure;
+  const Pose2 start = PoseAt(network, from);
+  // The file's heading of -pi/2 is rounded to 5e-13 rad, over 40 m.
+  EXPECT_NEAR(start.x, 1.75, Tolerance(2e-11));
+  EXPECT_NEAR(start.y, -52.0, Tolerance(2e-11));
+  EXPECT_NEAR(start.yaw, kPi / 2.0, Tolerance(1e-12));
+  const Pose2 first = route.path.At(0.0).pose;
+  EXPECT_NEAR((first.position() - start.position()).norm(), 0.0, Tolerance(1e-12));
+  const Pose2 end = route.path.At(route.path.length()).pose;
+  EXPECT_NEAR((end.position() - Vec2(-75.0, 1.75)).norm(), 0.0, Tolerance(kOnCenter));
+  EXPECT_NEAR(AngleDifference(end.yaw, kPi), 0.0, Tolerance(kOnCenter));
+}
+
+TEST(LaneRoute, TellsTheEndsOfARoadApartThatIsTwiceAtAJunction) {
+  // Out of the loop's end to its own start: to the left, not straight on or to the right.
+  const RoadNetwork network = Crossing();
+  const LaneRoute route = FindLaneRoute(network, {{"2", -1, 170.0}, {"2", -1, 5.0}});
+  ExpectAlongCenters(network, route);
+  ASSERT_EQ(route.stretches.size(), 3U);
+  EXPECT_EQ(network.roads.at(route.stretches[1].road).name, "N to E");
+}
+
+TEST(LaneRoute, TakesTheShortestOfTwoWays) {
+  const RoadNetwork network = Crossing();
+  // From the west to the loop's left lane, which is driven from the north to the east: by a left
+  // turn at once.
+  const LaneRoute route = FindLaneRoute(network, {{"1", -1, 60.0}, {"2", 1, 100.0}});
+  ASSERT_TRUE(route.ok()) << route.failure;
+  EXPECT_EQ(network.roads.at(RoadsOf(route)[1]).name, "W to N");
+  EXPECT_LT(route.stretches.back().to, route.stretches.back().from);
+}
+
+TEST(LaneRoute, MakesLinesAndArcsOneSegmentEach) {
+  const LaneRoute route = FindLaneRoute(Crossing(), {{"1", -1, 0.0}, {"1", -1, 60.0}});
+  ASSERT_TRUE(route.ok());
+  EXPECT_THAT(route.path.segments(), ElementsAre(Segment{.length = 60.0, .curvature = 0.0}));
+}
+
+RoadText ThreeLanes() {
+  RoadText road;
+  road.lanes =
+      "<laneSection s='0'><center><lane id='0'/></center><right>"
+      "<lane id='-1' type='driving'><width sOffset='0' a='3' b='0' c='0' d='0'/></lane>"
+      "<lane id='-2' type='driving'><width sOffset='0' a='3.5' b='0.005' c='0' d='0'/></lane>"
+      "<lane id='-3' type='driving'><width sOffset='0' a='3' b='0' c='0' d='0'/></lane>"
+      "</right></laneSection>";
+  return road;
+}
+
+TEST(LaneRoute, ChangesLanesByAQuintic) {
+  RoadText text = ThreeLanes();
+  text.geometry =
+      "<geometry s='0' x='0' y='0' hdg='0' length='100'><arc curvature='0.01'/></geometry>";
+  const RoadNetwork network = ParseNetwork(text.Xml());
+  const LaneRoute route =
+      FindLaneRoute(network, {{"1", -1, 10.0}, {"1", -1, 20.0}, {"1", -2, 60.0}, {"1", -2, 90.0}});
+  ASSERT_TRUE(route.ok()) << route.failure;
+  ASSERT_EQ(route.stretches.size(), 3U);
+  EXPECT_EQ(route.stretches[1].lane, -1);
+  EXPECT_EQ(route.stretches[1].to_lane, -2);
+  for (const double s : {20.0, 27.0, 40.0, 52.0, 60.0}) {
+    const double q = (s - 20.0) / 40.0;
+    const double blend = q * q * q * (10.0 - 15.0 * q + 6.0 * q * q);
+    const double t = std::lerp(-1.5, -3.0 - 0.5 * (3.5 + 0.005 * s), blend);
+    const RoadPosition at = PositionAt(network.roads.at("1"), s, t);
+    EXPECT_NEAR(route.path.Project({at.x, at.y, 0.0}).cross_track, 0.0, Tolerance(kOnCenter)) << s;
+  }
+  // No step of heading, and of curvature none where the change begins.
+  const auto& segments = route.path.segments();
+  double station = 0.0;
+  for (std::size_t i = 0; i + 1 < segments.size() && station < 40.0; ++i) {
+    station += segments[i].length;
+    EXPECT_NEAR(segments[i].CurvatureAt(segments[i].length), segments[i + 1].curvature,
+                Tolerance(1e-6))
+        << station;
+  }
+}
+
+TEST(LaneRoute, ChangesToNeighboringLanesAheadAlone) {
+  const RoadNetwork network = ParseNetwork(ThreeLanes().Xml());
+  EXPECT_THAT(FindLaneRoute(network, {{"1", -1, 10.0}, {"1", -3, 60.0}}).failure,
+              HasSubstr("no linked lanes lead from lane -1 of road 1 at s = 10 m to lane -3"));
+  EXPECT_THAT(FindLaneRoute(network, {{"1", -1, 60.0}, {"1", -2, 10.0}}).failure,
+              HasSubstr("no linked lanes lead"));
+  EXPECT_THAT(FindLaneRoute(network, {{"1", -1, 60.0}, {"1", -1, 60.0}}).failure,
+              HasSubstr("no linked lanes lead"));
+}
+
+/// Two roads, the second turned by `heading` and moved by `y` at their joint.
+std::string TwoRoads(double heading, double y) {
+  const std::string lane_links = kTwoLanes;
+  RoadText first;
+  first.link = "<successor elementType='road' elementId='2' contactPoint='start'/>";
+  first.lanes =
+      "<laneSection s='0'><center><lane id='0'/></center><right><lane id='-1' type='driving'>"
+      "<link><successor id='-1'/></link><width sOffset='0' a='3.5' b='0' c='0' d='0'/></lane>"
+      "</right></laneSection>";
+  RoadText second;
+  second.id = "2";
+  second.geometry =
+      fmt::format("<geometry s='0' x='{}' y='{}' hdg='{}' length='100'><line/></geometry>",
+                  // The centers meet where they are turned about.
+                  100.0 - 1.75 * std::sin(heading), y - 1.75 + 1.75 * std::cos(heading), heading);
+  return first.Xml() + second.Xml();
+}
+
+TEST(LaneRoute, RoundsSmallKinksAndSaysHowFarThatLeadsOff) {
+  const RoadNetwork network = ParseNetwork(TwoRoads(0.02, 0.0));
+  const LaneRoute route = FindLaneRoute(network, {{"1", -1, 10.0}, {"2", -1, 90.0}});
+  ASSERT_TRUE(route.ok()) << route.failure;
+  // A turn of a within L = 1 m whose curvature is quadratic and 0 at both ends: the heading is a (3
+  // q^2
+  // - 2 q^3), q = d/L, and at the corner, q = 1/2, the path is 3/32 a L off it, up to a^2 of that.
+  EXPECT_NEAR(route.deviation, 3.0 / 32.0 * 0.02, Tolerance(1e-6));
+  const Pose2 end = route.path.At(route.path.length()).pose;
+  EXPECT_NEAR(end.yaw, 0.02, Tolerance(1e-9));
+  const RoadPosition goal = LanePositionAt(network.roads.at("2"), -1, 90.0);
+  EXPECT_NEAR(std::hypot(end.x - goal.x, end.y - goal.y), 0.0, Tolerance(1e-3));
+}
+
+TEST(LaneRoute, RefusesLanesThatDoNotMeet) {
+  const std::vector<LanePlace> places{{"1", -1, 10.0}, {"2", -1, 90.0}};
+  EXPECT_THAT(FindLaneRoute(ParseNetwork(TwoRoads(0.3, 0.0)), places).failure,
+              HasSubstr("road 2, lane -1: the lanes' centers have a kink of 0.3 rad"));
+  EXPECT_THAT(FindLaneRoute(ParseNetwork(TwoRoads(0.0, 0.2)), places).failure,
+              HasSubstr("road 2, lane -1: the lanes' centers are 0.2 m apart"));
+  const LaneRoute near = FindLaneRoute(ParseNetwork(TwoRoads(0.0, 0.03)), places);
+  ASSERT_TRUE(near.ok()) << near.failure;
+  EXPECT_NEAR(near.deviation, 0.03, Tolerance(1e-6));
+}
+
+TEST(LaneRoute, RefusesALaneBeyondTheCenterOfCurvature) {
+  RoadText road = ThreeLanes();
+  road.geometry =
+      "<geometry s='0' x='0' y='0' hdg='0' length='100'><arc curvature='-0.2'/></geometry>";
+  const RoadNetwork network = ParseNetwork(road.Xml());
+  EXPECT_THAT(FindLaneRoute(network, {{"1", -3, 10.0}, {"1", -3, 60.0}}).failure,
+              HasSubstr("lane -3 lies beyond"));
+  EXPECT_TRUE(FindLaneRoute(network, {{"1", -1, 10.0}, {"1", -1, 60.0}}).ok());
+}
+
+TEST(LaneRoute, EndsWhereLinksGoInCircles) {
+  // Each is its own successor; neither leads to the other.
+  RoadText ring;
+  ring.length = "62.83185307179586";
+  ring.geometry =
+      "<geometry s='0' x='0' y='0' hdg='0' length='62.83185307179586'><arc curvature='0.1'/>"
+      "</geometry>";
+  ring.link =
+      "<predecessor elementType='road' elementId='1' contactPoint='end'/>"
+      "<successor elementType='road' elementId='1' contactPoint='start'/>";
+  ring.lanes =
+      "<laneSection s='0'><center><lane id='0'/></center><right><lane id='-1' type='driving'>"
+      "<link><predecessor id='-1'/><successor id='-1'/></link>"
+      "<width sOffset='0' a='3.5' b='0' c='0' d='0'/></lane></right></laneSection>";
+  RoadText other;
+  other.id = "2";
+  const RoadNetwork network = ParseNetwork(ring.Xml() + other.Xml());
+  EXPECT_THAT(FindLaneRoute(network, {{"1", -1, 10.0}, {"2", -1, 10.0}}).failure,
+              HasSubstr("no linked lanes lead"));
+  // Once around, back to 1 m behind the start: 2 pi (10 + 1.75) m less 1 m of the road.
+  const LaneRoute around = FindLaneRoute(network, {{"1", -1, 10.0}, {"1", -1, 9.0}});
+  ASSERT_TRUE(around.ok()) << around.failure;
+  EXPECT_NEAR(around.path.length(), 2.0 * kPi * 11.75 - 1.175, Tolerance(kOnCenter));
+}
+
+TEST(LaneRoute, IsNoLongerThanAHundredKilometers) {
+  RoadText road;
+  road.length = "1e6";
+  road.geometry = "<geometry s='0' x='0' y='0' hdg='0' length='1e6'><line/></geometry>";
+  EXPECT_THAT(FindLaneRoute(ParseNetwork(road.Xml()), {{"1", -1, 0.0}, {"1", -1, 2e5}}).failure,
+              HasSubstr("longer than 100 km"));
+}
+
+TEST(LaneRoute, SaysWhatIsWrongWithAPlace) {
+  const RoadNetwork network = Crossing();
+  EXPECT_EQ(WhyNoPlace(network, {"1", -1, 10.0}), "");
+  EXPECT_THAT(WhyNoPlace(network, {"westt", -1, 10.0}), HasSubstr("unknown road 'westt'"));
+  EXPECT_THAT(WhyNoPlace(network, {"1", -1, 69.0}),
+              HasSubstr("s = 69 m is not on road 1; must be between 0 and 68 m"));
+  EXPECT_THAT(
+      WhyNoPlace(network, {"1", -2, 10.0}),
+      HasSubstr("road 1 has no lane -2 to drive on at s = 10 m, but a shoulder lane; it has "
+                "1, -1"));
+  EXPECT_THAT(WhyNoPlace(network, {"1", 7, 10.0}), HasSubstr("no lane 7"));
+  EXPECT_THAT(WhyNoPlace(network, {"1", 0, 10.0}), HasSubstr("no lane 0"));
+  EXPECT_NE(WhyNoPlace(network, {"1", -1, std::nan("")}), "");
+  EXPECT_THROW(FindLaneRoute(network, {{"1", -1, 10.0}}), PreconditionError);
+  EXPECT_THROW(FindLaneRoute(network, {{"1", -1, 10.0}, {"9", -1, 1.0}}), PreconditionError);
+  EXPECT_THROW(PoseAt(network, {"9", -1, 1.0}), PreconditionError);
+}
+
+}  // namespace
+}  // namespace trackbed
