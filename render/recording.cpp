@@ -16,6 +16,7 @@
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/drive/run_log.h"
+#include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/scenario.h"
 #include "trackbed/sim/compile_scene.h"
 #include "trackbed/sim/plant.h"
@@ -371,6 +372,11 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
     recording.plants.emplace_back(folder, plant, *recording.model, static_cast<std::size_t>(index));
   }
   if (const fs::path scenario = folder / run_folder::kScenarioYaml; fs::exists(scenario, ignored)) {
+    for (const char* map : {kMapYaml, kMapPgm}) {
+      if (fs::exists(folder / map, ignored)) {
+        run_folder::RequireFile(folder / map);
+      }
+    }
     recording.world = ReadWorld(run_folder::RequireFile(scenario));
     const VehicleSpec vehicle = ReadVehicleSpec(scenario);
     recording.note = VehicleNote(vehicle);

@@ -23,6 +23,7 @@
 #include "trackbed/core/table.h"
 #include "trackbed/planning/common/plan_status.h"
 #include "trackbed/report/names.h"
+#include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/scenario.h"
 #include "trackbed/sim/car_model.h"
 #include "trackbed/track/track_file.h"
@@ -327,6 +328,11 @@ ordered_json RunData(const fs::path& folder, const std::string& name, std::size_
                      {"versions", metrics.at("versions").get<std::map<std::string, std::string>>()},
                      {"verdict", VerdictJson(metrics.at("verdict"))}};
     run["expectations"] = CheckRows(metrics.at("verdict"));
+    for (const char* map : {kMapYaml, kMapPgm}) {
+      if (fs::exists(folder / map)) {
+        run_folder::RequireFile(folder / map);
+      }
+    }
     const World world = ReadWorld(scenario);
     run["world"] = WorldJson(world);
     if (fs::exists(folder / run_folder::kPlanJson) || fs::exists(folder / run_folder::kPlanCsv)) {

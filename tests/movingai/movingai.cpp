@@ -27,11 +27,6 @@
 namespace trackbed {
 namespace {
 
-struct Solved {
-  MovingAiInstance instance;
-  GridPath path;
-};
-
 /// The square root of 2 of the benchmark's listed lengths: the difference shows in their eighth
 /// decimal from seven diagonal steps on.
 constexpr double kRootTwo = 1.414213562;
@@ -52,14 +47,14 @@ bool HasLength(const GridPath& path, int columns, double listed) {
 }
 
 /// Solves every instance; prints those whose length is not the listed one.
-std::vector<Solved> Solve(const GridMap& map, const std::vector<MovingAiInstance>& instances,
-                          int& wrong) {
+std::vector<GridPath> Solve(const GridMap& map, const std::vector<MovingAiInstance>& instances,
+                            int& wrong) {
   const OccupancyGrid grid = ToOccupancyGrid(map, UnknownCells::kFree);
   const auto cell = [&](int column, int row) {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(map.columns) +
            static_cast<std::size_t>(column);
   };
-  std::vector<Solved> all;
+  std::vector<GridPath> all;
   for (const MovingAiInstance& instance : instances) {
     if (instance.columns != map.columns || instance.rows != map.rows) {
       throw InputError(
@@ -67,9 +62,9 @@ std::vector<Solved> Solve(const GridMap& map, const std::vector<MovingAiInstance
                   .message = fmt::format("an instance on {} x {} cells, a map of {} x {}",
                                          instance.columns, instance.rows, map.columns, map.rows)});
     }
-    all.push_back({instance, SearchGrid(grid, cell(instance.start_column, instance.start_row),
-                                        cell(instance.goal_column, instance.goal_row))});
-    const GridPath& path = all.back().path;
+    all.push_back(SearchGrid(grid, cell(instance.start_column, instance.start_row),
+                             cell(instance.goal_column, instance.goal_row)));
+    const GridPath& path = all.back();
     if (!HasLength(path, map.columns, instance.length)) {
       fmt::print("line {}: {}, length {:.8f}, listed {:.8f}\n", instance.line,
                  ToString(path.status), path.cost, instance.length);
@@ -87,13 +82,13 @@ struct Counts {
   int hybrid = 0;    ///< likewise of hybrid_astar, with the same heading at the end
 };
 
-Counts DriveSome(const std::vector<Solved>& all, const GridMap& map,
+Counts DriveSome(const std::vector<GridPath>& all, const GridMap& map,
                  const std::vector<OrientedBox>& walls, const VehicleParams& vehicle, int every) {
   const OccupancyGrid grid = ToOccupancyGrid(map, UnknownCells::kFree);
   Counts counts;
   for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(every)) {
     std::vector<Vec2> points;
-    for (const std::size_t cell : all[i].path.cells) {
+    for (const std::size_t cell : all[i].cells) {
       points.push_back(grid.CellCenter(cell));
     }
     points = WithoutStraightOn(points);
@@ -141,7 +136,7 @@ int Run(const std::vector<std::string>& words) {
   const double size = drives ? std::stod(words[3]) : 1.0;
   const GridMap map = ReadMovingAiMap(words[0], size);
   int wrong = 0;
-  const std::vector<Solved> all = Solve(map, ReadMovingAiInstances(words[1]), wrong);
+  const std::vector<GridPath> all = Solve(map, ReadMovingAiInstances(words[1]), wrong);
   fmt::print("{} instances, {} with another length than listed\n", all.size(), wrong);
   if (drives && wrong == 0) {
     Scenario scenario;
