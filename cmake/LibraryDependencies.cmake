@@ -20,6 +20,15 @@ find_package(mujoco REQUIRED CONFIG)
 # Debian's 2.2.2 exports an include directory of libqhull, which it only needs to be built itself.
 set_target_properties(mujoco::mujoco PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")
 
+# Not by its pkg-config file, which asks for the libraries that a static IPOPT would need.
+if(TRACKBED_IPOPT AND NOT TARGET ipopt::ipopt)
+  find_path(IPOPT_INCLUDE_DIR IpStdCInterface.h PATH_SUFFIXES coin coin-or REQUIRED)
+  find_library(IPOPT_LIBRARY ipopt REQUIRED)
+  add_library(ipopt::ipopt UNKNOWN IMPORTED)
+  set_target_properties(ipopt::ipopt PROPERTIES IMPORTED_LOCATION ${IPOPT_LIBRARY}
+                                                INTERFACE_INCLUDE_DIRECTORIES ${IPOPT_INCLUDE_DIR})
+endif()
+
 # libcsv ships neither a pkg-config file nor a CMake package.
 if(NOT TARGET csv::csv)
   find_path(CSV_INCLUDE_DIR csv.h REQUIRED)

@@ -8,6 +8,7 @@ set(pkg_config_names
     Eigen3::Eigen=eigen3
     nlohmann_json::nlohmann_json=nlohmann_json
     NLopt::nlopt=nlopt
+    ipopt::ipopt=-lipopt
     yaml-cpp=yaml-cpp
     tinyxml2::tinyxml2=tinyxml2
     PROJ::proj=proj

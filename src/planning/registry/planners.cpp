@@ -16,6 +16,7 @@
 #include "trackbed/planning/grid/hybrid_astar.h"
 #include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/racing/center_line.h"
+#include "trackbed/planning/racing/minimum_curvature.h"
 #include "trackbed/planning/sampling/rrt_planner.h"
 
 namespace trackbed {
@@ -34,6 +35,7 @@ Registry<PlannerEntry>& Table() {
                                                      RrtPlanner(),
                                                      PathFilePlanner(),
                                                      CenterLinePlanner(),
+                                                     MinimumCurvaturePlanner(),
                                                  });
   return table;
 }

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/racing/track_line.h"
+#include "trackbed/track/track.h"
+
+/// The line around a track that bends least, for the highest speed through all bends together.
+///
+/// Symbols: d(s) offset of the line from the center line over its station [m]; kappa, l curvature
+/// and length of the line; b half of the car's width and the margin together [m].
+///
+///   minimize  integral of kappa^2 dl   subject to  right(s) + b <= d(s) <= left(s) - b
+///
+/// d is a closed spline with as many knots as the track has points. Each step replaces
+/// kappa sqrt(dl/ds) by its linearization about the last line, exact in d, d' and d''
+/// (Gauss-Newton), and solves the quadratic program for d. Braghin et al. 2008 minimize curvature
+/// so; Heilmeier et al. 2020 repeat the linearization.
+namespace trackbed {
+
+struct MinimumCurvatureOptions {
+  double margin = 0.5;  ///< of the car's sides from the edges [m], >= 0
+};
+void Visit(KeyVisitor& keys, MinimumCurvatureOptions& options);
+
+struct MinimumCurvatureLine {
+  std::string refused;  ///< why there is none; empty otherwise
+  TrackLine line;
+  int iterations = 0;  ///< quadratic programs that were solved
+};
+
+/// The line that keeps its points `beside` [m], b, away from the edges. Refused where the track is
+/// not that wide.
+///
+/// Guarantees: the bounds are kept to 1e-6 m at two points per knot; the last step changed the
+/// integral by less than 1e-6 of it. A local minimum: the problem is not convex. The rear axle
+/// follows the line: in bends a front corner of the car is farther out than its side is at the rear
+/// axle, by about l^2/(2 r), l from the rear axle to the front, r the radius. RunError in a build
+/// without IPOPT. Cost: 0.6 s a kilometer of points 5 m apart.
+MinimumCurvatureLine FindMinimumCurvature(const Track& track, double beside);
+
+struct MinimumCurvatureDiagnostics {
+  TrackPlanDiagnostics plan;
+  int iterations = 0;
+  double center_curvature_square = 0.0;  ///< LineFindings of the center line [1/m]
+};
+void Visit(DiagnosticsVisitor& out, const MinimumCurvatureDiagnostics& own);
+
+/// The planner `minimum_curvature`.
+PlannerEntry MinimumCurvaturePlanner();
+
+}  // namespace trackbed

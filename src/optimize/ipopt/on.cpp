@@ -1,0 +1,163 @@
+#include <IpStdCInterface.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <type_traits>
+
+#include "trackbed/core/error.h"
+#include "trackbed/optimize/sparse_quadratic_program.h"
+
+namespace trackbed {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+using ConstVectorMap = Eigen::Map<const Eigen::VectorXd>;
+using VectorMap = Eigen::Map<Eigen::VectorXd>;
+
+/// The program and an iteration count, for the callbacks.
+struct Context {
+  const SparseQuadraticProgram& program;
+  Sparse lower_triangle;
+  int iterations = 0;
+};
+
+Context& ContextOf(UserDataPtr data) {
+  return *static_cast<Context*>(data);
+}
+
+/// Places of the entries of a matrix if they are asked for, else their values.
+void FillEntries(const Sparse& matrix, Index* rows, Index* columns, Number* values) {
+  Eigen::Index entry = 0;
+  for (Eigen::Index outer = 0; outer < matrix.outerSize(); ++outer) {
+    for (Sparse::InnerIterator at(matrix, outer); at; ++at, ++entry) {
+      if (values == nullptr) {
+        rows[entry] = static_cast<Index>(at.row());
+        columns[entry] = static_cast<Index>(at.col());
+      } else {
+        values[entry] = at.value();
+      }
+    }
+  }
+}
+
+Bool Objective(Index n, Number* x, Bool /*new_x*/, Number* value, UserDataPtr data) {
+  const SparseQuadraticProgram& program = ContextOf(data).program;
+  const ConstVectorMap at(x, n);
+  *value = 0.5 * at.dot(program.hessian * at) + program.linear.dot(at);
+  return TRUE;
+}
+
+Bool Gradient(Index n, Number* x, Bool /*new_x*/, Number* gradient, UserDataPtr data) {
+  const SparseQuadraticProgram& program = ContextOf(data).program;
+  VectorMap(gradient, n) = program.hessian * ConstVectorMap(x, n) + program.linear;
+  return TRUE;
+}
+
+Bool Constraints(Index n, Number* x, Bool /*new_x*/, Index m, Number* values, UserDataPtr data) {
+  VectorMap(values, m) = ContextOf(data).program.constraints * ConstVectorMap(x, n);
+  return TRUE;
+}
+
+Bool Jacobian(Index /*n*/, Number* /*x*/, Bool /*new_x*/, Index /*m*/, Index /*entries*/,
+              Index* rows, Index* columns, Number* values, UserDataPtr data) {
+  FillEntries(ContextOf(data).program.constraints, rows, columns, values);
+  return TRUE;
+}
+
+Bool Hessian(Index /*n*/, Number* /*x*/, Bool /*new_x*/, Number factor, Index /*m*/,
+             Number* /*lambda*/, Bool /*new_lambda*/, Index entries, Index* rows, Index* columns,
+             Number* values, UserDataPtr data) {
+  FillEntries(ContextOf(data).lower_triangle, rows, columns, values);
+  if (values != nullptr) {
+    VectorMap(values, entries) *= factor;
+  }
+  return TRUE;
+}
+
+Bool CountIteration(Index /*mode*/, Index iteration, Number /*objective*/, Number /*primal*/,
+                    Number /*dual*/, Number /*mu*/, Number /*step*/, Number /*regularization*/,
+                    Number /*alpha_dual*/, Number /*alpha_primal*/, Index /*trials*/,
+                    UserDataPtr data) {
+  ContextOf(data).iterations = static_cast<int>(iteration);
+  return TRUE;
+}
+
+void CheckProgram(const SparseQuadraticProgram& program, const Eigen::VectorXd& start) {
+  const Eigen::Index n = program.linear.size();
+  const Eigen::Index m = program.lower.size();
+  TRACKBED_REQUIRE(n > 0 && program.hessian.rows() == n && program.hessian.cols() == n &&
+                       program.constraints.cols() == n && program.constraints.rows() == m &&
+                       program.upper.size() == m && start.size() == n,
+                   "Solve: H of {} x {}, G of {} x {}, {} and {} bounds, {} variables, a start of "
+                   "{}; must agree",
+                   program.hessian.rows(), program.hessian.cols(), program.constraints.rows(),
+                   program.constraints.cols(), m, program.upper.size(), n, start.size());
+  const bool finite = program.linear.allFinite() && program.lower.allFinite() &&
+                      program.upper.allFinite() && start.allFinite() &&
+                      program.hessian.coeffs().allFinite() &&
+                      program.constraints.coeffs().allFinite();
+  TRACKBED_REQUIRE(finite && (program.lower.array() < program.upper.array()).all(),
+                   "Solve: a number is not finite, or a lower bound is not below the upper one");
+}
+
+void SetOptions(IpoptProblem problem) {
+  const auto set_text = [&](std::string name, std::string value) {
+    TRACKBED_CHECK(AddIpoptStrOption(problem, name.data(), value.data()) == TRUE, "{}", name);
+  };
+  const auto set_integer = [&](std::string name, int value) {
+    TRACKBED_CHECK(AddIpoptIntOption(problem, name.data(), value) == TRUE, "{}", name);
+  };
+  set_text("hessian_constant", "yes");
+  set_text("jac_d_constant", "yes");
+  set_text("mu_strategy", "adaptive");
+  set_text("sb", "yes");  // no banner
+  set_integer("print_level", 0);
+  set_integer("max_iter", 200);
+  const auto set_number = [&](std::string name, double value) {
+    TRACKBED_CHECK(AddIpoptNumOption(problem, name.data(), value) == TRUE, "{}", name);
+  };
+  set_number("tol", 1e-9);
+  set_number("bound_relax_factor", 0.0);
+}
+
+}  // namespace
+
+SparseQuadraticSolution Solve(const SparseQuadraticProgram& program, const Eigen::VectorXd& start) {
+  SparseQuadraticProgram packed = program;
+  packed.hessian.makeCompressed();
+  packed.constraints.makeCompressed();
+  CheckProgram(packed, start);
+  const auto n = static_cast<Index>(packed.linear.size());
+  const auto m = static_cast<Index>(packed.lower.size());
+  Context context{.program = packed,
+                  .lower_triangle = packed.hessian.triangularView<Eigen::Lower>()};
+  constexpr double kUnbounded = 2e19;
+  Eigen::VectorXd x_lower = Eigen::VectorXd::Constant(n, -kUnbounded);
+  Eigen::VectorXd x_upper = Eigen::VectorXd::Constant(n, kUnbounded);
+  Eigen::VectorXd lower = packed.lower;
+  Eigen::VectorXd upper = packed.upper;
+  const std::unique_ptr<std::remove_pointer_t<IpoptProblem>, void (*)(IpoptProblem)> problem(
+      CreateIpoptProblem(n, x_lower.data(), x_upper.data(), m, lower.data(), upper.data(),
+                         static_cast<Index>(packed.constraints.nonZeros()),
+                         static_cast<Index>(context.lower_triangle.nonZeros()), 0, Objective,
+                         Constraints, Gradient, Jacobian, Hessian),
+      FreeIpoptProblem);
+  TRACKBED_CHECK(problem != nullptr, "IPOPT refuses a program of {} variables", n);
+  SetOptions(problem.get());
+  SetIntermediateCallback(problem.get(), CountIteration);
+
+  SparseQuadraticSolution solution{.x = start};
+  const ApplicationReturnStatus status = IpoptSolve(problem.get(), solution.x.data(), nullptr,
+                                                    nullptr, nullptr, nullptr, nullptr, &context);
+  solution.iterations = context.iterations;
+  const Eigen::VectorXd values = packed.constraints * solution.x;
+  const double largest =
+      std::max({1.0, lower.lpNorm<Eigen::Infinity>(), upper.lpNorm<Eigen::Infinity>()});
+  solution.violation = std::max({0.0, (lower - values).maxCoeff(), (values - upper).maxCoeff()});
+  solution.ok = (status == Solve_Succeeded || status == Solved_To_Acceptable_Level) &&
+                solution.x.allFinite() && solution.violation <= 1e-7 * largest;
+  return solution;
+}
+
+}  // namespace trackbed

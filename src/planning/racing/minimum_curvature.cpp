@@ -1,0 +1,208 @@
+#include "trackbed/planning/racing/minimum_curvature.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+#include <unsupported/Eigen/AutoDiff>
+
+#include "trackbed/optimize/sparse_quadratic_program.h"
+#include "trackbed/options/key_visitor.h"
+#include "trackbed/planning/common/diagnostics.h"
+#include "trackbed/planning/common/route.h"
+
+namespace trackbed {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+using Derivatives = Eigen::AutoDiffScalar<Eigen::Vector3d>;  // by d, d' and d''
+
+constexpr double kLargestShare = 0.95;  // of the center line's radius that d may reach
+
+/// kappa sqrt(dl/ds) of the line d beside a center line of given curvature and sharpness, with
+/// r' = (1 - kappa_c d) t + d' n and its derivative.
+Derivatives Residual(const PathPoint& center, const LineOffset& at) {
+  const Derivatives d(at.d, 3, 0);
+  const Derivatives slope(at.slope, 3, 1);
+  const Derivatives bend(at.bend, 3, 2);
+  const Derivatives along = 1.0 - center.curvature * d;
+  const Derivatives along_rate =
+      -(center.sharpness * d + 2.0 * center.curvature * slope);  // of the tangential part
+  const Derivatives across_rate = bend + center.curvature * along;
+  const Derivatives square = along * along + slope * slope;
+  // kappa = (r' x r'')/|r'|^3, and dl/ds = |r'|.
+  return (along * across_rate - slope * along_rate) / pow(square, 1.25);
+}
+
+class CurvatureProblem {
+ public:
+  CurvatureProblem(const Track& track, double beside)
+      : basis_(track.length(), track.points().size()),
+        step_(track.length() / static_cast<double>(Samples())) {
+    program_.lower.resize(Samples());
+    program_.upper.resize(Samples());
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Eigen::Index i = 0; i < Samples(); ++i) {
+      const double s = step_ * static_cast<double>(i);
+      centers_.push_back(track.At(s));
+      locals_.push_back(basis_.At(s));
+      const TrackEdges edges = track.EdgesAt(s);
+      const double curvature = centers_.back().curvature;
+      double lower = edges.right + beside;
+      double upper = edges.left - beside;
+      (curvature > 0.0 ? upper : lower) =
+          curvature > 0.0 ? std::min(upper, kLargestShare / curvature)
+                          : std::max(lower, kLargestShare / std::min(curvature, -1e-12));
+      program_.lower[i] = lower;
+      program_.upper[i] = upper;
+      if (refused_.empty() && lower >= upper) {
+        refused_ = fmt::format(
+            "the track is {:.3g} m wide at s = {:.4g} m; the car and its margins need {:.3g} m",
+            edges.left - edges.right, s, 2.0 * beside);
+      }
+      for (std::size_t k = 0; k < ClosedSplineBasis::kSupport; ++k) {
+        entries.emplace_back(i, locals_.back().index[k], locals_.back().weight[0][k]);
+      }
+    }
+    program_.constraints.resize(Samples(), Variables());
+    program_.constraints.setFromTriplets(entries.begin(), entries.end());
+  }
+
+  [[nodiscard]] const std::string& refused() const { return refused_; }
+  [[nodiscard]] const ClosedSplineBasis& basis() const { return basis_; }
+  [[nodiscard]] Eigen::Index Variables() const { return static_cast<Eigen::Index>(basis_.count()); }
+
+  /// The integral of kappa^2 along the line of these coefficients.
+  [[nodiscard]] double Integral(const Eigen::MatrixXd& coefficients) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < centers_.size(); ++i) {
+      const double residual = Residual(centers_[i], OffsetAt(i, coefficients)).value();
+      sum += residual * residual * step_;
+    }
+    return sum;
+  }
+
+  /// The quadratic program about a line.
+  const SparseQuadraticProgram& Linearize(const Eigen::VectorXd& coefficients) {
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::VectorXd residuals(Samples());
+    for (std::size_t i = 0; i < centers_.size(); ++i) {
+      const Derivatives residual = Residual(centers_[i], OffsetAt(i, coefficients));
+      const auto row = static_cast<Eigen::Index>(i);
+      residuals[row] = residual.value();
+      for (std::size_t k = 0; k < ClosedSplineBasis::kSupport; ++k) {
+        double slope = 0.0;
+        for (std::size_t order = 0; order < 3; ++order) {
+          slope += residual.derivatives()[static_cast<Eigen::Index>(order)] *
+                   locals_[i].weight[order][k];
+        }
+        entries.emplace_back(row, locals_[i].index[k], slope);
+      }
+    }
+    Sparse jacobian(Samples(), Variables());
+    jacobian.setFromTriplets(entries.begin(), entries.end());
+    // Moving the whole line changes no curvature: where no edge holds it, the last line does.
+    const Sparse squares = jacobian.transpose() * jacobian;
+    const double hold = 1e-10 * squares.diagonal().mean();
+    Sparse identity(Variables(), Variables());
+    identity.setIdentity();
+    program_.hessian = squares + hold * identity;
+    program_.linear =
+        jacobian.transpose() * (residuals - jacobian * coefficients) - hold * coefficients;
+    return program_;
+  }
+
+ private:
+  [[nodiscard]] Eigen::Index Samples() const { return 2 * Variables(); }
+
+  [[nodiscard]] LineOffset OffsetAt(std::size_t i, const Eigen::MatrixXd& coefficients) const {
+    return {Evaluate(locals_[i], coefficients, 0)[0], Evaluate(locals_[i], coefficients, 1)[0],
+            Evaluate(locals_[i], coefficients, 2)[0]};
+  }
+
+  ClosedSplineBasis basis_;
+  double step_;  // between samples [m]
+  std::vector<PathPoint> centers_;
+  std::vector<ClosedSplineBasis::Local> locals_;
+  SparseQuadraticProgram program_;
+  std::string refused_;
+};
+
+Plan PlanWith(const MinimumCurvatureOptions& options, const PlanRequest& request) {
+  if (!request.on_track.track) {
+    return FollowLine(request, TrackLine());
+  }
+  const Track& track = *request.on_track.track;
+  const MinimumCurvatureLine found =
+      FindMinimumCurvature(track, 0.5 * request.vehicle.width + options.margin);
+  if (!found.refused.empty()) {
+    return route::Refused(PlanStatus::kNoPath, found.refused);
+  }
+  Plan plan = FollowLine(request, found.line);
+  if (const auto* own = plan.diagnostics.planner.As<TrackPlanDiagnostics>()) {
+    plan.diagnostics.planner = MinimumCurvatureDiagnostics{
+        .plan = *own,
+        .iterations = found.iterations,
+        .center_curvature_square = MeasureLine(track, TrackLine()).curvature_square};
+  }
+  return plan;
+}
+
+}  // namespace
+
+MinimumCurvatureLine FindMinimumCurvature(const Track& track, double beside) {
+  constexpr int kMostIterations = 30;
+  constexpr double kEnough = 1e-6;  // of the integral
+  CurvatureProblem problem(track, beside);
+  MinimumCurvatureLine found{.refused = problem.refused(), .line = {}};
+  Eigen::VectorXd line = Eigen::VectorXd::Zero(problem.Variables());
+  double integral = 0.0;
+  bool done = !found.refused.empty();
+  while (!done) {
+    const SparseQuadraticSolution solution = Solve(problem.Linearize(line), line);
+    ++found.iterations;
+    if (!solution.ok) {
+      found.refused = "the quadratic program for the line was not solved";
+      return found;
+    }
+    // The first line need not keep the bounds; from then on the integral may only fall.
+    Eigen::VectorXd next = solution.x;
+    double next_integral = problem.Integral(next);
+    for (int half = 0; found.iterations > 1 && next_integral > integral && half < 10; ++half) {
+      next = 0.5 * (line + next);
+      next_integral = problem.Integral(next);
+    }
+    done = (found.iterations > 1 && next_integral > (1.0 - kEnough) * integral) ||
+           found.iterations == kMostIterations;
+    if (found.iterations == 1 || next_integral < integral) {
+      line = next;
+      integral = next_integral;
+    }
+  }
+  if (found.refused.empty()) {
+    found.line = TrackLine(problem.basis(), line);
+  }
+  return found;
+}
+
+void Visit(KeyVisitor& keys, MinimumCurvatureOptions& options) {
+  keys.Field({"margin", "m", "distance of the car's sides from the edges"}, options.margin,
+             Need::kOptional, Range{.min = 0.0, .max = 100.0});
+}
+
+void Visit(DiagnosticsVisitor& out, const MinimumCurvatureDiagnostics& own) {
+  Visit(out, own.plan);
+  out.Number("center_curvature_square_radpm", own.center_curvature_square);
+  out.Integer("iterations", own.iterations);
+}
+
+PlannerEntry MinimumCurvaturePlanner() {
+  return {.name = "minimum_curvature",
+          .summary = "laps along the line of least curvature within the edges of a track",
+          .defaults = MinimumCurvatureOptions{},
+          .plan = PlanBy<MinimumCurvatureOptions, PlanWith>,
+          .follows_track = true};
+}
+
+}  // namespace trackbed
