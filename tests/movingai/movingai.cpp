@@ -85,6 +85,8 @@ struct Counts {
 Counts DriveSome(const std::vector<GridPath>& all, const GridMap& map,
                  const std::vector<OrientedBox>& walls, const VehicleParams& vehicle, int every) {
   const OccupancyGrid grid = ToOccupancyGrid(map, UnknownCells::kFree);
+  // The planners take no smaller cells.
+  const double cell_size = std::max(0.05, 0.1 * vehicle.length);
   Counts counts;
   for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(every)) {
     std::vector<Vec2> points;
@@ -113,12 +115,12 @@ Counts DriveSome(const std::vector<GridPath>& all, const GridMap& map,
     without_headings.headings.clear();
     const AStarOptions astar{.safe_distance = 0.0,
                              .corner_room = 0.1 * vehicle.length,
-                             .cell = 0.1 * vehicle.length,
+                             .cell = cell_size,
                              .margin = 0.0,
                              .min_speed = kMinSpeed};
     counts.astar += MakePlan(without_headings, PlannerOptions(astar)).ok() ? 1 : 0;
     const HybridAStarOptions hybrid{.safe_distance = 0.0,
-                                    .cell = 0.1 * vehicle.length,
+                                    .cell = cell_size,
                                     .margin = 0.0,
                                     .min_speed = kMinSpeed,
                                     .budget = 50000};
