@@ -37,7 +37,7 @@ const Quality& FindQuality(const std::string& name) {
 mjModel& Prepared(std::span<Recording> recordings, const Quality& quality,
                   const CameraPose& camera) {
   for (Recording& recording : recordings) {
-    MakeGroundPlain(*recording.model, !recording.road);
+    MakeGroundPlain(*recording.model, !recording.has_road());
   }
   mjModel& model = *recordings.front().model;
   if (quality.shadows) {

@@ -16,6 +16,7 @@
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/drive/run_log.h"
+#include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/scenario.h"
 #include "trackbed/sim/compile_scene.h"
@@ -398,6 +399,11 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
   }
   if (const fs::path track = folder / kTrackCsv; fs::exists(track, ignored)) {
     recording.track = ReadTrack(run_folder::RequireFile(track));
+  }
+  if (recording.world.road_network) {
+    constexpr double kSpacing = 1.0;  // [m]; 1 cm off an arc of 12 m
+    recording.roads =
+        PaintRoads(ReadOpenDrive(run_folder::RequireFile(folder / kRoadNetworkXodr)), kSpacing);
   }
   recording.new_plans = ReadNewPlans(new_plans);
   recording.curvatures = ReadCurvatures(plan, recording.begin());

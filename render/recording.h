@@ -12,6 +12,7 @@
 #include "render/recorded_plans.h"
 #include "render/scales.h"
 #include "render/timed_table.h"
+#include "trackbed/road_network/road_paint.h"
 #include "trackbed/sim/mujoco_handles.h"
 #include "trackbed/sim/plant.h"
 #include "trackbed/track/track.h"
@@ -118,6 +119,7 @@ struct Recording {
   std::vector<CurvatureProfile> curvatures;  ///< of both, where their files have it
   std::optional<RoadLook> road;              ///< along the plan; none: open ground
   std::optional<Track> track;                ///< of a run on one: the road is between its edges
+  RoadPaint roads;                           ///< of the world's road network; empty without one
   std::vector<Point> cones;                  ///< of the gates that the plan leads through
   std::vector<std::vector<Point>> gates;     ///< of each the four corners between its cones
   TyreLaw tyre = TyreLaw::kAuto;             ///< of the plant `mujoco`
@@ -134,6 +136,8 @@ struct Recording {
   /// Planned curvature [rad/m] where the car is then, by the plan that holds then; none without a
   /// plan, and after the end of the car's drive.
   [[nodiscard]] std::optional<double> PlannedCurvature(double time) const;
+  /// Whether there is a road of any kind.
+  [[nodiscard]] bool has_road() const { return road || !roads.bands.empty(); }
   /// The point of the ground above or below a point.
   [[nodiscard]] Point OnGround(const Point& point) const;
 };

@@ -14,6 +14,7 @@ namespace {
 
 constexpr Color kRoadColor{0.40F, 0.41F, 0.42F};
 constexpr Color kPaint{0.93F, 0.93F, 0.90F};
+constexpr Color kYellowPaint{0.90F, 0.72F, 0.20F};
 constexpr float kGroundUnderRoad = 0.006F;  // where asphalt lies, level ground is lower [m]
 constexpr double kShoulder = 0.4;           // asphalt beyond the edge lines [m]
 constexpr double kLineWidth = 0.14;         // [m]
@@ -104,6 +105,7 @@ void DressGround(const mjModel& model, mjvScene& scene) {
 class RoadRibbons : public Overlay {
  public:
   explicit RoadRibbons(const OverlaySetup& setup) : recording_(setup.recording) {
+    AddNetwork();
     if (!recording_.road || recording_.plan.size() < 2) {
       return;
     }
@@ -138,6 +140,9 @@ class RoadRibbons : public Overlay {
         count += line.size();
       }
     }
+    for (const NetworkLine& line : network_lines_) {
+      count += line.points.size();
+    }
     return count + dashes_.size();
   }
 
@@ -161,12 +166,60 @@ class RoadRibbons : public Overlay {
     for (const auto& [from, to] : dashes_) {
       AddPiece(context, recording_.world, from, to, {kPaint, kLineWidth, kPaintHeight});
     }
+    for (const NetworkLine& line : network_lines_) {
+      AddLine(context, recording_.world, line.points, line.style);
+    }
     for (const Point& post : posts_) {
       AddPost(context, post);
     }
   }
 
  private:
+  /// A road mark of a road network.
+  struct NetworkLine {
+    std::vector<Point> points;
+    RibbonStyle style;
+  };
+
+  /// The world's own roads: their pavement and what is painted on them.
+  void AddNetwork() {
+    for (const PavedBand& band : recording_.roads.bands) {
+      for (std::size_t i = 1; i < band.left.size(); ++i) {
+        // From border to border across the road; neighbors at two heights, as pieces of ribbons.
+        const Vec2 from = 0.5 * (band.left[i - 1] + band.right[i - 1]);
+        const Vec2 to = 0.5 * (band.left[i] + band.right[i]);
+        const Vec2 along = to - from;
+        const Vec2 center = 0.5 * (from + to);
+        const double width = 0.5 * ((band.left[i - 1] - band.right[i - 1]).norm() +
+                                    (band.left[i] - band.right[i]).norm());
+        // In bends the outer border is longer than the middle.
+        const double length = std::max((band.left[i] - band.left[i - 1]).norm(),
+                                       (band.right[i] - band.right[i - 1]).norm());
+        constexpr double kTolerance = 0.002;  // [m]
+        Tile like;
+        like.color = kRoadColor;
+        const double above = kAsphaltHeight + (i % 2 == 0 ? 0.0 : 0.0008);
+        constexpr double kOverlap =
+            0.1;  // with each neighbor, or the ground shows between them [m]
+        const OrientedBox box{{center.x(), center.y(), std::atan2(along.y(), along.x())},
+                              length + 2.0 * kOverlap,
+                              width};
+        for (const Tile& tile :
+             CutToGround(recording_.world.ground, box, like, above, kTolerance)) {
+          asphalt_.push_back(tile);
+        }
+      }
+    }
+    for (const PaintedLine& line : recording_.roads.lines) {
+      std::vector<Point> points;
+      for (const Vec2& point : line.points) {
+        points.push_back(recording_.OnGround({point.x(), point.y()}));
+      }
+      network_lines_.push_back(
+          {Thinned(points), {line.yellow ? kYellowPaint : kPaint, line.width, kPaintHeight}});
+    }
+  }
+
   [[nodiscard]] Point OffsetFrom(const Spot& spot, double left) const {
     return recording_.OnGround(
         {spot.point.x + left * spot.left.x(), spot.point.y + left * spot.left.y()});
@@ -253,6 +306,7 @@ class RoadRibbons : public Overlay {
 
   const Recording& recording_;
   std::vector<Tile> asphalt_;
+  std::vector<NetworkLine> network_lines_;
   std::vector<std::vector<Point>> edges_;
   std::vector<std::vector<Point>> verges_;
   std::vector<std::pair<Point, Point>> dashes_;
@@ -263,7 +317,9 @@ class RoadRibbons : public Overlay {
 
 OverlayEntry RoadOverlay() {
   return EntryOf<RoadRibbons>(
-      "road", "a road along the plan, with lanes, verges and posts; on a track, between its edges");
+      "road",
+      "the road network, or a road along the plan with lanes, verges and posts; on a track, "
+      "between its edges");
 }
 
 }  // namespace trackbed::render

@@ -10,6 +10,9 @@ std::optional<RoadLook> RoadToDraw(const World& world, const std::string& planne
   if (world.road) {
     return world.road->width > 0.0 ? world.road : std::nullopt;
   }
+  if (world.road_network) {
+    return std::nullopt;
+  }
   const auto follows_road = [&](const PlannerEntry& entry) {
     return entry.name == planner && !entry.keeps_clear && !entry.has_headings;
   };

@@ -22,6 +22,7 @@
 #include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/recording/record_csv.h"
+#include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/recording_file.h"
 #include "trackbed/track/track_file.h"
@@ -361,6 +362,9 @@ void WriteRunFolder(const RunResult& result, const OutputFolder& folder,
   if (const auto& map = result.scenario.world.map) {
     writer.Add(kMapYaml, MapYaml(map->data->map()));
     writer.Add(kMapPgm, MapPgm(map->data->map()));
+  }
+  if (const auto& roads = result.scenario.world.road_network) {
+    writer.Add(kRoadNetworkXodr, roads->data->text);
   }
   const auto* playback = result.scenario.control.steering.As<PlaybackOptions>();
   if (playback != nullptr && !(playback->file.empty() && result.scenario.record)) {

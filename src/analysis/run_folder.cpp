@@ -11,6 +11,7 @@
 #include "trackbed/core/file.h"
 #include "trackbed/path_files/path_file.h"
 #include "trackbed/recording/record_csv.h"
+#include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/record.h"
 #include "trackbed/scenario/recording_file.h"
@@ -80,6 +81,7 @@ std::vector<std::string> AllNames() {
   names.emplace_back(kTrackCsv);
   names.emplace_back(kMapYaml);
   names.emplace_back(kMapPgm);
+  names.emplace_back(kRoadNetworkXodr);
   names.insert(names.end(), kPathFiles.begin(), kPathFiles.end());
   for (const std::string& plant : DrivenPlantNames()) {
     for (const auto name_of : {LogCsv, StateCsv, NewPlansCsv, NewPlansJson, NewPlansTreeCsv}) {

@@ -14,6 +14,7 @@
 #include "trackbed/path_files/path_file.h"
 #include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/recording/record_csv.h"
+#include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/recording_file.h"
 #include "trackbed/sim/scene.h"
@@ -154,6 +155,9 @@ CheckedStudy CheckStudy(Study study, bool all) {
     if (const auto& map = scenario.world.map) {
       checked.inputs["map " + map->file] =
           Sha256(MapYaml(map->data->map()) + MapPgm(map->data->map()));
+    }
+    if (const auto& roads = scenario.world.road_network) {
+      checked.inputs["road network " + roads->file] = Sha256(roads->data->text);
     }
     const auto* playback = scenario.control.steering.As<PlaybackOptions>();
     if (playback != nullptr && !playback->file.empty()) {

@@ -10,6 +10,7 @@
 #include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/registry/planners.h"
+#include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/initial_state.h"
 #include "trackbed/sim/car_grip.h"
 
@@ -45,6 +46,14 @@ std::vector<double> Roads(const World& world) {
     }
   }
   return roads;
+}
+
+/// The route over the world's roads; none without them.
+LaneMission MakeLaneMission(const Scenario& scenario) {
+  const auto& roads = scenario.world.road_network;
+  return roads && roads->data
+             ? LaneMission{{roads->data, &roads->data->network}, scenario.mission.route}
+             : LaneMission{};
 }
 
 /// `diagram` makes the one of the car on given roads, if the mission wants it.
@@ -98,6 +107,7 @@ Plan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
       .on_track = scenario.mission.track
                       ? TrackLaps{scenario.mission.track->data, scenario.mission.track->laps}
                       : TrackLaps{},
+      .lanes = MakeLaneMission(scenario),
       .infeasible = scenario.plan->infeasible,
       .limits = std::move(limits)};
   Plan plan = MakePlan(request, scenario.plan->global);

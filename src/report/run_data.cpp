@@ -14,6 +14,7 @@
 #include "src/report/drive_data.h"
 #include "src/report/numbers.h"
 #include "src/report/paths.h"
+#include "src/report/road_data.h"
 #include "src/report/scene_data.h"
 #include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/road_look.h"
@@ -335,6 +336,9 @@ ordered_json RunData(const fs::path& folder, const std::string& name, std::size_
     }
     const World world = ReadWorld(scenario);
     run["world"] = WorldJson(world);
+    if (world.road_network) {
+      run["world"]["roads"] = RoadsJson(folder);
+    }
     if (fs::exists(folder / run_folder::kPlanJson) || fs::exists(folder / run_folder::kPlanCsv)) {
       run["plan"] = PlanJson(folder);
       if (const auto road = RoadToDraw(world, run["plan"].value("method", ""))) {

@@ -9,6 +9,7 @@
 #include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/planning/sampling/rrt_planner.h"
+#include "trackbed/road_network/open_drive.h"
 
 namespace trackbed {
 namespace {
@@ -245,6 +246,46 @@ void CheckTrack(Diagnostics& c) {
   }
 }
 
+/// A route over roads, and a planner that follows one.
+void CheckLanes(Diagnostics& c) {
+  const auto& plan = c.scenario.plan;
+  const std::vector<LanePlace>& route = c.scenario.mission.route;
+  const auto& roads = c.scenario.world.road_network;
+  if (!c.CouldReadPlan({"method"}) || !c.CouldRead({"mission.route", "world.road_network"})) {
+    return;
+  }
+  const bool follows = plan && PlannerFor(plan->global).follows_lanes;
+  if (!follows) {
+    if (!route.empty()) {
+      c.AddError("mission.route", "needs plan: {method: lane_route}");
+    }
+    return;
+  }
+  if (!roads) {
+    c.AddError("world.road_network", "missing; the planner lane_route follows its lanes");
+  }
+  if (route.size() < 2) {
+    c.AddError("mission.route", fmt::format("{} given; the planner lane_route needs at least 2",
+                                            route.empty() ? "none" : "1"));
+  }
+  constexpr std::size_t kMostPlaces = 1000;
+  if (route.size() > kMostPlaces) {
+    c.AddError("mission.route",
+               fmt::format("{} places; must be at most {}", route.size(), kMostPlaces));
+    return;
+  }
+  for (std::size_t i = 0; roads && roads->data && i < route.size(); ++i) {
+    const std::string key = fmt::format("mission.route[{}]", i);
+    if (!c.could_read(key) || !c.could_read(key + ".road") || !c.could_read(key + ".lane") ||
+        !c.could_read(key + ".s")) {
+      continue;
+    }
+    if (std::string why = WhyNoPlace(roads->data->network, route[i]); !why.empty()) {
+      c.AddError(key, std::move(why));
+    }
+  }
+}
+
 void CheckMission(Diagnostics& c) {
   const MissionSpec& mission = c.scenario.mission;
   const auto& plan = c.scenario.plan;
@@ -287,6 +328,7 @@ void CheckMissionAndPlan(Diagnostics& c) {
   CheckMission(c);
   CheckSpeedProfile(c);
   CheckTrack(c);
+  CheckLanes(c);
   CheckCourse(c);
   CheckSmoothing(c);
   CheckAvoider(c);

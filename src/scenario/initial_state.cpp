@@ -7,6 +7,7 @@
 #include "trackbed/planning/common/route_start.h"
 #include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/path_file/path_file_planner.h"
+#include "trackbed/road_network/open_drive.h"
 #include "trackbed/track/track.h"
 
 // How a run begins, for planners, plants and the resolved scenario alike.
@@ -37,6 +38,11 @@ Pose2 StartPose(const Scenario& scenario) {
   }
   if (mission.track && mission.track->data) {
     pose = mission.track->data->At(0.0).pose;
+  }
+  const auto& roads = scenario.world.road_network;
+  if (roads && roads->data && !mission.route.empty() &&
+      WhyNoPlace(roads->data->network, mission.route.front()).empty()) {
+    pose = PoseAt(roads->data->network, mission.route.front());
   }
   const StartSpec& given = mission.start;
   return {given.x.value_or(pose.x), given.y.value_or(pose.y), given.yaw.value_or(pose.yaw)};

@@ -16,6 +16,7 @@
 #include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/recording/import_log.h"
 #include "trackbed/recording/record_csv.h"
+#include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/recording_file.h"
 #include "trackbed/sim/plant.h"
@@ -246,6 +247,26 @@ std::vector<Problem> ReadMap(Scenario& scenario, MapSpec& map, ReaderContext& co
       "world.map.file", context, add_error);
 }
 
+std::vector<Problem> ReadRoads(Scenario& scenario, RoadNetworkSpec& roads, ReaderContext& context,
+                               const AddKeyError& add_error) {
+  const char* key = "world.road_network";
+  if (!context.Read(key)) {
+    return {};
+  }
+  if (const std::string why =
+          WhyUnreadable(roads.file, scenario.folder, WithOwnData(scenario.asset_folders));
+      !why.empty()) {
+    add_error(key, fmt::format("{} {}", roads.file, why));
+    return {};
+  }
+  return Attempt(
+      [&] {
+        roads.data =
+            std::make_shared<const OpenDriveFile>(ReadOpenDriveFile(scenario.folder / roads.file));
+      },
+      key, context, add_error);
+}
+
 }  // namespace
 
 std::vector<Problem> ReadInputs(Scenario& scenario, ReaderContext& context,
@@ -268,6 +289,12 @@ std::vector<Problem> ReadInputs(Scenario& scenario, ReaderContext& context,
     add(ReadMap(scenario, *map, context, add_error));
     if (!map->data) {
       context.unread.emplace_back("world.map");
+    }
+  }
+  if (auto& roads = scenario.world.road_network) {
+    add(ReadRoads(scenario, *roads, context, add_error));
+    if (!roads->data) {
+      context.unread.emplace_back("world.road_network");
     }
   }
   if (auto* playback = scenario.control.steering.As<PlaybackOptions>()) {

@@ -23,6 +23,7 @@
 #include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/recording/record_csv.h"
+#include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/recording_file.h"
 #include "trackbed/sim/scene.h"
@@ -273,6 +274,9 @@ std::string ResolvedYaml(const Scenario& scenario) {
         std::filesystem::absolute(FindModel(scenario.vehicle.model, scenario.folder))
             .lexically_normal()
             .string();
+  }
+  if (resolved.world.road_network) {
+    resolved.world.road_network->file = kRoadNetworkXodr;
   }
   resolved.mission.duration = RunDuration(scenario);
   auto* path = resolved.plan ? resolved.plan->global.As<PathFileOptions>() : nullptr;

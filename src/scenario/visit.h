@@ -65,6 +65,14 @@ inline void Visit(KeyVisitor& a, TrackSpec& track) {
           track.smoothing, Range{.max = 1000.0, .above = 0.0});
 }
 
+inline void Visit(KeyVisitor& a, LanePlace& place) {
+  a.Field({"road", "", "id of the road"}, place.road, Need::kRequired);
+  a.Field({"lane", "", "number of the lane: negative to the right of the center lane"}, place.lane,
+          Need::kRequired, Range{.min = -100, .max = 100});
+  a.Field({"s", "m", "station along the road"}, place.s, Need::kRequired,
+          Range{.min = 0.0, .max = 1e6});
+}
+
 inline void Visit(KeyVisitor& a, MissionSpec& mission) {
   std::optional<double> speed = mission.speed > 0.0 ? std::optional(mission.speed) : std::nullopt;
   a.Field({"speed", "m/s",
@@ -79,6 +87,10 @@ inline void Visit(KeyVisitor& a, MissionSpec& mission) {
            "heading of the car at each waypoint; default: along the last leg at the goal, from the "
            "previous to the next stop at stops in between"},
           mission.headings, Need::kOptional, kDirection);
+  a.List({"route", "",
+          "places on lanes of world.road_network that the route leads over, at least two; for the "
+          "planner lane_route"},
+         mission.route);
   a.Field({"duration", "s",
            "end of the run; required without a plan unless a recording or record ends it, not "
            "allowed with a plan"},

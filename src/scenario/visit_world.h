@@ -97,6 +97,14 @@ inline void Visit(KeyVisitor& a, World& world) {
              "road along the plan in films and reports, without effect on the drive; default: "
              "along plans that do not cross open ground"},
             world.road);
+  std::optional<std::string> network =
+      world.road_network ? std::optional(world.road_network->file) : std::nullopt;
+  a.Field({"road_network", "",
+           "OpenDRIVE file of the roads that mission.route leads over, relative to this file"},
+          network);
+  if (a.mode() == KeyVisitor::Mode::kRead) {
+    world.road_network = network ? std::optional(RoadNetworkSpec{*network}) : std::nullopt;
+  }
 }
 
 /// The keys of `box`.

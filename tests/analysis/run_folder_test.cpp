@@ -34,6 +34,7 @@ TEST(RunFolder, NamesItsFilesAsDocumented) {
                                                              "manifest.json",
                                                              "recording.csv",
                                                              "path.csv",
+                                                             "road_network.xodr",
                                                              "metrics.json",
                                                              "video.mp4",
                                                              "picture.png",
@@ -106,6 +107,20 @@ TEST(RunFolder, RepeatsThePathOfAFileFromItsOwnPoints) {
   for (const char* name : {"path.csv", "plan.csv", "plan.json", "scenario.resolved.yaml"}) {
     EXPECT_EQ(ReadFile(out("first") / name), ReadFile(out("again") / name)) << name;
   }
+}
+
+TEST(RunFolder, RepeatsARouteOnItsOwnRoads) {
+  const TempFolder folder;
+  const auto out = [&](const char* name) { return folder.path() / name; };
+  const auto run = [&](const Scenario& scenario, const char* name) {
+    WriteRunFolder(RunMission(scenario), out(name));
+    return ReadFile(out(name) / "kinematic.csv");
+  };
+  const std::string first =
+      run(Read("roads/crossing", {"drive.plants=[kinematic]", "expect={}"}), "first");
+  EXPECT_EQ(run(ReadScenario(out("first") / run_folder::kScenarioYaml), "again"), first);
+  EXPECT_EQ(ReadFile(out("first") / "road_network.xodr"),
+            ReadFile(fs::path(TRACKBED_SOURCE_DIR) / "scenarios/roads/crossing.xodr"));
 }
 
 TEST(RunFolder, TellsWhosePlantAStateIs) {

@@ -405,22 +405,23 @@ struct Generator {
   }
 };
 
-/// All but those that follow a track: these missions are on open ground.
-std::vector<PlannerEntry> PlannersOffTrack() {
-  std::vector<PlannerEntry> planners = Planners();
-  std::erase_if(planners, [](const PlannerEntry& entry) { return entry.follows_track; });
-  return planners;
-}
-
 }  // namespace
 
+std::vector<PlannerEntry> AuditedPlanners() {
+  std::vector<PlannerEntry> entries = Planners();
+  std::erase_if(entries, [](const PlannerEntry& entry) {
+    return entry.follows_lanes || entry.follows_track;
+  });
+  return entries;
+}
+
 std::size_t Combinations() {
-  return PlannersOffTrack().size() * PathFollowers().size() * kPlantsInTurn.size();
+  return AuditedPlanners().size() * PathFollowers().size() * kPlantsInTurn.size();
 }
 
 Scenario RandomScenario(std::size_t index, int attempt) {
   const std::vector<ControllerOptions> controllers = PathFollowers();
-  const std::vector<PlannerEntry> planners = PlannersOffTrack();
+  const std::vector<PlannerEntry> planners = AuditedPlanners();
   const std::size_t pairs = planners.size() * controllers.size();
   const PlannerEntry& planner = planners[index % planners.size()];
   const ControllerOptions& controller = controllers[index / planners.size() % controllers.size()];

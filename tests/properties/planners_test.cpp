@@ -21,14 +21,16 @@ using namespace trackbed;
 
 class EveryPlanner : public testing::TestWithParam<PlannerEntry> {};
 
-/// All but those that follow a track: these problems are on open ground.
-std::vector<PlannerEntry> PlannersOffTrack() {
+/// All but those that follow a track or lanes: these problems are on open ground.
+std::vector<PlannerEntry> PlannersOfWaypoints() {
   std::vector<PlannerEntry> planners = Planners();
-  std::erase_if(planners, [](const PlannerEntry& entry) { return entry.follows_track; });
+  std::erase_if(planners, [](const PlannerEntry& entry) {
+    return entry.follows_lanes || entry.follows_track;
+  });
   return planners;
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, EveryPlanner, testing::ValuesIn(PlannersOffTrack()),
+INSTANTIATE_TEST_SUITE_P(Registry, EveryPlanner, testing::ValuesIn(PlannersOfWaypoints()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 /// A plan that is ok leads there; any other has a reason and no path.

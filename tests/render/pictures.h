@@ -67,7 +67,7 @@ class FilmSceneTest : public testing::Test {
   Image Picture(const std::string& camera, double time, bool shadows = false,
                 int supersampling = 1) {
     Recording recording = ReadRecording(folder_.path());
-    MakeGroundPlain(*recording.model, !recording.road);
+    MakeGroundPlain(*recording.model, !recording.has_road());
     const CameraSubject subject(recording);
     pose_ = FindCamera(camera).pose(subject, time, static_cast<double>(kWidth) / kHeight);
     if (shadows) {

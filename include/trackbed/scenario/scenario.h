@@ -15,6 +15,7 @@
 #include "trackbed/planning/common/planner_options.h"
 #include "trackbed/planning/common/speed_profile_options.h"
 #include "trackbed/planning/replan/replan_options.h"
+#include "trackbed/road_network/lane_route.h"
 #include "trackbed/scenario/disturbances.h"
 #include "trackbed/scenario/maneuver.h"
 #include "trackbed/scenario/record.h"
@@ -53,6 +54,7 @@ struct MissionSpec {
   double speed = 0.0;              ///< [m/s]; 0: not given, for missions without a plan
   std::vector<Vec2> waypoints;     ///< [m]
   std::vector<double> headings;    ///< of the car at each of them [rad]; none: along the legs
+  std::vector<LanePlace> route;    ///< on the world's road network, instead of waypoints
   std::optional<double> duration;  ///< [s]; ends the run, for missions without a goal
   /// How the speeds of the plan are chosen; none: ConstantAccelerationOptions.
   std::optional<SpeedProfileOptions> speed_profile;
@@ -206,7 +208,7 @@ void CheckScenario(const Scenario& scenario);
 /// from any folder: a model given by its path is written with its absolute path, a recording is
 /// `recording.csv`, which must lie beside the YAML with the content of RecordingCsv, and a recorded
 /// drive likewise `record.csv` with that of RecordCsv, a track `track.csv` with that of TrackCsv, a
-/// map `map.yaml` and `map.pgm` (map_file.h).
+/// map `map.yaml` and `map.pgm` (map_file.h), and a road network `road_network.xodr`.
 std::string ResolvedYaml(const Scenario& scenario);
 
 /// The keys of a method's options with their values, on one line: "distance: 2.5, law: exact_arc".

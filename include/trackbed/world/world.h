@@ -1,6 +1,8 @@
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "trackbed/geometry/oriented_box.h"
@@ -10,6 +12,8 @@
 #include "trackbed/world/wind.h"
 
 namespace trackbed {
+
+struct OpenDriveFile;
 
 /// A box on the ground, static or translating.
 struct Obstacle {
@@ -29,6 +33,12 @@ struct RoadLook {
   int lanes = 2;       ///< of equal width
 };
 
+/// Roads that are read from a file.
+struct RoadNetworkSpec {
+  std::string file;                             ///< OpenDRIVE; relative to the scenario file
+  std::shared_ptr<const OpenDriveFile> data{};  ///< road_network/open_drive.h; null: not read
+};
+
 /// The environment of a car.
 struct World {
   double friction = 1.0;  ///< factor on the tyres' own friction coefficient, both tyre laws
@@ -40,6 +50,7 @@ struct World {
   /// None: a road where the planner follows one (analysis/road_look.h).
   std::optional<RoadLook> road{};
   std::optional<MapSpec> map{};  ///< its walls stand beside `obstacles`, from the start
+  std::optional<RoadNetworkSpec> road_network{};
 };
 
 /// Whether there is an obstacle or a wall of the map.

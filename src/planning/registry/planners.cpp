@@ -14,6 +14,7 @@
 #include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/grid/astar_planner.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
+#include "trackbed/planning/lanes/lane_route_planner.h"
 #include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/racing/center_line.h"
 #include "trackbed/planning/racing/minimum_curvature.h"
@@ -28,6 +29,7 @@ Registry<PlannerEntry>& Table() {
                                                      FilletPlanner(),
                                                      LaneChangePlanner(),
                                                      CoursePlanner(),
+                                                     LaneRoutePlanner(),
                                                      DubinsPlanner(),
                                                      ReedsSheppPlanner(),
                                                      AStarPlanner(),

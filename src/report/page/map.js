@@ -31,6 +31,11 @@ function lineText(x, y, count) {
   return text;
 }
 
+/** Points x, y, x, y, ... from the last to the first. */
+function backwards(points) {
+  return d3.range(points.length / 2 - 1, -1, -1).flatMap((i) => [points[2 * i], points[2 * i + 1]]);
+}
+
 /**
  * What the way is colored by: of the pair that is furthest apart the distance, else of the track that
  * is furthest from its path the cross-track error: {track, points: [{t, value}], most, name}.
@@ -110,6 +115,15 @@ function drawMap(parent) {
     .attr('x', -area.length / 2).attr('y', -area.width / 2)
     .attr('width', area.length).attr('height', area.width);
   const moving = [];
+  for (const { roads } of runs.map((run) => run.world).filter((own) => own.roads && fresh('roads', own.roads))) {
+    const through = (points) => points.map((value, i) => (i % 2 ? `${value}` : `${i ? 'L' : 'M'}${value} `)).join('');
+    const around = ({ left, right }) => `${through(left)}${through(backwards(right)).replace('M', 'L')}Z`;
+    world.append('path').attr('class', 'road').attr('d', roads.bands.map(around).join(''));
+    for (const yellow of [false, true]) {
+      const lines = roads.lines.filter((line) => line.yellow === yellow);
+      world.append('path').attr('class', yellow ? 'road-mark yellow' : 'road-mark').attr('d', lines.map((line) => through(line.points)).join(''));
+    }
+  }
   for (const run of runs) {
     for (const patch of run.world.patches.filter((p) => fresh('patch', p))) {
       box(world.append('rect').attr('class', 'patch').attr('transform', placed(patch)), patch)

@@ -186,6 +186,54 @@ function trackMeshes({ left, right }, height) {
   ];
 }
 
+/** Strips on the ground between pairs of lines of as many points x, y, x, y, ..., in one geometry. */
+function bandsGeometry(bands, height, lift) {
+  const positions = [];
+  const uvs = [];
+  const indices = [];
+  for (const { left, right } of bands) {
+    for (let i = 0; i + 1 < left.length; i += 2) {
+      const k = positions.length / 3;
+      for (const [x, y] of [[left[i], left[i + 1]], [right[i], right[i + 1]]]) {
+        positions.push(x, y, height(x, y) + lift);
+        uvs.push(x / 2, y / 2);
+      }
+      if (i > 0) indices.push(k - 2, k - 1, k, k - 1, k + 1, k);
+    }
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
+  geometry.setAttribute('uv', new THREE.Float32BufferAttribute(uvs, 2));
+  geometry.setIndex(indices);
+  geometry.computeVertexNormals();
+  return geometry;
+}
+
+/** A painted line as the band between its two edges. */
+function bandOfLine({ points, width }) {
+  const band = { left: [], right: [] };
+  const last = points.length - 2;
+  for (let i = 0; i <= last; i += 2) {
+    const [a, b] = [Math.max(0, i - 2), Math.min(last, i + 2)];
+    const [dx, dy] = [points[b] - points[a], points[b + 1] - points[a + 1]];
+    const reach = width / 2 / (Math.hypot(dx, dy) || 1);
+    band.left.push(points[i] - reach * dy, points[i + 1] + reach * dx);
+    band.right.push(points[i] + reach * dy, points[i + 1] - reach * dx);
+  }
+  return band;
+}
+
+/** The pavement of a road network and what is painted on it. */
+function networkMeshes({ bands, lines }, height) {
+  const painted = (yellow, paint) => flat(bandsGeometry(lines.filter((line) => line.yellow === yellow).map(bandOfLine), height, 0.008),
+    paint, 2, { emissive: new THREE.Color(paint), emissiveIntensity: 0.3 });
+  return [
+    flat(bandsGeometry(bands, height, 0.004), 0xffffff, 1, { map: grain([0.52, 0.52, 0.53], 0.2, 1) }),
+    painted(false, 0xf4f4ee),
+    painted(true, 0xe5b833),
+  ];
+}
+
 /** Trees where no road, drive or obstacle is near. */
 function treeMeshes(extent, busy, height) {
   const MOST = 160;
@@ -314,6 +362,10 @@ function drawScenery(scene, height, makers) {
   const once = new Set();
   const fresh = (thing) => !once.has(JSON.stringify(thing)) && once.add(JSON.stringify(thing));
   const obstacles = [];
+  for (const { roads } of runs.map((run) => run.world).filter((own) => own.roads && fresh(own.roads))) {
+    for (const { left } of roads.bands) left.forEach((x, i) => i % 2 === 0 && busy.push([x, left[i + 1]]));
+    for (const mesh of networkMeshes(roads, height)) scene.add(mesh);
+  }
   for (const [r, { world, plan }] of runs.entries()) {
     for (const patch of world.patches.filter(fresh)) {
       const icy = patch.friction < world.friction;

@@ -269,14 +269,16 @@ TEST_P(EveryPlanner, ThrowsForNumbersThatAreNone) {
   }
 }
 
-/// All but those that follow a track: these missions are not on one (tests/planning/racing).
-std::vector<PlannerEntry> OffTrack() {
-  std::vector<PlannerEntry> planners = Planners();
-  std::erase_if(planners, [](const PlannerEntry& entry) { return entry.follows_track; });
-  return planners;
+/// Without those that need a road network or a track, whose tests are beside them.
+std::vector<PlannerEntry> PlannersOfWaypoints() {
+  std::vector<PlannerEntry> entries = Planners();
+  std::erase_if(entries, [](const PlannerEntry& entry) {
+    return entry.follows_lanes || entry.follows_track;
+  });
+  return entries;
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, EveryPlanner, ::testing::ValuesIn(OffTrack()),
+INSTANTIATE_TEST_SUITE_P(Table, EveryPlanner, ::testing::ValuesIn(PlannersOfWaypoints()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Planners, HaveNamesAndOptionsOfTheirOwn) {

@@ -15,6 +15,7 @@
 #include "trackbed/planning/common/planner_options.h"
 #include "trackbed/planning/common/speed_at_limit.h"
 #include "trackbed/planning/common/turn_prediction.h"
+#include "trackbed/road_network/lane_route.h"
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/steering_schedule.h"
 #include "trackbed/world/road.h"
@@ -37,6 +38,12 @@ struct PlannedLaps {
   /// Stations of the plan where it crosses the start line [m]: one more than laps. The first one is
   /// 0 when the plan begins on the line or after it.
   std::vector<double> lines{};
+};
+
+/// A route over the lanes of a road network.
+struct LaneMission {
+  std::shared_ptr<const RoadNetwork> network{};  ///< none: not on roads
+  std::vector<LanePlace> route{};                ///< from its first place to its last
 };
 
 /// A section of a course with cones on either side.
@@ -73,6 +80,7 @@ struct PlanRequest {
   double friction = 1.0;                          ///< of the road, a factor on the tyres' own
   std::vector<FrictionPatch> friction_patches{};  ///< where it is another
   TrackLaps on_track{};                           ///< for planners that follow a track
+  LaneMission lanes{};                            ///< for planners that follow lanes
   InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
   /// How speeds at the car's limit are found; none: they follow `speed`.
   std::optional<SpeedAtLimit> limits{};

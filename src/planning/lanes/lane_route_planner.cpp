@@ -1,0 +1,134 @@
+#include "trackbed/planning/lanes/lane_route_planner.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "trackbed/core/angle.h"
+#include "trackbed/planning/common/diagnostics.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/route.h"
+#include "trackbed/vehicle/params.h"
+
+namespace trackbed {
+namespace {
+
+/// Height of a level road [m].
+double HeightOf(const Road& road) {
+  return road.elevation.At(0.0).value;
+}
+
+/// Why the roads of a route are no plane at one height, for people, or "".
+std::string WhyNotLevel(const RoadNetwork& network, const std::vector<LaneStretch>& stretches) {
+  const Road& first = network.roads.find(stretches.front().road)->second;
+  for (const LaneStretch& stretch : stretches) {
+    const Road& road = network.roads.find(stretch.road)->second;
+    if (!IsLevel(road)) {
+      return fmt::format(
+          "road {} has elevation, superelevation or other heights; only level roads are driven",
+          road.id);
+    }
+    if (HeightOf(road) != HeightOf(first)) {
+      return fmt::format("road {} is at {} m, road {} at {} m; only roads at one height are driven",
+                         first.id, HeightOf(first), road.id, HeightOf(road));
+    }
+  }
+  return "";
+}
+
+/// Why the car does not start where the path does, for people, or "".
+std::string WhyElsewhere(const Pose2& car, const Pose2& path) {
+  constexpr double kPlace = 1e-3;    // [m]
+  constexpr double kHeading = 1e-3;  // [rad]
+  const double distance = (car.position() - path.position()).norm();
+  const double turn = AngleDifference(car.yaw, path.yaw);
+  if (distance <= kPlace && std::abs(turn) <= kHeading) {
+    return "";
+  }
+  return fmt::format(
+      "the car starts {:.3g} m and {:.3g} rad from where the route begins, at x = {:.4g} m, y = "
+      "{:.4g} m, yaw = {:.4g} rad",
+      distance, turn, path.x, path.y, path.yaw);
+}
+
+/// The first place that the car cannot steer through, for people, or "".
+std::string WhyTooTight(const VehicleParams& vehicle, const std::vector<Segment>& segments) {
+  double station = 0.0;
+  for (const Segment& segment : segments) {
+    const double end = segment.CurvatureAt(segment.length);
+    const double sharpest = std::abs(end) > std::abs(segment.curvature) ? end : segment.curvature;
+    const double steering = std::abs(SteeringForCurvature(vehicle, sharpest));
+    if (steering > vehicle.steering_limit) {
+      return fmt::format(
+          "the lanes' curvature of {:.4g} 1/m at s = {:.4g} m needs a steering angle of {:.3f} "
+          "rad, "
+          "which exceeds the limit of {:.3f} rad",
+          sharpest, station, steering, vehicle.steering_limit);
+    }
+    station += segment.length;
+  }
+  return "";
+}
+
+Plan PlanWith(const LaneRouteOptions& options, const PlanRequest& request) {
+  const LaneMission& lanes = request.lanes;
+  if (!lanes.network || lanes.route.size() < 2) {
+    return route::Refused(PlanStatus::kNoPath,
+                          "needs a road network and a route of at least two places");
+  }
+  for (const LanePlace& place : lanes.route) {
+    if (const std::string why = WhyNoPlace(*lanes.network, place); !why.empty()) {
+      return route::Refused(PlanStatus::kNoPath, why);
+    }
+  }
+  LaneRoute found = FindLaneRoute(*lanes.network, lanes.route);
+  if (!found.ok()) {
+    return route::Refused(PlanStatus::kNoPath, found.failure);
+  }
+  if (const std::string why = WhyNotLevel(*lanes.network, found.stretches); !why.empty()) {
+    return route::Refused(PlanStatus::kInfeasible, why);
+  }
+  if (const std::string why = WhyElsewhere(request.start, found.path.At(0.0).pose); !why.empty()) {
+    return route::Refused(PlanStatus::kStartBlocked, why);
+  }
+  if (const std::string why = WhyTooTight(request.vehicle, found.path.segments()); !why.empty()) {
+    return route::Refused(PlanStatus::kTurnTooTight, why);
+  }
+  Plan plan;
+  plan.diagnostics.planner =
+      LaneRouteDiagnostics{.stretches = std::move(found.stretches), .deviation = found.deviation};
+  return route::AlongSegments(std::move(plan), request, found.path.segments(), options.min_speed);
+}
+
+}  // namespace
+
+void Visit(KeyVisitor& keys, LaneRouteOptions& options) {
+  keys.Field({"min_speed", "m/s", "minimum speed at curvature steps"}, options.min_speed,
+             Need::kOptional, kPositive);
+}
+
+void Visit(DiagnosticsVisitor& out, const LaneStretch& stretch) {
+  out.Text("road", stretch.road);
+  out.Integer("lane", stretch.lane);
+  out.Integer("to_lane", stretch.to_lane);
+  out.Number("from_m", stretch.from);
+  out.Number("to_m", stretch.to);
+}
+
+void Visit(DiagnosticsVisitor& out, const LaneRouteDiagnostics& own) {
+  out.Number("deviation_max_m", own.deviation);
+  out.List("lanes", own.stretches);
+}
+
+PlannerEntry LaneRoutePlanner() {
+  return {.name = "lane_route",
+          .summary = "lane centers of a road network, from place to place of mission.route",
+          .defaults = LaneRouteOptions{},
+          .plan = PlanBy<LaneRouteOptions, PlanWith>,
+          .follows_lanes = true};
+}
+
+}  // namespace trackbed

@@ -1,0 +1,41 @@
+#include "src/report/road_data.h"
+
+#include <vector>
+
+#include "src/report/numbers.h"
+#include "trackbed/analysis/run_folder.h"
+#include "trackbed/road_network/open_drive.h"
+#include "trackbed/road_network/road_paint.h"
+
+namespace trackbed {
+namespace {
+
+nlohmann::ordered_json PointsJson(const std::vector<Vec2>& points) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const Vec2& point : points) {
+    json.push_back(Rounded(point.x()));
+    json.push_back(Rounded(point.y()));
+  }
+  return json;
+}
+
+}  // namespace
+
+nlohmann::ordered_json RoadsJson(const std::filesystem::path& folder) {
+  constexpr double kSpacing = 1.5;  // [m]; 3 cm off an arc of 10 m
+  const RoadPaint paint =
+      PaintRoads(ReadOpenDrive(run_folder::RequireFile(folder / kRoadNetworkXodr)), kSpacing);
+  nlohmann::ordered_json json{{"bands", nlohmann::ordered_json::array()},
+                              {"lines", nlohmann::ordered_json::array()}};
+  for (const PavedBand& band : paint.bands) {
+    json["bands"].push_back({{"left", PointsJson(band.left)}, {"right", PointsJson(band.right)}});
+  }
+  for (const PaintedLine& line : paint.lines) {
+    json["lines"].push_back({{"points", PointsJson(line.points)},
+                             {"width", Rounded(line.width)},
+                             {"yellow", line.yellow}});
+  }
+  return json;
+}
+
+}  // namespace trackbed

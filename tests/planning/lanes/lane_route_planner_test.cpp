@@ -1,0 +1,151 @@
+#include "trackbed/planning/lanes/lane_route_planner.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/road_network/documents.h"
+#include "tests/tolerance.h"
+#include "tests/vehicle/reference_car.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/registry/planners.h"
+
+namespace trackbed {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::shared_ptr<const RoadNetwork> Shared(RoadNetwork network) {
+  return std::make_shared<const RoadNetwork>(std::move(network));
+}
+
+std::shared_ptr<const RoadNetwork> CrossingRoads() {
+  return Shared(ReadOpenDrive(std::string(TRACKBED_SOURCE_DIR) + "/scenarios/roads/crossing.xodr"));
+}
+
+/// From the west around the loop and back, for a car that stands at the beginning.
+PlanRequest AroundTheLoop() {
+  PlanRequest request;
+  request.vehicle = ReferenceCar();
+  request.lanes = {CrossingRoads(), {{"1", -1, 10.0}, {"2", -1, 90.0}, {"1", 1, 20.0}}};
+  request.start = PoseAt(*request.lanes.network, request.lanes.route.front());
+  request.speed = {.speed = 5.0, .acceleration = 1.0, .deceleration = 1.5};
+  return request;
+}
+
+Plan PlanOf(const PlanRequest& request) {
+  return MakePlan(request, LaneRouteOptions{});
+}
+
+TEST(LaneRoutePlanner, FollowsTheLanesFromPlaceToPlace) {
+  const PlanRequest request = AroundTheLoop();
+  const Plan plan = PlanOf(request);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const LaneRoute route = FindLaneRoute(*request.lanes.network, request.lanes.route);
+  EXPECT_EQ(plan.reference.path.segments(), route.path.segments());
+  const Pose2 goal = PoseAt(*request.lanes.network, request.lanes.route.back());
+  EXPECT_NEAR((plan.goal.position() - goal.position()).norm(), 0.0, Tolerance(1e-6));
+  EXPECT_NEAR(AngleDifference(plan.goal.yaw, goal.yaw), 0.0, Tolerance(1e-6));
+  EXPECT_EQ(plan.reference.speed.SpeedAt(plan.reference.path.length()), 0.0);
+  for (const SteeringSchedule::Knot& knot : plan.schedule.knots()) {
+    EXPECT_LE(std::abs(knot.steering), request.vehicle.steering_limit);
+  }
+}
+
+TEST(LaneRoutePlanner, SaysWhichLanesItTakes) {
+  const nlohmann::json found = DiagnosticsJson(PlanOf(AroundTheLoop()));
+  const auto& lanes = found.at("lanes");
+  ASSERT_EQ(lanes.size(), 6U);
+  EXPECT_EQ(lanes.front().at("road"), "1");
+  EXPECT_EQ(lanes.back().at("lane"), 1);
+  EXPECT_EQ(lanes.back().at("to_m"), 20.0);
+  EXPECT_LE(found.at("deviation_max_m").get<double>(), 1e-6);
+}
+
+void ExpectRefused(const PlanRequest& request, PlanStatus status, const std::string& why) {
+  const Plan plan = PlanOf(request);
+  EXPECT_EQ(plan.status, status) << ToString(plan.status);
+  EXPECT_THAT(plan.reason, HasSubstr(why));
+  EXPECT_EQ(plan.reference.path.length(), 0.0);
+  EXPECT_TRUE(plan.schedule.knots().empty());
+}
+
+TEST(LaneRoutePlanner, RefusesRoutesThatAreNone) {
+  PlanRequest request = AroundTheLoop();
+  request.lanes.route.resize(1);
+  ExpectRefused(request, PlanStatus::kNoPath, "a route of at least two places");
+  request = AroundTheLoop();
+  request.lanes.network = nullptr;
+  ExpectRefused(request, PlanStatus::kNoPath, "needs a road network");
+  request = AroundTheLoop();
+  request.lanes.route[1].lane = -4;
+  ExpectRefused(request, PlanStatus::kNoPath, "road 2 has no lane -4");
+  request = AroundTheLoop();
+  request.lanes.route = {{"1", 1, 30.0}, {"3", -1, 10.0}};
+  ExpectRefused(request, PlanStatus::kNoPath, "no linked lanes lead");
+}
+
+TEST(LaneRoutePlanner, RefusesACarThatStandsElsewhere) {
+  PlanRequest request = AroundTheLoop();
+  request.start.y += 0.5;
+  ExpectRefused(request, PlanStatus::kStartBlocked, "the car starts 0.5 m and 0 rad from where");
+  request = AroundTheLoop();
+  request.start.yaw += 0.1;
+  ExpectRefused(request, PlanStatus::kStartBlocked, "and 0.1 rad from where");
+}
+
+TEST(LaneRoutePlanner, RefusesLanesThatTheCarCannotSteerThrough) {
+  PlanRequest request = AroundTheLoop();
+  request.vehicle.steering_limit = 0.05;
+  ExpectRefused(request, PlanStatus::kTurnTooTight, "exceeds the limit of 0.050 rad");
+}
+
+TEST(LaneRoutePlanner, RefusesRoadsThatAreNotLevel) {
+  const std::string rest = " c='0' d='0'/>";
+  for (const std::string& heights :
+       {"<elevationProfile><elevation s='0' a='0' b='0.01'" + rest + "</elevationProfile>",
+        "<lateralProfile><superelevation s='0' a='0.01' b='0'" + rest + "</lateralProfile>",
+        std::string("<lateralProfile><shape s='0' t='0' a='0' b='0' c='0' d='0'/>"
+                    "</lateralProfile>")}) {
+    RoadText road;
+    road.heights = heights;
+    PlanRequest request = AroundTheLoop();
+    request.lanes = {Shared(ParseNetwork(road.Xml())), {{"1", -1, 10.0}, {"1", -1, 60.0}}};
+    request.start = {10.0, -1.75, 0.0};
+    ExpectRefused(request, PlanStatus::kInfeasible, "only level roads are driven");
+  }
+}
+
+TEST(LaneRoutePlanner, DrivesLevelRoadsAtAnyHeightButNotSteps) {
+  const auto at = [](const std::string& height) {
+    return "<elevationProfile><elevation s='0' a='" + height +
+           "' b='0' c='0' d='0'/></elevationProfile>";
+  };
+  RoadText first;
+  first.heights = at("3");
+  first.link = "<successor elementType='road' elementId='2' contactPoint='start'/>";
+  first.lanes =
+      "<laneSection s='0'><center><lane id='0'/></center><right><lane id='-1' type='driving'>"
+      "<link><successor id='-1'/></link><width sOffset='0' a='3.5' b='0' c='0' d='0'/></lane>"
+      "</right></laneSection>";
+  RoadText second;
+  second.id = "2";
+  second.geometry = "<geometry s='0' x='100' y='0' hdg='0' length='100'><line/></geometry>";
+  second.heights = at("3");
+  PlanRequest request = AroundTheLoop();
+  request.lanes = {Shared(ParseNetwork(first.Xml() + second.Xml())),
+                   {{"1", -1, 10.0}, {"2", -1, 60.0}}};
+  request.start = {10.0, -1.75, 0.0};
+  EXPECT_TRUE(PlanOf(request).ok());
+  second.heights = at("3.5");
+  request.lanes.network = Shared(ParseNetwork(first.Xml() + second.Xml()));
+  ExpectRefused(request, PlanStatus::kInfeasible, "road 1 is at 3 m, road 2 at 3.5 m");
+}
+
+}  // namespace
+}  // namespace trackbed

@@ -1,0 +1,112 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/road_network/documents.h"
+#include "tests/support/temp_folder.h"
+#include "tests/tolerance.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/scenario/scenario.h"
+
+// Scenarios on road networks.
+namespace trackbed {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kOnRoads = R"(schema: 1
+name: on_roads
+world: {road_network: roads.xodr}
+mission:
+  speed: 5
+  route:
+    - {road: 1, lane: 1, s: 80}
+    - {road: 1, lane: 1, s: 20}
+plan: {method: lane_route}
+)";
+
+/// A folder with the network of one straight road, roads.xodr.
+struct RoadFolder {
+  TempFolder folder;
+
+  RoadFolder() { folder.Write("roads.xodr", Document(RoadText{}.Xml())); }
+
+  [[nodiscard]] Scenario Read(const std::vector<Override>& overrides = {}) const {
+    return ParseScenario(kOnRoads, "test.yaml", folder.path(), overrides);
+  }
+
+  [[nodiscard]] std::string WhyNot(const std::vector<Override>& overrides) const {
+    try {
+      static_cast<void>(Read(overrides));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+TEST(Roads, AreReadWithTheirRoute) {
+  const RoadFolder here;
+  const Scenario scenario = here.Read();
+  ASSERT_TRUE(scenario.world.road_network && scenario.world.road_network->data);
+  EXPECT_EQ(scenario.world.road_network->data->network.roads.size(), 1U);
+  ASSERT_EQ(scenario.mission.route.size(), 2U);
+  EXPECT_EQ(scenario.mission.route[0], (LanePlace{"1", 1, 80.0}));
+}
+
+TEST(Roads, AreWhereTheCarStarts) {
+  // On the left lane, against the road.
+  const Pose2 start = InitialState(RoadFolder().Read()).pose;
+  EXPECT_NEAR(start.x, 80.0, Tolerance(1e-12));
+  EXPECT_NEAR(start.y, 1.75, Tolerance(1e-12));
+  EXPECT_NEAR(std::abs(start.yaw), kPi, Tolerance(1e-12));
+  EXPECT_EQ(InitialState(RoadFolder().Read({"mission.start={y: 2}"})).pose.y, 2.0);
+}
+
+TEST(Roads, StayBesideTheResolvedScenario) {
+  const RoadFolder here;
+  const Scenario scenario = here.Read();
+  const std::string once = ResolvedYaml(scenario);
+  EXPECT_THAT(once, HasSubstr("road_network: road_network.xodr\n"));
+  const TempFolder elsewhere;
+  elsewhere.Write("road_network.xodr", scenario.world.road_network->data->text);
+  EXPECT_EQ(once, ResolvedYaml(ParseScenario(once, "resolved.yaml", elsewhere.path())));
+}
+
+TEST(Roads, MustLieWithTheScenario) {
+  const RoadFolder here;
+  EXPECT_THAT(here.WhyNot({"world.road_network=../roads.xodr"}),
+              HasSubstr("world.road_network: ../roads.xodr"));
+  EXPECT_THAT(here.WhyNot({"world.road_network=gone.xodr"}), HasSubstr("gone.xodr"));
+  here.folder.Write("broken.xodr", "<OpenDRIVE>");
+  EXPECT_THAT(here.WhyNot({"world.road_network=broken.xodr"}), HasSubstr("broken.xodr:1: not XML"));
+}
+
+TEST(Roads, AndTheirRouteGoTogether) {
+  const RoadFolder here;
+  EXPECT_THAT(here.WhyNot({"world={}"}),
+              HasSubstr("world.road_network: missing; the planner lane_route follows its lanes"));
+  EXPECT_THAT(here.WhyNot({"mission={speed: 5}"}),
+              HasSubstr("mission.route: none given; the planner lane_route needs at least 2"));
+  EXPECT_THAT(here.WhyNot({"plan={method: course, segments: [{length: 9, curvature: 0}]}"}),
+              HasSubstr("mission.route: needs plan: {method: lane_route}"));
+  EXPECT_THAT(here.WhyNot({"mission.waypoints=[[0, 0], [1, 1]]"}),
+              HasSubstr("the planner lane_route defines its own course"));
+}
+
+TEST(Roads, HaveThePlacesOfTheirRoute) {
+  const RoadFolder here;
+  EXPECT_THAT(here.WhyNot({"mission.route[1].lane=2"}),
+              HasSubstr("mission.route[1]: road 1 has no lane 2"));
+  EXPECT_THAT(here.WhyNot({"mission.route[0].road=7"}), HasSubstr("unknown road '7'"));
+  EXPECT_THAT(here.WhyNot({"mission.route[0].s=101"}), HasSubstr("must be between 0 and 100 m"));
+  EXPECT_THAT(here.WhyNot({"mission.route[0]={road: 1, lane: 1}"}),
+              HasSubstr("mission.route[0].s: missing"));
+}
+
+}  // namespace
+}  // namespace trackbed
