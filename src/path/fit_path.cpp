@@ -167,18 +167,19 @@ void FitPolyline(const ChordPoints& chords, double period, FittedPath& fitted,
   }
 }
 
-/// The largest distance of the given points from the spline.
-double Deviation(const SmoothingSpline& spline, const DistinctPoints& distinct) {
+/// The largest distance of points from the spline.
+double Deviation(const SmoothingSpline& spline, const ChordPoints& points) {
   double deviation = 0.0;
-  for (std::size_t i = 0; i < distinct.chords.u.size(); ++i) {
-    deviation =
-        std::max(deviation, (spline.At(distinct.chords.u[i]) - distinct.chords.points[i]).norm());
+  for (std::size_t i = 0; i < points.u.size(); ++i) {
+    deviation = std::max(deviation, (spline.At(points.u[i]) - points.points[i]).norm());
   }
   return deviation;
 }
 
-/// Fits with the largest smoothing length that keeps within `tolerance` [m], which it gives back.
-double FitWithin(SmoothingSpline& spline, const DistinctPoints& distinct, double tolerance) {
+/// Fits with the largest smoothing length, which it gives back, that keeps within `tolerance` [m]
+/// of the points that were given and of those that are fitted.
+double FitWithin(SmoothingSpline& spline, const ChordPoints& given, const ChordPoints& fitted,
+                 double tolerance) {
   const std::vector<double>& knots = spline.knots();
   const double length = knots.back() - knots.front();
   double least = length;
@@ -190,7 +191,7 @@ double FitWithin(SmoothingSpline& spline, const DistinctPoints& distinct, double
     if (!spline.Fit(smoothing)) {
       return false;
     }
-    const double deviation = Deviation(spline, distinct);
+    const double deviation = std::max(Deviation(spline, given), Deviation(spline, fitted));
     smallest_deviation = std::min(smallest_deviation, deviation);
     return deviation <= tolerance;
   };
@@ -252,7 +253,7 @@ void FitSpline(const ChordPoints& knots, const DistinctPoints& distinct, FittedP
   const double tolerance = fitted.options.max_deviation;
   SmoothingSpline spline(knots, distinct.period);
   // A little is left for the segments, which follow the spline.
-  fitted.smoothing_length = FitWithin(spline, distinct, 0.95 * tolerance);
+  fitted.smoothing_length = FitWithin(spline, distinct.chords, knots, 0.95 * tolerance);
   const Vec2 start = spline.At(spline.knots().front());
   double spacing = kSpacing;
   for (int halvings = 0; halvings <= kFinest; ++halvings, spacing *= 0.5) {
@@ -267,7 +268,8 @@ void FitSpline(const ChordPoints& knots, const DistinctPoints& distinct, FittedP
       stations.push_back(StationOf(sampled, spline.knots(), fitted.path, distinct.chords.u[i],
                                    distinct.chords.points[i]));
     }
-    if (LargestDeviation(fitted.path, distinct.chords, stations).first <= tolerance) {
+    if (LargestDeviation(fitted.path, distinct.chords, stations).first <= tolerance &&
+        LargestDeviation(fitted.path, knots, sampled.knot_stations).first <= tolerance) {
       return;
     }
   }

@@ -422,15 +422,21 @@ std::size_t Combinations() {
 Scenario RandomScenario(std::size_t index, int attempt) {
   const std::vector<ControllerOptions> controllers = PathFollowers();
   const std::vector<PlannerEntry> planners = AuditedPlanners();
-  const std::size_t pairs = planners.size() * controllers.size();
-  const PlannerEntry& planner = planners[index % planners.size()];
-  const ControllerOptions& controller = controllers[index / planners.size() % controllers.size()];
-  const std::string plant = kPlantsInTurn[(index + index / pairs) % kPlantsInTurn.size()];
+  const std::size_t turn = index / planners.size();
+  const std::size_t place = index % planners.size();
+  const PlannerEntry& planner = planners[place];
+  const ControllerOptions& controller = controllers[turn % controllers.size()];
+  const std::string plant =
+      kPlantsInTurn[(place + turn / controllers.size()) % kPlantsInTurn.size()];
+  // A planner that is added does not change the scenarios of those before it.
+  constexpr std::size_t kFirstPlanners = 8;
+  const std::size_t number =
+      place < kFirstPlanners ? kFirstPlanners * turn + place : 1'000'000U * place + turn;
 
-  Generator generator{Dice(1000003U * index + static_cast<std::uint64_t>(attempt))};
+  Generator generator{Dice(1000003U * number + static_cast<std::uint64_t>(attempt))};
   Scenario& scenario = generator.scenario;
   scenario.name = fmt::format("audit_{}", index);
-  scenario.seed = index;
+  scenario.seed = number;
   scenario.control.steering = controller;
   scenario.drive.plants = {plant};
   generator.Vehicle();

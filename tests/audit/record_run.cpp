@@ -8,6 +8,7 @@
 
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/registry/planners.h"
+#include "trackbed/scenario/initial_state.h"
 #include "trackbed/sim/car_model.h"
 
 namespace audit {
@@ -75,8 +76,8 @@ Car CarFrom(const trackbed::CarModel& model) {
   return car;
 }
 
-Mission MissionFrom(const trackbed::Scenario& scenario) {
-  const trackbed::StartState start = trackbed::InitialState(scenario);
+Mission MissionFrom(const trackbed::Scenario& scenario, const trackbed::VehicleParams& vehicle) {
+  const trackbed::StartState start = trackbed::InitialState(scenario, vehicle);
   Mission mission{.start = {0.0, start.pose.x, start.pose.y, start.pose.yaw},
                   .start_speed = start.speed,
                   .start_steering = start.steering,
@@ -130,7 +131,7 @@ Record RecordRun(trackbed::Scenario scenario) {
   const trackbed::RunResult result = trackbed::RunMission(scenario, model);
   Record record{.name = scenario.name, .plan_ok = result.plan.ok(), .blocked = result.plan.blocked};
   record.car = CarFrom(model);
-  record.mission = MissionFrom(scenario);
+  record.mission = MissionFrom(scenario, model.unladen());
   record.plan = Table(kPlanColumns);
   if (record.plan_ok) {
     AddPlan(record.plan, result.plan, std::nullopt);

@@ -240,6 +240,25 @@ TEST(FitPath, ResamplesWithinItsDeviation) {
   EXPECT_EQ(lines.jumps.size(), 19U);
 }
 
+// Of a spline through corners 5 m apart, resampled points keep to the lines between them.
+TEST(FitPath, KeepsToTheLinesIfResampled) {
+  PathPoints given;
+  given.points = {{0.0, 0.0}, {5.0, 0.0}, {10.0, 0.0}, {10.0, 5.0}, {10.0, 10.0}};
+  const auto bulge = [&](const PathFitOptions& options) {
+    double largest = 0.0;
+    for (const PathPoint& point : FitPath(given, options).path.Sample(0.05)) {
+      const Vec2 at = point.pose.position();
+      const double first = std::hypot(at.y(), std::max(0.0, at.x() - 10.0));
+      const double second = std::hypot(at.x() - 10.0, std::max(0.0, -at.y()));
+      largest = std::max(largest, std::min(first, second));
+    }
+    return largest;
+  };
+  EXPECT_GT(bulge({.max_deviation = 0.05}), 0.3);
+  // At the fitted points 0.05 m, and between them no bulge that is as large.
+  EXPECT_LE(bulge({.max_deviation = 0.05, .resample = 0.25}), 0.075);
+}
+
 TEST(FitPath, NamesThePointWhereAPathTurnsBack) {
   PathPoints given;
   given.points = {{0.0, 0.0}, {10.0, 0.0}, {12.5, 0.0}, {3.0, 0.1}};

@@ -82,8 +82,9 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// to a tenth too large beside.
 ///
 /// Guarantees: no point lies further than max_deviation from the path's point at its station, which
-/// is measured on the path itself. Does not keep clear of obstacles, nor within what a car can
-/// drive.
+/// is measured on the path itself; and with `resample` no point of those on the straight lines.
+/// Between points far apart a spline bulges, beside corners by a tenth of their distance and more.
+/// Does not keep clear of obstacles, nor within what a car can drive.
 ///
 /// Errors: InputError naming the first point whose heading is opposite to the direction of travel,
 /// for fewer than two different points, more than 200 000 to be fitted, and a deviation that cannot

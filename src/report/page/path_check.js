@@ -27,8 +27,9 @@ function drawPathCheckHead(check) {
   const most = check.max_speed_mps;
   facts(header, [
     `vehicle ${check.vehicle}`,
-    `${brief(check.length_m)} m, ${check.points} points`,
-    check.fit,
+    check.length_m > 0 && `${brief(check.length_m)} m`,
+    `${check.points} points`,
+    check.fit !== 'none' && check.fit,
     most === null ? 'no limit of speed'
       : most > 0 ? `drivable up to ${brief(most)} m/s (${faultNames[check.max_speed_limit]} at s = ${brief(check.max_speed_s_m)} m)`
         : `drivable at no speed (${faultNames[check.max_speed_limit]} at s = ${brief(check.max_speed_s_m)} m)`,
