@@ -13,8 +13,8 @@ namespace trackbed {
 namespace {
 
 constexpr double kSamePlace = 1e-9;  // [m]
-/// Stations closer than this are one [m].
-constexpr double kMerged = 1e-3;
+/// Stations closer than this share of the spacing are one.
+constexpr double kMerged = 0.002;
 
 double LargerOf(double a, double b) {
   return std::abs(a) > std::abs(b) ? a : b;
@@ -29,7 +29,7 @@ std::vector<LimitStation> Nodes(const std::vector<Segment>& segments, double fro
     for (double i = 0.0; i <= pieces; i += 1.0) {
       const double d = segment.length * i / pieces;
       const double curvature = segment.CurvatureAt(d);
-      if (!nodes.empty() && start + d < nodes.back().s + kMerged) {
+      if (!nodes.empty() && start + d < nodes.back().s + kMerged * spacing) {
         nodes.back().curvature = LargerOf(nodes.back().curvature, curvature);
       } else {
         nodes.push_back({.s = start + d, .curvature = curvature});
@@ -181,7 +181,10 @@ std::vector<LimitStation> StationsAlong(const Path& path, const Stations& part,
   if (beyond > kSamePlace) {
     segments.push_back({.length = beyond});
   }
-  const double spacing = std::min(0.5, 0.2 * request.vehicle.wheelbase);
+  // A short part from rest to rest needs some stations in between, too.
+  constexpr double kPieces = 16.0;
+  const double spacing =
+      std::min({0.5, 0.2 * request.vehicle.wheelbase, (part.to - part.from) / kPieces});
   std::vector<LimitStation> stations = Nodes(segments, part.from, spacing);
   const Surface surface(path, request);
   for (LimitStation& at : stations) {

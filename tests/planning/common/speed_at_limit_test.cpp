@@ -93,6 +93,15 @@ TEST(SpeedAtLimit, StopsAtCuspsAndStops) {
   EXPECT_GT(stops.reference.speed.SpeedAt(16.0), 3.0);
 }
 
+TEST(SpeedAtLimit, DrivesPartsThatAreShorterThanTheSpacing) {
+  // 0.2 m from rest to rest: 2 sqrt(d/a).
+  const PlanRequest request = Request();
+  Plan plan = PlanAlong({{.length = 0.2}, {.length = 0.2, .direction = -1}}, request);
+  plan = MakeFeasible(plan, request);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_NEAR(plan.reference.speed.TimeAt(0.4), 4.0 * std::sqrt(0.2 / kGrip), Tolerance(1e-3));
+}
+
 TEST(SpeedAtLimit, KeepsCapsOfThePlanAndTheMissionsSpeed) {
   PlanRequest request = Request();
   request.speed.speed = 12.0;
