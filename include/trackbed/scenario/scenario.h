@@ -19,7 +19,7 @@
 #include "trackbed/scenario/disturbances.h"
 #include "trackbed/scenario/maneuver.h"
 #include "trackbed/scenario/record.h"
-#include "trackbed/scenario/track_spec.h"
+#include "trackbed/scenario/track_options.h"
 #include "trackbed/sim/plant_options.h"
 #include "trackbed/world/world.h"
 

@@ -1,12 +1,11 @@
 #include <IpStdCInterface.h>
 
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <type_traits>
 
+#include "src/optimize/ipopt/ipopt.h"
 #include "trackbed/core/error.h"
-#include "trackbed/optimize/sparse_quadratic_program.h"
 
 namespace trackbed {
 namespace {
@@ -83,24 +82,6 @@ Bool CountIteration(Index /*mode*/, Index iteration, Number /*objective*/, Numbe
   return TRUE;
 }
 
-void CheckProgram(const SparseQuadraticProgram& program, const Eigen::VectorXd& start) {
-  const Eigen::Index n = program.linear.size();
-  const Eigen::Index m = program.lower.size();
-  TRACKBED_REQUIRE(n > 0 && program.hessian.rows() == n && program.hessian.cols() == n &&
-                       program.constraints.cols() == n && program.constraints.rows() == m &&
-                       program.upper.size() == m && start.size() == n,
-                   "Solve: H of {} x {}, G of {} x {}, {} and {} bounds, {} variables, a start of "
-                   "{}; must agree",
-                   program.hessian.rows(), program.hessian.cols(), program.constraints.rows(),
-                   program.constraints.cols(), m, program.upper.size(), n, start.size());
-  const bool finite = program.linear.allFinite() && program.lower.allFinite() &&
-                      program.upper.allFinite() && start.allFinite() &&
-                      program.hessian.coeffs().allFinite() &&
-                      program.constraints.coeffs().allFinite();
-  TRACKBED_REQUIRE(finite && (program.lower.array() < program.upper.array()).all(),
-                   "Solve: a number is not finite, or a lower bound is not below the upper one");
-}
-
 void SetOptions(IpoptProblem problem) {
   const auto set_text = [&](std::string name, std::string value) {
     TRACKBED_CHECK(AddIpoptStrOption(problem, name.data(), value.data()) == TRUE, "{}", name);
@@ -123,41 +104,31 @@ void SetOptions(IpoptProblem problem) {
 
 }  // namespace
 
-SparseQuadraticSolution Solve(const SparseQuadraticProgram& program, const Eigen::VectorXd& start) {
-  SparseQuadraticProgram packed = program;
-  packed.hessian.makeCompressed();
-  packed.constraints.makeCompressed();
-  CheckProgram(packed, start);
-  const auto n = static_cast<Index>(packed.linear.size());
-  const auto m = static_cast<Index>(packed.lower.size());
-  Context context{.program = packed,
-                  .lower_triangle = packed.hessian.triangularView<Eigen::Lower>()};
+IpoptResult SolveByIpopt(const SparseQuadraticProgram& program, const Eigen::VectorXd& start) {
+  const auto n = static_cast<Index>(program.linear.size());
+  const auto m = static_cast<Index>(program.lower.size());
+  Context context{.program = program,
+                  .lower_triangle = program.hessian.triangularView<Eigen::Lower>()};
   constexpr double kUnbounded = 2e19;
   Eigen::VectorXd x_lower = Eigen::VectorXd::Constant(n, -kUnbounded);
   Eigen::VectorXd x_upper = Eigen::VectorXd::Constant(n, kUnbounded);
-  Eigen::VectorXd lower = packed.lower;
-  Eigen::VectorXd upper = packed.upper;
+  Eigen::VectorXd lower = program.lower;
+  Eigen::VectorXd upper = program.upper;
   const std::unique_ptr<std::remove_pointer_t<IpoptProblem>, void (*)(IpoptProblem)> problem(
       CreateIpoptProblem(n, x_lower.data(), x_upper.data(), m, lower.data(), upper.data(),
-                         static_cast<Index>(packed.constraints.nonZeros()),
+                         static_cast<Index>(program.constraints.nonZeros()),
                          static_cast<Index>(context.lower_triangle.nonZeros()), 0, Objective,
                          Constraints, Gradient, Jacobian, Hessian),
       FreeIpoptProblem);
   TRACKBED_CHECK(problem != nullptr, "IPOPT refuses a program of {} variables", n);
   SetOptions(problem.get());
   SetIntermediateCallback(problem.get(), CountIteration);
-
-  SparseQuadraticSolution solution{.x = start};
-  const ApplicationReturnStatus status = IpoptSolve(problem.get(), solution.x.data(), nullptr,
+  IpoptResult result{.x = start};
+  const ApplicationReturnStatus status = IpoptSolve(problem.get(), result.x.data(), nullptr,
                                                     nullptr, nullptr, nullptr, nullptr, &context);
-  solution.iterations = context.iterations;
-  const Eigen::VectorXd values = packed.constraints * solution.x;
-  const double largest =
-      std::max({1.0, lower.lpNorm<Eigen::Infinity>(), upper.lpNorm<Eigen::Infinity>()});
-  solution.violation = std::max({0.0, (lower - values).maxCoeff(), (values - upper).maxCoeff()});
-  solution.ok = (status == Solve_Succeeded || status == Solved_To_Acceptable_Level) &&
-                solution.x.allFinite() && solution.violation <= 1e-7 * largest;
-  return solution;
+  result.solved = status == Solve_Succeeded || status == Solved_To_Acceptable_Level;
+  result.iterations = context.iterations;
+  return result;
 }
 
 }  // namespace trackbed
