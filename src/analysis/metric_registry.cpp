@@ -111,7 +111,8 @@ std::optional<MetricInfo> DescribeTurnMetric(std::string_view key, int index) {
 std::optional<MetricInfo> DescribeLapMetric(std::string_view key, int index) {
   for (const LapMetricEntry& entry : LapMetricTable()) {
     if (key == entry.key) {
-      return MetricInfo{fmt::format("Lap {}: {}", index + 1, entry.label), entry.unit, true};
+      return MetricInfo{fmt::format("Lap {}: {}", index + 1, entry.label), entry.unit,
+                        key == "time"};
     }
   }
   return std::nullopt;
