@@ -47,8 +47,8 @@ TEST(RunFolder, NamesItsFilesAsDocumented) {
                                                              "kinematic.plan.json",
                                                              "kinematic.tree.csv",
                                                              "mujoco-magic_formula.state.csv"}));
-  // Five of each plant, and the nineteen others.
-  EXPECT_EQ(run_folder::AllNames().size(), 5 * DrivenPlantNames().size() + 19);
+  // Five of each plant, and the twenty-three others.
+  EXPECT_EQ(run_folder::AllNames().size(), 5 * DrivenPlantNames().size() + 23);
   EXPECT_STREQ(run_folder::kSweepCsv, "sweep.csv");
   EXPECT_STREQ(run_folder::kSweepJson, "sweep.json");
 }
