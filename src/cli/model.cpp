@@ -11,6 +11,7 @@
 
 #include "src/cli/scenario_options.h"
 #include "src/cli/verbs.h"
+#include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/table.h"
@@ -147,8 +148,8 @@ Table GgvTable(const GgvDiagram& diagram) {
   for (const double speed : GgvSpeeds(diagram)) {
     const double lateral = diagram.MaxLateral({.speed = speed});
     for (int i = -kSteps; i <= kSteps; ++i) {
-      const double u = static_cast<double>(i) / kSteps;
-      const double own = lateral * std::sqrt(1.0 - u * u);
+      const double angle = 0.5 * kPi * i / kSteps;
+      const double own = std::abs(i) == kSteps ? 0.0 : lateral * std::cos(angle);
       const AccelerationRange range = diagram.AccelerationsAt({.speed = speed, .lateral = own});
       table.AddRow({speed, own, i < 0 ? range.smallest : range.largest});
     }
