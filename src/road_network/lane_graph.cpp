@@ -7,21 +7,6 @@
 #include <tuple>
 
 namespace trackbed {
-namespace {
-
-/// Where traffic leaves the road of the node.
-RoadEnd ExitOf(const LaneNode& node) {
-  return node.follows_road() ? RoadEnd::kEnd : RoadEnd::kStart;
-}
-
-/// Whether a road of a junction begins at that end of the incoming road. A road whose both ends are
-/// at one junction has connections for either, which only the connecting road tells apart.
-bool BeginsAt(const Road& connecting, RoadEnd contact, const std::string& incoming, RoadEnd end) {
-  const auto& link = contact == RoadEnd::kStart ? connecting.predecessor : connecting.successor;
-  return !link || link->is_junction || (link->id == incoming && link->contact == end);
-}
-
-}  // namespace
 
 LaneGraph::LaneGraph(const RoadNetwork& network) : network_(network) {
   for (const auto& [id, road] : network.roads) {
@@ -61,7 +46,7 @@ void LaneGraph::AddLink(std::size_t from, const Road& road, RoadEnd contact, int
   }
 }
 
-void LaneGraph::AddJunction(std::size_t index, const std::string& id, RoadEnd end) {
+void LaneGraph::AddJunction(std::size_t index, const std::string& id) {
   const LaneNode& node = nodes_[index];
   const auto junction = network_.junctions.find(id);
   if (junction == network_.junctions.end()) {
@@ -69,10 +54,10 @@ void LaneGraph::AddJunction(std::size_t index, const std::string& id, RoadEnd en
   }
   for (const JunctionConnection& connection : junction->second.connections) {
     const auto road = network_.roads.find(connection.connecting);
-    if (connection.incoming != node.road->id || road == network_.roads.end() ||
-        !BeginsAt(road->second, connection.contact, node.road->id, end)) {
+    if (connection.incoming != node.road->id || road == network_.roads.end()) {
       continue;
     }
+    // Of a road with both ends at one junction the lane's number tells which end is left.
     for (const auto& [from, to] : connection.lane_links) {
       if (from == node.lane) {
         AddLink(index, road->second, connection.contact, to);
@@ -101,7 +86,7 @@ void LaneGraph::AddLinks(std::size_t index) {
     return;
   }
   if (link->is_junction) {
-    AddJunction(index, link->id, ExitOf(node));
+    AddJunction(index, link->id);
     return;
   }
   const auto next = network_.roads.find(link->id);

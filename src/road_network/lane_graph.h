@@ -39,7 +39,7 @@ class LaneGraph {
 
  private:
   void AddLinks(std::size_t index);
-  void AddJunction(std::size_t index, const std::string& id, RoadEnd end);
+  void AddJunction(std::size_t index, const std::string& id);
   /// A link to a lane of a road that is entered at `contact`.
   void AddLink(std::size_t from, const Road& road, RoadEnd contact, int lane);
 
