@@ -67,9 +67,9 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
   const double error = profile.SpeedAt(s) - speed;
   const double hard = on_purpose(-feed_forward) ? -kCatchUp * feed_forward : 0.0;
   const double hardest = std::min(std::max(2.0 * options.deceleration, hard), limit);
-  const double strongest = feed_forward > kOnPurpose * options.acceleration
-                               ? kCatchUp * feed_forward
-                               : options.acceleration;
+  // Of the profile itself: the mean over a period that leaves rest may be above it.
+  const double strongest =
+      at_middle > kOnPurpose * options.acceleration ? kCatchUp * at_middle : options.acceleration;
   return std::clamp(feed_forward + options.gain * error, -hardest, strongest);
 }
 
