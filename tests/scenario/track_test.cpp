@@ -19,7 +19,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr const char* kScenario =
+constexpr const char* kLapScenario =
     "schema: 1\n"
     "name: laps\n"
     "mission: {speed: 10, track: {file: ring.csv, laps: 2, smoothing: 30}}\n"
@@ -32,7 +32,7 @@ std::vector<TrackPoint> Ring() {
 TEST(MissionTrack, IsReadAndStartsOnItsLine) {
   const TempFolder folder;
   folder.Write("ring.csv", TrackCsv(Ring()));
-  const Scenario scenario = ParseScenario(kScenario, "laps.yaml", folder.path());
+  const Scenario scenario = ParseScenario(kLapScenario, "laps.yaml", folder.path());
   ASSERT_TRUE(scenario.mission.track && scenario.mission.track->data);
   EXPECT_EQ(scenario.mission.track->laps, 2);
   EXPECT_EQ(scenario.mission.track->data->points(), Ring());
@@ -41,7 +41,7 @@ TEST(MissionTrack, IsReadAndStartsOnItsLine) {
   EXPECT_EQ(start.pose, scenario.mission.track->data->At(0.0).pose);
   EXPECT_EQ(start.speed, 10.0);  // flying
   const Scenario at_rest =
-      ParseScenario(kScenario, "laps.yaml", folder.path(), {"mission.start={x: 38, speed: 0}"});
+      ParseScenario(kLapScenario, "laps.yaml", folder.path(), {"mission.start={x: 38, speed: 0}"});
   EXPECT_EQ(InitialState(at_rest).pose.x, 38.0);
   EXPECT_EQ(InitialState(at_rest).speed, 0.0);
 }
@@ -51,7 +51,7 @@ TEST(MissionTrack, ResolvesToItsOwnFile) {
   std::filesystem::create_directories(folder.path() / "data");
   folder.Write("data/ring.csv", TrackCsv(Ring()));
   const Scenario scenario =
-      ParseScenario(kScenario, "laps.yaml", folder.path(), {"mission.track.file=data/ring.csv"});
+      ParseScenario(kLapScenario, "laps.yaml", folder.path(), {"mission.track.file=data/ring.csv"});
   const std::string resolved = ResolvedYaml(scenario);
   EXPECT_THAT(resolved, HasSubstr("file: track.csv"));
   const std::filesystem::path run = folder.path() / "run";
@@ -68,7 +68,7 @@ TEST(MissionTrack, MayLieInAFolderThatIsAllowed) {
   std::filesystem::create_directories(folder.path() / "there");
   const std::filesystem::path file = folder.Write("there/ring.csv", TrackCsv(Ring()));
   const auto read = [&](const std::vector<std::filesystem::path>& allowed) {
-    return ParseScenario(kScenario, "laps.yaml", folder.path() / "here",
+    return ParseScenario(kLapScenario, "laps.yaml", folder.path() / "here",
                          {"mission.track.file=" + file.string()}, {}, {}, allowed);
   };
   EXPECT_THROW(read({}), InputError);
@@ -81,7 +81,7 @@ TEST(MissionTrack, ReportsMistakesOfItsFileBesideThoseOfTheScenario) {
   points[3].width_left = -1.0;
   folder.Write("ring.csv", TrackCsv(points));
   try {
-    ParseScenario(kScenario, "laps.yaml", folder.path(), {"control={method: no_such}"});
+    ParseScenario(kLapScenario, "laps.yaml", folder.path(), {"control={method: no_such}"});
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("no_such"));
