@@ -2,7 +2,8 @@
 # A program that links static modules must link all that they use; one that links shared modules, and
 # its compiler, need only what public headers include.
 
-# Names of pkg-config's, or options for the linker: libcsv and MuJoCo have no .pc file. Boost is headers.
+# Names of pkg-config's, or options for the linker: libcsv and MuJoCo have no .pc file. Boost is
+# headers. Of proj.pc, `--static` would want libraries of curl that only static programs need.
 set(pkg_config_names
     fmt::fmt=fmt
     Eigen3::Eigen=eigen3
@@ -11,7 +12,7 @@ set(pkg_config_names
     ipopt::ipopt=-lipopt
     yaml-cpp=yaml-cpp
     tinyxml2::tinyxml2=tinyxml2
-    PROJ::proj=proj
+    PROJ::proj=-lproj
     muparser::muparser=muparser
     PNG::PNG=libpng
     Boost::headers=

@@ -18,6 +18,7 @@
 #include "trackbed/drive/run_log.h"
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/map_file.h"
+#include "trackbed/scenario/run_track.h"
 #include "trackbed/scenario/scenario.h"
 #include "trackbed/sim/compile_scene.h"
 #include "trackbed/sim/plant.h"
@@ -398,7 +399,8 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
     recording.road = RoadToDraw(recording.world, PlannerOf(folder / run_folder::kPlanJson));
   }
   if (const fs::path track = folder / kTrackCsv; fs::exists(track, ignored)) {
-    recording.track = ReadTrack(run_folder::RequireFile(track));
+    recording.track = ReadRunTrack(run_folder::RequireFile(track),
+                                   run_folder::RequireFile(folder / run_folder::kScenarioYaml));
   }
   if (recording.world.road_network) {
     constexpr double kSpacing = 1.0;  // [m]; 1 cm off an arc of 12 m

@@ -9,6 +9,7 @@
 #include "trackbed/analysis/metrics.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
+#include "trackbed/path_files/path_file.h"
 #include "trackbed/render/film.h"
 #include "trackbed/scenario/identification.h"
 #include "trackbed/scenario/map_file.h"
@@ -49,7 +50,7 @@ void AddFilesIn(const fs::path& folder, FolderContent content, std::vector<fs::p
     } else if (extension == ".yaml" || extension == ".yml") {
       const bool is_study = IsStudy(path) || IsIdentification(path);
       if ((content == FolderContent::kScenariosAndStudies || !is_study) && !IsLogMap(path) &&
-          !IsRosMap(path)) {
+          !IsRosMap(path) && !IsNavPathYaml(path)) {
         own.push_back(path);
       }
     }

@@ -5,6 +5,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <unsupported/Eigen/Splines>
+#include <utility>
 
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"

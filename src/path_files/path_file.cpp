@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "src/path_files/formats.h"
 #include "trackbed/core/error.h"
@@ -83,6 +85,21 @@ void AddSpeeds(PathPoints& points, const std::vector<double>& times, const std::
   }
   if (!points.speed.empty()) {
     points.speed.push_back(points.speed.back());
+  }
+}
+
+bool IsNavPathYaml(const fs::path& file) {
+  try {
+    const nlohmann::json root = ParseYamlText(ReadFile(file, kLargestText), file.string());
+    const auto has_poses = [](const nlohmann::json& node) {
+      return node.is_object() && node.contains("poses");
+    };
+    return has_poses(root) ||
+           (root.is_object() && root.contains("path") && has_poses(root.at("path")));
+  } catch (const InputError&) {
+    return false;
+  } catch (const RunError&) {
+    return false;
   }
 }
 

@@ -25,6 +25,7 @@
 #include "trackbed/planning/common/plan_status.h"
 #include "trackbed/report/names.h"
 #include "trackbed/scenario/map_file.h"
+#include "trackbed/scenario/run_track.h"
 #include "trackbed/scenario/scenario.h"
 #include "trackbed/sim/car_model.h"
 #include "trackbed/track/track_file.h"
@@ -241,9 +242,8 @@ ordered_json PlanJson(const fs::path& folder) {
 }
 
 /// The edges of a track, as many points of both.
-ordered_json EdgesJson(const fs::path& file) {
+ordered_json EdgesJson(const Track& track) {
   constexpr std::size_t kMostPoints = 2000;
-  const Track track = ReadTrack(run_folder::RequireFile(file));
   const auto line = [&](const TrackEdgeLine& edge) {
     const std::size_t step = edge.size() / kMostPoints + 1;
     ordered_json json{{"x", ordered_json::array()}, {"y", ordered_json::array()}};
@@ -345,7 +345,7 @@ ordered_json RunData(const fs::path& folder, const std::string& name, std::size_
         run["plan"]["road"] = {{"width", Rounded(road->width)}, {"lanes", road->lanes}};
       }
       if (const fs::path track = folder / kTrackCsv; fs::exists(track)) {
-        run["plan"]["edges"] = EdgesJson(track);
+        run["plan"]["edges"] = EdgesJson(ReadRunTrack(run_folder::RequireFile(track), scenario));
       }
     }
     run["plants"] = ordered_json::array();

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "src/road_network/road_reader.h"
 
@@ -107,6 +109,12 @@ void ReadSide(const XmlFields& section, const char* side, bool has_lane_offset, 
     const int id = unnamed.Integer("id");
     const XmlFields fields(element, fmt::format("{}.{}.lane[{}]", section.where(), side, id),
                            section.problems());
+    constexpr int kMostLanes = 100;  // on a side, as in mission.route
+    if (id < -kMostLanes || id > kMostLanes) {
+      fields.AddError("id", fmt::format("{} is out of range; must be at least {} and at most {}",
+                                        id, -kMostLanes, kMostLanes));
+      return;
+    }
     if ((name == "left") != (id > 0) || (name == "right") != (id < 0)) {
       fields.AddError("id", fmt::format("{} must be {} in <{}>", id,
                                         name == "left"    ? "above 0"

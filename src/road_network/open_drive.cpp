@@ -5,6 +5,7 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "src/road_network/road_reader.h"
 #include "src/road_network/xml_fields.h"

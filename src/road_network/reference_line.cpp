@@ -1,6 +1,7 @@
 #include "trackbed/road_network/reference_line.h"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>

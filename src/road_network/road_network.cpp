@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <string_view>
 
 #include "trackbed/core/error.h"
@@ -44,8 +45,8 @@ CubicValue Sum(const CubicValue& a, const CubicValue& b, double factor) {
 }  // namespace
 
 const Lane* LaneSection::Find(int lane) const {
-  const int index = lanes.empty() ? -1 : lanes.front().id - lane;
-  return index >= 0 && index < static_cast<int>(lanes.size())
+  const std::int64_t index = lanes.empty() ? -1 : std::int64_t{lanes.front().id} - lane;
+  return index >= 0 && index < static_cast<std::int64_t>(lanes.size())
              ? &lanes[static_cast<std::size_t>(index)]
              : nullptr;
 }

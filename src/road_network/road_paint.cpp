@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "trackbed/core/error.h"
 
@@ -139,7 +140,8 @@ class Painter {
         add(from, to);
         continue;
       }
-      for (double begin = from; begin < to; begin += kDashPeriod) {
+      const double period = std::max(kDashPeriod, 2.0 * spacing_);  // as few as points
+      for (double begin = from; begin < to; begin += period) {
         add(begin, std::min(begin + kDashLength, to));
       }
     }

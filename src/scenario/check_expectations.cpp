@@ -81,7 +81,10 @@ void CheckWhatIsMeasured(Diagnostics& c) {
       c.AddError(key, "goal and path expectations need a plan");
     }
     if (!has_obstacles && (expectation.min_clearance || expectation.collision.value_or(false))) {
-      c.AddError(key, "min_clearance and collision need world.obstacles or world.map");
+      c.AddError(key, c.scenario.world.map
+                          ? "min_clearance and collision need obstacles; no cell of world.map is "
+                            "blocked"
+                          : "min_clearance and collision need world.obstacles or world.map");
     }
   });
 }

@@ -218,6 +218,22 @@ void CheckSpeedProfile(Diagnostics& c) {
                            "during the run; remove one",
                            plan->avoid ? "plan.avoid" : "plan.replan"));
   }
+  if (!std::holds_alternative<LimitProfileOptions>(*profile)) {
+    return;
+  }
+  constexpr double kLeastFriction = 0.01;  // the diagram resolves 0.0006 m/s^2
+  const auto check = [&](const std::string& key, double friction) {
+    if (friction < kLeastFriction && c.could_read(key)) {
+      c.AddError(key, fmt::format("{} is below {}, the least for speeds at the limit", friction,
+                                  kLeastFriction));
+    }
+  };
+  const World& world = c.scenario.world;
+  check("world.friction", world.friction);
+  for (std::size_t i = 0; i < world.friction_patches.size(); ++i) {
+    check(fmt::format("world.friction_patches[{}].friction", i),
+          world.friction_patches[i].friction);
+  }
 }
 
 /// A track, and a planner that follows one.

@@ -238,7 +238,7 @@ std::vector<Problem> ReadMap(Scenario& scenario, MapSpec& map, ReaderContext& co
   }
   const std::filesystem::path own = (scenario.folder / map.file).parent_path();
   const WhyNot why_not = [&](const std::filesystem::path& image) {
-    return WhyUnreadable(image.lexically_relative(own), own, others);
+    return WhyUnreadableImage(image, own, others);
   };
   return Attempt(
       [&] {
@@ -268,6 +268,15 @@ std::vector<Problem> ReadRoads(Scenario& scenario, RoadNetworkSpec& roads, Reade
 }
 
 }  // namespace
+
+std::string WhyUnreadableImage(const std::filesystem::path& image,
+                               const std::filesystem::path& folder,
+                               const std::vector<std::filesystem::path>& others) {
+  // Of absolute names: the way from a relative folder to an absolute file would be empty.
+  const std::filesystem::path from = std::filesystem::absolute(folder / ".").lexically_normal();
+  const std::filesystem::path to = std::filesystem::absolute(image).lexically_normal();
+  return WhyUnreadable(to.lexically_relative(from).string(), folder, others);
+}
 
 std::vector<Problem> ReadInputs(Scenario& scenario, ReaderContext& context,
                                 const AddKeyError& add_error) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -11,6 +12,12 @@ namespace trackbed {
 
 /// Adds a problem of a key of the scenario.
 using AddKeyError = std::function<void(const std::string& key, std::string message)>;
+
+/// Why an image that a map in `folder` names may not be read: it lies neither there nor in the
+/// `others`. Empty if it may.
+std::string WhyUnreadableImage(const std::filesystem::path& image,
+                               const std::filesystem::path& folder,
+                               const std::vector<std::filesystem::path>& others);
 
 /// Reads the recorded drive of a scenario, its track, its map, the roads of its world, the path
 /// that is to be followed and the recording that is to be replayed. Gives back the problems of

@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <string_view>
+#include <utility>
 
 #include "trackbed/core/error.h"
 #include "trackbed/scenario/map_file.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <string_view>
+#include <utility>
 
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"

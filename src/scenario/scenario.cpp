@@ -26,6 +26,7 @@
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/recording_file.h"
+#include "trackbed/scenario/run_track.h"
 #include "trackbed/sim/scene.h"
 #include "trackbed/track/track_file.h"
 
@@ -159,7 +160,7 @@ World ReadWorld(const std::filesystem::path& file) {
   if (world.map) {
     const std::filesystem::path folder = file.parent_path();
     const WhyNot why_not = [&](const std::filesystem::path& image) {
-      return WhyUnreadable(image.lexically_relative(folder), folder, {});
+      return WhyUnreadableImage(image, folder, {});
     };
     if (const std::string why = WhyUnreadable(world.map->file, folder, {}); !why.empty()) {
       throw InputError(Problem{.file = file.string(),
@@ -169,6 +170,11 @@ World ReadWorld(const std::filesystem::path& file) {
     world.map->data = std::make_shared<const MapObstacles>(ReadMap(*world.map, folder, why_not));
   }
   return world;
+}
+
+Track ReadRunTrack(const std::filesystem::path& track_csv, const std::filesystem::path& scenario) {
+  const auto mission = ReadSection<MissionSpec>(scenario, kMissionSection);
+  return ReadTrack(track_csv, mission.track ? mission.track->smoothing : std::nullopt);
 }
 
 Expectations ReadExpectations(const std::filesystem::path& file) {

@@ -54,6 +54,8 @@ inline void Visit(KeyVisitor& a, StartSpec& start) {
           start.steering, kSteering);
 }
 
+inline constexpr Key kMissionSection{"mission", "", "route and speed"};
+
 inline void Visit(KeyVisitor& a, TrackSpec& track) {
   a.Field({"file", "", "track: a CSV file in TUM's format, relative to this file"}, track.file,
           Need::kRequired);
@@ -232,7 +234,7 @@ inline void Visit(KeyVisitor& a, Scenario& scenario) {
   a.Identifier({"name", "", "name of the scenario and its output folder"}, scenario.name);
   a.Field({"seed", "", "seed of all random numbers"}, scenario.seed, Need::kOptional);
   a.Section(kVehicleSection, scenario.vehicle);
-  a.Section({"mission", "", "route and speed"}, scenario.mission, Need::kRequired);
+  a.Section(kMissionSection, scenario.mission, Need::kRequired);
   a.Section({"record", "", "recorded drive of a real vehicle, to be replayed and compared with"},
             scenario.record);
   a.Section(kWorldSection, scenario.world);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "src/sim/contact_friction.h"
 #include "trackbed/sim/plant.h"

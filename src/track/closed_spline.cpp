@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
+#include <array>
 #include <boost/math/special_functions/cardinal_b_spline.hpp>
 #include <cmath>
 

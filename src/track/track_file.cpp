@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <system_error>
+#include <utility>
 
 #include "trackbed/core/error.h"
 #include "trackbed/core/table.h"
@@ -97,6 +98,16 @@ Track ReadTrack(const std::filesystem::path& file, std::optional<double> smoothi
         fmt::format("the center line bends on a radius of {:.3g} m, and the inner edge is {:.3g} m "
                     "from it; must be less than the radius, so that the edge does not fold over",
                     fold->radius, fold->width));
+  }
+  for (std::size_t i = 0; i < track.points().size(); ++i) {
+    const TrackEdges edges = track.EdgesAt(track.StationOf(i));
+    if (edges.right >= 0.0 || edges.left <= 0.0) {
+      add(i, "",
+          fmt::format("smoothed over {:.4g} m, the center line leaves the track here; use a "
+                      "shorter smoothing",
+                      track.smoothing()));
+      break;
+    }
   }
   problems.ThrowIfAny();
   return track;

@@ -1,9 +1,11 @@
 #include "trackbed/vehicle/grip_model.h"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "trackbed/core/error.h"
 

@@ -172,6 +172,8 @@ TEST(OpenDrive, RefusesLanesThatDoNotFitTogether) {
   EXPECT_THAT(why(right("<lane id='-1'>" + width + "</lane><lane id='-1'>" + width + "</lane>")),
               HasSubstr("lane -1 is followed by lane -1"));
   EXPECT_THAT(why(right("<lane id='1'>" + width + "</lane>")), HasSubstr("1 must be below 0"));
+  EXPECT_THAT(why(right("<lane id='-2147483648'>" + width + "</lane>")),
+              HasSubstr("must be at least -100 and at most 100"));
   EXPECT_THAT(why(right("<lane id='-1.5'>" + width + "</lane>")), HasSubstr("not a whole number"));
   EXPECT_THAT(why(right("<lane id='-1'/>")), HasSubstr("neither <width> nor <border>"));
   EXPECT_THAT(why(right("<lane id='-1'><width sOffset='9' a='3' b='0' c='0' d='0'/></lane>")),

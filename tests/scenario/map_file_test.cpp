@@ -324,6 +324,21 @@ TEST_F(MapFiles, OfScenariosLieBelowThem) {
   EXPECT_EQ(problem({"expect.min_clearance=0.1"}), "");
 }
 
+// An absolute name from a folder with a relative one has no way between them.
+TEST_F(MapFiles, OfRelativeFoldersLieBelowThemToo) {
+  folder_.Write("secret.pgm", kRamp);
+  const std::filesystem::path secret = folder_.path() / "secret.pgm";
+  folder_.Write("inner/maps/m.yaml", Replaced(kYaml, "IMAGE", secret.string()));
+  const std::filesystem::path relative =
+      std::filesystem::relative(folder_.path() / "inner", std::filesystem::current_path());
+  ASSERT_TRUE(relative.is_relative());
+  EXPECT_THAT(MessageOf([&] { ParseScenario(kScenario, "test.yaml", relative); }, folder_),
+              HasSubstr("lies outside of"));
+  folder_.Write("inner/maps/image.pgm", kRamp);
+  folder_.Write("inner/maps/m.yaml", Replaced(kYaml, "IMAGE", "image.pgm"));
+  EXPECT_EQ(MessageOf([&] { ParseScenario(kScenario, "test.yaml", relative); }, folder_), "");
+}
+
 TEST_F(MapFiles, ReadInstancesOfTheBenchmark) {
   const auto file = folder_.Write(
       "m.scen", "version 1\n0\tm.map\t10\t5\t1\t0\t3\t4\t4.82842712\n7 m.map 10 5 9 4 0 0 9.5\n\n");

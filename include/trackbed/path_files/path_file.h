@@ -34,6 +34,10 @@ inline constexpr std::size_t kMostPathPoints = 1'000'000;
 /// read or is larger than 512 MiB, other formats than CSV than 16 MiB. Cost: about 1 us a point.
 PathFile ReadPathFile(const std::filesystem::path& file, const PathMap& map = {});
 
+/// Whether a file is a path as YAML: no scenario, though in a folder of them. False when it cannot
+/// be read.
+bool IsNavPathYaml(const std::filesystem::path& file);
+
 /// The name of a path beside the resolved scenario of a run.
 inline constexpr const char* kPathCsv = "path.csv";
 

@@ -83,8 +83,10 @@ Bool CountIteration(Index /*mode*/, Index iteration, Number /*objective*/, Numbe
 }
 
 void SetOptions(IpoptProblem problem) {
-  const auto set_text = [&](std::string name, std::string value) {
-    TRACKBED_CHECK(AddIpoptStrOption(problem, name.data(), value.data()) == TRUE, "{}", name);
+  // The interface takes texts that it may change, and does not.
+  const auto set_text = [&](std::string name, const std::string& value) {
+    std::string own = value;
+    TRACKBED_CHECK(AddIpoptStrOption(problem, name.data(), own.data()) == TRUE, "{}", name);
   };
   const auto set_integer = [&](std::string name, int value) {
     TRACKBED_CHECK(AddIpoptIntOption(problem, name.data(), value) == TRUE, "{}", name);

@@ -278,6 +278,14 @@ Plan DriveAtLimit(Plan plan, const PlanRequest& request) {
   if (const std::optional<LimitExcess> fast = SetSpeedsAtLimit(plan, request, caps)) {
     excesses.push_back({"speed", fast->speed, fast->allowed, "m/s", fast->s, Remedy::kNone});
   }
+  const auto& knots = plan.reference.speed.knots();
+  const auto stuck =
+      std::adjacent_find(knots.begin(), knots.end(), [](const auto& before, const auto& after) {
+        return before.speed == 0.0 && after.speed == 0.0;
+      });
+  if (stuck != knots.end()) {  // a slope that the car can neither climb nor hold
+    excesses.push_back({"speed", kSlowest, 0.0, "m/s", stuck->s, Remedy::kNone});
+  }
   if (!excesses.empty() && request.infeasible != InfeasiblePolicy::kAllow) {
     return Refuse(excesses, plan);
   }

@@ -211,8 +211,10 @@ std::optional<LimitExcess> SetSpeedsAtLimit(Plan& plan, const PlanRequest& reque
                                   ? fmt::format(", slowest {:.3g} m/s at s = {:.4g} m",
                                                 findings.slowest, findings.slowest_s)
                                   : "";
-  plan.notes.push_back(fmt::format("speeds at {:.3g} of the limit: predicted time {:.4g} s{}",
-                                   findings.share, findings.predicted_time, slowest));
+  if (std::isfinite(findings.predicted_time)) {
+    plan.notes.push_back(fmt::format("speeds at {:.3g} of the limit: predicted time {:.4g} s{}",
+                                     findings.share, findings.predicted_time, slowest));
+  }
   return timed.excess;
 }
 

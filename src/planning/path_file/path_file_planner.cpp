@@ -24,6 +24,12 @@ std::vector<SpeedCap> CapsOf(const FittedPath& fitted) {
       caps.push_back({from, to, std::max(0.5 * (speed[i] + speed[i + 1]), kSlowest)});
     }
   }
+  // On a closed path, from the last point back to the first.
+  const double length = fitted.path.length();
+  if (!speed.empty() && fitted.options.closed && fitted.stations.back() < length) {
+    caps.push_back(
+        {fitted.stations.back(), length, std::max(0.5 * (speed.back() + speed.front()), kSlowest)});
+  }
   return caps;
 }
 

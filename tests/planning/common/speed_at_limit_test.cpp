@@ -150,6 +150,23 @@ TEST(SpeedAtLimit, RefusesAStartThatIsTooFast) {
   EXPECT_EQ(kept.notes.size(), 2U);
 }
 
+// On ice of 0.25 the tyres hold 2 m/s^2 of the 4.4 m/s^2 that a slope of 1 in 2 takes.
+TEST(SpeedAtLimit, RefusesASlopeThatTheCarCannotHold) {
+  PlanRequest request = Request();
+  request.friction = 0.25;
+  request.limits->ground.grade = {0.5, 0.0};
+  request.start_speed = 5.0;
+  Plan plan = PlanAlong({{.length = 60.0}}, request);
+  const Plan refused = MakeFeasible(plan, request);
+  EXPECT_EQ(refused.status, PlanStatus::kInfeasible);
+  EXPECT_NE(refused.reason.find("speed 0.1 m/s exceeds 0 m/s"), std::string::npos)
+      << refused.reason;
+  request.infeasible = InfeasiblePolicy::kAllow;
+  for (const std::string& note : MakeFeasible(plan, request).notes) {
+    EXPECT_EQ(note.find("inf s"), std::string::npos) << note;
+  }
+}
+
 TEST(SpeedAtLimit, RefusesAPathThatIsTooTight) {
   const PlanRequest request = Request();
   const Plan refused =

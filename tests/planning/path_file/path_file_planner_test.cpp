@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "tests/tolerance.h"
 #include "tests/vehicle/reference_car.h"
@@ -76,6 +77,27 @@ TEST(PathFilePlanner, KeepsTheSpeedsOfTheFile) {
   EXPECT_NEAR(plan.reference.speed.SpeedAt(60.0), 1.0, Tolerance(1e-9));
   for (double s = 0.0; s < 80.0; s += 0.5) {
     EXPECT_LE(plan.reference.speed.SpeedAt(s), s < 38.0 ? 2.0 : s < 40.0 ? 1.5 : 1.0 + 1e-9) << s;
+  }
+}
+
+// Eleven of twelve points on a circle: from the last one back to the first, too.
+TEST(PathFilePlanner, KeepsTheSpeedsOfTheFileAllAround) {
+  PathPoints given;
+  for (int i = 0; i < 11; ++i) {
+    const double angle = 2.0 * std::numbers::pi / 12.0 * i;
+    given.points.emplace_back(30.0 * std::sin(angle), 30.0 * (1.0 - std::cos(angle)));
+    given.speed.push_back(2.0);
+  }
+  PathFileOptions options;
+  options.fit.closed = true;
+  options.speeds = PathSpeeds::kFile;
+  options.path = std::make_shared<const FittedPath>(FitPath(given, options.fit));
+  PlanRequest request = RequestAlong(options);
+  request.start_speed = 2.0;
+  const Plan plan = MakePlan(request, options);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  for (const SpeedProfile::Knot& knot : plan.reference.speed.knots()) {
+    EXPECT_LE(knot.speed, 2.0 + Tolerance(1e-9)) << knot.s;
   }
 }
 
