@@ -9,6 +9,7 @@
 #include "src/scenario/cross_check.h"
 #include "src/scenario/inputs.h"
 #include "src/scenario/overrides.h"
+#include "src/scenario/read_section.h"
 #include "src/scenario/visit.h"
 #include "src/scenario/yaml_file.h"
 #include "src/scenario/yaml_reader.h"
@@ -26,7 +27,6 @@
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/recording_file.h"
-#include "trackbed/scenario/run_track.h"
 #include "trackbed/sim/scene.h"
 #include "trackbed/track/track_file.h"
 
@@ -131,22 +131,6 @@ Scenario ReadScenario(const std::filesystem::path& file, const std::vector<Overr
                        metrics, asset_folders);
 }
 
-namespace {
-
-template <typename Struct>
-Struct ReadSection(const std::filesystem::path& file, const Key& key) {
-  ReaderContext context{.file = file.string(), .overridden = {}, .problems = {}};
-  Struct value;
-  YamlReader reader(context, LoadYaml(ReadInput(file), file.string()), "");
-  reader.Section(key, value);
-  if (!context.problems.empty()) {
-    throw InputError(context.problems);
-  }
-  return value;
-}
-
-}  // namespace
-
 RenderSpec ReadRenderSpec(const std::filesystem::path& file) {
   return ReadSection<RenderSpec>(file, kRenderSection);
 }
@@ -170,11 +154,6 @@ World ReadWorld(const std::filesystem::path& file) {
     world.map->data = std::make_shared<const MapObstacles>(ReadMap(*world.map, folder, why_not));
   }
   return world;
-}
-
-Track ReadRunTrack(const std::filesystem::path& track_csv, const std::filesystem::path& scenario) {
-  const auto mission = ReadSection<MissionSpec>(scenario, kMissionSection);
-  return ReadTrack(track_csv, mission.track ? mission.track->smoothing : std::nullopt);
 }
 
 Expectations ReadExpectations(const std::filesystem::path& file) {

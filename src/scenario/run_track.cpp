@@ -1,0 +1,17 @@
+#include "trackbed/scenario/run_track.h"
+
+#include <optional>
+
+#include "src/scenario/read_section.h"
+#include "src/scenario/visit.h"
+#include "trackbed/scenario/scenario.h"
+#include "trackbed/track/track_file.h"
+
+namespace trackbed {
+
+Track ReadRunTrack(const std::filesystem::path& track_csv, const std::filesystem::path& scenario) {
+  const auto mission = ReadSection<MissionSpec>(scenario, kMissionSection);
+  return ReadTrack(track_csv, mission.track ? mission.track->smoothing : std::nullopt);
+}
+
+}  // namespace trackbed
