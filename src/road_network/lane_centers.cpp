@@ -195,8 +195,8 @@ class Joiner {
     return "";
   }
 
-  /// Lines and arcs become one segment each: what steers a car along them looks at the curvature's
-  /// steps and at how far apart they are.
+  /// Merges the pieces of a line or an arc into one segment: planners look for steps of the
+  /// curvature and measure the distance between them.
   [[nodiscard]] Path Join() const {
     std::vector<Segment> segments;
     for (const Piece& run : runs_) {

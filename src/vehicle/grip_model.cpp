@@ -178,7 +178,8 @@ class SteadyState {
             .road = road_};
   }
 
-  /// The largest number up to `high` that holds, if all below it do.
+  /// The largest number in [low, high] for which `holds` is true, by bisection; it must be true for
+  /// all smaller ones.
   template <typename Test>
   [[nodiscard]] static double Largest(double low, double high, const Test& holds) {
     constexpr int kHalvings = 16;  // 40/2^16 = 0.0006 m/s^2

@@ -51,7 +51,7 @@ enum class RoadEnd { kStart, kEnd };
 struct RoadLink {
   bool is_junction = false;
   std::string id;                     ///< of the road or the junction
-  RoadEnd contact = RoadEnd::kStart;  ///< the end of that road; of no meaning for junctions
+  RoadEnd contact = RoadEnd::kStart;  ///< the end of that road; unused for junctions
   int line = 0;                       ///< in the file
 };
 
