@@ -64,8 +64,13 @@ file(READ ${ORBIT_CONTROLS_SCRIPT} orbit_controls)
 allow(three_source "${three}")
 allow(orbit_controls_source "${orbit_controls}")
 set(scene_libraries "<script>${three}</script>\n<script>${orbit_controls}</script>\n")
+file(READ ${PAGE}/canvas.js canvas)
+set(canvas "\n\"use strict\";\n${canvas}")
+allow(canvas_source "${canvas}")
+set(scene_canvas "<script>${canvas}</script>\n")
 put("style source" "${style_source}")
-put("script sources" "${d3_source} ${dygraphs_source} ${three_source} ${orbit_controls_source} ${script_source}")
+put("script sources"
+    "${d3_source} ${dygraphs_source} ${three_source} ${orbit_controls_source} ${canvas_source} ${script_source}")
 
 # Only the page of a run that goes on (trackbed watch) has this script, and may connect to its server.
 file(READ ${PAGE}/live.js live)
@@ -98,6 +103,7 @@ const std::string_view kPageBeforeLiveSource = R\"${delimiter}(${before_live_sou
 const std::string_view kLiveSource = R\"${delimiter}(${live_source})${delimiter}\";
 const std::string_view kPageBeforeTitle = R\"${delimiter}(${before_title})${delimiter}\";
 const std::string_view kPageBeforeData = R\"${delimiter}(${before_data})${delimiter}\";
+const std::string_view kSceneCanvas = R\"${delimiter}(${scene_canvas})${delimiter}\";
 const std::string_view kSceneLibraries = R\"${delimiter}(${scene_libraries})${delimiter}\";
 const std::string_view kPageBeforeLiveScript = R\"${delimiter}(${before_live_script})${delimiter}\";
 const std::string_view kLiveScript = R\"${delimiter}(${live_script})${delimiter}\";

@@ -236,10 +236,10 @@ std::string MakePage(const ordered_json& data, PageUse use) {
     return shown_here ? text : std::string_view();
   };
   return fmt::format(
-      "{}{}{}{}{}<script type=\"application/json\" id=\"data\">{}</script>\n{}{}{}{}",
+      "{}{}{}{}{}{}<script type=\"application/json\" id=\"data\">{}</script>\n{}{}{}{}",
       kPageBeforeLiveSource, only(live, kLiveSource), kPageBeforeTitle, Escaped(PageTitle(shown)),
-      kPageBeforeData, ScriptJson(shown), only(has_scene, kSceneLibraries), kPageBeforeLiveScript,
-      only(live, kLiveScript), kPageEnd);
+      kPageBeforeData, only(has_scene, kSceneCanvas), ScriptJson(shown),
+      only(has_scene, kSceneLibraries), kPageBeforeLiveScript, only(live, kLiveScript), kPageEnd);
 }
 
 }  // namespace

@@ -170,8 +170,8 @@ class HostileReports(unittest.TestCase):
             ),
             [],
         )
-        # Three of code, data, licenses, and two more of a replay.
-        scripts = run("return typeof THREE === 'undefined' ? 5 : 7")
+        # Three of code, data, licenses, and three more of a replay.
+        scripts = run("return typeof THREE === 'undefined' ? 5 : 8")
         self.assertEqual(run("return document.scripts.length"), scripts)
         self.assertEqual(self.browser.console_errors(), [])
         for url in self.browser.loaded():

@@ -114,7 +114,8 @@ function drawSentence(parent) {
   const place = (text, t) => {
     const whole = line.append('span').attr('class', 'whole');
     whole.append('button').attr('type', 'button').attr('class', 'place').attr('title', 'Show this moment').text(text).on('click', () => setTime(t));
-    whole.append('span').text('. ');
+    whole.append('span').text('.');
+    say(' ');
   };
   for (const track of broken) {
     name(track);

@@ -117,12 +117,15 @@ function drawPathCheckCharts(list, check) {
   // Nothing limits the speed on a straight.
   const most = 4 * check.speed_mps;
   const possible = demand.speed.map((speed) => Math.min(speed, most));
+  const limits = [['friction', check.friction_limit_mps2], ['roll-over', check.rollover_limit_mps2]]
+    .filter(([, limit]) => limit !== null).map(([name, limit]) => `${name} ${brief(limit)} m/s²`);
   drawCharts(list, 'path_check', { values: demand.s, unit: 'm', at: (s) => s, timeOf: (s) => s }, [
     chart('curvature', 'Curvature', '1/m', [['curvature', 0, demand.curvature]], []),
     chart('curvature_rate', 'Curvature rate', '1/m²', [['curvature rate', 0, demand.curvature_rate]], []),
     chart('steering', 'Steering angle', 'rad', [['steering angle', 0, demand.steering]], [check.steering_limit_rad]),
     chart('steering_rate', `Steering rate at ${brief(check.speed_mps)} m/s`, 'rad/s', [['steering rate', 0, demand.steering_rate]], [check.steering_rate_limit_radps]),
-    chart('lateral_acceleration', `Lateral acceleration at ${brief(check.speed_mps)} m/s`, 'm/s²', [['lateral acceleration', 0, demand.lateral_acceleration]], [check.friction_limit_mps2, check.rollover_limit_mps2]),
+    chart('lateral_acceleration', `Lateral acceleration at ${brief(check.speed_mps)} m/s`, 'm/s²', [['lateral acceleration', 0, demand.lateral_acceleration]], [check.friction_limit_mps2, check.rollover_limit_mps2],
+      limits.length && `limits by ${limits.join(', by ')}`),
     chart('speed', 'Possible speed', 'm/s', [['possible speed', 0, possible], ['speed', 1, wanted, [4, 3]]], [], `dashed: the speed that is checked; cut off at ${brief(most)} m/s`),
   ]);
   setTime(0);

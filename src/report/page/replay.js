@@ -46,12 +46,15 @@ function planMesh(line, height, color, level) {
     { emissive: new THREE.Color(color), emissiveIntensity: 0.4 });
 }
 
-function makeReplay(canvas) {
-  const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: false });
+function makeReplay(canvas, context) {
+  const renderer = new THREE.WebGLRenderer({ canvas, context });
+  // Asking whether a shader is right waits until it is compiled, one after the other.
+  renderer.debug.checkShaderErrors = false;
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = THREE.PCFShadowMap;
   renderer.autoClear = false;
-  renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
+  const pixelRatio = Math.min(2, window.devicePixelRatio || 1);
+  renderer.setPixelRatio(pixelRatio);
 
   const scene = new THREE.Scene();
   scene.background = new THREE.Color(0xbdd3e6);
@@ -200,7 +203,10 @@ function makeReplay(canvas) {
   function draw(time) {
     const [width, high] = [canvas.clientWidth, canvas.clientHeight];
     if (width <= 0 || high <= 0) return;
-    renderer.setSize(width, high, false);
+    // A canvas that is sized gets new buffers, even where the size is the same.
+    if (canvas.width !== Math.floor(width * pixelRatio) || canvas.height !== Math.floor(high * pixelRatio)) {
+      renderer.setSize(width, high, false);
+    }
     for (const car of cars) {
       car.solid.pose(car.motion, time);
       car.ghost.pose(car.motion, time);
@@ -298,33 +304,23 @@ function drawSceneKey(parent) {
   if (worlds.some((world) => (world.gusts || []).length)) sign('area of a gust', { border: '2px solid #8f74e8' }, 'area');
 }
 
-/** Whether the browser has WebGL. */
-function hasWebGl() {
-  try {
-    const canvas = document.createElement('canvas');
-    return Boolean(window.WebGLRenderingContext && (canvas.getContext('webgl2') || canvas.getContext('webgl')));
-  } catch (error) {
-    return false;
-  }
-}
-
 let replay = null;
 
 function drawReplay(parent) {
   if (!tracks.length || !runs.every((run) => run.vehicle)) return;
   const made = parent.append('section').attr('id', 'replay').attr('aria-label', 'Replay');
-  if (!hasWebGl()) {
+  if (!sceneContext) {
     made.append('p').attr('class', 'hint').text('This browser has no WebGL, which the replay in three dimensions needs; the map below shows the same.');
     return;
   }
   parent.classed('with-replay', true);
   const panel = made.append('div').attr('class', 'panel replay');
   const frame = panel.append('div').attr('class', 'stage');
-  const canvas = frame.append('canvas').attr('tabindex', 0).attr('role', 'img')
+  const canvas = frame.append(() => sceneCanvas).attr('tabindex', 0).attr('role', 'img')
     .attr('aria-label', `Replay in three dimensions of ${tracks.map(({ label }) => label).join(', ')}; the map and the charts show the same.`);
   const labels = frame.append('div').attr('class', 'labels');
   try {
-    replay = makeReplay(canvas.node());
+    replay = makeReplay(sceneCanvas, sceneContext);
   } catch (error) {
     panel.remove();
     parent.classed('with-replay', false);
