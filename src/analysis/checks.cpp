@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "trackbed/analysis/metric_registry.h"
+#include "trackbed/analysis/requirement_metrics.h"
 #include "trackbed/analysis/verdict.h"
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/text_table.h"
@@ -130,6 +131,16 @@ std::string CorridorMessage(const Check& check) {
       value, bound, Where(check.at));
 }
 
+std::string RequirementMessage(const Check& check) {
+  if (!check.detail.empty()) {
+    return fmt::format("requirement '{}': {}", check.name, check.detail);
+  }
+  const double robustness = NumberIn(check.value).value_or(0.0);
+  return fmt::format("requirement '{}': robustness {:.4g}{}{}", check.name, robustness,
+                     robustness == 0.0 ? ", which its strict comparison excludes," : "",
+                     Where(check.at));
+}
+
 std::string CollisionMessage(const Check& check) {
   return check.value == MetricValue(true)
              ? "unexpected collision" + Where(check.at)
@@ -169,6 +180,27 @@ Check CheckMetric(const PlantMetrics& plant, const std::string& path, Relation r
     check.detail = WhyMissing(path, metrics, plant);
   }
   return check;
+}
+
+Check CheckRequirement(const std::string& plant, const RequirementMetrics& requirement) {
+  Check check{.plant = plant,
+              .metric = RequirementPath(requirement.name),
+              .relation = Relation::kAtLeast,
+              .bound = 0.0,
+              .met = requirement.satisfied,
+              .reason = CheckReason::kRequirement,
+              .name = requirement.name,
+              .detail = requirement.problem,
+              .formula = requirement.formula};
+  if (requirement.robustness) {
+    check.value = *requirement.robustness;
+    check.at = {.span = MetricSpan::kMoment, .s = requirement.s, .t = requirement.t};
+  }
+  return check;
+}
+
+std::string PlantsOf(const Check& check) {
+  return check.other.empty() ? check.plant : fmt::format("{} – {}", check.plant, check.other);
 }
 
 std::vector<Check> CheckBounds(const DifferenceBounds& bounds, const PlantComparison& comparison) {
@@ -226,6 +258,8 @@ std::string FailureMessage(const Check& check) {
       case CheckReason::kSameEnd:
         return fmt::format("end status differs: {} {}, {} {}", check.plant, ToText(check.bound),
                            check.other, ToText(check.value));
+      case CheckReason::kRequirement:
+        return RequirementMessage(check);
     }
     return "";
   }();
@@ -265,8 +299,7 @@ ordered_json ToJson(const Verdict& verdict) {
   for (const Check& check : verdict.checks) {
     const bool placed = check.at.span == MetricSpan::kMoment || check.at.span == MetricSpan::kEnd;
     json["checks"].push_back(
-        {{"plant",
-          check.other.empty() ? check.plant : fmt::format("{} – {}", check.plant, check.other)},
+        {{"plant", PlantsOf(check)},
          {"metric", check.metric},
          {"relation", ToString(check.relation)},
          {"bound", ParsedBound(check.bound)},
@@ -274,6 +307,9 @@ ordered_json ToJson(const Verdict& verdict) {
          {"station", placed ? ordered_json(check.at.s) : ordered_json(nullptr)},
          {"time", placed ? ordered_json(check.at.t) : ordered_json(nullptr)},
          {"met", check.met}});
+    if (!check.formula.empty()) {
+      json["checks"].back()["formula"] = check.formula;
+    }
   }
   return json;
 }

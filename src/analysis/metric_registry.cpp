@@ -6,8 +6,10 @@
 #include <charconv>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "src/analysis/metric_table.h"
+#include "trackbed/analysis/requirement_metrics.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
 #include "trackbed/planning/registry/planners.h"
@@ -21,6 +23,8 @@ constexpr const char* kManeuver = "maneuver";
 constexpr const char* kTurns = "turns";
 constexpr const char* kLaps = "laps";
 constexpr const char* kWindows = "windows";
+constexpr const char* kRequirements = "requirements";
+constexpr const char* kRobustness = ".robustness";
 
 /// The only list that changes after the program began: RegisterMetric adds to it.
 std::vector<MetricEntry>& Registry() {
@@ -74,7 +78,7 @@ void CheckEntry(const MetricEntry& entry) {
   if (static_cast<bool>(entry.read) == static_cast<bool>(entry.measure)) {
     refuse("exactly one of `measure` and `read` must be given");
   }
-  std::vector<std::string> taken{kManeuver, kTurns, kLaps, kWindows};
+  std::vector<std::string> taken{kManeuver, kTurns, kLaps, kWindows, kRequirements};
   for (const MetricEntry& other : Metrics()) {
     const std::vector<std::string> paths = EntryPaths(other);
     taken.insert(taken.end(), paths.begin(), paths.end());
@@ -125,6 +129,20 @@ std::optional<MetricInfo> DescribeWindowMetric(std::string_view key, int index) 
     }
   }
   return std::nullopt;
+}
+
+std::optional<MetricInfo> DescribeRequirementMetric(std::string_view path) {
+  const std::string section = fmt::format("{}.", kRequirements);
+  const std::size_t end = path.rfind(kRobustness);
+  if (!path.starts_with(section) || end == std::string_view::npos || end < section.size()) {
+    return std::nullopt;
+  }
+  const std::string_view name = path.substr(section.size(), end - section.size());
+  const std::string_view rest = path.substr(end + std::string_view(kRobustness).size());
+  return rest.empty()   ? std::optional(MetricInfo{fmt::format("Robustness of {}", name), "", true})
+         : rest == "_s" ? std::optional(MetricInfo{"… at station", "m"})
+         : rest == "_t" ? std::optional(MetricInfo{"… at", "s"})
+                        : std::nullopt;
 }
 
 }  // namespace
@@ -202,6 +220,15 @@ std::vector<Metric> ListMetrics(const PlantMetrics& metrics) {
       add(fmt::format("{}[{}].{}", kWindows, i, entry.key), entry.read(metrics.windows[i]), {});
     }
   }
+  for (const RequirementMetrics& requirement : metrics.requirements) {
+    if (requirement.robustness) {
+      const std::string path = RequirementPath(requirement.name);
+      add(path, *requirement.robustness,
+          {.span = MetricSpan::kMoment, .s = requirement.s, .t = requirement.t});
+      add(path + "_s", requirement.s, {});
+      add(path + "_t", requirement.t, {});
+    }
+  }
   return all;
 }
 
@@ -221,6 +248,9 @@ std::optional<MetricInfo> DescribeMetric(std::string_view path) {
     if (info) {
       info->label = "Maneuver: " + info->label;
     }
+    return info;
+  }
+  if (const std::optional<MetricInfo> info = DescribeRequirementMetric(path)) {
     return info;
   }
   for (const MetricEntry& entry : Metrics()) {
@@ -279,6 +309,20 @@ PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
   if (scenario.record) {
     metrics.recorded.emplace();
     metrics.windows.resize(scenario.record->windows.size());
+  }
+  std::set<std::string> requirements;
+  const auto require = [&](const PlantExpectation& expect) {
+    for (const RequirementExpectation& own : expect.requirements) {
+      if (requirements.insert(own.name).second) {
+        metrics.requirements.push_back({.name = own.name, .robustness = 0.0});
+      }
+    }
+  };
+  require(scenario.expect.all);
+  for (const auto& [name, own] : scenario.expect.plants) {
+    if (plant.empty() || name == plant) {
+      require(own);
+    }
   }
   if (scenario.mission.track) {
     metrics.laps.resize(static_cast<std::size_t>(scenario.mission.track->laps));

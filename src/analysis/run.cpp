@@ -10,6 +10,7 @@
 #include "trackbed/analysis/mcap.h"
 #include "trackbed/analysis/path_properties.h"
 #include "trackbed/analysis/record_metrics.h"
+#include "trackbed/analysis/requirement_metrics.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/playback.h"
@@ -230,6 +231,7 @@ PlantMetrics MeasurePlant(const RunResult& result, const RunLog& log, const CarM
     metrics.maneuver = EvaluateManeuver(*scenario.maneuver, log, result.plan, car.params());
   }
   metrics.recovery = MeasureRecovery(log, scenario.disturb, scenario.world.wind);
+  metrics.requirements = MeasureRequirements(scenario.expect, log);
   return metrics;
 }
 

@@ -18,7 +18,7 @@ bool HasExpectationFor(std::string_view metric, const PlantExpectation& expect) 
 bool AsksAnything(const PlantExpectation& expect) {
   return expect.reach_goal || expect.max_cross_track || expect.rms_cross_track ||
          expect.max_heading_error || expect.min_clearance || expect.collision ||
-         !expect.metrics.empty();
+         !expect.metrics.empty() || !expect.requirements.empty();
 }
 
 bool AsksAnything(const Expectations& expect) {
@@ -238,6 +238,9 @@ Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plant
     NoteLimitedSteering(metrics, verdict);
     for (const PlantExpectation* part : expected.parts()) {
       JudgePlant(*part, metrics, verdict);
+    }
+    for (const RequirementMetrics& requirement : metrics.requirements) {
+      AddCheck(CheckRequirement(metrics.plant, requirement), verdict);
     }
   }
   for (const BetweenExpectation& between : expect.between) {

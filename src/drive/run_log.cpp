@@ -1,10 +1,8 @@
 #include "trackbed/drive/run_log.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "trackbed/sim/car_model.h"
+#include "trackbed/scenario/log_columns.h"
 
 namespace trackbed {
 
@@ -45,44 +43,12 @@ Table ToTable(const RunLog& log) {
   const bool noise = !log.rows.empty() && log.rows.front().measured.has_value();
   const bool gaps =
       std::any_of(log.rows.begin(), log.rows.end(), [](const LogRow& row) { return !row.valid; });
-  std::vector<std::string> columns{"t_s",
-                                   "x_m",
-                                   "y_m",
-                                   "yaw_rad",
-                                   "speed_mps",
-                                   "lateral_speed_mps",
-                                   "yaw_rate_radps",
-                                   "roll_rad",
-                                   "pitch_rad",
-                                   "longitudinal_acceleration_mps2",
-                                   "lateral_acceleration_mps2",
-                                   "sideslip_rad",
-                                   "steering_command_rad",
-                                   "steering_actuator_rad",
-                                   "steering_rad",
-                                   "s_m"};
-  if (tracked) {
-    columns.insert(columns.end(), {"cross_track_m", "heading_error_rad"});
-  }
-  if (obstacles) {
-    columns.insert(columns.end(), {"clearance_m", "obstacle_force_N"});
-  }
-  if (noise) {
-    columns.insert(columns.end(), {"measured_x_m", "measured_y_m", "measured_yaw_rad"});
-  }
-  if (wheels) {
-    for (const char* wheel : kWheels) {
-      for (const char* pattern : {"normal_force_{}_N", "longitudinal_force_{}_N",
-                                  "lateral_force_{}_N", "slip_angle_{}_rad", "slip_ratio_{}"}) {
-        columns.push_back(fmt::format(fmt::runtime(pattern), wheel));
-      }
-    }
-  }
-  if (gaps) {
-    columns.emplace_back("valid");
-  }
-  columns.insert(columns.end(), log.controller_columns.begin(), log.controller_columns.end());
-  Table table(columns);
+  Table table(LogColumns({.path = tracked,
+                          .obstacles = obstacles,
+                          .noise = noise,
+                          .wheels = wheels,
+                          .gaps = gaps,
+                          .controller = log.controller_columns}));
   for (const LogRow& row : log.rows) {
     const VehicleState& state = row.state;
     std::vector<double> cells{state.time,

@@ -25,6 +25,13 @@ std::string AskedText(const ordered_json& check) {
                                              : bound.dump());
 }
 
+/// "Robustness of lane: always abs(cross_track_m) < 0.5", shortened.
+std::string RequirementLabel(const ShownName& name, const std::string& formula) {
+  constexpr std::size_t kLongest = 120;
+  return fmt::format("{}: {}{}", name.label, formula.substr(0, kLongest),
+                     formula.size() > kLongest ? " …" : "");
+}
+
 }  // namespace
 
 ordered_json CheckRows(const ordered_json& verdict) {
@@ -34,9 +41,10 @@ ordered_json CheckRows(const ordered_json& verdict) {
     const std::string metric = check.at("metric").get<std::string>();
     const bool is_pair = plant.find(" – ") != std::string::npos;
     const ShownName name = is_pair ? NameOfComparison(metric) : NameOfMetric(metric);
+    const std::string formula = check.value("formula", "");
     rows.push_back({{"of", plant},
                     {"metric", metric},
-                    {"what", name.label},
+                    {"what", formula.empty() ? name.label : RequirementLabel(name, formula)},
                     {"unit", name.unit},
                     {"relation", check.at("relation")},
                     {"bound", RoundedLeaf(check.at("bound"))},

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "src/scenario/check_requirements.h"
 #include "src/scenario/cross_check.h"
 #include "src/scenario/inputs.h"
 #include "src/scenario/overrides.h"
@@ -108,6 +109,11 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
   for (auto& [key, message] : CrossProblems(scenario, could_read)) {
     add_error(key, std::move(message));
   }
+  if (context.problems.empty() && of_inputs.empty()) {
+    for (auto& [key, message] : RequirementProblems(scenario)) {
+      add_error(key, std::move(message));
+    }
+  }
   if (metrics && context.problems.empty() && of_inputs.empty()) {
     for (auto& [key, message] : UnknownMetrics(scenario.expect, metrics(scenario))) {
       add_error(key, std::move(message));
@@ -164,6 +170,11 @@ void CheckScenario(const Scenario& scenario) {
   std::vector<Problem> problems;
   for (const auto& [key, message] : CrossProblems(scenario, [](const auto&) { return true; })) {
     problems.push_back({"", 0, 0, key, message});
+  }
+  if (problems.empty()) {
+    for (const auto& [key, message] : RequirementProblems(scenario)) {
+      problems.push_back({"", 0, 0, key, message});
+    }
   }
   if (!problems.empty()) {
     throw InputError(problems);

@@ -164,6 +164,14 @@ inline void Visit(KeyVisitor& a, MetricExpectation& expect) {
   a.Field({"equals", "", "exact value: a number, a text, true or false"}, expect.equals);
 }
 
+inline void Visit(KeyVisitor& a, RequirementExpectation& expect) {
+  a.Field({"name", "", "of a-z, 0-9 and '_': requirements.NAME.robustness is its metric"},
+          expect.name, Need::kRequired);
+  a.Field({"formula", "",
+           "temporal logic over the columns of the log, such as always abs(cross_track_m) < 0.5"},
+          expect.formula, Need::kRequired);
+}
+
 inline void Visit(KeyVisitor& a, PlantExpectation& expect) {
   a.Field({"reach_goal", "m", "maximum distance to the goal at the end"}, expect.reach_goal,
           kNonNegative);
@@ -177,6 +185,7 @@ inline void Visit(KeyVisitor& a, PlantExpectation& expect) {
           expect.min_clearance, kNonNegative);
   a.Field({"collision", "", "whether the car must hit an obstacle"}, expect.collision);
   a.List({"metrics", "", "bounds on other metrics"}, expect.metrics);
+  a.List({"requirements", "", "formulas that the log must satisfy"}, expect.requirements);
 }
 
 inline void Visit(KeyVisitor& a, BetweenExpectation& expect) {

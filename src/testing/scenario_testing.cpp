@@ -6,6 +6,7 @@
 #include <functional>
 #include <ostream>
 
+#include "trackbed/analysis/requirement_metrics.h"
 #include "trackbed/analysis/verdict.h"
 #include "trackbed/core/error.h"
 
@@ -223,6 +224,22 @@ testing::Matcher<const RunResult&> ReachesGoal(double distance) {
                       return DescribeFailure(metrics, "goal_distance", Relation::kAtMost, distance,
                                              "stopped {0:.4g} m from the goal, t = {2:.4g} s");
                     }));
+}
+
+testing::Matcher<const RunResult&> Satisfies(const std::string& formula) {
+  return RunMatcher(
+      fmt::format("satisfies {}", formula),
+      [formula](const RunResult& run) -> std::vector<std::string> {
+        std::vector<std::string> failures;
+        for (const RunLog& log : run.logs) {
+          const Check check = CheckRequirement(
+              log.plant, MeasureRequirement({.name = formula, .formula = formula}, log));
+          if (!check.met) {
+            failures.push_back(FailureMessage(check));
+          }
+        }
+        return run.logs.empty() ? std::vector<std::string>{"no plant was run"} : failures;
+      });
 }
 
 testing::Matcher<const RunResult&> MeetsItsExpectations() {

@@ -62,6 +62,19 @@ struct LapMetrics {
   double t = 0.0;             ///< when [s]
 };
 
+/// A requirement of `expect`, evaluated over the whole log.
+struct RequirementMetrics {
+  std::string name;
+  std::string formula;
+  /// In the unit of the comparison that decides; none if no sample decides, or the formula could
+  /// not be evaluated.
+  std::optional<double> robustness;
+  bool satisfied = false;  ///< never without robustness
+  double s = 0.0;          ///< where the sample that decides is [m]
+  double t = 0.0;          ///< when [s]
+  std::string problem;     ///< why there is no robustness
+};
+
 struct PlantMetrics {
   std::string plant;
   DriveStatus status = DriveStatus::kArrived;
@@ -104,6 +117,7 @@ struct PlantMetrics {
   std::vector<LapMetrics> laps;               ///< that were completed on a track
   std::optional<RecordMetrics> recorded;      ///< none without a record, and of the record itself
   std::vector<WindowErrors> windows;          ///< of each horizon of record.windows, likewise
+  std::vector<RequirementMetrics> requirements;  ///< those on all plants, then its own
   /// Of the metrics that are measured on the log (MetricEntry::measure), by path.
   std::vector<std::pair<std::string, MetricReading>> measured;
 };

@@ -28,6 +28,7 @@ enum class CheckReason {
   kCollision,     ///< `expect.collision`
   kComparable,    ///< the station ranges of two compared plants overlap
   kSameEnd,       ///< two compared runs ended with the same status
+  kRequirement,   ///< `expect.requirements`
 };
 
 /// A bound and the value compared with it.
@@ -42,10 +43,14 @@ struct Check {
   bool met = false;
 
   CheckReason reason = CheckReason::kExpected;
-  std::string name;    ///< of the metric, in messages
-  std::string unit;    ///< of bound and value; empty for none
-  std::string detail;  ///< additional text of the message: why there is no value, why it stopped
+  std::string name;     ///< of the metric, in messages
+  std::string unit;     ///< of bound and value; empty for none
+  std::string detail;   ///< additional text of the message: why there is no value, why it stopped
+  std::string formula;  ///< of a requirement; its value is the robustness, its bound 0
 };
+
+/// The plant of a check, or "a – b".
+std::string PlantsOf(const Check& check);
 
 /// The verdict on a run.
 struct Verdict {
@@ -59,6 +64,10 @@ struct Verdict {
 /// Checks any metric of a plant by its path.
 Check CheckMetric(const PlantMetrics& plant, const std::string& path, Relation relation,
                   const MetricValue& bound);
+
+/// Checks a requirement: whether it is satisfied, which its robustness alone does not tell if it is
+/// 0. One without robustness is not met.
+Check CheckRequirement(const std::string& plant, const RequirementMetrics& requirement);
 
 /// A check for each bound that is given. Plants without common stations have a single check, which
 /// is not met.

@@ -96,6 +96,12 @@ struct MetricExpectation {
   std::optional<std::string> equals;  ///< "true", "arrived", "3"
 };
 
+/// A formula of temporal logic over the columns of the log (trackbed/requirement/formula.h).
+struct RequirementExpectation {
+  std::string name;  ///< of a-z, 0-9 and '_'
+  std::string formula;
+};
+
 /// Bounds on one plant's metrics; only those given are checked.
 struct PlantExpectation {
   std::optional<double> reach_goal;         ///< maximum distance to the goal at the end [m]
@@ -105,6 +111,7 @@ struct PlantExpectation {
   std::optional<double> min_clearance;      ///< minimum distance of the footprint to obstacles [m]
   std::optional<bool> collision;            ///< whether the car must hit an obstacle
   std::vector<MetricExpectation> metrics;   ///< bounds on other metrics
+  std::vector<RequirementExpectation> requirements;
 };
 
 /// Bounds on the differences between two runs at equal station; only those given are checked.

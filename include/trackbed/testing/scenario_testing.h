@@ -15,6 +15,7 @@
 ///     const RunResult run = trackbed::RunScenario("scenarios/three_turns.yaml");
 ///     EXPECT_THAT(run, trackbed::ReachesGoal(0.5));
 ///     EXPECT_THAT(run, trackbed::TracksWithin(0.15));
+///     EXPECT_THAT(run, trackbed::Satisfies("always[0, 5] speed_mps <= 8"));
 ///     EXPECT_THAT(run, trackbed::StaysWithin("kinematic", "mujoco", 0.1));
 ///     EXPECT_THAT(trackbed::Compare(run, "kinematic", "mujoco"),
 ///                 trackbed::DiffersByAtMost({.position_max = 0.1, .yaw_rate_max = 0.05}));
@@ -62,6 +63,12 @@ testing::Matcher<const RunResult&> KeepsClearance(double distance);
 
 /// Every plant arrives, at most `distance` [m] from the end of the path.
 testing::Matcher<const RunResult&> ReachesGoal(double distance);
+
+/// The log of every plant satisfies a formula of temporal logic over its columns
+/// (trackbed/requirement/formula.h): "always abs(cross_track_m) < 0.5". A failure names the
+/// robustness, station and time of the sample that decides. A formula that is wrong, or that no
+/// sample decides, does not match.
+testing::Matcher<const RunResult&> Satisfies(const std::string& formula);
 
 /// The run meets its own scenario's `expect`.
 testing::Matcher<const RunResult&> MeetsItsExpectations();
