@@ -22,6 +22,9 @@ float FrictionAlpha(double friction) {
 }
 
 bool IsPlane(const Ground& ground, const OrientedBox& box) {
+  if (ground.terrain) {
+    return false;
+  }
   const auto apart = [&box](const auto& feature) { return Separation(box, Extent(feature)) > 0.0; };
   return std::all_of(ground.bumps.begin(), ground.bumps.end(), apart) &&
          std::all_of(ground.side_slopes.begin(), ground.side_slopes.end(), apart);

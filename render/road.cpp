@@ -195,7 +195,7 @@ class RoadRibbons : public Overlay {
         // In bends the outer border is longer than the middle.
         const double length = std::max((band.left[i] - band.left[i - 1]).norm(),
                                        (band.right[i] - band.right[i - 1]).norm());
-        constexpr double kTolerance = 0.002;  // [m]
+        constexpr double kTolerance = 0.0007;  // so that no tile rises above the paint on it [m]
         Tile like;
         like.color = kRoadColor;
         const double above = kAsphaltHeight + (i % 2 == 0 ? 0.0 : 0.0008);
@@ -215,8 +215,10 @@ class RoadRibbons : public Overlay {
       for (const Vec2& point : line.points) {
         points.push_back(recording_.OnGround({point.x(), point.y()}));
       }
-      network_lines_.push_back(
-          {Thinned(points), {line.yellow ? kYellowPaint : kPaint, line.width, kPaintHeight}});
+      // Thinned, a line over a crest sinks below the asphalt.
+      const bool flat = IsFlat(recording_.world.ground);
+      network_lines_.push_back({flat ? Thinned(points) : points,
+                                {line.yellow ? kYellowPaint : kPaint, line.width, kPaintHeight}});
     }
   }
 

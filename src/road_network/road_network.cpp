@@ -93,19 +93,21 @@ LaneBorders LaneBordersAt(const Road& road, int lane, double s) {
   return LaneBordersAt(road, road.SectionAt(at), lane, at, at);
 }
 
+Eigen::Vector3d AcrossSurface(const Vec2& tangent, double slope, double roll) {
+  const Vec2 left = LeftNormal(tangent.normalized());
+  const Eigen::Vector3d ahead = Eigen::Vector3d(tangent.x(), tangent.y(), slope).normalized();
+  const Eigen::Vector3d level(left.x(), left.y(), 0.0);
+  return std::cos(roll) * level + std::sin(roll) * ahead.cross(level);
+}
+
 RoadPosition PositionAt(const Road& road, double s, double t) {
   const double at = OnRoad(road, s);
   TRACKBED_REQUIRE(std::isfinite(t), "road {}: t is {}; must be finite", road.id, t);
   const ReferenceLinePoint reference = road.reference.At(at);
   const CubicValue height = road.elevation.At(at);
   const double roll = road.superelevation.At(at).value;
-  const Vec2 ahead = Direction(reference.pose.yaw);
-  const Vec2 left = LeftNormal(ahead);
-  const Eigen::Vector3d tangent =
-      Eigen::Vector3d(ahead.x() * reference.stretch, ahead.y() * reference.stretch, height.slope)
-          .normalized();
-  const Eigen::Vector3d level(left.x(), left.y(), 0.0);
-  const Eigen::Vector3d across = std::cos(roll) * level + std::sin(roll) * tangent.cross(level);
+  const Eigen::Vector3d across =
+      AcrossSurface(reference.stretch * Direction(reference.pose.yaw), height.slope, roll);
   return {reference.pose.x + t * across.x(), reference.pose.y + t * across.y(),
           height.value + t * across.z(), reference.pose.yaw};
 }

@@ -1,6 +1,7 @@
 #include <limits>
 
 #include "src/scenario/diagnostics.h"
+#include "src/scenario/route_world.h"
 #include "src/scenario/start_state.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
@@ -284,10 +285,9 @@ void CheckLanes(Diagnostics& c) {
     c.AddError("mission.route", fmt::format("{} given; the planner lane_route needs at least 2",
                                             route.empty() ? "none" : "1"));
   }
-  constexpr std::size_t kMostPlaces = 1000;
-  if (route.size() > kMostPlaces) {
+  if (route.size() > kMostLanePlaces) {
     c.AddError("mission.route",
-               fmt::format("{} places; must be at most {}", route.size(), kMostPlaces));
+               fmt::format("{} places; must be at most {}", route.size(), kMostLanePlaces));
     return;
   }
   for (std::size_t i = 0; roads && roads->data && i < route.size(); ++i) {

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <utility>
 
+#include "src/scenario/route_world.h"
 #include "trackbed/control/playback.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
@@ -247,6 +248,19 @@ std::vector<Problem> ReadMap(Scenario& scenario, MapSpec& map, ReaderContext& co
       "world.map.file", context, add_error);
 }
 
+/// Lets the roads of the mission's route be the ground.
+void LayRouteGround(Scenario& scenario, const AddKeyError& add_error) {
+  const bool has_ground = !IsFlat(scenario.world.ground);
+  const std::string failure = AddRouteGround(scenario.mission.route, scenario.world);
+  if (!failure.empty()) {
+    add_error("mission.route", failure);
+  } else if (has_ground && scenario.world.ground.terrain) {
+    add_error("world.ground",
+              "not available on a route over roads that are not level, whose heights are the "
+              "ground; remove it");
+  }
+}
+
 std::vector<Problem> ReadRoads(Scenario& scenario, RoadNetworkSpec& roads, ReaderContext& context,
                                const AddKeyError& add_error) {
   const char* key = "world.road_network";
@@ -263,6 +277,10 @@ std::vector<Problem> ReadRoads(Scenario& scenario, RoadNetworkSpec& roads, Reade
       [&] {
         roads.data =
             std::make_shared<const OpenDriveFile>(ReadOpenDriveFile(scenario.folder / roads.file));
+        // A route that could not be read may be another than meant.
+        if (context.problems.empty()) {
+          LayRouteGround(scenario, add_error);
+        }
       },
       key, context, add_error);
 }

@@ -11,6 +11,7 @@
 #include "src/scenario/inputs.h"
 #include "src/scenario/overrides.h"
 #include "src/scenario/read_section.h"
+#include "src/scenario/route_world.h"
 #include "src/scenario/visit.h"
 #include "src/scenario/yaml_file.h"
 #include "src/scenario/yaml_reader.h"
@@ -159,6 +160,7 @@ World ReadWorld(const std::filesystem::path& file) {
     }
     world.map->data = std::make_shared<const MapObstacles>(ReadMap(*world.map, folder, why_not));
   }
+  ReadRouteGround(file, world);
   return world;
 }
 

@@ -142,6 +142,10 @@ void PartsReader::CheckOrigin(const char* axle, const char* wheels, int left, in
 }
 
 void PartsReader::CheckStand(const std::string& wheel, const mjtNum* hub_W, double radius) {
+  // On hilly ground (WithGround) the car stands elsewhere; its own has been checked.
+  if (mj_name2id(&m_, mjOBJ_GEOM, ("ground_" + wheel).c_str()) >= 0) {
+    return;
+  }
   const int ground = mj_name2id(&m_, mjOBJ_GEOM, "ground");
   const bool level = m_.geom_type[ground] == mjGEOM_PLANE && m_.geom_quat[4 * ground] == 1.0;
   const double gap = hub_W[2] - radius - m_.geom_pos[3 * ground + 2];

@@ -47,7 +47,7 @@ class PartsReader {
   /// Axis and tyre of the wheel whose joint is spin_`wheel`; its tyre must be as large as the geom
   /// `first`, "`all` must be equal".
   void CheckWheel(const std::string& wheel, int spin, int tyre, int first, const char* all);
-  /// That the wheel is on a level ground at qpos0, to half its radius.
+  /// That the wheel is on the car's own ground, if that is level, at qpos0, to half its radius.
   void CheckStand(const std::string& wheel, const mjtNum* hub_W, double radius);
   void ReadFootprint(int site);
   void ReadAerodynamics();

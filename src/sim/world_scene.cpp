@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 
 #include "src/sim/road_contact.h"
 #include "src/sim/scene_xml.h"
@@ -36,17 +37,15 @@ int CellsAlong(double side) {
   return std::clamp(static_cast<int>(std::ceil(side / kCell)), 16, 256);
 }
 
-template <typename Feature>
-HeightField Sample(const Feature& feature, const Ground& ground) {
-  const OrientedBox box = Extent(feature);
-  const std::int32_t rows = CellsAlong(box.width) + 1;
-  const std::int32_t columns = CellsAlong(box.length) + 1;
+/// Heights at so many samples along the box's length and width.
+HeightField Sample(const OrientedBox& box, std::int32_t columns, std::int32_t rows,
+                   const std::function<double(const Vec2& point_W)>& height_at) {
   std::vector<double> heights;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       const Vec2 p = ToWorld(box.center, {(column / (columns - 1.0) - 0.5) * box.length,
                                           (row / (rows - 1.0) - 0.5) * box.width});
-      heights.push_back(ground.grade.dot(p) + Rise(feature, p));
+      heights.push_back(height_at(p));
     }
   }
   const auto [lowest, highest] = std::minmax_element(heights.begin(), heights.end());
@@ -62,6 +61,65 @@ HeightField Sample(const Feature& feature, const Ground& ground) {
     append(static_cast<float>((height - field.lowest) / (field.highest - field.lowest)));
   }
   return field;
+}
+
+template <typename Feature>
+HeightField Sample(const Feature& feature, const Ground& ground) {
+  const OrientedBox box = Extent(feature);
+  return Sample(box, CellsAlong(box.length) + 1, CellsAlong(box.width) + 1,
+                [&](const Vec2& p) { return ground.grade.dot(p) + Rise(feature, p); });
+}
+
+/// Some of the blocks of a terrain.
+OrientedBox BlocksAt(const Terrain::Size& size, int column, int row, int columns, int rows) {
+  const Vec2 sides = Terrain::kBlock * Vec2(columns, rows);
+  const Vec2 middle = size.low + Terrain::kBlock * Vec2(column, row) + 0.5 * sides;
+  return {{middle.x(), middle.y(), 0.0}, sides.x(), sides.y()};
+}
+
+/// Whether a point is inside of refined blocks or between them, and not on their border.
+bool IsInRefined(const Terrain& terrain, const Vec2& point_W) {
+  const Terrain::Size& size = terrain.size();
+  constexpr double kAside = 1e-3 * Terrain::kBlock;
+  const auto refined = [&](double x, double y) {
+    const Vec2 place = (point_W + Vec2(x, y) - size.low) / Terrain::kBlock;
+    return place.x() >= 0.0 && place.y() >= 0.0 && place.x() < size.columns &&
+           place.y() < size.rows &&
+           terrain.IsRefined(static_cast<int>(place.x()), static_cast<int>(place.y()));
+  };
+  return refined(-kAside, -kAside) && refined(-kAside, kAside) && refined(kAside, -kAside) &&
+         refined(kAside, kAside);
+}
+
+/// Calls `add(box, field)` for the height fields that make up a terrain: one for each refined
+/// block, with a sample at each of its nodes, and coarse ones around them, which dive under those.
+void SampleTerrain(
+    const Terrain& terrain,
+    const std::function<void(const OrientedBox& box, const HeightField& field)>& add) {
+  const Terrain::Size& size = terrain.size();
+  for (int row = 0; row < size.rows; ++row) {
+    for (int column = 0; column < size.columns; ++column) {
+      if (terrain.IsRefined(column, row)) {
+        const OrientedBox box = BlocksAt(size, column, row, 1, 1);
+        constexpr int kSamples = Terrain::kCells + 1;
+        add(box,
+            Sample(box, kSamples, kSamples, [&](const Vec2& p) { return terrain.At(p).height; }));
+      }
+    }
+  }
+  constexpr int kMostBlocks = 64;  // 257 samples along a side
+  constexpr double kUnder = 4.0;   // [m]: steeper than what lies on it
+  for (int row = 0; row < size.rows; row += kMostBlocks) {
+    for (int column = 0; column < size.columns; column += kMostBlocks) {
+      const int columns = std::min(kMostBlocks, size.columns - column);
+      const int rows = std::min(kMostBlocks, size.rows - row);
+      const OrientedBox box = BlocksAt(size, column, row, columns, rows);
+      add(box, Sample(box, columns * Terrain::kCoarseCells + 1, rows * Terrain::kCoarseCells + 1,
+                      [&](const Vec2& p) {
+                        return terrain.At(p).height - (IsInRefined(terrain, p) ? kUnder : 0.0);
+                      }));
+    }
+  }
 }
 
 void Place(XMLElement& geom, const Eigen::Vector3d& position, const Eigen::Quaterniond& turn) {
@@ -94,17 +152,16 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
   plane->SetAttribute("type", "plane");
   plane->SetAttribute("size", "0 0 1");
   const Eigen::Quaterniond lean = Upright(ground.grade, 0.0);
-  Place(*plane, Eigen::Vector3d::Zero(), lean);
+  const double base = ground.terrain ? ground.terrain->size().base : 0.0;
+  Place(*plane, {0.0, 0.0, base}, lean);
 
   Scene scene = car_scene;
   XMLElement* assets = root.InsertNewChildElement("asset");
   int count = 0;
-  const auto add = [&](const auto& feature, const char* rgba) {
-    const HeightField field = Sample(feature, ground);
+  const auto add = [&](const OrientedBox& box, const HeightField& field, const char* rgba) {
     if (field.highest == field.lowest) {
       return;  // a side slope of 0
     }
-    const OrientedBox box = Extent(feature);
     const std::string name = fmt::format("ground_{}", count);
     const std::string file = name + ".hfield";
     ++count;
@@ -124,11 +181,17 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
     }
     Place(geom, {box.center.x, box.center.y, field.lowest}, Upright(Vec2::Zero(), box.center.yaw));
   };
+  if (ground.terrain) {
+    SampleTerrain(*ground.terrain, [&](const OrientedBox& box, const HeightField& field) {
+      add(box, field, nullptr);
+    });
+  }
   for (const Bump& bump : ground.bumps) {
-    add(bump, "1 0.93 0.68 1");  // one would hardly see it
+    // One would hardly see it.
+    add(Extent(bump), Sample(bump, ground), "1 0.93 0.68 1");
   }
   for (const Superelevation& side_slope : ground.side_slopes) {
-    add(side_slope, nullptr);
+    add(Extent(side_slope), Sample(side_slope, ground), nullptr);
   }
   if (count > 0) {
     // A car has four wheels, or two.

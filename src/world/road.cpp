@@ -95,7 +95,7 @@ bool IsFlat(const Ground& ground) {
 }
 
 bool IsPlane(const Ground& ground) {
-  return ground.bumps.empty() && ground.side_slopes.empty();
+  return ground.bumps.empty() && ground.side_slopes.empty() && !ground.terrain;
 }
 
 double Rise(const Bump& bump, const Vec2& point_W) {
@@ -118,12 +118,18 @@ OrientedBox Extent(const Superelevation& side_slope) {
 }
 
 double GroundHeight(const Ground& ground, const Vec2& point_W) {
+  if (ground.terrain) {
+    return ground.terrain->At(point_W).height;
+  }
   return ground.grade.dot(point_W) + Highest(ground, point_W).height;
 }
 
 Vec2 GroundSlope(const Ground& ground, const Vec2& point_W) {
   TRACKBED_REQUIRE(point_W.allFinite(), "GroundSlope: the point {}, {} is not finite", point_W.x(),
                    point_W.y());
+  if (ground.terrain) {
+    return ground.terrain->At(point_W).slope;
+  }
   return ground.grade + Highest(ground, point_W).slope;
 }
 

@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <utility>
 
 #include "tests/fuzz/target.h"
-#include "trackbed/road_network/lane_route.h"
+#include "trackbed/planning/lanes/route_ground.h"
 #include "trackbed/road_network/open_drive.h"
 
-/// A road network in OpenDRIVE: positions on its lanes, and a route from lane to lane.
+/// A road network in OpenDRIVE: positions on its lanes, a route from lane to lane, and the
+/// ground under it.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trackbed;
   fuzz::Expect([&] {
@@ -25,7 +27,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::all_of(network.roads.begin(), network.roads.end(),
                     [](const auto& entry) { return entry.second.length < 1000.0; });
     if (places.size() >= 2 && is_short) {
-      static_cast<void>(FindLaneRoute(network, places));
+      static_cast<void>(MakeRouteGround(network, places));
+      // The network's first lane, from place to place along it.
+      LanePlace from = places.front();
+      const Road& road = network.roads.find(from.road)->second;
+      LanePlace to = from;
+      from.s = 0.25 * road.SectionEnd(0);
+      to.s = 0.75 * road.SectionEnd(0);
+      if (!FollowsRoad(road, from.lane)) {
+        std::swap(from, to);
+      }
+      if (WhyNoPlace(network, from).empty() && WhyNoPlace(network, to).empty()) {
+        static_cast<void>(MakeRouteGround(network, {from, to}));
+      }
     }
   });
   return 0;

@@ -108,5 +108,45 @@ TEST(Roads, HaveThePlacesOfTheirRoute) {
               HasSubstr("mission.route[0].s: missing"));
 }
 
+/// The road of RoadFolder on a slope, as sloping.xodr.
+void WriteSloping(const RoadFolder& here) {
+  RoadText road;
+  road.heights =
+      "<elevationProfile><elevation s='0' a='1' b='0.05' c='0' d='0'/>"
+      "</elevationProfile>";
+  here.folder.Write("sloping.xodr", Document(road.Xml()));
+}
+
+TEST(Roads, ThatAreNotLevelAreTheGround) {
+  const RoadFolder here;
+  WriteSloping(here);
+  EXPECT_TRUE(IsFlat(here.Read().world.ground));
+  const Scenario scenario = here.Read({"world.road_network=sloping.xodr"});
+  // As in route_ground_test.cpp.
+  EXPECT_NEAR(GroundHeight(scenario.world, {50.0, 1.75}), 1.0 + 0.05 * 50.0, Tolerance(2e-5));
+  // Also for those who read no more than the world of a run.
+  here.folder.Write("road_network.xodr", scenario.world.road_network->data->text);
+  const World world = ReadWorld(here.folder.Write("scenario.yaml", ResolvedYaml(scenario)));
+  for (double x = -50.0; x < 150.0; x += 3.0) {
+    EXPECT_EQ(GroundHeight(world, {x, 3.0}), GroundHeight(scenario.world, {x, 3.0}));
+  }
+}
+
+TEST(Roads, ThatAreNotLevelAllowNoOtherGround) {
+  const RoadFolder here;
+  WriteSloping(here);
+  const Override sloping = "world.road_network=sloping.xodr";
+  EXPECT_EQ(here.WhyNot({"world.ground={grade: {x: 0.1}}"}), "");
+  EXPECT_THAT(here.WhyNot({sloping, "world.ground={grade: {x: 0.1}}"}),
+              HasSubstr("world.ground: not available on a route over roads that are not level"));
+  RoadText road;
+  road.heights =
+      "<elevationProfile><elevation s='0' a='1' b='0' c='0' d='0'/>"
+      "<elevation s='50' a='2' b='0' c='0' d='0'/></elevationProfile>";
+  here.folder.Write("step.xodr", Document(road.Xml()));
+  EXPECT_THAT(here.WhyNot({"world.road_network=step.xodr"}),
+              HasSubstr("mission.route: the surface of road 1 has a step or a kink at s = "));
+}
+
 }  // namespace
 }  // namespace trackbed

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <map>
 #include <optional>
 #include <string>
@@ -116,6 +117,11 @@ struct LaneBorders {
 LaneBorders LaneBordersAt(const Road& road, std::size_t section, int lane, double s,
                           double piece_of);
 LaneBorders LaneBordersAt(const Road& road, int lane, double s);
+
+/// The unit vector across a road's surface to the left of its reference line: the level normal of
+/// the line, turned by `roll` about its tangent in space. `tangent` is the derivative of the line
+/// by the station, as seen from above, `slope` that of its elevation.
+Eigen::Vector3d AcrossSurface(const Vec2& tangent, double slope, double roll);
 
 /// A point on the surface of a road.
 struct RoadPosition {

@@ -65,9 +65,11 @@ Scene ComposeScene(const std::filesystem::path& car_file, const SceneOptions& op
 
 /// Adds the ground to the scene: the geom `ground` becomes the plane of the grade, and every bump
 /// and side slope a height field `ground_0`, `ground_1`, … that stands on it, at most 5 cm from one
-/// sample to the next, or a 256th of its side. With those there is a plane `ground_fl`, … for every
-/// wheel that touches nothing; RoadContact moves them. All take friction and the like from the
-/// car's own ground. Flat ground leaves the scene as it is.
+/// sample to the next, or a 256th of its side. Of a terrain there is one for each refined block,
+/// with its heights, and one for each 64 x 64 blocks with the coarse heights, which lies 4 m lower
+/// where there are fine ones. With those there is a plane `ground_fl`, … for every wheel that
+/// touches nothing; RoadContact moves them. All take friction and the like from the car's own
+/// ground. Flat ground leaves the scene as it is.
 Scene WithGround(const Scene& car_scene, const Ground& ground);
 
 /// Adds the world's obstacles, `obstacle_0`, `obstacle_1`, …, as fixed boxes, or as boxes moved by

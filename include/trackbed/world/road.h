@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "trackbed/geometry/oriented_box.h"
+#include "trackbed/world/terrain.h"
 
 /// The road: friction and height. In a feature's own frame, the pose of its area, u runs along its
 /// length L and v to the left along its width W, both from the middle. Smooth transitions use C(q)
@@ -36,11 +38,14 @@ struct Superelevation {
   double transition_length = 10.0;  ///< transition length at both ends [m], > 0
 };
 
-/// A plane through the origin with features on it. Where they overlap, the highest counts.
+/// A plane through the origin with features on it, of which the highest counts where they overlap;
+/// or a terrain alone.
 struct Ground {
   Vec2 grade = Vec2::Zero();  ///< of the plane: dz/dx and dz/dy
   std::vector<Bump> bumps{};
   std::vector<Superelevation> side_slopes{};
+  /// In place of the plane and its features; null: none. Copies of a world share it.
+  std::shared_ptr<const Terrain> terrain{};
 };
 
 /// Whether the ground is the plane z = 0.

@@ -16,29 +16,6 @@
 namespace trackbed {
 namespace {
 
-/// Height of a level road [m].
-double HeightOf(const Road& road) {
-  return road.elevation.At(0.0).value;
-}
-
-/// Why the roads of a route are no plane at one height, for people, or "".
-std::string WhyNotLevel(const RoadNetwork& network, const std::vector<LaneStretch>& stretches) {
-  const Road& first = network.roads.find(stretches.front().road)->second;
-  for (const LaneStretch& stretch : stretches) {
-    const Road& road = network.roads.find(stretch.road)->second;
-    if (!IsLevel(road)) {
-      return fmt::format(
-          "road {} has elevation, superelevation or other heights; only level roads are driven",
-          road.id);
-    }
-    if (HeightOf(road) != HeightOf(first)) {
-      return fmt::format("road {} is at {} m, road {} at {} m; only roads at one height are driven",
-                         first.id, HeightOf(first), road.id, HeightOf(road));
-    }
-  }
-  return "";
-}
-
 /// Why the car does not start where the path does, for people, or "".
 std::string WhyElsewhere(const Pose2& car, const Pose2& path) {
   constexpr double kPlace = 1e-3;    // [m]
@@ -87,9 +64,6 @@ Plan PlanWith(const LaneRouteOptions& options, const PlanRequest& request) {
   LaneRoute found = FindLaneRoute(*lanes.network, lanes.route);
   if (!found.ok()) {
     return route::Refused(PlanStatus::kNoPath, found.failure);
-  }
-  if (const std::string why = WhyNotLevel(*lanes.network, found.stretches); !why.empty()) {
-    return route::Refused(PlanStatus::kInfeasible, why);
   }
   if (const std::string why = WhyElsewhere(request.start, found.path.At(0.0).pose); !why.empty()) {
     return route::Refused(PlanStatus::kStartBlocked, why);

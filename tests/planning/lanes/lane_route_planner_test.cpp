@@ -105,46 +105,19 @@ TEST(LaneRoutePlanner, RefusesLanesThatTheCarCannotSteerThrough) {
   ExpectRefused(request, PlanStatus::kTurnTooTight, "exceeds the limit of 0.050 rad");
 }
 
-TEST(LaneRoutePlanner, RefusesRoadsThatAreNotLevel) {
-  const std::string rest = " c='0' d='0'/>";
-  for (const std::string& heights :
-       {"<elevationProfile><elevation s='0' a='0' b='0.01'" + rest + "</elevationProfile>",
-        "<lateralProfile><superelevation s='0' a='0.01' b='0'" + rest + "</lateralProfile>",
-        std::string("<lateralProfile><shape s='0' t='0' a='0' b='0' c='0' d='0'/>"
-                    "</lateralProfile>")}) {
-    RoadText road;
-    road.heights = heights;
-    PlanRequest request = AroundTheLoop();
-    request.lanes = {Shared(ParseNetwork(road.Xml())), {{"1", -1, 10.0}, {"1", -1, 60.0}}};
-    request.start = {10.0, -1.75, 0.0};
-    ExpectRefused(request, PlanStatus::kInfeasible, "only level roads are driven");
-  }
-}
-
-TEST(LaneRoutePlanner, DrivesLevelRoadsAtAnyHeightButNotSteps) {
-  const auto at = [](const std::string& height) {
-    return "<elevationProfile><elevation s='0' a='" + height +
-           "' b='0' c='0' d='0'/></elevationProfile>";
-  };
-  RoadText first;
-  first.heights = at("3");
-  first.link = "<successor elementType='road' elementId='2' contactPoint='start'/>";
-  first.lanes =
-      "<laneSection s='0'><center><lane id='0'/></center><right><lane id='-1' type='driving'>"
-      "<link><successor id='-1'/></link><width sOffset='0' a='3.5' b='0' c='0' d='0'/></lane>"
-      "</right></laneSection>";
-  RoadText second;
-  second.id = "2";
-  second.geometry = "<geometry s='0' x='100' y='0' hdg='0' length='100'><line/></geometry>";
-  second.heights = at("3");
+TEST(LaneRoutePlanner, PlansInThePlaneWhateverTheRoadsHeights) {
+  RoadText road;
   PlanRequest request = AroundTheLoop();
-  request.lanes = {Shared(ParseNetwork(first.Xml() + second.Xml())),
-                   {{"1", -1, 10.0}, {"2", -1, 60.0}}};
+  request.lanes = {Shared(ParseNetwork(road.Xml())), {{"1", -1, 10.0}, {"1", -1, 60.0}}};
   request.start = {10.0, -1.75, 0.0};
-  EXPECT_TRUE(PlanOf(request).ok());
-  second.heights = at("3.5");
-  request.lanes.network = Shared(ParseNetwork(first.Xml() + second.Xml()));
-  ExpectRefused(request, PlanStatus::kInfeasible, "road 1 is at 3 m, road 2 at 3.5 m");
+  const Plan level = PlanOf(request);
+  ASSERT_TRUE(level.ok()) << level.reason;
+  road.heights =
+      "<elevationProfile><elevation s='0' a='3' b='0.1' c='0' d='0'/></elevationProfile>";
+  request.lanes.network = Shared(ParseNetwork(road.Xml()));
+  const Plan hilly = PlanOf(request);
+  EXPECT_EQ(hilly.reference.path.segments(), level.reference.path.segments());
+  EXPECT_EQ(hilly.reference.speed.SpeedAt(20.0), level.reference.speed.SpeedAt(20.0));
 }
 
 }  // namespace

@@ -23,9 +23,9 @@ struct LaneRouteDiagnostics {
 void Visit(DiagnosticsVisitor& out, const LaneStretch& stretch);
 void Visit(DiagnosticsVisitor& out, const LaneRouteDiagnostics& own);
 
-/// Plans PlanRequest::lanes. Refuses routes over roads that are not level (IsLevel) or not at one
-/// height, because the car drives on the world's ground and not on the roads' heights, and a car
-/// that starts more than 1 mm or 1 mrad from where the route begins. Does not look at obstacles.
+/// Plans PlanRequest::lanes in the plane: the heights of roads are ground (route_ground.h), which
+/// counts for speeds at the limit alone. Refuses a car that starts more than 1 mm or 1 mrad from
+/// where the route begins. Does not look at obstacles.
 PlannerEntry LaneRoutePlanner();
 
 }  // namespace trackbed

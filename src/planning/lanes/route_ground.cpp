@@ -1,0 +1,419 @@
+#include "trackbed/planning/lanes/route_ground.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "src/planning/lanes/coarse_ground.h"
+#include "src/planning/lanes/road_strip.h"
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+constexpr double kGoesOn = 15.0;     // along its road before and after the route [m]
+constexpr double kStraightOn = 6.0;  // where that road ends [m]
+constexpr double kLikeLanes = 1.5;   // beside them [m]
+constexpr double kPasses = 8.0;      // into the ground between the roads [m]
+constexpr double kReach = kLikeLanes + kPasses;
+constexpr double kMargin = 128.0;        // around the route [m]
+constexpr double kLevelBorder = 24.0;    // of it [m]
+constexpr double kSlopeToBorder = 72.0;  // [m]
+constexpr double kBelow = 1.0;           // the lowest road [m]
+
+/// Stations of a road that the route needs.
+struct Stretch {
+  double from = 0.0;
+  double to = 0.0;
+  double before = 0.0;  // straight on [m]
+  double after = 0.0;
+};
+
+/// By road, in order and apart.
+using Stretches = std::map<std::string, std::vector<Stretch>>;
+
+Stretches NeededStretches(const RoadNetwork& network, const std::vector<LaneStretch>& route) {
+  Stretches all;
+  for (std::size_t i = 0; i < route.size(); ++i) {
+    const LaneStretch& own = route[i];
+    const double length = network.roads.find(own.road)->second.length;
+    const bool backward = own.to < own.from;
+    const double enters = i == 0 ? kStraightOn : 0.0;
+    const double leaves = i + 1 == route.size() ? kStraightOn : 0.0;
+    all[own.road].push_back({std::max(0.0, std::min(own.from, own.to) - kGoesOn),
+                             std::min(length, std::max(own.from, own.to) + kGoesOn),
+                             backward ? leaves : enters, backward ? enters : leaves});
+  }
+  for (auto& [id, stretches] : all) {
+    std::sort(stretches.begin(), stretches.end(),
+              [](const Stretch& a, const Stretch& b) { return a.from < b.from; });
+    std::vector<Stretch> merged;
+    for (const Stretch& next : stretches) {
+      if (merged.empty() || next.from > merged.back().to) {
+        merged.push_back(next);
+        continue;
+      }
+      Stretch& last = merged.back();
+      last.before = next.from == last.from ? std::max(last.before, next.before) : last.before;
+      if (next.to >= last.to) {
+        last.after = next.to == last.to ? std::max(last.after, next.after) : next.after;
+        last.to = next.to;
+      }
+    }
+    stretches = std::move(merged);
+  }
+  return all;
+}
+
+/// Two lanes above each other.
+struct Crossing {
+  std::string road;
+  double s = 0.0;
+  std::string other;
+  double other_s = 0.0;
+  Vec2 place{0.0, 0.0};
+  double apart = 0.0;  // [m]
+};
+
+/// The surfaces of all strips as one.
+class Surfaces {
+ public:
+  explicit Surfaces(std::vector<RoadStrip> strips) : strips_(std::move(strips)) {}
+
+  [[nodiscard]] const std::vector<RoadStrip>& strips() const { return strips_; }
+
+  /// Those that matter within a circle.
+  [[nodiscard]] std::vector<const RoadStrip*> Near(const Vec2& middle, double radius) const {
+    std::vector<const RoadStrip*> near;
+    for (const RoadStrip& strip : strips_) {
+      if ((strip.middle() - middle).norm() < strip.radius() + radius + kReach) {
+        near.push_back(&strip);
+      }
+    }
+    return near;
+  }
+
+  struct Blend {
+    double z = 0.0;
+    double share = 0.0;  // of it in the ground, from 1 on the lanes to 0
+  };
+
+  /// Their mean, in which lanes count more the nearer they are, and alone on them.
+  Blend At(const std::vector<const RoadStrip*>& near, const Vec2& point) {
+    Blend blend;
+    double sum = 0.0;
+    const RoadStrip* on = nullptr;
+    RoadStrip::Place there;
+    for (const RoadStrip* strip : near) {
+      const double circle = strip->radius() + kReach;
+      if ((strip->middle() - point).squaredNorm() > circle * circle) {
+        continue;
+      }
+      const std::optional<RoadStrip::Place> place = strip->Locate(point);
+      if (!place) {
+        continue;
+      }
+      const double away = std::hypot(place->beside, place->beyond - place->straight_on);
+      blend.share = std::max(blend.share, place->share * Fade((away - kLikeLanes) / kPasses));
+      const double square = place->beside * place->beside + place->beyond * place->beyond;
+      constexpr double kLeast = 1e-6;  // [m^2]
+      const double weight = place->share / ((square + kLeast) * (square + kLeast));
+      sum += weight;
+      blend.z += weight * place->z;
+      // At its ends it meets the next one, and a step there is no bridge.
+      if (square == 0.0 && place->s > strip->from() && place->s < strip->to()) {
+        if (on != nullptr) {
+          Compare(*on, there, *strip, *place, point);
+        }
+        on = strip;
+        there = *place;
+      }
+    }
+    blend.z = sum > 0.0 ? blend.z / sum : 0.0;
+    return blend;
+  }
+
+  /// Where lanes were found farthest above each other, by more than a mismatch of heights.
+  [[nodiscard]] const std::optional<Crossing>& crossing() const { return crossing_; }
+
+ private:
+  /// From 1 at 0 to 0 at 1, with no slope and no curvature there.
+  static double Fade(double u) {
+    const double v = 1.0 - std::clamp(u, 0.0, 1.0);
+    return v * v * v * (10.0 - v * (15.0 - 6.0 * v));
+  }
+
+  void Compare(const RoadStrip& one, const RoadStrip::Place& a, const RoadStrip& other,
+               const RoadStrip::Place& b, const Vec2& point) {
+    constexpr double kMostApart = 0.1;  // [m]
+    const double apart = std::abs(a.z - b.z);
+    if (apart > std::max(kMostApart, crossing_ ? crossing_->apart : 0.0)) {
+      crossing_ = Crossing{one.road().id, a.s, other.road().id, b.s, point, apart};
+    }
+  }
+
+  std::vector<RoadStrip> strips_;
+  std::optional<Crossing> crossing_;
+};
+
+/// Some points on the lanes of a strip, at most 2 m apart along it.
+std::vector<RoadPosition> PointsOn(const RoadStrip& strip) {
+  constexpr double kSpacing = 2.0;  // [m]
+  std::vector<RoadPosition> points;
+  const double parts = std::ceil((strip.to() - strip.from()) / kSpacing);
+  for (double i = 0.0; i <= parts; i += 1.0) {
+    const double s = std::lerp(strip.from(), strip.to(), i / parts);
+    const auto [right, left] = strip.Borders(s);
+    for (const double t : {right, 0.5 * (right + left), left}) {
+      points.push_back(PositionAt(strip.road(), s, t));
+    }
+  }
+  return points;
+}
+
+/// How near to the border of the terrain a control height is level with what is around it, 0 to 1.
+double ShareInside(const Terrain::Size& size, int column, int row) {
+  const int cells =
+      std::min({column, row, size.CoarseColumns() - 1 - column, size.CoarseRows() - 1 - row});
+  const double u =
+      std::clamp((Terrain::kCoarseCell * cells - kLevelBorder) / kSlopeToBorder, 0.0, 1.0);
+  return u * u * (3.0 - 2.0 * u);
+}
+
+/// The terrain before it is refined; none if it would be too large.
+std::optional<Terrain> CoarseTerrain(const std::vector<RoadStrip>& strips) {
+  std::vector<RoadPosition> points;
+  for (const RoadStrip& strip : strips) {
+    const std::vector<RoadPosition> own = PointsOn(strip);
+    points.insert(points.end(), own.begin(), own.end());
+  }
+  Vec2 low(points.front().x, points.front().y);
+  Vec2 high = low;
+  double lowest = points.front().z;
+  for (const RoadPosition& point : points) {
+    low = low.cwiseMin(Vec2(point.x, point.y));
+    high = high.cwiseMax(Vec2(point.x, point.y));
+    lowest = std::min(lowest, point.z);
+  }
+  constexpr double kLargest = 8000.0;  // [m]
+  if ((high - low).maxCoeff() > kLargest) {
+    return std::nullopt;
+  }
+  Terrain::Size size;
+  size.low = Terrain::kBlock * ((low.array() - kMargin) / Terrain::kBlock).floor();
+  size.columns = static_cast<int>(std::ceil((high.x() + kMargin - size.low.x()) / Terrain::kBlock));
+  size.rows = static_cast<int>(std::ceil((high.y() + kMargin - size.low.y()) / Terrain::kBlock));
+  size.base = lowest - kBelow;
+  HeightGrid known{size.CoarseColumns(), size.CoarseRows(), {}};
+  const auto count = static_cast<std::size_t>(known.columns) * static_cast<std::size_t>(known.rows);
+  std::vector<std::pair<double, double>> sums(count);
+  for (const RoadPosition& point : points) {
+    const Vec2 cell = (Vec2(point.x, point.y) - size.low) / Terrain::kCoarseCell;
+    auto& [sum, weight] = sums[static_cast<std::size_t>(std::lround(cell.y())) *
+                                   static_cast<std::size_t>(known.columns) +
+                               static_cast<std::size_t>(std::lround(cell.x()))];
+    sum += point.z;
+    weight += 1.0;
+  }
+  for (const auto& [sum, weight] : sums) {
+    known.heights.push_back(weight > 0.0 ? std::optional(sum / weight) : std::nullopt);
+  }
+  std::vector<double> heights = FillHeights(known);
+  for (int row = 0; row < known.rows; ++row) {
+    for (int column = 0; column < known.columns; ++column) {
+      double& height =
+          heights[static_cast<std::size_t>(row) * static_cast<std::size_t>(known.columns) +
+                  static_cast<std::size_t>(column)];
+      height = std::lerp(size.base, height, ShareInside(size, column, row));
+    }
+  }
+  return Terrain(size, std::move(heights));
+}
+
+void RefineAlong(Surfaces& surfaces, Terrain& terrain) {
+  const Terrain::Size size = terrain.size();
+  for (int row = 0; row < size.rows; ++row) {
+    for (int column = 0; column < size.columns; ++column) {
+      const Vec2 middle = size.low + Terrain::kBlock * Vec2(column + 0.5, row + 0.5);
+      constexpr double kRadius = 0.75 * Terrain::kBlock;  // of a circle around it and a cell more
+      const std::vector<const RoadStrip*> near = surfaces.Near(middle, kRadius);
+      if (near.empty()) {
+        continue;
+      }
+      terrain.Refine(column, row, [&](const Vec2& point, double coarse) {
+        const Surfaces::Blend blend = surfaces.At(near, point);
+        return blend.share * (blend.z - coarse);
+      });
+    }
+  }
+}
+
+/// A place of the route's lanes and how far the ground is from it.
+struct Deviation {
+  std::string road;
+  double s = 0.0;
+  Vec2 place{0.0, 0.0};
+  double distance = 0.0;  // [m]
+};
+
+Deviation LargestDeviation(const RoadNetwork& network, const std::vector<LaneStretch>& route,
+                           const Terrain& terrain) {
+  Deviation largest;
+  for (const LaneStretch& stretch : route) {
+    const Road& road = network.roads.find(stretch.road)->second;
+    const double from = std::min(stretch.from, stretch.to);
+    const double to = std::max(stretch.from, stretch.to);
+    const std::size_t section = road.SectionAt(0.5 * (from + to));
+    constexpr double kSpacing = 0.15;  // [m]: not that of the points that the ground goes through
+    const double parts = std::max(1.0, std::ceil((to - from) / kSpacing));
+    for (double i = 0.0; i <= parts; i += 1.0) {
+      const double s = std::lerp(from, to, i / parts);
+      // Of the road before its end, where two of its pieces meet.
+      const double piece_of = s < to ? s : std::nextafter(to, from);
+      for (const int lane : {stretch.lane, stretch.to_lane}) {
+        const LaneBorders borders = LaneBordersAt(road, section, lane, s, piece_of);
+        for (const double t : {borders.inner.value, borders.Center().value, borders.outer.value}) {
+          const RoadPosition at = PositionAt(road, piece_of, t);
+          const double distance = std::abs(terrain.At({at.x, at.y}).height - at.z);
+          if (!(distance <= largest.distance)) {
+            largest = {road.id, s, {at.x, at.y}, distance};
+          }
+        }
+      }
+    }
+  }
+  return largest;
+}
+
+/// Whether all roads of a route lie level at one height.
+bool IsLevelRoute(const RoadNetwork& network, const std::vector<LaneStretch>& route) {
+  const auto height = [&](const LaneStretch& stretch) {
+    return network.roads.find(stretch.road)->second.elevation.At(0.0).value;
+  };
+  return std::all_of(route.begin(), route.end(), [&](const LaneStretch& stretch) {
+    return IsLevel(network.roads.find(stretch.road)->second) &&
+           height(stretch) == height(route.front());
+  });
+}
+
+/// What of a road at a station cannot be ground, for people, or "".
+std::string WhyNoGround(const Road& road, double s) {
+  const CubicValue height = road.elevation.At(s);
+  const double roll = road.superelevation.At(s).value;
+  constexpr double kSteepest = 1.0;  // as of bumps of the world's ground
+  if (!(std::abs(height.slope) <= kSteepest && std::abs(std::tan(roll)) <= kSteepest &&
+        std::cos(roll) > 0.0)) {
+    return fmt::format(
+        "road {} at s = {:.4g} m has a grade of {:.3g} and a superelevation of {:.3g} rad; must be "
+        "at most 45 degrees steep",
+        road.id, s, height.slope, roll);
+  }
+  constexpr double kHighest = 1e4;  // [m]
+  if (!(std::abs(height.value) <= kHighest)) {
+    return fmt::format(
+        "road {} at s = {:.4g} m is {:.3g} m high; must be at least {} and at most {}", road.id, s,
+        height.value, -kHighest, kHighest);
+  }
+  constexpr double kWidest = 50.0;  // [m]
+  const std::size_t section = road.SectionAt(s);
+  for (const Lane& lane : road.sections[section].lanes) {
+    const double border = LaneBordersAt(road, section, lane.id, s, s).outer.value;
+    if (IsDrivable(lane) && !(std::abs(border) <= kWidest)) {
+      return fmt::format(
+          "lane {} of road {} reaches {:.4g} m from the reference line at s = {:.4g} m; must be at "
+          "most {} m on roads that are not level",
+          lane.id, road.id, std::abs(border), s, kWidest);
+    }
+  }
+  return "";
+}
+
+/// What of the roads cannot be ground, for people, or "".
+std::string WhyNoGround(const RoadNetwork& network, const Stretches& needed) {
+  double length = 0.0;
+  for (const auto& [id, stretches] : needed) {
+    const Road& road = network.roads.find(id)->second;
+    if (!road.unread_heights.empty()) {
+      return fmt::format("road {} has heights that are not read: {}; its surface is not known", id,
+                         fmt::join(road.unread_heights, ", "));
+    }
+    for (const Stretch& stretch : stretches) {
+      length += stretch.to - stretch.from;
+      for (double s = stretch.from; s <= stretch.to; s += 1.0) {
+        if (std::string why = WhyNoGround(road, s); !why.empty()) {
+          return why;
+        }
+      }
+    }
+  }
+  constexpr double kLongest = 20000.0;  // [m]
+  return length > kLongest ? fmt::format(
+                                 "the route has {:.3g} km of road that is not level; must "
+                                 "be at most {:.3g} km",
+                                 1e-3 * length, 1e-3 * kLongest)
+                           : "";
+}
+
+RouteGround GroundOf(const RoadNetwork& network, const std::vector<LaneStretch>& stretches) {
+  RouteGround ground;
+  if (stretches.empty() || IsLevelRoute(network, stretches)) {
+    return ground;
+  }
+  const Stretches needed = NeededStretches(network, stretches);
+  ground.failure = WhyNoGround(network, needed);
+  if (!ground.ok()) {
+    return ground;
+  }
+  std::vector<RoadStrip> strips;
+  for (const auto& [id, own] : needed) {
+    for (const Stretch& stretch : own) {
+      const std::vector<RoadStrip> more = CutIntoStrips(
+          network.roads.find(id)->second, stretch.from, stretch.to, stretch.before, stretch.after);
+      strips.insert(strips.end(), more.begin(), more.end());
+    }
+  }
+  TRACKBED_CHECK(!strips.empty(), "a route over no lanes");
+  std::optional<Terrain> terrain = CoarseTerrain(strips);
+  if (!terrain) {
+    ground.failure = "the route is more than 8 km wide or high; too much for roads not level";
+    return ground;
+  }
+  Surfaces surfaces(std::move(strips));
+  RefineAlong(surfaces, *terrain);
+  if (const std::optional<Crossing>& crossing = surfaces.crossing()) {
+    ground.failure = fmt::format(
+        "road {} at s = {:.4g} m and road {} at s = {:.4g} m are {:.3g} m above each other at x = "
+        "{:.4g} m, y = {:.4g} m; a route must not pass over or under itself",
+        crossing->road, crossing->s, crossing->other, crossing->other_s, crossing->apart,
+        crossing->place.x(), crossing->place.y());
+    return ground;
+  }
+  const Deviation deviation = LargestDeviation(network, stretches, *terrain);
+  constexpr double kMost = 0.01;  // [m]
+  if (!(deviation.distance <= kMost)) {
+    ground.failure = fmt::format(
+        "the surface of road {} has a step or a kink at s = {:.4g} m, x = {:.4g} m, y = {:.4g} m: "
+        "smooth ground is {:.3g} m away from it; must be at most {} m",
+        deviation.road, deviation.s, deviation.place.x(), deviation.place.y(), deviation.distance,
+        kMost);
+    return ground;
+  }
+  ground.deviation = deviation.distance;
+  ground.terrain = std::make_shared<const Terrain>(std::move(*terrain));
+  return ground;
+}
+
+}  // namespace
+
+RouteGround MakeRouteGround(const RoadNetwork& network, const std::vector<LanePlace>& places) {
+  const LaneRoute route = FindLaneRoute(network, places);
+  return route.ok() ? GroundOf(network, route.stretches) : RouteGround{};
+}
+
+}  // namespace trackbed
