@@ -28,13 +28,15 @@ void CheckProgram(const SparseQuadraticProgram& program, const Eigen::VectorXd& 
 
 }  // namespace
 
-SparseQuadraticSolution Solve(const SparseQuadraticProgram& program, const Eigen::VectorXd& start) {
+SparseQuadraticSolution Solve(const SparseQuadraticProgram& program, const Eigen::VectorXd& start,
+                              InteriorSteps steps) {
   SparseQuadraticProgram packed = program;
   packed.hessian.makeCompressed();
   packed.constraints.makeCompressed();
   CheckProgram(packed, start);
-  const IpoptResult found = SolveByIpopt(packed, start);
-  SparseQuadraticSolution solution{.x = found.x, .iterations = found.iterations};
+  const IpoptResult found = SolveByIpopt(packed, start, steps);
+  SparseQuadraticSolution solution{
+      .x = found.x, .multipliers = found.multipliers, .iterations = found.iterations};
   const Eigen::VectorXd values = packed.constraints * solution.x;
   const double largest = std::max(
       {1.0, packed.lower.lpNorm<Eigen::Infinity>(), packed.upper.lpNorm<Eigen::Infinity>()});

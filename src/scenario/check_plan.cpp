@@ -263,6 +263,22 @@ void CheckTrack(Diagnostics& c) {
   }
 }
 
+/// A planner for speeds at the limit, and those.
+void CheckLimits(Diagnostics& c) {
+  const auto& plan = c.scenario.plan;
+  const auto& profile = c.scenario.mission.speed_profile;
+  const char* key = "mission.speed_profile";
+  if (!plan || !c.CouldReadPlan({"method"}) ||
+      !c.CouldRead({"mission.speed_profile", "mission.speed_profile.method"}) ||
+      !PlannerFor(plan->global).needs_limits) {
+    return;
+  }
+  if (!profile || !std::holds_alternative<LimitProfileOptions>(*profile)) {
+    c.AddError(key, fmt::format("{}the planner {} needs {{method: limits}}",
+                                profile ? "" : "missing; ", PlannerFor(plan->global).name));
+  }
+}
+
 /// A route over roads, and a planner that follows one.
 void CheckLanes(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
@@ -344,6 +360,7 @@ void CheckMissionAndPlan(Diagnostics& c) {
   CheckMission(c);
   CheckSpeedProfile(c);
   CheckTrack(c);
+  CheckLimits(c);
   CheckLanes(c);
   CheckCourse(c);
   CheckSmoothing(c);

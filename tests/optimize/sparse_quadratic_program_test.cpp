@@ -41,6 +41,23 @@ TEST(SparseQuadraticProgram, CutsToABox) {
   EXPECT_LE(solution.violation, 1e-7);
 }
 
+TEST(SparseQuadraticProgram, HasMultipliersAndMayPredictItsSteps) {
+  // x - c + lambda = 0: lambda is c less the bound at a bound, and 0 elsewhere.
+  const Eigen::VectorXd c = Eigen::VectorXd::LinSpaced(201, -10.0, 10.0);
+  for (const InteriorSteps steps :
+       {InteriorSteps::kLineSearch, InteriorSteps::kPredictorCorrector}) {
+    const SparseQuadraticSolution solution =
+        Solve(Nearest(c, -3.0, 4.0), Eigen::VectorXd::Zero(c.size()), steps);
+    ASSERT_TRUE(solution.ok);
+    for (Eigen::Index i = 0; i < c.size(); ++i) {
+      // As in CutsToABox.
+      const double expected = std::clamp(c[i], -3.0, 4.0);
+      EXPECT_NEAR(solution.x[i], expected, Tolerance(1e-4)) << c[i];
+      EXPECT_NEAR(solution.multipliers[i], c[i] - expected, Tolerance(1e-4)) << c[i];
+    }
+  }
+}
+
 TEST(SparseQuadraticProgram, EqualsTheDenseSolver) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;

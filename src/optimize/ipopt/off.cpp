@@ -4,7 +4,7 @@
 namespace trackbed {
 
 IpoptResult SolveByIpopt(const SparseQuadraticProgram& /*program*/,
-                         const Eigen::VectorXd& /*start*/) {
+                         const Eigen::VectorXd& /*start*/, InteriorSteps /*steps*/) {
   throw RunError("this Trackbed was built without IPOPT (TRACKBED_IPOPT=OFF)");
 }
 

@@ -82,7 +82,7 @@ Bool CountIteration(Index /*mode*/, Index iteration, Number /*objective*/, Numbe
   return TRUE;
 }
 
-void SetOptions(IpoptProblem problem) {
+void SetOptions(IpoptProblem problem, InteriorSteps steps) {
   // The interface takes texts that it may change, and does not.
   const auto set_text = [&](std::string name, const std::string& value) {
     std::string own = value;
@@ -93,10 +93,14 @@ void SetOptions(IpoptProblem problem) {
   };
   set_text("hessian_constant", "yes");
   set_text("jac_d_constant", "yes");
-  set_text("mu_strategy", "adaptive");
+  if (steps == InteriorSteps::kPredictorCorrector) {
+    set_text("mehrotra_algorithm", "yes");
+  } else {
+    set_text("mu_strategy", "adaptive");
+  }
   set_text("sb", "yes");  // no banner
   set_integer("print_level", 0);
-  set_integer("max_iter", 200);
+  set_integer("max_iter", steps == InteriorSteps::kPredictorCorrector ? 80 : 200);
   const auto set_number = [&](std::string name, double value) {
     TRACKBED_CHECK(AddIpoptNumOption(problem, name.data(), value) == TRUE, "{}", name);
   };
@@ -106,7 +110,8 @@ void SetOptions(IpoptProblem problem) {
 
 }  // namespace
 
-IpoptResult SolveByIpopt(const SparseQuadraticProgram& program, const Eigen::VectorXd& start) {
+IpoptResult SolveByIpopt(const SparseQuadraticProgram& program, const Eigen::VectorXd& start,
+                         InteriorSteps steps) {
   const auto n = static_cast<Index>(program.linear.size());
   const auto m = static_cast<Index>(program.lower.size());
   Context context{.program = program,
@@ -123,11 +128,12 @@ IpoptResult SolveByIpopt(const SparseQuadraticProgram& program, const Eigen::Vec
                          Constraints, Gradient, Jacobian, Hessian),
       FreeIpoptProblem);
   TRACKBED_CHECK(problem != nullptr, "IPOPT refuses a program of {} variables", n);
-  SetOptions(problem.get());
+  SetOptions(problem.get(), steps);
   SetIntermediateCallback(problem.get(), CountIteration);
-  IpoptResult result{.x = start};
-  const ApplicationReturnStatus status = IpoptSolve(problem.get(), result.x.data(), nullptr,
-                                                    nullptr, nullptr, nullptr, nullptr, &context);
+  IpoptResult result{.x = start, .multipliers = Eigen::VectorXd::Zero(m)};
+  const ApplicationReturnStatus status =
+      IpoptSolve(problem.get(), result.x.data(), nullptr, nullptr, result.multipliers.data(),
+                 nullptr, nullptr, &context);
   result.solved = status == Solve_Succeeded || status == Solved_To_Acceptable_Level;
   result.iterations = context.iterations;
   return result;

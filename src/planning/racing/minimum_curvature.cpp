@@ -1,12 +1,10 @@
 #include "trackbed/planning/racing/minimum_curvature.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
-#include <unsupported/Eigen/AutoDiff>
 
+#include "src/planning/racing/line_shape.h"
 #include "trackbed/optimize/sparse_quadratic_program.h"
 #include "trackbed/options/key_visitor.h"
 #include "trackbed/planning/common/diagnostics.h"
@@ -16,23 +14,10 @@ namespace trackbed {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
-using Derivatives = Eigen::AutoDiffScalar<Eigen::Vector3d>;  // by d, d' and d''
-
-constexpr double kLargestShare = 0.95;  // of the center line's radius that d may reach
-
-/// kappa sqrt(dl/ds) of the line d beside a center line of given curvature and sharpness, with
-/// r' = (1 - kappa_c d) t + d' n and its derivative.
-Derivatives Residual(const PathPoint& center, const LineOffset& at) {
-  const Derivatives d(at.d, 3, 0);
-  const Derivatives slope(at.slope, 3, 1);
-  const Derivatives bend(at.bend, 3, 2);
-  const Derivatives along = 1.0 - center.curvature * d;
-  const Derivatives along_rate =
-      -(center.sharpness * d + 2.0 * center.curvature * slope);  // of the tangential part
-  const Derivatives across_rate = bend + center.curvature * along;
-  const Derivatives square = along * along + slope * slope;
-  // kappa = (r' x r'')/|r'|^3, and dl/ds = |r'|.
-  return (along * across_rate - slope * along_rate) / pow(square, 1.25);
+/// kappa sqrt(dl/ds), whose square's integral over the station is that of kappa^2 over the line.
+OffsetDerivatives Residual(const PathPoint& center, const LineOffset& at) {
+  const LineShape shape = ShapeAt(center, at);
+  return shape.cross / pow(shape.square, 1.25);
 }
 
 class CurvatureProblem {
@@ -47,19 +32,11 @@ class CurvatureProblem {
       const double s = step_ * static_cast<double>(i);
       centers_.push_back(track.At(s));
       locals_.push_back(basis_.At(s));
-      const TrackEdges edges = track.EdgesAt(s);
-      const double curvature = centers_.back().curvature;
-      double lower = edges.right + beside;
-      double upper = edges.left - beside;
-      (curvature > 0.0 ? upper : lower) =
-          curvature > 0.0 ? std::min(upper, kLargestShare / curvature)
-                          : std::max(lower, kLargestShare / std::min(curvature, -1e-12));
-      program_.lower[i] = lower;
-      program_.upper[i] = upper;
-      if (refused_.empty() && lower >= upper) {
-        refused_ = fmt::format(
-            "the track is {:.3g} m wide at s = {:.4g} m; the car and its margins need {:.3g} m",
-            edges.left - edges.right, s, 2.0 * beside);
+      const OffsetBounds bounds = BoundsAt(track, centers_.back(), s, beside);
+      program_.lower[i] = bounds.lower;
+      program_.upper[i] = bounds.upper;
+      if (refused_.empty() && bounds.lower >= bounds.upper) {
+        refused_ = TooNarrow(track, s, beside);
       }
       for (std::size_t k = 0; k < ClosedSplineBasis::kSupport; ++k) {
         entries.emplace_back(i, locals_.back().index[k], locals_.back().weight[0][k]);
@@ -88,7 +65,7 @@ class CurvatureProblem {
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::VectorXd residuals(Samples());
     for (std::size_t i = 0; i < centers_.size(); ++i) {
-      const Derivatives residual = Residual(centers_[i], OffsetAt(i, coefficients));
+      const OffsetDerivatives residual = Residual(centers_[i], OffsetAt(i, coefficients));
       const auto row = static_cast<Eigen::Index>(i);
       residuals[row] = residual.value();
       for (std::size_t k = 0; k < ClosedSplineBasis::kSupport; ++k) {

@@ -18,6 +18,7 @@
 #include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/racing/center_line.h"
 #include "trackbed/planning/racing/minimum_curvature.h"
+#include "trackbed/planning/racing/minimum_time.h"
 #include "trackbed/planning/sampling/rrt_planner.h"
 
 namespace trackbed {
@@ -38,6 +39,7 @@ Registry<PlannerEntry>& Table() {
                                                      PathFilePlanner(),
                                                      CenterLinePlanner(),
                                                      MinimumCurvaturePlanner(),
+                                                     MinimumTimePlanner(),
                                                  });
   return table;
 }

@@ -17,6 +17,7 @@ struct PlannerEntry {
   Plan (*plan)(const PlanRequest& request, const PlannerOptions& options);
   std::size_t min_waypoints = 0;  ///< least number of waypoints; 0: takes no route
   bool follows_track = false;     ///< leads along PlanRequest::on_track, and needs one
+  bool needs_limits = false;      ///< plans for speeds at the limit: needs PlanRequest::limits
   bool follows_lanes = false;     ///< leads along PlanRequest::lanes, and needs them
   bool keeps_clear = false;       ///< avoids the obstacles of the request
   bool has_headings = false;      ///< meets PlanRequest::headings at the waypoints

@@ -29,6 +29,8 @@ class TrackLine {
   TrackLine(const ClosedSplineBasis& basis, Eigen::MatrixXd coefficients);
 
   [[nodiscard]] LineOffset At(double s) const;
+  /// Empty for the center line.
+  [[nodiscard]] const Eigen::MatrixXd& coefficients() const { return coefficients_; }
 
  private:
   std::optional<ClosedSplineBasis> basis_;

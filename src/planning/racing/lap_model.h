@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "src/planning/racing/line_shape.h"
+#include "trackbed/planning/racing/minimum_time.h"
+#include "trackbed/track/closed_spline.h"
+
+/// Laps along lines on a track, at stations that are evenly spaced along its center line.
+namespace trackbed {
+
+/// A lap along one line.
+struct Lap {
+  std::vector<LineShape> shapes;  // at the stations
+  std::vector<double> curvature;  // kappa there [1/m]
+  std::vector<double> stretch;    // dl/ds there
+  std::vector<double> lengths;    // of the line from each station to the next [m]
+  std::vector<double> speeds;     // [m/s]
+  double time = 0.0;              // [s]
+  double sharpest = 0.0;          // largest |kappa| [1/m]
+};
+
+class LapModel {
+ public:
+  /// `count` stations.
+  LapModel(const Track& track, const LapLimits& limits, std::size_t count);
+
+  [[nodiscard]] const LapLimits& limits() const { return limits_; }
+  [[nodiscard]] std::size_t count() const { return centers_.size(); }
+  [[nodiscard]] double step() const { return step_; }  ///< between stations [m]
+  [[nodiscard]] double StationAt(std::size_t i) const { return step_ * static_cast<double>(i); }
+  [[nodiscard]] std::size_t After(std::size_t i) const { return i + 1 == count() ? 0 : i + 1; }
+  [[nodiscard]] const PathPoint& center(std::size_t i) const { return centers_[i]; }
+
+  /// The lap along a line at the limit. The line must not fold over.
+  [[nodiscard]] Lap Drive(const TrackLine& line) const;
+
+  /// The change of curvature from a station to the next that the steering rate allows at 1 m/s
+  /// [m/s 1/m]; infinite where it is not limited.
+  [[nodiscard]] double SteeringReach(const Lap& lap, std::size_t i) const;
+
+ private:
+  LapLimits limits_;
+  double step_;
+  std::vector<PathPoint> centers_;
+};
+
+}  // namespace trackbed

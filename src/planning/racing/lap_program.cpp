@@ -1,0 +1,355 @@
+#include "src/planning/racing/lap_program.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace trackbed {
+namespace {
+
+/// Bounds of program rows must be finite; none of them has values anywhere near.
+constexpr double kOpen = 50.0;
+constexpr double kLeastRange = 1e-9;  // they must differ
+
+double Squared(double x) {
+  return x * x;
+}
+
+/// The value of a cut's left side less its bound.
+double Excess(const GgvCut& cut, double across, double along) {
+  return cut.across * across + cut.along * along - cut.bound;
+}
+
+/// Where tangents are laid to a quarter of the diagram near `angle`. Accelerations change much even
+/// in small steps, so that the tangents must follow the boundary closely.
+std::vector<double> CutAngles(double angle) {
+  constexpr std::array<double, 5> kBeside{-0.3, -0.1, 0.0, 0.1, 0.3};
+  std::vector<double> angles;
+  for (const double by : kBeside) {
+    if (angle + by >= 0.0 && angle + by <= 0.5 * std::numbers::pi) {
+      angles.push_back(angle + by);
+    }
+  }
+  return angles;
+}
+
+}  // namespace
+
+LapProgram::LapProgram(const LapModel& model, const ClosedSplineBasis& basis,
+                       std::vector<OffsetBounds> bounds)
+    : model_(model), basis_(basis), bounds_(std::move(bounds)), prices_(model.count()) {
+  for (std::size_t i = 0; i < model.count(); ++i) {
+    locals_.push_back(basis.At(model.StationAt(i)));
+  }
+}
+
+void LapProgram::Form::Add(const Form& other, double factor) {
+  for (const auto& [variable, value] : other.terms) {
+    terms.emplace_back(variable, factor * value);
+  }
+}
+
+/// The change of a function of d, d' and d'' with the derivatives `by`.
+LapProgram::Form LapProgram::OffsetForm(std::size_t i, const Eigen::Vector3d& by) const {
+  Form form;
+  for (std::size_t k = 0; k < ClosedSplineBasis::kSupport; ++k) {
+    double value = 0.0;
+    for (std::size_t order = 0; order < 3; ++order) {
+      value += by[static_cast<Eigen::Index>(order)] * locals_[i].weight[order][k];
+    }
+    form.Add(locals_[i].index[k], value);
+  }
+  return form;
+}
+
+void LapProgram::Linearize(const Lap& lap) {
+  const std::size_t count = model_.count();
+  curvature_.clear();
+  stretch_.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    const LineShape& shape = lap.shapes[i];
+    const OffsetDerivatives curvature = shape.cross / pow(shape.square, 1.5);
+    const OffsetDerivatives stretch = sqrt(shape.square);
+    curvature_.push_back(OffsetForm(i, curvature.derivatives()));
+    stretch_.push_back(OffsetForm(i, stretch.derivatives()));
+  }
+  acceleration_.assign(count, {});
+  accelerations_.assign(count, 0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    // a = (w_j - w_i)/(2 l)
+    const std::size_t next = model_.After(i);
+    const double length = lap.lengths[i];
+    const double from = Squared(lap.speeds[i]);
+    const double to = Squared(lap.speeds[next]);
+    accelerations_[i] = (to - from) / (2.0 * length);
+    acceleration_[i].Add(SpeedVariable(next), to / (2.0 * length));
+    acceleration_[i].Add(SpeedVariable(i), -from / (2.0 * length));
+    const double by_stretch = -accelerations_[i] / length * 0.5 * model_.step();
+    acceleration_[i].Add(stretch_[i], by_stretch);
+    acceleration_[i].Add(stretch_[next], by_stretch);
+  }
+}
+
+void LapProgram::AddRow(const Form& form, double lower, double upper) {
+  const auto row = static_cast<Eigen::Index>(lower_.size());
+  for (const auto& [variable, value] : form.terms) {
+    rows_.emplace_back(row, variable, value);
+  }
+  lower_.push_back(lower);
+  upper_.push_back(std::max(upper, lower + kLeastRange));
+}
+
+/// The time of all intervals: 2 l/(v_i + v_j), to second order in the speeds and in the lengths.
+void LapProgram::AddTime(const Lap& lap) {
+  const std::size_t count = model_.count();
+  std::vector<double> pace(count);  // of the stations' stretch [s]
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t next = model_.After(i);
+    const double p = lap.speeds[i];
+    const double q = lap.speeds[next];
+    const double sum = p + q;
+    const double time = 2.0 * lap.lengths[i] / sum;
+    const Eigen::Index a = SpeedVariable(i);
+    const Eigen::Index b = SpeedVariable(next);
+    linear_[a] -= time * p / (2.0 * sum);
+    linear_[b] -= time * q / (2.0 * sum);
+    squares_.emplace_back(a, a, time * (p / (4.0 * sum) + Squared(p / sum) / 2.0));
+    squares_.emplace_back(b, b, time * (q / (4.0 * sum) + Squared(q / sum) / 2.0));
+    squares_.emplace_back(a, b, time * p * q / (2.0 * sum * sum));
+    squares_.emplace_back(b, a, time * p * q / (2.0 * sum * sum));
+    pace[i] += model_.step() / sum;
+    pace[next] += model_.step() / sum;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const auto& [variable, value] : stretch_[i].terms) {
+      linear_[variable] += pace[i] * value;
+    }
+    // |r'| is a norm of what is linear in d and d': its second derivative is u u^T/|r'|^3.
+    const PathPoint& center = model_.center(i);
+    const double slope = lap.shapes[i].square.derivatives()[1] / 2.0;  // d'
+    const double along = std::sqrt(std::max(0.0, Squared(lap.stretch[i]) - Squared(slope)));
+    const Form u = OffsetForm(i, {-center.curvature * slope, -along, 0.0});
+    const double weight = pace[i] / (lap.stretch[i] * Squared(lap.stretch[i]));
+    for (const auto& [row, left] : u.terms) {
+      for (const auto& [column, right] : u.terms) {
+        squares_.emplace_back(row, column, weight * left * right);
+      }
+    }
+  }
+}
+
+void LapProgram::AddBounds(const TrackLine& line, const Lap& lap, const LapTrust& trust) {
+  const LapLimits& limits = model_.limits();
+  double fastest = limits.options.speed;
+  if (const double top = limits.diagram.forces().top_speed; top > 0.0) {
+    fastest = fastest > 0.0 ? std::min(fastest, top) : top;
+  }
+  for (std::size_t i = 0; i < model_.count(); ++i) {
+    const double d = line.At(model_.StationAt(i)).d;
+    const double lower = std::clamp(bounds_[i].lower - d, -trust.offset, 0.0);
+    const double upper = std::clamp(bounds_[i].upper - d, 0.0, trust.offset);
+    AddRow(OffsetForm(i, {1.0, 0.0, 0.0}), lower, upper);
+    Form speed;
+    speed.Add(SpeedVariable(i), 1.0);
+    const double spare = Squared(fastest / lap.speeds[i]) - 1.0;
+    AddRow(speed, -trust.squared, std::clamp(spare, 0.0, trust.squared));
+  }
+}
+
+/// The car's smallest radius, and its steering rate from each station to the next.
+void LapProgram::AddCurvatures(const Lap& lap, double share) {
+  const double most = model_.limits().curvature_max;
+  for (std::size_t i = 0; i < model_.count(); ++i) {
+    const double curvature = lap.curvature[i];
+    if (most > 0.0 && std::abs(curvature) > 0.5 * most) {
+      const double beyond = std::max(0.0, std::abs(curvature) - most);
+      const double reach = most + (1.0 - share) * beyond;
+      AddRow(curvature_[i], -reach - curvature, reach - curvature);
+    }
+    AddSteering(lap, i);
+  }
+}
+
+/// v |turned| <= reach at both ends of an interval, in units of the reach. Turning back the other
+/// way needs one row alone.
+void LapProgram::AddSteering(const Lap& lap, std::size_t i) {
+  const std::size_t next = model_.After(i);
+  const double reach = model_.SteeringReach(lap, i);
+  if (!std::isfinite(reach)) {
+    return;
+  }
+  const double turned = lap.curvature[next] - lap.curvature[i];
+  const double side = turned < 0.0 ? -1.0 : 1.0;
+  // The reach is in proportion to the length and to 1 + (L kappa)^2 of the smaller curvature.
+  const std::size_t flat = std::abs(lap.curvature[i]) < std::abs(lap.curvature[next]) ? i : next;
+  const double wheelbase = model_.limits().wheelbase;
+  const double tangent = wheelbase * lap.curvature[flat];
+  const double by_length = 0.5 * model_.step() / lap.lengths[i];
+  for (const std::size_t end : {i, next}) {
+    const double ratio = lap.speeds[end] * std::abs(turned) / reach;
+    Form form;
+    form.Add(curvature_[next], side * lap.speeds[end] / reach);
+    form.Add(curvature_[i], -side * lap.speeds[end] / reach);
+    form.Add(SpeedVariable(end), 0.5 * ratio);
+    form.Add(stretch_[i], -ratio * by_length);
+    form.Add(stretch_[next], -ratio * by_length);
+    form.Add(curvature_[flat], -ratio * 2.0 * wheelbase * tangent / (1.0 + tangent * tangent));
+    if (end == i || ratio > 0.5) {
+      AddRow(form, end == i ? -1.0 - ratio : -kOpen, std::max(0.0, 1.0 - ratio));
+    }
+  }
+}
+
+/// The largest lateral force, to both sides.
+void LapProgram::AddLateral(const Lap& lap, std::size_t i) {
+  const LapLimits& limits = model_.limits();
+  const double squared = Squared(lap.speeds[i]);
+  const auto largest_at = [&](double at) {
+    return limits.options.share *
+           limits.diagram.MaxLateral({.speed = std::sqrt(at), .road = limits.road});
+  };
+  const double largest = largest_at(squared);
+  const double rate = (largest_at(1.01 * squared) - largest_at(0.99 * squared)) / 0.02;
+  const double force = squared * lap.curvature[i];
+  const double side = force < 0.0 ? -1.0 : 1.0;
+  Form form;
+  form.Add(curvature_[i], side * squared);
+  form.Add(SpeedVariable(i), std::abs(force) - rate);
+  AddRow(form, -largest - std::abs(force), std::max(0.0, largest - std::abs(force)));
+}
+
+/// A cut of interval `interval` by what is possible at its end `at`. `bound_rate` is the change of
+/// its bound and directions with the relative change of w; cuts farther away than `keep` are left
+/// out.
+bool LapProgram::AddCut(const Lap& lap, std::size_t at, std::size_t interval, const GgvCut& cut,
+                        double bound_rate, double keep) {
+  const double squared = Squared(lap.speeds[at]);
+  const double across = squared * std::abs(lap.curvature[at]);
+  const double excess = Excess(cut, across, accelerations_[interval]);
+  if (excess < -keep) {
+    return false;
+  }
+  Form form;
+  form.Add(acceleration_[interval], cut.along);
+  const double side = lap.curvature[at] < 0.0 ? -1.0 : 1.0;
+  form.Add(curvature_[at], cut.across * side * squared);
+  form.Add(SpeedVariable(at), cut.across * across - bound_rate);
+  // Where the diagram is not convex, its tangents may cut off the lap itself.
+  AddRow(form, -kOpen, std::max(0.0, -excess));
+  return true;
+}
+
+/// What the bend of the boundary beside its tangent costs: weight/2 times the square of the way
+/// along the tangent.
+void LapProgram::AddBend(const Lap& lap, std::size_t at, std::size_t interval, const GgvCut& cut,
+                         double weight) {
+  const double squared = Squared(lap.speeds[at]);
+  const double side = lap.curvature[at] < 0.0 ? -1.0 : 1.0;
+  const double resistance =
+      model_.limits().diagram.forces().drag * squared / model_.limits().diagram.forces().mass;
+  Form along;
+  along.Add(acceleration_[interval], -cut.across);
+  along.Add(curvature_[at], cut.along * side * squared);
+  along.Add(SpeedVariable(at),
+            cut.along * squared * std::abs(lap.curvature[at]) - cut.across * resistance);
+  for (const auto& [row, left] : along.terms) {
+    for (const auto& [column, right] : along.terms) {
+      squares_.emplace_back(row, column, weight * left * right);
+    }
+  }
+}
+
+void LapProgram::TakeMultipliers(const Eigen::VectorXd& multipliers) {
+  prices_.assign(model_.count(), {});
+  for (const TangentRow& tangent : tangents_) {
+    prices_[tangent.interval][tangent.end][static_cast<std::size_t>(tangent.side)] +=
+        std::max(0.0, multipliers[tangent.row]);
+  }
+}
+
+void LapProgram::AddTyres(const Lap& lap, std::size_t i, GgvSide side) {
+  constexpr double kStep = 0.01;  // of the square of the speed
+  constexpr double kKeep = 0.3;   // of the largest lateral force
+  const LapLimits& limits = model_.limits();
+  const double squared = Squared(lap.speeds[i]);
+  const double across = squared * std::abs(lap.curvature[i]);
+  const double largest = limits.options.share *
+                         limits.diagram.MaxLateral({.speed = lap.speeds[i], .road = limits.road});
+  const double angle = std::acos(std::min(1.0, across / largest));
+  const std::size_t before = i == 0 ? model_.count() - 1 : i - 1;
+  for (const double cut_angle : CutAngles(angle)) {
+    const GgvCut cut = TyreCut(limits, squared, cut_angle, side);
+    const GgvCut faster = TyreCut(limits, (1.0 + kStep) * squared, cut_angle, side);
+    const GgvCut slower = TyreCut(limits, (1.0 - kStep) * squared, cut_angle, side);
+    for (const std::size_t interval : {before, i}) {
+      const double along = accelerations_[interval];
+      const double rate =
+          -(Excess(faster, across, along) - Excess(slower, across, along)) / (2.0 * kStep);
+      const auto row = static_cast<Eigen::Index>(lower_.size());
+      if (AddCut(lap, i, interval, cut, rate, kKeep * largest)) {
+        tangents_.push_back({row, interval, interval == i ? 0U : 1U, side});
+      }
+    }
+  }
+  const double bend = TyreCurvature(limits, squared, angle, side);
+  const GgvCut tangent = TyreCut(limits, squared, angle, side);
+  for (const std::size_t interval : {before, i}) {
+    const double price = prices_[interval][interval == i ? 0 : 1][static_cast<std::size_t>(side)];
+    if (price > 0.0) {
+      AddBend(lap, i, interval, tangent, price * bend);
+    }
+  }
+}
+
+void LapProgram::AddForces(const Lap& lap, std::size_t i, GgvSide side) {
+  constexpr double kStep = 0.01;
+  constexpr double kKeep = 2.0;  // [m/s^2]
+  const LapLimits& limits = model_.limits();
+  const double squared = Squared(lap.speeds[i]);
+  const GgvCut cut = ForceCut(limits, squared, side);
+  if (!std::isfinite(cut.bound)) {
+    return;
+  }
+  const double rate = (ForceCut(limits, (1.0 + kStep) * squared, side).bound -
+                       ForceCut(limits, (1.0 - kStep) * squared, side).bound) /
+                      (2.0 * kStep);
+  for (const std::size_t interval : {i == 0 ? model_.count() - 1 : i - 1, i}) {
+    AddCut(lap, i, interval, cut, rate, kKeep);
+  }
+}
+
+SparseQuadraticProgram LapProgram::About(const TrackLine& line, const Lap& lap,
+                                         const LapTrust& trust, double share) {
+  const Eigen::Index variables = SpeedVariable(model_.count());
+  rows_.clear();
+  tangents_.clear();
+  lower_.clear();
+  upper_.clear();
+  squares_.clear();
+  linear_ = Eigen::VectorXd::Zero(variables);
+  Linearize(lap);
+  AddTime(lap);
+  AddBounds(line, lap, trust);
+  AddCurvatures(lap, share);
+  for (std::size_t i = 0; i < model_.count(); ++i) {
+    AddLateral(lap, i);
+    for (const GgvSide side : {GgvSide::kDriving, GgvSide::kBraking}) {
+      AddTyres(lap, i, side);
+      AddForces(lap, i, side);
+    }
+  }
+  SparseQuadraticProgram program;
+  program.hessian.resize(variables, variables);
+  program.hessian.setFromTriplets(squares_.begin(), squares_.end());
+  program.linear = linear_;
+  const auto count = static_cast<Eigen::Index>(lower_.size());
+  program.constraints.resize(count, variables);
+  program.constraints.setFromTriplets(rows_.begin(), rows_.end());
+  program.lower = Eigen::Map<const Eigen::VectorXd>(lower_.data(), count);
+  program.upper = Eigen::Map<const Eigen::VectorXd>(upper_.data(), count);
+  return program;
+}
+
+}  // namespace trackbed

@@ -1,0 +1,41 @@
+#include "src/planning/racing/line_shape.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace trackbed {
+
+LineShape ShapeAt(const PathPoint& center, const LineOffset& offset) {
+  const OffsetDerivatives d(offset.d, 3, 0);
+  const OffsetDerivatives slope(offset.slope, 3, 1);
+  const OffsetDerivatives bend(offset.bend, 3, 2);
+  const OffsetDerivatives along = 1.0 - center.curvature * d;
+  const OffsetDerivatives along_rate =
+      -(center.sharpness * d + 2.0 * center.curvature * slope);  // of the tangential part
+  const OffsetDerivatives across_rate = bend + center.curvature * along;
+  return {.cross = along * across_rate - slope * along_rate,
+          .square = along * along + slope * slope};
+}
+
+OffsetBounds BoundsAt(const Track& track, const PathPoint& center, double s, double beside) {
+  constexpr double kLargestShare = 0.95;  // of the center line's radius that d may reach
+  const TrackEdges edges = track.EdgesAt(s);
+  OffsetBounds bounds{edges.right + beside, edges.left - beside};
+  if (center.curvature > 0.0) {
+    bounds.upper = std::min(bounds.upper, kLargestShare / center.curvature);
+  } else {
+    bounds.lower = std::max(bounds.lower, kLargestShare / std::min(center.curvature, -1e-12));
+  }
+  return bounds;
+}
+
+std::string TooNarrow(const Track& track, double s, double beside) {
+  const TrackEdges edges = track.EdgesAt(s);
+  return fmt::format(
+      "the track is {:.3g} m wide at s = {:.4g} m; the car and its margins need "
+      "{:.3g} m",
+      edges.left - edges.right, s, 2.0 * beside);
+}
+
+}  // namespace trackbed

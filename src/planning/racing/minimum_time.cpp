@@ -1,0 +1,300 @@
+#include "trackbed/planning/racing/minimum_time.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "src/planning/racing/lap_model.h"
+#include "src/planning/racing/lap_program.h"
+#include "trackbed/core/error.h"
+#include "trackbed/optimize/sparse_quadratic_program.h"
+#include "trackbed/options/key_visitor.h"
+#include "trackbed/planning/common/diagnostics.h"
+#include "trackbed/planning/common/route.h"
+#include "trackbed/planning/racing/minimum_curvature.h"
+
+namespace trackbed {
+namespace {
+
+constexpr double kSameCurvature = 1e-6;  // of the largest
+
+/// Stations of the programs: at least two for each knot, and close enough for the speeds.
+std::size_t ProgramStations(const Track& track) {
+  constexpr double kFarthest = 2.6;  // [m]
+  const double knots = static_cast<double>(track.points().size());
+  return static_cast<std::size_t>(knots *
+                                  std::max(2.0, std::ceil(track.length() / (knots * kFarthest))));
+}
+
+/// Where a lap is, and why the search for a faster one ended.
+class LapSearch {
+ public:
+  LapSearch(const Track& track, double beside, const LapLimits& limits, const TrackLine& start)
+      : model_(track, limits, ProgramStations(track)),
+        basis_(track.length(), track.points().size()),
+        program_(model_, basis_, AllBounds(track, beside)),
+        line_(start),
+        lap_(model_.Drive(start)) {}
+
+  void Run(int iterations) {
+    while (found_.iterations < iterations) {
+      if (Step()) {
+        return;
+      }
+    }
+    found_.end = MinimumTimeEnd::kIterationLimit;
+  }
+
+  [[nodiscard]] const TrackLine& line() const { return line_; }
+  /// Iterations, gain and end; line and times are the caller's.
+  [[nodiscard]] const MinimumTimeLine& found() const { return found_; }
+
+ private:
+  [[nodiscard]] std::vector<OffsetBounds> AllBounds(const Track& track, double beside) const {
+    std::vector<OffsetBounds> bounds;
+    for (std::size_t i = 0; i < model_.count(); ++i) {
+      bounds.push_back(BoundsAt(track, model_.center(i), model_.StationAt(i), beside));
+    }
+    return bounds;
+  }
+
+  /// By how much the line is beyond the largest curvature [1/m].
+  [[nodiscard]] double Beyond(const Lap& lap) const {
+    const double most = model_.limits().curvature_max;
+    const double beyond = most > 0.0 ? lap.sharpest - most * (1.0 + kSameCurvature) : 0.0;
+    return std::max(0.0, beyond);
+  }
+
+  /// One program; whether the search is over.
+  bool Step() {
+    constexpr double kLeastScale = 1e-3;
+    constexpr double kEnough = 1e-4;  // of the lap time
+    const LapTrust trust{.offset = kTrustOffset * scale_, .squared = kTrustSquared * scale_};
+    const SparseQuadraticProgram program = program_.About(line_, lap_, trust, share_);
+    const SparseQuadraticSolution solution = Solve(
+        program, Eigen::VectorXd::Zero(program.linear.size()), InteriorSteps::kPredictorCorrector);
+    ++found_.iterations;
+    if (!solution.ok) {
+      found_.end = MinimumTimeEnd::kProgramNotSolved;
+      scale_ *= 0.1;
+      share_ *= 0.1;
+      return scale_ < kLeastScale;
+    }
+    program_.TakeMultipliers(solution.multipliers);
+    const double promised =
+        -(program.linear.dot(solution.x) + 0.5 * solution.x.dot(program.hessian * solution.x));
+    const bool within = Beyond(lap_) == 0.0;
+    found_.end = MinimumTimeEnd::kConverged;
+    if (within && promised < kEnough * lap_.time) {
+      return true;
+    }
+    if (Take(solution.x, promised)) {
+      return false;
+    }
+    if (within && promised < 5.0 * kEnough * lap_.time) {
+      return true;
+    }
+    found_.end = MinimumTimeEnd::kNoGain;
+    return scale_ < kLeastScale;
+  }
+
+  /// Takes the step, or the largest part of it that makes the lap better; false where none does.
+  bool Take(const Eigen::VectorXd& step, double promised) {
+    const double beyond = Beyond(lap_);
+    for (const double part : {1.0, 0.5, 0.25, 0.1}) {
+      TrackLine line(basis_, line_.coefficients() + part * step.head(program_.coefficients()));
+      Lap lap = model_.Drive(line);
+      const double gain = lap_.time - lap.time;
+      const bool better = beyond > 0.0 ? Beyond(lap) < (1.0 - 0.1 * part * share_) * beyond
+                                       : Beyond(lap) == 0.0 && gain > 0.1 * part * promised;
+      if (better) {
+        scale_ = part == 1.0 && (beyond > 0.0 || gain > 0.75 * promised)
+                     ? std::min(2.0 * scale_, kMostScale)
+                     : std::max(0.5, part) * scale_;
+        share_ = 1.0;
+        found_.last_gain = gain;
+        line_ = std::move(line);
+        lap_ = std::move(lap);
+        return true;
+      }
+    }
+    // The next step must be shorter than this one, even if this one was shorter than allowed.
+    const double squared =
+        step.tail(step.size() - program_.coefficients()).lpNorm<Eigen::Infinity>();
+    scale_ = 0.1 * std::min(scale_, squared / kTrustSquared);
+    share_ *= 0.3;
+    return false;
+  }
+
+  static constexpr double kTrustOffset = 1.0;   // [m]
+  static constexpr double kTrustSquared = 0.3;  // of the square of a speed
+  static constexpr double kMostScale = 2.0;
+
+  LapModel model_;
+  ClosedSplineBasis basis_;
+  LapProgram program_;
+  TrackLine line_;
+  Lap lap_;
+  double scale_ = 1.0;  // of the trust region
+  double share_ = 1.0;  // see LapProgram::About
+  MinimumTimeLine found_;
+};
+
+/// Twice as many stations as in the programs, to judge lines.
+LapModel FineModel(const Track& track, const LapLimits& limits) {
+  return {track, limits, 2 * ProgramStations(track)};
+}
+
+std::string DescribeEnd(const MinimumTimeLine& found) {
+  switch (found.end) {
+    case MinimumTimeEnd::kConverged:
+      break;
+    case MinimumTimeEnd::kNoGain:
+      return "; stopped where shorter steps gained nothing more";
+    case MinimumTimeEnd::kIterationLimit:
+      return found.iterations == 1
+                 ? fmt::format("; stopped after 1 step, which gained {:.2g} s", found.last_gain)
+                 : fmt::format("; stopped after {} steps, the last of which gained {:.2g} s",
+                               found.iterations, found.last_gain);
+    case MinimumTimeEnd::kProgramNotSolved:
+      return "; stopped because a quadratic program was not solved";
+  }
+  return "";
+}
+
+std::string Describe(const MinimumTimeLine& found) {
+  if (!found.improved) {
+    return fmt::format(
+        "minimum_time found no faster line than that of least curvature ({:.4g} s a lap){}",
+        found.start_time, DescribeEnd(found));
+  }
+  return fmt::format(
+      "lap time {:.5g} s at the limit, {:.2g} % less than on the line of least "
+      "curvature ({:.5g} s){}",
+      found.time, 100.0 * (1.0 - found.time / found.start_time), found.start_time,
+      DescribeEnd(found));
+}
+
+Plan PlanWith(const MinimumTimeOptions& options, const PlanRequest& request) {
+  if (!request.on_track.track) {
+    return FollowLine(request, TrackLine());
+  }
+  if (!request.limits) {
+    return route::Refused(PlanStatus::kNoPath,
+                          "the line of least time needs speeds at the limit (speed_profile: "
+                          "{method: limits})");
+  }
+  const MinimumTimeLine found =
+      FindMinimumTime(*request.on_track.track, 0.5 * request.vehicle.width + options.margin,
+                      LimitsOfLap(request), options.iterations);
+  if (!found.refused.empty()) {
+    return route::Refused(PlanStatus::kNoPath, found.refused);
+  }
+  Plan plan = FollowLine(request, found.line);
+  if (const auto* own = plan.diagnostics.planner.As<TrackPlanDiagnostics>()) {
+    plan.diagnostics.planner =
+        MinimumTimeDiagnostics{.plan = *own,
+                               .lap_time = found.time,
+                               .minimum_curvature_lap_time = found.start_time,
+                               .end = ToString(found.end),
+                               .iterations = found.iterations};
+    plan.notes.push_back(Describe(found));
+  }
+  return plan;
+}
+
+}  // namespace
+
+LapLimits LimitsOfLap(const PlanRequest& request) {
+  TRACKBED_CHECK(request.limits.has_value(), "a request {}", "without limits");
+  const VehicleParams& vehicle = request.vehicle;
+  const double sharpest = CurvatureForSteering(vehicle, vehicle.steering_limit);
+  double speed = request.speed.speed;
+  if (vehicle.top_speed > 0.0) {
+    speed = std::min(speed, vehicle.top_speed);
+  }
+  return {.diagram = request.limits->diagram,
+          .options = {.share = request.limits->options.share,
+                      .jerk = request.limits->options.jerk.value_or(0.0),
+                      .speed = speed},
+          .road = request.friction,
+          .wheelbase = vehicle.wheelbase,
+          .steering_rate = vehicle.steering_rate,
+          .curvature_max = std::isfinite(sharpest) ? std::max(0.0, sharpest) : 0.0};
+}
+
+double LapTime(const Track& track, const TrackLine& line, const LapLimits& limits) {
+  return FineModel(track, limits).Drive(line).time;
+}
+
+MinimumTimeLine FindMinimumTime(const Track& track, double beside, const LapLimits& limits,
+                                int iterations) {
+  const MinimumCurvatureLine start = FindMinimumCurvature(track, beside);
+  if (!start.refused.empty()) {
+    return {.refused = start.refused, .line = {}};
+  }
+  const LapModel model = FineModel(track, limits);
+  const Lap before = model.Drive(start.line);
+  if (!std::isfinite(before.time)) {
+    return {.refused = "the car cannot keep moving on the line of least curvature", .line = {}};
+  }
+  LapSearch search(track, beside, limits, start.line);
+  search.Run(iterations);
+  MinimumTimeLine found = search.found();
+  const Lap after = model.Drive(search.line());
+  found.start_time = before.time;
+  const double most = limits.curvature_max > 0.0 ? limits.curvature_max * (1.0 + 1e-3) : 1e9;
+  if (std::min(before.sharpest, after.sharpest) > most) {
+    found.refused = fmt::format(
+        "the car turns on a radius of {:.3g} m at least; the line found bends on {:.3g} m within "
+        "the margins",
+        1.0 / limits.curvature_max, 1.0 / after.sharpest);
+    return found;
+  }
+  found.improved = after.sharpest <= most && (after.time < before.time || before.sharpest > most);
+  found.line = found.improved ? search.line() : start.line;
+  found.time = found.improved ? after.time : before.time;
+  return found;
+}
+
+const char* ToString(MinimumTimeEnd end) {
+  switch (end) {
+    case MinimumTimeEnd::kConverged:
+      return "converged";
+    case MinimumTimeEnd::kNoGain:
+      return "no_gain";
+    case MinimumTimeEnd::kIterationLimit:
+      return "iteration_limit";
+    case MinimumTimeEnd::kProgramNotSolved:
+      return "program_not_solved";
+  }
+  return "";
+}
+
+void Visit(KeyVisitor& keys, MinimumTimeOptions& options) {
+  keys.Field({"margin", "m", "distance of the car's sides from the edges"}, options.margin,
+             Need::kOptional, Range{.min = 0.0, .max = 100.0});
+  keys.Field({"iterations", "", "largest number of steps toward a faster line"}, options.iterations,
+             Need::kOptional, Range{.min = 1.0, .max = 1000.0});
+}
+
+void Visit(DiagnosticsVisitor& out, const MinimumTimeDiagnostics& own) {
+  Visit(out, own.plan);
+  out.Number("lap_time_s", own.lap_time);
+  out.Number("minimum_curvature_lap_time_s", own.minimum_curvature_lap_time);
+  out.Integer("iterations", own.iterations);
+  out.Text("end", own.end);
+}
+
+PlannerEntry MinimumTimePlanner() {
+  return {.name = "minimum_time",
+          .summary = "laps along the line of least lap time at the car's limit",
+          .defaults = MinimumTimeOptions{},
+          .plan = PlanBy<MinimumTimeOptions, PlanWith>,
+          .follows_track = true,
+          .needs_limits = true};
+}
+
+}  // namespace trackbed

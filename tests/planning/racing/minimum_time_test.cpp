@@ -1,0 +1,341 @@
+#include "trackbed/planning/racing/minimum_time.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tests/tolerance.h"
+#include "tests/track/rings.h"
+#include "tests/vehicle/reference_car.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/optimize/search.h"
+#include "trackbed/planning/common/feasibility.h"
+#include "trackbed/planning/racing/minimum_curvature.h"
+#include "trackbed/planning/registry/planners.h"
+#include "trackbed/track/track_file.h"
+
+namespace trackbed {
+namespace {
+
+using testing::HasSubstr;
+
+// FindMinimumTime ends when a step promises less than this part of the lap time.
+constexpr double kEnough = 5e-4;
+
+/// A point mass with a circle of 8 m/s^2, without drag.
+LapLimits CircleOfFriction() {
+  return {
+      .diagram = GgvDiagram({.mass = 1000.0, .rolling_mass = 1000.0}, {EllipticSection(8, 8, 8)}),
+      .options = {.speed = 60.0},
+      .wheelbase = 2.7};
+}
+
+/// The car of the speed profile's validation: 7500 N, 270 kW, drag, an ellipse of 9 and 8 m/s^2.
+LapLimits RacingCar() {
+  LapLimits limits = CircleOfFriction();
+  limits.diagram = GgvDiagram({.mass = 1200.0,
+                               .rolling_mass = 1200.0,
+                               .drive_force = 7500.0,
+                               .drive_power = 270e3,
+                               .drag = 0.75},
+                              {EllipticSection(9, 9, 8)});
+  limits.options.speed = 90.0;
+  return limits;
+}
+
+/// Two straights joined by half circles, counter-clockwise; as wide to both sides.
+Track Hairpins(double straight, double radius, double width) {
+  constexpr double kSpacing = 4.0;
+  const double lap = 2.0 * straight + 2.0 * kPi * radius;
+  const int count = static_cast<int>(std::lround(lap / kSpacing));
+  std::vector<TrackPoint> points;
+  for (int i = 0; i < count; ++i) {
+    const double s = lap * i / count;
+    const bool back = s >= 0.5 * lap;
+    const double along = back ? s - 0.5 * lap : s;
+    Vec2 at{along - 0.5 * straight, -radius};
+    if (along > straight) {
+      const double angle = (along - straight) / radius;
+      at = {0.5 * straight + radius * std::sin(angle), -radius * std::cos(angle)};
+    }
+    points.push_back({back ? Vec2(-at) : at, width, width});
+  }
+  return Track(std::move(points));
+}
+
+TEST(MinimumTime, OfARingIsItsInnerCircle) {
+  // v^2 = a r, so that a lap takes 2 pi sqrt(r/a): the shortest circle is the fastest, although
+  // the line of least curvature, from which the search begins, is the longest.
+  const Track track(RingPoints(50.0, 63, 4.0, 3.0));
+  const MinimumTimeLine found = FindMinimumTime(track, 1.5, CircleOfFriction());
+  ASSERT_EQ(found.refused, "");
+  EXPECT_TRUE(found.improved);
+  EXPECT_EQ(found.end, MinimumTimeEnd::kConverged);
+  const double fastest = 2.0 * kPi * std::sqrt(48.5 / 8.0);
+  EXPECT_NEAR(found.start_time, 2.0 * kPi * std::sqrt(52.5 / 8.0), Tolerance(1e-4 * fastest));
+  EXPECT_NEAR(found.time, fastest, Tolerance(kEnough * fastest));
+  // The time grows with the root of the radius: 2 kEnough of it is 5 cm.
+  for (double s = 0.0; s < track.length(); s += 1.0) {
+    EXPECT_NEAR(found.line.At(s).d, 1.5, Tolerance(2.0 * kEnough * 48.5));
+  }
+}
+
+/// Lines through hairpins that keep to the outer edge but for a bump to the inner edge in each
+/// bend, with a dip in its middle between two apexes.
+class BumpLines {
+ public:
+  /// Place of the bump behind the middle of the bend [m], its half widths before and behind that
+  /// [m], its flatness and the depth of the dip [m].
+  static constexpr std::size_t kNumbers = 5;
+
+  BumpLines(const Track& track, double middle, double offset)
+      : track_(track),
+        basis_(track.length(), 2 * track.points().size()),
+        middle_(middle),
+        offset_(offset) {}
+
+  [[nodiscard]] double LapTime(std::span<const double> x) const {
+    const auto count = static_cast<Eigen::Index>(2 * basis_.count());
+    SplineSamples samples;
+    samples.values.resize(count, 1);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const double s = track_.length() * static_cast<double>(i) / static_cast<double>(count);
+      const double away = std::remainder(s - middle_ - x[0], 0.5 * track_.length());
+      const double share = std::abs(away) / (away < 0.0 ? x[1] : x[2]);
+      const double d = offset_ * (2.0 * std::exp(-std::pow(share, x[3])) - 1.0) -
+                       x[4] * std::exp(-4.0 * share * share);
+      samples.t.push_back(s);
+      samples.weights.push_back(1.0);
+      samples.values(i, 0) = std::clamp(d, -offset_, offset_);
+    }
+    return trackbed::LapTime(track_, TrackLine(basis_, FitClosedSpline(basis_, samples, 4.0)),
+                             RacingCar());
+  }
+
+ private:
+  const Track& track_;
+  ClosedSplineBasis basis_;
+  double middle_;
+  double offset_;
+};
+
+TEST(MinimumTime, OfHairpinsIsFasterThanLateAndEarlyApexes) {
+  constexpr double kStraight = 100.0;
+  constexpr double kBend = 18.0;
+  constexpr double kBeside = 1.5;
+  constexpr double kWidth = 5.0;
+  const Track track = Hairpins(kStraight, kBend, kWidth);
+  const BumpLines lines(track, kStraight + 0.5 * kPi * kBend, kWidth - kBeside);
+  double fastest = 1e9;
+  std::vector<double> best;
+  for (const double shift : {-8.0, -4.0, 0.0, 4.0, 8.0}) {
+    for (double width = 16.0; width <= 40.0; width += 4.0) {
+      for (const double flatness : {2.0, 4.0}) {
+        const std::vector<double> x{shift, width, width, flatness, 0.5};
+        if (const double time = lines.LapTime(x); time < fastest) {
+          fastest = time;
+          best = x;
+        }
+      }
+    }
+  }
+  // Then downhill from the best of these 70 lines.
+  const SearchResult family =
+      Search({.lower = {-15.0, 8.0, 8.0, 1.5, 0.0},
+              .upper = {15.0, 60.0, 60.0, 8.0, 3.0},
+              .start = best,
+              .objective = [&](std::span<const double> x) { return lines.LapTime(x); }},
+             {.method = SearchMethod::kNelderMead, .evaluations = 200, .tolerance = 1e-4}, 1);
+  ASSERT_TRUE(family.ok());
+  const MinimumTimeLine found = FindMinimumTime(track, kBeside, RacingCar());
+  ASSERT_EQ(found.refused, "");
+  EXPECT_EQ(found.end, MinimumTimeEnd::kConverged);
+  EXPECT_LT(found.time, family.value * (1.0 + kEnough));
+  // From the apex of one bend to that of the other, the car covers the straight and both inner
+  // edges in the direction of the straight, from rest to rest in it, with at most 9 m/s^2.
+  EXPECT_GT(found.time, 4.0 * std::sqrt((kStraight + 2.0 * (kBend - kWidth + kBeside)) / 9.0));
+}
+
+TEST(MinimumTime, CannotBeBetteredNearby) {
+  constexpr double kBeside = 1.2;
+  const Track track = Hairpins(40.0, 15.0, 4.0);
+  const MinimumTimeLine found = FindMinimumTime(track, kBeside, RacingCar());
+  ASSERT_EQ(found.refused, "");
+  // Other splines: bumps of any width and place, added and cut to the bounds at their knots.
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int trial = 0; trial < 60; ++trial) {
+    const double middle = 0.5 * (unit(random) + 1.0) * track.length();
+    const double width = 8.0 + 30.0 * std::abs(unit(random));
+    const double height = 0.5 * unit(random);
+    SplineSamples samples;
+    const auto count = static_cast<Eigen::Index>(2 * track.points().size());
+    samples.values.resize(count, 1);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const double s = track.length() * static_cast<double>(i) / static_cast<double>(count);
+      const double away = std::remainder(s - middle, track.length()) / width;
+      samples.t.push_back(s);
+      samples.weights.push_back(1.0);
+      samples.values(i, 0) = std::clamp(found.line.At(s).d + height * std::exp(-away * away),
+                                        -4.0 + kBeside, 4.0 - kBeside);
+    }
+    const ClosedSplineBasis basis(track.length(), static_cast<std::size_t>(count));
+    const TrackLine other(basis, FitClosedSpline(basis, samples, 4.0));
+    EXPECT_GT(LapTime(track, other, RacingCar()), (1.0 - kEnough) * found.time) << trial;
+  }
+}
+
+/// Two hairpins and a car for which steering matters.
+struct SteeredLap {
+  Track track = Hairpins(60.0, 18.0, 4.0);
+  LapLimits limits = CircleOfFriction();
+};
+
+TEST(MinimumTime, KnowsTheSteeringRate) {
+  SteeredLap lap;
+  const MinimumTimeLine free = FindMinimumTime(lap.track, 1.2, lap.limits);
+  lap.limits.steering_rate = 0.06;  // [rad/s]
+  const MinimumTimeLine found = FindMinimumTime(lap.track, 1.2, lap.limits);
+  ASSERT_EQ(found.refused + free.refused, "");
+  EXPECT_TRUE(found.improved);
+  EXPECT_LT(found.time, found.start_time);
+  // The wheels need time: slower than without, but faster than on the line that knows nothing of
+  // it.
+  EXPECT_GT(found.time, free.time);
+  EXPECT_LT(found.time, 0.99 * LapTime(lap.track, free.line, lap.limits));
+}
+
+TEST(MinimumTime, KeepsTheCarsSmallestRadius) {
+  SteeredLap lap;
+  const double radius =
+      MeasureLine(lap.track, FindMinimumCurvature(lap.track, 1.2).line).radius_min;
+  // Half a meter more than on the line of least curvature.
+  lap.limits.curvature_max = 1.0 / (radius + 0.5);
+  const MinimumTimeLine found = FindMinimumTime(lap.track, 1.2, lap.limits);
+  ASSERT_EQ(found.refused, "");
+  // Kept at stations 2 m apart; within 1e-3 at those 1 m apart, or refused; closer ones differ
+  // less.
+  EXPECT_GT(MeasureLine(lap.track, found.line).radius_min, (radius + 0.5) * (1.0 - 2e-3));
+
+  // The widest circle on a ring has 52.5 m.
+  lap.limits.curvature_max = 1.0 / 60.0;
+  EXPECT_THAT(
+      FindMinimumTime(Track(RingPoints(50.0, 63, 4.0, 3.0)), 1.5, lap.limits).refused,
+      HasSubstr("the car turns on a radius of 60 m at least; the line found bends on 52.5 m"));
+}
+
+TEST(MinimumTime, IsAFunctionOfItsArguments) {
+  const Track track = Hairpins(40.0, 15.0, 4.0);
+  const MinimumTimeLine once = FindMinimumTime(track, 1.2, RacingCar(), 3);
+  const MinimumTimeLine twice = FindMinimumTime(track, 1.2, RacingCar(), 3);
+  EXPECT_EQ(once.line.coefficients(), twice.line.coefficients());
+  EXPECT_EQ(once.time, twice.time);
+}
+
+TEST(MinimumTime, RefusesATrackThatIsTooNarrow) {
+  const Track track(RingPoints(50.0, 63, 1.0, 1.0));
+  EXPECT_THAT(FindMinimumTime(track, 1.4, RacingCar()).refused,
+              HasSubstr("the track is 2 m wide at s = 0 m; the car and its margins need 2.8 m"));
+}
+
+/// Laps of the reference car on hairpins, with a circle of 8 m/s^2.
+PlanRequest LimitLaps(int laps) {
+  PlanRequest request;
+  request.vehicle = ReferenceCar();
+  request.vehicle.steering_rate = 0.6;
+  request.on_track = {std::make_shared<const Track>(Hairpins(60.0, 18.0, 4.0)), laps};
+  request.start = request.on_track.track->At(0.0).pose;
+  request.speed = {.speed = 30.0, .acceleration = 1.5, .deceleration = 2.0};
+  request.limits = SpeedAtLimit{.diagram = CircleOfFriction().diagram, .options = {.share = 0.9}};
+  return request;
+}
+
+TEST(MinimumTime, IsPlannedWithTheLapTimeThatItStates) {
+  const PlanRequest request = LimitLaps(3);
+  const Plan plan = MakePlan(request, MinimumTimeOptions{.margin = 0.5});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const auto* own = plan.diagnostics.planner.As<MinimumTimeDiagnostics>();
+  ASSERT_NE(own, nullptr);
+  EXPECT_EQ(own->end, "converged");
+  EXPECT_LT(own->lap_time, own->minimum_curvature_lap_time);
+  ASSERT_FALSE(plan.notes.empty());
+  EXPECT_THAT(plan.notes.front(), HasSubstr("less than on the line of least curvature"));
+  // The second lap is a flying one. Its path and its speeds are those of every plan: clothoids, and
+  // stations half a meter apart instead of 1 m. The profile is of first order in that distance and
+  // takes the smaller acceleration of both ends: of 10 m/s^2, a change of 1 m/s^2 over 1 m.
+  ASSERT_EQ(plan.laps.lines.size(), 4U);
+  const double second = plan.reference.speed.TimeAt(plan.laps.lines[2]) -
+                        plan.reference.speed.TimeAt(plan.laps.lines[1]);
+  EXPECT_NEAR(second, own->lap_time, Tolerance(0.01 * own->lap_time));
+  // Every corner of the track is passed within the margins.
+  const Track& track = *request.on_track.track;
+  for (double s = plan.laps.lines[1]; s < plan.laps.lines[2]; s += 1.0) {
+    const TrackPlace place = track.Locate(plan.reference.path.At(s).pose.position());
+    const TrackEdges edges = track.EdgesAt(place.s);
+    // Kept at stations 2 m apart: between them off by at most d'' 2^2/8, d'' below 1/15 m.
+    const double beside = 0.5 * request.vehicle.width + 0.5 - 0.034;
+    EXPECT_LE(place.offset, edges.left - beside);
+    EXPECT_GE(place.offset, edges.right + beside);
+  }
+}
+
+TEST(MinimumTime, SaysThatItStoppedEarly) {
+  const Plan plan = MakePlan(LimitLaps(1), MinimumTimeOptions{.margin = 0.5, .iterations = 1});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  ASSERT_FALSE(plan.notes.empty());
+  EXPECT_THAT(plan.notes.front(), HasSubstr("stopped after 1 step, which gained"));
+  EXPECT_EQ(plan.diagnostics.planner.As<MinimumTimeDiagnostics>()->end, "iteration_limit");
+}
+
+TEST(MinimumTime, NeedsSpeedsAtTheLimit) {
+  PlanRequest request = LimitLaps(1);
+  request.limits.reset();
+  const Plan plan = MakePlan(request, MinimumTimeOptions{});
+  EXPECT_EQ(plan.status, PlanStatus::kNoPath);
+  EXPECT_THAT(plan.reason, HasSubstr("needs speeds at the limit"));
+}
+
+struct RaceTrack {
+  const char* name;
+  const char* file;
+  int iterations;  // a few: each takes a second for a kilometer
+  double gain;     // in the lap time that these reach at least
+};
+
+class RaceTracks : public testing::TestWithParam<RaceTrack> {};
+INSTANTIATE_TEST_SUITE_P(
+    Racing, RaceTracks,
+    testing::Values(RaceTrack{"Norisring", "tests/data/tracks/Norisring.csv", 2, 0.01},
+                    RaceTrack{"Hockenheim", "tests/data/tracks/Hockenheim.csv", 1, 0.0},
+                    RaceTrack{"Spielberg", "tests/data/tracks/Spielberg.csv", 1, 0.0},
+                    RaceTrack{"Silverstone", "tests/data/tracks/Silverstone.csv", 1, 0.0},
+                    RaceTrack{"kidney", "scenarios/tracks/kidney.csv", 40, 0.02}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+TEST_P(RaceTracks, AreFasterThanTheLineOfLeastCurvature) {
+  const RaceTrack& race = GetParam();
+  const Track track = ReadTrack(std::filesystem::path(TRACKBED_SOURCE_DIR) / race.file);
+  const MinimumTimeLine found = FindMinimumTime(track, 0.75, RacingCar(), race.iterations);
+  ASSERT_EQ(found.refused, "");
+  EXPECT_TRUE(found.improved);
+  EXPECT_LT(found.time, (1.0 - race.gain) * found.start_time);
+  EXPECT_EQ(found.time, LapTime(track, found.line, RacingCar()));
+  for (double s = 0.0; s < track.length(); s += 1.0) {
+    const TrackEdges edges = track.EdgesAt(s);
+    // Between stations, at most 2.6 m apart, d'' 2.6^2/8, d'' below 1/10 m.
+    EXPECT_LE(found.line.At(s).d, edges.left - 0.75 + Tolerance(0.085));
+    EXPECT_GE(found.line.At(s).d, edges.right + 0.75 - Tolerance(0.085));
+  }
+  RecordProperty("gain", std::to_string(1.0 - found.time / found.start_time));
+}
+
+}  // namespace
+}  // namespace trackbed
