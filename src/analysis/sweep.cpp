@@ -11,7 +11,7 @@
 
 #include "src/analysis/manifest.h"
 #include "src/analysis/study_description.h"
-#include "src/analysis/sweep_rows.h"
+#include "trackbed/analysis/sweep_rows.h"
 #include "trackbed/analysis/parallel.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/analysis/statistics.h"

@@ -1,4 +1,4 @@
-#include "src/analysis/sweep_rows.h"
+#include "trackbed/analysis/sweep_rows.h"
 
 #include <algorithm>
 #include <array>

@@ -7,6 +7,7 @@
 #include "trackbed/analysis/sweep.h"
 #include "trackbed/core/error.h"
 #include "trackbed/drive/drive.h"
+#include "trackbed/falsify/falsify.h"
 #include "trackbed/identify/identify.h"
 
 namespace trackbed::cli {
@@ -32,7 +33,13 @@ void AddCheck(const Command& command) {
         if (IsIdentification(file)) {
           CheckIdentification(ReadIdentification(file, Paths(options->scenario.asset_folders)));
         } else if (IsStudy(file)) {
-          static_cast<void>(CheckStudy(options->scenario.ReadStudyFile(file)));
+          Study study = options->scenario.ReadStudyFile(file);
+          if (study.sample || !study.search) {
+            static_cast<void>(CheckStudy(study));
+          }
+          if (study.search) {
+            static_cast<void>(CheckSearch(std::move(study)));
+          }
         } else {
           static_cast<void>(LoadCar(options->scenario.Read(file)));
         }

@@ -43,6 +43,8 @@ const std::vector<Verb> kVerbs{
     {"check-path", "Check whether a car can drive the path in a file, and how fast", AddCheckPath},
     {"sweep", "Run a study: one scenario over many parameter values, results in one table",
      AddSweep},
+    {"falsify", "Search a study for a run that fails, and make it as small as it gets", AddFalsify},
+    {"verify", "Run a sample of a study until it is known whether enough of it passes", AddVerify},
     {"report", "Write one HTML page about finished runs or a study", AddReport},
     {"watch", "Show a run in a browser while it goes on, or a finished run", AddWatch},
     {"experiment", "Repeat a published experiment and print its table", AddExperiment},

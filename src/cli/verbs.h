@@ -31,6 +31,8 @@ void AddCheckPath(const Command& command);
 void AddCompare(const Command& command);
 void AddTest(const Command& command);
 void AddSweep(const Command& command);
+void AddFalsify(const Command& command);
+void AddVerify(const Command& command);
 void AddReport(const Command& command);
 void AddWatch(const Command& command);
 void AddExperiment(const Command& command);

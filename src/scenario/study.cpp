@@ -9,8 +9,10 @@
 #include <tuple>
 
 #include "src/scenario/study_settings.h"
+#include "src/scenario/yaml_file.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
+#include "trackbed/optimize/search.h"
 
 namespace trackbed {
 namespace {
@@ -219,6 +221,12 @@ StudyPoints::StudyPoints(Study study) : study_(std::move(study)) {
     }
   }
   combinations_ *= std::max<std::size_t>(study_.list.size(), 1);
+  if (sampled > 0 && !study_.sample) {
+    throw InputError(Problem{.file = study_.file,
+                             .key = "sample",
+                             .message = "missing; keys of vary have distributions (trackbed falsify "
+                                        "searches them without)"});
+  }
   if (study_.sample) {
     unit_sample_ = UnitSample(*study_.sample, sampled);
   }
@@ -308,6 +316,39 @@ StudyPoint StudyPoints::Read(std::size_t i) const {
     point.refused = error.problems().front().WithoutPlace();
   }
   return point;
+}
+
+StudyPoint PointWith(const Study& study, std::vector<Setting> settings) {
+  StudyPoint point{.settings = std::move(settings), .scenario = {}};
+  try {
+    AddDerived(study, point.settings);
+    point.scenario = ReadPoint(study, point.settings);
+  } catch (const InputError& error) {
+    point.refused = error.problems().front().WithoutPlace();
+  }
+  return point;
+}
+
+std::optional<double> NumberAt(const Scenario& scenario, const std::string& key) {
+  const YAML::Node node = NodeAt(LoadYaml(ResolvedYaml(scenario), "resolved scenario"), key);
+  return node.IsScalar() ? NumberOf(node.Scalar()) : std::nullopt;
+}
+
+const std::vector<std::string>& StudySearches() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const SampleMethod method :
+         {SampleMethod::kRandom, SampleMethod::kLatinHypercube, SampleMethod::kSobol}) {
+      all.emplace_back(ToString(method));
+    }
+    for (const SearchEntry& entry : Searches()) {
+      if (entry.method != SearchMethod::kSlsqp) {  // differences of runs are no gradients
+        all.emplace_back(entry.name);
+      }
+    }
+    return all;
+  }();
+  return names;
 }
 
 std::vector<std::size_t> PointsToCheck(const StudyPoints& points) {

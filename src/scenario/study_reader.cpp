@@ -28,6 +28,9 @@ class StudyReader {
       study.set = ReadSettings(node, key);
     };
     file.vary = [&](const YAML::Node& node, const std::string& key) { ReadVary(node, key, study); };
+    file.nominal = [&](const YAML::Node& node, const std::string& key) {
+      study.nominal = ReadSettings(node, key);
+    };
     file.list = [&](const YAML::Node& node, const std::string& key) { ReadList(node, key, study); };
     file.outputs = [&](const YAML::Node& node, const std::string& key) {
       ReadOutputs(node, key, study);
@@ -40,6 +43,9 @@ class StudyReader {
     reader.Finish();
     if (root_["sample"]) {
       study.sample = file.sample;
+    }
+    if (root_["search"]) {
+      study.search = file.search;
     }
     study.file = context_.file;
     study.keep = ReadKeep(file.keep, study);
@@ -202,11 +208,22 @@ class StudyReader {
     const bool is_sampled =
         std::any_of(study.vary.begin(), study.vary.end(),
                     [](const Variation& variation) { return variation.distribution.has_value(); });
-    if (is_sampled && !study.sample) {
+    if (is_sampled && !study.sample && !study.search) {
       AddError(root_["vary"], "sample", "missing; keys of vary have distributions");
     }
     if (!is_sampled && study.sample) {
       AddError(root_["sample"], "sample", "no key of vary has a distribution");
+    }
+    if (!is_sampled && study.search) {
+      AddError(root_["search"], "search", "no key of vary has a distribution");
+    }
+    if (study.search) {
+      CheckSearch(study);
+    }
+    for (const Setting& setting : study.nominal) {
+      if (!study.search) {
+        AddError(setting, "is for a search; the study has no `search`");
+      }
     }
     if (!varies) {
       AddError(root_, "vary", "missing; a study needs vary, list, repeat or bisect");
@@ -225,6 +242,41 @@ class StudyReader {
     CheckSeed(study);
     if (context_.problems.empty()) {
       CheckFormulas(study);
+    }
+  }
+
+  /// Keys of a search that its method does not take.
+  void CheckSearch(const Study& study) {
+    const SearchSpec& search = *study.search;
+    const YAML::Node node = root_["search"];
+    const auto is_one_of = [&](const Names& methods) {
+      return std::find(methods.begin(), methods.end(), search.method) != methods.end();
+    };
+    const auto refuse = [&](const char* key, const std::string& message) {
+      AddError(node[key] ? node[key] : node, fmt::format("search.{}", key), message);
+    };
+    const auto keys = static_cast<int>(study.vary.size());
+    const bool is_sampled = is_one_of({"random", "latin_hypercube", "sobol"});
+    if (is_sampled && search.restarts > 0) {
+      refuse("restarts", fmt::format("{} has none; leave it out", search.method));
+    }
+    if (is_sampled && search.finish != "none") {
+      refuse("finish", fmt::format("goes on from searches of NLopt, not from {}", search.method));
+    }
+    if (search.population > 0 && !is_one_of({"crs2", "esch", "isres"})) {
+      refuse("population", fmt::format("{} has none; leave it out", search.method));
+    }
+    if (search.population > 0 && search.population < keys + 2) {
+      refuse("population",
+             fmt::format("{} for {} keys; at least {}", search.population, keys, keys + 2));
+    }
+    if (search.method == "direct" && search.restarts > 1) {
+      refuse("restarts", "direct does the same each time; 1 at most");
+    }
+    // It looks three times, and first at the middle and two points along each key.
+    if (search.method == "direct" && search.runs < 4 * (2 * keys + 1)) {
+      refuse("runs", fmt::format("{} for direct and {} keys; at least {}", search.runs, keys,
+                                 4 * (2 * keys + 1)));
     }
   }
 

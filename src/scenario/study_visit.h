@@ -103,6 +103,28 @@ inline void Visit(KeyVisitor& a, SampleSpec& sample) {
   a.Field({"seed", "", "of the sample, not of the runs"}, sample.seed, Need::kOptional);
 }
 
+inline void Visit(KeyVisitor& a, SearchSpec& search) {
+  a.Field({"method", "", "how it searches"}, search.method, Need::kOptional, StudySearches());
+  a.Field({"runs", "", "of the search, at most"}, search.runs, Need::kOptional,
+          Range{.min = 1, .max = 1e6});
+  a.Field({"restarts", "",
+           "searches of NLopt side by side, each with its share of the runs; 0: 2, of direct 1"},
+          search.restarts, Need::kOptional, Range{.min = 0, .max = 64});
+  a.Field({"population", "", "of crs2, esch and isres; 0: 4 n + 4 for n keys"}, search.population,
+          Need::kOptional, Range{.min = 0, .max = 1e5});
+  a.Field({"finish", "",
+           "search that goes on from the best point of each restart, for the last quarter of the "
+           "runs"},
+          search.finish, Need::kOptional, {"none", "nelder_mead", "cobyla"});
+  a.Field({"seed", "", "of the search, not of the runs"}, search.seed, Need::kOptional);
+  a.Field({"stop", "", "whether the first violation ends the search"}, search.stop,
+          Need::kOptional);
+  a.Field({"shrink_runs", "", "to make the counterexample smaller, at most; 0: it stays as found"},
+          search.shrink_runs, Need::kOptional, Range{.min = 0, .max = 1e5});
+  a.Field({"tolerance", "", "of the smaller counterexample, as a share of each key's range"},
+          search.tolerance, Need::kOptional, Range{.min = 1e-4, .max = 0.5});
+}
+
 inline void Visit(KeyVisitor& a, BisectSpec& bisect) {
   a.Field({"key", "", "of a number, dotted"}, bisect.key, Need::kRequired);
   a.Field({"from", "", "a value that passes"}, bisect.from, Need::kRequired);
@@ -119,11 +141,13 @@ struct StudyFile {
   std::string scenario{};
   BisectSpec bisect{};
   SampleSpec sample{};
+  SearchSpec search{};
   Read set{};
   Read vary{};
   Read list{};
   Read derive{};
   Read outputs{};
+  Read nominal{};
   std::string keep = "none";
 };
 
@@ -140,6 +164,12 @@ void Visit(Archive& a, StudyFile& file) {
             "combinations of lists and grids, the last key fastest"},
            "section", file.vary);
   a.Section({"sample", "", "how the keys with distributions are sampled"}, file.sample);
+  a.Section({"search", "", "how `trackbed falsify` searches the keys with distributions"},
+            file.search);
+  a.Custom({"nominal", "",
+            "dotted keys of `vary` and the values toward which `trackbed falsify` makes a "
+            "counterexample smaller; default: those of the scenario"},
+           "section", file.nominal);
   a.Custom({"list", "", "points that set several keys at once; combined with each point of `vary`"},
            "list of sections", file.list);
   a.Custom(

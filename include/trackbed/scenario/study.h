@@ -78,6 +78,24 @@ struct DerivedKey {
   int column = 0;
 };
 
+/// How `trackbed falsify` searches the keys that have distributions for a run that fails.
+struct SearchSpec {
+  std::string method = "crs2";      ///< one of StudySearches()
+  int runs = 200;                   ///< of the search at most
+  int restarts = 0;                 ///< searches of NLopt side by side, each with its share of the
+                                    ///< runs; 0: two, of direct one
+  int population = 0;               ///< of crs2, esch and isres; 0: 4 n + 4 for n keys
+  std::string finish = "none";      ///< "nelder_mead", "cobyla": for the last quarter of the runs
+  std::uint64_t seed = 1;
+  bool stop = true;         ///< with the first violation
+  int shrink_runs = 200;    ///< at most, to make the counterexample smaller
+  double tolerance = 0.01;  ///< of that, as a share of each key's range
+};
+
+/// The names that SearchSpec::method may have: "random", "latin_hypercube", "sobol", and the
+/// searches of NLopt that take no gradients.
+const std::vector<std::string>& StudySearches();
+
 /// Every run of a grid sets one alternative of each key of `vary` and one point of `list`. Where
 /// keys are sampled there are `sample.count` runs at each point of the grid, which is the same
 /// sample for each, so that what the grid compares meets the same conditions.
@@ -94,6 +112,8 @@ struct Study {
   std::vector<Variation> vary;                       ///< in the file's order
   std::vector<std::vector<Setting>> list;            ///< points of several keys; empty: none
   std::optional<SampleSpec> sample;  ///< with keys of `vary` that have distributions
+  std::optional<SearchSpec> search;  ///< likewise
+  std::vector<Setting> nominal;      ///< toward which a counterexample is made smaller
   std::vector<DerivedKey> derive;    ///< in the file's order
   int repeat = 1;                    ///< runs per point, with consecutive seeds
   std::optional<BisectSpec> bisect;  ///< at every point of the grid
@@ -124,6 +144,13 @@ Study ReadStudy(const std::filesystem::path& file, const std::vector<Override>& 
 Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
                    std::optional<double> bisected = {});
 
+/// The point that sets these keys, with the derived ones added; refused with the first problem
+/// where there is no such scenario.
+StudyPoint PointWith(const Study& study, std::vector<Setting> settings);
+
+/// The number that a key has in a scenario with all defaults filled in; none if it has no such key.
+std::optional<double> NumberAt(const Scenario& scenario, const std::string& key);
+
 /// The points of a study, one at a time: none is kept, however many there are. The last key of the
 /// grid changes fastest, points of the list faster than all keys of `vary`, and those of the sample
 /// faster than the list.
@@ -132,6 +159,7 @@ Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
 /// time. Points of the grid that differ only in a key whose condition does not hold are one.
 class StudyPoints {
  public:
+  /// InputError when keys have distributions and there is no `sample`.
   explicit StudyPoints(Study study);
 
   [[nodiscard]] const Study& study() const { return study_; }

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <iosfwd>
+#include <vector>
+
+#include "trackbed/falsify/falsify.h"
+
+/// Searches for failing runs in your own GoogleTest:
+///
+///     EXPECT_THAT(trackbed::FalsifyStudy("studies/lane_change.yaml"), trackbed::IsNotFalsified());
+///
+/// A failing matcher prints the smallest counterexample and what failed.
+namespace trackbed {
+
+/// Searches the study on all threads of the machine, in memory, with `overrides` as on the command
+/// line. InputError with every problem of the file.
+FalsifyResult FalsifyStudy(const std::filesystem::path& file,
+                           const std::vector<Override>& overrides = {});
+
+/// What GoogleTest prints of a search: "broken in 12 runs at mission.speed = 17.2, …" or "not
+/// falsified in 61 runs".
+void PrintTo(const FalsifyResult& result, std::ostream* out);
+
+/// No run of the search failed, and none met a bug of the program. That is no proof.
+testing::Matcher<const FalsifyResult&> IsNotFalsified();
+
+}  // namespace trackbed

@@ -1,0 +1,105 @@
+#include "trackbed/falsify/verify.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "src/cli/progress_bar.h"
+#include "src/cli/scenario_options.h"
+#include "src/cli/sweep_folders.h"
+#include "src/cli/verbs.h"
+#include "trackbed/analysis/run_folder.h"
+
+namespace trackbed::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct VerifyVerbOptions {
+  std::string file;
+  std::string out;
+  VerifyClaim claim;
+  bool restart = false;
+  int jobs = 0;  // 0: as many as the machine runs threads
+  ScenarioOptions scenario;
+};
+
+int Verify(const VerifyVerbOptions& options) {
+  const CheckedStudy checked =
+      CheckStudy(options.scenario.ReadStudyFile(options.file), /*all=*/false);
+  CheckVerifiable(checked.points);
+  const std::string& name = checked.points.study().name;
+  const fs::path out =
+      options.out.empty() ? fs::path("out") / (name + "_verify") : fs::path(options.out);
+  const OutputFolder folder(out);  // before the work, not after it
+  const fs::path file = out / run_folder::kSweepRecords;
+  if (options.restart) {
+    std::error_code ignored;
+    fs::remove(file, ignored);
+  }
+  SweepRecords records(file, SweepHeader(checked.points, checked.inputs));
+  const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  VerifyResult result;
+  {
+    ProgressBar bar(name, options.scenario.quiet);
+    result = trackbed::Verify(checked, options.claim, records,
+                              {.jobs = options.jobs > 0 ? options.jobs : threads,
+                               .interrupted = [] { return interrupted.load(); },
+                               .progress = [&](double fraction) { bar.Show(fraction); }});
+  }
+  const std::string said = ToText(result, options.claim);
+  const SweepSummary table = WriteSweep(records, {}, folder, result.interrupted ? "" : said);
+  {
+    ResultWriter writer(folder);
+    writer.Add("verify.json", ToJson(result, options.claim).dump(2) + "\n");
+    writer.Commit("verification", {});
+  }
+  if (!options.scenario.quiet) {
+    if (result.interrupted) {
+      fmt::print("{}: interrupted after {} runs; the same command goes on\n", name, result.runs);
+    } else {
+      fmt::print("{}: {}; in {}\n", name, said, (out / run_folder::kSweepCsv).string());
+    }
+  }
+  PrintRowsWithoutRun(name, table);
+  return result.interrupted                               ? kInterrupted
+         : result.verdict == ProbabilityVerdict::kAtLeast ? kOk
+                                                          : kFailedExpectations;
+}
+
+}  // namespace
+
+void AddVerify(const Command& command) {
+  const auto options = std::make_shared<VerifyVerbOptions>();
+  command.AddPositional("study", options->file, "Study file with a random sample")
+      .Required()
+      .TypeName("STUDY");
+  command
+      .AddOption("--probability", options->claim.probability,
+                 "Claim that a run passes with at least this probability")
+      .Range(0.001, 0.999999)
+      .ShowDefault()
+      .TypeName("P");
+  command
+      .AddOption("--confidence", options->claim.confidence,
+                 "One minus the probability of a wrong claim")
+      .Range(0.5, 0.999999)
+      .ShowDefault()
+      .TypeName("C");
+  command
+      .AddOption("-j,--jobs", options->jobs, "Runs in parallel (default: one per hardware thread)")
+      .Range(1, 1000)
+      .TypeName("N");
+  command.AddOption("-o,--out", options->out, "Output folder (default: out/<study>_verify)")
+      .TypeName("DIR");
+  command.AddFlag("--restart", options->restart,
+                  "Begin anew; else a verification that was interrupted goes on where it was");
+  options->scenario.AddTo(command);
+  command.AddExample("Stop as soon as it is known", "trackbed verify STUDY --probability 0.99");
+  command.OnRun([options] { return Verify(*options); });
+}
+
+}  // namespace trackbed::cli

@@ -1,0 +1,158 @@
+#include "trackbed/falsify/counterexample.h"
+
+#include <algorithm>
+#include <optional>
+#include <variant>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+/// Expectations that a run met, or broke, as it did.
+class Turned {
+ public:
+  /// False if no expectation can say what the check found.
+  bool Add(const Check& check) {
+    switch (check.reason) {
+      case CheckReason::kSteeringRate:
+      case CheckReason::kComparable:
+      case CheckReason::kSameEnd:
+        return check.met;
+      case CheckReason::kNoContact:
+        if (!check.met) {
+          Of(check.plant).collision = true;
+        }
+        return true;
+      case CheckReason::kCollision:
+        Of(check.plant).collision = check.value == MetricValue(true);
+        return std::holds_alternative<bool>(check.value);
+      case CheckReason::kArrival:
+        return check.met || AddEqual(check);
+      case CheckReason::kCorridor:
+        return check.met || AddLimit(check);
+      case CheckReason::kRequirement:
+        return AddRequirement(check);
+      case CheckReason::kExpected:
+        break;
+    }
+    if (!check.other.empty()) {
+      return check.met;  // of `between`, which is left as it is
+    }
+    return check.relation == Relation::kEquals ? AddEqual(check) : AddLimit(check);
+  }
+
+  [[nodiscard]] std::vector<std::pair<std::string, PlantExpectation>> Take() {
+    return std::move(plants_);
+  }
+
+ private:
+  PlantExpectation& Of(const std::string& plant) {
+    for (auto& [name, expectation] : plants_) {
+      if (name == plant) {
+        return expectation;
+      }
+    }
+    return plants_.emplace_back(plant, PlantExpectation{}).second;
+  }
+
+  MetricExpectation& OfMetric(const Check& check) {
+    std::vector<MetricExpectation>& metrics = Of(check.plant).metrics;
+    const auto found = std::find_if(
+        metrics.begin(), metrics.end(),
+        [&](const MetricExpectation& expectation) { return expectation.metric == check.metric; });
+    return found != metrics.end()
+               ? *found
+               : metrics.emplace_back(
+                     MetricExpectation{.metric = check.metric, .min = {}, .max = {}, .equals = {}});
+  }
+
+  bool AddEqual(const Check& check) {
+    if (std::holds_alternative<std::monostate>(check.value)) {
+      return false;
+    }
+    OfMetric(check).equals = ToText(check.value);
+    return true;
+  }
+
+  bool AddLimit(const Check& check) {
+    const double* bound = std::get_if<double>(&check.bound);
+    const double* real = std::get_if<double>(&check.value);
+    const int* whole = std::get_if<int>(&check.value);
+    if (bound == nullptr || (real == nullptr && whole == nullptr)) {
+      return false;
+    }
+    const bool is_upper = (check.relation == Relation::kAtMost) == check.met;
+    (is_upper ? OfMetric(check).max : OfMetric(check).min) = *bound;
+    if (check.metric == "cross_track.max" && !is_upper && real != nullptr) {
+      // Without one the bound is the width of the car.
+      Of(check.plant).max_cross_track = 2.0 * *real;
+    } else if (check.metric == "cross_track.max" && is_upper) {
+      Of(check.plant).max_cross_track = *bound;
+    }
+    return true;
+  }
+
+  bool AddRequirement(const Check& check) {
+    // Its metric is requirements.NAME.robustness.
+    const std::size_t dot = check.metric.find('.') + 1;
+    Of(check.plant)
+        .requirements.push_back(
+            {.name = check.metric.substr(dot, check.metric.rfind('.') - dot),
+             .formula = check.met ? check.formula : "not (" + check.formula + ")"});
+    return check.met || std::holds_alternative<double>(check.value);
+  }
+
+  std::vector<std::pair<std::string, PlantExpectation>> plants_;
+};
+
+/// False also for requirements that are too long or too deep once they are negated.
+bool Passes(const Scenario& scenario) {
+  try {
+    return RunMission(scenario).verdict.passed;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+Regression MakeRegression(const RunResult& failed, const std::string& name) {
+  TRACKBED_REQUIRE(failed.verdict.judged && !failed.verdict.passed,
+                   "MakeRegression: the run of {} did not fail", failed.scenario.name);
+  Regression regression{.scenario = failed.scenario};
+  regression.scenario.name = name;
+  Turned turned;
+  bool all = failed.plan.ok();
+  for (const Check& check : failed.verdict.checks) {
+    all = turned.Add(check) && all;
+  }
+  if (!all) {
+    return regression;
+  }
+  Scenario expects_it = regression.scenario;
+  expects_it.expect.all = {};
+  expects_it.expect.plants = turned.Take();
+  if (Passes(expects_it)) {
+    regression.scenario = std::move(expects_it);
+    regression.expects_failure = true;
+  }
+  return regression;
+}
+
+std::string RegressionYaml(const Regression& regression, const RunResult& failed) {
+  std::string text = "# A counterexample of `trackbed falsify`. What is expected of " +
+                     failed.scenario.name + " fails here:\n";
+  for (std::string failure : failed.verdict.failures) {
+    failure = WithoutControls(failure);
+    std::replace(failure.begin(), failure.end(), '\n', ' ');
+    text += "#   " + failure + "\n";
+  }
+  text += regression.expects_failure
+              ? "# `expect` says what happened, so that this scenario passes for as long as it "
+                "does, and fails\n# when it is mended: then turn the limits round.\n"
+              : "# No expectation can say so: this scenario fails until it is mended.\n";
+  return text + ResolvedYaml(regression.scenario);
+}
+
+}  // namespace trackbed

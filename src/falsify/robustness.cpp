@@ -1,0 +1,56 @@
+#include "trackbed/falsify/robustness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <variant>
+
+namespace trackbed {
+namespace {
+
+constexpr double kNotMet = -1.0;
+constexpr double kMet = 1.0;
+
+std::optional<double> NumberOf(const MetricValue& value) {
+  if (const int* number = std::get_if<int>(&value)) {
+    return *number;
+  }
+  const double* number = std::get_if<double>(&value);
+  return number != nullptr && std::isfinite(*number) ? std::optional(*number) : std::nullopt;
+}
+
+/// None where the check is met and no number says by how much.
+std::optional<double> MarginOf(const Check& check) {
+  const std::optional<double> bound = NumberOf(check.bound);
+  const std::optional<double> value = NumberOf(check.value);
+  const bool is_limit = check.relation != Relation::kEquals && bound && value &&
+                        check.reason != CheckReason::kSteeringRate;
+  if (!is_limit) {
+    return check.met ? std::nullopt : std::optional(kNotMet);
+  }
+  const double left = check.relation == Relation::kAtMost ? *bound - *value : *value - *bound;
+  const double margin = *bound == 0.0 ? left : left / std::abs(*bound);
+  // `x < y` is not satisfied where both are equal.
+  return check.met ? margin : std::min(margin, -std::numeric_limits<double>::min());
+}
+
+}  // namespace
+
+RunRobustness RobustnessOf(const RunResult& result) {
+  if (!result.plan.ok()) {
+    return {.value = kNotMet, .limit = "plan"};
+  }
+  std::optional<RunRobustness> least;
+  for (const Check& check : result.verdict.checks) {
+    const std::optional<double> margin = MarginOf(check);
+    if (margin && (!least || *margin < least->value)) {
+      const std::string plants =
+          check.other.empty() ? check.plant : check.plant + " - " + check.other;
+      least = {.value = *margin, .limit = plants + ": " + check.metric};
+    }
+  }
+  return least.value_or(RunRobustness{.value = kMet, .limit = {}});
+}
+
+}  // namespace trackbed

@@ -1,0 +1,136 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/cli/program.h"
+#include "tests/support/temp_folder.h"
+#include "trackbed/core/file.h"
+
+namespace trackbed {
+namespace {
+
+using testing::HasSubstr;
+
+std::string SearchText(const std::string& limit, const std::string& search) {
+  return "schema: 1\nname: reach\nscenario: " + ScenarioFile("winding") +
+         "\nset: {drive.plants: [kinematic], expect: {max_cross_track: " + limit +
+         "}}\n"
+         "vary:\n"
+         "  control.distance: {distribution: uniform, from: 2, to: 10}\n"
+         "  mission.speed: {distribution: uniform, from: 1, to: 3}\n"
+         "nominal: {control.distance: 2.5, mission.speed: 2}\n" +
+         search;
+}
+
+TEST(FalsifyVerb, LeavesACounterexampleForATestSuite) {
+  const TempFolder folder;
+  folder.Write("study.yaml", SearchText("0.3", "search: {runs: 30}\n"));
+  const Outcome outcome = Trackbed(folder, "falsify study.yaml --jobs 2 --report");
+  EXPECT_EQ(outcome.code, 3) << outcome.output;
+  EXPECT_THAT(outcome.output, testing::ContainsRegex("reach: broken: [12] of [0-9]+ runs failed"));
+  EXPECT_THAT(outcome.output, HasSubstr("kinematic: maximum cross-track error"));
+  EXPECT_THAT(outcome.output,
+              testing::ContainsRegex("control\\.distance +2\\.5 +[0-9.]+ +[0-9.]+"));
+  EXPECT_THAT(outcome.output, HasSubstr("out/reach/counterexample/counterexample.yaml\n"));
+  const std::filesystem::path out = folder.path() / "out/reach";
+  for (const char* name : {"sweep.csv", "sweep.json", "falsify.json", "report.html",
+                           "counterexample/kinematic.csv", "counterexample/report.html"}) {
+    EXPECT_TRUE(std::filesystem::exists(out / name)) << name;
+  }
+  // As it is it passes in a test suite; what it came of fails.
+  EXPECT_EQ(Trackbed(folder, "test out/reach/counterexample/counterexample.yaml").code, 0);
+  const auto json = nlohmann::json::parse(ReadFile(out / "falsify.json"));
+  const std::string distance =
+      json.at("counterexample").at("settings").at("control.distance").dump();
+  EXPECT_EQ(Trackbed(folder, "run -q " + ScenarioFile("winding") +
+                                 " --plant kinematic --set control.distance=" + distance +
+                                 " mission.speed=2 expect='{max_cross_track: 0.3}'")
+                .code,
+            3);
+  // And again, without a run.
+  const Outcome again = Trackbed(folder, "falsify study.yaml --jobs 1");
+  EXPECT_EQ(again.code, 3);
+  EXPECT_THAT(again.output, HasSubstr("runs are there already"));
+  EXPECT_EQ(nlohmann::json::parse(ReadFile(out / "falsify.json")), json);
+  // Mended, nothing of the counterexample is left.
+  folder.Write("study.yaml", SearchText("30", "search: {runs: 5}\n"));
+  EXPECT_THAT(Trackbed(folder, "falsify study.yaml").output,
+              HasSubstr("has rows of another study"));
+  const Outcome held = Trackbed(folder, "falsify study.yaml --restart");
+  EXPECT_EQ(held.code, 0) << held.output;
+  EXPECT_THAT(held.output, testing::ContainsRegex(
+                               "reach: not falsified in [56] runs; the lowest robustness is "));
+  EXPECT_FALSE(std::filesystem::exists(out / "counterexample"));
+}
+
+TEST(FalsifyVerb, EndsWhenTheTimeIsUp) {
+  const TempFolder folder;
+  folder.Write("study.yaml", SearchText("30", "search: {runs: 1000, method: random}\n"));
+  const Outcome outcome = Trackbed(folder, "falsify study.yaml --time 0");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("not falsified in 9 runs (the time was up)"));
+}
+
+TEST(FalsifyVerb, TellsOfBadInputBeforeAnythingIsRun) {
+  const TempFolder folder;
+  folder.Write("study.yaml", SearchText("0.3", "search: {runs: 0}\n"));
+  const Outcome outcome = Trackbed(folder, "falsify study.yaml");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("search.runs: "));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+  folder.Write("study.yaml", SearchText("0.3", "search: {}\n"));
+  EXPECT_EQ(Trackbed(folder, "check study.yaml").code, 0);
+  // A search is not a sample.
+  const Outcome sweep = Trackbed(folder, "sweep study.yaml");
+  EXPECT_EQ(sweep.code, 2);
+  EXPECT_THAT(sweep.output, HasSubstr("sample: missing; keys of vary have distributions"));
+}
+
+std::string VerifyText(const std::string& limit, const std::string& sample) {
+  return "schema: 1\nname: sure\nscenario: " + ScenarioFile("winding") +
+         "\nset: {drive.plants: [kinematic], drive.time_limit: 5, expect: {metrics: [{metric: "
+         "status, equals: time_limit}, {metric: cross_track.max, max: " +
+         limit +
+         "}]}}\nvary: {mission.speed: {distribution: uniform, from: 1, to: 3}}\nsample: " + sample +
+         "\n";
+}
+
+TEST(VerifyVerb, StopsAsSoonAsItIsKnown) {
+  const TempFolder folder;
+  folder.Write("study.yaml", VerifyText("1", "{count: 500, method: random}"));
+  // 88 passes in turn, by the closed form of tests/falsify/sequential_test_test.cpp.
+  const Outcome outcome = Trackbed(folder, "verify study.yaml --probability 0.95 --jobs 2");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              HasSubstr("sure: a run passes with a probability of at least 0.95, at "
+                        "95 % confidence: 88 of 88 runs passed"));
+  const auto json = nlohmann::json::parse(ReadFile(folder.path() / "out/sure_verify/verify.json"));
+  EXPECT_EQ(json.at("verdict"), "at_least");
+  EXPECT_EQ(json.at("runs"), 88);
+}
+
+TEST(VerifyVerb, SaysWhatIsNotShown) {
+  const TempFolder folder;
+  folder.Write("study.yaml", VerifyText("-1", "{count: 500, method: random}"));
+  const Outcome outcome = Trackbed(folder, "verify study.yaml --probability 0.95");
+  EXPECT_EQ(outcome.code, 3) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("sure: a run passes with a probability below 0.95"));
+  folder.Write("study.yaml", VerifyText("1", "{count: 20, method: random}"));
+  const Outcome few = Trackbed(folder, "verify study.yaml --probability 0.95 --restart");
+  EXPECT_EQ(few.code, 3);
+  EXPECT_THAT(few.output, HasSubstr("sure: not known whether a run passes with a probability of at "
+                                    "least 0.95: 20 of 20 runs passed, too few to tell at 95 % "
+                                    "confidence"));
+  folder.Write("study.yaml", VerifyText("1", "{count: 20}"));
+  const Outcome dependent = Trackbed(folder, "verify study.yaml");
+  EXPECT_EQ(dependent.code, 2);
+  EXPECT_THAT(dependent.output, HasSubstr("sample.method: must be random: the points of other "
+                                          "samples are not independent of each other"));
+  EXPECT_EQ(Trackbed(folder, "verify study.yaml --probability 1").code, 2);
+}
+
+}  // namespace
+}  // namespace trackbed
