@@ -29,7 +29,7 @@ std::optional<double> Number(const XMLElement& state, const char* name, double l
   trimmed.erase(trimmed.find_last_not_of(" \t\r\n") + 1);
   const std::optional<double> number = CellNumber(trimmed);
   if (!number) {
-    Refuse(file, name, fmt::format("'{}' is no finite number", trimmed.substr(0, 40)),
+    Refuse(file, name, fmt::format("'{}' is not a finite number", trimmed.substr(0, 40)),
            element->GetLineNum());
   }
   if (std::abs(*number) > largest) {

@@ -249,7 +249,7 @@ class CsvPath {
       const double smallest = i == kSpeed ? 0.0 : -column.largest;
       if (!number) {
         AddError(line, names_[column.index],
-                 fmt::format("'{}' is no finite number", cells[column.index]));
+                 fmt::format("'{}' is not a finite number", cells[column.index]));
       } else if (values[i] < smallest || values[i] > column.largest) {
         AddError(line, names_[column.index],
                  fmt::format("{} is out of range; must be between {} and {} in SI units", *number,

@@ -140,10 +140,11 @@ double NumberOf(const json& value, const std::string& key, double largest,
     throw InputError(Problem{.file = file, .key = key, .message = std::move(message)});
   };
   if (!value.is_number()) {
-    refuse(fmt::format(
-        "{} is no finite number",
-        value.is_null() ? "missing; it"
-                        : value.dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 40)));
+    refuse(
+        value.is_null()
+            ? "missing; must be a finite number"
+            : fmt::format("{} is not a finite number",
+                          value.dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 40)));
   }
   const auto number = value.get<double>();
   if (!std::isfinite(number) || std::abs(number) > largest) {

@@ -9,22 +9,27 @@ namespace trackbed {
 
 void Visit(KeyVisitor& keys, PathColumns& columns) {
   keys.Field({"x", "", "column of the position; default: x_m, x or another usual name"}, columns.x);
-  keys.Field({"y", "", "likewise"}, columns.y);
+  keys.Field({"y", "", "column of the position; default: y_m, y or another usual name"}, columns.y);
   keys.Field({"yaw", "",
               "column of the car's heading; default: yaw_rad, psi_rad, heading, ... if "
               "present"},
              columns.yaw);
-  keys.Field({"curvature", "", "likewise, of the curvature; default: kappa_radpm, curvature, ..."},
-             columns.curvature);
-  keys.Field({"speed", "", "likewise; default: vx_mps, speed_mps, velocity, ..."}, columns.speed);
+  keys.Field(
+      {"curvature", "", "column of the curvature; default: kappa_radpm, curvature, ... if present"},
+      columns.curvature);
+  keys.Field(
+      {"speed", "", "column of the speed; default: vx_mps, speed_mps, velocity, ... if present"},
+      columns.speed);
   keys.Field({"time", "",
-              "likewise, of which speeds are made if there are none; default: t_s, "
+              "column of the time, from which speeds are computed if there are none; default: t_s, "
               "time, ..."},
              columns.time);
   keys.Field({"position_unit", "", "m, cm, mm or km; default: that in the column's name, or m"},
              columns.position_unit);
-  keys.Field({"yaw_unit", "", "rad or deg; default likewise, or rad"}, columns.yaw_unit);
-  keys.Field({"speed_unit", "", "m/s, km/h or mph; default likewise, or m/s"}, columns.speed_unit);
+  keys.Field({"yaw_unit", "", "rad or deg; default: that in the column's name, or rad"},
+             columns.yaw_unit);
+  keys.Field({"speed_unit", "", "m/s, km/h or mph; default: that in the column's name, or m/s"},
+             columns.speed_unit);
 }
 
 void Visit(KeyVisitor& keys, PathMap& map) {
@@ -48,8 +53,9 @@ void Visit(KeyVisitor& keys, PathMap& map) {
   keys.Field(
       {"origin_latitude", "deg", "origin of the projection of WGS 84; default: the first point"},
       map.origin_latitude, Range{.min = -89.0, .max = 89.0});
-  keys.Field({"origin_longitude", "deg", "likewise"}, map.origin_longitude,
-             Range{.min = -180.0, .max = 180.0});
+  keys.Field(
+      {"origin_longitude", "deg", "origin of the projection of WGS 84; default: the first point"},
+      map.origin_longitude, Range{.min = -180.0, .max = 180.0});
 }
 
 std::vector<std::pair<std::string, std::string>> PathMapProblems(const PathMap& map) {

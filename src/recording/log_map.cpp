@@ -98,9 +98,9 @@ void Visit(KeyVisitor& keys, LogPosition& position) {
 
 void Visit(KeyVisitor& keys, LogOrientation& orientation) {
   keys.Field({"x", "", "name of the column"}, orientation.x, Need::kRequired);
-  keys.Field({"y", "", "likewise"}, orientation.y, Need::kRequired);
-  keys.Field({"z", "", "likewise"}, orientation.z, Need::kRequired);
-  keys.Field({"w", "", "likewise"}, orientation.w, Need::kRequired);
+  keys.Field({"y", "", "name of the column"}, orientation.y, Need::kRequired);
+  keys.Field({"z", "", "name of the column"}, orientation.z, Need::kRequired);
+  keys.Field({"w", "", "name of the column"}, orientation.w, Need::kRequired);
 }
 
 void Visit(KeyVisitor& keys, LogSensor& sensor) {
@@ -183,7 +183,8 @@ void Visit(KeyVisitor& keys, LogMap& map) {
              Need::kOptional, Range{.max = 100.0, .above = 0.0});
   keys.Field({"from", "s", "what is before is left out; since the first row of the log"}, map.from,
              Need::kOptional, kNonNegative);
-  keys.Field({"to", "s", "what is after is left out; likewise"}, map.to, kPositive);
+  keys.Field({"to", "s", "what is after is left out; since the first row of the log"}, map.to,
+             kPositive);
   keys.Field({"trim", "s", "left out at either end, where filters are one-sided"}, map.trim,
              Need::kOptional, kNonNegative);
   keys.Field({"check", "",

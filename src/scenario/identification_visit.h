@@ -9,8 +9,8 @@ namespace trackbed {
 
 inline void Visit(KeyVisitor& a, ParameterPrior& prior) {
   a.Field({"mean", "", "in the parameter's unit"}, prior.mean, Need::kRequired);
-  a.Field({"deviation", "", "standard deviation, likewise"}, prior.deviation, Need::kRequired,
-          kPositive);
+  a.Field({"deviation", "", "standard deviation, in the parameter's unit"}, prior.deviation,
+          Need::kRequired, kPositive);
 }
 
 inline void Visit(KeyVisitor& a, IdentifiedParameter& parameter) {
@@ -19,7 +19,7 @@ inline void Visit(KeyVisitor& a, IdentifiedParameter& parameter) {
            "mass, cg_to_rear, cg_height, yaw_inertia, steering_rate, steering_limit, drive_torque"},
           parameter.name, Need::kRequired);
   a.Field({"from", "", "lower bound, in the parameter's unit"}, parameter.from, Need::kRequired);
-  a.Field({"to", "", "upper bound, likewise"}, parameter.to, Need::kRequired);
+  a.Field({"to", "", "upper bound, in the parameter's unit"}, parameter.to, Need::kRequired);
   a.Field({"start", "", "where the search begins; default: the model's value"}, parameter.start);
   a.Section({"prior", "", "what is known beforehand, a normal distribution"}, parameter.prior);
 }
@@ -27,12 +27,17 @@ inline void Visit(KeyVisitor& a, IdentifiedParameter& parameter) {
 inline void Visit(KeyVisitor& a, ResidualDeviations& residuals) {
   a.Field({"yaw_rate", "rad/s", "standard deviation expected of the yaw rate's residuals"},
           residuals.yaw_rate, kPositive);
-  a.Field({"lateral_acceleration", "m/s^2", "likewise, at the center of gravity"},
+  a.Field({"lateral_acceleration", "m/s^2",
+           "standard deviation expected of the residuals at the center of gravity"},
           residuals.lateral_acceleration, kPositive);
-  a.Field({"lateral_speed", "m/s", "likewise"}, residuals.lateral_speed, kPositive);
-  a.Field({"position", "m", "likewise, along each axis"}, residuals.position, kPositive);
-  a.Field({"heading", "rad", "likewise"}, residuals.heading, kPositive);
-  a.Field({"speed", "m/s", "likewise"}, residuals.speed, kPositive);
+  a.Field({"lateral_speed", "m/s", "standard deviation expected of the residuals"},
+          residuals.lateral_speed, kPositive);
+  a.Field({"position", "m", "standard deviation expected of the residuals along each axis"},
+          residuals.position, kPositive);
+  a.Field({"heading", "rad", "standard deviation expected of the residuals"}, residuals.heading,
+          kPositive);
+  a.Field({"speed", "m/s", "standard deviation expected of the residuals"}, residuals.speed,
+          kPositive);
 }
 
 inline void Visit(KeyVisitor& a, Identification& study) {
@@ -47,8 +52,9 @@ inline void Visit(KeyVisitor& a, Identification& study) {
   a.Field({"plant", "", "that is fitted"}, study.plant, Need::kOptional, plants);
   a.Field({"fit", "", "scenarios with a record, whose drives the model is fitted to"}, study.fit,
           Need::kRequired, {});
-  a.Field({"held_out", "", "likewise, that take no part in the fit and are judged after it"},
-          study.held_out, Need::kOptional, {});
+  a.Field(
+      {"held_out", "", "scenarios with a record that are left out of the fit and judged after it"},
+      study.held_out, Need::kOptional, {});
   a.Field({"horizon", "s", "the plant restarts at the record after so long"}, study.horizon,
           Need::kOptional, Range{.max = 1e4, .above = 0.0});
   a.Section({"residuals", "", "signals that are fitted; default: yaw_rate with 0.1 rad/s"},

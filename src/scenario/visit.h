@@ -37,7 +37,9 @@ inline void Visit(KeyVisitor& a, StartSpec& start) {
   a.Field({"x", "m",
            "initial position of the rear axle; default: that of the record, first waypoint, or 0"},
           start.x, kMap);
-  a.Field({"y", "m", "likewise"}, start.y, kMap);
+  a.Field({"y", "m",
+           "initial position of the rear axle; default: that of the record, first waypoint, or 0"},
+          start.y, kMap);
   a.Field({"yaw", "rad",
            "initial heading; default: that of the record, the first of `headings`, along the first "
            "leg, "

@@ -16,7 +16,8 @@ inline void Visit(KeyVisitor& a, MapSpec& map) {
           map.cell, kMapCellSize);
   a.Field({"x", "m", "lower left corner of the map; default: the file's origin, or 0"}, map.x,
           kMap);
-  a.Field({"y", "m", "likewise"}, map.y, kMap);
+  a.Field({"y", "m", "lower left corner of the map; default: the file's origin, or 0"}, map.y,
+          kMap);
   a.Field({"yaw", "rad", "direction of its rows; default: the file's origin, or 0"}, map.yaw,
           kDirection);
   static const EnumNames<UnknownCells> unknown{{UnknownCells::kFree, "free"},

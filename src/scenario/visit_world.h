@@ -14,7 +14,7 @@ inline constexpr Key kWorldSection{"world", "", "environment of the car"};
 
 inline void Visit(KeyVisitor& a, OrientedBox& box) {
   a.Field({"x", "m", "center of the rectangle"}, box.center.x, Need::kRequired, kMap);
-  a.Field({"y", "m", "likewise"}, box.center.y, Need::kRequired, kMap);
+  a.Field({"y", "m", "center of the rectangle"}, box.center.y, Need::kRequired, kMap);
   a.Field({"yaw", "rad", "direction of its length"}, box.center.yaw, Need::kOptional, kDirection);
   a.Field({"length", "m", "along its own x axis"}, box.length, Need::kRequired, kSize);
   a.Field({"width", "m", "along its own y axis"}, box.width, Need::kRequired, kSize);
@@ -61,7 +61,7 @@ inline void Visit(KeyVisitor& a, Ground& ground) {
 
 inline void Visit(KeyVisitor& a, Gust& gust) {
   a.Field({"x", "m/s", "peak velocity, eastward"}, gust.velocity.x(), Need::kOptional, kWindSpeed);
-  a.Field({"y", "m/s", "likewise, northward"}, gust.velocity.y(), Need::kOptional, kWindSpeed);
+  a.Field({"y", "m/s", "peak velocity, northward"}, gust.velocity.y(), Need::kOptional, kWindSpeed);
   a.Field({"from", "s", "start time"}, gust.from, Need::kOptional, kNonNegative);
   a.Field({"duration", "s", "duration; a step without one does not end"}, gust.duration, kPositive);
   static const EnumNames<GustShape> shapes{{GustShape::kOneMinusCosine, "one_minus_cosine"},

@@ -101,7 +101,7 @@ TEST(CheckPath, SaysWhatIsWrong) {
   folder.Write("p.csv", "x,y\n0,0\n1,two\n");
   const Outcome cell = Trackbed(folder, "check-path p.csv --speed 1");
   EXPECT_EQ(cell.code, 2);
-  EXPECT_THAT(cell.output, HasSubstr("p.csv:3: y: 'two' is no finite number"));
+  EXPECT_THAT(cell.output, HasSubstr("p.csv:3: y: 'two' is not a finite number"));
   EXPECT_EQ(Trackbed(folder, "check-path none.csv --speed 1").code, 2);
   EXPECT_EQ(Trackbed(folder, "check-path p.csv").code, 2);
   EXPECT_EQ(Trackbed(folder, "check-path p.csv --speed 0").code, 2);

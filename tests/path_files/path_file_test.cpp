@@ -115,9 +115,9 @@ TEST(PathCsv, SaysWhatIsWrong) {
   EXPECT_THAT(Error("p.csv", "easting,northing\n1,2\n3,4\n", misspelt),
               HasSubstr("did you mean 'easting'"));
   EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3,four\n"),
-              AllOf(HasSubstr("p.csv:3"), HasSubstr("'four' is no finite number")));
-  EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3,nan\n"), HasSubstr("no finite number"));
-  EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3,inf\n"), HasSubstr("no finite number"));
+              AllOf(HasSubstr("p.csv:3"), HasSubstr("'four' is not a finite number")));
+  EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3,nan\n"), HasSubstr("not a finite number"));
+  EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3,inf\n"), HasSubstr("not a finite number"));
   EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3,1e300\n"), HasSubstr("out of range"));
   EXPECT_THAT(Error("p.csv", "x,y,v\n1,2,-1\n3,4,1\n"), HasSubstr("out of range"));
   EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3\n"), HasSubstr("1 cells, the header has 2"));
@@ -196,7 +196,7 @@ TEST(NavPath, SaysWhatIsWrong) {
               HasSubstr("p.json"));
   EXPECT_THAT(Error("p.yaml", "poses: [a: b: c]\n"), HasSubstr("not YAML"));
   EXPECT_THAT(Error("p.yaml", "poses: [{pose: {position: {x: .nan, y: 1}}}]\n"),
-              HasSubstr("no finite number"));
+              HasSubstr("not a finite number"));
 }
 
 TEST(NavPath, RefusesDeepAndEndlessText) {
@@ -245,7 +245,7 @@ TEST(CommonRoad, SaysWhatIsWrong) {
   const std::string end = "</ksState></ksTrajectory></CommonRoadSolution>";
   EXPECT_THAT(Error("s.xml", begin + "<x>1</x>" + end),
               AllOf(HasSubstr("s.xml:2"), HasSubstr("missing in ksState")));
-  EXPECT_THAT(Error("s.xml", begin + "<x>one</x><y>2</y>" + end), HasSubstr("'one' is no finite"));
+  EXPECT_THAT(Error("s.xml", begin + "<x>one</x><y>2</y>" + end), HasSubstr("'one' is not a finite"));
   EXPECT_THAT(Error("s.xml", begin + "<x>1</x><y>2</y><velocity>-3</velocity>" + end),
               HasSubstr("reverse"));
 }
@@ -317,7 +317,7 @@ TEST(GeoJson, SaysWhatIsWrong) {
       Error("p.geojson", Line("[[500, 600], [700, 800]]")),
       AllOf(HasSubstr("features[0].geometry.coordinates[0]"), HasSubstr("coordinates: meters")));
   EXPECT_THAT(Error("p.geojson", Line("[[1, 2], [3]]")), HasSubstr("position of two"));
-  EXPECT_THAT(Error("p.geojson", Line("[[1, 2], [3, \"x\"]]")), HasSubstr("no finite number"));
+  EXPECT_THAT(Error("p.geojson", Line("[[1, 2], [3, \"x\"]]")), HasSubstr("not a finite number"));
   EXPECT_THAT(Error("p.geojson", Line("[]")), HasSubstr("no positions"));
   EXPECT_THAT(Error("p.geojson", Line("7")), HasSubstr("list of positions"));
   EXPECT_THAT(Error("p.geojson", R"({"type": "Point", "coordinates": [1, 2]})"),

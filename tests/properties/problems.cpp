@@ -17,6 +17,7 @@
 #include "trackbed/planning/grid/hybrid_astar.h"
 #include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/sampling/rrt_planner.h"
+#include "trackbed/planning/sampling/rrt_star_planner.h"
 
 namespace properties {
 namespace {
@@ -96,6 +97,9 @@ void SetOptions(PlannerOptions& options, double scale, bool adversarial) {
   } else if (auto* rrt = options.As<RrtPlannerOptions>()) {
     rrt->trees = 2;
     rrt->iterations = 1000;
+  } else if (auto* rrt_star = options.As<RrtStarPlannerOptions>()) {
+    rrt_star->trees = 2;
+    rrt_star->iterations = 1000;
   } else if (auto* astar = options.As<AStarOptions>()) {
     astar->budget = 20000;
   }

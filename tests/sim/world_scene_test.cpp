@@ -4,6 +4,10 @@
 
 #include <cmath>
 #include <cstring>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
@@ -102,6 +106,46 @@ double BallHeight(const Ground& ground, const Vec2& p, double r, double step) {
     }
   }
   return highest;
+}
+
+TEST(WithGround, ATerrainIsFineWhereItIsRefinedAndCoarseAround) {
+  const Terrain::Size size{.low = {-64.0, -64.0}, .columns = 5, .rows = 4, .base = -3.0};
+  Terrain terrain(size, std::vector<double>(std::size_t{21} * 17, -1.0));
+  for (const int column : {1, 2}) {
+    terrain.Refine(column, 1, [](const Vec2& p, double) {
+      const double r = (p - Vec2(0.0, -16.0)).norm() / 14.0;
+      return r < 1.0 ? 0.5 * std::pow(std::cos(0.5 * kPi * r), 4) : 0.0;
+    });
+  }
+  Ground ground;
+  ground.terrain = std::make_shared<const Terrain>(std::move(terrain));
+  const CarModel car(WithGround(Prius(), ground), "prius");
+  const mjModel& m = *car.get();
+  ASSERT_EQ(m.nhfield, 3);  // two blocks and all of it
+  EXPECT_EQ(m.geom_pos[3 * Geom(car, "ground") + 2], -3.0);
+  for (const char* name : {"ground_0", "ground_1", "ground_2"}) {
+    const int geom = Geom(car, name);
+    const int field = m.geom_dataid[geom];
+    const mjtNum* sides = m.hfield_size + 4 * field;
+    const int columns = m.hfield_ncol[field];
+    const bool fine = std::string(name) != "ground_2";
+    EXPECT_EQ(columns, fine ? 65 : 21);
+    int under = 0;
+    for (int i = 0; i < m.hfield_nrow[field] * columns; ++i) {
+      const Vec2 p(m.geom_pos[3 * geom] + (2.0 * (i % columns) / (columns - 1.0) - 1.0) * sides[0],
+                   m.geom_pos[3 * geom + 1] +
+                       (2.0 * (i / columns) / (m.hfield_nrow[field] - 1.0) - 1.0) * sides[1]);
+      const double z = m.geom_pos[3 * geom + 2] +
+                       sides[2] * static_cast<double>(m.hfield_data[m.hfield_adr[field] + i]);
+      const double below = GroundHeight(ground, p) - z;
+      // Single precision of a span below 8 m.
+      const bool hidden = std::abs(below - 4.0) < Tolerance(1e-6);
+      EXPECT_TRUE(hidden || std::abs(below) < Tolerance(1e-6)) << name << " " << below;
+      under += hidden ? 1 : 0;
+    }
+    // Of the corners of coarse cells 3 by 7 are within the two blocks, not on their border.
+    EXPECT_EQ(under, fine ? 0 : 21);
+  }
 }
 
 TEST(WithGround, ABallComesToRestOnTheClosedForm) {

@@ -32,11 +32,10 @@ enum class InteriorSteps {
 /// Solves from `start` by IPOPT's interior-point method (Waechter and Biegler 2006) with MUMPS.
 ///
 /// Guarantees: constraints kept to 1e-7 of the largest bound; the same program gives the same bits
-/// on one machine. Not ok if they are infeasible or 200 iterations do not suffice, 80 with predicted
-/// steps.
-/// PreconditionError unless the sizes agree, all numbers are finite and lower < upper. RunError in
-/// a build without IPOPT (TRACKBED_IPOPT=OFF). Cost: 1000 variables in bands of 12, 2000
-/// constraints: 0.1 s.
+/// on one machine. Not ok if they are infeasible or 200 iterations do not suffice, 80 with
+/// predicted steps. PreconditionError unless the sizes agree, all numbers are finite and lower <
+/// upper. RunError in a build without IPOPT (TRACKBED_IPOPT=OFF). Cost: 1000 variables in bands of
+/// 12, 2000 constraints: 0.1 s.
 SparseQuadraticSolution Solve(const SparseQuadraticProgram& program, const Eigen::VectorXd& start,
                               InteriorSteps steps = InteriorSteps::kLineSearch);
 

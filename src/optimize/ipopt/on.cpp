@@ -1,6 +1,7 @@
 #include <IpStdCInterface.h>
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <type_traits>
 
@@ -112,6 +113,9 @@ void SetOptions(IpoptProblem problem, InteriorSteps steps) {
 
 IpoptResult SolveByIpopt(const SparseQuadraticProgram& program, const Eigen::VectorXd& start,
                          InteriorSteps steps) {
+  // MUMPS, IPOPT's linear solver in Debian, keeps state of its own: two solutions at a time crash.
+  static std::mutex one_at_a_time;
+  const std::lock_guard<std::mutex> lock(one_at_a_time);
   const auto n = static_cast<Index>(program.linear.size());
   const auto m = static_cast<Index>(program.lower.size());
   Context context{.program = program,

@@ -9,9 +9,7 @@
 namespace trackbed {
 namespace {
 
-/// Side of a bin [m]: about a car, or more where the boxes are so far apart that there would be
-/// more bins than this.
-constexpr double kBin = 4.0;
+/// Most bins: they are larger where the boxes are so far apart that there would be more.
 constexpr double kMostBins = 250000.0;
 /// Shortest step along a path, per meter of the car's length, and at most [m].
 constexpr double kStep = 0.02;
@@ -21,8 +19,12 @@ bool IsBox(const OrientedBox& box) {
          std::isfinite(box.length) && box.width >= 0.0 && std::isfinite(box.width);
 }
 
-double CircleAround(const OrientedBox& box) {
-  return 0.5 * std::hypot(box.length, box.width);
+/// Squared distance from a point to a box whose length has the direction `along`.
+double SquareTo(const OrientedBox& box, const Vec2& along, const Vec2& point) {
+  const Vec2 offset = point - box.center.position();
+  const double x = std::max(std::abs(along.dot(offset)) - 0.5 * box.length, 0.0);
+  const double y = std::max(std::abs(Cross(along, offset)) - 0.5 * box.width, 0.0);
+  return x * x + y * y;
 }
 
 }  // namespace
@@ -32,6 +34,7 @@ CollisionChecker::CollisionChecker(const VehicleParams& vehicle, std::vector<Ori
     : vehicle_(vehicle),
       boxes_(std::move(boxes)),
       distance_(distance),
+      farthest_(std::min(kFarthest, vehicle.length)),
       middle_(0.5 * vehicle.length - vehicle.rear_overhang),
       radius_(0.5 * std::hypot(vehicle.length, vehicle.width)),
       step_(kStep * std::min(1.0, vehicle.length)),
@@ -42,38 +45,49 @@ CollisionChecker::CollisionChecker(const VehicleParams& vehicle, std::vector<Ori
                      "CollisionChecker: a box of {} x {} m at {}, {}, yaw {}; must be "
                      "finite, not smaller than 0",
                      box.length, box.width, box.center.x, box.center.y, box.center.yaw);
+    along_.push_back(Direction(box.center.yaw));
   }
-  if (boxes_.empty()) {
-    return;
+  if (!boxes_.empty()) {
+    FillBins();
   }
+}
+
+void CollisionChecker::FillBins() {
+  // From a footprint's middle within which a box matters, and the box's own extent along the axes.
+  const double near = radius_ + distance_ + farthest_;
+  const auto reach_of = [&](std::size_t i) {
+    const Vec2 along = 0.5 * boxes_[i].length * along_[i];
+    const Vec2 across = 0.5 * boxes_[i].width * LeftNormal(along_[i]);
+    return Vec2((along.cwiseAbs() + across.cwiseAbs()).array() + near);
+  };
   low_ = boxes_.front().center.position();
   Vec2 high = low_;
-  const auto reach_of = [&](std::size_t i) { return radii_[i] + radius_ + distance_ + kFarthest; };
-  for (const OrientedBox& box : boxes_) {
-    radii_.push_back(CircleAround(box));
-    const Vec2 reach = Vec2::Constant(reach_of(radii_.size() - 1));
-    low_ = low_.cwiseMin(box.center.position() - reach);
-    high = high.cwiseMax(box.center.position() + reach);
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    low_ = low_.cwiseMin(boxes_[i].center.position() - reach_of(i));
+    high = high.cwiseMax(boxes_[i].center.position() + reach_of(i));
   }
   const Vec2 size = high - low_;
-  // The longer of the two alone, for boxes in a row; their area, for others.
-  bin_ = std::max({kBin, size.maxCoeff() / kMostBins, std::sqrt(size.prod() / kMostBins)});
+  // About a car; the longer of the two sides alone, for boxes in a row; their area, for others.
+  bin_ = std::max({farthest_, size.maxCoeff() / kMostBins, std::sqrt(size.prod() / kMostBins)});
   TRACKBED_REQUIRE(std::isfinite(bin_), "CollisionChecker: boxes over {} x {} m; must be less",
                    size.x(), size.y());
   columns_ = static_cast<int>(size.x() / bin_) + 1;
   rows_ = static_cast<int>(size.y() / bin_) + 1;
   bins_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  // From the middle of a bin to a box that matters somewhere in it; the rest is for rounding.
+  const double far = (near + bin_ * std::sqrt(0.5)) * (1.0 + 1e-9);
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
-    const Vec2 center = boxes_[i].center.position();
-    const auto first = [&](int axis) {
-      return static_cast<int>((center[axis] - reach_of(i) - low_[axis]) / bin_);
-    };
-    const auto last = [&](int axis) {
-      return static_cast<int>((center[axis] + reach_of(i) - low_[axis]) / bin_);
-    };
-    for (int row = first(1); row <= std::min(last(1), rows_ - 1); ++row) {
-      for (int column = first(0); column <= std::min(last(0), columns_ - 1); ++column) {
-        bins_[static_cast<std::size_t>(row * columns_ + column)].push_back(static_cast<int>(i));
+    const Vec2 reach = reach_of(i);
+    const Vec2 from = (boxes_[i].center.position() - reach - low_) / bin_;
+    const Vec2 to = (boxes_[i].center.position() + reach - low_) / bin_;
+    const int last_row = std::min(static_cast<int>(to.y()), rows_ - 1);
+    const int last_column = std::min(static_cast<int>(to.x()), columns_ - 1);
+    for (int row = static_cast<int>(from.y()); row <= last_row; ++row) {
+      for (int column = static_cast<int>(from.x()); column <= last_column; ++column) {
+        const Vec2 center = low_ + bin_ * Vec2{column + 0.5, row + 0.5};
+        if (SquareTo(boxes_[i], along_[i], center) <= far * far) {
+          bins_[static_cast<std::size_t>(row * columns_ + column)].push_back(static_cast<int>(i));
+        }
       }
     }
   }
@@ -88,25 +102,26 @@ const std::vector<int>* CollisionChecker::Near(const Vec2& middle) const {
                                          static_cast<int>(bin.x()))];
 }
 
-double CollisionChecker::Clearance(const Pose2& pose) const {
+double CollisionChecker::Clearance(const Pose2& pose, double at_most) const {
   const Vec2 middle = pose.position() + middle_ * Direction(pose.yaw);
   const std::vector<int>* near = Near(middle);
-  double room = kFarthest;
+  double clearance = std::min(farthest_, at_most);
   if (near == nullptr) {
     // Far from every box, or nowhere.
     TRACKBED_REQUIRE(middle.allFinite(), "CollisionChecker: the pose {}, {}, yaw {} is not finite",
                      pose.x, pose.y, pose.yaw);
-    return room;
+    return clearance;
   }
   const OrientedBox footprint{{middle.x(), middle.y(), pose.yaw}, vehicle_.length, vehicle_.width};
   for (const int i : *near) {
-    const OrientedBox& box = boxes_[static_cast<std::size_t>(i)];
-    const double circles = radii_[static_cast<std::size_t>(i)] + radius_ + distance_ + room;
-    if ((box.center.position() - middle).squaredNorm() < circles * circles) {
-      room = std::min(room, Separation(footprint, box) - distance_);
+    const auto index = static_cast<std::size_t>(i);
+    // A box farther from the middle neither overlaps the footprint nor is nearer than the nearest.
+    const double within = radius_ + std::max(distance_ + clearance, 0.0);
+    if (SquareTo(boxes_[index], along_[index], middle) < within * within) {
+      clearance = std::min(clearance, Separation(footprint, boxes_[index]) - distance_);
     }
   }
-  return room;
+  return clearance;
 }
 
 std::optional<double> CollisionChecker::FirstBlocked(const Path& path) const {
@@ -118,7 +133,7 @@ std::optional<double> CollisionChecker::FirstBlocked(const Path& path) const {
   }
   const double moved = 1.0 + sharpest * reach_;  // by the footprint, per meter of path
   for (double s = 0.0;;) {
-    const double room = Clearance(path.At(s).pose);
+    const double room = Clearance(path.At(s).pose, moved * (path.length() - s));
     if (room < 0.0) {
       return s;
     }
@@ -133,7 +148,8 @@ bool CollisionChecker::IsFree(const Pose2& start, const Segment& segment) const 
   const double moved = 1.0 + std::abs(segment.curvature) * reach_;
   for (double d = 0.0;;) {
     const double along = segment.direction * d;
-    const double room = Clearance(MoveOnArc(start, along, segment.curvature * along));
+    const double room =
+        Clearance(MoveOnArc(start, along, segment.curvature * along), moved * (segment.length - d));
     if (room < 0.0) {
       return false;
     }

@@ -11,6 +11,9 @@ namespace {
 
 /// Bounds of program rows must be finite; none of them has values anywhere near.
 constexpr double kOpen = 50.0;
+/// How far from a lap the cuts are kept that no step may pass: in a step of a braking point along a
+/// straight, intervals change from driving to braking.
+constexpr double kAlways = kOpen;
 constexpr double kLeastRange = 1e-9;  // they must differ
 
 double Squared(double x) {
@@ -288,7 +291,7 @@ void LapProgram::AddTyres(const Lap& lap, std::size_t i, GgvSide side) {
       const double rate =
           -(Excess(faster, across, along) - Excess(slower, across, along)) / (2.0 * kStep);
       const auto row = static_cast<Eigen::Index>(lower_.size());
-      if (AddCut(lap, i, interval, cut, rate, kKeep * largest)) {
+      if (AddCut(lap, i, interval, cut, rate, cut_angle == angle ? kAlways : kKeep * largest)) {
         tangents_.push_back({row, interval, interval == i ? 0U : 1U, side});
       }
     }
@@ -305,7 +308,6 @@ void LapProgram::AddTyres(const Lap& lap, std::size_t i, GgvSide side) {
 
 void LapProgram::AddForces(const Lap& lap, std::size_t i, GgvSide side) {
   constexpr double kStep = 0.01;
-  constexpr double kKeep = 2.0;  // [m/s^2]
   const LapLimits& limits = model_.limits();
   const double squared = Squared(lap.speeds[i]);
   const GgvCut cut = ForceCut(limits, squared, side);
@@ -316,7 +318,7 @@ void LapProgram::AddForces(const Lap& lap, std::size_t i, GgvSide side) {
                        ForceCut(limits, (1.0 - kStep) * squared, side).bound) /
                       (2.0 * kStep);
   for (const std::size_t interval : {i == 0 ? model_.count() - 1 : i - 1, i}) {
-    AddCut(lap, i, interval, cut, rate, kKeep);
+    AddCut(lap, i, interval, cut, rate, kAlways);
   }
 }
 

@@ -20,6 +20,7 @@
 #include "trackbed/planning/racing/minimum_curvature.h"
 #include "trackbed/planning/racing/minimum_time.h"
 #include "trackbed/planning/sampling/rrt_planner.h"
+#include "trackbed/planning/sampling/rrt_star_planner.h"
 
 namespace trackbed {
 namespace {
@@ -36,6 +37,7 @@ Registry<PlannerEntry>& Table() {
                                                      AStarPlanner(),
                                                      HybridAStarPlanner(),
                                                      RrtPlanner(),
+                                                     RrtStarPlanner(),
                                                      PathFilePlanner(),
                                                      CenterLinePlanner(),
                                                      MinimumCurvaturePlanner(),

@@ -3,23 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
 
 #include "src/planning/sampling/prune_waypoints.h"
-#include "trackbed/core/angle.h"
+#include "src/planning/sampling/sampling_task.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/feasibility.h"
-#include "trackbed/planning/common/occupancy_grid.h"
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/sampling/comparator.h"
 #include "trackbed/planning/sampling/rrt.h"
 
-// RRT as a planner of cars. Everything random happens in the frame of the car at its start, so that
-// a mission that is moved or turned as a whole gets the same plan, moved or turned.
+// RRT as a planner of cars.
 namespace trackbed {
 namespace {
 
@@ -28,80 +24,15 @@ bool MayBePartial(const PlannerOptions& options) {
   return own.partial.value_or(own.time_limit.has_value());
 }
 
-Pose2 InFrame(const Pose2& X_WF, const Pose2& X_WA) {
-  const Vec2 position = ToLocal(X_WF, X_WA.position());
-  return {position.x(), position.y(), X_WA.yaw - X_WF.yaw};
+SamplingTask MakeTask(const RrtPlannerOptions& options, const PlanRequest& request) {
+  return MakeSamplingTask({.corners = options.corners,
+                           .safe_distance = options.safe_distance,
+                           .corner_room = options.corner_room,
+                           .margin = options.margin,
+                           .lead_in = options.lead_in,
+                           .wind_weight = options.wind_weight},
+                          request);
 }
-
-Vec2 DirectionInFrame(const Pose2& X_WF, const Vec2& vector) {
-  return ToLocal({0.0, 0.0, X_WF.yaw}, vector);
-}
-
-/// The mission in the frame of the car at its start.
-struct Task {
-  Vec2 lead{0.0, 0.0};      ///< where the trees begin
-  std::vector<Vec2> goals;  ///< one after the other
-  std::vector<OrientedBox> obstacles;
-  double inflation = 0.0;
-  GridArea area;  ///< that is sampled
-  WindScoring wind;
-};
-
-Task MakeTask(const RrtPlannerOptions& options, const PlanRequest& request) {
-  const Pose2& frame = request.start;
-  Task task;
-  for (std::size_t i = 1; i < request.waypoints.size(); ++i) {
-    task.goals.push_back(ToLocal(frame, request.waypoints[i]));
-  }
-  // No further than half way to where it is going.
-  task.lead.x() = std::min(options.lead_in, 0.5 * task.goals.front().norm());
-  for (const OrientedBox& box : request.obstacles) {
-    task.obstacles.push_back({InFrame(frame, box.center), box.length, box.width});
-  }
-  task.inflation = 0.5 * request.vehicle.width + options.safe_distance +
-                   (options.corners == Corners::kRound ? options.corner_room : 0.0);
-  std::vector<Vec2> points = task.goals;
-  points.push_back(task.lead);
-  task.area = AreaAround({}, points, task.obstacles, options.margin);
-  task.wind = {.wind = request.wind, .speed = request.speed.speed, .weight = options.wind_weight};
-  task.wind.wind.velocity = DirectionInFrame(frame, request.wind.velocity);
-  for (Gust& gust : task.wind.wind.gusts) {
-    gust.velocity = DirectionInFrame(frame, gust.velocity);
-    if (gust.area) {
-      gust.area->center = InFrame(frame, gust.area->center);
-    }
-  }
-  return task;
-}
-
-bool IsFree(const Task& task, const Vec2& from, const Vec2& to) {
-  return std::all_of(task.obstacles.begin(), task.obstacles.end(), [&](const OrientedBox& box) {
-    return Distance(from, to, box) > task.inflation;
-  });
-}
-
-/// Tangent lengths of corners at the lowest speed, by their change of heading.
-class Tangents {
- public:
-  Tangents(const VehicleParams& vehicle, double speed) {
-    for (std::size_t i = 1; i < kCount; ++i) {
-      lengths_[i] = CornerAt(vehicle, static_cast<double>(i) * kStep, speed,
-                             1.0 / vehicle.min_turning_radius())
-                        .tangent_length;
-    }
-  }
-
-  /// Never too short: of the next change of heading in the table.
-  double operator()(double turn) const {
-    const auto next = static_cast<std::size_t>(std::ceil(turn / kStep));
-    return next < kCount ? lengths_[next] : std::numeric_limits<double>::infinity();
-  }
-
- private:
-  static constexpr std::size_t kCount = 200;
-  static constexpr double kStep = kPi / kCount;
-  std::array<double, kCount> lengths_{};  // straight on needs none
-};
 
 /// A path through all goals, or how far it got.
 struct Way {
@@ -118,8 +49,8 @@ struct Way {
 struct Forest {
   const RrtPlannerOptions& options;
   const PlanRequest& request;
-  const Task& task;
-  const Tangents& tangents;
+  const SamplingTask& task;
+  const CornerTangents& tangents;
   std::function<bool()> time_is_over;  ///< empty: never
 };
 
@@ -136,39 +67,22 @@ void AddTree(const RrtResult& result, const Pose2& frame, std::vector<TreeNode>&
   }
 }
 
-std::vector<Vec2> InWorld(const Pose2& frame, std::vector<Vec2> points) {
-  for (Vec2& point : points) {
-    point = ToWorld(frame, point);
-  }
-  return points;
-}
-
 /// Goes on along a tree's path, smoothed, and with no more corners than it needs; `leg` is told.
 void AddLeg(const Forest& forest, const std::vector<Vec2>& path, bool is_last,
             std::vector<Vec2>& points, RrtLeg& leg) {
   const RrtPlannerOptions& options = forest.options;
-  const Task& task = forest.task;
+  const SamplingTask& task = forest.task;
   const SmoothingResult smooth =
       SmoothPath(path, task.obstacles, task.inflation, task.wind,
                  {.data = options.data_weight, .smoothness = options.smoothness_weight});
   leg.sweeps = smooth.sweeps;
   leg.smooth = InWorld(forest.request.start, smooth.path);
-  const std::size_t before = points.size();
-  const std::vector<Vec2> few = PruneWaypoints(
-      smooth.path, {.before = before > 1 ? std::optional(points[before - 2]) : std::nullopt,
-                    .first_leg = before <= 2,
-                    .last_leg = is_last,
-                    .obstacles = task.obstacles,
-                    .inflation = task.inflation,
-                    .wind = task.wind,
-                    .corner_cost = options.corner_cost,
-                    .tangent = forest.tangents});
-  points.insert(points.end(), few.begin() + 1, few.end());
+  AddPruned(task, forest.tangents, options.corner_cost, smooth.path, is_last, points);
 }
 
 Way GrowWay(const Forest& forest, std::uint64_t seed) {
   const RrtPlannerOptions& options = forest.options;
-  const Task& task = forest.task;
+  const SamplingTask& task = forest.task;
   const Pose2& frame = forest.request.start;
   Way way;
   way.points.emplace_back(0.0, 0.0);
@@ -241,16 +155,13 @@ std::string DescribeBudget(const RrtPlannerOptions& options, std::size_t trees, 
 
 /// Where a tree begins is free: it is checked, or was a goal.
 Plan RefusedAs(const Way& way, const Forest& forest) {
-  const double inflation = forest.task.inflation;
   if (way.status == RrtStatus::kGoalBlocked) {
-    return route::Refused(PlanStatus::kGoalBlocked,
-                          fmt::format("an obstacle is closer than {:.3g} m to waypoint {}",
-                                      inflation, way.goals + 1));
+    return GoalBlocked(forest.task, way.goals + 1);
   }
   return route::Refused(
       PlanStatus::kBudgetUsedUp,
       fmt::format("ends {:.3g} m from waypoint {}; obstacles are inflated by {:.3g} m", way.left,
-                  way.goals + 1, inflation));
+                  way.goals + 1, forest.task.inflation));
 }
 
 Plan PlanAlongRoute(const Forest& forest, const std::vector<Vec2>& points) {
@@ -333,19 +244,12 @@ void RecordBudget(const Forest& forest, const Try& best, const std::string& budg
   }
 }
 
-}  // namespace
-
-namespace {
-
 Plan PlanTrees(const RrtPlannerOptions& options, const PlanRequest& request) {
-  const Task task = MakeTask(options, request);
-  if (!IsFree(task, {0.0, 0.0}, task.lead)) {
-    return route::Refused(
-        PlanStatus::kStartBlocked,
-        fmt::format("an obstacle is closer than {:.3g} m to the first {:.3g} m of straight path",
-                    task.inflation, task.lead.x()));
+  const SamplingTask task = MakeTask(options, request);
+  if (Plan refused = CheckLeadIn(task); !refused.ok()) {
+    return refused;
   }
-  const Tangents tangents(request.vehicle, std::min(options.min_speed, request.speed.speed));
+  const CornerTangents tangents(request.vehicle, std::min(options.min_speed, request.speed.speed));
   Forest forest{options, request, task, tangents, {}};
   if (options.time_limit && request.clock) {
     const double end = request.clock() + *options.time_limit;
@@ -386,18 +290,7 @@ Plan PlanWith(const RrtPlannerOptions& options, const PlanRequest& request) {
   }
   TRACKBED_CHECK(options.trees > 0 && options.time_limit.value_or(1.0) > 0.0,
                  "{} trees, time limit {}", options.trees, options.time_limit.value_or(0.0));
-  Plan plan = PlanTrees(options, request);
-  const bool too_near =
-      plan.status == PlanStatus::kTurnTooTight || plan.status == PlanStatus::kInfeasible;
-  if (!too_near || options.corners == Corners::kRefuse || request.start_speed == 0.0) {
-    return plan;
-  }
-  // A rolling car may need more room before its first corner than the trees leave.
-  RrtPlannerOptions longer = options;
-  longer.lead_in += 0.5 * request.start_speed * request.start_speed / request.speed.deceleration +
-                    request.vehicle.min_turning_radius();
-  Plan again = PlanTrees(longer, request);
-  return again.ok() ? again : plan;
+  return PlanWithLeadIn(options, request, PlanTrees);
 }
 
 }  // namespace

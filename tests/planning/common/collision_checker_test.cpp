@@ -37,6 +37,35 @@ TEST(CollisionChecker, TellsTheRoomOfEveryPose) {
   }
 }
 
+TEST(CollisionChecker, TellsTheRoomOfASmallCarAmongManyWalls) {
+  // Long walls beside small blocks, as maps have them; a car of 0.45 m tells apart 0.45 m.
+  Random random(3);
+  VehicleParams car = ReferenceCar();
+  for (double* length : {&car.wheelbase, &car.length, &car.width, &car.rear_overhang}) {
+    *length *= 0.1;
+  }
+  std::vector<OrientedBox> boxes;
+  for (int i = 0; i < 200; ++i) {
+    boxes.push_back({RandomPose(random, 10.0), random.Uniform(0.05, i % 10 == 0 ? 15.0 : 0.3),
+                     random.Uniform(0.05, 0.3)});
+  }
+  const CollisionChecker clear(car, boxes, 0.05);
+  EXPECT_EQ(clear.farthest(), car.length);
+  int near_ones = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Pose2 pose = RandomPose(random, 12.0);
+    double nearest = car.length;
+    for (const OrientedBox& box : boxes) {
+      nearest = std::min(nearest, Separation(FootprintAt(car, pose), box) - 0.05);
+    }
+    near_ones += nearest > 0.0 && nearest < car.length ? 1 : 0;
+    ASSERT_NEAR(clear.Clearance(pose), nearest, Tolerance(1e-12));
+    ASSERT_NEAR(clear.Clearance(pose, 0.1), std::min(nearest, 0.1), Tolerance(1e-12));
+    ASSERT_EQ(clear.IsFree(pose), nearest >= 0.0);
+  }
+  EXPECT_GT(near_ones, 500);
+}
+
 TEST(CollisionChecker, FindsTheFirstPlaceThatIsTooNear) {
   Random random(2);
   int blocked_ones = 0;

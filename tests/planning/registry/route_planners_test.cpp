@@ -19,6 +19,7 @@
 #include "trackbed/planning/grid/hybrid_astar.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/planning/sampling/rrt_planner.h"
+#include "trackbed/planning/sampling/rrt_star_planner.h"
 #include "trackbed/world/world.h"
 
 // What every planner that keeps clear of obstacles owes its caller, beyond planner_test.cpp.
@@ -67,6 +68,8 @@ void SetBudget(PlannerOptions& options, int budget) {
     hybrid->budget = budget;
   } else if (auto* rrt = options.As<RrtPlannerOptions>()) {
     rrt->iterations = budget;
+  } else if (auto* rrt_star = options.As<RrtStarPlannerOptions>()) {
+    rrt_star->iterations = budget;
   }
 }
 

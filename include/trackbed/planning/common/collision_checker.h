@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -12,22 +13,27 @@ namespace trackbed {
 /// Whether a car's footprint keeps a distance from boxes, asked many thousand times. Immutable.
 class CollisionChecker {
  public:
-  /// No room beyond this is told apart [m].
+  /// Clearances are told apart up to this [m] by cars that are longer.
   static constexpr double kFarthest = 4.0;
 
   /// `distance` [m], >= 0, is what the footprint keeps from every box. PreconditionError unless the
-  /// boxes are finite. Takes no more memory the farther apart they are, from 2 km on.
+  /// boxes are finite. Takes no more memory the farther apart they are, from 2 km on for a car.
   CollisionChecker(const VehicleParams& vehicle, std::vector<OrientedBox> boxes, double distance);
 
-  /// What is left between the footprint and the nearest box beyond the distance [m]: exact,
-  /// negative when it is too near, kFarthest when it is more. PreconditionError for a pose that is
-  /// not finite. Cost: the boxes near by, about 50 ns each.
-  [[nodiscard]] double Clearance(const Pose2& pose) const;
+  /// No clearance beyond this is told apart [m]: the car's length, at most kFarthest.
+  [[nodiscard]] double farthest() const { return farthest_; }
 
-  [[nodiscard]] bool IsFree(const Pose2& pose) const { return Clearance(pose) >= 0.0; }
+  /// What is left between the footprint and the nearest box beyond the distance [m]: exact,
+  /// negative when it is too near, `at_most` or farthest() when it is more. PreconditionError for
+  /// a pose that is not finite. Cost: some ns for each box near by, about 50 ns for each of those
+  /// that may be the nearest.
+  [[nodiscard]] double Clearance(const Pose2& pose,
+                                 double at_most = std::numeric_limits<double>::infinity()) const;
+
+  [[nodiscard]] bool IsFree(const Pose2& pose) const { return Clearance(pose, 0.0) >= 0.0; }
 
   /// The first station at which the car is too near to a box, or none. Goes forward by as much as
-  /// the room surely allows, and by 2 cm where there is none, a car shorter than 1 m by a
+  /// the clearance surely allows, and by 2 cm where there is none, a car shorter than 1 m by a
   /// fiftieth of its length: what is found free is off by half of that times the turn of the
   /// footprint's farthest corner at most.
   [[nodiscard]] std::optional<double> FirstBlocked(const Path& path) const;
@@ -38,12 +44,15 @@ class CollisionChecker {
  private:
   VehicleParams vehicle_;
   std::vector<OrientedBox> boxes_;
-  std::vector<double> radii_;  // of circles around the boxes
+  std::vector<Vec2> along_;  // directions of the boxes' lengths
   double distance_;
+  double farthest_;
   double middle_;  // of the footprint, ahead of the rear axle
   double radius_;  // of the circle around the footprint
   double step_;    // along a path at least
   double reach_;   // from the rear axle to the footprint's farthest corner
+
+  void FillBins();
 
   // Which boxes matter for a car whose footprint's middle is in a bin of the plane.
   [[nodiscard]] const std::vector<int>* Near(const Vec2& middle) const;

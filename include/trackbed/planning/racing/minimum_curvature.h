@@ -6,7 +6,7 @@
 #include "trackbed/planning/racing/track_line.h"
 #include "trackbed/track/track.h"
 
-/// The line around a track that bends least, for the highest speed through all bends together.
+/// The line of least curvature around a track, for the highest speed through all bends together.
 ///
 /// Symbols: d(s) offset of the line from the center line over its station [m]; kappa, l curvature
 /// and length of the line; b half of the car's width and the margin together [m].

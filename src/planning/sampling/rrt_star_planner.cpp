@@ -1,0 +1,179 @@
+#include "trackbed/planning/sampling/rrt_star_planner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "src/planning/sampling/sampling_task.h"
+#include "trackbed/core/error.h"
+#include "trackbed/planning/common/feasibility.h"
+#include "trackbed/planning/common/route.h"
+
+namespace trackbed {
+namespace {
+
+SamplingTask MakeStarTask(const RrtStarPlannerOptions& options, const PlanRequest& request) {
+  return MakeSamplingTask({.corners = options.corners,
+                           .safe_distance = options.safe_distance,
+                           .corner_room = options.corner_room,
+                           .margin = options.margin,
+                           .lead_in = options.lead_in,
+                           .wind_weight = 0.0},
+                          request);
+}
+
+/// Why a tree did not get from the waypoint before to this one.
+Plan StarRefused(const RrtStarPlannerOptions& options, const SamplingTask& task,
+                 const RrtStarResult& tree, std::size_t waypoint) {
+  if (tree.status == RrtStarStatus::kGoalBlocked) {
+    return GoalBlocked(task, waypoint);
+  }
+  double left = (task.goals[waypoint - 1] - tree.nodes.front().position).norm();
+  for (const TreeNode& node : tree.nodes) {
+    left = std::min(left, (task.goals[waypoint - 1] - node.position).norm());
+  }
+  return route::Refused(
+      PlanStatus::kBudgetUsedUp,
+      fmt::format("waypoint {} not reached by {} samples: the nearest node is {:.3g} m away; "
+                  "obstacles are inflated by {:.3g} m",
+                  waypoint, options.iterations, left, task.inflation));
+}
+
+/// The nodes of a tree in the world; the root is its own parent.
+void AddNodes(const RrtStarResult& result, const Pose2& frame, std::vector<TreeNode>& tree) {
+  const std::size_t first = tree.size();
+  for (const TreeNode& node : result.nodes) {
+    tree.push_back({ToWorld(frame, node.position), first + node.parent, node.cost});
+  }
+}
+
+/// A plan along one tree through all waypoints; `diagnostics` is told its legs.
+Plan PlanStarTree(const RrtStarPlannerOptions& options, const PlanRequest& request,
+                  const SamplingTask& task, const CornerTangents& tangents, std::uint64_t seed,
+                  RrtStarPlanDiagnostics& diagnostics) {
+  diagnostics.legs.clear();
+  std::vector<Vec2> points{{0.0, 0.0}};
+  if (task.lead.x() > 0.0) {
+    points.push_back(task.lead);
+  }
+  std::vector<TreeNode> tree;
+  Vec2 from = task.lead;
+  for (std::size_t i = 0; i < task.goals.size(); ++i) {
+    const RrtStarResult found = PlanRrtStar({.start = from,
+                                             .goal = task.goals[i],
+                                             .low = task.area.low,
+                                             .high = task.area.high,
+                                             .obstacles = task.obstacles,
+                                             .inflation = task.inflation},
+                                            {.iterations = options.iterations,
+                                             .step = options.expand_distance.value_or(0.0),
+                                             .goal_bias = options.goal_bias,
+                                             .stop = {}},
+                                            seed + i);
+    diagnostics.legs.push_back({.status = found.status,
+                                .iterations = found.iterations,
+                                .nodes = found.nodes.size(),
+                                .cost = found.ok() ? std::optional(found.cost) : std::nullopt,
+                                .path = InWorld(request.start, found.path)});
+    if (!found.ok()) {
+      return StarRefused(options, task, found, i + 1);
+    }
+    AddNodes(found, request.start, tree);
+    AddPruned(task, tangents, options.corner_cost, found.path, i + 1 == task.goals.size(), points);
+    from = task.goals[i];
+  }
+  Plan plan = route::AlongPolyline({}, request, InWorld(request.start, points), options.corners,
+                                   options.safe_distance, options.min_speed);
+  if (Plan tested = MakeFeasible(plan, request); !tested.ok()) {
+    return tested;
+  }
+  plan.tree = std::move(tree);
+  return plan;
+}
+
+Plan PlanStarTrees(const RrtStarPlannerOptions& options, const PlanRequest& request) {
+  const SamplingTask task = MakeStarTask(options, request);
+  if (Plan refused = CheckLeadIn(task); !refused.ok()) {
+    return refused;
+  }
+  const CornerTangents tangents(request.vehicle, std::min(options.min_speed, request.speed.speed));
+  RrtStarPlanDiagnostics diagnostics;
+  Plan plan;
+  for (int i = 0; i < options.trees; ++i) {
+    plan = PlanStarTree(options, request, task, tangents,
+                        request.seed + (static_cast<std::uint64_t>(i) << 32U), diagnostics);
+    diagnostics.trees.push_back({plan.status, plan.reason});
+    if (plan.ok() || plan.status == PlanStatus::kGoalBlocked) {
+      break;  // blocked, it is so for every tree
+    }
+  }
+  plan.diagnostics.planner = std::move(diagnostics);
+  return plan;
+}
+
+Plan PlanStar(const RrtStarPlannerOptions& options, const PlanRequest& request) {
+  if (Plan refused = route::CheckRoute(request); !refused.ok()) {
+    return refused;
+  }
+  TRACKBED_CHECK(options.trees > 0, "{} trees", options.trees);
+  return PlanWithLeadIn(options, request, PlanStarTrees);
+}
+
+}  // namespace
+
+void Visit(DiagnosticsVisitor& out, const RrtStarLeg& leg) {
+  out.Text("status", ToString(leg.status));
+  out.Integer("iterations", leg.iterations);
+  out.Integer("nodes", leg.nodes);
+  if (leg.cost) {
+    out.Number("cost_m", *leg.cost);
+  }
+  if (out.full()) {
+    out.Points("path_m", leg.path);
+  }
+}
+
+void Visit(DiagnosticsVisitor& out, const RrtStarTreeFindings& own) {
+  out.Text("status", ToString(own.status));
+  out.Text("reason", own.reason);
+}
+
+void Visit(DiagnosticsVisitor& out, const RrtStarPlanDiagnostics& own) {
+  out.List("legs", own.legs);
+  out.List("trees", own.trees);
+}
+
+void Visit(KeyVisitor& keys, RrtStarPlannerOptions& options) {
+  route::VisitCorners(keys, options.corners, options.safe_distance, options.corner_room);
+  keys.Field(route::kGridMargin, options.margin, Need::kOptional, kNonNegative);
+  keys.Field({"lead_in", "m", "straight distance from the start before the trees; 0: none"},
+             options.lead_in, Need::kOptional, kNonNegative);
+  keys.Field(route::kCornerSpeed, options.min_speed, Need::kOptional, kPositive);
+  keys.Field({"trees", "", "maximum number of trees; the first feasible path is the plan"},
+             options.trees, Need::kOptional, Range{.min = 1, .max = 1000});
+  keys.Field({"iterations", "", "samples per leg and tree"}, options.iterations, Need::kOptional,
+             Range{.min = 0, .max = 1e6});
+  keys.Field({"expand_distance", "m",
+              "maximum distance from a node toward a sample; default: a fifth of the search area's "
+              "diagonal"},
+             options.expand_distance, kPositive);
+  keys.Field({"goal_bias", "", "fraction of samples at the goal until it is reached"},
+             options.goal_bias, Need::kOptional, Range{.min = 0.0, .max = 1.0});
+  keys.Field({"corner_cost", "m",
+              "cost of a corner, as path length: favors fewer corners and longer legs"},
+             options.corner_cost, Need::kOptional, kNonNegative);
+}
+
+PlannerEntry RrtStarPlanner() {
+  return {
+      .name = "rrt_star",
+      .summary = "RRT* around obstacles (Karaman and Frazzoli 2011), corners rounded or refused",
+      .defaults = RrtStarPlannerOptions{},
+      .plan = PlanBy<RrtStarPlannerOptions, PlanStar>,
+      .min_waypoints = 2,
+      .keeps_clear = true,
+      .searches = true,
+      .is_random = true};
+}
+
+}  // namespace trackbed
