@@ -21,8 +21,13 @@ constexpr double kShortestLag = 1e-3;
 using Matrix = ErrorModel::Matrix;
 using Vector = ErrorModel::Vector;
 
-Vector SteadyState(const VehicleParams& vehicle, double curvature, const ErrorModel& model) {
-  const SteadyTurn turn = SteadyTurnOn(vehicle, curvature, model.speed);
+double SlowestSpeed(const VehicleParams& vehicle) {
+  const CarScale scale = ComputeCarScale(vehicle);
+  return kSlowest * std::min(1.0, scale.length / scale.time);
+}
+
+Vector SteadyState(const VehicleParams& vehicle, const Motion& motion, const ErrorModel& model) {
+  const SteadyTurn turn = OperateOn(vehicle, model.tyres, motion).turn;
   Vector x = Vector::Zero(model.a.rows());
   x[kHeading] = turn.heading_error;
   x[kActuator] = turn.steering;
@@ -40,16 +45,16 @@ double TangentExcess(double steering) {
 
 }  // namespace
 
-ErrorModel MakeErrorModel(const ControlInput& input, const Tracking& tracking, double period) {
+ErrorModel MakeErrorModel(const ControlInput& input, const Tracking& tracking, double period,
+                          TyreForces tyre_forces) {
   const VehicleParams& vehicle = input.vehicle;
   const int direction = tracking.foot.direction;
-  const bool tyres = HasTyres(vehicle);
+  const bool tyres = HasTyres(vehicle) && tyre_forces != TyreForces::kNone;
   const int n = tyres ? kYawRate + 1 : kWheels + 1;
   ErrorModel model;
   model.period = period;
-  const CarScale scale = ComputeCarScale(vehicle);
-  const double slowest = kSlowest * std::min(1.0, scale.length / scale.time);
-  model.speed = direction * std::max(direction * input.state.speed, slowest);
+  model.tyres = tyre_forces;
+  model.speed = direction * std::max(direction * input.state.speed, SlowestSpeed(vehicle));
   const double u = model.speed;
 
   // d/dt of (x, w, kappa, c), the last three constant.
@@ -69,7 +74,11 @@ ErrorModel MakeErrorModel(const ControlInput& input, const Tracking& tracking, d
     rates(kOffset, kLateral) = 1.0;
     rates(kOffset, kYawRate) = -vehicle.cg_to_rear;
     rates(kHeading, kYawRate) = 1.0;
-    const Eigen::Matrix<double, 2, 3> lateral = LateralRates(vehicle, u);
+    const Motion motion{.curvature = tracking.foot.curvature,
+                        .speed = u,
+                        .acceleration = input.reference.speed.AccelerationAt(input.station)};
+    const Eigen::Matrix<double, 2, 3> lateral =
+        LateralRates(vehicle, OperateOn(vehicle, tyre_forces, motion).stiffness, u);
     rates.block<2, 2>(kLateral, kLateral) = lateral.leftCols<2>();
     rates.block<2, 1>(kLateral, kWheels) = lateral.col(2);
     rates.block<2, 1>(kLateral, excess) = lateral.col(2);
@@ -86,8 +95,8 @@ ErrorModel MakeErrorModel(const ControlInput& input, const Tracking& tracking, d
   return model;
 }
 
-Vector ErrorState(const ControlInput& input, const Tracking& tracking) {
-  const bool tyres = HasTyres(input.vehicle);
+Vector ErrorState(const ControlInput& input, const Tracking& tracking, TyreForces tyre_forces) {
+  const bool tyres = HasTyres(input.vehicle) && tyre_forces != TyreForces::kNone;
   Vector x(tyres ? kYawRate + 1 : kWheels + 1);
   x[kOffset] = tracking.cross_track;
   x[kHeading] = tracking.heading_error;
@@ -151,22 +160,44 @@ Ahead::Ahead(const ControlInput& input, const Tracking& tracking, const ErrorMod
     : input_(input),
       model_(model),
       station_(input.station),
-      stride_(std::abs(model.speed) * model.period),
+      excess_speed_(std::abs(model.speed) - input.reference.speed.SpeedAt(input.station)),
       direction_(tracking.foot.direction),
-      steady_(SteadyState(input.vehicle, tracking.foot.curvature, model)),
+      curvature_(tracking.foot.curvature),
+      steady_(SteadyState(input.vehicle, MotionOn(curvature_), model)),
       yaw_(tracking.foot.pose.yaw) {}
 
+Motion Ahead::MotionOn(double curvature) const {
+  if (model_.tyres == TyreForces::kLinear) {
+    return {.curvature = curvature, .speed = model_.speed};
+  }
+  const SpeedProfile& planned = input_.reference.speed;
+  const double speed =
+      std::max(planned.SpeedAt(station_) + excess_speed_, SlowestSpeed(input_.vehicle));
+  return {.curvature = curvature,
+          .speed = direction_ * speed,
+          .acceleration = planned.AccelerationAt(station_)};
+}
+
 Vector Ahead::Next() {
-  station_ += stride_;
+  const Motion from = MotionOn(curvature_);
+  const double stride = std::abs(from.speed) * model_.period;
+  station_ += stride;
   const PathPoint next = input_.reference.path.At(station_);
   // The mean over the step, whatever jumps within it.
-  const double curvature = AngleDifference(next.pose.yaw, yaw_) / (direction_ * stride_);
+  const double mean = AngleDifference(next.pose.yaw, yaw_) / (direction_ * stride);
+  const auto steering = [&](double curvature) {
+    Motion motion = from;
+    motion.curvature = curvature;
+    return OperateOn(input_.vehicle, model_.tyres, motion).turn.steering;
+  };
+  // A car in the steady turn stays in it: what moves it away is the curvature's change.
+  const Vector after =
+      steady_ + model_.d * (mean - curvature_) +
+      model_.c * (TangentExcess(steering(mean)) - TangentExcess(steering(curvature_)));
   yaw_ = next.pose.yaw;
-  const Vector now = steady_;
-  steady_ = SteadyState(input_.vehicle, next.curvature, model_);
-  const double excess =
-      TangentExcess(SteadyTurnOn(input_.vehicle, curvature, model_.speed).steering);
-  return model_.a * now + model_.d * curvature + model_.c * excess - steady_;
+  curvature_ = next.curvature;
+  steady_ = SteadyState(input_.vehicle, MotionOn(curvature_), model_);
+  return after - steady_;
 }
 
 Regulator ScheduledRegulator(const ErrorModel& model, double steering_rate, ErrorWeights& weights,

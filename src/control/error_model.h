@@ -25,7 +25,8 @@ struct ErrorModel {
 
   double speed = 0.0;   ///< u [m/s], signed, never too near 0
   double period = 0.0;  ///< of a step [s]
-  Matrix a;             ///< x after a step = a x + b w + d kappa + c (tan(delta_0) - delta_0)
+  TyreForces tyres = TyreForces::kLinear;
+  Matrix a;  ///< x after a step = a x + b w + d kappa + c (tan(delta_0) - delta_0)
   Vector b;
   Vector d;
   Vector c;
@@ -34,10 +35,15 @@ struct ErrorModel {
 /// The model at the speed that the car has, in the direction of the path at its foot. A car at a
 /// crawl or rolling the other way is reckoned with
 /// 2.46 L omega that way, 1 m/s at most.
-ErrorModel MakeErrorModel(const ControlInput& input, const Tracking& tracking, double period);
+///
+/// kBrush: C_f and C_r are those about the turn at the foot with the planned acceleration. The
+/// steady turn is not the linear model's fixed point, but x's deviation from it runs by `a`.
+ErrorModel MakeErrorModel(const ControlInput& input, const Tracking& tracking, double period,
+                          TyreForces tyres = TyreForces::kLinear);
 
 /// x of the car now.
-ErrorModel::Vector ErrorState(const ControlInput& input, const Tracking& tracking);
+ErrorModel::Vector ErrorState(const ControlInput& input, const Tracking& tracking,
+                              TyreForces tyres = TyreForces::kLinear);
 
 /// The angle that is asked for, turned by a rate. It goes on from what was asked before, not from
 /// where the actuator stands: an actuator that is late, has play or gives a tenth too little would
@@ -88,21 +94,27 @@ ErrorModel::Vector StateCost(const ErrorModel& model, const ErrorWeights& weight
 
 /// How x may stray from the steady turns of the path ahead, step by step: with x_0(k) the steady
 /// turn at the path's curvature k steps ahead, z = x - x_0 runs as z(k+1) = a z(k) + b w(k) + g(k).
+/// A step goes as far as the car's present speed takes it; with kBrush, as the planned one does,
+/// plus what the car is now faster than planned, and x_0(k) is the turn at that speed.
 class Ahead {
  public:
   Ahead(const ControlInput& input, const Tracking& tracking, const ErrorModel& model);
 
   /// x_0 now.
   [[nodiscard]] const ErrorModel::Vector& steady() const { return steady_; }
-  /// g of the next step: zero while the curvature stays.
+  /// g of the next step: zero while the curvature stays, with kBrush also the speed.
   ErrorModel::Vector Next();
 
  private:
+  /// At the station.
+  [[nodiscard]] Motion MotionOn(double curvature) const;
+
   const ControlInput& input_;
   const ErrorModel& model_;
   double station_;
-  double stride_;  // [m]
+  double excess_speed_;  // over the planned one, which counts with kBrush [m/s]
   int direction_;
+  double curvature_;
   ErrorModel::Vector steady_;
   double yaw_;
 };

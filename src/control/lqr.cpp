@@ -16,9 +16,9 @@ class Lqr final : public SteeringController {
   double Steer(const ControlInput& input) override {
     const VehicleParams& vehicle = input.vehicle;
     const Tracking tracking = ProjectOntoPath(input);
-    const ErrorModel model = MakeErrorModel(input, tracking, input.period);
+    const ErrorModel model = MakeErrorModel(input, tracking, input.period, options_.tyres);
     Ahead ahead(input, tracking, model);
-    ErrorModel::Vector z = ErrorState(input, tracking) - ahead.steady();
+    ErrorModel::Vector z = ErrorState(input, tracking, options_.tyres) - ahead.steady();
     ErrorWeights weights = WeightsFor(vehicle, options_);
     const Regulator regulator = ScheduledRegulator(model, vehicle.steering_rate, weights, z);
 
@@ -54,6 +54,7 @@ void Visit(KeyVisitor& keys, LqrOptions& options) {
   keys.Field(kCrossTrackWeight, options.cross_track, kWeight);
   keys.Field(kHeadingWeight, options.heading, Need::kOptional, Range{.min = 0.0, .max = 1e6});
   keys.Field(kRateWeight, options.steering_rate, kWeight);
+  Visit(keys, options.tyres);
   keys.Field({"preview", "s", "preview time of the path's curvature"}, options.preview,
              Need::kOptional, Range{.min = 0.0, .max = 20.0});
 }

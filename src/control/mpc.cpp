@@ -28,9 +28,9 @@ class Mpc final : public SteeringController {
     const VehicleParams& vehicle = input.vehicle;
     const Tracking tracking = ProjectOntoPath(input);
     const double step = std::max(options_.step, input.period);
-    const ErrorModel model = MakeErrorModel(input, tracking, step);
+    const ErrorModel model = MakeErrorModel(input, tracking, step, options_.tyres);
     Ahead ahead(input, tracking, model);
-    Prediction z{ErrorState(input, tracking) - ahead.steady(), {}};
+    Prediction z{ErrorState(input, tracking, options_.tyres) - ahead.steady(), {}};
     ErrorWeights weights = WeightsFor(vehicle, options_);
     const Regulator regulator = ScheduledRegulator(model, vehicle.steering_rate, weights, z.free);
     z.reach.setZero(model.a.rows(), options_.horizon);
@@ -90,6 +90,7 @@ void Visit(KeyVisitor& keys, MpcOptions& options) {
   keys.Field(kCrossTrackWeight, options.cross_track, kWeight);
   keys.Field(kHeadingWeight, options.heading, Need::kOptional, Range{.min = 0.0, .max = 1e6});
   keys.Field(kRateWeight, options.steering_rate, kWeight);
+  Visit(keys, options.tyres);
   keys.Field({"horizon", "", "number of prediction steps"}, options.horizon, Need::kOptional,
              Range{.min = 1, .max = MpcOptions::kLongestHorizon});
   keys.Field({"step", "s", "prediction step; at least the control period"}, options.step,

@@ -38,7 +38,8 @@ Responses SingleTrackResponses(const ControlInput& input, double time) {
   rates(0, 2) = 1.0;
   rates(0, 3) = -vehicle.cg_to_rear;
   rates(1, 3) = 1.0;
-  rates.block<2, 3>(2, 2) = LateralRates(vehicle, state.speed);
+  rates.block<2, 3>(2, 2) = LateralRates(
+      vehicle, {vehicle.cornering_stiffness_front, vehicle.cornering_stiffness_rear}, state.speed);
   const Eigen::Matrix<double, 5, 5> scaled = rates * time;
   const Eigen::Matrix<double, 5, 5> after = scaled.exp();
   return {.free = after(0, 2) * state.lateral_speed + after(0, 3) * state.yaw_rate,

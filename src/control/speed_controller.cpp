@@ -27,8 +27,10 @@ double MeanAcceleration(const SpeedProfile& profile, double s, double speed, dou
 
 /// A profile that brakes or accelerates this much harder than the options say does so on purpose.
 constexpr double kOnPurpose = 1.1;
-/// What a controller may add to that where the car has come to lag behind.
-constexpr double kCatchUp = 1.25;
+/// What a controller may add to that where the car has come to lag behind. Of a plan at 0.9 of the
+/// limit this leaves half of what the plan left: a wheel that locks or spins regains no grip before
+/// the command eases.
+constexpr double kCatchUp = 1.05;
 
 /// How a profile that ends at rest comes to it [m/s^2], >= 0.
 double LastDeceleration(const SpeedProfile& profile) {

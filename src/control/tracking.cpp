@@ -1,7 +1,10 @@
 #include "src/control/tracking.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "src/control/brush_axle.h"
 #include "trackbed/core/angle.h"
 
 namespace trackbed {
@@ -26,9 +29,9 @@ bool HasTyres(const VehicleParams& vehicle) {
          vehicle.cornering_stiffness_front > 0.0 && vehicle.cornering_stiffness_rear > 0.0;
 }
 
-Eigen::Matrix<double, 2, 3> LateralRates(const VehicleParams& vehicle, double speed) {
-  const double front = vehicle.cornering_stiffness_front;
-  const double rear = vehicle.cornering_stiffness_rear;
+Eigen::Matrix<double, 2, 3> LateralRates(const VehicleParams& vehicle,
+                                         const CorneringStiffness& stiffness, double speed) {
+  const auto [front, rear] = stiffness;
   const double l_f = vehicle.cg_to_front();
   const double l_r = vehicle.cg_to_rear;
   const double moment = l_f * front - l_r * rear;
@@ -42,24 +45,73 @@ Eigen::Matrix<double, 2, 3> LateralRates(const VehicleParams& vehicle, double sp
   return rates;
 }
 
-SteadyTurn SteadyTurnOn(const VehicleParams& vehicle, double curvature, double speed) {
+namespace {
+
+/// The turn with these slip angles of the axles [rad], of |u|, to the left.
+SteadyTurn TurnWithSlip(const VehicleParams& vehicle, double curvature, double speed,
+                        double front_slip, double rear_slip) {
+  const double direction = std::copysign(1.0, speed);
   SteadyTurn turn;
   turn.yaw_rate = speed * curvature;
-  turn.lateral_speed = vehicle.cg_to_rear * turn.yaw_rate;
-  if (!HasTyres(vehicle)) {
-    turn.steering = SteeringForCurvature(vehicle, curvature);
-    return turn;
-  }
-  // Each axle carries the other's share of m u r.
-  const double force = vehicle.mass * speed * turn.yaw_rate / vehicle.wheelbase;
-  const double rear_slip =
-      -vehicle.cg_to_front() * force / vehicle.cornering_stiffness_rear;  // of |u|, to the left
-  const double front_slip = -vehicle.cg_to_rear * force / vehicle.cornering_stiffness_front;
-  const double direction = std::copysign(1.0, speed);
   turn.heading_error = -direction * rear_slip;
-  turn.lateral_speed += std::abs(speed) * rear_slip;
+  turn.lateral_speed = vehicle.cg_to_rear * turn.yaw_rate + std::abs(speed) * rear_slip;
   turn.steering = std::atan(vehicle.wheelbase * curvature + direction * (rear_slip - front_slip));
   return turn;
+}
+
+/// The brush model's slip angles and stiffness of the axles, front and rear.
+std::array<AxleOperation, 2> BrushAxles(const VehicleParams& vehicle, const Motion& motion) {
+  const bool brakes = motion.acceleration < 0.0;
+  const AccelerationLimit& limit = brakes ? vehicle.braking : vehicle.driving;
+  const double hard = std::abs(motion.acceleration);
+  const double direction = std::copysign(1.0, motion.speed);
+  const double lateral = vehicle.mass * motion.speed * motion.speed * motion.curvature;
+  const std::array<double, 2> stiffness{vehicle.cornering_stiffness_front,
+                                        vehicle.cornering_stiffness_rear};
+  std::array<AxleOperation, 2> axles;
+  for (std::size_t i = 0; i < axles.size(); ++i) {
+    constexpr double kLeastLoad = 0.05;  // of the one at rest
+    const AxleGrip& axle = limit.axles[i];
+    const double load =
+        std::max(kLeastLoad, 1.0 + direction * axle.transfer * hard / (kGravity * axle.weight));
+    const double weight = vehicle.mass * kGravity * axle.weight;
+    // Each axle carries its share of the weight times the lateral force.
+    axles[i] = BrushAxleAt(
+        load * stiffness[i], vehicle.friction_lateral * load * weight,
+        {.longitudinal = vehicle.mass * axle.force * hard, .lateral = lateral * axle.weight});
+  }
+  return axles;
+}
+
+bool KnowsBrushAxles(const VehicleParams& vehicle) {
+  return vehicle.friction_lateral > 0.0 && vehicle.braking.axles.size() == 2 &&
+         vehicle.driving.axles.size() == 2;
+}
+
+}  // namespace
+
+SteadyTurn SteadyTurnOn(const VehicleParams& vehicle, double curvature, double speed) {
+  if (!HasTyres(vehicle)) {
+    return TurnWithSlip(vehicle, curvature, speed, 0.0, 0.0);
+  }
+  // Each axle carries the other's share of m u r.
+  const double force = vehicle.mass * speed * speed * curvature / vehicle.wheelbase;
+  return TurnWithSlip(vehicle, curvature, speed,
+                      -vehicle.cg_to_rear * force / vehicle.cornering_stiffness_front,
+                      -vehicle.cg_to_front() * force / vehicle.cornering_stiffness_rear);
+}
+
+TurnOperation OperateOn(const VehicleParams& vehicle, TyreForces tyres, const Motion& motion) {
+  if (tyres == TyreForces::kNone) {
+    return {TurnWithSlip(vehicle, motion.curvature, motion.speed, 0.0, 0.0), {}};
+  }
+  if (tyres == TyreForces::kBrush && HasTyres(vehicle) && KnowsBrushAxles(vehicle)) {
+    const auto [front, rear] = BrushAxles(vehicle, motion);
+    return {TurnWithSlip(vehicle, motion.curvature, motion.speed, -front.slip, -rear.slip),
+            {front.stiffness, rear.stiffness}};
+  }
+  return {SteadyTurnOn(vehicle, motion.curvature, motion.speed),
+          {vehicle.cornering_stiffness_front, vehicle.cornering_stiffness_rear}};
 }
 
 }  // namespace trackbed

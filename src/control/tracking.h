@@ -1,6 +1,7 @@
 #pragma once
 
 #include "trackbed/control/steering_controller.h"
+#include "trackbed/control/tyre_forces.h"
 
 namespace trackbed {
 
@@ -25,8 +26,15 @@ CarScale ComputeCarScale(const VehicleParams& vehicle);
 /// Whether the car's tyres are known, so that it can be more than kinematic.
 bool HasTyres(const VehicleParams& vehicle);
 
+/// Of both axles [N/rad].
+struct CorneringStiffness {
+  double front = 0.0;
+  double rear = 0.0;
+};
+
 /// SingleTrackCar's equations at the signed speed u: (v', r') = rates (v, r, tan(delta)).
-Eigen::Matrix<double, 2, 3> LateralRates(const VehicleParams& vehicle, double speed);
+Eigen::Matrix<double, 2, 3> LateralRates(const VehicleParams& vehicle,
+                                         const CorneringStiffness& stiffness, double speed);
 
 /// How a car runs on a circle with its rear axle on it: the steady state of SingleTrackCar, or of
 /// KinematicCar for a car without tyre coefficients.
@@ -39,5 +47,20 @@ struct SteadyTurn {
 
 /// `speed` u is signed.
 SteadyTurn SteadyTurnOn(const VehicleParams& vehicle, double curvature, double speed);
+
+/// How a car is meant to run.
+struct Motion {
+  double curvature = 0.0;     ///< of the path [1/m]
+  double speed = 0.0;         ///< u [m/s], signed
+  double acceleration = 0.0;  ///< of abs(u) [m/s^2]
+};
+
+/// The turn that is steady but for the speed, and the stiffness of the axles about it.
+struct TurnOperation {
+  SteadyTurn turn;
+  CorneringStiffness stiffness;  ///< 0 without tyre coefficients
+};
+
+TurnOperation OperateOn(const VehicleParams& vehicle, TyreForces tyres, const Motion& motion);
 
 }  // namespace trackbed

@@ -11,6 +11,7 @@
 #include "src/drive/replanning_monitor.h"
 #include "src/drive/scheduled_steering.h"
 #include "src/drive/segment_sequencer.h"
+#include "src/drive/slip_control.h"
 #include "src/drive/termination.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/error.h"
@@ -249,8 +250,11 @@ double ClosedLoop::WantedAcceleration(const ControlInput& input, const Vec2& pos
     return *own;
   }
   const double hardest = MaxDeceleration(controlled_, RoadFactor(config_.world, position));
-  return SpeedControl(config_.speed, sequencer_.speed(), input.station, speed, input.period,
-                      hardest);
+  const double wanted =
+      SpeedControl(config_.speed, sequencer_.speed(), input.station, speed, input.period, hardest);
+  const bool at_limit =
+      sequencer_.has_path() && sequencer_.plan().diagnostics.speed_profile.has_value();
+  return at_limit ? command_.gear * EaseForSlip(command_.gear * wanted, input.state) : wanted;
 }
 
 void ClosedLoop::StepPlant(long tick, const ControlInput& input, const LogRow& row) {

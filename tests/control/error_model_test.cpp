@@ -195,5 +195,96 @@ TEST(Ahead, MovesTheSteadyTurnToTheCurvatureAhead) {
   EXPECT_LT(ahead.Next().norm(), Tolerance(1e-11));
 }
 
+/// The reference car with axles and friction: half a meter high, brakes 70 to 30, front-wheel
+/// drive.
+VehicleParams CarWithAxles() {
+  VehicleParams car = ReferenceCarWithTyres();
+  car.friction_lateral = 0.9;
+  const double front = car.cg_to_rear / car.wheelbase;
+  const double transfer = 0.5 / car.wheelbase;
+  car.braking.axles = {{.weight = front, .force = 0.7, .transfer = transfer},
+                       {.weight = 1.0 - front, .force = 0.3, .transfer = -transfer}};
+  car.driving.axles = {{.weight = front, .force = 1.0, .transfer = -transfer},
+                       {.weight = 1.0 - front, .force = 0.0, .transfer = transfer}};
+  return car;
+}
+
+/// Of the largest eigenvalue of (v, r) at a speed [1/s]: above 0 the car spins.
+double FastestGrowth(const VehicleParams& car, const CorneringStiffness& stiffness, double speed) {
+  const Eigen::Matrix2d rates = LateralRates(car, stiffness, speed).leftCols<2>();
+  return rates.eigenvalues().real().maxCoeff();
+}
+
+TEST(OperateOn, IsTheLinearCarWhereTyresCarryLittle) {
+  const VehicleParams car = CarWithAxles();
+  const Motion straight{.speed = 20.0};
+  const TurnOperation brush = OperateOn(car, TyreForces::kBrush, straight);
+  EXPECT_NEAR(brush.stiffness.front, car.cornering_stiffness_front, Tolerance(1e-9));
+  EXPECT_NEAR(brush.stiffness.rear, car.cornering_stiffness_rear, Tolerance(1e-9));
+  EXPECT_EQ(brush.turn.steering, 0.0);
+  // Of q = C a/(3 mu F_z), the slip angle's excess over the linear one is q to first order: at
+  // 0.04 m/s^2 of 8.8, q < 0.002.
+  const Motion gentle{.curvature = 1e-4, .speed = 20.0};
+  const SteadyTurn expected = SteadyTurnOn(car, gentle.curvature, gentle.speed);
+  const SteadyTurn turn = OperateOn(car, TyreForces::kBrush, gentle).turn;
+  EXPECT_NEAR(turn.heading_error, expected.heading_error,
+              Tolerance(0.002) * std::abs(expected.heading_error));
+  EXPECT_EQ(turn.yaw_rate, expected.yaw_rate);
+}
+
+TEST(OperateOn, MovesTheLoadWhenTheCarBrakes) {
+  const VehicleParams car = CarWithAxles();
+  const Motion braking{.speed = 45.0, .acceleration = -6.5};
+  const CorneringStiffness stiffness = OperateOn(car, TyreForces::kBrush, braking).stiffness;
+  // The rear axle: load 1 - h a/(g l_f); used, F_x over friction and load; C (1 - q + q^2/3).
+  const double load = 1.0 - 0.5 * 6.5 / (kGravity * car.cg_to_front());
+  const double weight = car.mass * kGravity * car.cg_to_front() / car.wheelbase;
+  const double use = 0.3 * car.mass * 6.5 / (0.9 * load * weight);
+  const double q = 1.0 - std::cbrt(1.0 - use);
+  const double rear = car.cornering_stiffness_rear * load * (1.0 - q + q * q / 3.0);
+  EXPECT_NEAR(stiffness.rear, rear, Tolerance(1e-9) * rear);
+  // A car that understeers becomes unstable where it also turns.
+  const Motion turning{.curvature = -0.0016, .speed = 45.0, .acceleration = -6.5};
+  const CorneringStiffness both = OperateOn(car, TyreForces::kBrush, turning).stiffness;
+  const CorneringStiffness coasting{car.cornering_stiffness_front, car.cornering_stiffness_rear};
+  EXPECT_LT(FastestGrowth(car, coasting, 45.0), 0.0);
+  EXPECT_GT(FastestGrowth(car, both, 45.0), 0.5);
+  // Backward it is the other way round: braking loads the axle at the rear of the car.
+  const Motion backward{.speed = -5.0, .acceleration = -6.5};
+  EXPECT_GT(OperateOn(car, TyreForces::kBrush, backward).stiffness.rear, rear);
+}
+
+TEST(Ahead, BrushTyresTurnAtThePlannedSpeed) {
+  const VehicleParams car = CarWithAxles();
+  // From 30 down to 10 m/s where the arc begins.
+  const Reference reference{Path({}, {{100.0, 0.0, 1}, {100.0, 0.05, 1}}),
+                            SpeedProfile({{0.0, 30.0}, {100.0, 10.0}, {200.0, 10.0}})};
+  const SteeringSchedule schedule;
+  VehicleState state;
+  state.speed = 30.0;
+  const ControlInput input{.vehicle = car,
+                           .reference = reference,
+                           .schedule = schedule,
+                           .state = state,
+                           .station = 0.0,
+                           .period = 0.1};
+  const Tracking tracking = ProjectOntoPath(input);
+  const ErrorModel model = MakeErrorModel(input, tracking, 0.1, TyreForces::kBrush);
+  Ahead ahead(input, tracking, model);
+  // A mean of 20 m/s: five seconds to the arc; none of the steps before asks for anything.
+  for (int k = 0; k < 45; ++k) {
+    EXPECT_EQ(ahead.Next().norm(), 0.0);
+  }
+  for (int k = 0; k < 10; ++k) {
+    ahead.Next();
+  }
+  const SteadyTurn turn =
+      OperateOn(car, TyreForces::kBrush, {.curvature = 0.05, .speed = 10.0}).turn;
+  EXPECT_NEAR(ahead.steady()[2], turn.steering, Tolerance(1e-12));
+  EXPECT_NEAR(ahead.steady()[5], 0.5, Tolerance(1e-12));
+  // Where curvature and speed stay, nothing is asked for.
+  EXPECT_LT(ahead.Next().norm(), Tolerance(1e-11));
+}
+
 }  // namespace
 }  // namespace trackbed

@@ -64,9 +64,9 @@ TEST(SpeedControl, FollowsAProfileThatBrakesHardOnPurpose) {
   // 8 m/s down to rest within 8 m: 4 m/s^2, where 1.5 is comfortable.
   const SpeedProfile profile = StopAtEnd(8.0, 8.0, kLimits);
   EXPECT_NEAR(SpeedControl(kOptions, profile, 0.0, 8.0, kPeriod), -4.0, Tolerance(1e-6));
-  // A car that lags behind may catch up by a quarter more, within the limit of the car; that it is
-  // farther at the end of the period, by 1 m/s of 9, makes the profile fall by as much more.
-  EXPECT_NEAR(SpeedControl(kOptions, profile, 0.0, 9.0, kPeriod), -5.0 * 9.0 / 8.0, 0.02);
+  // A car that lags behind may catch up by a twentieth more, within the limit of the car; that it
+  // is farther at the end of the period, by 1 m/s of 9, makes the profile fall by as much more.
+  EXPECT_NEAR(SpeedControl(kOptions, profile, 0.0, 9.0, kPeriod), -4.2 * 9.0 / 8.0, 0.02);
   EXPECT_NEAR(SpeedControl(kOptions, profile, 0.0, 9.0, kPeriod, 4.5), -4.5, Tolerance(kRounding));
   // Also where it should stand by now.
   EXPECT_NEAR(SpeedControl(kOptions, profile, 8.1, 1.0, kPeriod), -4.0, Tolerance(kRounding));
@@ -76,8 +76,8 @@ TEST(SpeedControl, FollowsAProfileThatAcceleratesHardOnPurpose) {
   // From 4 to 8 m/s within 8 m: 3 m/s^2, where 1 is comfortable.
   const SpeedProfile profile({{0.0, 4.0}, {8.0, 8.0}, {100.0, 8.0}});
   EXPECT_NEAR(SpeedControl(kOptions, profile, 0.0, 4.0, kPeriod), 3.0, Tolerance(1e-6));
-  // A car that lags behind may catch up by a quarter more.
-  EXPECT_NEAR(SpeedControl(kOptions, profile, 0.0, 3.0, kPeriod), 3.75, Tolerance(kRounding));
+  // A car that lags behind may catch up by a twentieth more.
+  EXPECT_NEAR(SpeedControl(kOptions, profile, 0.0, 3.0, kPeriod), 3.15, Tolerance(kRounding));
   // Where it does not, it may not.
   EXPECT_EQ(SpeedControl(kOptions, profile, 50.0, 3.0, kPeriod), kOptions.acceleration);
 }

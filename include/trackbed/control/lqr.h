@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "trackbed/control/steering_controller.h"
+#include "trackbed/control/tyre_forces.h"
 
 namespace trackbed {
 
@@ -16,9 +17,10 @@ namespace trackbed {
 /// g_k how the path's curvature changes k periods ahead; K, P gain and solution of the discrete
 /// Riccati equation; A_c = A - B K.
 ///   w = -K z - (R + B'PB)^-1 B' sum_k (A_c')^k P g_k
-/// The car is the dynamic single-track one at the present speed, or the kinematic one if it has no
-/// tyre coefficients, behind its steering actuator and lag. Gains are computed anew in each period,
-/// for the present speed and direction: nothing is scheduled between grid points.
+/// The car is the dynamic single-track one at the present speed with the axles of TyreForces, or
+/// the kinematic one if it has no tyre coefficients, behind its steering actuator and lag. Gains
+/// are computed anew in each period, for the present speed and direction: nothing is scheduled
+/// between grid points.
 ///
 /// The rate integrates from the last commanded angle, initially that of the actuator, so that
 /// delay, backlash or a gain error of the actuator are compensated.
@@ -34,6 +36,7 @@ struct LqrOptions {
   double heading = 1.0;                 ///< [1/rad^2], >= 0
   std::optional<double> steering_rate;  ///< [s^2/rad^2], > 0; none: (0.1506 rad/s over omega)^2
   double preview = 2.0;                 ///< preview time of the path's curvature [s], >= 0
+  TyreForces tyres = TyreForces::kLinear;
 };
 void Visit(KeyVisitor& keys, LqrOptions& options);
 

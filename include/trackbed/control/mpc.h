@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "trackbed/control/steering_controller.h"
+#include "trackbed/control/tyre_forces.h"
 
 namespace trackbed {
 
@@ -20,9 +21,9 @@ namespace trackbed {
 /// Guarantees: the wanted angle is within the limit, and within what the actuator reaches in the
 /// period from the angle asked for last (as in LqrOptions). Where no limit is active it is the LQR
 /// with the same step and a preview of N steps. Far from its path its rate is weighted as in the
-/// LQR. Does not account for speed changes or tyre saturation. Reverse paths are the same model
-/// with u < 0. Cost: about 80 us with 20 steps, twice that where a limit is active; heap memory
-/// only NLopt's, and only there.
+/// LQR. With linear tyres it does not account for speed changes or saturation. Reverse paths are
+/// the same model with u < 0. Cost: about 80 us with 20 steps, twice that where a limit is active;
+/// heap memory only NLopt's, and only there.
 struct MpcOptions {
   static constexpr int kLongestHorizon = 40;
 
@@ -31,6 +32,7 @@ struct MpcOptions {
   std::optional<double> steering_rate;  ///< [s^2/rad^2], > 0; none: as LqrOptions
   int horizon = 20;                     ///< N, 1 to kLongestHorizon
   double step = 0.1;                    ///< [s], > 0; the control period if that is longer
+  TyreForces tyres = TyreForces::kLinear;
 };
 void Visit(KeyVisitor& keys, MpcOptions& options);
 

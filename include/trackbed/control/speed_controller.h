@@ -15,8 +15,9 @@ namespace trackbed {
 /// acceleration]. In the period in which a profile comes to rest, it is the profile's own
 /// acceleration.
 ///
-/// Where a profile brakes more than 1.1 times as hard as `deceleration`, the lower bound is 1.25
-/// times the profile's own deceleration; likewise the upper one where it accelerates more than 1.1
+/// Where a profile brakes more than 1.1 times as hard as `deceleration`, the lower bound is that
+/// of the options, at least 1.05 times the profile's own deceleration; likewise the upper one where
+/// it accelerates more than 1.1
 /// times as hard as `acceleration`. Past the end of a profile that ends at rest, the car
 /// brakes as hard as the profile last did, at least comfortably. Never harder than
 /// `max_deceleration` [m/s^2], that of the car on its road (0: not known).

@@ -6,6 +6,11 @@
 
 namespace trackbed {
 
+ClosedSplineBasis OffsetBasis(const Track& track) {
+  constexpr std::size_t kKnotsPerPoint = 2;
+  return {track.length(), kKnotsPerPoint * track.points().size()};
+}
+
 LineShape ShapeAt(const PathPoint& center, const LineOffset& offset) {
   const OffsetDerivatives d(offset.d, 3, 0);
   const OffsetDerivatives slope(offset.slope, 3, 1);

@@ -9,6 +9,11 @@
 /// offset.
 namespace trackbed {
 
+/// The splines of lines' offsets, with two knots for each point of the track: in a hairpin a line
+/// runs at a fraction of the center line's radius, over as much less distance, and with knots as
+/// far apart as the points its curvature ripples.
+ClosedSplineBasis OffsetBasis(const Track& track);
+
 /// A value and its derivatives by d, d' and d''.
 using OffsetDerivatives = Eigen::AutoDiffScalar<Eigen::Vector3d>;
 

@@ -23,7 +23,7 @@ constexpr double kSameCurvature = 1e-6;  // of the largest
 /// Stations of the programs: at least two for each knot, and close enough for the speeds.
 std::size_t ProgramStations(const Track& track) {
   constexpr double kFarthest = 2.6;  // [m]
-  const double knots = static_cast<double>(track.points().size());
+  const double knots = static_cast<double>(OffsetBasis(track).count());
   return static_cast<std::size_t>(knots *
                                   std::max(2.0, std::ceil(track.length() / (knots * kFarthest))));
 }
@@ -33,7 +33,7 @@ class LapSearch {
  public:
   LapSearch(const Track& track, double beside, const LapLimits& limits, const TrackLine& start)
       : model_(track, limits, ProgramStations(track)),
-        basis_(track.length(), track.points().size()),
+        basis_(OffsetBasis(track)),
         program_(model_, basis_, AllBounds(track, beside)),
         line_(start),
         lap_(model_.Drive(start)) {}

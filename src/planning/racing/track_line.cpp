@@ -89,6 +89,7 @@ std::optional<LinePath> TraceLine(const Track& track, const Unrolled& line,
     }
     return at.has_value();
   };
+  constexpr double kLeastSpacing = 0.75;
   const double spacing = Spacing(track);
   for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
     path.passed.push_back(length);
@@ -96,7 +97,9 @@ std::optional<LinePath> TraceLine(const Track& track, const Unrolled& line,
     const double parts = std::ceil(span / spacing);
     for (double k = 0.0; k < parts; k += 1.0) {
       const double s = stations[i] + span * k / parts;
-      if (!add(s)) {
+      // Inside a hairpin points get close, and the line's finest ripples would limit the speed.
+      const bool close = k > 0.0 && length - path.points.back().s < kLeastSpacing * spacing;
+      if (!close && !add(s)) {
         return std::nullopt;
       }
       length += line.Length(s, stations[i] + span * (k + 1.0) / parts);
