@@ -11,10 +11,10 @@
 
 #include "src/analysis/manifest.h"
 #include "src/analysis/study_description.h"
-#include "trackbed/analysis/sweep_rows.h"
 #include "trackbed/analysis/parallel.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/analysis/statistics.h"
+#include "trackbed/analysis/sweep_rows.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {

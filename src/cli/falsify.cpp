@@ -59,8 +59,7 @@ void WriteCounterexample(const FalsifyResult& result, const CheckedSearch& searc
   const RunResult run = RunCounterexample(result, search);
   const OutputFolder folder(out);
   WriteRunFolder(run, folder);
-  const Regression regression =
-      MakeRegression(run, search.study.name + "_" + kCounterexample);
+  const Regression regression = MakeRegression(run, search.study.name + "_" + kCounterexample);
   {
     ResultWriter writer(folder);
     writer.Add(kCounterexampleYaml, RegressionYaml(regression, run));
@@ -99,9 +98,12 @@ std::string ReachText(const SearchSpace& space, std::size_t i, const KeyMargin& 
 void PrintMargins(const FalsifyResult& result, const CheckedSearch& search) {
   const Shrunk& shrunk = result.shrunk;
   const SearchSpace& space = search.space;
-  std::vector<TextColumn> columns{{{"key"}, "", {}},         {{"nominal"}, "", {}},
-                                  {{"fails", "at"}, "", {}}, {{"holds", "up", "to"}, "", {}},
-                                  {{"alone", "holds"}, "", {}}, {{"sensitivity"}, "", {}}};
+  std::vector<TextColumn> columns{{{"key"}, "", {}},
+                                  {{"nominal"}, "", {}},
+                                  {{"fails", "at"}, "", {}},
+                                  {{"holds", "up", "to"}, "", {}},
+                                  {{"alone", "holds"}, "", {}},
+                                  {{"sensitivity"}, "", {}}};
   for (std::size_t i = 0; i < shrunk.keys.size(); ++i) {
     const KeyMargin& margin = shrunk.keys[i];
     const std::vector<std::string> texts{
@@ -153,11 +155,12 @@ void PrintResult(const FalsifyResult& result, const CheckedSearch& search, const
   fmt::print("{}: broken: {} of {} runs failed{}, the first is row {}\n", name, result.violations,
              result.runs, time, result.first->row);
   fmt::print("  {}\n", worst.reason);
-  fmt::print("  robustness {:.4g} ({}), distance {:.4g} from the nominal point after {} runs to "
-             "shrink it{}\n",
-             worst.robustness, worst.limit, Distance(worst.point, search.space.nominal()),
-             result.shrink_runs,
-             result.shrunk.point.empty() || result.shrunk.complete ? "" : ", which were not enough");
+  fmt::print(
+      "  robustness {:.4g} ({}), distance {:.4g} from the nominal point after {} runs to "
+      "shrink it{}\n",
+      worst.robustness, worst.limit, Distance(worst.point, search.space.nominal()),
+      result.shrink_runs,
+      result.shrunk.point.empty() || result.shrunk.complete ? "" : ", which were not enough");
   PrintMargins(result, search);
   fmt::print("  {}\n", (out / kCounterexampleFolder / kCounterexampleYaml).string());
 }

@@ -32,7 +32,8 @@ int Verify(const VerifyVerbOptions& options) {
       CheckStudy(options.scenario.ReadStudyFile(options.file), /*all=*/false);
   CheckVerifiable(checked.points);
   const std::string& name = checked.points.study().name;
-  const fs::path out = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
+  const fs::path out =
+      options.out.empty() ? fs::path("out") / (name + "_verify") : fs::path(options.out);
   const OutputFolder folder(out);  // before the work, not after it
   const fs::path file = out / run_folder::kSweepRecords;
   if (options.restart) {
@@ -64,9 +65,9 @@ int Verify(const VerifyVerbOptions& options) {
     }
   }
   PrintRowsWithoutRun(name, table);
-  return result.interrupted                                   ? kInterrupted
+  return result.interrupted                               ? kInterrupted
          : result.verdict == ProbabilityVerdict::kAtLeast ? kOk
-                                                              : kFailedExpectations;
+                                                          : kFailedExpectations;
 }
 
 }  // namespace
@@ -92,7 +93,7 @@ void AddVerify(const Command& command) {
       .AddOption("-j,--jobs", options->jobs, "Runs in parallel (default: one per hardware thread)")
       .Range(1, 1000)
       .TypeName("N");
-  command.AddOption("-o,--out", options->out, "Output folder (default: out/<study>)")
+  command.AddOption("-o,--out", options->out, "Output folder (default: out/<study>_verify)")
       .TypeName("DIR");
   command.AddFlag("--restart", options->restart,
                   "Begin anew; else a verification that was interrupted goes on where it was");

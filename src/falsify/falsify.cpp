@@ -30,7 +30,9 @@ class Clock {
 class Falsifier {
  public:
   Falsifier(const CheckedSearch& search, SweepRecords& records, const FalsifyOptions& options)
-      : search_(search), spec_(*search.study.search), options_(options),
+      : search_(search),
+        spec_(*search.study.search),
+        options_(options),
         runs_(search, records, options) {}
 
   FalsifyResult Run() {
@@ -252,10 +254,10 @@ ordered_json FalsifyHeader(const CheckedSearch& search) {
   const SearchSpec& spec = *study.search;
   ordered_json header = SweepHeader(search.runs.points, search.runs.inputs);
   header.erase("sample");
-  header["search"] = {{"method", spec.method},         {"runs", spec.runs},
-                      {"restarts", spec.restarts},     {"population", spec.population},
-                      {"finish", spec.finish},         {"seed", spec.seed},
-                      {"stop", spec.stop},             {"shrink_runs", spec.shrink_runs},
+  header["search"] = {{"method", spec.method},      {"runs", spec.runs},
+                      {"restarts", spec.restarts},  {"population", spec.population},
+                      {"finish", spec.finish},      {"seed", spec.seed},
+                      {"stop", spec.stop},          {"shrink_runs", spec.shrink_runs},
                       {"tolerance", spec.tolerance}};
   for (const SearchKey& key : search.space.keys()) {
     header["nominal"][key.key] = key.nominal;

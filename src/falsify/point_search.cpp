@@ -151,16 +151,15 @@ class NloptSearches : public PointSearch {
   SearchResult SearchFrom(Lane& lane, SearchMethod method, const UnitPoint& start, int evaluations,
                           std::uint64_t seed) {
     const std::size_t n = space_.keys().size();
-    const SearchProblem problem{
-        .lower = UnitPoint(n, 0.0),
-        .upper = UnitPoint(n, 1.0),
-        .start = start,
-        .objective =
-            [&](std::span<const double> x) {
-              return ValueAt(lane, space_.Snap({x.begin(), x.end()}));
-            },
-        .constraint_count = 0,
-        .constraints = {}};
+    const SearchProblem problem{.lower = UnitPoint(n, 0.0),
+                                .upper = UnitPoint(n, 1.0),
+                                .start = start,
+                                .objective =
+                                    [&](std::span<const double> x) {
+                                      return ValueAt(lane, space_.Snap({x.begin(), x.end()}));
+                                    },
+                                .constraint_count = 0,
+                                .constraints = {}};
     const int population = static_cast<int>(4 * n + 4);
     return Search(problem,
                   {.method = method,
@@ -184,8 +183,8 @@ class NloptSearches : public PointSearch {
       SearchResult best;
       for (std::uint64_t again = 0; first_runs > 0; ++again) {
         const std::uint64_t seed = spec_.seed + number + kApart * again;
-        const SearchResult found = SearchFrom(lane, method, again == 0 ? lane.start : AnyPoint(seed),
-                                              first_runs, seed);
+        const SearchResult found =
+            SearchFrom(lane, method, again == 0 ? lane.start : AnyPoint(seed), first_runs, seed);
         first_runs -= std::max(1, found.evaluations);
         if (!best.ok() || (found.ok() && found.value < best.value)) {
           best = found;

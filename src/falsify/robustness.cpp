@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <variant>
 
@@ -28,9 +29,10 @@ std::optional<double> MarginOf(const Check& check) {
   if (!is_limit) {
     return check.met ? std::nullopt : std::optional(kNotMet);
   }
-  const double left =
-      check.relation == Relation::kAtMost ? *bound - *value : *value - *bound;
-  return *bound == 0.0 ? left : left / std::abs(*bound);
+  const double left = check.relation == Relation::kAtMost ? *bound - *value : *value - *bound;
+  const double margin = *bound == 0.0 ? left : left / std::abs(*bound);
+  // `x < y` is not satisfied where both are equal.
+  return check.met ? margin : std::min(margin, -std::numeric_limits<double>::min());
 }
 
 }  // namespace

@@ -132,9 +132,8 @@ bool SearchRuns::RunRow(std::size_t row, const UnitPoint& point, const char* pha
   for (std::size_t i = 0; i < ParameterCount(study); ++i) {
     made.cells.push_back(i < at.settings.size() ? CellText(at.settings[i].value) : "");
   }
-  made.cells.insert(made.cells.end(),
-                    {status, robustness ? ShortestText(robustness->value) : "",
-                     robustness ? robustness->limit : "", phase});
+  made.cells.insert(made.cells.end(), {status, robustness ? ShortestText(robustness->value) : "",
+                                       robustness ? robustness->limit : "", phase});
   for (const OutputSpec& output : study.outputs) {
     const auto found = outputs.find(output.path);
     made.cells.push_back(found == outputs.end() ? "" : found->second);
@@ -154,9 +153,10 @@ SearchRun SearchRuns::FromRecords(std::size_t row, const std::vector<std::string
   const bool is_it = cells.size() == SearchColumns(search_.study).size() &&
                      std::equal(texts.begin(), texts.end(), cells.begin());
   if (!is_it) {
-    throw RunError(fmt::format(
-        "row {} of the records is of another point than the search proposes; --restart removes them",
-        row));
+    throw RunError(
+        fmt::format("row {} of the records is of another point than the search proposes; --restart "
+                    "removes them",
+                    row));
   }
   SearchRun run{.row = row,
                 .status = cells[count],

@@ -203,8 +203,8 @@ double SearchSpace::Step(std::size_t i) const {
 std::vector<Setting> SearchSpace::Settings(const UnitPoint& point) const {
   std::vector<Setting> settings;
   for (std::size_t i = 0; i < keys_.size(); ++i) {
-    settings.push_back({keys_[i].key, ShortestText(Value(i, point[i])), keys_[i].line,
-                        keys_[i].column});
+    settings.push_back(
+        {keys_[i].key, ShortestText(Value(i, point[i])), keys_[i].line, keys_[i].column});
   }
   return settings;
 }

@@ -98,8 +98,8 @@ VerifyResult Verify(const CheckedStudy& checked, const VerifyClaim& claim, Sweep
       result.interrupted = true;
       break;
     }
-    for (std::size_t row = from;
-         row < to && test.verdict() == ProbabilityVerdict::kUndecided; ++row) {
+    for (std::size_t row = from; row < to && test.verdict() == ProbabilityVerdict::kUndecided;
+         ++row) {
       const SweepRow made = RowFromJson(records.Read(row));
       TRACKBED_CHECK(!made.error, "row {}: {}", row, made.cells.back());
       if (StatusOf(records, made) == "driven") {
@@ -122,7 +122,7 @@ VerifyResult Verify(const CheckedStudy& checked, const VerifyClaim& claim, Sweep
 }
 
 ordered_json ToJson(const VerifyResult& result, const VerifyClaim& claim) {
-  const char* verdict = result.interrupted                                    ? "interrupted"
+  const char* verdict = result.interrupted                               ? "interrupted"
                         : result.verdict == ProbabilityVerdict::kAtLeast ? "at_least"
                         : result.verdict == ProbabilityVerdict::kBelow   ? "below"
                                                                          : "undecided";
@@ -147,9 +147,10 @@ std::string ToText(const VerifyResult& result, const VerifyClaim& claim) {
     case ProbabilityVerdict::kUndecided:
       break;
   }
-  return fmt::format("not known whether a run passes with a probability of at least {}: {}, too "
-                     "few to tell at {} % confidence",
-                     claim.probability, counts, 100.0 * claim.confidence);
+  return fmt::format(
+      "not known whether a run passes with a probability of at least {}: {}, too "
+      "few to tell at {} % confidence",
+      claim.probability, counts, 100.0 * claim.confidence);
 }
 
 }  // namespace trackbed

@@ -224,8 +224,9 @@ StudyPoints::StudyPoints(Study study) : study_(std::move(study)) {
   if (sampled > 0 && !study_.sample) {
     throw InputError(Problem{.file = study_.file,
                              .key = "sample",
-                             .message = "missing; keys of vary have distributions (trackbed falsify "
-                                        "searches them without)"});
+                             .message =
+                                 "missing; keys of vary have distributions (trackbed falsify "
+                                 "searches them without)"});
   }
   if (study_.sample) {
     unit_sample_ = UnitSample(*study_.sample, sampled);

@@ -13,18 +13,14 @@ namespace {
 
 std::string DescribeSearch(const FalsifyResult& result) {
   if (!result.counterexample) {
-    return fmt::format("{} in {} runs{}",
-                       result.status == FalsifyStatus::kInterrupted ? "interrupted"
-                                                                    : "not falsified",
-                       result.runs,
-                       result.errors > 0 ? fmt::format(", of which {} met an internal error",
-                                                       result.errors)
-                                         : "");
+    return fmt::format(
+        "{} in {} runs{}",
+        result.status == FalsifyStatus::kInterrupted ? "interrupted" : "not falsified", result.runs,
+        result.errors > 0 ? fmt::format(", of which {} met an internal error", result.errors) : "");
   }
   std::string settings;
   for (const Setting& setting : result.counterexample->settings) {
-    settings +=
-        fmt::format("{}{} = {}", settings.empty() ? "" : ", ", setting.key, setting.value);
+    settings += fmt::format("{}{} = {}", settings.empty() ? "" : ", ", setting.key, setting.value);
   }
   return fmt::format("broken in {} runs at {}: {}", result.runs, settings,
                      result.counterexample->reason);

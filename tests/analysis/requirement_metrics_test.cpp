@@ -145,16 +145,12 @@ TEST(RequirementMetrics, AreDescribed) {
 }
 
 TEST(RequirementMetrics, AloneMakeARunJudged) {
-  const auto run = [](const std::string& expect) {
-    return RunMission(
-        ParseScenario("schema: 1\nname: free\nmission: {speed: 3, duration: 0.5}\ndrive: {plants: "
-                      "[kinematic]}\n" +
-                          expect,
-                      "free", TRACKBED_SOURCE_DIR "/tests/data/models"));
-  };
-  EXPECT_FALSE(run("").verdict.judged);
-  const Verdict verdict =
-      run("expect: {requirements: [{name: on, formula: eventually t_s > 0.4}]}\n").verdict;
+  PlantMetrics plant{.plant = "kinematic"};
+  EXPECT_FALSE(Judge({}, {plant}, {}).judged);
+  Expectations expect;
+  expect.all.requirements = {{"on", "eventually t_s > 0.4"}};
+  plant.requirements = {{.name = "on", .robustness = 0.1, .satisfied = true}};
+  const Verdict verdict = Judge(expect, {plant}, {});
   EXPECT_TRUE(verdict.judged);
   EXPECT_TRUE(verdict.passed);
 }

@@ -32,7 +32,8 @@ TEST(FalsifyVerb, LeavesACounterexampleForATestSuite) {
   EXPECT_EQ(outcome.code, 3) << outcome.output;
   EXPECT_THAT(outcome.output, testing::ContainsRegex("reach: broken: [12] of [0-9]+ runs failed"));
   EXPECT_THAT(outcome.output, HasSubstr("kinematic: maximum cross-track error"));
-  EXPECT_THAT(outcome.output, testing::ContainsRegex("control\\.distance +2\\.5 +[0-9.]+ +[0-9.]+"));
+  EXPECT_THAT(outcome.output,
+              testing::ContainsRegex("control\\.distance +2\\.5 +[0-9.]+ +[0-9.]+"));
   EXPECT_THAT(outcome.output, HasSubstr("out/reach/counterexample/counterexample.yaml\n"));
   const std::filesystem::path out = folder.path() / "out/reach";
   for (const char* name : {"sweep.csv", "sweep.json", "falsify.json", "report.html",
@@ -42,7 +43,8 @@ TEST(FalsifyVerb, LeavesACounterexampleForATestSuite) {
   // As it is it passes in a test suite; what it came of fails.
   EXPECT_EQ(Trackbed(folder, "test out/reach/counterexample/counterexample.yaml").code, 0);
   const auto json = nlohmann::json::parse(ReadFile(out / "falsify.json"));
-  const std::string distance = json.at("counterexample").at("settings").at("control.distance").dump();
+  const std::string distance =
+      json.at("counterexample").at("settings").at("control.distance").dump();
   EXPECT_EQ(Trackbed(folder, "run -q " + ScenarioFile("winding") +
                                  " --plant kinematic --set control.distance=" + distance +
                                  " mission.speed=2 expect='{max_cross_track: 0.3}'")
@@ -59,7 +61,8 @@ TEST(FalsifyVerb, LeavesACounterexampleForATestSuite) {
               HasSubstr("has rows of another study"));
   const Outcome held = Trackbed(folder, "falsify study.yaml --restart");
   EXPECT_EQ(held.code, 0) << held.output;
-  EXPECT_THAT(held.output, testing::ContainsRegex("reach: not falsified in [56] runs; the lowest robustness is "));
+  EXPECT_THAT(held.output, testing::ContainsRegex(
+                               "reach: not falsified in [56] runs; the lowest robustness is "));
   EXPECT_FALSE(std::filesystem::exists(out / "counterexample"));
 }
 
@@ -90,8 +93,9 @@ std::string VerifyText(const std::string& limit, const std::string& sample) {
   return "schema: 1\nname: sure\nscenario: " + ScenarioFile("winding") +
          "\nset: {drive.plants: [kinematic], drive.time_limit: 5, expect: {metrics: [{metric: "
          "status, equals: time_limit}, {metric: cross_track.max, max: " +
-         limit + "}]}}\nvary: {mission.speed: {distribution: uniform, from: 1, to: 3}}\nsample: " +
-         sample + "\n";
+         limit +
+         "}]}}\nvary: {mission.speed: {distribution: uniform, from: 1, to: 3}}\nsample: " + sample +
+         "\n";
 }
 
 TEST(VerifyVerb, StopsAsSoonAsItIsKnown) {
@@ -100,9 +104,10 @@ TEST(VerifyVerb, StopsAsSoonAsItIsKnown) {
   // 88 passes in turn, by the closed form of tests/falsify/sequential_test_test.cpp.
   const Outcome outcome = Trackbed(folder, "verify study.yaml --probability 0.95 --jobs 2");
   EXPECT_EQ(outcome.code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("sure: a run passes with a probability of at least 0.95, at "
-                                        "95 % confidence: 88 of 88 runs passed"));
-  const auto json = nlohmann::json::parse(ReadFile(folder.path() / "out/sure/verify.json"));
+  EXPECT_THAT(outcome.output,
+              HasSubstr("sure: a run passes with a probability of at least 0.95, at "
+                        "95 % confidence: 88 of 88 runs passed"));
+  const auto json = nlohmann::json::parse(ReadFile(folder.path() / "out/sure_verify/verify.json"));
   EXPECT_EQ(json.at("verdict"), "at_least");
   EXPECT_EQ(json.at("runs"), 88);
 }

@@ -316,8 +316,8 @@ TEST(Docs, CommandsDoWhatTheySay) {
                               : sweep    ? " --set drive.time_limit=1"
                                          : ""));
     // A search that is shown finds something.
-    EXPECT_EQ(outcome.code, command.starts_with("falsify") ? 3 : 0)
-        << command << "\n" << outcome.output;
+    EXPECT_EQ(outcome.code, command.starts_with("falsify") ? 3 : 0) << command << "\n"
+                                                                    << outcome.output;
   }
 }
 

@@ -12,9 +12,9 @@ namespace {
 
 using testing::HasSubstr;
 
-RunResult Run(const std::string& file, const std::vector<Override>& overrides) {
-  return RunMission(ReadScenario(TRACKBED_SOURCE_DIR "/scenarios/" + file, overrides, {},
-                                 PossibleMetrics));
+RunResult RunOf(const std::string& file, const std::vector<Override>& overrides) {
+  return RunMission(
+      ReadScenario(TRACKBED_SOURCE_DIR "/scenarios/" + file, overrides, {}, PossibleMetrics));
 }
 
 /// The regression as it is read from its file, and run.
@@ -35,37 +35,39 @@ void ExpectKept(const RunResult& failed) {
 
 TEST(Counterexample, OfALimitPassesAndFailsWhenItIsMended) {
   const RunResult failed =
-      Run("winding.yaml", {"drive.plants=[kinematic]", "control.distance=10",
-                           "expect={max_cross_track: 0.3, reach_goal: 1.0}"});
+      RunOf("winding.yaml", {"drive.plants=[kinematic]", "control.distance=10",
+                             "expect={max_cross_track: 0.3, reach_goal: 1.0}"});
   ExpectKept(failed);
   const Regression regression = MakeRegression(failed, "kept");
   EXPECT_THAT(RegressionYaml(regression, failed), HasSubstr("#   kinematic: maximum cross-track"));
   Scenario mended = regression.scenario;
-  mended.control = Run("winding.yaml", {"drive.plants=[kinematic]"}).scenario.control;
+  mended.control = RunOf("winding.yaml", {"drive.plants=[kinematic]"}).scenario.control;
   EXPECT_FALSE(RunMission(mended).verdict.passed);
 }
 
 TEST(Counterexample, OfTheCorridorThatEveryRunHas) {
-  ExpectKept(Run("winding.yaml", {"drive.plants=[kinematic]", "control.distance=25", "expect={}"}));
+  ExpectKept(
+      RunOf("winding.yaml", {"drive.plants=[kinematic]", "control.distance=25", "expect={}"}));
 }
 
 TEST(Counterexample, OfACollision) {
-  const RunResult failed = Run("hit_the_box.yaml", {"drive.plants=[kinematic]", "expect={}"});
+  const RunResult failed = RunOf("hit_the_box.yaml", {"drive.plants=[kinematic]", "expect={}"});
   EXPECT_LE(RobustnessOf(failed).value, -1.0);
   ExpectKept(failed);
 }
 
 TEST(Counterexample, OfARunThatDoesNotArrive) {
-  ExpectKept(Run("winding.yaml", {"drive.plants=[kinematic]", "drive.time_limit=3", "expect={}"}));
+  ExpectKept(
+      RunOf("winding.yaml", {"drive.plants=[kinematic]", "drive.time_limit=3", "expect={}"}));
 }
 
 TEST(Counterexample, OfOnePlantOfTwo) {
-  const RunResult failed = Run("winding.yaml", {"expect={mujoco: {max_cross_track: 1e-6}}"});
+  const RunResult failed = RunOf("winding.yaml", {"expect={mujoco: {max_cross_track: 1e-6}}"});
   ExpectKept(failed);
 }
 
 TEST(Counterexample, OfAPlanThatIsNotFoundFailsUntilItIsMended) {
-  const RunResult failed = Run("winding.yaml", {"drive.plants=[kinematic]", "plan.radius=40"});
+  const RunResult failed = RunOf("winding.yaml", {"drive.plants=[kinematic]", "plan.radius=40"});
   ASSERT_FALSE(failed.plan.ok());
   EXPECT_EQ(RobustnessOf(failed).value, -1.0);
   const Regression regression = MakeRegression(failed, "kept");
@@ -75,17 +77,16 @@ TEST(Counterexample, OfAPlanThatIsNotFoundFailsUntilItIsMended) {
 }
 
 TEST(Counterexample, IsOfARunThatFailed) {
-  const RunResult passed = Run("winding.yaml", {"drive.plants=[kinematic]"});
+  const RunResult passed = RunOf("winding.yaml", {"drive.plants=[kinematic]"});
   EXPECT_THROW(MakeRegression(passed, "kept"), PreconditionError);
 }
 
 TEST(Robustness, IsTheShareOfTheLimitThatIsLeft) {
-  const RunResult run = Run("winding.yaml", {"drive.plants=[kinematic]", "expect={}"});
+  const RunResult run = RunOf("winding.yaml", {"drive.plants=[kinematic]", "expect={}"});
   const PlantMetrics& metrics = run.metrics.front();
   const double error = metrics.tracking->cross_track_max;
   const auto expecting = [&](const std::string& expect) {
-    return RobustnessOf(
-        Run("winding.yaml", {"drive.plants=[kinematic]", "expect=" + expect}));
+    return RobustnessOf(RunOf("winding.yaml", {"drive.plants=[kinematic]", "expect=" + expect}));
   };
   // Without a limit of its own, that of the corridor, the width of the car.
   EXPECT_EQ(RobustnessOf(run).value,
@@ -95,8 +96,9 @@ TEST(Robustness, IsTheShareOfTheLimitThatIsLeft) {
   EXPECT_EQ(expecting("{max_cross_track: 0.001}").value, (0.001 - error) / 0.001);
   // The least of all; one whose bound is 0 in its unit.
   const double final = metrics.tracking->cross_track_final;
-  EXPECT_EQ(expecting("{max_cross_track: 1e4, metrics: [{metric: cross_track.final, max: 0}]}").value,
-            std::min(-final, 1.0 - error / 1e4));
+  EXPECT_EQ(
+      expecting("{max_cross_track: 1e4, metrics: [{metric: cross_track.final, max: 0}]}").value,
+      std::min(-final, 1.0 - error / 1e4));
   // What no number says the extent of.
   EXPECT_EQ(expecting("{max_cross_track: 10, metrics: [{metric: status, equals: collided}]}").value,
             -1.0);

@@ -22,19 +22,19 @@ using testing::HasSubstr;
 /// its corners. It passes at its nominal point, and fails from some preview distance on.
 CheckedSearch MakeSearch(const TempFolder& folder, const std::string& search,
                          const std::string& more = "") {
-  return CheckSearch(ReadStudy(
-      folder.Write("study.yaml",
-                   "schema: 1\nname: study\nscenario: " TRACKBED_SOURCE_DIR
-                   "/scenarios/winding.yaml\n"
-                   "set: {drive.plants: [kinematic], expect: {max_cross_track: 0.3}}\n"
-                   "vary:\n"
-                   "  control.distance: {distribution: uniform, from: 2, to: 10}\n"
-                   "  mission.speed: {distribution: uniform, from: 1, to: 3}\n"
-                   "nominal: {control.distance: 2.5, mission.speed: 2}\n"
-                   "outputs: [metrics.kinematic.cross_track.max]\n"
-                   "search: " +
-                       search + "\n" + more),
-      {}, {}, PossibleMetrics));
+  return CheckSearch(
+      ReadStudy(folder.Write("study.yaml",
+                             "schema: 1\nname: study\nscenario: " TRACKBED_SOURCE_DIR
+                             "/scenarios/winding.yaml\n"
+                             "set: {drive.plants: [kinematic], expect: {max_cross_track: 0.3}}\n"
+                             "vary:\n"
+                             "  control.distance: {distribution: uniform, from: 2, to: 10}\n"
+                             "  mission.speed: {distribution: uniform, from: 1, to: 3}\n"
+                             "nominal: {control.distance: 2.5, mission.speed: 2}\n"
+                             "outputs: [metrics.kinematic.cross_track.max]\n"
+                             "search: " +
+                                 search + "\n" + more),
+                {}, {}, PossibleMetrics));
 }
 
 TEST(Falsify, FindsTheSmallestPreviewDistanceThatFails) {
@@ -78,9 +78,10 @@ TEST(Falsify, GivesTheSameForAnyNumberOfJobsAndAfterAnInterruption) {
   int interruptions = 0;
   for (;; ++interruptions) {
     std::atomic<int> left{7};
-    const FalsifyResult result =
-        Falsify(search, parts, {.jobs = 2, .interrupted = [&] { return left <= 0; },
-                                .progress = [&](std::size_t) { --left; }});
+    const FalsifyResult result = Falsify(search, parts,
+                                         {.jobs = 2,
+                                          .interrupted = [&] { return left <= 0; },
+                                          .progress = [&](std::size_t) { --left; }});
     if (result.status != FalsifyStatus::kInterrupted) {
       EXPECT_EQ(ToJson(result, search), expected);
       break;
@@ -97,8 +98,8 @@ TEST(Falsify, GivesTheSameForAnyNumberOfJobsAndAfterAnInterruption) {
 
 TEST(Falsify, SaysWhenNothingFailed) {
   const TempFolder folder;
-  const CheckedSearch search =
-      MakeSearch(folder, "{method: latin_hypercube, runs: 10}", "derive: {drive.time_limit: 900 / mission.speed}\n");
+  const CheckedSearch search = MakeSearch(folder, "{method: latin_hypercube, runs: 10}",
+                                          "derive: {drive.time_limit: 900 / mission.speed}\n");
   Study easy = search.study;
   easy.set[1].value = "{max_cross_track: 50}";
   const FalsifyResult result = Falsify(CheckSearch(easy));
@@ -126,15 +127,14 @@ TEST(Falsify, CountsPointsWithoutAScenarioAndWithoutAPlan) {
   // Half of the shorter leg of a turn of 56 degrees is 18.03 m, which a radius of 33.9 m takes: no
   // plan beyond. A preview distance must be positive.
   const CheckedSearch search = CheckSearch(ReadStudy(
-      folder.Write("study.yaml",
-                   "schema: 1\nname: study\nscenario: " TRACKBED_SOURCE_DIR
-                   "/scenarios/winding.yaml\n"
-                   "set: {drive.plants: [kinematic]}\n"
-                   "vary:\n"
-                   "  plan.radius: {distribution: uniform, from: 8, to: 60}\n"
-                   "  control.distance: {distribution: uniform, from: -2, to: 4}\n"
-                   "nominal: {plan.radius: 10, control.distance: 2.5}\n"
-                   "search: {method: sobol, runs: 16, stop: false}\n"),
+      folder.Write("study.yaml", "schema: 1\nname: study\nscenario: " TRACKBED_SOURCE_DIR
+                                 "/scenarios/winding.yaml\n"
+                                 "set: {drive.plants: [kinematic]}\n"
+                                 "vary:\n"
+                                 "  plan.radius: {distribution: uniform, from: 8, to: 60}\n"
+                                 "  control.distance: {distribution: uniform, from: -2, to: 4}\n"
+                                 "nominal: {plan.radius: 20, control.distance: 2.5}\n"
+                                 "search: {method: sobol, runs: 16, stop: false}\n"),
       {}, {}, PossibleMetrics));
   const FalsifyResult result = Falsify(search);
   EXPECT_GT(result.refused, 2U);
@@ -157,16 +157,18 @@ TEST(Falsify, CountsPointsWithoutAScenarioAndWithoutAPlan) {
 
 TEST(Falsify, RefusesAScenarioThatExpectsNothing) {
   const TempFolder folder;
-  const Study study = ReadStudy(folder.Write(
-      "study.yaml", "schema: 1\nname: study\nscenario: " TRACKBED_SOURCE_DIR
-                    "/scenarios/steering_circle.yaml\nset: {expect: {}, drive.plants: [kinematic]}\n"
-                    "vary: {mission.speed: {distribution: uniform, from: 1, to: 4}}\n"
-                    "search: {runs: 4}\nnominal: {mission.speed: 2}\n"));
+  const Study study = ReadStudy(
+      folder.Write("study.yaml",
+                   "schema: 1\nname: study\nscenario: " TRACKBED_SOURCE_DIR
+                   "/scenarios/steering_circle.yaml\nset: {expect: {}, drive.plants: [kinematic]}\n"
+                   "vary: {mission.speed: {distribution: uniform, from: 1, to: 4}}\n"
+                   "search: {runs: 4}\nnominal: {mission.speed: 2}\n"));
   try {
     Falsify(CheckSearch(study));
     FAIL() << "no error";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("expect: a search needs a scenario that expects something"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("expect: a search needs a scenario that expects something"));
   }
 }
 

@@ -80,7 +80,7 @@ TEST_P(EverySearch, CanBeStopped) {
 }
 
 INSTANTIATE_TEST_SUITE_P(PointSearch, EverySearch, testing::ValuesIn(StudySearches()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& one) { return one.param; });
 
 TEST(PointSearch, RunsRestartsSideBySide) {
   SearchSpec spec = Spec("crs2", 90);
@@ -101,9 +101,9 @@ TEST(PointSearch, FinishesFromTheBestPoint) {
     return p[0] > 0.95 ? 9.0 : std::pow(p[0] - 0.63, 2) + std::pow(p[1] - 0.31, 2);
   };
   ASSERT_GT(points.size(), 90U);  // the last quarter is of the finish
-  const auto best = std::min_element(
-      points.begin(), points.begin() + 90,
-      [&](const UnitPoint& a, const UnitPoint& b) { return miss(a) < miss(b); });
+  const auto best =
+      std::min_element(points.begin(), points.begin() + 90,
+                       [&](const UnitPoint& a, const UnitPoint& b) { return miss(a) < miss(b); });
   EXPECT_EQ(points[90], *best);
 }
 

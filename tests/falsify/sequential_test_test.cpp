@@ -44,11 +44,10 @@ TEST(SequentialTest, HasTheLikelihoodsOfItsDefinition) {
   }
 }
 
-/// With nothing but successes L = (1 - P^(n+1)) / ((n + 1) (1 - P) P^n), with nothing but failures M
-/// = (1 - (1 - P)^(n+1)) / ((n + 1) P (1 - P)^n).
+/// With nothing but successes L = (1 - P^(n+1)) / ((n + 1) (1 - P) P^n), with nothing but failures
+/// M = (1 - (1 - P)^(n+1)) / ((n + 1) P (1 - P)^n).
 TEST(SequentialTest, StopsWhereTheClosedFormDoes) {
-  for (const auto& [probability, expected] :
-       {std::pair(0.99, 449U), {0.95, 88U}, {0.5, 7U}}) {
+  for (const auto& [probability, expected] : {std::pair(0.99, 449U), {0.95, 88U}, {0.5, 7U}}) {
     SequentialTest test(probability, 0.95);
     while (test.verdict() == ProbabilityVerdict::kUndecided) {
       test.Add(true);
@@ -133,10 +132,9 @@ TEST(SequentialTest, ErrsAsSeldomInStreams) {
   constexpr double kConfidence = 0.9;
   std::mt19937 random(1970);
   // The truth where a verdict is wrong: at most the claim for `kAtLeast`, at least for `kBelow`.
-  for (const auto& [truth, wrong] : {std::pair(0.9, ProbabilityVerdict::kAtLeast),
-                                     std::pair(0.87, ProbabilityVerdict::kAtLeast),
-                                     std::pair(0.9, ProbabilityVerdict::kBelow),
-                                     std::pair(0.93, ProbabilityVerdict::kBelow)}) {
+  for (const auto& [truth, wrong] :
+       {std::pair(0.9, ProbabilityVerdict::kAtLeast), std::pair(0.87, ProbabilityVerdict::kAtLeast),
+        std::pair(0.9, ProbabilityVerdict::kBelow), std::pair(0.93, ProbabilityVerdict::kBelow)}) {
     std::bernoulli_distribution succeeds(truth);
     int errors = 0;
     int verdicts = 0;

@@ -55,8 +55,8 @@ TEST(Shrink, ReachesTheBoundaryAlongTheRay) {
 
 TEST(Shrink, LeavesWhatDoesNotMatterAtItsNominalValue) {
   const SearchSpace space = UnitSpace({0.5, 0.25, 0.5});
-  const Shrunk shrunk = Shrink(space, {0.1, 0.9, 0.8}, kTolerance,
-                               By([](const UnitPoint& p) { return 0.6 - p[1]; }));
+  const Shrunk shrunk =
+      Shrink(space, {0.1, 0.9, 0.8}, kTolerance, By([](const UnitPoint& p) { return 0.6 - p[1]; }));
   ASSERT_TRUE(shrunk.complete);
   EXPECT_EQ(shrunk.point[0], 0.5);
   EXPECT_EQ(shrunk.point[2], 0.5);

@@ -34,16 +34,17 @@ TEST(Verify, GivesTheSameForAnyNumberOfJobsAndAfterAnInterruption) {
     const VerifyClaim claim{.probability = probability, .confidence = 0.95};
     SweepRecords one = SweepRecords::InMemory(header);
     const VerifyResult expected = Verify(checked, claim, one);
-    EXPECT_EQ(expected.verdict, probability < 0.6 ? ProbabilityVerdict::kAtLeast
-                                                  : ProbabilityVerdict::kBelow);
+    EXPECT_EQ(expected.verdict,
+              probability < 0.6 ? ProbabilityVerdict::kAtLeast : ProbabilityVerdict::kBelow);
     EXPECT_LT(expected.runs, 200U);
     SweepRecords parts = SweepRecords::InMemory(header);
     for (int interruptions = 0;; ++interruptions) {
       ASSERT_LT(interruptions, 100);
       std::atomic<int> left{11};
-      const VerifyResult result =
-          Verify(checked, claim, parts, {.jobs = 3, .interrupted = [&] { return left <= 0; },
-                                         .progress = [&](double) { --left; }});
+      const VerifyResult result = Verify(checked, claim, parts,
+                                         {.jobs = 3,
+                                          .interrupted = [&] { return left <= 0; },
+                                          .progress = [&](double) { --left; }});
       if (!result.interrupted) {
         EXPECT_EQ(ToJson(result, claim), ToJson(expected, claim));
         break;
@@ -69,12 +70,12 @@ TEST(Verify, NeedsIndependentRunsOfOneDistribution) {
   EXPECT_THAT(problem([](Study& s) { s.sample->method = SampleMethod::kSobol; }),
               testing::StartsWith("sample.method: must be random"));
   EXPECT_THAT(problem([](Study& s) { s.repeat = 2; }), testing::StartsWith("repeat: "));
-  EXPECT_THAT(problem([](Study& s) {
-                s.vary.push_back({.key = "control.distance",
-                                  .alternatives = {{"control.distance", "2"},
-                                                   {"control.distance", "3"}}});
-              }),
-              testing::StartsWith("vary: has lists of values"));
+  EXPECT_THAT(
+      problem([](Study& s) {
+        s.vary.push_back({.key = "control.distance",
+                          .alternatives = {{"control.distance", "2"}, {"control.distance", "3"}}});
+      }),
+      testing::StartsWith("vary: has lists of values"));
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <random>
 
@@ -126,6 +128,22 @@ TEST(SparseQuadraticProgram, IsAFunctionOfItsArguments) {
   const Eigen::VectorXd c = Eigen::VectorXd::LinSpaced(300, -10.0, 10.0);
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(c.size());
   EXPECT_EQ(Solve(Nearest(c, -3.0, 4.0), zero).x, Solve(Nearest(c, -3.0, 4.0), zero).x);
+}
+
+TEST(SparseQuadraticProgram, TakesNoOptionsFromTheCurrentFolder) {
+  // IPOPT itself reads ipopt.opt; without an iteration the solution would be the start.
+  namespace fs = std::filesystem;
+  const fs::path before = fs::current_path();
+  const fs::path folder = fs::path(testing::TempDir()) / "ipopt_options";
+  fs::create_directories(folder);
+  std::ofstream(folder / "ipopt.opt") << "max_iter 0\n";
+  fs::current_path(folder);
+  const Eigen::VectorXd c = Eigen::VectorXd::LinSpaced(20, -10.0, 10.0);
+  const SparseQuadraticSolution solution =
+      Solve(Nearest(c, -3.0, 4.0), Eigen::VectorXd::Zero(c.size()));
+  fs::current_path(before);
+  fs::remove_all(folder);
+  EXPECT_TRUE(solution.ok);
 }
 
 TEST(SparseQuadraticProgram, RefusesWhatIsNoProgram) {

@@ -245,7 +245,8 @@ TEST(CommonRoad, SaysWhatIsWrong) {
   const std::string end = "</ksState></ksTrajectory></CommonRoadSolution>";
   EXPECT_THAT(Error("s.xml", begin + "<x>1</x>" + end),
               AllOf(HasSubstr("s.xml:2"), HasSubstr("missing in ksState")));
-  EXPECT_THAT(Error("s.xml", begin + "<x>one</x><y>2</y>" + end), HasSubstr("'one' is not a finite"));
+  EXPECT_THAT(Error("s.xml", begin + "<x>one</x><y>2</y>" + end),
+              HasSubstr("'one' is not a finite"));
   EXPECT_THAT(Error("s.xml", begin + "<x>1</x><y>2</y><velocity>-3</velocity>" + end),
               HasSubstr("reverse"));
 }

@@ -490,14 +490,14 @@ TEST(ReportPage, LoadsNothing) {
   const TempFolder folder;
   const std::string page =
       ReportPage(ReportData({DriveCorner(folder, "run", "drive: {plants: [kinematic]}\n")}));
-  // d3, dygraphs, three.js, its camera control and the page's own script and style, each known by
+  // d3, dygraphs, three.js, its camera control, the page's two scripts and its style, each known by
   // its hash; that these are right the browser says (tests/report/hostile_test.py).
   std::smatch policy;
   ASSERT_TRUE(std::regex_search(
       page, policy, std::regex("http-equiv=\"Content-Security-Policy\" content=\"([^\"]*)\"")));
   EXPECT_THAT(
       policy[1].str(),
-      testing::MatchesRegex("default-src 'none'; script-src( 'sha256-[A-Za-z0-9+/]+='){5}; "
+      testing::MatchesRegex("default-src 'none'; script-src( 'sha256-[A-Za-z0-9+/]+='){6}; "
                             "style-src 'sha256-[A-Za-z0-9+/]+='; img-src data:; "
                             "media-src 'self' blob: file:; base-uri 'none'; form-action 'none'"));
   const std::string markup = Markup(page);

@@ -483,9 +483,10 @@ TEST(StudyKeys, EachHasALineOfText) {
   for (const KeySection& section : sections) {
     names.push_back(section.key + (section.method.empty() ? "" : " " + section.method));
   }
-  EXPECT_THAT(names, testing::ElementsAre("", "sample", "bisect", "vary.KEY", "vary.KEY uniform",
-                                          "vary.KEY log_uniform", "vary.KEY integer",
-                                          "vary.KEY normal", "vary.KEY choice", "vary.KEY file"));
+  EXPECT_THAT(names,
+              testing::ElementsAre("", "sample", "search", "bisect", "vary.KEY", "vary.KEY uniform",
+                                   "vary.KEY log_uniform", "vary.KEY integer", "vary.KEY normal",
+                                   "vary.KEY choice", "vary.KEY file"));
   for (const KeySection& section : sections) {
     for (const KeyInfo& key : section.keys) {
       EXPECT_FALSE(key.text.empty()) << section.key << "." << key.name;

@@ -17,11 +17,12 @@ struct Regression {
 
 /// The scenario of a run that failed, named `name`, with the checks of its verdict as expectations
 /// of each plant: those that were met as they were, those that were not turned round, such as
-/// `max: 0.5` to `min: 0.5` of the same metric, and a status or a collision to that of the run.
+/// `max: 0.5` to `min: 0.5` of the same metric, a requirement to `not (...)`, and a status or a
+/// collision to that of the run.
 ///
-/// No expectation can say that there is no plan, that the wheels turn faster than the actuator, that
-/// a metric was not measured, or that two plants differ: then the expectations are left as they are.
-/// The scenario is run to see that it passes.
+/// No expectation can say that there is no plan, that the wheels turn faster than the actuator,
+/// that a metric was not measured, or that two plants differ: then the expectations are left as
+/// they are. The scenario is run to see that it passes.
 Regression MakeRegression(const RunResult& failed, const std::string& name);
 
 /// The text of counterexample.yaml: ResolvedYaml, with the failures in a comment. The files of the

@@ -31,8 +31,8 @@ CheckedSearch CheckSearch(Study study);
 nlohmann::ordered_json FalsifyHeader(const CheckedSearch& search);
 
 struct FalsifyOptions {
-  int jobs = 1;                                    ///< runs at the same time, at least 1
-  std::function<bool()> interrupted{};             ///< asked before each run, by any thread
+  int jobs = 1;                         ///< runs at the same time, at least 1
+  std::function<bool()> interrupted{};  ///< asked before each run, by any thread
   /// Called after each run with its row, by one thread at a time.
   std::function<void(std::size_t row)> progress{};
   /// Of the search, wall clock [s]: it ends with the first batch that is finished after that. The

@@ -16,6 +16,7 @@ struct RunRobustness {
 ///   * of a limit, (limit - value) / |limit|, or (value - limit) / |limit| where it is a lower one:
 ///     the share of the limit that is left, so that those of different units compare. Where the
 ///     limit is 0 it is the difference itself, in the unit of the metric;
+///   * of a requirement over time, its robustness, in the unit of the comparison that decides;
 ///   * of a check that no number says the extent of (arrived, no collision, a metric that was not
 ///     measured), and of a run without a plan, -1 where it is not met, and nothing where it is;
 ///   * of the steering rate of the wheels, whose limit is one of the simulation, likewise.

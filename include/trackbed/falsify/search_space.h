@@ -12,7 +12,7 @@ using UnitPoint = std::vector<double>;
 
 /// A key that is searched.
 struct SearchKey {
-  std::string key;  ///< dotted
+  std::string key;                                     ///< dotted
   DistributionKind kind = DistributionKind::kUniform;  ///< uniform, log_uniform or integer
   double from = 0.0;
   double to = 1.0;

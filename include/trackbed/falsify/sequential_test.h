@@ -13,20 +13,21 @@ enum class ProbabilityVerdict {
 /// Decides from one success or failure after another whether the probability of success is at least
 /// a given one, and may stop after any of them.
 ///
-/// Robbins' (1970) mixture of Wald's (1947) sequential probability ratio tests. With s successes and
-/// f failures and P = `probability`, the likelihood of all q above P, equally weighted, against P is
+/// Robbins' (1970) mixture of Wald's (1947) sequential probability ratio tests. With s successes
+/// and f failures and P = `probability`, the likelihood of all q above P, equally weighted, against
+/// P is
 ///
 ///     L = integral from P to 1 of q^s (1 - q)^f dq / ((1 - P) P^s (1 - P)^f)
 ///
 /// and likewise M for all q below P. `kAtLeast` at the first L >= 1/(1 - confidence), `kBelow` at
 /// the first M >= 1/(1 - confidence).
 ///
-/// Guarantees: while the true probability is at most P, L is a nonnegative supermartingale with mean
-/// 1 at most, so that the probability that it ever gets that high, however often one looks, is at
-/// most 1 - confidence (Ville 1939); M likewise while it is at least P. So each of the two wrong
-/// claims is made with a probability of at most 1 - confidence, for independent trials with the same
-/// probability. Unlike Wald's test it needs no second probability between which and P nothing is
-/// promised; a probability very near to P takes long, and one equal to P mostly stays undecided.
+/// Guarantees: while the true probability is at most P, L is a nonnegative supermartingale with
+/// mean 1 at most, so that the probability that it ever gets that high, however often one looks, is
+/// at most 1 - confidence (Ville 1939); M likewise while it is at least P. So each of the two wrong
+/// claims is made with a probability of at most 1 - confidence, for independent trials with the
+/// same probability. Unlike Wald's test it needs no second probability between which and P nothing
+/// is promised; a probability very near to P takes long, and one equal to P mostly stays undecided.
 ///
 /// Without a failure, P = 0.99 at 95 % takes 449 trials; 299 is the number for a test that may not
 /// stop early.

@@ -21,8 +21,8 @@ using EvaluatePoint = std::function<std::optional<Evaluation>(const UnitPoint& p
 
 /// How far a key can go alone, all others at their nominal values.
 struct ReachAlone {
-  double passes = 0.0;        ///< the last place that was seen to pass, toward the end of its range
-  bool whole_range = false;   ///< which is the end itself
+  double passes = 0.0;       ///< the last place that was seen to pass, toward the end of its range
+  bool whole_range = false;  ///< which is the end itself
 };
 
 /// A key at the counterexample.
@@ -39,10 +39,10 @@ struct KeyMargin {
 };
 
 struct Shrunk {
-  UnitPoint point;           ///< violates; was evaluated
-  double robustness = 0.0;   ///< there
-  double distance = 0.0;     ///< from the nominal point
-  bool complete = false;     ///< false: the runs were used up before it was as small as it gets
+  UnitPoint point;              ///< violates; was evaluated
+  double robustness = 0.0;      ///< there
+  double distance = 0.0;        ///< from the nominal point
+  bool complete = false;        ///< false: the runs were used up before it was as small as it gets
   std::vector<KeyMargin> keys;  ///< what is not known yet has no values
 };
 

@@ -16,8 +16,8 @@ struct VerifyClaim {
 };
 
 struct VerifyOptions {
-  int jobs = 1;                                   ///< runs at the same time, at least 1
-  std::function<bool()> interrupted{};            ///< asked before each run, by any thread
+  int jobs = 1;                                     ///< runs at the same time, at least 1
+  std::function<bool()> interrupted{};              ///< asked before each run, by any thread
   std::function<void(double fraction)> progress{};  ///< of the sample, by one thread at a time
 };
 
@@ -34,8 +34,8 @@ struct VerifyResult {
 /// with `repeat` or `bisect`.
 void CheckVerifiable(const StudyPoints& points);
 
-/// Runs the rows of the sample in their order until SequentialTest has a verdict or the sample is at
-/// its end. A run fails that does not pass, also one without a plan. A point without a scenario
+/// Runs the rows of the sample in their order until SequentialTest has a verdict or the sample is
+/// at its end. A run fails that does not pass, also one without a plan. A point without a scenario
 /// counts neither way: the claim is about the points that have one.
 ///
 /// Appends rows to `records` (SweepHeader), and takes what is there. Runs in batches of 32, so that

@@ -36,9 +36,9 @@
 ///     eventually[a, b] phi  maximum likewise
 ///     phi until[a, b] psi   maximum over these j of min(psi_j, phi_i, …, phi_{j-1})
 ///
-/// Samples are not interpolated, and bounds hold to 1 ns. A window that reaches beyond the end of the log is clipped to it;
-/// over one without samples `always` is +infinity, `eventually` and `until` are -infinity, as in
-/// RTAMT (Nickovic and Yamaguchi 2020).
+/// Samples are not interpolated, and bounds hold to 1 ns. A window that reaches beyond the end of
+/// the log is clipped to it; over one without samples `always` is +infinity, `eventually` and
+/// `until` are -infinity, as in RTAMT (Nickovic and Yamaguchi 2020).
 namespace trackbed {
 
 /// A bound of a window: a time, or a time before the end of the log.

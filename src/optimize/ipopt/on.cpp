@@ -92,6 +92,7 @@ void SetOptions(IpoptProblem problem, InteriorSteps steps) {
   const auto set_integer = [&](std::string name, int value) {
     TRACKBED_CHECK(AddIpoptIntOption(problem, name.data(), value) == TRUE, "{}", name);
   };
+  set_text("option_file_name", "");  // else it reads ipopt.opt from the current folder
   set_text("hessian_constant", "yes");
   set_text("jac_d_constant", "yes");
   if (steps == InteriorSteps::kPredictorCorrector) {

@@ -23,8 +23,7 @@ OffsetDerivatives Residual(const PathPoint& center, const LineOffset& at) {
 class CurvatureProblem {
  public:
   CurvatureProblem(const Track& track, double beside)
-      : basis_(OffsetBasis(track)),
-        step_(track.length() / static_cast<double>(Samples())) {
+      : basis_(OffsetBasis(track)), step_(track.length() / static_cast<double>(Samples())) {
     program_.lower.resize(Samples());
     program_.upper.resize(Samples());
     std::vector<Eigen::Triplet<double>> entries;

@@ -313,7 +313,7 @@ struct RaceTrack {
 class RaceTracks : public testing::TestWithParam<RaceTrack> {};
 INSTANTIATE_TEST_SUITE_P(
     Racing, RaceTracks,
-    testing::Values(RaceTrack{"Norisring", "tests/data/tracks/Norisring.csv", 2, 0.01},
+    testing::Values(RaceTrack{"Norisring", "tests/data/tracks/Norisring.csv", 3, 0.01},
                     RaceTrack{"Hockenheim", "tests/data/tracks/Hockenheim.csv", 1, 0.0},
                     RaceTrack{"Spielberg", "tests/data/tracks/Spielberg.csv", 1, 0.0},
                     RaceTrack{"Silverstone", "tests/data/tracks/Silverstone.csv", 1, 0.0},

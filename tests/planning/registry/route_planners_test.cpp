@@ -184,7 +184,11 @@ TEST_P(EveryRoutePlanner, SaysWhenItsBudgetIsUsedUp) {
   if (GetParam().searches) {
     PlanRequest far = Aisle();
     far.waypoints.back() = {1e6, 1e6};
-    EXPECT_EQ(Make(far).status, PlanStatus::kBudgetUsedUp);
+    options = GetParam().defaults;
+    if (auto* rrt_star = options.As<RrtStarPlannerOptions>()) {
+      rrt_star->expand_distance = 2.0;  // by default it grows with the distance
+    }
+    EXPECT_EQ(MakePlan(far, options).status, PlanStatus::kBudgetUsedUp);
   }
 }
 
