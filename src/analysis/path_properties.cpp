@@ -91,6 +91,7 @@ double Turning(const Segments& segments) {
 
 /// Jumps within the legs between stops: SplitIntoLegs cuts at cusps and stops.
 double MaxCurvatureJump(const PlannedPath& path) {
+  constexpr double kRounding = 1e-12;  // [rad/m], of a segment's curvature at its end
   double largest = 0.0;
   const Path& line = path.plan.reference.path;
   for (const Stations& leg : SplitIntoLegs(line, path.plan.stops)) {
@@ -101,7 +102,7 @@ double MaxCurvatureJump(const PlannedPath& path) {
           std::max(largest, std::abs(segments[i].curvature - before.CurvatureAt(before.length)));
     }
   }
-  return largest;
+  return largest > kRounding ? largest : 0.0;
 }
 
 /// Goes forward by what the clearance surely allows: it changes by at most `moved` a meter.

@@ -1,8 +1,8 @@
 #include "src/road_network/lane_graph.h"
 
 #include <algorithm>
-#include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/dijkstra_shortest_paths.hpp>
+#include <functional>
 #include <limits>
 #include <tuple>
 
@@ -15,12 +15,12 @@ LaneGraph::LaneGraph(const RoadNetwork& network) : network_(network) {
       for (const Lane& lane : road.sections[section].lanes) {
         if (lane.id != 0 && IsDrivable(lane)) {
           nodes_.push_back({&road, section, lane.id});
+          boost::add_vertex(links_);
         }
       }
     }
     last_[id] = nodes_.size();
   }
-  links_.resize(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     AddLinks(i);
   }
@@ -42,7 +42,7 @@ void LaneGraph::AddLink(std::size_t from, const Road& road, RoadEnd contact, int
   const bool at_start = contact == RoadEnd::kStart;
   const auto to = Find(road, at_start ? 0 : road.sections.size() - 1, lane);
   if (to && nodes_[*to].follows_road() == at_start) {
-    links_[from].push_back(*to);
+    Link(from, *to);
   }
 }
 
@@ -76,7 +76,7 @@ void LaneGraph::AddLinks(std::size_t index) {
     for (const int id : ids) {
       const auto next = Find(road, forward ? node.section + 1 : node.section - 1, id);
       if (next && nodes_[*next].follows_road() == forward) {
-        links_[index].push_back(*next);
+        Link(index, *next);
       }
     }
     return;
@@ -97,32 +97,26 @@ void LaneGraph::AddLinks(std::size_t index) {
   }
 }
 
+void LaneGraph::Link(std::size_t from, std::size_t to) {
+  boost::add_edge(from, to, nodes_[from].end() - nodes_[from].start(), links_);
+}
+
 std::vector<std::size_t> LaneGraph::ShortestWay(std::size_t from, std::size_t to) const {
-  // The start as one vertex more, which nothing leads to, so that a way may come back to it.
-  using Graph =
-      boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property,
-                            boost::property<boost::edge_weight_t, double>>;
-  const std::size_t start = nodes_.size();
-  Graph graph(nodes_.size() + 1);
-  const auto add = [&](std::size_t vertex, std::size_t links_of) {
-    for (const std::size_t next : links_[links_of]) {
-      boost::add_edge(vertex, next, nodes_[next].end() - nodes_[next].start(), graph);
-    }
-  };
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    add(i, i);
-  }
-  add(start, from);
-  std::vector<std::size_t> before(nodes_.size() + 1);
-  std::vector<double> distance(nodes_.size() + 1);
-  boost::dijkstra_shortest_paths(
-      graph, start, boost::predecessor_map(before.data()).distance_map(distance.data()));
-  if (distance[to] == std::numeric_limits<double>::max()) {
+  // From the lanes that follow the first one, so that a way may come back to it.
+  const auto [begin, end] = boost::adjacent_vertices(from, links_);
+  std::vector<std::size_t> before(nodes_.size());
+  std::vector<double> distance(nodes_.size());
+  constexpr double kFar = std::numeric_limits<double>::max();
+  boost::dijkstra_shortest_paths(links_, begin, end, before.data(), distance.data(),
+                                 boost::get(boost::edge_weight, links_),
+                                 boost::get(boost::vertex_index, links_), std::less<>(),
+                                 std::plus<>(), kFar, 0.0, boost::dijkstra_visitor<>());
+  if (distance[to] == kFar) {
     return {};
   }
-  std::vector<std::size_t> way;
-  for (std::size_t at = to; at != start; at = before[at]) {
-    way.push_back(at);
+  std::vector<std::size_t> way{to};
+  while (before[way.back()] != way.back()) {
+    way.push_back(before[way.back()]);
   }
   way.push_back(from);
   std::reverse(way.begin(), way.end());

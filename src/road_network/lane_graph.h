@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/graph/adjacency_list.hpp>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -38,6 +39,12 @@ class LaneGraph {
   [[nodiscard]] std::vector<std::size_t> ShortestWay(std::size_t from, std::size_t to) const;
 
  private:
+  /// The weight of a link is the length of the lane that it leaves [m].
+  using Graph =
+      boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property,
+                            boost::property<boost::edge_weight_t, double>>;
+
+  void Link(std::size_t from, std::size_t to);
   void AddLinks(std::size_t index);
   void AddJunction(std::size_t index, const std::string& id);
   /// A link to a lane of a road that is entered at `contact`.
@@ -47,7 +54,7 @@ class LaneGraph {
   std::vector<LaneNode> nodes_;  // of each road together, in the order of sections and lanes
   std::map<std::string, std::size_t, std::less<>> first_;  // of each road
   std::map<std::string, std::size_t, std::less<>> last_;   // one beyond
-  std::vector<std::vector<std::size_t>> links_;
+  Graph links_;
 };
 
 }  // namespace trackbed

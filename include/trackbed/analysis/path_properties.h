@@ -35,7 +35,8 @@ struct PathProperty {
 ///   turning_rad               integral of |kappa| ds: how far the car turns in all
 ///   curvature_rate_max_radpm2 max |dkappa/ds| between jumps
 ///   curvature_jump_max_radpm  largest jump of kappa between segments, cusps and stops left out: a
-///                             car turns its wheels there at rest
+///                             car turns its wheels there at rest. Jumps of at most 1e-12 rad/m,
+///                             which are rounding, count as 0, so that paths rank equally
 ///   clearance_min_m           smallest distance of the footprint from obstacles that stand still
 ///                             and are known from the start, at most 1 cm too large, and 0 if one
 ///                             is touched; nothing without such obstacles
