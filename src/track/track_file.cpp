@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <system_error>
 #include <utility>
 
+#include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/table.h"
 
@@ -16,6 +18,8 @@ namespace {
 constexpr std::uintmax_t kLargestTrackFile = std::uintmax_t{16} << 20U;
 constexpr double kLargestPosition = 1e5;  // [m]
 constexpr double kLargestWidth = 1000.0;  // [m]
+constexpr double kLargestLap = 200e3;     // [m]
+constexpr double kLargestTurn = 150.0;    // at a point [deg]: beyond it the line turns back
 constexpr const char* kFirstColumn = "# x_m";
 
 void CheckSize(const std::filesystem::path& file) {
@@ -39,6 +43,34 @@ const char* FindFirstColumn(const std::filesystem::path& file, const Table& tabl
                            .line = 1,
                            .message = "no column 'x_m'; the header of a track is "
                                       "'# x_m,y_m,w_tr_right_m,w_tr_left_m'"});
+}
+
+/// A line that jumps to and fro is no track, and cannot be smoothed to one.
+void CheckShape(const std::string& name, const std::vector<int>& lines,
+                const std::vector<TrackPoint>& points, ProblemList& problems) {
+  const std::size_t count = points.size();
+  double length = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2& here = points[i].position;
+    const Vec2 before = here - points[(i + count - 1) % count].position;
+    const Vec2 after = points[(i + 1) % count].position - here;
+    length += after.norm();
+    const double turn = std::abs(AngleDifference(std::atan2(after.y(), after.x()),
+                                                 std::atan2(before.y(), before.x()))) *
+                        180.0 / std::numbers::pi;
+    if (turn > kLargestTurn) {
+      problems.Add({.file = name,
+                    .line = lines[i],
+                    .message = fmt::format("the center line turns back here, by {:.3g} degrees; "
+                                           "must be at most {:.3g} from point to point",
+                                           turn, kLargestTurn)});
+    }
+  }
+  if (length > kLargestLap) {
+    problems.Add({.file = name,
+                  .message = fmt::format("a lap is {:.4g} km long; must be at most {:.4g}",
+                                         length / 1e3, kLargestLap / 1e3)});
+  }
 }
 
 }  // namespace
@@ -91,6 +123,8 @@ Track ReadTrack(const std::filesystem::path& file, std::optional<double> smoothi
   if (points.back().position == points.front().position) {
     add(points.size() - 1, "", "the first point again; a track is closed without it");
   }
+  problems.ThrowIfAny();
+  CheckShape(name, excerpt.lines, points, problems);
   problems.ThrowIfAny();
   Track track(std::move(points), smoothing);
   if (const std::optional<TrackFold> fold = FindFold(track)) {

@@ -90,6 +90,13 @@ TEST(PathProperties, LeaveOutJumpsAtCuspsAndStops) {
   EXPECT_NEAR(*Property("curvature_jump_max_radpm", stop), 0.0, kRounding);
 }
 
+// Segments that meet to the last digit but one have no jump: such paths rank equally in a study.
+TEST(PathProperties, CountARoundedJumpAsNone) {
+  const double next = std::nextafter(0.1, 1.0);
+  const Plan plan = PlanOf({{.length = 5.0, .curvature = 0.1}, {.length = 5.0, .curvature = next}});
+  EXPECT_EQ(*Property("curvature_jump_max_radpm", plan), 0.0);
+}
+
 // The footprint's side is at y = 1, the box begins at y = 1.7. What moves or is not known yet is
 // not what the planner kept away from.
 TEST(PathProperties, MeasureTheClearanceOfWhatThePlannerKnew) {

@@ -137,6 +137,22 @@ TEST(ReadTrack, NamesTheBendThatIsTighterThanTheTrackIsWide) {
                      HasSubstr("the inner edge is 31 m from it")));
 }
 
+// Without this the smoothed line would have cusps.
+TEST(ReadTrack, NamesThePointsAtWhichTheLineTurnsBack) {
+  std::vector<TrackPoint> points = EllipsePoints(120.0, 60.0, 114, 5.0, 5.0);
+  std::swap(points[50], points[52]);
+  const std::string text = ErrorMessages(TrackCsv(points));
+  // The points are rows 51 and 53, after the header. The ellipse itself bends by some degrees.
+  EXPECT_THAT(text, StartsWith("t.csv:52: the center line turns back here, by 17"));
+  EXPECT_THAT(text, HasSubstr(" degrees; must be at most 150 from point to point"));
+  EXPECT_THAT(text, HasSubstr("t.csv:54: the center line turns back here"));
+}
+
+TEST(ReadTrack, RefusesLapsThatAreTooLong) {
+  EXPECT_EQ(ErrorMessages(TrackCsv(EllipsePoints(4e4, 4e4, 100, 5.0, 5.0))),
+            "t.csv: a lap is 251.3 km long; must be at most 200");
+}
+
 TEST(ReadTrack, ReadsTracksOfTum) {
   const std::filesystem::path folder =
       std::filesystem::path(TRACKBED_SOURCE_DIR) / "tests/data/tracks";

@@ -16,7 +16,8 @@ namespace trackbed {
 ///
 /// Errors: InputError with file and line, for up to twenty problems: as ReadCsvExcerpt, positions
 /// beyond 1e5 m, widths that are not above 0 or above 1000 m, a point at the place of the one
-/// before it, fewer than Track::kMinPoints or more than kMaxPoints, a file of more than 16 MB, and
+/// before it, a lap of more than 200 km, points at which the line turns by more than 150 degrees,
+/// fewer than Track::kMinPoints or more than kMaxPoints, a file of more than 16 MB, and
 /// bends that are tighter than the track is wide (TrackFold). RunError when the file cannot be
 /// read. `smoothing` as Track.
 Track ReadTrack(const std::filesystem::path& file, std::optional<double> smoothing = {});

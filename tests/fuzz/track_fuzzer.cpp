@@ -1,0 +1,16 @@
+#include "tests/fuzz/target.h"
+#include "trackbed/core/error.h"
+#include "trackbed/track/track_file.h"
+
+/// A race track, whose own file has to be the same track again.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace trackbed;
+  const std::filesystem::path file = fuzz::Write("track.csv", fuzz::Text(data, size));
+  fuzz::Expect([&] {
+    const Track track = ReadTrack(file);
+    const std::filesystem::path again = fuzz::Write("again.csv", TrackCsv(track.points()));
+    TRACKBED_CHECK(ReadTrack(again).points() == track.points(), "the track is another one");
+    static_cast<void>(track.Locate(track.left_edge().front()));
+  });
+  return 0;
+}
