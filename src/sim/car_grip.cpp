@@ -26,8 +26,9 @@ int SpringJoint(const mjModel& model, int wheel, int chassis) {
   return -1;
 }
 
-/// Of the springs and anti-roll bars of an axle [N m/rad]; infinite without springs. With the left
-/// wheel up and the right one down by z, the roll angle is 2 z/track.
+/// Of the springs and anti-roll bars of an axle [N m/rad]; infinite without springs, where the
+/// wheels are fixed to the chassis or rest on the stops of their joints. With the left wheel up and
+/// the right one down by z, the roll angle is 2 z/track.
 double SuspensionStiffness(const mjModel& model, int left, int right, double track) {
   if (left < 0 || right < 0) {
     return std::numeric_limits<double>::infinity();
@@ -46,7 +47,8 @@ double SuspensionStiffness(const mjModel& model, int left, int right, double tra
     }
     stiffness += model.tendon_stiffness[tendon] * coefficient * coefficient;
   }
-  return 0.25 * stiffness * track * track;
+  return stiffness > 0.0 ? 0.25 * stiffness * track * track
+                         : std::numeric_limits<double>::infinity();
 }
 
 LongitudinalForces Forces(const CarModel& car) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <string>
 
 #include "tests/sim/cars.h"
@@ -102,6 +103,23 @@ TEST(CarGrip, RollStiffnessIsThatOfTheModelsSprings) {
   }
   // Contacts are rigid.
   EXPECT_EQ(MakeGripModel(car, TyreLaw::kContact).axles[0].suspension_share, 1.0);
+}
+
+// The tyres, k_z track^2/2 an axle, are all that is left to roll on.
+TEST(CarGrip, AWheelWithoutASpringRestsOnTheStopOfItsJoint) {
+  Scene scene = ComposeScene(FindModel("prius", ""), {.timestep = 0.002});
+  const std::regex springs(R"re( (stiffness="[0-9.]+" damping="[0-9.]+" springref="[-0-9.]+"|)re"
+                           R"re(stiffness="[0-9]+" springlength="0"))re");
+  scene.xml = std::regex_replace(scene.xml, springs, "");
+  const CarModel car(scene, "without springs");
+  const GripModel grip = MakeGripModel(car, TyreLaw::kMagicFormula);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double track = i == 0 ? car.params().track_front : car.params().track_rear;
+    const double tyres = 0.5 * car.parts().tyres->vertical_stiffness * track * track;
+    EXPECT_NEAR(grip.axles[i].roll_stiffness, tyres, Tolerance(1e-12 * tyres));  // rounding
+    EXPECT_EQ(grip.axles[i].suspension_share, 0.0);
+  }
+  EXPECT_NO_THROW(ComputeGgv(car, TyreLaw::kMagicFormula, {1.0}));
 }
 
 TEST(CarGrip, ForcesAreThoseOfTheParameters) {
