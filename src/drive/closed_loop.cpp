@@ -87,6 +87,9 @@ class ClosedLoop {
   Progress progress_;
   Command command_;         // the last one
   double steering_before_;  // the angle [rad] at which a prescribed steering begins its ramp
+  // A plan that does not end before an obstacle was taken up in this control period: the last
+  // command, which may be to stand, is not yet one of it.
+  bool leads_on_ = false;
 };
 
 ClosedLoop::ClosedLoop(Plant& plant, SteeringController& controller, const Plan& plan,
@@ -157,12 +160,14 @@ std::optional<Projection> ClosedLoop::FollowPlan(const VehicleState& state, bool
   if (!tracking) {
     return std::nullopt;
   }
+  leads_on_ = false;
   // After a collision the plan stays as it is: the car no longer follows it.
   if (monitor_ && !recorder_.contact_time()) {
     const Projection at{sequencer_.station(), tracking->cross_track, tracking->heading_error};
     if (std::optional<Plan> next = monitor_->Update(state, sequencer_.plan(), at)) {
       sequencer_.Replace(std::move(*next), state);
       recorder_.AddPlanChange({state.time, sequencer_.offset(), sequencer_.plan()});
+      leads_on_ = sequencer_.plan().blocked.empty();
       tracking = sequencer_.Project(state);
     }
   }
@@ -187,7 +192,7 @@ std::optional<DriveStatus> ClosedLoop::Ending(const VehicleState& state, bool at
        .interrupted = config_.hooks.interrupted && config_.hooks.interrupted(),
        .at_rest = at_rest,
        .to_move = command_.acceleration * command_.gear > 0.0 && !steers,
-       .will_go_on = steers || waits,
+       .will_go_on = steers || waits || leads_on_,
        .contact_time = recorder_.contact_time()});
 }
 

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "trackbed/drive/drive.h"
 
 namespace trackbed {
@@ -39,6 +42,25 @@ TEST(Replanning, EndsWithACollision) {
   for (const PlanChange& change : log.changes) {
     EXPECT_LT(change.time, *log.contact_time);
   }
+}
+
+TEST(Replanning, GoesOnOnceWhatCrossesTheRoadIsGone) {
+  // A pedestrian steps onto the road 17 m ahead; the car brakes. The path is free again in the very
+  // control period in which the car has come to rest: it drives on.
+  const Scenario scenario = ParseScenario(
+      "schema: 1\nname: crossing\nvehicle: {tyre: magic_formula}\n"
+      "mission: {speed: 10, waypoints: [[0, 0], [80, 0]], start: {speed: 10}}\n"
+      "world: {obstacles: [{box: {x: 50, y: -9, length: 0.6, width: 0.6}, velocity: {y: 1.5}, "
+      "known_from: {range: 17}}]}\n"
+      "plan: {global: {method: dubins}, replan: {period: 0.25, safe_distance: 0.8, road: {left: 3, "
+      "right: 3}, along: {method: frenet}}}\n"
+      "control: {method: preview}\ndrive: {plants: [mujoco]}\n",
+      "crossing.yaml", ".");
+  const CarModel car = LoadCar(scenario);
+  const RunLog log = DrivePlant(scenario, car, PlanMission(scenario, car.unladen()), "mujoco");
+  EXPECT_EQ(log.status, DriveStatus::kArrived);
+  const auto stands = [](const LogRow& row) { return std::abs(row.state.speed) < 0.01; };
+  EXPECT_TRUE(std::any_of(log.rows.begin() + 100, log.rows.end() - 500, stands));
 }
 
 }  // namespace
