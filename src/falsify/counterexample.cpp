@@ -83,12 +83,14 @@ class Turned {
       return false;
     }
     const bool is_upper = (check.relation == Relation::kAtMost) == check.met;
+    if (check.metric == "cross_track.max" && is_upper) {
+      Of(check.plant).max_cross_track = *bound;
+      return true;
+    }
     (is_upper ? OfMetric(check).max : OfMetric(check).min) = *bound;
-    if (check.metric == "cross_track.max" && !is_upper && real != nullptr) {
+    if (check.metric == "cross_track.max" && real != nullptr) {
       // Without one the bound is the width of the car.
       Of(check.plant).max_cross_track = 2.0 * *real;
-    } else if (check.metric == "cross_track.max" && is_upper) {
-      Of(check.plant).max_cross_track = *bound;
     }
     return true;
   }
