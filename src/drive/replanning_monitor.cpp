@@ -113,7 +113,8 @@ void ReplanningMonitor::SetRoute(const Plan& plan) {
   const SpeedLimits speed = options_.replanning.limits;
   const double reach = speed.speed * options_.replanning.replan->settings.look_ahead;
   driving_.route = plan;
-  driving_.frame = MakeRouteFrame(options_.vehicle, plan, speed, 2.0 * reach);
+  driving_.frame = MakeRouteFrame(options_.vehicle, plan, speed, 2.0 * reach,
+                                  options_.replanning.replan->settings.safe_distance);
   driving_.plan = plan;
   driving_.on_route = true;
   driving_.station = 0.0;

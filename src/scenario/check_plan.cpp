@@ -202,7 +202,8 @@ void CheckWaypoints(Diagnostics& c) {
   }
 }
 
-/// Speeds at the limit belong to one plan, which is driven as it was made.
+/// Speeds at the limit belong to one plan, which is driven as it was made; on a track, replanning
+/// comes back to it.
 void CheckSpeedProfile(Diagnostics& c) {
   const auto& profile = c.scenario.mission.speed_profile;
   if (!profile || !c.CouldRead({"mission.speed_profile", "mission.speed_profile.method"}) ||
@@ -213,7 +214,7 @@ void CheckSpeedProfile(Diagnostics& c) {
   if (!plan) {
     c.AddError("mission.speed_profile", "needs a plan; remove it, or give a plan");
   } else if (std::holds_alternative<LimitProfileOptions>(*profile) &&
-             (plan->avoid || plan->replan)) {
+             (plan->avoid || plan->replan) && !PlannerFor(plan->global).follows_track) {
     c.AddError("mission.speed_profile.method",
                fmt::format("limits is not supported together with {}, which plans other speeds "
                            "during the run; remove one",
@@ -257,9 +258,18 @@ void CheckTrack(Diagnostics& c) {
   } else if (!has_track && planner.follows_track) {
     c.AddError(key, fmt::format("missing; the planner {} follows a track", planner.name));
   }
-  if (planner.follows_track && (plan->avoid || plan->replan)) {
-    c.AddError(plan->avoid ? "plan.avoid" : "plan.replan",
-               "not available on a track, whose edges it does not know; remove it");
+  if (!planner.follows_track) {
+    return;
+  }
+  if (plan->avoid) {
+    c.AddError("plan.avoid",
+               "not available on a track, whose edges it does not know; use plan.replan.along");
+  }
+  if (plan->replan && plan->replan->detour && c.could_read("plan.replan.detour")) {
+    c.AddError(
+        "plan.replan.detour",
+        "not available on a track: it leaves and returns on straights, and does not know the "
+        "edges; use plan.replan.along");
   }
 }
 

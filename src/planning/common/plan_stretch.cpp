@@ -1,9 +1,29 @@
 #include "trackbed/planning/common/plan_stretch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 namespace trackbed {
+namespace {
+
+/// The profile from `station` on, for a car that leaves there at `speed` and, where it is slower,
+/// gains on it with `acceleration`.
+SpeedProfile JoinedBy(const SpeedProfile& profile, Stations ahead, double speed,
+                      double acceleration) {
+  std::vector<SpeedProfile::Knot> knots = Excerpt(profile, ahead).knots();
+  for (SpeedProfile::Knot& knot : knots) {
+    const double reached = std::sqrt(speed * speed + 2.0 * acceleration * knot.s);
+    if (reached >= knot.speed) {
+      break;
+    }
+    knot.speed = reached;
+  }
+  return SpeedProfile(std::move(knots));
+}
+
+}  // namespace
 
 std::vector<SteeringSchedule::Knot> Moved(const SteeringSchedule& schedule, Stations within,
                                           double shift) {
@@ -52,6 +72,19 @@ std::vector<Segment> SegmentsBetween(const Path& path, Stations within) {
   return segments;
 }
 
+std::vector<SpeedCap> CapsOf(const Plan& plan) {
+  if (!plan.diagnostics.speed_profile) {
+    return plan.caps;
+  }
+  std::vector<SpeedCap> caps;
+  const std::vector<SpeedProfile::Knot>& knots = plan.reference.speed.knots();
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+    // The larger one: at the ends of the plan the other is 0.
+    caps.push_back({knots[i].s, knots[i + 1].s, std::max(knots[i].speed, knots[i + 1].speed)});
+  }
+  return caps;
+}
+
 Plan RemainingPlan(const Plan& plan, double station, double start_speed, const SpeedLimits& speed) {
   Plan rest = plan;
   const Path& path = plan.reference.path;
@@ -63,6 +96,15 @@ Plan RemainingPlan(const Plan& plan, double station, double start_speed, const S
   rest.schedule = SteeringSchedule::Through(std::move(knots));
   rest.caps = Moved(plan.caps, ahead, -station);
   rest.turns = Moved(plan.turns, ahead, -station);
+  for (double& line : rest.laps.lines) {
+    line -= station;
+  }
+  if (plan.diagnostics.speed_profile) {
+    rest.reference.speed = JoinedBy(plan.reference.speed, ahead, start_speed, speed.acceleration);
+    rest.schedule_speed = JoinedBy(plan.schedule_speed, {station, station + open_loop_end},
+                                   start_speed, speed.acceleration);
+    return rest;
+  }
   rest.reference.speed = StopAtEnd(rest.reference.path.length(), start_speed, speed, rest.caps);
   rest.schedule_speed = StopAtEnd(open_loop_end, start_speed, speed, rest.caps);
   return rest;

@@ -77,6 +77,9 @@ TrajectoryCheck::TrajectoryCheck(const Path& path, const FrenetRequest& request,
   const Reach reach = ComputeReach(at, request.start);
   left_ = loosened(request.road.left, reach.left);
   right_ = loosened(request.road.right, reach.right);
+  if (request.edges) {
+    beyond_ = loosened(0.0, ReachBeyond(*request.edges, request.vehicle, at, request.start));
+  }
   const OrientedBox footprint = FootprintAt(request.vehicle, start->pose);
   for (const MovingBox& obstacle : request.obstacles) {
     const double clearance = Separation(footprint, obstacle.box);
@@ -145,6 +148,9 @@ std::optional<Rejection> TrajectoryCheck::CheckPoint(double time, const PathPoin
   before = {time, steering};
   const Reach reach = ComputeReach(at, frenet);
   if (reach.left > left_ || reach.right > right_) {
+    return Rejection::kRoad;
+  }
+  if (request_.edges && ReachBeyond(*request_.edges, request_.vehicle, at, frenet) > beyond_) {
     return Rejection::kRoad;
   }
   if (Collides(time, motion.pose)) {

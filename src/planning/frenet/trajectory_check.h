@@ -79,6 +79,7 @@ class TrajectoryCheck {
   double steering_rate_ = 0.0;
   double left_ = 0.0;
   double right_ = 0.0;
+  double beyond_ = 0.0;  // the edges
   struct Obstacle {
     MovingBox box;
     double margin;  // keep more than this

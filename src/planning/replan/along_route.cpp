@@ -135,7 +135,8 @@ class AlongRoute {
                                 .road = settings_.road,
                                 .start = request_.start,
                                 .goal = goal,
-                                .obstacles = request_.obstacles};
+                                .obstacles = request_.obstacles,
+                                .edges = frame_.edges};
     found_ = std::visit(
         [&](const auto& own) {
           return Find(frame_.path, request, Adapted(own, settings_, factors));
@@ -148,8 +149,14 @@ class AlongRoute {
     if (std::holds_alternative<StopAt>(goal) && end.s_rate > kAtRestSpeed) {
       return false;  // the lattice does not reach so far
     }
-    points_ = WithBraking(end);
-    return EndsBeforeGoal(points_.back().frenet) && BrakingIsClear() && BrakingIsDrivable();
+    return BrakesAfter(end, end.d) || (frame_.edges && end.d != 0.0 && BrakesAfter(end, 0.0));
+  }
+
+  /// Whether the car can brake after the motion, meanwhile moving over to an offset.
+  bool BrakesAfter(const FrenetState& end, double offset) {
+    points_ = WithBraking(end, offset);
+    return EndsBeforeGoal(points_.back().frenet) && BrakingIsClear() && BrakingIsDrivable() &&
+           BrakingIsOnTrack();
   }
 
   /// Whether two opposite turns, the tightest, lead from a stop to the route at its goal or before.
@@ -161,14 +168,17 @@ class AlongRoute {
     return stop.s + back <= frame_.goal + kGoalTolerance;
   }
 
-  [[nodiscard]] std::vector<TrajectoryPoint> WithBraking(const FrenetState& end) const {
+  [[nodiscard]] std::vector<TrajectoryPoint> WithBraking(const FrenetState& end,
+                                                         double offset) const {
     FrenetMotion motion = found_.motion;
     if (end.s_rate > 0.0) {
-      // At rest after time end.s_rate/a.
+      // At rest after time end.s_rate/a and distance end.s_rate^2/(2 a).
       const double braking = request_.speed.deceleration;
-      motion.pieces.push_back({end.s_rate / braking,
-                               Polynomial{{end.s, end.s_rate, -0.5 * braking}}, Polynomial{{end.d}},
-                               true});
+      const double distance = 0.5 * end.s_rate * end.s_rate / braking;
+      motion.pieces.push_back(
+          {end.s_rate / braking, Polynomial{{end.s, end.s_rate, -0.5 * braking}},
+           offset == end.d ? Polynomial{{end.d}} : QuinticBetween({end.d}, {offset}, distance),
+           true});
     }
     const FrenetLimits& limits = MotionLimits(options_);
     auto points = SampleMotion(frame_.path, motion, limits.time_step, limits.spacing);
@@ -225,6 +235,22 @@ class AlongRoute {
     return true;
   }
 
+  /// On a track, within its edges. A start beyond them may stay as far beyond.
+  [[nodiscard]] bool BrakingIsOnTrack() const {
+    if (!frame_.edges) {
+      return true;
+    }
+    constexpr double kTouch = 1e-3;  // [m]
+    const auto beyond = [&](const TrajectoryPoint& point) {
+      return ReachBeyond(*frame_.edges, request_.vehicle, frame_.path.At(point.frenet.s),
+                         point.frenet);
+    };
+    const double most = std::max(0.0, beyond(points_.front())) + kTouch;
+    return std::all_of(points_.begin(), points_.end(), [&](const TrajectoryPoint& point) {
+      return point.t <= found_.motion.duration() || beyond(point) <= most;
+    });
+  }
+
   /// Whether the motion's last offset is beside the obstacle's, or its end beyond.
   [[nodiscard]] bool LeadsPast(const Leader& leader) const {
     const FrenetState end = found_.motion.At(found_.motion.duration());
@@ -273,8 +299,16 @@ const char* ToString(ManeuverType kind) {
 }
 
 RouteFrame MakeRouteFrame(const VehicleParams& vehicle, const Plan& route, const SpeedLimits& speed,
-                          double beyond) {
+                          double beyond, double edge_distance) {
   const Path& path = route.reference.path;
+  std::vector<Segment> segments = path.segments();
+  segments.push_back({.length = beyond});
+  if (route.laps.track) {
+    return {.path = Path(path.At(0.0).pose, std::move(segments)),
+            .goal = path.length(),
+            .edges = std::make_shared<const RoadEdges>(
+                EdgesBeside(path, *route.laps.track, vehicle, edge_distance))};
+  }
   // The wheels need the longest distance for a step of curvature k from straight on to a bend.
   // While the curvature rises by k over the window w, |d(steering)/dt| <= v L k/w: steering =
   // atan(L curvature) rises fastest where it begins. Smoothing makes the bend itself tighter, by
@@ -292,9 +326,7 @@ RouteFrame MakeRouteFrame(const VehicleParams& vehicle, const Plan& route, const
     const double turning = v * vehicle.wheelbase * curvature / vehicle.steering_rate;
     window = std::max(window, turning * (1.0 + std::pow(curvature * turning, 2) / 24.0));
   }
-  std::vector<Segment> segments = path.segments();
-  segments.push_back({.length = beyond});
-  RouteFrame frame{SmoothCurvature(Path(path.At(0.0).pose, std::move(segments)), window), 0.0};
+  RouteFrame frame{SmoothCurvature(Path(path.At(0.0).pose, std::move(segments)), window)};
   const double length = frame.path.length();
   frame.goal =
       frame.path.Project(path.At(path.length()).pose, {length - beyond - window, length}).s;

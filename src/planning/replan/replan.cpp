@@ -183,7 +183,7 @@ class Replanning {
   [[nodiscard]] double WantedSpeed(double speed) const {
     constexpr double kSooner = 2.0;  // [s]
     double wanted = request_.speed.speed;
-    for (const SpeedCap& cap : driving_.route.caps) {
+    for (const SpeedCap& cap : CapsOf(driving_.route)) {
       const double down = std::max(
           0.0, (speed * speed - cap.speed * cap.speed) / (2.0 * request_.speed.deceleration));
       const double reach = driving_.route_station + kSooner * speed + down;
@@ -334,7 +334,7 @@ class Replanning {
     const Path& own = plan.reference.path;
     // Caps are for a car that drives on; hard braking obeys them anyway or cannot.
     plan.caps =
-        comfortable ? Moved(driving_.plan.caps, {from, to}, -from) : std::vector<SpeedCap>{};
+        comfortable ? Moved(CapsOf(driving_.plan), {from, to}, -from) : std::vector<SpeedCap>{};
     SpeedLimits limits = request_.speed;
     limits.deceleration = ComfortableBraking();
     plan.reference.speed = StopAtEnd(own.length(), speed, limits, plan.caps);

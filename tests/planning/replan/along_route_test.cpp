@@ -5,13 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <variant>
+#include <vector>
 
 #include "tests/planning/drivable.h"
 #include "tests/planning/frenet_scenes.h"
 #include "tests/tolerance.h"
+#include "tests/track/rings.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/fillet/fillet.h"
+#include "trackbed/track/track.h"
+#include "trackbed/world/world.h"
 
 namespace trackbed {
 namespace {
@@ -386,6 +392,83 @@ TEST(MakeRouteFrame, IsSharperWhereTheRouteIsSlow) {
   EXPECT_NEAR(ramp(), 0.8 * 6.0 * turning, Tolerance(0.1221 * 6.0 * turning));
   plan.caps = {{50.0, 95.0, 2.0}};
   EXPECT_NEAR(ramp(), 0.8 * 2.0 * turning, Tolerance(0.0123 * 2.0 * turning + 0.1));
+}
+
+/// A lap of a ring of radius 60 m at 8 m/s, 30 m from its start.
+struct RingLap {
+  RingLap(double left_at_first, double left) {
+    std::vector<TrackPoint> points = RingPoints(kRadius, 150, 3.0, left);
+    for (std::size_t i = 0; i < 40; ++i) {  // of 2.5 m
+      points[i].width_left = left_at_first;
+    }
+    Plan plan =
+        PlanOn(Path({kRadius, 0.0, 0.5 * kPi}, {{2.0 * kPi * kRadius, 1.0 / kRadius, 1}}), 8.0);
+    plan.laps = {.track = std::make_shared<const Track>(points), .lines = {}};
+    frame = MakeRouteFrame(ReferenceCar(), plan, {8.0, 2.0, 3.0}, 100.0, kDistance);
+    request.speed = {8.0, 2.0, 3.0};
+    request.wanted = 8.0;
+    request.start.s = 30.0;
+    request.start.s_rate = 8.0;
+    request.obstacles = {BoxAt(frame.path, 68.0, 0.0, 2.0, 1.5)};
+    settings.safe_distance = kDistance;
+  }
+  static constexpr double kRadius = 60.0;
+  static constexpr double kDistance = 0.4;
+  RouteFrame frame;
+  AlongRequest request{.vehicle = ReferenceCar(), .speed = {}, .start = {}, .obstacles = {}};
+  AlongSettings settings;
+};
+
+AlongOptions ForRing(AlongOptions options) {
+  if (auto* lattice = std::get_if<LatticeOptions>(&options)) {
+    lattice->spacing = 14.0;
+  }
+  return options;
+}
+
+TEST_P(EveryAlongMethod, KeepsWithinTheEdgesOfATrackUntilItStands) {
+  const RingLap lap(5.0, 5.0);
+  const AlongPlan plan =
+      PlanAlongRoute(lap.frame, lap.request, lap.settings, ForRing(GetParam().defaults));
+  ASSERT_EQ(plan.kind, ManeuverType::kProceed) << plan.found.reason;
+  EXPECT_NEAR(plan.points.back().motion.speed, 0.0, Tolerance(1e-9));
+  for (const TrajectoryPoint& point : plan.points) {
+    for (const Vec2& corner : FootprintAt(lap.request.vehicle, point.motion.pose).Corners()) {
+      // Edges are polylines with half a meter between their points: 0.5^2/(8*55) = 0.0006 m; the
+      // sides touch them between five points, 0.55^2/(2*55) = 0.003 m.
+      EXPECT_LE(corner.norm(), RingLap::kRadius + 3.0 - RingLap::kDistance + Tolerance(0.004));
+      EXPECT_GE(corner.norm(), RingLap::kRadius - 5.0 + RingLap::kDistance - Tolerance(0.004));
+    }
+  }
+}
+
+TEST_P(EveryAlongMethod, BrakesBackToTheLineWhereItsOffsetLeadsOffTheTrack) {
+  // Wide up to 100 m alone: past the box at 68 m to the left, but not on at that offset.
+  const RingLap lap(5.0, 2.0);
+  const AlongPlan plan =
+      PlanAlongRoute(lap.frame, lap.request, lap.settings, ForRing(GetParam().defaults));
+  ASSERT_EQ(plan.kind, ManeuverType::kProceed) << plan.found.reason;
+  const double aside = plan.found.motion.At(plan.found.motion.duration()).d;
+  EXPECT_GT(aside, 1.0);
+  EXPECT_NEAR(plan.points.back().frenet.d, 0.0, Tolerance(1e-9));
+  EXPECT_GT(plan.points.back().frenet.s, 85.0);
+  for (const TrajectoryPoint& point : plan.points) {
+    EXPECT_LE(ReachBeyond(*lap.frame.edges, lap.request.vehicle, lap.frame.path.At(point.frenet.s),
+                          point.frenet),
+              2e-3);
+  }
+}
+
+TEST_P(EveryAlongMethod, StopsBeforeWhatBlocksATrack) {
+  RingLap lap(3.0, 3.0);
+  lap.request.obstacles = {BoxAt(lap.frame.path, 68.0, 0.0, 2.0, 4.0)};
+  lap.settings.gap = 2.0;
+  AlongPlan plan =
+      PlanAlongRoute(lap.frame, lap.request, lap.settings, ForRing(GetParam().defaults));
+  EXPECT_NE(plan.kind, ManeuverType::kProceed);
+  lap.request.obstacles.clear();
+  plan = PlanAlongRoute(lap.frame, lap.request, lap.settings, ForRing(GetParam().defaults));
+  EXPECT_EQ(plan.kind, ManeuverType::kProceed);
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ struct TrackLaps {
 struct PlannedLaps {
   std::shared_ptr<const Track> track{};  ///< none: not on a track
   /// Stations of the plan where it crosses the start line [m]: one more than laps. The first one is
-  /// 0 when the plan begins on the line or after it.
+  /// 0 when the plan begins on the line or after it. Those behind a car that has come back onto its
+  /// line are negative.
   std::vector<double> lines{};
 };
 

@@ -28,8 +28,12 @@ void Append(std::vector<T>& list, const std::vector<T>& more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 
+/// The plan's caps; of a plan at the car's limit its speeds as caps, each at most 0.5 m long.
+std::vector<SpeedCap> CapsOf(const Plan& plan);
+
 /// What lies ahead of `station`, its stations counted from there, left at `start_speed` [m/s]. What
-/// the method told of its turns stays as it was.
+/// the method told of its turns stays as it was. A plan at the car's limit keeps its speeds; a car
+/// that is slower there comes up to them at the limits' acceleration.
 Plan RemainingPlan(const Plan& plan, double station, double start_speed, const SpeedLimits& speed);
 
 }  // namespace trackbed

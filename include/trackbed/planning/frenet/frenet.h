@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -14,6 +15,7 @@
 #include "trackbed/planning/common/plan_status.h"
 #include "trackbed/planning/frenet/frenet_motion.h"
 #include "trackbed/planning/frenet/frenet_options.h"
+#include "trackbed/planning/frenet/road_edges.h"
 #include "trackbed/vehicle/params.h"
 
 /// Optimal motions in the Frenet frame of a reference path (Werling et al. 2010; the weights are
@@ -56,6 +58,8 @@ struct FrenetRequest {
   FrenetState start;  ///< the car against the reference path
   FrenetGoal goal;
   std::vector<MovingBox> obstacles;
+  /// Where the road ends, too, over the station; none: `road` alone.
+  std::shared_ptr<const RoadEdges> edges{};
 };
 
 struct FrenetCost {
@@ -95,7 +99,7 @@ enum class Rejection {
   kCurvature,     ///< tighter than the car can steer
   kSteeringRate,  ///< the steering would have to turn faster than it can
   kFrame,         ///< the path is bent too much, or driven backwards, for a frame there
-  kRoad,          ///< the footprint leaves the road
+  kRoad,          ///< the footprint leaves the road, or reaches beyond its edges
   kCollision,  ///< the footprint comes closer than the safe distance to an obstacle, now or later
 };
 

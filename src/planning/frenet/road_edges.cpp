@@ -1,0 +1,163 @@
+#include "trackbed/planning/frenet/road_edges.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "trackbed/core/error.h"
+
+namespace trackbed {
+namespace {
+
+/// A point of the footprint as seen from the path.
+struct SidePoint {
+  double s = 0.0;  // [m]
+  double d = 0.0;  // [m]
+};
+
+constexpr int kAlongSide = 5;  // points of each long side
+using SidePoints = std::array<SidePoint, 2 * kAlongSide>;
+
+/// The points of both sides; none at or beyond the center of the path's circle.
+std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
+                                  const FrenetState& frenet) {
+  const double k = at.curvature;
+  const double tangent = frenet.d_slope / (1.0 - k * frenet.d);
+  const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent);
+  const double sine = tangent * cosine;
+  SidePoints points;
+  for (int i = 0; i < 2 * kAlongSide; ++i) {
+    const double x = car.length * (i / 2) / (kAlongSide - 1) - car.rear_overhang;
+    const double y = i % 2 == 0 ? 0.5 * car.width : -0.5 * car.width;
+    const double ahead = x * cosine - y * sine;
+    const double aside = frenet.d + x * sine + y * cosine;
+    const double to_center = 1.0 - k * aside;
+    if (to_center <= 0.0) {
+      return std::nullopt;
+    }
+    // d = (1 - sqrt((k ahead)^2 + (1 - k aside)^2))/k and atan(k ahead/(1 - k aside))/k, also where
+    // k is 0.
+    const double turned = k * ahead / to_center;
+    constexpr double kSmall = 1e-6;
+    const double along = std::abs(turned) < kSmall ? ahead / to_center : std::atan(turned) / k;
+    points[static_cast<std::size_t>(i)] = {
+        frenet.s + along, (2.0 * aside - k * (aside * aside + ahead * ahead)) /
+                              (1.0 + std::sqrt(k * ahead * k * ahead + to_center * to_center))};
+  }
+  return points;
+}
+
+/// Offset of an edge from a pose, abeam, and how the edge runs there.
+struct EdgeAbeam {
+  double offset = 0.0;  // [m]
+  double cosine = 1.0;  // of the angle between edge and pose
+};
+
+/// Among the pieces of the edge near a share of the lap, the crossing with the pose's normal that
+/// is nearest to the `expected` offset; that itself where there is none.
+EdgeAbeam FindAbeam(const TrackEdgeLine& edge, const Pose2& pose, double share, double expected) {
+  constexpr double kReach = 20.0;  // [m]
+  const auto count = static_cast<std::ptrdiff_t>(edge.size());
+  const auto middle = static_cast<std::ptrdiff_t>(share * static_cast<double>(count));
+  const auto reach = std::min(static_cast<std::ptrdiff_t>(kReach / Track::kEdgeSpacing), count / 4);
+  const Vec2 forward = Direction(pose.yaw);
+  const Vec2 left = LeftNormal(forward);
+  EdgeAbeam found{.offset = expected};
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::ptrdiff_t k = middle - reach; k <= middle + reach; ++k) {
+    const Vec2 a = edge[static_cast<std::size_t>((k % count + count) % count)] - pose.position();
+    const Vec2 b =
+        edge[static_cast<std::size_t>(((k + 1) % count + count) % count)] - pose.position();
+    const double from = a.dot(forward);
+    const double to = b.dot(forward);
+    if ((from > 0.0) == (to > 0.0)) {
+      continue;
+    }
+    const double offset = std::lerp(a.dot(left), b.dot(left), from / (from - to));
+    if (std::abs(offset - expected) < nearest) {
+      nearest = std::abs(offset - expected);
+      found = {offset, std::abs(to - from) / std::max((b - a).norm(), 1e-9)};
+    }
+  }
+  return found;
+}
+
+/// Widens the edges to where the footprint of a car on the path reaches.
+void Admit(const Path& path, const VehicleParams& car, double spacing,
+           std::vector<RoadWidths>& widths) {
+  constexpr double kLook = 0.2;    // [m]
+  constexpr double kTouch = 2e-3;  // [m], what it reaches farther by between the looks
+  const auto last = static_cast<double>(widths.size() - 1);
+  const double count = std::ceil(path.length() / kLook);
+  for (double i = 0.0; i <= count; i += 1.0) {
+    const PathPoint at = path.At(path.length() * i / std::max(count, 1.0));
+    const auto sides = SidesOf(car, at, {.s = at.s});
+    for (const SidePoint& point : sides.value_or(SidePoints{})) {
+      const double place = std::clamp(point.s / spacing, 0.0, last);
+      for (const double node : {std::floor(place), std::ceil(place)}) {
+        RoadWidths& there = widths[static_cast<std::size_t>(node)];
+        there.left = std::max(there.left, point.d + kTouch);
+        there.right = std::max(there.right, kTouch - point.d);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+RoadEdges::RoadEdges(double spacing, std::vector<RoadWidths> widths)
+    : spacing_(spacing), widths_(std::move(widths)) {
+  TRACKBED_CHECK(spacing_ > 0.0 && !widths_.empty(), "{} widths, {} m apart", widths_.size(),
+                 spacing_);
+}
+
+RoadWidths RoadEdges::At(double s) const {
+  const double place = std::clamp(s / spacing_, 0.0, static_cast<double>(widths_.size() - 1));
+  const auto before = static_cast<std::size_t>(place);
+  const RoadWidths& a = widths_[before];
+  const RoadWidths& b = widths_[std::min(before + 1, widths_.size() - 1)];
+  const double share = place - std::floor(place);
+  return {std::lerp(a.left, b.left, share), std::lerp(a.right, b.right, share)};
+}
+
+double ReachBeyond(const RoadEdges& edges, const VehicleParams& vehicle, const PathPoint& at,
+                   const FrenetState& frenet) {
+  const auto sides = SidesOf(vehicle, at, frenet);
+  if (!sides) {
+    return std::numeric_limits<double>::infinity();
+  }
+  double beyond = -std::numeric_limits<double>::infinity();
+  for (const SidePoint& point : *sides) {
+    const RoadWidths there = edges.At(point.s);
+    beyond = std::max({beyond, point.d - there.left, -point.d - there.right});
+  }
+  return beyond;
+}
+
+RoadEdges EdgesBeside(const Path& path, const Track& track, const VehicleParams& vehicle,
+                      double distance) {
+  constexpr double kSpacing = 0.5;  // [m]
+  const double count = std::max(std::ceil(path.length() / kSpacing), 1.0);
+  const double spacing = std::max(path.length() / count, 1e-3);
+  std::vector<RoadWidths> widths;
+  std::optional<double> station;
+  for (double i = 0.0; i <= count; i += 1.0) {
+    const Pose2 pose = path.At(i * spacing).pose;
+    const TrackPlace place = track.Locate(pose.position(), station);
+    station = place.s;
+    const TrackEdges edges = track.EdgesAt(place.s);
+    const double share = place.s / track.length();
+    const EdgeAbeam left = FindAbeam(track.left_edge(), pose, share, edges.left - place.offset);
+    const EdgeAbeam right = FindAbeam(track.right_edge(), pose, share, edges.right - place.offset);
+    // `distance` square to the edge is more than that abeam.
+    widths.push_back({.left = left.offset - distance / std::max(left.cosine, 0.5),
+                      .right = -right.offset - distance / std::max(right.cosine, 0.5)});
+  }
+  Admit(path, vehicle, spacing, widths);
+  return {spacing, std::move(widths)};
+}
+
+}  // namespace trackbed

@@ -1,0 +1,70 @@
+#include "trackbed/planning/common/plan_stretch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/tolerance.h"
+#include "trackbed/planning/common/plan.h"
+
+namespace trackbed {
+namespace {
+
+/// 100 m straight on at 20 m/s, in the middle 15 m/s, that begin and end at rest.
+Plan AtTheLimit() {
+  Plan plan;
+  plan.reference = {
+      Path({}, {{100.0, 0.0, 1}}),
+      SpeedProfile({{0.0, 0.0}, {20.0, 20.0}, {50.0, 15.0}, {80.0, 20.0}, {100.0, 0.0}})};
+  plan.schedule = SteeringSchedule::Constant(0.0);
+  plan.schedule_speed = plan.reference.speed;
+  plan.diagnostics.speed_profile = LimitProfileFindings{.share = 0.9};
+  plan.laps.lines = {0.0, 90.0};
+  return plan;
+}
+
+TEST(RemainingPlans, KeepSpeedsAtTheLimit) {
+  const Plan plan = AtTheLimit();
+  const Plan rest = RemainingPlan(plan, 30.0, 19.0, {40.0, 1.0, 1.0});
+  EXPECT_DOUBLE_EQ(rest.reference.path.length(), 70.0);
+  for (double s = 0.0; s <= 70.0; s += 1.0) {
+    EXPECT_NEAR(rest.reference.speed.SpeedAt(s), plan.reference.speed.SpeedAt(30.0 + s),
+                Tolerance(1e-12));
+    EXPECT_NEAR(rest.schedule_speed.SpeedAt(s), plan.reference.speed.SpeedAt(30.0 + s),
+                Tolerance(1e-12));
+  }
+  EXPECT_EQ(rest.laps.lines, (std::vector<double>{-30.0, 60.0}));
+}
+
+TEST(RemainingPlans, GainSpeedUpToTheLimits) {
+  // v^2 = 5^2 + 2 * 2 s: slower than the plan at 50 and 80 m, up to where that comes to rest.
+  const Plan rest = RemainingPlan(AtTheLimit(), 30.0, 5.0, {40.0, 2.0, 1.0});
+  for (const double s : {0.0, 10.0, 20.0, 35.0, 50.0}) {
+    EXPECT_NEAR(rest.reference.speed.SpeedAt(s), std::sqrt(25.0 + 4.0 * s), Tolerance(1e-12));
+  }
+  EXPECT_DOUBLE_EQ(rest.reference.speed.SpeedAt(70.0), 0.0);
+}
+
+TEST(RemainingPlans, FollowTheLimitsOfOtherPlans) {
+  Plan plan = AtTheLimit();
+  plan.diagnostics.speed_profile.reset();
+  plan.caps = {{60.0, 100.0, 10.0}};
+  const Plan rest = RemainingPlan(plan, 30.0, 12.0, {12.0, 1.0, 2.0});
+  EXPECT_DOUBLE_EQ(rest.reference.speed.SpeedAt(0.0), 12.0);
+  EXPECT_NEAR(rest.reference.speed.SpeedAt(30.0), 10.0, Tolerance(1e-12));
+}
+
+TEST(Caps, OfAPlanAtTheLimitAreItsSpeeds) {
+  Plan plan = AtTheLimit();
+  const std::vector<SpeedCap> caps = CapsOf(plan);
+  ASSERT_EQ(caps.size(), 4U);
+  EXPECT_DOUBLE_EQ(caps[0].speed, 20.0);  // not the 0 of the start
+  EXPECT_DOUBLE_EQ(caps[1].from, 20.0);
+  EXPECT_DOUBLE_EQ(caps[1].to, 50.0);
+  plan.diagnostics.speed_profile.reset();
+  plan.caps = {{1.0, 2.0, 3.0}};
+  EXPECT_EQ(CapsOf(plan).size(), 1U);
+}
+
+}  // namespace
+}  // namespace trackbed
