@@ -29,6 +29,15 @@ if(TRACKBED_IPOPT AND NOT TARGET ipopt::ipopt)
                                                 INTERFACE_INCLUDE_DIRECTORIES ${IPOPT_INCLUDE_DIR})
 endif()
 
+# Not by its CMake package, which adds the libraries of what is not used here, such as SQLite.
+if(NOT TARGET dlib::dlib)
+  find_path(DLIB_INCLUDE_DIR dlib/global_optimization.h REQUIRED)
+  find_library(DLIB_LIBRARY dlib REQUIRED)
+  add_library(dlib::dlib UNKNOWN IMPORTED)
+  set_target_properties(dlib::dlib PROPERTIES IMPORTED_LOCATION ${DLIB_LIBRARY}
+                                              INTERFACE_INCLUDE_DIRECTORIES ${DLIB_INCLUDE_DIR})
+endif()
+
 # libcsv ships neither a pkg-config file nor a CMake package.
 if(NOT TARGET csv::csv)
   find_path(CSV_INCLUDE_DIR csv.h REQUIRED)

@@ -10,6 +10,7 @@ set(pkg_config_names
     nlohmann_json::nlohmann_json=nlohmann_json
     NLopt::nlopt=nlopt
     ipopt::ipopt=-lipopt
+    dlib::dlib=-ldlib
     yaml-cpp=yaml-cpp
     tinyxml2::tinyxml2=tinyxml2
     PROJ::proj=-lproj

@@ -3,6 +3,7 @@
 
 #include "src/analysis/metric_table.h"
 #include "trackbed/analysis/path_properties.h"
+#include "trackbed/analysis/robustness.h"
 #include "trackbed/analysis/sweep.h"
 
 namespace trackbed {
@@ -26,6 +27,8 @@ Outputs CollectOutputs(const RunResult& result) {
   }
   const Verdict& verdict = result.verdict;
   outputs["verdict.passed"] = ToText(verdict.judged ? MetricValue(verdict.passed) : MetricValue());
+  outputs["verdict.robustness"] =
+      ToText(verdict.judged ? MetricValue(RobustnessOf(result).value) : MetricValue());
   outputs["verdict.failures"] = fmt::format("{}", fmt::join(verdict.failures, "; "));
   if (result.scenario.plan) {
     outputs["plan.status"] = ToString(result.plan.status);

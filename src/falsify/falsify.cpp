@@ -6,10 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "src/falsify/point_search.h"
+#include "src/falsify/search_loop.h"
 #include "src/falsify/search_runs.h"
+#include "trackbed/analysis/robustness.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
-#include "trackbed/falsify/robustness.h"
 
 namespace trackbed {
 namespace {
@@ -36,7 +37,8 @@ class Falsifier {
         runs_(search, records, options) {}
 
   FalsifyResult Run() {
-    const bool finished = RunNominal() && (nominal_fails_ || RunSearch());
+    const std::optional<SearchRun> nominal = RunNominal();
+    const bool finished = nominal && (nominal_fails_ || RunSearch(nominal->robustness));
     result_.runs = runs_.count();
     if (finished && result_.counterexample && !nominal_fails_ && spec_.shrink_runs > 0) {
       ShrinkIt();
@@ -51,13 +53,13 @@ class Falsifier {
   }
 
  private:
-  /// False if it was interrupted.
-  bool RunNominal() {
+  /// None if it was interrupted.
+  std::optional<SearchRun> RunNominal() {
     const UnitPoint& nominal = search_.space.nominal();
     const auto runs = runs_.Run({nominal}, "nominal");
     if (!runs) {
       interrupted_ = true;
-      return false;
+      return std::nullopt;
     }
     const SearchRun& run = runs->front();
     if (run.status == "refused") {
@@ -67,44 +69,43 @@ class Falsifier {
     }
     Take(nominal, run);
     nominal_fails_ = run.violated();
-    return true;
+    return run;
   }
 
-  bool RunSearch() {
-    const std::unique_ptr<PointSearch> search = MakePointSearch(spec_, search_.space);
+  /// False if it was interrupted.
+  bool RunSearch(std::optional<double> at_nominal) {
+    const std::unique_ptr<PointSearch> search = MakePointSearch(spec_, search_.space, at_nominal);
     const Clock clock;
-    for (;;) {
-      std::vector<UnitPoint> points = search->Ask();
-      if (points.empty()) {
-        break;
-      }
-      for (UnitPoint& point : points) {
-        point = search_.space.Snap(point);
-      }
-      std::size_t next = runs_.count();  // the first row that is new
-      const auto runs = runs_.Run(points, "search");
-      if (!runs) {
-        interrupted_ = true;
-        return false;
-      }
-      std::vector<std::optional<double>> values;
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        values.push_back((*runs)[i].robustness);
-        if ((*runs)[i].row == next) {
-          Take(points[i], (*runs)[i]);
-          ++next;
-        }
-      }
-      if (result_.counterexample && spec_.stop) {
-        break;
-      }
-      if (options_.time_limit && clock.Seconds() > *options_.time_limit) {
+    FollowSearch(*search, search_.space, [&](const std::vector<UnitPoint>& points) {
+      auto values = RunBatchOf(points);
+      if (!values || (result_.counterexample && spec_.stop)) {
+        values.reset();
+      } else if (options_.time_limit && clock.Seconds() > *options_.time_limit) {
         result_.out_of_time = true;
-        break;
+        values.reset();
       }
-      search->Tell(values);
+      return values;
+    });
+    return !interrupted_;
+  }
+
+  std::optional<std::vector<std::optional<double>>> RunBatchOf(
+      const std::vector<UnitPoint>& points) {
+    std::size_t next = runs_.count();  // the first row that is new
+    const auto runs = runs_.Run(points, "search");
+    if (!runs) {
+      interrupted_ = true;
+      return std::nullopt;
     }
-    return true;
+    std::vector<std::optional<double>> values;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      values.push_back((*runs)[i].robustness);
+      if ((*runs)[i].row == next) {
+        Take(points[i], (*runs)[i]);
+        ++next;
+      }
+    }
+    return values;
   }
 
   void Take(const UnitPoint& point, const SearchRun& run) {

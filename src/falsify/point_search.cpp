@@ -7,6 +7,7 @@
 #include <mutex>
 #include <thread>
 
+#include "src/falsify/surrogate_search.h"
 #include "trackbed/core/error.h"
 #include "trackbed/optimize/search.h"
 #include "trackbed/scenario/sampling.h"
@@ -17,7 +18,8 @@ namespace {
 /// Points that are known from the beginning.
 class SampledPoints : public PointSearch {
  public:
-  SampledPoints(const SampleSpec& spec, int dimensions) : points_(UnitSample(spec, dimensions)) {}
+  SampledPoints(const SampleSpec& spec, const SearchSpace& space)
+      : space_(space), points_(UnitSample(spec, static_cast<int>(space.keys().size()))) {}
 
   std::vector<UnitPoint> Ask() override {
     constexpr Eigen::Index kBatch = 8;
@@ -25,7 +27,8 @@ class SampledPoints : public PointSearch {
     for (; next_ < points_.rows() && static_cast<Eigen::Index>(batch.size()) < kBatch; ++next_) {
       UnitPoint point;
       for (Eigen::Index column = 0; column < points_.cols(); ++column) {
-        point.push_back(points_(next_, column));
+        point.push_back(
+            space_.PlaceOfShare(static_cast<std::size_t>(column), points_(next_, column)));
       }
       batch.push_back(std::move(point));
     }
@@ -35,6 +38,7 @@ class SampledPoints : public PointSearch {
   void Tell(const std::vector<std::optional<double>>& /*values*/) override {}
 
  private:
+  const SearchSpace& space_;
   Eigen::MatrixXd points_;
   Eigen::Index next_ = 0;
 };
@@ -218,13 +222,16 @@ class NloptSearches : public PointSearch {
 
 }  // namespace
 
-std::unique_ptr<PointSearch> MakePointSearch(const SearchSpec& spec, const SearchSpace& space) {
+std::unique_ptr<PointSearch> MakePointSearch(const SearchSpec& spec, const SearchSpace& space,
+                                             std::optional<double> at_nominal) {
+  if (spec.method == "surrogate") {
+    return MakeSurrogateSearch(spec, space, at_nominal);
+  }
   for (const SampleMethod method :
        {SampleMethod::kRandom, SampleMethod::kLatinHypercube, SampleMethod::kSobol}) {
     if (spec.method == ToString(method)) {
       return std::make_unique<SampledPoints>(
-          SampleSpec{.count = spec.runs, .method = method, .seed = spec.seed},
-          static_cast<int>(space.keys().size()));
+          SampleSpec{.count = spec.runs, .method = method, .seed = spec.seed}, space);
     }
   }
   const int restarts = spec.restarts > 0 ? spec.restarts : spec.method == "direct" ? 1 : 2;

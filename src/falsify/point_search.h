@@ -19,6 +19,8 @@ class PointSearch {
   virtual void Tell(const std::vector<std::optional<double>>& values) = 0;
 };
 
-std::unique_ptr<PointSearch> MakePointSearch(const SearchSpec& spec, const SearchSpace& space);
+/// `at_nominal` is what is known of the nominal point. Both must live as long as the search.
+std::unique_ptr<PointSearch> MakePointSearch(const SearchSpec& spec, const SearchSpace& space,
+                                             std::optional<double> at_nominal);
 
 }  // namespace trackbed

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "trackbed/analysis/parallel.h"
+#include "trackbed/analysis/robustness.h"
 #include "trackbed/analysis/sweep_rows.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
-#include "trackbed/falsify/robustness.h"
 
 namespace trackbed {
 namespace {

@@ -13,6 +13,11 @@
 namespace trackbed {
 namespace {
 
+/// The value of a key with steps that is nearest to another within the range.
+double NearestStep(const SearchKey& key, double value) {
+  return SteppedValue(key.from, key.step, std::round((value - key.from) / key.step));
+}
+
 /// Problems of a study, with their places.
 class SpaceReader {
  public:
@@ -66,6 +71,7 @@ class SpaceReader {
     key.kind = distribution->kind;
     key.from = distribution->from;
     key.to = distribution->to;
+    key.step = distribution->step;
     TakeNominal(at, key);
     return key;
   }
@@ -86,18 +92,21 @@ class SpaceReader {
     } else if (scenario_ != nullptr) {
       value = NumberAt(*scenario_, key.key);
     }
+    const char* advice =
+        own == study_.nominal.end() ? "; it is the scenario's: give another under `nominal`" : "";
     if (!value) {
       AddError(at, fmt::format("the scenario has no value of {} to start from; give one under "
                                "`nominal`",
                                key.key));
     } else if (!(*value >= key.from && *value <= key.to)) {
       AddError(place, fmt::format("the nominal value {} is outside of the range, {} to {}{}",
-                                  *value, key.from, key.to,
-                                  own == study_.nominal.end()
-                                      ? "; it is the scenario's: give another under `nominal`"
-                                      : ""));
+                                  *value, key.from, key.to, advice));
     } else if (key.kind == DistributionKind::kInteger && *value != std::floor(*value)) {
       AddError(place, fmt::format("the nominal value {} is no whole number", *value));
+    } else if (key.step > 0.0 && *value != NearestStep(key, *value)) {
+      AddError(place, fmt::format("the nominal value {} is not {} plus a multiple of the step, {}; "
+                                  "the nearest is {}{}",
+                                  *value, key.from, key.step, NearestStep(key, *value), advice));
     } else {
       key.nominal = *value;
     }
@@ -167,6 +176,8 @@ double SearchSpace::Value(std::size_t i, double place) const {
   double value = key.from + place * (key.to - key.from);
   if (key.kind == DistributionKind::kInteger) {
     value = std::round(value);
+  } else if (key.step > 0.0) {
+    value = NearestStep(key, value);
   } else if (key.kind == DistributionKind::kLogUniform) {
     value = key.from * std::pow(key.to / key.from, place);
     value = CellNumber(fmt::format("{:.4e}", value)).value_or(value);
@@ -196,8 +207,20 @@ double SearchSpace::Step(std::size_t i) const {
     case DistributionKind::kLogUniform:
       return 1e-4 / std::log(key.to / key.from);  // five digits
     default:
+      if (key.step > 0.0) {
+        return key.step / (key.to - key.from);
+      }
       return std::pow(10.0, DecimalExponent(key)) / (key.to - key.from);
   }
+}
+
+double SearchSpace::PlaceOfShare(std::size_t i, double share) const {
+  const SearchKey& key = keys_[i];
+  if (key.kind != DistributionKind::kInteger && key.step <= 0.0) {
+    return share;
+  }
+  const double last = std::round(1.0 / Step(i));
+  return std::min(std::floor(share * (last + 1.0)), last) / last;
 }
 
 std::vector<Setting> SearchSpace::Settings(const UnitPoint& point) const {

@@ -170,11 +170,21 @@ Eigen::MatrixXd UnitSample(const SampleSpec& spec, int dimensions) {
   TRACKBED_CHECK(false, "method {}", static_cast<int>(spec.method));
 }
 
+double SteppedValue(double from, double step, double k) {
+  const double value = from + k * step;
+  return CellNumber(fmt::format("{:.15g}", value)).value_or(value);
+}
+
 std::string Quantile(const Distribution& distribution, double u) {
   const double from = distribution.from;
   const double to = distribution.to;
   switch (distribution.kind) {
     case DistributionKind::kUniform:
+      if (distribution.step > 0.0) {
+        const double last = std::round((to - from) / distribution.step);
+        return ShortestText(
+            SteppedValue(from, distribution.step, std::min(std::floor(u * (last + 1.0)), last)));
+      }
       return ShortestText(from + u * (to - from));
     case DistributionKind::kLogUniform:
       return ShortestText(std::clamp(from * std::pow(to / from, u), from, to));

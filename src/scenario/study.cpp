@@ -342,6 +342,7 @@ const std::vector<std::string>& StudySearches() {
          {SampleMethod::kRandom, SampleMethod::kLatinHypercube, SampleMethod::kSobol}) {
       all.emplace_back(ToString(method));
     }
+    all.emplace_back("surrogate");
     for (const SearchEntry& entry : Searches()) {
       if (entry.method != SearchMethod::kSlsqp) {  // differences of runs are no gradients
         all.emplace_back(entry.name);

@@ -256,11 +256,11 @@ class StudyReader {
       AddError(node[key] ? node[key] : node, fmt::format("search.{}", key), message);
     };
     const auto keys = static_cast<int>(study.vary.size());
-    const bool is_sampled = is_one_of({"random", "latin_hypercube", "sobol"});
-    if (is_sampled && search.restarts > 0) {
+    const bool has_none = is_one_of({"random", "latin_hypercube", "sobol", "surrogate"});
+    if (has_none && search.restarts > 0) {
       refuse("restarts", fmt::format("{} has none; leave it out", search.method));
     }
-    if (is_sampled && search.finish != "none") {
+    if (has_none && search.finish != "none") {
       refuse("finish", fmt::format("goes on from searches of NLopt, not from {}", search.method));
     }
     if (search.population > 0 && !is_one_of({"crs2", "esch", "isres"})) {

@@ -43,6 +43,12 @@ inline void Visit(KeyVisitor& a, Distribution& distribution) {
     case DistributionKind::kInteger:
       a.Field({"from", "", "the smallest value"}, distribution.from, Need::kRequired);
       a.Field({"to", "", "the largest value"}, distribution.to, Need::kRequired);
+      if (distribution.kind == DistributionKind::kUniform) {
+        std::optional<double> step;
+        a.Field({"step", "", "values are `from` plus multiples of it; default: any value"}, step,
+                kPositive);
+        distribution.step = step.value_or(0.0);
+      }
       break;
     case DistributionKind::kNormal: {
       a.Field({"mean", "", "without truncation"}, distribution.mean, Need::kRequired);

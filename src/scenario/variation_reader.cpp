@@ -166,6 +166,15 @@ class VariationReader {
         if (distribution.kind == DistributionKind::kLogUniform && distribution.from <= 0.0) {
           AddError(node["from"], dotted + ".from", "must be above 0 for a logarithm");
         }
+        if (distribution.step > 0.0 && distribution.from < distribution.to) {
+          const double steps = (distribution.to - distribution.from) / distribution.step;
+          // Decimal numbers are multiples of each other to rounding.
+          if (std::round(steps) < 1.0 || std::abs(steps - std::round(steps)) > 1e-9 * steps) {
+            AddError(node["step"], dotted + ".step",
+                     fmt::format("{} to {} is no whole number of steps of {}", distribution.from,
+                                 distribution.to, distribution.step));
+          }
+        }
         if (distribution.kind == DistributionKind::kInteger) {
           for (const char* end : {"from", "to"}) {
             const double value =

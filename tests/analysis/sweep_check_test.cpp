@@ -7,6 +7,7 @@
 #include "tests/analysis/studies.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
+#include "trackbed/analysis/robustness.h"
 #include "trackbed/analysis/sweep.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
@@ -185,6 +186,8 @@ TEST(DriveOnce, ComesToWhatARunOfTheScenarioComesTo) {
               ShortestText(run.metrics[0].tracking->cross_track_max));
     EXPECT_EQ(outputs.at("metrics.kinematic.status"), "arrived");
     EXPECT_EQ(outputs.at("verdict.passed"), run.verdict.passed ? "true" : "false");
+    EXPECT_EQ(outputs.at("verdict.robustness"),
+              run.verdict.judged ? ShortestText(RobustnessOf(run).value) : "");
     EXPECT_EQ(outputs.at("plan.length_m"), ShortestText(run.plan.reference.path.length()));
     // What a run has is among what it was said to be able to have.
     const std::vector<std::string> possible = PossibleOutputs(point.scenario);

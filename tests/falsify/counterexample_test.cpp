@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "trackbed/analysis/metrics.h"
+#include "trackbed/analysis/robustness.h"
 #include "trackbed/core/error.h"
-#include "trackbed/falsify/robustness.h"
 
 namespace trackbed {
 namespace {

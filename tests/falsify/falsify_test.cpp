@@ -8,10 +8,10 @@
 
 #include "tests/support/temp_folder.h"
 #include "trackbed/analysis/metrics.h"
+#include "trackbed/analysis/robustness.h"
 #include "trackbed/analysis/sweep_rows.h"
 #include "trackbed/core/error.h"
 #include "trackbed/falsify/counterexample.h"
-#include "trackbed/falsify/robustness.h"
 
 namespace trackbed {
 namespace {
@@ -39,7 +39,7 @@ CheckedSearch MakeSearch(const TempFolder& folder, const std::string& search,
 
 TEST(Falsify, FindsTheSmallestPreviewDistanceThatFails) {
   const TempFolder folder;
-  for (const char* method : {"random", "crs2", "direct"}) {
+  for (const char* method : {"random", "surrogate", "crs2", "direct"}) {
     const CheckedSearch search =
         MakeSearch(folder, "{method: " + std::string(method) + ", runs: 40}");
     const FalsifyResult result = Falsify(search);
@@ -62,10 +62,11 @@ TEST(Falsify, FindsTheSmallestPreviewDistanceThatFails) {
   }
 }
 
-TEST(Falsify, GivesTheSameForAnyNumberOfJobsAndAfterAnInterruption) {
+class ReproducibleSearch : public testing::TestWithParam<const char*> {};
+
+TEST_P(ReproducibleSearch, IsTheSameForAnyNumberOfJobsAndAfterAnInterruption) {
   const TempFolder folder;
-  const CheckedSearch search =
-      MakeSearch(folder, "{method: crs2, runs: 24, restarts: 3, finish: cobyla, stop: false}");
+  const CheckedSearch search = MakeSearch(folder, GetParam());
   const nlohmann::ordered_json header = FalsifyHeader(search);
   SweepRecords whole = SweepRecords::InMemory(header);
   const nlohmann::ordered_json expected = ToJson(Falsify(search, whole, {.jobs = 1}), search);
@@ -95,6 +96,11 @@ TEST(Falsify, GivesTheSameForAnyNumberOfJobsAndAfterAnInterruption) {
     EXPECT_EQ(parallel.Read(row), whole.Read(row));
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    Falsify, ReproducibleSearch,
+    testing::Values("{method: crs2, runs: 24, restarts: 3, finish: cobyla, stop: false}",
+                    "{method: surrogate, runs: 24, stop: false}"));
 
 TEST(Falsify, SaysWhenNothingFailed) {
   const TempFolder folder;

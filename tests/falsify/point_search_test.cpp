@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
+
+#include "src/falsify/search_loop.h"
 
 namespace trackbed {
 namespace {
@@ -22,7 +26,7 @@ struct Course {
 /// Lets a search go to its end, or stops it after some batches.
 Course Follow(const SearchSpec& spec, std::size_t batches = 100000) {
   const SearchSpace space = Square();
-  const auto search = MakePointSearch(spec, space);
+  const auto search = MakePointSearch(spec, space, std::nullopt);
   Course course;
   for (std::size_t i = 0; i < batches; ++i) {
     const std::vector<UnitPoint> batch = search->Ask();
@@ -108,12 +112,116 @@ TEST(PointSearch, FinishesFromTheBestPoint) {
 }
 
 TEST(PointSearch, SeedsDiffer) {
-  for (const std::string method : {"random", "latin_hypercube", "sobol", "crs2", "esch", "isres"}) {
+  for (const std::string method :
+       {"random", "latin_hypercube", "sobol", "surrogate", "crs2", "esch", "isres"}) {
     SearchSpec spec = Spec(method, 40);
     const Course first = Follow(spec);
     spec.seed = 2;
     EXPECT_NE(Follow(spec).points, first.points) << method;
   }
+}
+
+TEST(PointSearch, TakesAllStepsAlike) {
+  const SearchSpace space(
+      {{.key = "x", .from = 2.0, .to = 4.5, .step = 0.5, .nominal = 2.0},
+       {.key = "n", .kind = DistributionKind::kInteger, .from = 1.0, .to = 6.0, .nominal = 1.0}});
+  const SearchSpec spec = Spec("latin_hypercube", 600);
+  const auto search = MakePointSearch(spec, space, std::nullopt);
+  std::map<double, int> steps;
+  std::map<double, int> numbers;
+  FollowSearch(*search, space, [&](const std::vector<UnitPoint>& points) {
+    for (const UnitPoint& point : points) {
+      ++steps[space.Value(0, point[0])];
+      ++numbers[space.Value(1, point[1])];
+    }
+    return std::optional(std::vector<std::optional<double>>(points.size()));
+  });
+  // Of 600 strata of a Latin hypercube, 100 are of each of the six values.
+  const std::map<double, int> expected_steps{{2.0, 100}, {2.5, 100}, {3.0, 100},
+                                             {3.5, 100}, {4.0, 100}, {4.5, 100}};
+  EXPECT_EQ(steps, expected_steps);
+  const std::map<double, int> expected_numbers{{1.0, 100}, {2.0, 100}, {3.0, 100},
+                                               {4.0, 100}, {5.0, 100}, {6.0, 100}};
+  EXPECT_EQ(numbers, expected_numbers);
+}
+
+SearchSpace Steps() {
+  return SearchSpace({{.key = "x", .from = 0.0, .to = 10.0, .step = 1.0, .nominal = 2.0},
+                      {.key = "y", .from = 0.0, .to = 10.0, .step = 1.0, .nominal = 9.0}});
+}
+
+TEST(SurrogateSearch, ProposesNoPointTwice) {
+  const SearchSpace space = Steps();
+  for (const bool stop : {true, false}) {
+    SearchSpec spec = Spec("surrogate", 500);
+    spec.stop = stop;
+    const auto search = MakePointSearch(spec, space, 0.7);
+    std::set<UnitPoint> all{space.nominal()};
+    FollowSearch(*search, space, [&](const std::vector<UnitPoint>& points) {
+      std::optional<std::vector<std::optional<double>>> values(std::in_place);
+      for (const UnitPoint& point : points) {
+        EXPECT_TRUE(all.insert(point).second) << point[0] << " " << point[1];
+        // Half of them are no scenarios.
+        values->push_back(std::lround(10.0 * (point[0] + point[1])) % 2 == 0
+                              ? std::optional(point[0] - 0.3)
+                              : std::nullopt);
+      }
+      return values;
+    });
+    EXPECT_EQ(all.size(), 121U);  // then there is nothing left
+  }
+}
+
+/// 0.5 but for a wide basin that fails by much and a narrow one that fails by little.
+double TwoBasins(const UnitPoint& at) {
+  const auto basin = [&](double x, double y, double width) {
+    return std::exp(-0.5 * (std::pow(at[0] - x, 2) + std::pow(at[1] - y, 2)) / (width * width));
+  };
+  return 0.5 - 1.2 * basin(0.25, 0.7, 0.12) - 0.62 * basin(0.8, 0.2, 0.08);
+}
+
+TEST(SurrogateSearch, GoesOnToOtherRegionsThatFail) {
+  const SearchSpace space({{.key = "x", .from = 0.0, .to = 30.0, .step = 1.0, .nominal = 15.0},
+                           {.key = "y", .from = 0.0, .to = 30.0, .step = 1.0, .nominal = 30.0}});
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SearchSpec spec = Spec("surrogate", 96);  // a tenth of all points
+    spec.stop = false;
+    spec.seed = seed;
+    const auto search = MakePointSearch(spec, space, TwoBasins(space.nominal()));
+    int wide = 0;
+    int narrow = 0;
+    FollowSearch(*search, space, [&](const std::vector<UnitPoint>& points) {
+      std::optional<std::vector<std::optional<double>>> values(std::in_place);
+      for (const UnitPoint& point : points) {
+        values->push_back(TwoBasins(point));
+        (point[0] < 0.5 ? wide : narrow) += *values->back() < 0.0 ? 1 : 0;
+      }
+      return values;
+    });
+    EXPECT_GT(wide, 0) << seed;
+    EXPECT_GT(narrow, 0) << seed;
+    // A fair share is left for the rest of the square.
+    EXPECT_LT(wide + narrow, 96 / 2) << seed;
+  }
+}
+
+TEST(FollowSearch, RoundsPointsAndEndsWhenItsRunsDo) {
+  const SearchSpace space = Steps();
+  const SearchSpec spec = Spec("sobol", 100);
+  const auto search = MakePointSearch(spec, space, std::nullopt);
+  int batches = 0;
+  FollowSearch(*search, space,
+               [&](const std::vector<UnitPoint>& points)
+                   -> std::optional<std::vector<std::optional<double>>> {
+                 for (const UnitPoint& point : points) {
+                   EXPECT_EQ(space.Snap(point), point);
+                 }
+                 if (++batches == 3) {
+                   return std::nullopt;
+                 }
+                 return std::vector<std::optional<double>>(points.size(), 1.0);
+               });
+  EXPECT_EQ(batches, 3);
 }
 
 }  // namespace

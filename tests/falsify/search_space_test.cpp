@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "tests/support/temp_folder.h"
+#include "tests/tolerance.h"
 #include "trackbed/analysis/metrics.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
@@ -34,6 +37,25 @@ TEST(SearchSpace, RoundsValuesButNotEndsNorNominalOnes) {
   EXPECT_EQ(space.Value(2, 0.123456789), 0.31176);  // 0.1 10^(4 0.123456789) = 0.3117648...
   EXPECT_EQ(space.Value(3, 0.5), 61700.0);
   EXPECT_EQ(ShortestText(space.Value(0, 1.0 / 3.0)), "14.667");
+}
+
+TEST(SearchSpace, TakesTheStepsOfAKey) {
+  const SearchSpace space(
+      {{.key = "delay", .from = 0.1, .to = 0.4, .step = 0.02, .nominal = 0.16}});
+  EXPECT_EQ(ShortestText(space.Value(0, 0.5)), "0.26");  // 0.25 lies between, 7.5 rounds up
+  EXPECT_EQ(ShortestText(space.Value(0, 0.18)), "0.16");
+  EXPECT_EQ(ShortestText(space.Value(0, 1.0)), "0.4");
+  EXPECT_EQ(space.Value(0, 0.0), 0.1);
+  EXPECT_NEAR(space.Step(0), 1.0 / 15.0, Tolerance(1e-16));  // of 15 steps, to rounding
+  std::set<std::string> values;
+  for (int i = 0; i <= 1000; ++i) {
+    const UnitPoint point = space.Snap({1e-3 * i});
+    EXPECT_EQ(space.Snap(point), point);
+    values.insert(ShortestText(space.Value(0, point[0])));
+  }
+  EXPECT_THAT(values,
+              testing::ElementsAre("0.1", "0.12", "0.14", "0.16", "0.18", "0.2", "0.22", "0.24",
+                                   "0.26", "0.28", "0.3", "0.32", "0.34", "0.36", "0.38", "0.4"));
 }
 
 TEST(SearchSpace, SnapsToPointsOfTheSameValues) {
@@ -111,6 +133,11 @@ TEST(SearchSpace, TellsWhatCannotBeSearched) {
   EXPECT_THAT(
       Problems("vary: {mission.spede: {distribution: uniform, from: 1, to: 4}}\nsearch: {}\n"),
       HasSubstr("unknown key 'spede'; did you mean 'speed'?"));
+  EXPECT_THAT(
+      Problems("vary: {mission.speed: {distribution: uniform, from: 1, to: 4, step: 0.5}}\n"
+               "search: {}\nnominal: {mission.speed: 2.2}\n"),
+      HasSubstr("nominal.mission.speed: the nominal value 2.2 is not 1 plus a multiple of the "
+                "step, 0.5; the nearest is 2"));
   EXPECT_THAT(Problems("vary:\n" + speed + "search: {method: crs}\n"),
               HasSubstr("did you mean 'crs2'?"));
 }
@@ -121,6 +148,8 @@ TEST(SearchSpace, TellsWhatASearchDoesNotTake) {
               HasSubstr("search.restarts: random has none; leave it out"));
   EXPECT_THAT(Problems(vary + "search: {method: sobol, finish: cobyla}\n"),
               HasSubstr("search.finish: goes on from searches of NLopt, not from sobol"));
+  EXPECT_THAT(Problems(vary + "search: {method: surrogate, restarts: 2}\n"),
+              HasSubstr("search.restarts: surrogate has none; leave it out"));
   EXPECT_THAT(Problems(vary + "search: {method: direct, population: 30}\n"),
               HasSubstr("search.population: direct has none; leave it out"));
   EXPECT_THAT(Problems(vary + "search: {method: direct, runs: 11}\n"),

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -152,6 +153,19 @@ TEST(Quantile, OfIntegersIncludesBothEndsAlike) {
   }
   EXPECT_THAT(counts, testing::ElementsAre(0, 100, 100, 100, 100, 100, 100));
   EXPECT_EQ(Quantile(die, 1.0 - 1e-16), "6");
+}
+
+TEST(Quantile, OfStepsIncludesBothEndsAlike) {
+  const Distribution steps{
+      .kind = DistributionKind::kUniform, .from = 12.0, .to = 13.0, .step = 0.2};
+  std::map<std::string, int> counts;
+  for (int i = 0; i < 600; ++i) {
+    ++counts[Quantile(steps, (i + 0.5) / 600.0)];
+  }
+  const std::map<std::string, int> expected{{"12", 100},   {"12.2", 100}, {"12.4", 100},
+                                            {"12.6", 100}, {"12.8", 100}, {"13", 100}};
+  EXPECT_EQ(counts, expected);
+  EXPECT_EQ(Quantile(steps, 1.0 - 1e-16), "13");
 }
 
 TEST(Quantile, ChoosesByWeight) {

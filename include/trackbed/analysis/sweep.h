@@ -19,11 +19,11 @@
 namespace trackbed {
 
 /// Results of a run as a table shows them, by their dotted paths: `metrics.<plant>.…`,
-/// `between.<plant>.<plant>.…`, `verdict.passed`, `verdict.failures`, `plan.status`,
-/// `plan.length_m` and the other PathProperties(), `timing.planning_s` (another one every time);
-/// the names are those of metrics.json, elements of lists are `[0]`, `[1]`, …. What a run on one
-/// plant has under that plant's name it has as `metrics.*.…` too, so that a study of plants needs
-/// one column for each result.
+/// `between.<plant>.<plant>.…`, `verdict.passed`, `verdict.failures`, `verdict.robustness`
+/// (RobustnessOf), `plan.status`, `plan.length_m` and the other PathProperties(),
+/// `timing.planning_s` (another one every time); the names are those of metrics.json, elements of
+/// lists are `[0]`, `[1]`, …. What a run on one plant has under that plant's name it has as
+/// `metrics.*.…` too, so that a study of plants needs one column for each result.
 using Outputs = std::map<std::string, std::string>;
 
 Outputs CollectOutputs(const RunResult& result);

@@ -16,6 +16,7 @@ struct SearchKey {
   DistributionKind kind = DistributionKind::kUniform;  ///< uniform, log_uniform or integer
   double from = 0.0;
   double to = 1.0;
+  double step = 0.0;     ///< values are `from` + k `step`; 0: the key has none
   double nominal = 0.0;  ///< within the range
   int line = 0;          ///< in the study's file
   int column = 0;
@@ -24,8 +25,9 @@ struct SearchKey {
 /// The box in which a study's keys are searched, as the unit cube.
 ///
 /// A place is its share of the range from `from`, of a log_uniform key that of the logarithm.
-/// Values are rounded: to whole numbers, to the decimal step that is a 10 000th to a 1000th of the
-/// range, or to five digits where the range is logarithmic; the nominal value and the ends are not.
+/// Values are rounded: to whole numbers, to the key's step, otherwise to the decimal step that is a
+/// 10 000th to a 1000th of the range, or to five digits where the range is logarithmic; the nominal
+/// value and the ends are not.
 class SearchSpace {
  public:
   /// `scenario` is that of the study without the keys of `vary`, which tells their nominal values
@@ -47,6 +49,9 @@ class SearchSpace {
   [[nodiscard]] UnitPoint Snap(const UnitPoint& point) const;
   /// The distance between two places of a key whose values differ.
   [[nodiscard]] double Step(std::size_t i) const;
+  /// The place below which a share of the key's values lies, in [0, 1): of whole numbers and of
+  /// steps all are as likely, the ends among them.
+  [[nodiscard]] double PlaceOfShare(std::size_t i, double share) const;
   /// What a scenario there sets.
   [[nodiscard]] std::vector<Setting> Settings(const UnitPoint& point) const;
 

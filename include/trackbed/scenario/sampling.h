@@ -57,6 +57,7 @@ struct Distribution {
   DistributionKind kind = DistributionKind::kUniform;
   double from = 0.0;
   double to = 1.0;
+  double step = 0.0;  ///< of kUniform: values are `from` + k `step`, all as likely; 0: any value
   double mean = 0.0;
   double deviation = 1.0;  ///< standard deviation before truncation
   double min = -std::numeric_limits<double>::infinity();
@@ -64,6 +65,9 @@ struct Distribution {
   std::vector<std::string> values;  ///< YAML on one line each
   std::vector<double> weights;      ///< as many as values, or none: equal
 };
+
+/// `from` + k `step`, to 15 digits, so that 12 + 7 * 0.2 is 13.4.
+double SteppedValue(double from, double step, double k);
 
 /// The value below which a share `u` in (0, 1) of the distribution lies, as YAML: numbers in the
 /// shortest form that reads back to the same double.

@@ -80,20 +80,20 @@ struct DerivedKey {
 
 /// How `trackbed falsify` searches the keys that have distributions for a run that fails.
 struct SearchSpec {
-  std::string method = "crs2";  ///< one of StudySearches()
-  int runs = 200;               ///< of the search at most
-  int restarts = 0;             ///< searches of NLopt side by side, each with its share of the
-                                ///< runs; 0: two, of direct one
-  int population = 0;           ///< of crs2, esch and isres; 0: 4 n + 4 for n keys
-  std::string finish = "none";  ///< "nelder_mead", "cobyla": for the last quarter of the runs
+  std::string method = "surrogate";  ///< one of StudySearches()
+  int runs = 200;                    ///< of the search at most
+  int restarts = 0;                  ///< searches of NLopt side by side, each with its share of the
+                                     ///< runs; 0: two, of direct one
+  int population = 0;                ///< of crs2, esch and isres; 0: 4 n + 4 for n keys
+  std::string finish = "none";       ///< "nelder_mead", "cobyla": for the last quarter of the runs
   std::uint64_t seed = 1;
   bool stop = true;         ///< with the first violation
   int shrink_runs = 200;    ///< at most, to make the counterexample smaller
   double tolerance = 0.01;  ///< of that, as a share of each key's range
 };
 
-/// The names that SearchSpec::method may have: "random", "latin_hypercube", "sobol", and the
-/// searches of NLopt that take no gradients.
+/// The names that SearchSpec::method may have: "random", "latin_hypercube", "sobol", "surrogate"
+/// (dlib), and the searches of NLopt that take no gradients.
 const std::vector<std::string>& StudySearches();
 
 /// Every run of a grid sets one alternative of each key of `vary` and one point of `list`. Where

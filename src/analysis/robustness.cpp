@@ -1,4 +1,4 @@
-#include "trackbed/falsify/robustness.h"
+#include "trackbed/analysis/robustness.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ std::optional<double> NumberOf(const MetricValue& value) {
 }
 
 /// None where the check is met and no number says by how much.
-std::optional<double> MarginOf(const Check& check) {
+std::optional<double> ExtentOf(const Check& check) {
   const std::optional<double> bound = NumberOf(check.bound);
   const std::optional<double> value = NumberOf(check.value);
   const bool is_limit = check.relation != Relation::kEquals && bound && value &&
@@ -43,7 +43,7 @@ RunRobustness RobustnessOf(const RunResult& result) {
   }
   std::optional<RunRobustness> least;
   for (const Check& check : result.verdict.checks) {
-    const std::optional<double> margin = MarginOf(check);
+    const std::optional<double> margin = ExtentOf(check);
     if (margin && (!least || *margin < least->value)) {
       const std::string plants =
           check.other.empty() ? check.plant : check.plant + " - " + check.other;

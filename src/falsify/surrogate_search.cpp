@@ -1,0 +1,201 @@
+#include "src/falsify/surrogate_search.h"
+
+#include <dlib/global_optimization.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "trackbed/scenario/sampling.h"
+
+namespace trackbed {
+namespace {
+
+using Vector = dlib::matrix<double, 0, 1>;
+
+Vector VectorOf(const UnitPoint& point) {
+  Vector x(static_cast<long>(point.size()));
+  std::copy(point.begin(), point.end(), x.begin());
+  return x;
+}
+
+dlib::function_spec UnitCube(std::size_t dimensions) {
+  return {VectorOf(UnitPoint(dimensions, 0.0)), VectorOf(UnitPoint(dimensions, 1.0))};
+}
+
+class SurrogateSearch : public PointSearch {
+ public:
+  SurrogateSearch(const SearchSpec& spec, const SearchSpace& space,
+                  std::optional<double> at_nominal)
+      : spec_(spec), space_(space) {
+    if (at_nominal) {
+      Keep(space.nominal(), *at_nominal);
+    }
+    Begin();
+  }
+
+  std::vector<UnitPoint> Ask() override {
+    std::vector<UnitPoint> batch;
+    while (static_cast<int>(batch.size()) < kBatch && asked_ < spec_.runs) {
+      std::optional<UnitPoint> point = Propose(batch);
+      if (!point) {
+        point = FarFromAll(batch);
+      }
+      if (!point) {
+        break;
+      }
+      batch.push_back(*std::move(point));
+      ++asked_;
+    }
+    batch_ = batch;
+    return batch;
+  }
+
+  void Tell(const std::vector<std::optional<double>>& values) override {
+    bool begin_again = false;
+    for (std::size_t i = 0; i < batch_.size(); ++i) {
+      // dlib would ask again for a point that it is not told of, so that one without a value is
+      // told to be as good as any.
+      const double value = values[i].value_or(highest_);
+      Keep(batch_[i], value);
+      // dlib takes what it did not ask for, and what has changed, at its beginning alone.
+      begin_again = begin_again || requests_.find(batch_[i]) == requests_.end() ||
+                    (value < 0.0 && !spec_.stop);
+    }
+    if (begin_again) {
+      requests_.clear();
+      Begin();
+      return;
+    }
+    for (auto& [point, request] : requests_) {
+      request.set(-Told(point));
+    }
+    requests_.clear();
+  }
+
+ private:
+  // dlib explores and refines in turn, so that two points at a time are one of each.
+  static constexpr int kBatch = 2;
+  // Of the values, as a share of their range; dlib's own default.
+  static constexpr double kNoise = 0.001;
+
+  void Keep(const UnitPoint& point, double value) {
+    known_[point] = value;
+    highest_ = known_.size() == 1 ? value : std::max(highest_, value);
+    if (value < 0.0) {
+      violations_.push_back(point);
+    }
+  }
+
+  /// What is minimized, at a point that is known. A search that goes on after a violation is to
+  /// find others that are not beside it: there the values are raised, as deflation does for the
+  /// roots of equations.
+  [[nodiscard]] double Told(const UnitPoint& point) const {
+    const double value = known_.at(point);
+    if (spec_.stop || violations_.empty()) {
+      return value;
+    }
+    constexpr double kReach = 0.15;  // shares of the range of a key
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const UnitPoint& violation : violations_) {
+      nearest = std::min(nearest, Distance(point, violation) / kReach);
+    }
+    return std::max(value, 0.0) + height_ * std::exp(-0.5 * nearest * nearest);
+  }
+
+  /// By how much values are raised at a violation: a few times what is usual, which is the median
+  /// of the values that pass.
+  [[nodiscard]] double Height() const {
+    std::vector<double> values;
+    for (const auto& [point, value] : known_) {
+      if (value >= 0.0) {
+        values.push_back(value);
+      }
+    }
+    if (values.empty()) {
+      return 1.0;
+    }
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return 3.0 * *middle;
+  }
+
+  void Begin() {
+    height_ = Height();
+    std::vector<dlib::function_evaluation> evaluations;
+    for (const auto& [point, value] : known_) {
+      evaluations.emplace_back(VectorOf(point), -Told(point));
+    }
+    search_ = dlib::global_function_search(
+        {UnitCube(space_.keys().size())},
+        std::vector<std::vector<dlib::function_evaluation>>{std::move(evaluations)}, kNoise);
+    search_.set_seed(static_cast<time_t>(spec_.seed + known_.size()));
+  }
+
+  /// A new point of dlib's. It knows no steps, and asks again for what is known: then it is told.
+  std::optional<UnitPoint> Propose(const std::vector<UnitPoint>& batch) {
+    constexpr int kTries = 20;
+    for (int i = 0; i < kTries; ++i) {
+      dlib::function_evaluation_request request = search_.get_next_x();
+      const Vector& x = request.x();
+      UnitPoint point = space_.Snap({x.begin(), x.end()});
+      const auto known = known_.find(point);
+      if (known != known_.end()) {
+        request.set(-Told(point));
+      } else if (std::find(batch.begin(), batch.end(), point) == batch.end()) {
+        requests_.insert_or_assign(point, std::move(request));
+        return point;
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// Of a sample, the point that is farthest from all that are known; none where all are.
+  std::optional<UnitPoint> FarFromAll(const std::vector<UnitPoint>& batch) {
+    const Eigen::MatrixXd sample = UnitSample(
+        {.count = 1024, .method = SampleMethod::kSobol, .seed = spec_.seed + known_.size()},
+        static_cast<int>(space_.keys().size()));
+    std::optional<UnitPoint> best;
+    double farthest = 0.0;
+    for (Eigen::Index row = 0; row < sample.rows(); ++row) {
+      UnitPoint point(static_cast<std::size_t>(sample.cols()));
+      for (std::size_t i = 0; i < point.size(); ++i) {
+        point[i] = sample(row, static_cast<Eigen::Index>(i));
+      }
+      point = space_.Snap(point);
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const auto& [known, value] : known_) {
+        nearest = std::min(nearest, Distance(point, known));
+      }
+      for (const UnitPoint& other : batch) {
+        nearest = std::min(nearest, Distance(point, other));
+      }
+      if (nearest > farthest) {
+        farthest = nearest;
+        best = std::move(point);
+      }
+    }
+    return best;
+  }
+
+  const SearchSpec& spec_;
+  const SearchSpace& space_;
+  std::map<UnitPoint, double> known_;  // values, by snapped points
+  double highest_ = 0.0;               // of these
+  std::vector<UnitPoint> violations_;
+  double height_ = 0.0;  // by which they are raised
+  dlib::global_function_search search_{UnitCube(1)};
+  std::map<UnitPoint, dlib::function_evaluation_request> requests_;  // of the batch
+  std::vector<UnitPoint> batch_;
+  int asked_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<PointSearch> MakeSurrogateSearch(const SearchSpec& spec, const SearchSpace& space,
+                                                 std::optional<double> at_nominal) {
+  return std::make_unique<SurrogateSearch>(spec, space, at_nominal);
+}
+
+}  // namespace trackbed
