@@ -52,7 +52,7 @@ put(libraries "<script>${d3}</script>\n<script>${dygraphs}</script>")
 
 set(script "\n\"use strict\";\n")
 foreach(part IN ITEMS base map events charts phase_planes series differences film tables answer vehicle scenery
-        tyres wind replay study_statistics study_answer study identification path_check main)
+        tyres wind replay study_statistics study_map study_answer study_search study identification path_check main)
   file(READ ${PAGE}/${part}.js text)
   string(APPEND script "${text}\n")
 endforeach()

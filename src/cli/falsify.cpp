@@ -23,13 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Beside the files of a study, in the folder of its search.
+// What the manifest calls the files beside those of a study.
 constexpr const char* kFalsification = "falsification";
-constexpr const char* kFalsifyJson = "falsify.json";
-// Of the counterexample, a run folder; and in it.
-constexpr const char* kCounterexampleFolder = "counterexample";
-constexpr const char* kCounterexample = "counterexample";
-constexpr const char* kCounterexampleYaml = "counterexample.yaml";
 
 struct FalsifyVerbOptions {
   std::string file;
@@ -59,11 +54,12 @@ void WriteCounterexample(const FalsifyResult& result, const CheckedSearch& searc
   const RunResult run = RunCounterexample(result, search);
   const OutputFolder folder(out);
   WriteRunFolder(run, folder);
-  const Regression regression = MakeRegression(run, search.study.name + "_" + kCounterexample);
+  const Regression regression =
+      MakeRegression(run, search.study.name + "_" + run_folder::kCounterexample);
   {
     ResultWriter writer(folder);
-    writer.Add(kCounterexampleYaml, RegressionYaml(regression, run));
-    writer.Commit(kCounterexample, {});
+    writer.Add(run_folder::kCounterexampleYaml, RegressionYaml(regression, run));
+    writer.Commit(run_folder::kCounterexample, {});
   }
   if (options.video && run.plan.ok()) {
     const RenderSpec& render = run.scenario.render;
@@ -97,6 +93,9 @@ std::string ReachText(const SearchSpace& space, std::size_t i, const KeyMargin& 
 
 void PrintMargins(const FalsifyResult& result, const CheckedSearch& search) {
   const Shrunk& shrunk = result.shrunk;
+  if (shrunk.keys.empty()) {
+    return;  // it was not made smaller
+  }
   const SearchSpace& space = search.space;
   std::vector<TextColumn> columns{{{"key"}, "", {}},
                                   {{"nominal"}, "", {}},
@@ -162,7 +161,8 @@ void PrintResult(const FalsifyResult& result, const CheckedSearch& search, const
       result.shrink_runs,
       result.shrunk.point.empty() || result.shrunk.complete ? "" : ", which were not enough");
   PrintMargins(result, search);
-  fmt::print("  {}\n", (out / kCounterexampleFolder / kCounterexampleYaml).string());
+  fmt::print("  {}\n",
+             (out / run_folder::kCounterexample / run_folder::kCounterexampleYaml).string());
 }
 
 int Falsify(const FalsifyVerbOptions& options) {
@@ -171,7 +171,7 @@ int Falsify(const FalsifyVerbOptions& options) {
   const fs::path out = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
   const OutputFolder folder(out);  // before the work, not after it
   if (options.video) {
-    CheckFilmName(out / kCounterexampleFolder / run_folder::kVideo);
+    CheckFilmName(out / run_folder::kCounterexample / run_folder::kVideo);
   }
   const fs::path file = out / run_folder::kSweepRecords;
   if (options.restart) {
@@ -200,7 +200,7 @@ int Falsify(const FalsifyVerbOptions& options) {
   const SweepSummary table = WriteTable(records, folder);
   {
     ResultWriter writer(folder);
-    writer.Add(kFalsifyJson, ToJson(result, search).dump(2) + "\n");
+    writer.Add(run_folder::kFalsifyJson, ToJson(result, search).dump(2) + "\n");
     writer.Commit(kFalsification, {});
   }
   if (!options.scenario.quiet) {
@@ -208,9 +208,9 @@ int Falsify(const FalsifyVerbOptions& options) {
   }
   PrintRowsWithoutRun(name, table);
   if (result.status == FalsifyStatus::kBroken) {
-    WriteCounterexample(result, search, out / kCounterexampleFolder, options);
+    WriteCounterexample(result, search, out / run_folder::kCounterexample, options);
   } else {
-    RemoveCounterexample(out / kCounterexampleFolder);
+    RemoveCounterexample(out / run_folder::kCounterexample);
   }
   if (options.report && result.status != FalsifyStatus::kInterrupted) {
     WriteReport({out}, out / run_folder::kReport);

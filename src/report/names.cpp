@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <regex>
+
 #include "trackbed/analysis/metric_registry.h"
 #include "trackbed/analysis/path_properties.h"
 #include "trackbed/scenario/keys.h"
@@ -72,9 +74,12 @@ ShownName NameOfOutput(const std::string& path) {
 }
 
 ShownName NameOfKey(const std::string& key) {
+  // The table has N for the elements of all lists.
+  static const std::regex index(R"(\[\d+\])");
+  const std::string listed = std::regex_replace(key, index, "[N]");
   for (const KeySection& section : ScenarioKeys()) {
     for (const KeyInfo& info : section.keys) {
-      if (key == (section.key.empty() ? info.name : section.key + "." + info.name)) {
+      if (listed == (section.key.empty() ? info.name : section.key + "." + info.name)) {
         return {key, info.unit};
       }
     }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/report/numbers.h"
+#include "src/report/search_data.h"
 #include "src/report/study_difference.h"
 #include "src/report/study_statistics.h"
 #include "trackbed/analysis/json_file.h"
@@ -128,7 +129,12 @@ ordered_json StudyData(const fs::path& file, const std::optional<fs::path>& befo
       study["rows"].push_back(std::move(cells));
     }
   }
-  study["statistics"] = StudyStatistics(table);
+  if (ordered_json search = SearchData(file, table); !search.is_null()) {
+    study["search"] = std::move(search);
+    study["statistics"] = nullptr;  // a search goes where it is worst: its points are no sample
+  } else {
+    study["statistics"] = StudyStatistics(table);
+  }
   if (before) {
     const TextTable other = ReadStudyTable(*before);
     ColumnsJson(other, before->string());  // that it is one of a study

@@ -40,6 +40,7 @@ TEST(FalsifyVerb, LeavesACounterexampleForATestSuite) {
                            "counterexample/kinematic.csv", "counterexample/report.html"}) {
     EXPECT_TRUE(std::filesystem::exists(out / name)) << name;
   }
+  EXPECT_THAT(ReadFile(out / "report.html"), HasSubstr(R"("search":{"status":"broken",)"));
   // As it is it passes in a test suite; what it came of fails.
   EXPECT_EQ(Trackbed(folder, "test out/reach/counterexample/counterexample.yaml").code, 0);
   const auto json = nlohmann::json::parse(ReadFile(out / "falsify.json"));
@@ -64,6 +65,15 @@ TEST(FalsifyVerb, LeavesACounterexampleForATestSuite) {
   EXPECT_THAT(held.output, testing::ContainsRegex(
                                "reach: not falsified in [56] runs; the lowest robustness is "));
   EXPECT_FALSE(std::filesystem::exists(out / "counterexample"));
+}
+
+TEST(FalsifyVerb, HasNoMarginsWhereTheNominalPointFails) {
+  const TempFolder folder;
+  folder.Write("study.yaml", SearchText("0.0001", "search: {runs: 5}\n"));
+  const Outcome outcome = Trackbed(folder, "falsify study.yaml");
+  EXPECT_EQ(outcome.code, 3) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("distance 0 from the nominal point after 0 runs"));
+  EXPECT_THAT(outcome.output, testing::Not(HasSubstr("sensitivity")));
 }
 
 TEST(FalsifyVerb, EndsWhenTheTimeIsUp) {

@@ -40,6 +40,17 @@ vary:
 outputs: [metrics.kinematic.cross_track.max, metrics.kinematic.time]
 """
 
+SEARCH = """schema: 1
+name: limit
+scenario: slow.yaml
+set: {drive.plants: [kinematic], expect.max_cross_track: 0.1}
+vary:
+  control.distance: {distribution: uniform, from: 1, to: 6}
+  mission.speed: {distribution: uniform, from: 1, to: 5}
+nominal: {control.distance: 1, mission.speed: 1}
+search: {runs: 20, method: latin_hypercube}
+"""
+
 # Of every text that is seen: its contrast with what is behind it (WCAG 2.2, 1.4.3).
 CONTRASTS = """
 const parsed = (css) => {
@@ -85,6 +96,9 @@ class Access(unittest.TestCase):
             cls.trackbed("run", "-q", f"{name}.yaml", "-o", name, code=code)
         (cls.root / "study.yaml").write_text(STUDY)
         cls.trackbed("sweep", "-q", "study.yaml", "-o", "study", code=None)
+        (cls.root / "search.yaml").write_text(SEARCH)
+        cls.trackbed("falsify", "-q", "search.yaml", "-o", "search", code=3)
+        cls.trackbed("report", "search", "-o", "search.html")
         cls.trackbed("report", "slow", "-o", "run.html")
         cls.trackbed("report", "slow", "quick", "-o", "runs.html")
         cls.trackbed("report", "study", "-o", "study.html")
@@ -109,7 +123,7 @@ class Access(unittest.TestCase):
         self.assertEqual(self.browser.console_errors(), [])
 
     def test_contrast(self):
-        for page in ("run.html", "good.html", "runs.html", "study.html"):
+        for page in ("run.html", "good.html", "runs.html", "study.html", "search.html"):
             for dark in (False, True):
                 with self.subTest(page=page, dark=dark):
                     self.open(page, dark=dark)
@@ -119,7 +133,7 @@ class Access(unittest.TestCase):
                     self.browser.picture(PICTURES / f"access_{page[:-5]}_{'dark' if dark else 'light'}.png")
 
     def test_what_is_drawn_has_a_name(self):
-        for page in ("run.html", "runs.html", "study.html"):
+        for page in ("run.html", "runs.html", "study.html", "search.html"):
             self.open(page)
             unnamed = self.browser.run(
                 """

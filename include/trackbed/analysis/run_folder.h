@@ -50,6 +50,11 @@ inline constexpr const char* kSweepJson = "sweep.json";
 /// Grows with the study, which goes on from it: SweepRecords.
 inline constexpr const char* kSweepRecords = "sweep.records";
 
+// Of a search, beside those.
+inline constexpr const char* kFalsifyJson = "falsify.json";
+inline constexpr const char* kCounterexample = "counterexample";  ///< the folder of its run
+inline constexpr const char* kCounterexampleYaml = "counterexample.yaml";  ///< in that folder
+
 // Of an identification.
 inline constexpr const char* kIdentifyJson = "identify.json";
 std::string ResidualsCsv(const std::string& record);  ///< <record>.residuals.csv

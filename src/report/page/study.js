@@ -17,9 +17,14 @@ function drawStudy(study) {
   const heading = header.append('div').attr('class', 'heading');
   heading.append('h1').text(study.name);
   const complete = study.complete !== false || Boolean(study.stopped);
-  heading.append('span').attr('class', complete ? 'badge plain' : 'badge bad').attr('id', 'verdict').text(
-    complete ? `${study.passed_count} of ${study.row_count} rows passed`
+  const { search } = study;
+  const verdict = heading.append('span').attr('id', 'verdict');
+  if (search) {
+    verdict.attr('class', search.status === 'not_falsified' ? 'badge plain' : 'badge bad').text(verdictOfSearch(search));
+  } else {
+    verdict.attr('class', complete ? 'badge plain' : 'badge bad').text(complete ? `${study.passed_count} of ${study.row_count} rows passed`
       : `interrupted: ${study.row_count} of ${study.rows_expected} rows`);
+  }
   const { statistics } = study;
   if (statistics) {
     const [low, high] = statistics.pass_interval;
@@ -30,6 +35,7 @@ function drawStudy(study) {
   facts(header, [
     study.scenario && `scenario ${study.scenario}`,
     parameters.length > 0 && `${parameters.length} ${parameters.length === 1 ? 'parameter' : 'parameters'}: ${parameters.map(nameOf).join(', ')}`,
+    ...(search ? factsOfSearch(search, study) : []),
     study.stopped && `stopped at ${study.stopped}, after ${study.row_count} of ${study.rows_expected} rows`,
     rows.length < study.row_count && `drawn one by one: ${even.length} rows, evenly chosen, and the ends of each output; `
       + `statistics are of all ${study.row_count}`,
@@ -38,14 +44,17 @@ function drawStudy(study) {
 
   const outputs = of('output').filter((column) => column.name !== 'runs' && isNumber(column));
   const bus = d3.dispatch('choose');
+  const tooltip = tooltipOfRows({ parameters, outputs, told: of('output').filter(({ name }) => search && name === 'phase'), nameOf, bus });
   if (study.difference) drawDifference(section('difference', `Against ${study.difference.before}`), { study, columns });
   const varied = parameters.filter((p) => new Set(rows.map((row) => row.cells[p.index])).size > 1);
   const drawOutputs = () => {
     if (!parameters.length || !outputs.length || !rows.length) return;
     drawPlots(section('plots', study.bisected ? `Limits of ${study.bisected}` : 'Outputs over a parameter'),
-      { parameters, outputs, rows: even, isGood, isNumber, nameOf, bus });
+      { parameters, outputs, rows: even, isGood, isNumber, nameOf, bus, tooltip, search });
   };
-  if (outputs.length && rows.length) {
+  if (search) {
+    drawSearch({ study, search, columns, rows, isGood, bus, tooltip });
+  } else if (outputs.length && rows.length) {
     drawStudyAnswer(section('answer', study.bisected ? 'Found' : ''), { study, outputs, varied, rows, status });
   }
   // What was bisected is what the study asks for.
@@ -54,7 +63,7 @@ function drawStudy(study) {
     drawInfluence(section('influence', 'What matters'), { columns, statistics, nameOf });
   }
   if (varied.length > 1 && even.length) {
-    drawStudyMap(section('study-map', 'Map'), { parameters: varied, outputs, rows: even, isGood, isNumber, nameOf });
+    drawStudyMap(section('study-map', 'Map'), { parameters: varied, outputs, rows: even, isGood, isNumber, nameOf, search });
   }
   if (statistics && statistics.outputs.some(({ distribution }) => distribution)) {
     drawDistributions(section('distributions', 'Distributions'), { outputs, statistics, nameOf });
@@ -64,7 +73,7 @@ function drawStudy(study) {
   }
   if (!study.bisected) drawOutputs();
   if (outputs.length && rows.length > 10) {
-    drawWorst(section('worst', 'Worst rows'), { study, outputs, parameters: varied, rows, nameOf });
+    drawWorst(section('worst', 'Worst rows'), { study, outputs, parameters: varied, rows, nameOf, lowest: Boolean(search) });
   }
   drawStudyTable(section('table', 'All rows'), { columns, rows, isGood, isNumber, bus });
   if (study.text) {
@@ -74,7 +83,33 @@ function drawStudy(study) {
   }
 }
 
-function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf, bus }) {
+/** What a row set and what came of it, beside the pointer; it is chosen in all plots and in the table. */
+function tooltipOfRows({ parameters, outputs, told, nameOf, bus }) {
+  const tooltip = d3.select('body').append('div').attr('class', 'tooltip panel').attr('hidden', '');
+  return {
+    show(row) {
+      tooltip.text('').attr('hidden', null);
+      const say = (name, value) => {
+        const line = tooltip.append('p');
+        line.append('span').text(name);
+        line.append('span').text(shown(value));
+      };
+      say('row', row.number);
+      for (const column of [...told, ...parameters, ...outputs.slice(0, 8)]) say(nameOf(column), row.cells[column.index]);
+      const box = tooltip.node().getBoundingClientRect();
+      const event = d3.event;
+      const left = Math.min(event.pageX + 14, window.scrollX + document.documentElement.clientWidth - box.width - 8);
+      tooltip.style('left', `${Math.max(8, left)}px`).style('top', `${event.pageY + 16}px`);
+      bus.call('choose', null, row);
+    },
+    hide() {
+      tooltip.attr('hidden', '');
+      bus.call('choose', null, null);
+    },
+  };
+}
+
+function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf, bus, tooltip, search }) {
   const choices = parent.append('div').attr('class', 'choices');
   const choice = (label, id, list, chosen) => {
     const select = choices.append('label').text(label).append('select').attr('id', id);
@@ -92,28 +127,11 @@ function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf
     ? choice('Color by', 'colors', [[-1, 'nothing'], ...list], second ? second.index : -1) : () => -1;
   const legend = choices.append('div').attr('class', 'legend');
   const plots = parent.append('div').attr('class', 'plots');
-  const tooltip = d3.select('body').append('div').attr('class', 'tooltip panel').attr('hidden', '');
   over();
   color();
   draw();
   new ResizeObserver(draw).observe(plots.node());
   bus.on('choose.plots', (row) => plots.selectAll('circle').classed('chosen', (d) => d === row));
-
-  function point(row) {
-    tooltip.text('').attr('hidden', null);
-    const say = (name, value) => {
-      const line = tooltip.append('p');
-      line.append('span').text(name);
-      line.append('span').text(shown(value));
-    };
-    for (const parameter of parameters) say(nameOf(parameter), row.cells[parameter.index]);
-    for (const output of outputs.slice(0, 8)) say(nameOf(output), row.cells[output.index]);
-    const box = tooltip.node().getBoundingClientRect();
-    const event = d3.event;
-    const left = Math.min(event.pageX + 14, window.scrollX + document.documentElement.clientWidth - box.width - 8);
-    tooltip.style('left', `${Math.max(8, left)}px`).style('top', `${event.pageY + 16}px`);
-    bus.call('choose', null, row);
-  }
 
   function draw() {
     const x = parameters.find((p) => p.index === over());
@@ -166,13 +184,17 @@ function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf
     // Zero belongs to what is all of one sign, and near it.
     if (range[0] > 0 && range[0] < 0.5 * range[1]) range[0] = 0;
     if (range[0] === range[1]) { range[0] -= 1; range[1] += 1; }
-    const scaleY = d3.scaleLinear().domain(range).nice().range([height - margin.bottom, margin.top]);
+    // Of a search it is drawn as in its history.
+    const { scale: scaleY, ticks, note } = search && output.name === 'robustness' && there.length
+      ? scaleOfRobustness(there.map((row) => row.cells[output.index])) : { scale: d3.scaleLinear().domain(range).nice(), note: '' };
+    scaleY.range([height - margin.bottom - (ticks ? 6 : 0), margin.top]);
+    if (note) caption.append('span').text(note);
     const axisX = d3.axisBottom(scaleX).tickSize(-(height - margin.top - margin.bottom)).tickSizeOuter(0).tickPadding(7)
       .tickFormat((value) => (numeric ? shown(value) : short(value)));
     if (numeric) axisX.ticks(Math.max(3, width / 80));
     svg.append('g').attr('class', 'axis').attr('transform', `translate(0 ${height - margin.bottom})`).call(axisX);
     svg.append('g').attr('class', 'axis').attr('transform', `translate(${margin.left} 0)`)
-      .call(d3.axisLeft(scaleY).ticks(5).tickSize(-(width - margin.left - margin.right)).tickSizeOuter(0).tickPadding(7).tickFormat(shown));
+      .call(d3.axisLeft(scaleY).ticks(5).tickValues(ticks || null).tickSize(-(width - margin.left - margin.right)).tickSizeOuter(0).tickPadding(7).tickFormat(shown));
     svg.append('text').attr('class', 'axis-name').attr('text-anchor', 'end')
       .attr('x', width - margin.right).attr('y', height - 6).text(nameOf(x));
     const px = (row) => scaleX(row.cells[x.index]);
@@ -189,8 +211,7 @@ function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf
       .attr('cx', px).attr('cy', py).attr('r', there.length > 200 ? 2.5 : 4)
       .attr('data-row', (row) => row.index)
       .classed('failed', (row) => !isGood(row)).style('color', cssOf)
-      .on('mouseenter click', point)
-      .on('mouseleave', () => { tooltip.attr('hidden', ''); bus.call('choose', null, null); });
+      .on('mouseenter click', tooltip.show).on('mouseleave', tooltip.hide);
   }
 
   function short(value) {

@@ -1,4 +1,4 @@
-// What all rows of a study say together: distributions, what the parameters do, the worst rows, a map.
+// What all rows of a study say together: distributions, what the parameters do, the worst rows.
 
 /** A row of selects; gives a function that tells what is chosen in one. */
 function choicesIn(parent) {
@@ -193,10 +193,11 @@ function drawInfluence(parent, { columns, statistics, nameOf }) {
   }
 }
 
-function drawWorst(parent, { study, outputs, parameters, rows, nameOf }) {
+/** `lowest`: whether the lowest are the worst ones of the first output. */
+function drawWorst(parent, { study, outputs, parameters, rows, nameOf, lowest }) {
   const choices = choicesIn(parent);
   const chosen = choices.add('By', 'worst-by', outputs.map((column) => [column.index, nameOf(column)]), outputs[0].index, draw);
-  const order = choices.add('Worst are the', 'worst-order', [[1, 'highest'], [-1, 'lowest']], 1, draw);
+  const order = choices.add('Worst are the', 'worst-order', [[1, 'highest'], [-1, 'lowest']], lowest ? -1 : 1, draw);
   const table = parent.append('div').attr('class', 'panel scroll').append('table');
   draw();
 
@@ -222,91 +223,6 @@ function drawWorst(parent, { study, outputs, parameters, rows, nameOf }) {
 
 function shellWord(word) {
   return /^[\w./+-]+$/.test(word) ? word : `'${word.replace(/'/g, "'\\''")}'`;
-}
-
-/** The mean of an output, or the share that passed, over any two parameters. */
-function drawStudyMap(parent, { parameters, outputs, rows, isGood, isNumber, nameOf }) {
-  const choices = choicesIn(parent);
-  const list = parameters.map((column) => [column.index, nameOf(column)]);
-  const across = choices.add('Across', 'map-x', list, list[0][0], draw);
-  const up = choices.add('Up', 'map-y', list, list[1][0], draw);
-  const of = choices.add('Color', 'map-of', [[-1, 'pass rate'], ...outputs.map((column) => [column.index, nameOf(column)])], -1, draw);
-  const place = parent.append('div').attr('class', 'plots wide');
-  draw();
-  new ResizeObserver(draw).observe(place.node());
-
-  /** A parameter's values, or, where there are many numbers, equal steps of them. */
-  function stepsOf(column) {
-    const values = Array.from(new Set(rows.map((row) => row.cells[column.index])));
-    if (!isNumber(column) || values.length <= 24) {
-      if (isNumber(column)) values.sort(d3.ascending);
-      return { names: values.map(shown), find: (value) => values.indexOf(value) };
-    }
-    const [from, to] = d3.extent(values);
-    const count = Math.min(16, Math.max(4, Math.round(Math.sqrt(rows.length / 12))));
-    const edge = (i) => from + (to - from) * i / count;
-    return {
-      names: d3.range(count).map((i) => shown(Number((0.5 * (edge(i) + edge(i + 1))).toPrecision(3)))),
-      find: (value) => (value === null ? -1 : Math.min(count - 1, Math.floor((value - from) / (to - from) * count))),
-    };
-  }
-
-  function draw() {
-    const x = parameters.find(({ index }) => index === across());
-    const y = parameters.find(({ index }) => index === up());
-    const output = outputs.find(({ index }) => index === of());
-    place.text('');
-    const columns = stepsOf(x);
-    const lines = stepsOf(y);
-    const cells = d3.range(columns.names.length * lines.names.length).map(() => []);
-    for (const row of rows) {
-      const value = output ? row.cells[output.index] : Number(isGood(row));
-      const [i, j] = [columns.find(row.cells[x.index]), lines.find(row.cells[y.index])];
-      if (value !== null && i >= 0 && j >= 0) cells[j * columns.names.length + i].push(value);
-    }
-    const means = cells.map((values) => (values.length ? d3.mean(values) : null));
-    const [least, most] = output ? d3.extent(means.filter((mean) => mean !== null)) : [0, 1];
-    const color = (value) => d3.interpolateViridis(most > least ? (value - least) / (most - least) : 0.5);
-    const text = (value) => (output ? shown(Number(value.toPrecision(3))) : percent(value, 0));
-    const title = `${output ? `Mean of ${nameOf(output)}` : 'Pass rate'} over ${nameOf(x)} and ${nameOf(y)}`;
-    const { svg, width, height } = figureIn(place, title, '', 'map', Math.min(520, 100 + 34 * lines.names.length));
-    const longest = d3.max(lines.names, (name) => name.length);
-    const margin = { left: Math.min(0.4 * width, 28 + 7 * longest), right: 8, top: 24, bottom: 84 };
-    const wide = (width - margin.left - margin.right) / columns.names.length;
-    const high = (height - margin.top - margin.bottom) / lines.names.length;
-    const every = Math.ceil(46 / wide);
-    const cut = (name, room) => (name.length * 7 > room ? `${name.slice(0, Math.max(1, Math.floor(room / 7) - 1))}…` : name);
-    svg.append('text').attr('class', 'axis-name').attr('x', 8).attr('y', 14).text(`↑ ${nameOf(y)}`);
-    svg.append('text').attr('class', 'axis-name').attr('text-anchor', 'end').attr('x', width - margin.right)
-      .attr('y', height - 44).text(`${nameOf(x)} →`);
-    columns.names.forEach((name, i) => {
-      if (i % every) return;
-      svg.append('text').attr('class', 'bar-name').attr('text-anchor', 'middle').attr('x', margin.left + (i + 0.5) * wide)
-        .attr('y', height - margin.bottom + 16).text(cut(name, every * wide)).append('title').text(name);
-    });
-    lines.names.forEach((name, j) => {
-      svg.append('text').attr('class', 'bar-name').attr('text-anchor', 'end').attr('x', margin.left - 8)
-        .attr('y', height - margin.bottom - (j + 0.5) * high + 4).text(cut(name, margin.left - 16)).append('title').text(name);
-    });
-    means.forEach((mean, cell) => {
-      const [i, j] = [cell % columns.names.length, Math.floor(cell / columns.names.length)];
-      const rect = svg.append('rect').attr('class', mean === null ? 'cell none' : 'cell')
-        .attr('x', margin.left + i * wide).attr('y', height - margin.bottom - (j + 1) * high)
-        .attr('width', Math.max(1, wide - 1)).attr('height', Math.max(1, high - 1));
-      if (mean !== null) rect.style('fill', color(mean));
-      rect.append('title').text(mean === null ? 'no row' : `${columns.names[i]}, ${lines.names[j]}: ${text(mean)}, ${cells[cell].length} rows`);
-    });
-    // The scale of colors.
-    const scale = svg.append('g').attr('transform', `translate(${margin.left} ${height - 30})`);
-    const steps = 40;
-    const length = Math.min(220, width - margin.left - 60);
-    for (const i of d3.range(steps)) {
-      scale.append('rect').attr('x', i * length / steps).attr('width', length / steps + 0.5).attr('height', 10)
-        .style('fill', d3.interpolateViridis(i / (steps - 1)));
-    }
-    scale.append('text').attr('class', 'bar-name').attr('y', 25).text(text(least));
-    scale.append('text').attr('class', 'bar-name').attr('y', 25).attr('x', length).attr('text-anchor', 'end').text(text(most));
-  }
 }
 
 /** Paired differences of two studies: after less before, of rows that set the same. */
