@@ -237,6 +237,18 @@ std::string Shortened(const std::string& title) {
   return title.size() <= kLongest ? title : title.substr(0, kLongest - 3) + "...";
 }
 
+/// What of a text leaves the legend its place.
+std::string Fitting(const Font& font, const std::string& text, double size, double width) {
+  if (font.Width(text, size) <= width) {
+    return text;
+  }
+  std::string shown = text;
+  while (!shown.empty() && font.Width(shown + "...", size) > width) {
+    shown.pop_back();
+  }
+  return shown + "...";
+}
+
 class CaptionPanels : public Overlay {
  public:
   explicit CaptionPanels(const OverlaySetup& setup)
@@ -272,7 +284,9 @@ Rows DrawCaption(Image& image, Font& font, const Caption& caption, const Reading
   int line = 0;
   DrawLine(canvas, font, layout, line++, Shortened(caption.title));
   if (!caption.note.empty()) {
-    DrawLine(canvas, font, layout, line++, caption.note);
+    constexpr double kShare = 0.7;  // of the picture's width
+    const double width = kShare * image.width - 2.0 * layout.pad;
+    DrawLine(canvas, font, layout, line++, Fitting(font, caption.note, TitleSize(layout), width));
   }
   if (readings.wind) {
     DrawWind(canvas, font, layout, line, *readings.wind, azimuth);

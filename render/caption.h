@@ -23,9 +23,9 @@ struct Rows {
 };
 
 /// Writes over the picture: the run's name (top left), under it the note and the wind if there are
-/// any, the legend (top right) and the readings (left, down to `bottom` [px]). The wind's arrow
-/// points up when it blows along `azimuth`, where the camera looks [rad]. Returns the rows between
-/// the legend and the readings.
+/// any, of a note what is no wider than 0.7 of the picture, the legend (top right) and the readings
+/// (left, down to `bottom` [px]). The wind's arrow points up when it blows along `azimuth`, where
+/// the camera looks [rad]. Returns the rows between the legend and the readings.
 Rows DrawCaption(Image& image, Font& font, const Caption& caption, const Readings& readings,
                  double azimuth, double bottom);
 

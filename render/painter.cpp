@@ -117,11 +117,14 @@ Painter::Painter(std::span<Recording> recordings, const FilmOptions& options)
     const int left = options.width * i / count;
     const int right = options.width * (i + 1) / count;
     Recording& recording = recordings[static_cast<std::size_t>(i)];
+    const std::string name = options.title.empty() ? recording.name : options.title;
+    if (!options.note.empty()) {
+      recording.note = options.note;
+    }
     const OverlaySetup setup{
         .recording = recording,
         .shown = options_.overlays,
-        .title = options.plants.empty() ? recording.name
-                                        : recording.name + ": " + recording.plants.front().plant(),
+        .title = options.plants.empty() ? name : name + ": " + recording.plants.front().plant(),
         .width = right - left,
         .height = options.height,
         .font = font_};

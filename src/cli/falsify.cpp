@@ -67,7 +67,9 @@ void WriteCounterexample(const FalsifyResult& result, const CheckedSearch& searc
             {.width = render.width,
              .height = render.height,
              .fps = render.fps,
-             .camera = render.camera},
+             .camera = render.camera,
+             .title = search.study.name + ": " + run_folder::kCounterexample,
+             .note = result.counterexample->reason},
             options.scenario.quiet);
   }
   if (options.report) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "render/layout.h"
 #include "tests/render/pictures.h"
 #include "trackbed/core/error.h"
 #include "trackbed/render/film.h"
@@ -68,6 +69,27 @@ TEST_F(PainterTest, WithoutOverlaysThereIsTheWorldAlone) {
   const Image bare = Painted(options_);
   overlays_.clear();
   EXPECT_TRUE(bare.rgb == Picture("chase", 1.0).rgb);
+}
+
+TEST_F(PainterTest, TitleAndNoteAreThoseAskedFor) {
+  options_.overlays = {"caption"};
+  const Image plain = Painted(options_);
+  options_.title = ReadRecording(folder_.path()).name;
+  EXPECT_TRUE(Painted(options_).rgb == plain.rgb);
+  options_.title = "another";
+  EXPECT_GT(Different(Painted(options_), plain, 0, kWidth / 2, 0, kHeight / 4), 20);
+  options_.title.clear();
+  options_.note = "it fails";
+  const Image noted = Painted(options_);
+  EXPECT_GT(Different(noted, plain, 0, kWidth / 2, 0, kHeight / 2), 100);
+  EXPECT_EQ(Different(noted, plain, kWidth / 2, kWidth, 0, kHeight), 0);
+  EXPECT_EQ(Different(noted, plain, 0, kWidth, kHeight / 2, kHeight), 0);
+  // What does not fit ends with dots, which leaves the legend free.
+  options_.note = std::string(200, 'm');
+  const Image shortened = Painted(options_);
+  EXPECT_GT(Different(shortened, noted, 0, kWidth, 0, kHeight / 2), 100);
+  const int end = static_cast<int>(0.7 * kWidth + Layout(kWidth, kHeight).margin) + 1;
+  EXPECT_EQ(Different(shortened, plain, end, kWidth, 0, kHeight), 0);
 }
 
 TEST_F(PainterTest, PlantsSideBySideAreEachAsAlone) {

@@ -41,6 +41,8 @@ struct FilmOptions {
   /// Plants of the run, each with a part of the picture of its own, side by side, as the car and
   /// alone. None: one picture, the car and the other plants as its ghosts.
   std::vector<std::string> plants{};
+  std::string title{};  ///< in the caption; empty: the run folder's name
+  std::string note{};   ///< under the title; empty: what to know of the vehicle, if anything
   std::optional<double> from{};  ///< [s] of the run, where the film begins; none: at its first time
   std::optional<double> to{};    ///< [s], at least `from`, where it ends; none: at its last time
 };
