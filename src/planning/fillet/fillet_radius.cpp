@@ -151,6 +151,43 @@ std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle
   return room;
 }
 
+/// By how much the ramp S of a radius exceeds the longest that leaves the car near the path [m]:
+/// wheels that turn half before and half behind the tangent point lead it S^2/(24 r) off, which may
+/// be a quarter of the car's width.
+double RampExcess(const VehicleParams& vehicle, const FilletTurn& turn, double speed,
+                  double radius) {
+  constexpr double kShareOfWidth = 0.25;
+  const double travel = SteeringForCurvature(vehicle, 1.0 / radius) - NeutralTowardTurn(turn);
+  return std::abs(SteeringDistance(vehicle, travel, speed)) -
+         std::sqrt(24.0 * radius * kShareOfWidth * vehicle.width);
+}
+
+/// The radii that C.40 allows at the highest speed, no more than the turn's and no less than
+/// `min_speed`, at which the ramp of the largest one is short enough.
+RadiusInterval SlowDownForRamp(const VehicleParams& vehicle, const FilletOptions& options,
+                               const RadiusInterval& bounds, const RadiusInterval& room,
+                               FilletTurn& turn) {
+  const double slowest = std::min(options.min_speed, turn.speed);
+  if (options.radius || options.without_room != InfeasibleTurnPolicy::kSlowDown ||
+      slowest >= turn.speed || RampExcess(vehicle, turn, turn.speed, room.high) <= 0.0) {
+    return room;
+  }
+  // The slower the car, the larger the largest radius, and the shorter its ramp.
+  const auto room_at = [&](double v) {
+    return SteeringRoomRadii(vehicle, v, turn.interior_angle, turn.shorter_leg, bounds,
+                             NeutralTowardTurn(turn))
+        .value_or(room);
+  };
+  const auto excess = [&](double v) { return RampExcess(vehicle, turn, v, room_at(v).high); };
+  const double slower = excess(slowest) > 0.0 ? slowest : Root(excess, slowest, turn.speed);
+  turn.note = fmt::format(
+      "{}{}at {:.4g} m/s the wheels turn too slowly for a radius of {:.4g} m; speed reduced to "
+      "{:.4g} m/s",
+      turn.note, turn.note.empty() ? "" : "; ", turn.speed, room.high, slower);
+  turn.speed = slower;
+  return room_at(slower);
+}
+
 }  // namespace
 
 RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const FilletOptions& options,
@@ -192,8 +229,9 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
   RadiusLimits limits{*half_leg, ActiveConstraint::kMinRadius, ActiveConstraint::kHalfLeg,
                       RadiusConstraint::kHalfLeg};
   if (options.constraint == RadiusConstraint::kSteeringRoom) {
-    const auto room = RadiiWithSteeringRoom(vehicle, speed, options, bounds, turn);
+    auto room = RadiiWithSteeringRoom(vehicle, speed, options, bounds, turn);
     if (room) {
+      room = SlowDownForRamp(vehicle, options, bounds, *room, turn);
       limits = {
           *room,
           room->low > bounds.low ? ActiveConstraint::kSteeringRoom : ActiveConstraint::kMinRadius,

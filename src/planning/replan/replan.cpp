@@ -75,7 +75,7 @@ class Replanning {
       along = Along();
     }
     // Behind a leader the route is clear only up to where it is too near.
-    if (!driving_.on_route && (!options_.along || along.kind == ManeuverType::kProceed)) {
+    if (!driving_.on_route && (!along.ok() || along.kind == ManeuverType::kProceed)) {
       if (auto back = BackOnRoute()) {
         return std::move(*back);
       }
@@ -276,6 +276,9 @@ class Replanning {
       return Keep();  // it ends here anyway
     }
     Plan plan = StopAfter(way, speed, comfortable);
+    if (!Stands(obstacle) && !PutsOff(plan, conflict)) {
+      return Keep();
+    }
     plan.goal = driving_.route.goal;
     plan.blocked =
         fmt::format("stops before the obstacle at {}: no path around it", Place(obstacle.box));
@@ -283,6 +286,13 @@ class Replanning {
     diagnostics_.deceleration = braking;
     plan.diagnostics.replan = diagnostics_;
     return {ReplanKind::kStop, std::move(plan)};
+  }
+
+  /// Whether the car that follows `plan` has more time before it gets too near to something than
+  /// with the conflict that it brakes for. What comes from behind reaches it the sooner.
+  [[nodiscard]] bool PutsOff(const Plan& plan, const PredictedConflict& conflict) const {
+    const auto braked = NextConflict(plan.reference, 0.0);
+    return !braked || braked->time >= conflict.time;
   }
 
   /// Hard braking is never more than this; on ice, the comfortable one neither [m/s^2].

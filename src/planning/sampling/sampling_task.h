@@ -65,20 +65,29 @@ std::vector<Vec2> InWorld(const Pose2& frame, std::vector<Vec2> points);
 Plan GoalBlocked(const SamplingTask& task, std::size_t waypoint);
 
 /// Plans once more for a rolling car, which may need more room before its first corner than the
-/// trees leave.
+/// trees leave: with a straight start that lets it come to rest; where something is in the way,
+/// with a half or a quarter of that.
 template <typename Options, typename PlanTrees>
 Plan PlanWithLeadIn(const Options& options, const PlanRequest& request,
                     const PlanTrees& plan_trees) {
+  constexpr int kLeadIns = 3;
   Plan plan = plan_trees(options, request);
   const bool too_near =
       plan.status == PlanStatus::kTurnTooTight || plan.status == PlanStatus::kInfeasible;
   if (!too_near || options.corners == Corners::kRefuse || request.start_speed == 0.0) {
     return plan;
   }
-  Options longer = options;
-  longer.lead_in += 0.5 * request.start_speed * request.start_speed / request.speed.deceleration +
-                    request.vehicle.min_turning_radius();
-  Plan again = plan_trees(longer, request);
+  double more = 0.5 * request.start_speed * request.start_speed / request.speed.deceleration +
+                request.vehicle.min_turning_radius();
+  Plan again;
+  for (int i = 0; i < kLeadIns; ++i, more *= 0.5) {
+    Options longer = options;
+    longer.lead_in += more;
+    again = plan_trees(longer, request);
+    if (again.status != PlanStatus::kStartBlocked) {
+      break;  // trees were grown: one that is blocked costs nothing
+    }
+  }
   return again.ok() ? again : plan;
 }
 

@@ -795,6 +795,28 @@ TEST(PlanFillets, KeepsItsSpeedUnderHalfLegWhenAskedTo) {
   EXPECT_THAT(plan.turns[0].note, HasSubstr("14 m; under half_leg instead"));
 }
 
+TEST(PlanFillets, TurnsTheWheelsNearThePath) {
+  // A sharp corner with long legs: C.40 alone would take it at 4.68 m/s on full lock, with a ramp
+  // of 15.1 m for an arc of 12.6 m.
+  const std::vector<Vec2> route{{0, 0}, {59.37, 0}, {-1.5, 48.6}, {117.75, 40}};
+  const FilletPlan plan = PlanFillets(ReferenceCar(), route, 7.19, {});
+  ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
+  for (const FilletTurn& turn : plan.turns) {
+    SCOPED_TRACE(turn.waypoint);
+    EXPECT_LT(turn.speed, 7.19);
+    EXPECT_FALSE(turn.ramp_truncated);
+    EXPECT_THAT(turn.note, HasSubstr("the wheels turn too slowly for a radius of"));
+    // As fast as it may be: the ramp leads off the path by a quarter of the car's width, at the
+    // largest radius that C.40 allows at that speed. Both are roots, found to 52 bits.
+    const double S = turn.ramp_distance;
+    EXPECT_NEAR(S * S / (24.0 * turn.radius), 0.25 * ReferenceCar().width, Tolerance(1e-9));
+    EXPECT_NEAR(turn.tangent_length + S, 0.5 * turn.shorter_leg, Tolerance(1e-9));
+  }
+  FilletOptions options;
+  options.without_room = InfeasibleTurnPolicy::kRefuse;
+  EXPECT_EQ(PlanFillets(ReferenceCar(), route, 4.0, options).turns.at(0).speed, 4.0);
+}
+
 TEST(PlanFillets, SlowerCarFindsSteeringRoom) {
   const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 60}, {88, 60}};
   const FilletPlan plan = PlanFillets(ReferenceCar(), route, 1.5, {});

@@ -254,6 +254,24 @@ TEST(Replan, BrakesForWhatComesAsHardAsThatTakes) {
   }
 }
 
+TEST(Replan, DoesNotBrakeForWhatComesFromBehind) {
+  // A box 12 m behind the car's rear axle that comes up at 5 m/s, in a road too narrow to let it
+  // pass: it reaches a car that brakes the sooner.
+  Scene scene;
+  scene.request.max_deceleration = 8.0;
+  scene.options.settings.road = {1.0, 1.0};
+  scene.request.obstacles = {BoxAt(scene.driving.route.reference.path, 18.0, 0.0)};
+  scene.request.obstacles[0].velocity = {5.0, 0.0};
+  const double safe = scene.options.settings.safe_distance;
+  ASSERT_TRUE(PredictConflict(ReferenceCar(), scene.driving.plan.reference, 30.0,
+                              scene.request.obstacles, safe, 12.0));
+  EXPECT_EQ(scene.Go().kind, ReplanKind::kKeep);
+  // Head on it reaches a car that brakes later.
+  scene.request.obstacles = {BoxAt(scene.driving.route.reference.path, 60.0, 0.0)};
+  scene.request.obstacles[0].velocity = {-5.0, 0.0};
+  EXPECT_EQ(scene.Go().kind, ReplanKind::kStop);
+}
+
 TEST(Replan, AsksForNoMoreThanTheLimitBeyondThePlansEnd) {
   // 0.4 m before the goal, pushed to 3 m/s: what is left of the path is too short to stop on.
   Scene scene;

@@ -116,6 +116,19 @@ TEST(RrtPlanner, BeginsStraightOn) {
   EXPECT_NEAR(near.reference.path.length(), 6.0, Tolerance(1e-9));
 }
 
+TEST(RrtPlanner, BeginsAsFarStraightOnAsThereIsRoomFor) {
+  // A rolling car is too near its first corner at the end of the default lead-in, and a lead-in
+  // that it can stop on ends 12.6 m from its rear axle, where a box is in the way.
+  PlanRequest request = Across({{{15.77, -1.59, 0.0}, 4.0, 5.88}});
+  request.speed.speed = request.start_speed = 3.22;
+  RrtPlannerOptions options{.trees = 3};
+  const Plan plan = MakePlan(request, options);
+  EXPECT_TRUE(plan.ok()) << plan.reason;
+  // Each of the further lead-ins is for a car that rolls.
+  request.start_speed = 0.0;
+  EXPECT_TRUE(MakePlan(request, options).ok());
+}
+
 TEST(RrtPlanner, RefusesCornersWhenAsked) {
   const Plan plan = MakePlan(BoxInTheMiddle(), RrtPlannerOptions{.corners = Corners::kRefuse});
   EXPECT_EQ(plan.status, PlanStatus::kTurnTooTight);
