@@ -290,7 +290,8 @@ Plan PlanWith(const RrtPlannerOptions& options, const PlanRequest& request) {
   }
   TRACKBED_CHECK(options.trees > 0 && options.time_limit.value_or(1.0) > 0.0,
                  "{} trees, time limit {}", options.trees, options.time_limit.value_or(0.0));
-  return PlanWithLeadIn(options, request, PlanTrees);
+  // Each has all of the time.
+  return PlanWithLeadIn(options, request, PlanTrees, options.time_limit ? 1 : kLeadIns);
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ Plan PlanStar(const RrtStarPlannerOptions& options, const PlanRequest& request) 
     return refused;
   }
   TRACKBED_CHECK(options.trees > 0, "{} trees", options.trees);
-  return PlanWithLeadIn(options, request, PlanStarTrees);
+  return PlanWithLeadIn(options, request, PlanStarTrees, kLeadIns);
 }
 
 }  // namespace

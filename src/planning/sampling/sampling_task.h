@@ -64,13 +64,15 @@ std::vector<Vec2> InWorld(const Pose2& frame, std::vector<Vec2> points);
 /// Why a waypoint, counted from 0, is blocked.
 Plan GoalBlocked(const SamplingTask& task, std::size_t waypoint);
 
-/// Plans once more for a rolling car, which may need more room before its first corner than the
-/// trees leave: with a straight start that lets it come to rest; where something is in the way,
-/// with a half or a quarter of that.
+/// Straight starts that PlanWithLeadIn tries.
+inline constexpr int kLeadIns = 3;
+
+/// Plans again for a rolling car, which may need more room before its first corner than the trees
+/// leave: with a longer straight start, up to `tries` of them. The longest lets the car come to
+/// rest; where something is in its way, a half or a quarter of it may do.
 template <typename Options, typename PlanTrees>
-Plan PlanWithLeadIn(const Options& options, const PlanRequest& request,
-                    const PlanTrees& plan_trees) {
-  constexpr int kLeadIns = 3;
+Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const PlanTrees& plan_trees,
+                    int tries) {
   Plan plan = plan_trees(options, request);
   const bool too_near =
       plan.status == PlanStatus::kTurnTooTight || plan.status == PlanStatus::kInfeasible;
@@ -79,16 +81,15 @@ Plan PlanWithLeadIn(const Options& options, const PlanRequest& request,
   }
   double more = 0.5 * request.start_speed * request.start_speed / request.speed.deceleration +
                 request.vehicle.min_turning_radius();
-  Plan again;
-  for (int i = 0; i < kLeadIns; ++i, more *= 0.5) {
+  for (int i = 0; i < tries; ++i, more *= 0.5) {
     Options longer = options;
     longer.lead_in += more;
-    again = plan_trees(longer, request);
-    if (again.status != PlanStatus::kStartBlocked) {
-      break;  // trees were grown: one that is blocked costs nothing
+    Plan again = plan_trees(longer, request);
+    if (again.ok()) {
+      return again;
     }
   }
-  return again.ok() ? again : plan;
+  return plan;
 }
 
 }  // namespace trackbed
