@@ -303,8 +303,9 @@ RouteFrame MakeRouteFrame(const VehicleParams& vehicle, const Plan& route, const
   const Path& path = route.reference.path;
   std::vector<Segment> segments = path.segments();
   segments.push_back({.length = beyond});
+  const Path longer(path.At(0.0).pose, std::move(segments));
   if (route.laps.track) {
-    return {.path = Path(path.At(0.0).pose, std::move(segments)),
+    return {.path = longer,
             .goal = path.length(),
             .edges = std::make_shared<const RoadEdges>(
                 EdgesBeside(path, *route.laps.track, vehicle, edge_distance))};
@@ -326,7 +327,7 @@ RouteFrame MakeRouteFrame(const VehicleParams& vehicle, const Plan& route, const
     const double turning = v * vehicle.wheelbase * curvature / vehicle.steering_rate;
     window = std::max(window, turning * (1.0 + std::pow(curvature * turning, 2) / 24.0));
   }
-  RouteFrame frame{SmoothCurvature(Path(path.At(0.0).pose, std::move(segments)), window)};
+  RouteFrame frame{SmoothCurvature(longer, window)};
   const double length = frame.path.length();
   frame.goal =
       frame.path.Project(path.At(path.length()).pose, {length - beyond - window, length}).s;
