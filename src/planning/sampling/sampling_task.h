@@ -69,7 +69,8 @@ inline constexpr int kLeadIns = 3;
 
 /// Plans again for a rolling car, which may need more room before its first corner than the trees
 /// leave: with a longer straight start, up to `tries` of them. The longest lets the car come to
-/// rest; where something is in its way, a half or a quarter of it may do.
+/// rest; where something is in its way, a half or a quarter of it may do, for which one tree is
+/// grown each: many a refused mission has no plan at all.
 template <typename Options, typename PlanTrees>
 Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const PlanTrees& plan_trees,
                     int tries) {
@@ -84,6 +85,7 @@ Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const Pl
   for (int i = 0; i < tries; ++i, more *= 0.5) {
     Options longer = options;
     longer.lead_in += more;
+    longer.trees = i == 0 ? options.trees : 1;
     Plan again = plan_trees(longer, request);
     if (again.ok()) {
       return again;

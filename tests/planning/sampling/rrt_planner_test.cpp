@@ -118,13 +118,13 @@ TEST(RrtPlanner, BeginsStraightOn) {
 
 TEST(RrtPlanner, BeginsAsFarStraightOnAsThereIsRoomFor) {
   // A rolling car is too near its first corner at the end of the default lead-in, and a lead-in
-  // that it can stop on ends 12.6 m from its rear axle, where a box is in the way.
-  PlanRequest request = Across({{{15.77, -1.59, 0.0}, 4.0, 5.88}});
-  request.speed.speed = request.start_speed = 3.22;
+  // that it can stop on ends 15.8 m from its rear axle, 4.6 m before a box. A shorter one does.
+  PlanRequest request = Across({{{22.39, 0.0, 0.0}, 4.0, 4.0}, {{40.0, 5.0, 0.0}, 4.0, 4.0}});
+  request.speed.speed = request.start_speed = 4.48;
   RrtPlannerOptions options{.trees = 3};
   const Plan plan = MakePlan(request, options);
   EXPECT_TRUE(plan.ok()) << plan.reason;
-  // Each of the further lead-ins is for a car that rolls.
+  // A car at rest needs none of them.
   request.start_speed = 0.0;
   EXPECT_TRUE(MakePlan(request, options).ok());
 }
