@@ -85,7 +85,7 @@ ordered_json PlanLine(const fs::path& file) {
 /// One plan after the other, each row with the time from which its plan holds; of all of them
 /// together at most so many points, evenly chosen.
 ordered_json NewPlans(const fs::path& file) {
-  constexpr std::size_t kMostPoints = 6000;
+  constexpr std::size_t kMostPoints = 4000;
   const Table table = ReadCsvExcerpt(file, {"from_t_s", "x_m", "y_m"}).table;
   const std::vector<double> from = table.Column("from_t_s");
   const std::size_t step = from.size() / kMostPoints + 1;

@@ -262,7 +262,7 @@ TEST_F(Sampled, SayWhatIsWrong) {
   EXPECT_EQ(ErrorMessages("sample: {count: 4}\n"
                           "vary: {seed: {distribution: uniform, from: 1, to: 2, mean: 3}}\n"),
             "study.yaml:5:54: vary.seed.mean: unknown key 'mean'; allowed: distribution, from, to, "
-            "when");
+            "step, when");
   EXPECT_THAT(ErrorMessages("sample: {count: 4}\n"
                             "vary: {seed: {distribution: file, file: /etc/passwd, column: x}}\n"),
               testing::HasSubstr("vary.seed.file: /etc/passwd is an absolute path"));
