@@ -30,7 +30,8 @@ std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
   const double sine = tangent * cosine;
   SidePoints points;
   for (int i = 0; i < 2 * kAlongSide; ++i) {
-    const double x = car.length * (i / 2) / (kAlongSide - 1) - car.rear_overhang;
+    const int from_rear = i / 2;
+    const double x = car.length * from_rear / (kAlongSide - 1) - car.rear_overhang;
     const double y = i % 2 == 0 ? 0.5 * car.width : -0.5 * car.width;
     const double ahead = x * cosine - y * sine;
     const double aside = frenet.d + x * sine + y * cosine;
