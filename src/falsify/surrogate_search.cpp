@@ -75,7 +75,7 @@ class SurrogateSearch : public PointSearch {
   }
 
  private:
-  // dlib explores and refines in turn, so that two points at a time are one of each.
+  // dlib alternates between exploring and refining: a batch of two has one of each.
   static constexpr int kBatch = 2;
   // Of the values, as a share of their range; dlib's own default.
   static constexpr double kNoise = 0.001;

@@ -57,8 +57,8 @@ struct EdgeAbeam {
   double cosine = 1.0;  // of the angle between edge and pose
 };
 
-/// Among the pieces of the edge near a share of the lap, the crossing with the pose's normal that
-/// is nearest to the `expected` offset; that itself where there is none.
+/// Where the pose's normal crosses the edge near a share of the lap. Of several crossings, the one
+/// closest to the `expected` offset; without any, `expected`.
 EdgeAbeam FindAbeam(const TrackEdgeLine& edge, const Pose2& pose, double share, double expected) {
   constexpr double kReach = 20.0;  // [m]
   const auto count = static_cast<std::ptrdiff_t>(edge.size());
