@@ -22,18 +22,32 @@ struct Context {
   int iterations = 0;
 };
 
+/// Takes IPOPT's types from a callback, because no names fit all versions: 3.14 deprecates Index,
+/// Number and Bool, and 3.11 lacks ipindex and ipnumber.
+template <typename Callback>
+struct TypesOf;
+template <typename BoolType, typename IndexType, typename NumberType>
+struct TypesOf<BoolType (*)(IndexType, NumberType*, BoolType, NumberType*, UserDataPtr)> {
+  using Bool = BoolType;
+  using Index = IndexType;
+  using Number = NumberType;
+};
+using IpBool = TypesOf<Eval_F_CB>::Bool;
+using IpIndex = TypesOf<Eval_F_CB>::Index;
+using IpNumber = TypesOf<Eval_F_CB>::Number;
+
 Context& ContextOf(UserDataPtr data) {
   return *static_cast<Context*>(data);
 }
 
 /// Places of the entries of a matrix if they are asked for, else their values.
-void FillEntries(const Sparse& matrix, Index* rows, Index* columns, Number* values) {
+void FillEntries(const Sparse& matrix, IpIndex* rows, IpIndex* columns, IpNumber* values) {
   Eigen::Index entry = 0;
   for (Eigen::Index outer = 0; outer < matrix.outerSize(); ++outer) {
     for (Sparse::InnerIterator at(matrix, outer); at; ++at, ++entry) {
       if (values == nullptr) {
-        rows[entry] = static_cast<Index>(at.row());
-        columns[entry] = static_cast<Index>(at.col());
+        rows[entry] = static_cast<IpIndex>(at.row());
+        columns[entry] = static_cast<IpIndex>(at.col());
       } else {
         values[entry] = at.value();
       }
@@ -41,33 +55,35 @@ void FillEntries(const Sparse& matrix, Index* rows, Index* columns, Number* valu
   }
 }
 
-Bool Objective(Index n, Number* x, Bool /*new_x*/, Number* value, UserDataPtr data) {
+IpBool Objective(IpIndex n, IpNumber* x, IpBool /*new_x*/, IpNumber* value, UserDataPtr data) {
   const SparseQuadraticProgram& program = ContextOf(data).program;
   const ConstVectorMap at(x, n);
   *value = 0.5 * at.dot(program.hessian * at) + program.linear.dot(at);
   return TRUE;
 }
 
-Bool Gradient(Index n, Number* x, Bool /*new_x*/, Number* gradient, UserDataPtr data) {
+IpBool Gradient(IpIndex n, IpNumber* x, IpBool /*new_x*/, IpNumber* gradient, UserDataPtr data) {
   const SparseQuadraticProgram& program = ContextOf(data).program;
   VectorMap(gradient, n) = program.hessian * ConstVectorMap(x, n) + program.linear;
   return TRUE;
 }
 
-Bool Constraints(Index n, Number* x, Bool /*new_x*/, Index m, Number* values, UserDataPtr data) {
+IpBool Constraints(IpIndex n, IpNumber* x, IpBool /*new_x*/, IpIndex m, IpNumber* values,
+                   UserDataPtr data) {
   VectorMap(values, m) = ContextOf(data).program.constraints * ConstVectorMap(x, n);
   return TRUE;
 }
 
-Bool Jacobian(Index /*n*/, Number* /*x*/, Bool /*new_x*/, Index /*m*/, Index /*entries*/,
-              Index* rows, Index* columns, Number* values, UserDataPtr data) {
+IpBool Jacobian(IpIndex /*n*/, IpNumber* /*x*/, IpBool /*new_x*/, IpIndex /*m*/,
+                IpIndex /*entries*/, IpIndex* rows, IpIndex* columns, IpNumber* values,
+                UserDataPtr data) {
   FillEntries(ContextOf(data).program.constraints, rows, columns, values);
   return TRUE;
 }
 
-Bool Hessian(Index /*n*/, Number* /*x*/, Bool /*new_x*/, Number factor, Index /*m*/,
-             Number* /*lambda*/, Bool /*new_lambda*/, Index entries, Index* rows, Index* columns,
-             Number* values, UserDataPtr data) {
+IpBool Hessian(IpIndex /*n*/, IpNumber* /*x*/, IpBool /*new_x*/, IpNumber factor, IpIndex /*m*/,
+               IpNumber* /*lambda*/, IpBool /*new_lambda*/, IpIndex entries, IpIndex* rows,
+               IpIndex* columns, IpNumber* values, UserDataPtr data) {
   FillEntries(ContextOf(data).lower_triangle, rows, columns, values);
   if (values != nullptr) {
     VectorMap(values, entries) *= factor;
@@ -75,10 +91,10 @@ Bool Hessian(Index /*n*/, Number* /*x*/, Bool /*new_x*/, Number factor, Index /*
   return TRUE;
 }
 
-Bool CountIteration(Index /*mode*/, Index iteration, Number /*objective*/, Number /*primal*/,
-                    Number /*dual*/, Number /*mu*/, Number /*step*/, Number /*regularization*/,
-                    Number /*alpha_dual*/, Number /*alpha_primal*/, Index /*trials*/,
-                    UserDataPtr data) {
+IpBool CountIteration(IpIndex /*mode*/, IpIndex iteration, IpNumber /*objective*/,
+                      IpNumber /*primal*/, IpNumber /*dual*/, IpNumber /*mu*/, IpNumber /*step*/,
+                      IpNumber /*regularization*/, IpNumber /*alpha_dual*/,
+                      IpNumber /*alpha_primal*/, IpIndex /*trials*/, UserDataPtr data) {
   ContextOf(data).iterations = static_cast<int>(iteration);
   return TRUE;
 }
@@ -117,8 +133,8 @@ IpoptResult SolveByIpopt(const SparseQuadraticProgram& program, const Eigen::Vec
   // MUMPS, IPOPT's linear solver in Debian, keeps state of its own: two solutions at a time crash.
   static std::mutex one_at_a_time;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
-  const auto n = static_cast<Index>(program.linear.size());
-  const auto m = static_cast<Index>(program.lower.size());
+  const auto n = static_cast<IpIndex>(program.linear.size());
+  const auto m = static_cast<IpIndex>(program.lower.size());
   Context context{.program = program,
                   .lower_triangle = program.hessian.triangularView<Eigen::Lower>()};
   constexpr double kUnbounded = 2e19;
@@ -128,8 +144,8 @@ IpoptResult SolveByIpopt(const SparseQuadraticProgram& program, const Eigen::Vec
   Eigen::VectorXd upper = program.upper;
   const std::unique_ptr<std::remove_pointer_t<IpoptProblem>, void (*)(IpoptProblem)> problem(
       CreateIpoptProblem(n, x_lower.data(), x_upper.data(), m, lower.data(), upper.data(),
-                         static_cast<Index>(program.constraints.nonZeros()),
-                         static_cast<Index>(context.lower_triangle.nonZeros()), 0, Objective,
+                         static_cast<IpIndex>(program.constraints.nonZeros()),
+                         static_cast<IpIndex>(context.lower_triangle.nonZeros()), 0, Objective,
                          Constraints, Gradient, Jacobian, Hessian),
       FreeIpoptProblem);
   TRACKBED_CHECK(problem != nullptr, "IPOPT refuses a program of {} variables", n);
