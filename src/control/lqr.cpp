@@ -28,7 +28,8 @@ class Lqr final : public SteeringController {
     ErrorModel::Vector reach = model.b;
     const auto steps = static_cast<long>(std::ceil(options_.preview / input.period));
     for (long k = 0; k < steps; ++k) {
-      rate -= reach.dot(regulator.cost * ahead.Next()) / regulator.input_cost;
+      const ErrorModel::Vector push = regulator.cost * ahead.Next();
+      rate -= reach.dot(push) / regulator.input_cost;
       reach = (closed * reach).eval();
     }
     return angle_.Turn(input, rate);

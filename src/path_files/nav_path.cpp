@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "src/path_files/formats.h"
 #include "trackbed/core/error.h"
@@ -12,10 +13,10 @@ namespace {
 
 using nlohmann::json;
 
-const json& Member(const json& value, const char* name, const std::string& key,
+const json& Member(const json& value, const char* name, std::string_view key,
                    const std::string& file) {
   if (!value.is_object() || !value.contains(name)) {
-    Refuse(file, key, fmt::format("has no member {}", name));
+    Refuse(file, std::string(key), fmt::format("has no member {}", name));
   }
   return value.at(name);
 }

@@ -1,6 +1,7 @@
 #include "trackbed/path_files/path_map.h"
 
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "trackbed/core/error.h"
@@ -83,8 +84,8 @@ std::vector<std::pair<std::string, std::string>> PathMapProblems(const PathMap& 
   return problems;
 }
 
-const std::vector<PathColumnName>& PathColumnNames(const std::string& quantity) {
-  static const std::map<std::string, std::vector<PathColumnName>> names{
+const std::vector<PathColumnName>& PathColumnNames(std::string_view quantity) {
+  static const std::map<std::string_view, std::vector<PathColumnName>> names{
       {"x",
        {{"x_m", "m"},
         {"x", "m"},

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trackbed/options/key_visitor.h"
@@ -58,6 +59,6 @@ struct PathColumnName {
 };
 
 /// The usual names, the best first, of "x", "y", "yaw", "curvature", "speed" or "time".
-const std::vector<PathColumnName>& PathColumnNames(const std::string& quantity);
+const std::vector<PathColumnName>& PathColumnNames(std::string_view quantity);
 
 }  // namespace trackbed
