@@ -244,7 +244,7 @@ std::vector<Segment> Path::Cut(Stations within) const {
 }
 
 std::vector<Stations> SplitIntoLegs(const Path& path, const std::vector<double>& stops) {
-  constexpr double kSame = 1e-9;  // [m]
+  constexpr double kSameStation = 1e-9;  // [m]
   for (const double stop : stops) {
     TRACKBED_REQUIRE(!std::isnan(stop), "SplitIntoLegs: a stop at {}; must be a number", stop);
   }
@@ -260,7 +260,7 @@ std::vector<Stations> SplitIntoLegs(const Path& path, const std::vector<double>&
   std::sort(ends.begin(), ends.end());
   std::vector<Stations> legs{{0.0, 0.0}};
   for (const double end : ends) {
-    if (end > legs.back().from + kSame && end < station - kSame) {
+    if (end > legs.back().from + kSameStation && end < station - kSameStation) {
       legs.back().to = end;
       legs.push_back({end, end});
     }

@@ -80,10 +80,10 @@ double Terrain::Control(int column, int row) const {
 }
 
 Terrain::Point Terrain::CoarseAt(const Vec2& place) const {
-  const auto [column, u] = CellAt(place.x(), kCoarseCell, size_.columns * kCoarseCells);
-  const auto [row, v] = CellAt(place.y(), kCoarseCell, size_.rows * kCoarseCells);
+  const auto [cell_column, u] = CellAt(place.x(), kCoarseCell, size_.columns * kCoarseCells);
+  const auto [cell_row, v] = CellAt(place.y(), kCoarseCell, size_.rows * kCoarseCells);
   return Sum(SplineWeights(u), SplineWeights(v), kCoarseCell,
-             [&, column = column, row = row](int i, int j) {
+             [&, column = cell_column, row = cell_row](int i, int j) {
                return Control(column + i - 1, row + j - 1);
              });
 }

@@ -209,9 +209,9 @@ TEST(Noise, HasItsStatistics) {
     EXPECT_NEAR(statistics.deviation, sigma, Tolerance(4.0 * sigma / std::sqrt(2.0 * n)));
     EXPECT_NEAR(statistics.correlation, 0.0, Tolerance(4.0 / std::sqrt(n)));
     // Normal: 4.55 % lie beyond two sigma, with a deviation of sqrt(p q / n) = 0.3 %.
-    const auto beyond = std::count_if(errors.begin(), errors.end(), [sigma = sigma](double e) {
-      return std::abs(e) > 2.0 * sigma;
-    });
+    const auto beyond =
+        std::count_if(errors.begin(), errors.end(),
+                      [limit = 2.0 * sigma](double e) { return std::abs(e) > limit; });
     EXPECT_NEAR(static_cast<double>(beyond) / n, 0.0455, Tolerance(0.012));
   }
 }

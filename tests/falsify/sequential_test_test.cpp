@@ -27,13 +27,13 @@ TEST(SequentialTest, HasTheLikelihoodsOfItsDefinition) {
   // Simpson's rule over q in 20 000 steps, whose error is below 1e-9 for polynomials of degree 30.
   for (const double p : {0.3, 0.9}) {
     for (const auto& [s, f] : {std::pair(0, 0), {1, 0}, {0, 1}, {20, 3}, {7, 9}}) {
-      const auto integral = [&, s = s, f = f](double from, double to) {
+      const auto integral = [&, successes = s, failures = f](double from, double to) {
         constexpr int kSteps = 20000;
         double sum = 0.0;
         for (int i = 0; i <= kSteps; ++i) {
           const double q = from + (to - from) * i / kSteps;
           const double weight = i == 0 || i == kSteps ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
-          sum += weight * std::pow(q / p, s) * std::pow((1.0 - q) / (1.0 - p), f);
+          sum += weight * std::pow(q / p, successes) * std::pow((1.0 - q) / (1.0 - p), failures);
         }
         return sum * (to - from) / (3.0 * kSteps);
       };

@@ -68,15 +68,15 @@ class StretchFinder {
     const std::vector<Way> ways =
         WaysFor(conflict, bend, ProblemFor(leaves.front(), backs.back(), {full, 1.0}, from));
     int tried = 0;
-    for (const auto& [speed, share] : Demands()) {
+    for (const Demand& demand : Demands()) {
       for (const Way& way : ways) {
-        if (speed < full && way.tree.status == RrtStarStatus::kNotReached) {
+        if (demand.speed < full && way.tree.status == RrtStarStatus::kNotReached) {
           continue;  // that no way was found has nothing to do with speed
         }
         for (const double leave : leaves) {
           // Of the curve that leaves here, taken this fast.
-          const auto problem_to = [&, speed = speed, share = share](double back) {
-            CurveProblem problem = ProblemFor(leave, back, {speed, share}, from);
+          const auto problem_to = [&](double back) {
+            CurveProblem problem = ProblemFor(leave, back, demand, from);
             problem.passage = {SideFrame(conflict), LateralSign(bend, way.passing_side)};
             problem.mirror = LateralSign(bend, PassingSide::kInner);
             return problem;

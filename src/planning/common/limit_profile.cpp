@@ -312,11 +312,11 @@ LimitSpeeds LimitSpeedsAlong(const std::vector<LimitStation>& stations, const Gg
     passes.BrakeFrom(start, squares);
   }
   LimitSpeeds result = Result(stations, squares);
-  constexpr double kRounding = 1e-6;
+  constexpr double kLimitRounding = 1e-6;
   for (std::size_t i = 0; i < squares.size() && !result.excess; ++i) {
     const double cap = stations[i].cap;
-    const bool capped = cap > 0.0 && squares[i] > cap * cap * (1.0 + kRounding);
-    if (squares[i] > allowed[i] * (1.0 + kRounding) &&
+    const bool capped = cap > 0.0 && squares[i] > cap * cap * (1.0 + kLimitRounding);
+    if (squares[i] > allowed[i] * (1.0 + kLimitRounding) &&
         (capped || can.Margin(stations[i], squares[i]) < 0.0)) {
       result.excess = {stations[i].s, result.speeds[i], std::sqrt(allowed[i])};
     }
