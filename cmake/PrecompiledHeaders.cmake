@@ -6,45 +6,110 @@
 #   LIGHT     JSON as well, at -O1: targets that read, write and judge, where a third of the compile time
 #             went into optimizing code that takes no time
 #   TESTS     as LIGHT, with GoogleTest
-# One precompiled header for all targets of a kind; GCC takes the optimization level from it. Public
-# headers are still compiled alone, without it (header_checks).
+#
+# All targets of a kind share one precompiled header, because GCC takes the optimization level from it.
+# The compiler rejects a precompiled header if a macro that its headers read has another value in the
+# target. Such macros come with libraries: in Debian 13 tinyxml2 defines _FILE_OFFSET_BITS. Therefore
+# targets with such macros share a second header, which is compiled with these macros. If a macro
+# escapes TRACKBED_MACROS_OF_PRECOMPILED, GCC warns and parses the headers as text.
+# Public headers are still compiled alone, without it (header_checks).
 option(TRACKBED_PRECOMPILED_HEADERS "Precompile the headers that most sources include" ON)
 
 set(light $<$<CONFIG:Release>:-O1>)
+# Macros that the precompiled headers may read: reserved names, which system headers read, and those of
+# the libraries.
+set(TRACKBED_MACROS_OF_PRECOMPILED "^(_|NDEBUG|EIGEN_|FMT_|JSON_|NLOHMANN_|GTEST_|GMOCK_)")
 
-function(trackbed_precompiled_header kind)
-  cmake_parse_arguments(ARG "" "" "HEADERS;LIBRARIES;OPTIONS" ${ARGN})
+# Sets OUT to the macros that libraries define for TARGET and that the precompiled headers may read.
+function(trackbed_library_macros target out)
+  set(macros "")
+  set(seen "")
+  get_target_property(libraries ${target} LINK_LIBRARIES)
+  while(libraries)
+    list(POP_FRONT libraries library)
+    string(REGEX REPLACE "^\\$<BUILD_INTERFACE:(.*)>$" "\\1" library "${library}")
+    if(NOT TARGET "${library}" OR library IN_LIST seen)
+      continue()
+    endif()
+    list(APPEND seen ${library})
+    get_target_property(definitions ${library} INTERFACE_COMPILE_DEFINITIONS)
+    if(definitions)
+      list(APPEND macros ${definitions})
+    endif()
+    get_target_property(below ${library} INTERFACE_LINK_LIBRARIES)
+    if(below)
+      list(APPEND libraries ${below})
+    endif()
+  endwhile()
+  list(FILTER macros INCLUDE REGEX "${TRACKBED_MACROS_OF_PRECOMPILED}")
+  list(REMOVE_DUPLICATES macros)
+  list(SORT macros)
+  set(${out} "${macros}" PARENT_SCOPE)
+endfunction()
+
+# Sets OUT to the target with the precompiled header of KIND, compiled with the macros that follow.
+function(trackbed_precompiled_header kind out)
   string(TOLOWER trackbed_${kind}_pch target)
-  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled/${target}.cpp CONTENT "")
-  add_library(${target} OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/precompiled/${target}.cpp)
-  target_link_libraries(${target} PRIVATE trackbed_compiler fmt::fmt Eigen3::Eigen ${ARG_LIBRARIES})
-  target_compile_options(${target} PRIVATE ${ARG_OPTIONS})
+  set(headers "")
+  set(libraries fmt::fmt Eigen3::Eigen)
+  if(kind MATCHES "LIGHT|TESTS")
+    list(APPEND headers <nlohmann/json.hpp>)
+    list(APPEND libraries nlohmann_json::nlohmann_json)
+  endif()
+  if(kind STREQUAL "TESTS")
+    list(APPEND headers <gmock/gmock.h> <gtest/gtest.h>)
+    list(APPEND libraries GTest::gmock)
+  endif()
+  # Every target links fmt through core, so its macros need no second header.
+  set(macros ${ARGN})
+  get_target_property(common fmt::fmt INTERFACE_COMPILE_DEFINITIONS)
+  list(REMOVE_ITEM macros ${common})
+  if(macros)
+    string(SHA256 hash "${macros}")
+    string(SUBSTRING ${hash} 0 8 hash)
+    string(APPEND target _${hash})
+  endif()
+  set(${out} ${target} PARENT_SCOPE)
+  if(TARGET ${target})
+    return()
+  endif()
+  set(source ${PROJECT_BINARY_DIR}/precompiled/${target}.cpp)
+  file(CONFIGURE OUTPUT ${source} CONTENT "")
+  add_library(${target} OBJECT EXCLUDE_FROM_ALL ${source})
+  target_link_libraries(${target} PRIVATE trackbed_compiler ${libraries})
+  target_compile_definitions(${target} PRIVATE ${macros})
+  if(kind MATCHES "LIGHT|TESTS")
+    target_compile_options(${target} PRIVATE ${light})
+  endif()
   # GCC uses a precompiled header only with the flags it was compiled with.
-  if(BUILD_SHARED_LIBS AND NOT kind STREQUAL TESTS)
+  if(BUILD_SHARED_LIBS AND NOT kind STREQUAL "TESTS")
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   endif()
   target_precompile_headers(
     ${target} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional>
-    <string> <variant> <vector> <fmt/format.h> <Eigen/Core> ${ARG_HEADERS})
+    <string> <variant> <vector> <fmt/format.h> <Eigen/Core> ${headers})
 endfunction()
 
 if(TRACKBED_PRECOMPILED_HEADERS)
-  set(json HEADERS <nlohmann/json.hpp> LIBRARIES nlohmann_json::nlohmann_json)
-  trackbed_precompiled_header(NUMERICS)
-  trackbed_precompiled_header(LIGHT ${json} OPTIONS ${light})
+  trackbed_precompiled_header(NUMERICS header)
+  trackbed_precompiled_header(LIGHT header)
   if(TRACKBED_BUILD_TESTS)
-    trackbed_precompiled_header(
-      TESTS HEADERS <nlohmann/json.hpp> <gmock/gmock.h> <gtest/gtest.h>
-      LIBRARIES nlohmann_json::nlohmann_json GTest::gmock OPTIONS ${light})
+    trackbed_precompiled_header(TESTS header)
   endif()
 endif()
+
+# Called at the end of the folder, where the target has all its libraries.
+function(trackbed_use_precompiled_header target kind)
+  trackbed_library_macros(${target} macros)
+  trackbed_precompiled_header(${kind} header ${macros})
+  target_precompile_headers(${target} REUSE_FROM ${header})
+endfunction()
 
 function(trackbed_precompile target kind)
   if(kind MATCHES "LIGHT|TESTS")
     target_compile_options(${target} PRIVATE ${light})
   endif()
   if(TRACKBED_PRECOMPILED_HEADERS)
-    string(TOLOWER trackbed_${kind}_pch header)
-    target_precompile_headers(${target} REUSE_FROM ${header})
+    cmake_language(EVAL CODE "cmake_language(DEFER CALL trackbed_use_precompiled_header ${target} ${kind})")
   endif()
 endfunction()
