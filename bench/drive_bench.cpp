@@ -2,6 +2,7 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -38,7 +39,7 @@ struct Feed {
   }
 };
 
-void Append(std::vector<mjtNum>& all, const mjtNum* numbers, int count) {
+void Append(std::vector<mjtNum>& all, const mjtNum* numbers, std::int64_t count) {
   all.insert(all.end(), numbers, numbers + count);
 }
 
@@ -152,7 +153,7 @@ double StepBare(const Feed& feed, const CarModel& car) {
   const MujocoData data = MakeMujocoData(*model);
   const int chassis_end = car.chassis().chassis_qpos + 7;
   TRACKBED_CHECK(car.chassis().chassis_qpos == 0, "the chassis is not the first body");
-  const auto row = [](const std::vector<mjtNum>& all, std::size_t step, int count) {
+  const auto row = [](const std::vector<mjtNum>& all, std::size_t step, std::int64_t count) {
     return all.data() + step * static_cast<std::size_t>(count);
   };
   const Stopwatch stopwatch;

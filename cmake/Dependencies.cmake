@@ -1,6 +1,14 @@
-# Everything comes from Debian (scripts/packages/); nothing is downloaded.
+# Libraries come from Debian (scripts/packages/), MuJoCo also from the wheel that scripts/setup unpacks;
+# nothing is downloaded here.
 include_guard()
+if(NOT DEFINED TRACKBED_MUJOCO AND EXISTS ${PROJECT_SOURCE_DIR}/build/mujoco)
+  set(default_mujoco wheel)
+else()
+  set(default_mujoco debian)
+endif()
+set(TRACKBED_MUJOCO ${default_mujoco} CACHE STRING "MuJoCo: wheel, debian or a folder (cmake/Mujoco.cmake)")
 include(LibraryDependencies)
+include(MujocoVersion)
 
 # Loaded at run time: only their headers are needed, and by tests and benchmarks the libraries.
 find_package(PkgConfig REQUIRED)

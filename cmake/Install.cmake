@@ -42,9 +42,20 @@ set_target_properties(trackbed_version PROPERTIES EXPORT_NAME version)
 set_target_properties(trackbed_library PROPERTIES EXPORT_NAME trackbed)
 set_target_properties(trackbed_cli PROPERTIES EXPORT_NAME cli_library)
 set_target_properties(trackbed PROPERTIES EXPORT_NAME cli)
-if(BUILD_SHARED_LIBS)
-  set_target_properties(trackbed PROPERTIES INSTALL_RPATH ${TRACKBED_PROGRAM_RPATH})
-else()
+# MuJoCo that is not of the system comes along, in a folder of its own: a release lies there as in its
+# archive, so that projects can compile against the same headers.
+set(mujoco_folder ${CMAKE_INSTALL_LIBDIR}/trackbed/mujoco)
+if(TRACKBED_MUJOCO_FOLDER)
+  install(DIRECTORY ${TRACKBED_MUJOCO_FOLDER}/include/mujoco DESTINATION ${mujoco_folder}/include)
+  install(DIRECTORY ${TRACKBED_MUJOCO_FOLDER}/lib/ DESTINATION ${mujoco_folder}/lib
+          FILES_MATCHING PATTERN libmujoco.so* PATTERN cmake EXCLUDE)
+  # In the wheel below licenses/, in an archive beside include/ and lib/.
+  file(GLOB licenses ${TRACKBED_MUJOCO_FOLDER}/licenses/* ${TRACKBED_MUJOCO_FOLDER}/LICENSE*
+       ${TRACKBED_MUJOCO_FOLDER}/THIRD_PARTY_NOTICES*)
+  install(FILES ${licenses} DESTINATION ${CMAKE_INSTALL_DOCDIR}/mujoco)
+endif()
+set_target_properties(trackbed PROPERTIES INSTALL_RPATH "${TRACKBED_PROGRAM_RPATH}")
+if(NOT BUILD_SHARED_LIBS)
   install(TARGETS trackbed_default_place)
   add_dependencies(trackbed trackbed_default_place)
 endif()
@@ -53,8 +64,12 @@ install(EXPORT trackbedTargets NAMESPACE trackbed:: DESTINATION ${package_folder
 # Without scenarios/validation, which replays the tests' recordings.
 install(DIRECTORY models scenarios DESTINATION ${data_folder} PATTERN validation EXCLUDE)
 
+set(mujoco_of_package debian)
+if(TRACKBED_MUJOCO_FOLDER)
+  set(mujoco_of_package carried)
+endif()
 configure_package_config_file(cmake/trackbedConfig.cmake.in package/trackbedConfig.cmake
-                              INSTALL_DESTINATION ${package_folder} PATH_VARS data_folder)
+                              INSTALL_DESTINATION ${package_folder} PATH_VARS data_folder mujoco_folder)
 write_basic_package_version_file(package/trackbedConfigVersion.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(

@@ -2,7 +2,7 @@
 # package. Projects that link shared libraries, trackbed_SHARED, need only what public headers include.
 find_package(fmt REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(Boost 1.74 REQUIRED)
+find_package(Boost 1.74 REQUIRED CONFIG) # CMake 3.30 deprecates its own module
 find_package(nlohmann_json 3.11 REQUIRED)
 if(trackbed_SHARED)
   return()
@@ -16,9 +16,7 @@ find_package(Threads REQUIRED)
 find_package(TBB 2021.8 REQUIRED COMPONENTS tbb)
 find_package(OpenSSL 3 REQUIRED COMPONENTS Crypto)
 find_package(PNG REQUIRED)
-find_package(mujoco REQUIRED CONFIG)
-# Debian's 2.2.2 exports an include directory of libqhull, which it only needs to be built itself.
-set_target_properties(mujoco::mujoco PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")
+include(${CMAKE_CURRENT_LIST_DIR}/Mujoco.cmake)
 
 # Not by its pkg-config file, which asks for the libraries that a static IPOPT would need.
 if(TRACKBED_IPOPT AND NOT TARGET ipopt::ipopt)

@@ -2,6 +2,12 @@
 # A program that links static modules must link all that they use; one that links shared modules, and
 # its compiler, need only what public headers include.
 
+set(mujoco -lmujoco)
+if(TRACKBED_MUJOCO_FOLDER)
+  set(folder \${libdir}/trackbed/mujoco/lib)
+  set(mujoco "-L${folder} -Wl,-rpath,${folder} -lmujoco")
+endif()
+
 # Names of pkg-config's, or options for the linker: libcsv and MuJoCo have no .pc file. Boost is
 # headers. Of proj.pc, `--static` would want libraries of curl that only static programs need.
 set(pkg_config_names
@@ -21,7 +27,7 @@ set(pkg_config_names
     TBB::tbb=tbb
     OpenSSL::Crypto=libcrypto
     csv::csv=-lcsv
-    mujoco::mujoco=-lmujoco)
+    "mujoco::mujoco=${mujoco}")
 
 set(requires "")
 set(external_libs "")

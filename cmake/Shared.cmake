@@ -10,8 +10,18 @@ if(BUILD_SHARED_LIBS)
   file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_DATADIR})
   file(CREATE_LINK ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_DATADIR}/trackbed
        SYMBOLIC)
-  file(RELATIVE_PATH libraries_from_program /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
-  set(TRACKBED_PROGRAM_RPATH $ORIGIN/${libraries_from_program})
+endif()
+
+# Where the installed program and libraries look for those that are installed with them.
+file(RELATIVE_PATH libraries_from_program /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
+set(TRACKBED_PROGRAM_RPATH "")
+set(TRACKBED_LIBRARY_RPATH $ORIGIN)
+if(BUILD_SHARED_LIBS)
+  list(APPEND TRACKBED_PROGRAM_RPATH $ORIGIN/${libraries_from_program})
+endif()
+if(TRACKBED_MUJOCO_FOLDER)
+  list(APPEND TRACKBED_PROGRAM_RPATH $ORIGIN/${libraries_from_program}/trackbed/mujoco/lib)
+  list(APPEND TRACKBED_LIBRARY_RPATH $ORIGIN/trackbed/mujoco/lib)
 endif()
 
 # What a library target has only as a shared one.
@@ -23,7 +33,7 @@ function(trackbed_shared_properties target)
     ${target}
     PROPERTIES VERSION ${PROJECT_VERSION}
                SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
-               INSTALL_RPATH $ORIGIN
+               INSTALL_RPATH "${TRACKBED_LIBRARY_RPATH}"
                DEFINE_SYMBOL "") # there are no export macros
   # A library that uses what it does not link is refused. Clang's sanitizers are symbols of the
   # program.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/ground_line.h"
+#include "render/mujoco_compat.h"
 #include "render/scene_handle.h"
 #include "render/trail.h"
 #include "trackbed/sim/mujoco_handles.h"
@@ -37,7 +38,7 @@ void MakeTranslucent(mjvGeom& geom, const Color& color) {
   geom.emission = 0.3F;
   geom.specular *= 0.3F;
   geom.reflectance = 0.0F;
-  geom.texid = -1;
+  mj::RemoveTexture(geom);
 }
 
 class Ghosts : public Overlay {

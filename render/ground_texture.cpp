@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "render/mujoco_compat.h"
+
 namespace trackbed::render {
 namespace {
 
@@ -47,17 +49,17 @@ bool OnLine(double part) {
 void MakeGroundPlain(mjModel& model, bool lines) {
   const int ground = mj_name2id(&model, mjOBJ_GEOM, "ground");
   const int material = ground < 0 ? -1 : model.geom_matid[ground];
-  const int texture = material < 0 ? -1 : model.mat_texid[material];
+  const int texture = material < 0 ? -1 : mj::ColorTexture(model, material);
   if (texture < 0 || model.tex_type[texture] != mjTEXTURE_2D) {
     return;
   }
   const int width = model.tex_width[texture];
   const int height = model.tex_height[texture];
-  mjtByte* pixels = model.tex_rgb + model.tex_adr[texture];
+  const auto [pixels, channels] = mj::Pixels(model, texture);
   std::array<double, 3> mean{};
   for (int i = 0; i < width * height; ++i) {
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      mean[channel] += pixels[3 * i + static_cast<int>(channel)];
+      mean[channel] += pixels[channels * i + static_cast<int>(channel)];
     }
   }
   for (int row = 0; row < height; ++row) {
@@ -72,7 +74,7 @@ void MakeGroundPlain(mjModel& model, bool lines) {
         light = kLineLight;
       }
       for (std::size_t channel = 0; channel < 3; ++channel) {
-        pixels[3 * (row * width + column) + static_cast<int>(channel)] =
+        pixels[channels * (row * width + column) + static_cast<int>(channel)] =
             static_cast<mjtByte>(std::clamp(light * mean[channel] / (width * height), 0.0, 255.0));
       }
     }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "render/cone.h"
 #include "render/decor.h"
@@ -28,14 +29,14 @@ constexpr float kShadowAlpha = 0.055F;  // of one layer, drawn twice like everyt
 constexpr double kShadowSpread = 0.09;  // one layer beyond the next [m]
 constexpr double kShadowHeight = 0.03;  // above all paint [m]
 
-int MaxGeoms(const Recording& recording, const std::vector<Tile>& patches,
-             const OverlayList& overlays) {
+std::int64_t MaxGeoms(const Recording& recording, const std::vector<Tile>& patches,
+                      const OverlayList& overlays) {
   std::size_t count = patches.size() + kConePieces * recording.cones.size() + kShadowLayers;
   for (const auto& overlay : overlays) {
     count += overlay->max_shapes();
   }
   // Of the model: its geoms, and what MuJoCo adds to them.
-  return 2 * recording.model->ngeom + 200 + static_cast<int>(count);
+  return 2 * recording.model->ngeom + 200 + static_cast<std::int64_t>(count);
 }
 
 /// Whether a camera can see beyond the ground. If not, the sky behind it need not be drawn, which

@@ -2,14 +2,16 @@
 
 #include <mujoco/mujoco.h>
 
+#include <cstdint>
+
 namespace trackbed::render {
 
 /// mjvScene that frees itself.
 class SceneHandle {
  public:
-  SceneHandle(const mjModel& model, int max_geoms) {
+  SceneHandle(const mjModel& model, std::int64_t max_geoms) {
     mjv_defaultScene(&scene_);
-    mjv_makeScene(&model, &scene_, max_geoms);
+    mjv_makeScene(&model, &scene_, static_cast<int>(max_geoms));
   }
   ~SceneHandle() { mjv_freeScene(&scene_); }
   SceneHandle(const SceneHandle&) = delete;

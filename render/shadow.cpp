@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "render/mujoco_compat.h"
+
 namespace trackbed::render {
 namespace {
 
@@ -42,7 +44,7 @@ void AimLamps(mjvScene& scene, const CameraPose& camera) {
   const double back = 3.0 * reach;
   for (int i = 0; i < scene.nlight; ++i) {
     mjvLight& lamp = scene.lights[i];
-    if (lamp.directional == 0 || lamp.castshadow == 0) {
+    if (!mj::IsDirectional(lamp) || lamp.castshadow == 0) {
       continue;
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {

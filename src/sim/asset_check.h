@@ -12,8 +12,10 @@ namespace trackbed {
 
 /// Of one file.
 inline constexpr std::size_t kMostAssetBytes = std::size_t{64} << 20;
-/// Files, a few less than MuJoCo's virtual file system takes.
-inline constexpr std::size_t kMostAssets = 190;
+/// Files, fewer than the 2000 of the virtual file system of MuJoCo 2.2.2.
+inline constexpr std::size_t kMostAssets = 1900;
+/// Of all files together.
+inline constexpr std::size_t kMostAssetBytesInAll = std::size_t{512} << 20;
 
 /// What is wrong with the content of a file that an asset of this kind ("mesh", "texture", …)
 /// refers to, as the end of a sentence: "is no PNG picture". Empty when nothing is.

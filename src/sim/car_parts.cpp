@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "src/sim/contact_friction.h"
+#include "src/sim/mujoco_compat.h"
 #include "src/sim/parts_reader.h"
 #include "src/sim/steering_response_reader.h"
 #include "src/sim/vehicle_limits.h"
@@ -76,7 +77,7 @@ class CarReader final : private PartsReader {
       parts_.steer_qpos[w] = m_.jnt_qposadr[steer_[w]];
       parts_.steer_dof[w] = m_.jnt_dofadr[steer_[w]];
     }
-    parts_.steer_state = parts_.steer_actuator - (m_.nu - m_.na);  // stateful actuators come last
+    parts_.steer_state = mj::ActivationAddress(m_, parts_.steer_actuator);
   }
 
   [[nodiscard]] double Wheel(std::size_t w, std::size_t axis) const {
@@ -292,7 +293,7 @@ class CarReader final : private PartsReader {
     std::array<double, 2> axle{};
     for (std::size_t w = 0; w < kWheels.size(); ++w) {
       axle[w / 2] +=
-          std::abs(data_->actuator_moment[m_.nv * parts_.drive_actuator + parts_.spin_dof[w]]);
+          std::abs(mj::ActuatorMoment(m_, *data_, parts_.drive_actuator, parts_.spin_dof[w]));
     }
     const double all = axle[0] + axle[1];
     return all > 0.0 ? axle[0] / all : 0.0;

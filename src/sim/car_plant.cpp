@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "src/sim/magic_formula_tyres.h"
+#include "src/sim/mujoco_compat.h"
 #include "src/sim/mujoco_plant.h"
 #include "src/sim/wheel_contacts.h"
 
@@ -137,14 +138,14 @@ bool CarPlant::ReleaseLinkage() {
     return false;
   }
   for (std::size_t w = 0; w < coupling.size(); ++w) {
-    model().eq_active[coupling[w]] = 0;
+    mj::DisableEquality(model(), data(), coupling[w]);
     const int dof = parts.steer_dof[w];
     // The rack moves the wheels' inertia, at a ratio of about 1.
     model().dof_armature[parts.rack_dof] += model().dof_M0[dof];
     model().dof_damping[parts.rack_dof] += model().dof_damping[dof];
     model().dof_damping[dof] = 0.0;
-    model().dof_armature[dof] = kLocked;
   }
+  mj::LockJoints(model(), parts.steer_dof, kLocked);
   return true;
 }
 

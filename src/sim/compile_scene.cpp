@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <new>
 #include <optional>
 #include <regex>
 
+#include "src/sim/mujoco_compat.h"
 #include "src/sim/scene_xml.h"
 #include "src/sim/sub_process.h"
 #include "trackbed/core/classic_locale.h"
@@ -27,7 +28,7 @@ constexpr std::size_t kGigabyte = std::size_t{1} << 30;
 constexpr std::size_t kMemory = 2 * kGigabyte;  // [bytes]
 constexpr int kSeconds = 60;                    // [s] of processor time
 /// Of the compiled model.
-constexpr std::size_t kMostBytes = kGigabyte;
+constexpr std::int64_t kMostBytes = kGigabyte;
 
 struct VfsDeleter {
   void operator()(mjVFS* vfs) const {
@@ -44,10 +45,7 @@ Vfs MakeVfs() {
 }
 
 void Add(mjVFS& vfs, const std::string& file, const std::string& content) {
-  const int status = mj_makeEmptyFileVFS(&vfs, file.c_str(), static_cast<int>(content.size()));
-  TRACKBED_CHECK(status == 0, "cannot hand {} to MuJoCo", file);
-  const int slot = mj_findFileVFS(&vfs, file.c_str());
-  std::memcpy(vfs.filedata[slot], content.data(), content.size());
+  TRACKBED_CHECK(mj::AddToVfs(vfs, file, content) == 0, "cannot hand {} to MuJoCo", file);
 }
 
 /// A model, or why there is none.
@@ -77,6 +75,10 @@ Compiled CompileHere(const std::string& xml, const std::vector<SceneAsset>& asse
   return compiled;
 }
 
+std::string TooLarge() {
+  return fmt::format("takes more than {} MB of memory", kMemory >> 20);
+}
+
 // What comes from the other process: one of these, and the model's bytes or the text of an error.
 constexpr char kModelFollows = 'M';
 constexpr char kErrorFollows = 'E';
@@ -88,18 +90,17 @@ std::string CompileAndTry(const std::string& xml, const std::vector<SceneAsset>&
   if (compiled.model == nullptr) {
     return fail(compiled.error);
   }
-  const int size = mj_sizeModel(compiled.model.get());  // negative beyond 2 GB
-  const auto bytes = static_cast<std::size_t>(size);
-  if (size < 0 || bytes > kMostBytes) {
+  const std::int64_t size = mj::SizeOf(*compiled.model);
+  if (size < 0 || size > kMostBytes) {
     return fail(fmt::format("the compiled model takes more than {} MB", kMostBytes >> 20));
   }
   const MujocoData data = MakeMujocoData(*compiled.model);
   mj_forward(compiled.model.get(), data.get());
-  std::string result(1 + bytes, kModelFollows);
-  mj_saveModel(compiled.model.get(), nullptr, result.data() + 1, size);
+  std::string result(1 + static_cast<std::size_t>(size), kModelFollows);
+  mj_saveModel(compiled.model.get(), nullptr, result.data() + 1, static_cast<int>(size));
   return result;
 } catch (const std::bad_alloc&) {
-  return kErrorFollows + fmt::format("takes more than {} MB of memory", kMemory >> 20);
+  return kErrorFollows + TooLarge();
 } catch (const std::exception& error) {
   return kErrorFollows + std::string(error.what());
 }
@@ -112,7 +113,9 @@ Compiled CompileApart(const std::string& xml, const std::vector<SceneAsset>& ass
   }
   const std::string content = outcome.result.substr(1);
   if (outcome.result.front() == kErrorFollows) {
-    return {nullptr, content};
+    // What versions of MuJoCo say where the memory ends.
+    static const std::regex no_memory("[Cc]ould not (allocate memory|create mjData)");
+    return {nullptr, std::regex_search(content, no_memory) ? TooLarge() : content};
   }
   const Vfs vfs = MakeVfs();
   Add(*vfs, "model.mjb", content);
@@ -127,16 +130,17 @@ struct CompileError {
 };
 
 /// MuJoCo's message is followed by lines on where it arose: "Element 'joint', line 46", or
-/// "Object name = rack, id = 1, line = 63, column = -1".
+/// "Object name = rack, id = 1, line = 63, column = -1", since 3.1 "Element name 'rack', id 1,
+/// line 63".
 CompileError Understand(const std::string& message) {
-  static const std::regex kind("^(XML )?Error: (Schema violation: )?");
+  static const std::regex kind("^(XML )?Error: (Error: )?(Schema violation: )?");
   static const std::regex place(
-      R"re(\s+(Element '([^']*)'|Object name = (.*), id = )[^\n]*line (= )?(-?\d+))re");
+      R"re(\s+(Element '([^']*)'|(Element name '|Object name = )(.*?)'?, id )[^\n]*line (= )?(-?\d+))re");
   CompileError error{std::regex_replace(message, kind, "")};
   if (std::smatch found; std::regex_search(error.text, found, place)) {
-    error.line = std::max(0, std::stoi(found[5]));
+    error.line = std::max(0, std::stoi(found[6]));
     const std::string where = found[2].matched        ? fmt::format(" (<{}>)", found[2].str())
-                              : found[3].length() > 0 ? fmt::format(" ('{}')", found[3].str())
+                              : found[4].length() > 0 ? fmt::format(" ('{}')", found[4].str())
                                                       : "";
     error.text = error.text.substr(0, static_cast<std::size_t>(found.position())) + where;
   }
@@ -161,6 +165,7 @@ MujocoModel CompileScene(const Scene& scene, const std::string& name, Looks look
                              .line = LineInCarFile(scene, error.line),
                              .message = "does not compile: " + error.text});
   }
+  mj::SetCommonOptions(*compiled.model);
   return std::move(compiled.model);
 }
 

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "src/sim/mujoco_compat.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {
@@ -46,25 +47,114 @@ constexpr std::array kCustomBounds{Bound{"steering_ratio", 1e3},
                                    Bound{"camber_gain_rear", 1e1}};
 constexpr double kLargestCoefficient = 1e3;  // of a tyre's Magic Formula: "p_cx1"
 
-/// Of arrays of the compiled model, SI units.
-constexpr std::array kModelBounds{
-    Bound{"body_mass", 1e6},         Bound{"body_inertia", 1e9},   Bound{"body_pos", 1e5},
-    Bound{"body_ipos", 1e5},         Bound{"jnt_pos", 1e5},        Bound{"jnt_stiffness", 1e9},
-    Bound{"dof_damping", 1e7},       Bound{"dof_armature", 1e6},   Bound{"dof_frictionloss", 1e6},
-    Bound{"geom_pos", 1e5},          Bound{"geom_size", 1e5},      Bound{"geom_friction", 1e2},
-    Bound{"site_pos", 1e5},          Bound{"site_size", 1e5},      Bound{"qpos0", 1e5},
-    Bound{"tendon_stiffness", 1e9},  Bound{"tendon_damping", 1e7}, Bound{"key_qpos", 1e6},
-    Bound{"actuator_ctrlrange", 1e7}};
+/// Of arrays of the compiled model that hold what files say, SI units. MuJoCo derives the others
+/// from these, or only draws them. Versions that lack an array skip it.
+constexpr std::array kModelBounds{Bound{"qpos0", 1e5},
+                                  Bound{"qpos_spring", kLargest},
+                                  Bound{"body_pos", 1e5},
+                                  Bound{"body_quat", kLargest},
+                                  Bound{"body_ipos", 1e5},
+                                  Bound{"body_iquat", kLargest},
+                                  Bound{"body_mass", 1e6},
+                                  Bound{"body_inertia", 1e9},
+                                  Bound{"body_gravcomp", kLargest},
+                                  Bound{"body_user", kLargest},
+                                  Bound{"jnt_solref", kLargest},
+                                  Bound{"jnt_solimp", kLargest},
+                                  Bound{"jnt_pos", 1e5},
+                                  Bound{"jnt_axis", kLargest},
+                                  Bound{"jnt_stiffness", 1e9},
+                                  Bound{"jnt_stiffnesspoly", 1e12},
+                                  Bound{"jnt_springyield", kLargest},
+                                  Bound{"jnt_range", kLargest},
+                                  Bound{"jnt_actfrcrange", kLargest},
+                                  Bound{"jnt_margin", kLargest},
+                                  Bound{"jnt_user", kLargest},
+                                  Bound{"dof_solref", kLargest},
+                                  Bound{"dof_solimp", kLargest},
+                                  Bound{"dof_frictionloss", 1e6},
+                                  Bound{"dof_armature", 1e6},
+                                  Bound{"dof_damping", 1e7},
+                                  Bound{"dof_dampingpoly", kLargest},
+                                  Bound{"geom_solmix", kLargest},
+                                  Bound{"geom_solref", kLargest},
+                                  Bound{"geom_solimp", kLargest},
+                                  Bound{"geom_size", 1e5},
+                                  Bound{"geom_pos", 1e5},
+                                  Bound{"geom_quat", kLargest},
+                                  Bound{"geom_friction", 1e2},
+                                  Bound{"geom_margin", kLargest},
+                                  Bound{"geom_gap", kLargest},
+                                  Bound{"geom_surfacevel", kLargest},
+                                  Bound{"geom_adhesion", kLargest},
+                                  Bound{"geom_user", kLargest},
+                                  Bound{"site_size", 1e5},
+                                  Bound{"site_pos", 1e5},
+                                  Bound{"site_quat", kLargest},
+                                  Bound{"site_user", kLargest},
+                                  Bound{"cam_pos", kLargest},
+                                  Bound{"cam_quat", kLargest},
+                                  Bound{"light_pos", kLargest},
+                                  Bound{"light_dir", kLargest},
+                                  Bound{"hfield_size", kLargest},
+                                  Bound{"pair_solref", kLargest},
+                                  Bound{"pair_solreffriction", kLargest},
+                                  Bound{"pair_solimp", kLargest},
+                                  Bound{"pair_margin", kLargest},
+                                  Bound{"pair_gap", kLargest},
+                                  Bound{"pair_friction", kLargest},
+                                  Bound{"eq_solref", kLargest},
+                                  Bound{"eq_solimp", kLargest},
+                                  Bound{"eq_data", kLargest},
+                                  Bound{"tendon_width", kLargest},
+                                  Bound{"tendon_solref_lim", kLargest},
+                                  Bound{"tendon_solimp_lim", kLargest},
+                                  Bound{"tendon_solref_fri", kLargest},
+                                  Bound{"tendon_solimp_fri", kLargest},
+                                  Bound{"tendon_range", kLargest},
+                                  Bound{"tendon_actfrcrange", kLargest},
+                                  Bound{"tendon_margin", kLargest},
+                                  Bound{"tendon_stiffness", 1e9},
+                                  Bound{"tendon_stiffnesspoly", 1e12},
+                                  Bound{"tendon_damping", 1e7},
+                                  Bound{"tendon_dampingpoly", kLargest},
+                                  Bound{"tendon_armature", 1e6},
+                                  Bound{"tendon_frictionloss", kLargest},
+                                  Bound{"tendon_lengthspring", kLargest},
+                                  Bound{"tendon_springyield", kLargest},
+                                  Bound{"tendon_user", kLargest},
+                                  Bound{"wrap_prm", kLargest},
+                                  Bound{"actuator_cranklength", kLargest},
+                                  Bound{"actuator_dynprm", kLargest},
+                                  Bound{"actuator_gainprm", kLargest},
+                                  Bound{"actuator_biasprm", kLargest},
+                                  Bound{"actuator_actrange", kLargest},
+                                  Bound{"actuator_delay", kLargest},
+                                  Bound{"actuator_damping", 1e7},
+                                  Bound{"actuator_dampingpoly", kLargest},
+                                  Bound{"actuator_armature", 1e6},
+                                  Bound{"actuator_user", kLargest},
+                                  Bound{"actuator_forcerange", kLargest},
+                                  Bound{"actuator_ctrlrange", 1e7},
+                                  Bound{"actuator_gear", kLargest},
+                                  Bound{"actuator_lengthrange", kLargest},
+                                  Bound{"key_time", kLargest},
+                                  Bound{"key_qpos", 1e6},
+                                  Bound{"key_qvel", kLargest},
+                                  Bound{"key_act", kLargest},
+                                  Bound{"key_mpos", kLargest},
+                                  Bound{"key_mquat", kLargest},
+                                  Bound{"key_ctrl", kLargest}};
 /// Those of them that must not be negative: they would feed energy in.
-constexpr std::array<std::string_view, 6> kNotNegative{"jnt_stiffness",    "dof_damping",
-                                                       "dof_armature",     "dof_frictionloss",
-                                                       "tendon_stiffness", "tendon_damping"};
+constexpr std::array<std::string_view, 9> kNotNegative{
+    "jnt_stiffness",  "dof_damping",     "dof_armature",     "dof_frictionloss", "tendon_stiffness",
+    "tendon_damping", "tendon_armature", "actuator_damping", "actuator_armature"};
 
 template <std::size_t count>
-double BoundOf(std::string_view name, const std::array<Bound, count>& bounds, double otherwise) {
+const Bound* FindBound(std::string_view name, const std::array<Bound, count>& bounds) {
   const auto found = std::find_if(bounds.begin(), bounds.end(),
                                   [&](const Bound& bound) { return bound.name == name; });
-  return found == bounds.end() ? otherwise : found->largest;
+  return found == bounds.end() ? nullptr : &*found;
 }
 
 class ModelChecker {
@@ -76,6 +166,7 @@ class ModelChecker {
     CheckCustom();
     CheckOptions();
     CheckJointNames();
+    CheckActuators();
     if (!problems_.empty()) {
       throw InputError(FirstOf(std::move(problems_)));
     }
@@ -107,11 +198,12 @@ class ModelChecker {
       const char* name;
     };
     constexpr std::array kKinds{
-        Kind{"nbody", mjOBJ_BODY, "body"},       Kind{"njnt", mjOBJ_JOINT, "joint"},
-        Kind{"ngeom", mjOBJ_GEOM, "geom"},       Kind{"nsite", mjOBJ_SITE, "site"},
-        Kind{"nu", mjOBJ_ACTUATOR, "actuator"},  Kind{"ntendon", mjOBJ_TENDON, "tendon"},
-        Kind{"neq", mjOBJ_EQUALITY, "equality"}, Kind{"nkey", mjOBJ_KEY, "keyframe"},
-        Kind{"nmesh", mjOBJ_MESH, "mesh"},       Kind{"ncam", mjOBJ_CAMERA, "camera"}};
+        Kind{"nbody", mjOBJ_BODY, "body"},        Kind{"njnt", mjOBJ_JOINT, "joint"},
+        Kind{"ngeom", mjOBJ_GEOM, "geom"},        Kind{"nsite", mjOBJ_SITE, "site"},
+        Kind{"nu", mjOBJ_ACTUATOR, "actuator"},   Kind{"nactuator", mjOBJ_ACTUATOR, "actuator"},
+        Kind{"nout", mjOBJ_ACTUATOR, "actuator"}, Kind{"ntendon", mjOBJ_TENDON, "tendon"},
+        Kind{"neq", mjOBJ_EQUALITY, "equality"},  Kind{"nkey", mjOBJ_KEY, "keyframe"},
+        Kind{"nmesh", mjOBJ_MESH, "mesh"},        Kind{"ncam", mjOBJ_CAMERA, "camera"}};
     if (rows == "nv") {
       return Named(mjOBJ_JOINT, "joint", m_.dof_jntid[row]);
     }
@@ -125,14 +217,11 @@ class ModelChecker {
 
   void CheckArray(std::string_view array, std::string_view rows, const mjtNum* numbers,
                   int row_count, int columns) {
-    // Those of CheckCustom, and what MuJoCo derives from the others.
-    constexpr std::array<std::string_view, 8> kOthers{
-        "numeric_data", "body_subtreemass",  "body_invweight0", "dof_invweight0",
-        "dof_M0",       "tendon_invweight0", "actuator_acc0",   "geom_rbound"};
-    if (std::find(kOthers.begin(), kOthers.end(), array) != kOthers.end()) {
+    const Bound* bound = FindBound(array, kModelBounds);
+    if (bound == nullptr) {
       return;
     }
-    const double largest = BoundOf(array, kModelBounds, kLargest);
+    const double largest = bound->largest;
     const bool not_negative =
         std::find(kNotNegative.begin(), kNotNegative.end(), array) != kNotNegative.end();
     for (int i = 0; i < row_count * columns; ++i) {
@@ -152,7 +241,11 @@ class ModelChecker {
 
   void CheckArrays() {
     const mjModel* m = &m_;
+    // The sizes of models became 64 bits wide in MuJoCo 3.11, those in its macro did not.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
     MJMODEL_POINTERS_PREAMBLE(m)
+#pragma GCC diagnostic pop
 #define X(type, name, rows, columns) \
   CheckArray(#name, #rows, m->name, static_cast<int>(m->rows), columns);
     MJMODEL_POINTERS
@@ -164,8 +257,10 @@ class ModelChecker {
       const std::string name = Named(mjOBJ_NUMERIC, "numeric", id);
       const bool is_coefficient = name.size() > 2 && name[1] == '_' &&
                                   std::string_view("pqrstl").find(name[0]) != std::string::npos;
-      const double largest =
-          BoundOf(name, kCustomBounds, is_coefficient ? kLargestCoefficient : kLargest);
+      const Bound* bound = FindBound(name, kCustomBounds);
+      const double largest = bound != nullptr ? bound->largest
+                             : is_coefficient ? kLargestCoefficient
+                                              : kLargest;
       for (int i = 0; i < m_.numeric_size[id]; ++i) {
         const double number = m_.numeric_data[m_.numeric_adr[id] + i];
         if (!(std::abs(number) <= largest)) {
@@ -217,6 +312,15 @@ class ModelChecker {
       } else if (type == mjJNT_SLIDE && !taken.insert(name).second) {
         AddError(name, "the joint's column would be that of the chassis' position; rename it");
       }
+    }
+  }
+
+  /// Indices of actuators are those of their controls.
+  void CheckActuators() {
+    if (!mj::HasOneControlEach(m_)) {
+      AddError("actuator",
+               "an actuator has several controls or forces (gain type so3, or on a ball joint); "
+               "must have one of each");
     }
   }
 

@@ -4,17 +4,42 @@
 
 #include "trackbed/core/error.h"
 
-// Handlers of the calling thread, which come before the global mju_user_error and mju_user_warning.
-// The library exports them, for its Python bindings among others, but mujoco.h does not declare
-// them.
+// Handlers of the calling thread, which precede the global ones. The library exports these
+// functions, among others for its Python bindings, but mujoco.h does not declare them.
 extern "C" {
+#if mjVERSION_HEADER >= 3010000
+mjfLogHandler _mjPRIVATE_setTlsLogHandler(mjfLogHandler handler);  // returns the previous one
+#else
 void (*_mjPRIVATE__get_tls_error_fn(void))(const char*);
 void _mjPRIVATE__set_tls_error_fn(void (*handler)(const char*));
 void (*_mjPRIVATE__get_tls_warning_fn(void))(const char*);
 void _mjPRIVATE__set_tls_warning_fn(void (*handler)(const char*));
+#endif
 }
 
 namespace trackbed {
+
+#if mjVERSION_HEADER >= 3010000
+
+namespace {
+
+void ThrowErrors(const mjLogMessage* message) {
+  if (message->level == mjLOG_ERROR) {
+    const char* function = message->func == nullptr ? "" : message->func;
+    throw RunError(fmt::format("MuJoCo: {}{}{}", function, *function == '\0' ? "" : ": ",
+                               static_cast<const char*>(message->subject)));
+  }
+}
+
+}  // namespace
+
+MujocoErrorScope::MujocoErrorScope() : log_(_mjPRIVATE_setTlsLogHandler(ThrowErrors)) {}
+
+MujocoErrorScope::~MujocoErrorScope() {
+  _mjPRIVATE_setTlsLogHandler(log_);
+}
+
+#else
 
 MujocoErrorScope::MujocoErrorScope()
     : error_(_mjPRIVATE__get_tls_error_fn()), warning_(_mjPRIVATE__get_tls_warning_fn()) {
@@ -27,5 +52,7 @@ MujocoErrorScope::~MujocoErrorScope() {
   _mjPRIVATE__set_tls_error_fn(error_);
   _mjPRIVATE__set_tls_warning_fn(warning_);
 }
+
+#endif
 
 }  // namespace trackbed

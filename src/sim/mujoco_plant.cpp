@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "src/sim/joint_forces.h"
+#include "src/sim/mujoco_compat.h"
 #include "src/sim/plants.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
@@ -146,7 +147,7 @@ std::string MujocoPlant::divergence() const {
   for (int kind = 0; kind < mjNWARNING; ++kind) {
     const mjWarningStat& warning = data_->warning[kind];
     if (warning.number > 0) {
-      return fmt::format("MuJoCo: {}", mju_warningText(kind, warning.lastinfo));
+      return fmt::format("MuJoCo: {}", mj::WarningText(kind, warning.lastinfo));
     }
   }
   return "";

@@ -208,6 +208,7 @@ std::string CompilerAttribute(const XMLElement& root, const char* name) {
 /// Gathers the files that assets refer to and renames the references to plain names, so that the
 /// composed model and its assets can lie together in any folder.
 void GatherAssets(XMLElement& root, const Origin& origin, Scene& scene) {
+  std::size_t bytes = 0;
   const fs::path mesh_folder = CompilerAttribute(root, "meshdir");
   const fs::path texture_folder = CompilerAttribute(root, "texturedir");
   static constexpr std::array kFileAttributes{"file",     "fileright", "fileup",  "fileleft",
@@ -237,11 +238,17 @@ void GatherAssets(XMLElement& root, const Origin& origin, Scene& scene) {
         if (std::string_view(attribute) == "file" && asset->Attribute("name") == nullptr) {
           asset->SetAttribute("name", source.stem().c_str());
         }
+        bytes += content.size();
         scene.assets.push_back({name, std::move(content)});
         asset->SetAttribute(attribute, name.c_str());
         if (scene.assets.size() > kMostAssets) {
           Fail(origin.file, asset->GetLineNum(),
                fmt::format("more than {} files of assets", kMostAssets));
+        }
+        if (bytes > kMostAssetBytesInAll) {
+          Fail(origin.file, asset->GetLineNum(),
+               fmt::format("the files of assets are larger than {} MB together",
+                           kMostAssetBytesInAll >> 20U));
         }
       }
     }
@@ -349,6 +356,11 @@ Scene ComposeScene(const fs::path& car_file, const SceneOptions& options) {
   if (options.steering_rate) {
     SetSteeringRate(root, *options.steering_rate);
   }
+  // The default since MuJoCo 3.0. Of several <compiler> elements the last one that sets an
+  // attribute wins, so a file may still say otherwise.
+  XMLElement* compiler = document.NewElement("compiler");
+  compiler->SetAttribute("autolimits", true);
+  root.InsertFirstChild(compiler);
   // Of several <option> elements the last one wins.
   XMLElement* option = document.NewElement("option");
   option->SetAttribute("timestep", fmt::format("{}", options.timestep).c_str());

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "src/sim/mujoco_compat.h"
 #include "tests/planning/frenet_scenes.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/frenet/lattice.h"
@@ -105,7 +106,7 @@ class SolverWatch {
     iterations = 0;
     rows = 0;
     mjcb_control = [](const mjModel* /*model*/, mjData* data) {
-      iterations += data->solver_iter;
+      iterations += mj::SolverIterations(*data);
       rows += data->nefc;
     };
   }

@@ -114,14 +114,14 @@ TEST_F(ObstacleTest, WhatStandsBetweenTheCameraAndTheCarFades) {
     std::filesystem::remove(folder_.path() / "model.xml");
     CopyPrius(folder_.path());
     SetObstacle(1.4, y, 12.0, 0.6, 2.0);
-    AtScene(0.0, "side", [hides = hides](const Recording& recording, const mjvScene& scene) {
+    AtScene(0.0, "side", [hidden = hides](const Recording& recording, const mjvScene& scene) {
       const int wall = ObstacleGeoms(recording).front();
       mjvGeom* const end = scene.geoms + scene.ngeom;
       const mjvGeom* const geom = std::find_if(scene.geoms, end, [&](const mjvGeom& each) {
         return each.objtype == mjOBJ_GEOM && each.objid == wall;
       });
       ASSERT_NE(geom, end);
-      EXPECT_NEAR(geom->rgba[3], hides ? 0.25 : 1.0, Tolerance(1e-6));
+      EXPECT_NEAR(geom->rgba[3], hidden ? 0.25 : 1.0, Tolerance(1e-6));
     });
   }
 }

@@ -5,6 +5,7 @@
 
 #include "render/isolines.h"
 #include "render/lateral.h"
+#include "render/mujoco_compat.h"
 #include "render/relief.h"
 #include "tests/render/pictures.h"
 #include "tests/tolerance.h"
@@ -112,10 +113,11 @@ TEST_F(FilmSceneTest, PlainGroundKeepsItsColorAndHasLinesOnRequest) {
   Recording recording = ReadRecording(folder_.path());
   mjModel& model = *recording.model;
   const int material = model.geom_matid[mj_name2id(&model, mjOBJ_GEOM, "ground")];
-  const int texture = model.mat_texid[material];
+  const int texture = mj::ColorTexture(model, material);
   const int side = model.tex_width[texture];
   ASSERT_EQ(model.tex_height[texture], side);
-  const mjtByte* pixels = model.tex_rgb + model.tex_adr[texture];
+  const mjtByte* pixels = mj::Pixels(model, texture).first;
+  ASSERT_EQ(mj::Pixels(model, texture).channels, 3);
   const auto mean = [&] {
     double sum = 0.0;
     for (int i = 0; i < 3 * side * side; ++i) {

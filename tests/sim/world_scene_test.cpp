@@ -81,7 +81,7 @@ TEST(WithGround, AHeightFieldIsTheClosedFormAtItsSamples) {
                                           (2.0 * row / (rows - 1) - 1.0) * size[1],
                                           static_cast<double>(share) * size[2]};
         std::array<mjtNum, 3> p{};
-        mju_rotVecMat(p.data(), local.data(), d->geom_xmat + 9 * geom);
+        mju_mulMatVec(p.data(), d->geom_xmat + 9 * geom, local.data(), 3, 3);
         mju_addTo3(p.data(), d->geom_xpos + 3 * geom);
         worst = std::max(worst, std::abs(p[2] - GroundHeight(ground, {p[0], p[1]})));
         highest = std::max(highest, p[2] - ground.grade.dot(Vec2(p[0], p[1])));

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <concepts>
+
+/// The differences between the supported versions of MuJoCo's drawing; see
+/// src/sim/mujoco_compat.h.
+namespace trackbed::render::mj {
+
+/// Texture of a material's color; -1 if it has none. Materials have a texture for each role since
+/// 3.2.
+inline int ColorTexture(const mjModel& model, int material) {
+#if mjVERSION_HEADER >= 320
+  const int* of_roles = model.mat_texid + mjNTEXROLE * material;
+  return of_roles[mjTEXROLE_RGB] >= 0 ? of_roles[mjTEXROLE_RGB] : of_roles[mjTEXROLE_RGBA];
+#else
+  return model.mat_texid[material];
+#endif
+}
+
+/// Pixels of a texture, row by row.
+struct TexturePixels {
+  mjtByte* first;
+  int channels;  ///< bytes of a pixel; red, green and blue come first
+};
+
+template <std::same_as<mjModel> Model>
+TexturePixels Pixels(Model& model, int texture) {
+  if constexpr (requires { model.tex_data; }) {
+    return {model.tex_data + model.tex_adr[texture], model.tex_nchannel[texture]};
+  } else {
+    return {model.tex_rgb + model.tex_adr[texture], 3};
+  }
+}
+
+/// Removes the texture from a shape; it has that of its material since 3.2.
+template <std::same_as<mjvGeom> Geom>
+void RemoveTexture(Geom& geom) {
+  if constexpr (requires { geom.matid; }) {
+    geom.matid = -1;
+  }
+  if constexpr (requires { geom.texid; }) {
+    geom.texid = -1;
+  }
+}
+
+template <std::same_as<mjvLight> Light>
+bool IsDirectional(const Light& light) {
+  if constexpr (requires { light.directional; }) {
+    return light.directional != 0;
+  } else {
+    constexpr int kDirectional = 1;  // mjLIGHT_DIRECTIONAL
+    return light.type == kDirectional;
+  }
+}
+
+}  // namespace trackbed::render::mj
