@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "trackbed/core/error.h"
 #include "trackbed/world/world.h"
@@ -13,6 +14,8 @@ namespace {
 constexpr double kMostBins = 250000.0;
 /// Shortest step along a path, per meter of the car's length, and at most [m].
 constexpr double kStep = 0.02;
+/// Up to so many boxes, it is quicker to ask how far all of them are than to take many steps.
+constexpr std::size_t kFewBoxes = 16;
 
 bool IsBox(const OrientedBox& box) {
   return box.center.position().allFinite() && std::isfinite(box.center.yaw) && box.length >= 0.0 &&
@@ -124,6 +127,26 @@ double CollisionChecker::Clearance(const Pose2& pose, double at_most) const {
   return clearance;
 }
 
+double CollisionChecker::NextLook(const Pose2& pose, double room, double moved, double at,
+                                  double length) const {
+  if (boxes_.empty()) {
+    return length;
+  }
+  if (room == farthest_ && boxes_.size() <= kFewBoxes) {
+    const Vec2 middle = pose.position() + middle_ * Direction(pose.yaw);
+    double square = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+      square = std::min(square, SquareTo(boxes_[i], along_[i], middle));
+    }
+    // Each step takes farthest() of that away at most: looks at its end would change nothing.
+    for (double left = std::sqrt(square) - radius_ - distance_ - farthest_;
+         left > (1.0 + 1e-9) * farthest_ && farthest_ < moved * (length - at); left -= farthest_) {
+      at += farthest_ / moved;
+    }
+  }
+  return std::min(at + std::max(room / moved, step_), length);
+}
+
 std::optional<double> CollisionChecker::FirstBlocked(const Path& path) const {
   double sharpest = 0.0;
   for (const Segment& segment : path.segments()) {
@@ -133,14 +156,15 @@ std::optional<double> CollisionChecker::FirstBlocked(const Path& path) const {
   }
   const double moved = 1.0 + sharpest * reach_;  // by the footprint, per meter of path
   for (double s = 0.0;;) {
-    const double room = Clearance(path.At(s).pose, moved * (path.length() - s));
+    const Pose2 pose = path.At(s).pose;
+    const double room = Clearance(pose, moved * (path.length() - s));
     if (room < 0.0) {
       return s;
     }
     if (s == path.length()) {
       return std::nullopt;
     }
-    s = std::min(s + std::max(room / moved, step_), path.length());
+    s = NextLook(pose, room, moved, s, path.length());
   }
 }
 
@@ -148,15 +172,15 @@ bool CollisionChecker::IsFree(const Pose2& start, const Segment& segment) const 
   const double moved = 1.0 + std::abs(segment.curvature) * reach_;
   for (double d = 0.0;;) {
     const double along = segment.direction * d;
-    const double room =
-        Clearance(MoveOnArc(start, along, segment.curvature * along), moved * (segment.length - d));
+    const Pose2 pose = MoveOnArc(start, along, segment.curvature * along);
+    const double room = Clearance(pose, moved * (segment.length - d));
     if (room < 0.0) {
       return false;
     }
     if (d == segment.length) {
       return true;
     }
-    d = std::min(d + std::max(room / moved, step_), segment.length);
+    d = NextLook(pose, room, moved, d, segment.length);
   }
 }
 

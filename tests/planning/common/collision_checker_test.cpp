@@ -93,6 +93,33 @@ TEST(CollisionChecker, FindsTheFirstPlaceThatIsTooNear) {
   EXPECT_LT(blocked_ones, 190);
 }
 
+TEST(CollisionChecker, SkipsOnlyLooksThatChangeNothing) {
+  // Few boxes let it skip looks on long stretches; as many copies of them that it does not are to
+  // give the very same station.
+  Random random(4);
+  int blocked_ones = 0;
+  for (int i = 0; i < 200; ++i) {
+    const std::vector<OrientedBox> few = RandomBoxes(random, 4, 400.0);
+    std::vector<OrientedBox> many;
+    for (int copy = 0; copy < 5; ++copy) {
+      many.insert(many.end(), few.begin(), few.end());
+    }
+    const CollisionChecker skips(ReferenceCar(), few, 0.2);
+    const CollisionChecker looks(ReferenceCar(), many, 0.2);
+    const Vec2 to = few.front().center.position();
+    const Pose2 from = RandomPose(random, 500.0);
+    const Vec2 way = to - from.position();
+    // Straight toward one of them, or along an arc near it.
+    const Segment segment{.length = way.norm(), .curvature = random.Uniform(-1e-4, 1e-4)};
+    const Pose2 start{from.x, from.y, std::atan2(way.y(), way.x())};
+    const std::optional<double> blocked = skips.FirstBlocked(Path(start, {segment}));
+    EXPECT_EQ(blocked, looks.FirstBlocked(Path(start, {segment})));
+    EXPECT_EQ(skips.IsFree(start, segment), looks.IsFree(start, segment));
+    blocked_ones += blocked ? 1 : 0;
+  }
+  EXPECT_GT(blocked_ones, 50);
+}
+
 TEST(CollisionChecker, TakesBoxesThousandsOfKilometersApart) {
   // Bins of 4 m all over would be 10^11.
   const std::vector<OrientedBox> boxes{{{0.0, 0.0, 0.0}, 2.0, 2.0}, {{1e6, 1e6, 0.5}, 2.0, 2.0}};

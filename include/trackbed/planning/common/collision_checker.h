@@ -54,6 +54,11 @@ class CollisionChecker {
 
   void FillBins();
 
+  // Where along a path to look next after a look at `at` that found `room`: as far on as the room
+  // surely allows. `moved`: by the footprint, per meter of path.
+  [[nodiscard]] double NextLook(const Pose2& pose, double room, double moved, double at,
+                                double length) const;
+
   // Which boxes matter for a car whose footprint's middle is in a bin of the plane.
   [[nodiscard]] const std::vector<int>* Near(const Vec2& middle) const;
   double bin_ = 0.0;  // side of a bin [m]
