@@ -1,24 +1,17 @@
 #include "trackbed/planning/sampling/rrt_star.h"
 
 #include <algorithm>
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/index/rtree.hpp>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/uniform_01.hpp>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
+#include "src/planning/sampling/node_grid.h"
 #include "trackbed/core/error.h"
 #include "trackbed/geometry/box_index.h"
 
 namespace trackbed {
 namespace {
-
-namespace index = boost::geometry::index;
-using Point = boost::geometry::model::d2::point_xy<double>;
-using Entry = std::pair<Point, std::size_t>;
 
 // A tenth more than 2^(d+1) e (1 + 1/d) in d = 2 dimensions.
 constexpr double kNeighbors = 1.1 * 12.0 * 2.718281828459045;
@@ -27,7 +20,11 @@ constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 class RrtStarTree {
  public:
   RrtStarTree(const RrtStarProblem& problem, const RrtStarOptions& options, std::uint64_t seed)
-      : problem_(problem), obstacles_(problem.obstacles), options_(options), random_(seed) {
+      : problem_(problem),
+        obstacles_(problem.obstacles),
+        options_(options),
+        random_(seed),
+        index_(problem.low, problem.high) {
     Add(problem.start, 0, 0.0);
   }
 
@@ -85,14 +82,7 @@ class RrtStarTree {
             std::lerp(problem_.low.y(), problem_.high.y(), y)};
   }
 
-  [[nodiscard]] std::size_t Nearest(const Vec2& p) {
-    near_.clear();
-    index_.query(index::nearest(Point(p.x(), p.y()), 1), std::back_inserter(near_));
-    return near_.front().second;
-  }
-
-  /// The `count` nearest nodes, or all if there are no more, into neighbors_, in no order and
-  /// without costs. The index finds hundreds in a box several times faster than as nearest ones.
+  /// The `count` nearest nodes, or all if there are no more, into near_, in no order.
   void FindNearest(const Vec2& p, std::size_t count) {
     // A circle that holds a quarter more than the count if nodes are spread evenly; larger where
     // the sampled box is a line.
@@ -100,37 +90,23 @@ class RrtStarTree {
     const double share = static_cast<double>(count) / static_cast<double>(nodes_.size());
     const double even = std::sqrt(1.25 * share * box.prod() / M_PI);
     for (double radius = std::max(even, 1e-3 * box.norm());; radius *= 1.5) {
-      FindWithin(p, radius);
-      if (neighbors_.size() >= std::min(count, nodes_.size())) {
+      index_.FindWithin(p, radius, near_);
+      if (near_.size() >= std::min(count, nodes_.size())) {
         break;
       }
     }
-    if (neighbors_.size() > count) {
-      const auto end = neighbors_.begin() + static_cast<std::ptrdiff_t>(count);
+    if (near_.size() > count) {
+      const auto end = near_.begin() + static_cast<std::ptrdiff_t>(count);
       std::nth_element(
-          neighbors_.begin(), end, neighbors_.end(),
-          [](const Neighbor& a, const Neighbor& b) { return a.distance < b.distance; });
-      neighbors_.erase(end, neighbors_.end());
-    }
-  }
-
-  void FindWithin(const Vec2& p, double radius) {
-    near_.clear();
-    neighbors_.clear();
-    const boost::geometry::model::box<Point> box(Point(p.x() - radius, p.y() - radius),
-                                                 Point(p.x() + radius, p.y() + radius));
-    index_.query(index::intersects(box), std::back_inserter(near_));
-    for (const auto& [at, node] : near_) {
-      const double distance = (Vec2(at.x(), at.y()) - p).norm();
-      if (distance <= radius) {
-        neighbors_.push_back({node, distance, 0.0});
-      }
+          near_.begin(), end, near_.end(),
+          [](const NodeGrid::Near& a, const NodeGrid::Near& b) { return a.square < b.square; });
+      near_.erase(end, near_.end());
     }
   }
 
   void Iterate() {
     const Vec2 sample = Sample();
-    const std::size_t from = Nearest(sample);
+    const std::size_t from = index_.Nearest(sample);
     const Vec2 nearest = nodes_[from].position;
     const Vec2 offset = sample - nearest;
     const double distance = offset.norm();
@@ -142,7 +118,7 @@ class RrtStarTree {
     }
     const bool reaches = distance <= options_.step;
     const Vec2 position = reaches ? sample : Vec2(nearest + offset * (options_.step / distance));
-    if (!IsFree(nearest, position)) {
+    if ((options_.informed && !MayShorten(position)) || !IsFree(nearest, position)) {
       return;
     }
     const std::size_t node = Join(position, from);
@@ -156,20 +132,33 @@ class RrtStarTree {
     }
   }
 
+  /// Whether a path through a point may be shorter than the one that has been found, if any.
+  [[nodiscard]] bool MayShorten(const Vec2& p) const {
+    return goal_ == kNone ||
+           (p - problem_.start).norm() + (p - problem_.goal).norm() < nodes_[goal_].cost;
+  }
+
   /// Adds a node by way of its cheapest neighbor and leads its neighbors through it. The edge
   /// to `reached_from` is known to be free.
   std::size_t Join(const Vec2& position, std::size_t reached_from) {
     const double count = static_cast<double>(nodes_.size());
     const double nearest = std::ceil(kNeighbors * std::log(count + 1.0));
     FindNearest(position, static_cast<std::size_t>(nearest));
-    if (std::none_of(neighbors_.begin(), neighbors_.end(),
-                     [&](const Neighbor& other) { return other.node == reached_from; })) {
-      neighbors_.push_back({reached_from, (nodes_[reached_from].position - position).norm(), 0.0});
+    const double reached = (nodes_[reached_from].position - position).norm();
+    const Neighbor first{reached_from, reached, nodes_[reached_from].cost + reached};
+    neighbors_ = {first};
+    cheaper_.clear();
+    for (const auto& [square, node] : near_) {
+      const double distance = std::sqrt(square);
+      const Neighbor neighbor{node, distance, nodes_[node].cost + distance};
+      if (node != reached_from) {
+        neighbors_.push_back(neighbor);
+      }
+      if (CostsLess(neighbor, first)) {
+        cheaper_.push_back(neighbor);
+      }
     }
-    for (Neighbor& other : neighbors_) {
-      other.cost = nodes_[other.node].cost + other.distance;
-    }
-    const Neighbor parent = Cheapest(position, reached_from);
+    const Neighbor parent = Cheapest(position, first);
     const std::size_t node = Add(position, parent.node, parent.cost);
     // Leading one node through the new one makes others cheaper, never dearer.
     const auto last = std::remove_if(neighbors_.begin(), neighbors_.end(), [&](const Neighbor& of) {
@@ -189,18 +178,19 @@ class RrtStarTree {
     return a.cost < b.cost || (a.cost == b.cost && a.node < b.node);
   }
 
-  /// The cheapest neighbor with a free edge; reorders them. Few edges have to be looked at, and a
-  /// heap gives the first few of hundreds without sorting the rest.
-  Neighbor Cheapest(const Vec2& position, std::size_t reached_from) {
+  /// The cheapest of cheaper_ with a free edge, or `otherwise`; reorders them. Few edges have to be
+  /// looked at, and a heap gives the first few of hundreds without sorting the rest.
+  Neighbor Cheapest(const Vec2& position, const Neighbor& otherwise) {
     const auto costs_more = [](const Neighbor& a, const Neighbor& b) { return CostsLess(b, a); };
-    std::make_heap(neighbors_.begin(), neighbors_.end(), costs_more);
-    for (auto end = neighbors_.end();; --end) {
-      const Neighbor cheapest = neighbors_.front();
-      if (cheapest.node == reached_from || IsFree(nodes_[cheapest.node].position, position)) {
+    std::make_heap(cheaper_.begin(), cheaper_.end(), costs_more);
+    for (auto end = cheaper_.end(); end != cheaper_.begin(); --end) {
+      const Neighbor cheapest = cheaper_.front();
+      if (IsFree(nodes_[cheapest.node].position, position)) {
         return cheapest;
       }
-      std::pop_heap(neighbors_.begin(), end, costs_more);
+      std::pop_heap(cheaper_.begin(), end, costs_more);
     }
+    return otherwise;
   }
 
   std::size_t Add(const Vec2& position, std::size_t parent, double cost) {
@@ -210,7 +200,7 @@ class RrtStarTree {
     if (node != parent) {
       children_[parent].push_back(node);
     }
-    index_.insert({Point(position.x(), position.y()), node});
+    index_.Add(position, node);
     return node;
   }
 
@@ -239,14 +229,16 @@ class RrtStarTree {
   boost::random::mt19937_64 random_;
   std::vector<TreeNode> nodes_;
   std::vector<std::vector<std::size_t>> children_;
-  index::rtree<Entry, index::linear<16>> index_;
+  NodeGrid index_;
   std::size_t goal_ = kNone;
-  std::vector<Entry> near_;          // of the last query
-  std::vector<Neighbor> neighbors_;  // of the node that is being joined
+  std::vector<NodeGrid::Near> near_;  // of the last query
+  std::vector<Neighbor> neighbors_;   // of the node that is being joined
+  std::vector<Neighbor> cheaper_;  // of them, those that cost less than the one it was reached from
 };
 
 bool IsWithin(const RrtStarProblem& problem, const Vec2& p) {
-  return (p.array() >= problem.low.array()).all() && (p.array() <= problem.high.array()).all();
+  return problem.low.allFinite() && problem.high.allFinite() &&
+         (p.array() >= problem.low.array()).all() && (p.array() <= problem.high.array()).all();
 }
 
 }  // namespace
@@ -268,7 +260,7 @@ const char* ToString(RrtStarStatus status) {
 RrtStarResult PlanRrtStar(const RrtStarProblem& problem, const RrtStarOptions& options,
                           std::uint64_t seed) {
   TRACKBED_CHECK(IsWithin(problem, problem.start) && IsWithin(problem, problem.goal),
-                 "start ({}, {}) or goal ({}, {}) outside the box", problem.start.x(),
+                 "start ({}, {}) or goal ({}, {}) outside a finite box", problem.start.x(),
                  problem.start.y(), problem.goal.x(), problem.goal.y());
   TRACKBED_CHECK(options.iterations >= 0 && options.step >= 0.0 && options.goal_bias >= 0.0 &&
                      options.goal_bias <= 1.0 && problem.inflation >= 0.0,

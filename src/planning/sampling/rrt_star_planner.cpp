@@ -6,6 +6,7 @@
 
 #include "src/planning/sampling/sampling_task.h"
 #include "trackbed/core/error.h"
+#include "trackbed/geometry/box_index.h"
 #include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/route.h"
 
@@ -47,11 +48,42 @@ void AddNodes(const RrtStarResult& result, const Pose2& frame, std::vector<TreeN
   }
 }
 
+/// The way from one waypoint to the next: the straight line where it is free, which needs no tree.
+/// The budget holds for it too: no more edges than samples.
+RrtStarResult GrowLeg(const RrtStarPlannerOptions& options, const SamplingTask& task,
+                      const BoxIndex& obstacles, const Vec2& from, const Vec2& to,
+                      std::uint64_t seed) {
+  const double length = (to - from).norm();
+  const double edge =
+      options.expand_distance.value_or(0.2 * (task.area.high - task.area.low).norm());
+  if (length > 0.0 && length <= options.iterations * edge &&
+      obstacles.KeepsFrom(from, to, task.inflation)) {
+    return {.status = RrtStarStatus::kFound,
+            .path = {from, to},
+            .cost = length,
+            .iterations = 0,
+            .nodes = {{from, 0, 0.0}, {to, 0, length}}};
+  }
+  return PlanRrtStar({.start = from,
+                      .goal = to,
+                      .low = task.area.low,
+                      .high = task.area.high,
+                      .obstacles = task.obstacles,
+                      .inflation = task.inflation},
+                     {.iterations = options.iterations,
+                      .step = options.expand_distance.value_or(0.0),
+                      .goal_bias = options.goal_bias,
+                      .informed = true,
+                      .stop = {}},
+                     seed);
+}
+
 /// A plan along one tree through all waypoints; `diagnostics` is told its legs.
 Plan PlanStarTree(const RrtStarPlannerOptions& options, const PlanRequest& request,
                   const SamplingTask& task, const CornerTangents& tangents, std::uint64_t seed,
                   RrtStarPlanDiagnostics& diagnostics) {
   diagnostics.legs.clear();
+  const BoxIndex obstacles(task.obstacles);
   std::vector<Vec2> points{{0.0, 0.0}};
   if (task.lead.x() > 0.0) {
     points.push_back(task.lead);
@@ -59,17 +91,7 @@ Plan PlanStarTree(const RrtStarPlannerOptions& options, const PlanRequest& reque
   std::vector<TreeNode> tree;
   Vec2 from = task.lead;
   for (std::size_t i = 0; i < task.goals.size(); ++i) {
-    const RrtStarResult found = PlanRrtStar({.start = from,
-                                             .goal = task.goals[i],
-                                             .low = task.area.low,
-                                             .high = task.area.high,
-                                             .obstacles = task.obstacles,
-                                             .inflation = task.inflation},
-                                            {.iterations = options.iterations,
-                                             .step = options.expand_distance.value_or(0.0),
-                                             .goal_bias = options.goal_bias,
-                                             .stop = {}},
-                                            seed + i);
+    const RrtStarResult found = GrowLeg(options, task, obstacles, from, task.goals[i], seed + i);
     diagnostics.legs.push_back({.status = found.status,
                                 .iterations = found.iterations,
                                 .nodes = found.nodes.size(),

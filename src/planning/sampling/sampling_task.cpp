@@ -23,14 +23,17 @@ Vec2 DirectionInFrame(const Pose2& X_WF, const Vec2& vector) {
 
 }  // namespace
 
+double StraightStart(double lead_in, const PlanRequest& request) {
+  return std::min(lead_in, 0.5 * ToLocal(request.start, request.waypoints.at(1)).norm());
+}
+
 SamplingTask MakeSamplingTask(const SamplingTaskOptions& options, const PlanRequest& request) {
   const Pose2& frame = request.start;
   SamplingTask task;
   for (std::size_t i = 1; i < request.waypoints.size(); ++i) {
     task.goals.push_back(ToLocal(frame, request.waypoints[i]));
   }
-  // No further than half way to where it is going.
-  task.lead.x() = std::min(options.lead_in, 0.5 * task.goals.front().norm());
+  task.lead.x() = StraightStart(options.lead_in, request);
   for (const OrientedBox& box : request.obstacles) {
     task.obstacles.push_back({InFrame(frame, box.center), box.length, box.width});
   }

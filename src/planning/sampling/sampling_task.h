@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -64,11 +65,15 @@ std::vector<Vec2> InWorld(const Pose2& frame, std::vector<Vec2> points);
 /// Why a waypoint, counted from 0, is blocked.
 Plan GoalBlocked(const SamplingTask& task, std::size_t waypoint);
 
+/// Length of the straight start [m]: `lead_in`, but at most half the distance to the first waypoint
+/// after the start.
+double StraightStart(double lead_in, const PlanRequest& request);
+
 /// Straight starts that PlanWithLeadIn tries.
 inline constexpr int kLeadIns = 3;
 
 /// Plans again for a rolling car, which may need more room before its first corner than the trees
-/// leave: with a longer straight start, up to `tries` of them. The longest lets the car come to
+/// leave: with longer straight starts, up to `tries` of them. The longest lets the car come to
 /// rest; where something is in its way, a half or a quarter of it may do, for which one tree is
 /// grown each: many a refused mission has no plan at all.
 template <typename Options, typename PlanTrees>
@@ -82,10 +87,17 @@ Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const Pl
   }
   double more = 0.5 * request.start_speed * request.start_speed / request.speed.deceleration +
                 request.vehicle.min_turning_radius();
+  // The same straight start would give the same trees again.
+  std::vector<double> tried{StraightStart(options.lead_in, request)};
   for (int i = 0; i < tries; ++i, more *= 0.5) {
     Options longer = options;
     longer.lead_in += more;
     longer.trees = i == 0 ? options.trees : 1;
+    const double straight = StraightStart(longer.lead_in, request);
+    if (std::find(tried.begin(), tried.end(), straight) != tried.end()) {
+      continue;
+    }
+    tried.push_back(straight);
     Plan again = plan_trees(longer, request);
     if (again.ok()) {
       return again;

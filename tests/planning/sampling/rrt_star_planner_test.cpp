@@ -93,6 +93,23 @@ TEST(RrtStarPlanner, GivesItsTreeAndSaysHowEachOfThemEnded) {
   }
 }
 
+TEST(RrtStarPlanner, NeedsNoTreeWhereTheStraightLineIsFree) {
+  PlanRequest request = AroundAWall();
+  request.waypoints = {{0.0, 0.0}, {12.0, 0.0}, {60.0, 0.0}, {80.0, 0.0}};
+  const Plan plan = MakePlan(request, RrtStarPlannerOptions{});
+  const auto own = DiagnosticsJson(plan);
+  ASSERT_EQ(own["legs"].size(), 3U) << plan.reason;
+  // The first begins behind the lead-in of 4 m.
+  EXPECT_NEAR(own["legs"][0]["cost_m"].get<double>(), 8.0, Tolerance(1e-12));
+  EXPECT_NEAR(own["legs"][2]["cost_m"].get<double>(), 20.0, Tolerance(1e-12));
+  for (const std::size_t free : {0U, 2U}) {
+    EXPECT_EQ(own["legs"][free]["status"], "found");
+    EXPECT_EQ(own["legs"][free]["iterations"], 0);
+    EXPECT_EQ(own["legs"][free]["nodes"], 2);
+  }
+  EXPECT_EQ(own["legs"][1]["iterations"], RrtStarPlannerOptions{}.iterations);
+}
+
 TEST(RrtStarPlanner, SaysHowNearItCame) {
   PlanRequest request = AroundAWall();
   // No sample lies beyond the ends of the wall.

@@ -12,9 +12,10 @@
 namespace trackbed {
 
 /// RRT* from waypoint to waypoint (rrt_star.h), with the points left out that make the path no
-/// better, its corners rounded or refused (corners.h). Of several trees the first whose path the
-/// car can drive. More iterations never lengthen a tree's path; the rounded one may change either
-/// way. Ignores wind and the headings of waypoints.
+/// better, its corners rounded or refused (corners.h). A leg whose straight line is free is that
+/// line, without a tree. Of several trees the first whose path the car can drive. More iterations
+/// never lengthen a tree's path; the rounded one may change either way. Ignores wind and the
+/// headings of waypoints.
 struct RrtStarPlannerOptions {
   Corners corners = Corners::kRound;
   double safe_distance = 0.3;  ///< of the footprint from obstacles [m], >= 0
@@ -35,8 +36,8 @@ void Visit(KeyVisitor& keys, RrtStarPlannerOptions& options);
 /// The tree from one waypoint toward the next.
 struct RrtStarLeg {
   RrtStarStatus status = RrtStarStatus::kFound;
-  int iterations = 0;          ///< samples
-  std::size_t nodes = 0;       ///< of the tree
+  int iterations = 0;          ///< samples; 0 for a straight line
+  std::size_t nodes = 0;       ///< of the tree; 2 for a straight line
   std::optional<double> cost;  ///< length of its path [m]; none unless found
   std::vector<Vec2> path;      ///< of the tree [m]; empty unless found
 };

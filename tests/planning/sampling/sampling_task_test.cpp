@@ -1,0 +1,80 @@
+#include "src/planning/sampling/sampling_task.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/vehicle/reference_car.h"
+
+namespace trackbed {
+namespace {
+
+/// The keys of a planner that PlanWithLeadIn looks at.
+struct Options {
+  Corners corners = Corners::kRound;
+  double lead_in = 4.0;
+  int trees = 3;
+};
+
+struct Asked {
+  double lead_in;
+  int trees;
+  bool operator==(const Asked&) const = default;
+};
+
+/// Rolling at 3 m/s, it stops within 3 m: the longest straight start is longer by those and the
+/// smallest radius.
+PlanRequest Rolling(double first_leg) {
+  PlanRequest request;
+  request.vehicle = ReferenceCar();
+  request.waypoints = {{0.0, 0.0}, {first_leg, 0.0}};
+  request.start_speed = 3.0;
+  request.speed = {.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
+  return request;
+}
+
+double Longer() {
+  return 0.5 * 3.0 * 3.0 / 1.5 + ReferenceCar().min_turning_radius();
+}
+
+std::vector<Asked> AskedWhenRefused(const PlanRequest& request, PlanStatus status) {
+  std::vector<Asked> asked;
+  const auto refuse = [&](const Options& options, const PlanRequest&) {
+    asked.push_back({options.lead_in, options.trees});
+    Plan plan;
+    plan.status = status;
+    return plan;
+  };
+  EXPECT_EQ(PlanWithLeadIn(Options{}, request, refuse, kLeadIns).status, status);
+  return asked;
+}
+
+TEST(PlanWithLeadIn, TriesTheLongestThenAHalfAndAQuarterOfItWithOneTree) {
+  const std::vector<Asked> expected{
+      {4.0, 3}, {4.0 + Longer(), 3}, {4.0 + 0.5 * Longer(), 1}, {4.0 + 0.25 * Longer(), 1}};
+  EXPECT_EQ(AskedWhenRefused(Rolling(100.0), PlanStatus::kTurnTooTight), expected);
+}
+
+TEST(PlanWithLeadIn, TriesNoStraightStartTwice) {
+  // All longer ones end half way to the waypoint; the second leaves no longer one at all.
+  EXPECT_EQ(AskedWhenRefused(Rolling(10.0), PlanStatus::kTurnTooTight),
+            (std::vector<Asked>{{4.0, 3}, {4.0 + Longer(), 3}}));
+  EXPECT_EQ(AskedWhenRefused(Rolling(8.0), PlanStatus::kTurnTooTight),
+            (std::vector<Asked>{{4.0, 3}}));
+}
+
+TEST(PlanWithLeadIn, TriesNoOtherWhereALongerOneDoesNotHelp) {
+  EXPECT_EQ(AskedWhenRefused(Rolling(100.0), PlanStatus::kGoalBlocked).size(), 1U);
+  PlanRequest standing = Rolling(100.0);
+  standing.start_speed = 0.0;
+  EXPECT_EQ(AskedWhenRefused(standing, PlanStatus::kTurnTooTight).size(), 1U);
+}
+
+TEST(StraightStart, EndsHalfWayToTheFirstWaypointAtMost) {
+  PlanRequest request = Rolling(10.0);
+  EXPECT_EQ(StraightStart(4.0, request), 4.0);
+  EXPECT_EQ(StraightStart(7.0, request), 5.0);
+}
+
+}  // namespace
+}  // namespace trackbed
