@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -259,66 +258,6 @@ TEST(Program, FilmsARunWhoseModelIsGone) {
   std::filesystem::remove(folder.path() / "car.xml");
   const Outcome film = Trackbed(folder, "render r --size 128x72 --fps 5 -o f.png");
   EXPECT_EQ(film.code, 0) << film.output;
-}
-
-/// The program's commands in the README's and the docs' shell blocks, in order.
-std::vector<std::string> DocumentedCommands() {
-  std::vector<std::string> commands;
-  std::vector<std::filesystem::path> pages{std::string(TRACKBED_SOURCE_DIR) + "/README.md"};
-  for (const auto& entry :
-       std::filesystem::recursive_directory_iterator(std::string(TRACKBED_SOURCE_DIR) + "/docs")) {
-    if (entry.path().extension() == ".md") {
-      pages.push_back(entry.path());
-    }
-  }
-  const std::string program = "build/release/trackbed ";
-  for (const auto& page : pages) {
-    std::istringstream text(ReadFile(page));
-    for (std::string line; std::getline(text, line);) {
-      if (line.starts_with(program)) {
-        commands.push_back(line.substr(program.size(), line.find(" #") - program.size()));
-      }
-    }
-  }
-  return commands;
-}
-
-TEST(Docs, CommandsDoWhatTheySay) {
-  const TempFolder folder;
-  for (const char* name : {"scenarios", "models", "tests"}) {
-    std::filesystem::create_directory_symlink(std::string(TRACKBED_SOURCE_DIR) + "/" + name,
-                                              folder.path() / name);
-  }
-  const std::vector<std::string> commands = DocumentedCommands();
-  EXPECT_GE(commands.size(), 4U);
-  for (const std::string& command : commands) {
-    // A whole film takes minutes at full size; a stamp at two frames a second proves the command,
-    // as do many short drives that it can be swept.
-    const bool film = command.starts_with("render");
-    const bool sweep = command.starts_with("sweep") && !command.starts_with("sweep merge");
-    if (film && !HasVideo(folder)) {
-      continue;
-    }
-    if (command.starts_with("watch ")) {
-      // It ends with Ctrl-C alone; a run that it interrupts is not for the commands that follow.
-      const bool runs = command.find("scenarios/") != std::string::npos;
-      const Outcome watched = Watched(folder, command.substr(6) + (runs ? " --out watched" : ""));
-      EXPECT_TRUE(watched.code == 130 || watched.code == 0) << command << "\n" << watched.output;
-      EXPECT_THAT(watched.output, testing::StartsWith("http://127.0.0.1:")) << command;
-      continue;
-    }
-    const bool run_film = command.find(" --video") != std::string::npos;
-    static const std::regex kLook(" --(size|fps) [^ ]+");
-    const Outcome outcome =
-        Trackbed(folder, std::regex_replace(command, kLook, "") +
-                             (film       ? " --size 128x72 --fps 2"
-                              : run_film ? " --set render.size=[128,72] --set render.fps=2"
-                              : sweep    ? " --set drive.time_limit=1"
-                                         : ""));
-    // A search that is shown finds something.
-    EXPECT_EQ(outcome.code, command.starts_with("falsify") ? 3 : 0) << command << "\n"
-                                                                    << outcome.output;
-  }
 }
 
 TEST(Docs, CliPageHoldsWhatTheProgramSays) {

@@ -567,7 +567,12 @@ class Campaign:
         if options.cases:
             all_cases = [case for case in all_cases if case.name in options.cases.split(",")]
         parts = options.only.split(",")
+        part, of = (int(number) for number in options.part.split("/"))
         for number, case in enumerate(all_cases):
+            if number % of != part - 1:
+                continue
+            # The same faults whatever the part.
+            self.random.seed(f"{options.seed} {case.name}")
             self.prepare(case)
             begin = time.monotonic()
             if "kill" in parts:
@@ -613,6 +618,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", default="kill,error,disk,around")
     parser.add_argument("--cases", default="")
+    parser.add_argument("--part", default="1/1", help="I/N: every Nth of the cases, from the Ith on")
     sys.exit(Campaign(parser.parse_args()).go())
 
 

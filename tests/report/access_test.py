@@ -1,7 +1,7 @@
 """Reports for everybody: contrast in both color schemes, names for what is drawn, tick labels at their
 grid lines, less motion, and paper.
 
-access_test.py PROGRAM PICTURES [unittest's options]: pictures of the pages are left in a folder.
+access_test.py PROGRAM PICTURES [I/N] [unittest's options]: pictures of the pages are left in a folder.
 """
 
 import base64
@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from browser import Browser  # noqa: E402
+from browser import Browser, run_tests  # noqa: E402
 
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 PICTURES = pathlib.Path(sys.argv[2]).resolve()
@@ -239,4 +239,4 @@ class Access(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)
+    run_tests()

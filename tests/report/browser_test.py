@@ -1,7 +1,7 @@
 """Reports as people see them: drives scenarios with the program, makes their reports, opens them in
 a headless Chromium without a network, and uses them.
 
-browser_test.py PROGRAM PICTURES [unittest's options]: pictures of the pages are left in a folder.
+browser_test.py PROGRAM PICTURES [I/N] [unittest's options]: pictures of the pages are left in a folder.
 """
 
 import os
@@ -18,7 +18,7 @@ import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from browser import Browser  # noqa: E402
+from browser import Browser, run_tests  # noqa: E402
 
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 PICTURES = pathlib.Path(sys.argv[2]).resolve()
@@ -855,4 +855,4 @@ class Reports(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)
+    run_tests()

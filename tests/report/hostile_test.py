@@ -2,7 +2,7 @@
 emoji, control characters, bytes that are no UTF-8 and words without end, in every text that a page
 shows. All is opened in a headless Chromium.
 
-hostile_test.py PROGRAM PICTURES [unittest's options]
+hostile_test.py PROGRAM PICTURES [I/N] [unittest's options]
 """
 
 import csv
@@ -17,7 +17,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from browser import Browser  # noqa: E402
+from browser import Browser, run_tests  # noqa: E402
 
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 PICTURES = pathlib.Path(sys.argv[2]).resolve()
@@ -404,4 +404,4 @@ class HostileReports(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)
+    run_tests()

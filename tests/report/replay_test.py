@@ -1,6 +1,6 @@
 """The replay in three dimensions, in a headless Chromium with WebGL by software.
 
-replay_test.py PROGRAM PICTURES [unittest's options]: pictures of the pages are left in a folder.
+replay_test.py PROGRAM PICTURES [I/N] [unittest's options]: pictures of the pages are left in a folder.
 """
 
 import csv
@@ -14,7 +14,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from browser import Browser  # noqa: E402
+from browser import Browser, run_tests  # noqa: E402
 
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 PICTURES = pathlib.Path(sys.argv[2]).resolve()
@@ -317,4 +317,4 @@ class Replay(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)
+    run_tests()

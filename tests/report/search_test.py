@@ -1,6 +1,6 @@
 """Reports of searches in a browser.
 
-search_test.py PROGRAM PICTURES [unittest's options]: pictures of the pages are left in a folder.
+search_test.py PROGRAM PICTURES [I/N] [unittest's options]: pictures of the pages are left in a folder.
 """
 
 import csv
@@ -13,7 +13,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from browser import Browser  # noqa: E402
+from browser import Browser, run_tests  # noqa: E402
 
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 PICTURES = pathlib.Path(sys.argv[2]).resolve()
@@ -251,4 +251,4 @@ class Searches(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)
+    run_tests()

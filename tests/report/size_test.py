@@ -1,7 +1,7 @@
 """The page of every shipped scenario is at most 3 MB, without its film.
 
-size_test.py PROGRAM SCENARIOS: drives each scenario below a folder and makes its report. Prints their sizes, the
-largest first, and how large the scene of the replay is for a minute of a plant.
+size_test.py PROGRAM SCENARIOS [I/N]: drives each scenario below a folder, or the Ith of N parts of them, and makes its
+report. Prints their sizes, the largest first, and how large the scene of the replay is for a minute of a plant.
 """
 
 import json
@@ -29,11 +29,17 @@ def scene_size(page):
 
 def main():
     program, scenarios = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
+    part, parts = (int(number) for number in (sys.argv[3] if len(sys.argv) > 3 else "1/1").split("/"))
+    files = [
+        file
+        for file in sorted(scenarios.rglob("*.yaml"))
+        if "studies" not in file.parts and "maps" not in file.parts and "\nparameters:" not in file.read_text()
+    ]
+    if len(files) < 30:
+        sys.exit(f"only {len(files)} scenarios in {scenarios}")
     found = []
     with tempfile.TemporaryDirectory() as folder:
-        for scenario in sorted(scenarios.rglob("*.yaml")):
-            if "studies" in scenario.parts or "maps" in scenario.parts or "\nparameters:" in scenario.read_text():
-                continue
+        for scenario in files[part - 1 :: parts]:
             out = pathlib.Path(folder) / scenario.stem
             done = subprocess.run(
                 [program, "run", "-q", "--report", scenario, "-o", out], capture_output=True, text=True, check=False
@@ -42,8 +48,6 @@ def main():
                 sys.exit(f"{scenario}: {done.stdout}{done.stderr}")
             page = out / "report.html"
             found.append((page.stat().st_size, scene_size(page.read_text()), scenario.stem))
-    if len(found) < 30:
-        sys.exit(f"only {len(found)} scenarios in {scenarios}")
     for size, scene, name in sorted(found, reverse=True):
         print(f"{size / 1e6:5.2f} MB, scene {scene / 1e6:.3f} MB/min/plant: {name}")
     sys.exit(int(any(size > LARGEST or scene > LARGEST_SCENE for size, scene, _ in found)))

@@ -1,7 +1,7 @@
 """A run as one watches it: starts the program, opens its page in a headless Chromium while the run
 goes on, and uses it.
 
-browser_test.py PROGRAM PICTURES [unittest's options]: pictures of the pages are left in a folder.
+browser_test.py PROGRAM PICTURES [I/N] [unittest's options]: pictures of the pages are left in a folder.
 """
 
 import json
@@ -16,7 +16,7 @@ import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "report"))
-from browser import Browser  # noqa: E402
+from browser import Browser, run_tests  # noqa: E402
 
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 PICTURES = pathlib.Path(sys.argv[2]).resolve()
@@ -233,4 +233,4 @@ class Watch(unittest.TestCase):
 
 if __name__ == "__main__":
     os.environ.pop("DISPLAY", None)
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)
+    run_tests()
