@@ -1,9 +1,7 @@
-#include <GL/osmesa.h>
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
 #include <Eigen/Core>
-#include <array>
 #include <exception>
 #include <fstream>
 #include <string>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "bench/record.h"
+#include "render/gl_choice.h"
 #include "trackbed/core/version.h"
 #include "trackbed/optimize/search.h"
 #include "trackbed/render/film.h"
@@ -35,13 +34,12 @@ std::string CpuModel() {
 }
 
 std::string OpenGlVersion() {
-  std::array<unsigned char, 4> window{};
-  const OSMesaContext context = OSMesaCreateContext(OSMESA_RGBA, nullptr);
-  OSMesaMakeCurrent(context, window.data(), GL_UNSIGNED_BYTE, 1, 1);
-  const GLubyte* version = glGetString(GL_VERSION);
-  std::string text = version == nullptr ? "none" : reinterpret_cast<const char*>(version);
-  OSMesaDestroyContext(context);
-  return text;
+  try {
+    const auto context = trackbed::render::MakeGlContext("auto");
+    return fmt::format("{}: {}", NameOf(context->library()), context->Version());
+  } catch (const std::exception& error) {
+    return error.what();
+  }
 }
 
 /// `trackbed_bench table RECORD` and `trackbed_bench against BEFORE AFTER`.

@@ -10,10 +10,10 @@ set(TRACKBED_MUJOCO ${default_mujoco} CACHE STRING "MuJoCo: wheel, debian or a f
 include(LibraryDependencies)
 include(MujocoVersion)
 
-# Loaded at run time: only their headers are needed, and by tests and benchmarks the libraries.
+# Loaded at run time: only their headers are needed, and by tests the libraries.
 find_package(PkgConfig REQUIRED)
-pkg_check_modules(osmesa REQUIRED IMPORTED_TARGET osmesa)
-add_library(osmesa::osmesa ALIAS PkgConfig::osmesa)
+pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
+add_library(egl::egl ALIAS PkgConfig::egl)
 if(TRACKBED_VIDEO)
   pkg_check_modules(ffmpeg REQUIRED IMPORTED_TARGET libavformat libavcodec libswscale libavutil)
   add_library(ffmpeg::ffmpeg ALIAS PkgConfig::ffmpeg)

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "render/camera.h"
+#include "render/gl_choice.h"
 #include "render/insets.h"
 #include "render/output.h"
 #include "render/overlays.h"
@@ -62,6 +63,7 @@ void CheckOptions(const FilmOptions& options, bool even_sides) {
   if (!problems.empty()) {
     throw InputError(std::move(problems));
   }
+  CheckGl(options.gl);
 }
 
 /// One of all plants, or one of each that is named.
@@ -161,6 +163,10 @@ std::vector<std::string> DefaultOverlays() {
 
 void CheckFilmName(const fs::path& output) {
   render::FilmFormatFor(output);
+}
+
+void CheckGl(const std::string& gl) {
+  render::ChooseGl(gl, render::ReadGlSurroundings());
 }
 
 FilmReport RenderFilm(const fs::path& run_folder, const fs::path& output,

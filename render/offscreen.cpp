@@ -4,33 +4,13 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <utility>
 
-#include "render/runtime_library.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed::render {
 namespace {
 
-/// The functions of OSMesa, loaded when something is drawn.
-struct MesaFunctions {
-  decltype(&OSMesaCreateContextExt) create;
-  decltype(&OSMesaDestroyContext) destroy;
-  decltype(&OSMesaMakeCurrent) make_current;
-};
-
-const MesaFunctions& Mesa() {
-  static const MesaFunctions mesa = [] {
-    // MuJoCo looks for OSMesa among the symbols of the process.
-    const RuntimeLibrary library("libOSMesa.so.8", "libosmesa6", RuntimeLibrary::Symbols::kGlobal);
-    return MesaFunctions{
-        .create = library.Find<decltype(OSMesaCreateContextExt)>("OSMesaCreateContextExt"),
-        .destroy = library.Find<decltype(OSMesaDestroyContext)>("OSMesaDestroyContext"),
-        .make_current = library.Find<decltype(OSMesaMakeCurrent)>("OSMesaMakeCurrent")};
-  }();
-  return mesa;
-}
-
-constexpr int kWindowSize = 64;
 // The buffer is at least this large [px], so that a glyph of the largest font fits in.
 constexpr int kSmallestBuffer = 128;
 
@@ -77,27 +57,16 @@ void AverageFlipped(const std::vector<std::uint8_t>& from, int side, Image& to) 
 
 }  // namespace
 
-void Offscreen::FreeMesa::operator()(osmesa_context* context) const {
-  Mesa().destroy(context);
-}
-
-Offscreen::Offscreen(mjModel& model, int width, int height, int supersampling)
-    : width_(width),
-      height_(height),
-      supersampling_(supersampling),
-      window_(4 * kWindowSize * kWindowSize) {
+Offscreen::Offscreen(mjModel& model, int width, int height, int supersampling,
+                     std::unique_ptr<GlContext> gl)
+    : width_(width), height_(height), supersampling_(supersampling), gl_(std::move(gl)) {
   TRACKBED_CHECK(supersampling == 1 || supersampling == 2 || supersampling == 4,
                  "{} by {} samples a pixel", supersampling, supersampling);
-  mesa_.reset(Mesa().create(OSMESA_RGBA, 24, 8, 0, nullptr));
-  if (!mesa_ || Mesa().make_current(mesa_.get(), window_.data(), GL_UNSIGNED_BYTE, kWindowSize,
-                                    kWindowSize) != GL_TRUE) {
-    throw RunError("cannot start off-screen OpenGL (OSMesa)");
-  }
   model.vis.global.offwidth = std::max(supersampling * width, kSmallestBuffer);
   model.vis.global.offheight = std::max(supersampling * height, kSmallestBuffer);
   model.vis.quality.offsamples = 0;
   mjr_defaultContext(&context_);
-  mjr_makeContext(&model, &context_, mjFONTSCALE_300);
+  MakeMujocoContext(model);
   mjr_setBuffer(mjFB_OFFSCREEN, &context_);
   const mjrRect largest = mjr_maxViewport(&context_);
   if (context_.currentBuffer != mjFB_OFFSCREEN || largest.width < supersampling * width ||
@@ -109,7 +78,18 @@ Offscreen::Offscreen(mjModel& model, int width, int height, int supersampling)
 
 Offscreen::~Offscreen() {
   mjr_freeContext(&context_);
-  Mesa().make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
+}
+
+void Offscreen::MakeMujocoContext(const mjModel& model) {
+  try {
+    mjr_makeContext(&model, &context_, mjFONTSCALE_300);
+  } catch (const RunError& error) {
+    throw RunError(
+        fmt::format("{}, with {} (OpenGL {}); MuJoCo loads OpenGL once in a process: if this "
+                    "program also draws "
+                    "with MuJoCo elsewhere, such as in a window, film in another process",
+                    error.what(), NameOf(gl_->library()), gl_->Version()));
+  }
 }
 
 void Offscreen::Draw(mjvScene& scene, int width, int height) {

@@ -1,24 +1,25 @@
 #pragma once
 
-#include <GL/osmesa.h>
 #include <mujoco/mujoco.h>
 
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "render/gl_choice.h"
 #include "render/image.h"
 
 namespace trackbed::render {
 
-/// MuJoCo's renderer on Mesa's software OpenGL: scenes in, pictures out, no display.
+/// MuJoCo's renderer without a display: scenes in, pictures out.
 ///
 /// Its OpenGL context stays current in this thread as long as it lives: one at a time per thread.
 class Offscreen {
  public:
   /// Buffers for pictures of the given size [px], each pixel the mean of `supersampling` squared
-  /// samples. Changes `model.vis` accordingly. RunError when there is no such context.
-  Offscreen(mjModel& model, int width, int height, int supersampling);
+  /// samples. Changes `model.vis` accordingly. RunError when MuJoCo cannot draw in the context.
+  Offscreen(mjModel& model, int width, int height, int supersampling,
+            std::unique_ptr<GlContext> gl = MakeGlContext("auto"));
   ~Offscreen();
   Offscreen(const Offscreen&) = delete;
   Offscreen& operator=(const Offscreen&) = delete;
@@ -36,17 +37,13 @@ class Offscreen {
   Image Glyph(char character);
 
  private:
-  struct FreeMesa {
-    void operator()(osmesa_context* context) const;
-  };
-
+  void MakeMujocoContext(const mjModel& model);
   void Draw(mjvScene& scene, int width, int height);
 
   int width_;
   int height_;
   int supersampling_;
-  std::vector<std::uint8_t> window_;  // a window that Mesa insists on; nothing is drawn there
-  std::unique_ptr<osmesa_context, FreeMesa> mesa_;
+  std::unique_ptr<GlContext> gl_;
   mjrContext context_;
   std::vector<std::uint8_t> upside_down_;  // OpenGL's rows begin at the bottom
 };

@@ -109,7 +109,7 @@ Painter::Painter(std::span<Recording> recordings, const FilmOptions& options)
           Prepared(recordings, quality_,
                    camera_.pose(CameraSubject(recordings.front()), recordings.front().begin(),
                                 static_cast<double>(options.width) / options.height)),
-          options.width, options.height, quality_.supersampling),
+          options.width, options.height, quality_.supersampling, MakeGlContext(options.gl)),
       font_(ReadFont(offscreen_)) {
   ShareScales(recordings);
   const auto count = static_cast<int>(recordings.size());

@@ -16,6 +16,6 @@ endif()
 # What draws and encodes is loaded when something is drawn, or every verb would wait for it.
 execute_process(COMMAND ldd ${WORK}/installed/${BINDIR}/trackbed OUTPUT_VARIABLE loaded
                 COMMAND_ERROR_IS_FATAL ANY)
-if(loaded MATCHES "OSMesa|LLVM|avcodec|x264")
+if(loaded MATCHES "OSMesa|EGL|LLVM|avcodec|x264")
   message(FATAL_ERROR "the program loads at its start\n${loaded}")
 endif()

@@ -1,5 +1,5 @@
 # The shared libraries installed in WORK: each is named after its version, finds the others wherever
-# all were moved to, and links all that it uses. OSMesa and FFmpeg are loaded when something is drawn.
+# all were moved to, and links all that it uses. OSMesa, EGL and FFmpeg are loaded when something is drawn.
 set(libraries ${WORK}/installed/${LIBDIR})
 
 # What FILE says of itself in its dynamic section must match all of ARGN.
@@ -31,7 +31,7 @@ foreach(file IN LISTS files)
   if(loaded MATCHES "not found|undefined symbol")
     message(FATAL_ERROR "${file}:\n${loaded}")
   endif()
-  if(loaded MATCHES "OSMesa|avcodec")
+  if(loaded MATCHES "OSMesa|EGL|avcodec")
     message(FATAL_ERROR "${file} loads\n${loaded}")
   endif()
   if(loaded MATCHES "libtrackbed_")

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "render/gl_choice.h"
 #include "tests/render/decode_png.h"
 #include "tests/render/run_folder.h"
 #include "tests/support/temp_folder.h"
@@ -64,6 +65,17 @@ world:
   friction_patches: [{x: 7, y: 2.5, yaw: 0.5, length: 6, width: 5, friction: 0.3}]
   wind: {y: -6, gusts: [{x: 3, y: 0, from: 1, duration: 5, area: {x: 9, y: 6, length: 6, width: 5}}]}
 )");
+  }
+
+  void SetUp() override {
+    const auto libraries = ChooseGl("auto", ReadGlSurroundings());
+    if (libraries == std::vector{GlLibrary::kEgl}) {
+      try {
+        MakeGlContext(libraries);
+      } catch (const RunError& error) {
+        GTEST_SKIP() << error.what();
+      }
+    }
   }
 
   /// Draws the run at `time` [s] and compares it with tests/data/golden/NAME.png.

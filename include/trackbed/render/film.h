@@ -35,6 +35,9 @@ struct FilmOptions {
   /// "draft": one sample a pixel and a painted shadow under the car. "film": four samples, for
   /// smooth edges, and the shadows that the model's lamps cast, for about four times the time.
   std::string quality = "draft";
+  /// The library that draws: "osmesa", "egl" or "auto", which is that of the environment variable
+  /// MUJOCO_GL, else EGL if the program links it, else OSMesa if it is installed, else EGL.
+  std::string gl = "auto";
   /// Another camera, or a name of FlatInsets(), for a small picture in the picture; empty: none.
   std::string inset{};
   std::vector<std::string> overlays = DefaultOverlays();  ///< names of Overlays()
@@ -62,6 +65,10 @@ std::string VideoEncoder();
 /// extension, or a video in a build without.
 void CheckFilmName(const std::filesystem::path& output);
 
+/// InputError when there is no such FilmOptions::gl, or "auto" with a MUJOCO_GL other than egl,
+/// osmesa or nothing; RunError when MuJoCo uses another library in this process.
+void CheckGl(const std::string& gl);
+
 /// Films a finished run from its folder alone: no display, no GPU, nothing is simulated again.
 ///
 /// The folder holds `model.xml` and, per plant, `<plant>.state.csv` and `<plant>.csv`; `plan.csv`
@@ -87,12 +94,14 @@ void CheckFilmName(const std::filesystem::path& output);
 ///    those written before stay. When the last one is written,
 ///    the frames that an older and longer film of the same name left beyond it are removed.
 ///
-/// Guarantees: the same folder and options give the same bytes. Pictures are encoded and written in
-/// a thread of their own, up to three behind the drawing; it has ended when this returns or throws.
-/// Does not: run on two threads at a time (the table of OpenGL's functions that MuJoCo loads is
-/// global). Silences libav's log for good.
-/// Errors: InputError for a folder that is missing, incomplete or inconsistent, for an unknown
-/// extension and for options out of range; RunError when the film cannot be encoded or written.
+/// Guarantees: the same folder, options and OpenGL library give the same bytes. Pictures are
+/// encoded and written in a thread of their own, up to three behind the drawing; it has ended when
+/// this returns or throws. Does not: run on two threads at a time, or draw with OSMesa and with EGL
+/// in one process (the table of OpenGL's functions that MuJoCo loads is global). Silences libav's
+/// log for good. With EGL, the caller's own context is current again afterwards; with OSMesa, none
+/// is. Errors: InputError for a folder that is missing, incomplete or inconsistent, for an unknown
+/// extension and for options out of range; RunError when the film cannot be drawn, encoded or
+/// written.
 /// Cost: per frame of 1280x720, on two cores that others use too, draft 0.1 to 0.15 s and film 0.3
 /// to 0.6 s; overlays and caption take a fifth of a draft frame. Memory: the recordings, and a few
 /// pictures however long the film.
