@@ -42,6 +42,7 @@ struct CheckPathOptions {
   bool json = false;
   bool drive = false;
   bool video = false;
+  std::string gl = FilmOptions{}.gl;
   std::string out;
   ScenarioOptions scenario;
 };
@@ -130,7 +131,8 @@ int Drive(const CheckPathOptions& options, const Scenario& scenario) {
             {.width = render.width,
              .height = render.height,
              .fps = render.fps,
-             .camera = render.camera},
+             .camera = render.camera,
+             .gl = options.gl},
             options.scenario.quiet);
   }
   return ExitCodeOf(result);
@@ -197,6 +199,7 @@ void AddCheckPath(const Command& command) {
                   "Also drive it, on both plants, and write a run folder");
   command.AddFlag("--video", options->video,
                   "With --drive: also render video.mp4 in the run folder");
+  AddGlOption(command, options->gl);
   command.AddOption("-o,--out", options->out, "With --drive: run folder (default: out/<file>)")
       .TypeName("DIR");
   options->scenario.AddTo(command);
@@ -208,6 +211,9 @@ void AddCheckPath(const Command& command) {
   command.OnRun([options] {
     if ((options->video || !options->out.empty()) && !options->drive) {
       throw InputError(Problem{.message = "--video and --out need --drive"});
+    }
+    if (options->video) {
+      CheckGl(options->gl);
     }
     return CheckPathFile(*options);
   });

@@ -32,6 +32,7 @@ struct FalsifyVerbOptions {
   std::optional<double> time;
   bool restart = false;
   bool video = false;
+  std::string gl = FilmOptions{}.gl;
   bool report = false;
   int jobs = 0;  // 0: as many as the machine runs threads
   ScenarioOptions scenario;
@@ -68,6 +69,7 @@ void WriteCounterexample(const FalsifyResult& result, const CheckedSearch& searc
              .height = render.height,
              .fps = render.fps,
              .camera = render.camera,
+             .gl = options.gl,
              .title = search.study.name + ": " + run_folder::kCounterexample,
              .note = result.counterexample->reason},
             options.scenario.quiet);
@@ -174,6 +176,7 @@ int Falsify(const FalsifyVerbOptions& options) {
   const OutputFolder folder(out);  // before the work, not after it
   if (options.video) {
     CheckFilmName(out / run_folder::kCounterexample / run_folder::kVideo);
+    CheckGl(options.gl);
   }
   const fs::path file = out / run_folder::kSweepRecords;
   if (options.restart) {
@@ -245,6 +248,7 @@ void AddFalsify(const Command& command) {
   command.AddFlag("--restart", options->restart,
                   "Begin anew; else a search that was interrupted goes on where it was");
   command.AddFlag("--video", options->video, "Also render video.mp4 of the counterexample");
+  AddGlOption(command, options->gl);
   command.AddFlag("--report", options->report,
                   "Also write report.html of the search and of the counterexample");
   options->scenario.AddTo(command);

@@ -1,10 +1,15 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
+#include "src/cli/command.h"
 #include "trackbed/render/film.h"
 
 namespace trackbed::cli {
+
+/// Adds --gl, which sets FilmOptions::gl.
+void AddGlOption(const Command& command, std::string& gl);
 
 /// Films a run folder with a progress bar; Ctrl-C ends it with nothing written.
 void FilmRun(const std::filesystem::path& folder, const std::filesystem::path& output,

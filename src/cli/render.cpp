@@ -23,6 +23,7 @@ struct RenderOptions {
   std::optional<double> fps;
   std::optional<std::string> camera;
   std::string quality = FilmOptions{}.quality;
+  std::string gl = FilmOptions{}.gl;
   std::string inset;
   std::vector<std::string> overlays;
   std::vector<std::string> plants;
@@ -72,6 +73,7 @@ int RenderOne(const RenderOptions& options) {
   film.fps = options.fps.value_or(film.fps);
   film.camera = options.camera.value_or(film.camera);
   film.quality = options.quality;
+  film.gl = options.gl;
   film.inset = options.inset;
   film.plants = options.plants;
   film.from = options.from;
@@ -96,6 +98,15 @@ int RenderOne(const RenderOptions& options) {
 }
 
 }  // namespace
+
+void AddGlOption(const Command& command, std::string& gl) {
+  command
+      .AddOption("--gl", gl,
+                 "Library that draws the film: osmesa (software), egl (the graphics card, else "
+                 "software), or auto (the environment variable MUJOCO_GL, else osmesa, else egl)")
+      .TypeName("auto|egl|osmesa")
+      .ShowDefault();
+}
 
 void FilmRun(const fs::path& folder, const fs::path& output, const FilmOptions& options,
              bool quiet) {
@@ -143,6 +154,7 @@ void AddRender(const Command& command) {
                  "draft, or film: smooth edges and cast shadows, 4 times slower")
       .TypeName("draft|film")
       .ShowDefault();
+  AddGlOption(command, options->gl);
   const Option from = command.AddOption("--from", options->from, "Start time [s]");
   const Option to = command.AddOption("--to", options->to, "End time [s]");
   command

@@ -28,6 +28,7 @@ struct RunOptions {
   std::vector<std::string> files;
   std::string out;
   bool video = false;
+  std::string gl = FilmOptions{}.gl;
   bool report = false;
   bool mcap = false;
   std::string sweep;
@@ -69,7 +70,8 @@ int RunOne(const ScenarioRun& run, const RunOptions& options) {
             {.width = render.width,
              .height = render.height,
              .fps = render.fps,
-             .camera = render.camera},
+             .camera = render.camera,
+             .gl = options.gl},
             options.scenario.quiet);
   }
   if (options.report && !result.interrupted) {
@@ -92,6 +94,7 @@ void AddRun(const Command& command) {
       .TypeName("DIR");
   options->scenario.AddTo(command);
   command.AddFlag("--video", options->video, "Also render video.mp4 in the run folder");
+  AddGlOption(command, options->gl);
   command.AddFlag("--report", options->report,
                   "Also write report.html in the run folder, including the video if present");
   command.AddFlag("--mcap", options->mcap, "Also write run.mcap (Foxglove) in the run folder");
@@ -114,8 +117,9 @@ void AddRun(const Command& command) {
     }
     const std::vector<ScenarioRun> runs =
         ReadScenarioRuns(options->files, options->scenario, options->out, "out");
-    for (const ScenarioRun& run : runs) {
-      if (options->video) {
+    if (options->video) {
+      CheckGl(options->gl);
+      for (const ScenarioRun& run : runs) {
         CheckFilmName(run.folder / run_folder::kVideo);
       }
     }
