@@ -41,14 +41,14 @@ class RunFolder {
 
 /// A film, from when its first picture is drawn (what comes before does not grow with the film)
 /// until the file is complete, against MuJoCo drawing the same scenes and reading them back: with
-/// the same overlays, shadows and samples.
+/// the same overlays, shadows and samples. Both draw with the library that MUJOCO_GL names.
 void Film(benchmark::State& state, const char* quality, double limit) {
   if (VideoEncoder() == "off") {
     state.SkipWithError("built without video");
     return;
   }
   const RunFolder folder;
-  CompareInTurn(
+  const double ours = CompareInTurn(
       state, limit,
       [&] {
         Stopwatch stopwatch;
@@ -79,6 +79,7 @@ void Film(benchmark::State& state, const char* quality, double limit) {
         }
         return seconds;
       });
+  state.counters["frames_per_s"] = kFrames / ours;
 }
 
 /// A picture of draft quality with everything that is drawn over the world, against the same one
