@@ -104,7 +104,7 @@ void DraftOverlays(benchmark::State& state) {
         // The overlays come after the world, and the first of them is the first decoration.
         const mjvGeom* overlays =
             std::find_if(scene.geoms, scene.geoms + scene.ngeom,
-                         [](const mjvGeom& geom) { return geom.category == mjCAT_DECOR; });
+                         [](const mjvGeom& geom) { return geom.objtype == mjOBJ_UNKNOWN; });
         scene.ngeom = static_cast<int>(overlays - scene.geoms);
         const Stopwatch stopwatch;
         painter.offscreen().Render(scene, image);

@@ -18,6 +18,7 @@ void AddCone(mjvScene& scene, const Point& foot) {
                                   {foot.x, foot.y, foot.z + middle}, RowMajorMatrix3::Identity(),
                                   i == 2 ? kWhite : kOrange)) {
       piece->specular = 0.5F;
+      piece->category = kCastsShadow;
     }
   }
 }

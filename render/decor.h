@@ -10,8 +10,12 @@ namespace trackbed::render {
 
 using RowMajorMatrix3 = Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>;
 
-/// Adds a geom that the model does not have, with `specular` 0, unless the scene is full: then
-/// nullptr. Unlike mjv_initGeom it sets every field of mjvGeom.
+/// Category of shapes that cast shadows. Newer versions of MuJoCo draw mjCAT_DECOR without, as flat
+/// paint needs it: its shadows speckle the ground under it.
+inline constexpr int kCastsShadow = mjCAT_STATIC;
+
+/// Adds a geom that the model does not have, of mjCAT_DECOR and with `specular` 0, unless the scene
+/// is full: then nullptr. Unlike mjv_initGeom it sets every field of mjvGeom.
 mjvGeom* AddDecor(mjvScene& scene, mjtGeom type, const std::array<mjtNum, 3>& size,
                   const Eigen::Vector3d& center, const RowMajorMatrix3& rotation,
                   const std::array<float, 4>& rgba);

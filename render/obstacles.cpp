@@ -107,7 +107,7 @@ class CarParts {
       parts_.push_back({part, Block(part).center - middle, Block(part).axes,
                         looks[static_cast<std::size_t>(part.objid)].painted});
       parts_.back().geom.objtype = mjOBJ_UNKNOWN;
-      parts_.back().geom.category = mjCAT_DECOR;
+      parts_.back().geom.category = kCastsShadow;
     }
   }
 
@@ -174,6 +174,7 @@ void AddStack(mjvScene& scene, const Block& block, mjtGeom type,
     if (mjvGeom* geom = AddDecor(scene, type, size, block.At(0.0, 0.0, up), block.axes,
                                  Rgba(color, block.alpha))) {
       geom->specular = 0.3F;
+      geom->category = kCastsShadow;
     }
   }
 }

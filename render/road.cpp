@@ -301,6 +301,7 @@ class RoadRibbons : public Overlay {
           AddDecor(context.scene, mjGEOM_BOX, size, {post.x, post.y, post.z + 0.5 * kPostHeight},
                    RowMajorMatrix3::Identity(), rgba);
       if (geom != nullptr) {
+        geom->category = kCastsShadow;
         geom->emission = 0.35F;  // white also on the side that the sun does not reach
       }
     }

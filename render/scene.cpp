@@ -99,6 +99,11 @@ mjvScene& FilmScene::At(double time, const CameraPose& camera) {
   recording_.plants.front().Pose(time, model, *car_data_);
   mjv_updateScene(&model, car_data_.get(), &visible_, nullptr, &camera_, mjCAT_ALL, &scene);
   SinkHeightFields(scene);
+  for (int i = 0; i < scene.ngeom; ++i) {
+    if (scene.geoms[i].type == mjGEOM_PLANE) {
+      scene.geoms[i].category = mjCAT_DECOR;  // the ground casts no shadow, least of all on itself
+    }
+  }
   FadeWhatHidesTheCar(time, camera);
   if (camera.inside) {
     LeaveOutTheCar();

@@ -75,7 +75,7 @@ TEST_F(ObstacleTest, OneThatIsNotKnownIsAnOutlineAndThenACrate) {
     int count = 0;
     AtScene(time, "top", [&](const Recording&, const mjvScene& scene) {
       for (int i = 0; i < scene.ngeom; ++i) {
-        count += scene.geoms[i].category == mjCAT_DECOR && scene.geoms[i].rgba[2] > 0.97F ? 1 : 0;
+        count += scene.geoms[i].objtype == mjOBJ_UNKNOWN && scene.geoms[i].rgba[2] > 0.97F ? 1 : 0;
       }
     });
     return count;
