@@ -26,6 +26,14 @@ using nlohmann::json;
 const fs::path kScenarios = fs::path(TRACKBED_SOURCE_DIR) / "scenarios";
 const fs::path kGolden = fs::path(TRACKBED_SOURCE_DIR) / "tests/data/golden/metrics";
 
+/// The golden metrics of a scenario: those of the major version of MuJoCo that ran, where there are
+/// any, because the engine changed them (docs/how-to/mujoco-versions.md).
+fs::path GoldenFile(const std::string& scenario, const std::string& physics) {
+  const std::string major = physics.substr(physics.find(' ') + 1, 1);  // of "MuJoCo 2.2.2"
+  const fs::path own = kGolden.string() + "_mujoco_" + major + "/" + scenario + ".csv";
+  return fs::exists(own) ? own : kGolden / (scenario + ".csv");
+}
+
 /// What lies in a folder and below, without extensions: "maneuvers/gust".
 std::vector<std::string> NamesBelow(const fs::path& folder, const std::string& extension) {
   std::vector<std::string> names;
@@ -48,7 +56,8 @@ TEST_P(Golden, MetricsAreWithinTheirTolerances) {
   const TempFolder folder;
   WriteRunFolder(RunMission(ReadScenario(kScenarios / (GetParam() + ".yaml"))), folder.path());
   const json metrics = json::parse(ReadFile(folder.path() / run_folder::kMetricsJson));
-  const TextTable golden = ReadTextCsv(kGolden / (GetParam() + ".csv"));
+  const TextTable golden =
+      ReadTextCsv(GoldenFile(GetParam(), metrics.at("versions").at("physics").get<std::string>()));
   ASSERT_EQ(golden.columns(), (std::vector<std::string>{"metric", "value", "tolerance"}));
   std::vector<std::string> plants;
   for (const std::vector<std::string>& row : golden.rows()) {
