@@ -22,7 +22,7 @@ TEST(Program, NamesItsVersions) {
   const Outcome outcome = Trackbed(folder, "--version");
   EXPECT_EQ(outcome.code, 0);
   EXPECT_THAT(outcome.output,
-              testing::MatchesRegex("Trackbed 0\\.1\\.0.*\nMuJoCo 2\\.[0-9.]+\nNLopt [0-9.]+\n"
+              testing::MatchesRegex("Trackbed 0\\.1\\.0.*\nMuJoCo [0-9]+\\.[0-9.]+\nNLopt [0-9.]+\n"
                                     "video (off|H\\.264 \\(libavcodec [0-9.]+\\))\n"));
 }
 

@@ -11,6 +11,7 @@
 #include "trackbed/core/file.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/common/plan.h"
+#include "trackbed/sim/car_model.h"
 #include "trackbed/sim/scene.h"
 
 namespace trackbed {
@@ -70,8 +71,12 @@ TEST(PhysicsFaults, DivergesOnSpringsTooStiffForTheTimestep) {
 
 TEST(PhysicsFaults, DivergesWhereContactsFindNoRoom) {
   const RunLog log = LogOf({.find = "<worldbody>", .replace = "<size njmax='1'/><worldbody>"});
-  EXPECT_EQ(log.status, DriveStatus::kDiverged);
-  EXPECT_THAT(log.cause, HasSubstr("njmax"));
+  if (PhysicsVersion().starts_with("MuJoCo 2.")) {
+    EXPECT_EQ(log.status, DriveStatus::kDiverged);
+    EXPECT_THAT(log.cause, HasSubstr("njmax"));
+  } else {  // newer versions ignore njmax, and take what memory they need
+    EXPECT_EQ(log.status, DriveStatus::kArrived);
+  }
 }
 
 TEST(PhysicsFaults, SinksThroughARoadThatCarriesNothing) {

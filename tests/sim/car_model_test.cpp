@@ -212,6 +212,23 @@ TEST(CarModel, TellsWhatDoesNotCompileInOneLine) {
   }
 }
 
+TEST(CarModel, FindsTheSteeringAmongActuatorsInAnyOrder) {
+  // 2.2.2 wants actuators without a state first. Each of the others has one number in `act`.
+  const std::string motor = "<motor name=\"drive\"";
+  const std::string xml = ReadFile(FindModel("prius", ""));
+  const std::size_t begin = xml.find(motor);
+  const std::size_t end = xml.find("/>", begin) + 2;
+  std::string last = xml.substr(0, begin) + xml.substr(end);
+  last.insert(last.find("</actuator>"), xml.substr(begin, end - begin));
+#if mjVERSION_HEADER < 300
+  EXPECT_THAT(ErrorMessage(last), testing::HasSubstr("stateless actuators must come before"));
+#else
+  const CarModel car(Scene{.xml = last}, "car.xml");
+  EXPECT_EQ(car.parts().steer_state, 0);
+  EXPECT_LT(car.parts().steer_actuator, car.parts().drive_actuator);
+#endif
+}
+
 TEST(CarModel, RefusesSteeringWithoutLimits) {
   EXPECT_THAT(ErrorMessage(PriusWith("kp=\"200000\" ctrllimited=\"true\"",
                                      "kp=\"200000\" ctrllimited=\"false\"")),
