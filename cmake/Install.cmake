@@ -75,6 +75,6 @@ write_basic_package_version_file(package/trackbedConfigVersion.cmake
 install(
   FILES ${PROJECT_BINARY_DIR}/package/trackbedConfig.cmake
         ${PROJECT_BINARY_DIR}/package/trackbedConfigVersion.cmake cmake/LibraryDependencies.cmake
-        cmake/Place.cmake
+        cmake/Mujoco.cmake cmake/Place.cmake
   DESTINATION ${package_folder})
 include(PkgConfig)

@@ -24,6 +24,11 @@ if(TRACKBED_MUJOCO_FOLDER)
   list(APPEND TRACKBED_LIBRARY_RPATH $ORIGIN/trackbed/mujoco/lib)
 endif()
 
+# MuJoCo that mujoco_DIR leads to is found where it lies; folders of the system are in no runpath.
+if(NOT TRACKBED_MUJOCO_FOLDER)
+  set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)
+endif()
+
 # What a library target has only as a shared one.
 function(trackbed_shared_properties target)
   if(NOT BUILD_SHARED_LIBS)
