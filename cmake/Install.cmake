@@ -1,6 +1,6 @@
-# `cmake --install` installs the program; the package `trackbed`, for CMake and for pkg-config; and the
-# models and scenarios. Everything is found from where the package or the program is, so that all of
-# it can be moved.
+# `cmake --install` installs the program; the package `trackbed`, for CMake and for pkg-config; the
+# models and scenarios; and the documentation. Everything is found from where the package or the
+# program is, so that all of it can be moved.
 #
 #   trackbed::trackbed   the library: all modules but testing
 #   trackbed::MODULE     one module, such as trackbed::drive or trackbed::planning_fillet
@@ -37,7 +37,6 @@ foreach(module IN LISTS modules)
   endif()
 endforeach()
 install(FILES include/trackbed/trackbed.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trackbed)
-install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 set_target_properties(trackbed_version PROPERTIES EXPORT_NAME version)
 set_target_properties(trackbed_library PROPERTIES EXPORT_NAME trackbed)
 set_target_properties(trackbed_cli PROPERTIES EXPORT_NAME cli_library)
@@ -78,3 +77,4 @@ install(
         cmake/Mujoco.cmake cmake/Place.cmake
   DESTINATION ${package_folder})
 include(PkgConfig)
+include(Documentation)
