@@ -133,7 +133,8 @@ TEST(Solver, IteratesAFewTimesOnContacts) {
   // Four tyres with three rows each, and the dry friction of four wheels. Iterations as counted, to
   // an eighth: rounding decides when the solver is content.
   EXPECT_NEAR(static_cast<double>(rows), 500 * 16, 500);
-  EXPECT_NEAR(static_cast<double>(iterations), 1585, 1585 / 8);
+  const int counted = mjVERSION_HEADER >= 300 ? 1315 : 1585;
+  EXPECT_NEAR(static_cast<double>(iterations), counted, counted / 8);
 }
 
 TEST(CollisionChecks, OfMotionsAmongBoxes) {
