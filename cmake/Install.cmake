@@ -41,8 +41,8 @@ set_target_properties(trackbed_version PROPERTIES EXPORT_NAME version)
 set_target_properties(trackbed_library PROPERTIES EXPORT_NAME trackbed)
 set_target_properties(trackbed_cli PROPERTIES EXPORT_NAME cli_library)
 set_target_properties(trackbed PROPERTIES EXPORT_NAME cli)
-# MuJoCo that is not of the system comes along, in a folder of its own: a release lies there as in its
-# archive, so that projects can compile against the same headers.
+# Installs the wheel's or the archive's MuJoCo in a private folder with the layout of an archive. Projects
+# that link Trackbed compile against its headers.
 set(mujoco_folder ${CMAKE_INSTALL_LIBDIR}/trackbed/mujoco)
 if(TRACKBED_MUJOCO_FOLDER)
   install(DIRECTORY ${TRACKBED_MUJOCO_FOLDER}/include/mujoco DESTINATION ${mujoco_folder}/include)

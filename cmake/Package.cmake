@@ -20,7 +20,7 @@ foreach(package IN LISTS carried_packages)
   endif()
 endforeach()
 
-# trackbed_owner_of(LIBRARY VARIABLE): the Debian package of the file that lib<LIBRARY>.so links to, "" if there is none.
+# trackbed_owner_of(LIBRARY VARIABLE): sets VARIABLE to the Debian package that owns lib<LIBRARY>.so, or to "".
 function(trackbed_owner_of library variable)
   pkg_get_variable(folder lib${library} libdir)
   file(REAL_PATH ${folder}/lib${library}.so file)

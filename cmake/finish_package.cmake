@@ -25,7 +25,7 @@ if(mujoco)
   execute_process(COMMAND strip --strip-unneeded ${mujoco} COMMAND_ERROR_IS_FATAL ANY)
 endif()
 
-# What the program and the carried MuJoCo link. CPack's own call would first look into each of a thousand files.
+# Finds the packages of the libraries that the program and the carried MuJoCo link. CPack's own call would first look into each of a thousand files.
 set(work ${CPACK_TEMPORARY_DIRECTORY}.shlibdeps)
 file(WRITE ${work}/debian/control "")
 execute_process(

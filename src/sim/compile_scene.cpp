@@ -113,7 +113,7 @@ Compiled CompileApart(const std::string& xml, const std::vector<SceneAsset>& ass
   }
   const std::string content = outcome.result.substr(1);
   if (outcome.result.front() == kErrorFollows) {
-    // What versions of MuJoCo say where the memory ends.
+    // Versions of MuJoCo report missing memory differently.
     static const std::regex no_memory("[Cc]ould not (allocate memory|create mjData)");
     return {nullptr, std::regex_search(content, no_memory) ? TooLarge() : content};
   }
