@@ -26,8 +26,8 @@ using nlohmann::json;
 const fs::path kScenarios = fs::path(TRACKBED_SOURCE_DIR) / "scenarios";
 const fs::path kGolden = fs::path(TRACKBED_SOURCE_DIR) / "tests/data/golden/metrics";
 
-/// File of the golden metrics of a scenario. A major version of MuJoCo that changes them has its own
-/// file (docs/how-to/mujoco-versions.md).
+/// File of the golden metrics of a scenario. A major version of MuJoCo that changes them has its
+/// own file (docs/how-to/mujoco-versions.md).
 fs::path GoldenFile(const std::string& scenario, const std::string& physics) {
   const std::string major = physics.substr(physics.find(' ') + 1, 1);  // of "MuJoCo 2.2.2"
   const fs::path own = kGolden.string() + "_mujoco_" + major + "/" + scenario + ".csv";
