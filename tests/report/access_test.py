@@ -122,8 +122,8 @@ class Access(unittest.TestCase):
     def tearDown(self):
         self.assertEqual(self.browser.console_errors(), [])
 
-    def test_contrast(self):
-        for page in ("run.html", "good.html", "runs.html", "study.html", "search.html"):
+    def check_contrast(self, *pages):
+        for page in pages:
             for dark in (False, True):
                 with self.subTest(page=page, dark=dark):
                     self.open(page, dark=dark)
@@ -131,6 +131,15 @@ class Access(unittest.TestCase):
                     self.assertGreater(len(found), 40)
                     self.assertEqual([f for f in found if f[0] < 4.5], [])
                     self.browser.picture(PICTURES / f"access_{page[:-5]}_{'dark' if dark else 'light'}.png")
+
+    def test_contrast_of_runs(self):
+        self.check_contrast("run.html", "good.html")
+
+    def test_contrast_of_several_runs(self):
+        self.check_contrast("runs.html")
+
+    def test_contrast_of_studies(self):
+        self.check_contrast("study.html", "search.html")
 
     def test_what_is_drawn_has_a_name(self):
         for page in ("run.html", "runs.html", "study.html", "search.html"):
