@@ -116,7 +116,7 @@ std::vector<std::string> Outputs(const std::vector<std::string>& words) {
   return outputs;
 }
 
-/// The folder in which a command leaves its results, or "" if there is none.
+/// Output folder of a command; "" if it writes none.
 std::string MadeBy(const std::vector<std::string>& words) {
   for (std::size_t i = 1; i < words.size(); ++i) {
     if (words[i - 1] == "-o" || words[i - 1] == "--out") {

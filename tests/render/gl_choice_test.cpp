@@ -92,7 +92,7 @@ TEST(GlSurroundings, NameTheLibraryThatHasDrawn) {
     library = context->library();
     EXPECT_THAT(context->Version(), testing::ContainsRegex("^[0-9]+[.][0-9]+.*, .+"));
   }
-  EXPECT_EQ(ReadGlSurroundings().in_process, library);  // also when the context is gone
+  EXPECT_EQ(ReadGlSurroundings().in_process, library);  // and it stays so after the context is gone
 }
 
 // Names of files that no system has.
