@@ -8,8 +8,8 @@
 
 namespace trackbed::render {
 
-/// Where a picture is taken from: `distance` [m] from `target` on the line that looks along
-/// `azimuth` (0 east, pi/2 north) and `elevation` (negative looks down) [rad].
+/// Camera pose: looks at `target` from a distance of `distance` [m], along `azimuth` (0 east, pi/2
+/// north) and `elevation` (negative looks down) [rad].
 struct CameraPose {
   double target_x = 0;
   double target_y = 0;
@@ -17,39 +17,39 @@ struct CameraPose {
   double distance = 1;
   double azimuth = 0;
   double elevation = 0;
-  double view_angle = 0.7;  ///< from the picture's bottom to its top [rad]
-  double ground_z = 0;      ///< height of the ground where the target is [m]
-  double paint_scale = 1;   ///< how much wider than usual lines on the ground must be to be seen
-  bool inside = false;      ///< from inside the car, which is left out of the picture
+  double view_angle = 0.7;  ///< vertical [rad]
+  double ground_z = 0;      ///< height of the ground at the target [m]
+  double paint_scale = 1;   ///< factor on the width of lines on the ground that keeps them visible
+  bool inside = false;      ///< inside the car, which is then not drawn
 };
 
-/// What a camera may follow: the car's drive, smoothed, and the extent of the route.
+/// Subject of a camera: the car's smoothed motion, and the extent of the route.
 ///
-/// The whole run is known, so smoothing looks both ways in time: no lag and no overshoot.
+/// The whole run is known, so smoothing is symmetric in time: no lag and no overshoot.
 class CameraSubject {
  public:
   explicit CameraSubject(const Recording& recording);
 
-  /// The car's rear-axle center as driven [m].
+  /// The driven position of the car's rear-axle center [m].
   [[nodiscard]] Point Position(double time) const { return car_.Position(time); }
-  /// Position and heading averaged over about a second around `time`.
+  /// Position and heading, averaged over about a second around `time`.
   [[nodiscard]] Point SmoothPosition(double time) const;
   [[nodiscard]] double SmoothHeading(double time) const;
   /// Height of the ground under the car, averaged in the same way [m].
   [[nodiscard]] double SmoothGround(double time) const;
-  /// Share of the time around that moment that the car is in reverse gear, in [0, 1]. Standing, it
-  /// is in the gear of its last motion.
+  /// Weighted fraction of the time around `time` in reverse gear, in [0, 1]. A car at rest counts
+  /// as in the gear of its last motion.
   [[nodiscard]] double SmoothReverse(double time) const;
-  /// The recording's first moment [s].
+  /// Start time of the recording [s].
   [[nodiscard]] double begin() const { return car_.begin(); }
-  /// As driven, not averaged [rad].
+  /// The driven heading, without averaging [rad].
   [[nodiscard]] double Heading(double time) const { return car_.Heading(time); }
   /// Middle and half sides of the car's footprint in the vehicle frame, and its height [m].
   [[nodiscard]] const CarBox& box() const { return box_; }
-  /// Of the plane that the ground is but for what lies on it: dz/dx and dz/dy.
+  /// Slope of the ground plane, without features on it: dz/dx and dz/dy.
   [[nodiscard]] const Vec2& grade() const { return recording_.world.ground.grade; }
 
-  /// The rectangle around the plan, the new ones and every plant's drive [m].
+  /// The bounding rectangle of the plan, the replanned paths and every plant's path [m].
   [[nodiscard]] Point lowest() const { return lowest_; }
   [[nodiscard]] Point highest() const { return highest_; }
 
@@ -59,7 +59,7 @@ class CameraSubject {
   Point lowest_;
   Point highest_;
   CarBox box_;
-  std::vector<double> reverse_;  // 1 in reverse gear, else 0; for each row of the car's log
+  std::vector<double> reverse_;  // 1 in reverse gear, else 0; per row of the car's log
 };
 
 struct Camera {
@@ -69,10 +69,10 @@ struct Camera {
   CameraPose (*pose)(const CameraSubject& subject, double time, double aspect);
 };
 
-/// The only list of cameras; the default is first.
+/// The registry of cameras; the first is the default.
 const std::vector<Camera>& CameraTable();
 
-/// InputError with the nearest name, under `key`, when there is no such camera.
+/// InputError with the nearest name, under `key`, if there is no such camera.
 const Camera& FindCamera(const std::string& name, const char* key = "camera");
 
 }  // namespace trackbed::render

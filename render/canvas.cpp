@@ -8,10 +8,13 @@
 
 #include "trackbed/core/error.h"
 
+// Draws anti-aliased shapes: a pixel's coverage is estimated from the signed distance of its center
+// to the shape's edge, with a transition one pixel wide. Arrows take 4 by 4 samples per pixel, and
+// glyphs are large bitmaps averaged down to the wanted size.
 namespace trackbed::render {
 namespace {
 
-/// Average over the part of the glyph that falls on one pixel of the smaller mask.
+/// Mean of the glyph's pixels covered by one pixel of the smaller mask.
 std::uint8_t AverageOver(const Image& glyph, double left, double top, double step) {
   const double right = std::min(left + step, static_cast<double>(glyph.width));
   const double bottom = std::min(top + step, static_cast<double>(glyph.height));
@@ -31,7 +34,7 @@ std::array<std::uint8_t, 3> Blended(const std::array<std::uint8_t, 3>& under, Co
   const std::array<float, 3> rgb{color.r, color.g, color.b};
   std::array<std::uint8_t, 3> blended{};
   for (std::size_t i = 0; i < 3; ++i) {
-    // Rounds what is never negative: std::lround takes ten times as long.
+    // Rounds a non-negative number; std::lround takes ten times as long.
     const double value = under[i] + alpha * (255.0 * static_cast<double>(rgb[i]) - under[i]);
     blended[i] = static_cast<std::uint8_t>(value + 0.5);  // NOLINT(bugprone-incorrect-roundings)
   }
@@ -93,7 +96,8 @@ void Canvas::Blend(int x, int y, Color color, double alpha) {
 void Canvas::Fill(const Rectangle& rectangle, double radius, Color color, double alpha) {
   const double center_x = rectangle.left + 0.5 * rectangle.width;
   const double center_y = rectangle.top + 0.5 * rectangle.height;
-  // Away from the edges every pixel of a value becomes the same: a panel is mostly that.
+  // Pixels away from the edges, most of a panel, depend only on their old value: uses a lookup
+  // table.
   const int inner_left = std::max(0, static_cast<int>(std::ceil(rectangle.left + radius)) + 1);
   const int inner_right = std::min(
       image_.width, static_cast<int>(std::floor(rectangle.left + rectangle.width - radius)) - 1);
@@ -117,7 +121,8 @@ void Canvas::Fill(const Rectangle& rectangle, double radius, Color color, double
           }
         }
       }
-      // Signed distance of the pixel's center from the rounded outline: one pixel of fading.
+      // Signed distance of the pixel's center from the rounded outline; the edge fades over one
+      // pixel.
       const double across = std::abs(x + 0.5 - center_x) - 0.5 * rectangle.width + radius;
       const double down = std::abs(y + 0.5 - center_y) - 0.5 * rectangle.height + radius;
       const double outside =
@@ -128,7 +133,7 @@ void Canvas::Fill(const Rectangle& rectangle, double radius, Color color, double
 }
 
 void Canvas::Arrow(double middle_x, double middle_y, double length, double direction, Color color) {
-  // Along the arrow from its middle, and beside it, in lengths.
+  // Dimensions along the arrow from its middle, and across it, relative to its length.
   constexpr double kNeck = 0.10;
   constexpr double kShaft = 0.08;
   constexpr double kHead = 0.26;
@@ -180,7 +185,7 @@ void Canvas::Stroke(const std::vector<CanvasPoint>& points, double width, Color 
   if (points.size() < 2 || all.right <= all.left || all.bottom <= all.top) {
     return;
   }
-  // Pieces overlap at the points between them: each pixel takes the most that any covers of it.
+  // Segments overlap at their joints: each pixel gets the maximum coverage of all segments.
   const auto columns = static_cast<std::size_t>(all.right - all.left);
   std::vector<float> covered(columns * static_cast<std::size_t>(all.bottom - all.top));
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -218,7 +223,7 @@ void Canvas::Stroke(const std::vector<CanvasPoint>& points, double width, Color 
 }
 
 void Canvas::FillConvex(const std::vector<CanvasPoint>& corners, Color color, double alpha) {
-  double area = 0.0;  // twice; its sign is the order of the corners
+  double area = 0.0;  // doubled; its sign is the orientation of the corners
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const CanvasPoint& a = corners[i];
     const CanvasPoint& b = corners[(i + 1) % corners.size()];
@@ -250,8 +255,8 @@ void Canvas::FillConvex(const std::vector<CanvasPoint>& corners, Color color, do
   };
   const Box box = BoxAround(corners, 0.5);
   for (int y = box.top; y < box.bottom; ++y) {
-    // The columns that every edge leaves a share of, and those that it leaves whole, with a pixel
-    // to spare for rounding: few pixels have to be compared with all edges.
+    // Finds the columns covered at least partly, and those covered fully, with a margin of one
+    // pixel for rounding. Only the few pixels in between are compared with all edges.
     double left = box.left;
     double right = box.right;
     double whole_left = box.left;

@@ -10,18 +10,18 @@
 
 namespace trackbed::render {
 
-/// A font made of large one-bit glyphs, averaged down to any smaller size: smooth edges that
-/// MuJoCo's own text does not have.
+/// A font of large one-bit glyphs, averaged down to any smaller size. Unlike MuJoCo's text it has
+/// smooth edges.
 class Font {
  public:
   static constexpr char kFirst = ' ';
   static constexpr char kLast = '~';
 
-  /// `glyphs` are the characters kFirst to kLast, white on black, all of one height.
+  /// `glyphs` are the characters kFirst to kLast, white on black, of equal height.
   explicit Font(std::vector<Image> glyphs);
 
-  /// Width of a line of text [px] whose glyph cells are `size` px high. Characters without a glyph
-  /// count as '?'.
+  /// Width of a line of text [px] in glyph cells `size` px high. Characters without a glyph are
+  /// drawn as '?'.
   [[nodiscard]] double Width(std::string_view text, double size) const;
 
   /// Coverage in [0, 255] of one character's cell, rows from the top.
@@ -30,7 +30,7 @@ class Font {
     int height = 0;
     std::vector<std::uint8_t> coverage;
   };
-  /// Made at the first use of a size, kept after.
+  /// Computed at the first use of a size, then cached.
   const Mask& GlyphMask(char character, double size);
   [[nodiscard]] double Advance(char character, double size) const;
 
@@ -41,14 +41,14 @@ class Font {
   std::map<double, std::vector<Mask>> masks_;
 };
 
-/// A place in a picture [px], from its top left corner.
+/// A position in a picture [px], from its top left corner.
 struct CanvasPoint {
   double x = 0;
   double y = 0;
 };
 
-/// Draws flat shapes and text on a picture. Coordinates are pixels from the top left; what lies
-/// outside is cut off.
+/// Draws flat shapes and text on a picture. Coordinates are pixels from the top left; shapes are
+/// clipped at the picture's edges.
 class Canvas {
  public:
   Canvas(Image& image, Font& font) : image_(image), font_(font) {}
@@ -60,31 +60,31 @@ class Canvas {
     double height = 0;
   };
 
-  /// A filled rectangle with smooth round corners.
+  /// A filled rectangle with smooth rounded corners.
   void Fill(const Rectangle& rectangle, double radius, Color color, double alpha);
 
-  /// An arrow of `length` around its middle, pointing along `direction`: 0 to the right, pi/2 up.
+  /// An arrow of `length` about its middle, along `direction`: 0 to the right, pi/2 up.
   void Arrow(double middle_x, double middle_y, double length, double direction, Color color);
 
-  /// A line through the points with round ends and corners and smooth edges.
+  /// A polyline with round ends and joints and smooth edges.
   void Stroke(const std::vector<CanvasPoint>& points, double width, Color color, double alpha);
 
-  /// A convex shape with smooth edges, its corners in either order.
+  /// A convex polygon with smooth edges, its corners in either orientation.
   void FillConvex(const std::vector<CanvasPoint>& corners, Color color, double alpha);
 
-  /// One line of text, `left` and `top` of its first glyph cell; capitals fill the cell from about
-  /// a fifth to three quarters of its height. Returns where the next character would begin.
+  /// One line of text; `left` and `top` are those of the first glyph cell. Capitals occupy about a
+  /// fifth to three quarters of the cell's height. Returns the position of the next character.
   double Text(double left, double top, std::string_view text, double size, Color color);
 
  private:
-  /// Whole pixels, the last ones excluded.
+  /// A range of pixels, excluding `right` and `bottom`.
   struct Box {
     int left = 0;
     int top = 0;
     int right = 0;
     int bottom = 0;
   };
-  /// What of the picture lies within `reach` of the points.
+  /// The part of the picture within `reach` of the points.
   [[nodiscard]] Box BoxAround(const std::vector<CanvasPoint>& points, double reach) const;
   void Blend(int x, int y, Color color, double alpha);
 

@@ -9,23 +9,26 @@
 #include "render/tyre_forces.h"
 #include "trackbed/core/angle.h"
 
+// Draws the caption: at the top left the title, the note and the wind, one panel each, at the top
+// right the legend, and above the panels at the bottom the readings. The sizes of text follow
+// Layout; legend and note shrink or are shortened to fit.
 namespace trackbed::render {
 namespace {
 
 struct Reading {
   std::string label;
   std::string value;
-  std::string widest;  // so that a column's place does not depend on the number in it
+  std::string widest;  // keeps columns in place when numbers change
 };
 
-/// A sign only where there is something to tell apart: -0.0 is 0.0.
+/// Signed number, without a sign if it rounds to zero.
 std::string Signed(double value, int digits, const char* unit) {
   const std::string text = fmt::format("{:+.{}f}", value, digits);
   const bool zero = text.find_first_not_of("+-0.") == std::string::npos;
   return fmt::format("{}{}", zero ? text.substr(1) : text, unit);
 }
 
-/// "0.98 m left, 0.12 m ahead": across the car, and along the path, where there is one.
+/// "0.98 m left, 0.12 m ahead": lateral and longitudinal difference, by stations if known.
 std::string ApartText(const Apart& apart) {
   const double ahead = apart.station.value_or(apart.ahead);
   return fmt::format("{:.2f} m {}, {:.2f} m {}", std::abs(apart.left),
@@ -55,13 +58,13 @@ std::vector<Reading> ReadingsToShow(const Readings& readings) {
   return shown;
 }
 
-/// One slim bar above `bottom` [px], in as many lines as the picture's width asks for. Returns
-/// where it begins.
+/// Draws the readings as a slim bar above `bottom` [px], in as many lines as the picture's width
+/// needs. Returns the bar's top.
 double DrawReadings(Canvas& canvas, const Font& font, const Layout& layout, double width,
                     double bottom, const Readings& readings) {
   const double space = 0.4 * layout.pad;  // between a label and its value
   const double widest = width - 2.0 * (layout.margin + layout.pad);
-  std::vector<std::vector<std::pair<Reading, double>>> lines(1);  // with where each begins
+  std::vector<std::vector<std::pair<Reading, double>>> lines(1);  // each with its left edge
   double pen = 0.0;
   double longest = 0.0;
   for (const Reading& reading : ReadingsToShow(readings)) {
@@ -93,7 +96,7 @@ double DrawReadings(Canvas& canvas, const Font& font, const Layout& layout, doub
   return top;
 }
 
-/// The color of an entry as what it is in the picture, in a cell of `width` by `height` px.
+/// Draws an entry's symbol in its color, in a cell of `width` by `height` px.
 void DrawSymbol(Canvas& canvas, const LegendEntry& entry, double left, double top, double width,
                 double height) {
   const double middle_x = left + 0.5 * width;
@@ -150,7 +153,8 @@ void DrawSymbol(Canvas& canvas, const LegendEntry& entry, double left, double to
   }
 }
 
-/// Letters so large that the legend leaves half of the picture's height, and can be read.
+/// Size of letters with which the legend fits into half of the picture's height, but stays
+/// readable.
 double LegendLetters(const Layout& layout, int height, int lines) {
   constexpr double kMostShare = 0.5;
   constexpr double kLeast = 0.75;  // of the size of labels
@@ -158,7 +162,7 @@ double LegendLetters(const Layout& layout, int height, int lines) {
   return std::round(std::clamp(room / std::max(1, lines), kLeast * layout.label, layout.label));
 }
 
-/// Returns where the panel ends [px].
+/// Returns the panel's bottom [px].
 double DrawLegend(Canvas& canvas, const Font& font, const Layout& layout, const Image& image,
                   const std::vector<LegendEntry>& legend) {
   int lines = 0;
@@ -189,7 +193,7 @@ double DrawLegend(Canvas& canvas, const Font& font, const Layout& layout, const 
   return layout.margin + tall;
 }
 
-/// Height of the title's letters, and of the panel around a line of them.
+/// Height of the title's letters, and of the panel around one line of them.
 double TitleSize(const Layout& layout) {
   return std::round(0.5 * (layout.label + layout.value));
 }
@@ -197,7 +201,7 @@ double TitlePanel(const Layout& layout) {
   return TitleSize(layout) + 0.8 * layout.pad;
 }
 
-/// Where the panel of a line begins, 0 the title's.
+/// Top of the panel of a line; line 0 is the title.
 double TopOfLine(const Layout& layout, int line) {
   return layout.margin + line * (TitlePanel(layout) + 0.5 * layout.pad);
 }
@@ -211,7 +215,7 @@ void DrawLine(Canvas& canvas, const Font& font, const Layout& layout, int line,
   canvas.Text(layout.margin + layout.pad, top + 0.4 * layout.pad, text, size, kValue);
 }
 
-/// An arrow that shows the wind on the ground as a map does whose top is where the camera looks.
+/// Draws the wind as an arrow on a map whose up direction is the camera's azimuth.
 void DrawWind(Canvas& canvas, const Font& font, const Layout& layout, int line, const Vec2& wind,
               double azimuth) {
   constexpr double kCalm = 0.05;  // [m/s]; reads 0.0 or 0.1
@@ -231,13 +235,13 @@ void DrawWind(Canvas& canvas, const Font& font, const Layout& layout, int line, 
   canvas.Text(layout.margin + 1.6 * layout.pad + arrow, top + 0.4 * layout.pad, text, size, kValue);
 }
 
-/// Folder names can be longer than a picture is wide.
+/// Shortens folder names that are too long for a picture.
 std::string Shortened(const std::string& title) {
   constexpr std::size_t kLongest = 32;
   return title.size() <= kLongest ? title : title.substr(0, kLongest - 3) + "...";
 }
 
-/// What of a text leaves the legend its place.
+/// Shortens a text to `width` [px], so that it does not overlap the legend.
 std::string Fitting(const Font& font, const std::string& text, double size, double width) {
   if (font.Width(text, size) <= width) {
     return text;

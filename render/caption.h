@@ -9,7 +9,7 @@
 
 namespace trackbed::render {
 
-/// What is the same in every picture of a film.
+/// Texts that are the same in every picture of a film.
 struct Caption {
   std::string title;
   std::string note{};  ///< may be empty
@@ -22,14 +22,14 @@ struct Rows {
   double bottom = 0;
 };
 
-/// Writes over the picture: the run's name (top left), under it the note and the wind if there are
-/// any, of a note what is no wider than 0.7 of the picture, the legend (top right) and the readings
-/// (left, down to `bottom` [px]). The wind's arrow points up when it blows along `azimuth`, where
-/// the camera looks [rad]. Returns the rows between the legend and the readings.
+/// Draws over the picture: the run's name (top left) and below it the note, if any, cut at 0.7 of
+/// the picture's width, and the wind, if any; the legend (top right); the readings (left, above
+/// `bottom` [px]). The wind's arrow points up if it blows along `azimuth`, the camera's direction
+/// [rad]. Returns the rows between the legend and the readings.
 Rows DrawCaption(Image& image, Font& font, const Caption& caption, const Readings& readings,
                  double azimuth, double bottom);
 
-/// The caption of the recording, above what other panels have taken of the picture's bottom.
+/// The caption of the recording, above the panels already drawn at the bottom.
 OverlayEntry CaptionOverlay();
 
 }  // namespace trackbed::render

@@ -6,10 +6,10 @@
 
 namespace trackbed::render {
 
-/// Shapes that one traffic cone is made of: MuJoCo's scenes have none.
+/// Shapes per traffic cone; MuJoCo's scenes have no cones.
 inline constexpr std::size_t kConePieces = 4;
 
-/// Draws a cone of half a meter that stands at `foot`. A scene that is full stays as it is.
+/// Adds a cone half a meter high that stands at `foot`. Does nothing if the scene is full.
 void AddCone(mjvScene& scene, const Point& foot);
 
 }  // namespace trackbed::render

@@ -74,7 +74,7 @@ bool HasErrorScale(const Recording& recording) {
 
 std::vector<double> ErrorFractions(const Recording& recording) {
   constexpr double kSteps = 16.0;
-  constexpr double kHold = 0.6;  // of a step: half would change where two steps meet
+  constexpr double kHold = 0.6;  // of a step; above 0.5 for hysteresis
   const PlantRecording& car = recording.plants.front();
   std::vector<double> fractions;
   double step = -1.0;

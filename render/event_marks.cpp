@@ -15,10 +15,10 @@ namespace {
 
 using Kind = RunEvent::Kind;
 
-constexpr double kShown = 1.5;     // a line of text, at least [s]
+constexpr double kShown = 1.5;     // minimum duration of a line of text [s]
 constexpr double kFlash = 0.6;     // [s]
-constexpr double kSide = 0.4;      // of a mark [m]
-constexpr double kRim = 0.07;      // dark, around it [m]
+constexpr double kSide = 0.4;      // side of a mark [m]
+constexpr double kRim = 0.07;      // dark rim around it [m]
 constexpr double kHeight = 0.030;  // above all trails [m]
 constexpr Color kDetected{0.98F, 0.98F, 0.98F};
 constexpr Color kUnder{0.05F, 0.06F, 0.08F};
@@ -85,7 +85,7 @@ class EventMarks : public Overlay {
     std::vector<const RunEvent*> shown;
     for (const RunEvent& event : events_) {
       if (event.from <= context.time && context.time <= std::max(event.to, event.from + kShown)) {
-        // Of new plans in quick succession the last one alone.
+        // Of several new plans in quick succession, shows only the last.
         if (!shown.empty() && event.kind == Kind::kNewPlan) {
           std::erase_if(shown, [](const RunEvent* other) { return other->kind == Kind::kNewPlan; });
         }
@@ -123,13 +123,13 @@ class EventMarks : public Overlay {
     return recording_.OnGround({place.x + x, place.y + y});
   }
 
-  /// A square on one of its corners along the car's heading, with a dark rim.
+  /// A diamond along the car's heading, with a dark rim.
   void AddDiamond(SceneContext& context, const RunEvent& event, double scale) const {
     const double heading = recording_.plants.front().Heading(event.from) + 0.25 * kPi;
     const double c = std::cos(heading);
     const double s = std::sin(heading);
     const auto square = [&](double side, double height, const Color& color) {
-      // AddRibbonPiece makes a piece longer by 0.15 of its width.
+      // AddRibbonPiece lengthens a piece by 0.15 of its width.
       const double half = 0.5 * side / 1.15;
       AddPiece(context, recording_.world, Beside(event.place, -half * c, -half * s),
                Beside(event.place, half * c, half * s), {color, side, height});
@@ -150,7 +150,7 @@ class EventMarks : public Overlay {
     }
   }
 
-  /// Returns where the panel begins, less the gap to the next one [px].
+  /// Returns the panel's top, less the gap to the next panel [px].
   static double DrawLine(Canvas& canvas, const Font& font, const Layout& layout, double first,
                          double bottom, const RunEvent& event) {
     const double tall = layout.label + 0.6 * layout.pad;
@@ -170,7 +170,7 @@ class EventMarks : public Overlay {
     return top - 0.4 * layout.pad;
   }
 
-  /// A frame around the picture that fades.
+  /// A fading frame around the picture.
   static void Flash(Canvas& canvas, const Layout& layout, const PictureContext& context,
                     double since) {
     if (since < 0.0 || since >= kFlash) {

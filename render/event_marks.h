@@ -4,9 +4,9 @@
 
 namespace trackbed::render {
 
-/// A mark on the ground where the car was at each event of events.h, from then on, and a line of
-/// text for each over the readings while it lasts; in a collision and a roll-over the picture's
-/// frame flashes.
+/// A mark on the ground at the car's position for each event of events.h, shown from its start on,
+/// and a line of text above the readings while it lasts. In a collision or a roll-over, a frame
+/// around the picture flashes.
 OverlayEntry EventOverlay();
 
 }  // namespace trackbed::render

@@ -54,7 +54,7 @@ void AddRateLimits(const Recording& recording, std::vector<RunEvent>& events) {
   if (!actuator || recording.steering_rate <= 0.0) {
     return;
   }
-  constexpr double kShare = 0.98;     // of the rate; the rest is rounding of the log
+  constexpr double kShare = 0.98;     // of the rate; allows for rounding in the log
   constexpr double kReached = 1e-6;   // [rad], as in metrics.json's steering_saturated_fraction
   constexpr double kSameEvent = 0.5;  // [s]
   const std::size_t command = log.Require("steering_command_rad");
@@ -97,8 +97,8 @@ void AddCollision(const Recording& recording, std::vector<RunEvent>& events) {
 }
 
 void AddRollOver(const Recording& recording, std::vector<RunEvent>& events) {
-  constexpr double kOver = 0.5;      // cosine of 60 degrees, as of the status rolled_over
-  constexpr double kLeaning = 0.87;  // and of 30
+  constexpr double kOver = 0.5;      // cosine of 60 degrees, as for the status rolled_over
+  constexpr double kLeaning = 0.87;  // cosine of 30 degrees
   const PlantRecording& car = recording.plants.front();
   const std::vector<double>& times = car.times();
   const auto first =
@@ -107,7 +107,7 @@ void AddRollOver(const Recording& recording, std::vector<RunEvent>& events) {
     return;
   }
   const double over = recording.roll_over_time.value_or(first == times.end() ? 0.0 : *first);
-  // States are recorded less often than the log's rows: the last one may be just before.
+  // States are recorded less often than rows of the log: the last one may be before `over`.
   auto from = std::upper_bound(times.begin(), times.end(), over);
   while (from != times.begin() && car.Upright(*(from - 1)) < kLeaning) {
     --from;

@@ -66,7 +66,7 @@ void CheckOptions(const FilmOptions& options, bool even_sides) {
   CheckGl(options.gl);
 }
 
-/// One of all plants, or one of each that is named.
+/// One recording of all plants, or one for each plant named.
 std::vector<render::Recording> ReadRecordings(const fs::path& folder,
                                               const std::vector<std::string>& plants) {
   std::vector<render::Recording> recordings;
@@ -81,7 +81,7 @@ std::vector<render::Recording> ReadRecordings(const fs::path& folder,
   return recordings;
 }
 
-/// A part of a run [s].
+/// A time range of a run [s].
 struct Times {
   double begin = 0;
   double end = 0;
@@ -96,7 +96,7 @@ Times RecordedTimes(const std::vector<render::Recording>& recordings) {
 }
 
 void CheckTime(const char* key, double time, const Times& allowed) {
-  // A recording's times are sums of steps: its end may be a rounding before what it reads as.
+  // Recorded times are sums of steps, so the end may be smaller than displayed by rounding.
   constexpr double kRounding = 1e-6;
   if (!(time >= allowed.begin - kRounding && time <= allowed.end + kRounding)) {
     throw InputError(Problem{.key = key,
@@ -105,7 +105,7 @@ void CheckTime(const char* key, double time, const Times& allowed) {
   }
 }
 
-/// What the film shows of the whole run.
+/// The time range of the film; by default the whole run.
 Times TimesAskedFor(const FilmOptions& options, const Times& run) {
   Times times = run;
   if (options.from) {
@@ -185,7 +185,7 @@ FilmReport RenderFilm(const fs::path& run_folder, const fs::path& output,
                                                      .quick = painter.quality().quick}));
 
   FilmReport report;
-  // The small surplus keeps a last frame that falls on the end but for rounding.
+  // The tolerance keeps a last frame at the end despite rounding.
   report.frames = static_cast<int>(std::floor((end - begin) * options.fps + 1e-6)) + 1;
   report.duration = (report.frames - 1) / options.fps;
   const std::vector<render::PlantRecording>& plants = recordings.front().plants;

@@ -4,7 +4,7 @@
 
 namespace trackbed::render {
 
-/// Lines on the ground around the gates that the plan leads through, between their cones.
+/// Lines on the ground around the gates that the plan passes, between their cones.
 OverlayEntry GateOverlay();
 
 }  // namespace trackbed::render

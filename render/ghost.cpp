@@ -15,15 +15,15 @@ namespace {
 
 constexpr float kGhostAlpha = 0.22F;  // MuJoCo draws translucent surfaces twice: 1 - 0.78^2 = 0.39
 constexpr float kGhostTint = 0.7F;
-// A ghost leaves out parts smaller than this share of its largest one: spokes and lamps cannot be
-// told apart in it, and with them it takes three times as long.
+// Parts smaller than this fraction of a ghost's largest one are not drawn: spokes and lamps are not
+// recognizable in it, and triple the rendering time.
 constexpr float kGhostDetail = 0.125F;
-// A ghost is drawn this much farther from the camera [m]. Where it agrees with the car it is hidden
-// behind the car's surface instead of flickering on it; where it departs by more it comes out. Less
-// than that its footprint and its trail show better than patches of it on the car's doors would.
+// Ghosts are drawn farther from the camera by this distance [m]. A ghost that coincides with the
+// car is then hidden by the car instead of flickering on its surface. Smaller differences are
+// visible by footprint and trail.
 constexpr double kGhostBehind = 0.10;
 constexpr double kFootprintWidth = 0.06;    // [m]
-constexpr std::size_t kFootprintMax = 100;  // pieces of 0.25 m around a car of 8 m by 3 m
+constexpr std::size_t kFootprintMax = 100;  // of 0.25 m, around a car of 8 m by 3 m
 
 float LargestSide(const mjvGeom& geom) {
   return std::max({geom.size[0], geom.size[1], geom.size[2]});
@@ -101,7 +101,7 @@ class Ghosts : public Overlay {
     AddFootprint(context, style);
   }
 
-  /// Whether it would hide the road from somebody in the car.
+  /// Whether the ghost would hide the road from a camera inside the car.
   [[nodiscard]] bool IsAroundTheCar(double time, std::size_t ghost) const {
     const Point own = recording_.plants.front().Position(time);
     const Point other = recording_.plants[ghost].Position(time);

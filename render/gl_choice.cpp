@@ -19,7 +19,7 @@ std::string Lowered(std::string text) {
   return text;
 }
 
-/// The library of this name; none for "auto".
+/// The library with this name; none for "auto".
 std::optional<GlLibrary> AskedFor(const std::string& gl, const std::string& mujoco_gl) {
   if (gl == "egl" || gl == "osmesa") {
     return gl == "egl" ? GlLibrary::kEgl : GlLibrary::kOsmesa;
@@ -59,7 +59,7 @@ GlSurroundings ReadGlSurroundings() {
   if (const char* wish = std::getenv("MUJOCO_GL"); wish != nullptr) {
     surroundings.mujoco_gl = wish;
   }
-  // Looks where MuJoCo looks, in the same order: its render/glad/glad.c.
+  // Looks in the same places and order as MuJoCo: see its render/glad/glad.c.
   void* const process = dlopen(nullptr, RTLD_NOW);
   if (process != nullptr) {
     if (dlsym(process, "eglGetProcAddress") != nullptr) {

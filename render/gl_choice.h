@@ -9,26 +9,26 @@
 
 namespace trackbed::render {
 
-/// The environment of FilmOptions::gl "auto".
+/// The environment that determines FilmOptions::gl "auto".
 struct GlSurroundings {
-  std::string mujoco_gl{};  ///< the environment variable MUJOCO_GL; empty if it is not set
+  std::string mujoco_gl{};  ///< the environment variable MUJOCO_GL; empty if unset
   /// The library whose functions MuJoCo uses in this process: it looks for EGL first, then for
-  /// OSMesa, and loads the functions once. None: neither has added its symbols to the process.
+  /// OSMesa, and loads the functions once. None if neither is among the symbols of the process.
   std::optional<GlLibrary> in_process{};
 };
 
-/// The surroundings of this process now.
+/// The present environment of this process.
 GlSurroundings ReadGlSurroundings();
 
-/// The libraries to try, in this order. `gl` is FilmOptions::gl. InputError for an unknown name
-/// there or in MUJOCO_GL; RunError if the process cannot draw with the library that is asked for.
+/// The libraries to try, in order. `gl` is FilmOptions::gl. InputError for an unknown name there or
+/// in MUJOCO_GL; RunError if the process cannot draw with the requested library.
 std::vector<GlLibrary> ChooseGl(const std::string& gl, const GlSurroundings& surroundings);
 
-/// A context of the first of these libraries that makes one. RunError if none does.
+/// A context of the first library that can create one. RunError if none can.
 std::unique_ptr<GlContext> MakeGlContext(const std::vector<GlLibrary>& libraries,
                                          const GlFiles& files = {});
 
-/// A context as FilmOptions::gl asks for, in the surroundings of this process.
+/// A context by FilmOptions::gl and the environment of this process.
 std::unique_ptr<GlContext> MakeGlContext(const std::string& gl);
 
 }  // namespace trackbed::render

@@ -1,4 +1,4 @@
-// Without the types of X11, whose header defines macros such as None.
+// Excludes the types of X11, whose header defines macros such as None.
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kPackage = "libegl1, with libgl1-mesa-dri";
 
-/// The functions of EGL 1.5, of a library that is loaded when something is drawn.
+/// The functions of EGL 1.5, from a library loaded on first use.
 struct EglFunctions {
   explicit EglFunctions(const RuntimeLibrary& library)
       : get_address(library.Find<decltype(eglGetProcAddress)>("eglGetProcAddress")),
@@ -47,8 +47,8 @@ struct EglFunctions {
   decltype(&eglGetCurrentSurface) current_surface;
 };
 
-/// Displays without a screen, in the order to try: each device, as MuJoCo's Python package does,
-/// then Mesa without any. EGL lists graphics cards before software.
+/// Displays without a screen, in the order to try: each device, as in MuJoCo's Python package, then
+/// Mesa's surfaceless platform. EGL lists graphics cards before software renderers.
 std::vector<EGLDisplay> OffscreenDisplays(const EglFunctions& egl) {
   std::vector<EGLDisplay> displays;
   std::array<EGLDeviceEXT, 16> devices{};
@@ -102,7 +102,7 @@ class EglContext final : public GlContext {
                     error));
   }
 
-  // Does not terminate the display, which is one for the whole process: others may use it.
+  // Does not terminate the display, which the process shares.
   ~EglContext() override {
     if (before_.context == EGL_NO_CONTEXT) {
       egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
@@ -119,7 +119,7 @@ class EglContext final : public GlContext {
   }
 
  private:
-  /// Makes a context of this display current. Returns EGL_SUCCESS or EGL's error.
+  /// Makes a context of this display current. Returns EGL_SUCCESS or an EGL error.
   EGLint Start(EGLDisplay display) {
     constexpr std::array<EGLint, 5> kWanted{EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
                                             EGL_OPENGL_BIT, EGL_NONE};
@@ -133,12 +133,12 @@ class EglContext final : public GlContext {
     if (count < 1) {
       return EGL_BAD_CONFIG;
     }
-    // Without attributes it is of the compatibility profile, which MuJoCo needs.
+    // Without attributes EGL creates the compatibility profile, which MuJoCo needs.
     context_ = egl_.create(display, config, EGL_NO_CONTEXT, nullptr);
     if (context_ == EGL_NO_CONTEXT) {
       return egl_.get_error();
     }
-    // MuJoCo draws into its own buffers: no surface.
+    // No surface, since MuJoCo draws into its own buffers.
     if (egl_.make_current(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
       const EGLint error = egl_.get_error();
       egl_.destroy(display, context_);

@@ -5,10 +5,10 @@
 namespace trackbed::render {
 namespace {
 
-// How far a thinned line may leave the true one [m]: a twentieth of the narrowest ribbon.
+// Largest deviation of a thinned line [m]: a twentieth of the narrowest ribbon.
 constexpr double kLineTolerance = 0.005;
 constexpr std::size_t kMaxPieces = 3000;  // per line
-// Paint farther than this from where the camera looks would be thinner than a pixel [m].
+// Farther from the camera's target, paint would be thinner than a pixel [m].
 constexpr double kPaintRange = 250.0;
 
 bool IsNear(const Point& a, const Point& b, const CameraPose& camera) {
@@ -31,7 +31,7 @@ std::vector<Point> Thinned(const std::vector<Point>& line) {
 }
 
 std::vector<Point> Outline(const Recording& recording, const std::array<Vec2, 4>& corners) {
-  // Short enough for the ground's shapes.
+  // Short enough to follow the ground.
   const double longest = IsFlat(recording.world.ground) ? 1e6 : 0.25;
   std::vector<Point> points;
   for (std::size_t i = 0; i < corners.size(); ++i) {

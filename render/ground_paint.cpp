@@ -9,11 +9,11 @@
 namespace trackbed::render {
 namespace {
 
-// Below all ribbons [m].
+// Heights below all ribbons [m].
 constexpr double kLowest = 0.0010;
 constexpr double kHighest = 0.0018;
 
-constexpr double kIce = 0.25;       // factors up to this look like ice
+constexpr double kIce = 0.25;       // up to this factor, patches look like ice
 constexpr float kIceAlpha = 0.45F;  // MuJoCo draws translucent surfaces twice: 1 - 0.55^2 = 0.70
 constexpr float kWetAlpha = 0.35F;
 
@@ -30,7 +30,7 @@ bool IsPlane(const Ground& ground, const OrientedBox& box) {
          std::all_of(ground.side_slopes.begin(), ground.side_slopes.end(), apart);
 }
 
-/// How far the ground leaves the straight line between two points [m].
+/// Largest deviation of the ground from the straight line between two points [m].
 double Bend(const Ground& ground, const Vec2& a, const Vec2& b) {
   double most = 0.0;
   for (const double part : {0.25, 0.5, 0.75}) {
@@ -51,7 +51,7 @@ class Tiler {
       : ground_(ground), tolerance_(tolerance), tiles_(tiles) {}
 
   void Cut(const OrientedBox& box, const Tile& like, double above) {
-    constexpr double kLargest = 2.0;   // [m] where the ground is no plane
+    constexpr double kLargest = 2.0;   // [m]; limit unless the ground is a plane
     constexpr double kSmallest = 0.1;  // [m]
     if (IsPlane(ground_, box)) {
       Add(box, like, above);
@@ -66,13 +66,14 @@ class Tiler {
       along = std::max(along, Bend(ground_, at(-1.0, side), at(1.0, side)));
       across = std::max(across, Bend(ground_, at(side, -1.0), at(side, 1.0)));
     }
-    // Ground may twist without bending along any of these lines.
+    // Twisted ground may be straight along all of these lines.
     const auto height = [&](double x, double y) { return GroundHeight(ground_, at(x, y)); };
     const double twist = 0.25 * std::abs(height(1.0, 1.0) + height(-1.0, -1.0) - height(1.0, -1.0) -
                                          height(-1.0, 1.0));
     double& longer = box.length >= box.width ? along : across;
     longer = std::max(longer, twist);
-    // Of the two sides the worse is cut; a long one may hide what it spans.
+    // Halves the side with the larger deviation. Sides longer than kLargest are always cut, since
+    // the lines may miss features.
     along = box.length > kLargest ? 1e3 * box.length : box.length > kSmallest ? along : 0.0;
     across = box.width > kLargest ? 1e3 * box.width : box.width > kSmallest ? across : 0.0;
     if (std::max(along, across) < tolerance_) {
@@ -90,7 +91,7 @@ class Tiler {
 
  private:
   void Add(const OrientedBox& box, const Tile& like, double above) {
-    // Through the middles of its sides: neighbors meet there.
+    // Through the middles of the sides, where neighboring tiles meet.
     std::array<Eigen::Vector3d, 4> sides;
     const std::array<Vec2, 4> ways{{{1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}}};
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();

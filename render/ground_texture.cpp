@@ -10,12 +10,12 @@
 namespace trackbed::render {
 namespace {
 
-constexpr double kSide = 10.0;  // of the texture on the ground [m]
+constexpr double kSide = 10.0;  // of the texture, on the ground [m]
 constexpr double kLineEvery = 5.0;
 constexpr double kLineWidth = 0.05;
 constexpr double kLineLight = 1.12;
 
-/// A number in [-1, 1] for a corner of a lattice: the same in every film.
+/// A pseudorandom number in [-1, 1] for a corner of a lattice, the same in every film.
 double Scattered(std::uint32_t x, std::uint32_t y, std::uint32_t octave) {
   std::uint32_t h = x * 374761393U + y * 668265263U + octave * 2246822519U;
   h = (h ^ (h >> 13U)) * 1274126177U;
@@ -23,7 +23,7 @@ double Scattered(std::uint32_t x, std::uint32_t y, std::uint32_t octave) {
   return static_cast<double>(h & 0xffffU) / 32767.5 - 1.0;
 }
 
-/// Noise in [-1, 1] that repeats with the texture, of so many cells along its sides.
+/// Periodic value noise in [-1, 1], with `cells` cells along each side of the texture.
 double Noise(double u, double v, std::uint32_t cells, std::uint32_t octave) {
   const double x = u * cells;
   const double y = v * cells;

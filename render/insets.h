@@ -9,25 +9,25 @@
 
 namespace trackbed::render {
 
-/// A picture that is drawn flat, for an inset in place of a second camera.
+/// A two-dimensional view for an inset, as an alternative to a second camera.
 struct FlatView {
   std::string_view name;
   std::string_view summary;
-  /// Fills the picture with the recording at `time` [s].
+  /// Draws the view of the recording at `time` [s] into the picture.
   void (*draw)(const Recording& recording, Image& image, Font& font, double time);
 };
 
-/// The only list of flat views.
+/// The registry of flat views.
 const std::vector<FlatView>& FlatViewTable();
 
-/// What an inset shows: one of the two.
+/// Content of an inset: a camera or a flat view.
 struct Inset {
   const Camera* camera = nullptr;
   const FlatView* view = nullptr;
 };
 
-/// By the name of a camera or of a flat view. InputError with the nearest name, under `inset`, when
-/// there is neither.
+/// Finds a camera or a flat view by name. InputError with the nearest name, under `inset`, if there
+/// is neither.
 Inset FindInset(const std::string& name);
 
 }  // namespace trackbed::render

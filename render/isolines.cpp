@@ -9,7 +9,7 @@
 namespace trackbed::render {
 namespace {
 
-/// The sides that the pieces of line at a side lead to.
+/// For each cell side, the sides to which line pieces lead.
 using Neighbors = std::map<int, std::vector<int>>;
 
 void Join(Neighbors& neighbors, int a, int b) {
@@ -17,7 +17,7 @@ void Join(Neighbors& neighbors, int a, int b) {
   neighbors[b].push_back(a);
 }
 
-/// Takes the line that begins at a side out of what is left.
+/// Removes the line that begins at a side, and returns it.
 std::vector<int> TakeLine(Neighbors& neighbors, int first) {
   std::vector<int> line{first};
   while (!neighbors[line.back()].empty()) {
@@ -70,7 +70,7 @@ std::vector<std::vector<Vec2>> IsolineGrid::At(double level) const {
   Neighbors neighbors;
   for (int row = 0; row + 1 < rows_; ++row) {
     for (int column = 0; column + 1 < columns_; ++column) {
-      // Counterclockwise from the lower left corner; each side between a corner and the next.
+      // Counterclockwise from the lower left corner; side i is between corners i and i + 1.
       const std::array<bool, 4> above{Value(column, row) >= level, Value(column + 1, row) >= level,
                                       Value(column + 1, row + 1) >= level,
                                       Value(column, row + 1) >= level};
@@ -85,7 +85,7 @@ std::vector<std::vector<Vec2>> IsolineGrid::At(double level) const {
       if (cut.size() == 2) {
         Join(neighbors, sides[cut[0]], sides[cut[1]]);
       } else if (cut.size() == 4) {
-        // Around each of the two corners that are above: the sides before and after it.
+        // A corner above the level is separated from the rest by the sides before and after it.
         for (std::size_t i = 0; i < 4; ++i) {
           if (above[i]) {
             Join(neighbors, sides[(i + 3) % 4], sides[i]);
@@ -94,7 +94,7 @@ std::vector<std::vector<Vec2>> IsolineGrid::At(double level) const {
       }
     }
   }
-  // Lines with ends first, then those that close.
+  // Open lines first, then closed ones.
   std::vector<int> begins;
   for (const auto& [side, others] : neighbors) {
     if (others.size() == 1) {

@@ -7,13 +7,13 @@
 
 namespace trackbed::render {
 
-/// Lines along which a function has one value. Where it is bilinear between the corners of square
-/// cells the lines are exact on the cells' sides, and straight between those.
+/// Contour lines of a function (marching squares). If the function is bilinear on square cells, the
+/// lines are exact on the cells' sides, and straight in between.
 ///
-/// `value` is asked once per corner of the cells with sides of `step` [m] that cover the rectangle
-/// from `low` to `high`. Lines end at the rectangle's sides or close: then their first point comes
-/// again as the last. A cell whose opposite corners are both above and whose others are both below
-/// is cut as if its middle were below. Cost linear in cells, times the levels.
+/// `value` is evaluated once per corner of the cells with sides of `step` [m] that cover the
+/// rectangle from `low` to `high`. Lines end at the rectangle's sides or close; then the last point
+/// repeats the first. A cell with two opposite corners above the level and two below is cut as if
+/// its middle were below. Cost: linear in cells, times the levels.
 class IsolineGrid {
  public:
   IsolineGrid(const Vec2& low, const Vec2& high, double step,
@@ -28,7 +28,7 @@ class IsolineGrid {
     return values_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
                    static_cast<std::size_t>(column)];
   }
-  /// Side of a cell that begins at a corner: 0 along x, 1 along y.
+  /// Index of a cell side that begins at a corner: direction 0 along x, 1 along y.
   [[nodiscard]] int Side(int column, int row, int direction) const {
     return 2 * (row * columns_ + column) + direction;
   }

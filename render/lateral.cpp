@@ -14,11 +14,11 @@ namespace trackbed::render {
 namespace {
 
 constexpr double kLength = 40.0;  // [m] of path
-constexpr double kBehind = 0.75;  // of it
-constexpr double kFill = 0.85;    // of the half height that the largest distance takes
+constexpr double kBehind = 0.75;  // of this length
+constexpr double kFill = 0.85;    // of the half height, for the largest distance
 constexpr double kGridAlpha = 0.35;
 
-/// The columns of a log that say where a car is along a path and beside it.
+/// Columns of a log with the car's station and cross-track error.
 struct AlongPath {
   std::size_t station;
   std::size_t left;
@@ -30,7 +30,7 @@ std::optional<AlongPath> FindAlongPath(const TimedTable& log) {
   return station && left ? std::optional(AlongPath{*station, *left}) : std::nullopt;
 }
 
-/// Letters that fit an inset, which is at most 0.3 of its picture.
+/// Height of letters in an inset, which is at most 0.3 of its picture.
 double LetterSize(int height) {
   return std::clamp(std::round(0.085 * height), 11.0, 23.0);
 }
@@ -53,7 +53,7 @@ void LateralView::DrawAxes(Canvas& canvas, Font& font, int width, int height, do
   const double scale = PixelsPerMeter(width, height);
   const double hairline = std::max(1.0, 0.005 * height);
   const double letters = LetterSize(height);
-  // Lines to both sides of the path: two or three, at a round distance.
+  // Two or three lines on each side of the path, at round distances.
   const double reach = 0.5 * height / (kEnlarged * scale);
   const double apart = RoundedUp(reach / 4.0);
   for (double left = apart; left < reach; left += apart) {
@@ -68,7 +68,7 @@ void LateralView::DrawAxes(Canvas& canvas, Font& font, int width, int height, do
       }
     }
   }
-  // Stations every 10 m or so, standing on the road while the car goes by.
+  // Station marks about every 10 m, fixed to the road.
   const double step = RoundedUp(width / scale / 5.0);
   const double first = step * std::floor((car - kBehind * width / scale) / step);
   for (double station = first; station < car + width / scale; station += step) {
@@ -106,7 +106,7 @@ void LateralView::Draw(Image& image, Font& font, double time) const {
     for (std::size_t row = 0; row < log.times().size() && log.times()[row] <= time; ++row) {
       const CanvasPoint point = Place(width, height, car, log.table().at(row, along->station),
                                       log.table().at(row, along->left));
-      // Half a pixel apart, and none long out of the picture.
+      // Points at least half a pixel apart, and few outside the picture.
       if (point.x > -2.0 &&
           (line.empty() || std::hypot(point.x - line.back().x, point.y - line.back().y) > 0.5)) {
         line.push_back(point);

@@ -5,23 +5,23 @@
 
 namespace trackbed::render {
 
-/// The path drawn as a straight line, from left to right, and each plant's car where its log has
-/// it: at its own station, with its distance from the path ten times as large as along it.
+/// Draws the path as a straight line from left to right, and each plant's car at its logged station
+/// and cross-track error. Lateral distances are enlarged ten times.
 ///
-/// It shows 40 m of the path, three quarters of them behind the car, or so much more that the
-/// largest distance of the run has room. Plants whose logs lack s_m or cross_track_m are left out.
+/// Shows 40 m of the path, three quarters of them behind the car, or more if the largest distance
+/// of the run needs it. Skips plants whose logs lack s_m or cross_track_m.
 class LateralView {
  public:
   static constexpr double kEnlarged = 10.0;
 
-  /// The recording outlives it.
+  /// The recording must outlive the view.
   explicit LateralView(const Recording& recording) : recording_(recording) {}
 
-  /// Fills the picture.
+  /// Draws the whole picture.
   void Draw(Image& image, Font& font, double time) const;
 
-  /// Where a station and a distance from the path, positive to the left, are in a picture of that
-  /// size when the car is at station `car` [m].
+  /// Position in a picture of that size of a station and a distance from the path, positive to the
+  /// left, when the car is at station `car` [m].
   [[nodiscard]] CanvasPoint Place(int width, int height, double car, double station,
                                   double left) const;
 

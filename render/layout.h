@@ -5,7 +5,7 @@
 
 #include "render/image.h"
 
-/// How everything that is written over a picture looks.
+/// Sizes of panels and text over a picture.
 namespace trackbed::render {
 
 inline constexpr Color kPanel{0.06F, 0.07F, 0.09F};
@@ -13,8 +13,8 @@ inline constexpr double kPanelAlpha = 0.66;
 inline constexpr Color kLabel{0.70F, 0.74F, 0.78F};
 inline constexpr Color kValue{1.00F, 1.00F, 1.00F};
 
-/// Sizes [px]. They follow the picture's height but stay readable down to 640x360; in smaller
-/// pictures everything shrinks to fit.
+/// Sizes [px]. Proportional to the picture's height, but readable down to 640x360; in smaller
+/// pictures they shrink to fit.
 struct Layout {
   double margin;  ///< from the picture's edge to a panel
   double pad;     ///< from a panel's edge to its text
@@ -25,10 +25,10 @@ struct Layout {
 
   Layout(int width, int height) {
     const double scale = height / 720.0;
-    // The legend and the title beside it take about 400 px at the least readable sizes, all panels
-    // one below the other 250.
+    // At the smallest readable size, legend and title side by side need about 400 px, all panels
+    // one below the other 250 px.
     const double shrink = std::min({1.0, width / 400.0, height / 270.0});
-    // A tall and narrow picture, such as one of two side by side, has room for no more than this.
+    // Limits the sizes in tall, narrow pictures, such as two side by side.
     const double widest = width / 960.0;
     const auto size = [&](double of_height, double least) {
       return std::max(of_height * std::min(scale, widest), least * shrink);

@@ -4,12 +4,11 @@
 
 #include <concepts>
 
-/// The differences between the supported versions of MuJoCo's drawing; see
-/// src/sim/mujoco_compat.h.
+/// The differences between the supported versions of MuJoCo's drawing functions; see
+/// src/sim/mujoco_compat.h for those of its physics.
 namespace trackbed::render::mj {
 
-/// Texture of a material's color; -1 if it has none. Materials have a texture for each role since
-/// 3.2.
+/// Texture of a material's color; -1 if it has none. Since 3.2 materials have a texture per role.
 inline int ColorTexture(const mjModel& model, int material) {
 #if mjVERSION_HEADER >= 320
   const int* of_roles = model.mat_texid + mjNTEXROLE * material;
@@ -22,7 +21,7 @@ inline int ColorTexture(const mjModel& model, int material) {
 /// Pixels of a texture, row by row.
 struct TexturePixels {
   mjtByte* first;
-  int channels;  ///< bytes of a pixel; red, green and blue come first
+  int channels;  ///< bytes per pixel, beginning with red, green, blue
 };
 
 template <std::same_as<mjModel> Model>
@@ -34,7 +33,7 @@ TexturePixels Pixels(Model& model, int texture) {
   }
 }
 
-/// Removes the texture from a shape; it has that of its material since 3.2.
+/// Removes the texture from a shape. Since 3.2, shapes use their material's texture.
 template <std::same_as<mjvGeom> Geom>
 void RemoveTexture(Geom& geom) {
   if constexpr (requires { geom.matid; }) {

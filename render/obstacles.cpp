@@ -10,10 +10,13 @@
 #include "render/scene_handle.h"
 #include "trackbed/sim/mujoco_handles.h"
 
+// Draws each obstacle by its size (LookOf): as the run's own car, stretched to the obstacle's box,
+// as a wall, cone, post or crate. The model's box is drawn in another color or replaced. Until the
+// planner detects an obstacle, and shortly after, the edges of its box are drawn as an outline.
 namespace trackbed::render {
 namespace {
 
-constexpr double kStillOutlined = 1.5;  // after the planner learns of an obstacle [s]
+constexpr double kStillOutlined = 1.5;  // after the planner detects an obstacle [s]
 constexpr double kEdge = 0.05;          // thickness of outlines and of a crate's edges [m]
 constexpr std::size_t kEdges = 12;      // of a box
 
@@ -27,7 +30,7 @@ constexpr Color kConeOrange{0.95F, 0.35F, 0.05F};
 constexpr std::array<Color, 4> kCarPaints{
     {{0.72F, 0.73F, 0.75F}, {0.28F, 0.29F, 0.31F}, {0.62F, 0.57F, 0.48F}, {0.86F, 0.86F, 0.84F}}};
 
-/// A box in the world: the geom of an obstacle as the scene has it.
+/// An obstacle's box in the world: pose, half sides and opacity of its geom in the scene.
 struct Block {
   Eigen::Vector3d center;
   RowMajorMatrix3 axes;
@@ -43,7 +46,7 @@ struct Block {
       }
     }
   }
-  /// A point by its share of the half sides.
+  /// A point in coordinates relative to the half sides, each from -1 to 1.
   [[nodiscard]] Eigen::Vector3d At(double along, double across, double up) const {
     return center + axes * Eigen::Vector3d(along * half[0], across * half[1], up * half[2]);
   }
@@ -72,7 +75,8 @@ void AddEdges(mjvScene& scene, const Block& block, const Color& color, float emi
   }
 }
 
-/// The run's own car, standing, without its smallest parts: in shares of the half sides of its box.
+/// The run's own car at the initial position, without small parts, scaled so that its box has half
+/// sides of 1.
 class CarParts {
  public:
   explicit CarParts(const Recording& recording) {
@@ -113,9 +117,10 @@ class CarParts {
 
   [[nodiscard]] std::size_t count() const { return parts_.size(); }
 
-  /// As large as the block; `forward` is 1 or -1: which way it looks along the block's length.
+  /// Draws the car as large as the block; `forward` is 1 or -1: its direction along the block's
+  /// length.
   void Add(mjvScene& scene, const Block& block, double forward, const Color& paint) const {
-    // The longer side of the block is the car's length.
+    // The car's length is along the longer side of the block.
     RowMajorMatrix3 turn = RowMajorMatrix3::Identity() * forward;
     turn(2, 2) = 1.0;
     Eigen::Vector3d half(block.half[0], block.half[1], block.half[2]);
@@ -123,7 +128,7 @@ class CarParts {
       std::swap(half.x(), half.y());
       turn << 0.0, -forward, 0.0, forward, 0.0, 0.0, 0.0, 0.0, 1.0;
     }
-    // Not a rotation: MuJoCo draws a geom by its matrix, and normalizes normals.
+    // Not a rotation: MuJoCo uses a geom's matrix as it is and normalizes normals.
     const RowMajorMatrix3 stretched = block.axes * turn * half.cwiseProduct(scale_).asDiagonal();
     for (const Part& part : parts_) {
       if (scene.ngeom >= scene.maxgeom) {
@@ -158,7 +163,7 @@ class CarParts {
   std::vector<Part> parts_;
 };
 
-/// Cylinders or boxes one on the other, from bottom to top, in turn of these colors.
+/// Cylinders or boxes on top of each other, from bottom to top, of these relative sizes and colors.
 void AddStack(mjvScene& scene, const Block& block, mjtGeom type,
               const std::vector<std::pair<double, Color>>& layers) {
   const double tall = 1.0 / static_cast<double>(layers.size());
@@ -193,7 +198,7 @@ class Obstacles : public Overlay {
 
   void AddShapes(SceneContext& context) override {
     mjvScene& scene = context.scene;
-    const int count = scene.ngeom;  // of those that are not added here
+    const int count = scene.ngeom;  // without the shapes added here
     for (std::size_t i = 0; i < geoms_.size(); ++i) {
       const auto is_own = [&](const mjvGeom& geom) {
         return geom.objtype == mjOBJ_GEOM && geom.objid == geoms_[i];
@@ -218,7 +223,7 @@ class Obstacles : public Overlay {
   }
 
  private:
-  // Marks the geoms that others take the place of; MuJoCo has no such type.
+  // Marks geoms that other shapes replace; MuJoCo has no such object type.
   static constexpr int kReplaced = -1;
 
   void AddOne(SceneContext& context, std::size_t i, mjvGeom* own) const {
@@ -226,7 +231,7 @@ class Obstacles : public Overlay {
     const Block block(*own);
     const double since = context.time - known_[i];
     if (since < kStillOutlined) {
-      // Around what stands there, and not within it.
+      // Around the obstacle's drawn shape, not inside it.
       Block outline = block;
       for (double& half : outline.half) {
         half += since < 0.0 ? 0.0 : kEdge;
@@ -271,7 +276,7 @@ class Obstacles : public Overlay {
     }
   }
 
-  /// Which way a car looks along the block's longer side: where it goes.
+  /// Direction of a car along the block's longer side, 1 or -1: that of the obstacle's velocity.
   [[nodiscard]] double ForwardOf(std::size_t i, const Block& block) const {
     const Vec2& velocity = recording_.world.obstacles[i].velocity;
     const int side = block.half[0] >= block.half[1] ? 0 : 1;

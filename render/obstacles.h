@@ -4,7 +4,7 @@
 
 namespace trackbed::render {
 
-/// What an obstacle looks like.
+/// Look of an obstacle.
 enum class ObstacleLook {
   kCar,    ///< the run's own car, as large as the obstacle
   kWall,   ///< much longer than wide, with a dark top
@@ -13,13 +13,13 @@ enum class ObstacleLook {
   kCrate,  ///< a box with darker edges
 };
 
-/// By its size [m]: cars are 3 to 6 long, 1.4 to 2.3 wide and 1.2 to 2.2 high; walls at most a
-/// meter wide and four times as long; cones and posts at most 0.6 to a side, cones up to a meter
-/// high; everything else is a crate. `length` need not be the longer side.
+/// The look for a size [m]: cars are 3 to 6 long, 1.4 to 2.3 wide and 1.2 to 2.2 high; walls are at
+/// most 1 wide and at least four times as long; cones and posts are at most 0.6 long and wide,
+/// cones up to 1 high; everything else is a crate. `length` may be the shorter side.
 ObstacleLook LookOf(double length, double width, double height);
 
-/// The world's obstacles as what they are; those that the planner does not know yet as an outline
-/// of their edges.
+/// The world's obstacles in their looks; obstacles not yet detected by the planner as outlines of
+/// their edges.
 OverlayEntry ObstacleOverlay();
 
 }  // namespace trackbed::render

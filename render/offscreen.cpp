@@ -11,7 +11,7 @@
 namespace trackbed::render {
 namespace {
 
-// The buffer is at least this large [px], so that a glyph of the largest font fits in.
+// Minimum size of the buffer [px]: a glyph of the largest font fits into it.
 constexpr int kSmallestBuffer = 128;
 
 void CopyFlipped(const std::vector<std::uint8_t>& from, Image& to) {
@@ -22,14 +22,14 @@ void CopyFlipped(const std::vector<std::uint8_t>& from, Image& to) {
   }
 }
 
-/// Each pixel the mean of a square of `side` by `side` samples, a power of two.
+/// Averages squares of `side` by `side` samples into pixels; `side` is a power of two.
 void AverageFlipped(const std::vector<std::uint8_t>& from, int side, Image& to) {
   const auto step = static_cast<std::size_t>(side);
   const auto width = static_cast<std::size_t>(to.width);
   const std::size_t row = 3 * width * step;
   const auto samples = static_cast<unsigned>(side * side);
-  const int shift = std::countr_zero(samples);  // a division takes longer than all the rest
-  std::vector<std::uint16_t> columns(row);      // the sums of `side` lines
+  const int shift = std::countr_zero(samples);  // a division would dominate the run time
+  std::vector<std::uint16_t> columns(row);      // sums of `side` rows
   for (int y = 0; y < to.height; ++y) {
     std::fill(columns.begin(), columns.end(), std::uint16_t{0});
     const auto first = static_cast<std::size_t>(to.height - 1 - y) * step;
@@ -42,7 +42,7 @@ void AverageFlipped(const std::vector<std::uint8_t>& from, int side, Image& to) 
     const std::uint16_t* column = columns.data();
     std::uint8_t* pixel = to.Pixel(0, y);
     for (std::size_t x = 0; x < width; ++x, pixel += 3) {
-      std::array<unsigned, 3> sums{samples / 2, samples / 2, samples / 2};  // rounds
+      std::array<unsigned, 3> sums{samples / 2, samples / 2, samples / 2};  // for rounding
       for (std::size_t i = 0; i < step; ++i, column += 3) {
         sums[0] += column[0];
         sums[1] += column[1];

@@ -13,12 +13,16 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
+// Outputs of a film: FrameOutput writes numbered PNG files (libpng), render/video/ the formats
+// encoded by FFmpeg. BackgroundOutput writes to another output in its own thread, with a queue of
+// at most two pictures guarded by a mutex; an exception in the thread is rethrown by the next call.
+// EncodePng adds a chunk that identifies Trackbed as the author.
 namespace trackbed::render {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kHeaderSize = 33;  // of a PNG: its signature and IHDR
+constexpr std::size_t kHeaderSize = 33;  // length of a PNG's signature and IHDR
 
 std::string BigEndian(std::uint32_t number) {
   std::string bytes;
@@ -28,7 +32,7 @@ std::string BigEndian(std::uint32_t number) {
   return bytes;
 }
 
-/// The chunk that tells pictures of Trackbed's from others: tEXt, "Software" (W3C, Portable Network
+/// The chunk that identifies pictures written by Trackbed: tEXt, "Software" (W3C, Portable Network
 /// Graphics, section 11.3.4).
 const std::string& SoftwareChunk() {
   static const std::string chunk = [] {
@@ -48,10 +52,10 @@ bool IsOwnPicture(const fs::path& file) {
   return in && std::string_view(begin).substr(kHeaderSize) == SoftwareChunk();
 }
 
-/// One PNG per picture, in a hidden folder until all are complete. Then the frames of an earlier
-/// film of that name are removed first: those that are numbered without a gap, which must be
-/// pictures of Trackbed's. So there are never frames of both. Without Finish or Keep the earlier
-/// film stays; where there is none, the frames so far are kept.
+/// Writes one PNG per picture into a hidden folder until all are complete. Then removes the frames
+/// of an earlier film of that name, that is, the pictures numbered without a gap, which must have
+/// been written by Trackbed, so that frames of two films are never mixed. Without Finish or Keep an
+/// earlier film is kept; without an earlier film, the frames written so far are kept.
 class FrameOutput : public FilmOutput {
  public:
   explicit FrameOutput(fs::path output) : output_(std::move(output)), frames_(output_) {
@@ -72,7 +76,7 @@ class FrameOutput : public FilmOutput {
       try {
         FrameOutput::Finish();
       } catch (const RunError&) {
-        // Another one is being told already.
+        // Another exception is already being handled.
       }
     }
   }
@@ -89,7 +93,8 @@ class FrameOutput : public FilmOutput {
     while (frames > 0 && IsThere(old)) {
       ++old;
     }
-    // From the last one on: what is left on the way can be told and removed by the next film.
+    // From the last frame on: after an error, the next film can identify and remove the remaining
+    // ones.
     while (old > 0) {
       const fs::path name = FrameName(output_, --old);
       if (!fs::remove(name, error)) {
@@ -118,7 +123,7 @@ class FrameOutput : public FilmOutput {
   int next_ = 0;
 };
 
-/// The only list of formats.
+/// The registry of formats.
 const std::array<FilmFormat, 4>& FormatTable() {
   static const std::array<FilmFormat, 4> table{{
       {".mp4", "video", true, VideoOpener()},
@@ -182,7 +187,7 @@ void BackgroundOutput::Rethrow() {
 
 void BackgroundOutput::Write(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  // Once it is asked to stop, until nothing waits.
+  // After a stop request, continues until no pictures are waiting.
   while (changed_.wait(lock, stop, [this] { return !waiting_.empty(); })) {
     Image image = std::move(waiting_.front());
     waiting_.pop_front();
@@ -241,7 +246,7 @@ std::string EncodePng(const Image& image) {
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
   png.format = PNG_FORMAT_RGB;
-  png.flags = PNG_IMAGE_FLAG_FAST;  // a third of the time for a few per cent more bytes
+  png.flags = PNG_IMAGE_FLAG_FAST;  // a third of the time, for a few percent more bytes
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::string bytes(size, '\0');
   if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr) == 0) {

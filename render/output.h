@@ -15,7 +15,7 @@
 
 namespace trackbed::render {
 
-/// Where the pictures of a film go.
+/// Destination of the pictures of a film.
 class FilmOutput {
  public:
   FilmOutput() = default;
@@ -24,16 +24,16 @@ class FilmOutput {
   FilmOutput& operator=(const FilmOutput&) = delete;
 
   virtual void Add(const Image& image) = 0;
-  /// Call after the last picture: only then is what was written of worth.
+  /// Must be called after the last picture; only then is the file complete.
   virtual void Finish() = 0;
-  /// Instead of Finish, when no more pictures come: keeps what is of worth alone.
+  /// Called instead of Finish after an error: keeps the pictures if they are usable alone.
   virtual void Keep() {}
 };
 
-/// Writes to another output in a thread of its own: while pictures are written, the next one is
-/// made. Two wait at most; Add waits while they do. What writing one throws comes out of the next
-/// call, and nothing is written after it; on the way out after another exception those that wait
-/// are written first.
+/// Writes to another output in a separate thread, while the next picture is drawn. At most two
+/// pictures wait; then Add blocks. An exception in the thread is rethrown by the next call, and
+/// nothing more is written. If another exception destroys this output, waiting pictures are still
+/// written.
 class BackgroundOutput : public FilmOutput {
  public:
   explicit BackgroundOutput(std::unique_ptr<FilmOutput> output);
@@ -48,42 +48,42 @@ class BackgroundOutput : public FilmOutput {
   void Rethrow();
 
   std::unique_ptr<FilmOutput> output_;
-  std::mutex mutex_;  // of what follows, but for the thread
+  std::mutex mutex_;  // guards the members below, except for the thread
   std::condition_variable_any changed_;
   std::deque<Image> waiting_;
-  std::vector<Image> spare_;  // pictures written, whose memory the next ones take
+  std::vector<Image> spare_;  // written pictures, whose memory is reused
   bool writing_ = false;
   std::exception_ptr failure_;
-  std::jthread thread_;  // last: it is asked to stop and awaited before the rest goes
+  std::jthread thread_;  // last, so that it is joined before the other members are destroyed
 };
 
-/// The pictures that a film consists of.
+/// Properties of the pictures of a film.
 struct FilmPictures {
   int width = 0;   ///< [px]
   int height = 0;  ///< [px]
   double fps = 0.0;
-  bool quick = false;  ///< a video is encoded in a third of the time, into a larger file
+  bool quick = false;  ///< encode a video in a third of the time, into a larger file
 };
 
 using OpenOutput = std::unique_ptr<FilmOutput> (*)(const std::filesystem::path& output,
                                                    const FilmPictures& pictures);
 
-/// A kind of file that a film can be.
+/// A file format of films.
 struct FilmFormat {
-  std::string extension;  ///< with its dot
+  std::string extension;  ///< including the dot
   std::string summary;    ///< one word
-  bool even_sides;        ///< whether it can only hold pictures of even width and height
-  OpenOutput open;        ///< null when this build cannot
+  bool even_sides;        ///< whether width and height must be even
+  OpenOutput open;        ///< null if this build does not support the format
 };
 
-/// The format that the extension of `output` asks for; InputError naming every one there is when it
-/// asks for none of them, or for one that this build cannot make.
+/// The format for the extension of `output`. InputError naming all formats if the extension is
+/// unknown or this build does not support it.
 const FilmFormat& FilmFormatFor(const std::filesystem::path& output);
 
 /// "frames/f.png" and 7 give "frames/f_00007.png".
 std::filesystem::path FrameName(const std::filesystem::path& output, int frame);
 
-/// The picture as a PNG file's bytes. RunError when it cannot be made.
+/// Encodes a picture as a PNG file. RunError if that fails.
 std::string EncodePng(const Image& image);
 
 }  // namespace trackbed::render

@@ -13,38 +13,38 @@
 #include "render/canvas.h"
 #include "render/recording.h"
 
-/// The interface of overlays: what is drawn over the recorded world. docs/how-to/add-an-overlay.md
-/// adds one.
+/// The interface of overlays, which draw over the recorded world. See
+/// docs/how-to/add-an-overlay.md.
 namespace trackbed::render {
 
-/// How a color is shown in the legend.
+/// Symbol of a color in the legend.
 enum class LegendSymbol {
   kLine,     ///< a line on the ground
-  kOutline,  ///< the outline of an area or a box
+  kOutline,  ///< outline of an area or a box
   kDiamond,  ///< a mark on the ground
-  kCross,    ///< another one
-  kDial,     ///< a dial of the friction used
+  kCross,    ///< another mark on the ground
+  kDial,     ///< a dial of the used friction
 };
 
-/// What a color in the picture stands for.
+/// Meaning of a color in the picture.
 struct LegendEntry {
   Color color;
   std::string text;
-  std::string note{};         ///< a second line; may be empty
-  std::vector<Color> ramp{};  ///< in place of the color, from left to right
+  std::string note{};         ///< second line; may be empty
+  std::vector<Color> ramp{};  ///< instead of the color, from left to right
   LegendSymbol symbol = LegendSymbol::kLine;
 };
 
-/// The world posed for one picture, to which overlays add shapes.
+/// The world posed for one picture; overlays add shapes to it.
 struct SceneContext {
   mjvScene& scene;
   double time;               ///< [s]
-  const CameraPose& camera;  ///< where the picture is taken from
-  mjvCamera& view;           ///< the same, as MuJoCo has it
-  const mjvOption& visible;  ///< which parts of a model are shown
+  const CameraPose& camera;  ///< camera of the picture
+  mjvCamera& view;           ///< the same camera for MuJoCo
+  const mjvOption& visible;  ///< which parts of a model are visible
 };
 
-/// A drawn picture, over which overlays draw.
+/// A rendered picture on which overlays draw.
 struct PictureContext {
   Image& image;
   Font& font;
@@ -52,12 +52,12 @@ struct PictureContext {
   const CameraPose& camera;
   const mjData& car;  ///< the car at `time`
   const std::vector<LegendEntry>& legend;
-  double top;     ///< where panels along the upper edge end [px]; such a panel moves it down
-  double bottom;  ///< where panels along the lower edge begin [px]; such a panel moves it up
-  double left;    ///< where there is room above `bottom` [px]; what stands there moves it right
+  double top;     ///< bottom of the panels at the upper edge [px]; a new panel there increases it
+  double bottom;  ///< top of the panels at the lower edge [px]; a new panel there decreases it
+  double left;    ///< start of free space above `bottom` [px]; a new panel there increases it
 };
 
-/// One thing drawn over the world of one recording. The defaults draw nothing.
+/// Something drawn over the world of one recording. By default draws nothing.
 class Overlay {
  public:
   Overlay() = default;
@@ -65,22 +65,22 @@ class Overlay {
   Overlay(const Overlay&) = delete;
   Overlay& operator=(const Overlay&) = delete;
 
-  /// At most how many shapes AddShapes adds.
+  /// Maximum number of shapes that AddShapes adds.
   [[nodiscard]] virtual std::size_t max_shapes() const { return 0; }
-  /// Adds shapes to the world, where the car and what else stands there hides and shades them; for
-  /// the picture and for its inset.
+  /// Adds shapes to the world, where the car and other objects hide and shade them. Also shown in
+  /// an inset.
   virtual void AddShapes(SceneContext& /*context*/) {}
   /// Draws flat over the picture, but not over its inset.
   virtual void Draw(PictureContext& /*context*/) {}
-  /// Adds its colors to the legend, whose first entry is the car's.
+  /// Adds entries to the legend, whose first entry is the car.
   virtual void AddLegend(std::vector<LegendEntry>& /*legend*/) const {}
 };
 using OverlayList = std::vector<std::unique_ptr<Overlay>>;
 
-/// What overlays are made for: one recording, in pictures of one size.
+/// Arguments for making overlays: one recording, in pictures of one size.
 struct OverlaySetup {
-  const Recording& recording;             ///< outlives the overlay
-  const std::vector<std::string>& shown;  ///< the names of all overlays of the film
+  const Recording& recording;             ///< must outlive the overlay
+  const std::vector<std::string>& shown;  ///< names of all overlays of the film
   std::string title;                      ///< of the picture
   int width = 0;                          ///< [px]
   int height = 0;                         ///< [px]
@@ -94,9 +94,9 @@ struct OverlaySetup {
 /// An overlay in the table.
 struct OverlayEntry {
   std::string name;
-  std::string summary;  ///< for people, on one line
+  std::string summary;  ///< one line, shown to users
   std::unique_ptr<Overlay> (*make)(const OverlaySetup& setup);
-  bool by_default = true;  ///< whether films have it that do not say
+  bool by_default = true;  ///< whether films show it by default
 };
 
 /// The entry of an overlay whose constructor takes the setup.

@@ -7,14 +7,14 @@
 
 namespace trackbed::render {
 
-/// All overlays, in the order in which they are drawn and stand in the legend.
+/// All overlays, in the order of drawing and of the legend.
 const std::vector<OverlayEntry>& OverlayTable();
 
-/// The overlays that `setup.shown` names; InputError with the nearest name where one of these is no
-/// overlay's.
+/// The overlays named by `setup.shown`; InputError with the nearest name if there is an unknown
+/// name.
 OverlayList MakeOverlays(const OverlaySetup& setup);
 
-/// What the colors of a picture of `recording` with these overlays stand for.
+/// The legend of a picture of `recording` with these overlays.
 std::vector<LegendEntry> MakeLegend(const Recording& recording, const OverlayList& overlays);
 
 }  // namespace trackbed::render

@@ -14,9 +14,9 @@
 
 namespace trackbed::render {
 
-/// MuJoCo asks its shadow map once per pixel, however many samples a pixel has: multisampling
-/// leaves a shadow's edge as stairs. Supersampling smooths it too and costs the same here (0.29 s
-/// against 0.31 s for a picture of 1280x720 with shadows).
+/// MuJoCo samples its shadow map once per pixel, so multisampling leaves shadow edges jagged.
+/// Supersampling smooths them at the same cost (0.29 s against 0.31 s for a picture of 1280x720
+/// with shadows).
 namespace {
 
 constexpr std::array<Quality, 2> kQualities{{{"draft", 1, false, true}, {"film", 2, true, false}}};
@@ -33,7 +33,7 @@ const Quality& FindQuality(const std::string& name) {
       Problem{.key = "quality", .message = "unknown quality " + UnknownName(name, names)});
 }
 
-/// The model of the first, ready for its Offscreen.
+/// Prepares the model of the first recording for its Offscreen.
 mjModel& Prepared(std::span<Recording> recordings, const Quality& quality,
                   const CameraPose& camera) {
   for (Recording& recording : recordings) {
@@ -46,7 +46,7 @@ mjModel& Prepared(std::span<Recording> recordings, const Quality& quality,
   return model;
 }
 
-/// Copies a picture into another one, as much of it as there is room for.
+/// Copies a picture into another one, clipped to its size.
 void Paste(const Image& from, int left, int top, Image& to) {
   const int first_x = std::max(0, -left);
   const int first_y = std::max(0, -top);
@@ -80,7 +80,7 @@ struct Painter::Part {
         legend(MakeLegend(a_recording, overlays)),
         scene(a_recording, overlays, quality.shadows) {
     if (with_inset) {
-      // Half the pixels would go into a second map of shadows, for a small picture.
+      // A second shadow map would take as long as half the pixels, for a small picture.
       inset = std::make_unique<FilmScene>(a_recording, overlays, false);
     }
   }
@@ -175,7 +175,7 @@ void Painter::Paint(Part& part, double time, Image& image) {
 }
 
 void Painter::PaintInset(Part& part, const PictureContext& context) {
-  // Of the picture's sides: as much as panels leave, but not so little that nothing can be seen.
+  // Relative to the picture: as much as the panels leave, but large enough to be useful.
   constexpr double kMinShare = 0.15;
   constexpr double kMaxShare = 0.3;
   const Layout layout(part.width, part.height);

@@ -16,21 +16,21 @@
 
 namespace trackbed::render {
 
-/// What a picture may cost.
+/// Trade-off between quality and rendering time.
 struct Quality {
   const char* name;
-  int supersampling;  ///< samples per pixel, along each side
+  int supersampling;  ///< samples per pixel in each direction
   bool shadows;
-  bool quick;  ///< videos: FilmPictures::quick
+  bool quick;  ///< see FilmPictures::quick
 };
 
-/// Makes the pictures of a film: the recorded worlds, what is drawn over them, and the captions.
+/// Draws the pictures of a film: the recorded worlds, overlays and captions.
 class Painter {
  public:
-  /// Borrows the recordings, and their models' visual settings, for its lifetime. There is at least
-  /// one, and they are of the same model: each has a part of the picture, from left to right. Size,
-  /// cameras, quality and overlays are those of `options`. InputError for names that there are none
-  /// of; RunError when there is no off-screen OpenGL.
+  /// Keeps references to the recordings and changes their models' visual settings. There must be at
+  /// least one recording, and all must have the same model; each gets a part of the picture, from
+  /// left to right. Size, cameras, quality and overlays are those of `options`. InputError for
+  /// unknown names; RunError if there is no off-screen OpenGL.
   Painter(std::span<Recording> recordings, const FilmOptions& options);
   ~Painter();
   Painter(const Painter&) = delete;
@@ -39,8 +39,8 @@ class Painter {
   /// The picture at `time` [s].
   void Paint(double time, Image& image);
 
-  /// What Paint draws of the first recording at `time` [s] with the main camera, without what comes
-  /// over it, and where; valid until the next call.
+  /// The scene that Paint draws of the first recording at `time` [s] with the main camera, without
+  /// flat overlays; valid until the next call.
   mjvScene& SceneAt(double time);
   [[nodiscard]] Offscreen& offscreen() { return offscreen_; }
   [[nodiscard]] const Quality& quality() const { return quality_; }

@@ -10,17 +10,17 @@ namespace {
 
 constexpr double kPlanWidth = 0.48;
 constexpr double kPlanHeight = 0.008;
-// An abandoned plan fades into the asphalt, not to translucent paint: that would be darker where
-// two pieces overlap. It is narrower than the trails of ghosts, so what is left of it to see is
-// what was not driven.
+// A replaced plan fades to the color of asphalt; translucent paint would be darker where two pieces
+// overlap. It is narrower than trails of ghosts, so only the part that was not driven remains
+// visible.
 constexpr double kAbandonedWidth = 0.24;
 constexpr Color kAsphalt{0.60F, 0.62F, 0.60F};
-constexpr float kAbandonedShare = 0.35F;  // of its own color
-// A plan that was driven for less than this leaves nothing behind: planning again twice a second
-// would fill the road with fans of lines [s].
+constexpr float kAbandonedShare = 0.35F;  // weight of its color
+// Plans driven for a shorter time [s] are not shown: with replanning twice a second, they would
+// cover the road with lines.
 constexpr double kBrief = 1.0;
 
-/// `newer` plans have been adopted since.
+/// `newer` is the count of plans adopted since.
 RibbonStyle PlanStyle(const Color& color, std::size_t newer, double scale) {
   if (newer == 0) {
     return {color, kPlanWidth * scale, kPlanHeight};
@@ -28,7 +28,8 @@ RibbonStyle PlanStyle(const Color& color, std::size_t newer, double scale) {
   const auto fade = [](float own, float asphalt) {
     return asphalt + kAbandonedShare * (own - asphalt);
   };
-  // Most lie on each other where they rejoin the route: the newer above the older.
+  // Replaced plans often overlap where they rejoin the route: newer ones are drawn above older
+  // ones.
   return {{fade(color.r, kAsphalt.r), fade(color.g, kAsphalt.g), fade(color.b, kAsphalt.b)},
           kAbandonedWidth * scale,
           std::max(kPlanHeight - 0.001 * static_cast<double>(newer), 0.002)};
@@ -75,7 +76,7 @@ class PlanLines : public Overlay {
   }
 
  private:
-  /// A thinned plan, and from when it holds.
+  /// A thinned plan, and the time of its adoption.
   struct Line {
     double from;
     Color color;
@@ -91,7 +92,7 @@ class PlanLines : public Overlay {
   }
 
   const Recording& recording_;
-  std::vector<Line> lines_;  // in the order of time
+  std::vector<Line> lines_;  // in order of time
 };
 
 }  // namespace

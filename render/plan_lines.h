@@ -4,8 +4,7 @@
 
 namespace trackbed::render {
 
-/// The planned path, and from the moment when the car adopts a new one, that one; those before it
-/// stay, faint and narrow.
+/// The planned path and, after a replan, the new one; earlier plans remain as faint, narrow lines.
 OverlayEntry PlanOverlay();
 
 }  // namespace trackbed::render

@@ -8,14 +8,14 @@
 
 namespace trackbed::render {
 
-/// Where a camera sees points of the world in a picture.
+/// Projects points of the world into a camera's picture.
 class Projection {
  public:
   /// For a picture of this size [px].
   Projection(const CameraPose& camera, int width, int height);
 
-  /// The point of the picture, which may lie outside of it; none for what is behind the camera, or
-  /// nearer than a tenth of the way to its target.
+  /// The point in the picture, which may lie outside its borders. None for points behind the camera
+  /// or nearer than a tenth of the distance to its target.
   [[nodiscard]] std::optional<CanvasPoint> operator()(const Eigen::Vector3d& point_W) const;
 
  private:

@@ -6,32 +6,32 @@
 
 #include "trackbed/core/table.h"
 
-/// The plans of a run, from the files in its folder. All of these give nothing where the file is
-/// absent, and InputError naming it where it is broken.
+/// The plans of a run, from the files in its folder. These functions return nothing if the file is
+/// absent, and throw InputError naming it if it is invalid.
 namespace trackbed::render {
 
-/// A point on the ground [m]. Who does not care how high that is leaves z out.
+/// A point on the ground [m]; z may be omitted if its height is not needed.
 struct Point {
   double x = 0;
   double y = 0;
   double z = 0;
 };
 
-/// A path that the car took up on its way, in place of the one it had.
+/// A path adopted during the run, which replaced the previous one.
 struct NewPlan {
-  double from = 0;  ///< the moment from which it holds [s]
+  double from = 0;  ///< time of its adoption [s]
   std::vector<Point> path;
 };
 
-/// The curvature of a plan along its way; one value at least.
+/// Curvature along a plan; at least one value.
 struct CurvatureProfile {
-  double from = 0;                ///< the moment from which the plan holds [s]
-  double station = 0;             ///< in the car's log, where the plan's own begin [m]
-  std::vector<double> s;          ///< the plan's own, rising [m]
+  double from = 0;                ///< time of the plan's adoption [s]
+  double station = 0;             ///< station of the car's log at the plan's start [m]
+  std::vector<double> s;          ///< stations of the plan, increasing [m]
   std::vector<double> curvature;  ///< [rad/m]
 };
 
-/// A table of the run folder; InputError when it is missing.
+/// Reads a table of the run folder; InputError if it is missing.
 Table ReadRunTable(const std::filesystem::path& file);
 
 /// The path of `plan.csv`.
@@ -40,8 +40,8 @@ std::vector<Point> ReadPlan(const std::filesystem::path& file);
 /// The paths of `<plant>.plan.csv`.
 std::vector<NewPlan> ReadNewPlans(const std::filesystem::path& file);
 
-/// The curvature of each plan in either of these files, in so far as that has it, over the plan's
-/// own stations. `begin` is when the plan of `plan.csv` holds from [s].
+/// The curvature of each plan in either of these files, if it has one, over the plan's stations.
+/// `begin` is the adoption time of the plan in `plan.csv` [s].
 std::vector<CurvatureProfile> ReadCurvatures(const std::filesystem::path& file, double begin);
 
 /// The cones of each gate in `plan.json`, in pairs across its lane, from entry to exit.

@@ -17,7 +17,7 @@ constexpr double kWidth = 0.09;     // [m]
 constexpr double kHeight = 0.0015;  // above the ground, below all other paint [m]
 constexpr double kMargin = 30.0;    // around the plan and all drives [m]
 constexpr double kMostCells = 4e4;
-constexpr double kLeastSpan = 0.02;  // less is level ground [m]
+constexpr double kLeastSpan = 0.02;  // ground with a smaller height difference counts as level [m]
 
 class Relief : public Overlay {
  public:
@@ -77,7 +77,7 @@ class Relief : public Overlay {
     }
   }
 
-  /// Lines at a quarter, a half and three quarters of its own height above the plane.
+  /// Contours at a quarter, a half and three quarters of the feature's height above the plane.
   template <typename Feature>
   void AddFeature(const Feature& feature) {
     const std::array<Vec2, 4> corners = Extent(feature).Corners();
@@ -107,7 +107,7 @@ class Relief : public Overlay {
 
   const Recording& recording_;
   std::vector<std::vector<Point>> lines_;
-  double interval_ = 0.0;  // [m]; 0: no contours of the whole
+  double interval_ = 0.0;  // [m]; 0: no contours of the whole ground
 };
 
 }  // namespace

@@ -4,12 +4,12 @@
 
 namespace trackbed::render {
 
-/// Contour lines of ground that is not level, and of each bump and side slope, so that hills and
-/// bumps are seen.
+/// Contour lines of ground that is not level, and of each bump and side slope, which makes hills
+/// and bumps visible.
 OverlayEntry ReliefOverlay();
 
-/// The height between contour lines of ground that spans so much height [m]: 1, 2 or 5 times a
-/// power of ten, such that there are at most 40.
+/// Height between contour lines for ground with a height difference of `span` [m]: 1, 2 or 5 times
+/// a power of ten, so that there are at most 40 lines.
 double ContourInterval(double span);
 
 }  // namespace trackbed::render

@@ -10,7 +10,7 @@
 namespace trackbed::render {
 namespace {
 
-/// Where heights count five times.
+/// Distance in which height differences are weighted five times.
 double DistanceToSegment(const Point& p, const Point& a, const Point& b) {
   constexpr double kUp = 5.0;
   const double dx = b.x - a.x;
@@ -32,7 +32,7 @@ bool Replaces(const std::vector<Point>& points, std::size_t first, std::size_t l
   return true;
 }
 
-/// Extends each piece as far as it replaces its points: doubling, then bisection.
+/// Greedy thinning: extends each piece as far as the tolerance allows, by doubling, then bisection.
 std::vector<std::size_t> ThinOnce(const std::vector<Point>& points, double tolerance) {
   constexpr std::size_t kLongest = 512;
   std::vector<std::size_t> kept{0};
@@ -63,7 +63,7 @@ std::vector<std::size_t> Thin(const std::vector<Point>& points, double tolerance
     return {};
   }
   std::vector<std::size_t> kept = ThinOnce(points, tolerance);
-  // Bounded: a billion times coarser is coarser than any road.
+  // 30 doublings exceed the size of any road.
   for (int doublings = 0; kept.size() > most + 1 && doublings < 30; ++doublings) {
     tolerance *= 2.0;
     kept = ThinOnce(points, tolerance);
@@ -78,10 +78,11 @@ void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const Ribbo
   if (length < 1e-6) {
     return;
   }
-  // Neighbors overlap at two heights: lamps that cast shadows light both of two faces at one
-  // place.
+  // Neighbors overlap at two different heights; at equal height, lamps with shadows would light
+  // both faces.
   constexpr double kStagger = 0.0005;
-  // Pieces meet at up to about 15 degrees: tan(15 / 2) of half the width closes the outer corner.
+  // Pieces meet at up to about 15 degrees: an overlap of tan(15/2 degrees) times half the width
+  // closes the outer corner.
   const double overlap = 0.15 * 0.5 * style.width;
   RowMajorMatrix3 rotation;
   rotation.col(0) = along / length;
@@ -91,10 +92,10 @@ void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const Ribbo
   const Eigen::Vector3d center = Eigen::Vector3d(a.x, a.y, a.z) + 0.5 * along +
                                  (style.height + (scene.ngeom % 2) * kStagger) * rotation.col(2);
   const std::array<float, 4> rgba{style.color.r, style.color.g, style.color.b, 1.0F};
-  // A plane: MuJoCo's shadow map is made of back faces, which a plane has none of. A thin box would
-  // cast a shadow on its own upper face, as speckle wherever the map's depth is too coarse.
+  // A plane: MuJoCo's shadow map consists of back faces, and a plane has none. A thin box would
+  // cast speckled shadows on its upper face, where the map's depth is too coarse.
   if (mjvGeom* piece = AddDecor(scene, mjGEOM_PLANE, size, center, rotation, rgba)) {
-    piece->emission = 0.08F;  // paint is a little brighter than the road, also in the shade
+    piece->emission = 0.08F;  // paint is slightly brighter than the road, even in the shade
   }
 }
 

@@ -9,21 +9,26 @@
 #include "render/ground_paint.h"
 #include "render/ribbon.h"
 
+// Paints roads on the ground, in layers of different height: asphalt as tiles that follow the
+// ground, gravel verges, edge lines, dashes and road marks as ribbons, and posts. The center line
+// is that of the road network, of the track or of the plan, with points every 0.5 m along a plan.
+// Lines are thinned, and pieces far from the camera's target are skipped, to limit the number of
+// shapes.
 namespace trackbed::render {
 namespace {
 
 constexpr Color kRoadColor{0.40F, 0.41F, 0.42F};
 constexpr Color kPaint{0.93F, 0.93F, 0.90F};
 constexpr Color kYellowPaint{0.90F, 0.72F, 0.20F};
-constexpr float kGroundUnderRoad = 0.006F;  // where asphalt lies, level ground is lower [m]
-constexpr double kShoulder = 0.4;           // asphalt beyond the edge lines [m]
+constexpr float kGroundUnderRoad = 0.006F;  // lowering of level ground under asphalt [m]
+constexpr double kShoulder = 0.4;           // width of asphalt beyond the edge lines [m]
 constexpr double kLineWidth = 0.14;         // [m]
 constexpr double kVergeWidth = 1.05;        // of gravel, over the rough edge of the asphalt [m]
-constexpr double kVergeBegin = 0.22;        // from the edge line's middle [m]
+constexpr double kVergeBegin = 0.22;        // distance from the edge line's center [m]
 constexpr Color kGravel{0.58F, 0.54F, 0.45F};
 constexpr double kVergeHeight = -0.0015;   // above the asphalt, whose corners it covers
 constexpr double kAsphaltHeight = -0.003;  // below all other paint [m]
-constexpr double kAsphaltRange = 250.0;    // [m]; farther it is thinner than a pixel
+constexpr double kAsphaltRange = 250.0;    // [m]; farther asphalt is thinner than a pixel
 constexpr double kPaintHeight = -0.001;
 constexpr double kDash = 3.0;         // [m]
 constexpr double kDashPeriod = 9.0;   // [m]
@@ -31,16 +36,16 @@ constexpr double kPostPeriod = 10.0;  // [m]
 constexpr double kPostRange = 120.0;  // farther posts are thinner than a pixel [m]
 constexpr double kPostHeight = 1.0;   // [m]
 
-/// A point of a line, with the direction of the line there.
+/// A point of a line and the direction to its left.
 struct Spot {
   Point point;
   Vec2 left;
 };
 
-/// Points every `step` [m] along a line from its begin.
+/// Points every `step` [m] along a line, from its start.
 std::vector<Spot> SpotsAlong(const std::vector<Point>& line, double step) {
   std::vector<Spot> spots;
-  double ahead = 0.0;  // to the next spot
+  double ahead = 0.0;  // distance to the next point
   for (std::size_t i = 1; i < line.size(); ++i) {
     const Vec2 from(line[i - 1].x, line[i - 1].y);
     const Vec2 piece = Vec2(line[i].x, line[i].y) - from;
@@ -54,7 +59,7 @@ std::vector<Spot> SpotsAlong(const std::vector<Point>& line, double step) {
   return spots;
 }
 
-/// A road: its middle, and half of its width there [m].
+/// A road: points of its center line, and half its width there [m].
 struct Roadway {
   std::vector<Spot> spots;
   std::vector<double> half;
@@ -66,7 +71,7 @@ Roadway AlongPlan(const std::vector<Point>& plan, double width, double step) {
   return way;
 }
 
-/// Once around, to where it begins.
+/// The whole lap of a track, back to its start.
 Roadway AlongTrack(const Track& track) {
   Roadway way;
   const std::size_t count = track.left_edge().size();
@@ -81,14 +86,15 @@ Roadway AlongTrack(const Track& track) {
 }
 
 bool NearTheCamera(const CameraPose& camera, const Point& place) {
-  constexpr double kNear = 0.6;  // of its way to what it looks at
+  constexpr double kNear = 0.6;  // of the camera's distance from its target
   const double level = camera.distance * std::cos(camera.elevation);
   const double x = place.x - camera.target_x + level * std::cos(camera.azimuth);
   const double y = place.y - camera.target_y + level * std::sin(camera.azimuth);
   return !camera.inside && std::hypot(x, y) < kNear * level;
 }
 
-/// Grass beside the road, lower by what keeps the two apart in the depth buffer.
+/// Colors the ground beside the road like grass, and lowers it so that the depth buffer separates
+/// the two.
 void DressGround(const mjModel& model, mjvScene& scene) {
   const int ground = mj_name2id(&model, mjOBJ_GEOM, "ground");
   for (int i = 0; i < scene.ngeom; ++i) {
@@ -120,7 +126,7 @@ class RoadRibbons : public Overlay {
     if (recording_.track) {
       dashes_.emplace_back(OffsetFrom(way.spots.front(), way.half.front()),
                            OffsetFrom(way.spots.front(), -way.half.front()));
-      return;  // a start line, but neither lanes nor posts
+      return;  // tracks have a start line, but neither lanes nor posts
     }
     const int lanes = recording_.road->lanes;
     for (int lane = 1; lane < lanes; ++lane) {
@@ -175,27 +181,28 @@ class RoadRibbons : public Overlay {
   }
 
  private:
-  /// A road mark of a road network.
+  /// A road mark of the road network.
   struct NetworkLine {
     std::vector<Point> points;
     RibbonStyle style;
   };
 
-  /// The world's own roads: their pavement and what is painted on them.
+  /// Adds pavement and road marks of the world's road network.
   void AddNetwork() {
     for (const PavedBand& band : recording_.roads.bands) {
       for (std::size_t i = 1; i < band.left.size(); ++i) {
-        // From border to border across the road; neighbors at two heights, as pieces of ribbons.
+        // From border to border across the road. Neighbors have different heights, like pieces of
+        // ribbons.
         const Vec2 from = 0.5 * (band.left[i - 1] + band.right[i - 1]);
         const Vec2 to = 0.5 * (band.left[i] + band.right[i]);
         const Vec2 along = to - from;
         const Vec2 center = 0.5 * (from + to);
         const double width = 0.5 * ((band.left[i - 1] - band.right[i - 1]).norm() +
                                     (band.left[i] - band.right[i]).norm());
-        // In bends the outer border is longer than the middle.
+        // In bends the outer border is longer than the center line.
         const double length = std::max((band.left[i] - band.left[i - 1]).norm(),
                                        (band.right[i] - band.right[i - 1]).norm());
-        constexpr double kTolerance = 0.0007;  // so that no tile rises above the paint on it [m]
+        constexpr double kTolerance = 0.0007;  // keeps tiles below the paint on them [m]
         Tile like;
         like.color = kRoadColor;
         const double above = kAsphaltHeight + (i % 2 == 0 ? 0.0 : 0.0008);
@@ -215,7 +222,7 @@ class RoadRibbons : public Overlay {
       for (const Vec2& point : line.points) {
         points.push_back(recording_.OnGround({point.x(), point.y()}));
       }
-      // Thinned, a line over a crest sinks below the asphalt.
+      // A thinned line would sink below the asphalt at crests.
       const bool flat = IsFlat(recording_.world.ground);
       network_lines_.push_back({flat ? Thinned(points) : points,
                                 {line.yellow ? kYellowPaint : kPaint, line.width, kPaintHeight}});
@@ -227,7 +234,7 @@ class RoadRibbons : public Overlay {
         {spot.point.x + left * spot.left.x(), spot.point.y + left * spot.left.y()});
   }
 
-  /// A line on the left (1) or right (-1) of the road, beyond its edge.
+  /// A line on the left (1) or right (-1) of the road, `beyond` [m] outside its edge.
   [[nodiscard]] std::vector<Point> Beside(const Roadway& way, double side, double beyond) const {
     std::vector<Point> line;
     for (std::size_t i = 0; i < way.spots.size(); ++i) {
@@ -236,7 +243,8 @@ class RoadRibbons : public Overlay {
     return Thinned(line);
   }
 
-  /// Fewer points, where that lets nothing sink into the ground: of gravel nobody sees 3 cm.
+  /// Thins the edge of gravel to 3 cm. Only on flat ground, where no point can sink below the
+  /// surface.
   [[nodiscard]] std::vector<Point> Coarse(const std::vector<Point>& line) const {
     if (!IsFlat(recording_.world.ground)) {
       return line;
@@ -249,7 +257,7 @@ class RoadRibbons : public Overlay {
     return points;
   }
 
-  /// Straight pieces: coarser than the edge lines, which lie upon them.
+  /// Straight pieces of asphalt, coarser than the edge lines on top of them.
   void AddAsphalt(const Roadway& way) {
     constexpr double kCoarse = 0.1;       // [m]
     constexpr double kTolerance = 0.002;  // [m]
@@ -273,7 +281,7 @@ class RoadRibbons : public Overlay {
       const OrientedBox box{{center.x(), center.y(), std::atan2(along.y(), along.x())},
                             along.norm() + 2.0 * overlap,
                             width};
-      // Neighbors overlap at two heights, as pieces of ribbons do.
+      // Neighbors overlap at different heights, like pieces of ribbons.
       const double above = kAsphaltHeight + (i % 2 == 0 ? 0.0 : 0.0008);
       const std::vector<Tile> tiles =
           CutToGround(recording_.world.ground, box, like, above, kTolerance);
@@ -292,7 +300,7 @@ class RoadRibbons : public Overlay {
   static void AddPost(SceneContext& context, const Point& post) {
     const double away =
         std::hypot(post.x - context.camera.target_x, post.y - context.camera.target_y);
-    // A post next to the camera would stand before the car.
+    // A post next to the camera would hide the car.
     const bool near = NearTheCamera(context.camera, post);
     if (away < kPostRange && !near) {
       const std::array<mjtNum, 3> size{0.06, 0.06, 0.5 * kPostHeight};
@@ -302,7 +310,7 @@ class RoadRibbons : public Overlay {
                    RowMajorMatrix3::Identity(), rgba);
       if (geom != nullptr) {
         geom->category = kCastsShadow;
-        geom->emission = 0.35F;  // white also on the side that the sun does not reach
+        geom->emission = 0.35F;  // white on the shaded side, too
       }
     }
   }

@@ -4,8 +4,7 @@
 
 namespace trackbed::render {
 
-/// The least of 1, 2 and 5 times a power of ten that is not less than `value` > 0, but for
-/// rounding.
+/// Rounds `value` > 0 up to 1, 2 or 5 times a power of ten, with a tolerance for rounding errors.
 inline double RoundedUp(double value) {
   const double power = std::pow(10.0, std::floor(std::log10(value)));
   for (const double step : {1.0, 2.0, 5.0}) {

@@ -4,19 +4,19 @@
 
 namespace trackbed::render {
 
-/// A shared library that is loaded when something is drawn or encoded, and not at the start of a
-/// program that may do neither: OSMesa with LLVM and FFmpeg are 140 libraries. It stays loaded.
+/// A shared library loaded on first use, not at program start: OSMesa with LLVM and FFmpeg are 140
+/// libraries, which many programs do not need. It is never unloaded.
 class RuntimeLibrary {
  public:
   enum class Symbols {
     kLocal,
-    kGlobal,  ///< also for libraries that look for them in the process, as MuJoCo does
+    kGlobal,  ///< also visible to libraries that search the process, such as MuJoCo
   };
 
-  /// RunError, naming the library and `package`, Debian's package of it, when it cannot be loaded.
+  /// Loads the library. RunError, naming it and its Debian package `package`, if that fails.
   RuntimeLibrary(std::string file, std::string package, Symbols symbols = Symbols::kLocal);
 
-  /// The function of this name; RunError when there is none. `Function` is its type.
+  /// The function with this name; RunError if it is missing. `Function` is its type.
   template <typename Function>
   [[nodiscard]] Function* Find(const char* name) const {
     return reinterpret_cast<Function*>(Address(name));

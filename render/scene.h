@@ -13,26 +13,26 @@
 
 namespace trackbed::render {
 
-/// How a geom of the model is drawn.
+/// Drawing properties of a geom of the model.
 struct CarPart {
   bool of_car = false;
-  bool painted = false;  ///< in the plant's color
+  bool painted = false;  ///< has the plant's color
 };
 
-/// Of each geom of the recording's model.
+/// For each geom of the recording's model.
 std::vector<CarPart> FindCarParts(const mjModel& model);
 
-/// The recorded world, posed at a moment, and the shapes that overlays add to it.
+/// The recorded world at a given time, with the shapes of overlays.
 class FilmScene {
  public:
-  /// Borrows the recording, its model's visual settings (lens and clipping) and the overlays for
-  /// its lifetime. `shadows` are MuJoCo's, cast by the model's lights; without, a soft patch under
-  /// the car.
+  /// Keeps references to the recording and the overlays, and changes the model's visual settings
+  /// (lens and clipping). With `shadows` the model's lights cast MuJoCo's shadows; otherwise there
+  /// is a soft patch under the car.
   FilmScene(Recording& recording, const OverlayList& overlays, bool shadows);
 
   /// The scene at `time` [s] from `camera`; valid until the next call.
   mjvScene& At(double time, const CameraPose& camera);
-  /// The car as the last scene has it.
+  /// State of the car in the last scene.
   [[nodiscard]] const mjData& car() const { return *car_data_; }
 
  private:
@@ -48,7 +48,7 @@ class FilmScene {
   std::vector<Tile> patches_;
   CarBox box_;
   std::vector<CarPart> car_parts_;   // for each geom of the model
-  std::vector<int> obstacle_geoms_;  // of the world's obstacles; -1: not in the model
+  std::vector<int> obstacle_geoms_;  // for the world's obstacles; -1: not in the model
   MujocoData car_data_;
   SceneHandle scene_;
   mjvOption visible_;

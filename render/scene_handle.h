@@ -6,7 +6,7 @@
 
 namespace trackbed::render {
 
-/// mjvScene that frees itself.
+/// Owns an mjvScene and frees it.
 class SceneHandle {
  public:
   SceneHandle(const mjModel& model, std::int64_t max_geoms) {

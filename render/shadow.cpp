@@ -17,9 +17,9 @@ constexpr int kShadowMapSide =
 
 double ShadowReach(const CameraPose& camera) {
   const double half_height = camera.distance * std::tan(0.5 * camera.view_angle);
-  // 2 * 3.5 half heights in 4096 texels: 1.6 to a pixel of a picture of 720 rows.
+  // 2 * 3.5 half heights in 4096 texels: 1.6 texels per pixel of a picture with 720 rows.
   constexpr double kLongest = 3.5;
-  // Half the diagonal of a picture of up to 21:9, as a camera that looks down a slope sees it.
+  // Half the diagonal of a picture of up to 21:9, for a camera that looks down.
   const double seen = 2.5 / std::max(0.1, std::sin(-camera.elevation));
   return half_height * std::min(kLongest, seen);
 }
@@ -31,16 +31,17 @@ void FitShadowMap(mjModel& model, const CameraPose& camera) {
 
 void AimLamps(mjvScene& scene, const CameraPose& camera) {
   const double reach = ShadowReach(camera);
-  // Ahead of the target, because little is seen between it and the camera.
+  // Ahead of the target, since little ground is visible between it and the camera.
   const double ahead = 0.6 * reach * std::cos(camera.elevation);
-  // In steps: as long as the map stays where it is, so do the texels, and the edges of shadows that
-  // do not move do not crawl.
+  // Moves in steps: while the map stays in place, its texels do too, so the edges of static shadows
+  // do not crawl.
   const double step = 0.1 * reach;
   const auto in_steps = [step](double place) { return step * std::round(place / step); };
   const std::array<double, 3> middle{in_steps(camera.target_x + ahead * std::cos(camera.azimuth)),
                                      in_steps(camera.target_y + ahead * std::sin(camera.azimuth)),
                                      camera.ground_z};
-  // So far back that all the ground under the map is in front of a lamp 20 degrees high.
+  // Far enough back that all the ground under the map is in front of a lamp at 20 degrees
+  // elevation.
   const double back = 3.0 * reach;
   for (int i = 0; i < scene.nlight; ++i) {
     mjvLight& lamp = scene.lights[i];

@@ -4,8 +4,8 @@
 
 namespace trackbed::render {
 
-/// Black marks where a tyre of the car used more than 0.9 of its grip, up to the moment of the
-/// picture; of plants whose log has the forces of tyres.
+/// Black marks where a tyre of the car used more than 0.9 of its grip, up to the time of the
+/// picture. Only for plants whose log has tyre forces.
 OverlayEntry SkidMarkOverlay();
 
 }  // namespace trackbed::render

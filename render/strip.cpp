@@ -13,8 +13,8 @@ namespace {
 
 constexpr Color kCurvature{0.86F, 0.88F, 0.84F};
 constexpr Color kCommand{1.00F, 1.00F, 1.00F};
-constexpr Color kActual = CarColor(0);   // it is the car's
-constexpr double kLettersToCell = 0.86;  // the labels are a little smaller than the legend's
+constexpr Color kActual = CarColor(0);   // the car's color
+constexpr double kLettersToCell = 0.86;  // labels are slightly smaller than the legend's
 
 class StripPanel : public Overlay {
  public:
@@ -50,7 +50,7 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
   std::vector<double> curvature;
   for (int column = 0; column < columns_; ++column) {
     const double time = begin_ + (end_ - begin_) * column / (columns_ - 1);
-    // Nothing after the end of the car's own drive.
+    // Nothing after the end of the car's log.
     if (time <= recording.plants.front().log().end()) {
       const Readings readings = recording.plants.front().ReadingsAt(time);
       command.push_back(readings.steering_command);
@@ -65,7 +65,7 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
     std::fill(scratch.rgb.begin(), scratch.rgb.end(), std::uint8_t{0});
     return Canvas(scratch, font);
   };
-  // Of the rows above the middle: half a line's thickness is left free.
+  // Rows above the middle; leaves half a line's thickness free.
   const double reach = 0.5 * rows_ - layout_.hairline;
   const auto curve = [&](const std::vector<double>& values, double hairlines) {
     std::vector<CanvasPoint> points;
@@ -76,7 +76,7 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
     blank().Stroke(points, hairlines * layout_.hairline, kValue, 1.0);
     return MakeMask(scratch);
   };
-  // Where both agree each is seen: one lies on the other and is narrower.
+  // Where the curves coincide, both are visible: the upper one is narrower.
   command_ = curve(command, 2.6);
   actual_ = curve(actual, 1.1);
   if (most.curvature > 0.0) {
@@ -141,7 +141,7 @@ void Strip::Blend(Image& image, const Mask& mask, Color color, double alpha, int
     for (int column = first; column < right; ++column, pixel += 3) {
       if (share[column] > 0) {
         for (std::size_t i = 0; i < 3; ++i) {
-          // In 65280 parts, 255 times 256; to the nearest.
+          // Fixed-point rounding to nearest, in units of 1/65280 (255 times 256).
           const int change = weight * share[column] * (rgb[i] - pixel[i]);
           pixel[i] = static_cast<std::uint8_t>(pixel[i] +
                                                (change + (change < 0 ? -32640 : 32640)) / 65280);

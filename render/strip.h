@@ -11,20 +11,20 @@
 
 namespace trackbed::render {
 
-/// A panel along the bottom of the picture: over the time of the whole run the planned curvature
-/// where the car is then, and the commanded and the actual steering until now. The axes end at the
+/// A panel at the bottom of the picture over the time of the whole run: the planned curvature at
+/// the car's position, and the commanded and actual steering up to now. The axes end at the
 /// recording's scales.
 class Strip {
  public:
   /// For pictures of this size [px].
   Strip(const Recording& recording, int width, int height, Font& font);
 
-  /// Upper edge of the panel [px].
+  /// Top of the panel [px].
   [[nodiscard]] double top() const { return panel_.top; }
   void Draw(Image& image, Font& font, double time) const;
 
  private:
-  /// A curve's share of each pixel of the plot, 0 to 255, rows from the top.
+  /// Coverage of each pixel of the plot by a curve, 0 to 255, rows from the top.
   using Mask = std::vector<std::uint8_t>;
 
   struct Label {
@@ -52,7 +52,7 @@ class Strip {
   std::vector<Label> labels_;
 };
 
-/// The strip, and panels above it leave it room.
+/// The strip; panels above it keep clear of it.
 OverlayEntry StripOverlay();
 
 }  // namespace trackbed::render

@@ -10,11 +10,11 @@
 
 namespace trackbed::render {
 
-/// A table whose first column is time, read between its rows.
+/// A table whose first column is time, with interpolation between rows.
 class TimedTable {
  public:
-  /// Reads `file`. InputError naming it when it is missing, broken, has no rows, a cell that is not
-  /// finite, or times that do not increase.
+  /// Reads `file`. InputError naming it if it is missing, broken or has no rows, if a cell is not
+  /// finite, or if times do not increase.
   explicit TimedTable(const std::filesystem::path& file);
 
   [[nodiscard]] double begin() const { return times_.front(); }
@@ -22,18 +22,18 @@ class TimedTable {
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
   [[nodiscard]] const Table& table() const { return table_; }
 
-  /// Index of a column; InputError naming the file and the column when there is none.
+  /// Index of a column; InputError naming the file and the column if it is missing.
   [[nodiscard]] std::size_t Require(const std::string& column) const;
-  /// Index of a column, if there is one.
+  /// Index of a column; none if it is missing.
   [[nodiscard]] std::optional<std::size_t> Find(const std::string& column) const;
 
-  /// Where a moment lies between two rows: value = (1 - part) * row + part * next.
+  /// Position of a time between two rows: value = (1 - part) * row + part * next.
   struct Place {
     std::size_t row = 0;
     std::size_t next = 0;
     double part = 0;
   };
-  /// Moments before the first and after the last row are held there.
+  /// Clamps times to the first and the last row.
   [[nodiscard]] Place At(double time) const;
   [[nodiscard]] double Value(const Place& place, std::size_t column) const;
 

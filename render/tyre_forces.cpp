@@ -15,12 +15,12 @@
 namespace trackbed::render {
 namespace {
 
-// Of the picture's sizes: in units of the height of letters.
+// Dimensions in units of the height of letters.
 constexpr double kRadius = 1.15;    // of a dial
-constexpr double kBetween = 0.35;   // two dials
-constexpr double kOverflow = 1.12;  // a tyre law may give a little more than friction times load
+constexpr double kBetween = 0.35;   // between two dials
+constexpr double kOverflow = 1.12;  // tyre laws may slightly exceed friction times load
 
-/// A tyre coefficient of the model, of an axle or of both; 0 where it has none.
+/// A tyre coefficient of the model for an axle, or for both; 0 if it has none.
 double Coefficient(const mjModel& model, const std::string& name, const char* axle) {
   int id = mj_name2id(&model, mjOBJ_NUMERIC, (name + "_" + axle).c_str());
   if (id < 0) {
@@ -66,7 +66,7 @@ class Forces : public Overlay {
     const double top = context.bottom - side;
     Canvas canvas(context.image, context.font);
     canvas.Fill({left, top, side, side}, layout.round(), kPanel, kPanelAlpha);
-    // As the car stands, its front up.
+    // Arranged like the wheels, with the car's front up.
     const CanvasPoint first{left + 0.6 * layout.pad + radius, top + 0.6 * layout.pad + radius};
     const std::vector<WheelForce> forces = forces_.At(context.time, context.car);
     for (std::size_t wheel = 0; wheel < kWheels.size(); ++wheel) {
@@ -174,7 +174,7 @@ void DrawGripDial(Canvas& canvas, const CanvasPoint& center, double radius, cons
   if (tyre == nullptr) {
     return;
   }
-  // In shares of what friction gives along each axis: the ellipse of friction becomes the rim.
+  // Relative to the friction limit along each axis, so that the friction ellipse becomes the rim.
   Vec2 share = tyre->force.cwiseQuotient(tyre->most);
   const double use = share.norm();
   if (use > kOverflow) {

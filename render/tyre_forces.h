@@ -13,39 +13,39 @@
 
 namespace trackbed::render {
 
-/// A tyre's force on the car at a moment, and what friction allows it.
+/// A tyre's force on the car at a given time, and its friction limit.
 struct WheelForce {
   Eigen::Vector3d place;    ///< on the ground under the hub
-  Eigen::Vector3d forward;  ///< unit vectors along the ground: where the wheel rolls to,
-  Eigen::Vector3d left;     ///< and across
-  Vec2 force;               ///< along them [N]
-  Vec2 most;                ///< half axes of the ellipse that friction times load is [N]
-  int body = -1;            ///< of the wheel, in the model
+  Eigen::Vector3d forward;  ///< unit vector along the ground in rolling direction
+  Eigen::Vector3d left;     ///< unit vector along the ground to the left
+  Vec2 force;               ///< along `forward` and `left` [N]
+  Vec2 most;                ///< half axes of the friction ellipse, friction times load [N]
+  int body = -1;            ///< the wheel's body in the model
   std::size_t wheel = 0;    ///< its index in kWheels of car_model.h
 
-  /// How much of the friction is used: 1 on the ellipse. Tyre laws may give a little more.
+  /// The used fraction of the friction: 1 on the ellipse. Tyre laws may slightly exceed 1.
   [[nodiscard]] double Use() const;
 };
 
-/// The forces of a recorded car whose log has them.
+/// The tyre forces of a recorded car whose log has them.
 class TyreForces {
  public:
-  /// Of the car, `recording.plants.front()`, whose lifetime must be longer.
+  /// Forces of the car, `recording.plants.front()`. The recording must outlive this object.
   explicit TyreForces(const Recording& recording);
 
-  /// Whether the log has forces and the model the wheels that they are of.
+  /// Whether the log has forces and the model the corresponding wheels.
   [[nodiscard]] bool known() const { return !wheels_.empty(); }
-  /// One per wheel that carries load. `data` is posed at `time` [s].
+  /// The force of each loaded wheel. `data` must be posed at `time` [s].
   [[nodiscard]] std::vector<WheelForce> At(double time, const mjData& data) const;
 
  private:
   struct Wheel {
     std::size_t index = 0;
-    int joint = -1;  // about which it spins
+    int joint = -1;  // the spin joint
     int body = -1;
     std::array<std::size_t, 3> columns{};  // load, along, across
     Vec2 friction{0.0, 0.0};               // along, across, at the nominal load
-    Vec2 friction_per_load{0.0, 0.0};      // their change with load over the nominal one
+    Vec2 friction_per_load{0.0, 0.0};      // change with load, relative to the nominal load
     double nominal_load = 0.0;             // [N]; 0: friction does not depend on the load
   };
 
@@ -55,18 +55,17 @@ class TyreForces {
   std::vector<Wheel> wheels_;
 };
 
-/// The share of its grip that a tyre of the car has to use for a skid mark, and for its dial to be
-/// red.
+/// Used fraction of a tyre's grip from which it leaves a skid mark and its dial is red.
 inline constexpr double kSkidUse = 0.9;
 
-/// Draws how much of its grip a tyre uses: a line from the middle, up for a force forward and to
-/// the left for one to the left, that ends on the rim, at `radius` [px], where all of it is used,
-/// and beyond the rim by at most an eighth of the radius. No tyre: it carries no load, and the dial
-/// is empty. `hairline` is the thickness of the rim [px].
+/// Draws the used grip of a tyre: a line from the center, up for a forward force and to the left
+/// for a force to the left. It ends on the rim, at `radius` [px], at the friction limit, and beyond
+/// it by at most an eighth of the radius. For null, a wheel without load, the dial is empty.
+/// `hairline` is the thickness of the rim [px].
 void DrawGripDial(Canvas& canvas, const CanvasPoint& center, double radius, const WheelForce* tyre,
                   double hairline);
 
-/// A panel of dials, one for each tyre of the car whose log has forces, as its wheels stand.
+/// A panel of dials, one per tyre of the car, arranged like its wheels, if the log has forces.
 OverlayEntry ForceOverlay();
 
 }  // namespace trackbed::render

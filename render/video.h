@@ -4,12 +4,12 @@
 
 namespace trackbed::render {
 
-/// What opens an MP4 video for pictures of a given size, whose sides must be even. Null in a build
-/// without TRACKBED_VIDEO, which has render/video/off.cpp instead of the rest of that folder.
+/// Opens an MP4 video for pictures of a given size, whose sides must be even. Null in a build
+/// without TRACKBED_VIDEO, which uses render/video/off.cpp instead of the rest of that folder.
 OpenOutput VideoOpener();
 
-/// What opens animated pictures, which play again and again wherever pictures are shown: WebP, and
-/// PNG, which loses nothing. Null likewise.
+/// Open animated pictures, which loop forever: WebP, and PNG, which is lossless. Null in a build
+/// without TRACKBED_VIDEO.
 OpenOutput WebpOpener();
 OpenOutput ApngOpener();
 

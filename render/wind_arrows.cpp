@@ -13,13 +13,13 @@ constexpr double kGustWidth = 0.16;
 constexpr double kGustHeight = 0.006;
 
 constexpr double kSpacing = 5.0;  // [m]
-constexpr int kHalfCount = 4;     // of places from the middle to each side: 81 in all
+constexpr int kHalfCount = 4;     // positions from the middle to each side: 81 in all
 constexpr double kHeight = 0.004;
 constexpr double kWidth = 0.12;
-constexpr double kLeast = 0.5;  // [m/s]; reads as calm
+constexpr double kLeast = 0.5;  // [m/s]; a weaker wind counts as calm
 constexpr double kPerSpeed = 1.0 / 3.0;
-constexpr double kShortest = 0.6;  // [m]; a head alone
-constexpr double kLongest = 4.0;   // [m]; the next one begins at 5
+constexpr double kShortest = 0.6;  // [m]; arrow head only
+constexpr double kLongest = 4.0;   // [m]; below the spacing of 5
 
 void AddArrow(mjvScene& scene, const Recording& recording, const Vec2& middle, const Vec2& wind,
               double scale) {
@@ -39,7 +39,7 @@ void AddArrow(mjvScene& scene, const Recording& recording, const Vec2& middle, c
   }
 }
 
-/// The outline of an area in which a gust blows.
+/// The outline of an area with a gust.
 struct GustLine {
   Gust gust;
   std::vector<Point> points;

@@ -4,9 +4,8 @@
 
 namespace trackbed::render {
 
-/// The wind as arrows on the ground around where the camera looks, at places that do not move with
-/// it, each as long as the air moves in a third of a second; where there is next to no wind there
-/// is none. And the outlines of the areas in which a gust blows.
+/// The wind as arrows on the ground around the camera's target, at fixed positions, each as long as
+/// the air moves in a third of a second; calm places have none. Also outlines the areas of gusts.
 OverlayEntry WindOverlay();
 
 }  // namespace trackbed::render

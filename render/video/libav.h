@@ -10,7 +10,7 @@ extern "C" {
 
 namespace trackbed::render {
 
-/// The functions of FFmpeg that films need, by their own names.
+/// The FFmpeg functions that films use, under their own names.
 struct LibavFunctions {
   decltype(&::avcodec_alloc_context3) avcodec_alloc_context3;
   decltype(&::avcodec_find_encoder_by_name) avcodec_find_encoder_by_name;
@@ -52,8 +52,8 @@ struct LibavFunctions {
   decltype(&::sws_setColorspaceDetails) sws_setColorspaceDetails;
 };
 
-/// Loads FFmpeg's libraries, of the versions whose headers this was compiled with, when it is first
-/// called. RunError when they are missing.
+/// Loads FFmpeg's libraries, in the versions of the headers used at compile time, at the first
+/// call. RunError if they are missing.
 const LibavFunctions& Libav();
 
 }  // namespace trackbed::render

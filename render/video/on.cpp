@@ -30,7 +30,7 @@ class VideoOutput : public FilmOutput {
 
  private:
   fs::path output_;
-  TemporaryFile temporary_;  // before the writer, so that it outlives it
+  TemporaryFile temporary_;  // before the writer, in order to outlive it
   VideoWriter writer_;
 };
 

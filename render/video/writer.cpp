@@ -37,20 +37,20 @@ std::string Describe(int error) {
   return text.data();
 }
 
-/// How libav makes a kind of film.
+/// Encoder and settings for a kind of film.
 struct Recipe {
   const char* encoder;
   const char* container;
   AVPixelFormat pixels;
-  bool bt709;  // else the pictures' own red, green and blue
+  bool bt709;  // else RGB as in the pictures
   std::vector<std::pair<const char*, const char*>> encoder_options;
-  std::vector<std::pair<const char*, const char*>> quick_options;  // instead of those
+  std::vector<std::pair<const char*, const char*>> quick_options;  // instead of encoder_options
   std::vector<std::pair<const char*, const char*>> container_options;
 };
 
 const Recipe& EncoderRecipe(FilmCodec codec) {
-  // x264's macroblock tree reads past the end of its rows, into memory that differs from run to
-  // run, unless the width is a multiple of 128 (seen with build 164 at 96, 320, 854, 960 px).
+  // x264's macroblock tree reads past the end of its rows, into memory that differs between runs,
+  // unless the width is a multiple of 128 (seen with build 164 at 96, 320, 854, 960 px).
   static const Recipe h264{"libx264",
                            "mp4",
                            AV_PIX_FMT_YUV420P,
@@ -78,7 +78,7 @@ struct VideoWriter::Encoder {
   std::unique_ptr<AVFormatContext, FreeFormat> format;
   std::unique_ptr<AVCodecContext, FreeCodec> codec;
   std::unique_ptr<AVFrame, FreeFrame> picture;  // RGB; swscale reads past the end of plain memory
-  std::unique_ptr<AVFrame, FreeFrame> frame;    // as the encoder takes it
+  std::unique_ptr<AVFrame, FreeFrame> frame;    // in the encoder's format
   std::unique_ptr<AVPacket, FreePacket> packet;
   std::unique_ptr<SwsContext, FreeScaler> scaler;
   AVStream* stream = nullptr;  // owned by format
@@ -89,7 +89,7 @@ struct VideoWriter::Encoder {
   [[noreturn]] void Fail(const std::string& why) const {
     throw RunError(fmt::format("cannot write {}: {}", name, why));
   }
-  /// Passes results that are no errors.
+  /// Returns `result` unless it is an error code.
   int Check(int result) const {
     if (result < 0) {
       Fail(Describe(result));
@@ -132,14 +132,14 @@ struct VideoWriter::Encoder {
 
   void SetOptions(const std::vector<std::pair<const char*, const char*>>& options) const {
     for (const auto& [key, value] : options) {
-      // Some are the encoder's own, some every encoder's.
+      // Some options belong to the encoder, some to all encoders.
       Check(Libav().av_opt_set(codec.get(), key, value, AV_OPT_SEARCH_CHILDREN));
     }
   }
 
   void OpenFile(const std::filesystem::path& file) {
     AVFormatContext* made = nullptr;
-    // The protocol keeps a name with a colon from being read as another one.
+    // The protocol prefix keeps FFmpeg from reading a name with a colon as a URL.
     const std::string url = "file:" + file.string();
     Check(Libav().avformat_alloc_output_context2(&made, nullptr, recipe.container, url.c_str()));
     format.reset(made);
@@ -179,14 +179,14 @@ struct VideoWriter::Encoder {
         codec->width, codec->height, AV_PIX_FMT_RGB24, codec->width, codec->height, codec->pix_fmt,
         SWS_BILINEAR | SWS_ACCURATE_RND | SWS_BITEXACT, nullptr, nullptr, nullptr)));
     if (recipe.bt709) {
-      // Without this swscale converts by BT.601, whatever the film says of itself.
+      // By default swscale converts by BT.601, whatever the film's metadata.
       const int* bt709 = Libav().sws_getCoefficients(SWS_CS_ITU709);
       constexpr int kOne = 1 << 16;
       Check(Libav().sws_setColorspaceDetails(scaler.get(), bt709, 1, bt709, 0, 0, kOne, kOne));
     }
   }
 
-  /// Hands a frame to the encoder (null: the end) and writes what it gives back.
+  /// Sends a frame to the encoder (null: the end) and writes its output.
   void Encode(const AVFrame* next_frame) {
     Check(Libav().avcodec_send_frame(codec.get(), next_frame));
     for (;;) {
@@ -207,7 +207,7 @@ struct VideoWriter::Encoder {
 VideoWriter::VideoWriter(const std::filesystem::path& file, const std::filesystem::path& shown_name,
                          FilmCodec codec, const FilmPictures& pictures)
     : encoder_(std::make_unique<Encoder>(EncoderRecipe(codec))) {
-  // libav and x264 write to the terminal unless told otherwise; their failures come back as codes.
+  // Disables log output of libav and x264 to the terminal; failures are returned as codes.
   Libav().av_log_set_level(AV_LOG_QUIET);
   encoder_->name = shown_name.string();
   encoder_->OpenCodec(pictures);
@@ -236,7 +236,7 @@ void VideoWriter::Finish() {
   Encoder& encoder = *encoder_;
   encoder.Encode(nullptr);
   encoder.Check(Libav().av_write_trailer(encoder.format.get()));
-  // Only closing tells whether the last bytes found room.
+  // Only closing the file reveals a full disk.
   encoder.Check(Libav().avio_closep(&encoder.format->pb));
 }
 

@@ -9,7 +9,9 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/text_table.h"
 
-// Single checks and their failure messages.
+// Single checks of a verdict (metrics, requirements, differences between runs) and the wording of
+// their failures. CheckMetric looks a metric up by its path and compares it with a bound;
+// FailureMessage names the plant, the value, the bound and the station and time of the value.
 namespace trackbed {
 namespace {
 
@@ -21,7 +23,7 @@ const Metric* Find(const std::vector<Metric>& metrics, const std::string& path) 
   return found == metrics.end() ? nullptr : &*found;
 }
 
-/// Why a metric that a run can have is not there.
+/// Why a metric that exists in general was not measured in this run.
 std::string WhyMissing(const std::string& path, const std::vector<Metric>& metrics,
                        const PlantMetrics& plant) {
   if (path.starts_with("turns[")) {
@@ -33,7 +35,7 @@ std::string WhyMissing(const std::string& path, const std::vector<Metric>& metri
   }
   std::vector<std::string> paths;
   for (const Metric& metric : metrics) {
-    // One turn shows what there is of all.
+    // The first turn stands for all of them.
     if (!metric.path.starts_with("turns[") || metric.path.starts_with("turns[0]")) {
       paths.push_back(metric.path);
     }
@@ -49,7 +51,8 @@ std::optional<double> NumberIn(const MetricValue& value) {
   return number != nullptr ? std::optional(*number) : std::nullopt;
 }
 
-/// What a text of a scenario means where it is no name: "true", "3".
+/// Value of a bound given as text: parsed if it is JSON such as "true" or "3", else the text
+/// itself.
 ordered_json ParsedBound(const MetricValue& bound) {
   const auto* text = std::get_if<std::string>(&bound);
   const ordered_json parsed =
@@ -83,7 +86,7 @@ std::string Where(const MetricPlace& at) {
   return "";
 }
 
-/// Bound and value with enough digits to differ.
+/// Bound and value as text, with enough digits to differ.
 std::pair<std::string, std::string> NumbersApart(const Check& check) {
   return FormatDistinct(NumberIn(check.bound).value_or(0.0), NumberIn(check.value).value_or(0.0));
 }
@@ -243,7 +246,7 @@ std::string FailureMessage(const Check& check) {
         return fmt::format("did not {}: {} at s = {:.4g} m, t = {:.4g} s{}", check.name,
                            ToText(check.value), check.at.s, check.at.t, check.detail);
       case CheckReason::kNoContact:
-        return "";  // kArrival reports the collision
+        return "";  // reported by kArrival
       case CheckReason::kCorridor:
         return CorridorMessage(check);
       case CheckReason::kSteeringRate:

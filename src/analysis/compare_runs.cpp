@@ -12,14 +12,18 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
 
+// Compares the plants of one run, or the plants of two finished runs, pairwise at equal station
+// (compare.cpp). Plants of one run are compared with each other, plants of two runs by name unless
+// two plants are given. Bounds come from the tolerances given, else from expect.between (within one
+// run); the tightest applies. The verdict also notes different end statuses, different plans and
+// plants that only one run has.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Of what a scenario expects, that which says how the runs are to end, and how far off their
-/// path they may be.
+/// The expectations on the end of a run and on its cross-track error.
 PlantExpectation EndOnly(const PlantExpectation& expect) {
   PlantExpectation end{.max_cross_track = expect.max_cross_track, .collision = expect.collision};
   std::copy_if(expect.metrics.begin(), expect.metrics.end(), std::back_inserter(end.metrics),
@@ -41,7 +45,7 @@ void Tighten(std::optional<double>& bound, const std::optional<double>& other) {
   }
 }
 
-/// The tightest of all bounds that are given for the two.
+/// The tightest of all bounds between the two plants.
 DifferenceBounds BoundsBetween(const Expectations& expect, const std::string& a,
                                const std::string& b) {
   DifferenceBounds bounds;
@@ -70,7 +74,7 @@ void Judge(const ComparedPair& pair, Verdict& verdict) {
   verdict.passed = verdict.failures.empty();
 }
 
-/// A finished run, as its folder tells of it.
+/// A finished run, read from its folder.
 struct FinishedRun {
   fs::path folder;
   std::vector<FinishedDrive> drives;
@@ -109,7 +113,7 @@ FinishedRun ReadRun(const fs::path& folder) {
   return run;
 }
 
-/// Two drives of finished runs, under names that tell them apart.
+/// A pair of finished runs, with distinct names.
 struct Candidates {
   FinishedDrive first;
   FinishedDrive second;
@@ -163,7 +167,7 @@ std::vector<Candidates> AcrossTwo(const FinishedRun& first, const FinishedRun& s
   return pairs;
 }
 
-/// The plants that only one of two runs drove.
+/// Notes the plants that only one of the two runs has.
 void NoteLeftOut(const FinishedRun& first, const FinishedRun& second, Verdict& verdict) {
   for (const auto& [run, other] : {std::pair(&first, &second), std::pair(&second, &first)}) {
     std::vector<std::string> alone;
@@ -189,7 +193,7 @@ void RefuseTwice(const std::vector<std::string>& plants) {
   }
 }
 
-/// The path of plan.csv as if it were driven.
+/// The path of plan.csv as a trace.
 Trace PathIn(const Table& plan) {
   Trace trace{.station = plan.Column("s_m")};
   const auto x = plan.Column("x_m");
@@ -202,8 +206,7 @@ Trace PathIn(const Table& plan) {
   return trace;
 }
 
-/// What another build may round differently, of meters, radians and meters per second: less than
-/// anyone looks at.
+/// Tolerance for the rounding of another build [m], [rad], [m/s].
 constexpr double kRounding = 1e-6;
 
 bool AreAlike(const Table& first, const Table& second) {
@@ -220,7 +223,7 @@ bool AreAlike(const Table& first, const Table& second) {
   return true;
 }
 
-/// Whoever compares two runs mostly means runs of one plan, and should know when they are not.
+/// Notes if the two runs have different plans, since a comparison usually assumes a common plan.
 void NoteOtherPlan(const fs::path& first, const fs::path& second, Verdict& verdict) {
   const bool has_first = fs::exists(first / run_folder::kPlanCsv);
   const bool has_second = fs::exists(second / run_folder::kPlanCsv);

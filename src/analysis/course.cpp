@@ -10,27 +10,28 @@
 namespace trackbed {
 namespace {
 
-/// The circle or straight line that the rear axle is on at one row, held from there on.
+/// Reference course: the circle or straight line of the rear axle at one row, continued from there.
 class HeldCourse {
  public:
   HeldCourse(const VehicleParams& vehicle, const VehicleState& state, double length)
       : start_yaw_(state.pose.yaw), curvature_(MeasuredCurvature(state)) {
-    // The rear axle may slip: the course is where it goes, not where it points.
+    // The rear axle may slip, so use its direction of motion and not its heading.
     const double lateral = state.lateral_speed - state.yaw_rate * vehicle.cg_to_rear;
     const double course = state.pose.yaw + std::atan2(lateral, state.speed);
     path_ = Path({state.pose.x, state.pose.y, course}, {{length, curvature_}});
   }
 
-  /// How far the car is from it, and its heading from that of the start turned along it.
+  /// Distance of the car from the course, and its heading relative to the initial heading turned
+  /// along the course.
   [[nodiscard]] Projection At(const VehicleState& state) {
-    constexpr double kReach = 5.0;  // between rows [m]
+    constexpr double kReach = 5.0;  // maximum distance between rows [m]
     Projection at = path_.Project(state.pose, {station_ - kReach, station_ + kReach});
     station_ = at.s;
     at.heading_error = state.pose.yaw - start_yaw_ - curvature_ * at.s;
     return at;
   }
 
-  /// psi' of a car that keeps to it [rad/s].
+  /// Yaw rate of a car that follows the course [rad/s].
   [[nodiscard]] double YawRate(const VehicleState& state) const { return curvature_ * state.speed; }
 
  private:
@@ -45,7 +46,7 @@ class HeldCourse {
   double station_ = 0.0;
 };
 
-/// The largest departures so far.
+/// Largest departures so far.
 struct Departure {
   double lateral = 0.0;
   double heading = 0.0;
@@ -69,8 +70,8 @@ std::vector<ManeuverMetric> MethodMetrics(const BrakingTestOptions& /*options*/)
 
 void Evaluate(const BrakingTestOptions& options, const ManeuverInput& input,
               ManeuverMetrics& metrics) {
-  constexpr double kBraking = 0.5;      // more than keeping a speed asks for [m/s^2]
-  constexpr double kStandstill = 0.05;  // [m/s]; from there it is a millimeter
+  constexpr double kBraking = 0.5;      // more than holding a speed needs [m/s^2]
+  constexpr double kStandstill = 0.05;  // [m/s]; stops within a millimeter from there
   const auto& rows = input.log.rows;
   std::size_t onset = 0;
   while (onset < rows.size() && rows[onset].command.acceleration > -kBraking) {
@@ -139,8 +140,8 @@ void Evaluate(const DisturbanceOptions& options, const ManeuverInput& input,
   const bool straight = !rows.front().tracking;
   Departure departure;
   double yaw_rate = 0.0;
-  std::optional<double> left;  // its bound, first
-  double back = 0.0;           // last
+  std::optional<double> left;  // when it first exceeds its bound
+  double back = 0.0;           // when it last returns below it
   for (std::size_t i = from; i < rows.size(); ++i) {
     const VehicleState& state = rows[i].state;
     departure.Take(straight ? course.At(state) : *rows[i].tracking);

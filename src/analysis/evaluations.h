@@ -7,16 +7,16 @@
 #include "trackbed/analysis/metric_value.h"
 #include "trackbed/planning/common/plan.h"
 
-/// The evaluations behind EvaluateManeuver: each fills in values, passed, missing, begin and end.
+/// Evaluations used by EvaluateManeuver. Each fills in values, passed, missing, begin and end.
 namespace trackbed {
 
-/// One of the values of a maneuver. Each maneuver lists its own beside its evaluation.
+/// A value of a maneuver. Each maneuver lists its values next to its evaluation.
 struct ManeuverMetric {
   const char* name;
   const char* label;
   const char* unit;
   bool headline = false;
-  std::optional<StandardLimit> limit = std::nullopt;  ///< to pass
+  std::optional<StandardLimit> limit = std::nullopt;  ///< limit for passing
 };
 
 struct ManeuverInput {

@@ -15,7 +15,7 @@ namespace trackbed {
 
 namespace {
 
-/// ISO 3888: no corner of the footprint beyond an edge of a gate.
+/// ISO 3888: no corner of the footprint may leave a gate.
 constexpr StandardLimit kInsideGates{StandardLimit::Relation::kAtLeast, 0.0};  // [m]
 
 }  // namespace
@@ -36,7 +36,7 @@ void Evaluate(const LaneChangeOptions&, const ManeuverInput& input, ManeuverMetr
     metrics.missing = "the plan has no gates";
     return;
   }
-  // Along the course, from the line across it at one end of a gate.
+  // Distance along the course from the line across one end of a gate.
   const auto foremost = [&](const LogRow& row, const Gate& gate) {
     double x = -std::numeric_limits<double>::infinity();
     for (const Vec2& corner : FootprintAt(input.vehicle, row.state.pose).Corners()) {

@@ -5,10 +5,10 @@
 
 #include "trackbed/drive/run_log.h"
 
-/// Quantities of a log between its rows. `of` is a function of a row.
+/// Interpolation of quantities of a log. `of` maps a row to the quantity.
 namespace trackbed {
 
-/// The quantity at `time` [s], linear between rows, held before the first and after the last.
+/// The quantity at `time` [s]: linear between rows, constant before the first and after the last.
 template <typename Of>
 double ValueAt(const RunLog& log, double time, const Of& of) {
   for (std::size_t i = 1; i < log.rows.size(); ++i) {
@@ -22,8 +22,8 @@ double ValueAt(const RunLog& log, double time, const Of& of) {
   return of(log.rows.back());
 }
 
-/// When the quantity first reaches `level` from below at or after row `from` [s]; none when it does
-/// not.
+/// The first time, at or after row `from`, at which the quantity reaches `level` from below [s];
+/// none if it never does.
 template <typename Of>
 std::optional<double> TimeOfReaching(const RunLog& log, std::size_t from, double level,
                                      const Of& of) {

@@ -15,7 +15,7 @@
 namespace trackbed {
 namespace {
 
-/// What every evaluation says beside its own values.
+/// Metrics common to all maneuvers.
 const std::vector<ManeuverMetric>& CommonMetrics() {
   static const std::vector<ManeuverMetric> metrics{
       {"method", "method", ""},
@@ -31,9 +31,9 @@ std::vector<ManeuverMetric> ListMethodMetrics(const ManeuverOptions& options) {
   return std::visit([](const auto& own) { return MethodMetrics(own); }, options);
 }
 
-/// Whatever else was measured, a car on its side has failed.
+/// A car that tips over fails every maneuver.
 void CheckRoll(const RunLog& log, ManeuverMetrics& metrics) {
-  constexpr double kTippedOver = 0.25 * kPi;  // far beyond where a car comes back by itself [rad]
+  constexpr double kTippedOver = 0.25 * kPi;  // [rad]; a car cannot recover from there
   const auto tipped = std::find_if(log.rows.begin(), log.rows.end(), [](const LogRow& row) {
     return std::abs(row.state.roll) > kTippedOver;
   });

@@ -13,7 +13,7 @@ std::optional<double> NumberOfValue(const MetricValue& value) {
   return json.is_number() ? std::optional(json.get<double>()) : std::nullopt;
 }
 
-/// A bound is a number, or the text of one where it is one to equal.
+/// A bound is a number or, for Relation::kEquals, possibly the text of a number.
 std::optional<double> NumberOfBound(const MetricValue& bound) {
   const auto* text = std::get_if<std::string>(&bound);
   if (text == nullptr) {
@@ -62,7 +62,7 @@ std::vector<ExpectationMargin> Margins(const RunResult& result) {
                              .met = check.met,
                              .at = check.at};
     if (check.metric == "collision") {
-      // To keep clear of obstacles, or to hit one.
+      // Negative if the expectation is to hit an obstacle.
       const std::optional<double> clearance = Clearance(result, check.plant);
       const double sign = check.bound == MetricValue(std::string("true")) ? -1.0 : 1.0;
       margin.margin = clearance ? std::optional(sign * *clearance) : std::nullopt;

@@ -25,7 +25,7 @@ json ArraySchema(const json& items) {
   return {{"type", "array"}, {"items", items}};
 }
 
-// Foxglove's own shapes, as far as they are filled in here.
+// Schemas of Foxglove, reduced to the fields that are filled in here.
 const json kTime = Object({{"sec", {{"type", "integer"}}}, {"nsec", {{"type", "integer"}}}});
 const json kVector = Object({{"x", kNumber}, {"y", kNumber}, {"z", kNumber}});
 const json kQuaternion = Object({{"x", kNumber}, {"y", kNumber}, {"z", kNumber}, {"w", kNumber}});
@@ -74,7 +74,7 @@ json Cube(const OrientedBox& box, double height, const std::string& id, const st
   return {{"timestamp", Time(time)},
           {"frame_id", frame},
           {"id", id},
-          {"lifetime", Time(0.0)},  // until it is replaced
+          {"lifetime", Time(0.0)},  // until replaced
           {"frame_locked", true},
           {"cubes", json::array({CubeAt(box, height, color)})}};
 }
@@ -89,10 +89,10 @@ json Obstacles(const World& world, double time) {
   return {{"entities", entities}};
 }
 
-/// The walls of the world's map, which stand still: one entity of many cubes.
+/// The walls of the world's map, which do not move: a single entity with many cubes.
 json Walls(const World& world) {
   json entity{{"timestamp", Time(0.0)}, {"frame_id", "world"},   {"id", "map"},
-              {"lifetime", Time(0.0)},  // until it is replaced
+              {"lifetime", Time(0.0)},  // until replaced
               {"frame_locked", true},   {"cubes", json::array()}};
   for (const OrientedBox& wall : MapWalls(world)) {
     entity["cubes"].push_back(
@@ -110,7 +110,7 @@ json PosesMessage(const Path& path, double time) {
   return {{"timestamp", Time(time)}, {"frame_id", "world"}, {"poses", poses}};
 }
 
-/// A message that waits for its turn.
+/// A message with its time, to be sorted.
 struct Message {
   double time;
   std::uint16_t channel;
@@ -136,7 +136,7 @@ void AddPlant(const RunResult& result, const RunLog& log, McapWriter& writer,
                               {{"r", 0.2}, {"g", 0.45}, {"b", 0.8}, {"a", 0.8}})}}}});
   if (result.scenario.plan) {
     const auto plan = writer.AddChannel(topic + "plan", "foxglove.PosesInFrame", kPoses);
-    messages.push_back({0.0, plan, PosesMessage(result.plan.reference.path, 0.0)});
+    messages.push_back({0.0, plan, PosesMessage(result.plan->reference.path, 0.0)});
     for (const PlanChange& change : log.changes) {
       messages.push_back(
           {change.time, plan, PosesMessage(change.plan.reference.path, change.time)});

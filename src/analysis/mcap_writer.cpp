@@ -24,7 +24,7 @@ enum : char {
 
 const std::string kMagic{"\x89MCAP0\r\n"};
 
-/// A chunk is closed when it has grown to this: small enough to read one for a moment's sake.
+/// Chunk size limit [bytes]: small enough to read a whole chunk for a single moment.
 constexpr std::size_t kChunkBytes = std::size_t{1} << 20U;
 
 template <typename Number>
@@ -51,7 +51,7 @@ std::uint32_t Checksum(const std::string& bytes) {
   return crc.checksum();
 }
 
-/// What is no UTF-8 becomes U+FFFD.
+/// Serializes JSON; invalid UTF-8 becomes U+FFFD.
 std::string Dumped(const nlohmann::json& content) {
   return content.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -178,8 +178,8 @@ std::string McapWriter::Statistics() const {
   return record;
 }
 
-/// Groups of records, then where each begins, then the footer: all that stands behind the data when
-/// they end at `start`.
+/// Everything that follows the data: groups of records, their offsets, then the footer. The summary
+/// starts at offset `start`.
 std::string McapWriter::SummaryAt(std::size_t start) {
   std::string statistics;
   PutRecord(statistics, kStatistics, Statistics());
@@ -201,7 +201,7 @@ std::string McapWriter::SummaryAt(std::size_t start) {
   Put<std::uint64_t>(footer, start);
   Put<std::uint64_t>(footer, start + summary.size());
   summary += offsets;
-  // The checksum is of all that stands before it, the footer's own beginning too.
+  // The checksum covers everything before it, including the first fields of the footer.
   std::string checked = summary;
   checked += kFooter;
   Put<std::uint64_t>(checked, footer.size() + sizeof(std::uint32_t));

@@ -9,22 +9,22 @@
 
 namespace trackbed {
 
-/// Writes the container (mcap.dev/spec): schemas and channels, then chunks of messages without
-/// compression, each with an index of its own, then the summary that readers seek with. All numbers
-/// are little-endian, and all checksums are there.
+/// Writes an MCAP container (mcap.dev/spec): schemas and channels, then uncompressed chunks of
+/// messages with one index each, then the summary used for seeking. Numbers are little-endian; all
+/// checksums are filled in.
 class McapWriter {
  public:
   McapWriter();
 
-  /// A channel of its own; channels whose schemas have equal names and shapes share one. All of
-  /// them before the first message.
+  /// Adds a channel. Channels share a schema if its name and shape are equal. Must precede all
+  /// messages.
   std::uint16_t AddChannel(const std::string& topic, const std::string& schema,
                            const nlohmann::json& shape);
 
-  /// In the order of their times [s], none of which is negative.
+  /// Adds a message. Times [s] must be non-negative and in ascending order.
   void AddMessage(std::uint16_t channel, double time, const nlohmann::json& message);
 
-  /// The file. Nothing can be added any more.
+  /// Returns the file. No calls may follow.
   std::string Finish();
 
  private:
@@ -39,12 +39,12 @@ class McapWriter {
 
   std::string out_;
   std::map<std::pair<std::string, std::string>, std::uint16_t> schemas_;  ///< by name and shape
-  std::vector<std::uint32_t> counts_;  ///< of the messages of each channel
+  std::vector<std::uint32_t> counts_;  ///< number of messages by channel
   std::string schema_records_;
   std::string channel_records_;
   std::string chunk_;
   Times chunk_times_;
-  /// Time and place in the chunk of each message, by channel.
+  /// Time and offset in the chunk of each message, by channel.
   std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>> chunk_messages_;
   std::uint32_t chunks_ = 0;
   std::string chunk_index_records_;

@@ -14,6 +14,11 @@
 #include "trackbed/core/text_table.h"
 #include "trackbed/planning/registry/planners.h"
 
+// Registry of metrics. The fixed metrics (metric_table.cpp) and registered ones have one entry
+// each; ListMetrics lists what a run has, with paths as in metrics.json: entries, then the sections
+// maneuver, turns[N], laps[N], windows[N] and requirements. DescribeMetric finds label and unit by
+// path. AllMetrics fills every metric that a scenario can have with a dummy value, so that paths
+// can be checked before the run.
 namespace trackbed {
 namespace {
 
@@ -26,7 +31,7 @@ constexpr const char* kWindows = "windows";
 constexpr const char* kRequirements = "requirements";
 constexpr const char* kRobustness = ".robustness";
 
-/// The only list that changes after the program began: RegisterMetric adds to it.
+/// The only list that changes after startup: RegisterMetric appends to it.
 std::vector<MetricEntry>& Registry() {
   static std::vector<MetricEntry> entries = OwnMetrics();
   return entries;
@@ -41,14 +46,14 @@ std::optional<MetricReading> ReadMetric(const MetricEntry& entry, const PlantMet
   return found == metrics.measured.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// The paths that an entry takes up in metrics.json.
+/// The paths of an entry in metrics.json.
 std::vector<std::string> EntryPaths(const MetricEntry& entry) {
   return entry.located ? std::vector{entry.path, entry.path + "_s", entry.path + "_t"}
                        : std::vector{entry.path};
 }
 
 bool IsPath(std::string_view path) {
-  bool begins = true;  // a word
+  bool begins = true;  // of a word
   for (const char c : path) {
     const bool letter = c >= 'a' && c <= 'z';
     const bool inside = (c >= '0' && c <= '9') || c == '_' || c == '.';
@@ -60,7 +65,8 @@ bool IsPath(std::string_view path) {
   return !begins;
 }
 
-/// Whether two paths cannot both stand in one file: equal, or one a section that the other is in.
+/// Whether two paths cannot coexist in one file: they are equal, or one is a section containing the
+/// other.
 bool Conflict(const std::string& a, const std::string& b) {
   return a == b || a.starts_with(b + ".") || b.starts_with(a + ".");
 }
@@ -92,7 +98,8 @@ void CheckEntry(const MetricEntry& entry) {
   }
 }
 
-/// The rest of a path in a list, "lateral_offset" of "turns[1].lateral_offset"; sets `index`.
+/// The part of a path after a list index, "lateral_offset" of "turns[1].lateral_offset". Sets
+/// `index`.
 std::optional<std::string_view> InList(const char* list, std::string_view path, int& index) {
   const std::string begin = fmt::format("{}[", list);
   const std::size_t close = path.find("].");
@@ -297,7 +304,7 @@ PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
     }
     metrics.blocked = scenario.plan->avoid ? "why" : "";
     metrics.partial = MayBePartial(scenario.plan->global) ? "why" : "";
-    // At most one turn at every waypoint between the first and the last.
+    // There is at most one turn per waypoint between the first and the last.
     metrics.turns.resize(std::max<std::size_t>(scenario.mission.waypoints.size(), 2) - 2);
   }
   if (HasObstacles(scenario.world)) {
@@ -328,7 +335,7 @@ PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
     metrics.laps.resize(static_cast<std::size_t>(scenario.mission.track->laps));
   }
   for (const MetricEntry& entry : Metrics()) {
-    // Those of a track are of runs on one alone.
+    // Metrics of track limits only exist on a track.
     const bool of_track = entry.path.starts_with("track_limits.");
     if (entry.measure && (!of_track || scenario.mission.track)) {
       metrics.measured.emplace_back(entry.path, MetricReading{0.0, {}});

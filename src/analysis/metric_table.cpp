@@ -6,14 +6,14 @@
 #include "src/analysis/sideslip.h"
 #include "src/analysis/track_metrics.h"
 
-// The place where a metric is registered: one entry each.
+// Table of all metrics that Trackbed defines: one entry each.
 namespace trackbed {
 namespace {
 
 using Reading = std::optional<MetricReading>;
 using Read = std::function<Reading(const PlantMetrics&)>;
 
-// The part of the metrics that a member belongs to; none where the run has no such part.
+// Selects the part of the metrics that contains a member; null if the run has no such part.
 const PlantMetrics* SelectMetrics(const PlantMetrics& metrics, const PlantMetrics* /*which*/) {
   return &metrics;
 }
@@ -30,7 +30,7 @@ const RecordMetrics* SelectMetrics(const PlantMetrics& metrics, const RecordMetr
   return metrics.recorded ? &*metrics.recorded : nullptr;
 }
 
-/// `value` of the whole run, or of its end.
+/// Reads the member `value`, which refers to the whole run or to its end.
 template <typename Part, typename T>
 Read Of(T Part::*value, MetricSpan span = MetricSpan::kRun) {
   return [=](const PlantMetrics& metrics) -> Reading {
@@ -39,7 +39,7 @@ Read Of(T Part::*value, MetricSpan span = MetricSpan::kRun) {
   };
 }
 
-/// `value` of the moment at station `s` and time `t`.
+/// Reads the member `value`, which refers to the moment at station `s` and time `t`.
 template <typename Part, typename T>
 Read At(T Part::*value, double Part::*s, double Part::*t) {
   return [=](const PlantMetrics& metrics) -> Reading {
@@ -52,7 +52,7 @@ Read At(T Part::*value, double Part::*s, double Part::*t) {
 }
 
 Reading Status(const PlantMetrics& metrics) {
-  // The end of a collision is not its moment: the run goes on for a second.
+  // A run continues for one second after a collision, so use the time of contact.
   const bool collided = metrics.status == DriveStatus::kCollided;
   return MetricReading{std::string(ToString(metrics.status)),
                        {.span = collided ? MetricSpan::kMoment : MetricSpan::kEnd,
@@ -87,7 +87,7 @@ MetricEntry Headline(MetricEntry entry) {
   return entry;
 }
 
-/// Its moment stands in metrics.json, too.
+/// Adds station and time of the value to metrics.json.
 MetricEntry Located(MetricEntry entry) {
   entry.located = true;
   return entry;

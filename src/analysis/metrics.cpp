@@ -16,7 +16,7 @@
 namespace trackbed {
 namespace {
 
-/// Over which accelerations and rates are averaged [s].
+/// Averaging window of accelerations and rates [s].
 constexpr double kWindow = 0.1;
 
 TrackingMetrics MeasureTracking(const RunLog& log, const Pose2& goal, double corridor) {
@@ -26,7 +26,7 @@ TrackingMetrics MeasureTracking(const RunLog& log, const Pose2& goal, double cor
   double rows = 0.0;
   for (const LogRow& row : log.rows) {
     if (log.contact_time && row.state.time > *log.contact_time && rows > 0.0) {
-      break;  // where an obstacle pushes it says nothing of how it was steered
+      break;  // pushed by an obstacle, not steered
     }
     rows += 1.0;
     const Projection& at = *row.tracking;
@@ -69,7 +69,7 @@ ClearanceMetrics MeasureClearance(const RunLog& log) {
   }
   metrics.collision = log.contact_time.has_value();
   if (log.contact_time) {
-    metrics.min_t = *log.contact_time;  // between two rows
+    metrics.min_t = *log.contact_time;  // lies between two rows
   }
   return metrics;
 }
@@ -85,7 +85,7 @@ void PlaceContact(const RunLog& log, PlantMetrics& metrics) {
   metrics.contact_s = row == log.rows.end() ? metrics.end_s : RowStation(*row);
 }
 
-/// Root mean square of the measured steering's mean rate in each control period.
+/// Root mean square over the control periods of the mean measured steering rate.
 double SteeringRateRms(const RunLog& log, double control_period) {
   double squares = 0.0;
   for (std::size_t i = 1; i < log.rows.size(); ++i) {
@@ -112,9 +112,9 @@ std::vector<TurnMetrics> MeasureTurns(const RunLog& log, const Plan& plan,
                                       const VehicleParams& vehicle, StationSource source) {
   std::vector<TurnMetrics> turns;
   const Trace trace = MakeTrace(log, source);
-  // Wheels that are moved by forces follow their actuator late; prescribed ones do not.
+  // Wheels moved by forces lag behind their actuator; prescribed wheels do not.
   const double lag = log.rows.front().state.wheels ? vehicle.steering_lag : 0.0;
-  // Beyond a change of plan, stations are those of another path.
+  // After a change of plan, stations refer to another path.
   const double until =
       log.changes.empty() ? std::numeric_limits<double>::infinity() : log.changes.front().station;
   for (const IsolatedTurn& turn : plan.turns) {

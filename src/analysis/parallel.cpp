@@ -13,8 +13,8 @@ namespace trackbed {
 
 #ifdef __SANITIZE_THREAD__
 
-// The thread sanitizer takes all that oneTBB's threads do for races, as the library is built
-// without it. To look for races of the runs themselves any threads will do.
+// Plain threads for the thread sanitizer, which reports false races inside oneTBB because that
+// library is not instrumented. Races between runs are found with any threads.
 void ForEachIndex(std::size_t count, int threads, const std::function<bool(std::size_t)>& work) {
   std::atomic<std::size_t> next{0};
   std::vector<std::future<void>> workers;
@@ -35,7 +35,7 @@ void ForEachIndex(std::size_t count, int threads, const std::function<bool(std::
 #else
 
 void ForEachIndex(std::size_t count, int threads, const std::function<bool(std::size_t)>& work) {
-  // Also more threads than processors, if that is what is asked for.
+  // Allows more threads than processors.
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);

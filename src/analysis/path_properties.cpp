@@ -14,7 +14,7 @@ const Segments& SegmentsOf(const PlannedPath& path) {
   return path.plan.reference.path.segments();
 }
 
-/// Where the curvature's derivative is 0 within the segment, and both ends.
+/// Both ends of the segment, and the point inside where the curvature has an extremum.
 std::vector<double> Extrema(const Segment& segment) {
   std::vector<double> places{0.0, segment.length};
   const double vertex = -segment.sharpness / segment.sharpness_rate;
@@ -35,7 +35,7 @@ double MaxCurvature(const Segments& segments) {
 }
 
 double MaxCurvatureRate(const Segments& segments) {
-  double largest = 0.0;  // the rate is linear: largest at an end
+  double largest = 0.0;  // linear within a segment, so largest at an end
   for (const Segment& segment : segments) {
     largest = std::max({largest, std::abs(segment.sharpness),
                         std::abs(segment.sharpness + segment.sharpness_rate * segment.length)});
@@ -43,7 +43,8 @@ double MaxCurvatureRate(const Segments& segments) {
   return largest;
 }
 
-/// Gauss-Legendre with three points, exact for the square of a quadratic.
+/// Integral of the squared curvature by three-point Gauss-Legendre quadrature, exact for the square
+/// of a quadratic.
 double SquaredCurvature(const Segment& segment) {
   static const double kOuter = std::sqrt(0.6);
   const double half = 0.5 * segment.length;
@@ -54,7 +55,7 @@ double SquaredCurvature(const Segment& segment) {
   return half * (5.0 * square(-kOuter) + 8.0 * square(0.0) + 5.0 * square(kOuter)) / 9.0;
 }
 
-/// Where the curvature changes its sign within the segment, and both ends, in order.
+/// Both ends of the segment and the zeros of the curvature inside, in order.
 std::vector<double> Crossings(const Segment& segment) {
   std::vector<double> places{0.0, segment.length};
   const auto add = [&](double d) {
@@ -62,7 +63,7 @@ std::vector<double> Crossings(const Segment& segment) {
       places.push_back(d);
     }
   };
-  // Of 0.5 r d^2 + q d + p, without the loss of digits that subtracting like numbers would bring.
+  // Roots of 0.5 r d^2 + q d + p, computed without cancellation.
   const double p = segment.curvature;
   const double q = segment.sharpness;
   const double r = segment.sharpness_rate;
@@ -89,9 +90,9 @@ double Turning(const Segments& segments) {
   return turned;
 }
 
-/// Jumps within the legs between stops: SplitIntoLegs cuts at cusps and stops.
+/// Largest curvature jump within the legs between stops. SplitIntoLegs cuts at cusps and stops.
 double MaxCurvatureJump(const PlannedPath& path) {
-  constexpr double kRounding = 1e-12;  // [rad/m], of a segment's curvature at its end
+  constexpr double kRounding = 1e-12;  // [rad/m], in a segment's final curvature
   double largest = 0.0;
   const Path& line = path.plan.reference.path;
   for (const Stations& leg : SplitIntoLegs(line, path.plan.stops)) {
@@ -105,7 +106,8 @@ double MaxCurvatureJump(const PlannedPath& path) {
   return largest > kRounding ? largest : 0.0;
 }
 
-/// Goes forward by what the clearance surely allows: it changes by at most `moved` a meter.
+/// Minimum clearance, found in steps that the current clearance permits: it changes by at most
+/// `moved` per meter of path.
 std::optional<double> MinClearance(const PlannedPath& path) {
   World known = path.world;
   std::erase_if(known.obstacles, [](const Obstacle& obstacle) {

@@ -10,7 +10,7 @@ void MeasureLateralAcceleration(const RunLog& log, std::size_t window, PlantMetr
   double sum = 0.0;
   for (std::size_t i = 0; i < log.rows.size(); ++i) {
     if (log.contact_time && log.rows[i].state.time > *log.contact_time) {
-      break;  // it is the obstacle that pushes
+      break;  // pushed by the obstacle
     }
     sum += log.rows[i].state.lateral_acceleration;
     if (i >= rows) {
@@ -48,7 +48,7 @@ void MeasureSteering(const RunLog& log, std::size_t window, PlantMetrics& metric
 
 double SaturatedFraction(const RunLog& log, const VehicleParams& vehicle, double begin,
                          double end) {
-  // A microradian: less than any command matters, more than rounding in the actuator.
+  // One microradian: below any relevant change of the command, above rounding in the actuator.
   constexpr double kReached = 1e-6;
   double saturated = 0.0;
   double periods = 0.0;

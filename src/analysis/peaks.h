@@ -5,23 +5,23 @@
 
 namespace trackbed {
 
-/// Where a row is along the way: the path's station, or the distance driven.
+/// Station of a row: on the path, or else the distance driven.
 inline double RowStation(const LogRow& row) {
   return row.tracking ? row.tracking->s : row.state.distance;
 }
 
-/// The largest magnitude of the lateral acceleration's mean over `window` periods of control, the
-/// rows at both ends among them. A single sample may be that of an impact of a tyre on the road.
+/// Largest magnitude of the lateral acceleration averaged over `window` control periods, including
+/// the rows at both ends. A single sample may be an impact of a tyre on the road.
 void MeasureLateralAcceleration(const RunLog& log, std::size_t window, PlantMetrics& metrics);
 
-/// The largest magnitude of the measured steering angle, and of its mean rate over `window` periods
-/// of control.
+/// Largest magnitude of the measured steering angle, and of its mean rate over `window` control
+/// periods.
 void MeasureSteering(const RunLog& log, std::size_t window, PlantMetrics& metrics);
 
-/// The share of the control periods within `begin` to `end` [s] in which a limit of the steering
-/// actuator was reached: at their end it had not reached the command, and it had turned at its full
-/// rate or stood at its largest angle. A command that is delayed, or lost in a backlash, is no
-/// limit. Of a vehicle whose limits are not known (0), every miss counts.
+/// Fraction of the control periods within `begin` to `end` [s] in which the steering actuator was
+/// saturated: at the end of the period it had not reached the command, and it had moved at its
+/// maximum rate or was at its maximum angle. A delayed command, or one lost in backlash, is not
+/// saturation. If the limits are unknown (0), every miss counts.
 double SaturatedFraction(const RunLog& log, const VehicleParams& vehicle, double begin, double end);
 
 }  // namespace trackbed

@@ -5,13 +5,13 @@
 
 namespace trackbed {
 
-/// The time that speeds at the limit take from start to goal [s]; none for other speeds.
+/// Duration predicted by the speed profile at the limit [s]; none for other profiles.
 inline std::optional<MetricReading> PredictedTime(const MetricInput& input) {
   const auto& profile = input.plan.diagnostics.speed_profile;
   return profile ? std::optional(MetricReading{profile->predicted_time, {}}) : std::nullopt;
 }
 
-/// The time of the run over it; none unless the run arrived.
+/// Duration of the run relative to the prediction; none unless the run arrived.
 inline std::optional<MetricReading> TimeOverPredicted(const MetricInput& input) {
   const auto& profile = input.plan.diagnostics.speed_profile;
   if (!profile || input.log.status != DriveStatus::kArrived) {

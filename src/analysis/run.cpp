@@ -28,19 +28,23 @@
 #include "trackbed/scenario/recording_file.h"
 #include "trackbed/track/track_file.h"
 
+// Plans and runs a scenario, then writes its run folder. PlanRun plans; DriveRun simulates all
+// plants (simulate_plants.cpp), measures each (metrics.cpp), compares each pair (compare.cpp) and
+// judges the results (verdict.cpp). WriteRunFolder writes all inputs next to the results (resolved
+// scenario, model, map, track, recordings), so that the run can be repeated from its folder.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Largest distance between the points of plan.csv [m].
+/// Largest spacing of points in plan.csv [m].
 constexpr double kPlanSpacing = 0.1;
 
 Table PlanTable(const Reference& reference) {
   Table table({"s_m", "x_m", "y_m", "yaw_rad", "curvature_radpm", "speed_mps", "direction"});
-  // Leg by leg, so that the cusps are among the rows: of a leg's two ends, the one before it
-  // counts.
+  // Sample each leg separately, so that the cusps are among the rows. Where two legs meet, the
+  // point of the earlier leg is kept.
   for (const Stations& leg : SplitIntoLegs(reference.path)) {
     const Reference part = Excerpt(reference, leg);
     for (const PathPoint& point : part.path.Sample(kPlanSpacing)) {
@@ -56,7 +60,7 @@ Table PlanTable(const Reference& reference) {
   return table;
 }
 
-/// delta(D) of the open loop: its corners.
+/// Knots of the open-loop schedule delta(D).
 Table ScheduleTable(const SteeringSchedule& schedule) {
   Table table({"distance_m", "steering_rad"});
   for (const SteeringSchedule::Knot& knot : schedule.knots()) {
@@ -75,14 +79,14 @@ Table TreeTable(const std::vector<TreeNode>& tree) {
   return table;
 }
 
-/// The convergence histories of a fillet plan as rows: best radii after each generation.
+/// Convergence histories of a fillet plan: best radii after each generation.
 Table ConvergenceTable(const PlanDiagnostics& diagnostics) {
   Table table({"waypoint", "evaluations", "objective", "radius_m"});
   const auto* all_turns = diagnostics.planner.As<FilletDiagnostics>();
   for (std::size_t k = 0; k < diagnostics.turns.size(); ++k) {
     const auto* found = diagnostics.turns[k].As<FilletTurnFindings>();
     if (found == nullptr) {
-      continue;  // another planner's
+      continue;  // of another planner
     }
     const double waypoint = found->turn.waypoint;
     if (found->turn.search) {
@@ -99,7 +103,7 @@ Table ConvergenceTable(const PlanDiagnostics& diagnostics) {
   return table;
 }
 
-/// The plans taken up on the way: plan.csv for each, after when it took effect.
+/// Plans adopted during the run: rows of plan.csv for each, after the time of its adoption.
 Table ChangesTable(const RunLog& log) {
   std::vector<std::string> columns{"from_t_s"};
   const Table first = PlanTable(log.changes.front().plan.reference);
@@ -145,10 +149,10 @@ std::string Pretty(const ordered_json& content) {
   return content.dump(2) + "\n";
 }
 
-/// Share of the rows in which a loaded tyre slides.
+/// Fraction of the rows in which a loaded tyre slides.
 double SlidingShare(const RunLog& log) {
-  constexpr double kSlip = 0.1;     // of the speed, along or across
-  constexpr double kAtLeast = 1.0;  // [m/s]; below, slip is that of rounding
+  constexpr double kSlip = 0.1;     // relative to the speed, longitudinal or lateral
+  constexpr double kAtLeast = 1.0;  // [m/s]; below, slip is dominated by rounding
   const auto slides = [&](const LogRow& row) {
     return std::abs(row.state.speed) > kAtLeast && row.state.wheels &&
            std::any_of(
@@ -161,7 +165,8 @@ double SlidingShare(const RunLog& log) {
          static_cast<double>(log.rows.size());
 }
 
-/// MuJoCo's cone of friction lifts what slides on it: the loads of such a run are not a tyre's.
+/// MuJoCo's friction cone lifts sliding contacts, so the wheel loads of such a run are not
+/// realistic.
 void NoteSlidingContacts(RunResult& result, const CarModel& car) {
   constexpr double kNoticed = 0.01;
   for (const RunLog& log : result.logs) {
@@ -209,8 +214,8 @@ RunResult PlanRun(const Scenario& scenario, const CarModel& car) {
   result.planning_time = planning.Seconds();
   if (!result.plan.ok()) {
     result.verdict = {.passed = false,
-                      .failures = {fmt::format("no plan ({}): {}", ToString(result.plan.status),
-                                               result.plan.reason)}};
+                      .failures = {fmt::format("no plan ({}): {}", ToString(result.plan->status),
+                                               result.plan->reason)}};
   }
   return result;
 }
@@ -223,7 +228,7 @@ PlantMetrics MeasurePlant(const RunResult& result, const RunLog& log, const CarM
                                  ControllerFor(scenario.control.steering).station);
   metrics.steering_is_prescribed = scenario.drive.steering == SteeringInput::kPrescribed;
   if (log.plant == kRecordedPlant) {
-    // The limits are those of the model, the wheels those of the real vehicle.
+    // The limits belong to the model, but the measured wheels belong to the real vehicle.
     metrics.steering_rate_limit = 0.0;
     metrics.steering_limit = 0.0;
   }
@@ -261,7 +266,7 @@ RunResult DriveRun(RunResult planned, const CarModel& car, const RunHooks& hooks
     }
   }
   result.verdict = Judge(scenario.expect, result.metrics, result.comparisons);
-  for (const std::string& note : result.plan.notes) {
+  for (const std::string& note : result.plan->notes) {
     result.verdict.notes.push_back("plan: " + note);
   }
   if (const auto& rate = scenario.vehicle.steering_rate) {

@@ -7,9 +7,9 @@
 
 namespace trackbed {
 
-/// The largest magnitude of the side-slip angle at the center of gravity [rad], up to the first
-/// contact with an obstacle. Only above 1 m/s: below, the body's sway on its suspension is much of
-/// the motion. 0 for a car that was never so fast.
+/// Largest magnitude of the sideslip angle at the center of gravity [rad], up to the first contact
+/// with an obstacle. Only considers speeds above 1 m/s: below, the sway of the body on its
+/// suspension dominates. 0 for a car that never exceeds that speed.
 inline std::optional<MetricReading> LargestSideslip(const MetricInput& input) {
   constexpr double kSlow = 1.0;  // [m/s]
   double largest = 0.0;

@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-/// Simulates one plant. The time that its hook `logged` takes is not the plant's.
+/// Simulates one plant. Excludes the time spent in the hook `logged` from its timing.
 SimulatedPlant SimulatePlant(const RunResult& planned, const CarModel& car,
                              const std::string& plant, DriveHooks hooks) {
   DriveTiming timing{.plant = plant};
@@ -48,7 +48,7 @@ SimulatedPlant SimulatePlant(const RunResult& planned, const CarModel& car,
   return simulated;
 }
 
-/// Tells a run's hooks that a plant's simulation is over, however it ends.
+/// Calls the run's hook for the end of a plant, even if its simulation throws.
 class EndOfPlant {
  public:
   EndOfPlant(const RunHooks& hooks, const std::string& plant) : hooks_(hooks), plant_(plant) {}

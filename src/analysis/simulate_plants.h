@@ -9,13 +9,13 @@ namespace trackbed {
 struct SimulatedPlant {
   RunLog log;
   DriveTiming timing;
-  std::vector<WindowErrors> windows;  // of a scenario with a record
-  bool interrupted = false;           // in its simulation or in its windows
+  std::vector<WindowErrors> windows;  // only with a record
+  bool interrupted = false;           // during simulation or windows
 };
 
-/// Simulates the plants of a run that is planned, in their order or together, as the hooks say. In
-/// turn those after an interrupted one are left out; together, where one fails the others are
-/// interrupted, and its exception is thrown on.
+/// Simulates the plants of a planned run, one after another or together, as the hooks request. If
+/// one is interrupted, later plants are skipped. Together, an exception of one plant interrupts the
+/// others and is rethrown.
 std::vector<SimulatedPlant> SimulatePlants(const RunResult& planned, const CarModel& car,
                                            const RunHooks& hooks);
 

@@ -12,14 +12,20 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
 
+// Statistics of study tables. Pass rates: Wilson score interval (Wilson 1927). Quantiles: linear
+// interpolation between order statistics. Means: Student's t. Classify: equal values, else classes
+// of about equal size. FirstOrderIndices: share of the variance between classes (epsilon squared),
+// with a normal interval from bootstrap resamples. CorrelateRanks: rank correlation (Spearman 1904)
+// with the interval of Bonett and Wright (2000). ComparePairs: paired differences and the sign
+// test.
 namespace trackbed {
 namespace {
 
-/// Boost's tables of long doubles overflow, as the program starts, where these have only 64 bits,
-/// as under valgrind.
+/// Boost's tables of long doubles overflow at startup where long doubles have only 64 bits, as
+/// under valgrind.
 using InDoubles = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
-/// How far an interval of this confidence reaches, in standard deviations of a normal distribution.
+/// Half width of an interval of this confidence, in standard deviations of a normal distribution.
 double NormalReach(double confidence) {
   TRACKBED_REQUIRE(confidence > 0.0 && confidence < 1.0, "confidence {} is not in (0, 1)",
                    confidence);
@@ -31,7 +37,8 @@ double MeanOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Epsilon squared of an output whose mean is about 0: 1 - (within / (n - B)) / (total / (n - 1)).
+/// Epsilon squared, for an output with a mean near 0: 1 - (within / (n - B)) / (total / (n - 1))
+/// for n rows in B classes.
 class VarianceShare {
  public:
   explicit VarianceShare(std::size_t classes) : counts_(classes), sums_(classes) {}
@@ -44,7 +51,7 @@ class VarianceShare {
     counts_[its_class] += 1.0;
     sums_[its_class] += value;
   }
-  /// `squares` is the sum of the squares of all that was added.
+  /// `squares` is the sum of squares of all added values.
   [[nodiscard]] std::optional<double> Share(double squares) const {
     double rows = 0.0;
     double sum = 0.0;
@@ -83,7 +90,7 @@ Interval WilsonInterval(std::size_t passed, std::size_t count, double confidence
   const double scale = 1.0 + z * z / n;
   const double center = (p + z * z / (2.0 * n)) / scale;
   const double half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / scale;
-  // The ends are exact where all or none passed, up to rounding.
+  // Avoids rounding at the ends, which are exact if none or all passed.
   return {passed == 0 ? 0.0 : std::max(0.0, center - half),
           passed == count ? 1.0 : std::min(1.0, center + half)};
 }
@@ -146,7 +153,7 @@ Classes Classify(const std::vector<std::string>& values, std::size_t most) {
   std::sort(numbers.begin(), numbers.end());
   classes.names.clear();
   for (std::size_t begin = 0; begin < numbers.size();) {
-    // What is left is divided among the classes that are left.
+    // Divides the remaining rows among the remaining classes.
     const std::size_t left = std::max<std::size_t>(1, most - std::min(most, classes.names.size()));
     std::size_t end = begin + std::max<std::size_t>(1, (numbers.size() - begin) / left);
     while (end < numbers.size() && numbers[end].first == numbers[end - 1].first) {
@@ -170,7 +177,7 @@ std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
   if (output.empty()) {
     return indices;
   }
-  // Around 0, so that squares lose nothing to a large mean.
+  // Centers the values, so that a large mean does not cancel digits of the squares.
   std::vector<double> values = output;
   const double mean = MeanOf(values);
   std::vector<VarianceShare> shares;
@@ -188,7 +195,7 @@ std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
     for (std::size_t row = 0; row < values.size(); ++row) {
       shares[p].Add(classes.of_row[row], values[row]);
     }
-    // An output that varies by rounding alone does not vary.
+    // Ignores variation due to rounding.
     const double rounding = 1e-12 * std::abs(mean);
     if (squares <= rounding * rounding * static_cast<double>(values.size())) {
       continue;
@@ -205,7 +212,7 @@ std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
     }
     double own_squares = 0.0;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      // A row below values.size() from the upper half of the bits.
+      // Row number below values.size(), from the upper half of the bits.
       const std::size_t row = ((random() >> 32U) * values.size()) >> 32U;
       own_squares += values[row] * values[row];
       for (std::size_t p = 0; p < parameters.size(); ++p) {
@@ -235,7 +242,7 @@ std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
 
 namespace {
 
-/// From 0, as doubles; equal values have the mean of theirs. None if all are equal.
+/// Ranks from 0; equal values share their mean rank. None if all values are equal.
 std::optional<std::vector<double>> RanksOf(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

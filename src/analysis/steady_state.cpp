@@ -9,11 +9,11 @@
 namespace trackbed {
 namespace {
 
-constexpr double kSlow = 1.0;              // below it L psi'/v is of no use [m/s]
-constexpr double kYawAcceleration = 0.05;  // of what is quasi-steady [rad/s^2]
-constexpr double kWindow = 0.5;            // over which it is taken [s]
+constexpr double kSlow = 1.0;              // [m/s]; below, L psi'/v is meaningless
+constexpr double kYawAcceleration = 0.05;  // [rad/s^2]; upper limit of quasi-steady
+constexpr double kWindow = 0.5;            // [s]; for its mean
 
-/// Turned to the left.
+/// Quasi-steady sample, mirrored to a left turn.
 struct Sample {
   double steering = 0.0;
   double curvature = 0.0;
@@ -53,7 +53,7 @@ struct Line {
   double offset = 0.0;
 };
 
-/// y = offset + slope x by least squares.
+/// Least-squares fit of y = offset + slope x.
 template <typename Y>
 Line Fit(const std::vector<Sample>& samples, const Y& y) {
   const auto n = static_cast<double>(samples.size());
@@ -83,7 +83,7 @@ std::vector<Sample> Between(const std::vector<Sample>& samples, double from, dou
   return between;
 }
 
-/// How far the lateral accelerations of samples spread [m/s^2].
+/// Range of the samples' lateral accelerations [m/s^2].
 double Spread(const std::vector<Sample>& samples) {
   double low = samples.empty() ? 0.0 : samples.front().lateral_acceleration;
   double high = low;
@@ -96,7 +96,7 @@ double Spread(const std::vector<Sample>& samples) {
 
 void EvaluateGradients(const std::vector<Sample>& samples, double from, double to, double wheelbase,
                        ManeuverMetrics& metrics) {
-  constexpr double kLeastSpread = 0.5;  // a gradient needs something to be over [m/s^2]
+  constexpr double kLeastSpread = 0.5;  // [m/s^2]; a gradient needs a range
   double highest = 0.0;
   for (const Sample& sample : samples) {
     highest = std::max(highest, sample.lateral_acceleration);

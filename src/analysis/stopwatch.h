@@ -4,7 +4,7 @@
 
 namespace trackbed {
 
-/// Wall-clock seconds since it was made.
+/// Wall-clock seconds since construction.
 class Stopwatch {
  public:
   [[nodiscard]] double Seconds() const {

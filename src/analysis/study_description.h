@@ -8,18 +8,19 @@
 
 namespace trackbed {
 
-/// The keys of the parameters in the order of their columns.
+/// Keys of the parameters, in the order of their columns.
 std::vector<std::string> ParameterKeys(const Study& study);
 
-/// The columns of the table of a study.
+/// Column names of a study's table.
 std::vector<std::string> TableColumns(const Study& study);
 
-/// A value of YAML as one of JSON: numbers and the like as such, all else as text.
+/// Converts a YAML value to JSON: numbers, booleans and the like keep their type, anything else
+/// becomes text.
 nlohmann::ordered_json SettingsJson(const std::string& value);
 nlohmann::ordered_json SettingsJson(const std::vector<Setting>& settings);
 
-/// All that the rows of a study depend on, but for the contents of its files: two studies with
-/// equal descriptions have the same rows.
+/// Everything that the rows of a study depend on, except the contents of its files. Two studies
+/// with equal descriptions have equal rows.
 nlohmann::ordered_json DescribeStudy(const Study& study);
 
 }  // namespace trackbed

@@ -65,7 +65,7 @@ void RunCase(const std::function<Scenario(const fs::path&)>& read,
   one.wall_time = took.count();
 }
 
-/// Tells of cases in the order of the files, as soon as all before them are finished.
+/// Reports cases in the order of the files, each as soon as all earlier ones have finished.
 class OrderedCases {
  public:
   OrderedCases(const std::vector<SuiteCase>& cases,
@@ -90,7 +90,7 @@ class OrderedCases {
   std::size_t next_ = 0;
 };
 
-/// XML 1.0 has no place for most control characters, nor for bytes that are not UTF-8.
+/// Replaces characters that XML 1.0 does not allow: most control characters, and invalid UTF-8.
 std::string XmlText(const std::string& text) {
   using Utf8 = boost::locale::utf::utf_traits<char>;
   std::string clean;
@@ -100,7 +100,7 @@ std::string XmlText(const std::string& text) {
     const bool broken = c == boost::locale::utf::illegal || c == boost::locale::utf::incomplete;
     const bool control = c < 0x20 && c != '\t' && c != '\n';
     if (broken) {
-      // What is left of a character of several bytes is no character either.
+      // Skips the remaining bytes of an invalid multibyte character.
       at = std::find_if(begin + 1, text.end(), [](char byte) {
         return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
       });
@@ -122,7 +122,7 @@ std::string Seconds(double time) {
   return fmt::format("{:.3f}", time);
 }
 
-/// What a case that is not passed has inside: nothing, if it is.
+/// Adds the child element of a case that did not pass; none if it passed.
 void AddOutcome(tinyxml2::XMLElement& element, const SuiteCase& one) {
   struct Kind {
     const char* element;
@@ -158,7 +158,7 @@ void AddOutcome(tinyxml2::XMLElement& element, const SuiteCase& one) {
   outcome.SetText(XmlText(fmt::format("{}", fmt::join(one.reasons, "\n"))).c_str());
 }
 
-/// "scenarios.studies" for the file scenarios/studies/x.yaml: reports group cases by it.
+/// Class name by which reports group cases: "scenarios.studies" for scenarios/studies/x.yaml.
 std::string ClassName(const fs::path& file) {
   std::string name;
   for (const fs::path& part : file.lexically_normal().parent_path().relative_path()) {

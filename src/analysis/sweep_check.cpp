@@ -25,13 +25,13 @@ namespace {
 
 using CarKey = std::tuple<std::string, double, double>;
 
-/// What tells the bare cars of scenarios apart.
+/// Key of a scenario's compiled model without obstacles.
 CarKey MakeCarKey(const Scenario& scenario) {
   return {FindModel(scenario.vehicle.model, scenario.folder).string(), scenario.drive.timestep,
           scenario.vehicle.steering_rate.value_or(0.0)};
 }
 
-/// The scenario with nothing put into the car's scene.
+/// The scenario without additions to the car's scene.
 Scenario Bare(Scenario scenario) {
   scenario.world.obstacles.clear();
   scenario.world.map.reset();
@@ -40,14 +40,14 @@ Scenario Bare(Scenario scenario) {
   return scenario;
 }
 
-/// Does something once for the scenarios of one key, and gathers the InputErrors of that.
+/// Checks one scenario per key and collects the InputErrors.
 template <typename Key>
 class OncePerKey {
  public:
   explicit OncePerKey(std::function<void(const Scenario& scenario)> check)
       : check_(std::move(check)) {}
 
-  /// Whether the scenario is good.
+  /// Whether the check succeeded for this key.
   bool operator()(const Key& key, const Scenario& scenario) {
     const auto [at, is_new] = good_.try_emplace(key, true);
     if (is_new) {
@@ -69,7 +69,7 @@ class OncePerKey {
   std::vector<Problem> problems_;
 };
 
-/// Puts every car once on each of its plants: not every car has what every plant asks of it.
+/// Constructs each plant with its car: some plants need elements that a model may lack.
 void CheckPlants(const CheckedStudy& checked, const Scenario& scenario) {
   std::vector<Problem> problems;
   const World bare;
@@ -106,7 +106,7 @@ void CheckOutputs(const Study& study, const std::set<std::string>& possible) {
   }
 }
 
-/// SHA-256 of all that the model of a scenario's car is made of.
+/// SHA-256 of a car's model and its assets.
 std::string HashOfModel(const Scenario& scenario) {
   const Scene scene = ComposeScene(FindModel(scenario.vehicle.model, scenario.folder), {});
   Sha256Sum hash;
@@ -188,7 +188,7 @@ std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario&
     return std::nullopt;
   }
   const bool passed = result.verdict.passed;
-  // Without a plan the verdict has one failure, which tells of it.
+  // Without a plan the verdict has a single failure, which gives the reason.
   RunOutcome outcome{.status = !result.plan.ok()        ? "no_plan"
                                : !result.verdict.judged ? "driven"
                                : passed                 ? "passed"

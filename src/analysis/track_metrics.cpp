@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// Follows the rear axle along the track: its station, which goes on from lap to lap.
+/// Tracks the station of the rear axle, which keeps increasing from lap to lap.
 class LapCounter {
  public:
   LapCounter(const Track& track, const Vec2& start) : track_(track) {
@@ -22,10 +22,10 @@ class LapCounter {
 
   [[nodiscard]] double station() const { return station_; }
 
-  /// The station of the next place.
+  /// The station of the next position.
   double Advance(const Vec2& position) {
     const double s = track_.Locate(position, station_).s;
-    // The lap in which that is nearest to the last station.
+    // Chooses the lap whose station is nearest to the previous one.
     station_ = s + track_.length() * std::round((station_ - s) / track_.length());
     return station_;
   }
@@ -35,8 +35,8 @@ class LapCounter {
   double station_ = 0.0;
 };
 
-/// Distance of a point from the nearest piece of an edge among those by a station [m], negative on
-/// the outer side: right of a right edge, left of a left edge.
+/// Distance from a point to the nearest segment of an edge, among those near a station [m].
+/// Negative outside the track: right of a right edge, left of a left edge.
 double DistanceInside(const TrackEdgeLine& edge, double side, const Vec2& point, double share) {
   const auto count = static_cast<std::ptrdiff_t>(edge.size());
   const auto middle = static_cast<std::ptrdiff_t>(share * static_cast<double>(count));
@@ -52,8 +52,8 @@ double DistanceInside(const TrackEdgeLine& edge, double side, const Vec2& point,
         std::clamp((point - a).dot(along) / std::max(along.squaredNorm(), 1e-12), 0.0, 1.0);
     const Vec2 beside = point - a - part * along;
     const double distance = beside.norm();
-    // At a corner two pieces are equally near; the one that the point is more abeam of says on
-    // which side it is.
+    // At a corner two segments are equally near. The one with the larger perpendicular component
+    // decides the side.
     const double across = side * Cross(along, point - a) / std::max(along.norm(), 1e-6);
     const bool equal = std::abs(distance - nearest) < 1e-9;
     if (equal ? std::abs(across) > std::abs(inside) : distance < nearest) {
@@ -64,7 +64,7 @@ double DistanceInside(const TrackEdgeLine& edge, double side, const Vec2& point,
   return std::copysign(nearest, inside);
 }
 
-/// The margin at every row of the log.
+/// Track margin at one row of the log.
 struct Margin {
   double margin = 0.0;  // [m]
   const LogRow* row = nullptr;
@@ -83,7 +83,7 @@ std::vector<Margin> Margins(const MetricInput& input) {
   return margins;
 }
 
-/// The sum over the control periods that begin off the track.
+/// Sum over the control periods that begin off the track.
 template <typename Span>
 std::optional<MetricReading> SumOffTrack(const MetricInput& input, const Span& span) {
   if (!input.plan.laps.track) {
@@ -113,7 +113,7 @@ std::vector<LapMetrics> MeasureLaps(const RunLog& log, const Plan& plan) {
   if (counter.station() > -1e-6) {
     begin = rows.front().state.time;
   }
-  // By the plan's lines: a run that goes on beyond its last lap begins no other.
+  // Counts at most the planned laps: driving beyond the finish starts no further lap.
   double next = begin ? track.length() : 0.0;
   double before = counter.station();
   for (std::size_t i = 1; i < rows.size() && laps.size() + 1 < plan.laps.lines.size(); ++i) {

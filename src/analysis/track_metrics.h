@@ -10,17 +10,17 @@
 /// Laps and track limits of a run on a track (Plan::laps).
 namespace trackbed {
 
-/// The laps that the rear axle completed: between crossings of the start line, linear between the
-/// rows of the log. A first lap that begins on the line or after it counts from the start of the
-/// run. None without a track.
+/// Laps that the rear axle completed, timed between crossings of the start line by linear
+/// interpolation between rows. A first lap that begins on or after the line starts with the run.
+/// Empty without a track.
 std::vector<LapMetrics> MeasureLaps(const RunLog& log, const Plan& plan);
 
-/// Distance of a footprint from the nearest edge [m], negative where it reaches beyond one: then
-/// that of its outermost point. `near` is a station of the track by the footprint's middle [m].
-/// The footprint is its corners and 15 points on either long side, the edges are their polylines.
+/// Distance from a footprint to the nearest edge [m]. If the footprint crosses an edge, the
+/// negative distance of its outermost point. `near` is the station of the footprint's center [m].
+/// The footprint is sampled by its corners and 15 points on each long side; edges are polylines.
 double TrackMargin(const Track& track, const OrientedBox& footprint, double near);
 
-/// The smallest TrackMargin of the run [m], with its moment. None without a track.
+/// Smallest TrackMargin of the run [m], with its place. None without a track.
 std::optional<MetricReading> SmallestTrackMargin(const MetricInput& input);
 /// Time with a negative TrackMargin [s]. None without a track.
 std::optional<MetricReading> TimeOffTrack(const MetricInput& input);

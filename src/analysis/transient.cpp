@@ -9,12 +9,12 @@
 namespace trackbed {
 namespace {
 
-// Of ISO 19365 and FMVSS 126, to pass the sine with dwell.
+// Limits of ISO 19365 and FMVSS 126 for the sine with dwell.
 constexpr StandardLimit kEarlyRatio{StandardLimit::Relation::kAtMost, 0.35};     // [1]
 constexpr StandardLimit kLateRatio{StandardLimit::Relation::kAtMost, 0.20};      // [1]
 constexpr StandardLimit kDisplacement{StandardLimit::Relation::kAtLeast, 1.83};  // [m]
 
-/// Below this the wheels have not been turned [rad].
+/// Smaller road wheel angles count as straight ahead [rad].
 constexpr double kNoSteering = 1e-4;
 
 double YawRate(const LogRow& row) {
@@ -24,7 +24,7 @@ double LateralAcceleration(const LogRow& row) {
   return row.state.lateral_acceleration;
 }
 
-/// The mean of a quantity over the last `duration` [s].
+/// Mean of a quantity over the last `duration` [s].
 template <typename Of>
 double MeanAtEnd(const RunLog& log, double duration, const Of& of) {
   const double from = log.rows.back().state.time - duration - 1e-9;
@@ -39,11 +39,11 @@ double MeanAtEnd(const RunLog& log, double duration, const Of& of) {
   return sum / count;
 }
 
-/// When the wheels are asked to move, and where they end.
+/// Time and size of a steering step.
 struct Step {
-  std::size_t row = 0;     ///< the first whose actuator moves on
-  double half_time = 0.0;  ///< when it is half-way [s]
-  double steering = 0.0;   ///< change of the road wheels' angle, to the steady state [rad]
+  std::size_t row = 0;     ///< first row in which the actuator moves
+  double half_time = 0.0;  ///< [s]; when half of the step is reached
+  double steering = 0.0;   ///< [rad]; change of the road wheel angle to steady state
 };
 
 std::optional<Step> FindStep(const RunLog& log, double steady) {
@@ -67,7 +67,7 @@ std::optional<Step> FindStep(const RunLog& log, double steady) {
   return step;
 }
 
-/// Response time, peak time, overshoot and steady value of one quantity, under `name`_….
+/// Adds response time, peak time, overshoot and steady value of a quantity, as `name`_….
 template <typename Of>
 double EvaluateResponse(const RunLog& log, const Step& step, double steady_time,
                         const std::string& name, const Of& of, ManeuverMetrics& metrics) {
@@ -142,7 +142,7 @@ std::vector<ManeuverMetric> MethodMetrics(const SineWithDwellTestOptions& /*opti
 void Evaluate(const SineWithDwellTestOptions&, const ManeuverInput& input,
               ManeuverMetrics& metrics) {
   const auto& rows = input.log.rows;
-  // 5 degrees of the steering wheel; on a car without a ratio that of a usual one, 20.
+  // 5 degrees at the steering wheel. For a car without a steering ratio, assumes 20.
   const double ratio = input.vehicle.steering_ratio > 0.0 ? input.vehicle.steering_ratio : 20.0;
   const double begins = 5.0 * kPi / 180.0 / ratio;
   const auto steering = [&](std::size_t i) { return rows[i].state.steering_actuator; };
@@ -162,7 +162,7 @@ void Evaluate(const SineWithDwellTestOptions&, const ManeuverInput& input,
   while (reversal < rows.size() && side * steering(reversal) > 0.0) {
     ++reversal;
   }
-  // Complete: the last time that it comes back to zero.
+  // The last return to zero.
   std::size_t complete = rows.size();
   while (complete > reversal && std::abs(steering(complete - 1)) < kNoSteering) {
     --complete;
@@ -173,7 +173,8 @@ void Evaluate(const SineWithDwellTestOptions&, const ManeuverInput& input,
   }
   const double completion = rows[complete].state.time;
 
-  // Across the heading of the beginning, to the side of the first half.
+  // Lateral displacement relative to the initial heading, positive toward the first half of the
+  // sine.
   const Pose2& start = rows[first].state.pose;
   const double to_cg = input.vehicle.cg_to_rear;
   const auto across = [&](const LogRow& row) {

@@ -4,6 +4,12 @@
 
 #include <algorithm>
 
+// Judges a run: each plant must arrive without a collision (or collide, if expected), stay below
+// the actuator's steering rate and within the default corridor of one car width, and meet the
+// expectations on all plants and on that plant, its requirements and the bounds between plants.
+// Explicit expectations replace the default ones on status and cross-track error. Every check is
+// recorded, met or not. A run without expectations, plan and obstacles is not judged unless a check
+// fails.
 namespace trackbed {
 namespace {
 
@@ -27,7 +33,7 @@ bool AsksAnything(const Expectations& expect) {
                      [](const auto& own) { return AsksAnything(own.second); });
 }
 
-/// Why a run ended before the goal, appended to its failure message.
+/// Why a run ended before the goal; appended to the failure message.
 std::string WhyNotAtGoal(const PlantMetrics& metrics) {
   return !metrics.blocked.empty()   ? fmt::format(" (it {})", metrics.blocked)
          : !metrics.partial.empty() ? fmt::format(" (the plan {})", metrics.partial)
@@ -35,7 +41,7 @@ std::string WhyNotAtGoal(const PlantMetrics& metrics) {
                                     : "";
 }
 
-/// The expectations on one plant: those on all plants, then its own.
+/// Expectations on one plant: those on all plants, then those on this plant.
 class Expected {
  public:
   Expected(const Expectations& expect, const std::string& plant) {
@@ -55,7 +61,7 @@ class Expected {
     });
   }
 
-  /// Whether the car is to hit an obstacle.
+  /// Whether a collision is expected; none if nothing is said.
   [[nodiscard]] std::optional<bool> Collision() const {
     std::optional<bool> collision;
     for (const PlantExpectation* part : parts_) {
@@ -74,8 +80,8 @@ class Expected {
   std::vector<const PlantExpectation*> parts_;
 };
 
-/// Checks that the run arrives, or ends in the expected collision. Returns whether it does, or
-/// whether the scenario has its own expectation of the status.
+/// Checks that the run arrives, or ends in the expected collision. Returns true if it does, or if
+/// the scenario itself has an expectation on the status.
 bool JudgeEnd(const Expected& expected, const PlantMetrics& metrics, Verdict& verdict) {
   if (expected.HasStatus()) {
     return true;

@@ -16,7 +16,7 @@ class Option;
 
 namespace trackbed::cli {
 
-/// The variable that an option sets; it must outlive the parsing. Pass the variable itself.
+/// Variable set by an option; must outlive the parsing. Pass the variable itself.
 using OptionTarget = std::variant<
     std::reference_wrapper<std::string>, std::reference_wrapper<int>,
     std::reference_wrapper<std::uint64_t>, std::reference_wrapper<double>,
@@ -24,24 +24,24 @@ using OptionTarget = std::variant<
     std::reference_wrapper<std::optional<double>>, std::reference_wrapper<std::optional<int>>,
     std::reference_wrapper<std::vector<std::string>>, std::reference_wrapper<std::vector<double>>>;
 
-/// Handle of an option that a Command has; valid as long as its CommandLine.
+/// Handle of an option; valid as long as its CommandLine.
 class Option {
  public:
   Option Required() const;
-  /// What help shows for the value, such as FILE.
+  /// Name of the value in help, such as FILE.
   Option TypeName(const std::string& name) const;
-  /// Values may be given in one word, separated by it.
+  /// Accepts several values in one word, separated by `separator`.
   Option Delimiter(char separator) const;
-  /// A list takes one word each time the option is given, not all that follow.
+  /// Each occurrence of a list option takes one word instead of all following words.
   Option OneWord() const;
-  /// Help shows the value that the variable has now.
+  /// Shows the variable's current value as default in help.
   Option ShowDefault() const;
   Option Excludes(const Option& other) const;
-  /// Excludes it, and then it is not required either.
+  /// Excludes the other option and makes it optional if this one is given.
   Option InsteadOf(const Option& other) const;
-  /// Refuses integers outside low..high.
+  /// Rejects integers outside low..high.
   Option Range(int low, int high) const;
-  /// Refuses numbers outside low..high, and NaN.
+  /// Rejects numbers outside low..high, and NaN.
   Option Range(double low, double high) const;
 
  private:
@@ -51,46 +51,47 @@ class Option {
   CLI::Option* option_;
 };
 
-/// An option or positional argument as the reference pages show it.
+/// Description of an option or positional argument for the reference pages.
 struct OptionInfo {
-  std::string name;   ///< "-o,--out"; of a positional argument its type name
-  std::string value;  ///< type name of the option's value; empty of flags and positional arguments
+  std::string name;   ///< "-o,--out"; for a positional argument, its type name
+  std::string value;  ///< type name; empty for flags and positional arguments
   std::string text;
-  std::string fallback;  ///< default, empty if none is shown
+  std::string fallback;  ///< default; empty if none is shown
   bool required = false;
   bool positional = false;
 };
 
-/// A command that help shows.
+/// Example command in help.
 struct Example {
   std::string text;     ///< what it does
-  std::string command;  ///< as one types it
+  std::string command;  ///< as typed
 };
 
-/// A verb as help and the reference pages show it.
+/// Description of a verb for help and the reference pages.
 struct CommandInfo {
   std::string name;
   std::string summary;
-  std::vector<OptionInfo> options;  ///< without --help and --color, which every verb has
+  std::vector<OptionInfo> options;  ///< without --help and --color, which all verbs have
   std::vector<Example> examples;
 };
 
 class CommandLine;
 
-/// Handle of one verb of a CommandLine, which must outlive it.
+/// Handle of a verb; valid as long as its CommandLine.
 class Command {
  public:
   Option AddPositional(const std::string& name, OptionTarget target, const std::string& text) const;
-  /// `names` as in "-o,--out".
+  /// Adds an option; `names` as in "-o,--out".
   Option AddOption(const std::string& names, OptionTarget target, const std::string& text) const;
   void AddFlag(const std::string& names, bool& target, const std::string& text) const;
-  /// A verb below this one ("sweep merge"), which is then not run itself and requires nothing.
+  /// Adds a verb below this one ("sweep merge"). If it is given, this verb is not run and requires
+  /// no options.
   [[nodiscard]] Command AddVerb(const std::string& name, const std::string& summary) const;
-  /// Shown at the end of --help.
+  /// Adds an example to the end of --help.
   void AddExample(const std::string& text, const std::string& command) const;
-  /// Leaves the verb out of --help and of VisibleVerbs.
+  /// Omits the verb from --help and VisibleVerbs.
   void Hide() const;
-  /// Sets what the verb does; `run` gives back the exit code. Its exceptions leave
+  /// Sets the action of the verb; `run` returns the exit code. Its exceptions propagate through
   /// CommandLine::Parse.
   void OnRun(std::function<int()> run) const;
   /// All verbs of the program that --help shows.
@@ -104,8 +105,8 @@ class Command {
   CommandLine* line_;
 };
 
-/// The parser of a program with verbs. Everything that knows CLI11, whose headers take longer to
-/// compile than the verbs themselves, is in command.cpp.
+/// Parser of a program with verbs. Only command.cpp includes CLI11, whose headers take longer to
+/// compile than the verbs.
 class CommandLine {
  public:
   CommandLine(const std::string& name, const std::string& summary,
@@ -116,13 +117,13 @@ class CommandLine {
 
   Command AddVerb(const std::string& name, const std::string& summary);
 
-  /// Runs the verb that the words ask for and gives back its exit code. Prints help, the version or
-  /// what is wrong with the words; `bad_usage` is the exit code then, and without a verb.
+  /// Runs the verb that is given and returns its exit code. Prints help, the version or an error of
+  /// usage; returns `bad_usage` for such an error and if no verb is given.
   int Parse(int argc, char** argv, int bad_usage);
 
  private:
   friend class Command;
-  /// Adds what every verb has.
+  /// Adds the options common to all verbs.
   void Prepare(CLI::App& verb);
 
   std::unique_ptr<CLI::App> app_;

@@ -18,10 +18,10 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-/// The words and the unit of a field's name: "ramp_time_s" is {"ramp", "time"} in s.
+/// Words and unit of a field name: "ramp_time_s" is {"ramp", "time"} in s.
 struct Heading {
   Texts words;
-  std::string unit;  ///< empty for what has none
+  std::string unit;  ///< empty for dimensionless fields
 };
 
 Heading HeadingFor(std::string_view name) {
@@ -49,19 +49,19 @@ Heading HeadingFor(std::string_view name) {
   return heading;
 }
 
-/// A field as text.
+/// Field as text.
 struct TextCell {
-  std::string name;  ///< with the names of the sections around it
+  std::string name;  ///< prefixed by the names of enclosing sections
   std::string text;
 };
 
-/// What a list element or the plan itself consists of.
+/// Fields of a list element or of the plan itself.
 struct Fields {
   std::vector<TextCell> cells;
-  Texts remarks;  ///< sentences, which are too long for a column
+  Texts remarks;  ///< sentences, too long for a column
 };
 
-/// A list as rows.
+/// List as rows.
 struct NamedList {
   std::string name;
   std::vector<Fields> rows;
@@ -131,7 +131,7 @@ class Collector : public DiagnosticsVisitor {
 TextColumns MakeColumns(const NamedList& list) {
   struct Column {
     std::string name;
-    Texts texts;  ///< one per row; "-" for what a row does not have
+    Texts texts;  ///< one per row; "-" if missing in a row
   };
   std::vector<Column> columns;
   for (std::size_t row = 0; row < list.rows.size(); ++row) {

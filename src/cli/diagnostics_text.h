@@ -6,9 +6,8 @@
 
 namespace trackbed::cli {
 
-/// A summary of a plan's diagnostics for the terminal, whatever planner it is from: a table for
-/// each list, such as turns or corners, and a line for every other field. Ends with a line feed,
-/// or is empty.
+/// Summary of a plan's diagnostics for the terminal, for any planner: a table per list, such as
+/// turns or corners, and one line per other field. Ends with a line feed unless empty.
 std::string DiagnosticsText(const Plan& plan);
 
 }  // namespace trackbed::cli

@@ -15,7 +15,7 @@
 namespace trackbed::cli {
 namespace {
 
-/// A part of the page that the program writes, between two marker lines.
+/// Generated part of the page, between two marker lines.
 struct Block {
   std::string name;
   std::string markdown;
@@ -26,7 +26,7 @@ const std::string kBegin = "<!-- begin: ";
 const std::string kClose = " -->";
 const std::string kEnd = "<!-- end -->";
 
-/// Text as a cell of a table that GitHub shows as it is.
+/// Escapes text for a table cell of GitHub Markdown.
 std::string Cell(const std::string& text) {
   std::string cell;
   for (const char c : text) {
@@ -36,7 +36,7 @@ std::string Cell(const std::string& text) {
   return cell;
 }
 
-/// In code, only the bar needs care.
+/// Inside code only the bar must be escaped.
 std::string Code(const std::string& text) {
   std::string cell;
   for (const char c : text) {
@@ -58,7 +58,7 @@ std::string VerbTable(const std::vector<CommandInfo>& verbs) {
   return table;
 }
 
-/// Without --help, which every verb has; the page says so once.
+/// Omits --help, which the page describes once for all verbs.
 std::string OptionTable(const CommandInfo& verb) {
   std::string table = "| argument | means |\n|---|---|\n";
   for (const OptionInfo& option : verb.options) {
@@ -104,7 +104,7 @@ std::vector<Block> Blocks(const std::vector<CommandInfo>& verbs) {
   return blocks;
 }
 
-/// The page with what stands between the markers replaced.
+/// Returns the page with new text between the markers.
 std::string Filled(const std::string& file, const std::string& page, std::vector<Block> blocks) {
   std::vector<std::string> names;
   for (const Block& block : blocks) {
@@ -151,7 +151,7 @@ std::string Filled(const std::string& file, const std::string& page, std::vector
 }  // namespace
 
 void AddDocs(const Command& command) {
-  command.Hide();  // for those who work on Trackbed; not in --help
+  command.Hide();  // for developers of Trackbed; not in --help
   const auto page = std::make_shared<std::string>();
   command.AddPositional("page", *page, "Markdown file to update").Required().TypeName("FILE");
   command.OnRun([page, command] {

@@ -6,8 +6,8 @@
 
 namespace trackbed::cli {
 
-/// What `trackbed list KIND` prints, without the texts; of "kinds" the kinds; empty if there is no
-/// such kind.
+/// Names printed by `trackbed list KIND`, without descriptions; for "kinds" the names of the kinds.
+/// Empty for an unknown kind.
 std::vector<std::string> NamesOfKind(std::string_view kind);
 
 }  // namespace trackbed::cli

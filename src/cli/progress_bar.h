@@ -6,8 +6,8 @@
 
 namespace trackbed::cli {
 
-/// One line on stderr that fills up, with the time left once two seconds tell how fast it goes;
-/// nothing at all unless stderr is a terminal and not `quiet`.
+/// Progress bar in one line on stderr, with the remaining time after two seconds. Prints nothing if
+/// stderr is not a terminal, or if `quiet`.
 class ProgressBar {
  public:
   ProgressBar(std::string label, bool quiet);
@@ -23,12 +23,12 @@ class ProgressBar {
     double fraction;
   };
 
-  /// ", 12 s left", or nothing.
+  /// ", 12 s left", or an empty string.
   std::string TimeLeft(double fraction);
 
   std::string label_;
   bool visible_;
-  std::optional<Moment> begun_;  ///< the first progress: what was done before tells no speed
+  std::optional<Moment> begun_;  ///< first progress; earlier work does not count for the speed
 };
 
 }  // namespace trackbed::cli

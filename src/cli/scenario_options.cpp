@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The cameras are a room below the scenario's.
+/// Names of the cameras, which the scenario module cannot know itself.
 std::vector<std::string> CameraNames() {
   std::vector<std::string> names;
   for (const FilmChoice& camera : Cameras()) {
@@ -31,7 +31,7 @@ std::vector<std::string> CameraNames() {
   return names;
 }
 
-/// Adds the files in `folder`, then those in its folders.
+/// Appends the files in `folder`, then those in its subfolders.
 void AddFilesIn(const fs::path& folder, FolderContent content, std::vector<fs::path>& files) {
   std::vector<fs::path> own;
   std::vector<fs::path> folders;

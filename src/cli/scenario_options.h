@@ -10,7 +10,7 @@
 
 namespace trackbed::cli {
 
-/// What every verb that reads scenarios can be told about them.
+/// Options of all verbs that read scenarios.
 struct ScenarioOptions {
   std::vector<std::string> plants;
   std::vector<std::string> overrides;
@@ -18,26 +18,25 @@ struct ScenarioOptions {
   std::vector<std::string> asset_folders;
   bool quiet = false;
 
-  /// Adds --plant, and what AddKeysTo adds.
+  /// Adds --plant and the options of AddKeysTo.
   void AddTo(const Command& command);
 
-  /// Adds --set, --seed, --allow-assets and --quiet, for verbs that ask for plants in their own
-  /// way.
+  /// Adds --set, --seed, --allow-assets and --quiet, for verbs with their own options for plants.
   void AddKeysTo(const Command& command);
 
-  /// The scenario as these options change it. InputError as ReadScenario.
+  /// Reads a scenario and applies these options. Throws the errors of ReadScenario.
   [[nodiscard]] Scenario Read(const std::filesystem::path& file) const;
 
-  /// The same of a scenario's text; `name` stands for the file in messages, `folder` is where
-  /// relative paths start.
+  /// As Read, for the text of a scenario. `name` stands for the file in messages; relative paths
+  /// start at `folder`.
   [[nodiscard]] Scenario Parse(const std::string& yaml, const std::string& name,
                                const std::filesystem::path& folder) const;
 
-  /// A study whose scenario these options change. InputError as ReadStudy.
+  /// Reads a study and applies these options to its scenario. Throws the errors of ReadStudy.
   [[nodiscard]] Study ReadStudyFile(const std::filesystem::path& file) const;
 
  private:
-  /// All of them as overrides.
+  /// All options as overrides.
   [[nodiscard]] std::vector<Override> Overrides() const;
 };
 
@@ -46,28 +45,27 @@ void AddAllowAssets(const Command& command, std::vector<std::string>& folders);
 
 std::vector<std::filesystem::path> Paths(const std::vector<std::string>& names);
 
-/// What to take from folders.
+/// Kinds of files to take from folders.
 enum class FolderContent { kScenarios, kScenariosAndStudies };
 
-/// Every file in the folder `scenarios` of the data, the files of a folder before those in its
-/// folders; without scenarios/validation, whose recordings are not installed.
+/// Every file in the folder `scenarios` of the data, each folder's files before its subfolders.
+/// Excludes scenarios/validation, whose recordings are not installed.
 std::vector<std::filesystem::path> ShippedScenarios(FolderContent content);
 
-/// The file that a name on the command line means: itself if there is such a file or it has an
-/// extension, else the scenario or study of that name that comes with Trackbed: "three_turns",
-/// "studies/robustness" or "robustness". InputError with the nearest name when there is none, and
-/// when there are several.
+/// Resolves a name on the command line: an existing file or a name with an extension is taken as
+/// is. Other names refer to a shipped scenario or study: "three_turns", "studies/robustness" or
+/// "robustness". Throws InputError for an unknown name, with the nearest one, and for an ambiguous
+/// name.
 std::filesystem::path FindScenario(const std::filesystem::path& name);
 
-/// The scenario files that `paths` name, each once: files as FindScenario finds them,
-/// folders by the *.yaml and
-/// *.yml in them and their folders, the files of a folder before those of its folders, sorted.
-/// What is hidden (.git) and links to folders are passed by. A folder that has none stands for
-/// itself, for RefuseFolder to tell of. RunError when a folder cannot be read.
+/// The scenario files that `paths` name, each once: files by FindScenario, folders by all *.yaml
+/// and *.yml in them, sorted, each folder's files before its subfolders. Skips hidden entries
+/// (.git) and links to folders. A folder without scenarios is kept, for RefuseFolder to report.
+/// Throws RunError if a folder cannot be read.
 std::vector<std::filesystem::path> ScenarioFiles(const std::vector<std::string>& paths,
                                                  FolderContent content);
 
-/// InputError if `file` is a folder, which has no scenarios then.
+/// Throws InputError if `file` is a folder, which then contains no scenarios.
 void RefuseFolder(const std::filesystem::path& file);
 
 }  // namespace trackbed::cli

@@ -8,7 +8,7 @@
 namespace trackbed::cli {
 namespace {
 
-/// Characters of UTF-8, each a column wide.
+/// Number of UTF-8 characters, each one column wide.
 std::size_t Width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char byte) {
     return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;

@@ -2,7 +2,7 @@
 
 #include "trackbed/options/key_visitor.h"
 
-/// Keys that several controllers have.
+/// Keys shared by several controllers.
 namespace trackbed {
 
 inline constexpr Range kAhead{.min = 0.01, .max = 1000.0};  ///< [m]

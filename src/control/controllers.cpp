@@ -18,7 +18,7 @@
 namespace trackbed {
 namespace {
 
-/// One line for each controller.
+/// The registry of controllers, one line each.
 Registry<ControllerEntry>& Table() {
   static Registry<ControllerEntry> table("controller", {
                                                            ScheduleController(),
@@ -41,7 +41,7 @@ Registry<ControllerEntry>& Table() {
   return table;
 }
 
-/// Refuses what is no state before a controller makes an angle of it.
+/// Rejects invalid states before the controller computes an angle.
 class ValidatingController final : public SteeringController {
  public:
   explicit ValidatingController(std::unique_ptr<SteeringController> inner)

@@ -13,9 +13,9 @@ namespace {
 
 enum State { kOffset, kHeading, kActuator, kWheels, kLateral, kYawRate };
 
-/// Slower cars are reckoned with this speed [m/s]: the tyres' part grows without bound at rest.
+/// Slowest speed of the model [m/s]: the tyres' terms are unbounded at rest.
 constexpr double kSlowest = 1.0;
-/// Shorter lags are reckoned as this [s].
+/// Shortest steering lag of the model [s].
 constexpr double kShortestLag = 1e-3;
 
 using Matrix = ErrorModel::Matrix;
@@ -57,7 +57,7 @@ ErrorModel MakeErrorModel(const ControlInput& input, const Tracking& tracking, d
   model.speed = direction * std::max(direction * input.state.speed, SlowestSpeed(vehicle));
   const double u = model.speed;
 
-  // d/dt of (x, w, kappa, c), the last three constant.
+  // Derivatives of (x, w, kappa, c), the last three constant. Its exponential gives the exact step.
   using Augmented = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
                                   ErrorModel::kMaxStates + 3, ErrorModel::kMaxStates + 3>;
   Augmented rates = Augmented::Zero(n + 3, n + 3);
@@ -117,7 +117,7 @@ Vector StateCost(const ErrorModel& model, const ErrorWeights& weights) {
 }
 
 double CommandedAngle::Now(const ControlInput& input) const {
-  // Rounding may have left the actuator a hair beyond its limit.
+  // Rounding may have moved the actuator slightly beyond its limit.
   const double limit = input.vehicle.steering_limit;
   return std::clamp(last_.value_or(input.state.steering_actuator), -limit, limit);
 }
@@ -183,14 +183,14 @@ Vector Ahead::Next() {
   const double stride = std::abs(from.speed) * model_.period;
   station_ += stride;
   const PathPoint next = input_.reference.path.At(station_);
-  // The mean over the step, whatever jumps within it.
+  // The mean curvature over the step, including jumps.
   const double mean = AngleDifference(next.pose.yaw, yaw_) / (direction_ * stride);
   const auto steering = [&](double curvature) {
     Motion motion = from;
     motion.curvature = curvature;
     return OperateOn(input_.vehicle, model_.tyres, motion).turn.steering;
   };
-  // A car in the steady turn stays in it: what moves it away is the curvature's change.
+  // In a steady turn, only a change of the curvature moves the car away from x_0.
   const Vector after =
       steady_ + model_.d * (mean - curvature_) +
       model_.c * (TangentExcess(steering(mean)) - TangentExcess(steering(curvature_)));

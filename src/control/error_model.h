@@ -7,23 +7,24 @@
 
 namespace trackbed {
 
-/// The linear model of a car beside its path at constant speed u, over steps of constant steering
-/// rate: what LQR and MPC reckon with.
+/// Linear model of a car's deviation from its path at constant speed u, in steps of constant
+/// steering rate. LQR and MPC are based on it.
 ///
-/// State x: e [m], psi [rad], delta where the actuator stands, delta_w the road wheels behind it
-/// (tau: the car's steering lag) and, for a car with tyres, v and r at the center of gravity. As
-/// in the (e, e', psi, psi') of Rajamani 2012, ch. 2, e' = u psi + v - l_r r and psi' = r - u
-/// kappa; here e is the rear axle's.
+/// State x: offset e [m], heading error psi [rad], actuator angle delta, angle delta_w of the road
+/// wheels, which follow it with the car's steering lag and, for a car with tyres, v and r at the
+/// center of gravity. As in the (e, e', psi, psi') of Rajamani 2012, ch. 2, e' = u psi + v - l_r r
+/// and psi' = r - u kappa; here e is the rear axle's.
 ///   x' = A x + B w + D kappa + C c
-/// w = delta' the steering rate, kappa the path's curvature, and c = tan(delta_0) - delta_0 of the
-/// steady turn: the wheels act with their tangent, which is linearized there with slope 1. Thus a
+/// w = delta' is the steering rate, kappa the path's curvature, and c = tan(delta_0) - delta_0 for
+/// the steady turn: the wheels act by the tangent of their angle, linearized there with slope 1.
+/// Thus a car in a steady turn stays on its path, at any curvature.
 /// car on its path in a steady turn stays on it, however tight that is.
 struct ErrorModel {
   static constexpr int kMaxStates = 6;
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxStates, kMaxStates>;
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxStates, 1>;
 
-  double speed = 0.0;   ///< u [m/s], signed, never too near 0
+  double speed = 0.0;   ///< u [m/s], signed, bounded away from 0
   double period = 0.0;  ///< of a step [s]
   TyreForces tyres = TyreForces::kLinear;
   Matrix a;  ///< x after a step = a x + b w + d kappa + c (tan(delta_0) - delta_0)
@@ -32,34 +33,35 @@ struct ErrorModel {
   Vector c;
 };
 
-/// The model at the speed that the car has, in the direction of the path at its foot. A car at a
-/// crawl or rolling the other way is reckoned with
-/// 2.46 L omega that way, 1 m/s at most.
+/// The model at the car's speed, in the direction of the path at its foot. Below 2.46 L omega (at
+/// most 1 m/s), or if the car rolls backward, it uses that speed.
 ///
-/// kBrush: C_f and C_r are those about the turn at the foot with the planned acceleration. The
-/// steady turn is not the linear model's fixed point, but x's deviation from it runs by `a`.
+/// With kBrush, C_f and C_r are those in the turn at the foot with the planned acceleration. The
+/// steady turn is then no fixed point of the linear model, but deviations of x from it evolve by
+/// `a`.
 ErrorModel MakeErrorModel(const ControlInput& input, const Tracking& tracking, double period,
                           TyreForces tyres = TyreForces::kLinear);
 
-/// x of the car now.
+/// The state x of the car.
 ErrorModel::Vector ErrorState(const ControlInput& input, const Tracking& tracking,
                               TyreForces tyres = TyreForces::kLinear);
 
-/// The angle that is asked for, turned by a rate. It goes on from what was asked before, not from
-/// where the actuator stands: an actuator that is late, has play or gives a tenth too little would
-/// else never get anywhere. Its angle, as measured, is in x, so that what it lacks is made up for.
+/// The commanded angle, changed by a rate. It continues from the last command, not from the
+/// actuator's angle: an actuator with a delay, backlash or a gain error of a tenth would otherwise
+/// never reach the wanted angle. The measured angle is part of x, so feedback compensates its
+/// error.
 class CommandedAngle {
  public:
-  /// delta [rad] to go on from; at first the actuator's.
+  /// delta [rad] to continue from; at first the actuator's angle.
   [[nodiscard]] double Now(const ControlInput& input) const;
-  /// delta at the end of the period, both within the car's limits.
+  /// delta at the end of the period, within the car's limits of rate and angle.
   double Turn(const ControlInput& input, double rate);
 
  private:
   std::optional<double> last_;
 };
 
-/// What LQR and MPC minimize: the sum over all steps of
+/// Cost function of LQR and MPC: the sum over all steps of
 ///   cross_track e^2 + heading (psi - psi_0)^2 + rate w^2.
 struct ErrorWeights {
   double cross_track = 1.0;    ///< [1/m^2], > 0
@@ -67,9 +69,9 @@ struct ErrorWeights {
   double steering_rate = 1.0;  ///< [s^2/rad^2], > 0
 };
 
-/// Of LqrOptions or MpcOptions. The weights that these leave open make the cost of an error the
-/// same for cars of every size: of an offset over the wheelbase, and of the steering rate over that
-/// of the car.
+/// The weights of LqrOptions or MpcOptions. Default weights make the cost of an error equal for
+/// cars of every size: of an offset relative to the wheelbase, and of a steering rate relative to
+/// the car's maximum.
 template <typename Options>
 ErrorWeights WeightsFor(const VehicleParams& vehicle, const Options& options) {
   const CarScale scale = ComputeCarScale(vehicle);
@@ -78,55 +80,54 @@ ErrorWeights WeightsFor(const VehicleParams& vehicle, const Options& options) {
           .steering_rate = options.steering_rate.value_or(scale.time * scale.time)};
 }
 
-/// The linear-quadratic regulator for a model: the cost of x off the path is x^T P x, and
-/// w = -K x keeps it lowest.
+/// The linear-quadratic regulator of a model: w = -K x minimizes the cost, which is then x^T P x.
 struct Regulator {
   ErrorModel::Matrix cost;                                                                    ///< P
   Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, ErrorModel::kMaxStates> gain;  ///< K
   double input_cost = 0.0;  ///< R + b^T P b
 };
 
-/// P from the discrete Riccati equation, by doubling (Chu et al. 2004), to rounding.
+/// P of the discrete Riccati equation, by doubling (Chu et al. 2004), to machine precision.
 Regulator SolveRegulator(const ErrorModel& model, const ErrorWeights& weights);
 
-/// Diagonal of the cost of x.
+/// Diagonal of the state cost.
 ErrorModel::Vector StateCost(const ErrorModel& model, const ErrorWeights& weights);
 
-/// How x may stray from the steady turns of the path ahead, step by step: with x_0(k) the steady
-/// turn at the path's curvature k steps ahead, z = x - x_0 runs as z(k+1) = a z(k) + b w(k) + g(k).
-/// A step goes as far as the car's present speed takes it; with kBrush, as the planned one does,
-/// plus what the car is now faster than planned, and x_0(k) is the turn at that speed.
+/// Disturbance by the path ahead, step by step. With x_0(k), the steady turn at the path's
+/// curvature k steps ahead, z = x - x_0 evolves by z(k+1) = a z(k) + b w(k) + g(k). The length of a
+/// step follows from the car's present speed. With kBrush it follows from the planned speed plus
+/// the car's present excess over it; this speed also determines the turn x_0(k).
 class Ahead {
  public:
   Ahead(const ControlInput& input, const Tracking& tracking, const ErrorModel& model);
 
-  /// x_0 now.
+  /// x_0 at the present step.
   [[nodiscard]] const ErrorModel::Vector& steady() const { return steady_; }
-  /// g of the next step: zero while the curvature stays, with kBrush also the speed.
+  /// g of the next step: zero while the curvature and, with kBrush, the speed stay constant.
   ErrorModel::Vector Next();
 
  private:
-  /// At the station.
+  /// The intended motion at the present station.
   [[nodiscard]] Motion MotionOn(double curvature) const;
 
   const ControlInput& input_;
   const ErrorModel& model_;
   double station_;
-  double excess_speed_;  // over the planned one, which counts with kBrush [m/s]
+  double excess_speed_;  // over the planned speed; used with kBrush [m/s]
   int direction_;
   double curvature_;
   ErrorModel::Vector steady_;
   double yaw_;
 };
 
-/// The regulator for a car whose wheels turn no faster than `steering_rate` [rad/s]. The further it
-/// is off its path, by offset or by heading, the more the rate's weight is raised above its own: by
-/// powers of two, until neither asks for more than twice the rate that there is. With the gain
-/// scheduled so low, a chain of integrators behind a saturation comes to rest from anywhere
-/// (Megretski 1996); with that of a car on its path it would swing for ever.
+/// The regulator for a car with a maximum steering rate `steering_rate` [rad/s]. The larger the
+/// offset or heading error, the more it raises the rate's weight: by powers of two, until neither
+/// error commands more than twice the maximum rate. With such a low scheduled gain, a chain of
+/// integrators behind a saturation converges from any state (Megretski 1996); with the gain for
+/// small errors it would oscillate forever.
 ///
-/// The offset in z is brought down to one that is approached at 0.6 rad: further away the linear
-/// model would turn to the path by more than a right angle.
+/// Clamps the offset in z to one that is approached at 0.6 rad: for larger offsets the linear model
+/// would turn toward the path by more than a right angle.
 Regulator ScheduledRegulator(const ErrorModel& model, double steering_rate, ErrorWeights& weights,
                              ErrorModel::Vector& z);
 

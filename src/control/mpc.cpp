@@ -12,7 +12,7 @@ namespace {
 
 static_assert(MpcOptions::kLongestHorizon <= QuadraticProgram::kMaxVariables);
 
-/// z of a step as a linear function of all rates: free + reach w.
+/// z after a step as a linear function of all rates: free + reach w.
 struct Prediction {
   ErrorModel::Vector free;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, ErrorModel::kMaxStates,
@@ -53,7 +53,7 @@ class Mpc final : public SteeringController {
   }
 
  private:
-  /// Rates, and the angles that they add up to, both ways.
+  /// Constrains the rates and the angles, which are their sums, to both sides.
   static void Limit(const VehicleParams& vehicle, double start, double step,
                     QuadraticProgram& program) {
     const auto n = program.linear.size();

@@ -11,24 +11,24 @@
 namespace trackbed {
 namespace {
 
-/// Bounds of the one variable of a search, and where it begins.
+/// Bounds and start of a one-dimensional search.
 struct SteeringInterval {
   double lower = 0.0;
   double upper = 0.0;
   double start = 0.0;
 };
 
-/// How far the wheels turn at their full rate over the problem's distance [rad].
+/// Largest change of the wheel angle over the problem's distance [rad].
 double Reach(const VehicleParams& vehicle, const SteeringProblem& problem) {
   return vehicle.steering_rate * std::abs(problem.distance) / problem.speed;
 }
 
-/// In the axes in which the poses are given; (1) is the same in all.
+/// Computed in the axes of the given poses; cost (1) is the same in any axes.
 Deviation Difference(const Pose2& actual, const Pose2& wanted) {
   return {actual.x - wanted.x, actual.y - wanted.y, actual.yaw - wanted.yaw};
 }
 
-/// The variable that minimizes its cost, in place of the steering.
+/// Returns the minimizer of the cost in the field `steering`.
 template <typename Cost>
 SteeringMatch Minimise(const Cost& cost, const SteeringInterval& range, const SearchOptions& search,
                        std::uint64_t seed) {
@@ -67,14 +67,14 @@ Pose2 PredictPose(const VehicleParams& vehicle, double steering, double wanted, 
   const double ramp = std::min(speed * move.ramp_time, std::abs(distance));
   Pose2 pose;
   if (ramp > 0.0) {
-    // delta = delta_0 + slope s; the integral of tan(delta)/L over s.
+    // delta = delta_0 + slope s; integrates tan(delta)/L over s.
     const double slope = move.rate / speed;
     const double cosine = std::cos(steering);
     const auto heading = [&](double s) {
       return direction * std::log(cosine / std::cos(steering + slope * s)) /
              (vehicle.wheelbase * slope);
     };
-    // The nodes are the same for both coordinates.
+    // The quadrature nodes are the same for both coordinates.
     using Quadrature = boost::math::quadrature::gauss<double, 10>;
     const double half = 0.5 * ramp;
     Vec2 sum = Vec2::Zero();
@@ -110,7 +110,7 @@ double TurnShare(const VehicleParams& vehicle, const SteeringProblem& problem, d
 
 SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem& problem,
                              const DeviationWeights& weights, const SearchOptions& search) {
-  // Solved as if the wanted pose lay to the left, so that a mirrored problem takes the same steps.
+  // Mirrors the problem so that the wanted pose is on the left; mirrored problems take equal steps.
   const Pose2& wanted = problem.wanted;
   const bool ahead = wanted.y == 0.0 && wanted.yaw == 0.0;
   const bool mirrored =
@@ -123,7 +123,7 @@ SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem
   const double limit = problem.max_steering;
   const double lower = TurnShare(vehicle, own, -limit);
   const double upper = TurnShare(vehicle, own, limit);
-  // A simplex that begins on a bound and finds the next point worse ends there.
+  // A simplex that starts on a bound stops there if the next point is worse.
   const double margin = 0.05 * (upper - lower);
   const double start =
       std::clamp(TurnShare(vehicle, own, side * problem.start), lower + margin, upper - margin);
@@ -131,7 +131,7 @@ SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem
     return DeviationCost(DeviationAhead(vehicle, own, SteeringOfShare(vehicle, own, share)),
                          weights);
   };
-  constexpr std::uint64_t kSeed = 1;  // of every update
+  constexpr std::uint64_t kSeed = 1;  // the same for every update
   SteeringMatch match = Minimise(cost, {lower, upper, start}, search, kSeed);
   match.steering = side * std::clamp(SteeringOfShare(vehicle, own, match.steering), -limit, limit);
   return match;
@@ -139,7 +139,7 @@ SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem
 
 SteeringMatch MatchSteering(const VehicleParams& vehicle, const CircleExperiment& experiment,
                             const SearchOptions& search, std::uint64_t seed) {
-  // Where constant steering leads in a time.
+  // Final pose after a time of constant steering.
   const auto drive = [&](double steering, double speed, double time) {
     KinematicCar car(vehicle, experiment.reference, {.speed = speed, .steering = steering});
     car.Step({.steering = steering}, time);

@@ -61,7 +61,7 @@ class OptimalSteeringController final : public SteeringController {
   }
 
  private:
-  /// Where the primary is, and how fast if that matters.
+  /// Position of the primary, and its speed if the matching needs it.
   struct Primary {
     double station = 0.0;
     std::optional<double> speed;
@@ -79,8 +79,7 @@ class OptimalSteeringController final : public SteeringController {
     return {station, std::max(input.reference.speed.SpeedAt(station), kCrawl)};
   }
 
-  /// The path's pose at `station`, its yaw counted from that of the car so that turns in between
-  /// count.
+  /// The path's pose at `station` relative to the car. Its yaw includes full turns in between.
   static Pose2 Seen(const ControlInput& input, double station) {
     const Path& path = input.reference.path;
     const double here = path.At(input.station).pose.yaw;
@@ -90,7 +89,7 @@ class OptimalSteeringController final : public SteeringController {
   }
 
   OptimalSteeringOptions options_;
-  std::optional<double> last_;  // where the next search begins [rad]
+  std::optional<double> last_;  // start of the next search [rad]
   Deviation deviation_;
   SteeringMatch match_;
 };

@@ -29,8 +29,8 @@ class PlaybackController final : public SteeringController {
   }
 
  private:
-  /// A change of plan does not wind the recording back: by distance it is the car's, not the
-  /// plan's.
+  /// A replan does not restart the recording: the distance is the car's odometer, not the plan's
+  /// station.
   [[nodiscard]] double Axis(const ControlInput& input) const {
     return options_.by == PlaybackAxis::kTime ? input.state.time : input.state.distance;
   }
@@ -38,7 +38,7 @@ class PlaybackController final : public SteeringController {
   PlaybackOptions options_;
 };
 
-/// How far the axis goes within the period.
+/// Advance of the axis within the period.
 double AxisAdvance(const PlaybackOptions& options, double speed, double period) {
   return options.by == PlaybackAxis::kTime ? period : std::abs(speed) * period;
 }

@@ -11,7 +11,7 @@
 namespace trackbed {
 namespace {
 
-/// The angle from where the rear axle points to where it moves [rad], left positive; 0 at a crawl.
+/// Angle from the rear axle's heading to its velocity [rad], left positive; 0 at very low speed.
 double RearSlip(const ControlInput& input) {
   const VehicleState& state = input.state;
   const double across = state.lateral_speed - input.vehicle.cg_to_rear * state.yaw_rate;
@@ -29,7 +29,7 @@ class Preview final : public SteeringController {
     const int direction = input.reference.path.BendAt(input.station).direction;
     const double u = PreviewAngle(input.reference.path, input.state.pose, input.station, distance) -
                      (options_.slip ? RearSlip(input) : 0.0);
-    // Backwards, wheels to the right turn the motion to the left.
+    // In reverse, steering right turns the motion to the left.
     const double bend =
         direction * 2.0 / distance * (options_.law == PreviewLaw::kLinear ? u : std::sin(u));
     return std::clamp(SteeringOn(input, bend, direction), -input.vehicle.steering_limit,
@@ -37,7 +37,7 @@ class Preview final : public SteeringController {
   }
 
  private:
-  /// delta [rad] for a bend of `curvature`.
+  /// Steering angle delta [rad] for a curvature.
   [[nodiscard]] double SteeringOn(const ControlInput& input, double curvature,
                                   int direction) const {
     if (options_.slip) {
@@ -57,13 +57,13 @@ double PreviewStation(const Path& path, const Vec2& p, double station, double di
   if (beyond(station) >= 0.0) {
     return station + distance;
   }
-  // The path cannot leave the circle sooner than a straight line would. An eighth of the distance
-  // finds the first crossing of any path that bends on radii above it.
+  // The path leaves the circle no sooner than a straight line would. Steps of an eighth of the
+  // distance find the first crossing of any path with larger radii of curvature.
   const double stride = distance / 8.0;
   double inside = station;
   while (beyond(inside + stride) < 0.0) {
     if (inside + stride == inside) {
-      return station + distance;  // a distance below the rounding of the station
+      return station + distance;  // the distance is below the rounding error of the station
     }
     inside += stride;
   }
@@ -80,7 +80,7 @@ double PreviewAngle(const Path& path, const Pose2& pose, double station, double 
                    "PreviewAngle: {} m ahead of station {} m; must be finite, ahead", distance,
                    station);
   const double s = PreviewStation(path, pose.position(), station, distance);
-  // Backwards, the direction of motion is against the heading.
+  // In reverse, the direction of motion is opposite to the heading.
   const Vec2 to_point = path.BendAt(station).direction * ToLocal(pose, path.At(s).pose.position());
   return std::atan2(to_point.y(), to_point.x());
 }

@@ -9,20 +9,20 @@
 namespace trackbed {
 namespace {
 
-constexpr double kWheelbases = 0.75;  ///< shortest R over L
-constexpr double kResponses = 3.0;    ///< R over v T
+constexpr double kWheelbases = 0.75;  ///< minimum R over L
+constexpr double kResponses = 3.0;    ///< minimum R over v T
 constexpr double kRampShare = 0.65;   ///< R over S
-/// Each station looked at is this much further than the one before. A step is taken for as near as
-/// the nearer one of the two stations that it lies between.
+/// Ratio of successive sampled stations. A curvature step between two stations is attributed to the
+/// closer one.
 constexpr double kSpread = 1.3;
 
-/// The ramp S [m] over a stretch of stations that grows at either end.
+/// Computes the ramp S [m] over a range of stations that is extended at either end.
 class RampScan {
  public:
   explicit RampScan(double turned)
       : min_minus_(turned), max_minus_(turned), min_plus_(turned), max_plus_(turned) {}
 
-  /// `turned` = v delta/omega [m] at `s` [m] from the car, beyond a gap in which a step may lie.
+  /// `turned` = v delta/omega [m] at `s` [m] from the car; the gap before it may contain a step.
   void Extend(double turned, double s, double gap) {
     if (s > 0.0) {
       ramp_ = std::max({ramp_, turned - s - min_minus_ + gap, max_plus_ - turned - s + gap});
@@ -39,19 +39,19 @@ class RampScan {
 
  private:
   double ramp_ = 0.0;
-  // Of turned - s and turned + s, over all stations.
+  // Extremes of turned - s and turned + s over all stations.
   double min_minus_;
   double max_minus_;
   double min_plus_;
   double max_plus_;
 };
 
-/// 0.65 S + v T, at least `shortest`, for ramps that are driven at `speed`; `response` = v T [m].
+/// 0.65 S + v T, at least `shortest`, for ramps at the speed `speed`; `response` = v T [m].
 double RampPreview(const ControlInput& input, double speed, double response, double shortest) {
   const Path& path = input.reference.path;
   const VehicleParams& vehicle = input.vehicle;
   const double way = speed / vehicle.steering_rate;  // [m/rad]
-  // Most stations lie on the same line or arc as the one before.
+  // Most stations have the curvature of the one before.
   std::optional<double> last_curvature;
   double last_turned = 0.0;
   const auto turned = [&](const PathBend& bend) {
@@ -84,7 +84,7 @@ double RampPreview(const ControlInput& input, double speed, double response, dou
       }
       const PathBend bend = path.BendAt(goes_on ? input.station + side * s : end);
       if (bend.direction != here.direction) {
-        goes_on = false;  // at a cusp the wheels turn while the car stands
+        goes_on = false;  // at a cusp the car steers at standstill
         continue;
       }
       scan.Extend(turned(bend), side * s, s - near);
@@ -98,9 +98,9 @@ double RampPreview(const ControlInput& input, double speed, double response, dou
   return preview;
 }
 
-/// The lowest speed [m/s] that is planned no further than `distance` from the car, which goes at
-/// `speed`: steps of curvature are slowed down for, and it is there that they are met. The plan's
-/// coming to rest is no reason to look at the car's feet.
+/// The lowest planned speed [m/s] within `distance` of the car, which drives at `speed`: the plan
+/// slows down before curvature steps, so the car meets them at the lowest speed. At least a quarter
+/// of `speed`: a planned stop must not shrink the preview distance to zero.
 double SlowestWithin(const ControlInput& input, double speed, double distance) {
   constexpr int kLooks = 6;
   constexpr double kLeast = 0.25;  // of the speed
@@ -128,7 +128,7 @@ double ResponseTime(const VehicleParams& vehicle, double speed, double period) {
 double PreviewDistance(const ControlInput& input, double delay) {
   const double speed = std::abs(input.state.speed);
   const double response = speed * (ResponseTime(input.vehicle, speed, input.period) + delay);
-  // With differential drive the wheelbase is a name for the track.
+  // For a differential drive, `wheelbase` is the track.
   const double size = input.vehicle.kind == VehicleKind::kDifferential
                           ? std::max(input.vehicle.wheelbase, input.vehicle.length)
                           : input.vehicle.wheelbase;
@@ -139,10 +139,10 @@ double PreviewDistance(const ControlInput& input, double delay) {
 }
 
 double ReturnDistance(const VehicleParams& vehicle, double speed, double offset) {
-  // Found by trial on offsets of 0.2 to 4 m with previews of 2 to 4 m: all return to the path with
-  // it; with 1 some swing on for ever, with 2 they return more slowly.
+  // Determined by trial with offsets of 0.2 to 4 m and previews of 2 to 4 m: with 1.5 all converge
+  // to the path; with 1 some oscillate forever, with 2 they converge more slowly.
   constexpr double kShare = 1.5;
-  // Slower, the angle of the wheels limits the car, not their rate.
+  // At lower speeds the steering angle limits the car, not the steering rate.
   constexpr double kSlowest = 1.25;
   const double slowest = kSlowest * vehicle.wheelbase * vehicle.steering_rate;
   const double curvature_rate =

@@ -15,21 +15,21 @@
 namespace trackbed {
 namespace {
 
-/// Slower cars are reckoned as kinematic ones [m/s]; there they differ by less than 1e-2.
+/// Slower cars are modeled as kinematic [m/s]; there the models differ by less than 1e-2.
 constexpr double kSlowest = 1.0;
 
-/// Across the direction of motion, `time` after now.
+/// Lateral displacement, `time` from now.
 struct Responses {
   double free = 0.0;  ///< y_0 [m]
   double step = 0.0;  ///< A [m]
 };
 
-/// Of the rear axle, without slip.
+/// Response of the rear axle without slip.
 Responses KinematicResponses(const ControlInput& input, double way) {
   return {.free = 0.0, .step = way * way / (2.0 * input.vehicle.wheelbase)};
 }
 
-/// Of the linear single-track car, forwards: (y, psi, v, r) in the frame of the car now.
+/// Response of the linear single-track car, forward: (y, psi, v, r) in the car's present frame.
 Responses SingleTrackResponses(const ControlInput& input, double time) {
   const VehicleParams& vehicle = input.vehicle;
   const VehicleState& state = input.state;
@@ -79,20 +79,20 @@ class PreviewIntegral final : public SteeringController {
         square += importance * responses.step * responses.step;
       }
     }
-    // Backwards, wheels to the right turn the motion to the left.
+    // In reverse, steering right turns the motion to the left.
     const double wanted = direction * std::atan(moved / square);
     return Delayed(std::clamp(wanted, -vehicle.steering_limit, vehicle.steering_limit), input);
   }
 
  private:
-  /// How much more than the single point at the same distance it steers for an offset: of the
-  /// kinematic car, R^2/2 times the integral of A W over that of A^2 W. An oscillation as calm as
-  /// that law's needs the distance to grow with its root.
+  /// Gain for an offset, relative to the single-point law at the same distance: for the kinematic
+  /// car, R^2/2 times the integral of A W over that of A^2 W. For the same damping, the distance
+  /// must grow with the square root of this gain.
   [[nodiscard]] double OffsetGain() const {
     return options_.weight == PreviewWeight::kNear ? 5.0 / 2.0 : 5.0 / 3.0;
   }
 
-  /// What was wanted the delay ago; where the wheels stood before anything was.
+  /// The wanted angle of a delay ago; before the first one, the initial wheel angle.
   double Delayed(double wanted, const ControlInput& input) {
     const double periods = options_.delay / input.period;
     const auto whole = static_cast<std::size_t>(periods);

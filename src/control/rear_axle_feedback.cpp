@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// 1 - kappa e is taken for no less: the center of the path's curvature is not approached.
+/// Lower bound of 1 - kappa e: keeps away from the singularity at the center of curvature.
 constexpr double kNearCenter = 0.1;
 
 double Sinc(double angle) {

@@ -34,7 +34,7 @@ double Signal::Mean(double from, double to) const {
   if (!(to > from)) {
     return At(from);
   }
-  // Trapezoids are exact between knots.
+  // The trapezoidal rule is exact between knots.
   Vec2 last{from, At(from)};
   double area = 0.0;
   const auto add = [&](const Vec2& next) {

@@ -12,12 +12,12 @@ constexpr Key kBegin{"at", "s", "start time"};
 
 namespace {
 
-/// The mean acceleration [m/s^2] over the coming period of a car that keeps the profile, so that it
-/// has the profile's speed at the period's end even where the profile has a knot in between.
+/// The mean acceleration [m/s^2] over the next period along the profile. The car has the profile's
+/// speed at the end of the period, even with a knot in between.
 double MeanAcceleration(const SpeedProfile& profile, double s, double speed, double period,
                         double at_middle) {
   double acceleration = at_middle;
-  constexpr int kIterations = 3;  // each is nearer by the factor a period/speed
+  constexpr int kIterations = 3;  // each reduces the error by a factor of a period/speed
   for (int i = 0; i < kIterations; ++i) {
     const double next = s + period * (speed + 0.5 * period * acceleration);
     acceleration = (profile.SpeedAt(next) - profile.SpeedAt(s)) / period;
@@ -25,14 +25,14 @@ double MeanAcceleration(const SpeedProfile& profile, double s, double speed, dou
   return acceleration;
 }
 
-/// A profile that brakes or accelerates this much harder than the options say does so on purpose.
+/// A profile that brakes or accelerates this much harder than the options is meant to.
 constexpr double kOnPurpose = 1.1;
-/// What a controller may add to that where the car has come to lag behind. Of a plan at 0.9 of the
-/// limit this leaves half of what the plan left: a wheel that locks or spins regains no grip before
-/// the command eases.
+/// Factor on such an acceleration that lets the controller catch up. For a plan at 0.9 of the limit
+/// it uses half of the remaining margin: a wheel that locks or spins regains grip only when the
+/// command eases.
 constexpr double kCatchUp = 1.05;
 
-/// How a profile that ends at rest comes to it [m/s^2], >= 0.
+/// The deceleration at the end of a profile that ends at rest [m/s^2], >= 0.
 double LastDeceleration(const SpeedProfile& profile) {
   const auto& knots = profile.knots();
   return knots.size() < 2 ? 0.0 : -profile.AccelerationAt(knots[knots.size() - 2].s);
@@ -53,11 +53,11 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
     const double last = LastDeceleration(profile);
     return -std::min(on_purpose(last) ? last : options.deceleration, limit);
   }
-  // A car that stands a hair behind the start leaves like one that stands at it.
+  // Before the profile's start, uses the acceleration at the start.
   const double from = profile.knots().empty() ? s : std::max(s, profile.knots().front().s);
-  // A car that rolls back is to follow the profile from where it is, not back along it.
+  // A car that rolls backward follows the profile from its present station.
   const double ahead = std::max(speed, 0.0);
-  // The middle of the period, but not beyond the end: there is no acceleration to be had there.
+  // The middle of the period, but before the end: the acceleration beyond the end is zero.
   double middle = from + 0.5 * ahead * period;
   if (stops) {
     middle = std::min(middle, 0.5 * (from + end));
@@ -69,7 +69,7 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
   const double error = profile.SpeedAt(s) - speed;
   const double hard = on_purpose(-feed_forward) ? -kCatchUp * feed_forward : 0.0;
   const double hardest = std::min(std::max(2.0 * options.deceleration, hard), limit);
-  // Of the profile itself: the mean over a period that leaves rest may be above it.
+  // Uses the profile's acceleration: when leaving rest, the mean over a period may exceed it.
   const double strongest =
       at_middle > kOnPurpose * options.acceleration ? kCatchUp * at_middle : options.acceleration;
   return std::clamp(feed_forward + options.gain * error, -hardest, strongest);

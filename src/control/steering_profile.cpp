@@ -12,7 +12,7 @@ constexpr Range kFrequency{.max = 100.0, .above = 0.0};  // [Hz]
 constexpr Key kBegin{"at", "s", "start time"};
 constexpr Key kAmplitude{"amplitude", "rad", "amplitude of the sine; positive: first to the left"};
 
-/// Steers as a profile over time says.
+/// Steers by a profile over time.
 template <typename Options>
 class ProfileController final : public SteeringController {
  public:
@@ -32,12 +32,12 @@ double Phase(const SweptSineOptions& options, double tau) {
   if (options.sweep == Sweep::kLinear) {
     return 2.0 * kPi * (f0 + 0.5 * (f1 - f0) * tau / options.duration) * tau;
   }
-  // (e^k - 1)/k keeps its digits where the frequencies are close, and is 1 where they are equal.
+  // (e^k - 1)/k: expm1 keeps its precision for almost equal frequencies; the limit is 1.
   const double k = std::log(f1 / f0) * tau / options.duration;
   return 2.0 * kPi * f0 * tau * (k == 0.0 ? 1.0 : std::expm1(k) / k);
 }
 
-/// From 0 toward `end` at `rate` since tau = 0.
+/// Ramp from 0 toward `end` at `rate`, at the time tau since its start.
 double Ramp(double end, double rate, double tau) {
   return std::copysign(std::clamp(rate * tau, 0.0, std::abs(end)), end);
 }
@@ -70,7 +70,7 @@ double SteeringAt(const SineSteeringOptions& options, double time) {
 double SteeringAt(const SineWithDwellOptions& options, double time) {
   const double tau = time - options.at;
   const double peak = 0.75 / options.frequency;
-  // The sine's own time stands still during the dwell.
+  // The phase of the sine stops during the dwell.
   const double own = tau < peak ? tau : std::max(peak, tau - options.dwell);
   const double turns = options.frequency * own;
   return turns > 0.0 && turns < 1.0 ? options.amplitude * std::sin(2.0 * kPi * turns) : 0.0;

@@ -47,7 +47,7 @@ Eigen::Matrix<double, 2, 3> LateralRates(const VehicleParams& vehicle,
 
 namespace {
 
-/// The turn with these slip angles of the axles [rad], of |u|, to the left.
+/// Steady turn with these slip angles of the axles [rad], positive for a left turn at |u|.
 SteadyTurn TurnWithSlip(const VehicleParams& vehicle, double curvature, double speed,
                         double front_slip, double rear_slip) {
   const double direction = std::copysign(1.0, speed);
@@ -59,7 +59,7 @@ SteadyTurn TurnWithSlip(const VehicleParams& vehicle, double curvature, double s
   return turn;
 }
 
-/// The brush model's slip angles and stiffness of the axles, front and rear.
+/// Slip angles and stiffness of the axles by the brush model, front and rear.
 std::array<AxleOperation, 2> BrushAxles(const VehicleParams& vehicle, const Motion& motion) {
   const bool brakes = motion.acceleration < 0.0;
   const AccelerationLimit& limit = brakes ? vehicle.braking : vehicle.driving;
@@ -70,12 +70,12 @@ std::array<AxleOperation, 2> BrushAxles(const VehicleParams& vehicle, const Moti
                                         vehicle.cornering_stiffness_rear};
   std::array<AxleOperation, 2> axles;
   for (std::size_t i = 0; i < axles.size(); ++i) {
-    constexpr double kLeastLoad = 0.05;  // of the one at rest
+    constexpr double kLeastLoad = 0.05;  // of the load at rest
     const AxleGrip& axle = limit.axles[i];
     const double load =
         std::max(kLeastLoad, 1.0 + direction * axle.transfer * hard / (kGravity * axle.weight));
     const double weight = vehicle.mass * kGravity * axle.weight;
-    // Each axle carries its share of the weight times the lateral force.
+    // Each axle carries a share of the lateral force proportional to its share of the weight.
     axles[i] = BrushAxleAt(
         load * stiffness[i], vehicle.friction_lateral * load * weight,
         {.longitudinal = vehicle.mass * axle.force * hard, .lateral = lateral * axle.weight});
@@ -94,7 +94,7 @@ SteadyTurn SteadyTurnOn(const VehicleParams& vehicle, double curvature, double s
   if (!HasTyres(vehicle)) {
     return TurnWithSlip(vehicle, curvature, speed, 0.0, 0.0);
   }
-  // Each axle carries the other's share of m u r.
+  // Each axle carries a share of m u r proportional to the distance of the other one.
   const double force = vehicle.mass * speed * speed * curvature / vehicle.wheelbase;
   return TurnWithSlip(vehicle, curvature, speed,
                       -vehicle.cg_to_rear * force / vehicle.cornering_stiffness_front,

@@ -5,28 +5,28 @@
 
 namespace trackbed {
 
-/// Where a car is beside its path.
+/// Position of a car relative to its path.
 struct Tracking {
-  PathPoint foot;              ///< of the path, at the car's station
+  PathPoint foot;              ///< the path at the car's station
   double cross_track = 0.0;    ///< e [m], positive left of the path
   double heading_error = 0.0;  ///< psi [rad], in (-pi, pi]
 };
 
 Tracking ProjectOntoPath(const ControlInput& input);
 
-/// Sizes of a car over those of the one that gains and weights were chosen for, the Prius. In these
-/// units all cars are alike, as far as their wheelbase and steering rate go.
+/// Scales of a car relative to the Prius, for which gains and weights were chosen. In these units
+/// cars of any wheelbase and steering rate behave alike.
 struct CarScale {
-  double length = 1.0;  ///< of the wheelbase: L/2.7 m
-  double time = 1.0;    ///< of the time the wheels need to turn: 0.1506 rad/s over omega
+  double length = 1.0;  ///< wheelbase: L/2.7 m
+  double time = 1.0;    ///< time in which the wheels turn: 0.1506 rad/s over omega
 };
 
 CarScale ComputeCarScale(const VehicleParams& vehicle);
 
-/// Whether the car's tyres are known, so that it can be more than kinematic.
+/// Whether the tyres are known, so that models beyond the kinematic one apply.
 bool HasTyres(const VehicleParams& vehicle);
 
-/// Of both axles [N/rad].
+/// Cornering stiffness of both tyres of each axle [N/rad].
 struct CorneringStiffness {
   double front = 0.0;
   double rear = 0.0;
@@ -36,11 +36,11 @@ struct CorneringStiffness {
 Eigen::Matrix<double, 2, 3> LateralRates(const VehicleParams& vehicle,
                                          const CorneringStiffness& stiffness, double speed);
 
-/// How a car runs on a circle with its rear axle on it: the steady state of SingleTrackCar, or of
-/// KinematicCar for a car without tyre coefficients.
+/// Steady circular motion with the rear axle on the circle: the steady state of SingleTrackCar, or
+/// of KinematicCar for a car without tyre coefficients.
 struct SteadyTurn {
   double steering = 0.0;       ///< delta_0 [rad]: tan(delta_0) = kappa (L + K u |u|)
-  double heading_error = 0.0;  ///< psi_0 [rad]: the rear axle's slip, the other way round
+  double heading_error = 0.0;  ///< psi_0 [rad]: the rear axle's slip angle with opposite sign
   double lateral_speed = 0.0;  ///< v at the center of gravity [m/s]
   double yaw_rate = 0.0;       ///< r = u kappa [rad/s]
 };
@@ -48,14 +48,14 @@ struct SteadyTurn {
 /// `speed` u is signed.
 SteadyTurn SteadyTurnOn(const VehicleParams& vehicle, double curvature, double speed);
 
-/// How a car is meant to run.
+/// The intended motion of a car.
 struct Motion {
   double curvature = 0.0;     ///< of the path [1/m]
   double speed = 0.0;         ///< u [m/s], signed
   double acceleration = 0.0;  ///< of abs(u) [m/s^2]
 };
 
-/// The turn that is steady but for the speed, and the stiffness of the axles about it.
+/// The turn that is steady except for the speed, and the axle stiffness in that turn.
 struct TurnOperation {
   SteadyTurn turn;
   CorneringStiffness stiffness;  ///< 0 without tyre coefficients

@@ -8,7 +8,7 @@
 namespace trackbed {
 namespace {
 
-/// What is brought back. One for the process, as the locale is.
+/// State that is restored when the last user ends. One per process, like the locale.
 struct Before {
   std::mutex mutex;
   int users = 0;

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMostColumns = 4096;
 constexpr std::size_t kLongestCell = std::size_t{1} << 16U;
 
-/// Collects what libcsv calls back with.
+/// Receives libcsv's callbacks.
 struct RowReader {
   const std::filesystem::path& file;
   std::size_t most_cells;
@@ -26,8 +26,8 @@ struct RowReader {
   std::size_t all_cells = 0;
   bool any_row = false;
   bool stopped = false;
-  int line = 1;     // where the row begins
-  int endings = 0;  // of lines, in its quoted cells
+  int line = 1;     // on which the row begins
+  int endings = 0;  // line feeds in the row's quoted cells
 
   void Stop(std::string message) {
     if (!stopped) {
@@ -61,7 +61,7 @@ struct RowReader {
       take(cells, line);
     }
     cells.clear();
-    // A carriage return before it ends the row, not the line.
+    // A carriage return before the line feed ends the row, but not the line.
     line += std::exchange(endings, 0) + (ending == '\n' ? 1 : 0);
   }
 };
@@ -82,7 +82,7 @@ void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, Pro
   };
   const auto row = [](int ending, void* self) { static_cast<RowReader*>(self)->EndOfRow(ending); };
   bool at_begin = true;
-  // In parts: libcsv cannot be stopped, and keeps a cell whole until it ends.
+  // Parse in blocks: libcsv cannot be stopped, and buffers a cell until it ends.
   const auto parse = [&](std::string_view part) {
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     if (std::exchange(at_begin, false) && part.starts_with(kByteOrderMark)) {

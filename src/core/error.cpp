@@ -17,7 +17,7 @@ std::string Join(const std::vector<Problem>& problems) {
   return text;
 }
 
-/// A file may have a word of a million letters.
+/// Shortens a text: a file may contain a word of a million letters.
 std::string Cut(const std::string& text) {
   constexpr std::size_t kLongest = 4000;
   if (text.size() <= kLongest) {
@@ -25,12 +25,12 @@ std::string Cut(const std::string& text) {
   }
   std::size_t end = kLongest;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
-    --end;  // within a character of UTF-8
+    --end;  // do not split a UTF-8 character
   }
   return text.substr(0, end) + " ...";
 }
 
-/// A name with a line feed must not look like another message.
+/// Replaces line feeds, so that a name cannot look like another message.
 std::string OneLine(const std::string& text) {
   std::string line;
   for (const char c : WithoutControls(text)) {

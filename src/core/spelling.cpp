@@ -29,7 +29,7 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
 
 std::string NearestSpelling(std::string_view word, const std::vector<std::string>& known) {
   std::string nearest;
-  // Where every letter would have to change, nothing was misspelled.
+  // If every letter has to change, the word is not a misspelling.
   std::size_t fewest = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, word.size());
   for (const std::string& candidate : known) {
     const std::size_t edits = EditDistance(word, candidate);

@@ -17,13 +17,13 @@
 namespace trackbed {
 namespace {
 
-/// Which columns are read.
+/// Selects the columns to read.
 struct Selection {
   bool all = true;
-  std::vector<std::string> needed{};    // otherwise these, which must be there,
-  std::vector<std::string> optional{};  // and these, which may
-  bool finite = false;                  // whether cells must be
-  bool empty = false;                   // whether cells may be; they are NaN
+  std::vector<std::string> needed{};    // if not all: required columns,
+  std::vector<std::string> optional{};  // and optional columns
+  bool finite = false;                  // whether cells must be finite
+  bool empty = false;                   // whether cells may be empty; they are NaN
 
   [[nodiscard]] bool Takes(const std::string& column) const {
     return all || std::find(needed.begin(), needed.end(), column) != needed.end() ||
@@ -37,18 +37,18 @@ struct Reader {
   Selection selection;
   std::function<void(const std::vector<double>& numbers, int line)> take{};  // none: to the table
   std::optional<Table> table{};
-  std::vector<int> lines{};           // of the table's rows
-  std::vector<std::string> header{};  // every name in the file
-  std::vector<std::size_t> taken{};   // indices into it, of the table's columns
-  std::vector<std::string> cells{};   // of the row that is read
-  int line = 1;                       // where it begins
+  std::vector<int> lines{};           // line of each row of the table
+  std::vector<std::string> header{};  // all column names of the file
+  std::vector<std::size_t> taken{};   // for each column of the table, its index in `header`
+  std::vector<std::string> cells{};   // of the current row
+  int line = 1;                       // on which the current row begins
   ProblemList problems{};
 
   void AddError(std::string key, std::string message) {
     problems.Add({file, line, 0, std::move(key), std::move(message)});
   }
 
-  /// libcsv counts no characters, so a cell is placed by its number, from 1, and its column's name.
+  /// libcsv does not count characters: locates a cell by its number, from 1, and its column.
   void AddCellError(std::size_t cell, std::string message) {
     const std::string& column = header[cell];
     const std::string name = column.empty() ? "" : fmt::format(" ({})", column);
@@ -127,7 +127,7 @@ struct Reader {
   }
 };
 
-/// The whole file; InputError unless everything in it can be read.
+/// Reads the whole file. InputError if any part of it cannot be read.
 void ReadThrough(const std::filesystem::path& file, const CsvLimits& limits, Reader& reader) {
   ReadCsvRows(file, limits, reader.problems, [&](std::vector<std::string>& cells, int line) {
     reader.cells.swap(cells);
@@ -203,7 +203,7 @@ std::string Table::ToCsv() const {
   const std::size_t width = columns_.size();
   for (std::size_t row = 0; row < rows(); ++row) {
     for (std::size_t column = 0; column < width; ++column) {
-      // `+ 0.0` turns a negative zero into zero: the sign of nothing is noise in a log.
+      // `+ 0.0` turns a negative zero into zero, because its sign is only noise in a log.
       fmt::format_to(fmt::appender(out), FMT_COMPILE("{}"), at(row, column) + 0.0);
       out.push_back(column + 1 < width ? ',' : '\n');
     }
@@ -231,7 +231,7 @@ void ReadCsvNumbers(const std::filesystem::path& file, const std::vector<std::st
   Reader reader{.file = file.string(),
                 .selection = {.all = false, .needed = columns, .optional = {}, .empty = true}};
   std::vector<double> ordered(columns.size());
-  std::vector<std::size_t> place;  // of each of `columns` in the file's order
+  std::vector<std::size_t> place;  // position of each of `columns` in the file's order
   reader.take = [&](const std::vector<double>& numbers, int line) {
     if (place.empty()) {
       for (const std::string& column : columns) {

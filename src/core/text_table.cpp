@@ -18,7 +18,7 @@ std::string CsvLine(const std::vector<std::string>& cells) {
   std::string csv;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     csv += i == 0 ? "" : ",";
-    // A line of one empty cell would be an empty line, which readers skip.
+    // Quote a single empty cell: readers skip empty lines.
     if (cells[i].find_first_of(",\"\r\n") == std::string::npos &&
         !(cells.size() == 1 && cells[i].empty())) {
       csv += cells[i];
@@ -48,7 +48,7 @@ std::string ShortestText(double number) {
 
 std::pair<std::string, std::string> FormatDistinct(double first, double second) {
   std::pair<std::string, std::string> texts;
-  constexpr int kAllDigits = 17;  // of a double: no two share them
+  constexpr int kAllDigits = 17;  // enough to distinguish any two doubles
   for (int digits = 4; digits <= kAllDigits; ++digits) {
     texts = {fmt::format("{:.{}g}", first, digits), fmt::format("{:.{}g}", second, digits)};
     if (first == second || texts.first != texts.second) {
@@ -77,7 +77,7 @@ std::string TextTable::ToCsv() const {
 }
 
 TextTable ReadTextCsv(const std::filesystem::path& file) {
-  constexpr std::size_t kMostCells = 10'000'000;  // of at least 32 bytes each
+  constexpr std::size_t kMostCells = 10'000'000;  // at least 32 bytes each
   ProblemList problems;
   std::optional<TextTable> table;
   ReadCsvRows(

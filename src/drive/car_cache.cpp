@@ -26,20 +26,20 @@ CarModel LoadBareCar(const Scenario& scenario, const fs::path& file) {
   return {ComposeScene(file, OptionsOf(scenario)), file.string()};
 }
 
-/// The car's scene with its payload; none without one.
+/// The car's scene with its payload; none if the scenario has no payload.
 std::optional<Scene> LadenScene(const Scenario& scenario, const CarModel& car) {
   const std::optional<Payload>& payload = scenario.disturb.payload;
   return payload ? std::optional(WithPayload(car, *payload)) : std::nullopt;
 }
 
-/// The car's scene in the scenario's world; none on flat ground without obstacles.
+/// The car's scene in the scenario's world; none for flat ground without obstacles.
 std::optional<Scene> SceneInWorld(const Scenario& scenario, const CarModel& car) {
   const World& world = scenario.world;
   const bool empty = !HasObstacles(world) && IsFlat(world.ground);
   return empty ? std::nullopt : std::optional(WithWorld(car.scene(), car.params(), world));
 }
 
-/// Everything that a model is compiled from.
+/// Cache key: everything from which a model is compiled.
 std::string KeyOf(const Scene& scene, const fs::path& file) {
   std::string key = fmt::format("{}\n{}", file.string(), scene.xml);
   for (const SceneAsset& asset : scene.assets) {

@@ -7,24 +7,24 @@
 
 namespace trackbed {
 
-/// Watches one run for collisions, at every physics step and between them: two steps may lie on
-/// either side of a thin obstacle.
+/// Detects collisions in one run, at every physics step and between steps, which may be on either
+/// side of a thin obstacle.
 class CollisionWatch {
  public:
-  /// Refers to world and vehicle, which must outlive it.
+  /// Keeps references to world and vehicle, which must outlive it.
   CollisionWatch(const World& world, const VehicleParams& vehicle);
 
-  /// Looks at the plant as it is at `time` [s], at the start and after every step.
+  /// Must be called at the start and after every step, with the plant's state at `time` [s].
   void Update(const Plant& plant, double time);
 
-  /// What was seen since the last time it was asked.
+  /// Clearance and force since the last call of Take.
   struct Period {
-    std::optional<double> clearance;  ///< smallest [m]; 0 in a collision; none without obstacles
+    std::optional<double> clearance;  ///< minimum [m]; 0 in a collision; none without obstacles
     double force = 0.0;               ///< largest contact force with obstacles [N]
   };
   Period Take();
 
-  /// When the car first touched an obstacle [s]; none: it has not.
+  /// Time of the first contact with an obstacle [s]; none without contact.
   [[nodiscard]] const std::optional<double>& contact_time() const { return contact_time_; }
 
  private:
@@ -33,8 +33,8 @@ class CollisionWatch {
   const World& world_;
   const VehicleParams& vehicle_;
   std::optional<Pose2> pose_;  // at the last update
-  double time_ = 0.0;          // likewise [s]
-  double clearance_ = 0.0;     // likewise [m]
+  double time_ = 0.0;          // at the last update [s]
+  double clearance_ = 0.0;     // at the last update [m]
   Period period_;
   std::optional<double> contact_time_;
 };

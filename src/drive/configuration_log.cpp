@@ -31,7 +31,7 @@ void ConfigurationLog::Record(const Plant& plant, double time) {
   if (table_.columns().size() == 1) {
     return;
   }
-  // Half a microsecond: times are sums of timesteps and may fall short of the multiple by rounding.
+  // Tolerance of half a microsecond: sums of timesteps may be below the multiple by rounding.
   if (time + 5e-7 < period_ * static_cast<double>(next_)) {
     return;
   }

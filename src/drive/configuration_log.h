@@ -13,13 +13,13 @@ namespace trackbed {
 /// Logs configurations at the first physics step at or after every multiple of a period.
 class ConfigurationLog {
  public:
-  /// `columns` name the numbers of the plant's configurations; without any, nothing is logged.
-  /// Those that name moving obstacles of the world tell where these are, whatever the plant knows.
+  /// `columns` name the numbers of the plant's configuration; if empty, nothing is logged. Columns
+  /// of moving obstacles contain their planned positions, even if the plant does not simulate them.
   ConfigurationLog(const std::vector<std::string>& columns, const World& world, double period);
 
   void Record(const Plant& plant, double time);
 
-  /// What has been logged so far.
+  /// The table logged so far.
   [[nodiscard]] const Table& table() const { return table_; }
 
   Table Take() { return std::move(table_); }
@@ -30,7 +30,7 @@ class ConfigurationLog {
   double period_;
   long next_ = 0;
   Table table_;
-  std::vector<double> row_;                             // the last one
+  std::vector<double> row_;                             // the last row
   std::vector<std::pair<std::size_t, double>> moving_;  // column and speed [m/s] of obstacles
 };
 

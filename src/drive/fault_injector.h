@@ -11,33 +11,33 @@
 
 namespace trackbed {
 
-/// The vehicle as its controller takes it to be.
+/// The vehicle as known to its controller.
 VehicleParams NominalVehicle(const Disturbances& disturbances, VehicleParams vehicle);
 
-/// Injects disturbances into one run; without any, nothing. Random numbers are those of the seed,
-/// the same on every plant.
+/// Injects the disturbances of one run. Random numbers depend on the seed only and are the same for
+/// every plant.
 class FaultInjector {
  public:
   struct Options {
     double timestep = 0.0;        ///< of the physics [s]
     double start_steering = 0.0;  ///< of wheels and actuator [rad]
-    SpeedControlOptions speed{};  ///< by which a speed loss brakes
+    SpeedControlOptions speed{};  ///< deceleration for a speed loss
     std::uint64_t seed = 0;
   };
 
   FaultInjector(const Disturbances& disturbances, const Options& options);
 
-  /// What is measured of a pose in this control period; none without noise.
+  /// The noisy measurement of a pose in this control period; none without noise.
   std::optional<Pose2> Measure(const Pose2& pose);
 
-  /// The acceleration [m/s^2] that is left of a wanted one, along the gear, for a car with `speed`
-  /// [m/s] along the gear at `station` of the log.
+  /// Applies a speed loss to a commanded acceleration [m/s^2] along the gear, for a car with
+  /// `speed` [m/s] along the gear at `station` of the log.
   double LimitSpeed(double acceleration, double speed, double time, double station);
 
-  /// The steering angle [rad] that reaches the actuator in the coming physics step.
+  /// Steering angle [rad] at the actuator in the coming physics step, after steering faults.
   double Steer(double wanted) { return steering_.Pass(wanted); }
 
-  /// Kicks the car if this, the run's `step`-th physics step from 0, is one in which it is.
+  /// Applies the lateral kicks due in the run's physics step `step`, counted from 0.
   void Kick(long step, Plant& plant) const;
 
  private:

@@ -5,7 +5,7 @@
 
 namespace trackbed {
 
-/// PreconditionError for the first argument of SimulateClosedLoop that it does not take.
+/// PreconditionError for the first invalid argument of SimulateClosedLoop.
 void CheckLoopArguments(const Plant& plant, const Plan& plan, const LoopConfig& config);
 
 }  // namespace trackbed

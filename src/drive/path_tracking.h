@@ -7,23 +7,22 @@
 #include "trackbed/path/path.h"
 #include "trackbed/vehicle/params.h"
 
-/// Where a car is against its path: for its controller, and for the log.
+/// Position of a car relative to its path, for its controller and for the log.
 namespace trackbed {
 
-/// The stations among which a car must be that moved by `moved` [m] since it was at `station`: a
-/// margin on both sides, more than it can be pushed in a control period and less than the way round
-/// any turn it could make.
+/// Range of stations for a car that moved by `moved` [m] since it was at `station`. The margin on
+/// both sides exceeds the lateral kicks of a control period, but is shorter than any turn of the
+/// car, so that the projection stays on the same branch.
 inline Stations StationsAround(const VehicleParams& vehicle, double station, double moved) {
   constexpr double kMargin = 0.75;  // of the wheelbase
   const double margin = kMargin * vehicle.wheelbase;
   return {station - margin, station + moved + margin};
 }
 
-/// How far a car is from the path as it is, which has a beginning and an end. `extended` is its
-/// projection onto the path and the straight lines before and beyond it, by which controllers
-/// steer. A car that comes to rest up to `overrun` [m] beyond the end is still compared with the
-/// line that goes on there; anywhere else beyond either end, the distance is that from the end
-/// point. The distance has the sign of the side, positive to the left.
+/// Signed distance of a car from the path without its extensions, positive to the left. `extended`
+/// is the projection onto the path with straight extensions at both ends, which controllers use. Up
+/// to `overrun` [m] beyond the end, the distance is that from the extension, for a car that stops
+/// slightly too late. Further beyond either end, it is the distance from the end point.
 inline Projection DistanceFromPath(const Path& path, const Projection& extended, const Pose2& pose,
                                    double overrun) {
   Projection at = extended;

@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// The record as something whose configuration can be logged.
+/// Wraps a recorded drive as a plant, so that its configurations can be logged.
 class RecordedCar final : public Plant {
  public:
   RecordedCar(const CarModel& model, const RecordedDrive& drive) : model_(model), drive_(drive) {
@@ -71,7 +71,7 @@ RunLog RecordedLog(const Scenario& scenario, const CarModel& car) {
   const long periods = static_cast<long>(std::floor(end / spec.control_period + 1e-6));
   const long steps = std::lround(spec.control_period / spec.timestep);
   for (long tick = 0; tick <= periods; ++tick) {
-    // Times to the nanosecond, as those of the closed loop.
+    // Rounds times to nanoseconds, as the closed loop does.
     const auto time = [&](long step) {
       const double exact = static_cast<double>(tick) * spec.control_period +
                            static_cast<double>(step) * spec.timestep;

@@ -10,29 +10,30 @@
 
 namespace trackbed {
 
-/// Makes the log of one run: its rows, plan changes, configurations and first contact.
+/// Records the log of one run: rows, plan changes, configurations and the first contact.
 class Recorder {
  public:
-  /// Refers to world, vehicle and hooks of the configuration, which must outlive it.
+  /// Keeps references to world, vehicle and hooks of the configuration, which must outlive it.
   Recorder(const LoopConfig& config, std::vector<std::string> controller_columns);
 
-  /// Looks at the plant as it is at `time` [s], at the start and after every physics step.
+  /// Must be called at the start and after every physics step, with the plant's state at `time`
+  /// [s].
   void Sample(const Plant& plant, double time);
 
-  /// Begins a row: `state` with the extremes since the row before, the command that led there, and
-  /// what the controller told then.
+  /// Begins a row: `state` with the extremes since the last row, the last command, and the
+  /// controller's values for that command.
   LogRow BeginRow(const VehicleState& state, const Command& command,
                   std::vector<double> controller_values);
-  /// Adds a row, and calls `logged` (DriveHooks) if it is set.
+  /// Adds a row, and calls the hook `logged` (DriveHooks) if it is set.
   void AddRow(const LogRow& row);
   void AddPlanChange(PlanChange change) { log_.changes.push_back(std::move(change)); }
 
-  /// When the car first touched an obstacle [s]; none: it has not.
+  /// Time of the first contact with an obstacle [s]; none without contact.
   [[nodiscard]] const std::optional<double>& contact_time() const {
     return collisions_.contact_time();
   }
 
-  /// The log, which this recorder then no longer has.
+  /// Moves the log out of this recorder.
   RunLog Finish(DriveStatus status, std::string cause = "");
 
  private:

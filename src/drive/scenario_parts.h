@@ -3,12 +3,12 @@
 #include "trackbed/drive/closed_loop.h"
 #include "trackbed/scenario/scenario.h"
 
-/// What a scenario says, as the parts of the loop take it.
+/// Converts a scenario into the parts of the closed loop.
 namespace trackbed {
 
 SpeedLimits MakeSpeedLimits(const Scenario& scenario);
 
-/// Of a scenario with a plan.
+/// Requires a scenario with a plan.
 ReplanningConfig MakeReplanningConfig(const Scenario& scenario);
 
 }  // namespace trackbed

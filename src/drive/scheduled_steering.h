@@ -7,20 +7,20 @@
 
 namespace trackbed {
 
-/// A car's motion along its plan at the start of a physics step.
+/// Motion of a car along its plan at the start of a physics step.
 struct MotionAlong {
   double distance = 0.0;      ///< on the plan's odometer [m]
   double speed = 0.0;         ///< [m/s], >= 0
   double acceleration = 0.0;  ///< [m/s^2], along the path
 };
 
-/// What to ask of the steering actuator for one physics step, so that its angle follows a schedule
-/// over distance [rad]. `rate` is the actuator's [rad/s]; 0: it turns at once, and is where the
-/// schedule says at the end of the step.
+/// The command for a steering actuator in one physics step, so that its angle follows a schedule
+/// over distance [rad]. `rate` is the actuator's rate [rad/s]. 0: an actuator without delay, which
+/// follows the schedule at the end of each step.
 ///
-/// An actuator turns at its full rate, then waits for the next step: on a slower ramp it is early,
-/// on average by half the time that it waits. That much later is the angle it is asked for. Before
-/// a ramp of full rate there is nothing to be made up.
+/// An actuator turns at its full rate and then waits for the next step. On a ramp slower than its
+/// rate it leads by half of the waiting time on average, so the commanded angle is that of half the
+/// waiting time earlier. On a ramp at full rate it never waits.
 inline double ScheduledSteering(const SteeringSchedule& schedule, const MotionAlong& motion,
                                 double timestep, double rate) {
   const auto after = [&](double time) {

@@ -11,19 +11,19 @@
 namespace trackbed {
 namespace {
 
-/// How long a collision is followed before the run ends [s].
+/// Simulated time after a collision, before the run ends [s].
 constexpr double kAfterCollision = 1.0;
 
-/// Beyond any slope that a car stands on, and any lean that it comes back from.
+/// Limit beyond any slope on which a car can stand, and any roll angle from which it recovers.
 bool HasRolledOver(const VehicleState& state) {
   constexpr double kUpright = 0.5;  // cosine of the angle from the vertical
   return std::cos(state.roll) * std::cos(state.pitch) < kUpright;
 }
 
-// How long a car may be in the air, as over a bump, or not move although it should [s].
+// Longest time in the air, for example over a bump, and longest unintended standstill [s].
 constexpr double kLongestJump = 1.0;
 constexpr double kLongestStandstill = 10.0;
-/// Less than this is no motion: 1 mm/s [m].
+/// A smaller motion counts as standstill [m]; 1 mm/s over the longest standstill.
 constexpr double kNoMotion = 0.01;
 
 double DistanceBetween(const Pose2& a, const Pose2& b) {

@@ -6,45 +6,46 @@
 #include "trackbed/drive/closed_loop.h"
 #include "trackbed/planning/common/plan.h"
 
-/// When a run is over, and how it ended.
+/// Termination criteria of a run.
 namespace trackbed {
 
-/// Whether the car stands, and was not asked to move.
+/// Whether the car stands and is not commanded to move.
 bool IsAtRest(const VehicleState& state, const Command& command);
 
-/// What is known of a run at the beginning of a control period.
+/// State of a run at the beginning of a control period.
 struct LoopStatus {
   const VehicleState& state;
   const Plant& plant;
-  const Plan& segment;                   ///< that is driven
-  bool is_last_segment = true;           ///< nothing follows it
+  const Plan& segment;                   ///< the present segment
+  bool is_last_segment = true;           ///< no segment follows
   bool interrupted = false;              ///< the caller asked to stop
-  bool at_rest = false;                  ///< IsAtRest, and it did not steer on the spot
-  bool to_move = false;                  ///< the last command asks for it
-  bool will_go_on = false;               ///< at rest, but not for good
+  bool at_rest = false;                  ///< IsAtRest, and the steering is complete
+  bool to_move = false;                  ///< the last command is to accelerate
+  bool will_go_on = false;               ///< at rest, but the run continues
   std::optional<double> contact_time{};  ///< first contact with an obstacle [s]
 };
 
-/// Ends a run: once diverged, sunk, airborne, stuck or rolled over; when interrupted, after the
-/// duration or time limit, a second after a collision; and along a path, at rest.
+/// Ends a run when it has diverged or when the car sinks, is airborne, stuck or rolled over; when
+/// interrupted; at the duration or time limit; a second after a collision; and, along a path, at
+/// rest.
 class Termination {
  public:
-  /// `plan` is the one that the run begins with.
+  /// `plan` is the initial plan of the run.
   Termination(const LoopConfig& config, const Plan& plan);
 
-  /// How the run ended, if it is over. Asked once per control period.
+  /// The final status if the run has ended. Must be called once per control period.
   std::optional<DriveStatus> Update(const LoopStatus& now);
 
-  /// Why, if the physics ended it: RunLog::cause.
+  /// Text for RunLog::cause if the run ended by a fault of the physics.
   [[nodiscard]] const std::string& cause() const { return cause_; }
 
-  /// When it ends at the latest, as far as is known [s].
+  /// Latest end of the run known so far [s].
   [[nodiscard]] double end_time() const { return end_time_; }
 
  private:
   [[nodiscard]] DriveStatus StatusAtEnd(const LoopStatus& now) const;
   [[nodiscard]] bool HasArrived(const LoopStatus& now) const;
-  /// A fault of the physics, with `cause_`.
+  /// Status of a fault of the physics; sets `cause_`.
   std::optional<DriveStatus> Fault(const LoopStatus& now);
   [[nodiscard]] bool IsStuck(const LoopStatus& now);
 
@@ -62,7 +63,7 @@ class Termination {
     double time = 0.0;  // [s]
     Vec2 place;         // [m]
   };
-  std::optional<Moment> still_since_;  // although it was to move
+  std::optional<Moment> still_since_;  // despite a command to move
 };
 
 }  // namespace trackbed

@@ -9,10 +9,11 @@
 namespace trackbed {
 namespace {
 
-/// Expectations that a run met, or broke, as it did.
+/// Expectations that describe the outcome of a run: those that it met, and the opposite of those
+/// that it violated.
 class Turned {
  public:
-  /// False if no expectation can say what the check found.
+  /// Returns false if no expectation can express the outcome of the check.
   bool Add(const Check& check) {
     switch (check.reason) {
       case CheckReason::kSteeringRate:
@@ -37,7 +38,7 @@ class Turned {
         break;
     }
     if (!check.other.empty()) {
-      return check.met;  // of `between`, which is left as it is
+      return check.met;  // of `between`, which is kept
     }
     return check.relation == Relation::kEquals ? AddEqual(check) : AddLimit(check);
   }
@@ -89,14 +90,14 @@ class Turned {
     }
     (is_upper ? OfMetric(check).max : OfMetric(check).min) = *bound;
     if (check.metric == "cross_track.max" && real != nullptr) {
-      // Without one the bound is the width of the car.
+      // Without a bound the default of one car width would apply.
       Of(check.plant).max_cross_track = 2.0 * *real;
     }
     return true;
   }
 
   bool AddRequirement(const Check& check) {
-    // Its metric is requirements.NAME.robustness.
+    // The metric is requirements.NAME.robustness.
     const std::size_t dot = check.metric.find('.') + 1;
     Of(check.plant)
         .requirements.push_back(
@@ -108,7 +109,7 @@ class Turned {
   std::vector<std::pair<std::string, PlantExpectation>> plants_;
 };
 
-/// False also for requirements that are too long or too deep once they are negated.
+/// Whether the scenario passes. False if a negated requirement is too long or nested too deeply.
 bool Passes(const Scenario& scenario) {
   try {
     return RunMission(scenario).verdict.passed;

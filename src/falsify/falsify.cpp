@@ -12,12 +12,17 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
 
+// Falsification: runs the nominal point, then lets a search (point_search.cpp) propose points in
+// batches to minimize the robustness, until a run fails (unless `stop` is false), the runs are used
+// up or the time is over. The violation nearest to the nominal point becomes the counterexample and
+// is shrunk toward it (shrink.cpp). All runs are recorded (search_runs.cpp), so that an interrupted
+// search continues without repeating them.
 namespace trackbed {
 namespace {
 
 using nlohmann::ordered_json;
 
-/// Wall-clock seconds since it was made.
+/// Wall-clock seconds since construction.
 class Clock {
  public:
   [[nodiscard]] double Seconds() const {
@@ -53,7 +58,7 @@ class Falsifier {
   }
 
  private:
-  /// None if it was interrupted.
+  /// Runs the nominal point; none if interrupted.
   std::optional<SearchRun> RunNominal() {
     const UnitPoint& nominal = search_.space.nominal();
     const auto runs = runs_.Run({nominal}, "nominal");
@@ -72,7 +77,7 @@ class Falsifier {
     return run;
   }
 
-  /// False if it was interrupted.
+  /// Runs the search; returns false if interrupted.
   bool RunSearch(std::optional<double> at_nominal) {
     const std::unique_ptr<PointSearch> search = MakePointSearch(spec_, search_.space, at_nominal);
     const Clock clock;
@@ -91,7 +96,7 @@ class Falsifier {
 
   std::optional<std::vector<std::optional<double>>> RunBatchOf(
       const std::vector<UnitPoint>& points) {
-    std::size_t next = runs_.count();  // the first row that is new
+    std::size_t next = runs_.count();  // first new row
     const auto runs = runs_.Run(points, "search");
     if (!runs) {
       interrupted_ = true;
@@ -244,7 +249,7 @@ CheckedSearch CheckSearch(Study study) {
   try {
     base = ReadPoint(study, {});
   } catch (const InputError&) {
-    // The scenario may need what is searched; then `nominal` has to tell.
+    // The scenario may be invalid without the searched keys. Then the study must give `nominal`.
   }
   SearchSpace space(study, base ? &*base : nullptr);
   return {.study = std::move(study), .runs = std::move(runs), .space = std::move(space)};
@@ -263,7 +268,7 @@ ordered_json FalsifyHeader(const CheckedSearch& search) {
   for (const SearchKey& key : search.space.keys()) {
     header["nominal"][key.key] = key.nominal;
   }
-  header["rows_expected"] = spec.runs + spec.shrink_runs + 1;  // and the nominal point
+  header["rows_expected"] = spec.runs + spec.shrink_runs + 1;  // plus the nominal point
   header["columns"] = SearchColumns(study);
   return header;
 }

@@ -15,7 +15,7 @@
 namespace trackbed {
 namespace {
 
-/// Points that are known from the beginning.
+/// Proposes the points of a sample.
 class SampledPoints : public PointSearch {
  public:
   SampledPoints(const SampleSpec& spec, const SearchSpace& space)
@@ -52,15 +52,15 @@ SearchMethod NloptMethod(const std::string& name) {
   throw InternalError("no search of this name: " + name);
 }
 
-/// Searches of NLopt, which ask for one value at a time, each in a thread of its own. A batch is
-/// one point of each that has not ended.
+/// Runs several NLopt searches side by side. NLopt requests one value at a time, so each search has
+/// a thread. A batch contains one point of each search that has not ended.
 class NloptSearches : public PointSearch {
  public:
   NloptSearches(const SearchSpec& spec, const SearchSpace& space, int restarts)
       : spec_(spec), space_(space), lanes_(static_cast<std::size_t>(restarts)) {
     const bool finishes = spec.finish != "none";
     const int last = finishes ? spec.runs / 4 : 0;
-    // The first begins at the nominal point, the others at those of a sample.
+    // The first search starts at the nominal point, the others at points of a sample.
     const Eigen::MatrixXd starts =
         UnitSample({.count = restarts, .method = SampleMethod::kSobol, .seed = spec.seed},
                    static_cast<int>(space.keys().size()));
@@ -131,8 +131,8 @@ class NloptSearches : public PointSearch {
   struct Lane {
     UnitPoint start;
     State state = State::kRuns;
-    UnitPoint point;     // that it asks for
-    double value = 0.0;  // there
+    UnitPoint point;     // requested
+    double value = 0.0;  // at `point`
     std::exception_ptr failure;
     std::thread thread;
   };
@@ -183,7 +183,7 @@ class NloptSearches : public PointSearch {
   void RunLane(Lane& lane, std::uint64_t number, int first_runs, int last_runs) {
     try {
       const SearchMethod method = NloptMethod(spec_.method);
-      constexpr std::uint64_t kApart = 1000003;  // of the seeds of restarts
+      constexpr std::uint64_t kApart = 1000003;  // between seeds of restarts
       SearchResult best;
       for (std::uint64_t again = 0; first_runs > 0; ++again) {
         const std::uint64_t seed = spec_.seed + number + kApart * again;
@@ -194,14 +194,14 @@ class NloptSearches : public PointSearch {
           best = found;
         }
         if (method == SearchMethod::kDirect) {
-          break;  // it would do the same again
+          break;  // deterministic: a repetition finds the same
         }
       }
       if (last_runs > 0 && best.ok()) {
         SearchFrom(lane, NloptMethod(spec_.finish), best.x, last_runs, spec_.seed);
       }
     } catch (const Stopped&) {
-      // Nobody asks any more.
+      // The search was stopped.
     } catch (...) {
       lane.failure = std::current_exception();
     }

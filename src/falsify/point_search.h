@@ -8,18 +8,20 @@
 
 namespace trackbed {
 
-/// Proposes points to run, some at a time, which may be run in parallel. What it proposes depends
-/// on the search and on what it was told, and on nothing else.
+/// Proposes batches of points, which may be run in parallel. Proposals depend only on the search
+/// and on the values passed to Tell.
 class PointSearch {
  public:
   virtual ~PointSearch() = default;
-  /// None at its end.
+  /// The next points; empty at the end of the search.
   virtual std::vector<UnitPoint> Ask() = 0;
-  /// What is to be minimized, one for each point of Ask; none: the point has no value.
+  /// Passes the objective, to be minimized, at each point of the last Ask. None: the point has no
+  /// value.
   virtual void Tell(const std::vector<std::optional<double>>& values) = 0;
 };
 
-/// `at_nominal` is what is known of the nominal point. Both must live as long as the search.
+/// `at_nominal` is the value at the nominal point, if known. `spec` and `space` must outlive the
+/// search.
 std::unique_ptr<PointSearch> MakePointSearch(const SearchSpec& spec, const SearchSpace& space,
                                              std::optional<double> at_nominal);
 

@@ -8,12 +8,12 @@
 
 namespace trackbed {
 
-/// The values at points, one for each; none ends the search.
+/// Returns the values at the given points; none ends the search.
 using RunBatch = std::function<std::optional<std::vector<std::optional<double>>>(
     const std::vector<UnitPoint>& points)>;
 
-/// Lets a search propose points, whose values are rounded, and tells it what `run` says of them,
-/// until one of the two is at its end.
+/// Alternates between proposals of `search`, rounded to the steps of `space`, and their values from
+/// `run`, until one of the two ends.
 void FollowSearch(PointSearch& search, const SearchSpace& space, const RunBatch& run);
 
 }  // namespace trackbed

@@ -10,7 +10,7 @@
 
 namespace trackbed {
 
-/// A run of the search as its table has it.
+/// A run of the search, as recorded in its table.
 struct SearchRun {
   std::size_t row = 0;
   std::string status;
@@ -21,26 +21,26 @@ struct SearchRun {
   [[nodiscard]] bool violated() const { return status == "failed" || status == "no_plan"; }
 };
 
-/// The columns of the table.
+/// Columns of the table.
 std::vector<std::string> SearchColumns(const Study& study);
 
-/// Runs points, each once, and keeps a row of each.
+/// Runs each point once and records its row.
 class SearchRuns {
  public:
   SearchRuns(const CheckedSearch& search, SweepRecords& records, const FalsifyOptions& options)
       : search_(search), records_(records), options_(options) {}
 
-  /// One for each point; none if it was interrupted. Points whose rows are not there are run in
-  /// parallel, and are counted.
+  /// Returns one run per point; none if interrupted. Runs missing points in parallel and counts
+  /// them.
   std::optional<std::vector<SearchRun>> Run(const std::vector<UnitPoint>& points,
                                             const char* phase);
 
-  /// Whether a run of the point is known.
+  /// Whether the run of this point is known.
   [[nodiscard]] bool Has(const UnitPoint& point) const;
   [[nodiscard]] std::size_t count() const { return next_; }
 
  private:
-  /// The run of a row that the records have.
+  /// Restores a recorded run.
   [[nodiscard]] SearchRun FromRecords(std::size_t row, const std::vector<std::string>& texts) const;
   [[nodiscard]] bool RunRow(std::size_t row, const UnitPoint& point, const char* phase);
   [[nodiscard]] std::vector<std::string> Texts(const UnitPoint& point) const;
@@ -48,9 +48,9 @@ class SearchRuns {
   const CheckedSearch& search_;
   SweepRecords& records_;
   const FalsifyOptions& options_;
-  std::map<std::vector<std::string>, SearchRun> known_;  // by the values of the keys
-  std::size_t next_ = 0;                                 // row
-  std::mutex mutex_;                                     // of the progress
+  std::map<std::vector<std::string>, SearchRun> known_;  // by values of the keys
+  std::size_t next_ = 0;                                 // next row
+  std::mutex mutex_;                                     // guards the progress
 };
 
 }  // namespace trackbed

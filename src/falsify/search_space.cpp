@@ -13,12 +13,12 @@
 namespace trackbed {
 namespace {
 
-/// The value of a key with steps that is nearest to another within the range.
+/// The value nearest to `value` that is a whole number of steps within the range.
 double NearestStep(const SearchKey& key, double value) {
   return SteppedValue(key.from, key.step, std::round((value - key.from) / key.step));
 }
 
-/// Problems of a study, with their places.
+/// Reads the searched keys of a study and collects problems with their positions.
 class SpaceReader {
  public:
   SpaceReader(const Study& study, const Scenario* scenario) : study_(study), scenario_(scenario) {}
@@ -129,7 +129,7 @@ class SpaceReader {
   std::vector<Problem> problems_;
 };
 
-/// The power of ten of which the values of a range are multiples.
+/// Exponent of the power of ten to which values of this range are rounded.
 int DecimalExponent(const SearchKey& key) {
   return static_cast<int>(std::floor(std::log10(1e-3 * (key.to - key.from))));
 }

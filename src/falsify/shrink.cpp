@@ -28,7 +28,7 @@ class Shrinker {
       MeasureAlone();
       result_.complete = true;
     } catch (const OutOfRuns&) {
-      // What there is.
+      // Returns the partial result.
     }
     if (result_.point.empty()) {
       result_.point = violation;
@@ -48,7 +48,7 @@ class Shrinker {
     return *evaluation;
   }
 
-  /// Takes the point if it violates.
+  /// Accepts the point if it violates.
   bool Take(const UnitPoint& point) {
     const Evaluation evaluation = Evaluate(point);
     if (evaluation.violated) {
@@ -58,7 +58,7 @@ class Shrinker {
     return evaluation.violated;
   }
 
-  /// As near to `to` as it violates, on the straight line.
+  /// Bisects on the straight line for the violation nearest to `to`.
   void MoveToward(const UnitPoint& to) {
     if (Take(to)) {
       return;
@@ -98,7 +98,8 @@ class Shrinker {
 
   [[nodiscard]] double StepOf(std::size_t i) const { return std::max(tolerance_, space_.Step(i)); }
 
-  /// False if a key could go further, and did.
+  /// Tests whether each key fails to violate one step nearer to its nominal value. Returns false
+  /// after moving a key that still violates.
   bool MeasureHolds() {
     for (std::size_t i = 0; i < nominal_.size(); ++i) {
       const double place = result_.point[i];

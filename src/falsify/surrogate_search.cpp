@@ -55,11 +55,12 @@ class SurrogateSearch : public PointSearch {
   void Tell(const std::vector<std::optional<double>>& values) override {
     bool begin_again = false;
     for (std::size_t i = 0; i < batch_.size(); ++i) {
-      // dlib would ask again for a point that it is not told of, so that one without a value is
-      // told to be as good as any.
+      // dlib proposes a point again until it gets a value, so a point without a value gets the
+      // highest known one.
       const double value = values[i].value_or(highest_);
       Keep(batch_[i], value);
-      // dlib takes what it did not ask for, and what has changed, at its beginning alone.
+      // dlib only accepts foreign or changed values when it is constructed, so it is then
+      // constructed again.
       begin_again = begin_again || requests_.find(batch_[i]) == requests_.end() ||
                     (value < 0.0 && !spec_.stop);
     }
@@ -77,7 +78,7 @@ class SurrogateSearch : public PointSearch {
  private:
   // dlib alternates between exploring and refining: a batch of two has one of each.
   static constexpr int kBatch = 2;
-  // Of the values, as a share of their range; dlib's own default.
+  // Noise relative to the range of the values; default of dlib.
   static constexpr double kNoise = 0.001;
 
   void Keep(const UnitPoint& point, double value) {
@@ -88,15 +89,14 @@ class SurrogateSearch : public PointSearch {
     }
   }
 
-  /// What is minimized, at a point that is known. A search that goes on after a violation is to
-  /// find others that are not beside it: there the values are raised, as deflation does for the
-  /// roots of equations.
+  /// Objective at a known point. If the search continues after a violation, it should find other
+  /// regions, so the values near violations are raised, like in deflation for roots of equations.
   [[nodiscard]] double Told(const UnitPoint& point) const {
     const double value = known_.at(point);
     if (spec_.stop || violations_.empty()) {
       return value;
     }
-    constexpr double kReach = 0.15;  // shares of the range of a key
+    constexpr double kReach = 0.15;  // relative to the range of a key
     double nearest = std::numeric_limits<double>::infinity();
     for (const UnitPoint& violation : violations_) {
       nearest = std::min(nearest, Distance(point, violation) / kReach);
@@ -104,8 +104,8 @@ class SurrogateSearch : public PointSearch {
     return std::max(value, 0.0) + height_ * std::exp(-0.5 * nearest * nearest);
   }
 
-  /// By how much values are raised at a violation: a few times what is usual, which is the median
-  /// of the values that pass.
+  /// Amount by which values are raised at a violation: three times the median of the values that
+  /// pass.
   [[nodiscard]] double Height() const {
     std::vector<double> values;
     for (const auto& [point, value] : known_) {
@@ -133,7 +133,8 @@ class SurrogateSearch : public PointSearch {
     search_.set_seed(static_cast<time_t>(spec_.seed + known_.size()));
   }
 
-  /// A new point of dlib's. It knows no steps, and asks again for what is known: then it is told.
+  /// A new point proposed by dlib. dlib ignores steps and may propose known points again; these get
+  /// their known value.
   std::optional<UnitPoint> Propose(const std::vector<UnitPoint>& batch) {
     constexpr int kTries = 20;
     for (int i = 0; i < kTries; ++i) {
@@ -151,7 +152,7 @@ class SurrogateSearch : public PointSearch {
     return std::nullopt;
   }
 
-  /// Of a sample, the point that is farthest from all that are known; none where all are.
+  /// The point of a sample that is farthest from all known points; none if all points are known.
   std::optional<UnitPoint> FarFromAll(const std::vector<UnitPoint>& batch) {
     const Eigen::MatrixXd sample = UnitSample(
         {.count = 1024, .method = SampleMethod::kSobol, .seed = spec_.seed + known_.size()},
@@ -181,12 +182,12 @@ class SurrogateSearch : public PointSearch {
 
   const SearchSpec& spec_;
   const SearchSpace& space_;
-  std::map<UnitPoint, double> known_;  // values, by snapped points
-  double highest_ = 0.0;               // of these
+  std::map<UnitPoint, double> known_;  // by snapped point
+  double highest_ = 0.0;               // highest of these
   std::vector<UnitPoint> violations_;
-  double height_ = 0.0;  // by which they are raised
+  double height_ = 0.0;  // amount by which they are raised
   dlib::global_function_search search_{UnitCube(1)};
-  std::map<UnitPoint, dlib::function_evaluation_request> requests_;  // of the batch
+  std::map<UnitPoint, dlib::function_evaluation_request> requests_;  // of the current batch
   std::vector<UnitPoint> batch_;
   int asked_ = 0;
 };

@@ -7,8 +7,8 @@
 
 namespace trackbed {
 
-/// dlib's global function search: upper bounds of what a function of a few known values can be, and
-/// quadratic models around the best of them (Malherbe and Vayatis 2017; King 2017).
+/// Global function search of dlib: combines upper bounds of a Lipschitz function through the known
+/// values with a quadratic model around the best one (Malherbe and Vayatis 2017; King 2017).
 std::unique_ptr<PointSearch> MakeSurrogateSearch(const SearchSpec& spec, const SearchSpace& space,
                                                  std::optional<double> at_nominal);
 

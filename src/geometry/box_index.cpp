@@ -19,9 +19,9 @@ using Point = boost::geometry::model::d2::point_xy<double>;
 using Bounds = boost::geometry::model::box<Point>;
 using Entry = std::pair<Bounds, std::size_t>;
 
-/// Up to so many boxes are looked at one after the other.
+/// Up to this number of boxes, a linear search is used.
 constexpr std::size_t kFew = 16;
-/// By which bounds are larger than computed, for rounding: of a coordinate, and at least [m].
+/// Enlargement of bounds for rounding, relative to their coordinates and at least [m].
 constexpr double kRounding = 1e-12;
 
 bool IsFinite(const OrientedBox& box) {
@@ -86,7 +86,7 @@ double BoxIndex::DistanceTo(const OrientedBox& box, double at_most) const {
   const auto all = static_cast<unsigned>(boxes_.size());
   for (auto own = tree_->tree.qbegin(index::nearest(center, all)); own != tree_->tree.qend();
        ++own) {
-    // They come by rising distance of their bounds from the center.
+    // The query returns boxes by ascending distance of their bounds from the center.
     if (nearest == 0.0 || boost::geometry::distance(center, own->first) - radius >= nearest) {
       break;
     }

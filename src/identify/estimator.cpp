@@ -51,7 +51,7 @@ std::vector<std::size_t> Estimator::HoldInert() {
   std::vector<std::size_t> inert;
   for (const std::size_t i : free_) {
     const IdentifiedParameter& parameter = study_.parameters[i];
-    constexpr double kMove = 0.1;  // of the width
+    constexpr double kMove = 0.1;  // fraction of the range
     const double move = kMove * (parameter.to - parameter.from);
     std::vector<double> moved = start_;
     moved[i] = start_[i] + move <= parameter.to ? start_[i] + move : start_[i] - move;
@@ -67,10 +67,10 @@ std::vector<std::size_t> Estimator::HoldInert() {
 }
 
 double Estimator::Improve(std::vector<double> at) {
-  constexpr double kSmallest = 1e-4;   // step, of the widths
-  constexpr double kLeastGain = 1e-5;  // of the cost
+  constexpr double kSmallest = 1e-4;   // smallest step, fraction of the range
+  constexpr double kLeastGain = 1e-5;  // fraction of the cost
   const int last = work_.evaluations() + study_.evaluations;
-  double radius = 0.25;  // of the widths
+  double radius = 0.25;  // fraction of the range
   double cost = Cost(at);
   Keep(at, cost);
   while (std::isfinite(cost) && work_.evaluations() < last) {
@@ -145,7 +145,7 @@ std::vector<double> Estimator::Moved(std::vector<double> values,
 Eigen::VectorXd Estimator::Step(const LinearModel& linear, const std::vector<double>& at,
                                 double radius) const {
   const Eigen::Index n = linear.gradient.size();
-  // A little of the identity: directions that change nothing stay where they are.
+  // A small ridge keeps parameters without effect at their values.
   constexpr double kLeast = 1e-9;
   const double ridge = std::max(kLeast * linear.hessian.trace(), kLeast);
   QuadraticProgram program;

@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// As a file: the same bytes for the same content.
+/// File content, with the same bytes for the same JSON.
 std::string Pretty(const ordered_json& content) {
   return content.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
@@ -71,7 +71,8 @@ ordered_json ToJson(const IdentifiedRecord& record) {
   return json;
 }
 
-/// What the fitted plant and the record do over time: yaw rate and lateral acceleration.
+/// Yaw rate and lateral acceleration over time, of the record and of the plant before and after the
+/// fit.
 Table Residuals(const IdentifiedRecord& record, const std::string& plant) {
   Table table({"t_s", "yaw_rate_recorded_radps", "yaw_rate_start_radps", "yaw_rate_fitted_radps",
                "lateral_acceleration_recorded_mps2", "lateral_acceleration_start_mps2",

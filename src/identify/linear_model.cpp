@@ -10,13 +10,13 @@
 namespace trackbed {
 namespace {
 
-/// Of residual vectors: d residual/d(parameter over the width of its bounds).
+/// Derivative of the residuals with respect to a parameter divided by its range.
 std::vector<SignalResiduals> Derivative(const Identification& study, const ResidualModel& model,
                                         const std::vector<double>& estimate, std::size_t index,
                                         const std::function<void()>& count) {
-  // Steps are so large that play, whose edges make residuals kinked, averages out, and so small
-  // that a Magic Formula is straight.
-  constexpr double kStep = 1e-3;  // of the width
+  // The step is large enough to average over backlash, where residuals have kinks, and small enough
+  // for a Magic Formula to be linear.
+  constexpr double kStep = 1e-3;  // fraction of the range
   const IdentifiedParameter& parameter = study.parameters[index];
   const double width = parameter.to - parameter.from;
   std::vector<double> at = estimate;
@@ -86,7 +86,7 @@ LinearModel Linearize(const Identification& study, const ResidualModel& model,
   std::vector<std::vector<SignalResiduals>> jacobian;
   for (const std::size_t index : free) {
     jacobian.push_back(Derivative(study, model, estimate, index, counted));
-    if (jacobian.back().size() != residuals.size()) {  // it does not compile beside the estimate
+    if (jacobian.back().size() != residuals.size()) {  // cannot be compiled next to the estimate
       jacobian.back() = residuals;
       for (SignalResiduals& signal : jacobian.back()) {
         std::fill(signal.values.begin(), signal.values.end(), 0.0);
@@ -132,7 +132,7 @@ Eigen::MatrixXd Covariance(const Identification& study, const LinearModel& linea
   const auto windows = static_cast<double>(linear.of_windows.cols());
   const double freedom = std::max(1.0, windows - static_cast<double>(n));
   Eigen::MatrixXd scatter = linear.of_windows * linear.of_windows.transpose() * (windows / freedom);
-  // A prior is a measurement whose scatter is its own deviation.
+  // A prior acts as a measurement whose scatter is its deviation.
   for (Eigen::Index i = 0; i < n; ++i) {
     const IdentifiedParameter& parameter = study.parameters[free[static_cast<std::size_t>(i)]];
     if (parameter.prior) {
@@ -140,7 +140,7 @@ Eigen::MatrixXd Covariance(const Identification& study, const LinearModel& linea
       scatter(i, i) += precision * precision;
     }
   }
-  // Directions in which the cost is flat have no inverse: their variance is without bounds.
+  // The variance is unbounded in directions in which the cost is flat.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(linear.hessian);
   constexpr double kFlat = 1e-10;
   const double largest = std::max(eigen.eigenvalues()[n - 1], 1e-300);
@@ -156,7 +156,7 @@ Eigen::MatrixXd Covariance(const Identification& study, const LinearModel& linea
   const Eigen::MatrixXd inverted =
       eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
   Eigen::MatrixXd covariance = inverted * scatter * inverted;
-  constexpr double kTakesPart = 1e-3;  // in a flat direction
+  constexpr double kTakesPart = 1e-3;  // component in a flat direction
   for (Eigen::Index i = 0; i < n; ++i) {
     if (flat[i] > kTakesPart) {
       covariance(i, i) = std::numeric_limits<double>::infinity();

@@ -8,27 +8,27 @@
 
 namespace trackbed {
 
-/// The cost about an estimate, in the parameters that are free, each over the width of its bounds.
+/// Local model of the cost around an estimate, in the free parameters divided by their ranges.
 struct LinearModel {
   double cost = 0.0;
   Eigen::VectorXd gradient;
-  Eigen::MatrixXd hessian;  ///< Gauss-Newton: that of linear residuals
+  Eigen::MatrixXd hessian;  ///< Gauss-Newton approximation
   Eigen::MatrixXd
-      of_windows;  ///< a column for each window: its share of the gradient, without priors
+      of_windows;  ///< one column per window: its contribution to the gradient, without priors
 };
 
-/// The cost of values; NaN of those with which the model cannot be compiled.
+/// Cost of the values; NaN if the model cannot be compiled with them.
 double CostOf(const Identification& study, const ResidualModel& model,
               const std::vector<double>& values);
 
-/// By central differences. `count` is called before each evaluation. InternalError for an estimate
-/// that cannot be compiled.
+/// Linearizes by central differences. Calls `count` before each evaluation. InternalError if the
+/// estimate cannot be compiled.
 LinearModel Linearize(const Identification& study, const ResidualModel& model,
                       const std::vector<double>& estimate, const std::vector<std::size_t>& free,
                       const std::function<void()>& count = {});
 
-/// The covariance of the estimate there, likewise over the widths; infinite on the diagonal for
-/// parameters that a change of no cost contains.
+/// Covariance of the estimate, relative to the ranges. The diagonal is infinite for parameters in
+/// the null space of the Hessian.
 Eigen::MatrixXd Covariance(const Identification& study, const LinearModel& linear,
                            const std::vector<std::size_t>& free);
 

@@ -57,9 +57,9 @@ Vector SolveBySlsqp(LeastDistance& problem, const Vector& start, double toleranc
     double value = 0.0;
     search.optimize(y, value);
   } catch (const nlopt::roundoff_limited&) {
-    // As near as it gets.
+    // The solution is as accurate as rounding permits.
   } catch (const std::runtime_error&) {
-    // The constraints contradict each other: what it got to is seen by its violation.
+    // The constraints are contradictory; the caller sees the violation.
   }
   return ConstVectorMap(y.data(), n);
 }
@@ -86,7 +86,7 @@ QuadraticSolution Solve(const QuadraticProgram& program, double tolerance) {
   solution.x = -cholesky.solve(program.linear);
   const auto m = program.bounds.size();
 
-  // y = L^T x.
+  // Substitute y = L^T x.
   LeastDistance problem;
   problem.linear = cholesky.matrixL().solve(program.linear);
   Vector y = -problem.linear;
@@ -122,7 +122,7 @@ QuadraticSolution Solve(const QuadraticProgram& program, double tolerance) {
         problem.bounds[k++] = program.bounds[i];
       }
     }
-    // G L^-T.
+    // Rows become G L^-T.
     problem.rows = cholesky.matrixL().solve(problem.rows.transpose()).transpose().eval();
     y = SolveBySlsqp(problem, y, tolerance);
     solution.x = cholesky.matrixU().solve(y);

@@ -10,17 +10,23 @@
 
 #include "trackbed/core/error.h"
 
+// Optimization with NLopt under bounds and inequality constraints. Methods with native constraints
+// (isres, cobyla, slsqp) receive them. For unconstrained methods, infeasible points get values
+// above 1e100 that grow with the violation; DIRECT gets infinity. The evaluator caches the last
+// point, counts evaluations, differentiates centrally, and keeps the best point of all: least
+// violation first, then least value.
+
 namespace trackbed {
 namespace {
 
-/// Where the infeasible points begin in the eyes of a method that knows no constraints.
+/// Objective values from here on mean infeasible, for unconstrained methods.
 constexpr double kBeyond = 1e100;
 
-/// How a method is made to keep constraints.
+/// How constraints are passed to a method.
 enum class Handling {
-  kNative,  ///< it takes them itself
-  kRanked,  ///< it only compares points: every infeasible one ranks below every feasible one
-  kHidden,  ///< it guesses the value of points that have none from their neighbors
+  kNative,  ///< the method supports constraints
+  kRanked,  ///< the method only compares points: infeasible points rank below all feasible ones
+  kHidden,  ///< the method gets no value for infeasible points and estimates it from neighbors
 };
 
 Handling ConstraintHandling(nlopt::algorithm algorithm) {
@@ -56,7 +62,7 @@ nlopt::algorithm NloptAlgorithm(SearchMethod method) {
   throw InternalError("no such search");
 }
 
-/// What NLopt's callbacks see: evaluates, counts, and keeps the best point of all.
+/// Evaluates points for NLopt's callbacks, counts evaluations and keeps the best point.
 class Evaluator {
  public:
   Evaluator(const SearchProblem& problem, const SearchOptions& options, int budget,
@@ -72,7 +78,7 @@ class Evaluator {
     result_.value = std::numeric_limits<double>::infinity();
   }
 
-  /// The objective as the method may see it, with its gradient when asked for.
+  /// The objective for the method, and its gradient if requested.
   double Objective(const double* x, double* gradient) {
     Evaluate(x);
     const double seen = Seen();
@@ -101,12 +107,12 @@ class Evaluator {
     return std::move(result_);
   }
 
-  std::exception_ptr failure;  // of the caller's functions
+  std::exception_ptr failure;  // thrown by the caller's functions
 
  private:
   void Evaluate(const double* x) {
     if (evaluated_ && std::equal(point_.begin(), point_.end(), x)) {
-      return;  // NLopt asks for objective and constraints of one point in turn
+      return;  // NLopt requests objective and constraints of a point one after the other
     }
     if (result_.evaluations >= budget_) {
       throw nlopt::forced_stop();
@@ -121,8 +127,8 @@ class Evaluator {
         }
       } catch (...) {
         failure = std::current_exception();
-        // NLopt 2.7.1's DIRECT reads memory that it has not set when it is stopped while it looks
-        // at its first points. It gets to its end without the caller's functions.
+        // If DIRECT of NLopt 2.7.1 is stopped during its first points, it reads uninitialized
+        // memory. So let it finish, without calling the caller's functions.
         if (options_.method != SearchMethod::kDirect) {
           throw nlopt::forced_stop();
         }
@@ -170,7 +176,7 @@ class Evaluator {
     }
   }
 
-  /// The objective in the terms of the method; a number for everything, or NLopt compares NaNs.
+  /// The objective in the method's terms; never NaN, which NLopt would compare.
   [[nodiscard]] double Seen() const {
     if (handling_ == Handling::kHidden && violation_ > 0.0) {
       return std::numeric_limits<double>::infinity();
@@ -184,14 +190,14 @@ class Evaluator {
     return value_;
   }
 
-  /// Gradients of the objective and of the constraints (row by row) by central differences, one-
-  /// sided at the bounds. NLopt asks for those of one point in turn.
+  /// Gradients of the objective and of the constraints (row by row) by central differences,
+  /// one-sided at the bounds. NLopt requests both for a point one after the other.
   void Differentiate(const double* x) {
     if (differentiated_at_.size() == point_.size() &&
         std::equal(differentiated_at_.begin(), differentiated_at_.end(), x)) {
       return;
     }
-    // The cube root of the rounding of one evaluation balances it against the third derivative.
+    // The cube root of an evaluation's rounding error balances it against the third derivative.
     constexpr double kStep = 6e-6;
     const std::size_t n = point_.size();
     std::vector<double> at(x, x + n);
@@ -225,12 +231,12 @@ class Evaluator {
   int budget_;
   Handling handling_;
   bool evaluated_ = false;
-  std::vector<double> point_;  // the last one evaluated
+  std::vector<double> point_;  // the last point that was evaluated
   double value_ = 0.0;
   double violation_ = 0.0;
   std::vector<double> constraints_;
   std::vector<double> differentiated_at_;
-  std::vector<double> gradient_;  // there, of what the method sees
+  std::vector<double> gradient_;  // there, of the objective that the method sees
   std::vector<double> jacobian_;
   int next_record_;
   SearchResult result_;
@@ -267,7 +273,7 @@ struct Box {
   std::vector<double> upper;
 };
 
-/// A fiftieth of the volume of a box, round x, within the problem's bounds.
+/// Shrinks a box to a fiftieth of its volume, centered on x, within the problem's bounds.
 Box Zoomed(const SearchProblem& problem, const Box& box, const std::vector<double>& x) {
   Box zoomed = box;
   const double share = std::pow(0.02, 1.0 / static_cast<double>(x.size()));
@@ -279,7 +285,7 @@ Box Zoomed(const SearchProblem& problem, const Box& box, const std::vector<doubl
   return zoomed;
 }
 
-/// One run of NLopt; what it finds stays in the evaluator.
+/// Runs NLopt once; the evaluator keeps the result.
 void Run(nlopt::algorithm algorithm, const SearchProblem& problem, const Box& box,
          std::vector<double> x, int evaluations, const SearchOptions& options,
          Evaluator& evaluator) {
@@ -303,11 +309,11 @@ void Run(nlopt::algorithm algorithm, const SearchProblem& problem, const Box& bo
     double value = 0.0;
     search.optimize(x, value);
   } catch (const nlopt::forced_stop&) {
-    // The budget is used, or a function of the problem failed.
+    // The budget is used up, or a function of the problem failed.
   } catch (const nlopt::roundoff_limited&) {
-    // As far as this method gets.
+    // Rounding errors limit further progress.
   } catch (const std::runtime_error&) {
-    // NLopt gave up (slsqp: too many steps of its least-squares solver): likewise.
+    // NLopt gave up (slsqp: too many steps of its least-squares solver); keep the best point.
   }
 }
 
@@ -374,11 +380,11 @@ SearchResult Search(const SearchProblem& problem, const SearchOptions& options,
     start[i] = problem.start.empty() ? 0.5 * (box.lower[i] + box.upper[i])
                                      : std::clamp(problem.start[i], box.lower[i], box.upper[i]);
   }
-  // NLopt's generator is one per thread, otherwise seeded from the clock, and takes 32 bits.
+  // NLopt's generator is per thread, seeded from the clock by default, and takes a 32-bit seed.
   if (SearchFor(options.method).random) {
     nlopt::srand(static_cast<unsigned long>((seed ^ (seed >> 32U)) & 0xffffffffU));
   }
-  // Direct's work grows with the square of its cells: it looks three times, ever closer.
+  // DIRECT's cost grows with the square of its cells: run it three times, in ever smaller boxes.
   const int looks = options.method == SearchMethod::kDirect ? 3 : 1;
   for (int look = 0; look < looks && !evaluator.failure; ++look) {
     if (look > 0 && evaluator.best().status != SearchStatus::kNotFinite) {

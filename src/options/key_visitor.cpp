@@ -14,7 +14,7 @@
 namespace trackbed {
 namespace {
 
-/// Without many zeros.
+/// Formats a number; uses an exponent for large ones.
 std::string Number(double number) {
   constexpr double kManyDigits = 1e9;
   return std::abs(number) <= kManyDigits ? fmt::format("{}", number) : fmt::format("{:g}", number);
@@ -94,7 +94,7 @@ class NumberFinder final : public KeyVisitor {
   std::optional<double> found_;
 };
 
-/// Throws for the first number that is none, or out of its range.
+/// Throws for the first number that is NaN or out of range.
 class RangeChecker final : public KeyVisitor {
  public:
   explicit RangeChecker(std::string owner) : owner_(std::move(owner)) {}
@@ -170,7 +170,7 @@ class RangeChecker final : public KeyVisitor {
   }
 
   std::string owner_;
-  std::string prefix_;  // of the keys, with a dot
+  std::string prefix_;  // prefix of the keys, with a dot
 };
 
 }  // namespace

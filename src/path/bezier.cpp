@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// Bernstein's sum in Horner's form.
+/// Evaluates the Bernstein sum in Horner's form.
 Vec2 Evaluate(const std::vector<Vec2>& points, double u) {
   if (points.empty()) {
     return Vec2::Zero();
@@ -80,7 +80,7 @@ double BezierCurve::Sharpness(double u) const {
 }
 
 double BezierCurve::Length(double from, double to) const {
-  // Pieces of a sixteenth: |P'| is no polynomial, but close to one there.
+  // Integrate over sixteenths: |P'| is not a polynomial, but close to one there.
   using Quadrature = boost::math::quadrature::gauss<double, 10>;
   const double pieces = std::max(1.0, std::ceil(16.0 * std::abs(to - from)));
   double length = 0.0;
@@ -98,7 +98,7 @@ std::vector<CurvePoint> BezierCurve::Points(double spacing, double start_yaw) co
   TRACKBED_REQUIRE(Length() / spacing <= kMostPoints,
                    "BezierCurve::Points: {} m every {} m; must be at most {} points", Length(),
                    spacing, kMostPoints);
-  double fastest = 0.0;  // |P'| lies within the hull of its control points
+  double fastest = 0.0;  // |P'| is at most the largest control point of P'
   for (const Vec2& velocity : polygons_[1]) {
     fastest = std::max(fastest, velocity.norm());
   }

@@ -5,7 +5,7 @@
 namespace trackbed {
 namespace {
 
-/// What both ways share: how the frame turns and narrows.
+/// Terms shared by both directions of the transformation.
 struct Frame {
   double narrow;   // 1 - kappa_r d
   double tangent;  // tan Dtheta
@@ -18,11 +18,12 @@ struct Frame {
         cosine(1.0 / std::sqrt(1.0 + tangent * tangent)),
         drift(at.sharpness * d + at.curvature * slope) {}
 
-  /// kappa (1 - kappa_r d)/cos Dtheta - kappa_r: how fast the car turns against the path, by s.
+  /// kappa (1 - kappa_r d)/cos Dtheta - kappa_r: rate of the car's heading relative to the path, by
+  /// s.
   [[nodiscard]] double Turning(const PathPoint& at, double curvature) const {
     return curvature * narrow / cosine - at.curvature;
   }
-  /// What s_t^2 adds to the acceleration.
+  /// Factor of s_t^2 in the acceleration.
   [[nodiscard]] double Added(double turning) const {
     return (narrow * tangent * turning - drift) / cosine;
   }

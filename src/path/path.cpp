@@ -8,6 +8,11 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
+// Paths of segments with quadratic curvature. Lines and arcs are evaluated in closed form. On other
+// segments, ten-node Gauss quadrature integrates the position over pieces that turn by at most half
+// a radian. Projection brackets the foot points between points a quarter radian apart and refines
+// them by TOMS 748. SegmentsThrough interpolates heading and curvature of given points exactly.
+
 namespace trackbed {
 namespace {
 
@@ -15,27 +20,28 @@ bool IsLineOrArc(const Segment& segment) {
   return segment.sharpness == 0.0 && segment.sharpness_rate == 0.0;
 }
 
-/// Heading gained over `distance`, times the direction: the integral of the curvature.
+/// Heading change over `distance`, before multiplication by the direction: the integral of the
+/// curvature.
 double Turned(const Segment& segment, double distance) {
   return distance * (segment.curvature + distance * (segment.sharpness / 2.0 +
                                                      distance * segment.sharpness_rate / 6.0));
 }
 
-/// Most that the heading can turn within the first `distance`.
+/// Upper bound of the heading change within the first `distance`.
 double MostTurned(const Segment& segment, double distance) {
   return distance * (std::abs(segment.curvature) +
                      distance * (std::abs(segment.sharpness) / 2.0 +
                                  distance * std::abs(segment.sharpness_rate) / 6.0));
 }
 
-/// Where a segment gets after `distance` in its own direction of motion.
+/// The pose after `distance` along a segment, in its direction of motion.
 Pose2 Along(const Pose2& start, const Segment& segment, double distance) {
   const double moved = segment.direction * distance;
   if (IsLineOrArc(segment)) {
     return MoveOnArc(start, moved, segment.curvature * moved);
   }
   const auto yaw = [&](double d) { return start.yaw + segment.direction * Turned(segment, d); };
-  // Ten nodes over half a radian integrate cosine and sine to rounding.
+  // Ten nodes per half radian integrate cosine and sine to machine precision.
   using Quadrature = boost::math::quadrature::gauss<double, 10>;
   const double pieces = std::max(1.0, std::ceil(2.0 * MostTurned(segment, std::abs(distance))));
   Vec2 position = start.position();
@@ -50,11 +56,12 @@ Pose2 Along(const Pose2& start, const Segment& segment, double distance) {
   return {position.x(), position.y(), yaw(distance)};
 }
 
-/// NearestDistance for a segment of changing curvature: the feet of p are where it lies straight
-/// across; they are bracketed between points a quarter radian apart.
+/// NearestDistance for segments of varying curvature. The foot points of p, at which p lies abeam,
+/// are bracketed between points a quarter radian apart.
 double NearestOnCurve(const Pose2& start, const Segment& segment, const Vec2& p, double from,
                       double to) {
-  // How far p lies ahead of the point at d, along the motion: falls through zero at a foot.
+  // How far p lies ahead of the point at d, along the motion; crosses zero downward at a foot
+  // point.
   const auto ahead = [&](double d) {
     return segment.direction * ToLocal(Along(start, segment, d), p).x();
   };
@@ -81,8 +88,8 @@ double NearestOnCurve(const Pose2& start, const Segment& segment, const Vec2& p,
   return best;
 }
 
-/// The distance along an (unbounded) segment to its point nearest to p, for arcs the one with the
-/// smallest distance that is not below `from`, if there is one up to `to`.
+/// Distance along an (unbounded) segment to its point nearest to p. On an arc, the smallest such
+/// distance in [from, to]; without one, the closer of `from` and `to`.
 double NearestDistance(const Pose2& start, const Segment& segment, const Vec2& p, double from,
                        double to) {
   if (!IsLineOrArc(segment)) {
@@ -101,7 +108,7 @@ double NearestDistance(const Pose2& start, const Segment& segment, const Vec2& p
   if (distance <= to) {
     return distance;
   }
-  // The foot lies outside: the nearer end of the stretch, measured along the circle.
+  // The foot point is out of range: return the closer end, measured along the circle.
   return (from - (distance - lap)) <= (distance - to) ? from : to;
 }
 
@@ -122,7 +129,7 @@ Path::Path(const Pose2& start, std::vector<Segment> segments) : segments_(std::m
                    "segment of length {}, curvature {}, sharpness {} and {}, direction {}",
                    segment.length, segment.curvature, segment.sharpness, segment.sharpness_rate,
                    segment.direction);
-    // Quadrature takes as many pieces as it turns half radians.
+    // The number of quadrature pieces is that of half radians turned.
     constexpr double kMostTurned = 1e4;
     TRACKBED_REQUIRE(
         IsLineOrArc(segment) || MostTurned(segment, segment.length) <= kMostTurned,
@@ -229,8 +236,8 @@ std::vector<Segment> Path::Cut(Stations within) const {
   std::vector<Segment> pieces;
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const Segment& whole = segments_[i];
-    // A stretch that begins or ends at a joint holds nothing of what lies beyond it, also when the
-    // joint's station is rounded.
+    // A range that begins or ends at a joint excludes the segment beyond it, even if the joint's
+    // station is rounded.
     const double end = stations_[i + 1];
     const double from =
         within.from >= end ? whole.length : std::max(within.from - stations_[i], 0.0);
@@ -276,7 +283,7 @@ std::vector<Segment> SegmentsThrough(const std::vector<CurvePoint>& points) {
     const CurvePoint& b = points[i];
     const double h = b.s - a.s;
     TRACKBED_CHECK(h > 0.0, "points at {} and {} m", a.s, b.s);
-    // The quadratic through both curvatures whose mean is the heading's rise.
+    // Quadratic curvature with given end values, whose mean gives the change of heading.
     const double mean = (b.yaw - a.yaw) / h;
     segments.push_back({h, a.curvature, 1, (6.0 * mean - 4.0 * a.curvature - 2.0 * b.curvature) / h,
                         6.0 * (a.curvature + b.curvature - 2.0 * mean) / (h * h)});

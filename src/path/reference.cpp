@@ -5,20 +5,25 @@
 
 #include "trackbed/core/error.h"
 
+// Speed profiles with constant acceleration between knots. StopAtEnd splits the path at the ends of
+// the speed caps. A backward pass limits the speed at each split by braking to the end, a forward
+// pass by accelerating from the start. Each stretch then gets knots where it starts to cruise and
+// to brake. A start that is too fast brakes as hard as needed until it meets the profile.
+
 namespace trackbed {
 namespace {
 
-/// Stretches of a profile shorter than this are left out [m].
+/// Shorter stretches of a profile are dropped [m].
 constexpr double kNegligible = 1e-9;
 
-/// A stretch between two stations with one highest speed.
+/// A stretch between two stations with a constant speed limit.
 struct Stretch {
   double from;
   double to;
   double speed;
 };
 
-/// The stretches into which the ends of caps cut [0, length].
+/// Splits [0, length] at the ends of the caps.
 std::vector<Stretch> SplitAtSpeedCaps(double length, double limit,
                                       const std::vector<SpeedCap>& caps) {
   std::vector<double> ends{0.0, length};
@@ -47,8 +52,9 @@ std::vector<Stretch> SplitAtSpeedCaps(double length, double limit,
   return stretches;
 }
 
-/// The knots inside a stretch that is entered and left at given speeds (squared), which its length
-/// allows: down to its highest speed at `braking` or up to it, along, and down to the exit's.
+/// Adds the knots inside a stretch with given squared speeds at its ends, which its length permits.
+/// The car brakes at `braking` or accelerates to the stretch's speed, cruises, and brakes to the
+/// exit speed.
 void AddInnerKnots(const Stretch& stretch, double in_squared, double out_squared, double braking,
                    const SpeedLimits& limits, std::vector<SpeedProfile::Knot>& knots) {
   const double a = in_squared > stretch.speed * stretch.speed ? -braking : limits.acceleration;
@@ -66,7 +72,7 @@ void AddInnerKnots(const Stretch& stretch, double in_squared, double out_squared
     add(stretch.from + ramp, v_squared);
     add(stretch.to - brake, v_squared);
   } else if (a > 0.0) {
-    // No room for the highest speed: accelerate until braking must begin.
+    // The highest speed cannot be reached: accelerate until braking must begin.
     const double peak = (out_squared - in_squared + 2.0 * b * length) / (2.0 * (a + b));
     add(stretch.from + peak, in_squared + 2.0 * a * peak);
   }
@@ -158,7 +164,7 @@ double SpeedProfile::StationAt(double time) const {
   for (std::size_t i = 0; i + 1 < knots_.size(); ++i) {
     const Knot& a = knots_[i];
     const Knot& b = knots_[i + 1];
-    // Infinite where both speeds are 0: there it stays.
+    // Infinite if both speeds are 0: the car stays there.
     const double duration = 2.0 * (b.s - a.s) / (a.speed + b.speed);
     if (time < duration) {
       const double acceleration = (b.speed - a.speed) / duration;
@@ -177,7 +183,7 @@ SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& lim
   }
   const std::vector<Stretch> stretches = SplitAtSpeedCaps(length, limits.speed, caps);
   const double start_squared = start_speed * start_speed;
-  // Highest speeds, squared, at the ends of the stretches: backward from standstill, then forward.
+  // Largest squared speeds at the ends of the stretches: backward from standstill, then forward.
   std::vector<double> squared(stretches.size() + 1, 0.0);
   double braking = std::max(limits.deceleration, start_squared / (2.0 * length));
   for (std::size_t i = stretches.size(); i-- > 0;) {
@@ -188,7 +194,7 @@ SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& lim
       braking = std::max(braking, (start_squared - speed * speed) / (2.0 * from));
     }
   }
-  // A start above what the way ahead allows comes down at `braking`, and meets it sooner or later.
+  // A start that is too fast for the path ahead brakes at `braking` until it meets the profile.
   bool too_fast = start_squared > squared[0];
   squared[0] = start_squared;
   for (std::size_t i = 0; i < stretches.size(); ++i) {
@@ -223,7 +229,7 @@ SpeedProfile StopAtCusps(const Path& path, double start_speed, const SpeedLimits
     const SpeedProfile profile =
         StopAtEnd(leg.to - leg.from, first ? start_speed : 0.0, limits, own);
     for (const SpeedProfile::Knot& knot : profile.knots()) {
-      // Stations near a leg's ends may fall together where they are added to its beginning.
+      // After adding the leg's start, stations near its ends may coincide by rounding.
       if (first || leg.from + knot.s > knots.back().s + 0.5 * kNegligible) {
         knots.push_back({leg.from + knot.s, knot.speed});
       }
@@ -238,7 +244,7 @@ SpeedProfile Excerpt(const SpeedProfile& profile, Stations within) {
                    "Excerpt: stations {} and {}; must be numbers", within.from, within.to);
   std::vector<SpeedProfile::Knot> knots{{0.0, profile.SpeedAt(within.from)}};
   for (const SpeedProfile::Knot& knot : profile.knots()) {
-    // Stations near the ends may fall together with them where they are counted from `from`.
+    // After subtracting `from`, stations near the ends may coincide with them by rounding.
     if (knot.s > within.from + 0.5 * kNegligible && knot.s < within.to - 0.5 * kNegligible) {
       knots.push_back({knot.s - within.from, knot.speed});
     }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSpacing = 0.1;  // [m]
 
-/// Where the path's points are on average around its start.
+/// Mean position of the path over the window around its start.
 Vec2 MeanAtStart(const Path& path, double window) {
   using Quadrature = boost::math::quadrature::gauss<double, 10>;
   const double pieces = std::ceil(window / kSpacing);
@@ -31,13 +31,13 @@ Vec2 MeanAtStart(const Path& path, double window) {
 }  // namespace
 
 Path SmoothCurvature(const Path& path, double window) {
-  constexpr double kLongest = 1e6;  // [m]; of any path
+  constexpr double kLongest = 1e6;  // [m]; upper limit for any path
   TRACKBED_CHECK(window > 0.0 && window <= kLongest && path.length() > 0.0,
                  "window {}, path of {} m", window, path.length());
   for (const Segment& segment : path.segments()) {
     TRACKBED_CHECK(segment.direction == 1, "a segment of direction {}", segment.direction);
   }
-  // The mean's derivatives by s are differences over the window.
+  // The derivatives of the moving average by s are differences over the window.
   const auto first_at = [&](double s) -> Vec2 {
     return (path.At(s + 0.5 * window).pose.position() - path.At(s - 0.5 * window).pose.position()) /
            window;

@@ -26,7 +26,7 @@ std::string TypeOf(const json& value) {
              : "";
 }
 
-/// Looks through features and collections of geometries; other geometries are passed by.
+/// Collects the line strings of features and geometry collections; ignores other geometries.
 void FindLines(const json& value, const std::string& key, Found& found) {
   const std::string type = TypeOf(value);
   const auto inside = [&](const char* name) {
@@ -56,7 +56,7 @@ void FindLines(const json& value, const std::string& key, Found& found) {
   }
 }
 
-/// The name of the reference system that the member `crs` of GeoJSON 2008 gives, if there is one.
+/// Name of the reference system in the member `crs` of GeoJSON 2008; none without it.
 std::optional<std::string> NamedSystem(const json& root) {
   if (root.contains("crs") && root["crs"].is_object() && root["crs"].contains("properties") &&
       root["crs"]["properties"].is_object() && root["crs"]["properties"].contains("name") &&
@@ -70,7 +70,7 @@ bool IsWgs84(const std::string& system) {
   return system.find("CRS84") != std::string::npos || system.ends_with("4326");
 }
 
-/// Degrees to meters, by transverse Mercator about an origin.
+/// Converts degrees to meters by a transverse Mercator projection about an origin.
 class Projection84 {
  public:
   Projection84(double longitude, double latitude)
@@ -93,7 +93,7 @@ class Projection84 {
   std::unique_ptr<PJ, PJ* (*)(PJ*)> projection_;
 };
 
-/// The two first numbers of each position; a third is the height.
+/// The first two numbers of each position; the third is the height.
 std::vector<Vec2> Positions(const Found& found, const std::string& file, double largest) {
   const json& list = *found.coordinates;
   if (!list.is_array()) {
@@ -128,7 +128,7 @@ void Project(std::vector<Vec2>& positions, const Found& line, const PathMap& map
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec2 degrees = positions[i];
     positions[i] = projection.ToMeters(degrees.x(), degrees.y());
-    // Beyond, the scale of the projection is off by more than 1/1000 (300 km: 1.0011).
+    // Farther east, the scale error of the projection exceeds 1/1000 (300 km: 1.0011).
     constexpr double kFarthestEast = 3e5;
     if (!positions[i].allFinite() || std::abs(positions[i].x()) > kFarthestEast ||
         std::abs(positions[i].y()) > kFarthest) {

@@ -12,13 +12,13 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
 
-// JSON, and YAML as the same values.
+// JSON, and YAML converted to JSON values.
 namespace trackbed {
 namespace {
 
 using nlohmann::json;
 
-/// Makes JSON of the events of a YAML document. Nothing is ever expanded: aliases are refused.
+/// Converts the events of a YAML document to JSON. Refuses aliases, so that nothing is expanded.
 class JsonOfYaml : public YAML::EventHandler {
  public:
   explicit JsonOfYaml(std::string file) : file_(std::move(file)) {}
@@ -54,7 +54,7 @@ class JsonOfYaml : public YAML::EventHandler {
  private:
   struct Level {
     json value;
-    std::optional<std::string> key{};  // of the value that comes next
+    std::optional<std::string> key{};  // of the next value
     YAML::Mark mark;
   };
 

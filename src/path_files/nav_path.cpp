@@ -7,7 +7,7 @@
 #include "src/path_files/formats.h"
 #include "trackbed/core/error.h"
 
-// nav_msgs/Path of ROS: `poses`, a list of geometry_msgs/PoseStamped.
+// nav_msgs/Path of ROS: a list `poses` of geometry_msgs/PoseStamped.
 namespace trackbed {
 namespace {
 
@@ -21,7 +21,7 @@ const json& Member(const json& value, const char* name, std::string_view key,
   return value.at(name);
 }
 
-/// The heading of a quaternion; 0 for one of zeros, which stands for no orientation.
+/// The heading of a quaternion; 0 for an all-zero one, which means no orientation.
 double Yaw(const json& orientation, const std::string& key, const std::string& file) {
   const auto part = [&](const char* name) {
     return NumberOf(Member(orientation, name, key, file), key + "." + name, 1e6, file);
@@ -48,7 +48,7 @@ PathFile ReadNavPath(const std::filesystem::path& path, const json& message) {
   std::size_t oriented = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::string key = fmt::format("poses[{}].pose", i);
-    // PoseStamped; PoseArray and lists of bare poses have no header in between.
+    // PoseStamped; lists of bare poses, such as PoseArray, have no header in between.
     const json& pose = poses[i].is_object() && poses[i].contains("position")
                            ? poses[i]
                            : Member(poses[i], "pose", fmt::format("poses[{}]", i), file);
@@ -69,7 +69,7 @@ PathFile ReadNavPath(const std::filesystem::path& path, const json& message) {
            fmt::format("{} of {} poses have an orientation; must be all or none", oriented,
                        poses.size()));
   }
-  // Planners that know no headings leave the quaternion as it is made.
+  // Planners without headings leave the default quaternion: then drop the headings.
   if (!yaw.empty() &&
       std::all_of(yaw.begin(), yaw.end(), [](double angle) { return angle == 0.0; })) {
     yaw.clear();

@@ -13,6 +13,11 @@
 #include "trackbed/control/signal.h"
 #include "trackbed/core/error.h"
 
+// Imports the log of a drive: reads rows in SI units and ENU axes (log_rows.h), checks columns for
+// contradictions (log_check.h), and resamples poses and signals to a grid of constant period by
+// local polynomials (local_polynomial.h: Cleveland 1979), whose derivatives give velocity and
+// acceleration. A measured speed, yaw rate or acceleration replaces the derivative. Inputs such as
+// the steering angle are interpolated linearly, gaps are filled linearly and marked invalid.
 namespace trackbed {
 namespace {
 
@@ -21,14 +26,14 @@ namespace fs = std::filesystem;
 constexpr double kShortest = 1.0;     // [s]
 constexpr double kMostSamples = 1e6;  // 130 MB
 
-/// X_WV of the rear axle for X_WS of the measured point.
+/// X_WV of the rear axle from X_WS of the measured point.
 Pose2 VehiclePose(const Pose2& X_WS, const LogSensor& X_VS) {
   const Vec2 p_SV = ToLocal({X_VS.x, X_VS.y, X_VS.yaw}, Vec2::Zero());
   return Compose(X_WS, {p_SV.x(), p_SV.y(), -X_VS.yaw});
 }
 
-/// A series that repeats the values of a slower loop: its updates, linear between them, and what
-/// does not change for longer is held until one period before it does.
+/// The updates of a series that repeats the values of a slower loop. Linear between updates; a
+/// value constant for longer than a period is held until one period before it changes.
 LogSeries Updates(const LogSeries& rows, double period) {
   LogSeries updates;
   const auto add = [&](double time, double value) {
@@ -59,7 +64,7 @@ Signal Linear(const LogSeries& series, const std::optional<double>& period) {
   return signal;
 }
 
-/// A series of its own rows, fitted at any time. Beyond its ends it has the values there.
+/// Fits a series with its own timestamps at any time; constant beyond its ends.
 class FittedSeries {
  public:
   FittedSeries(const LogSeries& series, const LogMap& map)
@@ -132,7 +137,7 @@ class Importer {
   const LogMap& map_;
   LogRows rows_;
   RecordedDrive drive_;
-  double start_ = 0.0;  // of the grid, since the first row of the log [s]
+  double start_ = 0.0;  // start of the grid, since the first row of the log [s]
 };
 
 void Importer::RequireRows() const {
@@ -186,7 +191,7 @@ void Importer::LayGrid() {
     Refuse(fmt::format("{:.3g} s of data between {:.3g} s and {:.3g} s; must be at least {} s",
                        std::max(0.0, end - start_), start_, end, kShortest));
   }
-  // A last sample that rounding would leave out belongs to it.
+  // The tolerance keeps a last sample that rounding would exclude.
   const double count = std::floor((end - start_) * map_.resample.rate + 1e-6) + 1.0;
   if (count > kMostSamples) {
     Refuse(
@@ -211,7 +216,7 @@ void Importer::FitPoses() {
   const LocalPolynomial fits(rows_.time, values, map_.resample.half_width, map_.resample.degree);
   const std::vector<LogStretch> stretches = SplitAtGaps(rows_.time, map_.gap);
   auto stretch = stretches.begin();
-  // Grid times are rounded, row times are not those of the grid.
+  // Tolerance: grid times are rounded, row times are not.
   const double slack = 1e-6 * drive_.period;
   for (RecordedSample& sample : drive_.samples) {
     const double at = LogTime(sample);
@@ -260,7 +265,7 @@ void Importer::FitSignals() {
   }
 }
 
-/// Samples in gaps go linearly from one end of the gap to the other; the grid begins and ends with
+/// Interpolates samples in gaps linearly between the gap's ends. The grid begins and ends within
 /// rows.
 void Importer::FillGaps() {
   std::vector<RecordedSample>& samples = drive_.samples;
@@ -337,7 +342,7 @@ void Importer::NoteGaps() {
   int missing = 0;
   double longest = 0.0;
   double longest_at = 0.0;
-  double since = 0.0;  // the gap's begin
+  double since = 0.0;  // start of the gap
   bool in_gap = false;
   for (const RecordedSample& sample : drive_.samples) {
     missing += sample.valid ? 0 : 1;

@@ -9,7 +9,7 @@
 namespace trackbed {
 namespace {
 
-/// Cleveland (1979).
+/// Weight function of Cleveland (1979).
 double Tricube(double u) {
   const double rest = 1.0 - std::abs(u * u * u);
   return rest * rest * rest;
@@ -37,11 +37,11 @@ LocalFit LocalPolynomial::At(double at, const LogStretch& stretch) const {
   const std::ptrdiff_t needed = std::min<std::ptrdiff_t>(degree_ + 1, end - begin);
   double width = half_width_;
   if (last - first < needed) {
-    while (last - first < needed) {  // takes the nearer of the two next rows
+    while (last - first < needed) {  // adds the nearer neighbor
       const bool before = first != begin && (last == end || at - *(first - 1) <= *last - at);
       before ? static_cast<void>(--first) : static_cast<void>(++last);
     }
-    // Far enough out that the furthest row still has a third of the weight.
+    // Width at which the furthest row still has a third of the weight.
     width = 1.5 * std::max(at - *first, *(last - 1) - at);
     width = width > 0.0 ? width : half_width_;
   }

@@ -11,18 +11,23 @@
 #include "trackbed/control/signal.h"
 #include "trackbed/core/angle.h"
 
+// Compares columns of a log with derivatives of its positions, fitted by local polynomials: the yaw
+// rate and the yaw with the course, and speed, yaw rate and steering with the pose by the slope or
+// sign of a least-squares fit. Wrong units and signs are recognized because the corrected column
+// agrees, or by the fitted factor (3.6, 180/pi, -1). Robust against outliers: compares upper
+// quartiles.
 namespace trackbed {
 namespace {
 
-constexpr double kTurns = 0.02;  // slower is not judged [rad/s]
+constexpr double kTurns = 0.02;  // slower turns are not judged [rad/s]
 
-/// One moment of the moving part of the drive, by the position alone.
+/// Motion at one moment of the drive, derived from position and logged yaw.
 struct Moment {
   double time;
   double speed;        // [m/s]
   double course;       // [rad]
   double course_rate;  // [rad/s]
-  double yaw_rate;     // by the yaw [rad/s]
+  double yaw_rate;     // derivative of the yaw [rad/s]
   double yaw;          // [rad]
 };
 
@@ -32,8 +37,8 @@ double UpperQuartile(std::vector<double> values) {
   return *place;
 }
 
-/// The moments at which the measured point moves at a fifth of its usual speed or more, with every
-/// yaw multiplied by `scale`. At most 4000 of them, evenly spread.
+/// The moments at which the measured point moves with at least a fifth of its RMS speed, with every
+/// yaw multiplied by `scale`. Fewer than 8000 of them, evenly spread.
 std::vector<Moment> Moments(const LogRows& rows, const LogMap& map, double scale) {
   constexpr std::size_t kMost = 4000;
   std::vector<double> yaw = rows.yaw;
@@ -69,8 +74,8 @@ std::vector<Moment> Moments(const LogRows& rows, const LogMap& map, double scale
   return all;
 }
 
-/// How far the yaw rate is from that of the course, over the latter; none for a drive that hardly
-/// turns.
+/// Upper quartile of the yaw rate error relative to that of the course rate; none if the drive
+/// hardly turns.
 std::optional<double> Misfit(const std::vector<Moment>& moments) {
   std::vector<double> apart;
   std::vector<double> course;
@@ -126,7 +131,8 @@ void CheckYawRateOfYaw(const LogRows& rows, const LogMap& map, Found& found) {
                 100.0 * *misfit));
 }
 
-/// A yaw that turns as the path does, but is off by a quarter turn: compass headings.
+/// Detects a yaw with a constant offset of about a quarter turn from the course, as of compass
+/// headings.
 void CheckHeading(const std::vector<Moment>& moments, const LogMap& map, Found& found) {
   if (moments.size() < 20) {
     return;
@@ -137,8 +143,8 @@ void CheckHeading(const std::vector<Moment>& moments, const LogMap& map, Found& 
   }
   mean /= static_cast<double>(moments.size());
   const double off = std::atan2(mean.y(), mean.x());
-  constexpr double kConcentrated = 0.9;  // of 1: the same all the time
-  // Backwards is half a turn off.
+  constexpr double kConcentrated = 0.9;  // length of the mean direction; 1: constant
+  // Driving in reverse gives an offset of half a turn.
   if (mean.norm() > kConcentrated && std::abs(off) > 0.6 && std::abs(off) < kPi - 0.6) {
     found.emplace_back(YawKey(map),
                        fmt::format("the car moves {:.3g} rad to the {} of where it points, all the "
@@ -147,7 +153,7 @@ void CheckHeading(const std::vector<Moment>& moments, const LogMap& map, Found& 
   }
 }
 
-/// b of the least squares column = b * of the pose, and their correlation.
+/// Slope b of the least-squares fit column = b * (quantity of the pose), and their correlation.
 struct Ratio {
   double slope = 0.0;
   double correlation = 0.0;
@@ -235,7 +241,7 @@ void CheckYawRate(const LogRows& rows, const std::vector<Moment>& moments, Found
 
 void CheckSteering(const LogRows& rows, const std::vector<Moment>& moments, LogSignal signal,
                    Found& found) {
-  // tan(delta) goes with the path's curvature, whatever the wheelbase.
+  // tan(delta) is proportional to the path's curvature for any wheelbase.
   const Ratio ratio = RatioTo(rows.signals[signal], moments, [](const Moment& moment) {
     return moment.course_rate / moment.speed;
   });
@@ -259,7 +265,7 @@ Found FindContradictions(const LogRows& rows, const LogMap& map) {
   if (rows.has[kSpeedSignal]) {
     CheckSpeed(rows, moments, found);
   }
-  if (rows.has[kYawRateSignal] && found.empty()) {  // what is compared with a wrong yaw is no news
+  if (rows.has[kYawRateSignal] && found.empty()) {  // needs a correct yaw
     CheckYawRate(rows, moments, found);
   }
   for (const LogSignal signal : {kSteeringSignal, kSteeringCommandSignal}) {

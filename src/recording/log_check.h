@@ -9,12 +9,12 @@
 
 namespace trackbed {
 
-/// Columns that contradict each other, each with the key of the map to look at: headings that turn
-/// in another way than the path, in degrees that are read as radians or with the wrong sign;
-/// speeds, yaw rates and steering that do not go with the pose.
+/// Finds columns that contradict each other, each with the key of the map to check: headings that
+/// turn differently from the path, for example degrees read as radians or with the wrong sign;
+/// speeds, yaw rates and steering that disagree with the pose.
 ///
-/// What is compared are upper quartiles and least squares over the moving part of the drive, so
-/// that jumps of single rows do not matter. A drive that hardly turns or moves is not judged.
+/// Compares upper quartiles and least-squares fits over the moving part of the drive, so that
+/// outliers in single rows have little effect. Drives that hardly turn or move are not judged.
 std::vector<std::pair<std::string, std::string>> FindContradictions(const LogRows& rows,
                                                                     const LogMap& map);
 

@@ -16,6 +16,11 @@
 #include "trackbed/core/file.h"
 #include "trackbed/core/table.h"
 
+// Reads the CSV file of a log, and the other files that the map names, row by row. Time is relative
+// to the first row. Rows outside the imported part or excluded by a condition of the map are
+// skipped, as are poses that are incomplete or repeat a time. Numbers are converted by scale, unit,
+// offset and curve of their column; NED poses become ENU, and signals positive to the right change
+// their sign.
 namespace trackbed {
 namespace {
 
@@ -23,7 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostNumbers = 50'000'000;  // 400 MB
 
-/// A signal's column, and the sign with which it counts.
+/// Column of a signal, and its sign in the frame of the vehicle.
 struct SignalColumn {
   LogSignal signal;
   LogColumn column;
@@ -31,7 +36,7 @@ struct SignalColumn {
 };
 
 std::vector<SignalColumn> SignalColumns(const LogMap& map) {
-  const double turn = map.frame == LogFrame::kNed ? -1.0 : 1.0;  // of what is positive to the right
+  const double turn = map.frame == LogFrame::kNed ? -1.0 : 1.0;  // if positive to the right
   std::vector<SignalColumn> columns;
   const auto add = [&](LogSignal signal, const auto& column, double sign) {
     if (column) {
@@ -60,7 +65,7 @@ char DelimiterOf(const LogMap& map) {
                                                      : '\t';
 }
 
-/// Names of columns, each once.
+/// Column names without duplicates.
 class ColumnNames {
  public:
   std::size_t Add(const std::string& name) {
@@ -106,8 +111,7 @@ class LogReader {
  private:
   using Numbers = std::vector<double>;
 
-  /// The time of a row since the first of the log [s]; none, with a problem, where there is none
-  /// or it goes back.
+  /// Column and last time of one file.
   struct Clock {
     std::size_t column;
     std::optional<std::size_t> nanoseconds;
@@ -122,6 +126,8 @@ class LogReader {
     return clock;
   }
 
+  /// Time of a row since the first row of the log [s]. None, with a problem, if it is missing or
+  /// decreases.
   std::optional<double> TimeOf(Clock& clock, const Numbers& numbers, const fs::path& file, int line,
                                ProblemList& problems) {
     const double count = numbers[clock.column];
@@ -134,7 +140,7 @@ class LogReader {
       origin_ = {count, nanoseconds};
       rows_.origin = count;
     }
-    // Differences first: they are exact where the counts are near 1e18.
+    // Subtracts before scaling: differences are exact even for counts near 1e18.
     const double time = (count - origin_->first) * UnitInSi(map_.time.unit) +
                         (nanoseconds - origin_->second) * 1e-9;
     if (clock.last && time < *clock.last) {
@@ -173,7 +179,7 @@ class LogReader {
     LogSeries& series = rows_.signals[signal.signal];
     const double at = time - column.delay;
     if (!series.time.empty() && at <= series.time.back()) {
-      return;  // of the time of the row before
+      return;  // same time as the row before
     }
     Count(2);
     double value = column.scale * (number * UnitInSi(column.unit)) + column.offset;
@@ -186,7 +192,7 @@ class LogReader {
 
   void ReadPoses();
   void ReadOther(const std::string& name, const char* key);
-  /// Position and yaw of a row, if it has them.
+  /// Adds position and yaw of a row, if it has both.
   void TakePose(const Numbers& numbers, double time, int line,
                 const std::vector<std::size_t>& columns);
 
@@ -294,7 +300,7 @@ void LogReader::ReadOther(const std::string& name, const char* key) {
   ProblemList problems;
   ReadCsvNumbers(file, names.names(), DelimiterOf(map_), [&](const Numbers& numbers, int line) {
     const std::optional<double> time = TimeOf(clock, numbers, file, line, problems);
-    if (time) {  // all of them: rows may be far apart
+    if (time) {  // no restriction to the imported part: rows may be far apart
       for (const auto& [signal, column] : signals) {
         TakeSignal(*signal, numbers[column], *time);
       }

@@ -12,11 +12,11 @@
 namespace trackbed {
 namespace {
 
-/// A column and the number of a sample that it holds.
+/// A column and the sample's field that it holds.
 struct Column {
   const char* name;
   std::function<double&(RecordedSample& sample)> number;
-  bool RecordedDrive::*has = nullptr;  // whether the drive has it; none: always
+  bool RecordedDrive::*has = nullptr;  // whether the drive has the column; none: always
 };
 
 const std::vector<Column>& Columns() {

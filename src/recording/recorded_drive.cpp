@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// A car that stands may seem to roll backwards by the noise of its position [m/s].
+/// Speed of backward motion [m/s] that position noise may cause in a car at rest.
 constexpr double kBackwards = 0.05;
 
 RecordedSample Between(const RecordedSample& a, const RecordedSample& b, double share) {
@@ -32,7 +32,7 @@ RecordedSample Between(const RecordedSample& a, const RecordedSample& b, double 
   return sample;
 }
 
-/// "steering_command and throttle": what the drive has of what can be replayed.
+/// The drive's signals for playback: "steering_command and throttle".
 std::string SignalsOf(const RecordedDrive& drive) {
   std::string names;
   const auto add = [&](bool has, const char* name) {
@@ -83,7 +83,7 @@ RecordedSample RecordedDrive::At(double time) const {
                    period);
   const double last = static_cast<double>(samples.size() - 1);
   const double place = std::clamp(time / period, 0.0, last);
-  // A time that is that of a sample but for rounding is the sample's.
+  // Times that differ from a sample's only by rounding use that sample.
   constexpr double kRounding = 1e-6;
   const double nearest = std::round(place);
   if (std::abs(place - nearest) < kRounding) {

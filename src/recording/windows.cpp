@@ -16,16 +16,16 @@
 namespace trackbed {
 namespace {
 
-/// What is the same for all windows.
+/// Data shared by all windows.
 struct Replay {
   const CarModel& car;
   const RecordedDrive& drive;
   const ReplayOptions& options;
   PlaybackOptions inputs;
-  int steps;  // in a control period
+  int steps;  // per control period
 };
 
-/// The steering actuator after some control periods of the drive.
+/// State of the steering actuator after some control periods of the drive.
 struct SteeringHistory {
   SteeringFilter filter;
   double angle;  // [rad]
@@ -40,7 +40,8 @@ int StepsPerPeriod(double period, double timestep) {
   return static_cast<int>(std::lround(steps));
 }
 
-/// The commands of the drive from its start on, up to each of some control periods (increasing).
+/// Follows the commands from the start of the drive. Returns the state at each of `periods`, which
+/// must increase.
 std::vector<SteeringHistory> FollowCommands(const Replay& replay,
                                             const std::vector<long>& periods) {
   const VehicleParams& params = replay.car.params();
@@ -109,7 +110,7 @@ WindowPrediction Predict(const Replay& replay, const std::string& name, long fir
   return window;
 }
 
-/// Linear between the two nearest of sorted values.
+/// Quantile of sorted values, with linear interpolation.
 double QuantileOf(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
   const auto before = static_cast<std::size_t>(place);

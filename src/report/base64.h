@@ -4,7 +4,7 @@
 
 namespace trackbed {
 
-/// Bytes as base64 with padding (RFC 4648).
+/// Bytes as padded base64 (RFC 4648).
 std::string Base64(const std::string& bytes);
 
 }  // namespace trackbed

@@ -7,18 +7,18 @@
 
 namespace trackbed {
 
-/// Whether drives have been compared and the outcome written to the folder.
+/// Whether the folder contains a comparison.
 bool HasComparison(const std::filesystem::path& folder);
 
-/// The runs that the folder's comparison is of, each once: those that it names, or the run that it
-/// lies beside. InputError when it tells of none.
+/// The runs compared in the folder, each once: those named in compare.json, else the run in the
+/// same folder. Throws InputError if there are none.
 std::vector<std::filesystem::path> ComparedRuns(const std::filesystem::path& folder);
 
-/// How far drives part at equal station: {verdicts, pairs}. Those of the comparison in the folder
-/// `judged`, if there is one, else those of the comparisons that lie beside the runs, and each
-/// plant of the first run with its namesake in every other; of a run alone that has not been
-/// compared, each two of its plants. Empty when that is nothing. InputError
-/// when a comparison is not of the logs in the folders.
+/// Differences at equal station: {verdicts, pairs}. Includes the pairs of the comparison in the
+/// folder `judged`, if given. Otherwise includes the comparisons in the run folders, and each plant
+/// of the first run with the plant of the same name in every other run; for a single run without a
+/// comparison, all pairs of its plants. Empty if there are none. Throws InputError if a comparison
+/// does not match the logs.
 nlohmann::ordered_json ComparisonData(const std::vector<std::filesystem::path>& runs,
                                       const std::optional<std::filesystem::path>& judged);
 

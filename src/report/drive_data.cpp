@@ -20,9 +20,9 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 constexpr double kReached = 1e-6;  // [rad]; as in PlantMetrics
-constexpr double kShortest = 0.1;  // [s] that are seen as a mark of their own
+constexpr double kShortest = 0.1;  // [s]; shortest visible interval
 
-/// Where the actuator did not reach what was commanded in the row before.
+/// Intervals in which the actuator did not reach the command of the previous row.
 std::vector<std::array<double, 2>> RateLimitSpans(const Table& log) {
   const std::vector<double> time = log.Column("t_s");
   const std::vector<double> asked = log.Column("steering_command_rad");
@@ -44,7 +44,7 @@ std::vector<std::array<double, 2>> RateLimitSpans(const Table& log) {
   return spans;
 }
 
-/// When the car first knew of an obstacle; none if it never did, or did from the start.
+/// When the car learned of an obstacle; none if it never did, or knew it from the start.
 std::optional<double> KnownFrom(const Obstacle& obstacle, const Table& log,
                                 const VehicleParams& car) {
   const std::vector<double> time = log.Column("t_s");
@@ -69,7 +69,7 @@ std::string ForceColumn(const char* kind, const char* wheel) {
   return fmt::format("{}_force_{}_N", kind, wheel);
 }
 
-/// A tyre's shares of its friction over the rows of a log.
+/// Fractions of a tyre's friction used, for each row of a log.
 struct TyreShares {
   std::vector<double> along;
   std::vector<double> across;

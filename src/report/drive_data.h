@@ -8,22 +8,22 @@
 #include "trackbed/sim/plant_options.h"
 #include "trackbed/world/world.h"
 
-/// What a plant's log tells beyond its curves: events, and the forces of tyres.
+/// Events and tyre forces of a plant, derived from its log.
 namespace trackbed {
 
-/// When the steering was at its rate limit, and when planners learned of obstacles: {rate_limit:
-/// [[from, to], ...], known: [[obstacle, time], ...]}, times from the start of the run [s]. A
-/// period at the limit lasts 0.1 s at least; two less than 0.1 s apart are one. Obstacles that are
-/// known from the start are left out, and those that are never learned of. InputError as
+/// Intervals with the steering at its rate limit, and times at which planners learned of obstacles:
+/// {rate_limit: [[from, to], ...], known: [[obstacle, time], ...]}, from the start of the run [s].
+/// Intervals last at least 0.1 s; intervals less than 0.1 s apart are merged. Omits obstacles that
+/// are known from the start and those that are never learned of. Throws the errors of
 /// ReadCsvExcerpt.
 nlohmann::ordered_json EventsJson(const std::filesystem::path& log, const World& world,
                                   const VehicleParams& car);
 
-/// The forces of the tyres as shares of what friction allows each, at up to 30 rows a second and at
-/// most `row_limit` in all: {t, fl: {along, across}, fr, rl, rr}, channels as ChannelJson has them.
-/// A share is positive forward and to the left; both are 0 of a tyre without load. Of the rows
-/// between two that are shown the one is taken where the tyres use most. Null for logs without
-/// tyre forces. InputError as ReadCsvExcerpt.
+/// Tyre forces as fractions of the available friction, at up to 30 rows per second and at most
+/// `row_limit` rows: {t, fl: {along, across}, fr, rl, rr}, with channels as in ChannelJson.
+/// Positive forward and to the left; 0 for an unloaded tyre. Between two shown rows, the row with
+/// the largest use of friction is taken. Null for logs without tyre forces. Throws the errors of
+/// ReadCsvExcerpt.
 nlohmann::ordered_json TyresJson(const std::filesystem::path& log, const std::string& plant,
                                  TyreLaw scenario_law, const World& world, const CarModel& car,
                                  std::size_t row_limit);

@@ -5,11 +5,11 @@
 
 namespace trackbed {
 
-/// Whether it is the folder of an identification.
+/// Whether the folder contains an identification.
 bool IsIdentificationFolder(const std::filesystem::path& folder);
 
-/// What the page shows of an identification: identify.json, and over time what each record and the
-/// model before and after the fit do. InputError naming what is missing or broken.
+/// Data of an identification for the page: identify.json, and over time each record with the model
+/// before and after the fit. Throws InputError naming a missing or invalid file.
 nlohmann::ordered_json IdentificationData(const std::filesystem::path& folder);
 
 }  // namespace trackbed

@@ -11,7 +11,7 @@
 namespace trackbed {
 namespace {
 
-/// As people write it: m/s² for m/s^2. A path that is in no table is its own label.
+/// Writes units with superscripts: m/s² for m/s^2. A path without an entry is its own label.
 ShownName Shown(const std::optional<MetricInfo>& info, const std::string& path) {
   if (!info) {
     return {path, ""};
@@ -23,7 +23,7 @@ ShownName Shown(const std::optional<MetricInfo>& info, const std::string& path) 
   return name;
 }
 
-/// Cuts off what stands before the first dot.
+/// Removes and returns the part before the first dot.
 std::string TakeWord(std::string& path) {
   const std::size_t dot = path.find('.');
   std::string word = path.substr(0, dot);
@@ -47,7 +47,7 @@ ShownName NameOfOutput(const std::string& path) {
   if (kind == "metrics") {
     const std::string plant = TakeWord(rest);
     ShownName name = NameOfMetric(rest);
-    // "… at station" needs the row above it.
+    // A label such as "… at station" is only understood below the row that it continues.
     name.label = name.label.starts_with("…") ? rest : name.label;
     name.label += plant == "*" ? "" : fmt::format(" ({})", plant);
     return name;
@@ -74,7 +74,7 @@ ShownName NameOfOutput(const std::string& path) {
 }
 
 ShownName NameOfKey(const std::string& key) {
-  // The table has N for the elements of all lists.
+  // The table uses N as index of all lists.
   static const std::regex index(R"(\[\d+\])");
   const std::string listed = std::regex_replace(key, index, "[N]");
   for (const KeySection& section : ScenarioKeys()) {

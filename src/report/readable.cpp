@@ -51,14 +51,14 @@ void MakeReadable(ordered_json& json) {
 std::string Readable(const std::string& text) {
   using Utf8 = boost::locale::utf::utf_traits<char>;
   if (std::all_of(text.begin(), text.end(), IsPlain)) {
-    return text;  // films among others, which are long
+    return text;  // mostly embedded films, which are long
   }
   std::string readable;
   for (auto at = text.begin(); at != text.end();) {
     const auto begin = at;
     const code_point c = Utf8::decode(at, text.end());
     if (c == boost::locale::utf::illegal || c == boost::locale::utf::incomplete) {
-      // What is left of a character of several bytes is no character either.
+      // Skips the remaining bytes of an invalid multibyte character.
       at = std::find_if_not(begin + 1, text.end(), Continues);
       readable += "\xEF\xBF\xBD";
     } else if (IsUnseen(c)) {

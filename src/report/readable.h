@@ -3,16 +3,16 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-/// Texts of files that anybody may have written, as a page can show them.
+/// Makes text from untrusted files safe to show on a page.
 namespace trackbed {
 
-/// Characters that are not seen but act on what stands around them are named: "<U+202E>". These
-/// are controls except tab and line feed, Unicode's marks and overrides of writing direction
-/// (annex 9), its line separators, and characters without width other than the joiners that emoji
-/// and some scripts need. What is no UTF-8 becomes U+FFFD, once for each character or stray byte.
+/// Replaces invisible characters that affect the text around them by their names: "<U+202E>". These
+/// are controls except tab and line feed, Unicode's marks and overrides of writing direction (annex
+/// 9), its line separators, and zero-width characters except the joiners that emoji and some
+/// scripts need. Invalid UTF-8 becomes U+FFFD, once per character or stray byte.
 std::string Readable(const std::string& text);
 
-/// The same of every text in `json`; names of entries are not shown, and stay.
+/// Applies Readable to all texts in `json`. Names of entries are not shown and stay unchanged.
 nlohmann::ordered_json WithReadableTexts(nlohmann::ordered_json json);
 
 }  // namespace trackbed

@@ -18,16 +18,21 @@
 #include "trackbed/core/file.h"
 #include "trackbed/report/live.h"
 
+// Report pages. ReportData collects runs, a comparison, a study or an identification as JSON. A
+// page is a fixed text (page_text.h) with that data in a script element, rendered by the JavaScript
+// in page/. All texts pass WithReadableTexts, and '<' is escaped, so that data from foreign files
+// cannot become markup. Films are linked, or embedded as base64. The page is written atomically,
+// after checking that the run folders have not changed meanwhile.
 namespace trackbed {
 namespace {
 
 constexpr std::size_t kLargestFilm = std::size_t{128}
-                                     << 20U;  // in a page, which a browser keeps in memory
+                                     << 20U;  // in a page, which browsers keep in memory
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Rows of all logs together: some 1 MB.
+/// Limit of the rows of all logs together: about 1 MB.
 constexpr std::size_t kRows = 7500;
 
 std::string Escaped(const std::string& text) {
@@ -38,15 +43,15 @@ std::string Escaped(const std::string& text) {
   return markup;
 }
 
-/// JSON that can stand in a script element: nothing in it ends the element.
+/// Serializes JSON for a script element; its text cannot close the element.
 std::string ScriptJson(const ordered_json& json) {
-  // Names of entries, which no page shows, may be anything.
+  // Invalid UTF-8 is replaced: names of entries are not shown, so they have not been checked.
   const std::string text = json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
   std::string safe;
   safe.reserve(text.size());
   for (const char c : text) {
     if (c == '<') {
-      safe += "\\u003c";  // outside strings JSON has none
+      safe += "\\u003c";  // only occurs inside strings
     } else {
       safe += c;
     }
@@ -54,7 +59,7 @@ std::string ScriptJson(const ordered_json& json) {
   return safe;
 }
 
-/// A path as a relative reference: what is not plainly a name is percent-encoded.
+/// A path as relative URL, percent-encoded where necessary.
 std::string FileUrl(const fs::path& path) {
   std::string url;
   for (const char c : path.generic_string()) {
@@ -85,7 +90,7 @@ std::string PageTitle(const ordered_json& data) {
   return title;
 }
 
-/// Whether it is a study, and neither a run nor a comparison.
+/// Whether the path is a study, but neither a run nor a comparison.
 bool IsStudyAlone(const fs::path& path) {
   return !IsRunFolder(path) && !HasComparison(path) && StudyTable(path);
 }
@@ -127,10 +132,10 @@ void RefuseOthers(const std::vector<fs::path>& paths) {
   }
 }
 
-/// The runs that a report is of.
+/// Runs shown by a report.
 struct ShownRuns {
-  std::vector<fs::path> folders;       ///< none: it is of a study
-  std::optional<fs::path> comparison;  ///< the folder of that which is shown, if it is one
+  std::vector<fs::path> folders;       ///< empty for a study
+  std::optional<fs::path> comparison;  ///< folder of the comparison, if one is shown
 };
 
 ShownRuns RunsToShow(const std::vector<fs::path>& paths) {
@@ -152,7 +157,7 @@ ShownRuns RunsToShow(const std::vector<fs::path>& paths) {
   return shown;
 }
 
-/// As much of the end of each path as tells it from the others.
+/// The shortest unique suffix of each path.
 std::vector<std::string> ShortNames(const std::vector<fs::path>& folders) {
   std::vector<fs::path> rest;
   std::vector<fs::path> names;

@@ -5,9 +5,9 @@
 
 namespace trackbed {
 
-/// The pavement and paint of a run folder's road network, for map and replay: `bands`, each with
-/// `left` and `right`, and `lines`, each with `points`, `width` and `yellow`; points as x, y, x, y,
-/// ... [m].
+/// Pavement and paint of a run folder's road network, for map and replay: `bands`, each with `left`
+/// and `right`, and `lines`, each with `points`, `width` and `yellow`. Points are x, y, x, y, ...
+/// [m].
 nlohmann::ordered_json RoadsJson(const std::filesystem::path& folder);
 
 }  // namespace trackbed

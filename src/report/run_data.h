@@ -7,21 +7,21 @@
 
 namespace trackbed {
 
-/// The column of a log that a page calls so in a plant's `log`.
+/// The log column shown under this name in a plant's `log` on the page.
 const char* ColumnOfChannel(const std::string& name);
 
-/// What a finished run leaves beside its logs and that tells one from any other folder.
+/// Whether the folder contains a finished run.
 bool IsRunFolder(const std::filesystem::path& folder);
 
-/// What the page shows of one run, which it calls `name`; at most `row_limit` rows of each log.
-/// InputError when the folder does not hold what its metrics.json says.
+/// Data of one run, shown as `name`, with at most `row_limit` rows per log. Throws InputError if
+/// the folder does not match its metrics.json.
 nlohmann::ordered_json RunData(const std::filesystem::path& folder, const std::string& name,
                                std::size_t row_limit);
 
-/// Whether a run was not interrupted, from its metrics.json alone.
+/// Whether the run was completed, read from metrics.json only.
 bool IsComplete(const std::filesystem::path& folder);
 
-/// The plants of a run, from its metrics.json alone.
+/// Number of plants, read from metrics.json only.
 std::size_t PlantCount(const std::filesystem::path& folder);
 
 }  // namespace trackbed

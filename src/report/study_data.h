@@ -6,11 +6,12 @@
 
 namespace trackbed {
 
-/// The table of a study that `path` is or, as the folder of a sweep, has. None: it is no study.
+/// The table of the study at `path`: the file itself, or the table in a sweep's folder. None if it
+/// is no study.
 std::optional<std::filesystem::path> StudyTable(const std::filesystem::path& path);
 
-/// What the page shows of a study, and how it differs from the study `before`. InputError when a
-/// table is not a sweep's, and as StudyDifference.
+/// Data of a study, and its differences from the study `before`. Throws InputError if a table is
+/// not that of a sweep, and the errors of StudyDifference.
 nlohmann::ordered_json StudyData(const std::filesystem::path& table,
                                  const std::optional<std::filesystem::path>& before = {});
 

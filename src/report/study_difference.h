@@ -7,11 +7,11 @@
 
 namespace trackbed {
 
-/// How the rows of a study differ from those of another one, before a change, that set the same: of
-/// the pass rate and of each output that both have, the paired differences (ComparePairs).
+/// Paired differences (ComparePairs) between two studies, before and after a change, of the rows
+/// with equal settings: for the pass rate and each common output.
 ///
-/// InputError naming the files when they vary different keys, set the same in several rows, or have
-/// no row in common.
+/// Throws InputError naming the files if they vary different keys, have equal settings in several
+/// rows, or have no row in common.
 nlohmann::ordered_json StudyDifference(const TextTable& before, const std::string& before_file,
                                        const TextTable& after, const std::string& after_file);
 

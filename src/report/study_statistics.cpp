@@ -11,6 +11,11 @@
 #include "src/report/numbers.h"
 #include "trackbed/analysis/statistics.h"
 
+// Statistics of a study for its page (statistics.h): pass rate, and per output quantiles,
+// distribution function, first-order sensitivity indices of the varied parameters, mean in each
+// class of a parameter, and rank correlations between outputs. Uses the rows with a result; outputs
+// with fewer than 20 values are omitted. For large studies, StudyRowsToShow selects evenly spaced
+// rows plus the ten extremes of each output at either end.
 namespace trackbed {
 namespace {
 
@@ -18,7 +23,7 @@ using nlohmann::ordered_json;
 
 constexpr double kConfidence = 0.95;
 constexpr std::size_t kFewestRows = 20;
-constexpr std::size_t kMostEffects = 12;     // classes of a parameter that a chart shows
+constexpr std::size_t kMostEffects = 12;     // classes of a parameter in a chart
 constexpr std::size_t kMostCorrelated = 24;  // outputs
 constexpr std::size_t kMostStaircase = 200;  // points of a distribution function
 
@@ -26,7 +31,7 @@ ordered_json IntervalJson(const Interval& interval) {
   return {Rounded(interval.low), Rounded(interval.high)};
 }
 
-/// The columns of a study's table by what they are.
+/// Columns of a study's table by kind.
 struct StudyColumns {
   explicit StudyColumns(const TextTable& table) {
     const std::vector<std::string>& names = table.columns();
@@ -41,7 +46,7 @@ struct StudyColumns {
     }
   }
 
-  /// Whether all cells that are not empty are numbers, and some are.
+  /// Whether all non-empty cells are numbers, and there is at least one.
   static bool IsNumeric(const TextTable& table, std::size_t column) {
     bool any = false;
     for (const std::vector<std::string>& row : table.rows()) {
@@ -59,13 +64,13 @@ struct StudyColumns {
   std::vector<std::size_t> outputs;
 };
 
-/// An output, of the rows that have it.
+/// Values of an output, with their rows.
 struct Sample {
   std::vector<std::size_t> rows;
   std::vector<double> values;
 };
 
-/// How many classes numbers are divided into: thirty rows each, if they can be had.
+/// Number of classes for numbers: about thirty rows each.
 std::size_t ClassesFor(std::size_t rows) {
   return std::clamp<std::size_t>(rows / 30, 2, 64);
 }
@@ -123,7 +128,7 @@ class StudyAnalysis {
   }
 
  private:
-  /// Of each two outputs, of the rows that have both.
+  /// Correlation of each pair of outputs, over the rows that have both.
   [[nodiscard]] ordered_json Correlations() const {
     ordered_json json = ordered_json::array();
     const std::size_t count = std::min(columns_.outputs.size(), kMostCorrelated);
@@ -213,7 +218,7 @@ class StudyAnalysis {
     return json;
   }
 
-  /// The mean of the output in each class.
+  /// Mean of the output in each class.
   [[nodiscard]] static ordered_json EffectsOf(const Classes& classes, const Sample& sample,
                                               bool is_rate) {
     std::vector<std::vector<double>> values(classes.names.size());
@@ -239,7 +244,7 @@ class StudyAnalysis {
 
   const TextTable& table_;
   StudyColumns columns_;
-  Sample passed_;                    // the rows with a result; 1 where they passed
+  Sample passed_;                    // rows with a result; 1 if passed
   std::vector<std::size_t> varied_;  // parameters
 };
 

@@ -9,18 +9,18 @@
 
 namespace trackbed {
 
-/// Whether a row with this status is a success.
+/// Whether a row with this status counts as passed.
 bool HasPassed(const std::string& status);
 
-/// What the page of a study says about all its rows together: the pass rate, and of each output its
-/// distribution and what the parameters do to it (statistics.h, 95 % intervals). Null of a table
-/// with fewer than 20 rows that have a result.
+/// Statistics of all rows of a study: pass rate, and of each output its distribution and the
+/// effects of the parameters (statistics.h, 95 % intervals). Null for tables with fewer than 20
+/// rows that have a result.
 nlohmann::ordered_json StudyStatistics(const TextTable& table);
 
-/// The rows of a study that a page has one by one, in order.
+/// Rows of a study that a page shows individually, in order.
 struct ShownRows {
-  std::vector<std::size_t> even;      ///< all of at most `limit`, else as many, evenly spaced
-  std::vector<std::size_t> extremes;  ///< of a big study, also the ten ends of each output
+  std::vector<std::size_t> even;      ///< all rows up to `limit`, else `limit` evenly spaced rows
+  std::vector<std::size_t> extremes;  ///< if larger: ten extremes of each output at either end
 };
 
 ShownRows StudyRowsToShow(const TextTable& table, std::size_t limit);

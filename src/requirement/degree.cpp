@@ -8,12 +8,12 @@ namespace {
 
 constexpr double kTimeTolerance = 1e-9;  // [s]
 
-/// The extreme by `precedes`, a strict order, over each window.
+/// The extreme value over each window, by the strict order `precedes`.
 template <typename Precedes>
 Degrees SlidingExtreme(const Degrees& values, const Windows& windows, const Degree& of_none,
                        const Precedes& precedes) {
   Degrees extremes(values.size());
-  std::deque<std::uint32_t> wedge;  // samples, each an extreme of what follows it in the window
+  std::deque<std::uint32_t> wedge;  // samples, each the extreme of those after it
   std::uint32_t next = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     for (; next < windows.end[i]; ++next) {
@@ -63,7 +63,7 @@ Degrees SlidingMax(const Degrees& values, const Windows& windows) {
 
 Degrees Until(const Degrees& phi, const Degrees& psi, const Windows& windows) {
   const std::size_t count = phi.size();
-  Degrees from_here(count + 1, kFalse);  // without bounds
+  Degrees from_here(count + 1, kFalse);  // `until` without time bounds
   Windows before{std::vector<std::uint32_t>(count), windows.begin};
   for (std::size_t i = count; i-- > 0;) {
     from_here[i] = Max(psi[i], Min(phi[i], from_here[i + 1]));

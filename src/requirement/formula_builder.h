@@ -7,29 +7,29 @@
 
 namespace trackbed {
 
-/// Puts a formula together as the parser goes through its text, and checks that conditions and
-/// numbers stand where they may. InputError with the column in the text.
+/// Builds a formula while the parser reads its text, and checks that operands are conditions or
+/// numbers as required. InputError with the column in the text.
 class FormulaBuilder {
  public:
-  /// `text` must outlive the builder; all other texts are parts of it.
+  /// `text` must outlive the builder; all other texts must be parts of it.
   FormulaBuilder(std::string_view text, const std::vector<std::string>& allowed)
       : text_(text), allowed_(allowed) {}
 
   void AddNumber(std::string_view number);
   void AddSignal(std::string_view name);
 
-  /// Begins an operation, whose operands follow.
+  /// Begins an operation; its operands follow.
   void Open(FormulaOperation operation, std::string_view sign);
-  /// The bounds of the last one that was begun: the number, or T less the number.
+  /// Adds a bound to the last operation that was begun: the number, or T minus the number.
   void AddBound(std::string_view number);
   void AddBoundFromEnd(std::string_view number);
-  /// All its operands were added.
+  /// Ends the operation, after its last operand.
   void Close();
 
   void OpenParenthesis(std::string_view sign);
-  /// Before the comma or parenthesis that ends an argument of `min` and `max`, from the second on.
+  /// Ends the second or a later argument of `min` and `max`, before its comma or parenthesis.
   void FoldArgument();
-  /// The end of `abs`, `min` or `max`.
+  /// Ends `abs`, `min` or `max`.
   void CloseFunction(std::string_view sign);
   void CloseParenthesis(std::string_view sign);
 
@@ -38,7 +38,7 @@ class FormulaBuilder {
 
   /// InputError at the part of the text that begins at `at`.
   [[noreturn]] void Fail(const char* at, const std::string& message) const;
-  /// The same about what stands there where something else is needed.
+  /// InputError that names the text at `at` and what was expected there.
   [[noreturn]] void FailExpected(const char* at, const std::string& expected) const;
 
  private:

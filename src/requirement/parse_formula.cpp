@@ -5,9 +5,9 @@
 #include <boost/spirit/home/x3.hpp>
 #include <functional>
 
-// The grammar of formulas. Every choice is made by the next word, so that nothing is parsed twice;
-// what it recurses through begins with FormulaBuilder::Open or OpenParenthesis, which limit the
-// depth. Names of rules are what messages say is expected.
+// The grammar of formulas. The next word determines every choice, so nothing is parsed twice. Every
+// recursive rule begins with FormulaBuilder::Open or OpenParenthesis, which limit the depth.
+// Messages name the rules as what is expected.
 namespace trackbed {
 namespace formula_grammar {
 namespace {
@@ -28,7 +28,7 @@ std::string_view Matched(const Context& context) {
   return {range.begin(), static_cast<std::size_t>(range.end() - range.begin())};
 }
 
-/// An action that begins an operation.
+/// Parser action that begins an operation.
 auto Open(FormulaOperation operation) {
   return [operation](auto& context) { Builder(context).Open(operation, Matched(context)); };
 }
@@ -168,7 +168,7 @@ void ParseFormula(std::string_view text, FormulaBuilder& builder) {
   const char* first = text.data();
   const char* last = first + text.size();
   try {
-    // The expectation of nothing makes a text that does not begin as a formula an error as others.
+    // x3::eps turns a mismatch at the first word into an expectation failure, like later ones.
     const auto whole = x3::with<grammar::BuilderTag>(
         std::ref(builder))[x3::eps > grammar::formula > grammar::end_of_formula];
     x3::phrase_parse(first, last, whole, x3::ascii::space);

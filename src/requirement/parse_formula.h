@@ -6,7 +6,7 @@
 
 namespace trackbed {
 
-/// Hands the parts of a formula to its builder. InputError for a syntax error, and those of the
+/// Parses a formula and passes its parts to the builder. InputError for a syntax error or from the
 /// builder.
 void ParseFormula(std::string_view text, FormulaBuilder& builder);
 

@@ -35,7 +35,7 @@ Numbers ReadTimes(const Table& log) {
   return times;
 }
 
-/// Evaluates a formula at all samples, step by step.
+/// Evaluates a formula at all samples, by a stack machine.
 class Evaluation {
  public:
   Evaluation(const Formula& formula, const Table& log)
@@ -56,7 +56,7 @@ class Evaluation {
     return top;
   }
 
-  /// Combines the top two numbers, or conditions, into one.
+  /// Combines the top two numbers or conditions of a stack.
   template <typename T, typename Combine>
   static void Reduce(std::vector<T>& stack, const Combine& combine) {
     const T right = Pop(stack);

@@ -10,25 +10,30 @@
 
 #include "trackbed/core/angle.h"
 
+// Joins the centers of a route's lanes to a path. Each center is the reference line plus a lateral
+// offset; a lane change blends two offsets by a quintic. Centers are split at the joints of the
+// file's polynomials and sampled to points with exact heading and curvature. Kinks up to 0.2 rad
+// are rounded over 0.5 m on either side. Gaps, kinks and deviations beyond the limits are refused.
+
 namespace trackbed {
 namespace {
 
-constexpr double kSpacing = 0.25;         // of the points that segments join [m]
-constexpr double kKink = 1e-6;            // that is rounded [rad]
+constexpr double kSpacing = 0.25;         // spacing of the points that segments join [m]
+constexpr double kKink = 1e-6;            // smaller kinks need no rounding [rad]
 constexpr double kWorstKink = 0.2;        // [rad]
-constexpr double kRounding = 0.5;         // on either side of a kink [m]
+constexpr double kRounding = 0.5;         // length that is replaced on either side of a kink [m]
 constexpr double kWorstDeviation = 0.05;  // [m]
 
-/// A point of a lane's center, in the direction of traffic.
+/// A point of a lane's center, in driving direction.
 struct CenterPoint {
   Vec2 position{0.0, 0.0};
   CurvePoint curve;  ///< distance along the center, heading, curvature
 };
 
-/// A smooth piece of a center.
+/// A smooth piece of a lane's center.
 using Piece = std::vector<CenterPoint>;
 
-/// A stretch on its road.
+/// A stretch with its road and lane section.
 struct RoadStretch {
   const Road& road;
   std::size_t section;
@@ -36,14 +41,14 @@ struct RoadStretch {
 
   [[nodiscard]] int direction() const { return stretch.to > stretch.from ? 1 : -1; }
 
-  /// t of the path over s. `piece_of` as in LaneBordersAt.
+  /// t of the path as a function of s, with derivatives. `piece_of` is that of LaneBordersAt.
   [[nodiscard]] CubicValue Offset(double s, double piece_of) const {
     const CubicValue a = LaneBordersAt(road, section, stretch.lane, s, piece_of).Center();
     if (stretch.to_lane == stretch.lane) {
       return a;
     }
     const CubicValue b = LaneBordersAt(road, section, stretch.to_lane, s, piece_of).Center();
-    // The quintic from 0 to 1 with neither slope nor curvature at its ends.
+    // Quintic from 0 to 1 with zero slope and curvature at both ends.
     const double scale = 1.0 / (stretch.to - stretch.from);
     const double q = std::clamp((s - stretch.from) * scale, 0.0, 1.0);
     const double w = q * q * q * (10.0 + q * (-15.0 + 6.0 * q));
@@ -56,11 +61,11 @@ struct RoadStretch {
   }
 };
 
-/// Where the functions of the file that make up the center have joints.
+/// Stations of the joints of the file's polynomials that define the center.
 std::vector<double> Joints(const RoadStretch& own) {
   const double low = std::min(own.stretch.from, own.stretch.to);
   const double high = std::max(own.stretch.from, own.stretch.to);
-  // Nearer ones are rounding, or so short that what is between them is not seen.
+  // Closer joints are rounding errors, or the pieces between them are negligibly short.
   constexpr double kApart = 0.01;  // [m]
   std::vector<double> joints;
   const auto add = [&](double s) { joints.push_back(s); };
@@ -87,13 +92,13 @@ std::vector<double> Joints(const RoadStretch& own) {
   return apart;
 }
 
-/// The center R(s) + t(s) N(s), N the left normal, and its derivatives by s. With m = dR/ds (1 -
-/// kappa t) its tangent is m T + t' N.
+/// The center R(s) + t(s) N(s), with the left normal N, and its derivatives by s. With m = dR/ds (1
+/// - kappa t), its tangent is m T + t' N.
 struct CenterState {
   Vec2 position{0.0, 0.0};
   double heading = 0.0;
   double curvature = 0.0;
-  double speed = 0.0;   ///< of its arc by s
+  double speed = 0.0;   ///< derivative of its arc length by s
   bool folded = false;  ///< beyond the center of curvature
 };
 
@@ -116,7 +121,7 @@ CenterState StateAt(const RoadStretch& own, double s, double piece_of) {
   return state;
 }
 
-/// The smooth pieces of a stretch, in the direction of traffic; none where the center is folded.
+/// The smooth pieces of a stretch, in driving direction; none if the center is folded.
 std::vector<Piece> SmoothPieces(const RoadStretch& own) {
   std::vector<Piece> pieces;
   const std::vector<double> joints = Joints(own);
@@ -153,10 +158,10 @@ std::vector<Piece> SmoothPieces(const RoadStretch& own) {
   return pieces;
 }
 
-/// Pieces on one line of distances and headings, those with a kink between them made one.
+/// Joins pieces with continuous distances and headings; merges pieces across a kink.
 class Joiner {
  public:
-  /// "" or why it cannot follow.
+  /// Adds a piece. Returns the reason if it cannot be joined, otherwise an empty text.
   std::string Add(Piece piece) {
     if (runs_.empty()) {
       runs_.push_back(std::move(piece));
@@ -183,7 +188,7 @@ class Joiner {
       runs_.push_back(std::move(piece));
       return "";
     }
-    // The first point of all that is joined stays, and the last.
+    // Keep the very first and the very last point.
     while (before.size() > 1 && before.back().curve.s > end.s - kRounding) {
       before.pop_back();
     }
@@ -195,8 +200,8 @@ class Joiner {
     return "";
   }
 
-  /// Merges the pieces of a line or an arc into one segment: planners look for steps of the
-  /// curvature and measure the distance between them.
+  /// Builds the path. Merges the pieces of a line or an arc into one segment, because planners look
+  /// for curvature steps and measure the distance between them.
   [[nodiscard]] Path Join() const {
     std::vector<Segment> segments;
     for (const Piece& run : runs_) {
@@ -205,7 +210,7 @@ class Joiner {
         points.push_back(point.curve);
       }
       for (Segment& segment : SegmentsThrough(points)) {
-        constexpr double kSame = 1e-9;  // [1/m]; turns by 1e-4 rad over 100 km
+        constexpr double kSame = 1e-9;  // [1/m]; 1e-4 rad over 100 km
         const double change = std::abs(segment.sharpness) * segment.length +
                               std::abs(segment.sharpness_rate) * segment.length * segment.length;
         if (change < kSame) {
@@ -230,7 +235,7 @@ class Joiner {
   std::vector<Piece> runs_;
 };
 
-/// The largest distance of the centers from the path's points at the same stations.
+/// The largest distance of the centers from the path at the same stations.
 double Deviation(const Path& path, const std::vector<Piece>& pieces) {
   double worst = 0.0;
   double station = 0.0;

@@ -7,14 +7,14 @@
 
 namespace trackbed {
 
-/// What the centers of a route's lanes are joined to.
+/// Result of joining the lane centers of a route.
 struct JoinedPath {
-  std::string failure;  ///< for people; empty when it was possible
+  std::string failure;  ///< for people; empty on success
   Path path;
   double deviation = 0.0;  ///< largest distance of the path from the centers [m]
 };
 
-/// The path along the centers of the stretches, one after the other.
+/// The path along the centers of consecutive stretches.
 JoinedPath JoinLaneCenters(const RoadNetwork& network, const std::vector<LaneStretch>& stretches);
 
 }  // namespace trackbed

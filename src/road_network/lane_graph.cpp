@@ -57,7 +57,7 @@ void LaneGraph::AddJunction(std::size_t index, const std::string& id) {
     if (connection.incoming != node.road->id || road == network_.roads.end()) {
       continue;
     }
-    // Of a road with both ends at one junction the lane's number tells which end is left.
+    // If both ends of a road meet one junction, the lane's number determines which end is left.
     for (const auto& [from, to] : connection.lane_links) {
       if (from == node.lane) {
         AddLink(index, road->second, connection.contact, to);
@@ -102,7 +102,7 @@ void LaneGraph::Link(std::size_t from, std::size_t to) {
 }
 
 std::vector<std::size_t> LaneGraph::ShortestWay(std::size_t from, std::size_t to) const {
-  // From the lanes that follow the first one, so that a way may come back to it.
+  // Start at the successors of the first lane, so that the path may return to it.
   const auto [begin, end] = boost::adjacent_vertices(from, links_);
   std::vector<std::size_t> before(nodes_.size());
   std::vector<double> distance(nodes_.size());

@@ -8,10 +8,10 @@
 
 #include "trackbed/road_network/road_network.h"
 
-/// The lanes of a network that vehicles drive on, and how they are linked.
+/// The drivable lanes of a network, and their links.
 namespace trackbed {
 
-/// A lane within one lane section.
+/// A lane within a lane section.
 struct LaneNode {
   const Road* road = nullptr;
   std::size_t section = 0;
@@ -23,19 +23,19 @@ struct LaneNode {
   bool operator==(const LaneNode&) const = default;
 };
 
-/// The drivable lanes of a network, which must outlive it.
+/// Graph of the drivable lanes of a network. Keeps a reference to the network.
 class LaneGraph {
  public:
   explicit LaneGraph(const RoadNetwork& network);
 
-  /// None unless the lane is drivable.
+  /// The lane's node; none if it is not drivable.
   [[nodiscard]] std::optional<std::size_t> Find(const Road& road, std::size_t section,
                                                 int lane) const;
   [[nodiscard]] const LaneNode& node(std::size_t index) const { return nodes_[index]; }
 
-  /// The shortest way from the end of one lane to the start of another, both included, in the
-  /// direction of traffic; the two may be the same, for a way around. Empty when there is none.
-  /// Cost O(lanes log lanes).
+  /// The shortest path in driving direction from the end of one lane to the start of another, both
+  /// included. The two may be the same lane, for a loop. Empty if there is none. Cost: O(lanes log
+  /// lanes).
   [[nodiscard]] std::vector<std::size_t> ShortestWay(std::size_t from, std::size_t to) const;
 
  private:
@@ -47,13 +47,13 @@ class LaneGraph {
   void Link(std::size_t from, std::size_t to);
   void AddLinks(std::size_t index);
   void AddJunction(std::size_t index, const std::string& id);
-  /// A link to a lane of a road that is entered at `contact`.
+  /// Links to a lane of a road that is entered at `contact`.
   void AddLink(std::size_t from, const Road& road, RoadEnd contact, int lane);
 
   const RoadNetwork& network_;
-  std::vector<LaneNode> nodes_;  // of each road together, in the order of sections and lanes
-  std::map<std::string, std::size_t, std::less<>> first_;  // of each road
-  std::map<std::string, std::size_t, std::less<>> last_;   // one beyond
+  std::vector<LaneNode> nodes_;  // grouped by road, in order of sections and lanes
+  std::map<std::string, std::size_t, std::less<>> first_;  // first node of each road
+  std::map<std::string, std::size_t, std::less<>> last_;   // end of each road's nodes
   Graph links_;
 };
 

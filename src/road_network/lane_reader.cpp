@@ -84,7 +84,7 @@ Lane ReadLane(const XmlFields& fields, int id, bool has_lane_offset,
   ForEachChild(&fields.element(), "height", [&](const XMLElement& element, std::size_t index) {
     const XmlFields height(element, fmt::format("{}.height[{}]", fields.where(), index),
                            fields.problems());
-    // Curbs of sidewalks are beside what is driven on.
+    // Curbs of sidewalks do not affect the drivable surface.
     has_height = has_height || height.Number("inner", {}, 0.0) != 0.0 ||
                  height.Number("outer", {}, 0.0) != 0.0;
   });
@@ -98,7 +98,7 @@ Lane ReadLane(const XmlFields& fields, int id, bool has_lane_offset,
   return lane;
 }
 
-/// The lanes of one <left>, <center> or <right>.
+/// Reads the lanes of a <left>, <center> or <right>.
 void ReadSide(const XmlFields& section, const char* side, bool has_lane_offset, LaneSection& into,
               std::vector<std::string>& unread_heights) {
   const XMLElement* group = section.Child(side);
@@ -109,7 +109,7 @@ void ReadSide(const XmlFields& section, const char* side, bool has_lane_offset, 
     const int id = unnamed.Integer("id");
     const XmlFields fields(element, fmt::format("{}.{}.lane[{}]", section.where(), side, id),
                            section.problems());
-    constexpr int kMostLanes = 100;  // on a side, as in mission.route
+    constexpr int kMostLanes = 100;  // per side, as in mission.route
     if (id < -kMostLanes || id > kMostLanes) {
       fields.AddError("id", fmt::format("{} is out of range; must be at least {} and at most {}",
                                         id, -kMostLanes, kMostLanes));

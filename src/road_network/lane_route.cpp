@@ -16,21 +16,21 @@
 namespace trackbed {
 namespace {
 
-constexpr double kShortestStretch = 1e-6;  // [m]; what is shorter is left out
+constexpr double kShortestStretch = 1e-6;  // [m]; shorter stretches are dropped
 constexpr double kLongestRoute = 1e5;      // [m]
 
 std::string Named(const LanePlace& place) {
   return fmt::format("lane {} of road {} at s = {:.4g} m", place.lane, place.road, place.s);
 }
 
-/// A place, found.
+/// A place with its road, section and node.
 struct Found {
   const Road* road;
   std::size_t section;
   std::size_t node;
 };
 
-/// Adds stretches and counts their length.
+/// Adds stretches and sums up their length.
 class Stretches {
  public:
   void Add(const Road& road, int lane, int to_lane, double from, double to) {
@@ -39,7 +39,7 @@ class Stretches {
       all_.push_back({road.id, lane, to_lane, from, to});
     }
   }
-  /// The rest of a lane, or its beginning.
+  /// AddUpToEnd adds the rest of a lane, AddFromStart its beginning.
   void AddUpToEnd(const LaneNode& node, double from) {
     Add(*node.road, node.lane, node.lane, from, node.follows_road() ? node.end() : node.start());
   }
@@ -62,7 +62,8 @@ Found FindPlace(const RoadNetwork& network, const LaneGraph& graph, const LanePl
   return {&road, section, graph.Find(road, section, place.lane).value()};
 }
 
-/// "" or why there is no way.
+/// Adds the stretches between two places. Returns the reason if there is no path, otherwise an
+/// empty text.
 std::string Connect(const LaneGraph& graph, const LanePlace& a, const Found& from,
                     const LanePlace& b, const Found& to, Stretches& stretches) {
   const LaneNode& node = graph.node(from.node);

@@ -17,7 +17,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// A document of more would take gigabytes.
+/// Larger documents would take gigabytes of memory.
 constexpr std::ptrdiff_t kMostElements = 4000000;
 
 void CheckVersion(const XMLElement& root, RoadNetwork& network, XmlProblems& problems) {
@@ -46,11 +46,11 @@ Junction ReadJunction(const XmlFields& fields) {
     JunctionConnection connection;
     connection.line = own.line();
     connection.incoming = own.OptionalText("incomingRoad");
-    // A direct junction, of version 1.6 on, links roads without roads of its own.
+    // A direct junction (since version 1.6) links roads without connecting roads.
     const bool direct = element.Attribute("linkedRoad") != nullptr;
     connection.connecting = direct ? own.Text("linkedRoad") : own.OptionalText("connectingRoad");
     if (connection.incoming.empty() || connection.connecting.empty()) {
-      return;  // a virtual connection: nothing to drive over
+      return;  // a virtual connection, which nothing drives over
     }
     connection.contact = ReadContactPoint(own);
     ForEachChild(&element, "laneLink", [&](const XMLElement& link, std::size_t) {
@@ -62,7 +62,7 @@ Junction ReadJunction(const XmlFields& fields) {
   return junction;
 }
 
-/// Adds by id; an id that is there already is an error.
+/// Adds a part by its id; a repeated id is an error.
 template <typename Part>
 void AddById(Part part, int line, const char* kind, std::map<std::string, Part, std::less<>>& parts,
              XmlProblems& problems) {
@@ -92,7 +92,8 @@ void NoteUnreadHeights(RoadNetwork& network) {
   throw InputError(Problem{name, line, 0, "", std::move(message)});
 }
 
-/// tinyxml2 expands no entities of a document's own; whoever declares some expects it to.
+/// Reports entity declarations, because tinyxml2 does not expand the entities that a document
+/// declares.
 void CheckDeclarations(const tinyxml2::XMLDocument& document, const std::string& name) {
   for (const tinyxml2::XMLNode* node = document.FirstChild(); node != nullptr;
        node = node->NextSibling()) {

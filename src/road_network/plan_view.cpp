@@ -18,12 +18,12 @@ using tinyxml2::XMLElement;
 constexpr Bounds kCoordinate{-1e8, 1e8};     // [m]; UTM northings are below 1e7
 constexpr Bounds kGeometryLength{0.0, 1e6};  // [m]
 constexpr Bounds kBend{-1e3, 1e3};           // [1/m]
-/// Stations of geometries may be off the end of the one before by as much [m].
+/// Tolerance between the station of a geometry and the end of the previous one [m].
 constexpr double kMaxStationGap = 0.1;
-/// What is shorter is left out: rounding of the program that wrote the file [m].
+/// Shorter geometries are dropped as rounding errors of the exporting program [m].
 constexpr double kShortest = 1e-9;
 
-/// The place of a geometry, shared by its shapes.
+/// Pose and length of a geometry, common to all shapes.
 struct GeometryPlace {
   Pose2 start;
   double length = 0.0;

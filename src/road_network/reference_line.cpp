@@ -26,11 +26,11 @@ double Second(const Coefficients& c, double p) {
   return 2.0 * c[2] + 6.0 * c[3] * p;
 }
 
-/// Into how many parts the parameters are divided: within one, the speed along a curve of a road is
-/// so smooth that ten nodes integrate it to rounding.
+/// Number of parts of the parameter range. Within a part, the parameter speed of a road's curve is
+/// so smooth that ten nodes integrate it to machine precision.
 constexpr std::size_t kParts = 32;
 
-/// The index of the piece in force at s; the first one before it begins.
+/// Index of the piece that applies at s; the first piece if s is before it.
 template <typename Piece>
 std::size_t IndexAt(const std::vector<Piece>& pieces, double s) {
   const auto after = std::upper_bound(pieces.begin(), pieces.end(), s,
@@ -73,7 +73,7 @@ ParametricCubic::ParametricCubic(const Coefficients& u, const Coefficients& v, d
 }
 
 ParametricCubic ParametricCubic::OverU(const Coefficients& v, double length) {
-  // The curve is at least as long as its u, so that its end lies within `length`.
+  // The curve is at least as long as its u, so its end lies within `length`.
   const Coefficients u{0.0, 1.0, 0.0, 0.0};
   const ParametricCubic whole(u, v, length, length);
   const double end = whole.Parameter(length);

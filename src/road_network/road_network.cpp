@@ -14,7 +14,7 @@
 namespace trackbed {
 namespace {
 
-/// Rounding of stations in files.
+/// Tolerance for rounded stations in files.
 constexpr double kStationSlack = 1e-3;  // [m]
 
 double OnRoad(const Road& road, double s) {
@@ -30,7 +30,7 @@ bool HasSlope(const PiecewiseCubic& function) {
   });
 }
 
-/// Of a road that is level, where it must not step between pieces either.
+/// Whether a piecewise constant function has steps; a level road must not have any.
 bool HasSteps(const PiecewiseCubic& function) {
   const auto& pieces = function.pieces();
   return std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) {

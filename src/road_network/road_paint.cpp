@@ -15,14 +15,14 @@ namespace {
 
 constexpr double kDashLength = 3.0;   // [m]
 constexpr double kDashPeriod = 9.0;   // [m]
-constexpr double kUsualWidth = 0.12;  // of marks that give none [m]
-constexpr double kDoubleGap = 0.1;    // between double lines [m]
+constexpr double kUsualWidth = 0.12;  // of marks without a width [m]
+constexpr double kDoubleGap = 0.1;    // between the lines of a double mark [m]
 
 Vec2 Beside(const Road& road, double s, double piece_of, double t) {
   return ToWorld(road.reference.At(s, piece_of).pose, {0.0, t});
 }
 
-/// Stations from `from` to `to`, both included, evenly and at most `spacing` apart.
+/// Evenly spaced stations from `from` to `to`, both included, at most `spacing` apart.
 std::vector<double> Stations(double from, double to, double spacing) {
   const auto parts =
       std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil((to - from) / spacing)));
@@ -40,7 +40,7 @@ bool IsPaved(const Lane& lane) {
   return std::find(kUnpaved.begin(), kUnpaved.end(), lane.type) == kUnpaved.end();
 }
 
-/// The kinds of the lines of a mark, from left to right: "solid broken" has two.
+/// For each line of a mark, from left to right, whether it is dashed: "solid broken" has two.
 std::vector<bool> DashedLines(const std::string& type) {
   if (type == "none") {
     return {};
@@ -56,7 +56,7 @@ std::vector<bool> DashedLines(const std::string& type) {
   return dashed;
 }
 
-/// Paints one network.
+/// Collects the paint of one network.
 class Painter {
  public:
   Painter(const RoadNetwork& network, double spacing) : spacing_(spacing) {
@@ -82,7 +82,7 @@ class Painter {
   void Section(const Road& road, std::size_t index) {
     const LaneSection& section = road.sections[index];
     const double end = road.SectionEnd(index);
-    // From the left: lanes that are paved, one after the other.
+    // From the left: groups of adjacent paved lanes.
     const std::vector<Lane>& lanes = section.lanes;
     for (std::size_t first = 0; first < lanes.size();) {
       if (lanes[first].id == 0 || !IsPaved(lanes[first])) {
@@ -140,7 +140,7 @@ class Painter {
         add(from, to);
         continue;
       }
-      const double period = std::max(kDashPeriod, 2.0 * spacing_);  // as few as points
+      const double period = std::max(kDashPeriod, 2.0 * spacing_);  // no more dashes than points
       for (double begin = from; begin < to; begin += period) {
         add(begin, std::min(begin + kDashLength, to));
       }

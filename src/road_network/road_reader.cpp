@@ -51,7 +51,7 @@ void ReadHeights(const XmlFields& fields, Road& road) {
   }
 }
 
-/// The ids that lane links name on the other side, each once.
+/// Checks that the lane ids that links name exist in the section beyond; reports each id once.
 void CheckLaneIds(const std::vector<int>& ids, const LaneSection& beyond, const std::string& key,
                   int line, XmlProblems& problems) {
   for (const int id : ids) {
@@ -61,7 +61,7 @@ void CheckLaneIds(const std::vector<int>& ids, const LaneSection& beyond, const 
   }
 }
 
-/// Links of lanes between the sections of one road, and to a road that follows.
+/// Checks the lane links between the sections of a road, and to adjacent roads.
 void CheckLaneLinks(const RoadNetwork& network, const Road& road, XmlProblems& problems) {
   const auto beyond = [&](const std::optional<RoadLink>& link) -> const LaneSection* {
     if (!link || link->is_junction) {

@@ -8,27 +8,28 @@
 #include "src/road_network/xml_fields.h"
 #include "trackbed/road_network/road_network.h"
 
-/// The parts of an OpenDRIVE file.
+/// Readers for the parts of an OpenDRIVE file.
 namespace trackbed {
 
-/// A <road>; what could not be read is among the problems.
+/// Reads a <road>. Errors are added to the problems.
 Road ReadRoad(const tinyxml2::XMLElement& element, XmlProblems& problems);
 
-/// The <planView> of a road; empty after an error.
+/// Reads the <planView> of a road; empty after an error.
 ReferenceLine ReadPlanView(const XmlFields& road, double length);
 
-/// The records of cubic polynomials that are called `name`, their start in the attribute `start`.
+/// Reads the cubic polynomials in the elements `name`; `start` is the attribute of their start.
 PiecewiseCubic ReadCubics(const tinyxml2::XMLElement* parent, const char* name, const char* start,
                           const std::string& where, XmlProblems& problems);
 
-/// The <laneSection>s of <lanes>, and what has heights of its own in them.
+/// Reads the <laneSection>s of <lanes>. Adds elements that define separate heights to
+/// `unread_heights`.
 std::vector<LaneSection> ReadLaneSections(const XmlFields& lanes, const Road& road,
                                           std::vector<std::string>& unread_heights);
 
-/// "start" or "end"; an error for others.
+/// Reads "start" or "end"; other values are an error.
 RoadEnd ReadContactPoint(const XmlFields& fields);
 
-/// Errors for links to what is not there.
+/// Reports links to missing roads, junctions and lanes.
 void CheckLinks(const RoadNetwork& network, XmlProblems& problems);
 
 }  // namespace trackbed

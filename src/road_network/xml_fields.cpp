@@ -20,7 +20,7 @@ std::string_view WithoutSpaces(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
 }
 
-/// The whole text as a number; std::from_chars takes no plus sign.
+/// Parses the whole text as a number. Skips a plus sign, which std::from_chars rejects.
 template <typename Number_>
 bool ParseAll(std::string_view text, Number_& number) {
   if (text.starts_with('+') && !text.starts_with("+-")) {

@@ -9,16 +9,16 @@
 
 #include "trackbed/core/table.h"
 
-/// Attributes of XML elements as numbers, with every problem on the way.
+/// Reads attributes of XML elements as numbers and collects all problems.
 namespace trackbed {
 
-/// Allowed values of an attribute.
+/// Permitted values of an attribute.
 struct Bounds {
   double min = -1e9;
   double max = 1e9;
 };
 
-/// The problems of a file, each with its line.
+/// Collects the problems of a file, each with its line.
 class XmlProblems {
  public:
   explicit XmlProblems(std::string file) : file_(std::move(file)) {}
@@ -45,15 +45,15 @@ class XmlFields {
   [[nodiscard]] int line() const { return element_.GetLineNum(); }
   [[nodiscard]] XmlProblems& problems() const { return problems_; }
 
-  /// A number within bounds; after an error the one of them that is nearest to 0.
+  /// A number within bounds; after an error, the permitted value nearest to 0.
   [[nodiscard]] double Number(const char* name, Bounds bounds = {}) const;
-  /// `missing` where the attribute is not there.
+  /// Same, but returns `missing` if the attribute is absent.
   [[nodiscard]] double Number(const char* name, Bounds bounds, double missing) const;
-  /// A whole number; 0 after an error.
+  /// An integer; 0 after an error.
   [[nodiscard]] int Integer(const char* name) const;
-  /// A text of at least one character; "" after an error.
+  /// A non-empty text; "" after an error.
   [[nodiscard]] std::string Text(const char* name) const;
-  /// "" where the attribute is not there.
+  /// The attribute's text; "" if it is absent.
   [[nodiscard]] std::string OptionalText(const char* name) const;
 
   void AddError(const char* name, std::string message) const;

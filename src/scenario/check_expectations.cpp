@@ -70,7 +70,8 @@ void CheckMetrics(Diagnostics& c) {
   });
 }
 
-/// Without a path or obstacles there is nothing to measure.
+/// Rejects expectations on quantities that the run does not measure: path errors need a plan,
+/// clearances need obstacles.
 void CheckWhatIsMeasured(Diagnostics& c) {
   const bool has_path = c.scenario.plan || !c.CouldReadPlan({"method"});
   const bool has_obstacles =

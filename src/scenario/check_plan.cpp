@@ -12,6 +12,10 @@
 #include "trackbed/planning/sampling/rrt_planner.h"
 #include "trackbed/road_network/open_drive.h"
 
+// Cross-checks of the mission and the plan: rules between keys that the schema of a single key
+// cannot express. Each check returns early if one of its keys could not be read, so that an error
+// is reported once. Wherever possible, rules depend on the planner's registry entry (PlannerEntry:
+// follows_track, follows_lanes, needs_limits, min_waypoints, ...) and not on its name.
 namespace trackbed {
 namespace {
 
@@ -75,7 +79,8 @@ void CheckAvoider(Diagnostics& c) {
   }
 }
 
-/// Local planners join their paths to straight legs with straight wheels.
+/// Local planners connect to straight legs with straight wheels, so a neutral steering angle is
+/// rejected.
 void CheckNeutralSteering(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   const auto* fillets = plan ? plan->global.As<FilletOptions>() : nullptr;
@@ -97,8 +102,8 @@ void CheckNotEmpty(Diagnostics& c, const std::string& key, const std::vector<dou
   }
 }
 
-/// Drives repeat, so nothing on the way goes by the clock; and a detour that does not come back to
-/// the route is none.
+/// Detours must be repeatable, so a wall-clock limit is rejected, and must return to the route, so
+/// a partial plan is rejected.
 void CheckDetourTrees(Diagnostics& c) {
   const auto& detour = c.scenario.plan->replan->detour;
   const auto* rrt = detour ? detour->As<RrtPlannerOptions>() : nullptr;
@@ -202,8 +207,8 @@ void CheckWaypoints(Diagnostics& c) {
   }
 }
 
-/// Speeds at the limit belong to one plan, which is driven as it was made; on a track, replanning
-/// comes back to it.
+/// Profiles at the limit apply to a single plan. Local avoidance and replanning change speeds
+/// during the run, so they are rejected, except for planners that follow a track.
 void CheckSpeedProfile(Diagnostics& c) {
   const auto& profile = c.scenario.mission.speed_profile;
   if (!profile || !c.CouldRead({"mission.speed_profile", "mission.speed_profile.method"}) ||
@@ -223,7 +228,7 @@ void CheckSpeedProfile(Diagnostics& c) {
   if (!std::holds_alternative<LimitProfileOptions>(*profile)) {
     return;
   }
-  constexpr double kLeastFriction = 0.01;  // the diagram resolves 0.0006 m/s^2
+  constexpr double kLeastFriction = 0.01;  // the ggv diagram resolves 0.0006 m/s^2
   const auto check = [&](const std::string& key, double friction) {
     if (friction < kLeastFriction && c.could_read(key)) {
       c.AddError(key, fmt::format("{} is below {}, the least for speeds at the limit", friction,
@@ -238,7 +243,7 @@ void CheckSpeedProfile(Diagnostics& c) {
   }
 }
 
-/// A track, and a planner that follows one.
+/// A track needs a planner that follows one, and vice versa.
 void CheckTrack(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   const bool has_track = c.scenario.mission.track.has_value();
@@ -273,7 +278,7 @@ void CheckTrack(Diagnostics& c) {
   }
 }
 
-/// A planner for speeds at the limit, and those.
+/// Planners that need a profile at the limit require mission.speed_profile: {method: limits}.
 void CheckLimits(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   const auto& profile = c.scenario.mission.speed_profile;
@@ -289,7 +294,7 @@ void CheckLimits(Diagnostics& c) {
   }
 }
 
-/// A route over roads, and a planner that follows one.
+/// A route over roads needs the planner that follows lanes, and vice versa.
 void CheckLanes(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   const std::vector<LanePlace>& route = c.scenario.mission.route;

@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-/// A part of the path of a metric.
+/// Whether the name can be one word of a metric's path.
 bool IsMetricWord(const std::string& name) {
   const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
   return !name.empty() && name.size() <= 100 && is_letter(name.front()) &&
@@ -29,7 +29,7 @@ class RequirementCheck {
     }
   }
 
-  /// Those of one plant, or of all (an empty name).
+  /// Checks the requirements on one plant, or on all plants if `plant` is empty.
   void Check(const std::string& key, const PlantExpectation& expect, const std::string& plant) {
     for (std::size_t i = 0; i < expect.requirements.size(); ++i) {
       const RequirementExpectation& requirement = expect.requirements[i];
@@ -84,7 +84,7 @@ class RequirementCheck {
     return "";
   }
 
-  std::vector<std::pair<std::string, std::vector<std::string>>> columns_;  // of each plant
+  std::vector<std::pair<std::string, std::vector<std::string>>> columns_;  // by plant
   std::set<std::pair<std::string, std::string>> names_;                    // plant and name
   std::vector<std::pair<std::string, std::string>> found_;
 };

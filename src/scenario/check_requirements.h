@@ -8,7 +8,7 @@
 
 namespace trackbed {
 
-/// What is wrong with the requirements of a scenario that has no other problems, each with the key.
+/// Problems of the requirements of a scenario that has no other problems: pairs of key and message.
 std::vector<std::pair<std::string, std::string>> RequirementProblems(const Scenario& scenario);
 
 }  // namespace trackbed

@@ -71,7 +71,7 @@ void CheckPicture(Diagnostics& c) {
   }
 }
 
-/// What is steeper than 45 degrees is a wall, not something to drive over.
+/// Rejects ground steeper than 45 degrees: it acts as a wall, not as a driving surface.
 void CheckGround(Diagnostics& c) {
   constexpr double kSteepest = 1.0;
   for (std::size_t i = 0; i < c.scenario.world.ground.bumps.size(); ++i) {
@@ -81,7 +81,7 @@ void CheckGround(Diagnostics& c) {
         !c.could_read(key + ".width") || !c.could_read(key + ".edge")) {
       continue;
     }
-    // The steepest of h cos^2(pi/2 q), q = d/reach, is pi/2 h / reach.
+    // The largest slope of h cos^2(pi/2 q), with q = d/reach, is pi/2 h / reach.
     const auto check = [&](double reach, const char* where) {
       const double steepest = 0.5 * kPi * bump.height / reach;
       if (steepest > kSteepest) {

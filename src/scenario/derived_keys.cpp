@@ -12,7 +12,7 @@
 namespace trackbed {
 namespace {
 
-/// Names are dotted keys, with indices of lists.
+/// Characters of names: dotted keys, with list indices.
 constexpr const char* kNameCharacters =
     "0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.[]";
 
@@ -20,7 +20,7 @@ Problem PlacedAt(const Study& study, const DerivedKey& derived, std::string mess
   return {study.file, derived.line, derived.column, "derive." + derived.key, std::move(message)};
 }
 
-/// The keys that a formula uses. mu::ParserError if it is none.
+/// The keys that a formula uses. Throws mu::ParserError if the formula is invalid.
 std::vector<std::string> NamesIn(const std::string& formula) {
   mu::Parser parser;
   parser.DefineNameChars(kNameCharacters);

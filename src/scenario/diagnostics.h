@@ -14,10 +14,10 @@
 
 namespace trackbed {
 
-/// What is found wrong between keys of a scenario, each with the key that it is said of.
+/// Collects problems between keys of a scenario, each with the key to report.
 struct Diagnostics {
   const Scenario& scenario;
-  /// Whether the value of a key was read: what could not be is an error already.
+  /// Whether the value of a key was read. A key that was not has already been reported.
   const std::function<bool(const std::string& key)>& could_read;
   std::vector<std::pair<std::string, std::string>> found{};
 
@@ -25,7 +25,8 @@ struct Diagnostics {
     return std::all_of(keys.begin(), keys.end(), could_read);
   }
 
-  /// The same for keys of the global plan, which may stand in `plan` or in `plan.global`.
+  /// Same as CouldRead, for keys of the global plan, which may be given in `plan` or in
+  /// `plan.global`.
   [[nodiscard]] bool CouldReadPlan(std::initializer_list<const char*> keys) const {
     return could_read("plan.global") &&
            std::all_of(keys.begin(), keys.end(), [&](const std::string& key) {
@@ -33,7 +34,7 @@ struct Diagnostics {
            });
   }
 
-  /// A key of the planner of the whole path.
+  /// Dotted key of an option of the global planner.
   [[nodiscard]] std::string KeyOfPlan(const char* key) const {
     const bool layers = scenario.plan->avoid || scenario.plan->replan;
     return std::string(layers ? "plan.global." : "plan.") + key;
@@ -48,9 +49,9 @@ struct Diagnostics {
   }
 };
 
-/// Of the mission and its plan.
+/// Checks the mission and the plan.
 void CheckMissionAndPlan(Diagnostics& c);
-/// Of what is expected of the run.
+/// Checks the expectations.
 void CheckExpectations(Diagnostics& c);
 
 }  // namespace trackbed

@@ -25,7 +25,7 @@ void CheckParameters(Identification& study, const YAML::Node& root, ReaderContex
   if (study.parameters.empty()) {
     add_error("parameters", "needs at least one parameter");
   }
-  constexpr std::size_t kMost = 40;  // of QuadraticProgram
+  constexpr std::size_t kMost = 40;  // limit of QuadraticProgram
   if (study.parameters.size() > kMost) {
     add_error("parameters", fmt::format("at most {}; found {}", kMost, study.parameters.size()));
   }
@@ -53,8 +53,8 @@ void CheckParameters(Identification& study, const YAML::Node& root, ReaderContex
   }
 }
 
-/// The scenarios of a list of files. A scenario without a record, or of another vehicle than the
-/// first one's, is a problem of the key.
+/// Reads the scenarios of a list of files. Adds a problem for a scenario without a record, or with
+/// another vehicle than the first.
 std::vector<Scenario> ReadRecords(const std::vector<std::string>& files, const std::string& list,
                                   const fs::path& folder, const std::vector<fs::path>& assets,
                                   const Scenario* first, const YAML::Node& root,

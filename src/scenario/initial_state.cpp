@@ -10,17 +10,17 @@
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/track/track.h"
 
-// How a run begins, for planners, plants and the resolved scenario alike.
+// Initial state of a run, shared by planners, plants and the resolved scenario.
 namespace trackbed {
 namespace {
 
-/// The first recorded moment; none without a record.
+/// The first recorded sample; null without a record.
 const RecordedSample* FirstSample(const Scenario& scenario) {
   return scenario.record && scenario.record->data ? &scenario.record->data->samples.front()
                                                   : nullptr;
 }
 
-/// The path in a file that is followed; none for other plans.
+/// The path from a file that the plan follows; null for other plans.
 const FittedPath* PathOfFile(const Scenario& scenario) {
   const auto* own = scenario.plan ? scenario.plan->global.As<PathFileOptions>() : nullptr;
   return own == nullptr ? nullptr : own->path.get();
@@ -48,7 +48,7 @@ Pose2 StartPose(const Scenario& scenario) {
   return {given.x.value_or(pose.x), given.y.value_or(pose.y), given.yaw.value_or(pose.yaw)};
 }
 
-/// Of wheels and actuator [rad].
+/// Initial angle of the road wheels and of the actuator [rad].
 double StartSteering(const Scenario& scenario) {
   if (const std::optional<double>& given = scenario.mission.start.steering) {
     return *given;
@@ -95,7 +95,7 @@ StartState InitialState(const Scenario& scenario) {
   const RecordedSample* recorded = FirstSample(scenario);
   if (recorded != nullptr) {
     const StartState own = StartFrom(*recorded, start.steering);
-    // A car that is to start at another speed does not slip as the recorded one.
+    // The recorded sideslip only applies at the recorded speed.
     if (start.speed == own.speed) {
       start.lateral_speed = own.lateral_speed;
       start.yaw_rate = own.yaw_rate;

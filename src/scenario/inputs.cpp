@@ -24,10 +24,15 @@
 #include "trackbed/sim/scene.h"
 #include "trackbed/track/track_file.h"
 
+// Reads the files that a scenario names, in this order: record, track, map, road network,
+// recording, path. Each reader first checks that its keys were read and that the file may be read:
+// it must lie in the scenario's folder, in an asset folder or, except for recordings, in Trackbed's
+// data folder. Attempt separates problems inside a file, which are returned with their position
+// there, from problems of a key, which are reported at the key.
 namespace trackbed {
 namespace {
 
-/// Calls `read`; what is wrong in a file is given back, what is wrong with a key is added.
+/// Calls `read`. Returns the problems inside a file; reports the problems of a key by `add_error`.
 std::vector<Problem> Attempt(const std::function<void()>& read, const char* key,
                              ReaderContext& context, const AddKeyError& add_error) {
   try {
@@ -46,12 +51,12 @@ std::vector<Problem> Attempt(const std::function<void()>& read, const char* key,
   return {};
 }
 
-/// Whose files any record may name: those that come with Trackbed.
+/// Adds Trackbed's data folder to the folders that may be read.
 std::vector<std::filesystem::path> WithOwnData(std::vector<std::filesystem::path> folders) {
   try {
     folders.push_back(DataFolder());
   } catch (const InputError&) {
-    // A program without the data.
+    // This installation has no data folder.
   }
   return folders;
 }
@@ -110,7 +115,7 @@ std::vector<Problem> ReadRecord(Scenario& scenario, ReaderContext& context,
       "record.file", context, add_error);
 }
 
-/// Takes the inputs of a replay from the record, for the controller playback and for windows.
+/// Takes the recorded inputs for the controller `playback` and for prediction windows.
 std::vector<Problem> TakeInputs(Scenario& scenario, ReaderContext& context,
                                 const AddKeyError& add_error) {
   const RecordSpec& record = *scenario.record;
@@ -158,7 +163,7 @@ std::vector<Problem> ReadPlayback(Scenario& scenario, PlaybackOptions& playback,
       "control.file", context, add_error);
 }
 
-/// `key` has the section of the planner before it: "plan.file".
+/// Keys are prefixed by the planner's section, as in "plan.file".
 std::vector<Problem> ReadPath(Scenario& scenario, PathFileOptions& options, ReaderContext& context,
                               const AddKeyError& add_error) {
   const bool layers = scenario.plan->avoid || scenario.plan->replan;
@@ -248,7 +253,7 @@ std::vector<Problem> ReadMap(Scenario& scenario, MapSpec& map, ReaderContext& co
       "world.map.file", context, add_error);
 }
 
-/// Lets the roads of the mission's route be the ground.
+/// Uses the elevation of the roads on the mission's route as ground.
 void LayRouteGround(Scenario& scenario, const AddKeyError& add_error) {
   const bool has_ground = !IsFlat(scenario.world.ground);
   const std::string failure = AddRouteGround(scenario.mission.route, scenario.world);
@@ -277,7 +282,7 @@ std::vector<Problem> ReadRoads(Scenario& scenario, RoadNetworkSpec& roads, Reade
       [&] {
         roads.data =
             std::make_shared<const OpenDriveFile>(ReadOpenDriveFile(scenario.folder / roads.file));
-        // A route that could not be read may be another than meant.
+        // After an error the route may differ from the intended one.
         if (context.problems.empty()) {
           LayRouteGround(scenario, add_error);
         }
@@ -290,7 +295,7 @@ std::vector<Problem> ReadRoads(Scenario& scenario, RoadNetworkSpec& roads, Reade
 std::string WhyUnreadableImage(const std::filesystem::path& image,
                                const std::filesystem::path& folder,
                                const std::vector<std::filesystem::path>& others) {
-  // Of absolute names: the way from a relative folder to an absolute file would be empty.
+  // Uses absolute paths: lexically_relative returns nothing for a relative and an absolute path.
   const std::filesystem::path from = std::filesystem::absolute(folder / ".").lexically_normal();
   const std::filesystem::path to = std::filesystem::absolute(image).lexically_normal();
   return WhyUnreadable(to.lexically_relative(from).string(), folder, others);

@@ -10,19 +10,18 @@
 
 namespace trackbed {
 
-/// Adds a problem of a key of the scenario.
+/// Reports a problem of a key of the scenario.
 using AddKeyError = std::function<void(const std::string& key, std::string message)>;
 
-/// Why an image that a map in `folder` names may not be read: it lies neither there nor in the
-/// `others`. Empty if it may.
+/// Why an image that a map in `folder` names may not be read: it lies neither in `folder` nor in
+/// one of the `others`. Empty if it may be read.
 std::string WhyUnreadableImage(const std::filesystem::path& image,
                                const std::filesystem::path& folder,
                                const std::vector<std::filesystem::path>& others);
 
-/// Reads the recorded drive of a scenario, its track, its map, the roads of its world, the path
-/// that is to be followed and the recording that is to be replayed. Gives back the problems of
-/// these files, which are placed there and follow those of the scenario; their keys are then among
-/// what could not be read.
+/// Reads the files of a scenario: recorded drive, track, map, road network, path to follow and
+/// recording to replay. Returns the problems inside these files, to be listed after those of the
+/// scenario. Marks the keys of such files as unread.
 std::vector<Problem> ReadInputs(Scenario& scenario, ReaderContext& context,
                                 const AddKeyError& add_error);
 

@@ -13,7 +13,7 @@
 
 namespace trackbed {
 
-/// Lists the keys that a struct's Visit declares, with the struct's own values as the defaults.
+/// Lists the keys that a struct's Visit declares; defaults are the values of the given instance.
 class KeyLister final : public KeyVisitor {
  public:
   KeyLister(std::vector<KeySection>& sections, KeySection own)
@@ -110,7 +110,7 @@ class KeyLister final : public KeyVisitor {
   }
 
  private:
-  /// A key that is described by what is written about it alone.
+  /// Adds a key with the given description.
   void Add(const Key& key, std::string type, Need need, std::string fallback, std::string allowed) {
     const bool required = need == Need::kRequired;
     sections_[index_].keys.push_back({key.name, std::move(type), key.unit,
@@ -128,7 +128,7 @@ class KeyLister final : public KeyVisitor {
   }
 
   std::vector<KeySection>& sections_;
-  std::size_t index_;  // not a reference: the list grows
+  std::size_t index_;  // not a reference: the vector grows
 };
 
 }  // namespace trackbed

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 enum class MapMode { kTrinary, kScale };
 
-/// The YAML file of a ROS map.
+/// Keys of the YAML file of a ROS map.
 struct RosMapKeys {
   std::string image;
   double resolution = 0.0;     ///< [m]
@@ -46,7 +46,7 @@ void Visit(KeyVisitor& keys, RosMapKeys& map) {
   keys.Field({"mode", "", "what the thresholds mean"}, map.mode, Need::kOptional, modes);
 }
 
-/// At most kLargestMapFile; a file that cannot be read is the user's mistake.
+/// Reads a file of at most kLargestMapFile bytes. An unreadable file is an InputError.
 std::string ReadMapFile(const fs::path& file) {
   try {
     return ReadFile(file, kLargestMapFile);

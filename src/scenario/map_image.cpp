@@ -19,7 +19,7 @@ namespace {
   throw InputError(Problem{.file = file, .message = std::move(message)});
 }
 
-/// Before anything of that size is made.
+/// Checks the size before an image of that size is allocated.
 void CheckSize(const std::string& file, std::uint64_t columns, std::uint64_t rows) {
   if (columns == 0 || rows == 0 || columns > kMostMapCells || rows > kMostMapCells ||
       columns * rows > kMostMapCells) {
@@ -28,14 +28,14 @@ void CheckSize(const std::string& file, std::uint64_t columns, std::uint64_t row
   }
 }
 
-/// The numbers of a PGM file: its header, and of P2 the pixels.
+/// Parses the numbers of a PGM file: the header and, in format P2, the pixels.
 class PgmNumbers {
  public:
   PgmNumbers(const std::string& content, const std::string& file) : file_(file), rest_(content) {
     rest_.remove_prefix(2);  // P2 or P5
   }
 
-  /// The next whole number, after white space and comments.
+  /// The next whole number after white space and comments.
   std::uint64_t Next(const char* what) {
     SkipBlanks();
     std::uint64_t number = 0;
@@ -48,7 +48,7 @@ class PgmNumbers {
     return number;
   }
 
-  /// What follows the one blank after the last number.
+  /// The content after the single blank that follows the last number.
   [[nodiscard]] std::string_view AfterBlank() const {
     return rest_.empty() ? rest_ : rest_.substr(1);
   }
@@ -87,7 +87,7 @@ MapImage ReadPgm(const std::string& content, const std::string& file) {
   const bool is_text = content[1] == '2';
   const std::size_t bytes = white > 255 ? 2 : 1;
   const std::string_view pixels = numbers.AfterBlank();
-  // Of text, each takes a digit and a blank.
+  // In text format each pixel takes at least one digit and one blank.
   const std::size_t needed = is_text ? 2 * count - 1 : bytes * count;
   if (pixels.size() < needed) {
     RefuseImage(file, fmt::format("ends early: {} x {} pixels take {}{} bytes, found {}", columns,
@@ -110,7 +110,7 @@ MapImage ReadPgm(const std::string& content, const std::string& file) {
   return image;
 }
 
-/// An image of libpng, freed with it.
+/// Frees the image of libpng in its destructor.
 struct PngImage {
   PngImage() { image.version = PNG_IMAGE_VERSION; }
   PngImage(const PngImage&) = delete;

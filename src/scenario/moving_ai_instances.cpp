@@ -17,7 +17,7 @@
 namespace trackbed {
 namespace {
 
-/// Blank and tab separate fields.
+/// Splits a line at blanks and tabs.
 std::vector<std::string_view> Fields(std::string_view line) {
   constexpr std::string_view kBlanks = " \t\r";
   std::vector<std::string_view> fields;
@@ -35,7 +35,7 @@ bool Parse(std::string_view field, T& value) {
   return error == std::errc() && after == field.data() + field.size();
 }
 
-/// What is wrong with a line; empty when nothing is.
+/// Parses a line. Returns a message if it is invalid, else an empty string.
 std::string ParseInstance(std::string_view line, MovingAiInstance& instance) {
   const std::vector<std::string_view> fields = Fields(line);
   constexpr std::size_t kCount = 9;

@@ -6,9 +6,9 @@
 
 namespace trackbed {
 
-/// Applies "mission.speed=4" or "mission.waypoints[1]=[40, 5]" to a YAML tree; sections on the way
-/// are made. Returns the dotted key. InputError when it is not of that form, or names an element
-/// that a list does not have.
+/// Applies "mission.speed=4" or "mission.waypoints[1]=[40, 5]" to a YAML tree and creates missing
+/// sections. Returns the dotted key. Throws InputError for another format and for an index beyond
+/// the end of a list.
 std::string ApplyOverride(YAML::Node& root, const std::string& text);
 
 }  // namespace trackbed

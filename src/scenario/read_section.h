@@ -9,7 +9,7 @@
 
 namespace trackbed {
 
-/// One section of a scenario file alone. InputError with every problem in it.
+/// Reads a single section of a scenario file. Throws InputError with all problems found in it.
 template <typename Struct>
 Struct ReadSection(const std::filesystem::path& file, const Key& key) {
   ReaderContext context{.file = file.string(), .overridden = {}, .problems = {}};

@@ -10,17 +10,17 @@
 
 namespace trackbed {
 
-/// What all readers of one file share.
+/// State shared by all readers of one file.
 struct ReaderContext {
   std::string file;
-  std::vector<std::string> overridden;  // dotted keys that --set put in
+  std::vector<std::string> overridden;  // dotted keys set by --set
   std::vector<Problem> problems;
-  std::vector<std::string> unread;  // dotted keys whose value is not known for a problem of theirs
+  std::vector<std::string> unread;  // dotted keys whose value is unknown because of a problem
 
-  /// Adds a problem of the key, placed at `mark`, or at --set if that is where the key comes from.
+  /// Adds a problem of the key at `mark`, or at --set if the key was overridden.
   void AddError(const YAML::Mark& mark, const std::string& dotted, std::string message);
 
-  /// Whether the key, or some element of it if it is a list, is among what could not be read.
+  /// Whether the key, and every element of it if it is a list, was read.
   [[nodiscard]] bool Read(std::string_view dotted) const;
 };
 

@@ -12,7 +12,7 @@
 namespace trackbed {
 namespace {
 
-/// Turns the columns of an excerpt into signals, with every problem on the way.
+/// Turns the columns of an excerpt into signals and collects all problems.
 class RecordingExcerpt {
  public:
   RecordingExcerpt(const std::filesystem::path& file, CsvExcerpt excerpt, std::string axis)
@@ -33,7 +33,7 @@ class RecordingExcerpt {
     return excerpt_.table.Find(column) >= 0;
   }
 
-  /// Empty when there is no such column. The last row may lie in another range.
+  /// Empty if there is no such column. The last row has its own range, `last`.
   Signal Column(const std::string& column, const Range& range, const Range& last) {
     Signal signal;
     if (!Has(column)) {
@@ -55,7 +55,7 @@ class RecordingExcerpt {
     return Column(column, range, range);
   }
 
-  /// InputError unless all is well, in the order of the file.
+  /// Throws InputError if there are problems, in the order of the file.
   void Finish() const { problems_.ThrowIfAny(); }
 
  private:

@@ -10,17 +10,17 @@
 
 namespace trackbed {
 
-/// The most places of mission.route.
+/// Largest number of places in mission.route.
 inline constexpr std::size_t kMostLanePlaces = 1000;
 
-/// Makes the heights of a route's roads the world's ground (planning/lanes/route_ground.h), if its
-/// road network is read and not level there. Says why that cannot be, or nothing; a route that is
-/// none is no ground.
+/// Uses the elevation of a route's roads as the world's ground (planning/lanes/route_ground.h), if
+/// the road network is read and the roads are not level. Returns why this is impossible, else an
+/// empty string. An invalid route leaves the ground unchanged.
 std::string AddRouteGround(const std::vector<LanePlace>& route, World& world);
 
-/// The same for the world of a run's scenario file, whose road network is read if the mission has a
-/// route. Errors: those of ReadOpenDrive; InputError for a mission that cannot be read, a network
-/// elsewhere, and roads that cannot be ground.
+/// As above, for the world of a run's scenario file. Reads the road network if the mission has a
+/// route. Throws the errors of ReadOpenDrive, and InputError if the mission cannot be read, the
+/// network lies in another folder, or the roads cannot be ground.
 void ReadRouteGround(const std::filesystem::path& scenario, World& world);
 
 }  // namespace trackbed

@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kMostDimensions = 1000;
 
-/// A stream of its own for each coordinate. The engine and its seeding are defined to the bit by
-/// the standard, its distributions are not.
+/// Independent random stream per coordinate. The C++ standard defines the engine and its seeding to
+/// the bit, but not its distributions, so these are implemented here.
 std::mt19937_64 StreamOf(std::uint64_t seed, int dimension) {
   constexpr unsigned kHalf = 32;
   std::seed_seq sequence{static_cast<std::uint32_t>(seed),
@@ -25,19 +25,19 @@ std::mt19937_64 StreamOf(std::uint64_t seed, int dimension) {
   return std::mt19937_64(sequence);
 }
 
-/// In (0, 1): the middle of one of 2^52 intervals.
+/// Midpoint of one of 2^52 intervals, in (0, 1).
 double Unit(std::uint64_t bits) {
   constexpr unsigned kDropped = 12;
   constexpr int kKept = 52;
   return std::ldexp(static_cast<double>(bits >> kDropped) + 0.5, -kKept);
 }
 
-/// A random order of 0 to count - 1 (Fisher and Yates, in Durstenfeld's form).
+/// Random permutation of 0 to count - 1 (Fisher and Yates, in Durstenfeld's form).
 std::vector<int> Permutation(int count, std::mt19937_64& stream) {
   std::vector<int> order(static_cast<std::size_t>(count));
   std::iota(order.begin(), order.end(), 0);
   for (std::size_t i = order.size(); i > 1; --i) {
-    // The remainder favors small numbers by less than count / 2^64.
+    // The modulo bias is below count / 2^64.
     std::swap(order[i - 1], order[stream() % i]);
   }
   return order;
@@ -56,7 +56,7 @@ Eigen::MatrixXd Random(const SampleSpec& spec, int dimensions) {
 
 Eigen::MatrixXd LatinHypercube(const SampleSpec& spec, int dimensions) {
   Eigen::MatrixXd sample(spec.count, dimensions);
-  const double largest = std::nextafter(1.0, 0.0);  // where the last interval's end is rounded to 1
+  const double largest = std::nextafter(1.0, 0.0);  // if rounding gives 1
   for (int j = 0; j < dimensions; ++j) {
     std::mt19937_64 stream = StreamOf(spec.seed, j);
     const std::vector<int> order = Permutation(spec.count, stream);
@@ -77,7 +77,7 @@ Eigen::MatrixXd Sobol(const SampleSpec& spec, int dimensions) {
   Eigen::MatrixXd sample(spec.count, dimensions);
   for (int i = 0; i < spec.count; ++i) {
     for (int j = 0; j < dimensions; ++j) {
-      // Boost's sequence begins behind the zero point.
+      // Boost's sequence omits the first point, which is zero.
       const std::uint64_t number = i == 0 ? 0 : sequence();
       sample(i, j) = Unit(number ^ shifts[static_cast<std::size_t>(j)]);
     }
@@ -85,8 +85,8 @@ Eigen::MatrixXd Sobol(const SampleSpec& spec, int dimensions) {
   return sample;
 }
 
-/// Boost's tables of long doubles overflow, as the program starts, where these have only 64 bits,
-/// as under valgrind.
+/// Boost's tables of long doubles overflow at startup where long doubles have only 64 bits, as
+/// under valgrind.
 using InDoublesOnly = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
 double NormalQuantile(const Distribution& distribution, double u) {
@@ -95,7 +95,8 @@ double NormalQuantile(const Distribution& distribution, double u) {
   const double below = std::isinf(distribution.min) ? 0.0 : cdf(normal, distribution.min);
   const double up_to = std::isinf(distribution.max) ? 1.0 : cdf(normal, distribution.max);
   const double share = below + u * (up_to - below);
-  // Far out in a tail shares cannot be told apart; the bound nearer to the mean is right then.
+  // In the far tail the cumulative probabilities are indistinguishable: return the bound nearer to
+  // the mean.
   if (!(share > 0.0)) {
     return distribution.max;
   }

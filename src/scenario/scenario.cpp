@@ -32,11 +32,16 @@
 #include "trackbed/sim/scene.h"
 #include "trackbed/track/track_file.h"
 
+// Reads a scenario: parses the YAML, applies the overrides, visits all keys (visit.h), reads the
+// files that they name (inputs.cpp), then checks rules between keys (cross_check.cpp), requirements
+// and names of metrics. Collects all problems and reports them in the order of the file.
+// ResolvedYaml writes the reverse: all defaults made explicit, all files under the names that they
+// have in a run folder.
 namespace trackbed {
 namespace {
 
-/// A file must not expect anything of a plant it does not drive; but who asks for other plants than
-/// the file's does not want to rewrite its expectations.
+/// Removes expectations on plants that are not run. Only used if drive.plants is overridden: a file
+/// must be consistent, but overriding its plants must not require editing its expectations.
 void DropWhatIsNotDriven(Scenario& scenario) {
   std::erase_if(scenario.expect.plants,
                 [&](const auto& entry) { return !Drives(scenario, entry.first); });
@@ -46,10 +51,10 @@ void DropWhatIsNotDriven(Scenario& scenario) {
   });
 }
 
-/// The keys of metrics that no run can have, each with what is wrong.
+/// Expectations on metrics that no run can have: pairs of key and message.
 std::vector<std::pair<std::string, std::string>> UnknownMetrics(
     const Expectations& expect, const std::vector<std::string>& possible) {
-  std::vector<std::string> shown;  // the first element of a list shows what all have
+  std::vector<std::string> shown;  // the first element stands for the whole list
   std::copy_if(possible.begin(), possible.end(), std::back_inserter(shown),
                [](const std::string& path) {
                  const std::size_t bracket = path.find('[');
@@ -226,7 +231,7 @@ std::string OneLine(Options options) {
   YamlWriter writer(out);
   Visit(writer, options);
   out << YAML::EndMap;
-  const std::string text = out.c_str();  // in braces
+  const std::string text = out.c_str();  // enclosed in braces
   return text.substr(1, text.size() - 2);
 }
 
@@ -254,7 +259,7 @@ std::string ResolvedYaml(const Scenario& scenario) {
   resolved.mission.start = {start.pose.x, start.pose.y, start.pose.yaw, start.speed,
                             start.steering};
   if (auto& record = resolved.record) {
-    // The angle under the recorded command is the car's own; see DrivePlant.
+    // With a recorded command the car computes its own initial angle; see DrivePlant.
     resolved.mission.start.steering = scenario.mission.start.steering;
     record->file = kRecordCsv;
     record->map.reset();
@@ -279,15 +284,15 @@ std::string ResolvedYaml(const Scenario& scenario) {
   resolved.mission.duration = RunDuration(scenario);
   auto* path = resolved.plan ? resolved.plan->global.As<PathFileOptions>() : nullptr;
   if (path != nullptr) {
-    // The angle of the path's first point is the car's own; see InitialState.
+    // On a path from a file the car computes its own initial angle; see InitialState.
     resolved.mission.start.steering = scenario.mission.start.steering;
     path->file = kPathCsv;
-    path->map = {};  // PathCsv has the usual names
+    path->map = {};  // PathCsv uses the default names
     path->ahead = 0.0;
   }
   if (auto* playback = resolved.control.steering.As<PlaybackOptions>()) {
     playback->file = playback->file.empty() && resolved.record ? "" : kRecordingCsv;
-    playback->columns = {};  // RecordingCsv has the default names
+    playback->columns = {};  // RecordingCsv uses the default names
   }
   if (auto& map = resolved.world.map) {
     *map = {.file = kMapYaml, .unknown = map->unknown, .height = map->height};

@@ -6,9 +6,9 @@
 
 namespace trackbed {
 
-/// The speed at the start [m/s] where something else than mission.speed gives it: in this order
-/// mission.start.speed, a recording that has speeds, a record, a path whose own speeds are
-/// followed, or control.speed.over_time.
+/// Initial speed [m/s] if mission.speed does not define it. The first available of
+/// mission.start.speed, a recording with speeds, a record, a path followed at its own speeds, and
+/// control.speed.over_time.
 std::optional<double> StartSpeedBesideMission(const Scenario& scenario);
 
 }  // namespace trackbed

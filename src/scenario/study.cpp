@@ -14,19 +14,26 @@
 #include "trackbed/core/text_table.h"
 #include "trackbed/optimize/search.h"
 
+// Points of a study. The grid is the product of `list` and all lists of values: point numbers are
+// mixed-radix numbers with `list` as the lowest digit, then the keys from last to first. Conditions
+// (`when`) drop keys, and duplicate points are then removed. At each grid point, keys with
+// distributions take the quantiles of a unit sample (sampling.cpp); columns of one file share a
+// coordinate. Derived keys (derived_keys.cpp) follow. A point becomes a scenario by overriding the
+// base scenario, and problems are mapped back to the study's lines.
 namespace trackbed {
 namespace {
 
-/// Whose problems ParseScenario ascribes to overrides, which a study's settings are for it.
+/// File name under which ParseScenario reports problems of overrides; a study passes its settings
+/// as overrides.
 constexpr const char* kOverride = "--set";
 
 std::string OverrideKey(const Override& override_text) {
   return override_text.substr(0, override_text.find('='));
 }
 
-/// A problem of what the study sets, with its place there.
+/// Moves a problem of a setting to the setting's place in the study.
 void PlaceInStudy(const Study& study, const std::vector<Setting>& settings, Problem& problem) {
-  // The key of an override that cannot be applied is its whole text.
+  // For an override that cannot be applied, problem.key is the whole text.
   const std::string key = problem.file == kOverride ? OverrideKey(problem.key) : "";
   for (auto setting = settings.rbegin(); setting != settings.rend(); ++setting) {
     if (!key.empty() && Replaces(setting->key, key)) {
@@ -39,7 +46,7 @@ void PlaceInStudy(const Study& study, const std::vector<Setting>& settings, Prob
   }
 }
 
-/// The problems of many points: those that several have in common once.
+/// Collects the problems of many points and reports each once.
 class Problems {
  public:
   explicit Problems(const Study& study) : study_(study) {}
@@ -69,7 +76,7 @@ class Problems {
                      [&](const Found& a, const Found& b) { return place(a) < place(b); });
     std::vector<Problem> problems;
     for (Found& found : found_) {
-      // Where a problem is not placed at what the point sets, it takes the point to understand it.
+      // A problem without a place in the study is shown with the settings of the point.
       if (found.problem.file != study_.file && found.count < points_) {
         std::string where;
         for (const Setting& setting : found.point) {
@@ -85,7 +92,7 @@ class Problems {
  private:
   struct Found {
     Problem problem;
-    std::vector<Setting> point;  // the first that has it
+    std::vector<Setting> point;  // first point with this problem
     std::size_t count = 0;
   };
 
@@ -95,7 +102,7 @@ class Problems {
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> known_;
 };
 
-/// The command line must not set what the study varies: one of the two would be lost.
+/// Rejects overrides of keys that the study varies: one of the two values would be lost.
 void CheckOverrides(const Study& study) {
   std::vector<Problem> problems;
   for (const Override& override_text : study.overrides) {
@@ -114,14 +121,14 @@ void CheckOverrides(const Study& study) {
   }
 }
 
-/// Whether a point that sets these holds the condition.
+/// Whether the condition holds at a point with these settings.
 bool Holds(const Condition& condition, const Study& study, const std::vector<Setting>& point) {
   const auto is_key = [&](const Setting& setting) { return setting.key == condition.key; };
   auto found = std::find_if(point.begin(), point.end(), is_key);
   if (found == point.end()) {
     found = std::find_if(study.set.begin(), study.set.end(), is_key);
     if (found == study.set.end()) {
-      return false;  // a key whose own condition does not hold
+      return false;  // the key was dropped by its own condition
     }
   }
   return std::any_of(
@@ -187,7 +194,7 @@ Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
   const auto add = [&](const Setting& setting) {
     overrides.push_back(fmt::format("{}={}", setting.key, setting.value));
   };
-  // What the study sets throughout, then the command line, then what is this point's own.
+  // Order: settings of the whole study, command line, settings of this point.
   const auto own = all.end() - static_cast<std::ptrdiff_t>(settings.size() + (bisected ? 1 : 0));
   std::for_each(all.begin(), own, add);
   overrides.insert(overrides.end(), study.overrides.begin(), study.overrides.end());
@@ -268,7 +275,7 @@ std::vector<Setting> StudyPoints::OfGrid(std::size_t combination) const {
   if (!study_.list.empty()) {
     listed = study_.list[digit(study_.list.size())];
   }
-  // The last key is the lowest digit, and what a key depends on stands before it.
+  // The last key is the lowest digit. A key can only depend on keys before it.
   std::vector<std::size_t> chosen(study_.vary.size());
   for (std::size_t k = study_.vary.size(); k-- > 0;) {
     if (!study_.vary[k].distribution) {
@@ -344,7 +351,7 @@ const std::vector<std::string>& StudySearches() {
     }
     all.emplace_back("surrogate");
     for (const SearchEntry& entry : Searches()) {
-      if (entry.method != SearchMethod::kSlsqp) {  // differences of runs are no gradients
+      if (entry.method != SearchMethod::kSlsqp) {  // finite differences of runs are not gradients
         all.emplace_back(entry.name);
       }
     }
@@ -367,7 +374,7 @@ void CheckPoints(const StudyPoints& points, bool all) {
   const Study& study = points.study();
   Problems problems(study);
   bool any_good = false;
-  // Whether there is such a scenario.
+  // Whether the scenario at this point is valid.
   const auto is_good = [&](const std::vector<Setting>& settings, std::optional<double> bisected) {
     problems.CountPoint();
     try {
@@ -397,7 +404,7 @@ void CheckPoints(const StudyPoints& points, bool all) {
     } else {
       const BisectSpec& bisect = *study.bisect;
       const bool at_from = is_good(settings, bisect.from);
-      // In between no round number: what is to be bisected must take any.
+      // Checks a third value that is not round: bisection tries arbitrary values.
       good = is_good(settings, bisect.to) && at_from &&
              is_good(settings, bisect.from + 0.3819660112501051 * (bisect.to - bisect.from));
     }

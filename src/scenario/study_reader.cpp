@@ -10,6 +10,10 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/scenario/study.h"
 
+// Reads a study file: visits the keys (study_visit.h), reads sections of scenario keys by callbacks
+// (variation_reader.cpp), then checks rules between the keys, such as conditions on keys set
+// earlier and settings that overwrite each other. Collects all problems and reports them in the
+// order of the file.
 namespace trackbed {
 namespace {
 
@@ -245,7 +249,7 @@ class StudyReader {
     }
   }
 
-  /// Keys of a search that its method does not take.
+  /// Rejects keys that the search method does not support.
   void CheckSearch(const Study& study) {
     const SearchSpec& search = *study.search;
     const YAML::Node node = root_["search"];
@@ -273,14 +277,16 @@ class StudyReader {
     if (search.method == "direct" && search.restarts > 1) {
       refuse("restarts", "direct does the same each time; 1 at most");
     }
-    // It looks three times, and first at the middle and two points along each key.
+    // Requires runs for about three rounds of DIRECT; the first evaluates the center and two points
+    // per key.
     if (search.method == "direct" && search.runs < 4 * (2 * keys + 1)) {
       refuse("runs", fmt::format("{} for direct and {} keys; at least {}", search.runs, keys,
                                  4 * (2 * keys + 1)));
     }
   }
 
-  /// A condition is of keys that are set before, those of the grid of such as are in it, too.
+  /// A condition may only use keys that are set before. A key of the grid must not depend on a
+  /// sampled key.
   void CheckConditions(const Study& study) {
     Names of_grid;
     for (const Setting& setting : study.set) {
@@ -315,7 +321,7 @@ class StudyReader {
     }
   }
 
-  /// Every key must be set once, and nothing may be set that is then replaced.
+  /// Each key must be set once, and no setting may overwrite an earlier one.
   void CheckWhatReplaces(const Study& study) {
     std::vector<Setting> one_of_each;
     for (const Variation& variation : study.vary) {

@@ -8,24 +8,25 @@
 
 namespace trackbed {
 
-/// Whether a setting of the key `later` leaves nothing of what `earlier` was set to.
+/// Whether setting the key `later` discards everything set by `earlier`.
 bool Replaces(const std::string& later, const std::string& earlier);
 
-/// What is set in a run at a point of the grid, in the order in which it is.
+/// All settings of a run at a grid point, in the order in which they are applied.
 std::vector<Setting> AllSettings(const Study& study, const std::vector<Setting>& point,
                                  std::optional<double> bisected);
 
-/// The number that a value of YAML is, if it is one.
+/// Parses a YAML value as a number; none if it is not one.
 std::optional<double> NumberOf(const std::string& value);
 
-/// Adds what the formulas of the study say at a point that sets these. InputError placed at a
-/// formula that has no finite value there.
+/// Appends the values of the study's formulas at a point with these settings. Throws InputError,
+/// placed at the formula, if a value is not finite.
 void AddDerived(const Study& study, std::vector<Setting>& settings);
 
-/// InputError placed at a formula that is none, or that uses what the study does not set.
+/// Throws InputError, placed at the formula, if it is invalid or uses a key that the study does not
+/// set.
 void CheckFormulas(const Study& study);
 
-/// One setting or more of every key that is not the same in all runs.
+/// Settings of the keys that differ between runs, at least one per key.
 std::vector<Setting> Varied(const Study& study);
 
 }  // namespace trackbed

@@ -10,12 +10,12 @@
 #include "src/scenario/yaml_reader.h"
 #include "trackbed/scenario/study.h"
 
-/// The keys of a study, each named once for reading and listing alike.
+/// Keys of a study, shared by reading and listing.
 namespace trackbed {
 
 enum class GridScale { kLinear, kLog };
 
-/// An even grid of values, in place of a list of them.
+/// Evenly spaced grid of values, given instead of a list.
 struct GridRange {
   double from = 0.0;
   double to = 0.0;
@@ -34,7 +34,7 @@ inline void Visit(KeyVisitor& a, GridRange& range) {
           Need::kOptional, scales);
 }
 
-/// What a distribution has beside its kind, which says which of these there are.
+/// Visits the parameters of a distribution; its kind defines which ones exist.
 inline void Visit(KeyVisitor& a, Distribution& distribution) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   switch (distribution.kind) {
@@ -69,7 +69,7 @@ inline void Visit(KeyVisitor& a, Distribution& distribution) {
   }
 }
 
-/// The kinds of distributions, as files name them; `file` is a choice among the rows of a table.
+/// Names of distributions in files; `file` draws rows of a table.
 inline constexpr const char* kFileDistribution = "file";
 template <typename Enum, std::size_t count>
 EnumNames<Enum> NamesOf(const std::array<Enum, count>& values) {
@@ -87,7 +87,7 @@ inline const EnumNames<DistributionKind>& DistributionNames() {
   return names;
 }
 
-/// A column of a CSV file.
+/// Column of a CSV file.
 struct TableColumn {
   std::string file;
   std::string column;
@@ -139,7 +139,7 @@ inline void Visit(KeyVisitor& a, BisectSpec& bisect) {
           bisect.tolerance, Need::kRequired, kPositive);
 }
 
-/// The file of a study. What is under keys of the scenario's is read by the functions.
+/// A study file. The functions read the sections whose keys are keys of the scenario.
 struct StudyFile {
   using Read = std::function<void(const YAML::Node& node, const std::string& key)>;
 

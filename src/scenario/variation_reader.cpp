@@ -9,10 +9,14 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/text_table.h"
 
+// Reads one entry of `vary`: a list of values, {values, when}, a range {from, to, steps, scale}, or
+// a distribution with its parameters. Values are kept as YAML text in flow style, so that they can
+// be applied as overrides of a scenario. Ranges are expanded to values with 15 digits; a column of
+// a CSV file becomes a choice among its cells.
 namespace trackbed {
 namespace {
 
-/// Writes a value as it was read, on one line: what stood in quotes keeps them.
+/// Writes a value on one line as it was read, and keeps quotes.
 void WriteFlow(const YAML::Node& node, YAML::Emitter& out) {
   if (node.IsMap()) {
     out << YAML::Flow << YAML::BeginMap;
@@ -39,7 +43,7 @@ void WriteFlow(const YAML::Node& node, YAML::Emitter& out) {
   }
 }
 
-/// The grid's values to 15 digits, so that a tenth is 0.1 and not 0.10000000000000002.
+/// Formats with 15 digits, so that a tenth is 0.1 and not 0.10000000000000002.
 std::string GridValue(const GridRange& range, int i) {
   const int last = range.steps - 1;
   if (i == 0 || i == last) {
@@ -84,7 +88,7 @@ class VariationReader {
     context_.AddError(node.Mark(), key, std::move(message));
   }
 
-  /// Reads a section by the keys that `visit` asks for, and `when`.
+  /// Reads a section with the keys that `visit` declares, plus `when`.
   void WithCondition(const YAML::Node& node, const std::string& dotted, Variation& variation,
                      const std::function<void(YamlReader& reader)>& visit) {
     YamlReader reader(context_, node, dotted);
@@ -168,7 +172,7 @@ class VariationReader {
         }
         if (distribution.step > 0.0 && distribution.from < distribution.to) {
           const double steps = (distribution.to - distribution.from) / distribution.step;
-          // Decimal fractions such as 0.2 are rounded in binary.
+          // Tolerates the binary rounding of decimal fractions such as 0.2.
           if (std::round(steps) < 1.0 || std::abs(steps - std::round(steps)) > 1e-9 * steps) {
             AddError(node["step"], dotted + ".step",
                      fmt::format("{} to {} is no whole number of steps of {}", distribution.from,
@@ -208,7 +212,7 @@ class VariationReader {
     }
   }
 
-  /// The values of a column as those to choose from.
+  /// Reads the cells of a column as the values to choose from.
   void ReadColumn(const YAML::Node& node, const std::string& dotted, const TableColumn& column,
                   Distribution& distribution) {
     if (const std::string why = WhyUnreadable(column.file, folders_.own, folders_.others);

@@ -10,30 +10,30 @@
 #include "src/scenario/reader_context.h"
 #include "trackbed/scenario/study.h"
 
-/// Sections of a study that set keys of its scenario.
+/// Readers for the sections of a study that set keys of its scenario.
 namespace trackbed {
 
-/// A key with a value as it was written.
+/// A key with its value as YAML text.
 Setting ParseSetting(const std::string& key, const YAML::Node& value);
 
 using ReadEntry =
     std::function<void(const YAML::Node& key, const YAML::Node& value, const std::string& dotted)>;
 
-/// Calls with each key of a section of keys of the scenario's, and its value.
+/// Calls `read` with each key of a section of scenario keys, and its value.
 void ForEachKey(ReaderContext& context, const YAML::Node& node, const std::string& section,
                 const ReadEntry& read);
 
-/// A problem of `from` unless it is below `to`.
+/// Reports a problem at `from` unless from < to.
 void CheckEnds(ReaderContext& context, const YAML::Node& node, const std::string& dotted,
                double from, double to);
 
-/// Where a study may read tables.
+/// Folders from which a study may read tables.
 struct StudyFolders {
   std::filesystem::path own;
   const std::vector<std::filesystem::path>& others;
 };
 
-/// An entry of `vary`: a list of values, a range, or a distribution.
+/// Reads an entry of `vary`: a list of values, a range, or a distribution.
 Variation ReadVariation(ReaderContext& context, const StudyFolders& folders, const std::string& key,
                         const YAML::Node& node, const std::string& dotted);
 

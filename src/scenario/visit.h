@@ -11,7 +11,7 @@
 #include "trackbed/scenario/record.h"
 #include "trackbed/scenario/scenario.h"
 
-/// The keys of a scenario, each named once for reading, writing and listing alike.
+/// Keys of a scenario, shared by reading, writing and listing.
 namespace trackbed {
 
 inline constexpr Key kVehicleSection{"vehicle", "", "vehicle"};

@@ -2,7 +2,7 @@
 
 #include "trackbed/scenario/disturbances.h"
 
-/// The keys of the section `disturb`.
+/// Keys of the section `disturb`.
 namespace trackbed {
 
 inline constexpr Range kFactor{.min = 0.1, .max = 10.0};

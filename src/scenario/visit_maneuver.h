@@ -3,10 +3,10 @@
 #include "trackbed/options/key_visitor.h"
 #include "trackbed/scenario/maneuver.h"
 
-/// The keys of the maneuvers.
+/// Keys of the maneuvers.
 namespace trackbed {
 
-/// Of the maneuvers that fit gradients.
+/// Shared by the maneuvers that fit gradients.
 template <typename Options>
 void VisitGradients(KeyVisitor& a, Options& options) {
   a.Field({"settle", "s", "samples before this time are ignored"}, options.settle, Need::kOptional,

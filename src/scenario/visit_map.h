@@ -3,7 +3,7 @@
 #include "trackbed/options/key_visitor.h"
 #include "trackbed/world/map_obstacles.h"
 
-/// The keys of `world.map`.
+/// Keys of `world.map`.
 namespace trackbed {
 
 inline constexpr Range kSize{.max = 1e4, .above = 0.0};  // [m]

@@ -6,10 +6,10 @@
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/scenario/scenario.h"
 
-/// The keys of `plan`.
+/// Keys of `plan`.
 namespace trackbed {
 
-/// The layers of a plan, each under its own key.
+/// Layers of a plan, each under its own key.
 struct PlanLayers {
   std::optional<PlannerOptions>& global;
   std::optional<AvoiderOptions>& avoid;
@@ -38,7 +38,7 @@ inline void Visit(KeyVisitor& a, PlanLayers& layers) {
   VisitInfeasible(a, layers.infeasible);
 }
 
-/// `plan: {method: …}` is short for `plan: {global: {method: …}}`.
+/// `plan: {method: …}` is a short form of `plan: {global: {method: …}}`.
 inline void VisitPlan(KeyVisitor& a, std::optional<PlanSpec>& plan) {
   using Mode = KeyVisitor::Mode;
   if (a.mode() == Mode::kWrite && !plan) {

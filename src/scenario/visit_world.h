@@ -3,7 +3,7 @@
 #include "src/scenario/visit_map.h"
 #include "trackbed/world/world.h"
 
-/// The keys of the section `world`.
+/// Keys of the section `world`.
 namespace trackbed {
 
 inline constexpr Range kRoadFactor{.max = 10.0, .above = 0.0};
@@ -26,7 +26,7 @@ inline void Visit(KeyVisitor& a, FrictionPatch& patch) {
           Need::kRequired, kRoadFactor);
 }
 
-/// The keys of `grade`.
+/// Keys of `grade`.
 struct GradeKeys {
   Vec2& grade;
 };
@@ -107,7 +107,7 @@ inline void Visit(KeyVisitor& a, World& world) {
   }
 }
 
-/// The keys of `box`.
+/// Keys of `box`.
 struct BoxKeys {
   Obstacle& obstacle;
 };
@@ -117,7 +117,7 @@ inline void Visit(KeyVisitor& a, BoxKeys& keys) {
   a.Field({"height", "m", "height above the ground"}, keys.obstacle.height, Need::kOptional, kSize);
 }
 
-/// The keys of `velocity`.
+/// Keys of `velocity`.
 struct VelocityKeys {
   Vec2& velocity;
 };
@@ -127,7 +127,7 @@ inline void Visit(KeyVisitor& a, VelocityKeys& keys) {
   a.Field({"y", "m/s", "northward"}, keys.velocity.y(), Need::kOptional, kWindSpeed);
 }
 
-/// The keys of `known_from`.
+/// Keys of `known_from`.
 struct KnownFromKeys {
   Obstacle& obstacle;
 };
@@ -147,7 +147,7 @@ inline void Visit(KeyVisitor& a, Obstacle& obstacle) {
     a.Section({"velocity", "", "velocity of the box, without rotation; default: static"}, velocity);
   }
   if (writes && !obstacle.known_from_time && !obstacle.known_from_range) {
-    return;  // an empty section would say no more
+    return;  // omit an empty section
   }
   KnownFromKeys known{obstacle};
   a.Section(

@@ -14,6 +14,12 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
+// Loads YAML and explains syntax errors. A first pass of yaml-cpp's event parser (Watch) tracks
+// open collections and quotes, and limits nesting and the number of values. If it fails, Explain
+// maps yaml-cpp's message and position to the line and the wording that a user can act on: missing
+// colon, wrong indentation, tab, unclosed bracket, unquoted special character. Unclosed quotes are
+// detected by a second pass, because yaml-cpp often reads on to the end of the text. Valid text is
+// then loaded as nodes.
 namespace trackbed {
 namespace {
 
@@ -25,14 +31,14 @@ constexpr std::size_t kLargestText = std::size_t{16} << 20U;
   throw InputError(Problem{file, mark.line + 1, mark.column + 1, "", std::move(message)});
 }
 
-/// Whether YAML allows the character in a text.
+/// Whether YAML allows this character.
 bool IsPrintable(boost::locale::utf::code_point c) {
   return c == '\t' || c == '\n' || c == '\r' || c == 0x85 || (c >= 0x20 && c < 0x7f) || c >= 0xa0;
 }
 
 void RefuseWhatIsNoText(const std::string& text, const std::string& file) {
   using Utf8 = boost::locale::utf::utf_traits<char>;
-  YAML::Mark mark;  // columns are bytes, as yaml-cpp counts them
+  YAML::Mark mark;  // columns count bytes, as in yaml-cpp
   for (auto at = text.begin(); at != text.end();) {
     const auto begin = at;
     const boost::locale::utf::code_point c = Utf8::decode(at, text.end());
@@ -48,8 +54,8 @@ void RefuseWhatIsNoText(const std::string& text, const std::string& file) {
   }
 }
 
-/// Follows the parser to know what is open where it stumbles, and stops it at what is nested or
-/// repeated without end: anchors can make a small file expand to an endless tree.
+/// Follows the parser, so that an error can be related to the open collections. Limits nesting and
+/// repetition: anchors can expand a small file to an endless tree.
 class Watch : public YAML::EventHandler {
  public:
   explicit Watch(std::string file) : file_(std::move(file)) {}
@@ -83,18 +89,18 @@ class Watch : public YAML::EventHandler {
     Count(mark, found->second);
   }
 
-  /// Where the innermost list or section that is not yet at its end begins.
+  /// Start of the innermost list or section that is still open.
   [[nodiscard]] YAML::Mark open() const {
     return open_.empty() ? YAML::Mark::null_mark() : open_.back().mark;
   }
-  /// Where the last value begins if it is in quotes.
+  /// Start of the last value if it is quoted, else null.
   [[nodiscard]] YAML::Mark quoted() const { return quoted_; }
 
  private:
   struct Collection {
     YAML::Mark mark;
     YAML::anchor_t anchor;
-    std::size_t begin;  // values before it
+    std::size_t begin;  // number of values before it
   };
 
   void Count(const YAML::Mark& mark, std::size_t values) {
@@ -123,7 +129,7 @@ class Watch : public YAML::EventHandler {
   std::string file_;
   int documents_ = 0;
   std::size_t values_ = 0;
-  std::unordered_map<YAML::anchor_t, std::size_t> sizes_;  // in values, of what has an anchor
+  std::unordered_map<YAML::anchor_t, std::size_t> sizes_;  // number of values under each anchor
   std::vector<Collection> open_;
   YAML::Mark quoted_ = YAML::Mark::null_mark();
 };
@@ -163,13 +169,13 @@ YAML::Mark MarkAt(int line, std::size_t column) {
   return mark;
 }
 
-/// Where and in which words a user can make sense of what yaml-cpp stumbled over.
+/// Position and wording of a syntax error for the user.
 struct Stumble {
   YAML::Mark mark;
   std::string message;
 };
 
-/// A key that stands where none can: most often the line before it is at fault.
+/// Explains a misplaced key; most often the line before it is wrong.
 Stumble ExplainKey(const std::vector<std::string_view>& lines, const YAML::Mark& mark) {
   const auto here = static_cast<std::size_t>(mark.line);
   const std::string_view line = lines[here];
@@ -193,7 +199,7 @@ Stumble ExplainKey(const std::vector<std::string_view>& lines, const YAML::Mark&
           "indented under a line that already has a value"};
 }
 
-/// A value that does not go on where the indentation says that it should.
+/// Explains a value that ends where the indentation requires it to continue.
 Stumble ExplainEnd(const std::vector<std::string_view>& lines, const YAML::Mark& mark) {
   const std::string_view line = lines[static_cast<std::size_t>(mark.line)];
   const std::string_view rest = Trimmed(line.substr(static_cast<std::size_t>(mark.column)));
@@ -272,8 +278,8 @@ Stumble Explain(const std::string& text, const YAML::Exception& error, const Wat
   return {mark, "not YAML: " + said};
 }
 
-/// Whether quotes are still open at the end. Only where no line end follows does yaml-cpp notice;
-/// else it takes all the rest for the text.
+/// Whether a quote is still open at the end. yaml-cpp only reports this if no line feed follows;
+/// otherwise it takes the rest of the text as the quoted value.
 bool EndsInQuotes(const std::string& text) {
   Watch watch("");
   try {
@@ -296,7 +302,7 @@ std::string ReadInput(const std::filesystem::path& file) {
 
 YAML::Node LoadYamlValue(const std::string& text, const std::string& file) {
   RefuseWhatIsNoText(text, file);
-  const std::string lines = text + "\n";  // a value before it is complete
+  const std::string lines = text + "\n";  // completes a value at the end
   Watch watch(file);
   std::optional<Stumble> stumble;
   try {

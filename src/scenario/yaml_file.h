@@ -7,19 +7,19 @@
 
 namespace trackbed {
 
-/// The whole file. InputError when it cannot be read.
+/// Reads the whole file. Throws InputError if it cannot be read.
 std::string ReadInput(const std::filesystem::path& file);
 
-/// The value that a YAML text is. InputError with line, column and plain words for what is no text
-/// (bytes that are not UTF-8, control characters), no YAML, more than one document, or nested or
-/// repeated without end.
+/// Parses a text as a YAML value. Throws InputError with line, column and an explanation for
+/// invalid text (not UTF-8, control characters), invalid YAML, more than one document, and
+/// excessive nesting or repetition.
 YAML::Node LoadYamlValue(const std::string& text, const std::string& file);
 
-/// The same, and it is a section; `what` is what the file holds.
+/// As LoadYamlValue, but the value must be a section. `what` names the content in the message.
 YAML::Node LoadYaml(const std::string& text, const std::string& file,
                     const char* what = "a scenario");
 
-/// The node that a dotted key names, or the nearest one above it that is there.
+/// The node at a dotted key, or its nearest existing ancestor.
 YAML::Node NodeAt(const YAML::Node& root, const std::string& key);
 
 }  // namespace trackbed

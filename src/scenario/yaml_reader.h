@@ -18,8 +18,8 @@
 
 namespace trackbed {
 
-/// Reads one YAML mapping into a struct by the keys that its `Visit` declares (key_visitor.h).
-/// Finish adds the problems of unknown and repeated keys.
+/// Reads a YAML mapping into a struct by the keys that its `Visit` declares (key_visitor.h). Finish
+/// reports unknown and duplicate keys.
 class YamlReader final : public KeyVisitor {
  public:
   YamlReader(ReaderContext& context, const YAML::Node& node, std::string key);
@@ -44,7 +44,7 @@ class YamlReader final : public KeyVisitor {
   void Pair(const Key& key, int& first, int& second, Range range) override;
   [[nodiscard]] bool HasAny(const char* key, const Names& inner) const override;
 
-  /// A key whose value `read` makes sense of, told its dotted key.
+  /// Visits a key whose value is parsed by `read`, which also gets the dotted key.
   template <typename Read>
   void Custom(const Key& key, const char* type, const Read& read) {
     const auto node = Take(key.name, Need::kOptional);
@@ -57,7 +57,7 @@ class YamlReader final : public KeyVisitor {
 
   void Finish();
 
-  /// "a section", "a list", "'word'", …
+  /// Describes a node: "a section", "a list", "'word'", …
   static std::string Describe(const YAML::Node& node);
 
  protected:
@@ -75,7 +75,7 @@ class YamlReader final : public KeyVisitor {
   bool ReadFlag(const YAML::Node& node, const std::string& dotted, bool& value);
   bool ReadNumber(const YAML::Node& node, const std::string& dotted, Range range, double& value);
   void AddError(const YAML::Node& node, const std::string& dotted, std::string message);
-  /// Describes a value that is no T, with the way out if it only has quotes too many.
+  /// Describes a value that is not a T; suggests removing quotes if that would make it one.
   template <typename T>
   static std::string DescribeNo(const YAML::Node& node);
 
@@ -83,7 +83,7 @@ class YamlReader final : public KeyVisitor {
   YAML::Node node_;
   std::string key_;
   Names known_;
-  YAML::Mark taken_;  // where the key stands that was taken last
+  YAML::Mark taken_;  // position of the key taken last
 };
 
 }  // namespace trackbed

@@ -13,9 +13,8 @@
 
 namespace trackbed {
 
-/// The counterpart of YamlReader: writes the keys that a struct's Visit declares, numbers in the
-/// shortest form that reads back to the same value. Optional values that are not there are left
-/// out.
+/// Counterpart of YamlReader: writes the keys that a struct's Visit declares, with the shortest
+/// numbers that read back to the same value. Omits optional values that are not set.
 class YamlWriter final : public KeyVisitor {
  public:
   explicit YamlWriter(YAML::Emitter& out) : out_(out) {}
@@ -125,7 +124,7 @@ class YamlWriter final : public KeyVisitor {
 
  private:
   YAML::Emitter& out_;
-  ClassicLocale locale_;  ///< yaml-cpp writes integers through the global one
+  ClassicLocale locale_;  ///< yaml-cpp writes integers with the global locale
 };
 
 }  // namespace trackbed

@@ -14,10 +14,10 @@ namespace trackbed {
 namespace {
 
 constexpr std::uint32_t kMostPixels = 8192;   // along a side
-constexpr std::uint32_t kMostSamples = 4096;  // likewise, of a height field
-constexpr std::uint32_t kMostFaces = 200000;  // MuJoCo's own limit of an STL file
+constexpr std::uint32_t kMostSamples = 4096;  // of a height field, along a side
+constexpr std::uint32_t kMostFaces = 200000;  // MuJoCo's own limit for an STL file
 constexpr std::uint32_t kMostFacets = 256;    // of a drawn sphere or plane, along a side
-/// MuJoCo's texts of errors have room for about 500 characters.
+/// MuJoCo's error texts hold about 500 characters.
 constexpr std::size_t kLongestWord = 200;
 
 std::string LowerExtension(const std::filesystem::path& file) {
@@ -37,7 +37,7 @@ std::optional<Number> ReadNumber(std::string_view content, std::size_t offset) {
   return number;
 }
 
-/// A picture's size in its header is in network order.
+/// PNG stores numbers in network byte order.
 std::optional<std::uint32_t> ReadBigEndian(std::string_view content, std::size_t offset) {
   if (content.size() < offset + 4) {
     return std::nullopt;
@@ -67,7 +67,7 @@ std::string WhyNoPng(std::string_view content) {
   return "";
 }
 
-/// 80 bytes of anything, the count of triangles, 50 bytes for each.
+/// STL: a header of 80 bytes, the count of triangles, then 50 bytes per triangle.
 std::string WhyNoStl(std::string_view content) {
   constexpr std::size_t kHeader = 84;
   constexpr std::size_t kFace = 50;
@@ -78,7 +78,7 @@ std::string WhyNoStl(std::string_view content) {
   return "";
 }
 
-/// MuJoCo's own format: rows and columns, then the heights.
+/// MuJoCo's height field format: the counts of rows and columns, then the heights.
 std::string WhyNoHeights(std::string_view content) {
   const auto rows = ReadNumber<std::int32_t>(content, 0);
   const auto columns = ReadNumber<std::int32_t>(content, 4);
@@ -102,7 +102,7 @@ std::string WhyNoHeights(std::string_view content) {
   return "";
 }
 
-/// The longest word of an attribute: numbers stand in lists, names alone.
+/// Length of the longest word of an attribute: lists consist of numbers, names of one word.
 std::size_t LongestWord(std::string_view text) {
   std::size_t longest = 0;
   while (!text.empty()) {

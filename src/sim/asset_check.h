@@ -7,22 +7,22 @@
 #include <string>
 #include <string_view>
 
-/// What a model from elsewhere may contain, looked at before MuJoCo reads it.
+/// Checks of untrusted model files before MuJoCo reads them.
 namespace trackbed {
 
-/// Of one file.
+/// Largest size of one asset file.
 inline constexpr std::size_t kMostAssetBytes = std::size_t{64} << 20;
-/// Files, fewer than the 2000 of the virtual file system of MuJoCo 2.2.2.
+/// Largest count of asset files, below the 2000 of the virtual file system of MuJoCo 2.2.2.
 inline constexpr std::size_t kMostAssets = 1900;
-/// Of all files together.
+/// Largest size of all asset files together.
 inline constexpr std::size_t kMostAssetBytesInAll = std::size_t{512} << 20;
 
-/// What is wrong with the content of a file that an asset of this kind ("mesh", "texture", …)
-/// refers to, as the end of a sentence: "is no PNG picture". Empty when nothing is.
+/// Error in the content of an asset file of this kind ("mesh", "texture", …), as the end of a
+/// sentence: "is no PNG picture". Empty if the content is valid.
 std::string WhyNoAsset(std::string_view kind, const std::filesystem::path& file,
                        std::string_view content);
 
-/// What is wrong with an element of the composed model, as a sentence. Empty when nothing is.
+/// Error in an element of the composed model, as a sentence. Empty if the element is valid.
 std::string WhyNoElement(const tinyxml2::XMLElement& element);
 
 }  // namespace trackbed

@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-/// The slide joint that carries a wheel; -1: none.
+/// The slide joint between a wheel and the chassis; -1 if the wheel has none.
 int SpringJoint(const mjModel& model, int wheel, int chassis) {
   for (int body = wheel; body > 0 && body != chassis; body = model.body_parentid[body]) {
     for (int i = 0; i < model.body_jntnum[body]; ++i) {
@@ -26,9 +26,9 @@ int SpringJoint(const mjModel& model, int wheel, int chassis) {
   return -1;
 }
 
-/// Of the springs and anti-roll bars of an axle [N m/rad]; infinite without springs, where the
-/// wheels are fixed to the chassis or rest on the stops of their joints. With the left wheel up and
-/// the right one down by z, the roll angle is 2 z/track.
+/// Roll stiffness of an axle's springs and anti-roll bars [N m/rad]. Infinite without springs, if
+/// the wheels are fixed to the chassis or rest on the stops of their joints. With the left wheel up
+/// and the right wheel down by z, the roll angle is 2 z/track.
 double SuspensionStiffness(const mjModel& model, int left, int right, double track) {
   if (left < 0 || right < 0) {
     return std::numeric_limits<double>::infinity();
@@ -61,7 +61,8 @@ LongitudinalForces Forces(const CarModel& car) {
                             .top_speed = params.top_speed};
   forces.brake_force =
       2.0 * (parts.brake_torque_front + parts.brake_torque_rear) / params.wheel_radius;
-  // VehicleParams has these accelerations, of brakes and of the motor less the resistance.
+  // VehicleParams has the accelerations of the brakes alone, and of the motor less the rolling
+  // resistance.
   forces.rolling_mass = forces.brake_force / params.braking.by_force;
   forces.rolling_resistance =
       std::max(0.0, forces.drive_force - forces.rolling_mass * params.driving.by_force);

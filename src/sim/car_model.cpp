@@ -17,7 +17,7 @@
 namespace trackbed {
 namespace {
 
-/// What the car would be if its payload weighed nothing.
+/// Parameters of the car with a payload of zero mass.
 VehicleParams Unladen(const mjModel& laden, int payload, const std::string& name) {
   const MujocoModel model = CopyMujocoModel(laden);
   const MujocoData data = MakeMujocoData(*model);
@@ -26,15 +26,15 @@ VehicleParams Unladen(const mjModel& laden, int payload, const std::string& name
   return DescribeVehicle(*model, name).params;
 }
 
-/// Where the frame V of a car lies that stands on the ground.
+/// Height and orientation of the vehicle frame V of a car that stands on the ground.
 struct Stand {
   double height = 0.0;  ///< [m]
   Eigen::Quaterniond turn;
 };
 
 Stand StandOn(const VehicleParams& params, const Pose2& pose, const Ground& ground) {
-  // Under the wheels, as they lie on level ground: a slope brings them nearer together, but by its
-  // square.
+  // The height is that of the ground under the wheels, placed as on level ground: a slope shortens
+  // their horizontal distance by a second-order term only.
   const bool steered = params.kind == VehicleKind::kSteered;
   const double ahead_of_axle = steered ? params.wheelbase : params.length - params.rear_overhang;
   const double track_front = steered ? params.track_front : params.width;
@@ -143,7 +143,7 @@ std::vector<double> CarModel::StandingPosition(const Pose2& pose, double steerin
   const int chassis_qpos = chassis().chassis_qpos;
   set(chassis_qpos, pose.x);
   set(chassis_qpos + 1, pose.y);
-  const mjtNum sag = level[chassis_qpos + 2];  // across the ground
+  const mjtNum sag = level[chassis_qpos + 2];  // normal to the ground
   const double upright = laden ? (stand.turn * Eigen::Vector3d::UnitZ()).z() : 1.0;
   set(chassis_qpos + 2, sag / upright + stand.height);
   const mjtNum* lean = level + chassis_qpos + 3;
@@ -192,7 +192,7 @@ WheelSpeeds RollingSpeeds(const VehicleParams& params, double speed, double stee
     return WheelSpeeds{{rear.left, rear.right}};
   }
   const double yaw_rate = speed * CurvatureForSteering(params, steering);
-  // Wheels at Ackermann's angles point where their hubs move.
+  // Ackermann angles make each wheel point along the velocity of its hub.
   const auto front_speed = [&](double y) {
     return std::copysign(std::hypot(speed - yaw_rate * y, yaw_rate * params.wheelbase), speed);
   };

@@ -15,6 +15,12 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
 
+// Car parameters by name: reads them from a compiled model and writes them into its scene.
+//
+// A parameter is an entry of <custom><numeric>, a range of an actuator, or a property of the whole
+// vehicle. For the latter, the chassis gets the mass, center of gravity and inertia that, with the
+// other bodies (parallel axis theorem), give the wanted total. The spring preload follows the
+// changed wheel loads, so the ride height at rest stays.
 namespace trackbed {
 namespace {
 
@@ -24,10 +30,10 @@ using tinyxml2::XMLElement;
   throw InputError(Problem{.file = car.file(), .key = name, .message = std::move(message)});
 }
 
-/// Of the vehicle as a whole: what its chassis has to make up for.
+/// Properties of the whole vehicle. Setting one changes the mass, center or inertia of the chassis.
 enum class Mass { kMass, kCgToRear, kCgHeight, kYawInertia };
 
-/// Of an actuator's attribute that is symmetric, or whose upper end counts.
+/// An actuator range that is symmetric, or whose upper end is the parameter.
 struct ActuatorRange {
   const char* actuator;
   const char* attribute;
@@ -91,7 +97,8 @@ std::vector<double> NumericData(const CarModel& car, const std::string& name) {
   return {data, data + model.numeric_size[id]};
 }
 
-/// The numeric whose value a name has: itself, or without its suffix that of both axles.
+/// The numeric that holds the value of `name`: `name` itself or, without the suffix "_front" or
+/// "_rear", the numeric for both axles.
 std::string NumericInModel(const CarModel& car, const std::string& name) {
   if (!NumericData(car, name).empty()) {
     return name;
@@ -161,7 +168,7 @@ XMLElement* FindNamed(XMLElement& root, const char* section, const std::string& 
   return nullptr;
 }
 
-/// The numbers of an attribute, up to the first word that is none.
+/// The numbers of an attribute, up to the first word that is not a number.
 std::vector<double> ParseNumbers(const char* attribute) {
   std::vector<double> numbers;
   std::string_view rest = attribute == nullptr ? "" : attribute;
@@ -188,7 +195,7 @@ void AddComment(XMLElement& element, const std::string& text) {
   }
   std::string safe = text;
   for (std::size_t at = 0; (at = safe.find("--", at)) != std::string::npos;) {
-    safe.replace(at, 2, "- -");  // ends no comment
+    safe.replace(at, 2, "- -");  // "--" would end the comment
   }
   tinyxml2::XMLDocument& document = *element.GetDocument();
   tinyxml2::XMLNode* comment = document.NewComment((" " + safe + " ").c_str());
@@ -211,7 +218,7 @@ void SetNumeric(const CarModel& car, XMLElement& root, const CarParameter& param
     element = Custom(root).InsertNewChildElement("numeric");
     element->SetAttribute("name", name.c_str());
   } else {
-    data = ParseNumbers(element->Attribute("data"));  // with what has been set of it already
+    data = ParseNumbers(element->Attribute("data"));  // includes numbers that were set earlier
     data.resize(NumericData(car, name).size());
   }
   CheckIndex(car, parameter.name, index, data);
@@ -227,7 +234,7 @@ void SetRange(XMLElement& root, const ActuatorRange& range, const CarParameter& 
   AddComment(*element, parameter.origin.empty() ? "" : parameter.name + ": " + parameter.origin);
 }
 
-/// Springs carry `more` [N] at each wheel than they did: changes their preload.
+/// Changes the preload of the springs so that each wheel carries `more` [N] in addition.
 void PreloadSprings(const CarModel& car, XMLElement& root, const std::array<double, 4>& more) {
   const mjModel& model = *car.get();
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
@@ -252,7 +259,7 @@ void PreloadSprings(const CarModel& car, XMLElement& root, const std::array<doub
   }
 }
 
-/// The chassis' <inertial>, so that the whole vehicle has the wanted properties.
+/// Sets the chassis' <inertial> so that the whole vehicle has the wanted properties.
 void SetMasses(const CarModel& car, XMLElement& root, const std::map<Mass, double>& wanted,
                const std::string& origin) {
   XMLElement* chassis = FindInWorld(root, "body", "chassis");
@@ -290,7 +297,8 @@ void SetMasses(const CarModel& car, XMLElement& root, const std::map<Mass, doubl
   }
   const double new_x = (mass * x - rest_x) / new_own;
   const double new_z = (mass * value(Mass::kCgHeight) - rest_z) / new_own;
-  // Of the rest about the center of gravity of the whole: before, and moved to the new one.
+  // Yaw inertia of the other bodies about the vehicle's center of gravity: about the old center,
+  // then about the new one.
   const double y2 = position[1] * position[1];
   const double rest_yaw = MassOf(car, Mass::kYawInertia) - inertia[2] -
                           own * ((position[0] - old_x) * (position[0] - old_x) + y2);
@@ -305,8 +313,8 @@ void SetMasses(const CarModel& car, XMLElement& root, const std::map<Mass, doubl
   }
   inertial->SetAttribute("mass", new_own);
   inertial->SetAttribute("pos", Numbers({new_x, position[1], new_z}).c_str());
-  // Roll and pitch as heavy for their mass as before; no body has more about one axis than about
-  // the two others together.
+  // Roll and pitch inertia scale with the mass of the chassis. No principal moment of a body may
+  // exceed the sum of the two others, so both are raised if needed.
   const double heavier = new_own / own;
   double roll = inertia[0] * heavier;
   double pitch = inertia[1] * heavier;
@@ -362,7 +370,7 @@ Scene WithCarParameters(const CarModel& car, const std::vector<CarParameter>& pa
   }
   scene.xml = Print(document);
   scene.lines.clear();
-  scene.trusted = true;  // compiled once already: only numbers have changed
+  scene.trusted = true;  // already compiled once: only numbers have changed
   return scene;
 }
 

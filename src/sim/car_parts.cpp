@@ -14,6 +14,10 @@
 #include "src/sim/wheel_pair_parts.h"
 #include "trackbed/core/error.h"
 
+// Reads a car with steered front wheels from its compiled model. First finds all parts by name; if
+// some are missing, reports these alone. Then checks their types, places, axes and ranges against
+// docs/models.md and computes the parameters: masses, steering, tyres, limits of motion. Positions
+// are those at qpos0. Collects every problem and throws them as one InputError.
 namespace trackbed {
 namespace {
 
@@ -68,7 +72,8 @@ class CarReader final : private PartsReader {
       parts_.spin_dof[w] = m_.jnt_dofadr[spin_[w]];
       parts_.wheel[w] = m_.jnt_bodyid[spin_[w]];
       parts_.carrier[w] = m_.body_parentid[parts_.wheel[w]];
-      // About the spin axis, which is the wheel body's y axis when its inertia is given in place.
+      // Inertia about the spin axis, the wheel body's y axis if the model gives the inertia in that
+      // frame.
       const mjtNum* inertia = m_.body_inertia + 3 * parts_.wheel[w];
       parts_.spin_inertia[w] = *std::max_element(inertia, inertia + 3);
       parts_.hub_height[w] = Wheel(w, 2);
@@ -152,7 +157,8 @@ class CarReader final : private PartsReader {
     if (m_.actuator_trntype[steer] != mjTRN_JOINT || m_.actuator_trnid[2 * steer] != rack_) {
       AddError("steer", "must act on the joint 'rack'");
     }
-    // On a ramp a servo's joint follows by damping over stiffness of all that it turns.
+    // Behind a ramp input, a servo's joint lags by the damping of all joints that it turns, divided
+    // by the servo's stiffness.
     double damping = m_.dof_damping[m_.jnt_dofadr[rack_]];
     for (const int joint : steer_) {
       damping += m_.dof_damping[m_.jnt_dofadr[joint]];
@@ -190,7 +196,7 @@ class CarReader final : private PartsReader {
     }
   }
 
-  /// A joint that stops before the steering does is one whose range was meant in other units.
+  /// Rejects a joint range that is narrower than the steering: it is usually given in other units.
   void CheckRoom(int joint, const char* name, double lowest, double highest) {
     const mjtNum* range = m_.jnt_range + 2 * joint;
     if (!m_.jnt_limited[joint]) {
@@ -223,7 +229,7 @@ class CarReader final : private PartsReader {
                fmt::format("must not be negative, found {:.4g}", parts_.tyres->vertical_damping));
     }
     if (stiffness == 0.0) {
-      constexpr double kDeflection = 0.06;  // of the radius, usual for a car's tyre at its pressure
+      constexpr double kDeflection = 0.06;  // of the radius; typical at nominal pressure
       const int payload = mj_name2id(&m_, mjOBJ_BODY, kPayloadBody);
       const double mass = params_.mass - (payload < 0 ? 0.0 : m_.body_mass[payload]);
       stiffness = 0.25 * mass * std::abs(m_.opt.gravity[2]) / (kDeflection * params_.wheel_radius);
@@ -260,7 +266,7 @@ class CarReader final : private PartsReader {
     params_.friction_longitudinal = friction.longitudinal;
     params_.friction_lateral = friction.lateral;
     const double rolling_mass = params_.mass + wheel_mass[0] + wheel_mass[1];
-    // `ahead` is what the front axle gains: 1 when braking, -1 when driving.
+    // `ahead` is the sign of the front axle's load transfer: 1 when braking, -1 when driving.
     const auto limit = [&](double front_force, double ahead, double force) {
       AccelerationLimit own{.by_force = force / rolling_mass, .axles = {}};
       const std::array<double, 2> pushed{front_force, 1.0 - front_force};
@@ -286,7 +292,7 @@ class CarReader final : private PartsReader {
                                   .drag_area = chassis_.aerodynamics.drag_area});
   }
 
-  /// The front wheels' part of the drive torque.
+  /// Fraction of the drive torque at the front wheels.
   double FrontDrive() {
     mj_tendon(&m_, data_.get());
     mj_transmission(&m_, data_.get());
@@ -300,7 +306,7 @@ class CarReader final : private PartsReader {
   }
 
   CarParts parts_;
-  int free_ = -1;  // joints
+  int free_ = -1;  // joint
   int rack_ = -1;
   std::array<int, 4> spin_{};
   std::array<int, 2> steer_{};

@@ -7,13 +7,19 @@
 #include "src/sim/mujoco_plant.h"
 #include "src/sim/wheel_contacts.h"
 
+// The MuJoCo plant of a car with steered front wheels. A step:
+//   1. Act: the steering servo turns at a limited rate, or the angle is prescribed; motor or brakes
+//      give the wanted acceleration plus the driving resistance.
+//   2. PushWheels: Magic Formula tyres (magic_formula_tyres.h) and dry friction act on the wheels.
+//   3. Finish: the front wheels follow the rack, or the prescribed angle, at Ackermann angles. This
+//      replaces the model's polynomial coupling.
 namespace trackbed {
 namespace {
 
-/// Armature so large that no torque of a car changes the speed of a joint [kg m^2].
+/// Armature so large that no torque of a car changes a joint's speed noticeably [kg m^2].
 constexpr double kLocked = 1e8;
 
-/// Magic Formula tyres carry the car by springs of the plant, contact tyres by MuJoCo's contacts.
+/// Springs of the plant carry the car on Magic Formula tyres, MuJoCo's contacts on contact tyres.
 TyreSupport SupportFor(const PlantSetup& setup) {
   return SelectTyreLaw(setup.car, setup.tyre) == TyreLaw::kMagicFormula ? TyreSupport::kSprings
                                                                         : TyreSupport::kContacts;
@@ -32,7 +38,7 @@ class CarPlant final : public MujocoPlant {
     if (SupportFor(setup) == TyreSupport::kSprings) {
       tyres_.emplace(car(), model());
       for (const int spin : parts.spin_dof) {
-        model().dof_frictionloss[spin] = 0.0;  // HoldWheels has it
+        model().dof_frictionloss[spin] = 0.0;  // HoldWheels applies it instead
       }
     }
     linked_ = ReleaseLinkage();
@@ -100,13 +106,13 @@ class CarPlant final : public MujocoPlant {
   void PrescribeAngle(double steering);
   [[nodiscard]] std::array<WheelState, 4> ContactWheels() const;
 
-  bool prescribed_;                           // steering
-  bool hold_ = false;                         // stands on its brakes
+  bool prescribed_;                           // the steering angle is prescribed
+  bool hold_ = false;                         // the brakes hold the car at rest
   bool linked_ = false;                       // the front wheels follow the rack
-  FrontAngles slopes_;                        // of the wheels' angles over the rack's
-  std::optional<MagicFormulaTyres> tyres_;    // none: contacts hold the wheels
+  FrontAngles slopes_;                        // d(wheel angle)/d(rack angle)
+  std::optional<MagicFormulaTyres> tyres_;    // none: MuJoCo's contacts hold the wheels
   std::array<double, 4> bearing_friction_{};  // [N m]
-  std::array<double, 4> dry_friction_{};      // with the brakes' [N m]
+  std::array<double, 4> dry_friction_{};      // of bearings and brakes [N m]
 };
 
 void CarPlant::Steer(double wanted) {
@@ -117,9 +123,9 @@ void CarPlant::Steer(double wanted) {
       std::clamp(rate, -params.steering_rate, params.steering_rate);
 }
 
-/// Switches off the file's coupling of the front wheels to the rack: its polynomial is an
-/// approximation, whose error would make the front tyres push against each other. FollowRack puts
-/// the wheels on Ackermann's curve instead. False if the model couples them in another way.
+/// Disables the model's coupling of the front wheels to the rack. Its polynomial is an
+/// approximation, whose error would make the front tyres push against each other. FollowRack sets
+/// Ackermann angles instead. Returns false if the model couples the wheels in another way.
 bool CarPlant::ReleaseLinkage() {
   const CarParts& parts = car().parts();
   const auto follows_rack = [&](int joint_dof) {
@@ -140,7 +146,7 @@ bool CarPlant::ReleaseLinkage() {
   for (std::size_t w = 0; w < coupling.size(); ++w) {
     mj::DisableEquality(model(), data(), coupling[w]);
     const int dof = parts.steer_dof[w];
-    // The rack moves the wheels' inertia, at a ratio of about 1.
+    // The rack has to turn the wheels, too, at a ratio of about 1.
     model().dof_armature[parts.rack_dof] += model().dof_M0[dof];
     model().dof_damping[parts.rack_dof] += model().dof_damping[dof];
     model().dof_damping[dof] = 0.0;
@@ -149,7 +155,7 @@ bool CarPlant::ReleaseLinkage() {
   return true;
 }
 
-/// Applies the wheels' torques about their steering axes, those of the last step, to the rack.
+/// Applies the wheels' torques about their steering axes, as of the last step, to the rack.
 void CarPlant::LoadRack() {
   const CarParts& parts = car().parts();
   const mjtNum* acceleration = data().qacc;
@@ -173,14 +179,13 @@ void CarPlant::FollowRack() {
 void CarPlant::Propel(const Command& command) {
   const CarParts& parts = car().parts();
   const double radius = car().params().wheel_radius;
-  double rolling_mass = car().unladen().mass;  // with the wheels' own inertia
+  double rolling_mass = car().unladen().mass;  // with the rotating inertia of the wheels
   for (const double inertia : parts.spin_inertia) {
     rolling_mass += inertia / (radius * radius);
   }
   const double along_gear = command.coast ? 0.0 : command.acceleration * command.gear;
   const double resistance = Resistance(command.gear);
-  // A car that is to stand, or whose motor is too weak for the slope, is held by its brakes until
-  // it can drive on.
+  // The brakes hold a car at rest until it is commanded to move and its motor can climb the slope.
   const bool drives_on = along_gear > 0.0 && DriveLimit() > resistance;
   const bool stands = Speed() * command.gear < kAtRestSpeed;
   hold_ = !drives_on && (hold_ || stands);
@@ -189,14 +194,14 @@ void CarPlant::Propel(const Command& command) {
     Brake(0.0, false);
     return;
   }
-  // What motor or brakes have to do beyond what slows the car anyway, as a torque at the wheels.
+  // Torque at the wheels [N m] that motor or brakes must add to the driving resistance.
   const double torque = along_gear * rolling_mass * radius + resistance;
   const bool drive = torque > 0.0 && !hold_;
   data().ctrl[parts.drive_actuator] = drive ? command.gear * std::min(torque, DriveLimit()) : 0.0;
   Brake(drive ? 0.0 : -torque, hold_);
 }
 
-/// Largest drive torque at the speed now [N m].
+/// Largest drive torque at the present speed [N m].
 double CarPlant::DriveLimit() const {
   const CarParts& parts = car().parts();
   const double full = parts.drive_limit * std::abs(Speed());
@@ -217,12 +222,12 @@ void CarPlant::Brake(double torque, bool hold) {
   }
 }
 
-/// Dry friction of bearings and brakes: what brings a wheel to rest by the end of the step and
-/// holds it there, at most what they have.
+/// Applies the dry friction of bearings and brakes: the torque that stops a wheel within the step,
+/// clamped to the available friction.
 void CarPlant::HoldWheels() {
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     const int dof = car().parts().spin_dof[w];
-    // The drive's torque is that of the last step: it is little where brakes act.
+    // The drive torque is that of the last step; it is small when the brakes act.
     const double torque = data().qfrc_applied[dof] + data().qfrc_passive[dof] -
                           data().qfrc_bias[dof] + data().qfrc_actuator[dof];
     const double inertia = car().parts().spin_inertia[w] + model().dof_armature[dof];
@@ -231,7 +236,7 @@ void CarPlant::HoldWheels() {
   }
 }
 
-/// What bearings, rolling tyres, air and slope take from a drive torque along the gear [N m].
+/// Driving resistance of bearings, tyres, air and slope along the gear, as wheel torque [N m].
 double CarPlant::Resistance(int gear) const {
   double dry = tyres_ ? tyres_->RollingMoment() : 0.0;
   for (const double friction : bearing_friction_) {
@@ -241,7 +246,8 @@ double CarPlant::Resistance(int gear) const {
   return dry + gear * (Drag() + climb) * car().params().wheel_radius;
 }
 
-/// dz/dx of the car's center of gravity: the slopes under its axles, by what each carries.
+/// Sine of the slope angle at the center of gravity: the slopes under the axles, interpolated
+/// there.
 double CarPlant::Grade() const {
   const Ground& ground = car().scene().ground;
   if (IsFlat(ground)) {
@@ -256,7 +262,7 @@ double CarPlant::Grade() const {
   return rise / std::hypot(1.0, rise);
 }
 
-/// The wheels move to `steering` during the coming step, whatever forces say.
+/// Gives the wheels the speed with which they reach `steering` at the end of the step.
 void CarPlant::PrescribeVelocity(double steering) {
   const CarParts& parts = car().parts();
   const double timestep = model().opt.timestep;
@@ -282,8 +288,7 @@ std::array<WheelState, 4> CarPlant::ContactWheels() const {
   std::array<WheelState, 4> wheels;
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     const WheelContact& contact = contacts[w];
-    // Slip is relative to the speed; near standstill to the speed at which a car counts as
-    // standing.
+    // The slip reference is the speed, but at least the speed below which a car counts as standing.
     const double reference = std::max(std::abs(contact.rolling_speed), kAtRestSpeed);
     wheels[w] = {.normal_force = std::max(0.0, contact.up.dot(forces[w])),
                  .longitudinal_force = contact.forward.dot(forces[w]),

@@ -24,10 +24,10 @@ namespace trackbed {
 namespace {
 
 constexpr std::size_t kGigabyte = std::size_t{1} << 30;
-/// Of a compilation in a process of its own.
+/// Limits for a compilation in a separate process.
 constexpr std::size_t kMemory = 2 * kGigabyte;  // [bytes]
 constexpr int kSeconds = 60;                    // [s] of processor time
-/// Of the compiled model.
+/// Largest size of a compiled model.
 constexpr std::int64_t kMostBytes = kGigabyte;
 
 struct VfsDeleter {
@@ -48,7 +48,7 @@ void Add(mjVFS& vfs, const std::string& file, const std::string& content) {
   TRACKBED_CHECK(mj::AddToVfs(vfs, file, content) == 0, "cannot hand {} to MuJoCo", file);
 }
 
-/// A model, or why there is none.
+/// A model, or the compiler's error.
 struct Compiled {
   MujocoModel model;
   std::string error;
@@ -79,11 +79,11 @@ std::string TooLarge() {
   return fmt::format("takes more than {} MB of memory", kMemory >> 20);
 }
 
-// What comes from the other process: one of these, and the model's bytes or the text of an error.
+// The other process sends one of these letters, then the model's bytes or the text of an error.
 constexpr char kModelFollows = 'M';
 constexpr char kErrorFollows = 'E';
 
-/// In the other process. What MuJoCo would crash on later is tried there, too.
+/// Runs in the other process. Also tries the calls in which MuJoCo would crash on an invalid model.
 std::string CompileAndTry(const std::string& xml, const std::vector<SceneAsset>& assets) try {
   const Compiled compiled = CompileHere(xml, assets);
   const auto fail = [](const std::string& text) { return kErrorFollows + text; };
@@ -113,7 +113,7 @@ Compiled CompileApart(const std::string& xml, const std::vector<SceneAsset>& ass
   }
   const std::string content = outcome.result.substr(1);
   if (outcome.result.front() == kErrorFollows) {
-    // Versions of MuJoCo report missing memory differently.
+    // MuJoCo's text for missing memory depends on the version.
     static const std::regex no_memory("[Cc]ould not (allocate memory|create mjData)");
     return {nullptr, std::regex_search(content, no_memory) ? TooLarge() : content};
   }
@@ -129,9 +129,8 @@ struct CompileError {
   int line = 0;      ///< in the composed model; 0 when unknown
 };
 
-/// MuJoCo's message is followed by lines on where it arose: "Element 'joint', line 46", or
-/// "Object name = rack, id = 1, line = 63, column = -1", since 3.1 "Element name 'rack', id 1,
-/// line 63".
+/// After its message, MuJoCo names the element: "Element 'joint', line 46", or "Object name = rack,
+/// id = 1, line = 63, column = -1", since 3.1 "Element name 'rack', id 1, line 63".
 CompileError Understand(const std::string& message) {
   static const std::regex kind("^(XML )?Error: (Error: )?(Schema violation: )?");
   static const std::regex place(
@@ -151,9 +150,9 @@ CompileError Understand(const std::string& message) {
 }  // namespace
 
 MujocoModel CompileScene(const Scene& scene, const std::string& name, Looks looks) {
-  static_cast<void>(PhysicsVersion());  // of the library that is loaded, and of the headers
+  static_cast<void>(PhysicsVersion());  // checks that library and headers agree
   const std::string xml = looks == Looks::kDiscarded ? DiscardLooks(scene.xml) : scene.xml;
-  // A process that is copied while another thread compiles would wait for MuJoCo's lock for ever.
+  // A process forked while another thread compiles would wait for MuJoCo's lock forever.
   static std::mutex compiling;
   const std::lock_guard lock(compiling);
   const MujocoErrorScope errors;

@@ -4,8 +4,8 @@
 
 namespace trackbed {
 
-/// The friction coefficient of MuJoCo's contact between a tyre and the ground, as MuJoCo combines
-/// theirs: the higher priority's, else the larger. `tyre` is a geom.
+/// The friction coefficient of MuJoCo's contact between a tyre and the ground. As in MuJoCo, the
+/// geom of the higher priority determines it, else the larger coefficient. `tyre` is a geom.
 double ContactFriction(const mjModel& model, int tyre);
 
 }  // namespace trackbed

@@ -8,15 +8,15 @@
 
 namespace trackbed {
 
-/// The car's parameters with its steering as the setup wants it: wheels whose angle is prescribed
-/// are there at once.
+/// The car's parameters with the steering of the setup: wheels with a prescribed angle reach it at
+/// once.
 VehicleParams Steered(const PlantSetup& setup);
 
 /// The start of a run as a state of the rear axle.
 KinematicState InPlane(const StartState& start);
 
-/// A plant made of a car that moves in the plane and obeys exactly: KinematicCar, SingleTrackCar.
-/// Its wheels turn as those of a car that does not slip; that is for the film.
+/// A plant made of a planar car that follows its commands exactly: KinematicCar, SingleTrackCar.
+/// Its wheels spin without slip, which only films show.
 template <typename Car>
 class ExactPlant final : public Plant {
  public:
@@ -57,7 +57,7 @@ class ExactPlant final : public Plant {
     return model_.FlatConfiguration(state_.pose, state_.steering, spin_);
   }
 
-  /// An unstable car spins ever faster. The limit is that of MuJoCo's numbers.
+  /// An unstable car spins ever faster. The limit is the one that MuJoCo uses.
   [[nodiscard]] bool diverged() const override {
     constexpr double kLargest = 1e10;
     const Pose2& pose = car_.state().pose;

@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 void AddForce(const mjModel& model, mjData& data, int body, const Vector3d& point_W,
               const Vector3d& force_W, const Vector3d& moment_W) {
-  int moved = body;  // the nearest body up the tree that has joints
+  int moved = body;  // the body itself or its nearest ancestor with joints
   while (moved > 0 && model.body_dofnum[moved] == 0) {
     moved = model.body_parentid[moved];
   }

@@ -8,7 +8,7 @@ struct mjData_;
 namespace trackbed {
 
 /// Adds a force [N] on `body` at a point and a moment [N m], all in the world frame, to
-/// qfrc_applied. As mj_applyFT does, but only along the body's chain of joints: some 200
+/// qfrc_applied. Equals mj_applyFT, but visits only the body's chain of joints: some 200
 /// instructions instead of 2000.
 void AddForce(const mjModel_& model, mjData_& data, int body, const Eigen::Vector3d& point_W,
               const Eigen::Vector3d& force_W,

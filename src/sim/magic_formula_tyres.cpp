@@ -14,17 +14,17 @@
 namespace trackbed {
 namespace {
 
-/// Above this a tyre rolls as it does at any speed; below, it turns into a spring [m/s].
+/// At this speed and above, a tyre is a rolling tyre; below, it turns into a spring [m/s].
 constexpr double kWalkingPace = 1.5;
-/// Speed at which rolling resistance is fully there [m/s]; less would be a dry friction that only
-/// the solver could hold.
+/// Speed from which rolling resistance acts fully [m/s]. At a smaller one it would be dry friction,
+/// which needs the constraint solver.
 constexpr double kRolls = 0.2;
 
 std::size_t AxleIndex(std::size_t wheel) {
   return wheel < 2 ? 0 : 1;
 }
 
-/// One timestep of sigma s' = slip_speed - speed s, exactly, for both slips of a wheel.
+/// Solves sigma s' = slip_speed - speed s exactly over one timestep, for both slips of a wheel.
 class Relaxation {
  public:
   Relaxation(double speed, double sigma, double timestep)
@@ -33,7 +33,7 @@ class Relaxation {
     gain_ = timestep / sigma * (x > 1e-9 ? lost_ / x : 1.0);
   }
 
-  /// Moves `s` on and gives s + tau s'.
+  /// Advances `s` by a timestep. Returns s + tau s'.
   [[nodiscard]] double Step(double& s, double slip_speed, double tau) const {
     s += gain_ * slip_speed - lost_ * s;
     return s + tau / sigma_ * (slip_speed - speed_ * s);
@@ -42,25 +42,25 @@ class Relaxation {
  private:
   double speed_;
   double sigma_;
-  double lost_;  // of the slip
+  double lost_;  // decay of the slip in a step
   double gain_;  // of slip per slip speed [s/m]
 };
 
 /// tau that damps an oscillation of angular frequency `omega` critically. In steps of W = omega dt,
-/// a mass on a spring damped by tau has the eigenvalues of
+/// a mass on a spring with damping tau has the eigenvalues of
 ///   l^2 - (2 - W^2 - W omega tau) l + 1 - W omega tau = 0,
-/// both 1 - W with omega tau = 2 - W. Beyond W = 1, 1/W leaves the larger one at 1 - W^2.
+/// which are both 1 - W if omega tau = 2 - W. For W > 1, omega tau = 1/W gives 0 and 1 - W^2.
 double Damping(double omega, double timestep) {
   const double step = omega * timestep;
   return (step < 1.0 ? 2.0 - step : 1.0 / step) / omega;
 }
 
-/// omega [rad/s] at which a wheel's spin swings on its tyre at a load: R sqrt(C_kappa/(sigma I)).
+/// Natural frequency [rad/s] of a wheel's spin on its tyre at a load: R sqrt(C_kappa/(sigma I)).
 double SpinFrequency(const MagicFormula& tyre, double load, double radius, double inertia) {
   return radius * std::sqrt(SlipStiffness(tyre, load) / (tyre.relaxation_length * inertia));
 }
 
-/// Slip beyond which a tyre slides all over; 3 mu F_z/C, as in the brush model.
+/// Slip of full sliding: 3 mu F_z/C, as in the brush model.
 double SlidingSlip(double friction, double load, double stiffness) {
   return 3.0 * friction * load / stiffness;
 }
@@ -80,9 +80,9 @@ MagicFormulaTyres::MagicFormulaTyres(const CarModel& car, const mjModel& model)
   }
 }
 
-/// Damping keeps a wheel's spin on its tyre stable up to omega dt = sqrt(2), with all that an axle
-/// carries on one of its wheels. A wheel of mass m that hops on its tyre of stiffness k and damping
-/// c is stable up to k/m dt^2 + 2 c/m dt = 4.
+/// Wheel spin on a tyre is damped stably up to omega dt = sqrt(2), even if one wheel carries the
+/// load of the whole axle. A wheel of mass m that hops on its tyre of stiffness k and damping c is
+/// stable up to k/m dt^2 + 2 c/m dt = 4.
 void MagicFormulaTyres::CheckTimestep(const CarModel& car, double weight,
                                       const mjModel& model) const {
   const VehicleParams& params = car.params();
@@ -132,7 +132,7 @@ TyreTouch MagicFormulaTyres::Touch(const mjData& data, std::size_t w) const {
 double MagicFormulaTyres::Load(std::size_t w, double gap, double opening) const {
   const CarTyres& tyres = *car_.parts().tyres;
   const double pressed = load_at_rest_[w] - tyres.vertical_stiffness * gap;
-  // Damping neither holds a tyre that lifts off on the road nor presses one that is in the air.
+  // Damping must not pull a lifting tyre onto the road, nor load a tyre in the air.
   return pressed <= 0.0 ? 0.0 : std::max(0.0, pressed - tyres.vertical_damping * opening);
 }
 
@@ -180,7 +180,7 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
     const double c_alpha = CorneringStiffness(tyre, load);
     const double spin_omega = SpinFrequency(tyre, load, radius, car_.parts().spin_inertia[w]);
     const double side_omega = std::sqrt(c_alpha * gravity_ / (sigma * load));
-    // Where the slip follows faster than the damping wants, the damping must not run ahead of it.
+    // tau_x is at most the time constant sigma/speed of the slip.
     const double damping = Damping(spin_omega, timestep_);
     const double tau_x = speed * damping > sigma ? sigma / speed : damping;
     const double tau_y =
@@ -188,13 +188,14 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
     const Relaxation relaxation(speed, sigma, timestep_);
     const double kappa = relaxation.Step(slip.x, contact.slip_speed_x, tau_x);
     const double tangent = relaxation.Step(slip.y, contact.slip_speed_y, tau_y);
-    // A tyre that comes to rest sliding keeps no more deflection than it can hold.
+    // Limits the slip to what a tyre can hold, so that no larger deflection remains when it stops
+    // sliding.
     const double most_x = SlidingSlip(road[w] * tyre.p_dx1, load, c_kappa) + speed / kWalkingPace;
     const double most_y = SlidingSlip(road[w] * tyre.p_dy1, load, c_alpha) + speed / kWalkingPace;
     slip.x = std::clamp(slip.x, -most_x, most_x);
     slip.y = std::clamp(slip.y, -most_y, most_y);
 
-    // Left and right tyres are mirror images, so the law's asymmetries are the left one's.
+    // Left and right tyres are mirror images; the law's asymmetries are those of the left tyre.
     const double side = w % 2 == 0 ? 1.0 : -1.0;
     const double lean = -std::asin(std::clamp(contact.spin_axis.dot(contact.up), -1.0, 1.0));
     const double travel = Travel(data, w);
@@ -212,8 +213,8 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
                            std::clamp(contact.spin * radius / kRolls, -1.0, 1.0);
     const Eigen::Vector3d push = load * contact.up + state.longitudinal_force * contact.forward +
                                  state.lateral_force * contact.left;
-    // The slip is that of a wheel of radius R, wherever the hub is: with another arm than R about
-    // the spin axis the road would do work on a wheel that does not slip.
+    // The moment corresponds to an arm R about the spin axis at any hub height: with another arm,
+    // the road would do work on a wheel without slip.
     const double arm = contact.up.dot(hub - contact.point);
     const Eigen::Vector3d moment =
         -(rolling + state.longitudinal_force * (radius - arm)) * contact.spin_axis;

@@ -14,19 +14,23 @@
 #include "src/sim/mujoco_compat.h"
 #include "trackbed/core/error.h"
 
+// Checks every number of a compiled model against a table of bounds: arrays of mjModel by the macro
+// MJMODEL_POINTERS, numbers under <custom> by name, then the options, the names of joints and the
+// actuators. Collects up to 20 problems, each with the name of its object, and throws them as one
+// InputError.
 namespace trackbed {
 namespace {
 
-/// The largest magnitude that MuJoCo itself computes with.
+/// The largest magnitude that MuJoCo accepts in a simulation.
 constexpr double kLargest = 1e10;
 
-/// A bound of the numbers under that name, whatever their sign, well beyond any vehicle.
+/// Largest magnitude of the numbers of that name, well beyond any vehicle.
 struct Bound {
   std::string_view name;
   double largest;
 };
 
-/// Of numbers under <custom>, SI units.
+/// Bounds of numbers under <custom>, SI units.
 constexpr std::array kCustomBounds{Bound{"steering_ratio", 1e3},
                                    Bound{"steering_wheel_rate", 1e3},
                                    Bound{"steering_rate", 1e3},
@@ -47,8 +51,9 @@ constexpr std::array kCustomBounds{Bound{"steering_ratio", 1e3},
                                    Bound{"camber_gain_rear", 1e1}};
 constexpr double kLargestCoefficient = 1e3;  // of a tyre's Magic Formula: "p_cx1"
 
-/// Of arrays of the compiled model that hold what files say, SI units. MuJoCo derives the others
-/// from these, or only draws them. Versions that lack an array skip it.
+/// Bounds of the compiled model's arrays that hold numbers of the file, SI units. MuJoCo derives
+/// the other arrays from these, or only draws them. Arrays that a version of MuJoCo lacks are
+/// skipped.
 constexpr std::array kModelBounds{Bound{"qpos0", 1e5},
                                   Bound{"qpos_spring", kLargest},
                                   Bound{"body_pos", 1e5},
@@ -145,7 +150,7 @@ constexpr std::array kModelBounds{Bound{"qpos0", 1e5},
                                   Bound{"key_mpos", kLargest},
                                   Bound{"key_mquat", kLargest},
                                   Bound{"key_ctrl", kLargest}};
-/// Those of them that must not be negative: they would feed energy in.
+/// Arrays that must not be negative: negative numbers would add energy.
 constexpr std::array<std::string_view, 9> kNotNegative{
     "jnt_stiffness",  "dof_damping",     "dof_armature",     "dof_frictionloss", "tendon_stiffness",
     "tendon_damping", "tendon_armature", "actuator_damping", "actuator_armature"};
@@ -173,7 +178,7 @@ class ModelChecker {
   }
 
  private:
-  /// A broken number is often in many rows.
+  /// Keeps the first problems only: an invalid number is often repeated in many rows.
   static std::vector<Problem> FirstOf(std::vector<Problem> problems) {
     constexpr std::size_t kMost = 20;
     problems.resize(std::min(problems.size(), kMost));
@@ -184,13 +189,13 @@ class ModelChecker {
     problems_.push_back({file_, 0, 0, std::move(name), std::move(message)});
   }
 
-  /// Its name, or "joint 3".
+  /// The object's name, or "joint 3" without one.
   [[nodiscard]] std::string Named(int type, const char* kind, int id) const {
     const char* name = mj_id2name(&m_, type, id);
     return name == nullptr ? fmt::format("{} {}", kind, id) : name;
   }
 
-  /// Whose number is in row `row` of an array that has a row for each of `rows`.
+  /// The object that row `row` of an array belongs to; `rows` is MuJoCo's name of the array's size.
   [[nodiscard]] std::string Owner(std::string_view rows, int row) const {
     struct Kind {
       std::string_view rows;
@@ -235,13 +240,13 @@ class ModelChecker {
     }
   }
 
-  /// Indices, flags and what is only drawn.
+  /// Skips indices, flags and numbers that are only drawn.
   template <typename Other>
   void CheckArray(std::string_view, std::string_view, const Other*, int, int) {}
 
   void CheckArrays() {
     const mjModel* m = &m_;
-    // The sizes of models became 64 bits wide in MuJoCo 3.11, those in its macro did not.
+    // Model sizes have 64 bits since MuJoCo 3.11, but not those in its macro.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
     MJMODEL_POINTERS_PREAMBLE(m)
@@ -292,9 +297,9 @@ class ModelChecker {
     check("impratio", option.impratio, 1e4);
   }
 
-  /// They are columns of CSV files, before their units.
+  /// Joint names become columns of CSV files, before their units.
   void CheckJointNames() {
-    std::set<std::string, std::less<>> taken{"x", "y", "z"};  // those of the chassis
+    std::set<std::string, std::less<>> taken{"x", "y", "z"};  // columns of the chassis' position
     for (int joint = 0; joint < m_.njnt; ++joint) {
       const int type = m_.jnt_type[joint];
       if (type != mjJNT_HINGE && type != mjJNT_SLIDE) {
@@ -315,7 +320,7 @@ class ModelChecker {
     }
   }
 
-  /// Indices of actuators are those of their controls.
+  /// Each actuator must have one control, so that their indices agree.
   void CheckActuators() {
     if (!mj::HasOneControlEach(m_)) {
       AddError("actuator",

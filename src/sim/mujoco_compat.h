@@ -9,10 +9,10 @@
 #include <span>
 #include <string>
 
-/// The differences between the supported versions of MuJoCo's physics: 2.2.2, 3.3 and newer,
-/// 4.0.1. Where the headers declare different members, `requires` asks for them, in templates,
-/// because only these may name what a version lacks; where they declare different enumerators, the
-/// version number decides. docs/how-to/mujoco-versions.md lists the differences,
+/// The differences between the supported versions of MuJoCo's physics: 2.2.2, 3.3 and newer, 4.0.1.
+/// Where the headers declare different members, templates test for them with `requires`, since only
+/// templates may name a member that a version lacks. Where the headers declare different
+/// enumerators, the version number decides. docs/how-to/mujoco-versions.md lists the differences,
 /// render/mujoco_compat.h has those of drawing.
 namespace trackbed::mj {
 
@@ -32,12 +32,13 @@ int AddToVfs(Vfs& vfs, const std::string& file, const std::string& content) {
   }
 }
 
-/// Size of the saved model [bytes]; negative where MuJoCo cannot save a model that large.
+/// Size of the saved model [bytes]; negative if MuJoCo cannot save a model that large.
 inline std::int64_t SizeOf(const mjModel& model) {
   return static_cast<std::int64_t>(mj_sizeModel(&model));
 }
 
-/// Switches an equality constraint off: a state of the data since 3.0, a part of the model before.
+/// Disables an equality constraint, which is a state of the data since 3.0, a part of the model
+/// before.
 template <std::same_as<mjModel> Model, std::same_as<mjData> Data>
 void DisableEquality(Model& model, [[maybe_unused]] Data& data, int equality) {
   if constexpr (requires { model.eq_active0; }) {
@@ -48,7 +49,7 @@ void DisableEquality(Model& model, [[maybe_unused]] Data& data, int equality) {
   }
 }
 
-/// Whether each actuator has one control, as all had before 3.17.
+/// Whether each actuator has exactly one control; before 3.17 all had.
 template <std::same_as<mjModel> Model>
 bool HasOneControlEach(const Model& model) {
   if constexpr (requires { model.nactuator; }) {
@@ -88,12 +89,11 @@ mjtNum ActuatorMoment([[maybe_unused]] const mjModel& model, const Data& data, i
   }
 }
 
-/// Locks joints by an armature, `dofs` of a model that is at rest in its initial configuration.
+/// Locks the joints `dofs` by an armature. The model must be at rest in its initial configuration.
 ///
-/// Since 3.17 the constraint solver compares its progress with the trace of the inertia matrix,
-/// which the armature enters, and no longer with that of the compiled model: the tolerance becomes
-/// smaller by as much as the trace grows, or contacts would be solved a thousand times less
-/// exactly.
+/// Since 3.17 the constraint solver scales its tolerance by the trace of the inertia matrix, which
+/// includes the armature, instead of the compiled model's trace. The function reduces the tolerance
+/// by as much as the trace grows; otherwise contacts would be solved a thousand times less exactly.
 inline void LockJoints(mjModel& model, std::span<const int> dofs, double armature) {
 #if mjVERSION_HEADER >= 3017000
   const double trace = std::accumulate(model.dof_M0, model.dof_M0 + model.nv, 0.0);
@@ -104,11 +104,11 @@ inline void LockJoints(mjModel& model, std::span<const int> dofs, double armatur
   }
 }
 
-/// Iterations of the constraint solver in the last step. It counts them for each island since 3.0.
+/// Iterations of the constraint solver in the last step. Since 3.0 MuJoCo counts them per island.
 template <std::same_as<mjData> Data>
 int SolverIterations(const Data& data) {
   if constexpr (requires { data.solver_niter; }) {
-    return data.solver_niter[0];  // without islands all constraints are in the first
+    return data.solver_niter[0];  // without islands, the first one has all constraints
   } else {
     return data.solver_iter;
   }
@@ -123,10 +123,10 @@ inline const char* WarningText(int warning, int info) {
 
 /// Sets the options under which all versions compute the same motion.
 ///
-/// Islands (on by default since 3.3.6) are solved apart and stop apart: a laden car creeps, and a
-/// run differs from 2.2.2 by millimeters instead of rounding. The mid-phase of collision detection
-/// (since 2.3.3) takes a geom's bounding box from the compiled model, and RoadContact moves planes
-/// out of theirs: a car on contact tyres would fall through terrain.
+/// Islands (on by default since 3.3.6) are solved separately and stop separately: a laden car
+/// creeps, and a run differs from 2.2.2 by millimeters instead of rounding. The mid-phase of
+/// collision detection (since 2.3.3) takes a geom's bounding box from the compiled model, but
+/// RoadContact moves planes out of their boxes: a car on contact tyres would fall through terrain.
 inline void SetCommonOptions([[maybe_unused]] mjModel& model) {
 #if mjVERSION_HEADER >= 233
   model.opt.disableflags |= mjDSBL_MIDPHASE;

@@ -5,7 +5,7 @@
 #include "trackbed/core/error.h"
 
 // Handlers of the calling thread, which precede the global ones. The library exports these
-// functions, among others for its Python bindings, but mujoco.h does not declare them.
+// functions, for example for its Python bindings, but mujoco.h does not declare them.
 extern "C" {
 #if mjVERSION_HEADER >= 3010000
 mjfLogHandler _mjPRIVATE_setTlsLogHandler(mjfLogHandler handler);  // returns the previous one

@@ -13,6 +13,11 @@
 #include "trackbed/core/error.h"
 #include "trackbed/sim/mujoco_error.h"
 
+// Simulates a vehicle with MuJoCo. A step: the derived class sets actuators and brakes (Act), the
+// planes under the tyres follow the ground, moving obstacles get their planned state, the tyre
+// contacts their road friction; mj_step1; then air, lateral push and wheels apply their forces
+// (PushWheels); mj_step2; the derived class ends the step (Finish). mj_step1 computes the positions
+// and velocities on which these forces depend.
 namespace trackbed {
 namespace {
 
@@ -23,7 +28,7 @@ Vector3d Vec(const mjtNum* numbers) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-/// Whether any two geoms of bodies that move against each other may touch.
+/// Whether any two geoms of bodies that move relative to each other may touch.
 bool AnythingCollides(const mjModel& model) {
   const auto may_touch = [&](int a, int b) {
     return model.body_weldid[model.geom_bodyid[a]] != model.body_weldid[model.geom_bodyid[b]] &&
@@ -126,7 +131,7 @@ void MujocoPlant::Step(const Command& command) {
   distance_ += std::abs(Speed()) * model_->opt.timestep;
 }
 
-/// Puts what moves where it is by now, whatever has hit it.
+/// Sets moving obstacles to their planned positions and speeds, even after a collision.
 void MujocoPlant::MoveObstacles() {
   for (const Slider& slider : sliders_) {
     data_->qpos[slider.qpos] = slider.speed * data_->time;
@@ -180,7 +185,7 @@ double MujocoPlant::Yaw() const {
   return std::atan2(2.0 * (q[0] * q[3] + q[1] * q[2]), 1.0 - 2.0 * (q[2] * q[2] + q[3] * q[3]));
 }
 
-/// Direction(Yaw()).
+/// Unit vector along the heading: Direction(Yaw()).
 Vec2 MujocoPlant::Ahead() const {
   const mjtNum* q = ChassisPosition() + 3;
   return Vec2(1.0 - 2.0 * (q[2] * q[2] + q[3] * q[3]), 2.0 * (q[0] * q[3] + q[1] * q[2]))
@@ -198,20 +203,21 @@ double MujocoPlant::Drag() const {
   return -0.5 * kAirDensity * air_V.norm() * air_V.x() * car_.chassis().aerodynamics.drag_area;
 }
 
-/// The road's factor under each wheel, which is the contacts' as well.
+/// The road's friction factor under each wheel. Also sets the friction of the tyres' contacts.
 MujocoPlant::Road MujocoPlant::LayRoad() {
   const std::span<const int> wheels = car_.wheels();
   Road road{};
   for (std::size_t w = 0; w < wheels.size(); ++w) {
     const mjtNum* hub = data_->xpos + 3 * wheels[w];
     road[w] = RoadFactor(world_, {hub[0], hub[1]});
-    // Sliding friction only: torsion and rolling are lengths, not properties of the road.
+    // Scales sliding friction only: torsional and rolling friction are lengths, not road
+    // properties.
     model_->geom_friction[3 * car_.tyres()[w]] = tyre_friction_[w] * road[w];
   }
   return road;
 }
 
-/// Of the air relative to the car, world frame [m/s].
+/// Velocity of the air relative to the car, world frame [m/s].
 Vector3d MujocoPlant::AirSpeed() const {
   const mjtNum* at = ChassisPosition();
   const Vec2 wind = WindAt(world_, {at[0], at[1]}, data_->time);
@@ -260,12 +266,13 @@ VehicleState MujocoPlant::Observe() const {
   const VehicleParams& params = car_.params();
   const mjtNum* position = ChassisPosition();
   const Matrix3d R_WV = ChassisRotation();
-  const Vector3d v_W = Vec(ChassisVelocity());             // of V's origin
+  const Vector3d v_W = Vec(ChassisVelocity());             // of the origin of V
   const Vector3d w_W = R_WV * Vec(ChassisVelocity() + 3);  // free joints spin in their own frame
   const mjtNum* qacc = data_->qacc + car_.chassis().chassis_dof;
   const Vector3d a_W = Vec(qacc);
   const Vector3d alpha_W = R_WV * Vec(qacc + 3);
-  // Speeds on the ground, as the pose is; accelerations at the height of the center of gravity.
+  // Velocities are those of points at ground height, as is the pose; accelerations are those of the
+  // center of gravity.
   const Vector3d v_cg_W = v_W + w_W.cross(R_WV * Vector3d(params.cg_to_rear, 0.0, 0.0));
   const Vector3d to_cg_W = R_WV * Vector3d(params.cg_to_rear, 0.0, car_.chassis().cg_height);
   const Vector3d a_cg_W = a_W + alpha_W.cross(to_cg_W) + w_W.cross(w_W.cross(to_cg_W));
@@ -284,7 +291,7 @@ VehicleState MujocoPlant::Observe() const {
   state.longitudinal_acceleration = ahead.dot(a_cg_W.head<2>());
   state.lateral_acceleration = left.dot(a_cg_W.head<2>());
   const double cg_speed = ahead.dot(v_cg_W.head<2>());
-  // A direction of motion needs motion: at rest the angle would be that of rounding errors.
+  // Sideslip is 0 at rest, where it would consist of rounding errors.
   state.sideslip =
       v_cg_W.head<2>().norm() < kAtRestSpeed ? 0.0 : std::atan(state.lateral_speed / cg_speed);
   const Wheels wheels = ObserveWheels();
@@ -307,8 +314,7 @@ double MujocoPlant::obstacle_force() const {
     const auto is = [&](const std::vector<bool>& kind, int geom) {
       return kind[static_cast<std::size_t>(geom)];
     };
-    // What an obstacle and the ground, or two obstacles, do to each other is no collision of the
-    // car.
+    // Contacts of obstacles with the ground or with each other are no collisions of the car.
     if ((is(is_obstacle_, contact.geom1) && is(is_of_car_, contact.geom2)) ||
         (is(is_obstacle_, contact.geom2) && is(is_of_car_, contact.geom1))) {
       std::array<mjtNum, 6> force{};

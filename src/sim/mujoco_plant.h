@@ -15,8 +15,8 @@
 
 namespace trackbed {
 
-/// What the plants of MuJoCo have in common, whatever moves the vehicle: its state, the road, the
-/// air and what pushes it.
+/// Base of the MuJoCo plants: the vehicle's state, the road, the air and external forces. Derived
+/// classes drive the wheels.
 class MujocoPlant : public Plant {
  public:
   void Step(const Command& command) final;
@@ -29,32 +29,32 @@ class MujocoPlant : public Plant {
   [[nodiscard]] bool diverged() const final;
   [[nodiscard]] std::string divergence() const final;
   [[nodiscard]] double wheel_gap() const final;
-  /// Of the last step: contacts, joint limits, dry friction and couplings.
+  /// Constraint rows of the last step: contacts, joint limits, dry friction and couplings.
   [[nodiscard]] int constraint_rows() const { return data_->nefc; }
 
  protected:
-  /// The factor of the road under each wheel; as many count as the vehicle has.
+  /// The road's friction factor under each wheel, in the order of CarModel::wheels().
   using Road = std::array<double, 4>;
-  /// What a vehicle says of its own wheels.
+  /// Wheel states that the derived class observes.
   struct Wheels {
     double actuator = 0.0;  ///< VehicleState::steering_actuator
-    double steering = 0.0;  ///< likewise
+    double steering = 0.0;  ///< VehicleState::steering
     std::optional<std::array<WheelState, 4>> forces;
   };
 
-  /// The vehicle stands and moves as `setup.start` says, but for its wheels' spin.
+  /// Initializes position and velocity from `setup.start`, without the spin of the wheels.
   explicit MujocoPlant(const PlantSetup& setup, TyreSupport support = TyreSupport::kContacts);
-  /// Sets the speeds of the wheels' spin joints, in the order of CarModel::wheels(): they roll
+  /// Sets the speeds of the wheels' spin joints, in the order of CarModel::wheels(), to rolling
   /// without slip.
   void RollWheels(std::span<const int> spin_dof, const StartState& start);
-  /// To be called once spin and actuators are set as well.
+  /// Must be called after spin and actuators are set, before the first step.
   void Begin();
 
-  /// Before a step: sets actuators and brakes.
+  /// Called before a step: sets actuators and brakes.
   virtual void Act(const Command& command) = 0;
-  /// In the middle of it: adds forces of the wheels to qfrc_applied.
+  /// Called between mj_step1 and mj_step2: adds wheel forces to qfrc_applied.
   virtual void PushWheels(const Road& /*road*/) {}
-  /// After it.
+  /// Called after a step.
   virtual void Finish(const Command& /*command*/) {}
   [[nodiscard]] virtual Wheels ObserveWheels() const = 0;
 
@@ -63,9 +63,9 @@ class MujocoPlant : public Plant {
   [[nodiscard]] const mjModel& model() const { return *model_; }
   [[nodiscard]] mjData& data() { return *data_; }
   [[nodiscard]] const mjData& data() const { return *data_; }
-  /// Along x, over the ground [m/s].
+  /// Forward speed over the ground [m/s].
   [[nodiscard]] double Speed() const;
-  /// Force of the air along x [N].
+  /// Aerodynamic drag, positive against a forward motion [N].
   [[nodiscard]] double Drag() const;
 
  private:
@@ -93,12 +93,12 @@ class MujocoPlant : public Plant {
   MujocoData data_;
   RoadContact ground_;
   std::vector<Slider> sliders_;
-  std::vector<bool> is_obstacle_;          // geom by geom
-  std::vector<bool> is_of_car_;            // likewise
-  std::array<double, 4> tyre_friction_{};  // of the contacts, on a road of factor 1
+  std::vector<bool> is_obstacle_;          // for each geom
+  std::vector<bool> is_of_car_;            // for each geom
+  std::array<double, 4> tyre_friction_{};  // of the contacts, for a road factor of 1
   double yaw_ = 0.0;                       // unwrapped [rad]
   double distance_ = 0.0;                  // [m]
-  double push_ = 0.0;                      // to the left, in the coming step [N]
+  double push_ = 0.0;                      // to the left, for the coming step [N]
 };
 
 /// The MuJoCo plant of a car with steered front wheels, and of a vehicle with differential drive.

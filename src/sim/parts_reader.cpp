@@ -31,7 +31,7 @@ void PartsReader::ThrowIfAnything() const {
 
 int PartsReader::Find(int type, const char* kind, const std::string& name) {
   const int id = mj_name2id(&m_, type, name.c_str());
-  const char* before = "outline";  // what an earlier version called the site
+  const char* before = "outline";  // former name of the site
   if (id < 0 && name == "footprint" && mj_name2id(&m_, type, before) >= 0) {
     AddError(before, fmt::format("this {} is now called '{}'", kind, name));
   } else if (id < 0) {
@@ -73,7 +73,7 @@ void PartsReader::ReadChassis(int free_joint) {
              fmt::format("the free joint is in the body {}; must be in the body 'chassis'",
                          QuotedName(mjOBJ_BODY, body)));
   }
-  params_.name = m_.names;  // the model's own name comes first
+  params_.name = m_.names;  // the model's name comes first
   chassis_.chassis_qpos = m_.jnt_qposadr[free_joint];
   chassis_.chassis_dof = m_.jnt_dofadr[free_joint];
   params_.mass = m_.body_subtreemass[chassis_.chassis];
@@ -98,7 +98,7 @@ void PartsReader::ReadAerodynamics() {
   numerics_.Read("drag_area", air.drag_area);
   numerics_.Read("side_area", air.side_area);
   air.center_of_pressure = {params_.cg_to_rear, chassis_.cg_height};
-  if (const char* before = "centre_of_pressure"; numerics_.Has(before)) {  // of an earlier version
+  if (const char* before = "centre_of_pressure"; numerics_.Has(before)) {  // former name
     AddError(before, "it is now called 'center_of_pressure'");
   }
   if (const mjtNum* at = numerics_.Find("center_of_pressure", 2)) {
@@ -142,7 +142,8 @@ void PartsReader::CheckOrigin(const char* axle, const char* wheels, int left, in
 }
 
 void PartsReader::CheckStand(const std::string& wheel, const mjtNum* hub_W, double radius) {
-  // On hilly ground (WithGround) the car stands elsewhere; its own has been checked.
+  // On hilly ground (WithGround) the car stands elsewhere. The model's own ground was checked
+  // before.
   if (mj_name2id(&m_, mjOBJ_GEOM, ("ground_" + wheel).c_str()) >= 0) {
     return;
   }

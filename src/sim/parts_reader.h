@@ -12,13 +12,12 @@
 
 namespace trackbed {
 
-/// What readers of vehicles have in common: they find parts by name in a compiled model, and gather
-/// all that is wrong with them.
+/// Base of the vehicle readers: finds parts by name in a compiled model and collects all errors.
 class PartsReader {
  protected:
-  /// What decimal fractions in a file may be off by [m], and axes and relative sizes [1].
+  /// Tolerance for decimal fractions in a file [m], and for axes and relative sizes [1].
   static constexpr double kExact = 1e-6;
-  /// Cosine of the most that a wheel's axes may lean away from the car's: toe, camber, kingpin.
+  /// Cosine of the largest angle between a wheel's axes and the car's: toe, camber, kingpin.
   static constexpr double kUpright = 0.7;
 
   PartsReader(const mjModel& model, const std::string& file);
@@ -26,28 +25,30 @@ class PartsReader {
   void AddError(std::string name, std::string message);
   void ThrowIfAnything() const;
 
-  /// Its index; -1 after an error when it is missing.
+  /// Index of the named object; -1 after an error if it is missing.
   int Find(int type, const char* kind, const std::string& name);
-  /// Likewise, also when it is of another type.
+  /// Index of the named joint; -1 after an error if it is missing or of another type.
   int Joint(const std::string& name, int type, const char* kind);
   /// The first number of a <custom><numeric>, or 0 after an error.
   double Number(const std::string& name);
 
   [[nodiscard]] std::string QuotedName(int type, int id) const;
-  /// Of a point of the world, in the vehicle's frame.
+  /// Coordinate of a point of the world relative to the chassis' origin, at qpos0 [m].
   [[nodiscard]] double Offset(const mjtNum* point, std::size_t axis) const;
-  /// Of a body's origin, likewise.
+  /// Coordinate of a body's origin relative to the chassis' origin, at qpos0 [m].
   [[nodiscard]] double Place(int body, std::size_t axis) const;
   [[nodiscard]] static std::string Text(const mjtNum* v);
 
-  /// Place in the state, mass, inertia and center of gravity of what hangs on the free joint.
+  /// Reads state address, mass, inertia and center of gravity of the bodies below the free joint.
   void ReadChassis(int free_joint);
-  /// That the chassis' origin lies under the two wheels of `axle`, whom messages call `wheels`.
+  /// Checks that the chassis' origin lies under the two wheels of `axle`; messages call them
+  /// `wheels`.
   void CheckOrigin(const char* axle, const char* wheels, int left, int right);
-  /// Axis and tyre of the wheel whose joint is spin_`wheel`; its tyre must be as large as the geom
-  /// `first`, "`all` must be equal".
+  /// Checks axis and tyre of the wheel with the joint spin_`wheel`. The tyre must be as large as
+  /// the geom `first`; otherwise the message is "`all` must be equal".
   void CheckWheel(const std::string& wheel, int spin, int tyre, int first, const char* all);
-  /// That the wheel is on the car's own ground, if that is level, at qpos0, to half its radius.
+  /// Checks that at qpos0 the wheel touches the model's own ground, within half its radius. Skips
+  /// ground that is not level.
   void CheckStand(const std::string& wheel, const mjtNum* hub_W, double radius);
   void ReadFootprint(int site);
   void ReadAerodynamics();

@@ -21,7 +21,7 @@ namespace {
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
 
-/// Lets a car sink on its springs, held by its brakes, until it stands.
+/// Lets a car with locked brakes settle on its springs.
 class Settling {
  public:
   explicit Settling(const CarModel& car)
@@ -34,14 +34,15 @@ class Settling {
     }
   }
 
-  /// False when that has not happened in 30 s.
+  /// Simulates until the car is at rest. False if that takes more than 30 s.
   bool Run() {
     const MujocoErrorScope errors;
     constexpr double kLongest = 30.0;  // [s]
-    // With springs of 1 Hz and more, a car this slow is less than a micrometer from where it stays.
+    // With springs of 1 Hz and more, a car this slow is less than a micrometer from its
+    // equilibrium.
     constexpr double kStands = 1e-6;  // [m/s], [rad/s]
     constexpr double kLookEvery = 0.5;
-    // It also passes its highest and lowest point slowly: it must be slow all the time.
+    // Checks the largest speed of an interval, since the car is also slow at its turning points.
     double fastest = 0.0;
     for (double next = kLookEvery; data_->time < kLongest;) {
       mj_step(model_.get(), data_.get());
@@ -63,7 +64,7 @@ class Settling {
     return false;
   }
 
-  /// As it stands, but at the origin, heading along x, with its wheels straight.
+  /// The settled configuration, moved to the origin with heading along x and straight wheels.
   [[nodiscard]] std::vector<double> Position() const {
     std::vector<double> qpos(data_->qpos, data_->qpos + model_->nq);
     const auto chassis = static_cast<std::size_t>(car_.parts().chassis_qpos);

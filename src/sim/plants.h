@@ -4,11 +4,12 @@
 
 namespace trackbed {
 
-// Plants whose actuators get each command as it is, at once: see steering_filter_plant.h.
+// The actuators of these plants follow each command at once; see steering_filter_plant.h for
+// delays.
 
 std::unique_ptr<Plant> MakeIdealKinematicPlant(const PlantSetup& setup, ReferencePoint reference);
 
-/// InputError naming what the car's file lacks when it says nothing of its tyres.
+/// InputError naming the missing coefficients if the car's file has no tyres.
 std::unique_ptr<Plant> MakeSingleTrackPlant(const PlantSetup& setup);
 
 std::unique_ptr<Plant> MakeMujocoPlant(const PlantSetup& setup);

@@ -16,10 +16,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// A gap this small is none [m]. MuJoCo forgets a contact that opens by a micrometer, as over a
-/// crest they do, and a tyre pressed by its spring then falls back on the ground like a hammer.
+/// A smaller gap counts as contact [m]. Over a crest, contacts open by a micrometer. MuJoCo would
+/// then drop the contact, and the spring would hammer the tyre back onto the ground.
 constexpr double kTouching = 5e-4;
-/// What it is taken for then [m]: a contact, but for rounding without depth.
+/// Distance set for such a gap [m]: a contact with no depth except for rounding.
 constexpr double kTouch = -1e-9;
 
 bool IsRoad(const mjModel& model, int geom) {
@@ -28,8 +28,8 @@ bool IsRoad(const mjModel& model, int geom) {
          (std::string_view(name) == "ground" || std::string_view(name).starts_with("ground_"));
 }
 
-/// The bit of contype and conaffinity of what all tyres touch besides their planes; cars have no
-/// use for it.
+/// Bit of contype and conaffinity for everything that tyres touch besides their planes. Models of
+/// cars do not use it.
 constexpr int kOthersBit = 1 << 28;
 
 }  // namespace
@@ -49,7 +49,7 @@ RoadContact::RoadContact(const CarModel& car, TyreSupport support, mjModel& mode
       const std::string name = fmt::format("ground{}", own_name.substr(kTyre.size()));
       plane_[w] = mj_name2id(&model, mjOBJ_GEOM, name.c_str());
       TRACKBED_CHECK(plane_[w] >= 0, "the scene has no geom '{}'", name);
-      model.geom_sameframe[plane_[w]] = 0;  // else MuJoCo takes its place for the world's origin
+      model.geom_sameframe[plane_[w]] = 0;  // else MuJoCo puts it at the world's origin
     }
     int& contype = model.geom_contype[tyre];
     int& conaffinity = model.geom_conaffinity[tyre];
@@ -85,8 +85,8 @@ void RoadContact::Place(mjModel& model, mjData& data) const {
     const Matrix3d R_WT =
         Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data.geom_xmat + 9 * tyre);
     const double gap = shape_[w].On(ground, center_W, R_WT).gap;
-    // The plane leans as the ground does half way through the step: what the tyre then moves along
-    // it ends on the ground again, to second order. Its distance is that of the ground now.
+    // The plane has the slope of the ground half way through the step, so that a tyre moving along
+    // it ends on the ground to second order. Its distance is that of the present ground.
     const Vector3d half_way =
         0.5 * model.opt.timestep * (Vector3d(velocity) + w_W.cross(center_W - origin_W));
     const TyreTouch ahead = shape_[w].On(ground, center_W + half_way, R_WT);

@@ -6,8 +6,8 @@
 
 namespace trackbed {
 
-/// `plant` behind the steering response of its car, unless that is ideal or the setup prescribes
-/// the angle of the wheels.
+/// Wraps `plant` in the steering response of its car, unless the response is ideal or the setup
+/// prescribes the wheel angle.
 std::unique_ptr<Plant> WithSteeringResponse(std::unique_ptr<Plant> plant, const PlantSetup& setup);
 
 }  // namespace trackbed

@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// Beyond it nobody could steer [s].
+/// Largest dead time and time constant [s]; with a longer one the car could not be steered.
 constexpr double kLongest = 10.0;
 
 void ReadWithin(const Numerics& numerics, const std::string& name, double most, const char* unit,

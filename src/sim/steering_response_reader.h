@@ -5,8 +5,8 @@
 
 namespace trackbed {
 
-/// The response of a steering actuator that turns the wheels by up to `limit` [rad] to both sides;
-/// ideal for a model without numbers of it.
+/// The response of a steering actuator that turns the wheels by up to `limit` [rad] to both sides.
+/// Ideal if the model does not describe it.
 SteeringResponse ReadSteeringResponse(const Numerics& numerics, double limit);
 
 }  // namespace trackbed

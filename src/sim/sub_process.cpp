@@ -26,7 +26,7 @@ std::string ErrnoText(int error) {
   return std::generic_category().message(error);
 }
 
-/// Writes all of it; false when the reader is gone.
+/// Writes the whole text; false if the reader has closed the pipe.
 bool WriteAll(int pipe, const char* data, std::size_t size) {
   while (size > 0) {
     const ssize_t written = ::write(pipe, data, size);
@@ -59,9 +59,10 @@ std::size_t AddressSpace() {
 
 [[noreturn]] void BeSubProcess(const std::function<std::string()>& compute, std::size_t space,
                                int seconds, int pipe) {
-  // What kills the program kills this process, which has its locks.
+  // The process dies with its parent, whose file locks it has inherited.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // Libraries that call exit() flush what this process has buffered, and some write why.
+  // Libraries that call exit() would flush buffers copied from this process; some also print an
+  // error.
   const int nowhere = ::open("/dev/null", O_RDWR);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     ::dup2(nowhere, stream);
@@ -74,7 +75,7 @@ std::size_t AddressSpace() {
 #else
   static_cast<void>(space);
 #endif
-  // A crash is told of by whoever waits, not by a handler of the program or of a sanitizer.
+  // The waiting process reports a crash, not a signal handler of the program or of a sanitizer.
   for (const int crash : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU}) {
     ::signal(crash, SIG_DFL);
   }
@@ -84,10 +85,10 @@ std::size_t AddressSpace() {
   std::memcpy(header.data(), &size, sizeof size);
   const bool written =
       WriteAll(pipe, header.data(), header.size()) && WriteAll(pipe, result.data(), result.size());
-  ::_exit(written ? 0 : 1);  // without the exit handlers and buffers of the process it is a copy of
+  ::_exit(written ? 0 : 1);  // skips exit handlers and buffers copied from the parent
 }
 
-/// What comes through the pipe until it is closed at the other end, or `until`.
+/// Reads the pipe until the other end closes it, or until the time `until`.
 std::string ReadUntil(int pipe, std::chrono::steady_clock::time_point until) {
   std::string text;
   std::array<char, 65536> block{};
@@ -134,7 +135,7 @@ SubProcessOutcome InSubProcess(const std::function<std::string()>& compute, std:
     BeSubProcess(compute, space, seconds, pipe[1]);
   }
   ::close(pipe[1]);
-  // Twice the processor time, should the machine be busy.
+  // Twice the processor time, in case the machine is busy.
   const std::string text =
       ReadUntil(pipe[0], std::chrono::steady_clock::now() + std::chrono::seconds(2 * seconds));
   ::close(pipe[0]);
@@ -145,7 +146,7 @@ SubProcessOutcome InSubProcess(const std::function<std::string()>& compute, std:
     outcome.finished = text.size() - sizeof size == size;
   }
   if (!outcome.finished) {
-    ::kill(child, SIGKILL);  // nothing happens if it has ended
+    ::kill(child, SIGKILL);  // no effect if it has ended
   }
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {

@@ -5,19 +5,19 @@
 
 namespace trackbed {
 
-/// How a computation in a process of its own ended.
+/// Result of a computation in a separate process.
 struct SubProcessOutcome {
-  bool finished = false;  ///< `result` is what the function gave back
+  bool finished = false;  ///< `result` is the function's return value
   std::string result;
-  std::string cause;  ///< of one that did not finish: "Segmentation fault", "exit code 1"
+  std::string cause;  ///< if it did not finish: "Segmentation fault", "exit code 1"
 };
 
-/// Calls `compute` in a copy of this process, which can open no file, has `memory` bytes beside
-/// what this process has, and `seconds` of processor time. What happens there, a crash included,
-/// leaves this process as it is; nothing that it prints is seen.
+/// Calls `compute` in a copy of this process. The copy can open no file; it may allocate `memory`
+/// bytes and use `seconds` of processor time. Nothing in it, not even a crash, affects this
+/// process; its output is discarded.
 ///
-/// `compute` must not throw, and must use no lock that another thread may hold. RunError when no
-/// process can be started. The limit of memory is left out under sanitizers, which map terabytes.
+/// `compute` must not throw and must not use a lock that another thread may hold. RunError if no
+/// process can be started. The memory limit is omitted under sanitizers, which map terabytes.
 SubProcessOutcome InSubProcess(const std::function<std::string()>& compute, std::size_t memory,
                                int seconds);
 

@@ -5,8 +5,8 @@
 namespace trackbed {
 
 struct Traction {
-  double force = 0.0;      ///< largest, less the rolling resistance [N]
-  double power = 0.0;      ///< largest [W]; 0: not limited
+  double force = 0.0;      ///< maximum, less the rolling resistance [N]
+  double power = 0.0;      ///< maximum [W]; 0: not limited
   double rolling = 0.0;    ///< rolling resistance and bearings [N]
   double drag_area = 0.0;  ///< C_d A [m^2]
 };

@@ -13,7 +13,7 @@ namespace trackbed {
 namespace {
 
 constexpr int kMostTriangles = 20000;
-constexpr int kDrawnGroups = 3;  // as MuJoCo's viewer begins
+constexpr int kDrawnGroups = 3;  // groups that MuJoCo's viewer shows by default
 
 template <std::size_t count, typename Number>
 std::array<double, count> Copied(const Number* values) {
@@ -41,7 +41,7 @@ std::vector<ShapeJoint> JointsOf(const mjModel& model, int body) {
   return joints;
 }
 
-/// MuJoCo's own rule: a geom with the default color has that of its material.
+/// As in MuJoCo, a geom with the default color has its material's color.
 std::array<double, 4> DrawnColor(const mjModel& model, int geom) {
   const float* own = model.geom_rgba + 4 * geom;
   const int material = model.geom_matid[geom];
@@ -64,7 +64,7 @@ const char* TypeName(int type) {
     case mjGEOM_MESH:
       return "mesh";
     default:
-      return nullptr;  // planes and height fields are no part of a vehicle
+      return nullptr;  // planes and height fields do not belong to a vehicle
   }
 }
 
@@ -75,7 +75,7 @@ ShapeMesh MeshOf(const mjModel& model, int mesh) {
           {faces, faces + 3 * model.mesh_facenum[mesh]}};
 }
 
-/// The box around a mesh, as a mesh.
+/// The bounding box of a mesh, as a mesh.
 ShapeMesh Bounds(const ShapeMesh& mesh) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::array<double, 3> low{kInfinity, kInfinity, kInfinity};
@@ -95,7 +95,7 @@ ShapeMesh Bounds(const ShapeMesh& mesh) {
   return box;
 }
 
-/// Whether a body hangs on a free joint, as a vehicle does; obstacles that move do not.
+/// Whether the body belongs to a vehicle: vehicles have a free joint, moving obstacles do not.
 bool IsOfVehicle(const mjModel& model, int body) {
   const int root = model.body_rootid[body];
   return model.body_jntnum[root] > 0 && model.jnt_type[model.body_jntadr[root]] == mjJNT_FREE;
@@ -107,7 +107,7 @@ VehicleShape ReadVehicleShape(const Scene& scene, const std::string& name) {
   const MujocoModel compiled = CompileScene(scene, name, Looks::kKept);
   const mjModel& model = *compiled;
   VehicleShape shape;
-  std::map<int, int> bodies;  // index in the model to that in the shape
+  std::map<int, int> bodies;  // index in the model to index in the shape
   for (int body = 1; body < model.nbody; ++body) {
     if (!IsOfVehicle(model, body)) {
       continue;
@@ -119,7 +119,7 @@ VehicleShape ReadVehicleShape(const Scene& scene, const std::string& name) {
                             .quaternion = Copied<4>(model.body_quat + 4 * body),
                             .joints = JointsOf(model, body)});
   }
-  std::map<int, int> meshes;  // index in the model to that in the shape
+  std::map<int, int> meshes;  // index in the model to index in the shape
   for (int geom = 0; geom < model.ngeom; ++geom) {
     const char* type = TypeName(model.geom_type[geom]);
     const std::array<double, 4> rgba = DrawnColor(model, geom);

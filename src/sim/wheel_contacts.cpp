@@ -20,8 +20,8 @@ bool IsRoad(const mjModel& model, int geom) {
   return name != nullptr && std::string_view(name).starts_with("ground");
 }
 
-/// Calls with wheel, contact, its index, and the sign that turns the contact's forces, which act on
-/// its second geom, into those on the wheel.
+/// Calls with wheel, contact, index of the contact, and a sign. Contact forces act on the second
+/// geom; times the sign, they act on the wheel.
 template <typename Call>
 void ForEachRoadContact(const CarModel& car, const mjModel& model, const mjData& data,
                         const Call& call) {
@@ -71,7 +71,7 @@ std::array<WheelContact, 4> FindWheelContacts(const CarModel& car, const mjModel
   up.fill(Vector3d::Zero());
   point.fill(Vector3d::Zero());
   std::array<double, 4> weight{};
-  // On a rough road a wheel may touch at several points: they count by how deep they are.
+  // On a rough road a wheel may touch at several points: takes their mean, weighted by depth.
   ForEachRoadContact(car, model, data,
                      [&](std::size_t w, const mjContact& contact, int, double sign) {
                        const double depth = std::max(contact.includemargin - contact.dist, 1e-9);

@@ -7,7 +7,7 @@
 
 struct mjData_;
 
-/// How the wheels of the MuJoCo car meet the road.
+/// Motion and forces of the MuJoCo car's wheels at their contacts with the road.
 namespace trackbed {
 
 /// One wheel at its contact with the road. World frame; tyre axes forward, left, up (the road's
@@ -18,7 +18,7 @@ struct WheelContact {
   Eigen::Vector3d forward;
   Eigen::Vector3d left;
   Eigen::Vector3d up;
-  Eigen::Vector3d spin_axis;         ///< to the left
+  Eigen::Vector3d spin_axis;         ///< unit vector, to the left
   Eigen::Vector3d hub_velocity;      ///< [m/s]
   Eigen::Vector3d angular_velocity;  ///< of the wheel [rad/s]
   double rolling_speed = 0.0;        ///< v_x: of the hub, forward [m/s]
@@ -27,16 +27,16 @@ struct WheelContact {
   double slip_speed_y = 0.0;  ///< v_y: of the patch over the road, to the left [m/s]
 };
 
-/// How a wheel moves that touches at `point`, where the road's normal is `up`, from the positions
-/// and velocities now.
+/// Motion of a wheel that touches at `point`, where `up` is the road's normal, from the present
+/// positions and velocities.
 WheelContact ContactAt(const CarModel& car, const mjModel_& model, const mjData_& data,
                        std::size_t wheel, const Eigen::Vector3d& point, const Eigen::Vector3d& up);
 
-/// That of all wheels, by MuJoCo's contacts. A wheel in the air counts as standing on a level road.
+/// Contacts of all wheels, found by MuJoCo. A wheel in the air is treated as one on a level road.
 std::array<WheelContact, 4> FindWheelContacts(const CarModel& car, const mjModel_& model,
                                               const mjData_& data);
 
-/// The road's contact forces on the wheels [N], world frame, of the last solve.
+/// The road's contact forces on the wheels [N], world frame, of the last solver call.
 std::array<Eigen::Vector3d, 4> RoadForces(const CarModel& car, const mjModel_& model,
                                           const mjData_& data);
 

@@ -10,9 +10,9 @@
 namespace trackbed {
 namespace {
 
-/// A wheel's speed servo, as its actuator's numbers say.
+/// A wheel's speed servo, as its actuator describes it.
 struct Servo {
-  double gain = 0.0;    ///< torque over missing speed [N m s/rad]
+  double gain = 0.0;    ///< torque per speed error [N m s/rad]
   double torque = 0.0;  ///< largest [N m]
   double speed = 0.0;   ///< largest [rad/s]
 };
@@ -135,7 +135,7 @@ class WheelPairReader final : private PartsReader {
   }
 
   void ReadLimits() {
-    // At half the track the inner wheel stands still.
+    // On a turn of half the track, the inner wheel is at rest.
     if (!(turning_radius_ >= 0.5 * params_.track_rear)) {
       AddError("turning_radius", fmt::format("must be at least half the track, {:.4g} m, so that "
                                              "the inner wheel does not reverse; found {:.4g}",
@@ -184,9 +184,9 @@ class WheelPairReader final : private PartsReader {
     params_.top_speed = (parts_.wheel_speed - parts_.servo_slack) * radius;
   }
 
-  /// Where else it stands on the ground at qpos0, ahead of the driven wheels [m]: on spheres,
-  /// ellipsoids and capsules. Each is taken for the only other support: with more than one the
-  /// loads depend on springs.
+  /// Positions of other supports on the ground at qpos0, ahead of the driven wheels [m]: spheres,
+  /// ellipsoids and capsules. Each is treated as the only other support, since with several ones
+  /// the loads depend on springs.
   [[nodiscard]] std::vector<double> OtherSupports() const {
     constexpr double kTouching = 1e-3;  // [m]
     std::vector<double> ahead;
@@ -204,7 +204,7 @@ class WheelPairReader final : private PartsReader {
     return ahead;
   }
 
-  /// Of a round geom [m]; 0 for the others.
+  /// Half height of a round geom [m]; 0 for other types.
   [[nodiscard]] double HalfHeight(int geom) const {
     const mjtNum* size = m_.geom_size + 3 * geom;
     const mjtNum* up = data_->geom_xmat + 9 * geom + 6;  // the world's z axis in the geom's frame
@@ -227,7 +227,7 @@ class WheelPairReader final : private PartsReader {
   }
 
   WheelPairParts parts_;
-  int free_ = -1;  // joints
+  int free_ = -1;  // joint
   std::array<int, 2> spin_{};
   int footprint_ = -1;           // site
   double servo_torque_ = 0.0;    // largest of one motor [N m]

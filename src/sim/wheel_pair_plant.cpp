@@ -9,8 +9,8 @@
 namespace trackbed {
 namespace {
 
-/// Two wheels on speed servos with an integral part. Without that, a turn would come out too wide:
-/// what holds the center of gravity on it, m l_g v psi', is a moment that the motors must give.
+/// Two wheels on speed servos with an integral part. Without it turns would be too wide: in a turn,
+/// the center of gravity needs a yaw moment m l_g v psi' from the motors.
 class WheelPairPlant final : public MujocoPlant {
  public:
   explicit WheelPairPlant(const PlantSetup& setup)
@@ -42,7 +42,7 @@ class WheelPairPlant final : public MujocoPlant {
     for (std::size_t w = 0; w < parts.spin_dof.size(); ++w) {
       const double wanted = speeds[static_cast<Eigen::Index>(w)] / params.wheel_radius;
       const double missing = wanted - data().qvel[parts.spin_dof[w]];
-      // It never asks for more than all the torque there is.
+      // Anti-windup: the integral asks for at most the full torque.
       integral_[w] = hold ? 0.0
                           : std::clamp(integral_[w] + missing * timestep / parts.integral_time,
                                        -parts.servo_slack, parts.servo_slack);
@@ -52,7 +52,7 @@ class WheelPairPlant final : public MujocoPlant {
     }
   }
 
-  /// Servos that want the speed there is give no torque.
+  /// Sets the servos to the present wheel speeds, so that they give no torque.
   void Coast() {
     const WheelPairParts& parts = car().wheel_pair();
     wanted_speed_ = Speed();
@@ -63,18 +63,18 @@ class WheelPairPlant final : public MujocoPlant {
     }
   }
 
-  /// The speed to be wanted in the coming step, along the gear.
+  /// Commanded speed for the coming step, along the gear.
   [[nodiscard]] double NextSpeed(int gear, double acceleration, double speed) const {
     const WheelPairParts& parts = car().wheel_pair();
     const double radius = car().params().wheel_radius;
-    // Beyond this difference the motors give no more: it would only have to be wound back later.
+    // At a larger difference the torque saturates; limiting it avoids windup.
     const double slack = parts.servo_slack * radius;
     const double wanted = gear * wanted_speed_;
     const double change = acceleration * model().opt.timestep;
     const double next = change > 0.0 ? std::min(wanted + change, std::max(wanted, speed + slack))
                                      : std::max(wanted + change, std::min(wanted, speed - slack));
-    // At the motors' largest speed, less what the servos' integrals may add, the vehicle slows down
-    // rather than leave its curve: the outer wheel runs at 1 + |tan delta|/2 times the speed.
+    // Near the motors' largest speed, less the servos' integral part, the vehicle slows down rather
+    // than leave its curve: the outer wheel runs at 1 + |tan delta|/2 times the vehicle's speed.
     const double fastest =
         (parts.wheel_speed * radius - slack) / (1.0 + 0.5 * std::abs(std::tan(ratio_)));
     return std::clamp(next, 0.0, fastest);
@@ -86,8 +86,8 @@ class WheelPairPlant final : public MujocoPlant {
     const double left = radius * data().qvel[spin[0]];
     const double right = radius * data().qvel[spin[1]];
     const double speed = 0.5 * (left + right);
-    // tan(delta) is a ratio to the speed, and below this speed [m/s] it fades into what is wanted:
-    // at rest it would be that of rounding errors.
+    // tan(delta) is a ratio to the speed. Below this speed [m/s] it is blended into the commanded
+    // one, since at rest it would consist of rounding errors.
     constexpr double kCrawl = 0.1;
     const double wanted = std::tan(ratio_);
     const double missing = right - left - speed * wanted;

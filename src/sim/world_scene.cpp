@@ -14,30 +14,34 @@
 #include "trackbed/sim/car_model.h"
 #include "trackbed/sim/scene.h"
 
-/// The world around a car.
+/// Adds ground and obstacles of a world to the scene of a car:
+///   - WithGround: the plane, height fields for terrain, bumps and side slopes, and a plane under
+///     each wheel, which RoadContact keeps tangent to the exact ground.
+///   - WithObstacles: a shell for the car that touches obstacles only, a box per obstacle (with two
+///     slide joints if it moves), and the walls of the map.
 namespace trackbed {
 namespace {
 
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
 
-/// How thick a height field is under its lowest sample [m]: that much of it is below the plane.
+/// Thickness of a height field below its lowest sample [m]; this part lies below the plane.
 constexpr double kBase = 0.1;
 
-/// Heights over a rectangle, in MuJoCo's own format.
+/// Heights over a rectangle, in MuJoCo's format.
 struct HeightField {
   double lowest = 0.0;   ///< z [m]
   double highest = 0.0;  ///< z [m]
   std::string file;
 };
 
-/// Cells along a side of a height field.
+/// Count of cells along a side of a height field.
 int CellsAlong(double side) {
   constexpr double kCell = 0.05;  // [m]
   return std::clamp(static_cast<int>(std::ceil(side / kCell)), 16, 256);
 }
 
-/// Heights at so many samples along the box's length and width.
+/// Samples heights at `columns` by `rows` points along the box's length and width.
 HeightField Sample(const OrientedBox& box, std::int32_t columns, std::int32_t rows,
                    const std::function<double(const Vec2& point_W)>& height_at) {
   std::vector<double> heights;
@@ -70,14 +74,14 @@ HeightField Sample(const Feature& feature, const Ground& ground) {
                 [&](const Vec2& p) { return ground.grade.dot(p) + Rise(feature, p); });
 }
 
-/// Some of the blocks of a terrain.
+/// The rectangle of a range of a terrain's blocks.
 OrientedBox BlocksAt(const Terrain::Size& size, int column, int row, int columns, int rows) {
   const Vec2 sides = Terrain::kBlock * Vec2(columns, rows);
   const Vec2 middle = size.low + Terrain::kBlock * Vec2(column, row) + 0.5 * sides;
   return {{middle.x(), middle.y(), 0.0}, sides.x(), sides.y()};
 }
 
-/// Whether a point is inside of refined blocks or between them, and not on their border.
+/// Whether a point is inside refined blocks or between two of them, not on their outer border.
 bool IsInRefined(const Terrain& terrain, const Vec2& point_W) {
   const Terrain::Size& size = terrain.size();
   constexpr double kAside = 1e-3 * Terrain::kBlock;
@@ -91,8 +95,9 @@ bool IsInRefined(const Terrain& terrain, const Vec2& point_W) {
          refined(kAside, kAside);
 }
 
-/// Calls `add(box, field)` for the height fields that make up a terrain: one for each refined
-/// block, with a sample at each of its nodes, and coarse ones around them, which dive under those.
+/// Calls `add(box, field)` for the height fields that make up a terrain: one per refined block,
+/// with a sample at each of its nodes, and coarse ones elsewhere, which are lowered under the
+/// refined ones.
 void SampleTerrain(
     const Terrain& terrain,
     const std::function<void(const OrientedBox& box, const HeightField& field)>& add) {
@@ -108,7 +113,7 @@ void SampleTerrain(
     }
   }
   constexpr int kMostBlocks = 64;  // 257 samples along a side
-  constexpr double kUnder = 4.0;   // [m]: steeper than what lies on it
+  constexpr double kUnder = 4.0;   // [m]: drops more steeply than the refined ground
   for (int row = 0; row < size.rows; row += kMostBlocks) {
     for (int column = 0; column < size.columns; column += kMostBlocks) {
       const int columns = std::min(kMostBlocks, size.columns - column);
@@ -130,7 +135,7 @@ void Place(XMLElement& geom, const Eigen::Vector3d& position, const Eigen::Quate
   geom.SetAttribute("quat", Numbers({turn.w(), turn.x(), turn.y(), turn.z()}).c_str());
 }
 
-/// Another geom beside `ground` with its friction, looks and so on.
+/// Adds a copy of the geom `ground`, with its friction, looks and so on.
 XMLElement& AddLike(XMLElement& ground, const std::string& name) {
   XMLElement* geom = ground.ShallowClone(ground.GetDocument())->ToElement();
   ground.Parent()->InsertEndChild(geom);
@@ -160,7 +165,7 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
   int count = 0;
   const auto add = [&](const OrientedBox& box, const HeightField& field, const char* rgba) {
     if (field.highest == field.lowest) {
-      return;  // a side slope of 0
+      return;  // for example a side slope of 0
     }
     const std::string name = fmt::format("ground_{}", count);
     const std::string file = name + ".hfield";
@@ -187,14 +192,14 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
     });
   }
   for (const Bump& bump : ground.bumps) {
-    // One would hardly see it.
+    // The color makes the bump visible.
     add(Extent(bump), Sample(bump, ground), "1 0.93 0.68 1");
   }
   for (const Superelevation& side_slope : ground.side_slopes) {
     add(Extent(side_slope), Sample(side_slope, ground), nullptr);
   }
   if (count > 0) {
-    // A car has four wheels, or two.
+    // Both names of wheels: those of a car and of a differential drive.
     for (const auto& [wheel, index] :
          {std::pair("fl", 0), std::pair("fr", 1), std::pair("rl", 2), std::pair("rr", 3),
           std::pair("left", 0), std::pair("right", 1)}) {
@@ -213,11 +218,11 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
   return scene;
 }
 
-/// So heavy that no car moves it [kg].
+/// So heavy that no car can move it [kg].
 constexpr double kHeavy = 1e6;
 
-/// A body that slides over the ground, with the joints `name`_x and `name`_y; their defaults are
-/// the car's, which must not matter here.
+/// Inserts a body that slides over the ground, with the joints `name`_x and `name`_y. Sets all
+/// their attributes, since the car's defaults must not apply.
 XMLElement* InsertSlider(XMLElement& bodies, const std::string& name, const Vec2& place) {
   XMLElement* body = bodies.InsertNewChildElement("body");
   body->SetAttribute("name", name.c_str());
@@ -235,8 +240,8 @@ XMLElement* InsertSlider(XMLElement& bodies, const std::string& name, const Vec2
   return body;
 }
 
-/// Obstacles that move touch the car alone: neither the ground, on which they stand exactly, nor
-/// what stands there, nor each other.
+/// Moving obstacles touch only the car. Contacts with the ground, with static obstacles and with
+/// each other are excluded, since their motion is prescribed.
 void ExcludeContacts(XMLElement& root, const std::vector<std::string>& sliders) {
   if (sliders.empty()) {
     return;
@@ -255,7 +260,8 @@ void ExcludeContacts(XMLElement& root, const std::vector<std::string>& sliders) 
   }
 }
 
-/// New joints come last: keyframes have them where they were made.
+/// Appends zeros for the new joints to the keyframes; the coordinates are relative to the initial
+/// position.
 void ExtendKeyframes(XMLElement& root, int joints) {
   for (XMLElement* frame = root.FirstChildElement("keyframe"); frame != nullptr;
        frame = frame->NextSiblingElement("keyframe")) {
@@ -274,7 +280,7 @@ void ExtendKeyframes(XMLElement& root, int joints) {
   }
 }
 
-/// What the car's shell and wheels meet.
+/// Lets the car's shell and wheels collide with the geom.
 void MakeObstacle(XMLElement& geom, const char* rgba) {
   geom.SetAttribute("contype", 1);
   geom.SetAttribute("conaffinity", 3);
@@ -282,7 +288,7 @@ void MakeObstacle(XMLElement& geom, const char* rgba) {
   geom.SetAttribute("rgba", rgba);
 }
 
-/// The walls of the world's map, which has flat ground.
+/// Adds the walls of the world's map, whose ground is flat.
 void AddWalls(XMLElement& bodies, const World& world) {
   const std::vector<OrientedBox>& walls = MapWalls(world);
   for (std::size_t i = 0; i < walls.size(); ++i) {
@@ -309,9 +315,9 @@ Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const 
   XMLElement* chassis = FindInWorld(root, "body", "chassis");
   TRACKBED_CHECK(chassis != nullptr, "the car has no body 'chassis'");
 
-  // Bit 1 is what everything has by default; bit 2 is the shell's alone, so that it meets obstacles
-  // and nothing else, least of all its own wheels.
-  // It ends a tenth of the car's height above the ground: it must not scrape on soft springs.
+  // Bit 1 is the default of all geoms. Bit 2 belongs to the shell alone, so that it touches
+  // obstacles but not, for example, the car's own wheels. The shell ends a tenth of the car's
+  // height above the ground, so that it does not scrape on soft springs.
   const double half_height = 0.45 * vehicle.height;
   XMLElement* shell = chassis->InsertNewChildElement("geom");
   shell->SetAttribute("name", "shell");

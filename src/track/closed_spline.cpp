@@ -15,7 +15,7 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 using Entry = Eigen::Triplet<double>;
 
-/// The third differences of the coefficients around the curve.
+/// Matrix of third differences of the coefficients, around the curve.
 Sparse ThirdDifferences(Eigen::Index count) {
   constexpr std::array<double, 4> kStencil{-1.0, 3.0, -3.0, 1.0};
   std::vector<Entry> entries;

@@ -37,7 +37,7 @@ void CheckSection(const GgvSection& section, std::size_t size) {
   }
 }
 
-/// Where a value lies among rising ones: the index below it, and the share of the next one.
+/// Position of a value in an increasing list: the index below it and the fraction to the next one.
 struct Place {
   std::size_t index = 0;
   double share = 0.0;
@@ -57,7 +57,7 @@ Place PlaceAmong(const std::vector<double>& values, double value, const Measure&
           (measure(value) - low) / (measure(*above) - low)};
 }
 
-/// Where a share of the largest f_y lies among the values of a section, 0 to `last`.
+/// Position of a fraction of the largest f_y among the points of a section, 0 to `last`.
 Place PlaceOnBoundary(double ratio, std::size_t last) {
   const double sine = std::sqrt(1.0 - ratio * ratio);
   if (last == 1) {
@@ -106,7 +106,7 @@ GgvDiagram::Weights GgvDiagram::WeightsAt(const GgvPoint& point) const {
   const Place road = PlaceAmong(roads_, point.road, [](double x) { return x; });
   const Place speed = PlaceAmong(speeds_, point.speed, [](double v) { return v * v; });
   const double beyond =
-      point.road / std::clamp(point.road, roads_.front(), roads_.back());  // in proportion
+      point.road / std::clamp(point.road, roads_.front(), roads_.back());  // scales beyond the ends
   Weights weights;
   const auto add = [&](std::size_t at_road, std::size_t at_speed, double weight) {
     if (weight > 0.0) {

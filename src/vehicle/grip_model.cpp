@@ -9,12 +9,17 @@
 
 #include "trackbed/core/error.h"
 
+// Computes the g-g-v diagram of a two-axle car. For f_x and f_y, the load transfer gives the four
+// wheel loads: f_x over the wheelbase, f_y split between the axles by their roll stiffness. An axle
+// holds its force if its tyres (Magic Formula or friction circles) reach the wanted lateral force
+// beside their longitudinal one. Bisection finds the largest f_y at each f_x, and the limits of
+// driving and braking at fractions cos(angle) of the largest f_y.
 namespace trackbed {
 namespace {
 
-constexpr double kNone = -1.0;  // an axle that does not hold its longitudinal force
+constexpr double kNone = -1.0;  // an axle that cannot hold its longitudinal force
 
-/// The lateral force [N] of a tyre at a slip angle, with the slip ratio at which its longitudinal
+/// The lateral force [N] of a tyre at a slip angle, at the slip ratio for which its longitudinal
 /// force is `along`; none if there is no such ratio.
 std::optional<double> TyreLateral(const MagicFormula& tyre, double load, double road, double along,
                                   TyreSlip slip) {
@@ -37,7 +42,7 @@ std::optional<double> TyreLateral(const MagicFormula& tyre, double load, double 
   for (const double high : kRatios) {
     const TyreForce above = at(high);
     if (side * above.longitudinal >= wanted) {
-      // Between them forces are near enough to linear.
+      // Between these ratios the force is almost linear.
       const double span = side * (above.longitudinal - below.longitudinal);
       const double share = (wanted - side * below.longitudinal) / span;
       return at(std::lerp(low, high, share)).lateral;
@@ -48,18 +53,18 @@ std::optional<double> TyreLateral(const MagicFormula& tyre, double load, double 
   return std::nullopt;
 }
 
-/// What an axle has to do.
+/// Loads and forces that an axle must hold.
 struct AxleDemand {
-  std::array<double, 2> load{};  // of its inner and its outer wheel [N]
+  std::array<double, 2> load{};  // of the inner and the outer wheel [N]
   double along = 0.0;            // of each wheel [N]
   double camber = 0.0;           // [rad]
   double road = 1.0;
 };
 
-/// What an axle can do beside its longitudinal force.
+/// Lateral grip of an axle that holds its longitudinal force.
 struct AxleGripState {
-  double most = kNone;  // its largest lateral force [N]; kNone if it does not hold the other one
-  double angle = 0.0;   // the slip angle at which it gives the wanted one, or the largest [rad]
+  double most = kNone;  // largest lateral force [N]; kNone if it cannot hold the longitudinal force
+  double angle = 0.0;   // slip angle of the wanted force, or of the largest [rad]
 };
 
 AxleGripState OnFrictionCircles(double friction, const AxleDemand& demand) {
@@ -81,7 +86,7 @@ AxleGripState FindGrip(const GripAxle& axle, const AxleDemand& demand, double wa
   const auto lateral_at = [&](double angle) {
     double sum = 0.0;
     for (const double load : demand.load) {
-      // A positive force is that of a negative slip angle.
+      // A positive lateral force needs a negative slip angle.
       const std::optional<double> own = TyreLateral(*axle.tyre, load, demand.road, demand.along,
                                                     {.angle = -angle, .camber = demand.camber});
       if (!own) {
@@ -105,7 +110,7 @@ AxleGripState FindGrip(const GripAxle& axle, const AxleDemand& demand, double wa
   return state;
 }
 
-/// How the car stands at f_x and f_y.
+/// Steady state of the car at accelerations f_x and f_y.
 class SteadyState {
  public:
   SteadyState(const GripModel& car, double road, double speed)
@@ -117,10 +122,10 @@ class SteadyState {
     lean_ = weight_ * car.cg_height;
   }
 
-  /// Whether the axles hold their shares. The tyres push against the drag of their slip angles,
-  /// too, which in turn depend on that.
+  /// Whether both axles hold their forces. The tyres also push against the drag of their slip
+  /// angles, which depends on the tyre forces: a fixed-point iteration.
   [[nodiscard]] bool AxlesHold(double longitudinal, double lateral) const {
-    constexpr int kRounds = 4;  // a round changes the drag by a tenth of the last change, or so
+    constexpr int kRounds = 4;  // each reduces the error of the drag about tenfold
     double slip_drag = 0.0;     // [m/s^2]
     bool hold = true;
     for (int round = 0; round < kRounds; ++round) {
@@ -145,12 +150,12 @@ class SteadyState {
     return lateral <= RollOver() && AxlesHold(longitudinal, lateral);
   }
 
-  /// The largest f_y at f_x; 0: none.
+  /// The largest f_y at f_x; 0 if the car holds none.
   [[nodiscard]] double MaxLateral(double longitudinal) const {
     return Largest(0.0, kLargest, [&](double lateral) { return Holds(longitudinal, lateral); });
   }
 
-  /// The f_x up to which, from `from` in the direction of `side`, the car holds f_y.
+  /// The furthest f_x from `from` in the direction of `side` at which the car holds f_y.
   [[nodiscard]] double Reach(double from, double side, double lateral) const {
     return from + side * Largest(0.0, kLargest, [&](double further) {
                     return Holds(from + side * further, lateral);
@@ -158,10 +163,10 @@ class SteadyState {
   }
 
  private:
-  static constexpr double kLargest = 40.0;    // [m/s^2]; of any car without downforce
+  static constexpr double kLargest = 40.0;    // [m/s^2]; exceeds any car without downforce
   static constexpr double kSameDrag = 0.005;  // [m/s^2]
 
-  /// `wheels` is the force of all tyres along their wheels over the mass [m/s^2].
+  /// `wheels` is the longitudinal force of all tyres in wheel direction, over the mass [m/s^2].
   [[nodiscard]] AxleDemand DemandOn(std::size_t i, double longitudinal, double wheels,
                                     double lateral) const {
     const GripAxle& axle = car_.axles[i];
@@ -178,7 +183,7 @@ class SteadyState {
             .road = road_};
   }
 
-  /// The largest number in [low, high] for which `holds` is true, by bisection; it must be true for
+  /// The largest number in [low, high] for which `holds` is true, by bisection. It must be true for
   /// all smaller ones.
   template <typename Test>
   [[nodiscard]] static double Largest(double low, double high, const Test& holds) {
@@ -190,7 +195,7 @@ class SteadyState {
     return low;
   }
 
-  /// The f_y at which the inner wheels of both axles have no load.
+  /// The f_y at which the inner wheels of both axles are unloaded.
   [[nodiscard]] double RollOver() const {
     double moment = 0.0;
     for (const GripAxle& axle : car_.axles) {
@@ -256,7 +261,8 @@ double MaxLateralForce(const GripModel& car, double road, double longitudinal) {
 
 GgvDiagram ComputeGgv(const GripModel& car, const std::vector<double>& roads) {
   CheckModel(car, roads);
-  // Between them the drag, and what it shifts of the loads, is linear in the square of the speed.
+  // The drag, and with it the load transfer, is linear in the square of the speed: two speeds
+  // suffice.
   constexpr double kFast = 60.0;  // [m/s]
   std::vector<double> speeds{0.0};
   if (car.forces.drag > 0.0 && car.drag_height != car.cg_height) {
@@ -284,7 +290,7 @@ GgvDiagram FrictionGgv(const VehicleParams& vehicle, const std::vector<double>& 
     sections.push_back(EllipticSection(driving, braking, lateral));
     sections.back().road = road;
   }
-  const double mass = vehicle.mass > 0.0 ? vehicle.mass : 1.0;  // it does not matter
+  const double mass = vehicle.mass > 0.0 ? vehicle.mass : 1.0;  // any mass gives the same result
   return {{.mass = mass, .rolling_mass = mass, .top_speed = vehicle.top_speed},
           std::move(sections)};
 }

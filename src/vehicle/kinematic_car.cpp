@@ -59,7 +59,7 @@ Pose2 KinematicCar::PoseAfter(const MotionPiece& piece, double moved) const {
     const double turn = moved * std::cos(slip) * CurvatureForSteering(params_, state_.steering);
     return MoveOnArc(state_.pose, moved, turn, slip);
   }
-  // Runge-Kutta of fourth order; speed and steering are known functions of time.
+  // Fourth-order Runge-Kutta method; speed and steering are known functions of time.
   const auto rates = [&](double time, double yaw) {
     return RatesAt(yaw, state_.speed + piece.acceleration * time,
                    state_.steering + piece.steering_rate * time);
@@ -81,7 +81,7 @@ Pose2 KinematicCar::PoseAfter(const MotionPiece& piece, double moved) const {
 VehicleState KinematicCar::FullState() const {
   const double l_g = params_.cg_to_rear;
   const double slip = Slip(state_.steering);
-  // Rear-axle speed and its derivative; for the CG reference v_rear = v cos(beta).
+  // Speed of the rear axle and its derivative; with the CG as reference, v_rear = v cos(beta).
   const double tangent = std::tan(state_.steering);
   const double curvature = tangent / params_.wheelbase;
   const double curvature_rate = (1.0 + tangent * tangent) * steering_rate_ / params_.wheelbase;

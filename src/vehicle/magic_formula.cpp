@@ -7,10 +7,10 @@
 namespace trackbed {
 namespace {
 
-/// Width over which the sign of the camber is smoothed [rad].
+/// Width [rad] over which the sign function of the camber is smoothed.
 constexpr double kCamberSign = 5e-4;
-/// Tyres are measured to some 6 degrees; beyond, the formula's square in the camber would let a car
-/// that tips over hold ever better [rad].
+/// Tyres are measured up to about 6 degrees [rad]. At larger camber, the formula's square of the
+/// camber would give a car that rolls over ever more grip.
 constexpr double kMaxCamber = 0.1;
 
 /// f(u) = C atan(u - E (u - atan u)).
@@ -18,7 +18,8 @@ double Shape(double c, double e, double u) {
   return c * std::atan(u - e * (u - std::atan(u)));
 }
 
-/// What a force under its own slip keeps under the other one, `slip`; 1 at zero slip.
+/// Weight of combined slip: the factor on a force due to the other slip component, `slip`. 1 at
+/// zero slip.
 double Weight(double b, double c, double e, double shift, double slip) {
   const double kept = std::cos(Shape(c, e, b * (slip + shift)));
   return shift == 0.0 ? kept : kept / std::cos(Shape(c, e, b * shift));
@@ -34,7 +35,7 @@ double LoadChange(const MagicFormula& tyre, double load) {
   return tyre.f_z0 > 0.0 ? (load - tyre.f_z0) / tyre.f_z0 : 0.0;
 }
 
-/// mu: falls with the load, but not below a tenth of what it is at the nominal one.
+/// Friction coefficient mu: decreases with the load, to at least a tenth of its nominal value.
 double Friction(double at_nominal, double per_load, double load_change) {
   return std::max(at_nominal + per_load * load_change, 0.1 * at_nominal);
 }

@@ -18,7 +18,7 @@ Motion MotionUnder(const Command& command, const VehicleParams& params, double s
       command.steering, command.acceleration, duration);
   const SteeringMove move =
       MoveSteering({params.steering_limit, params.steering_rate}, steering, command.steering);
-  // A car slows down to rest, not through it, and leaves rest only along its gear.
+  // A car stops at zero speed. From rest it accelerates only in the direction of its gear.
   const bool slowing = speed * command.acceleration < 0.0;
   const bool may_leave = command.acceleration * command.gear > 0.0;
   const bool held = speed == 0.0 && !may_leave;
@@ -46,7 +46,8 @@ Motion MotionUnder(const Command& command, const VehicleParams& params, double s
     piece.end_speed = speed;
     piece.end_steering = move.At(done);
   }
-  // At the corners the rates jump; what led there counts. A nanosecond is rounding of the times.
+  // The rates jump at the ends of the pieces; the earlier piece counts. Within a nanosecond, times
+  // differ by rounding only.
   constexpr double kNanosecond = 1e-9;
   motion.steering_rate = duration <= move.ramp_time + kNanosecond ? move.rate : 0.0;
   motion.acceleration = rests && rest_time < duration - kNanosecond ? 0.0 : command.acceleration;

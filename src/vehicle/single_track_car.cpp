@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLongestStep = 0.002;  // [s]
 
-/// Radau IIA with three stages (Hairer and Wanner 1996, IV.5). Its last stage is the end of the
+/// Radau IIA with three stages (Hairer and Wanner 1996, IV.5). The last stage is the end of the
 /// step.
 struct Radau {
   Eigen::Vector3d node;
@@ -113,7 +113,7 @@ Eigen::Matrix2d SingleTrackCar::Decay(double speed, double acceleration_along) c
   return decay;
 }
 
-/// At rest: those with which the car arrives or leaves, the one solution that is finite there.
+/// At rest, returns the only finite solution: the ratios with which the car arrives or leaves.
 SingleTrackCar::Ratios SingleTrackCar::RatiosAt(double direction, double acceleration) const {
   if (state_.speed != 0.0) {
     return Ratios(state_.lateral_speed, state_.yaw_rate) / state_.speed;
@@ -124,7 +124,7 @@ SingleTrackCar::Ratios SingleTrackCar::RatiosAt(double direction, double acceler
 void SingleTrackCar::StepByRadau(const MotionPiece& piece) {
   const Radau& radau = RadauIIA();
   const double h = piece.duration;
-  // The sign of the speed in the middle of the step is that of the whole step.
+  // The speed has the same sign in the whole step.
   const double direction = std::copysign(1.0, state_.speed + piece.end_speed);
   const Ratios start = RatiosAt(direction, piece.acceleration);
 
@@ -179,7 +179,7 @@ VehicleState SingleTrackCar::FullState() const {
   full.steering_actuator = state_.steering;
   full.steering = state_.steering;
   if (state_.speed != 0.0 || acceleration_ != 0.0) {
-    // (F_f + F_r)/m. A car that has just come to rest was moving against its acceleration.
+    // (F_f + F_r)/m. A car that has just come to rest moved against its acceleration before.
     const double direction =
         std::copysign(1.0, state_.speed != 0.0 ? state_.speed : -acceleration_);
     const Ratios ratios = RatiosAt(direction, acceleration_);

@@ -26,7 +26,7 @@ double DeadTimeSteps(const SteeringResponse& response, double timestep, double s
                    "SteeringFilter: a dead time of {} s in timesteps of {} s; must be at most {} "
                    "steps",
                    response.dead_time, timestep, kMostSteps);
-  constexpr double kRounding = 1e-6;  // a multiple of the timestep is a whole number of them
+  constexpr double kRounding = 1e-6;  // tolerance for a whole number of timesteps
   const double whole = std::round(steps);
   return std::abs(steps - whole) < kRounding ? whole : steps;
 }

@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// From D = `distance` on, the wheels head for `target`.
+/// From the distance D = `distance` on, the wheels turn to `target`.
 struct Target {
   double distance;
   double steering;
@@ -28,7 +28,7 @@ std::vector<Target> SteeringTargets(const std::vector<TurnSteering>& turns,
                      "SteeringSchedule: steering {} and {} rad; must be finite", turn.steering,
                      neutral);
     targets.push_back({turn.start, turn.steering, slopes[k]});
-    // The turn that started last has the say: it also ends an earlier one.
+    // The turn that started last takes precedence; it also ends an earlier one.
     if (k + 1 == turns.size() || turn.end < turns[k + 1].start) {
       targets.push_back({turn.end, neutral, slopes[k]});
     }
@@ -187,7 +187,7 @@ std::vector<KinematicState> RollOut(const VehicleParams& params, const Kinematic
       }
       const double next =
           std::min({done + step, distance, knot != knots.end() ? knot->distance : distance});
-      // Where a car gets does not depend on its speed. At this one its actuator turns all the way.
+      // The path does not depend on the speed. At this one, the actuator turns for the whole step.
       const double from = schedule.At(done);
       const double to = schedule.At(next);
       const double time = from == to ? next - done : std::abs(to - from) / params.steering_rate;

@@ -13,6 +13,10 @@
 
 #include "src/watch/own_host.h"
 
+// Connections of the watch server on Boost.Beast, all in one thread. HttpConnection answers GET and
+// HEAD with the page, and checks Host and Origin first, so that pages of other sites can neither
+// read nor control the run. An upgrade request turns it into a LiveConnection, which reads commands
+// of the page and writes its news, one message at a time.
 namespace trackbed {
 namespace {
 
@@ -27,7 +31,7 @@ constexpr std::uint32_t kMostHeader = 8192;  // bytes
 constexpr std::size_t kMostMessage = 4096;   // bytes
 constexpr std::chrono::seconds kRequestTime{15};
 constexpr std::chrono::seconds kPageTime{600};  // a page with a film may have 170 MB
-constexpr std::chrono::seconds kIdleTime{60};   // half of it passes before the client is pinged
+constexpr std::chrono::seconds kIdleTime{60};   // the client is pinged after half of it
 
 std::string_view View(beast::string_view text) {
   return {text.data(), text.size()};
@@ -35,7 +39,7 @@ std::string_view View(beast::string_view text) {
 
 }  // namespace
 
-/// Reads what the page asks for, and tells it what is new, one message at a time.
+/// Reads commands of the page and sends news to it, one message at a time.
 class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
  public:
   LiveConnection(beast::tcp_stream stream, LiveRun& run) : socket_(std::move(stream)), run_(run) {
@@ -49,7 +53,7 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
   }
 
   void Accept(const http::request<http::empty_body>& request) {
-    beast::get_lowest_layer(socket_).expires_never();  // the WebSocket has its own
+    beast::get_lowest_layer(socket_).expires_never();  // the WebSocket has its own timeout
     socket_.async_accept(request, [self = shared_from_this()](error_code error) {
       if (!error) {
         self->is_open_ = true;
@@ -115,7 +119,7 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
 
 namespace {
 
-/// Answers requests one after the other, until the client closes or asks for a WebSocket.
+/// Answers requests in sequence, until the client closes or requests a WebSocket.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
   HttpConnection(tcp::socket socket, const Site& site, Connections& connections)
@@ -164,7 +168,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   void Upgrade(const Request& request) {
     const std::string_view origin = View(request[http::field::origin]);
-    // What sends no Origin is no browser, in which other pages might have asked for this.
+    // A request without Origin comes from no browser, so no other page can have caused it.
     const bool own = request.count(http::field::origin) == 0 ||
                      IsOwnOrigin(origin, View(request[http::field::host]));
     if (!own) {
@@ -210,7 +214,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     response.set(http::field::content_type, content.type);
     response.set(http::field::cache_control, "no-store");
     response.set("Referrer-Policy", "no-referrer");
-    // No page of others may show this one, or read it.
+    // Other sites must neither embed nor read this page.
     response.set(http::field::x_frame_options, "DENY");
     response.set("X-Content-Type-Options", "nosniff");
     response.set("Cross-Origin-Resource-Policy", "same-origin");

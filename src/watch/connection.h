@@ -10,31 +10,31 @@
 
 namespace trackbed {
 
-/// What a server shows.
+/// Content of a server.
 struct Site {
-  boost::asio::ip::address address;           ///< where it listens
+  boost::asio::ip::address address;           ///< listening address
   std::shared_ptr<const std::string> page{};  ///< shared with connections that still write it
-  LiveRun* live = nullptr;                    ///< null when nothing goes on
+  LiveRun* live = nullptr;                    ///< null if no run is in progress
 };
 
-/// One WebSocket, which keeps itself alive as long as something is under way on it.
+/// WebSocket; keeps itself alive while operations are pending.
 class LiveConnection;
 
-/// The connections of a server, all in one thread.
+/// Connections of a server, all in one thread.
 class Connections {
  public:
-  /// Serves HTTP on a new connection, and a WebSocket if the client asks for one. `site` must
-  /// outlive it.
+  /// Serves HTTP on a new connection, and a WebSocket if the client requests one. `site` must
+  /// outlive this object.
   void Add(boost::asio::ip::tcp::socket socket, const Site& site);
 
-  /// Sends to each WebSocket that is not busy what its page does not know.
+  /// Sends news to each WebSocket that is not writing.
   void TellNews();
 
-  /// Forgets those that are closed.
+  /// Forgets closed connections.
   void Forget();
   [[nodiscard]] std::size_t size() const { return open_.size(); }
 
-  /// For a connection that has become a WebSocket.
+  /// Adds a connection that has become a WebSocket.
   void AddLive(const std::shared_ptr<LiveConnection>& live);
 
  private:

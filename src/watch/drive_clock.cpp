@@ -50,7 +50,7 @@ void Pace::SetSpeed(double speed, double simulated, double wall) {
 }
 
 void Pace::KeepUp(double simulated, double wall) {
-  constexpr double kMostLost = 0.1;  // [s] of the wall clock: less is the scheduler's doing
+  constexpr double kMostLost = 0.1;  // wall clock [s]; less is due to the scheduler
   if (!paused_ && !std::isinf(speed_) && AllowedAt(wall) - simulated > kMostLost * speed_) {
     CountFrom(simulated, wall);
   }
@@ -72,7 +72,7 @@ void DriveClock::Advance(std::size_t plant, double time) {
   }
   changed_.notify_all();
   const double next = time + period_;
-  const double tolerance = 0.5 * period_;  // times are sums of periods, to rounding
+  const double tolerance = 0.5 * period_;  // times are sums of periods, with rounding
   while (!released_) {
     const bool others_are_here = SlowestTime() > time - tolerance;
     const double moment = pace_.MomentOf(next - tolerance);

@@ -132,7 +132,7 @@ std::string LiveRun::StateText() const {
 }
 
 std::optional<std::string> LiveRun::RowsText(Cursor& cursor) const {
-  constexpr std::size_t kMessage = 80000;  // bytes, about: each kind has its share, and one more
+  constexpr std::size_t kMessage = 80000;  // approximate bytes for all kinds, plus one row of each
   const std::size_t most = kMessage / (kAdded.size() * plants_.size());
   cursor.places.resize(plants_.size());
   bool any = false;

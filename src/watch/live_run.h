@@ -15,39 +15,40 @@
 
 namespace trackbed {
 
-/// A run that goes on, between the threads of its plants, which add rows, and the connections,
-/// which take them. Every function may be called by any thread.
+/// Run in progress, shared by the threads of its plants, which add rows, and the connections, which
+/// send them. All functions are thread-safe.
 class LiveRun {
  public:
-  /// `first` is ReportData of the run when it begins, as for LivePage; `id` tells it from others.
+  /// `first` is the ReportData at the beginning of the run, as for LivePage; `id` identifies the
+  /// run.
   LiveRun(const nlohmann::ordered_json& first, std::string id, double control_period, double speed,
           bool paused);
 
-  /// The hooks of the plant of that name, and of its end.
+  /// Hooks of a plant, and of its end.
   DriveHooks HooksOf(const std::string& plant);
   void EndOf(const std::string& plant);
 
-  /// The plants no longer wait for the clock, and end at once.
+  /// Releases the plants from the clock and ends them at once.
   void Interrupt();
-  /// The report of the run is there to be loaded.
+  /// Called when the report of the run can be loaded.
   void Finish();
 
-  /// How much of the run a connection has told its page.
+  /// Part of the run that a connection has sent to its page.
   struct Cursor {
-    std::string state;                                 ///< told last
+    std::string state;                                 ///< sent last
     std::vector<std::array<std::size_t, 3>> places{};  ///< rows, poses and plans of each plant
     bool finished = false;
   };
 
-  /// What a page is to be told next, as JSON; none when it knows everything so far. One of
+  /// The next message for a page as JSON; none if it is up to date. One of
   ///   {"type": "state", "id", "paused", "speed"}  speed is a number or "max"
   ///   {"type": "rows", "plants": [{"first": [row, pose, plan], "rows", "poses", "plans"}, ...]}
   ///   {"type": "finished"}                        after all rows
-  /// Rows are those of LiveRows; a message has at most some 100 kB.
+  /// Rows are those of LiveRows; a message has at most about 100 kB.
   std::optional<std::string> Next(Cursor& cursor) const;
 
-  /// Does what a page asks for: {"do": "pause" | "resume" | "step"}, or {"do": "speed", "speed":
-  /// number | "max"}. Gives back what is wrong with the message, empty if it was obeyed.
+  /// Executes a command of a page: {"do": "pause" | "resume" | "step"}, or {"do": "speed", "speed":
+  /// number | "max"}. Returns what is wrong with the message, empty if it was executed.
   std::string Obey(std::string_view message);
 
  private:
@@ -67,7 +68,7 @@ class LiveRun {
 
   std::string id_;
   DriveClock clock_;
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the following members
   std::vector<Plant> plants_;
   bool interrupted_ = false;
   bool finished_ = false;

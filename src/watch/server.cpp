@@ -23,7 +23,7 @@ using asio::ip::tcp;
 using boost::system::error_code;
 
 constexpr std::size_t kMostConnections = 64;
-/// Between looks at what is new.
+/// Interval between checks for news.
 constexpr std::chrono::milliseconds kTick{40};
 
 tcp::endpoint EndpointOf(const std::string& host, int port) {
@@ -88,7 +88,7 @@ class Server::Implementation {
       if (error == asio::error::operation_aborted) {
         return;
       }
-      if (error) {  // such as no file descriptor left: not at once again
+      if (error) {  // e.g. out of file descriptors: retry later
         wait_to_accept_ = true;
         return;
       }

@@ -8,35 +8,35 @@
 
 namespace trackbed {
 
-/// Serves one page over HTTP, and the rows of a run that goes on over a WebSocket (Boost.Beast),
-/// all in the thread that calls Run.
+/// Serves one page over HTTP, and the rows of a run in progress over a WebSocket (Boost.Beast), all
+/// in the thread that calls Run.
 ///
-/// `/` is the page, `/live` the WebSocket while there is a LiveRun; anything else is not found.
+/// `/` is the page, `/live` the WebSocket while there is a LiveRun; other paths are not found.
 /// Requests whose Host is not this server's (IsOwnHost) and WebSockets of other pages are refused.
-/// Bounds: 64 connections at a time, further ones are closed; 8 kB of request header and no body;
-/// 4 kB in a message; 15 s for a request; a minute without any answer. A connection that does not
-/// read has one message in memory.
+/// Limits: 64 connections at a time, further ones are closed; 8 kB of request header and no body; 4
+/// kB per message; 15 s per request; one minute without an answer. A connection that does not read
+/// holds one message in memory.
 class Server {
  public:
-  /// Listens at an IP address; port 0 is any free one. InputError for what is no address, RunError
-  /// when it cannot listen there, such as on a port that is in use.
+  /// Listens at an IP address; port 0 chooses a free port. Throws InputError for an invalid
+  /// address, and RunError if listening fails, such as on a port in use.
   Server(const std::string& host, int port);
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
   ~Server();
 
-  /// "http://127.0.0.1:41234/"; of a server on all addresses, with that of the loopback.
+  /// "http://127.0.0.1:41234/"; a server on all addresses returns the loopback address.
   [[nodiscard]] std::string url() const;
 
-  /// What `/` is from now on, and whose rows `/live` has: nobody's if null. The run must outlive
-  /// the server. Before Run, or in its thread.
+  /// Sets the content of `/` and the run behind `/live`; none if null. The run must outlive the
+  /// server. Call before Run, or in its thread.
   void Show(std::string page, LiveRun* live);
 
-  /// Does `work` in the thread of Run. May be called by any thread.
+  /// Runs `work` in the thread of Run. Thread-safe.
   void Post(std::function<void()> work);
 
-  /// Serves until `stop` gives true, which is asked some times a second. Exceptions of posted work
-  /// pass through.
+  /// Serves until `stop`, polled several times per second, returns true. Exceptions of posted work
+  /// propagate.
   void Run(const std::function<bool()>& stop);
 
  private:

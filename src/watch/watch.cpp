@@ -20,14 +20,14 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// What tells this run from others that were or will be served on the same port.
+/// Random id that distinguishes this run from others served on the same port.
 std::string NewId() {
   std::random_device random;
   return fmt::format("{:08x}{:08x}", random(), random());
 }
 
-/// ReportData of the run as it begins: with the first row of each plant's log. It is read from a
-/// run folder, as every report is; that lies hidden in the one that the run will be written to.
+/// ReportData at the beginning of the run, with the first row of each plant's log. Reports are read
+/// from run folders, so this writes one, hidden inside the output folder.
 ordered_json DataAtBegin(const RunResult& planned, const CarModel& car, const fs::path& folder) {
   const RunResult begun = DriveRun(
       planned, car,
@@ -40,7 +40,7 @@ ordered_json DataAtBegin(const RunResult& planned, const CarModel& car, const fs
 }
 
 std::string PageOf(const std::vector<fs::path>& paths) {
-  // Films that lie beside the page could not be loaded: they are in it.
+  // The server has no other files, so films are embedded in the page.
   return ReportPageOf(paths, paths.front() / run_folder::kReport, FilmPlace::kEmbedded);
 }
 
@@ -51,13 +51,13 @@ void Serve(Server& server, const WatchHooks& hooks, const std::atomic<bool>& fai
   server.Run([&] { return failed || (hooks.interrupted && hooks.interrupted()); });
 }
 
-/// A run that ends in the thread of its plants, and is told of in the server's.
+/// Reports the end of a run, which happens in the simulation thread, in the server's thread.
 class Ending {
  public:
   Ending(const OutputFolder& folder, Server& server, const WatchHooks& hooks)
       : folder_(folder), server_(server), hooks_(hooks) {}
 
-  /// Writes the folder, and has its page shown, unless the server ends as the run did.
+  /// Writes the folder, and shows its page unless the run was interrupted.
   void Report(const RunResult& result, LiveRun* live) {
     WriteRunFolder(result, folder_);
     if (result.interrupted) {
@@ -72,7 +72,7 @@ class Ending {
     });
   }
 
-  /// Calls `finished`, unless it has been.
+  /// Calls `finished` once.
   void Tell(const RunResult& result) {
     if (!std::exchange(told_, true) && hooks_.finished) {
       hooks_.finished(result);
@@ -83,7 +83,7 @@ class Ending {
   const OutputFolder& folder_;
   Server& server_;
   const WatchHooks& hooks_;
-  bool told_ = false;  // in the server's thread
+  bool told_ = false;  // used in the server's thread
 };
 
 }  // namespace
@@ -119,12 +119,12 @@ RunResult WatchRun(const Scenario& scenario, const CarModel& car, const OutputFo
   try {
     Serve(server, hooks, failed);
   } catch (...) {
-    live.Interrupt();  // or `driven` waits for the end of the run
+    live.Interrupt();  // otherwise `driven` waits for the end of the run
     throw;
   }
   live.Interrupt();
   driven.get();
-  ending.Tell(result);  // if it has ended as the server did
+  ending.Tell(result);  // if the run ended together with the server
   return result;
 }
 

@@ -5,7 +5,7 @@
 namespace trackbed {
 namespace {
 
-/// The blocked cells that no rectangle has yet.
+/// The blocked cells that no rectangle covers yet.
 class OpenCells {
  public:
   OpenCells(const GridMap& map, UnknownCells unknown)
@@ -21,7 +21,7 @@ class OpenCells {
     return column < columns_ && row < rows_ && open_[Index(column, row)] != 0;
   }
 
-  /// The rectangle from a cell on that is as wide as possible, then as high.
+  /// The widest rectangle from a cell on, then the highest of that width.
   [[nodiscard]] CellRectangle Widest(int column, int row) const {
     CellRectangle found{column, row, 0, 1};
     while (IsOpen(column + found.columns, row)) {
@@ -40,7 +40,7 @@ class OpenCells {
     return found;
   }
 
-  /// As high as possible, then as wide.
+  /// The highest rectangle from a cell on, then the widest of that height.
   [[nodiscard]] CellRectangle Highest(int column, int row) const {
     CellRectangle found{column, row, 1, 0};
     while (IsOpen(column, row + found.rows)) {

@@ -9,7 +9,7 @@
 namespace trackbed {
 namespace {
 
-/// A height, and how it changes along one coordinate or along two.
+/// A height and its derivatives along one or two coordinates.
 struct Profile {
   double height = 0.0;
   double slope = 0.0;
@@ -19,7 +19,7 @@ struct Lift {
   Vec2 slope = Vec2::Zero();
 };
 
-/// C(distance / reach): 1 up to where it begins to come down, 0 from `reach` beyond that on.
+/// C(distance / reach): 1 up to distance 0, where it begins to fall; 0 from `reach` on.
 Profile ComesDown(double distance, double reach) {
   if (distance <= 0.0) {
     return {1.0, 0.0};
@@ -31,13 +31,13 @@ Profile ComesDown(double distance, double reach) {
   return {std::cos(angle) * std::cos(angle), -0.5 * kPi / reach * std::sin(2.0 * angle)};
 }
 
-/// The same on both sides of 0, flat between, down to 0 at +-half.
+/// Symmetric about 0: flat in the middle, 0 at +-half.
 Profile ComesDownOnBothSides(double place, double half, double reach) {
   const Profile one = ComesDown(std::abs(place) - half + reach, reach);
   return {one.height, std::copysign(1.0, place) * one.slope};
 }
 
-/// The product of a profile along u and one along v, with its slope in world axes.
+/// Product of a profile along u and one along v, with its slope in world axes.
 Lift Product(const Pose2& pose, double height, const Profile& along, const Profile& across) {
   const Vec2 u = Direction(pose.yaw);
   return {height * along.height * across.height,
@@ -72,7 +72,7 @@ Lift ComputeLift(const Superelevation& stretch, const Vec2& point_W) {
       across);
 }
 
-/// Of the highest feature.
+/// Height and slope of the highest feature.
 Lift Highest(const Ground& ground, const Vec2& point_W) {
   Lift highest;
   const auto look = [&](const auto& features) {

@@ -77,7 +77,7 @@ std::optional<double> Clearance(const World& world, const VehicleParams& vehicle
   double nearest = std::numeric_limits<double>::infinity();
   for (const Obstacle& obstacle : world.obstacles) {
     const OrientedBox box = FootprintAt(obstacle, time);
-    // Circles around both tell of most boxes that they are not the nearest.
+    // Bounding circles exclude most boxes from being the nearest.
     const double circles = nearest + radius + 0.5 * std::hypot(box.length, box.width);
     if ((box.center.position() - middle).squaredNorm() < circles * circles) {
       nearest = std::min(nearest, Distance(footprint, box));
@@ -88,7 +88,7 @@ std::optional<double> Clearance(const World& world, const VehicleParams& vehicle
 
 namespace {
 
-/// How far a point of the footprint can move against an obstacle between two samples [m].
+/// Upper bound on the motion of a footprint point relative to an obstacle between two samples [m].
 double MostMoved(const World& world, const VehicleParams& vehicle, const ClearanceSample& from,
                  const ClearanceSample& to) {
   const double reach = std::hypot(
@@ -101,7 +101,8 @@ double MostMoved(const World& world, const VehicleParams& vehicle, const Clearan
          reach * std::abs(to.pose.yaw - from.pose.yaw) + fastest * (to.time - from.time);
 }
 
-/// More than any motion of a car takes, far fewer than the way of one that diverges.
+/// Limit of the bisections: enough for any motion of a car, and it bounds the time for a diverged
+/// one.
 constexpr long kMostLooks = 100000;
 
 /// Bisects the motion between two samples, over which the clearance changes by at most `moved` [m],
@@ -113,7 +114,7 @@ void Approach(const World& world, const VehicleParams& vehicle, const ClearanceS
   constexpr double kDepth = 1e-3;  // [m]
   const double least = 0.5 * (from.clearance + to.clearance - moved);
   const double near = best.clearance - std::max(kTolerance, kShare * best.clearance);
-  // Below the tolerance it matters whether they touch.
+  // Below the tolerance, continues to find out whether they touch.
   if (best.clearance == 0.0 || moved < kDepth || (least > 0.0 && least >= near) || --looks < 0) {
     return;
   }

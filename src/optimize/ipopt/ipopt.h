@@ -5,13 +5,14 @@
 namespace trackbed {
 
 struct IpoptResult {
-  bool solved = false;  ///< to its tolerance, as IPOPT says
+  bool solved = false;  ///< to IPOPT's tolerance
   Eigen::VectorXd x;
   Eigen::VectorXd multipliers;
   int iterations = 0;
 };
 
-/// Solves a program that was checked, its matrices compressed. RunError in a build without IPOPT.
+/// Solves a program that has been checked and whose matrices are compressed. RunError in a build
+/// without IPOPT.
 IpoptResult SolveByIpopt(const SparseQuadraticProgram& program, const Eigen::VectorXd& start,
                          InteriorSteps steps);
 

@@ -15,15 +15,15 @@ using Sparse = Eigen::SparseMatrix<double>;
 using ConstVectorMap = Eigen::Map<const Eigen::VectorXd>;
 using VectorMap = Eigen::Map<Eigen::VectorXd>;
 
-/// The program and an iteration count, for the callbacks.
+/// The program and the iteration count, for the callbacks.
 struct Context {
   const SparseQuadraticProgram& program;
   Sparse lower_triangle;
   int iterations = 0;
 };
 
-/// Takes IPOPT's types from a callback, because no names fit all versions: 3.14 deprecates Index,
-/// Number and Bool, and 3.11 lacks ipindex and ipnumber.
+/// Deduces IPOPT's types from a callback, because no type names exist in all versions: 3.14
+/// deprecates Index, Number and Bool, and 3.11 lacks ipindex and ipnumber.
 template <typename Callback>
 struct TypesOf;
 template <typename BoolType, typename IndexType, typename NumberType>
@@ -40,7 +40,7 @@ Context& ContextOf(UserDataPtr data) {
   return *static_cast<Context*>(data);
 }
 
-/// Places of the entries of a matrix if they are asked for, else their values.
+/// Fills in the positions of a matrix's entries if `rows` is given, otherwise their values.
 void FillEntries(const Sparse& matrix, IpIndex* rows, IpIndex* columns, IpNumber* values) {
   Eigen::Index entry = 0;
   for (Eigen::Index outer = 0; outer < matrix.outerSize(); ++outer) {
@@ -100,7 +100,7 @@ IpBool CountIteration(IpIndex /*mode*/, IpIndex iteration, IpNumber /*objective*
 }
 
 void SetOptions(IpoptProblem problem, InteriorSteps steps) {
-  // The interface takes texts that it may change, and does not.
+  // The C interface takes non-const texts, which it does not change.
   const auto set_text = [&](std::string name, const std::string& value) {
     std::string own = value;
     TRACKBED_CHECK(AddIpoptStrOption(problem, name.data(), own.data()) == TRUE, "{}", name);
@@ -108,7 +108,7 @@ void SetOptions(IpoptProblem problem, InteriorSteps steps) {
   const auto set_integer = [&](std::string name, int value) {
     TRACKBED_CHECK(AddIpoptIntOption(problem, name.data(), value) == TRUE, "{}", name);
   };
-  set_text("option_file_name", "");  // else it reads ipopt.opt from the current folder
+  set_text("option_file_name", "");  // otherwise IPOPT reads ipopt.opt from the current folder
   set_text("hessian_constant", "yes");
   set_text("jac_d_constant", "yes");
   if (steps == InteriorSteps::kPredictorCorrector) {
@@ -130,7 +130,7 @@ void SetOptions(IpoptProblem problem, InteriorSteps steps) {
 
 IpoptResult SolveByIpopt(const SparseQuadraticProgram& program, const Eigen::VectorXd& start,
                          InteriorSteps steps) {
-  // MUMPS, IPOPT's linear solver in Debian, keeps state of its own: two solutions at a time crash.
+  // MUMPS, IPOPT's linear solver in Debian, has global state: concurrent solutions crash.
   static std::mutex one_at_a_time;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   const auto n = static_cast<IpIndex>(program.linear.size());

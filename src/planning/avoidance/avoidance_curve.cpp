@@ -10,25 +10,33 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/world/world.h"
 
+// Repairs a degree-7 Bezier curve past obstacles until it is feasible. The end conditions
+// (position, heading, curvature) fix P_0 and P_7, the directions of P_1 and P_6 and the offsets of
+// P_2 and P_5. Fit places P_3 and P_4 by least squares along a polyline. RepairCurve then minimizes
+// the integral of (dkappa/ds)^2 over the eight remaining variables; clearance, steering angle and
+// rate, lateral acceleration and passing side are inequality constraints, evaluated at 193 samples.
+// The curve past an obstacle follows Skackauskas (dissertation, listing F.2); the repair does not.
+
 namespace trackbed::avoidance {
 namespace {
 
 constexpr std::size_t kDegree = 7;
 constexpr double kCheckSpacing = 0.05;  // [m]
-/// What the search keeps beyond the limits, for what happens between its samples.
+/// Margins that the search adds to the limits, because it checks the curve at samples only.
 constexpr double kClearanceMargin = 0.02;  // [m]
 constexpr double kLimitMargin = 0.99;
-/// After so many evaluations, a curve that still breaks a limit by more than half is given up.
+/// If a constraint is still violated by more than kHopeless after so many evaluations, the search
+/// is abandoned.
 constexpr int kFirstLook = 200;
 constexpr double kHopeless = 0.5;
-/// A search that got stuck is helped on with linear models of all its functions.
+/// A stalled search continues with COBYLA, which builds linear models of objective and constraints.
 constexpr SearchOptions kRescue{
     .method = SearchMethod::kCobyla, .evaluations = 300, .tolerance = 1e-5};
-/// Farther than this beyond what is wanted, the search need not know how far [m].
+/// Distances are not computed beyond this much more than the required clearance [m].
 constexpr double kFar = 3.0;
 
-/// The search's variables: what the end conditions leave free, in units of the distance between the
-/// ends, in the frame of the start.
+/// The search's variables: the degrees of freedom that the end conditions leave, in the mirror
+/// frame of the start, in units of the distance between the ends.
 enum Variable : std::size_t {
   kStartFirst,
   kStartSecond,
@@ -44,8 +52,9 @@ using Variables = std::span<const double>;
 
 using Points = std::array<Vec2, kDegree + 1>;
 
-/// P_0 to P_7 in the mirror frame of the start, from the end conditions: P_1 on the tangent, and
-/// P_2 off it by what the curvature asks for, kappa = (6/7) h/|P_0 P_1|^2.
+/// Maps variables to P_0 to P_7, in the mirror frame of the start. P_1 lies on the tangent; the
+/// offset h of P_2 from the tangent follows from the curvature, kappa = (6/7) h/|P_0 P_1|^2. The
+/// same holds at the end.
 class EndConditions {
  public:
   explicit EndConditions(const CurveProblem& problem)
@@ -93,12 +102,12 @@ class EndConditions {
   Vec2 forward_;
 };
 
-/// Where the line between two points on either side of the y axis crosses it.
+/// y at which the line between two points on either side of the y axis crosses that axis.
 double CrossingY(const Vec2& a, const Vec2& b) {
   return a.y() + (b.y() - a.y()) * a.x() / (a.x() - b.x());
 }
 
-/// Bernstein's polynomials of degree 7 and their first three derivatives at fixed parameters.
+/// Bernstein polynomials of degree 7 and their first three derivatives at evenly spaced parameters.
 struct Basis {
   static constexpr Eigen::Index kSamples = 193;
   using Matrix = Eigen::Matrix<double, kSamples, kDegree + 1>;
@@ -124,12 +133,11 @@ const Basis& TheBasis() {
   return basis;
 }
 
-/// The curve of a search's variables, looked at in the samples of the basis: objective and
-/// constraints of the repair.
+/// Objective and constraints of the repair, evaluated at the samples of the basis.
 class Evaluation {
  public:
-  /// Constraints are the worst of each stretch of sixteen samples: what changes smoothly with the
-  /// variables makes a better search than one worst of all.
+  /// Each constraint is the worst value over sixteen samples. These vary more smoothly with the
+  /// variables than one worst value over the whole curve, so the search converges better.
   static constexpr Eigen::Index kStretch = 16;
   static constexpr std::size_t kStretches = (Basis::kSamples - 1) / kStretch;
   static constexpr std::size_t kConstraints = 2 * kStretches + 4;
@@ -184,7 +192,7 @@ class Evaluation {
     double steering = 0.0;
     double acceleration = 0.0;
     double slowest = std::numeric_limits<double>::infinity();
-    double on_side = std::numeric_limits<double>::infinity();  // where it crosses the passage
+    double on_side = std::numeric_limits<double>::infinity();  // to the passage's side
     Vec2 last_at_passage{0.0, 0.0};
     constraints_.fill(-1.0);
     for (Eigen::Index k = 0; k < Basis::kSamples; ++k) {
@@ -194,7 +202,8 @@ class Evaluation {
       const double parameter_speed = first.norm();
       const double curvature = CurvatureFromDerivatives(first, second);
       const double sharpness = SharpnessFromDerivatives(first, second, third);
-      // Trapezia over the samples; the same for every curve, so that rounding does not jump.
+      // Trapezoidal rule with the same samples for every curve, so that rounding errors do not
+      // jump.
       length += k == 0 ? 0.0 : 0.5 * (parameter_speed + last_speed) / (Basis::kSamples - 1);
       last_speed = parameter_speed;
       slowest = std::min(slowest, parameter_speed);
@@ -223,15 +232,15 @@ class Evaluation {
     constraints_[2 * kStretches] = steering / (kLimitMargin * vehicle.steering_limit) - 1.0;
     constraints_[2 * kStretches + 1] =
         acceleration / (kLimitMargin * problem_.lateral_acceleration) - 1.0;
-    // No cusps: everywhere at least a tenth of the mean speed of a straight curve.
+    // Prevents cusps: the parameter speed must be at least a tenth of a straight curve's mean.
     const double scale = ends_.scale();
     constraints_[2 * kStretches + 2] = 1.0 - slowest / (0.1 * scale);
     constraints_[2 * kStretches + 3] = std::isfinite(on_side) ? -on_side / scale : 1.0;
     objective_ = variation * scale * scale * scale;
   }
 
-  /// The separation of the footprint on a point of the curve from the nearest obstacle, or kFar
-  /// more than is wanted where the boxes' circles tell that it is at least that.
+  /// Separation of the footprint at a point of the curve from the nearest obstacle; at most the
+  /// required clearance plus kFar, which the boxes' circumscribed circles suffice to show.
   [[nodiscard]] double NearestObstacle(const Vec2& rear_axle, const Vec2& forward) const {
     const VehicleParams& vehicle = problem_.vehicle;
     const Vec2 middle = rear_axle + (0.5 * vehicle.length - vehicle.rear_overhang) * forward;
@@ -254,9 +263,9 @@ class Evaluation {
   EndConditions ends_;
   Vec2 passage_{0.0, 0.0};  // in the frame of the start
   Vec2 along_passage_{1.0, 0.0};
-  double wanted_;  // clearance [m]
-  /// An obstacle in the frame of the start, and how far apart the middles of it and the car can be
-  /// while they touch.
+  double wanted_;  // required clearance [m]
+  /// An obstacle in the frame of the start, and the largest distance between the centers of car and
+  /// obstacle at which the two can touch.
   struct Near {
     OrientedBox box;
     double radius;
@@ -276,7 +285,7 @@ BezierCurve InWorld(const CurveProblem& problem, const Points& points) {
   return BezierCurve(control);
 }
 
-/// Points evenly along a polyline, both ends included.
+/// Evenly spaced points along a polyline, both ends included.
 std::vector<Vec2> Evenly(const std::vector<Vec2>& polyline, std::size_t count) {
   std::vector<double> along{0.0};
   for (std::size_t i = 1; i < polyline.size(); ++i) {
@@ -358,7 +367,7 @@ BezierCurve Fit(const CurveProblem& problem, const std::vector<Vec2>& polyline) 
   const double seventh = PolylineLength(polyline) / kDegree / ends.scale();
   std::array<double, kVariables> x{seventh, seventh, 0.0, 0.0, 0.0, 0.0, seventh, seventh};
   Points points = ends.ToPoints(x);
-  // The rest of the polyline, after what the known control points give, is for P_3 and P_4.
+  // P_3 and P_4 fit what remains of the polyline after subtracting the known control points.
   constexpr Eigen::Index kSamples = Basis::kSamples;
   const auto& bernstein = TheBasis().of_order[0];
   Eigen::Matrix<double, kSamples, 2> rest;
@@ -385,7 +394,8 @@ std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve
     points[i] = problem.Frame().In(guess.control_points()[i]);
   }
   const std::array<double, kVariables> start = evaluation.ends().ToVariables(points);
-  // End lengths from a fiftieth of the way to all of it; P_3 and P_4 anywhere near.
+  // The end lengths may be 0.02 to 1 of the distance between the ends; P_3 and P_4 may lie anywhere
+  // near.
   SearchProblem moved{
       .lower = {0.02, 0.02, -1.0, -1.5, -1.0, -1.5, 0.02, 0.02},
       .upper = {1.0, 1.0, 2.0, 1.5, 2.0, 1.5, 1.0, 1.0},
@@ -411,7 +421,7 @@ std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve
   }
   result = again_from(result.x, search);
   if (!result.ok()) {
-    // What got stuck short of the limits may be led there by another method, and then go on.
+    // If the search stalls outside the limits, continue with COBYLA, then retry the first method.
     result = again_from(result.x, kRescue);
     if (result.ok()) {
       const SearchResult better = again_from(result.x, search);

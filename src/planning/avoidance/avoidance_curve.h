@@ -10,11 +10,11 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/vehicle/params.h"
 
-/// One curve past obstacles: from a first guess to one that can be driven safely.
+/// Curves past obstacles: the first guess, its check and its repair.
 namespace trackbed::avoidance {
 
-/// The frame in which ways and curves are looked for: that of the curve's start, seen in a mirror
-/// where the turn leads to the right, so that a moved or mirrored problem is the same one.
+/// Frame of the tree search and of the curve: at the curve's start, mirrored for a right turn.
+/// Moved or mirrored problems then have the same coordinates.
 struct MirrorFrame {
   Pose2 pose;
   double side = 1.0;  ///< -1: y points to the right
@@ -31,7 +31,7 @@ struct MirrorFrame {
   }
 };
 
-/// Where a curve begins or ends.
+/// Boundary condition at the start or end of a curve.
 struct CurveEnd {
   Pose2 pose;
   double curvature = 0.0;  ///< [1/m]
@@ -39,8 +39,8 @@ struct CurveEnd {
 
 /// The side on which an obstacle is to be passed.
 struct PassageConstraint {
-  Pose2 frame;        ///< at the obstacle, along the way past it
-  double side = 1.0;  ///< +1: across the frame's y axis on the left, -1: on the right
+  Pose2 frame;        ///< at the obstacle, along the path past it
+  double side = 1.0;  ///< +1: pass to the left of the frame's origin, -1: to the right
 };
 
 struct CurveProblem {
@@ -48,37 +48,37 @@ struct CurveProblem {
   CurveEnd start;
   CurveEnd end;
   PassageConstraint passage;
-  double mirror = 1.0;  ///< -1: looked at in a mirror (see MirrorFrame)
+  double mirror = 1.0;  ///< -1: mirrored (see MirrorFrame)
   std::vector<OrientedBox> obstacles;
   double safe_distance = 0.0;         ///< SD [m]
-  double steering_rate = 0.0;         ///< that the curve may ask for [rad/s]
-  double lateral_acceleration = 0.0;  ///< likewise [m/s^2]
+  double steering_rate = 0.0;         ///< available to the curve [rad/s]
+  double lateral_acceleration = 0.0;  ///< limit [m/s^2]
   double start_speed = 0.0;           ///< [m/s]
-  double speed = 0.0;                 ///< to come down to, or to go up to at once [m/s]
-  double deceleration = 0.0;          ///< at which [m/s^2]
+  double speed = 0.0;                 ///< to brake to, or to accelerate to immediately [m/s]
+  double deceleration = 0.0;          ///< with which the car brakes to `speed` [m/s^2]
 
   [[nodiscard]] MirrorFrame Frame() const { return {start.pose, mirror}; }
-  /// Speed after `distance` [m/s], at most.
+  /// Largest speed after `distance` [m/s].
   [[nodiscard]] double SpeedAt(double distance) const;
 };
 
-/// What a curve asks of the car, and how close it comes.
+/// Largest demands of a curve on the car, and its clearance.
 struct CurveCheck {
   double length = 0.0;                ///< [m]
   double clearance = 0.0;             ///< of the footprint; infinite without obstacles [m]
   double steering = 0.0;              ///< largest magnitude [rad]
-  double steering_rate = 0.0;         ///< likewise [rad/s]
-  double lateral_acceleration = 0.0;  ///< likewise [m/s^2]
+  double steering_rate = 0.0;         ///< largest magnitude [rad/s]
+  double lateral_acceleration = 0.0;  ///< largest magnitude [m/s^2]
 
   [[nodiscard]] bool Keeps(const CurveProblem& problem) const;
 };
 
-/// Looks every 0.05 m.
+/// Checks every 0.05 m.
 CurveCheck Check(const CurveProblem& problem, const BezierCurve& curve);
 
-/// The degree-7 curve with the problem's end conditions that comes closest to a polyline from start
-/// to end, in the sense of least squares: P_3 and P_4 are fitted, the ends are a seventh of its
-/// length apart.
+/// Least-squares fit of a degree-7 curve with the problem's end conditions to a polyline from start
+/// to end. P_3 and P_4 are fitted; the end lengths |P_0 P_1|, |P_1 P_2|, |P_5 P_6| and |P_6 P_7|
+/// are a seventh of the polyline's length.
 BezierCurve Fit(const CurveProblem& problem, const std::vector<Vec2>& polyline);
 
 struct Repair {
@@ -87,12 +87,12 @@ struct Repair {
   SearchResult search;
 };
 
-/// Whether a polyline goes through the passage: an odd number of times across its side.
+/// Whether a polyline passes on the required side: it crosses that side an odd number of times.
 bool GoesThrough(const PassageConstraint& passage, const std::vector<Vec2>& polyline);
 
-/// Moves P_3, P_4 and the end lengths from those of `guess` for the least curvature variation,
-/// the integral of (dkappa/ds)^2 ds, that goes through the passage and keeps distance and limits.
-/// None when the search found no such curve.
+/// Moves P_3, P_4 and the end lengths, starting at `guess`, to minimize the curvature variation,
+/// the integral of (dkappa/ds)^2 ds, of a curve that passes on the required side and keeps the safe
+/// distance and the limits. None if the search finds no such curve.
 std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve& guess,
                                   const SearchOptions& search, std::uint64_t seed);
 

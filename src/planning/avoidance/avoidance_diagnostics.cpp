@@ -3,7 +3,7 @@
 namespace trackbed {
 namespace {
 
-/// The tree that was searched for the way past the obstacle.
+/// Record of the tree search for the path past the obstacle.
 struct TreeRecord {
   const BezierAvoidanceDiagnostics& own;
 };
@@ -18,7 +18,7 @@ void Visit(DiagnosticsVisitor& out, const TreeRecord& tree) {
   }
 }
 
-/// The search that moved the control points.
+/// Record of the search that moved the control points.
 struct RepairRecord {
   const BezierAvoidanceDiagnostics& own;
 };

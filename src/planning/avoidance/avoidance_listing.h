@@ -3,12 +3,14 @@
 #include "src/planning/avoidance/avoidance_stretch.h"
 #include "trackbed/planning/common/plan.h"
 
-/// The listing's curve past an obstacle in a turn, as printed.
+/// The listing's curve past an obstacle in a turn, as printed (Skackauskas, dissertation, listing
+/// F.2).
 namespace trackbed::avoidance {
 
-/// The curve in place of the plan's turn, from S before its arc on; none, and why, where the
-/// obstacle stands in no turn between straights, where the car cannot leave the plan S before the
-/// arc any more (`from` is where it can), and where the listing has no curve (TurnStatus).
+/// Replaces the plan's turn by the listing's curve, which begins S before the arc. Returns no
+/// curve, with a reason, if the obstacle does not stand in a turn between two straights, if the
+/// point S before the arc lies before `from`, where the car can leave the plan, or if the listing
+/// itself fails (TurnStatus).
 ReplacementSearch FindListingCurve(const AvoidanceRequest& request,
                                    const ListingAvoidanceOptions& options, const Plan& plan,
                                    const Conflict& conflict, double from);

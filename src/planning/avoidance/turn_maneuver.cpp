@@ -13,6 +13,13 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/world/world.h"
 
+// The curve past an obstacle in a turn as printed in Skackauskas (dissertation, listing F.2): the
+// turn's arc is sampled (on a 0.01 rad grid with `literal.grid`), the obstacle stands at n sixths
+// of it, and the safe point lies beside the obstacle at the radius r_k. An RRT* of floor(S/2)
+// samples gives the height of P_3; the rest of the eight control points of the Bezier curve are
+// explicit formulas. The curve is not repaired: SimulateManeuver only measures it, at 501
+// parameters.
+
 namespace trackbed {
 namespace {
 
@@ -27,8 +34,8 @@ double Sign(const TurnManeuver& maneuver) {
   return maneuver.side == TurnSide::kLeft ? 1.0 : -1.0;
 }
 
-/// The point of a circle around C. Both sides of the turn through the same numbers, so that they
-/// mirror each other to the last bit.
+/// Point of a circle around C. Left and right turns use the same numbers, so their points mirror
+/// each other exactly.
 Vec2 PointAt(const TurnManeuver& maneuver, double radius, double angle) {
   return {maneuver.straight() + radius * std::sin(angle),
           Sign(maneuver) * (maneuver.radius - radius * std::cos(angle))};
@@ -54,20 +61,20 @@ void CheckRanges(const TurnManeuver& m, const VehicleParams& vehicle) {
   TRACKBED_CHECK(vehicle.width > 0.0 && std::isfinite(vehicle.width), "width {}", vehicle.width);
 }
 
-/// SD + IS_k + w_a, twice [m].
+/// 2 (SD + IS_k + w_a) [m]; IS_k is half the obstacle's diagonal.
 double RequiredWidth(const TurnManeuver& maneuver, double vehicle_width) {
   const double half_diagonal = 0.5 * std::hypot(maneuver.obstacle_width, maneuver.obstacle_length);
   return 2.0 * maneuver.safe_distance + 2.0 * half_diagonal + 2.0 * vehicle_width;
 }
 
-/// sigma of the arc's points, from A to E.
+/// sigma of the arc's points, from A to E, ascending.
 std::vector<double> ArcAngles(const TurnManeuver& maneuver) {
   const double sweep = maneuver.turn_angle - maneuver.reduction;
   std::vector<double> angles;
   if (!(sweep > 0.0)) {
     return angles;
   }
-  // A range that whole steps fill up to rounding keeps its last point.
+  // Keeps the last point of a range that is a whole number of steps up to rounding.
   const double steps = sweep / kGrid;
   if (maneuver.literal.grid) {
     const double last = std::floor(steps * (1.0 + 1e-12));
@@ -83,7 +90,8 @@ std::vector<double> ArcAngles(const TurnManeuver& maneuver) {
   return angles;
 }
 
-/// Whether two lines cross: the ends of either lie to the left of the other and not to its left.
+/// Whether two line segments cross: the ends of each lie on different sides of the other. A point
+/// on a line counts as not left of it.
 bool LinesCross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const auto left = [](const Vec2& p, const Vec2& q, const Vec2& r) {
     return Cross(q - p, r - p) > 0.0;
@@ -91,7 +99,7 @@ bool LinesCross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   return left(a, c, d) != left(b, c, d) && left(a, b, c) != left(a, b, d);
 }
 
-/// A line that lies within the box crosses no side, and counts as free (L13).
+/// A segment that lies entirely within the box crosses no side and counts as free (L13).
 bool CrossesNoSide(const Vec2& from, const Vec2& to, const OrientedBox& box) {
   const std::array<Vec2, 4> corners = box.Corners();
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -102,7 +110,7 @@ bool CrossesNoSide(const Vec2& from, const Vec2& to, const OrientedBox& box) {
   return true;
 }
 
-/// Index of the first node that is nearest to a point.
+/// Index of the node nearest to a point; the first of several.
 std::size_t NearestNode(const std::vector<TreeNode>& nodes, const Vec2& point) {
   std::size_t nearest = 0;
   for (std::size_t i = 1; i < nodes.size(); ++i) {
@@ -113,8 +121,8 @@ std::size_t NearestNode(const std::vector<TreeNode>& nodes, const Vec2& point) {
   return nearest;
 }
 
-/// The corner of the obstacle that the listing measures to: the rear one toward the center of the
-/// turn if the car passes there, else the front one on the other side.
+/// The obstacle's corner to which the listing measures: rear and toward the turn's center if the
+/// car passes there, else front and on the outside.
 Vec2 TestCorner(const TurnManeuver& maneuver, const OrientedBox& obstacle) {
   const double inward = maneuver.passing_side() == PassingSide::kInner ? 1.0 : -1.0;
   return ToWorld(obstacle.center,
@@ -160,8 +168,8 @@ TurnLayout LayOutTurn(const TurnManeuver& maneuver, const VehicleParams& vehicle
   double obstacle_angle = sixths * (maneuver.turn_angle - maneuver.reduction);
   layout.safe_angle = obstacle_angle;
   if (maneuver.literal.grid) {
-    // The listing turns the points around but not their angles: it counts these from the other end,
-    // which differs by the part of a step that the grid leaves over.
+    // The listing reverses the points but not their angles, so it counts the angles from the other
+    // end. The result differs by the remainder of the sweep over the grid step.
     obstacle_angle = angles[layout.obstacle_at - 1];
     layout.safe_angle = kGrid * static_cast<double>(layout.obstacle_at - 1);
   }
@@ -191,7 +199,7 @@ std::array<Vec2, 8> ControlPoints(const TurnManeuver& maneuver, const TurnLayout
   Vec2 exit{std::cos(end_angle), sign * std::sin(end_angle)};
   points[5] = arc_end;
   if (maneuver.literal.right_angle_rule && maneuver.reduction == 0.0) {
-    // Beside the safe point, on the outside beside the one that the inside would have.
+    // Level with the safe point; on the outside, with the safe point that the inside would have.
     const double radius = SafeRadius(maneuver, vehicle.width, PassingSide::kInner);
     const double y = maneuver.passing_side() == PassingSide::kInner
                          ? layout.safe_point.y()
@@ -276,7 +284,7 @@ ManeuverRun SimulateManeuver(const TurnManeuver& maneuver, const TurnLayout& lay
     const double slope = vehicle.wheelbase * sample.curvature;
     const double rate =
         std::abs(maneuver.speed * vehicle.wheelbase * curve.Sharpness(u) / (1.0 + slope * slope));
-    // Not finite where there is no direction: further than any limit.
+    // NaN where the tangent vanishes: treat as exceeding every limit.
     const double angle = std::abs(sample.steering);
     drive.steering_max = std::max(drive.steering_max, std::isnan(angle) ? kInfinity : angle);
     drive.steering_rate_max =

@@ -10,11 +10,11 @@
 namespace trackbed {
 namespace {
 
-/// Most bins: they are larger where the boxes are so far apart that there would be more.
+/// Largest number of bins; bins grow when the boxes are too far apart for it.
 constexpr double kMostBins = 250000.0;
-/// Shortest step along a path, per meter of the car's length, and at most [m].
+/// Shortest step along a path, as a fraction of the car's length.
 constexpr double kStep = 0.02;
-/// Up to so many boxes, it is quicker to ask how far all of them are than to take many steps.
+/// Up to so many boxes, computing all distances once is faster than many small steps.
 constexpr std::size_t kFewBoxes = 16;
 
 bool IsBox(const OrientedBox& box) {
@@ -22,7 +22,7 @@ bool IsBox(const OrientedBox& box) {
          std::isfinite(box.length) && box.width >= 0.0 && std::isfinite(box.width);
 }
 
-/// Squared distance from a point to a box whose length has the direction `along`.
+/// Squared distance from a point to a box; `along` is the unit vector of the box's length.
 double SquareTo(const OrientedBox& box, const Vec2& along, const Vec2& point) {
   const Vec2 offset = point - box.center.position();
   const double x = std::max(std::abs(along.dot(offset)) - 0.5 * box.length, 0.0);
@@ -56,7 +56,8 @@ CollisionChecker::CollisionChecker(const VehicleParams& vehicle, std::vector<Ori
 }
 
 void CollisionChecker::FillBins() {
-  // From a footprint's middle within which a box matters, and the box's own extent along the axes.
+  // `near`: largest distance between a box's reach and a footprint's center at which the box
+  // matters.
   const double near = radius_ + distance_ + farthest_;
   const auto reach_of = [&](std::size_t i) {
     const Vec2 along = 0.5 * boxes_[i].length * along_[i];
@@ -70,14 +71,15 @@ void CollisionChecker::FillBins() {
     high = high.cwiseMax(boxes_[i].center.position() + reach_of(i));
   }
   const Vec2 size = high - low_;
-  // About a car; the longer of the two sides alone, for boxes in a row; their area, for others.
+  // Bin size: about a car; larger if the boxes' extent needs more than kMostBins, in a row or over
+  // an area.
   bin_ = std::max({farthest_, size.maxCoeff() / kMostBins, std::sqrt(size.prod() / kMostBins)});
   TRACKBED_REQUIRE(std::isfinite(bin_), "CollisionChecker: boxes over {} x {} m; must be less",
                    size.x(), size.y());
   columns_ = static_cast<int>(size.x() / bin_) + 1;
   rows_ = static_cast<int>(size.y() / bin_) + 1;
   bins_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
-  // From the middle of a bin to a box that matters somewhere in it; the rest is for rounding.
+  // Distance from a bin's center within which a box may matter in the bin, with room for rounding.
   const double far = (near + bin_ * std::sqrt(0.5)) * (1.0 + 1e-9);
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     const Vec2 reach = reach_of(i);
@@ -110,7 +112,7 @@ double CollisionChecker::Clearance(const Pose2& pose, double at_most) const {
   const std::vector<int>* near = Near(middle);
   double clearance = std::min(farthest_, at_most);
   if (near == nullptr) {
-    // Far from every box, or nowhere.
+    // No box nearby, or a pose that is not finite.
     TRACKBED_REQUIRE(middle.allFinite(), "CollisionChecker: the pose {}, {}, yaw {} is not finite",
                      pose.x, pose.y, pose.yaw);
     return clearance;
@@ -118,7 +120,7 @@ double CollisionChecker::Clearance(const Pose2& pose, double at_most) const {
   const OrientedBox footprint{{middle.x(), middle.y(), pose.yaw}, vehicle_.length, vehicle_.width};
   for (const int i : *near) {
     const auto index = static_cast<std::size_t>(i);
-    // A box farther from the middle neither overlaps the footprint nor is nearer than the nearest.
+    // A box farther from the middle neither overlaps the footprint nor is the nearest one.
     const double within = radius_ + std::max(distance_ + clearance, 0.0);
     if (SquareTo(boxes_[index], along_[index], middle) < within * within) {
       clearance = std::min(clearance, Separation(footprint, boxes_[index]) - distance_);
@@ -138,7 +140,8 @@ double CollisionChecker::NextLook(const Pose2& pose, double room, double moved, 
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
       square = std::min(square, SquareTo(boxes_[i], along_[i], middle));
     }
-    // Each step takes farthest() of that away at most: looks at its end would change nothing.
+    // Each step reduces the distance by at most farthest(), so the steps before that change
+    // nothing.
     for (double left = std::sqrt(square) - radius_ - distance_ - farthest_;
          left > (1.0 + 1e-9) * farthest_ && farthest_ < moved * (length - at); left -= farthest_) {
       at += farthest_ / moved;

@@ -12,13 +12,19 @@
 #include "trackbed/geometry/box_index.h"
 #include "trackbed/planning/common/route_start.h"
 
+// Rounds the corners of a polyline by clothoid, arc, clothoid. A corner's sharpness is what the
+// steering rate allows at its speed, so a slower corner is shorter. Each corner may use half of its
+// legs; bisection finds the fastest speed at which its tangents fit. Then the path is laid out and,
+// while it is too close to an obstacle, the corner nearest to the collision is slowed down by a
+// fifth.
+
 namespace trackbed {
 namespace {
 
-/// Smaller changes of heading are none [rad].
+/// Heading changes below this are straight [rad].
 constexpr double kStraight = 1e-9;
 
-/// The curve's segments, turned to its side.
+/// The corner's segments, curving to its side.
 std::vector<Segment> ToSegments(const RoundCorner& corner) {
   const double side = std::copysign(1.0, corner.heading_change);
   const double ramp = corner.curvature / corner.sharpness;
@@ -35,7 +41,7 @@ std::vector<Segment> ToSegments(const RoundCorner& corner) {
   return segments;
 }
 
-/// The path, as far as its corners allow; fills in their stations.
+/// Joins the straights and the rounded corners to a path; fills in the corners' stations.
 Path LayOut(const std::vector<Vec2>& polyline, std::vector<RoundCorner>& corners) {
   std::vector<Segment> segments;
   double station = 0.0;
@@ -64,8 +70,8 @@ Path LayOut(const std::vector<Vec2>& polyline, std::vector<RoundCorner>& corners
   return {StartOfRoute(polyline), std::move(segments)};
 }
 
-/// The highest speed up to `highest` at which the leg before the first corner, `leg` [m] long,
-/// holds its tangent and the way to slow down to it; none if there is none.
+/// The highest speed up to `highest` at which both the first corner's tangent and the braking
+/// distance to that speed fit on the first leg, `leg` [m] long. None if no speed fits.
 template <typename Tangent>
 std::optional<double> SpeedAfterBraking(const CornerLimits& limits, double highest, double leg,
                                         const Tangent& tangent) {
@@ -77,7 +83,8 @@ std::optional<double> SpeedAfterBraking(const CornerLimits& limits, double highe
   if (lacks(highest) <= 0.0) {
     return highest;
   }
-  // A slower corner is shorter, and the way to slow down longer: either may win.
+  // A slower corner is shorter but its braking distance is longer, so the condition is not
+  // monotonic.
   constexpr int kSteps = 100;
   for (int i = kSteps - 1; i >= 0; --i) {
     const double v = std::lerp(limits.min_speed, highest, static_cast<double>(i) / kSteps);
@@ -93,7 +100,7 @@ std::string DescribePlace(const RoundCorner& corner) {
                      corner.at.x(), corner.at.y());
 }
 
-/// The corner nearest to a station, of those that are not yet as slow as they may be; or none.
+/// The corner nearest to a station; null without corners, or if it already has the minimum speed.
 RoundCorner* CornerToSlow(std::vector<RoundCorner>& corners, double station, double min_speed) {
   RoundCorner* nearest = nullptr;
   const auto away = [&](const RoundCorner& corner) {
@@ -120,7 +127,7 @@ RoundCorner CornerAt(const VehicleParams& vehicle, double heading_change, double
   corner.speed = speed;
   corner.sharpness = vehicle.steering_rate / (vehicle.wheelbase * speed);
   corner.curvature = std::min(std::sqrt(h * corner.sharpness), max_curvature);
-  // The middle of the curve lies on the corner's bisector.
+  // By symmetry, the middle of the curve lies on the corner's bisector.
   std::vector<Segment> half = ToSegments(corner);
   const bool has_arc = half.size() == 3;
   half.pop_back();
@@ -142,8 +149,8 @@ RoundCorner AtSpeed(const VehicleParams& vehicle, const CornerLimits& limits,
   return slower;
 }
 
-/// Lays out the path, its corners slowed down until it is clear. Returns why it is not, for people;
-/// empty when it is.
+/// Lays out the path and slows down corners until it is clear. Returns the reason for a failure,
+/// for people; empty on success.
 std::string SlowUntilClear(const VehicleParams& vehicle, const std::vector<Vec2>& polyline,
                            const CornerLimits& limits, const CollisionChecker& clear,
                            RoundedCorners& result) {
@@ -240,7 +247,7 @@ RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2
 
 namespace {
 
-/// Leaves out the points that are straight on, or that `sees` sees past.
+/// Drops the points that lie on a straight, or that `sees` can bypass.
 template <typename Sees>
 std::vector<Vec2> Without(const std::vector<Vec2>& polyline, const Sees& sees) {
   if (polyline.size() < 3) {

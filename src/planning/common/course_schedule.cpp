@@ -15,15 +15,16 @@ double SharpestCurvature(const Segment& segment) {
 SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<Segment>& segments,
                                 double speed, const std::vector<SpeedCap>& caps,
                                 const std::vector<double>& stops) {
-  // A schedule over the distance needs some where the wheels turn on the spot [m].
+  // Minimum length of a ramp where the wheels turn at standstill: the schedule is over distance
+  // [m].
   constexpr double kLeast = 1e-6;
-  constexpr double kSpacing = 0.5;  // [m]; atan bends by less than 1e-5 rad within
+  constexpr double kSpacing = 0.5;  // [m]; the arctangent is within 1e-5 rad of linear over it
   const auto steering = [&](double curvature) { return SteeringForCurvature(vehicle, curvature); };
   const std::vector<SteeringRamp> ramps = RampsOfSteps(vehicle, segments, speed, caps, stops);
   auto ramp = ramps.begin();
   std::vector<SteeringSchedule::Knot> knots;
   double begin = 0.0;
-  double taken = 0.0;  // of the piece by the ramp at its beginning
+  double taken = 0.0;  // length of the piece that the ramp at its beginning covers
   bool is_joined = false;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const Segment& segment = segments[i];
@@ -43,7 +44,7 @@ SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<
         to = segment.length - std::min(kLeast, 0.5 * segment.length);
       }
     }
-    // Ramps may meet in the middle of a piece, up to rounding.
+    // Two ramps may meet in the middle of a piece, up to rounding.
     from = std::min(from, to);
     const double parts = segment.sharpness == 0.0 && segment.sharpness_rate == 0.0
                              ? 1.0

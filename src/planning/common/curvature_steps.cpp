@@ -7,13 +7,13 @@
 namespace trackbed {
 namespace {
 
-/// A joint between two pieces of path at which the wheels have to turn.
+/// A joint between two path pieces with a step in steering angle.
 struct Step {
   double joint;     // [m]
-  double before;    // curvature [1/m]
-  double after;     // likewise
-  double steering;  // by which they turn [rad]
-  double room;      // for the ramp: the shorter piece beside it [m]
+  double before;    // curvature before [1/m]
+  double after;     // curvature after [1/m]
+  double steering;  // magnitude of the step [rad]
+  double room;      // available to the ramp: length of the shorter adjacent piece [m]
   bool cusp;        // the direction changes
 };
 
@@ -36,7 +36,8 @@ std::vector<Step> CurvatureSteps(const VehicleParams& vehicle,
   return steps;
 }
 
-/// The speed at which a ramp fills the room, half of it on either side of the joint.
+/// The speed at which a ramp, centered on the joint, fills half of the shorter adjacent piece on
+/// either side.
 double RoomSpeed(const VehicleParams& vehicle, const Step& step) {
   return vehicle.steering_rate * step.room / step.steering;
 }

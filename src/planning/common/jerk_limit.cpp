@@ -7,15 +7,16 @@
 namespace trackbed {
 namespace {
 
-/// G and its slopes on both sides of each station.
+/// G at each station, with its slopes on both sides.
 struct Bound {
   std::vector<double> value;
   std::vector<double> left;
   std::vector<double> right;
 };
 
-/// Slopes rise at each station by 2 jerk/v times half the length of its two intervals, v being the
-/// largest speed around: second differences are limited exactly.
+/// Integrates G'' = K: at each station the slope rises by 2 jerk/v times half the length of the two
+/// adjacent intervals. v is the largest speed around the station, so that second differences are
+/// limited exactly.
 Bound Integrate(const std::vector<double>& stations, double jerk,
                 const std::vector<double>& squares) {
   const std::size_t count = stations.size();
@@ -24,7 +25,7 @@ Bound Integrate(const std::vector<double>& stations, double jerk,
     const std::size_t before = i > 0 ? i - 1 : 0;
     const std::size_t after = std::min(i + 1, count - 1);
     const double fastest = std::max({squares[before], squares[i], squares[after]});
-    // Where the car stands all along, anything will do.
+    // Avoids division by zero where the car stands throughout; any value will do.
     const double speed = std::sqrt(std::max(fastest, 1e-12));
     const double length = (stations[after] - stations[before]) * (after - before == 1 ? 2.0 : 1.0);
     if (i > 0) {
@@ -36,7 +37,7 @@ Bound Integrate(const std::vector<double>& stations, double jerk,
   return bound;
 }
 
-/// w1 of the header.
+/// Step 1 of the header: w1.
 void LowerValleys(const std::vector<double>& stations, const Bound& bound,
                   std::vector<double>& squares) {
   const std::vector<double> given = squares;
@@ -62,7 +63,7 @@ void LowerValleys(const std::vector<double>& stations, const Bound& bound,
   }
 }
 
-/// w2 of the header.
+/// Step 2 of the header: w2.
 void LowerToHull(const std::vector<double>& stations, const Bound& bound,
                  std::vector<double>& squares) {
   std::vector<std::size_t> hull;
@@ -102,7 +103,7 @@ void LimitJerk(const std::vector<double>& stations, double jerk, std::vector<dou
 
 void LimitJerkAround(const std::vector<double>& stations, double jerk,
                      std::vector<double>& squares) {
-  // The lap between two others.
+  // The lap between two copies of itself.
   const double length = stations.back() - stations.front();
   const std::size_t count = stations.size() - 1;
   std::vector<double> long_stations;

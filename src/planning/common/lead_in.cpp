@@ -6,10 +6,10 @@
 namespace trackbed {
 namespace {
 
-/// Angles below this are straight [rad].
+/// Steering angles below this are straight [rad].
 constexpr double kSteersStraight = 1e-9;
 
-/// Along the curve of a car whose wheels turn from the start steering to straight at their full
+/// The path of a car whose wheels turn from the start steering to straight ahead at their full
 /// rate: delta(s) = delta_0 (1 - s/S), psi(s) = S/(L delta_0) ln(cos delta(s)/cos delta_0).
 std::vector<Segment> Straightening(const PlanRequest& request) {
   const VehicleParams& vehicle = request.vehicle;

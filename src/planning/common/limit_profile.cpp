@@ -9,18 +9,27 @@
 #include "trackbed/core/error.h"
 #include "trackbed/vehicle/params.h"
 
+// Speed profile at the limit of a g-g-v diagram, by forward and backward passes (Heilmeier et al.
+// 2020).
+// 1. MaxSquares: the largest v^2 at each station that the tyres' lateral limit and the cap allow.
+// 2. Forward pass: accelerate as hard as possible. Backward pass: brake as late as possible.
+// 3. With a jerk limit, LimitJerk and the passes alternate until the passes hardly lower the
+//    result.
+// 4. A start that is too fast brakes as hard as possible, and the first excess is reported.
+// A lap starts at its slowest station and repeats the passes until start and end agree.
+
 namespace trackbed {
 namespace {
 
-using Squares = std::vector<double>;  // of speeds [m^2/s^2], one for each station
+using Squares = std::vector<double>;  // of speeds [m^2/s^2], one per station
 
-/// What a car can do at a station, over the square of its speed.
+/// Accelerations available to a car at a station, as a function of its squared speed.
 class Capability {
  public:
   Capability(const GgvDiagram& diagram, const LimitOptions& options)
       : diagram_(diagram), options_(options) {}
 
-  /// Of dv/dt [m/s^2].
+  /// Largest dv/dt [m/s^2].
   [[nodiscard]] double MaxAcceleration(const LimitStation& at, double squared) const {
     const Demand demand = DemandAt(at, squared);
     return Accelerations(demand).largest / demand.stretch;
@@ -31,8 +40,8 @@ class Capability {
     return Accelerations(demand).smallest / demand.stretch;
   }
 
-  /// How far the tyres are from their limit [m/s^2]; negative beyond it. The car may slow down
-  /// there, for want of drive, but need not speed up.
+  /// How far the tyres are from their limit [m/s^2]; negative beyond it. Within the limit, the car
+  /// may have to slow down for lack of drive force, but never has to speed up.
   [[nodiscard]] double Margin(const LimitStation& at, double squared) const {
     const Demand demand = DemandAt(at, squared);
     const double across = options_.share * diagram_.MaxLateral(demand.point) - demand.point.lateral;
@@ -48,17 +57,17 @@ class Capability {
     return std::min({across, weight, resistance - options_.share * tyres.braking});
   }
 
-  /// The largest square up to `most` at which the tyres hold; 0: none.
+  /// The largest square up to `most` within the tyres' limit; 0 without one.
   [[nodiscard]] double MaxSquared(const LimitStation& at, double most) const;
 
  private:
-  static constexpr double kLeastLoad = 0.05;  // of the weight; less is as good as in the air
+  static constexpr double kLeastLoad = 0.05;  // of the weight; less counts as airborne
 
   struct Demand {
     GgvPoint point;
-    double load = 1.0;     // f_n/g, also where it is negative [1]
+    double load = 1.0;     // f_n/g, may be negative [1]
     double stretch = 1.0;  // A
-    double slope = 0.0;    // of gravity along the road [m/s^2]
+    double slope = 0.0;    // component of gravity along the road [m/s^2]
   };
 
   [[nodiscard]] static Demand DemandAt(const LimitStation& at, double squared) {
@@ -93,7 +102,7 @@ double Capability::MaxSquared(const LimitStation& at, double most) const {
   }
   double low = 0.0;
   double at_low = Margin(at, low);
-  // On a bank that is too steep to stand on, a car must be fast enough, too.
+  // On a bank too steep to stand on, the car also needs a minimum speed.
   constexpr int kTries = 64;
   for (int i = kTries - 1; at_low < 0.0 && i > 0; --i) {
     low = most * i / kTries;
@@ -109,8 +118,8 @@ double Capability::MaxSquared(const LimitStation& at, double most) const {
   return Margin(at, above) >= 0.0 ? above : below;
 }
 
-/// The largest square between 0 and `most`, at one end of an interval of `length`, to which `can`,
-/// the acceleration that is possible there at a square, leads from the square `from` at the other.
+/// The largest square up to `most` that can be reached over an interval of `length` from the square
+/// `from` at its other end. `can` gives the acceleration available at this end for a square.
 template <typename Can>
 double Reach(double from, double length, double most, const Can& can) {
   const auto spare = [&](double squared) {
@@ -127,7 +136,7 @@ double Reach(double from, double length, double most, const Can& can) {
     at_low = spare(low);
   }
   if (at_low <= 0.0 || low >= most) {
-    return low;  // no speed is low enough: a slope that the car cannot climb, or brake on
+    return low;  // even the lowest speed is too high: the slope is too steep
   }
   std::uintmax_t iterations = 12;
   const auto [below, above] = boost::math::tools::toms748_solve(
@@ -140,7 +149,7 @@ class Passes {
   Passes(const std::vector<LimitStation>& stations, const Capability& can)
       : stations_(stations), can_(can) {}
 
-  /// Lowers the squares to what can be reached by accelerating from the first one.
+  /// Limits each square to what the car can reach by accelerating from the previous station.
   void Forward(Squares& squares) const {
     for (std::size_t i = 0; i + 1 < squares.size(); ++i) {
       const double length = stations_[i + 1].s - stations_[i].s;
@@ -152,7 +161,7 @@ class Passes {
     }
   }
 
-  /// Lowers the squares to those from which the car can brake to the last one.
+  /// Limits each square to one from which the car can brake to the next station's.
   void Backward(Squares& squares) const {
     for (std::size_t i = squares.size() - 1; i-- > 0;) {
       const double length = stations_[i + 1].s - stations_[i].s;
@@ -164,8 +173,8 @@ class Passes {
     }
   }
 
-  /// Raises the first squares to those of a car that begins with the square `start`, and brakes as
-  /// hard as it can down to what the squares are.
+  /// Raises the first squares to those of a car that starts with the square `start` and brakes as
+  /// hard as it can until it meets the profile.
   void BrakeFrom(double start, Squares& squares) const {
     squares[0] = start;
     for (std::size_t i = 0; i + 1 < squares.size(); ++i) {
@@ -204,7 +213,7 @@ void Check(const std::vector<LimitStation>& stations, const LimitOptions& option
   }
 }
 
-/// The squares that the stations allow by themselves.
+/// The largest square at each station, regardless of the other stations.
 Squares MaxSquares(const std::vector<LimitStation>& stations, const GgvDiagram& diagram,
                    const LimitOptions& options, const Capability& can) {
   double fastest = std::numeric_limits<double>::infinity();
@@ -243,11 +252,11 @@ LimitSpeeds Result(const std::vector<LimitStation>& stations, const Squares& squ
   return result;
 }
 
-/// Smooths and goes over the squares again by turns until the diagram hardly lowers what is smooth.
+/// Alternates smoothing and passes until the passes hardly lower the smoothed squares.
 template <typename Smooth, typename Pass>
 void SmoothWithin(const Smooth& smooth, const Pass& pass, Squares& squares) {
   constexpr int kRounds = 100;
-  constexpr double kHardly = 1e-4;  // of a square
+  constexpr double kHardly = 1e-4;  // relative decrease of a square
   for (int round = 0; round < kRounds; ++round) {
     smooth(squares);
     const Squares before = squares;
@@ -264,8 +273,8 @@ void SmoothWithin(const Smooth& smooth, const Pass& pass, Squares& squares) {
   smooth(squares);
 }
 
-/// Forward and backward over one lap until its begin and its end agree. The last square stands for
-/// the first one.
+/// Repeats forward and backward passes over a lap until its start and end agree. The last square
+/// stands for the first one.
 void GoAround(const Passes& passes, Squares& squares) {
   constexpr int kLaps = 50;
   constexpr double kSame = 1e-12;
@@ -332,7 +341,7 @@ LimitSpeeds LimitSpeedsAround(const std::vector<LimitStation>& stations, double 
                    stations.front().s, stations.back().s);
   const Capability can(diagram, options);
   const Squares allowed = MaxSquares(stations, diagram, options, can);
-  // Where the path is slowest, no pass has to lower the speed but for slopes.
+  // Start at the slowest station: except on slopes, no pass lowers the speed there.
   const auto slowest = std::min_element(allowed.begin(), allowed.end()) - allowed.begin();
   std::vector<LimitStation> lap(stations.begin() + slowest, stations.end());
   Squares squares(allowed.begin() + slowest, allowed.end());

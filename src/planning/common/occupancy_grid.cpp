@@ -8,12 +8,12 @@
 namespace trackbed {
 namespace {
 
-/// Column and row, from the frame's origin, of the first cell of an area.
+/// Column and row of an area's first cell, counted from the frame's origin.
 Vec2 FirstCell(const GridArea& area, double cell) {
   return {std::floor(area.low.x() / cell), std::floor(area.low.y() / cell)};
 }
 
-/// Columns and rows.
+/// Number of columns and rows.
 Vec2 CellCounts(const GridArea& area, double cell) {
   const Vec2 last{std::ceil(area.high.x() / cell), std::ceil(area.high.y() / cell)};
   return last - FirstCell(area, cell) + Vec2::Ones();

@@ -14,7 +14,7 @@ json ToJson(const Vec2& point) {
   return {point.x(), point.y()};
 }
 
-/// Writes the fields into an object.
+/// Writes fields into a JSON object.
 class JsonWriter : public DiagnosticsVisitor {
  public:
   explicit JsonWriter(json& object) : object_(object) {}
@@ -56,7 +56,7 @@ class JsonWriter : public DiagnosticsVisitor {
   json& object_;
 };
 
-/// The end of an open-loop run along a stretch.
+/// Deviation at the end of an open-loop run along a stretch.
 struct StretchEnd {
   double distance = 0.0;
   double heading_error = 0.0;

@@ -8,8 +8,8 @@
 namespace trackbed {
 namespace {
 
-/// The profile from `station` on, for a car that leaves there at `speed` and, where it is slower,
-/// gains on it with `acceleration`.
+/// The profile from `ahead.from` on, for a car that starts there at `speed`. A slower car
+/// accelerates with `acceleration` until it meets the profile.
 SpeedProfile JoinedBy(const SpeedProfile& profile, Stations ahead, double speed,
                       double acceleration) {
   std::vector<SpeedProfile::Knot> knots = Excerpt(profile, ahead).knots();
@@ -27,7 +27,7 @@ SpeedProfile JoinedBy(const SpeedProfile& profile, Stations ahead, double speed,
 
 std::vector<SteeringSchedule::Knot> Moved(const SteeringSchedule& schedule, Stations within,
                                           double shift) {
-  // A knot at the cut itself is that of what is put there.
+  // A knot at the cut belongs to the part that is inserted there.
   constexpr double kAtTheCut = 1e-9;  // [m]
   std::vector<SteeringSchedule::Knot> knots;
   for (const SteeringSchedule::Knot& knot : schedule.knots()) {
@@ -79,7 +79,7 @@ std::vector<SpeedCap> CapsOf(const Plan& plan) {
   std::vector<SpeedCap> caps;
   const std::vector<SpeedProfile::Knot>& knots = plan.reference.speed.knots();
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-    // The larger one: at the ends of the plan the other is 0.
+    // Use the larger speed: at an end of the plan the other one is 0.
     caps.push_back({knots[i].s, knots[i + 1].s, std::max(knots[i].speed, knots[i + 1].speed)});
   }
   return caps;

@@ -13,8 +13,8 @@
 namespace trackbed {
 namespace {
 
-/// Lengths of the five sections, widths of the three gates, and the middles of the second and third
-/// gate from that of the first.
+/// Lengths of the five sections, widths of the three gates, and lateral offsets of the second and
+/// third gate's centers from the first one's.
 struct Course {
   std::array<double, 5> lengths;
   std::array<double, 3> widths;
@@ -43,7 +43,7 @@ void AddStraight(double length, std::vector<Segment>& path) {
   }
 }
 
-/// From a straight line to one `offset` to its left over `length`.
+/// A lateral shift by `offset` to the left over `length`, straight at both ends.
 void AddChange(double length, double offset, std::vector<Segment>& path) {
   constexpr double kSpacing = 0.1;  // [m]
   std::vector<Vec2> control;
@@ -130,7 +130,7 @@ std::vector<double> GateMargins(const std::vector<Gate>& gates, const VehiclePar
         if (std::abs(corner.x()) <= 0.5 * lane.length) {
           take(corner);
         }
-        // The cones at either end may stand between two poses.
+        // The cones at the ends of the lane may be passed between two poses.
         for (const double end : {-0.5 * lane.length, 0.5 * lane.length}) {
           if (i > 0 && (before[c].x() - end) * (corner.x() - end) < 0.0) {
             take(before[c] +

@@ -7,8 +7,8 @@
 
 namespace trackbed {
 
-/// Where a curve is to lead, as seen from its start, in radii. The sine and cosine of the heading
-/// are there once for all the words.
+/// Goal pose relative to the start, in units of the radius. Sine and cosine of the heading are
+/// computed once for all words.
 struct CurveGoal {
   double x = 0.0;
   double y = 0.0;
@@ -20,7 +20,7 @@ struct CurveGoal {
   CurveGoal(const Pose2& from, const Pose2& to, double radius) {
     TRACKBED_CHECK(radius > 0.0 && std::isfinite(radius), "radius {}", radius);
     const Vec2 local = ToLocal(from, to.position()) / radius;
-    constexpr double kFarthest = 1e100;  // [radii]; their squares are numbers
+    constexpr double kFarthest = 1e100;  // [radii]; its square is finite
     TRACKBED_REQUIRE(local.norm() <= kFarthest && std::isfinite(to.yaw - from.yaw),
                      "a curve from {}, {}, yaw {} to {}, {}, yaw {}; must be finite", from.x,
                      from.y, from.yaw, to.x, to.y, to.yaw);
@@ -31,7 +31,7 @@ struct CurveGoal {
     cos = std::cos(yaw);
   }
 
-  /// As seen in a mirror along the x axis: left is right.
+  /// Mirrored at the x axis: left and right change places.
   [[nodiscard]] CurveGoal Mirrored() const {
     CurveGoal goal = *this;
     goal.y = -y;
@@ -40,7 +40,7 @@ struct CurveGoal {
     return goal;
   }
 
-  /// For a car that goes the other way along its x axis: forwards is backwards.
+  /// Reflected at the y axis, for a car that drives the word in the other direction.
   [[nodiscard]] CurveGoal Reversed() const {
     CurveGoal goal = *this;
     goal.x = -x;
@@ -49,7 +49,7 @@ struct CurveGoal {
     return goal;
   }
 
-  /// The start as seen from the goal by a car that drives the word from its end.
+  /// The start relative to the goal, for words that are driven from their end.
   [[nodiscard]] CurveGoal FromItsEnd() const {
     CurveGoal goal = *this;
     goal.x = x * cos + y * sin;

@@ -21,7 +21,7 @@ using route::LeadInForCurves;
 using route::RadiusFor;
 using route::Refused;
 
-/// One way from a pose to a stop, and where it begins.
+/// A curve between two stops, and its cost.
 struct FoundCurve {
   std::vector<Segment> segments;
   ShortestCurve curve;
@@ -29,12 +29,13 @@ struct FoundCurve {
   double cost = 0.0;  // [m]
 };
 
-/// The shortest of `words` that is free and begins as it may, a stop counting as so many meters.
+/// The cheapest of `words` that is free of collisions and may begin as it does; each stop costs
+/// kStop.
 template <typename MayBegin>
 std::optional<FoundCurve> FirstFree(const PlanRequest& request, const CollisionChecker& clear,
                                     const Pose2& from, const std::vector<ShortestCurve>& words,
                                     double min_speed, const MayBegin& may_begin) {
-  constexpr double kStop = 5.0;  // [m]; as changes of direction cost hybrid A*
+  constexpr double kStop = 5.0;  // [m]; the same as a change of direction in hybrid A*
   std::vector<FoundCurve> candidates;
   for (std::size_t i = 0; i < words.size(); ++i) {
     std::vector<Segment> own = ToSegments(words[i]);
@@ -53,7 +54,7 @@ std::optional<FoundCurve> FirstFree(const PlanRequest& request, const CollisionC
   return free == candidates.end() ? std::nullopt : std::optional(std::move(*free));
 }
 
-/// Plans from stop to stop by the first of `words` that is free.
+/// Plans from stop to stop, each leg by the first free one of `words`.
 template <typename Options, typename Words>
 Plan PlanCurves(const Options& options, const PlanRequest& request, const Words& words) {
   for (Plan refused : {CheckRoute(request), CheckRadius(request.vehicle, options.radius)}) {
@@ -76,7 +77,8 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
     std::vector<ShortestCurve> all = words(stops[i - 1], stops[i], radius);
     std::optional<FoundCurve> found;
     if (rolls) {
-      // At once, if the wheels stand right for it, or after a lead-in; whichever is shorter.
+      // Either start at once, if the wheels already have the right angle, or after a lead-in; take
+      // the shorter.
       const double bend = CurvatureForSteering(request.vehicle, request.start_steering);
       found = FirstFree(request, clear, stops[0], all, options.min_speed, [&](const auto& own) {
         constexpr double kSame = 1e-6;  // [1/m]
@@ -122,7 +124,8 @@ Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
 }
 
 Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
-  // Every word to a pose may begin backwards, which a car that rolls cannot; Dubins' do not.
+  // All Reeds-Shepp words to a pose may begin backwards, which a rolling car cannot do; Dubins
+  // words begin forwards.
   return PlanCurves(options, request, [](const Pose2& from, const Pose2& to, double radius) {
     std::vector<ShortestCurve> words = ReedsSheppWords(from, to, radius);
     const std::vector<ShortestCurve> forwards = DubinsWords(from, to, radius);

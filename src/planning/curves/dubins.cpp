@@ -15,13 +15,13 @@ constexpr double kNone = std::numeric_limits<double>::infinity();
 
 constexpr double kRounding = 1e-12;
 
-/// The angle in [0, 2 pi); a trace below 0 or 2 pi is rounding, not a full circle.
+/// Wraps to [0, 2 pi); an angle within rounding of 2 pi becomes 0.
 double Positive(double angle) {
   const double turned = angle - kTurn * std::floor(angle / kTurn);
   return turned > kTurn - kRounding ? 0.0 : turned;
 }
 
-/// The sweeps of a word.
+/// The sweeps of a word's pieces [rad]; of a straight, its length in radii.
 struct Sweeps {
   double first = 0.0;
   double middle = 0.0;
@@ -30,9 +30,9 @@ struct Sweeps {
   [[nodiscard]] double Sum() const { return first + middle + last; }
 };
 
-/// Finds words that begin with a left arc, and are shorter than `limit`; else their sum is kNone.
-/// The center of the first arc is at (0, 1), that of a last left arc at (x - sin, y + cos), of a
-/// right one at (x + sin, y - cos).
+/// The following functions solve the words that begin with a left arc and are shorter than `limit`;
+/// otherwise they return kNone as the middle piece. The center of the first arc is at (0, 1), that
+/// of a last left arc at (x - sin, y + cos), and that of a last right arc at (x + sin, y - cos).
 Sweeps LeftStraightLeft(const CurveGoal& goal, double limit) {
   const double dx = goal.x - goal.sin;
   const double dy = goal.y - 1.0 + goal.cos;
@@ -55,7 +55,7 @@ Sweeps LeftStraightRight(const CurveGoal& goal, double limit) {
   if (straight >= limit) {
     return {.middle = kNone};
   }
-  // The direction of the line of the centers, and the angle atan(2/straight) to it, at once.
+  // The direction between the centers plus the angle atan(2/straight), by one arctangent.
   const double first = Positive(std::atan2(dy * straight + 2.0 * dx, dx * straight - 2.0 * dy));
   return {first, straight, Positive(first - goal.yaw)};
 }

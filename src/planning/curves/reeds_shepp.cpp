@@ -7,37 +7,43 @@
 #include "src/planning/curves/curve_goal.h"
 #include "trackbed/core/angle.h"
 
+// Shortest paths of a car that drives forwards and backwards (Reeds and Shepp 1990, section 8).
+// Eight functions solve the base words, whose first arc is to the left and forwards. The other
+// words of each family follow by reversing the direction, mirroring left and right, and reading the
+// word from its end. The shortest word wins; a function may stop as soon as its word exceeds the
+// best length known.
+
 namespace trackbed {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kRight = 0.5 * kPi;  // a right angle
-/// By how much a sweep may have the wrong sign: rounding.
+/// Tolerance for the sign of a sweep.
 constexpr double kRounding = 1e-12;
 
-/// The angle in [-pi, pi] of one that is less than a few turns away.
+/// Wraps an angle of at most a few turns to [-pi, pi].
 double Near(double angle) {
   return angle - 2.0 * kPi * std::nearbyint(angle * (0.5 / kPi));
 }
 
-/// The same for an angle that must not be negative, but for rounding: pi instead of -pi.
+/// Same as Near, for a sweep that must not be negative: returns pi in place of -pi.
 double NotNegative(double angle) {
   const double near = Near(angle);
   return near < kRounding - kPi ? near + 2.0 * kPi : near;
 }
 
-/// And for one that must not be positive.
+/// Same as Near, for a sweep that must not be positive: returns -pi in place of pi.
 double NotPositive(double angle) {
   return -NotNegative(-angle);
 }
 
-/// The root of what rounding may have made negative.
+/// Square root; rounding may have made the argument negative.
 double Root(double square) {
   return std::sqrt(std::max(square, 0.0));
 }
 
-/// The sweeps of a word of three to five pieces: those that its family leaves open. `sum` is of
-/// their sizes, with those of the others; kNone when there is no such word.
+/// The free sweeps of a word of three to five pieces. `sum` adds the magnitudes of all sweeps, the
+/// fixed ones included; kNone if the word does not exist.
 struct Sweeps {
   double t = 0.0;
   double u = 0.0;
@@ -49,10 +55,11 @@ Sweeps With(double t, double u, double v, double others = 0.0) {
   return {t, u, v, std::abs(t) + std::abs(u) + std::abs(v) + others};
 }
 
-// Each of the following is an equation of Reeds and Shepp 1990, section 8, for the word whose first
-// arc is to the left and forwards. What is farther than `limit` anyway need not be finished.
+// Each of the following functions solves an equation of Reeds and Shepp 1990, section 8, for the
+// word whose first arc is to the left and forwards. Words longer than `limit` need not be solved.
 
-/// From the center of the first arc to that of a last one to the left, or to the right.
+/// Vector from the center of the first arc to that of a last arc to the left (ToLeftCenter) or to
+/// the right (ToRightCenter).
 Vec2 ToLeftCenter(const CurveGoal& goal) {
   return {goal.x - goal.sin, goal.y - 1.0 + goal.cos};
 }
@@ -65,7 +72,7 @@ Sweeps LSL(const CurveGoal& goal, double limit) {
   const Vec2 d = ToLeftCenter(goal);
   const double u = d.norm();
   if (u >= limit || d.y() < -kRounding) {
-    return {};  // turned to the right
+    return {};  // the first arc would turn to the right
   }
   const double t = NotNegative(std::atan2(d.y(), d.x()));
   const double v = NotNegative(goal.yaw - t);
@@ -85,7 +92,7 @@ Sweeps LSR(const CurveGoal& goal, double limit) {
   return t >= -kRounding && v >= -kRounding ? With(t, u, v) : Sweeps{};
 }
 
-/// 8.3 and 8.4: L+R-L, whose last arc may go either way.
+/// 8.3 and 8.4: L+R-L, whose last arc may go in either direction.
 Sweeps LRL(const CurveGoal& goal, double /*limit*/) {
   const Vec2 d = ToLeftCenter(goal);
   const double square = d.squaredNorm();
@@ -97,7 +104,7 @@ Sweeps LRL(const CurveGoal& goal, double /*limit*/) {
   return t >= -kRounding ? With(t, u, Near(goal.yaw - t + u)) : Sweeps{};
 }
 
-/// The outer arcs of four, of which the inner ones sweep u and v.
+/// Solves the outer arcs of a word of four arcs whose inner arcs sweep u and v.
 template <typename Last>
 Sweeps OuterOfFour(const Vec2& d, double u, double v, double yaw, const Last& last) {
   const double delta = Near(u - v);
@@ -142,14 +149,14 @@ Sweeps LRSL(const CurveGoal& goal, double limit) {
   if (square < -kRounding || u > kRounding || kRight - u >= limit) {
     return {};
   }
-  // The direction of d, and the angle of (-2, r) to it, at once.
+  // The direction of d plus the angle of (-2, r), by one arctangent.
   const double t = NotNegative(std::atan2(d.x() * r - 2.0 * d.y(), -2.0 * d.x() - d.y() * r));
   const double v = NotPositive(goal.yaw - kRight - t);
   const bool fits = t >= -kRounding && v <= kRounding;
   return fits ? With(t, u, v, kRight) : Sweeps{};
 }
 
-/// 8.10: L+R-S-R-, likewise.
+/// 8.10: L+R-S-R-, whose second arc is a right angle.
 Sweeps LRSR(const CurveGoal& goal, double limit) {
   const Vec2 d = ToRightCenter(goal);
   const double u = 2.0 - d.norm();
@@ -175,7 +182,7 @@ Sweeps LRSLR(const CurveGoal& goal, double limit) {
   return t >= -kRounding && v >= -kRounding ? With(t, u, v, 2.0 * kRight) : Sweeps{};
 }
 
-/// What a piece's sweep is in terms of what its family leaves open.
+/// Sweep of a piece, in terms of the free sweeps of its family.
 enum class Part : signed char { kT, kU, kMinusU, kV, kMinusRight };
 
 struct Family {
@@ -183,7 +190,7 @@ struct Family {
   int count;
   std::array<Bend, 5> bends;
   std::array<Part, 5> parts;
-  bool from_its_end;  ///< whether the word read from its end is another one
+  bool from_its_end;  ///< reading the word from its end gives another word
 };
 
 constexpr Bend kL = Bend::kLeft;
@@ -205,7 +212,7 @@ constexpr std::array<Family, 8> kFamilies{{
      false},
 }};
 
-/// One of the words of a family.
+/// A word of a family, with the symmetries that were applied to it.
 struct Word {
   const Family* family = nullptr;
   bool mirrored = false;
@@ -245,7 +252,7 @@ ShortestCurve MakeCurve(const Word& word, double radius) {
   return curve;
 }
 
-/// Calls `take` with every word that is shorter than what `limit` says by then.
+/// Calls `take` with every word that is shorter than `limit()`, which may fall during the loop.
 template <typename Limit, typename Take>
 void ForEachWord(const CurveGoal& goal, const Limit& limit, const Take& take) {
   const std::array<CurveGoal, 4> seen{goal, goal.Reversed(), goal.Mirrored(),

@@ -5,7 +5,7 @@
 namespace trackbed {
 namespace {
 
-/// A piece this short (of r) is none: it comes from the rounding of an angle that is zero.
+/// Pieces up to this length (in radii) are dropped: they come from rounding of a zero angle.
 constexpr double kNothing = 1e-12;
 
 bool IsThere(const CurvePiece& piece) {

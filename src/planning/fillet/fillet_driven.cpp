@@ -11,8 +11,9 @@
 namespace trackbed::fillet {
 namespace {
 
-/// Between the stations at which the driven car is compared with its path [m]; also the step of
-/// the roll-out. Ramps are meters long, so the integrals' own error is a thousandth.
+/// Spacing of the stations at which the driven car is compared with its path, and step of the
+/// roll-out [m]. Ramps are meters long, so the relative error of the integrals is about a
+/// thousandth.
 constexpr double kSpacing = 0.5;
 
 class DrivenProblem {
@@ -25,7 +26,7 @@ class DrivenProblem {
     }
   }
 
-  /// The plan that x stands for. Refusal when its turns are out of order.
+  /// The plan of the variables x. Throws Refusal if its turns are out of order.
   [[nodiscard]] FilletPlan PlanAt(std::span<const double> x) const {
     std::vector<FilletTurn> turns = start_.turns;
     for (std::size_t k = 0; k < turns.size(); ++k) {
@@ -47,7 +48,7 @@ class DrivenProblem {
     return plan;
   }
 
-  /// J of the plan's open-loop run.
+  /// Cost J of the plan's open-loop run.
   [[nodiscard]] double Cost(const FilletPlan& plan) const {
     const double end = plan.stop_distance;
     const auto intervals = static_cast<std::size_t>(std::ceil(end / kSpacing));
@@ -57,7 +58,7 @@ class DrivenProblem {
       stations[i] = static_cast<double>(i) * spacing;
     }
     const KinematicState start{.pose = StartOfRoute(route_.waypoints),
-                               .speed = 1.0};  // of no importance
+                               .speed = 1.0};  // any speed: schedule and stations are distances
     const auto states =
         RollOut(vehicle_, start, plan.schedule, stations, kSpacing, options_.reference);
     double position = 0.0;
@@ -82,7 +83,7 @@ class DrivenProblem {
       problem.upper.insert(problem.upper.end(), {radii.high, 0.5, 0.5});
       problem.start.insert(problem.start.end(), {start_.turns[k].radius, 0.0, 0.0});
     }
-    // What the ramps cut off a turn is a fraction of their length.
+    // The ramps shorten the driven path by a fraction of their length.
     problem.lower.push_back(-0.25);
     problem.upper.push_back(0.25);
     problem.start.push_back(0.0);
@@ -121,7 +122,7 @@ FilletPlan SearchDriven(const VehicleParams& vehicle, const Route& route,
                               SearchFor(options.search.method).name, result.evaluations,
                               ToString(result.status))};
   }
-  // A global search finds the valley; the way down its floor is for gradients.
+  // A global search finds the valley; a gradient method then converges along its floor.
   problem.start = result.x;
   SearchOptions polish = global;
   polish.method = SearchMethod::kSlsqp;

@@ -27,12 +27,13 @@ void PlaceArc(const Route& route, FilletTurn& turn) {
   turn.arc_length = turn.radius * std::abs(turn.heading_change);
 }
 
-/// Straight from corner to corner, round each, straight to the end; fills in the stations.
+/// Straights and arcs from waypoint to waypoint; fills in the turns' stations.
 Path PathThrough(const Route& route, std::vector<FilletTurn>& turns) {
   std::vector<Segment> segments;
   double s = 0.0;
   const auto straight = [&](double length, int waypoint) {
-    // Turns whose tangent points coincide leave no straight; rounding may even leave a little less.
+    // Turns whose tangent points coincide leave no straight, or a slightly negative one by
+    // rounding.
     constexpr double negligible = 1e-10;  // [m]
     if (length < -negligible) {
       throw Refusal{PlanStatus::kTurnsOverlap, waypoint,
@@ -44,7 +45,7 @@ Path PathThrough(const Route& route, std::vector<FilletTurn>& turns) {
       s += length;
     }
   };
-  // Straight distance since the last arc; collinear legs add up.
+  // Straight length since the last arc; adds up over collinear legs.
   double pending = 0.0;
   auto turn = turns.begin();
   for (std::size_t i = 0; i < route.legs.size(); ++i) {
@@ -106,7 +107,7 @@ std::vector<FilletTurn> FindTurns(const Route& route) {
     const Leg& out = route.legs[i + 1];
     FilletTurn turn;
     turn.waypoint = static_cast<int>(i) + 1;
-    // atan2 instead of C.9's arc cosine: signed, and without its rounding trouble near 0 and pi.
+    // atan2 instead of the arc cosine of C.9: signed, and accurate near 0 and pi.
     turn.heading_change =
         std::atan2(Cross(in.direction, out.direction), in.direction.dot(out.direction));
     turn.interior_angle = kPi - std::abs(turn.heading_change);

@@ -5,11 +5,11 @@
 
 #include "trackbed/planning/fillet/fillet.h"
 
-/// The geometry of a fillet plan whose radii are known, and the limits within which they are
-/// chosen. Steps of PlanFillets, in the order in which it takes them.
+/// Layout of a fillet plan with known radii, and the limits of the radii. The functions are the
+/// steps of PlanFillets, in order.
 namespace trackbed::fillet {
 
-/// Thrown to leave the planning of a route at its first obstacle; PlanFillets makes it a status.
+/// Thrown at the first failure; PlanFillets turns it into a status.
 struct Refusal {
   PlanStatus status;
   int waypoint;
@@ -31,30 +31,31 @@ Route MakeRoute(const std::vector<Vec2>& waypoints);
 /// The route's corners: waypoint, angles and shorter leg of every turn.
 std::vector<FilletTurn> FindTurns(const Route& route);
 
-/// Within what a turn's radius is chosen, and what lies at either end.
+/// Limits of a turn's radius, and the constraint that is active at either end.
 struct RadiusLimits {
   RadiusInterval radii;
   ActiveConstraint at_low;
   ActiveConstraint at_high;
-  RadiusConstraint constraint;  ///< the one that the turn keeps
+  RadiusConstraint constraint;  ///< that the turn satisfies
 };
 
-/// Decides the speed of a turn (and says why, if it is not `speed`) and the limits of its radius.
+/// Sets the speed of a turn (and the reason, if it is not `speed`) and the limits of its radius.
 RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const FilletOptions& options,
                          FilletTurn& turn);
 
-/// What holds a radius within its limits: an end that it reaches to a thousandth, or nothing.
+/// The constraint that is active at a radius, with a relative tolerance of 1e-3; kNone inside the
+/// limits.
 ActiveConstraint ActiveAt(const RadiusLimits& limits, double radius);
 
 /// C.34 or C.40 as g(r) <= 0 [m].
 double ConstraintAt(const VehicleParams& vehicle, RadiusConstraint constraint,
                     const FilletTurn& turn, double radius);
 
-/// The plan of turns whose radii and speeds are known: arcs, path, and steering centered on the
-/// tangent points. Without the schedule, whose order is checked last.
+/// Arcs, path and steering of turns with known radii and speeds; the ramps are centered on the
+/// tangent points. Leaves out the schedule, because its order is checked last.
 FilletPlan LayOut(const VehicleParams& vehicle, const Route& route, std::vector<FilletTurn> turns);
 
-/// The schedule of a plan's turns as they stand. Refusal when they are out of order.
+/// The schedule of a plan's turns. Throws Refusal if they are out of order.
 SteeringSchedule MakeSchedule(const VehicleParams& vehicle, const std::vector<FilletTurn>& turns);
 
 /// Runs the two-pass search (kLiteral, kTurnLocal) over all turns; fills in radii and findings.
@@ -62,12 +63,11 @@ void SearchTurns(const VehicleParams& vehicle, const Route& route, double speed,
                  const FilletOptions& options, std::uint64_t seed,
                  const std::vector<RadiusLimits>& limits, std::vector<FilletTurn>& turns);
 
-/// Variables of a turn in the joint search, in this order: radius [m], and the shifts of D_{2k-1}
-/// and of the hold length D_2k - D_{2k-1} from their nominal values, as shares of the ramp
-/// distance.
+/// Variables of a turn in the joint search, in this order: radius [m], shift of D_{2k-1}, and shift
+/// of the hold length D_2k - D_{2k-1}. The shifts are fractions of the ramp distance.
 inline constexpr std::size_t kDrivenVariables = 3;
 
-/// Runs the joint search (kDriven) from a plan with the largest radii.
+/// Runs the joint search (kDriven), starting at a plan with the largest radii.
 FilletPlan SearchDriven(const VehicleParams& vehicle, const Route& route,
                         const FilletOptions& options, std::uint64_t seed,
                         const std::vector<RadiusLimits>& limits, const FilletPlan& start);

@@ -5,10 +5,15 @@
 #include "src/planning/fillet/fillet_layout.h"
 #include "trackbed/planning/fillet/fillet.h"
 
+// Turns a fillet plan (Skackauskas, dissertation, appendix C and listing F.1) into a plan: the
+// path, its steering schedule, speed caps over the turns that are slower than the mission, and
+// isolated turns, whose heading error can be predicted. The rest defines the diagnostics of
+// plan.json and the keys of the options.
+
 namespace trackbed {
 namespace {
 
-/// The course of a search as plan.json has it, with the radii among its variables.
+/// Progress of a search for plan.json, with the radii among its variables.
 struct SearchRecord {
   const std::string& method;
   const SearchResult& result;
@@ -43,7 +48,7 @@ void Visit(DiagnosticsVisitor& out, const SearchRecord& own) {
   }
 }
 
-/// With what the search of a single turn began from.
+/// Search of a single turn, with its initial values.
 struct TurnSearchRecord {
   const std::string& method;
   const TurnSearch& search;
@@ -71,7 +76,7 @@ void Visit(DiagnosticsVisitor& out, const PredictedRecord& own) {
   }
 }
 
-/// Where the wheels of a turn are straight again.
+/// Station at which the wheels are straight again after a turn.
 double ReturnEnd(const FilletTurn& turn) {
   return turn.steer_return + turn.ramp_distance;
 }
@@ -90,7 +95,7 @@ std::vector<IsolatedTurn> FindIsolatedTurns(const FilletPlan& plan) {
   return lone;
 }
 
-/// A turn is slow from where its wheels begin to turn to where they are straight again.
+/// A turn's cap holds from the start of its first ramp to the end of its second.
 std::vector<SpeedCap> MakeSpeedCaps(const FilletPlan& plan, double speed) {
   std::vector<SpeedCap> caps;
   for (const FilletTurn& turn : plan.turns) {

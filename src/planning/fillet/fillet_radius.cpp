@@ -7,13 +7,18 @@
 #include "src/planning/fillet/fillet_layout.h"
 #include "trackbed/core/angle.h"
 
+// Limits of a turn's radius (Skackauskas, dissertation, eqs. (C.34) and (C.40)). C.34 bounds the
+// tangent length by half of the shorter leg; C.40 also reserves the distance over which the wheels
+// turn. Its g(r) has a single minimum, so the permitted radii are an interval between two roots. If
+// there is none at the mission's speed, the turn is slowed down, refused, or limited by C.34 alone.
+
 namespace trackbed {
 namespace {
 
-/// Relative room for rounding, so that a radius that lies exactly on a limit is not refused.
+/// Relative tolerance, so that a radius exactly on a limit is accepted.
 constexpr double kRounding = 1e-12;
 
-/// A root of f between a and b, where it changes sign, on the side where f <= 0.
+/// The root of f in [a, b], where f changes sign; returns the side with f <= 0.
 template <typename Function>
 double Root(const Function& f, double a, double b) {
   std::uintmax_t iterations = 200;
@@ -30,14 +35,14 @@ double SteeringRoom(const VehicleParams& vehicle, double speed, double interior_
          0.5 * shorter_leg;
 }
 
-/// The radius with the smallest g: g falls up to there and rises from there.
+/// The radius with the smallest g; g falls below it and rises above it.
 double RoomiestRadius(const VehicleParams& vehicle, double speed, double interior_angle,
                       double neutral, RadiusInterval bounds) {
   const double L = vehicle.wheelbase;
   const double squared = speed / vehicle.steering_rate * L * std::tan(interior_angle / 2.0) - L * L;
   double roomiest = std::sqrt(std::max(0.0, squared));
   if (neutral > 0.0) {
-    // Beyond the circle of d_0 the wheels travel the further the larger the radius is.
+    // Beyond the radius that belongs to d_0, a larger radius means more steering travel.
     roomiest = std::min(roomiest, L / std::tan(neutral));
   }
   return std::clamp(roomiest, bounds.low, bounds.high);
@@ -91,7 +96,7 @@ std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double int
 namespace fillet {
 namespace {
 
-/// n of SteeringRoomRadii.
+/// Neutral steering toward the turn: n of SteeringRoomRadii.
 double NeutralTowardTurn(const FilletTurn& turn) {
   return turn.heading_change < 0.0 ? -turn.neutral : turn.neutral;
 }
@@ -102,8 +107,8 @@ Refusal RefuseTurn(const FilletTurn& turn, PlanStatus status, const std::string&
                       turn.waypoint, why)};
 }
 
-/// The radii that C.40 allows, at the speed that is left to the turn where it allows none at the
-/// mission's; none where C.34 is to take its place.
+/// The radii that C.40 permits. If there are none at the mission's speed, slows the turn down. None
+/// if C.34 replaces C.40.
 std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle, double speed,
                                                     const FilletOptions& options,
                                                     const RadiusInterval& bounds,
@@ -136,7 +141,7 @@ std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle
     turn.note = fmt::format("{}; speed reduced to {:.4g} m/s", why, *slower);
     return room_at(*slower);
   }
-  // C.40 keeps a whole ramp on the leg, of which half lies on the arc.
+  // C.40 reserves a whole ramp on the leg, although half of the ramp lies on the arc.
   const double v = std::min(options.min_speed, speed);
   const auto room =
       SteeringRoomRadii(vehicle, 0.5 * v, turn.interior_angle, turn.shorter_leg, bounds);
@@ -151,9 +156,8 @@ std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle
   return room;
 }
 
-/// By how much the ramp S of a radius exceeds the longest that leaves the car near the path [m]:
-/// wheels that turn half before and half behind the tangent point lead it S^2/(24 r) off, which may
-/// be a quarter of the car's width.
+/// By how much the ramp S of a radius exceeds its longest permitted length [m]. A ramp centered on
+/// the tangent point displaces the car by S^2/(24 r); a quarter of the car's width is permitted.
 double RampExcess(const VehicleParams& vehicle, const FilletTurn& turn, double speed,
                   double radius) {
   constexpr double kShareOfWidth = 0.25;
@@ -162,8 +166,8 @@ double RampExcess(const VehicleParams& vehicle, const FilletTurn& turn, double s
          std::sqrt(24.0 * radius * kShareOfWidth * vehicle.width);
 }
 
-/// The radii that C.40 allows at the highest speed, no more than the turn's and no less than
-/// `min_speed`, at which the ramp of the largest one is short enough.
+/// Slows a turn down until the ramp of its largest radius is short enough, but not below
+/// `min_speed`. Returns the radii that C.40 permits then.
 RadiusInterval SlowDownForRamp(const VehicleParams& vehicle, const FilletOptions& options,
                                const RadiusInterval& bounds, const RadiusInterval& room,
                                FilletTurn& turn) {
@@ -172,7 +176,7 @@ RadiusInterval SlowDownForRamp(const VehicleParams& vehicle, const FilletOptions
       slowest >= turn.speed || RampExcess(vehicle, turn, turn.speed, room.high) <= 0.0) {
     return room;
   }
-  // The slower the car, the larger the largest radius, and the shorter its ramp.
+  // At a lower speed the largest radius grows and its ramp shortens.
   const auto room_at = [&](double v) {
     return SteeringRoomRadii(vehicle, v, turn.interior_angle, turn.shorter_leg, bounds,
                              NeutralTowardTurn(turn))
@@ -193,7 +197,7 @@ RadiusInterval SlowDownForRamp(const VehicleParams& vehicle, const FilletOptions
 RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const FilletOptions& options,
                          FilletTurn& turn) {
   const double r_min = vehicle.min_turning_radius();
-  // The model's limit is an angle: its radius comes back with rounding, which must not refuse it.
+  // The minimum radius is computed from the steering limit, an angle; tolerate its rounding.
   const double tolerance = 1e-9 * r_min;
   const auto refuse = [&](PlanStatus status, const std::string& why) {
     return RefuseTurn(turn, status, why);

@@ -12,10 +12,10 @@ namespace {
 /// Step of the roll-outs on ramps [m]; their error is of fourth order, 1e-9 rad at 0.1 m.
 constexpr double kStep = 0.1;
 
-/// A car that turned by less in its window did not turn [rad]: the rest is rounding.
+/// Smaller heading changes within a window are rounding [rad].
 constexpr double kNoHeading = 1e-9;
 
-/// What the first run says of one turn: from where to where, and how far the car turned.
+/// Distance and heading change of a turn in the first run.
 struct Window {
   double distance;
   double heading;
@@ -24,7 +24,7 @@ struct Window {
 /// Yaw [rad] of the rate-limited car at the events D_1, D_2, … of a plan, driven at `speed`.
 std::vector<double> YawsAtEvents(const VehicleParams& vehicle, const FilletPlan& plan, double speed,
                                  ReferencePoint reference) {
-  // A first turn so near the start that its wheels begin to turn before it: the car comes rolling.
+  // If the first ramp begins before the start, let the car roll in.
   const double lead = plan.turns.empty() ? 0.0 : std::max(0.0, -plan.turns.front().steer_start);
   std::vector<FilletTurn> turns = plan.turns;
   std::vector<double> distances;
@@ -36,7 +36,7 @@ std::vector<double> YawsAtEvents(const VehicleParams& vehicle, const FilletPlan&
     distances.push_back(turn.steer_return);
   }
   const SteeringSchedule schedule = MakeSchedule(vehicle, turns);
-  // An event may lie before the return of the turn before it: look at each on its own.
+  // Events need not be in order: an event may lie before the return of the previous turn.
   std::vector<double> rising = distances;
   std::sort(rising.begin(), rising.end());
   const KinematicState start{.pose = {0.0, 0.0, 0.0}, .speed = speed, .steering = schedule.At(0.0)};
@@ -49,7 +49,7 @@ std::vector<double> YawsAtEvents(const VehicleParams& vehicle, const FilletPlan&
   return yaws;
 }
 
-/// Per turn, what its objective looks at.
+/// The window of each turn's objective, from the first run.
 std::vector<Window> FirstDrive(const VehicleParams& vehicle, const Route& route, double speed,
                                const FilletOptions& options, std::vector<FilletTurn> turns) {
   for (FilletTurn& turn : turns) {
@@ -88,7 +88,8 @@ TurnSearch SearchTurn(const VehicleParams& vehicle, double speed, const FilletOp
   SearchProblem problem;
   problem.lower = {vehicle.min_turning_radius()};
   problem.upper = {std::max(problem.lower[0], options.max_radius)};
-  // For the downhill methods; the first run's radius lies on the bound, where a simplex is flat.
+  // Initial value for local methods: the first run's radius lies on the bound, where a simplex
+  // would be degenerate.
   problem.start = {0.5 * (limits.radii.low + limits.radii.high)};
   problem.objective = [&](std::span<const double> r) {
     const double yaw_rate = sign * speed / std::hypot(r[0], l_g);  // C.25
@@ -101,7 +102,7 @@ TurnSearch SearchTurn(const VehicleParams& vehicle, double speed, const FilletOp
   };
   search.result = Search(problem, options.search, seed);
   if (!search.result.ok()) {
-    // The feasible set is too narrow for this search to hit; its ends are known in closed form.
+    // The feasible set is too narrow for the search; its ends are known in closed form.
     problem.lower = {limits.radii.low};
     problem.upper = {limits.radii.high};
     search.result = Search(problem, options.search, seed);

@@ -12,13 +12,20 @@
 #include "src/planning/frenet/trajectory_check.h"
 #include "trackbed/core/error.h"
 
+// Optimal motions in the Frenet frame (Werling et al. 2010; weights as in the Frenet lecture).
+// 1. For every duration, polynomials s(t) to the target and d(t) or, at low speed, d(s) to every
+//    end offset.
+// 2. Candidates are sorted by their cost C.
+// 3. The first one that passes the coarse check, then the fine check of the full motion, is the
+//    plan.
+
 namespace trackbed {
 namespace {
 
-// Over less than this no lateral motion is planned over the station [m].
+// Station intervals shorter than this get no lateral polynomial over the station [m].
 constexpr double kShort = 0.05;
 
-/// s(t) to every end of one duration.
+/// s(t) to every longitudinal target at the end of one duration.
 std::vector<FrenetPiece> AlongPath(const FrenetRequest& request, const FrenetOptions& options,
                                    double duration) {
   const LineMotion from = LongitudinalMotion(request.start);
@@ -40,7 +47,8 @@ std::vector<FrenetPiece> AlongPath(const FrenetRequest& request, const FrenetOpt
   return pieces;
 }
 
-/// What goes on from the end of a piece up to the horizon; none when it lasts as long.
+/// Continues from the end of a piece to the horizon at constant speed and offset; none if the piece
+/// lasts that long.
 std::optional<FrenetPiece> GoingOn(const FrenetPiece& piece, double horizon) {
   if (!(horizon > piece.duration)) {
     return std::nullopt;
@@ -103,7 +111,7 @@ FrenetCost PieceCost(const FrenetPiece& piece, const FrenetTarget& target,
   double roughness = 0.0;
   double offset = 0.0;
   if (piece.over_station) {
-    const double v = way / duration;  // on average
+    const double v = way / duration;  // mean speed
     roughness = (order == 3 ? v * v * v * v * v : v * v * v) * piece.d.IntegralOfSquare(order, way);
     offset = piece.d.At(way);
   } else {

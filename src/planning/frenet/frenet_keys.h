@@ -2,7 +2,7 @@
 
 #include "trackbed/planning/frenet/frenet.h"
 
-/// Keys that the searches for motions along a path have in common.
+/// Keys shared by the planners of motions along a path.
 namespace trackbed {
 
 inline constexpr Key kEndOffsets{"end_offsets", "m", "candidate lateral offsets from the route"};

@@ -8,10 +8,10 @@
 namespace trackbed {
 namespace {
 
-/// Points nearer to each other than this make no segment [m].
+/// Points closer than this do not form a segment [m].
 constexpr double kShortest = 1e-3;
 
-/// Into how many equal times a piece is cut; none where it has no frame.
+/// Number of equal time intervals of a piece; none where the Frenet frame does not exist.
 std::optional<int> CountIntervals(const Path& path, const FrenetPiece& piece, double time_step,
                                   double spacing) {
   constexpr int kProbes = 16;
@@ -87,7 +87,7 @@ std::optional<std::vector<TrajectoryPoint>> SampleMotion(const Path& path,
       if (!points.empty()) {
         const TrajectoryPoint& last = points.back();
         const double h = point.t - last.t;
-        // Euler and Maclaurin: the trapezium, corrected by the accelerations at its ends.
+        // Euler-Maclaurin: the trapezoidal rule, corrected by the accelerations at both ends.
         point.distance =
             last.distance +
             std::max(0.0, 0.5 * h * (last.motion.speed + state->speed) +
@@ -109,7 +109,7 @@ Reference ToReference(const std::vector<TrajectoryPoint>& points) {
     }
   }
   if (kept.size() > 1) {
-    kept.back() = points.back();  // it ends where the motion does
+    kept.back() = points.back();  // keep the end of the motion
   }
   std::vector<CurvePoint> curve;
   std::vector<SpeedProfile::Knot> knots;

@@ -6,17 +6,18 @@
 
 namespace trackbed {
 
-/// The motion along the path that a state begins with.
+/// Initial motion along the path of a state.
 LineMotion LongitudinalMotion(const FrenetState& state);
 
-/// Adds to s(t) of a piece the lateral motion over the station, from `start` to rest at `offset`.
-/// Over a few centimeters the offset goes on as it was going instead. False where s does not grow.
+/// Adds to the s(t) of a piece the lateral motion d(s) from `start` to rest at `offset`. Over less
+/// than 5 cm, extrapolates the offset instead. Returns false if the piece moves backward by 5 cm or
+/// more.
 bool AddOverStation(const FrenetState& start, double offset, FrenetPiece& piece);
 
-/// Adds to s(t) of a piece the lateral motion over time.
+/// Adds to the s(t) of a piece the lateral motion d(t).
 void AddOverTime(const FrenetState& start, double offset, FrenetPiece& piece);
 
-/// "none of 525 candidates can be driven: 500 collision, 25 speed".
+/// Describes a failure: "none of 525 candidates is feasible: 500 collision, 25 speed".
 std::string ExplainFailure(const FrenetPlan& plan, const char* of_what, int budget);
 
 }  // namespace trackbed

@@ -13,22 +13,27 @@
 #include "src/planning/frenet/trajectory_check.h"
 #include "trackbed/core/error.h"
 
+// Motions through a lattice of stations, offsets and speeds (the Frenet lecture's third variant).
+// Label finds, layer by layer, the cheapest path to each node over all edges from earlier nodes, by
+// dynamic programming; it checks edges coarsely, cheapest first. Finish checks the cheapest path to
+// the last layer in full. If an edge fails, it is banned and labeling resumes at its layer.
+
 namespace trackbed {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-// Closer than this to its stop the car has arrived [m].
+// Within this distance of its stop the car has arrived [m].
 constexpr double kArrived = 0.05;
 
-/// A place in the lattice, and the cheapest path to it that was found.
+/// A node of the lattice, with the cheapest path known to it.
 struct Node {
   FrenetState state;
-  FrenetTarget target;  // of the edges that end here, but for a leader's station
+  FrenetTarget target;  // of the edges that end here, except a leader's station
   double cost = kInfinite;
   double time = 0.0;
   std::size_t from = 0;
   FrenetPiece piece;  // from there to here
-  int edges = 0;      // that lead here
+  int edges = 0;      // number of edges that end here
 };
 
 struct Edge {
@@ -57,7 +62,7 @@ class Lattice {
       plan_.reason = *check.blocked();
       return plan_;
     }
-    // A path whose edges pass the first check may fail the last one: then without that edge.
+    // An edge that passed the coarse check may fail the fine one: then search without that edge.
     std::size_t layer = 1;
     while (!plan_.ok() && Label(check, layer)) {
       layer = Finish(check);
@@ -72,7 +77,7 @@ class Lattice {
   }
 
  private:
-  /// The nodes, layer by layer.
+  /// Creates the nodes, layer by layer.
   void Lay() {
     const double from = request_.start.s;
     const auto* stop = std::get_if<StopAt>(&request_.goal);
@@ -108,7 +113,7 @@ class Lattice {
     node.target.speed = wanted_speed;
   }
 
-  /// The motion from one node to another; none where it would stand still or turn back.
+  /// The motion between two nodes; none if it would stand still or move backward.
   [[nodiscard]] std::optional<FrenetPiece> Between(const FrenetState& from,
                                                    const FrenetState& to) const {
     const double way = to.s - from.s;
@@ -124,7 +129,7 @@ class Lattice {
     return piece;
   }
 
-  /// All edges to a node from where paths are known, ranked by the cost of the path.
+  /// All edges to a node from nodes that have a path, ranked by the cost of the path.
   void EdgesTo(const Node& node, std::size_t before) {
     edges_.clear();
     for (std::size_t i = 0; i < before; ++i) {
@@ -149,7 +154,8 @@ class Lattice {
     });
   }
 
-  /// Finds the cheapest path to every node from `layer` on; whether one reaches the last layer.
+  /// Finds the cheapest path to every node from `layer` on. Returns whether one reaches the last
+  /// layer.
   bool Label(const TrajectoryCheck& check, std::size_t layer) {
     for (; layer + 1 < layers_.size(); ++layer) {
       for (std::size_t to = layers_[layer]; to < layers_[layer + 1]; ++to) {
@@ -188,8 +194,8 @@ class Lattice {
     return static_cast<std::ptrdiff_t>(layers_[layers_.size() - 2]);
   }
 
-  /// Checks the cheapest path: takes it, or bans the edge that fails and returns the
-  /// layer to which that leads.
+  /// Checks the cheapest path in full: adopts it, or bans the edge that fails and returns the layer
+  /// in which that edge ends.
   std::size_t Finish(const TrajectoryCheck& check) {
     const auto end = std::min_element(nodes_.begin() + Last(), nodes_.end(),
                                       [](const Node& a, const Node& b) { return a.cost < b.cost; });
@@ -226,7 +232,7 @@ class Lattice {
   const FrenetRequest& request_;
   const LatticeOptions& options_;
   std::vector<Node> nodes_;          // the start, then the layers
-  std::vector<std::size_t> layers_;  // the first node of each, and how many there are
+  std::vector<std::size_t> layers_;  // index of each layer's first node, and the number of nodes
   std::vector<Edge> edges_;          // of one node
   std::vector<std::size_t> ranks_;   // of the edges, cheapest first
   std::set<std::pair<std::size_t, std::size_t>> banned_;

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kTerms = std::tuple_size_v<decltype(Polynomial::coefficients)>;
 
-/// The factors that t^i gets when derived `order` times: i (i - 1) ... (i - order + 1).
+/// Factor of t^i in the derivative of the given order: i (i - 1) ... (i - order + 1).
 using Factors = std::array<std::array<double, kTerms>, kTerms>;
 constexpr Factors kFactors = [] {
   Factors factors{};
@@ -48,7 +48,7 @@ double Polynomial::IntegralOfSquare(std::size_t order, double duration) const {
 
 Polynomial QuinticBetween(const LineMotion& from, const LineMotion& to, double duration) {
   const double t = duration;
-  // What is missing at the end of a constant acceleration, and its derivatives in units of t.
+  // Differences at the end from a motion of constant acceleration, scaled by powers of t.
   const double p = to.position - from.position - t * (from.velocity + 0.5 * t * from.acceleration);
   const double v = t * (to.velocity - from.velocity - t * from.acceleration);
   const double a = t * t * (to.acceleration - from.acceleration);

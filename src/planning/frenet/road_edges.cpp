@@ -12,16 +12,16 @@
 namespace trackbed {
 namespace {
 
-/// A point of the footprint as seen from the path.
+/// A point of the footprint in the Frenet frame of the path.
 struct SidePoint {
   double s = 0.0;  // [m]
   double d = 0.0;  // [m]
 };
 
-constexpr int kAlongSide = 5;  // points of each long side
+constexpr int kAlongSide = 5;  // points on each long side
 using SidePoints = std::array<SidePoint, 2 * kAlongSide>;
 
-/// The points of both sides; none at or beyond the center of the path's circle.
+/// The points of both sides; none if a point lies at or beyond the center of curvature.
 std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
                                   const FrenetState& frenet) {
   const double k = at.curvature;
@@ -39,8 +39,8 @@ std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
     if (to_center <= 0.0) {
       return std::nullopt;
     }
-    // d = (1 - sqrt((k ahead)^2 + (1 - k aside)^2))/k and atan(k ahead/(1 - k aside))/k, also where
-    // k is 0.
+    // d = (1 - sqrt((k ahead)^2 + (1 - k aside)^2))/k and s = atan(k ahead/(1 - k aside))/k,
+    // written so that they hold for k = 0 too.
     const double turned = k * ahead / to_center;
     constexpr double kSmall = 1e-6;
     const double along = std::abs(turned) < kSmall ? ahead / to_center : std::atan(turned) / k;
@@ -51,14 +51,14 @@ std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
   return points;
 }
 
-/// Offset of an edge from a pose, abeam, and how the edge runs there.
+/// Lateral offset of an edge from a pose, and the edge's direction there.
 struct EdgeAbeam {
   double offset = 0.0;  // [m]
   double cosine = 1.0;  // of the angle between edge and pose
 };
 
-/// Where the pose's normal crosses the edge near a share of the lap. Of several crossings, the one
-/// closest to the `expected` offset; without any, `expected`.
+/// Where the pose's normal crosses the edge near a fraction of the lap. Of several crossings,
+/// returns the one closest to the `expected` offset; without any, `expected`.
 EdgeAbeam FindAbeam(const TrackEdgeLine& edge, const Pose2& pose, double share, double expected) {
   constexpr double kReach = 20.0;  // [m]
   const auto count = static_cast<std::ptrdiff_t>(edge.size());
@@ -86,11 +86,11 @@ EdgeAbeam FindAbeam(const TrackEdgeLine& edge, const Pose2& pose, double share, 
   return found;
 }
 
-/// Widens the edges to where the footprint of a car on the path reaches.
+/// Widens the edges to contain the footprint of a car on the path.
 void Admit(const Path& path, const VehicleParams& car, double spacing,
            std::vector<RoadWidths>& widths) {
   constexpr double kLook = 0.2;    // [m]
-  constexpr double kTouch = 2e-3;  // [m], what it reaches farther by between the looks
+  constexpr double kTouch = 2e-3;  // [m], allowance between the looks
   const auto last = static_cast<double>(widths.size() - 1);
   const double count = std::ceil(path.length() / kLook);
   for (double i = 0.0; i <= count; i += 1.0) {
@@ -153,7 +153,7 @@ RoadEdges EdgesBeside(const Path& path, const Track& track, const VehicleParams&
     const double share = place.s / track.length();
     const EdgeAbeam left = FindAbeam(track.left_edge(), pose, share, edges.left - place.offset);
     const EdgeAbeam right = FindAbeam(track.right_edge(), pose, share, edges.right - place.offset);
-    // `distance` square to the edge is more than that abeam.
+    // `distance` is perpendicular to the edge; along the pose's normal it is larger.
     widths.push_back({.left = left.offset - distance / std::max(left.cosine, 0.5),
                       .right = -right.offset - distance / std::max(right.cosine, 0.5)});
   }

@@ -8,9 +8,9 @@
 
 namespace trackbed {
 
-/// A path looked up by the thousand: points every quarter meter, and a series around each, as if
-/// the curvature went on evenly. Good to 1e-8 m within clothoids; near joints good enough for a
-/// first look.
+/// Fast lookup of a path: nodes every quarter meter, and a series around each that continues its
+/// curvature linearly. Accurate to 1e-8 m within clothoids; near joints accurate enough for the
+/// coarse check.
 class PathTable {
  public:
   PathTable(const Path& path, Stations within);
@@ -26,24 +26,26 @@ class PathTable {
   std::vector<Node> nodes_;
 };
 
-/// Whether motions keep to what a request and its limits allow.
+/// Checks motions against a request and its limits.
 class TrajectoryCheck {
  public:
-  /// Knows the path up to the station `to`, for Coarse. Keeps references to all.
+  /// Tabulates the path up to the station `to`, for Coarse. Keeps references to all arguments but
+  /// `to`.
   TrajectoryCheck(const Path& path, const FrenetRequest& request, const FrenetLimits& limits,
                   double to);
 
-  /// Why there is no motion from this start; none where there may be.
+  /// Why no motion is possible from this start; none if one may be.
   [[nodiscard]] const std::optional<std::string>& blocked() const { return blocked_; }
 
-  /// A piece that begins `time` after the start, looked at every `time_step` and near its ends.
+  /// Checks a piece that begins `time` after the start, every `time_step` and more closely near its
+  /// ends.
   [[nodiscard]] std::optional<Rejection> Coarse(const FrenetPiece& piece, double time) const;
 
   struct Flaw {
     Rejection rejection;
     double time;  ///< [s]
   };
-  /// The first point of a motion that does not do.
+  /// The first point of a motion that violates a limit.
   [[nodiscard]] std::optional<Flaw> Fine(const std::vector<TrajectoryPoint>& points) const;
 
  private:
@@ -55,8 +57,8 @@ class TrajectoryCheck {
                                                     const FrenetState& frenet,
                                                     const MotionState& motion,
                                                     std::optional<Before>& before) const;
-  /// How far the footprint reaches to either side of the path, as seen along the circle that the
-  /// path follows there.
+  /// How far the footprint extends to either side of the path, measured from the path's circle of
+  /// curvature.
   struct Reach {
     double left;
     double right;
@@ -69,7 +71,7 @@ class TrajectoryCheck {
   const FrenetLimits& limits_;
   PathTable table_;
   std::optional<std::string> blocked_;
-  // What holds, loosened to where the start is.
+  // Limits, relaxed to include the start.
   double speed_ = 0.0;
   double slowest_ = 0.0;
   double acceleration_ = 0.0;
@@ -79,11 +81,11 @@ class TrajectoryCheck {
   double steering_rate_ = 0.0;
   double left_ = 0.0;
   double right_ = 0.0;
-  double beyond_ = 0.0;  // the edges
+  double beyond_ = 0.0;  // how far the start is beyond the edges [m]
   struct Obstacle {
     MovingBox box;
-    double margin;  // keep more than this
-    double reach;   // centers further apart than this are clear
+    double margin;  // required clearance
+    double reach;   // no collision if the centers are farther apart
   };
   std::vector<Obstacle> obstacles_;
 };

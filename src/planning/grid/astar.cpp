@@ -9,11 +9,17 @@
 
 #include "trackbed/core/error.h"
 
+// A* (Hart et al. 1968) on a grid with eight neighbors. The grid has a border of occupied cells, so
+// that steps need no bounds check. Open cells are kept in buckets half a straight step wide, sorted
+// by the excess of g + h over h(start); the search ends when no bucket left can improve the goal's
+// cost. A start or goal in a pocket of at most 64 cells is detected first. DistancesTo is
+// Dijkstra's algorithm with the same buckets.
+
 namespace trackbed {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-/// The cost of an occupied cell: no way there is ever a better one.
+/// Cost of an occupied cell: lower than any path, so that no path improves it.
 constexpr double kOccupied = -kNever;
 
 struct Step {
@@ -24,8 +30,8 @@ struct Step {
 constexpr std::array<Step, 8> kSteps{
     {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
 
-/// The cost of the best known way to each cell, of a grid with a border of occupied cells, so that
-/// no step needs to look where it is.
+/// Cost of the best known path to each cell, on a grid with a border of occupied cells, so that
+/// steps need no bounds check.
 struct Costs {
   explicit Costs(const OccupancyGrid& grid)
       : width(grid.columns + 2),
@@ -59,17 +65,17 @@ struct Costs {
   int columns;
 };
 
-/// Cells by rising key, a bucket at a time; in a bucket the last one in is the first one out. Keys
-/// never fall below the bucket that is being emptied, but for rounding.
+/// Bucket queue: buckets in ascending order of key, last in, first out within a bucket. Keys are
+/// never below the current bucket, except by rounding.
 class Buckets {
  public:
   struct Entry {
-    int x;  // of the bordered grid: without them every estimate would take two divisions
+    int x;  // column in the bordered grid; stored to avoid two divisions per estimate
     int y;
     double cost;
   };
 
-  /// Half a straight step: few cells are found better ways to after they were looked at.
+  /// Half a straight step: with this width few cells are expanded twice.
   static constexpr double kWidth = 0.5;
 
   void Push(double key, const Entry& entry) {
@@ -80,8 +86,8 @@ class Buckets {
     buckets_[bucket].push_back(entry);
   }
 
-  /// The next entry, or none. `done` is asked after every bucket, with the keys that all the rest
-  /// are not below.
+  /// Takes the next entry; false if the queue is empty. `done` is called after each bucket with the
+  /// lower bound of the remaining keys, and may end the search.
   template <typename Done>
   bool Pop(Entry& entry, const Done& done) {
     while (now_ < buckets_.size() && buckets_[now_].empty()) {
@@ -104,12 +110,12 @@ class Buckets {
   std::size_t now_ = 0;
 };
 
-/// A cell from which no more than this many can be reached is in a pocket.
+/// Largest number of cells in a pocket.
 constexpr std::size_t kPocket = 64;
 
-/// How many cells can be reached from one that is in a pocket without the other; else 0. Looked at
-/// first: it takes microseconds, and what the search itself sets up takes longer; without it, a
-/// goal in a pocket would be found out only when all else has been looked at.
+/// The number of cells reachable from `cell`, if they are a pocket that does not contain `other`;
+/// otherwise 0. This takes microseconds, less than the setup of the search. Without it, a goal in a
+/// pocket would be found unreachable only after expanding all other cells.
 std::size_t PocketSize(const OccupancyGrid& grid, std::size_t cell, std::size_t other) {
   const auto free = [&](int x, int y) {
     return x >= 0 && y >= 0 && x < grid.columns && y < grid.rows &&
@@ -121,7 +127,7 @@ std::size_t PocketSize(const OccupancyGrid& grid, std::size_t cell, std::size_t 
   for (std::size_t i = 0; i < reached.size(); ++i) {
     const auto x = static_cast<int>(reached[i] % columns);
     const auto y = static_cast<int>(reached[i] / columns);
-    // What is across can be reached, if at all, along what is beside.
+    // Diagonal moves need free orthogonal neighbors, so orthogonal moves reach all cells.
     for (const auto& [dx, dy] : {kSteps[0], kSteps[1], kSteps[2], kSteps[3]}) {
       if (!free(x + dx, y + dy)) {
         continue;
@@ -142,8 +148,8 @@ std::size_t PocketSize(const OccupancyGrid& grid, std::size_t cell, std::size_t 
   return reached.size();
 }
 
-/// Notes every neighbor to which the way through `cell`, at `cost`, is the best one known, and
-/// calls `take` with it, the step's number and the cost.
+/// Updates every neighbor whose best known path now leads through `cell`, at `cost`, and calls
+/// `take` with it, the number of the step and the new cost.
 template <typename Take>
 void ForEachBetter(Costs& costs, int cell, double cost, const Take& take) {
   const auto offer = [&](std::size_t i, double through) {
@@ -224,7 +230,7 @@ GridPath SearchGrid(const OccupancyGrid& grid, std::size_t start, std::size_t go
   for (Buckets::Entry at{}; open.Pop(at, found);) {
     const int here = at.y * costs.width + at.x;
     if (at.cost > costs[here] || at.cost >= goal_cost) {
-      continue;  // a better way to here, or to the goal, has been found since
+      continue;  // a better path to this cell, or to the goal, has been found since
     }
     if (result.expansions >= budget) {
       result.status = GridStatus::kBudgetUsedUp;

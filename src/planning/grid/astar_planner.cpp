@@ -32,13 +32,13 @@ PlanStatus ToPlanStatus(GridStatus status) {
   return PlanStatus::kNoPath;
 }
 
-/// Half a cell's diagonal [m]: obstacles are inflated by it as well, so that every point of a free
-/// cell, and of the line to the next one's center, has the inflation's distance from them.
+/// Half a cell's diagonal [m]. Obstacles are inflated by it too, so that every point of a free
+/// cell, and of the line to the next cell's center, keeps the inflation's distance from them.
 double OverACell(const AStarOptions& options) {
   return 0.5 * std::sqrt(2.0) * options.cell;
 }
 
-/// The middles of the cells, with the stops themselves at the ends.
+/// The centers of the cells; at the ends, the stops themselves.
 std::vector<Vec2> WaypointsOnGrid(const OccupancyGrid& grid, const GridPath& way,
                                   const Vec2& goal) {
   std::vector<Vec2> points;
@@ -53,7 +53,7 @@ std::vector<Vec2> WaypointsOnGrid(const OccupancyGrid& grid, const GridPath& way
   return points;
 }
 
-/// A plan along `points`, then by A* from the last of them to each waypoint after the first.
+/// Plans along `points`, then by A* from the last of them to each waypoint after the first.
 Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const OccupancyGrid& grid,
               double inflation, std::vector<Vec2> points) {
   const bool round = options.corners == Corners::kRound;
@@ -91,8 +91,8 @@ Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const Occ
                               options.safe_distance, options.min_speed);
 }
 
-/// The first points of polylines that begin as the car stands, beside the start itself: straight on
-/// for a while, then on or to either side, which a goal behind the car needs. Nearest first.
+/// First points of polylines that begin at the car's heading, the start included: straight on, then
+/// ahead or to either side, as a goal behind the car requires. Nearest first.
 std::vector<std::vector<Vec2>> WaysOut(const PlanRequest& request) {
   const double radius = request.vehicle.min_turning_radius();
   const double braking =
@@ -105,7 +105,7 @@ std::vector<std::vector<Vec2>> WaysOut(const PlanRequest& request) {
   }
   for (const double radii : {1.5, 2.5}) {
     for (const double side : {1.0, -1.0}) {
-      // A quarter turn; and half a turn, by two of them.
+      // A quarter turn; and a half turn by two quarter turns.
       const Vec2 corner = from + (braking + radii * radius) * ahead;
       const Vec2 beside = corner + 2.0 * side * radii * radius * LeftNormal(ahead);
       ways.push_back({from, corner, beside});
@@ -147,7 +147,7 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
   Plan direct = PlanGrid(options, request, grid, inflation, {request.start.position()});
   const std::vector<Excess> excesses =
       direct.ok() ? FindExcesses(direct, request) : std::vector<Excess>{};
-  // What slowing down mends is not a matter of how the path begins.
+  // Ignore violations that slowing down repairs: they do not depend on the initial heading.
   const bool begins_right = std::all_of(excesses.begin(), excesses.end(), [](const Excess& excess) {
     return excess.remedy != Remedy::kNone;
   });

@@ -16,26 +16,34 @@
 #include "trackbed/planning/curves/reeds_shepp.h"
 #include "trackbed/planning/grid/astar.h"
 
+// Hybrid A* (Dolgov et al. 2008) over poses that a car can drive through, forwards and backwards.
+// 1. The heuristic is the larger of the Reeds-Shepp (or Dubins) length and a grid distance by
+//    Dijkstra's algorithm around the obstacles.
+// 2. Expanding a node drives arcs of curvature 0, +-1/(2r) and +-1/r in both directions. Per cell
+//    of position, heading and direction only the cheapest node is kept.
+// 3. The nearer a node is to the goal, the more often a collision-free curve to the goal is tried.
+//    The search ends when the cheapest open node ends with such a curve.
+
 namespace trackbed {
 namespace {
 
-/// Most by which a path between eight neighbors is longer than the straight: 1/cos(pi/8).
+/// Largest ratio of the length of an eight-neighbor path to the straight line: 1/cos(pi/8).
 constexpr double kOctileOverStraight = 1.0823922002923940;
 
-/// A pose that was come to.
+/// A pose that the search has reached.
 struct Node {
   Pose2 pose;
   double cost = 0.0;
   int parent = -1;
-  Segment step;         ///< that led here; of the start, none
-  int last_curve = -1;  ///< of the goal: which of the curves leads there
+  Segment step;         ///< that ends here; empty for the start
+  int last_curve = -1;  ///< of a node at the goal: index of the curve that ends there
 };
 
 struct Open {
   double estimate;
   int node;
 
-  /// The cheaper first, of equal ones the later.
+  /// Cheapest first; of equal estimates, the newest first.
   bool operator<(const Open& other) const {
     return estimate != other.estimate ? estimate > other.estimate : node < other.node;
   }
@@ -79,7 +87,7 @@ class HybridAStar {
       }
       open_.pop();
       if (node.parent >= 0 && best_.at(NodeKey(node)) < node.cost) {
-        continue;  // a cheaper way to this cell has been found since
+        continue;  // a cheaper path to this cell has been found since
       }
       if (result.expansions >= options_.budget) {
         return BudgetUsedUp(result);
@@ -98,8 +106,9 @@ class HybridAStar {
     return result;
   }
 
-  /// Occupied are cells that the rear axle's center surely cannot be in: nearer to an obstacle than
-  /// the footprint's nearest side, all over the cell. Empty for an area of too many.
+  /// A cell is occupied if the rear axle's center cannot be anywhere in it: all of the cell is
+  /// closer to an obstacle than the footprint's nearest side. Returns an empty grid if the area has
+  /// too many cells.
   [[nodiscard]] OccupancyGrid MakeGrid(const VehicleParams& vehicle) const {
     const GridArea area =
         AreaAround(problem_.start, {problem_.start.position(), problem_.goal.position()},
@@ -115,13 +124,14 @@ class HybridAStar {
                      std::max(inflation, 0.0));
   }
 
-  /// What is left on the grid [m].
+  /// Remaining distance to the goal on the grid [m]; a lower bound.
   [[nodiscard]] double LeftOnGrid(const Pose2& pose) const {
     const int cell = grid_.CellAt(pose.position());
     if (cell < 0) {
       return std::numeric_limits<double>::infinity();
     }
-    // From anywhere in a cell to anywhere in another is up to a diagonal less.
+    // The distance between points of two cells is up to a diagonal shorter than between their
+    // centers.
     const double steps = distances_[static_cast<std::size_t>(cell)] / kOctileOverStraight;
     return options_.cell * std::max(steps - std::sqrt(2.0), 0.0);
   }
@@ -132,7 +142,7 @@ class HybridAStar {
     return std::max(LeftOnGrid(pose), curve);
   }
 
-  /// The cell of position, heading and direction.
+  /// The cell of a node's position, heading and direction.
   [[nodiscard]] std::int64_t NodeKey(const Node& node) const {
     const std::int64_t cell = grid_.CellAt(node.pose.position());
     const double turn = WrapAngle(node.pose.yaw - problem_.start.yaw) / (2.0 * kPi);
@@ -141,7 +151,7 @@ class HybridAStar {
     return (cell * options_.headings + heading) * 2 + (node.step.direction > 0 ? 1 : 0);
   }
 
-  /// What a segment costs after another.
+  /// Cost of a segment, including the transition from the previous segment.
   [[nodiscard]] double StepCost(const Segment& before, const Segment& segment) const {
     double cost = segment.length * (segment.direction > 0 ? 1.0 : options_.reverse_cost);
     if (before.length > 0.0) {
@@ -156,7 +166,7 @@ class HybridAStar {
   }
 
   void Expand(int index, const Node& node, int expansions) {
-    // The nearer to the goal the oftener: every radius to go leaves out one more try.
+    // Try more often near the goal: each radius of remaining distance skips one more attempt.
     const double left = Left(node.pose);
     if (expansions % (1 + static_cast<int>(left / radius_)) == 0 || expansions == 1) {
       TryToEnd(index, node);
@@ -194,7 +204,7 @@ class HybridAStar {
     nodes_.push_back(node);
   }
 
-  /// A curve from here to the goal, if a free one is among the cheapest few.
+  /// Tries to reach the goal by a curve: the first free one of the cheapest few.
   void TryToEnd(int index, const Node& node) {
     constexpr std::size_t kTries = 4;
     struct Curve {
@@ -269,7 +279,7 @@ class HybridAStar {
     return result;
   }
 
-  /// The best that leads to the goal by now, if anything does.
+  /// The cheapest path to the goal so far, or the failure.
   HybridAStarResult BudgetUsedUp(HybridAStarResult& result) const {
     for (std::size_t i = nodes_.size(); i-- > 0;) {
       if (nodes_[i].last_curve >= 0) {

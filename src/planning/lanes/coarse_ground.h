@@ -5,16 +5,16 @@
 
 namespace trackbed {
 
-/// Heights on a grid [m], in rows along x; none where they are not known.
+/// Heights on a grid [m], in rows along x; none if unknown.
 struct HeightGrid {
   int columns = 0;
   int rows = 0;
   std::vector<std::optional<double>> heights;
 };
 
-/// Smooth heights everywhere that are those known where there are any: a coarser grid of means
-/// gives what is between, which is then relaxed toward the mean of its neighbors. 0 without any
-/// known. Cost: O(grid), about 2 us for each height.
+/// Fills in unknown heights smoothly and keeps the known ones. A coarser grid of means gives the
+/// initial heights, which then relax toward the mean of their neighbors. All are 0 if none is
+/// known. Cost: O(grid), about 2 us per height.
 std::vector<double> FillHeights(const HeightGrid& known);
 
 }  // namespace trackbed

@@ -16,7 +16,7 @@
 namespace trackbed {
 namespace {
 
-/// Why the car does not start where the path does, for people, or "".
+/// Why the car's pose differs from the start of the path, for people; empty if it does not.
 std::string WhyElsewhere(const Pose2& car, const Pose2& path) {
   constexpr double kPlace = 1e-3;    // [m]
   constexpr double kHeading = 1e-3;  // [rad]
@@ -31,7 +31,7 @@ std::string WhyElsewhere(const Pose2& car, const Pose2& path) {
       distance, turn, path.x, path.y, path.yaw);
 }
 
-/// The first place that the car cannot steer through, for people, or "".
+/// The first place that the car cannot steer through, for people; empty without one.
 std::string WhyTooTight(const VehicleParams& vehicle, const std::vector<Segment>& segments) {
   double station = 0.0;
   for (const Segment& segment : segments) {

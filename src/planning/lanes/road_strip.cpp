@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNodeSpacing = 1.0;  // [m]
 
-/// Drivable lanes of a section; the center lane, 0, if there are none.
+/// Outermost drivable lanes of a section; lane 0, the center lane, if there are none.
 std::pair<int, int> OutermostLanes(const LaneSection& section) {
   std::pair<int, int> found{0, 0};
   for (const Lane& lane : section.lanes) {  // from left to right
@@ -23,13 +23,13 @@ std::pair<int, int> OutermostLanes(const LaneSection& section) {
   return found;
 }
 
-/// From 0 at 0 to 1 at 1, smooth.
+/// Smooth step from 0 at u = 0 to 1 at u = 1.
 double SmoothStep(double u) {
   const double v = std::clamp(u, 0.0, 1.0);
   return v * v * (3.0 - 2.0 * v);
 }
 
-/// Whether a piece of a road is short and turns little.
+/// Whether a piece of a road is short enough and turns little enough for one strip.
 bool IsShort(const Road& road, double from, double to) {
   constexpr double kLongest = 16.0;  // [m]
   constexpr double kMostTurn = 0.5;  // [rad]
@@ -87,7 +87,7 @@ RoadStrip::RoadStrip(const Road& road, double from, double to, double before, do
 }
 
 RoadStrip::Node RoadStrip::ReferenceAt(double s) const {
-  // Cubic between nodes: of an arc of 5 m radius it is 0.02 mm off.
+  // Cubic interpolation between nodes; its error on an arc of 5 m radius is 0.02 mm.
   const double parts = static_cast<double>(nodes_.size() - 1);
   const double place = parts * (s - from_) / (to_ - from_);
   const std::size_t i = std::min(static_cast<std::size_t>(std::max(place, 0.0)), nodes_.size() - 2);

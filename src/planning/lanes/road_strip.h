@@ -8,40 +8,40 @@
 
 namespace trackbed {
 
-/// The drivable lanes of a road over some meters in which it turns little, found from above.
+/// A short piece of a road with its drivable lanes, which locates points seen from above.
 class RoadStrip {
  public:
-  /// Where a point seen from above is on the surface, which goes on beyond the lanes, and straight
-  /// on beyond the ends.
+  /// Place on the road surface below a point. The surface extends beyond the lanes and, straight,
+  /// beyond the ends of the strip.
   struct Place {
     double s = 0.0;            ///< within the strip [m]
     double z = 0.0;            ///< of the surface [m]
     double beside = 0.0;       ///< distance beyond the lanes [m]
-    double beyond = 0.0;       ///< distance beyond the ends [m]
-    double straight_on = 0.0;  ///< for how much of that the road goes on [m]
+    double beyond = 0.0;       ///< distance beyond the ends of the strip [m]
+    double straight_on = 0.0;  ///< part of `beyond` that the extended road covers [m]
     double share = 1.0;        ///< falls to 0 toward the center of curvature
   };
 
-  /// Between two stations within one lane section and one piece of the reference line. The road
-  /// goes straight on for `before` and `after` meters beyond them. Keeps a reference to the road.
+  /// A strip between two stations within one lane section and one piece of the reference line. The
+  /// road is extended straight by `before` and `after` meters. Keeps a reference to the road.
   RoadStrip(const Road& road, double from, double to, double before, double after);
 
-  /// None near and beyond the center of curvature.
+  /// None at, near or beyond the center of curvature.
   [[nodiscard]] std::optional<Place> Locate(const Vec2& point_W) const;
 
   [[nodiscard]] const Road& road() const { return *road_; }
   [[nodiscard]] double from() const { return from_; }
   [[nodiscard]] double to() const { return to_; }
-  /// t of the outermost borders of drivable lanes [m], that on the right first.
+  /// t of the outermost borders of the drivable lanes [m]: right, left.
   [[nodiscard]] std::pair<double, double> Borders(double s) const;
-  /// A circle around the lanes.
+  /// Center of a circle around the lanes.
   [[nodiscard]] const Vec2& middle() const { return middle_; }
   [[nodiscard]] double radius() const { return radius_; }
 
  private:
   struct Node {
     Vec2 position;
-    Vec2 tangent;  // by station
+    Vec2 tangent;  // derivative by station
   };
   [[nodiscard]] Node ReferenceAt(double s) const;
 
@@ -54,12 +54,12 @@ class RoadStrip {
   int leftmost_ = 0;  // drivable lane
   int rightmost_ = 0;
   double curvature_ = 0.0;   // mean [1/m]
-  std::vector<Node> nodes_;  // evenly apart
+  std::vector<Node> nodes_;  // evenly spaced
   Vec2 middle_{0.0, 0.0};
   double radius_ = 0.0;
 };
 
-/// Strips that cover a road between two stations, wherever it has drivable lanes.
+/// Cuts a road between two stations into strips; leaves out stretches without drivable lanes.
 std::vector<RoadStrip> CutIntoStrips(const Road& road, double from, double to, double before,
                                      double after);
 

@@ -14,28 +14,37 @@
 #include "src/planning/lanes/road_strip.h"
 #include "trackbed/core/error.h"
 
+// Makes smooth ground from the road surfaces along a route.
+// 1. The needed stretches of road, extended at both ends, are cut into short strips.
+// 2. A coarse terrain interpolates the heights of points on the lanes, and slopes to a level
+//    border.
+// 3. Blocks near the roads are refined: on a lane its own height, beside lanes a mean weighted by
+//    proximity, blended into the coarse terrain within 9.5 m.
+// 4. Routes whose lanes pass over each other, or that deviate from the ground by over 1 cm, are
+//    refused.
+
 namespace trackbed {
 namespace {
 
-constexpr double kGoesOn = 15.0;     // along its road before and after the route [m]
-constexpr double kStraightOn = 6.0;  // where that road ends [m]
-constexpr double kLikeLanes = 1.5;   // beside them [m]
-constexpr double kPasses = 8.0;      // into the ground between the roads [m]
+constexpr double kGoesOn = 15.0;     // extension along its road before and after the route [m]
+constexpr double kStraightOn = 6.0;  // straight extension beyond the end of that road [m]
+constexpr double kLikeLanes = 1.5;   // width beside the lanes with the lanes' surface [m]
+constexpr double kPasses = 8.0;      // width of the transition to the ground between roads [m]
 constexpr double kReach = kLikeLanes + kPasses;
 constexpr double kMargin = 128.0;        // around the route [m]
-constexpr double kLevelBorder = 24.0;    // of it [m]
+constexpr double kLevelBorder = 24.0;    // width of the level border [m]
 constexpr double kSlopeToBorder = 72.0;  // [m]
-constexpr double kBelow = 1.0;           // the lowest road [m]
+constexpr double kBelow = 1.0;           // height of the border below the lowest road [m]
 
 /// Stations of a road that the route needs.
 struct Stretch {
   double from = 0.0;
   double to = 0.0;
-  double before = 0.0;  // straight on [m]
+  double before = 0.0;  // straight extension [m]
   double after = 0.0;
 };
 
-/// By road, in order and apart.
+/// By road id; sorted and disjoint.
 using Stretches = std::map<std::string, std::vector<Stretch>>;
 
 Stretches NeededStretches(const RoadNetwork& network, const std::vector<LaneStretch>& route) {
@@ -71,7 +80,7 @@ Stretches NeededStretches(const RoadNetwork& network, const std::vector<LaneStre
   return all;
 }
 
-/// Two lanes above each other.
+/// A place at which two lanes lie above each other.
 struct Crossing {
   std::string road;
   double s = 0.0;
@@ -81,14 +90,14 @@ struct Crossing {
   double apart = 0.0;  // [m]
 };
 
-/// The surfaces of all strips as one.
+/// Combined surface of all strips.
 class Surfaces {
  public:
   explicit Surfaces(std::vector<RoadStrip> strips) : strips_(std::move(strips)) {}
 
   [[nodiscard]] const std::vector<RoadStrip>& strips() const { return strips_; }
 
-  /// Those that matter within a circle.
+  /// The strips that affect a circle.
   [[nodiscard]] std::vector<const RoadStrip*> Near(const Vec2& middle, double radius) const {
     std::vector<const RoadStrip*> near;
     for (const RoadStrip& strip : strips_) {
@@ -101,10 +110,10 @@ class Surfaces {
 
   struct Blend {
     double z = 0.0;
-    double share = 0.0;  // of it in the ground, from 1 on the lanes to 0
+    double share = 0.0;  // weight in the ground, from 1 on the lanes to 0
   };
 
-  /// Their mean, in which lanes count more the nearer they are, and alone on them.
+  /// Mean height weighted by proximity; on a lane, that lane's height.
   Blend At(const std::vector<const RoadStrip*>& near, const Vec2& point) {
     Blend blend;
     double sum = 0.0;
@@ -126,7 +135,7 @@ class Surfaces {
       const double weight = place->share / ((square + kLeast) * (square + kLeast));
       sum += weight;
       blend.z += weight * place->z;
-      // At its ends it meets the next one, and a step there is no bridge.
+      // Adjacent strips meet at their ends, where a step in height is no bridge.
       if (square == 0.0 && place->s > strip->from() && place->s < strip->to()) {
         if (on != nullptr) {
           Compare(*on, there, *strip, *place, point);
@@ -139,11 +148,12 @@ class Surfaces {
     return blend;
   }
 
-  /// Where lanes were found farthest above each other, by more than a mismatch of heights.
+  /// The place with the largest height difference between two lanes, if it exceeds a mismatch of
+  /// heights.
   [[nodiscard]] const std::optional<Crossing>& crossing() const { return crossing_; }
 
  private:
-  /// From 1 at 0 to 0 at 1, with no slope and no curvature there.
+  /// Fades from 1 at u = 0 to 0 at u = 1, with zero slope and curvature at both ends.
   static double Fade(double u) {
     const double v = 1.0 - std::clamp(u, 0.0, 1.0);
     return v * v * v * (10.0 - v * (15.0 - 6.0 * v));
@@ -162,7 +172,7 @@ class Surfaces {
   std::optional<Crossing> crossing_;
 };
 
-/// Some points on the lanes of a strip, at most 2 m apart along it.
+/// Points across the lanes of a strip, at most 2 m apart along it.
 std::vector<RoadPosition> PointsOn(const RoadStrip& strip) {
   constexpr double kSpacing = 2.0;  // [m]
   std::vector<RoadPosition> points;
@@ -177,7 +187,7 @@ std::vector<RoadPosition> PointsOn(const RoadStrip& strip) {
   return points;
 }
 
-/// How near to the border of the terrain a control height is level with what is around it, 0 to 1.
+/// Weight of a control height: 0 at the border of the terrain, 1 well inside.
 double ShareInside(const Terrain::Size& size, int column, int row) {
   const int cells =
       std::min({column, row, size.CoarseColumns() - 1 - column, size.CoarseRows() - 1 - row});
@@ -186,7 +196,7 @@ double ShareInside(const Terrain::Size& size, int column, int row) {
   return u * u * (3.0 - 2.0 * u);
 }
 
-/// The terrain before it is refined; none if it would be too large.
+/// The terrain before refinement; none if it would be too large.
 std::optional<Terrain> CoarseTerrain(const std::vector<RoadStrip>& strips) {
   std::vector<RoadPosition> points;
   for (const RoadStrip& strip : strips) {
@@ -241,7 +251,7 @@ void RefineAlong(Surfaces& surfaces, Terrain& terrain) {
   for (int row = 0; row < size.rows; ++row) {
     for (int column = 0; column < size.columns; ++column) {
       const Vec2 middle = size.low + Terrain::kBlock * Vec2(column + 0.5, row + 0.5);
-      constexpr double kRadius = 0.75 * Terrain::kBlock;  // of a circle around it and a cell more
+      constexpr double kRadius = 0.75 * Terrain::kBlock;  // circle around block and cell
       const std::vector<const RoadStrip*> near = surfaces.Near(middle, kRadius);
       if (near.empty()) {
         continue;
@@ -254,7 +264,7 @@ void RefineAlong(Surfaces& surfaces, Terrain& terrain) {
   }
 }
 
-/// A place of the route's lanes and how far the ground is from it.
+/// Deviation of the ground from the route's lanes at a place.
 struct Deviation {
   std::string road;
   double s = 0.0;
@@ -270,11 +280,11 @@ Deviation LargestDeviation(const RoadNetwork& network, const std::vector<LaneStr
     const double from = std::min(stretch.from, stretch.to);
     const double to = std::max(stretch.from, stretch.to);
     const std::size_t section = road.SectionAt(0.5 * (from + to));
-    constexpr double kSpacing = 0.15;  // [m]: not that of the points that the ground goes through
+    constexpr double kSpacing = 0.15;  // [m]: not that of the interpolated points
     const double parts = std::max(1.0, std::ceil((to - from) / kSpacing));
     for (double i = 0.0; i <= parts; i += 1.0) {
       const double s = std::lerp(from, to, i / parts);
-      // Of the road before its end, where two of its pieces meet.
+      // At the end of a stretch, evaluate the piece of road before it.
       const double piece_of = s < to ? s : std::nextafter(to, from);
       for (const int lane : {stretch.lane, stretch.to_lane}) {
         const LaneBorders borders = LaneBordersAt(road, section, lane, s, piece_of);
@@ -291,7 +301,7 @@ Deviation LargestDeviation(const RoadNetwork& network, const std::vector<LaneStr
   return largest;
 }
 
-/// Whether all roads of a route lie level at one height.
+/// Whether all roads of a route are level at the same height.
 bool IsLevelRoute(const RoadNetwork& network, const std::vector<LaneStretch>& route) {
   const auto height = [&](const LaneStretch& stretch) {
     return network.roads.find(stretch.road)->second.elevation.At(0.0).value;
@@ -302,11 +312,11 @@ bool IsLevelRoute(const RoadNetwork& network, const std::vector<LaneStretch>& ro
   });
 }
 
-/// What of a road at a station cannot be ground, for people, or "".
+/// Why the road cannot be ground at this station, for people; empty if it can.
 std::string WhyNoGround(const Road& road, double s) {
   const CubicValue height = road.elevation.At(s);
   const double roll = road.superelevation.At(s).value;
-  constexpr double kSteepest = 1.0;  // as of bumps of the world's ground
+  constexpr double kSteepest = 1.0;  // as for bumps of the world's ground
   if (!(std::abs(height.slope) <= kSteepest && std::abs(std::tan(roll)) <= kSteepest &&
         std::cos(roll) > 0.0)) {
     return fmt::format(
@@ -334,7 +344,7 @@ std::string WhyNoGround(const Road& road, double s) {
   return "";
 }
 
-/// What of the roads cannot be ground, for people, or "".
+/// Why the roads cannot be ground, for people; empty if they can.
 std::string WhyNoGround(const RoadNetwork& network, const Stretches& needed) {
   double length = 0.0;
   for (const auto& [id, stretches] : needed) {

@@ -8,7 +8,7 @@
 namespace trackbed {
 
 GgvCut TyreCut(const LapLimits& limits, double squared, double angle, GgvSide side) {
-  constexpr double kStep = 1e-3;  // of the sine
+  constexpr double kStep = 1e-3;  // step in the sine
   const GgvDiagram& diagram = limits.diagram;
   GgvPoint point{.speed = std::sqrt(squared), .road = limits.road};
   const double lateral = diagram.MaxLateral(point);
@@ -21,14 +21,13 @@ GgvCut TyreCut(const LapLimits& limits, double squared, double angle, GgvSide si
   const double sine = std::sin(angle);
   const double below = std::max(0.0, sine - kStep);
   const double above = std::min(1.0, sine + kStep);
-  // The boundary as (f_y, f_x) = (lateral cos q, F(sin q)) has the normal (F' cos q, lateral sin
-  // q).
+  // The boundary (f_y, f_x) = (lateral cos q, F(sin q)) has the normal (F' cos q, lateral sin q).
   const double rise = std::max(0.0, (force_at(above) - force_at(below)) / (above - below));
   double across = rise * std::cos(angle);
   double along = lateral * sine;
   const double size = std::hypot(across, along);
   if (size <= 1e-9 * lateral) {
-    across = 1.0;  // a corner: f_y is at most the largest
+    across = 1.0;  // at a corner: limit f_y to its maximum
     along = 0.0;
   } else {
     across /= size;
@@ -45,12 +44,12 @@ GgvCut TyreCut(const LapLimits& limits, double squared, double angle, GgvSide si
 }
 
 double TyreCurvature(const LapLimits& limits, double squared, double angle, GgvSide side) {
-  constexpr double kBeside = 0.05;  // [rad]; a diagram's boundary is one of elliptic arcs
+  constexpr double kBeside = 0.05;  // [rad]; the boundary consists of elliptic arcs
   const double from = std::max(0.0, angle - kBeside);
   const double to = std::min(0.5 * std::numbers::pi, angle + kBeside);
   const GgvCut a = TyreCut(limits, squared, from, side);
   const GgvCut b = TyreCut(limits, squared, to, side);
-  // The length of the boundary in between, from the points themselves.
+  // Length of the boundary between the two tangent points.
   const double sign = side == GgvSide::kDriving ? 1.0 : -1.0;
   GgvPoint point{.speed = std::sqrt(squared), .road = limits.road};
   const double lateral = limits.diagram.MaxLateral(point);

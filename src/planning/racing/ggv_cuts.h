@@ -2,10 +2,10 @@
 
 #include "trackbed/planning/racing/minimum_time.h"
 
-/// Lines along the boundary of a g-g-v diagram, and of what motor and brakes allow, for optimizers.
+/// Tangents to the boundary of a g-g-v diagram, and the limits of motor and brakes, for optimizers.
 namespace trackbed {
 
-/// across f_y + along a <= bound, a the acceleration and f_y >= 0 the lateral force [m/s^2].
+/// across f_y + along a <= bound, with the acceleration a and the lateral force f_y >= 0 [m/s^2].
 struct GgvCut {
   double across = 0.0;
   double along = 0.0;
@@ -14,14 +14,14 @@ struct GgvCut {
 
 enum class GgvSide { kDriving, kBraking };
 
-/// The tangent where f_y is cos(angle) of the largest one at a speed of `squared` [m^2/s^2], of
-/// length 1 as a vector (across, along in f_x).
+/// Tangent at the point where f_y is cos(angle) of its maximum, at a speed whose square is
+/// `squared` [m^2/s^2]. As a vector (across, along in f_x) it has length 1.
 GgvCut TyreCut(const LapLimits& limits, double squared, double angle, GgvSide side);
 
-/// How fast the direction of the tangent turns along the boundary there [rad per m/s^2], at most 1.
+/// Rate at which the tangent's direction turns along the boundary there [rad per m/s^2], at most 1.
 double TyreCurvature(const LapLimits& limits, double squared, double angle, GgvSide side);
 
-/// What motor or brakes allow.
+/// Limit of motor or brakes.
 GgvCut ForceCut(const LapLimits& limits, double squared, GgvSide side);
 
 }  // namespace trackbed

@@ -9,7 +9,7 @@
 #include "trackbed/planning/racing/minimum_time.h"
 #include "trackbed/track/closed_spline.h"
 
-/// Laps along lines on a track, at stations that are evenly spaced along its center line.
+/// Laps along lines on a track, at stations evenly spaced along its center line.
 namespace trackbed {
 
 /// A lap along one line.
@@ -17,7 +17,7 @@ struct Lap {
   std::vector<LineShape> shapes;  // at the stations
   std::vector<double> curvature;  // kappa there [1/m]
   std::vector<double> stretch;    // dl/ds there
-  std::vector<double> lengths;    // of the line from each station to the next [m]
+  std::vector<double> lengths;    // of the line between adjacent stations [m]
   std::vector<double> speeds;     // [m/s]
   double time = 0.0;              // [s]
   double sharpest = 0.0;          // largest |kappa| [1/m]
@@ -25,7 +25,7 @@ struct Lap {
 
 class LapModel {
  public:
-  /// `count` stations.
+  /// `count` is the number of stations.
   LapModel(const Track& track, const LapLimits& limits, std::size_t count);
 
   [[nodiscard]] const LapLimits& limits() const { return limits_; }
@@ -38,8 +38,8 @@ class LapModel {
   /// The lap along a line at the limit. The line must not fold over.
   [[nodiscard]] Lap Drive(const TrackLine& line) const;
 
-  /// The change of curvature from a station to the next that the steering rate allows at 1 m/s
-  /// [m/s 1/m]; infinite where it is not limited.
+  /// Change of curvature between adjacent stations that the steering rate allows at 1 m/s [m/s
+  /// 1/m]; infinite if it is not limited.
   [[nodiscard]] double SteeringReach(const Lap& lap, std::size_t i) const;
 
  private:

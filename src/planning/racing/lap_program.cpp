@@ -6,27 +6,34 @@
 #include <numbers>
 #include <utility>
 
+// Quadratic programs of the trust-region method in minimum_time.h (problem of Casanova 2000 and
+// Christ et al. 2021). Variables are the changes of the line's spline coefficients and the relative
+// changes of the squared speeds. The objective is the lap time, to second order in speeds and
+// lengths. Rows bound offsets and steps, curvature, steering rate, lateral force, the tangents to
+// the tyres' g-g-v boundary, and motor and brakes. The boundary's curvature along active tangents
+// enters the Hessian, weighted by the multipliers of the previous program.
+
 namespace trackbed {
 namespace {
 
-/// Bounds of program rows must be finite; none of them has values anywhere near.
+/// Stands for infinity, because bounds of rows must be finite; actual values are far smaller.
 constexpr double kOpen = 50.0;
-/// How far from a lap the cuts are kept that no step may pass: in a step of a braking point along a
-/// straight, intervals change from driving to braking.
+/// Keeps a cut at any distance from the lap, because no step may violate it: when a braking point
+/// moves along a straight, intervals change from driving to braking.
 constexpr double kAlways = kOpen;
-constexpr double kLeastRange = 1e-9;  // they must differ
+constexpr double kLeastRange = 1e-9;  // least distance between the two bounds of a row
 
 double Squared(double x) {
   return x * x;
 }
 
-/// The value of a cut's left side less its bound.
+/// Left side of a cut minus its bound.
 double Excess(const GgvCut& cut, double across, double along) {
   return cut.across * across + cut.along * along - cut.bound;
 }
 
-/// Where tangents are laid to a quarter of the diagram near `angle`. Accelerations change much even
-/// in small steps, so that the tangents must follow the boundary closely.
+/// Angles at which tangents are laid to a quarter of the diagram near `angle`. Even small steps
+/// change accelerations considerably, so the tangents must follow the boundary closely.
 std::vector<double> CutAngles(double angle) {
   constexpr std::array<double, 5> kBeside{-0.3, -0.1, 0.0, 0.1, 0.3};
   std::vector<double> angles;
@@ -54,7 +61,7 @@ void LapProgram::Form::Add(const Form& other, double factor) {
   }
 }
 
-/// The change of a function of d, d' and d'' with the derivatives `by`.
+/// Linear change of a function of d, d' and d'' whose derivatives are `by`.
 LapProgram::Form LapProgram::OffsetForm(std::size_t i, const Eigen::Vector3d& by) const {
   Form form;
   for (std::size_t k = 0; k < ClosedSplineBasis::kSupport; ++k) {
@@ -81,7 +88,7 @@ void LapProgram::Linearize(const Lap& lap) {
   acceleration_.assign(count, {});
   accelerations_.assign(count, 0.0);
   for (std::size_t i = 0; i < count; ++i) {
-    // a = (w_j - w_i)/(2 l)
+    // a = (w_j - w_i)/(2 l).
     const std::size_t next = model_.After(i);
     const double length = lap.lengths[i];
     const double from = Squared(lap.speeds[i]);
@@ -104,10 +111,10 @@ void LapProgram::AddRow(const Form& form, double lower, double upper) {
   upper_.push_back(std::max(upper, lower + kLeastRange));
 }
 
-/// The time of all intervals: 2 l/(v_i + v_j), to second order in the speeds and in the lengths.
+/// Adds the lap time, the sum of 2 l/(v_i + v_j), to second order in speeds and lengths.
 void LapProgram::AddTime(const Lap& lap) {
   const std::size_t count = model_.count();
-  std::vector<double> pace(count);  // of the stations' stretch [s]
+  std::vector<double> pace(count);  // time per unit stretch at the stations [s]
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t next = model_.After(i);
     const double p = lap.speeds[i];
@@ -129,7 +136,7 @@ void LapProgram::AddTime(const Lap& lap) {
     for (const auto& [variable, value] : stretch_[i].terms) {
       linear_[variable] += pace[i] * value;
     }
-    // |r'| is a norm of what is linear in d and d': its second derivative is u u^T/|r'|^3.
+    // |r'| is the norm of a vector linear in d and d'; its second derivative is u u^T/|r'|^3.
     const PathPoint& center = model_.center(i);
     const double slope = lap.shapes[i].square.derivatives()[1] / 2.0;  // d'
     const double along = std::sqrt(std::max(0.0, Squared(lap.stretch[i]) - Squared(slope)));
@@ -161,7 +168,7 @@ void LapProgram::AddBounds(const TrackLine& line, const Lap& lap, const LapTrust
   }
 }
 
-/// The car's smallest radius, and its steering rate from each station to the next.
+/// Rows for the car's smallest radius and for its steering rate between adjacent stations.
 void LapProgram::AddCurvatures(const Lap& lap, double share) {
   const double most = model_.limits().curvature_max;
   for (std::size_t i = 0; i < model_.count(); ++i) {
@@ -175,8 +182,8 @@ void LapProgram::AddCurvatures(const Lap& lap, double share) {
   }
 }
 
-/// v |turned| <= reach at both ends of an interval, in units of the reach. Turning back the other
-/// way needs one row alone.
+/// Rows for v |turned| <= reach at both ends of an interval, in units of the reach. A single row
+/// suffices for turning in the opposite direction.
 void LapProgram::AddSteering(const Lap& lap, std::size_t i) {
   const std::size_t next = model_.After(i);
   const double reach = model_.SteeringReach(lap, i);
@@ -185,7 +192,7 @@ void LapProgram::AddSteering(const Lap& lap, std::size_t i) {
   }
   const double turned = lap.curvature[next] - lap.curvature[i];
   const double side = turned < 0.0 ? -1.0 : 1.0;
-  // The reach is in proportion to the length and to 1 + (L kappa)^2 of the smaller curvature.
+  // The reach is proportional to the length and to 1 + (L kappa)^2 of the smaller curvature.
   const std::size_t flat = std::abs(lap.curvature[i]) < std::abs(lap.curvature[next]) ? i : next;
   const double wheelbase = model_.limits().wheelbase;
   const double tangent = wheelbase * lap.curvature[flat];
@@ -205,7 +212,7 @@ void LapProgram::AddSteering(const Lap& lap, std::size_t i) {
   }
 }
 
-/// The largest lateral force, to both sides.
+/// Rows for the largest lateral force, on both sides.
 void LapProgram::AddLateral(const Lap& lap, std::size_t i) {
   const LapLimits& limits = model_.limits();
   const double squared = Squared(lap.speeds[i]);
@@ -223,9 +230,9 @@ void LapProgram::AddLateral(const Lap& lap, std::size_t i) {
   AddRow(form, -largest - std::abs(force), std::max(0.0, largest - std::abs(force)));
 }
 
-/// A cut of interval `interval` by what is possible at its end `at`. `bound_rate` is the change of
-/// its bound and directions with the relative change of w; cuts farther away than `keep` are left
-/// out.
+/// Adds a cut of interval `interval` by the limits at its end `at`. `bound_rate` is the derivative
+/// of its bound and directions by the relative change of w. Leaves out cuts farther away than
+/// `keep`; returns whether the cut was added.
 bool LapProgram::AddCut(const Lap& lap, std::size_t at, std::size_t interval, const GgvCut& cut,
                         double bound_rate, double keep) {
   const double squared = Squared(lap.speeds[at]);
@@ -239,13 +246,13 @@ bool LapProgram::AddCut(const Lap& lap, std::size_t at, std::size_t interval, co
   const double side = lap.curvature[at] < 0.0 ? -1.0 : 1.0;
   form.Add(curvature_[at], cut.across * side * squared);
   form.Add(SpeedVariable(at), cut.across * across - bound_rate);
-  // Where the diagram is not convex, its tangents may cut off the lap itself.
+  // Where the diagram is not convex, a tangent may cut off the lap itself: keep that feasible.
   AddRow(form, -kOpen, std::max(0.0, -excess));
   return true;
 }
 
-/// What the bend of the boundary beside its tangent costs: weight/2 times the square of the way
-/// along the tangent.
+/// Adds the cost of the boundary's curvature, which its tangent neglects: weight/2 times the
+/// squared displacement along the tangent.
 void LapProgram::AddBend(const Lap& lap, std::size_t at, std::size_t interval, const GgvCut& cut,
                          double weight) {
   const double squared = Squared(lap.speeds[at]);
@@ -273,8 +280,8 @@ void LapProgram::TakeMultipliers(const Eigen::VectorXd& multipliers) {
 }
 
 void LapProgram::AddTyres(const Lap& lap, std::size_t i, GgvSide side) {
-  constexpr double kStep = 0.01;  // of the square of the speed
-  constexpr double kKeep = 0.3;   // of the largest lateral force
+  constexpr double kStep = 0.01;  // relative step in the squared speed
+  constexpr double kKeep = 0.3;   // fraction of the largest lateral force
   const LapLimits& limits = model_.limits();
   const double squared = Squared(lap.speeds[i]);
   const double across = squared * std::abs(lap.curvature[i]);

@@ -11,21 +11,21 @@
 #include "src/planning/racing/line_shape.h"
 #include "trackbed/optimize/sparse_quadratic_program.h"
 
-/// Quadratic programs for a faster lap near a given one.
+/// Quadratic programs whose solutions shorten a lap's time.
 namespace trackbed {
 
-/// How far a step may lead.
+/// Trust region: bounds of a step.
 struct LapTrust {
   double offset = 1.0;   ///< change of d at a station [m]
-  double squared = 0.3;  ///< relative change of the square of the speed there
+  double squared = 0.3;  ///< relative change of the squared speed there
 };
 
-/// The programs about one lap after the other.
+/// Builds the quadratic program about each lap of the search.
 ///
-/// Variables: the changes of the line's coefficients [m], then of the squares of the speeds,
-/// relative to those of the lap. About a place where the tyres' lateral limit holds, kappa <= a/w,
-/// w the square of the speed, is replaced by kappa <= a/w_0 (1 - (w - w_0)/w_0), which is never
-/// more: with exact curvatures a step there keeps the limit.
+/// Variables: the changes of the line's coefficients [m], then the relative changes of the squared
+/// speeds. Where the tyres' lateral limit is active, kappa <= a/w, with w the squared speed, is
+/// replaced by kappa <= a/w_0 (1 - (w - w_0)/w_0). This is never larger, so with exact curvatures a
+/// step keeps the limit.
 class LapProgram {
  public:
   LapProgram(const LapModel& model, const ClosedSplineBasis& basis,
@@ -35,13 +35,13 @@ class LapProgram {
     return static_cast<Eigen::Index>(basis_.count());
   }
 
-  /// The program about a lap along `line`. Curvatures beyond LapLimits::curvature_max are to be
-  /// less by `share` of what they are beyond it.
+  /// The program about a lap along `line`. Where the curvature exceeds LapLimits::curvature_max,
+  /// the excess must fall by the fraction `share`.
   SparseQuadraticProgram About(const TrackLine& line, const Lap& lap, const LapTrust& trust,
                                double share);
 
-  /// Tells what the multipliers of the last program were. They are taken for the next one's, to
-  /// know what the curvature of the boundary costs that its tangents do not have.
+  /// Stores the multipliers of the last program. The next program uses them to weight the curvature
+  /// of the boundary, which tangents neglect.
   void TakeMultipliers(const Eigen::VectorXd& multipliers);
 
  private:
@@ -52,10 +52,10 @@ class LapProgram {
     void Add(const Form& other, double factor);
   };
 
-  /// How much the lap time falls with what the tyres hold in an interval, by what is possible at
-  /// its first and at its second end, when driving and when braking.
+  /// Decrease of the lap time per unit of tyre force in an interval, by the limits at its first and
+  /// at its second end, for driving and for braking.
   using Prices = std::array<std::array<double, 2>, 2>;
-  /// A tangent among the rows of a program.
+  /// A row of a program that is a tangent.
   struct TangentRow {
     Eigen::Index row = 0;
     std::size_t interval = 0;
@@ -86,12 +86,12 @@ class LapProgram {
   std::vector<OffsetBounds> bounds_;
   std::vector<ClosedSplineBasis::Local> locals_;
 
-  std::vector<Prices> prices_;  // of the last program
+  std::vector<Prices> prices_;  // of the previous program
 
-  // About one lap:
-  std::vector<Form> curvature_;     // its change at the stations
-  std::vector<Form> stretch_;       // likewise of dl/ds
-  std::vector<Form> acceleration_;  // of each interval
+  // Linearization about one lap:
+  std::vector<Form> curvature_;     // change of the curvature at the stations
+  std::vector<Form> stretch_;       // change of dl/ds at the stations
+  std::vector<Form> acceleration_;  // change of the acceleration of each interval
   std::vector<double> accelerations_;
   std::vector<Eigen::Triplet<double>> rows_;
   std::vector<TangentRow> tangents_;

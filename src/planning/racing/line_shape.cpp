@@ -24,7 +24,7 @@ LineShape ShapeAt(const PathPoint& center, const LineOffset& offset) {
 }
 
 OffsetBounds BoundsAt(const Track& track, const PathPoint& center, double s, double beside) {
-  constexpr double kLargestShare = 0.95;  // of the center line's radius that d may reach
+  constexpr double kLargestShare = 0.95;  // largest |d| as a fraction of the center line's radius
   const TrackEdges edges = track.EdgesAt(s);
   OffsetBounds bounds{edges.right + beside, edges.left - beside};
   if (center.curvature > 0.0) {

@@ -5,36 +5,36 @@
 
 #include "trackbed/planning/racing/track_line.h"
 
-/// Lines on a track for optimizers: their shape with its derivatives, and the bounds of their
-/// offset.
+/// Shape of a line on a track, with derivatives, and the bounds of its offset; for optimizers.
 namespace trackbed {
 
-/// The splines of lines' offsets, with two knots for each point of the track: in a hairpin a line
-/// runs at a fraction of the center line's radius, over as much less distance, and with knots as
-/// far apart as the points its curvature ripples.
+/// Splines for the offset of lines, with two knots per point of the track. In a hairpin a line's
+/// radius is a fraction of the center line's, over a correspondingly shorter distance; with one
+/// knot per point its curvature would ripple.
 ClosedSplineBasis OffsetBasis(const Track& track);
 
-/// A value and its derivatives by d, d' and d''.
+/// A value and its derivatives with respect to d, d' and d''.
 using OffsetDerivatives = Eigen::AutoDiffScalar<Eigen::Vector3d>;
 
-/// A line at one station, from r' = (1 - kappa_c d) t + d' n of its points r over the station.
+/// Shape of a line at one station, from r' = (1 - kappa_c d) t + d' n, the derivative of its points
+/// r by the station.
 struct LineShape {
   OffsetDerivatives cross;   ///< r' x r''
   OffsetDerivatives square;  ///< |r'|^2, so that kappa = cross/square^1.5 and dl/ds = square^0.5
 };
 LineShape ShapeAt(const PathPoint& center, const LineOffset& offset);
 
-/// Of d at one station [m].
+/// Bounds of d at one station [m].
 struct OffsetBounds {
   double lower = 0.0;
   double upper = 0.0;
 };
 
-/// The bounds of a line that keeps `beside` [m] away from the edges, and on its own side of the
-/// center of the center line's curvature.
+/// The bounds of a line that keeps `beside` [m] away from the edges and does not cross the center
+/// of curvature of the center line.
 OffsetBounds BoundsAt(const Track& track, const PathPoint& center, double s, double beside);
 
-/// Why no line keeps them, where the bounds leave nothing.
+/// Why no line satisfies the bounds where they are empty, for people.
 std::string TooNarrow(const Track& track, double s, double beside);
 
 }  // namespace trackbed

@@ -14,7 +14,7 @@ namespace trackbed {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
-/// kappa sqrt(dl/ds), whose square's integral over the station is that of kappa^2 over the line.
+/// kappa sqrt(dl/ds): the integral of its square over the station is that of kappa^2 over the line.
 OffsetDerivatives Residual(const PathPoint& center, const LineOffset& at) {
   const LineShape shape = ShapeAt(center, at);
   return shape.cross / pow(shape.square, 1.25);
@@ -59,7 +59,7 @@ class CurvatureProblem {
     return sum;
   }
 
-  /// The quadratic program about a line.
+  /// The quadratic program about a line (Gauss-Newton).
   const SparseQuadraticProgram& Linearize(const Eigen::VectorXd& coefficients) {
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::VectorXd residuals(Samples());
@@ -78,7 +78,8 @@ class CurvatureProblem {
     }
     Sparse jacobian(Samples(), Variables());
     jacobian.setFromTriplets(entries.begin(), entries.end());
-    // Moving the whole line changes no curvature: where no edge holds it, the last line does.
+    // Shifting the whole line leaves its curvature unchanged: regularize toward the last line where
+    // no edge is active.
     const Sparse squares = jacobian.transpose() * jacobian;
     const double hold = 1e-10 * squares.diagonal().mean();
     Sparse identity(Variables(), Variables());
@@ -129,7 +130,7 @@ Plan PlanWith(const MinimumCurvatureOptions& options, const PlanRequest& request
 
 MinimumCurvatureLine FindMinimumCurvature(const Track& track, double beside) {
   constexpr int kMostIterations = 30;
-  constexpr double kEnough = 1e-6;  // of the integral
+  constexpr double kEnough = 1e-6;  // relative change of the integral
   CurvatureProblem problem(track, beside);
   MinimumCurvatureLine found{.refused = problem.refused(), .line = {}};
   Eigen::VectorXd line = Eigen::VectorXd::Zero(problem.Variables());
@@ -142,7 +143,8 @@ MinimumCurvatureLine FindMinimumCurvature(const Track& track, double beside) {
       found.refused = "the quadratic program for the line was not solved";
       return found;
     }
-    // The first line need not keep the bounds; from then on the integral may only fall.
+    // The initial line may violate the bounds; from the second iteration on the integral must not
+    // rise.
     Eigen::VectorXd next = solution.x;
     double next_integral = problem.Integral(next);
     for (int half = 0; found.iterations > 1 && next_integral > integral && half < 10; ++half) {

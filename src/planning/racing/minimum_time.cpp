@@ -15,12 +15,18 @@
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/racing/minimum_curvature.h"
 
+// Line of least lap time (problem of Casanova 2000 and Christ et al. 2021) by a trust-region
+// method. The search starts at the line of least curvature. Each step solves a quadratic program
+// (LapProgram) for changes of the line and of the speeds. The new line gets its own limit profile;
+// the step, or a half to a tenth of it, is kept only if the lap gets faster, or if an excess of
+// curvature falls. Otherwise the trust region shrinks. A grid twice as fine judges the result.
+
 namespace trackbed {
 namespace {
 
-constexpr double kSameCurvature = 1e-6;  // of the largest
+constexpr double kSameCurvature = 1e-6;  // relative tolerance of the largest curvature
 
-/// Stations of the programs: at least two for each knot, and close enough for the speeds.
+/// Number of stations of the programs: at least two per knot, and at most 2.6 m apart.
 std::size_t ProgramStations(const Track& track) {
   constexpr double kFarthest = 2.6;  // [m]
   const double knots = static_cast<double>(OffsetBasis(track).count());
@@ -28,7 +34,7 @@ std::size_t ProgramStations(const Track& track) {
                                   std::max(2.0, std::ceil(track.length() / (knots * kFarthest))));
 }
 
-/// Where a lap is, and why the search for a faster one ended.
+/// State of the search: the best lap so far, and why the search ended.
 class LapSearch {
  public:
   LapSearch(const Track& track, double beside, const LapLimits& limits, const TrackLine& start)
@@ -48,7 +54,7 @@ class LapSearch {
   }
 
   [[nodiscard]] const TrackLine& line() const { return line_; }
-  /// Iterations, gain and end; line and times are the caller's.
+  /// Iterations, gain and end. The caller fills in line and times.
   [[nodiscard]] const MinimumTimeLine& found() const { return found_; }
 
  private:
@@ -60,17 +66,17 @@ class LapSearch {
     return bounds;
   }
 
-  /// By how much the line is beyond the largest curvature [1/m].
+  /// Excess of the line's curvature over the largest allowed [1/m].
   [[nodiscard]] double Beyond(const Lap& lap) const {
     const double most = model_.limits().curvature_max;
     const double beyond = most > 0.0 ? lap.sharpest - most * (1.0 + kSameCurvature) : 0.0;
     return std::max(0.0, beyond);
   }
 
-  /// One program; whether the search is over.
+  /// Solves one program and tries its step. Returns whether the search is over.
   bool Step() {
     constexpr double kLeastScale = 1e-3;
-    constexpr double kEnough = 1e-4;  // of the lap time
+    constexpr double kEnough = 1e-4;  // fraction of the lap time
     const LapTrust trust{.offset = kTrustOffset * scale_, .squared = kTrustSquared * scale_};
     const SparseQuadraticProgram program = program_.About(line_, lap_, trust, share_);
     const SparseQuadraticSolution solution = Solve(
@@ -100,7 +106,7 @@ class LapSearch {
     return scale_ < kLeastScale;
   }
 
-  /// Takes the step, or the largest part of it that makes the lap better; false where none does.
+  /// Takes the step, or the largest fraction of it that improves the lap; false if none does.
   bool Take(const Eigen::VectorXd& step, double promised) {
     const double beyond = Beyond(lap_);
     for (const double part : {1.0, 0.5, 0.25, 0.1}) {
@@ -120,7 +126,7 @@ class LapSearch {
         return true;
       }
     }
-    // The next step must be shorter than this one, even if this one was shorter than allowed.
+    // Shrink to below this step's size, even if the step was inside the trust region.
     const double squared =
         step.tail(step.size() - program_.coefficients()).lpNorm<Eigen::Infinity>();
     scale_ = 0.1 * std::min(scale_, squared / kTrustSquared);
@@ -129,7 +135,7 @@ class LapSearch {
   }
 
   static constexpr double kTrustOffset = 1.0;   // [m]
-  static constexpr double kTrustSquared = 0.3;  // of the square of a speed
+  static constexpr double kTrustSquared = 0.3;  // relative, of a squared speed
   static constexpr double kMostScale = 2.0;
 
   LapModel model_;
@@ -142,7 +148,7 @@ class LapSearch {
   MinimumTimeLine found_;
 };
 
-/// Twice as many stations as in the programs, to judge lines.
+/// Model with twice as many stations as the programs, to compare lines.
 LapModel FineModel(const Track& track, const LapLimits& limits) {
   return {track, limits, 2 * ProgramStations(track)};
 }

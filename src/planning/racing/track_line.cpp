@@ -14,17 +14,22 @@
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/frenet/polynomial.h"
 
+// Turns a line on a track into a plan of laps. The line is the offset d(s) from the center line.
+// From the car's offset, a quintic of difference joins it over the unrolled station. Points along
+// the line, with exact curvatures, become segments of quadratic curvature; after the last lap the
+// line continues for the braking distance.
+
 namespace trackbed {
 namespace {
 
-/// What leads from the car's offset to the line's.
+/// Transition from the car's offset to the line's.
 struct Join {
   double from = 0.0;    // station [m]
   double length = 0.0;  // [m]
   Polynomial difference;
 };
 
-/// A line over the unrolled station, with what leads onto it.
+/// A line over the unrolled station, including the transition onto it.
 class Unrolled {
  public:
   Unrolled(const Track& track, const TrackLine& line, const Join& join)
@@ -41,7 +46,7 @@ class Unrolled {
     return offset;
   }
 
-  /// None where there is no frame.
+  /// Position and shape at s; none where the Frenet frame does not exist.
   [[nodiscard]] std::optional<MotionState> At(double s) const {
     const LineOffset offset = OffsetAt(s);
     return FromFrenet(
@@ -64,18 +69,19 @@ class Unrolled {
   const Join& join_;
 };
 
-/// Between points of a path [m].
+/// Spacing of the points of a path [m].
 double Spacing(const Track& track) {
   return std::min(1.0, 0.25 * track.length() / static_cast<double>(track.points().size()));
 }
 
-/// A path through points of the line, and where it passes the stations.
+/// A path through points of the line, and its stations at the given track stations.
 struct LinePath {
   std::vector<CurvePoint> points;
   std::vector<double> passed;  // stations of the path [m]
 };
 
-/// The line through stations of the track, at least two that rise; none where there is no frame.
+/// The line through at least two ascending stations of the track; none where the Frenet frame does
+/// not exist.
 std::optional<LinePath> TraceLine(const Track& track, const Unrolled& line,
                                   const std::vector<double>& stations) {
   LinePath path;
@@ -97,7 +103,8 @@ std::optional<LinePath> TraceLine(const Track& track, const Unrolled& line,
     const double parts = std::ceil(span / spacing);
     for (double k = 0.0; k < parts; k += 1.0) {
       const double s = stations[i] + span * k / parts;
-      // Inside a hairpin points get close, and the line's finest ripples would limit the speed.
+      // Inside a hairpin points get close, where the finest ripples of the line would limit the
+      // speed: leave some out.
       const bool close = k > 0.0 && length - path.points.back().s < kLeastSpacing * spacing;
       if (!close && !add(s)) {
         return std::nullopt;
@@ -109,10 +116,10 @@ std::optional<LinePath> TraceLine(const Track& track, const Unrolled& line,
   return add(stations.back()) ? std::optional(path) : std::nullopt;
 }
 
-/// Where the car is on the track; the station is at most half a lap from the start line.
+/// The car's state on the track, with a station at most half a lap from the start line.
 struct Start {
   std::optional<FrenetState> at;
-  std::string refused;  // why it cannot start there
+  std::string refused;  // reason why the car cannot start there
 };
 
 Start FindStart(const Track& track, const PlanRequest& request) {
@@ -184,7 +191,7 @@ LineFindings MeasureLine(const Track& track, const TrackLine& line) {
   LineFindings findings;
   double sharpest = 0.0;
   for (double k = 0.0; k < parts; k += 1.0) {
-    // Kappa^2 repeats once a lap: for such functions the sum is as good as any integral.
+    // Kappa^2 is periodic over a lap, so the midpoint sum converges as fast as any quadrature.
     const double from = track.length() * k / parts;
     const double length = unrolled.Length(from, track.length() * (k + 1.0) / parts);
     const std::optional<MotionState> at = unrolled.At(track.length() * (k + 0.5) / parts);

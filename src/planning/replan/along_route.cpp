@@ -11,20 +11,27 @@
 #include "trackbed/vehicle/state.h"
 #include "trackbed/world/world.h"
 
+// Motions along a route among obstacles, by polynomials in the Frenet frame or by a lattice.
+// Maneuvers are tried in order: stop at the goal, proceed at the wanted speed, follow a leader,
+// proceed more slowly, stop behind an obstacle. A motion counts only if the car can brake after it:
+// clear of obstacles, within the steering limits and the track's edges, and before the goal. Moving
+// obstacles are extrapolated at constant velocity.
+
 namespace trackbed {
 namespace {
 
-/// A car comes smoothly to rest over this share of speed times duration, or less.
+/// Fraction of speed times duration within which a smooth stop from that speed is possible.
 constexpr double kStopShare = 0.55;
 
-/// Tolerance of a stop at the goal [m], that of the lattice.
+/// Tolerance of a stop at the goal [m]; the same as the lattice's.
 constexpr double kGoalTolerance = 0.05;
 
 double Front(const VehicleParams& vehicle) {
   return vehicle.length - vehicle.rear_overhang;
 }
 
-/// The method's options as the settings want them, with some of its speeds only.
+/// The method's options, with the safe distance and horizon of the settings and the given speed
+/// factors.
 FrenetOptions Adapted(FrenetOptions options, const AlongSettings& settings,
                       const std::vector<double>& factors) {
   options.limits.safe_distance = settings.safe_distance;
@@ -48,7 +55,7 @@ FrenetPlan Find(const Path& path, const FrenetRequest& request, const LatticeOpt
   return PlanLattice(path, request, options);
 }
 
-/// How far from the end of the route its motions can stop there.
+/// Distance before the end of the route within which the method can stop there.
 double StopReach(const FrenetOptions& options, double speed) {
   const auto longest = std::max_element(options.end_times.begin(), options.end_times.end());
   return longest == options.end_times.end() ? 0.0 : kStopShare * speed * *longest;
@@ -83,7 +90,7 @@ class AlongRoute {
       plan.to_goal = true;
       return plan;
     }
-    // Farther than motions reach: to see what they lead up to.
+    // Look beyond the motions' reach, to see what they approach.
     const auto leader = LeaderIn(
         frame_.path, request_, settings_,
         request_.start.s + Front(request_.vehicle) + std::max(reach, speed * settings_.look_ahead));
@@ -127,8 +134,9 @@ class AlongRoute {
   }
 
  private:
-  /// Whether there is a motion, and braking after it that is clear and that the wheels can follow.
-  /// No motion that passes the goal, braking included, or stops beside it: none leads back.
+  /// Finds a motion to the goal state. Requires that the car can brake after it, clear of obstacles
+  /// and within the steering limits. Rejects motions that pass the route's goal, braking included,
+  /// or stop beside it, because the car could not return.
   bool Try(const FrenetGoal& goal, const std::vector<double>& factors = {1.0}) {
     const FrenetRequest request{.vehicle = request_.vehicle,
                                 .speed = request_.speed,
@@ -147,19 +155,20 @@ class AlongRoute {
     }
     const FrenetState end = found_.motion.At(found_.motion.duration());
     if (std::holds_alternative<StopAt>(goal) && end.s_rate > kAtRestSpeed) {
-      return false;  // the lattice does not reach so far
+      return false;  // the stop is beyond the reach of the lattice
     }
     return BrakesAfter(end, end.d) || (frame_.edges && end.d != 0.0 && BrakesAfter(end, 0.0));
   }
 
-  /// Whether the car can brake after the motion, meanwhile moving over to an offset.
+  /// Whether the car can brake after the motion, while it moves over to an offset.
   bool BrakesAfter(const FrenetState& end, double offset) {
     points_ = WithBraking(end, offset);
     return EndsBeforeGoal(points_.back().frenet) && BrakingIsClear() && BrakingIsDrivable() &&
            BrakingIsOnTrack();
   }
 
-  /// Whether two opposite turns, the tightest, lead from a stop to the route at its goal or before.
+  /// Whether two opposite turns at full lock lead from a stop back to the route, at its goal or
+  /// before.
   [[nodiscard]] bool EndsBeforeGoal(const FrenetState& stop) const {
     const VehicleParams& car = request_.vehicle;
     const double radius = car.wheelbase / std::tan(car.steering_limit);
@@ -172,7 +181,7 @@ class AlongRoute {
                                                          double offset) const {
     FrenetMotion motion = found_.motion;
     if (end.s_rate > 0.0) {
-      // At rest after time end.s_rate/a and distance end.s_rate^2/(2 a).
+      // Standstill after the time end.s_rate/a and the distance end.s_rate^2/(2 a).
       const double braking = request_.speed.deceleration;
       const double distance = 0.5 * end.s_rate * end.s_rate / braking;
       motion.pieces.push_back(
@@ -182,14 +191,14 @@ class AlongRoute {
     }
     const FrenetLimits& limits = MotionLimits(options_);
     auto points = SampleMotion(frame_.path, motion, limits.time_step, limits.spacing);
-    // Where the frame does not reach so far, the motion alone.
+    // If the frame ends before the stop, return the motion without braking.
     return points ? std::move(*points) : found_.points;
   }
 
   [[nodiscard]] bool BrakingIsClear() const {
-    constexpr double kTouch = 1e-2;  // [m], what motions may fall short by between their samples
+    constexpr double kTouch = 1e-2;  // [m], tolerance for clearance between samples
     const double began = found_.motion.duration();
-    // A start that is nearer than the safe distance may stay as near.
+    // A start closer than the safe distance may keep its distance.
     const OrientedBox footprint = FootprintAt(request_.vehicle, points_.front().motion.pose);
     std::vector<double> margins;
     for (const MovingBox& obstacle : request_.obstacles) {
@@ -210,7 +219,7 @@ class AlongRoute {
     });
   }
 
-  /// A motion may end too fast for a bend behind it.
+  /// Checks the steering while braking: a motion may end too fast for a bend after it.
   [[nodiscard]] bool BrakingIsDrivable() const {
     constexpr double kRounding = 1.0 + 1e-9;
     const VehicleParams& car = request_.vehicle;
@@ -235,7 +244,8 @@ class AlongRoute {
     return true;
   }
 
-  /// On a track, within its edges. A start beyond them may stay as far beyond.
+  /// Checks that the footprint stays within the track's edges. A start beyond them may stay as far
+  /// beyond.
   [[nodiscard]] bool BrakingIsOnTrack() const {
     if (!frame_.edges) {
       return true;
@@ -251,7 +261,7 @@ class AlongRoute {
     });
   }
 
-  /// Whether the motion's last offset is beside the obstacle's, or its end beyond.
+  /// Whether the motion ends beside the obstacle, laterally clear of it, or beyond it.
   [[nodiscard]] bool LeadsPast(const Leader& leader) const {
     const FrenetState end = found_.motion.At(found_.motion.duration());
     const double room = 0.5 * request_.vehicle.width + settings_.safe_distance;
@@ -268,8 +278,8 @@ class AlongRoute {
   const AlongRequest& request_;
   const AlongSettings& settings_;
   const AlongOptions& options_;
-  FrenetPlan found_;                     // by the last try
-  std::vector<TrajectoryPoint> points_;  // of that, and of the braking after it
+  FrenetPlan found_;                     // result of the last attempt
+  std::vector<TrajectoryPoint> points_;  // of the motion and of the braking after it
 };
 
 }  // namespace
@@ -310,10 +320,9 @@ RouteFrame MakeRouteFrame(const VehicleParams& vehicle, const Plan& route, const
             .edges = std::make_shared<const RoadEdges>(
                 EdgesBeside(path, *route.laps.track, vehicle, edge_distance))};
   }
-  // The wheels need the longest distance for a step of curvature k from straight on to a bend.
-  // While the curvature rises by k over the window w, |d(steering)/dt| <= v L k/w: steering =
-  // atan(L curvature) rises fastest where it begins. Smoothing makes the bend itself tighter, by
-  // (k w)^2/24.
+  // A step of curvature k from straight to a bend needs the longest window. While the curvature
+  // rises by k over the window w, |d(steering)/dt| <= v L k/w; steering = atan(L curvature) rises
+  // fastest at the beginning. Smoothing tightens the bend itself by (k w)^2/24.
   constexpr double kLook = 0.5;  // [m]
   double window = 0.1;           // [m]
   for (const PathPoint& point : path.Sample(kLook)) {

@@ -13,8 +13,8 @@ std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
                                                  double distance, double look_ahead,
                                                  double offset) {
   constexpr double kStep = 0.1;    // [s]
-  constexpr double kTouch = 1e-2;  // [m], what planners may fall short by between their samples
-  // From the station on: times before it may be infinite, if the profile comes to rest there.
+  constexpr double kTouch = 1e-2;  // [m], tolerance for planners that check clearance at samples
+  // Only the profile ahead: times before a stop in it may be infinite.
   const SpeedProfile ahead =
       Excerpt(reference.speed, {station, std::max(station, reference.path.length())});
   const auto station_at = [&](double time) { return station + ahead.StationAt(time); };
@@ -28,7 +28,7 @@ std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
     const double time = i * kStep;
     for (std::size_t j = 0; j < obstacles.size(); ++j) {
       if (too_near(time, obstacles[j])) {
-        // A tenth of a second is 1.5 m at 15 m/s: where between the looks it began.
+        // 0.1 s is 1.5 m at 15 m/s, so bisect for the time of first contact.
         double clear = i == 0 ? time : time - kStep;
         double near = time;
         for (int halving = 0; halving < 10 && i > 0; ++halving) {

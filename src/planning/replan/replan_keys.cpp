@@ -7,11 +7,11 @@
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/planning/replan/replan.h"
 
-/// The keys of `plan.replan`: what plans again while driving.
+/// The keys of `plan.replan`: replanning while driving.
 namespace trackbed {
 namespace {
 
-/// How far the road reaches; a side that is not given has no end.
+/// Extent of the road on one side; unlimited by default.
 void VisitRoadSide(KeyVisitor& keys, const Key& key, double& width) {
   std::optional<double> side;
   if (std::isfinite(width)) {
@@ -21,7 +21,7 @@ void VisitRoadSide(KeyVisitor& keys, const Key& key, double& width) {
   width = side.value_or(std::numeric_limits<double>::infinity());
 }
 
-/// Planners that find a path around obstacles by themselves, set to go forwards.
+/// Planners that avoid obstacles themselves, restricted to driving forwards.
 std::vector<PlannerEntry> DetourPlanners() {
   std::vector<PlannerEntry> fit;
   for (PlannerEntry entry : Planners()) {

@@ -8,12 +8,12 @@
 namespace trackbed {
 namespace {
 
-/// What is left of a path for a car at `position`, from its nearest point on.
+/// The rest of a path for a car at `position`, from its nearest point on.
 std::vector<Vec2> Rest(const std::vector<Vec2>& way, const Vec2& position) {
   std::size_t next = way.size();
   Vec2 nearest = way.back();
   double distance = (position - nearest).norm();
-  // The later of two points that are as near: a path is not driven twice.
+  // Of two equally near points take the later one: no path is driven twice.
   for (std::size_t i = way.size() - 1; i > 0; --i) {
     const Vec2 along = way[i] - way[i - 1];
     const double square = along.squaredNorm();

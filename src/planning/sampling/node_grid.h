@@ -7,10 +7,10 @@
 
 namespace trackbed {
 
-/// Points of the plane in square cells, asked for those around another point. Points are added one
-/// by one; the cells become smaller as they fill, so that each holds a few.
+/// Square-cell index of points in the plane for neighbor queries. Points are added one by one;
+/// cells are divided as they fill, so that each holds a few.
 ///
-/// Distances are exact to rounding. Cost: adding O(1) amortized; a question looks at the cells that
+/// Distances are exact to rounding. Cost: adding is O(1) amortized; a query visits the cells that
 /// its circle touches.
 class NodeGrid {
  public:
@@ -23,15 +23,15 @@ class NodeGrid {
     std::size_t node;
   };
 
-  /// All points lie within the box between two corners; it may be a line or a point.
+  /// All points lie within the box between two corners, which may be a line or a point.
   NodeGrid(const Vec2& low, const Vec2& high);
 
   void Add(const Vec2& position, std::size_t node);
 
-  /// The node nearest to a point of the box. There is at least one node.
+  /// The node nearest to a point of the box. The index must not be empty.
   [[nodiscard]] std::size_t Nearest(const Vec2& p) const;
 
-  /// Replaces `near` by all nodes up to `radius` [m] from a point, in no order.
+  /// Replaces `near` by all nodes within `radius` [m] of a point, in no particular order.
   void FindWithin(const Vec2& p, double radius, std::vector<Near>& near) const;
 
  private:

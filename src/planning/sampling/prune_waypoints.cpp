@@ -10,10 +10,11 @@ namespace trackbed {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Of a corner that the car cannot drive [m].
+/// Cost of a corner that the car cannot drive [m].
 constexpr double kTooTight = 1e6;
 
-/// What the corner at `at` costs. `all_in`, `all_out`: the whole of a leg may be used for it.
+/// Cost of the corner at `at`. With `all_in` or `all_out`, the corner may use the whole of that
+/// leg.
 double CornerCost(const PruningProblem& problem, const Vec2& from, const Vec2& at, const Vec2& to,
                   bool all_in, bool all_out) {
   const Vec2 in = at - from;
@@ -24,10 +25,10 @@ double CornerCost(const PruningProblem& problem, const Vec2& from, const Vec2& a
   return problem.tangent(turn) > room ? kTooTight : 0.0;
 }
 
-/// The cheapest path whose last line leads from one point to another.
+/// The cheapest path that ends with the line from one given point to another.
 struct Line {
   double cost = kInfinity;
-  std::size_t before = 0;  ///< where the line before it begins
+  std::size_t before = 0;  ///< start of the previous line
 };
 
 }  // namespace

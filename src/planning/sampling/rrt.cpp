@@ -73,7 +73,7 @@ class Tree {
     return index_.qbegin(index::nearest(Point(p.x(), p.y()), 1))->second;
   }
 
-  /// One step toward a sample; the goal's node when that is reached.
+  /// Extends the tree toward one sample. Returns the goal's node once it is reached.
   std::optional<std::size_t> Iterate() {
     const Vec2 sample = Sample();
     const std::size_t from = Nearest(sample);
@@ -91,7 +91,7 @@ class Tree {
     return TryGoal(Add(position, from));
   }
 
-  /// The goal's node if it is near a node and the edge to it is free.
+  /// Adds the goal's node if it is near the given node and the edge to it is free.
   std::optional<std::size_t> TryGoal(std::size_t node) {
     const Vec2 position = nodes_[node].position;
     if (position == problem_.goal) {
@@ -111,7 +111,7 @@ class Tree {
     return node;
   }
 
-  /// The way to a node along the tree.
+  /// The path to a node along the tree.
   void Trace(std::size_t node, RrtResult& result) const {
     for (; node != 0; node = nodes_[node].parent) {
       result.path.push_back(nodes_[node].position);

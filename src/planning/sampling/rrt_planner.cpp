@@ -15,7 +15,10 @@
 #include "trackbed/planning/sampling/comparator.h"
 #include "trackbed/planning/sampling/rrt.h"
 
-// RRT as a planner of cars.
+// RRT for cars (LaValle 1998; smoothing and comparator of the wind-aware RRT). Each try grows one
+// tree per waypoint, smooths the path, removes needless waypoints and rounds the corners. If a tree
+// does not reach its goal, a partial path to its nearest node may be planned instead. Of several
+// tries a complete plan wins over a partial one; between equals the comparator decides.
 namespace trackbed {
 namespace {
 
@@ -34,18 +37,18 @@ SamplingTask MakeTask(const RrtPlannerOptions& options, const PlanRequest& reque
                           request);
 }
 
-/// A path through all goals, or how far it got.
+/// A path through all goals, or the part of it that was found.
 struct Way {
-  std::vector<Vec2> points;   ///< from the start on through the goals reached, in the car's frame
-  std::size_t goals = 0;      ///< reached
-  std::vector<Vec2> nearest;  ///< the tree's path toward the next one, to the node nearest to it
-  double left = 0.0;          ///< from where it ends to the next goal [m]
+  std::vector<Vec2> points;   ///< from the start through the goals reached, in the car's frame
+  std::size_t goals = 0;      ///< number of goals reached
+  std::vector<Vec2> nearest;  ///< path along the tree to the node nearest to the next goal
+  double left = 0.0;          ///< distance from that node to the next goal [m]
   RrtStatus status = RrtStatus::kReached;
   std::vector<RrtLeg> legs;
   std::vector<TreeNode> tree;  ///< in the world
 };
 
-/// All that the trees of one request have in common.
+/// Shared by the trees of one request.
 struct Forest {
   const RrtPlannerOptions& options;
   const PlanRequest& request;
@@ -54,12 +57,12 @@ struct Forest {
   std::function<bool()> time_is_over;  ///< empty: never
 };
 
-/// Adds the nodes of a tree, in the world, with the lengths of their ways.
+/// Adds a tree's nodes, in the world frame, with the lengths of their paths.
 void AddTree(const RrtResult& result, const Pose2& frame, std::vector<TreeNode>& tree) {
   const std::size_t first = tree.size();
   for (const RrtNode& node : result.nodes) {
     const Vec2& parent = result.nodes[node.parent].position;
-    // A node's parent stands before it; the first one is its own.
+    // A parent precedes its children; the root is its own parent.
     const double cost = tree.size() == first
                             ? 0.0
                             : tree[first + node.parent].cost + (node.position - parent).norm();
@@ -67,7 +70,7 @@ void AddTree(const RrtResult& result, const Pose2& frame, std::vector<TreeNode>&
   }
 }
 
-/// Goes on along a tree's path, smoothed, and with no more corners than it needs; `leg` is told.
+/// Smooths a tree's path, removes needless corners and appends it to `points`. Fills in `leg`.
 void AddLeg(const Forest& forest, const std::vector<Vec2>& path, bool is_last,
             std::vector<Vec2>& points, RrtLeg& leg) {
   const RrtPlannerOptions& options = forest.options;
@@ -124,7 +127,7 @@ Way GrowWay(const Forest& forest, std::uint64_t seed) {
   return way;
 }
 
-/// One try: the plan along a path, and what the comparator says of it.
+/// One attempt: a path, its plan, and the comparator's score.
 struct Try {
   Way way;
   Plan plan;
@@ -133,7 +136,7 @@ struct Try {
   [[nodiscard]] bool is_partial() const { return way.status != RrtStatus::kReached; }
 };
 
-/// A plan to the goal is better than one for part of the way, that than none.
+/// Ranks plans to the goal before partial plans, and those before failures; then by score.
 bool IsBetterTry(const Try& other, const Try& current) {
   const auto rank = [](const Try& each) { return !each.plan.ok() ? 0 : each.is_partial() ? 1 : 2; };
   if (rank(other) != rank(current)) {
@@ -146,14 +149,14 @@ bool IsBetterTry(const Try& other, const Try& current) {
          std::pair(current.way.goals, -current.way.left);
 }
 
-/// What there was to look with: "10 trees of 10000 samples", "1 tree in 0.5 s".
+/// Describes the budget: "10 trees of 10000 samples", "1 tree in 0.5 s".
 std::string DescribeBudget(const RrtPlannerOptions& options, std::size_t trees, bool time_is_over) {
   return fmt::format("{} {} ", trees, trees == 1 ? "tree" : "trees") +
          (time_is_over ? fmt::format("in {:.4g} s", *options.time_limit)
                        : fmt::format("of {} samples", options.iterations));
 }
 
-/// Where a tree begins is free: it is checked, or was a goal.
+/// The start of a tree is free: it was checked, or it is a goal that was reached.
 Plan RefusedAs(const Way& way, const Forest& forest) {
   if (way.status == RrtStatus::kGoalBlocked) {
     return GoalBlocked(forest.task, way.goals + 1);
@@ -172,9 +175,9 @@ Plan PlanAlongRoute(const Forest& forest, const std::vector<Vec2>& points) {
   return tested.ok() ? plan : tested;
 }
 
-/// Plans along a path that does not reach its next goal: to the node nearest to that or, where the
-/// car cannot get there or stand there, as its nose reaches further than the node, to the last one
-/// before it where it can.
+/// Plans along a path that does not reach its next goal, to the tree's node nearest to that goal.
+/// If the car cannot drive or stand there, because its front extends beyond the node, the last
+/// feasible node before it is used.
 void TakePart(const Forest& forest, Try& next) {
   const std::vector<Vec2> reached = next.way.points;
   const std::vector<Vec2> nearest = next.way.nearest;
@@ -190,7 +193,7 @@ void TakePart(const Forest& forest, Try& next) {
       AddLeg(forest, part, true, points, leg);
     }
     if (points.size() < 2) {
-      break;  // it stands where it is
+      break;  // the car would not move
     }
     next.plan = PlanAlongRoute(forest, points);
     if (next.plan.ok()) {
@@ -230,7 +233,7 @@ RrtTreeFindings FindingsOn(const Try& each) {
   return found;
 }
 
-/// Says of a plan that leads nowhere, or part of the way, how far trees came with what they had.
+/// Adds to a failed or partial plan how close the trees came, and with which budget.
 void RecordBudget(const Forest& forest, const Try& best, const std::string& budget, Plan& plan,
                   RrtDiagnostics& diagnostics) {
   if (plan.status == PlanStatus::kBudgetUsedUp) {
@@ -262,7 +265,7 @@ Plan PlanTrees(const RrtPlannerOptions& options, const PlanRequest& request) {
     Try next = TryTree(forest, request.seed + (static_cast<std::uint64_t>(i) << 32U));
     diagnostics.trees.push_back(FindingsOn(next));
     const RrtStatus status = next.way.status;
-    const bool hopeless = status == RrtStatus::kGoalBlocked;  // so it is for every tree
+    const bool hopeless = status == RrtStatus::kGoalBlocked;  // for every tree
     if (!best || hopeless || IsBetterTry(next, *best)) {
       best = std::move(next);
       diagnostics.chosen = i;
@@ -290,7 +293,7 @@ Plan PlanWith(const RrtPlannerOptions& options, const PlanRequest& request) {
   }
   TRACKBED_CHECK(options.trees > 0 && options.time_limit.value_or(1.0) > 0.0,
                  "{} trees, time limit {}", options.trees, options.time_limit.value_or(0.0));
-  // Each has all of the time.
+  // With a time limit, a second attempt would need the same time again: try only one lead-in.
   return PlanWithLeadIn(options, request, PlanTrees, options.time_limit ? 1 : kLeadIns);
 }
 

@@ -10,10 +10,16 @@
 #include "trackbed/core/error.h"
 #include "trackbed/geometry/box_index.h"
 
+// RRT* (Karaman and Frazzoli 2011), k-nearest form, for a point in the plane. Each sample extends
+// the nearest node by at most one step. The new node joins its cheapest neighbor with a free edge;
+// neighbors that are cheaper through it are rewired, and their descendants' costs updated. Informed
+// sampling rejects nodes that cannot shorten the best path (Gammell et al. 2014). NodeGrid answers
+// the neighbor queries.
+
 namespace trackbed {
 namespace {
 
-// A tenth more than 2^(d+1) e (1 + 1/d) in d = 2 dimensions.
+// A tenth more than 2^(d+1) e (1 + 1/d) for d = 2 dimensions.
 constexpr double kNeighbors = 1.1 * 12.0 * 2.718281828459045;
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
@@ -61,7 +67,7 @@ class RrtStarTree {
   struct Neighbor {
     std::size_t node;
     double distance;
-    double cost;  // of the new node by way of this one
+    double cost;  // of the new node through this one
   };
 
   double Uniform() { return boost::random::uniform_01<double>()(random_); }
@@ -71,7 +77,7 @@ class RrtStarTree {
   }
 
   Vec2 Sample() {
-    // Three numbers each time, so that reaching the goal shifts nothing.
+    // Always draw three numbers, so that reaching the goal does not shift the sequence.
     const double bias = Uniform();
     const double x = Uniform();
     const double y = Uniform();
@@ -82,9 +88,9 @@ class RrtStarTree {
             std::lerp(problem_.low.y(), problem_.high.y(), y)};
   }
 
-  /// The `count` nearest nodes, or all if there are no more, into near_, in no order.
+  /// Stores the `count` nearest nodes, or all if there are fewer, in near_, in no particular order.
   void FindNearest(const Vec2& p, std::size_t count) {
-    // A circle that holds a quarter more than the count if nodes are spread evenly; larger where
+    // For evenly spread nodes, this circle holds a quarter more than `count`; the radius grows if
     // the sampled box is a line.
     const Vec2 box = problem_.high - problem_.low;
     const double share = static_cast<double>(count) / static_cast<double>(nodes_.size());
@@ -132,13 +138,13 @@ class RrtStarTree {
     }
   }
 
-  /// Whether a path through a point may be shorter than the one that has been found, if any.
+  /// Whether a path through a point can be shorter than the best one so far.
   [[nodiscard]] bool MayShorten(const Vec2& p) const {
     return goal_ == kNone ||
            (p - problem_.start).norm() + (p - problem_.goal).norm() < nodes_[goal_].cost;
   }
 
-  /// Adds a node by way of its cheapest neighbor and leads its neighbors through it. The edge
+  /// Adds a node with its cheapest neighbor as parent, and rewires neighbors through it. The edge
   /// to `reached_from` is known to be free.
   std::size_t Join(const Vec2& position, std::size_t reached_from) {
     const double count = static_cast<double>(nodes_.size());
@@ -160,7 +166,7 @@ class RrtStarTree {
     }
     const Neighbor parent = Cheapest(position, first);
     const std::size_t node = Add(position, parent.node, parent.cost);
-    // Leading one node through the new one makes others cheaper, never dearer.
+    // Rewiring one node only lowers the costs of others.
     const auto last = std::remove_if(neighbors_.begin(), neighbors_.end(), [&](const Neighbor& of) {
       return parent.cost + of.distance >= nodes_[of.node].cost;
     });
@@ -178,8 +184,8 @@ class RrtStarTree {
     return a.cost < b.cost || (a.cost == b.cost && a.node < b.node);
   }
 
-  /// The cheapest of cheaper_ with a free edge, or `otherwise`; reorders them. Few edges have to be
-  /// looked at, and a heap gives the first few of hundreds without sorting the rest.
+  /// The cheapest of cheaper_ with a free edge, or `otherwise`; reorders cheaper_. Few edges need a
+  /// check, so a heap avoids sorting hundreds of candidates.
   Neighbor Cheapest(const Vec2& position, const Neighbor& otherwise) {
     const auto costs_more = [](const Neighbor& a, const Neighbor& b) { return CostsLess(b, a); };
     std::make_heap(cheaper_.begin(), cheaper_.end(), costs_more);
@@ -210,7 +216,7 @@ class RrtStarTree {
     children_[parent].push_back(node);
     nodes_[node].parent = parent;
     nodes_[node].cost = cost;
-    // All that hangs on it became cheaper too.
+    // Update the costs of all descendants.
     std::vector<std::size_t> open{node};
     while (!open.empty()) {
       const std::size_t at = open.back();
@@ -232,8 +238,8 @@ class RrtStarTree {
   NodeGrid index_;
   std::size_t goal_ = kNone;
   std::vector<NodeGrid::Near> near_;  // of the last query
-  std::vector<Neighbor> neighbors_;   // of the node that is being joined
-  std::vector<Neighbor> cheaper_;  // of them, those that cost less than the one it was reached from
+  std::vector<Neighbor> neighbors_;   // of the node being added
+  std::vector<Neighbor> cheaper_;     // neighbors that cost less than the node that was extended
 };
 
 bool IsWithin(const RrtStarProblem& problem, const Vec2& p) {

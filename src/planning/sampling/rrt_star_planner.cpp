@@ -23,7 +23,7 @@ SamplingTask MakeStarTask(const RrtStarPlannerOptions& options, const PlanReques
                           request);
 }
 
-/// Why a tree did not get from the waypoint before to this one.
+/// The plan's failure if a tree did not reach this waypoint from the previous one.
 Plan StarRefused(const RrtStarPlannerOptions& options, const SamplingTask& task,
                  const RrtStarResult& tree, std::size_t waypoint) {
   if (tree.status == RrtStarStatus::kGoalBlocked) {
@@ -40,7 +40,7 @@ Plan StarRefused(const RrtStarPlannerOptions& options, const SamplingTask& task,
                   waypoint, options.iterations, left, task.inflation));
 }
 
-/// The nodes of a tree in the world; the root is its own parent.
+/// Adds a tree's nodes in the world frame; the root is its own parent.
 void AddNodes(const RrtStarResult& result, const Pose2& frame, std::vector<TreeNode>& tree) {
   const std::size_t first = tree.size();
   for (const TreeNode& node : result.nodes) {
@@ -48,8 +48,8 @@ void AddNodes(const RrtStarResult& result, const Pose2& frame, std::vector<TreeN
   }
 }
 
-/// The way from one waypoint to the next: the straight line where it is free, which needs no tree.
-/// The budget holds for it too: no more edges than samples.
+/// The path between two waypoints: the straight line if it is free and as many edges as there are
+/// samples could cover it, otherwise the path of a tree.
 RrtStarResult GrowLeg(const RrtStarPlannerOptions& options, const SamplingTask& task,
                       const BoxIndex& obstacles, const Vec2& from, const Vec2& to,
                       std::uint64_t seed) {
@@ -78,7 +78,7 @@ RrtStarResult GrowLeg(const RrtStarPlannerOptions& options, const SamplingTask& 
                      seed);
 }
 
-/// A plan along one tree through all waypoints; `diagnostics` is told its legs.
+/// A plan along one tree through all waypoints; `diagnostics` receives its legs.
 Plan PlanStarTree(const RrtStarPlannerOptions& options, const PlanRequest& request,
                   const SamplingTask& task, const CornerTangents& tangents, std::uint64_t seed,
                   RrtStarPlanDiagnostics& diagnostics) {
@@ -126,7 +126,7 @@ Plan PlanStarTrees(const RrtStarPlannerOptions& options, const PlanRequest& requ
                         request.seed + (static_cast<std::uint64_t>(i) << 32U), diagnostics);
     diagnostics.trees.push_back({plan.status, plan.reason});
     if (plan.ok() || plan.status == PlanStatus::kGoalBlocked) {
-      break;  // blocked, it is so for every tree
+      break;  // a blocked goal is blocked for every tree
     }
   }
   plan.diagnostics.planner = std::move(diagnostics);

@@ -11,22 +11,21 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/sampling/smoothing.h"
 
-/// What the planners with random trees have in common. Everything random happens in the frame of
-/// the car at its start, so that a mission that is moved or turned as a whole gets the same plan,
-/// moved or turned.
+/// Shared by the sampling planners. All random numbers are used in the car's start frame, so a
+/// mission that is moved or rotated as a whole gets the same plan, moved or rotated.
 namespace trackbed {
 
-/// The mission in the frame of the car at its start.
+/// The mission in the car's start frame.
 struct SamplingTask {
-  Vec2 lead{0.0, 0.0};      ///< where the trees begin
-  std::vector<Vec2> goals;  ///< one after the other
+  Vec2 lead{0.0, 0.0};      ///< root of the first tree
+  std::vector<Vec2> goals;  ///< in order
   std::vector<OrientedBox> obstacles;
   double inflation = 0.0;
-  GridArea area;  ///< that is sampled
+  GridArea area;  ///< sampled area
   WindScoring wind;
 };
 
-/// The keys that make a task of a mission.
+/// The keys that define a task.
 struct SamplingTaskOptions {
   Corners corners = Corners::kRound;
   double safe_distance = 0.0;
@@ -38,44 +37,44 @@ struct SamplingTaskOptions {
 
 SamplingTask MakeSamplingTask(const SamplingTaskOptions& options, const PlanRequest& request);
 
-/// Why the first piece of straight path is blocked, if it is: otherwise a plan that is ok.
+/// Checks the initial straight; returns a failed plan with the reason if it is blocked.
 Plan CheckLeadIn(const SamplingTask& task);
 
-/// Tangent lengths of corners at the lowest speed, by their change of heading.
+/// Tangent lengths of corners at the lowest speed, tabulated by heading change.
 class CornerTangents {
  public:
   CornerTangents(const VehicleParams& vehicle, double speed);
 
-  /// Never too short: of the next change of heading in the table.
+  /// Never too short: uses the next larger heading change in the table.
   double operator()(double turn) const;
 
  private:
   static constexpr std::size_t kCount = 200;
   static constexpr double kStep = kPi / kCount;
-  std::array<double, kCount> lengths_{};  // straight on needs none
+  std::array<double, kCount> lengths_{};  // the entry for straight on is 0
 };
 
-/// Goes on along a tree's path with no more corners than it needs. The path begins at the last of
+/// Appends a tree's path to `points` without needless corners. The path begins at the last of
 /// `points`, which begin with the start.
 void AddPruned(const SamplingTask& task, const CornerTangents& tangents, double corner_cost,
                const std::vector<Vec2>& path, bool is_last, std::vector<Vec2>& points);
 
 std::vector<Vec2> InWorld(const Pose2& frame, std::vector<Vec2> points);
 
-/// Why a waypoint, counted from 0, is blocked.
+/// The failure of a plan whose waypoint, counted from 0, is blocked.
 Plan GoalBlocked(const SamplingTask& task, std::size_t waypoint);
 
-/// Length of the straight start [m]: `lead_in`, but at most half the distance to the first waypoint
-/// after the start.
+/// Length of the initial straight [m]: `lead_in`, but at most half the distance to the first
+/// waypoint after the start.
 double StraightStart(double lead_in, const PlanRequest& request);
 
-/// Straight starts that PlanWithLeadIn tries.
+/// Number of initial straights that PlanWithLeadIn tries.
 inline constexpr int kLeadIns = 3;
 
-/// Plans again for a rolling car, which may need more room before its first corner than the trees
-/// leave: with longer straight starts, up to `tries` of them. The longest lets the car come to
-/// rest; where something is in its way, a half or a quarter of it may do, for which one tree is
-/// grown each: many a refused mission has no plan at all.
+/// Retries a failed plan of a rolling car, which may need more room before its first corner than
+/// the trees leave. Tries up to `tries` longer initial straights. The first and longest one lets
+/// the car stop; if an obstacle blocks it, a half or a quarter of it may fit. These two grow only
+/// one tree each, because many refused missions have no plan at all.
 template <typename Options, typename PlanTrees>
 Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const PlanTrees& plan_trees,
                     int tries) {
@@ -87,7 +86,7 @@ Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const Pl
   }
   double more = 0.5 * request.start_speed * request.start_speed / request.speed.deceleration +
                 request.vehicle.min_turning_radius();
-  // The same straight start would give the same trees again.
+  // The same initial straight would only repeat the same trees.
   std::vector<double> tried{StraightStart(options.lead_in, request)};
   for (int i = 0; i < tries; ++i, more *= 0.5) {
     Options longer = options;

@@ -9,10 +9,10 @@
 namespace trackbed {
 namespace {
 
-/// In uniform wind all paths score alike, but for rounding [m].
+/// Score differences below this are rounding: in uniform wind all paths score alike [m].
 constexpr double kSame = 1e-9;
 
-/// Of one straight way.
+/// Wind score of one straight line.
 double SegmentScore(const Vec2& from, const Vec2& to, const WindScoring& scoring) {
   const Vec2 wind = WindAt(scoring.wind, 0.5 * (from + to), scoring.time);
   return scoring.weight * wind.dot(to - from) / scoring.speed;
@@ -45,7 +45,7 @@ class Smoother {
   }
 
  private:
-  /// Moves one coordinate of a point, and tells by how much.
+  /// Moves one coordinate of a point and returns the distance.
   double Move(std::size_t i, Eigen::Index coordinate) {
     const Vec2& before = smooth_[i - 1];
     const Vec2& after = smooth_[i + 1];

@@ -1,9 +1,9 @@
-// What is read first: how each run ended, how far each car was from its path and the cars from each
-// other, what stands out there, and how near the limits of the expectations are.
+// The first screen: how each run ended, the distance of each car from its path and of the cars from
+// each other, remarks on that moment, and the margins to the expectations.
 
-const MOST_ROWS = 4;  // of plants, furthest from their paths first
+const MOST_ROWS = 4;  // plants, largest distance from the path first
 
-/** "rolled over", of a status of metrics.json. */
+/** Status of metrics.json as text: "rolled over". */
 function statusText(status) {
   return status.replace(/_/g, ' ');
 }
@@ -32,9 +32,9 @@ function furthestApart(pair) {
 }
 
 /**
- * The moment at which the page opens: when the first car collided or rolled over, else where the cars
- * are furthest apart, else where one of them is furthest from its path, else how the first of them ended,
- * unless it arrived.
+ * The moment at which the page opens, the first that exists: the first collision or roll-over, the
+ * largest distance between cars, the largest distance of a car from its path, the first end of a
+ * run that did not arrive.
  */
 const keyMoment = (() => {
   const broken = d3.min(tracks, brokenAt);
@@ -46,7 +46,7 @@ const keyMoment = (() => {
   return ended ? ended.end.t : 0;
 })();
 
-/** The last friction patch of the world that the car is on at a moment. */
+/** The last friction patch of the world that contains the car at a moment. */
 function patchUnder(track, time) {
   const { x, y } = poseAt(track, time);
   return runs[track.run].world.patches.filter((patch) => {
@@ -57,7 +57,7 @@ function patchUnder(track, time) {
   }).pop();
 }
 
-/** What is remarkable about a car in the three seconds up to a moment. */
+/** Remarks on a car during the three seconds up to a moment. */
 function remarks(track, moment) {
   const list = [];
   const before = track.log.t.filter((t) => t <= moment);
@@ -77,7 +77,7 @@ function remarks(track, moment) {
     const friction = (patchUnder(track, t) || world).friction;
     return Math.abs(valueAt(track, 'lateral_acceleration', t) || 0) / (friction * car.grip_acceleration);
   };
-  // A model without tyres may ask for more than there is.
+  // A model without tyres may exceed the available grip.
   const used = track.plant === 'kinematic' ? 0 : d3.max(times, share) || 0;
   if (used > 0.8) list.push(`uses ${used > 1 ? 'all' : `${Math.round(100 * used)} %`} of the tyres' lateral grip`);
   const asked = d3.max(times, (t) => Math.abs(valueAt(track, 'steering_command', t) - valueAt(track, 'steering', t))) || 0;
@@ -87,7 +87,7 @@ function remarks(track, moment) {
   return list;
 }
 
-/** A bar from zero to a value, on a scale of its own or a common one, with a mark at the limit. */
+/** Draws a bar from zero to a value, with a mark at the limit; charts can share the scale. */
 function drawBar(parent, { value, limit, most, css, good }) {
   const bar = parent.append('span').attr('class', `bar ${good === false ? 'bad' : ''}`).attr('aria-hidden', 'true');
   const low = Math.min(0, 1.15 * value, 1.15 * (limit || 0));
@@ -97,9 +97,12 @@ function drawBar(parent, { value, limit, most, css, good }) {
   if (limit !== undefined) bar.append('span').attr('class', 'limit').style('left', `${place(limit)}%`);
 }
 
-/** The answer in sentences: what broke, which car was furthest from its path, where, by how much; and the others. */
+/**
+ * Draws the summary: collisions and roll-overs, the car furthest from its path (where and by how
+ * much), then the other cars.
+ */
 function drawSentence(parent) {
-  const NEAR = 0.1;  // half the width of a tyre: nobody has left the path [m]
+  const NEAR = 0.1;  // half the width of a tyre; up to this, a car counts as on the path [m]
   const found = tracks.map((track) => ({ track, far: furthestFromPath(track) })).filter(({ far }) => far)
     .sort((a, b) => b.far.size - a.far.size);
   const broken = tracks.filter((track) => brokenAt(track) !== undefined).sort((a, b) => brokenAt(a) - brokenAt(b));
@@ -125,7 +128,7 @@ function drawSentence(parent) {
   }
   if (!found.length) return;
   const [{ track, far }, ...others] = found;
-  // After a collision this is said of the time before it.
+  // After a collision, the distances refer to the time before it.
   if (broken.length) say('Before: ');
   else if (far.size < NEAR) say(tracks.length > 1 ? 'No car leaves the path: ' : 'The car keeps to the path: ');
   name(track);
@@ -137,11 +140,11 @@ function drawSentence(parent) {
   if (others.length) say(`${others.length > 1 ? 'The others stay' : ' stays'} within ${meters(others[0].far.size)} of it.`);
 }
 
-/** Of a maneuver the quantities that the standard names first, each against its limit. */
+/** Draws the main quantities of a maneuver's standard, each against its limit. */
 function drawManeuverRows(parent) {
   const rows = rowsOf(tracks.map((track) => track.numbers))
     .filter((row) => row.path.startsWith('maneuver.') && row.path !== 'maneuver.passed' && (row.limit || row.headline))
-    // Where the standard has limits, what has none can wait.
+    // If the standard has limits, quantities without a limit are omitted here.
     .filter((row, _, all) => row.limit || !all.some((other) => other.limit));
   if (!rows.length) return;
   const list = parent.append('ul').attr('class', 'rows');
@@ -197,14 +200,14 @@ function drawAnswerRows(parent) {
   }
 }
 
-/** "0.151 ≤ 0.155 rad/s", "rolled over", "no, not yes". */
+/** Result of a check as text: "0.151 ≤ 0.155 rad/s", "rolled over", "no, not yes". */
 function measuredText({ relation, bound, found, unit, met }) {
   const told = (value) => statusText(brief(value, unit));
   if (relation === 'equals') return met ? told(found) : `${told(found)}, not ${told(bound)}`;
   return `${told(found)} ${relation === 'at_most' ? '≤' : '≥'} ${told(bound)}${unit ? ` ${unit}` : ''}`;
 }
 
-/** How near to 1 a check is that is met, how far beyond it one that is not. */
+/** Utilization of a check's bound: at most 1 if met, above 1 otherwise. */
 function shareOfBound({ relation, bound, found }) {
   if (typeof bound !== 'number' || typeof found !== 'number' || relation === 'equals') return null;
   if (relation === 'at_most') return bound > 0 ? found / bound : null;
@@ -217,7 +220,7 @@ function drawExpectationBars(parent) {
   if (!all.length) return;
   const panel = parent.append('div').attr('class', 'panel limits');
   panel.append('h2').text('Expectations');
-  // First what is not met, then what is nearest to its limit.
+  // Failed checks first, then those nearest to their limits.
   const order = [...all].sort((a, b) => a.check.met - b.check.met || (b.share || 0) - (a.share || 0));
   const list = panel.append('ul');
   for (const { run, check, share } of order.slice(0, MOST)) {
@@ -239,7 +242,7 @@ function drawExpectationBars(parent) {
   }
 }
 
-/** The first screen. */
+/** Draws the first screen. */
 function drawAnswer() {
   if (!tracks.length) return;
   const grid = section('answer').append('div').attr('class', 'answer');

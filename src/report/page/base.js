@@ -1,10 +1,10 @@
-// What all parts of the page use: the data, the tracks, the common moment, numbers as text.
+// Shared by all parts of the page: data, tracks, current moment, formatting of numbers.
 
 const data = JSON.parse(document.getElementById('data').textContent);
 const runs = data.runs || [];
 const root = d3.select('#report');
 
-/** Four digits, as people read them; what is no number as it is. */
+/** Formats four digits; values that are not numbers are shown as they are. */
 function shown(value) {
   if (value === null || value === undefined || Number.isNaN(value)) return '–';
   if (value === true) return 'yes';
@@ -17,37 +17,37 @@ function shown(value) {
   return d3.format(format)(value).replace(/-/g, '−');
 }
 
-/** At most three digits and four decimals, for what is read at a glance. */
+/** Formats at most three digits and four decimals, for summaries. */
 function brief(value, unit) {
   if (typeof value !== 'number') return shown(value);
   const size = Math.abs(value);
   if (Number.isInteger(value) || size >= 1e6) return shown(value);
-  // Lengths, angles and times are known no better.
+  // Lengths, angles and times are no more accurate.
   if (size < 5e-5 && ['m', 'rad', 's'].includes(unit)) return '0.0000';
   if (size < 5e-5) return d3.format('.1~e')(value).replace(/-/g, '−');
   return d3.format(size >= 100 ? '.1~f' : size < 0.01 ? '.4~f' : '.3~r')(value).replace('-', '−');
 }
 
-/** Meters as they are said: to centimeters, below 10 cm to millimeters. */
+/** Formats a length with centimeters, below 10 cm with millimeters. */
 function meters(value) {
   return `${fixed(value, Math.abs(value) < 0.0995 ? 3 : 2)} m`;
 }
 
-/** "Speed [m/s]": the unit is set apart. */
+/** Sets a label with its unit in a separate element: "Speed [m/s]". */
 function withUnit(selection, label, unit) {
   selection.text(label);
   if (unit) selection.append('span').attr('class', 'unit').text(` [${unit}]`);
   return selection;
 }
 
-/** A section with a title. */
+/** Adds a section with a title. */
 function section(id, title) {
   const made = root.append('section').attr('id', id);
   if (title) made.append('h2').text(title);
   return made;
 }
 
-/** Every drive of every run: what has a color. The film's colors, where they can be had. */
+/** All plants of all runs, each with a color: that of the film if possible. */
 const tracks = runs.flatMap((run, r) => run.plants.map((plant) => ({
   run: r,
   plant: plant.name,
@@ -80,7 +80,7 @@ const tracks = runs.flatMap((run, r) => run.plants.map((plant) => ({
 const lastMoment = () => d3.max(tracks, (track) => track.log.t[track.log.t.length - 1]) || 0;
 let duration = lastMoment();
 
-/** Where between two rows of a log a moment lies; held at its ends. */
+/** Position of a moment between two rows of a log, clamped to its ends. */
 function placeAt(log, time) {
   const next = Math.min(Math.max(d3.bisectRight(log.t, time), 1), log.t.length - 1);
   if (next < 1) return { row: 0, next: 0, part: 0 };
@@ -89,12 +89,12 @@ function placeAt(log, time) {
   return { row, next, part: Math.min(Math.max(part, 0), 1) };
 }
 
-/** When a car collided or rolled over; undefined where it did not. */
+/** Time of a collision or roll-over; undefined if there was none. */
 function brokenAt({ end }) {
   return ['collided', 'rolled_over'].includes(end.status) ? end.t : undefined;
 }
 
-/** Linear between the points, held at the ends. */
+/** Linear interpolation, constant beyond the ends. */
 function interpolated(xs, ys, x) {
   if (xs.length < 2) return ys[0];
   const next = Math.min(Math.max(d3.bisectRight(xs, x), 1), xs.length - 1);
@@ -102,7 +102,7 @@ function interpolated(xs, ys, x) {
   return ys[next - 1] + Math.min(Math.max(part, 0), 1) * (ys[next] - ys[next - 1]);
 }
 
-/** A quantity at a moment; nothing after the end of the drive. */
+/** Value of a quantity at a moment; null after the end of the run. */
 function valueAt(track, name, time) {
   const values = track.log[name];
   const end = track.log.t[track.log.t.length - 1];
@@ -111,7 +111,7 @@ function valueAt(track, name, time) {
   return values[row] + part * (values[next] - values[row]);
 }
 
-/** The car's pose at a moment; after the end where it stopped. */
+/** The car's pose at a moment; the last pose after the end of the run. */
 function poseAt(track, time) {
   const { x, y, yaw } = track.log;
   const { row, next, part } = placeAt(track.log, time);
@@ -123,7 +123,7 @@ function poseAt(track, time) {
   };
 }
 
-// The moment that map, series and films show together, and who follows it.
+// The current moment of map, charts and films, and its listeners.
 const bus = d3.dispatch('time', 'visibility', 'scheme', 'play', 'rows');
 let now = 0;
 
@@ -132,7 +132,7 @@ function setTime(time, from) {
   bus.call('time', null, now, from);
 }
 
-/** While a run goes on (live.js): its logs have grown. */
+/** Called when logs have grown while a run is in progress (live.js). */
 function rowsAdded() {
   duration = lastMoment();
   bus.call('rows');
@@ -141,7 +141,7 @@ function rowsAdded() {
 window.matchMedia('(prefers-color-scheme: dark)')
   .addEventListener('change', () => bus.call('scheme'));
 
-/** A color of the style sheet, as a canvas needs it. */
+/** A color of the style sheet, for use on a canvas. */
 function cssColor(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }

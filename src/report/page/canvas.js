@@ -1,7 +1,7 @@
-// The canvas of the replay. It comes before the data and the libraries, because a browser may take most of a second to
-// start its graphics: it does so while it reads them.
+// Canvas of the replay. Created before the data and the libraries are loaded, because starting the
+// graphics can take a browser most of a second, which then overlaps with loading.
 
-/** The WebGL context of a canvas; null in a browser that has none. */
+/** The WebGL context of a canvas; null if the browser has none. */
 function webGlOf(canvas) {
   const wanted = { alpha: false, antialias: true, stencil: false };
   try {

@@ -1,16 +1,16 @@
-// Charts one below the other, with one cursor at the moment that all of the page shows.
+// Charts in a column, with a common cursor at the current moment of the page.
 
-// Titles and readouts are the page's own, and dygraphs' legend would set a style attribute, which the
-// Content-Security-Policy forbids.
+// Titles and readouts are elements of the page. The legend of dygraphs would set a style attribute,
+// which the Content-Security-Policy forbids.
 Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
 
-/** Round numbers, about so many pixels apart. */
+/** Round tick values about `pixels` apart. */
 function ticksEvery(pixels, name) {
   return (from, to, length) => d3.ticks(from, to, Math.max(2, Math.round(length / pixels)))
     .map((value) => ({ v: value, label: name(value) }));
 }
 
-// The graph of each plot, for what is placed over it.
+// The graph of each plot, used to place elements over it.
 const graphs = new WeakMap();
 
 function fixed(number, digits) {
@@ -19,8 +19,8 @@ function fixed(number, digits) {
 }
 
 /**
- * Those of the limits that are near the lines, and the range of values that shows both; null where it is
- * that of all values. What follows a line's `until` is no result, and sets no scale.
+ * Limits near the lines, and the range of values that shows both; range null if the default range
+ * suffices. Values after a line's `until` are not results and do not affect the range.
  */
 function limitsToDraw(lines, limits, places) {
   const isCut = lines.some(({ until }) => until !== undefined);
@@ -36,7 +36,7 @@ function limitsToDraw(lines, limits, places) {
   return { limits: near, range: [low - room, high + room] };
 }
 
-/** A chart in words: the range of each line. */
+/** Description of a chart for screen readers: the range of each line. */
 function chartText({ title, unit, lines, limits, axis }) {
   const ranges = lines.filter(({ pattern }) => !pattern || lines.every((line) => line.pattern)).map(({ label, values }) => {
     const [low, high] = d3.extent(values.filter((value) => value !== null));
@@ -47,18 +47,18 @@ function chartText({ title, unit, lines, limits, axis }) {
 }
 
 /**
- * The charts of `list`, which `key` tells from others, over `axis`: {values, unit, at, timeOf}, the
- * places of the rows, and which place belongs to a moment and which moment to a place. A chart has
- * {name, title, unit, note, lines, limits, readouts}, a line {label, color, tracks, values, pattern,
- * width, until}, a readout {label, tracks, sign, text}, which is drawn and told at a moment. Limits are
- * values with a line of their own.
+ * Draws charts into `list`; `key` distinguishes them from other charts. `axis` has {values, unit,
+ * at, timeOf}: positions of the rows, and conversions from time to position and back. A chart has
+ * {name, title, unit, note, lines, limits, readouts}; a line {label, color, tracks, values,
+ * pattern, width, until}; a readout {label, tracks, sign, text}, where `text` gives the value at a
+ * moment. Each limit is drawn as a line.
  */
 function drawCharts(list, key, axis, charts) {
   const drawn = [];
   let busy = false;
   const isShown = ({ tracks: own }) => own.every((track) => track.visible);
 
-  /** Others follow, unless it is they who called. */
+  /** Runs `act` unless it was triggered by another chart's update. */
   const together = (act) => {
     if (busy) return;
     busy = true;
@@ -104,7 +104,7 @@ function drawCharts(list, key, axis, charts) {
       ...(range ? { valueRange: range } : {}),
       underlayCallback: (canvas, area, dygraph) => {
         canvas.save();
-        // After the last car's collision or roll-over nothing is a result.
+        // There are no results after the last car's collision or roll-over.
         if (lines.length && lines.every(({ until }) => until !== undefined)) {
           const x = dygraph.toDomXCoord(d3.max(lines, ({ until }) => until));
           canvas.fillStyle = cssColor('--grid');
@@ -147,7 +147,7 @@ function drawCharts(list, key, axis, charts) {
       },
     });
     const cursor = plot.append('div').attr('class', 'cursor');
-    // A finger along the chart moves the cursor; the page scrolls up and down under it.
+    // A horizontal touch gesture moves the cursor; a vertical one scrolls the page.
     plot.on('pointermove pointerdown', () => {
       const event = d3.event;
       if (event.pointerType === 'mouse') return;
@@ -195,7 +195,7 @@ function drawCharts(list, key, axis, charts) {
     for (const { graph, lines } of drawn) together(() => graph.updateOptions(look(lines)));
     setTime(now);
   });
-  // The charts' own width follows late; the cursor stands right after it.
+  // The charts adjust their widths with a delay; then the cursor is placed again.
   new ResizeObserver(() => {
     for (const { graph } of drawn) graph.resize();
     placeCursors(now);

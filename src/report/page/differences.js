@@ -1,4 +1,4 @@
-// How far drives part at equal station: the figures, and the curves over it.
+// Differences between runs at equal station: table and curves.
 
 const DIFFERENCES = [
   { name: 'position', title: 'Distance', unit: 'm', digits: 4 },
@@ -16,7 +16,7 @@ function nameOfPair(first, second) {
   return `${runs.length > 1 ? `${one}: ` : ''}${first.plant} – ${second.plant}`;
 }
 
-/** A pair has the color of its second run; where several have it, their dashes differ. */
+/** A pair has the color of its second run; pairs with equal colors differ in their dashes. */
 const pairs = (() => {
   const times = new Map();
   const patterns = [null, [6, 3], [2, 3], [9, 3, 2, 3]];
@@ -37,9 +37,9 @@ function signOfPair(parent, pair) {
     .attr('stroke-dasharray', pair.pattern && pair.pattern.join(' '));
 }
 
-/** A row for each pair: how much, where, and what was tolerated. */
+/** Draws a row for each pair: size and place of the differences, and the tolerances. */
 function drawDifferences() {
-  // Of the plants of one run the section `between` has the numbers.
+  // For the plants of one run, the section `between` shows these numbers.
   if (!pairs.length || (runs.length === 1 && !pairs.some((pair) => pair.tolerances))) return;
   const made = section('differences', 'Differences at equal station');
   const table = made.append('div').attr('class', 'panel scroll').append('table');
@@ -78,7 +78,7 @@ function drawDifferenceCharts(parent) {
   const values = Array.from(new Set(own.flatMap((pair) => pair.curve.s))).sort(d3.ascending);
   const spread = ({ curve }, name) => values.map((at) => (
     at < curve.s[0] || at > curve.s[curve.s.length - 1] ? null : interpolated(curve.s, curve[name], at)));
-  // Of all first runs the moments are nearly the same.
+  // At equal station, all first runs are at nearly the same time.
   const { s, t } = own[0].curve;
   const axis = { values, unit: 'm', at: (time) => interpolated(t, s, time), timeOf: (at) => interpolated(s, t, at) };
   drawCharts(parent.append('div').attr('class', 'series'), 'differences', axis, DIFFERENCES.map((quantity) => ({

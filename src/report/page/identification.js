@@ -1,4 +1,4 @@
-// An identification: what was estimated, how well, and what the model does with it.
+// Result of an identification: estimates, their accuracy, and the model before and after the fit.
 
 const parameterStatus = {
   identified: '', at_lower_bound: 'at its lower bound', at_upper_bound: 'at its upper bound', not_identified: 'not identified', unfinished: 'not finished',
@@ -29,7 +29,7 @@ function drawIdentificationHead(found) {
   ]);
 }
 
-/** The estimate with two standard errors between its bounds. */
+/** Draws the estimate with two standard errors between its bounds. */
 function drawRange(cell, { from, to, start, value, standard_error: error }) {
   const width = 150;
   const x = d3.scaleLinear().domain([from, to]).range([4, width - 4]).clamp(true);

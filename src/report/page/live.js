@@ -1,12 +1,12 @@
-// The page of a run that goes on: takes its rows from the server that it came from, and controls it.
+// Page of a run in progress: receives rows from its server and controls the run.
 
 const SPEEDS = [0.1, 0.5, 1, 2, 5, 10, 'max'];
 const live = {
   socket: null,
-  state: null,       // what the server said last: {id, paused, speed}
+  state: null,       // last state from the server: {id, paused, speed}
   connected: false,
   finished: false,
-  following: true,   // the newest moment is shown
+  following: true,   // shows the newest moment
 };
 
 function ask(message) {
@@ -16,7 +16,7 @@ function ask(message) {
 const togglePause = () => ask({ do: live.state && live.state.paused ? 'resume' : 'pause' });
 const stepOnce = () => ask({ do: 'step' });
 
-/** Puts rows behind the first `first` of the columns. */
+/** Appends rows after the first `first` entries of the columns. */
 function putRows(columns, first, rows) {
   columns.forEach((column, i) => {
     column.length = Math.min(column.length, first);
@@ -24,7 +24,10 @@ function putRows(columns, first, rows) {
   });
 }
 
-/** Takes rows into the logs; `first` says how many were before them: after a new connection all come again. */
+/**
+ * Appends rows to the logs; `first` is the number of earlier rows. After reconnecting, all rows are
+ * sent again.
+ */
 function takeRows(plants) {
   plants.forEach(({ first, rows, poses, plans }, i) => {
     const track = tracks[i];
@@ -35,7 +38,7 @@ function takeRows(plants) {
   });
 }
 
-/** Draws what has come: at most as often as leaves the browser three quarters of its time. */
+/** Draws new rows, at most as often as leaves the browser three quarters of its time. */
 const drawSoon = (() => {
   let waiting = false;
   let free = 0;
@@ -60,10 +63,10 @@ function take(message) {
     drawSoon();
   } else if (message.type === 'finished') {
     live.finished = true;
-    window.history.scrollRestoration = 'manual';  // the verdict is at its top
-    window.location.reload();  // the report
+    window.history.scrollRestoration = 'manual';  // the verdict is at the top
+    window.location.reload();  // loads the report
   } else if (message.type === 'state') {
-    // Another run at the same address.
+    // The server shows another run.
     if (message.id !== data.live.id) window.location.reload();
     live.state = message;
     showState();
@@ -121,7 +124,7 @@ function drawControls(parent) {
     speed.property('value', state.speed);
   };
 
-  // Whoever looks at another moment stays there.
+  // Selecting another moment stops following the newest one.
   bus.on('time.live', (time, from) => {
     if (from !== 'live' && live.following && time < duration) setFollowing(false);
   });

@@ -1,4 +1,4 @@
-// Puts the page together.
+// Assembles the page.
 
 function drawDrive() {
   const drive = section('drive', tracks.length ? 'Run' : 'Map');
@@ -49,4 +49,4 @@ if (data.study) {
   drawExpectations();
   drawScenarios();
 }
-if (!data.live) drawFoot();  // else live.js draws the page
+if (!data.live) drawFoot();  // otherwise live.js draws the page

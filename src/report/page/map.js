@@ -1,5 +1,4 @@
-// The way seen from above, in meters; x to the right, y up. Scales are equal, unless the way is long
-// and narrow.
+// Map in meters, x to the right and y up. The scales are equal unless the path is long and narrow.
 
 function extentOfMap() {
   const xs = [];
@@ -31,17 +30,18 @@ function lineText(x, y, count) {
   return text;
 }
 
-/** Points x, y, x, y, ... from the last to the first. */
+/** Reverses the order of points x, y, x, y, ... */
 function backwards(points) {
   return d3.range(points.length / 2 - 1, -1, -1).flatMap((i) => [points[2 * i], points[2 * i + 1]]);
 }
 
 /**
- * What the way is colored by: of the pair that is furthest apart the distance, else of the track that
- * is furthest from its path the cross-track error: {track, points: [{t, value}], most, name}.
+ * Quantity that colors the path: {track, points: [{t, value}], most, name}. The distance of the
+ * pair that is furthest apart, else the cross-track error of the track that is furthest from its
+ * path.
  */
 function shadeOfMap() {
-  if (data.live) return null;  // what is most is not known yet
+  if (data.live) return null;  // the largest values are not known yet
   const pair = pairs.filter((one) => one.curve)
     .sort((a, b) => d3.max(b.curve.position) - d3.max(a.curve.position))[0];
   if (pair) {
@@ -60,9 +60,9 @@ function shadeOfMap() {
   };
 }
 
-const LATERAL = 10;  // by what the button enlarges distances from the path
+const LATERAL = 10;  // enlargement of distances from the path by the button
 
-/** A track's way and its pose at a moment with distances from the path `factor` times as large. */
+/** Path and pose of a track with its distances from the planned path enlarged by `factor`. */
 function enlarged(track, factor) {
   const { log } = track;
   const shift = (pose, crossTrack, headingError) => {
@@ -91,7 +91,7 @@ function placed(pose) {
 
 function drawMap(parent) {
   let extent = extentOfMap();
-  // A lane change is 150 m long and 4 m wide: to see it, y is stretched.
+  // Stretches y for narrow paths: a lane change is 150 m long and 4 m wide.
   const slender = (extent.x[1] - extent.x[0]) / (extent.y[1] - extent.y[0]);
   const stretch = slender > 6 ? Math.min(8, Math.floor(slender / 3)) : 1;
   const margin = { left: 50, right: 12, top: 52, bottom: 38 };
@@ -105,7 +105,7 @@ function drawMap(parent) {
   const xName = svg.append('text').attr('class', 'axis-name').attr('text-anchor', 'end').text('x [m]');
   const yName = svg.append('text').attr('class', 'axis-name').text(`y [m]${stretch > 1 ? `, stretched ${stretch}×` : ''}`);
 
-  // What is the same in several runs is drawn once.
+  // Elements that are equal in several runs are drawn once.
   const once = new Set();
   const fresh = (kind, thing) => {
     const key = kind + JSON.stringify(thing);
@@ -147,7 +147,7 @@ function drawMap(parent) {
     }
     const { walls } = run.world;
     if (walls && fresh('walls', walls)) {
-      // Seen from the direction of its rows, each is a rectangle along the axes.
+      // In a frame aligned with the map's rows, each wall is an axis-aligned rectangle.
       const [c, s] = [Math.cos(walls.yaw), Math.sin(walls.yaw)];
       const text = walls.boxes.map(([x, y, length, width]) =>
         `M${c * x + s * y - length / 2} ${c * y - s * x - width / 2}h${length}v${width}h${-length}z`).join('');
@@ -173,7 +173,7 @@ function drawMap(parent) {
     shading.selectAll('*').remove();
     if (!shade || !(shade.most > 0)) return;
     const way = ways[shade.track.id];
-    // A color for each of some hundred pieces: more are not told apart.
+    // About 300 colored pieces; more would not be distinguishable.
     const step = Math.max(1, Math.floor(shade.points.length / 300));
     for (let i = 0; i + 1 < shade.points.length; i += step) {
       const next = Math.min(i + step, shade.points.length - 1);
@@ -196,7 +196,7 @@ function drawMap(parent) {
     return { layer, way, newPlans, trail: layer.append('path').attr('class', 'trail') };
   });
 
-  /** What grows with the logs. */
+  /** Draws the elements that grow with the logs. */
   function drawGrown() {
     for (const { obstacle, way } of moving) {
       way.attr('d', `M${obstacle.x} ${obstacle.y}l${obstacle.vx * duration} ${obstacle.vy * duration}`);
@@ -243,7 +243,7 @@ function drawMap(parent) {
       .domain([(margin.left - left) / k, (right - left) / k]);
     const y = d3.scaleLinear().range([bottom, margin.top])
       .domain([(base - bottom) / kY, (base - margin.top) / kY]);
-    // Ticks as far apart along both axes, in meters where the scales are equal.
+    // Ticks at equal distances on the screen along both axes; in meters where the scales are equal.
     const ticks = (scale, perMeter) => {
       const step = d3.tickStep(0, 60 / perMeter, 1);
       return d3.range(Math.ceil(scale.domain()[0] / step), Math.floor(scale.domain()[1] / step) + 1).map((i) => i * step);
@@ -260,7 +260,7 @@ function drawMap(parent) {
   }
 
   const zoom = d3.zoom().scaleExtent([0.5, 400])
-    // One finger scrolls the page, and so does the wheel: two fingers and Ctrl zoom.
+    // One finger or the wheel scrolls the page; two fingers, or Ctrl and the wheel, zoom.
     .filter(() => {
       const event = d3.event;
       if (event.type === 'wheel') return event.ctrlKey || event.metaKey || document.activeElement === svg.node();
@@ -295,7 +295,7 @@ function drawMap(parent) {
 
   new ResizeObserver(() => {
     const width = frame.node().clientWidth;
-    // As high as the way needs, as far as there is room.
+    // As high as the path needs, limited by the style sheet.
     const needed = (stretch * (width - margin.left - margin.right) * (extent.y[1] - extent.y[0]))
       / (extent.x[1] - extent.x[0]) + margin.top + margin.bottom;
     frame.style('height', `${Math.max(280, needed)}px`);
@@ -330,7 +330,7 @@ function drawMap(parent) {
   }));
 }
 
-// Playing: one clock for all of the page.
+// Playback: one clock for the whole page.
 const playback = { timer: null, speed: 1 };
 
 function stopPlaying() {
@@ -354,7 +354,7 @@ function togglePlaying() {
   bus.call('play', null, true);
 }
 
-// Whoever else sets the time stops the clock.
+// Setting the time by any other means stops the playback.
 bus.on('time.playback', (time, from) => {
   if (from !== 'clock' && playback.timer) stopPlaying();
 });
@@ -382,7 +382,7 @@ function drawTimeSlider(tools, name, id) {
   });
 }
 
-/** Plays the run and shows the current time. */
+/** Draws the playback controls and the current time. */
 function drawClock(parent) {
   drawEvents(parent);
   if (!replay) drawEventTrack(parent);

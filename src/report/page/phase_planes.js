@@ -1,5 +1,5 @@
-// One quantity against another: lateral and longitudinal acceleration, steering and yaw rate, sideslip
-// and yaw rate, each with the point of the moment.
+// Phase planes: longitudinal over lateral acceleration, yaw rate over steering angle, yaw rate over
+// sideslip angle, with a mark at the current moment.
 
 const PHASE_PLANES = [
   {
@@ -16,7 +16,7 @@ const PHASE_PLANES = [
   },
 ];
 
-/** The circle that the tyres' lateral grip allows on the world's friction, if all runs have the same. */
+/** Radius of the lateral grip on the world's friction; null if the runs differ. */
 function gripRadius() {
   const radii = new Set(runs.map(({ car, world }) => world.friction * car.grip_acceleration));
   return radii.size === 1 ? Array.from(radii)[0] : null;
@@ -28,12 +28,12 @@ function drawPhasePlane(parent, plane) {
   const figure = parent.append('figure').attr('class', 'panel').attr('data-plane', plane.name);
   const caption = figure.append('figcaption').text(plane.title);
   const radius = plane.equal ? gripRadius() : null;
-  // Up to a collision or a roll-over.
+  // Rows up to a collision or roll-over.
   const rowsOfTrack = (track) => (brokenAt(track) === undefined ? track.log.t.length : d3.bisectRight(track.log.t, brokenAt(track)));
   const all = (axis) => own.flatMap((track) => track.log[plane[axis]].slice(0, rowsOfTrack(track)));
   const reach = (axis) => Math.max(1e-6, d3.max(all(axis), Math.abs)) * 1.08;
   let [xMost, yMost] = [reach('x'), reach('y')];
-  // What a run that goes on will come to is not known.
+  // While a run is in progress its range is unknown, so the circle is always shown.
   const isShown = radius && (data.live || radius < 3 * Math.max(xMost, yMost));
   const setReach = () => {
     [xMost, yMost] = [reach('x'), reach('y')];
@@ -69,7 +69,7 @@ function drawPhasePlane(parent, plane) {
     const { clientWidth: width, clientHeight: height } = svg.node();
     const [w, h] = [width - margin.left - margin.right, height - margin.top - margin.bottom];
     if (w <= 0 || h <= 0) return;
-    // Of equal units a circle is a circle.
+    // With equal units on both axes, the grip limit is drawn as a circle.
     const unit = Math.min(w, h) / 2;
     const [xReach, yReach] = plane.equal ? [(xMost * w) / 2 / unit, (yMost * h) / 2 / unit] : [xMost, yMost];
     const x = d3.scaleLinear().domain([-xReach, xReach]).range([margin.left, margin.left + w]);

@@ -1,14 +1,14 @@
-// The drive in three dimensions, at the moment that all of the page shows.
+// 3D replay at the current moment of the page.
 
-const MOST_NAMED = 4;  // of the translucent cars
+const MOST_NAMED = 4;  // translucent cars
 const CAMERAS = [['follow', 'Follow'], ['orbit', 'Orbit'], ['driver', 'Driver']];
 
-/** The color of a track, as WebGL needs it. */
+/** The color of a track for WebGL. */
 function solidColor(track) {
   return cssColor(`--scene-${track.color}`) || '#888888';
 }
 
-/** What has been driven, as a strip that grows. */
+/** The path driven so far, as a growing strip. */
 function trailOf(track, motion, height, width, level) {
   const { t, channels: { x_m: xs, y_m: ys } } = motion;
   let rows = [];
@@ -48,7 +48,8 @@ function planMesh(line, height, color, level) {
 
 function makeReplay(canvas, context) {
   const renderer = new THREE.WebGLRenderer({ canvas, context });
-  // Asking whether a shader is right waits until it is compiled, one after the other.
+  // Checking a shader for errors waits for its compilation, so shaders would be compiled one at a
+  // time.
   renderer.debug.checkShaderErrors = false;
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = THREE.PCFShadowMap;
@@ -79,7 +80,7 @@ function makeReplay(canvas, context) {
       ghost: make({ color: solidColor(track), ghost: true }),
       use: tyreUse(track),
       wind: windAt(track),
-      // One upon the other, and each narrower than the one below.
+      // Trails overlap, so later ones are narrower and drawn on top.
       trail: trailOf(track, motion, height, 0.34 / (1 + track.id), 6 + track.id),
     };
   });
@@ -119,10 +120,10 @@ function makeReplay(canvas, context) {
     drawNewPlans();
   });
 
-  // The car that is looked at first: the one with contact dynamics, where there is one.
+  // The car shown first: preferably one with contact dynamics.
   const lead = cars.find(({ track }) => track.plant.startsWith('mujoco')) || cars[cars.length - 1];
 
-  /** Rear-axle place and heading of a car, averaged over a second, so that the camera is calm. */
+  /** Pose of a car, with its heading averaged over one second to steady the camera. */
   function framing(car, time) {
     const moments = [-0.5, -0.25, 0, 0.25, 0.5].map((dt) => poseAt(car.track, Math.min(Math.max(time + dt, 0), duration)));
     const x = d3.mean(moments, (pose) => Math.cos(pose.yaw));
@@ -164,10 +165,10 @@ function makeReplay(canvas, context) {
 
   let firstPicture = null;  // [ms] since the page was opened
   let shown = { kind: 'follow', apart: false, forces: Boolean(dials) };
-  let views = [];  // what was drawn last: {car, camera, viewport}, for tests and labels
+  let views = [];  // views drawn last: {car, camera, viewport}, for tests and labels
   const orbit = new THREE.Vector3(-8, -7, 5);
 
-  /** How far two cars are from each other now [m]. */
+  /** Current distance between two cars [m]. */
   function apartNow(one, other) {
     const [a, b] = [one, other].map((car) => car.solid.root.matrix.elements);
     return Math.hypot(a[12] - b[12], a[13] - b[13], a[14] - b[14]);
@@ -175,11 +176,11 @@ function makeReplay(canvas, context) {
 
   function drawView(car, camera, viewport, others) {
     for (const each of cars) {
-      // From the driver's seat a ghost around it would hide the road.
+      // Hides ghosts around the driver, which would cover the road.
       const around = shown.kind === 'driver' && each !== car
         && Math.hypot(...['x', 'y'].map((axis) => poseAt(each.track, now)[axis] - poseAt(car.track, now)[axis])) < runs[car.track.run].car.length;
       const visible = each.track.visible && !around;
-      // The driver's own car is not seen from inside.
+      // Hides the driver's own car.
       each.solid.group.visible = visible && each === car && shown.kind !== 'driver';
       each.ghost.group.visible = visible && each !== car && others && each.ghost.fade(apartNow(each, car));
       each.trail.mesh.visible = visible && (others || each === car);
@@ -203,7 +204,7 @@ function makeReplay(canvas, context) {
   function draw(time) {
     const [width, high] = [canvas.clientWidth, canvas.clientHeight];
     if (width <= 0 || high <= 0) return;
-    // A canvas that is sized gets new buffers, even where the size is the same.
+    // setSize allocates new buffers even if the size is unchanged.
     if (canvas.width !== Math.floor(width * pixelRatio) || canvas.height !== Math.floor(high * pixelRatio)) {
       renderer.setSize(width, high, false);
     }
@@ -248,7 +249,7 @@ function makeReplay(canvas, context) {
   };
 }
 
-/** The pictures side by side, in rows where there is no width for one: {x, y, width, height}, y from below. */
+/** Viewports of the views, in several rows if necessary: {x, y, width, height}, with y from below. */
 function gridOf(count, width, height) {
   const GAP = 2;
   const most = Math.min(count, Math.max(1, Math.round(Math.sqrt((count * width) / height / 1.3))));
@@ -256,7 +257,7 @@ function gridOf(count, width, height) {
   const columns = Math.ceil(count / lines);
   return d3.range(count).map((i) => {
     const [column, line] = [i % columns, Math.floor(i / columns)];
-    // The last row may have fewer, which are wider.
+    // The last row may have fewer views, which are then wider.
     const inLine = line + 1 < lines ? columns : count - columns * (lines - 1);
     const [x0, x1] = [column, column + 1].map((k) => Math.round((k * width) / inLine));
     const [y0, y1] = [lines - 1 - line, lines - line].map((k) => Math.round((k * height) / lines));
@@ -267,7 +268,7 @@ function gridOf(count, width, height) {
   });
 }
 
-/** "4.62 m/s, 1.31 m right of the path", of a track at a moment. */
+/** State of a track at a moment: "4.62 m/s, 1.31 m right of the path". */
 function stateText(track, time) {
   const moment = Math.min(time, track.log.t[track.log.t.length - 1]);
   const [speed, off] = [valueAt(track, 'speed', moment), valueAt(track, 'cross_track', moment)];
@@ -279,7 +280,7 @@ function stateText(track, time) {
   ].filter(Boolean).join(', ');
 }
 
-/** What the colors of the scene mean. */
+/** Draws the legend of the scene's colors. */
 function drawSceneKey(parent) {
   const key = parent.append('p').attr('class', 'key');
   const sign = (name, style, kind = 'line') => {
@@ -361,7 +362,7 @@ function drawReplay(parent) {
   drawEventTrack(panel);
   drawSceneKey(panel);
 
-  // Dragging turns the camera around the car.
+  // Dragging orbits the camera around the car.
   const eye = new THREE.PerspectiveCamera();
   eye.up.set(0, 0, 1);
   eye.position.copy(replay.orbit);
@@ -380,7 +381,7 @@ function drawReplay(parent) {
     setTime(now + step);
   });
 
-  /** Draws once per frame of the screen, however often it is asked. */
+  /** Draws at most once per frame. */
   let waiting = false;
   function update() {
     if (waiting) return;
@@ -417,7 +418,7 @@ function drawReplay(parent) {
         });
     });
   }
-  // WebGL keeps nothing for a printer: it gets a picture of its own.
+  // Browsers do not print a WebGL canvas, so an image replaces it.
   const still = frame.append('img').attr('class', 'still').attr('alt', '');
   window.addEventListener('beforeprint', () => {
     replay.draw(now);

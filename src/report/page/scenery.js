@@ -1,14 +1,14 @@
-// What stands still around the vehicles: ground, road, friction patches, obstacles, cones, trees.
+// Static scenery: ground, road, friction patches, obstacles, cones, trees.
 
 const ROAD = { dash: 3, gap: 6, line: 0.12, post: 10 };  // [m]
 
-/** A pseudo-random number from 0 to 1 for a number: the scenery is the same on every page. */
+/** Deterministic pseudo-random number in [0, 1), so that the scenery is the same on every page. */
 function scattered(n) {
   const x = Math.sin(n * 127.1 + 311.7) * 43758.5453;
   return x - Math.floor(x);
 }
 
-/** Height of the ground at a point, by the grid of the run. */
+/** Elevation of the ground at a point, interpolated in the run's grid. */
 function heightOf(ground) {
   if (!ground) return () => 0;
   const z = numbersOf(ground.z);
@@ -24,12 +24,12 @@ function heightOf(ground) {
   };
 }
 
-/** Grain for a surface, so that motion over it is seen. */
+/** Grainy texture that makes motion over a surface visible. */
 function grain(light, spread, repeat) {
   const size = 128;
   const pixels = new Uint8Array(3 * size * size);
   for (let i = 0; i < size * size; ++i) {
-    // Fine grain, and patches of four texels that are told apart from further away.
+    // Fine grain, plus patches of four texels that stay visible from a distance.
     const coarse = scattered(7919 + Math.floor((i % size) / 4) + 64 * Math.floor(i / size / 4));
     const shade = 1 + spread * (0.75 * scattered(i) + 0.35 * coarse - 0.55);
     for (let c = 0; c < 3; ++c) pixels[3 * i + c] = Math.min(255, 255 * light[c] * shade);
@@ -41,12 +41,12 @@ function grain(light, spread, repeat) {
   texture.magFilter = THREE.LinearFilter;
   texture.minFilter = THREE.LinearMipMapLinearFilter;
   texture.generateMipmaps = true;
-  texture.anisotropy = 2;  // more takes long where there is no graphics hardware
+  texture.anisotropy = 2;  // larger values are slow without graphics hardware
   texture.needsUpdate = true;
   return texture;
 }
 
-/** Points along a line at equal distances: {x, y, nx, ny}, with the unit normal to the left. */
+/** Evenly spaced points along a line: {x, y, nx, ny}, with the unit normal to the left. */
 function evenly(line, step) {
   const points = [];
   let left = 0;
@@ -62,8 +62,8 @@ function evenly(line, step) {
 }
 
 /**
- * A strip on the ground between two offsets from points, [m] to the left, of each point its `width` times a share more; with
- * pieces left out.
+ * Strip on the ground between two offsets to the left of the points [m]. `shares` adds fractions of
+ * each point's `width`; `keep` selects the pieces.
  */
 function strip(points, from, to, height, lift, keep = () => true, shares = [0, 0]) {
   const positions = [];
@@ -89,7 +89,7 @@ function strip(points, from, to, height, lift, keep = () => true, shares = [0, 0
   return geometry;
 }
 
-/** What lies on the ground is drawn over it in this order, so that nothing flickers. */
+/** A mesh on the ground. A higher `level` is drawn above lower ones without flickering. */
 function flat(geometry, color, level, more = {}) {
   const material = new THREE.MeshLambertMaterial({
     color, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -level, polygonOffsetUnits: -4 * level, ...more,
@@ -134,13 +134,14 @@ function groundMesh(ground, extent) {
   }
   const mesh = new THREE.Mesh(geometry, material);
   mesh.receiveShadow = true;
-  // Nothing is below level ground; over so large a triangle depths are too coarse to tell.
+  // Level ground is drawn below everything without writing depths, which are too coarse for such a
+  // large plane.
   material.depthWrite = Boolean(ground);
   mesh.renderOrder = -1;
   return mesh;
 }
 
-/** Asphalt along a line, with edge lines, a dashed middle and posts. */
+/** Asphalt along a line, with edge lines, dashed lane lines and posts. */
 function roadMeshes(line, { width, lanes }, height) {
   const points = evenly(line, 0.5);
   if (points.length < 3) return [];
@@ -167,7 +168,10 @@ function roadMeshes(line, { width, lanes }, height) {
   return [...meshes, posts];
 }
 
-/** Asphalt between the edges of a track, which are lines of as many points, with edge lines and a start line. */
+/**
+ * Asphalt between the edges of a track, which have equal numbers of points, with edge lines and a
+ * start line.
+ */
 function trackMeshes({ left, right }, height) {
   const points = [...right.x.keys(), 0].map((i) => {
     const [dx, dy] = [left.x[i] - right.x[i], left.y[i] - right.y[i]];
@@ -186,7 +190,10 @@ function trackMeshes({ left, right }, height) {
   ];
 }
 
-/** Strips on the ground between pairs of lines of as many points x, y, x, y, ..., in one geometry. */
+/**
+ * Strips on the ground between pairs of lines with equal numbers of points x, y, x, y, ..., in one
+ * geometry.
+ */
 function bandsGeometry(bands, height, lift) {
   const positions = [];
   const uvs = [];
@@ -209,7 +216,7 @@ function bandsGeometry(bands, height, lift) {
   return geometry;
 }
 
-/** A painted line as the band between its two edges. */
+/** The band between the two edges of a painted line. */
 function bandOfLine({ points, width }) {
   const band = { left: [], right: [] };
   const last = points.length - 2;
@@ -223,7 +230,7 @@ function bandOfLine({ points, width }) {
   return band;
 }
 
-/** The pavement of a road network and what is painted on it. */
+/** Pavement and paint of a road network. */
 function networkMeshes({ bands, lines }, height) {
   const painted = (yellow, paint) => flat(bandsGeometry(lines.filter((line) => line.yellow === yellow).map(bandOfLine), height, 0.008),
     paint, 2, { emissive: new THREE.Color(paint), emissiveIntensity: 0.3 });
@@ -234,7 +241,7 @@ function networkMeshes({ bands, lines }, height) {
   ];
 }
 
-/** Trees where no road, drive or obstacle is near. */
+/** Trees away from roads, driven paths and obstacles. */
 function treeMeshes(extent, busy, height) {
   const MOST = 160;
   const CLEAR = 14;  // [m]
@@ -259,7 +266,7 @@ function treeMeshes(extent, busy, height) {
   return [crown];
 }
 
-/** A rectangle on the ground, cut so that it follows it. */
+/** A rectangle on the ground, subdivided to follow the elevation. */
 function areaGeometry({ x, y, yaw, length, width }, height, lift) {
   const count = Math.max(2, Math.min(80, Math.ceil(length / 2)));
   const points = d3.range(count + 1).map((i) => {
@@ -269,7 +276,7 @@ function areaGeometry({ x, y, yaw, length, width }, height, lift) {
   return strip(points, -width / 2, width / 2, height, lift);
 }
 
-/** The walls of a map that are near enough to be seen, on flat ground. */
+/** The walls of a map near the run, on flat ground. */
 function wallsMesh({ yaw, height, boxes }, extent) {
   const SEEN = 150;  // [m]
   const near = boxes.filter(([x, y, length, width]) => {
@@ -288,7 +295,7 @@ function wallsMesh({ yaw, height, boxes }, extent) {
   return mesh;
 }
 
-/** An obstacle: a box, or a car of its size where it moves and has one. */
+/** An obstacle as a box, or as a car if it moves and has the size of one. */
 function obstacleShape(box, make) {
   const [moves, isCar] = [box.vx !== 0 || box.vy !== 0, box.length > 3 && box.length < 6 && box.width > 1.4 && box.width < 2.3];
   const { car } = runs[0];
@@ -305,7 +312,7 @@ function obstacleShape(box, make) {
   const [along, across] = [box.length / car.length, box.width / car.width];
   vehicle.group.scale.set(along, across, 0.5 * (along + across));
   vehicle.group.position.x = -along * (car.length / 2 - car.rear_overhang);
-  // Models look along x; it may move backwards or to its side.
+  // Models face along x, but the obstacle may move backwards.
   const facing = Math.cos(Math.atan2(box.vy, box.vx) - box.yaw) < 0 ? Math.PI : 0;
   const holder = new THREE.Group();
   vehicle.group.position.applyAxisAngle(new THREE.Vector3(0, 0, 1), facing);
@@ -314,7 +321,7 @@ function obstacleShape(box, make) {
   return holder;
 }
 
-/** An obstacle with its edges alone for as long as a car does not know of it. */
+/** An obstacle. Until a car knows of it, only its edges are drawn. */
 function makeObstacle(scene, box, height, make) {
   const node = new THREE.Group();
   node.rotation.z = box.yaw;
@@ -385,13 +392,12 @@ function drawScenery(scene, height, makers) {
       scene.add(mesh);
     }
   }
-  // Where a run without a plan will lead is not known while it goes on.
-  // Nor are there trees on a map.
+  // No trees on a map. None while a run without a plan is in progress, because its path is unknown.
   const hasTrees = !runs.some((run) => run.world.walls) && (!data.live || runs.some((run) => run.plan && run.plan.line));
   if (hasTrees) for (const mesh of treeMeshes(extent, busy, height)) scene.add(mesh);
   return {
     update: (time) => obstacles.forEach(({ shape }) => shape.place(time)),
-    /** What a car knows of at a moment is solid. */
+    /** Draws obstacles that a car knows at a moment as solid. */
     know: (track, time) => {
       for (const { run, index, box, shape } of obstacles) {
         if (!box.known_later) continue;

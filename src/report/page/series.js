@@ -1,4 +1,4 @@
-// What was measured over time.
+// Charts over time.
 
 const QUANTITIES = [
   { name: 'cross_track', title: 'Cross-track error', unit: 'm', digits: 4, note: 'positive: left of the path' },
@@ -10,7 +10,7 @@ const QUANTITIES = [
   { name: 'clearance', title: 'Clearance from obstacles', unit: 'm', digits: 3 },
 ];
 
-/** The moments of all logs, and what a track has of a quantity at each of them, or none. */
+/** The times of all logs, and each track's values at these times; null if it has no row there. */
 function commonTimes() {
   const times = Array.from(new Set(tracks.flatMap((track) => track.log.t))).sort(d3.ascending);
   const rows = tracks.map((track) => {
@@ -21,7 +21,7 @@ function commonTimes() {
   return { times, spread };
 }
 
-/** The limits of a quantity, of both signs where it has one: those that are expected, and the car's own. */
+/** Limits of a quantity, with both signs if it is signed: those of the expectations and those of the car. */
 function limitsOf(name) {
   const metric = {
     cross_track: 'cross_track.max',
@@ -31,7 +31,7 @@ function limitsOf(name) {
   }[name];
   const limits = runs.flatMap((run) => run.expectations)
     .filter((check) => check.metric === metric && typeof check.bound === 'number').map((check) => check.bound);
-  // The car's own limit is shown where it is near.
+  // The car's limit is only shown if it is below twice the largest steering angle.
   const steering = d3.max(tracks, (track) => d3.max(track.log.steering, Math.abs));
   if (name === 'steering') limits.push(...runs.map((run) => run.car.steering_limit).filter((limit) => limit > 0 && limit < 2 * steering));
   return Array.from(new Set(name === 'clearance' ? limits : limits.flatMap((limit) => [limit, -limit])));
@@ -50,7 +50,7 @@ function drawSeries(parent) {
     return {
       ...quantity,
       limits: limitsOf(quantity.name),
-      // What was asked lies below what was done.
+      // Commanded values are drawn below measured ones.
       lines: [
         ...(quantity.asked ? own.map((track) => line(track, quantity.asked, { pattern: [5, 4], width: 1.2 })) : []),
         ...own.map((track) => line(track, quantity.name, { width: 1.6 })),
@@ -71,5 +71,5 @@ function drawSeries(parent) {
       for (const one of lines) one.values = anew(one.tracks[0], one.quantity);
     }
   });
-  drawCharts(list, 'series', axis, charts);  // which follow after that
+  drawCharts(list, 'series', axis, charts);  // registers its listeners after the one above
 }

@@ -1,4 +1,4 @@
-// A study: outputs over parameters, and the table of all its rows.
+// A study: outputs over parameters, and the table of all rows.
 
 function drawStudy(study) {
   const columns = study.columns.map((column, index) => ({ ...column, index }));
@@ -6,7 +6,7 @@ function drawStudy(study) {
   const parameters = of('parameter');
   const status = of('status')[0];
   const rows = study.rows.map((cells, index) => ({ index, cells, number: study.row_numbers[index] }));
-  // Of a big study the page has every so many rows, and the ends of each output.
+  // For large studies the page has evenly spaced rows, plus the extremes of each output.
   const even = rows.slice(0, study.even_count);
   const isGood = (row) => ['passed', 'found', 'passes_at_to'].includes(row.cells[status.index]);
   const isNumber = (column) => rows.some((row) => typeof row.cells[column.index] === 'number')
@@ -57,7 +57,7 @@ function drawStudy(study) {
   } else if (outputs.length && rows.length) {
     drawStudyAnswer(section('answer', study.bisected ? 'Found' : ''), { study, outputs, varied, rows, status });
   }
-  // What was bisected is what the study asks for.
+  // A bisected key is the result of the study, so it is drawn first.
   if (study.bisected) drawOutputs();
   if (statistics && statistics.outputs.length && varied.length) {
     drawInfluence(section('influence', 'What matters'), { columns, statistics, nameOf });
@@ -83,7 +83,7 @@ function drawStudy(study) {
   }
 }
 
-/** What a row set and what came of it, beside the pointer; it is chosen in all plots and in the table. */
+/** Tooltip with the settings and outputs of a row; also highlights the row in plots and table. */
 function tooltipOfRows({ parameters, outputs, told, nameOf, bus }) {
   const tooltip = d3.select('body').append('div').attr('class', 'tooltip panel').attr('hidden', '');
   return {
@@ -138,7 +138,7 @@ function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf
     const by = parameters.find((p) => p.index === color() && p !== x);
     const kinds = by ? Array.from(new Set(rows.map((row) => row.cells[by.index]))) : [null];
     if (by && isNumber(by)) kinds.sort(d3.ascending);
-    // A few values have colors of their own, many a scale of them.
+    // Distinct colors for a few values, a color scale for many.
     const colors = kinds.map((kind, i) => (kinds.length <= 8 || !isNumber(by)
       ? `var(--track-${i % 8})` : d3.interpolateViridis(0.9 * i / (kinds.length - 1))));
     const cssOf = (row) => colors[by ? kinds.indexOf(row.cells[by.index]) : 0];
@@ -157,7 +157,7 @@ function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf
         .attr('r', 4.5).attr('fill', 'none').attr('stroke', 'currentColor').attr('stroke-width', 1.5);
       sign.append('span').text('hollow: failed');
     }
-    // Lines join the rows that differ in this parameter alone.
+    // Lines connect rows that only differ in this parameter.
     const others = parameters.filter((p) => p !== x);
     const groups = d3.nest()
       .key((row) => JSON.stringify(others.map((p) => row.cells[p.index]))).entries(rows);
@@ -181,10 +181,10 @@ function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf
       : d3.scalePoint().domain(Array.from(new Set(values))).padding(0.5);
     scaleX.range([margin.left, width - margin.right]);
     const range = d3.extent(there, (row) => row.cells[output.index]);
-    // Zero belongs to what is all of one sign, and near it.
+    // Includes zero if all values are positive and the smallest is near it.
     if (range[0] > 0 && range[0] < 0.5 * range[1]) range[0] = 0;
     if (range[0] === range[1]) { range[0] -= 1; range[1] += 1; }
-    // Of a search it is drawn as in its history.
+    // For searches, the axis is that of the history.
     const { scale: scaleY, ticks, note } = search && output.name === 'robustness' && there.length
       ? scaleOfRobustness(there.map((row) => row.cells[output.index])) : { scale: d3.scaleLinear().domain(range).nice(), note: '' };
     scaleY.range([height - margin.bottom - (ticks ? 6 : 0), margin.top]);
@@ -251,7 +251,7 @@ function drawStudyTable(parent, { columns, rows, isGood, isNumber, bus }) {
     const sign = sorted.down ? -1 : 1;
     lines.sort((a, b) => {
       const [left, right] = [a.cells[column.index], b.cells[column.index]];
-      // What has no value comes last, either way.
+      // Empty cells are last in either order.
       if (left === null || right === null) return (left === null) - (right === null) || a.index - b.index;
       const order = column.numeric ? left - right : d3.ascending(String(left), String(right));
       return sign * order || a.index - b.index;

@@ -1,11 +1,11 @@
-// What a study found, in a sentence for each output: what is read first.
+// First part of a study's page: one sentence per output.
 
-// How a bisected key stands, by the status of its row.
+// Result of a bisection by the status of its row.
 const BISECTED = {
   found: 'passes up to', passes_at_to: 'passes in all of its range, up to', fails_at_from: 'fails in all of its range',
 };
 
-/** "control.distance = 2 m, mission.speed = 5 m/s" of a row; what all rows have alike is left out. */
+/** Varied parameters of a row: "control.distance = 2 m, mission.speed = 5 m/s". */
 function pointText(row, varied) {
   return varied.map(({ name, unit, index }) => `${name} = ${shown(row.cells[index])}${unit ? ` ${unit}` : ''}`).join(', ');
 }

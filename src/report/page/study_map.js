@@ -1,9 +1,9 @@
-// An output, or the share that passed, over any two parameters of a study.
+// An output, or the pass rate, over any two parameters of a study.
 
 /**
- * The cells of a map along a parameter: {names, find, place}, the last of which is where in cells from 0 on
- * a value lies. Its values, or, where there are many numbers, equal steps of them; of what was searched the
- * intervals of its whole range.
+ * Cells of the map along a parameter: {names, find, place}; `place` converts a value to a position
+ * in cells. One cell per value; equal intervals if there are many numbers; for a search, the
+ * intervals of the key's range.
  */
 function stepsOfMap(column, { rows, isNumber, key }) {
   if (key) {
@@ -31,7 +31,7 @@ function stepsOfMap(column, { rows, isNumber, key }) {
   };
 }
 
-/** The mean of an output in each cell, or the share that passed; of a search the lowest robustness. */
+/** Draws the mean of an output, or the pass rate, in each cell; for a search, the lowest robustness. */
 function drawStudyMap(parent, { parameters, outputs, rows, isGood, isNumber, nameOf, search }) {
   const choices = choicesIn(parent);
   const list = parameters.map((column) => [column.index, nameOf(column)]);
@@ -73,7 +73,7 @@ function drawStudyMap(parent, { parameters, outputs, rows, isGood, isNumber, nam
   }
 }
 
-/** From dark to bright: {color, at}, the last of which is the value at a share of the scale. */
+/** Dark to bright color scale: {color, at}; `at` gives the value at a fraction of the scale. */
 function colorsFrom([least, most]) {
   return {
     color: (value) => d3.interpolateViridis(most > least ? (value - least) / (most - least) : 0.5),
@@ -113,7 +113,7 @@ function drawMapCells(place, { title, nameX, nameY, columns, lines, values, text
     svg.append('path').attr('class', `sign-of ${mark.kind} on-map`).attr('d', signOfPoint(mark.kind))
       .attr('transform', `translate(${margin.left + columns.place(mark.x) * wide} ${height - margin.bottom - lines.place(mark.y) * high})`);
   }
-  // The scale of colors.
+  // The color scale.
   const bar = svg.append('g').attr('transform', `translate(${margin.left} ${height - 30})`);
   const steps = 40;
   const length = Math.min(220, width - margin.left - 60);

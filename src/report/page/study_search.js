@@ -1,6 +1,6 @@
-// A search: what it found, how far each key holds, how it went on, and what of the ranges it tried.
+// A search: its result, the margins of each key, its history, and the tried parts of the ranges.
 
-// A run by what it was for.
+// Phases of a search, with the appearance of their runs.
 const PHASES = [
   { name: 'nominal', label: 'nominal point', symbol: d3.symbolDiamond, color: 'var(--text)' },
   { name: 'search', label: 'search', symbol: d3.symbolCircle, color: 'var(--track-0)' },
@@ -26,12 +26,15 @@ function factsOfSearch({ method, runs, shrink_runs: shrink, out_of_time: late },
   ];
 }
 
-/** A value of a key, with the digits that it is searched with. */
+/** Formats a value with the digits used by the search. */
 function keyValue(value) {
   return value === null || value === undefined ? '–' : d3.format('.5~r')(value).replace('-', '−');
 }
 
-/** Where in its range a key's value is, from 0 to 1, of a logarithmic one by ratios; whole numbers have equal room. */
+/**
+ * Position of a value in its range, from 0 to 1; logarithmic ranges use ratios, whole numbers get
+ * equal widths.
+ */
 function placeInRange({ kind, from, to }, value) {
   if (kind === 'log_uniform') return Math.log(value / from) / Math.log(to / from);
   return kind === 'integer' ? (value - from + 0.5) / (to - from + 1) : (value - from) / (to - from);
@@ -42,13 +45,13 @@ function valueInRange({ kind, from, to }, place) {
   return kind === 'integer' ? from - 0.5 + place * (to - from + 1) : from + place * (to - from);
 }
 
-/** 1, 2 and 5 of each power of ten, or the powers alone where there are many. */
+/** Ticks at 1, 2 and 5 times powers of ten, or at powers of ten only if there are many. */
 function ticksOfLogarithm(scale) {
   const digits = (list) => scale.ticks(100).filter((tick) => list.includes(Math.round(tick / 10 ** Math.floor(Math.log10(tick) + 1e-9))));
   return digits([1, 2, 5]).length > 10 ? digits([1]) : digits([1, 2, 5]);
 }
 
-/** The points that have signs of their own, each with its values by their keys. */
+/** Marked points of a search, each with its values by key. */
 function marksOfSearch({ keys, counterexample }) {
   const nominal = { kind: 'point', at: Object.fromEntries(keys.map(({ name, nominal: value }) => [name, value])) };
   return counterexample ? [nominal, { kind: 'counterexample', at: counterexample.settings }] : [nominal];
@@ -65,7 +68,7 @@ function signIn(legend, text) {
   return svg;
 }
 
-/** What the signs of points mean. */
+/** Draws the legend of the marked points. */
 function drawSigns(legend, search) {
   for (const { kind } of marksOfSearch(search)) {
     signIn(legend, kind === 'point' ? 'nominal point' : 'counterexample').append('path').attr('class', `sign-of ${kind}`).attr('d', signOfPoint(kind));
@@ -143,7 +146,10 @@ function drawMargins(parent, { keys, counterexample }) {
   }
 }
 
-/** Linear, or logarithmic to both sides of 0 where the values of runs are of several sizes: {scale, ticks, note}. */
+/**
+ * Linear scale, or symmetric logarithmic scale if the values differ by orders of magnitude: {scale,
+ * ticks, note}.
+ */
 function scaleOfRobustness(values) {
   const sizes = values.map(Math.abs).filter((size) => size > 0).sort(d3.ascending);
   const extent = d3.extent([0, ...values]);
@@ -159,7 +165,7 @@ function scaleOfRobustness(values) {
   return { scale: d3.scaleSymlog().constant(unit).domain(extent), ticks, note: ` (logarithmic beyond ±${shown(unit)})` };
 }
 
-/** Red where a run failed, blue where it passed, the more the further from 0, and never white. */
+/** Color scale: red for failed and blue for passed runs, darker with the distance from 0, never white. */
 function colorsOfRobustness(cells) {
   const values = cells.filter((value) => value !== null);
   const { scale } = scaleOfRobustness(values);
@@ -202,7 +208,7 @@ function drawHistory(parent, { search, rows, of, isGood, bus, tooltip }) {
       + `${there.filter((row) => !isGood(row)).length} failed, the lowest is ${brief(lowest)}`);
     const margin = { left: 56, right: 18, top: 30, bottom: 44 };
     const { scale: y, ticks, note } = scaleOfRobustness(values);
-    // Room for the marks at the ends.
+    // Leaves room for marks at the ends.
     y.range([height - margin.bottom - 12, margin.top + 8]);
     const x = d3.scaleLinear().domain([0, Math.max(1, d3.max(rows, (row) => row.number) || 1)]).range([margin.left + 8, width - margin.right - 8]);
     svg.append('g').attr('class', 'axis').attr('transform', `translate(0 ${height - margin.bottom})`)
@@ -273,7 +279,7 @@ function drawCoverage(parent, { search, rows, of, isGood, bus, tooltip }) {
       .attr('d', (row) => `M${at(row.cells[key.column])} ${isGood(row) ? top + 3 : middle + 2}v${middle - top - 5}`)
       .on('mouseenter click', tooltip.show).on('mouseleave', tooltip.hide);
     const axis = (key.kind === 'log_uniform' ? d3.scaleLog() : d3.scaleLinear()).domain([key.from, key.to]).range([at(key.from), at(key.to)]);
-    // The ends of the range, and what has room between them.
+    // Ticks at both ends of the range, and between them if there is room.
     const inner = (key.kind === 'log_uniform' ? ticksOfLogarithm(axis)
       : axis.ticks(Math.max(2, Math.min(key.kind === 'integer' ? key.to - key.from : 8, width / 70))))
       .filter((tick) => axis(tick) > at(key.from) + 36 && axis(tick) < at(key.to) - 36);

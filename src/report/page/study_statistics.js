@@ -1,6 +1,6 @@
-// What all rows of a study say together: distributions, what the parameters do, the worst rows.
+// Statistics over all rows of a study: distributions, influence of the parameters, worst rows.
 
-/** A row of selects; gives a function that tells what is chosen in one. */
+/** A row of selects. `add` returns a function that returns the selected value. */
 function choicesIn(parent) {
   const choices = parent.append('div').attr('class', 'choices');
   return {
@@ -20,7 +20,7 @@ function percent(share, digits = 1) {
   return `${fixed(100 * share, digits)} %`;
 }
 
-/** A panel with a title and an empty picture of that height, to be drawn for its width. */
+/** Adds a panel with a title and an empty drawing of the given height. */
 function figureIn(parent, title, unit, name, height) {
   const figure = parent.append('figure').attr('class', 'panel').attr('data-output', name);
   const caption = figure.append('figcaption').attr('title', name).text(title);
@@ -75,7 +75,7 @@ function drawDistributions(parent, { outputs, statistics, nameOf }) {
   }
 }
 
-/** Bars with intervals from 0 on, one under the other. */
+/** Draws bars from 0 with intervals, one below the other. */
 function drawBars(parent, title, name, bars, { domain, format, formatTick }) {
   const row = 30;
   const { svg, width, height } = figureIn(parent, title, '', name, bars.length * row + 48);
@@ -100,7 +100,7 @@ function drawBars(parent, title, name, bars, { domain, format, formatTick }) {
   });
 }
 
-/** Which outputs rise and fall with a chosen one. */
+/** Draws the rank correlations of the other outputs with a chosen one. */
 function drawCorrelations(parent, { outputs, statistics, nameOf }) {
   const known = outputs.filter(({ name }) => statistics.correlations.some((pair) => pair.outputs.includes(name)));
   const choices = choicesIn(parent);
@@ -128,7 +128,7 @@ function drawInfluence(parent, { columns, statistics, nameOf }) {
     const column = columns.find(({ name }) => name === of.name);
     return [i, column ? nameOf(column) : 'pass rate'];
   });
-  // What passes is the first question, where there is an answer.
+  // Starts with the pass rate if it was analyzed.
   const rate = statistics.outputs.findIndex(({ name }) => name === 'passed');
   const choices = choicesIn(parent);
   const chosen = choices.add('Of', 'influence-of', named, Math.max(rate, 0), draw);
@@ -193,7 +193,7 @@ function drawInfluence(parent, { columns, statistics, nameOf }) {
   }
 }
 
-/** `lowest`: whether the lowest are the worst ones of the first output. */
+/** Draws the worst rows. `lowest`: the worst values of the first output are its lowest ones. */
 function drawWorst(parent, { study, outputs, parameters, rows, nameOf, lowest }) {
   const choices = choicesIn(parent);
   const chosen = choices.add('By', 'worst-by', outputs.map((column) => [column.index, nameOf(column)]), outputs[0].index, draw);
@@ -225,7 +225,7 @@ function shellWord(word) {
   return /^[\w./+-]+$/.test(word) ? word : `'${word.replace(/'/g, "'\\''")}'`;
 }
 
-/** Paired differences of two studies: after less before, of rows that set the same. */
+/** Draws paired differences of two studies, after minus before, over rows with equal settings. */
 function drawDifference(parent, { study, columns }) {
   const { rows, only_before: before, only_after: after, outputs } = study.difference;
   parent.append('p').attr('class', 'hint').text(`${rows} rows that set the same in both`

@@ -1,4 +1,4 @@
-// What a report of runs says in words and numbers.
+// Texts and tables of a report of runs.
 
 function badge(parent, good, text) {
   return parent.append('span').attr('class', `badge ${good ? 'good' : 'bad'}`).text(text);
@@ -8,7 +8,7 @@ function verdictOf(run) {
   if (!run.complete) return { good: false, text: 'interrupted' };
   if (run.verdict.passed === null) return { good: true, text: 'not judged' };
   if (!run.verdict.passed) return { good: false, text: 'failed' };
-  // A run that passes because it ends badly, as it is expected to.
+  // The run passes although it did not arrive, because that end was expected.
   const ends = Array.from(new Set(run.plants.map(({ end }) => end.status))).filter((status) => status !== 'arrived');
   return { good: true, text: ends.length ? `as expected: ${ends.map(statusText).join(', ')}` : 'passed' };
 }
@@ -32,7 +32,7 @@ function drawHead() {
     const { good, text } = verdictOf(runs[0]);
     badge(heading, good, text).attr('id', 'verdict');
   }
-  // A comparison about which no more is to say than how it went.
+  // A comparison without failures and additional notes is shown as a badge.
   const verdicts = (data.comparison || {}).verdicts || [];
   const isBrief = ({ failures, notes }) => runs.length === 1 && !failures.length && notes.every((note) => runs[0].verdict.notes.includes(note));
   for (const { passed } of verdicts.filter(isBrief)) {
@@ -80,7 +80,7 @@ function drawReasons(parent, failures, notes) {
   for (const note of notes) list.append('li').attr('class', 'note').text(written(note));
 }
 
-/** The rows of several lists of numbers, each path once, in order. */
+/** Union of the rows of several lists of numbers, each path once, in order. */
 function rowsOf(lists) {
   const rows = new Map();
   for (const list of lists) {
@@ -90,7 +90,7 @@ function rowsOf(lists) {
       before = path;
     }
   }
-  // What only a later list has stands where it stands there.
+  // Rows that only a later list has keep their position in that list.
   const order = [];
   for (const row of rows.values()) {
     const at = order.findIndex((other) => other.path === row.before);
@@ -109,17 +109,17 @@ function upperFirst(text) {
   return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
-/** Whether a value keeps to a limit of a standard: {relation, bound}. */
+/** Whether a value meets a limit of a standard: {relation, bound}. */
 function keeps(value, { relation, bound }) {
   return relation === 'at_most' ? value <= bound : value >= bound;
 }
 
-/** "at most 0.35", of a limit of a standard. */
+/** A limit of a standard as text: "at most 0.35". */
 function limitText(limit, unit) {
   return limit ? `${limit.relation === 'at_most' ? 'at most' : 'at least'} ${brief(limit.bound)}${unit ? ` ${unit}` : ''} to pass` : '';
 }
 
-/** Of a maneuver its own quantities, with units and limits. */
+/** Draws the quantities of a maneuver, with units and limits. */
 function drawManeuver() {
   const own = rowsOf(tracks.map((track) => track.numbers)).filter((row) => row.path.startsWith('maneuver.')
     && (row.unit || row.headline) && !['maneuver.begin', 'maneuver.end'].includes(row.path));
@@ -134,11 +134,11 @@ function drawManeuver() {
   else drawCards(made, own.map((row) => ({ ...row, label: upperFirst(row.label.replace(/^Maneuver: /, '')) })));
 }
 
-/** What is read first: a card for each number, or with many tracks a row for each of those. */
+/** Draws the headline numbers: one card each, or a table row per track if there are many. */
 function drawHeadline() {
   if (!tracks.length) return;
   const all = rowsOf(tracks.map((track) => track.numbers)).filter((row) => row.headline);
-  // Those of a maneuver have a section of their own.
+  // Quantities of a maneuver are in a separate section.
   const rows = all.filter((row) => !row.path.startsWith('maneuver.'));
   const made = section('headline');
   if (tracks.length > 2) {
@@ -149,7 +149,7 @@ function drawHeadline() {
   drawCards(made, rows);
 }
 
-/** "at most 0.5", as expected of a metric in all runs alike. */
+/** The bound of a metric as text, such as "at most 0.5", if all runs expect the same; else null. */
 function askedOf(path) {
   const asked = new Set(runs.flatMap((run) => run.expectations).filter((check) => check.metric === path
     && check.relation !== 'equals').map((check) => check.asked));
@@ -250,7 +250,7 @@ function drawLegend(parent) {
   }
 }
 
-/** A table with a row for each number and a column for each list of them. */
+/** Draws a table with a row per number and a column per list. */
 function drawNumbers(parent, columns) {
   const table = parent.append('div').attr('class', 'panel scroll').append('table');
   const head = table.append('thead').append('tr');
@@ -289,7 +289,7 @@ function drawExpectations() {
   }
 }
 
-/** The resolved scenarios; of several, what not all have is marked. */
+/** Draws the resolved scenarios; highlights lines that not all of them contain. */
 function drawScenarios() {
   const lines = runs.map((run) => run.resolved.replace(/\n$/, '').split('\n'));
   const common = new Set(lines[0].filter((line) => lines.every((other) => other.includes(line))));

@@ -1,25 +1,25 @@
-// The vehicle in three dimensions: its shape from the run's own model, and its pose at a moment from
-// the state log, by the kinematics of its joints.
+// The vehicle in the 3D scene: its shape from the run's model, and its pose from the state log by
+// the kinematics of its joints.
 
 const GHOST = 0.42;  // opacity
 
-/** The numbers of a channel: base64 of float32, or of int16 with an offset and a scale. */
+/** Decodes a channel: base64 of float32, or of int16 with offset and scale. */
 function numbersOf(channel) {
   const bytes = Uint8Array.from(atob(channel.f4 || channel.i2), (c) => c.charCodeAt(0));
   if (channel.f4) return new Float32Array(bytes.buffer);
   return Float64Array.from(new Int16Array(bytes.buffer), (steps) => channel.offset + channel.scale * steps);
 }
 
-/** The motion of a track: its times, and its channels by name. */
+/** Motion of a track: times, and channels by name. */
 function motionOf(track) {
   const { motion } = runs[track.run].plants.find((plant) => plant.name === track.plant);
-  // Those of a run that goes on grow.
+  // While a run is in progress, the channels grow.
   const numbers = (channel) => (data.live ? Array.from(numbersOf(channel)) : numbersOf(channel));
   const channels = Object.fromEntries(Object.entries(motion.channels).map(([name, channel]) => [name, numbers(channel)]));
   return { t: numbers(motion.t), channels };
 }
 
-/** (w, x, y, z) as MuJoCo writes it. */
+/** Converts a quaternion (w, x, y, z) of MuJoCo. */
 function quaternionOf([w, x, y, z]) {
   return new THREE.Quaternion(x, y, z, w);
 }
@@ -36,7 +36,7 @@ function shapeOf(geom, meshes) {
   }
 }
 
-/** The color of a vehicle's body: the one that most of its meshes have, else most of its shapes. */
+/** Body color of a vehicle: that of most meshes, else that of most shapes. */
 function paintOf({ geoms }) {
   const meshes = geoms.filter(({ type }) => type === 'mesh');
   const counts = d3.nest().key(({ rgba }) => rgba.join()).rollup((list) => list.length).entries(meshes.length ? meshes : geoms);
@@ -44,10 +44,9 @@ function paintOf({ geoms }) {
 }
 
 /**
- * A vehicle: its shapes, all under `group`, and `pose(motion, time)`, which puts it where it was, with
- * the `nodes` of its bodies. Its
- * shapes are shared by all vehicles of a run; its body has the color asked for, and a ghost has it all
- * over and lets what is behind it through.
+ * Returns a function that makes a vehicle: its shapes under `group`, the `nodes` of its bodies, and
+ * `pose(motion, time)`, which moves it. All vehicles of a run share the shapes. The body gets the
+ * given color; a ghost is translucent and has that color everywhere.
  */
 function vehicleMaker(model) {
   const meshes = model.meshes.map(({ vertices, faces }) => {
@@ -75,7 +74,7 @@ function vehicleMaker(model) {
       const material = new THREE.MeshLambertMaterial({
         color: ghost || geom.rgba.join() === paint ? new THREE.Color(color) : new THREE.Color(r, g, b),
         transparent: ghost || a < 1, opacity: ghost ? GHOST : a, depthWrite: true,
-        // Where both are in one place, the solid car is seen.
+        // If both coincide, the solid car covers the ghost.
         polygonOffset: ghost, polygonOffsetFactor: 4, polygonOffsetUnits: 40,
       });
       materials.push(material);
@@ -108,7 +107,7 @@ function vehicleMaker(model) {
           } else if (joint.type === 'slide') {
             position.add(new THREE.Vector3(...joint.axis).multiplyScalar(at(joint.channel)).applyQuaternion(rotation));
           } else {
-            // It turns about its anchor, which stays.
+            // The joint rotates about its anchor, which stays fixed.
             const anchor = new THREE.Vector3(...joint.pos);
             const turn = new THREE.Quaternion().setFromAxisAngle(new THREE.Vector3(...joint.axis).normalize(), at(joint.channel));
             const before = anchor.clone().applyQuaternion(rotation);
@@ -121,7 +120,10 @@ function vehicleMaker(model) {
         body.node.matrixWorldNeedsUpdate = true;
       }
     }
-    /** Nearly in the place of the solid car a ghost would only soil it: whether it is seen at such a distance [m]. */
+    /**
+     * Fades a ghost out near the solid car, which it would only blur. Returns whether it is visible
+     * at this distance [m].
+     */
     function fade(apart) {
       const [from, to] = [0.05, 0.3];
       const share = Math.min(1, Math.max(0, (apart - from) / (to - from)));

@@ -9,7 +9,7 @@ namespace trackbed {
 
 const char* PlaceOfData();
 
-/// The data lie beside this shared library, wherever both were moved to.
+/// The data folder next to this shared library; both may be moved together.
 const char* PlaceOfData() {
   static const std::string kPlace = [] {
     namespace fs = std::filesystem;

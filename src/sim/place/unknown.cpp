@@ -4,7 +4,7 @@ namespace trackbed {
 
 const char* PlaceOfData();
 
-/// A program that was linked to static libraries without CMake: nothing says where the package is.
+/// Used by a program linked to static libraries without CMake: the package's folder is unknown.
 const char* PlaceOfData() {
   throw InputError(Problem{
       .message = "the folder of models/ and scenarios/ is not known: set the environment variable "
